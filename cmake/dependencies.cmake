@@ -1,0 +1,42 @@
+# Third parties, all from Debian. The mechanics needs only Eigen, SuiteSparse (CHOLMOD, METIS), BLAS,
+# HDF5 and CLI11; the image and surface stages are left out when their libraries are missing.
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(HDF5 REQUIRED COMPONENTS C)
+if(BREAST_TESTS)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+endif()
+
+find_path(CHOLMOD_INCLUDE cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+find_library(SUITESPARSECONFIG_LIBRARY suitesparseconfig REQUIRED)
+add_library(breast_cholmod INTERFACE)
+target_include_directories(breast_cholmod SYSTEM INTERFACE ${CHOLMOD_INCLUDE})
+target_link_libraries(breast_cholmod INTERFACE ${CHOLMOD_LIBRARY} ${SUITESPARSECONFIG_LIBRARY})
+
+# The reference BLAS makes every factorisation 5-8 times slower; OpenBLAS is asked for by name.
+find_library(OPENBLAS_LIBRARY openblas)
+find_library(BLAS_LIBRARY blas REQUIRED)
+add_library(breast_blas INTERFACE)
+if(OPENBLAS_LIBRARY)
+  target_link_libraries(breast_blas INTERFACE ${OPENBLAS_LIBRARY})
+  set(BREAST_HAVE_OPENBLAS ON)
+else()
+  message(WARNING "OpenBLAS not found (libopenblas-dev): factorisations will be 5-8 times slower")
+  target_link_libraries(breast_blas INTERFACE ${BLAS_LIBRARY})
+endif()
+
+find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel IOXML IOImage IOHDF OPTIONAL_COMPONENTS
+  RenderingCore RenderingOpenGL2 RenderingAnnotation RenderingFreeType RenderingVolumeOpenGL2
+  InteractionStyle FiltersCore FiltersGeneral FiltersGeometry FiltersSources FiltersModeling
+  ChartsCore ViewsContext2D RenderingContext2D RenderingContextOpenGL2 ImagingCore)
+find_package(ITK 5.2 QUIET COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIONIFTI ITKIOMeta ITKIOGDCM
+  ITKImageGrid ITKSmoothing ITKThresholding ITKRegionGrowing ITKBinaryMathematicalMorphology
+  ITKMathematicalMorphology ITKConnectedComponents ITKLabelMap ITKDistanceMap ITKImageFeature ITKImageFilterBase
+  ITKImageStatistics ITKBiasCorrection ITKLabelVoting)
+find_package(OpenCV QUIET COMPONENTS core imgproc imgcodecs)
+find_package(CGAL QUIET)
+find_package(NLopt QUIET)

@@ -1,0 +1,77 @@
+# Warnings, sanitizers and the helpers every folder uses to declare its library, tool or test.
+set(BREAST_WARNINGS -Wall -Wextra -Wpedantic -Wshadow=local -Wnon-virtual-dtor -Woverloaded-virtual
+  -Wno-restrict)  # GCC 12 false positives in std::string
+if(BREAST_WERROR)
+  list(APPEND BREAST_WARNINGS -Werror)
+endif()
+if(BREAST_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+add_link_options(-Wl,--as-needed)
+# One setting for every file: Eigen's alignment must agree across translation units.
+option(BREAST_NATIVE "Use this machine's vector instructions" ON)
+if(BREAST_NATIVE)
+  add_compile_options(-march=native)
+endif()
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+# breast_library(NAME DEPENDS lib... SYSTEM third-party...): target breast_NAME from this folder's .cpp
+# files. Third parties are PRIVATE: no header of ours shows them.
+function(breast_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;SYSTEM" ${ARGN})
+  if(NOT ARG_SOURCES)
+    file(GLOB ARG_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  endif()
+  add_library(breast_${name} STATIC ${ARG_SOURCES})
+  target_include_directories(breast_${name} PUBLIC ${PROJECT_SOURCE_DIR}/libbreast)
+  target_compile_options(breast_${name} PRIVATE ${BREAST_WARNINGS})
+  list(TRANSFORM ARG_DEPENDS PREPEND breast_)
+  target_link_libraries(breast_${name} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_SYSTEM})
+endfunction()
+
+# breast_tool(NAME DEPENDS lib...): program NAME from NAME.cpp; left out, with one line, when a library
+# it needs was left out.
+function(breast_tool name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;SYSTEM" ${ARGN})
+  foreach(library ${ARG_DEPENDS})
+    if(NOT TARGET breast_${library})
+      message(STATUS "Tool ${name} is left out: libbreast/${library} is not built")
+      return()
+    endif()
+  endforeach()
+  add_executable(${name} ${name}.cpp)
+  target_compile_options(${name} PRIVATE ${BREAST_WARNINGS})
+  list(TRANSFORM ARG_DEPENDS PREPEND breast_)
+  target_link_libraries(${name} PRIVATE breast_cli ${ARG_DEPENDS} ${ARG_SYSTEM})
+  set_property(GLOBAL APPEND PROPERTY BREAST_TOOLS ${name})
+endfunction()
+
+# breast_test(LABEL SOURCE DEPENDS lib...): GoogleTest program LABEL_SOURCE; every TEST becomes a CTest
+# with that label (unit, verify, extreme, tools).
+function(breast_test label source)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "DEPENDS;SYSTEM" ${ARGN})
+  foreach(library ${ARG_DEPENDS})
+    if(NOT TARGET breast_${library})
+      message(STATUS "Test ${label}/${source} is left out: libbreast/${library} is not built")
+      return()
+    endif()
+  endforeach()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  set(target ${label}_${source})
+  add_executable(${target} ${CMAKE_CURRENT_SOURCE_DIR}/${source}.cpp)
+  target_compile_options(${target} PRIVATE ${BREAST_WARNINGS})
+  target_compile_definitions(${target} PRIVATE
+    BREAST_BIN="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}" BREAST_SOURCE="${PROJECT_SOURCE_DIR}")
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  list(TRANSFORM ARG_DEPENDS PREPEND breast_)
+  target_link_libraries(${target} PRIVATE ${ARG_DEPENDS} ${ARG_SYSTEM} GTest::gtest_main)
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST
+    PROPERTIES LABELS ${label} TIMEOUT ${ARG_TIMEOUT})
+endfunction()

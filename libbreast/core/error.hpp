@@ -1,0 +1,48 @@
+// Typed errors. The kind decides the exit code of a tool; the message is one line saying what, where,
+// the value, the bound and what to try.
+#pragma once
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace breast {
+
+enum class ErrorKind {
+  failed,         ///< exit 1: something we did not foresee (disk full, library failure)
+  input,          ///< exit 2: bad usage or bad input file
+  not_converged,  ///< exit 3: the solve stopped without an acceptable answer
+};
+
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  ErrorKind kind() const { return kind_; }
+  int exit_code() const { return static_cast<int>(kind_) + 1; }
+
+ private:
+  ErrorKind kind_;
+};
+
+/// Message from streamed pieces: input_error("thickness ", t, " mm: must be positive").
+template <class... Parts>
+std::string message(const Parts&... parts) {
+  std::ostringstream out;
+  (out << ... << parts);
+  return out.str();
+}
+
+template <class... Parts>
+Error input_error(const Parts&... parts) {
+  return Error(ErrorKind::input, message(parts...));
+}
+template <class... Parts>
+Error failed_error(const Parts&... parts) {
+  return Error(ErrorKind::failed, message(parts...));
+}
+template <class... Parts>
+Error not_converged_error(const Parts&... parts) {
+  return Error(ErrorKind::not_converged, message(parts...));
+}
+
+}  // namespace breast

@@ -1,0 +1,10 @@
+// Threads: one number for the whole process, set once by the tool (OpenMP and BLAS follow it).
+#pragma once
+
+namespace breast {
+
+/// 0 means all cores. Also tells OpenMP.
+void set_threads(int threads);
+int threads();
+
+}  // namespace breast

@@ -1,0 +1,80 @@
+// What a tool has to say at its end, as nested keys and values; written as JSON by --report.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace breast {
+
+/// Keys are paths ("landmarks/tumour/displacement_mm"). A non-finite number becomes null.
+class Report {
+ public:
+  Report();
+  ~Report();
+  Report(const Report&);
+  Report(Report&&) noexcept;
+  Report& operator=(Report) noexcept;
+
+  void set(std::string_view path, double value);
+  void set(std::string_view path, long long value);
+  void set(std::string_view path, int value) { set(path, static_cast<long long>(value)); }
+  void set(std::string_view path, std::size_t value) { set(path, static_cast<long long>(value)); }
+  void set(std::string_view path, bool value);
+  void set(std::string_view path, std::string_view value);
+  void set(std::string_view path, const char* value) { set(path, std::string_view(value)); }
+  void set(std::string_view path, const std::vector<double>& value);
+  void set(std::string_view path, const std::vector<std::string>& value);
+  void set(std::string_view path, const Vec3& value);
+  /// Appends a string to a list: warnings, things to doubt.
+  void append(std::string_view path, std::string_view value);
+
+  bool contains(std::string_view path) const;
+  /// Throws Error (failed) when absent or not a number.
+  double number(std::string_view path) const;
+  std::string text(std::string_view path) const;
+
+  std::string json() const;
+  static Report parse(const std::string& json, std::string_view name);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Wall seconds per named phase. `Timer::Scope phase(timer, "assembly");`
+class Timer {
+ public:
+  class Scope {
+   public:
+    Scope(Timer& timer, std::string phase)
+        : timer_(timer), phase_(std::move(phase)), start_(std::chrono::steady_clock::now()) {}
+    ~Scope() {
+      timer_.seconds_[phase_] +=
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    Timer& timer_;
+    std::string phase_;
+    std::chrono::steady_clock::time_point start_;
+  };
+  const std::map<std::string, double>& seconds() const { return seconds_; }
+  /// Sets "seconds/PHASE" for every phase.
+  void write(Report& report) const;
+
+ private:
+  std::map<std::string, double> seconds_;
+};
+
+/// Peak resident memory of this process in MB.
+double peak_memory_mb();
+
+}  // namespace breast

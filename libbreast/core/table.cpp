@@ -1,0 +1,96 @@
+#include "core/table.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <sstream>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+std::vector<std::string> split_tabs(const std::string& line) {
+  std::vector<std::string> cells;
+  std::size_t start = 0;
+  while (true) {
+    const std::size_t tab = line.find('\t', start);
+    cells.push_back(line.substr(start, tab == std::string::npos ? tab : tab - start));
+    if (tab == std::string::npos) return cells;
+    start = tab + 1;
+  }
+}
+std::string join_tabs(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& cell : cells) line += (line.empty() ? "" : "\t") + cell;
+  return line + "\n";
+}
+}  // namespace
+
+int Table::column(const std::string& name) const {
+  const auto found = std::find(columns.begin(), columns.end(), name);
+  if (found != columns.end()) return int(found - columns.begin());
+  std::string known;
+  for (const std::string& c : columns) known += (known.empty() ? "" : ", ") + c;
+  throw input_error("table has no column '", name, "'; it has: ", known);
+}
+
+std::string Table::text() const {
+  std::string out = join_tabs(columns);
+  for (const auto& row : rows) out += join_tabs(row);
+  return out;
+}
+
+Table parse_table(const std::string& text, const std::string& name) {
+  std::istringstream in(text);
+  Table table;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.empty() || line[0] == '#') continue;
+    std::vector<std::string> cells = split_tabs(line);
+    if (table.columns.empty()) {
+      table.columns = std::move(cells);
+      continue;
+    }
+    if (cells.size() != table.columns.size()) {
+      throw input_error(name, ": line ", number, " has ", cells.size(), " columns, the header has ",
+                        table.columns.size());
+    }
+    table.rows.push_back(std::move(cells));
+  }
+  if (table.columns.empty()) throw input_error(name, ": no header line");
+  return table;
+}
+
+Table read_table(const std::filesystem::path& file) {
+  return parse_table(read_text(file), file.string());
+}
+
+void write_table(const std::filesystem::path& file, const Table& table) {
+  write_text(file, table.text());
+}
+
+std::string format_number(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, end.ptr};
+}
+
+std::string format_fixed(double value, int decimals) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%.*f", decimals, value);
+  return buffer;
+}
+
+double parse_number(const std::string& text, const std::string& where) {
+  double value = 0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end.ec != std::errc() || end.ptr != text.data() + text.size() || !(value - value == 0)) {
+    throw input_error(where, ": '", text, "' is not a finite number");
+  }
+  return value;
+}
+
+}  // namespace breast

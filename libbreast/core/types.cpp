@@ -1,0 +1,36 @@
+#include "core/types.hpp"
+
+#include <array>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+constexpr std::array<std::string_view, n_tissues> names = {
+    "air", "fat", "fibroglandular", "skin", "muscle", "tumour", "other"};
+}
+
+std::string_view tissue_name(Tissue tissue) {
+  const auto code = static_cast<std::size_t>(tissue);
+  return code < names.size() ? names[code] : "unknown";
+}
+
+Tissue tissue_from_name(std::string_view name) {
+  for (std::size_t code = 0; code < names.size(); ++code) {
+    if (names[code] == name) return static_cast<Tissue>(code);
+  }
+  throw input_error("unknown tissue '", name,
+                    "'; use one of air, fat, fibroglandular, skin, muscle, tumour, other");
+}
+
+std::string_view side_name(Side side) { return side == Side::left ? "left" : "right"; }
+
+Side side_from_name(std::string_view name) {
+  if (name == "left") return Side::left;
+  if (name == "right") return Side::right;
+  throw input_error("unknown side '", name, "'; use left or right");
+}
+
+}  // namespace breast

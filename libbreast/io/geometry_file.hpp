@@ -1,0 +1,14 @@
+// BreastGeometry <-> VTKHDF file (schema "geometry/1"): /VTKHDF holds the body's boundary as quads for
+// viewing, /breast/hermite the sheets. HDF5 only.
+#pragma once
+
+#include <filesystem>
+
+#include "surface/hermite.hpp"
+
+namespace breast {
+
+BreastGeometry read_geometry(const std::filesystem::path& file);
+void write_geometry(const std::filesystem::path& file, const BreastGeometry& geometry);
+
+}  // namespace breast

@@ -1,0 +1,14 @@
+// LabelVolume <-> VTKHDF ImageData file (schema "labels/1"). HDF5 only.
+#pragma once
+
+#include <filesystem>
+
+#include "image/label_volume.hpp"
+
+namespace breast {
+
+/// Throws Error (input) naming file, dataset, index, value and bound.
+LabelVolume read_labels(const std::filesystem::path& file);
+void write_labels(const std::filesystem::path& file, const LabelVolume& labels);
+
+}  // namespace breast

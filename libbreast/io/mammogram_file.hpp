@@ -1,0 +1,16 @@
+// Mammogram <-> .vti (float; pose as FieldData) and a 16-bit PNG for looking at, through VTK.
+#pragma once
+
+#include <filesystem>
+
+#include "mammo/mammogram.hpp"
+
+namespace breast {
+
+Mammogram read_mammogram(const std::filesystem::path& file);
+void write_mammogram(const std::filesystem::path& file, const Mammogram& image);
+/// Hung as a radiologist hangs it: chest wall at the image's right edge for a right breast and at the
+/// left edge for a left one; lateral (CC) or superior (MLO, ML) at the top; dense is bright.
+void write_mammogram_png(const std::filesystem::path& file, const Mammogram& image);
+
+}  // namespace breast

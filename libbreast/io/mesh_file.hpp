@@ -1,0 +1,24 @@
+// HexMesh <-> VTKHDF file (schema "mesh/1"). HDF5 only; see docs/file-formats.md.
+#pragma once
+
+#include <filesystem>
+
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+/// What the reading tool needs; the reader refuses a file without it, saying which tool makes it.
+struct MeshNeeds {
+  bool reference = false;  ///< stress-free shape (backward)
+  bool geometry = false;   ///< Hermite sheets
+  bool contact = false;    ///< compression record (compress)
+};
+
+/// Reads and checks everything (schema, shapes, ranges, finiteness, face sets cover the boundary);
+/// fills content_sha256. Throws Error (input) naming file, dataset, index, value and bound.
+HexMesh read_mesh(const std::filesystem::path& file, const MeshNeeds& needs = {});
+
+/// Writes atomically. Throws Error (failed) when the disk does, or when the mesh is inconsistent.
+void write_mesh(const std::filesystem::path& file, const HexMesh& mesh);
+
+}  // namespace breast

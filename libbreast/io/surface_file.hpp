@@ -1,0 +1,15 @@
+// Surfaces, point sets and curves as VTK .vtp, through VTK.
+#pragma once
+
+#include <filesystem>
+
+#include "surface/tri_mesh.hpp"
+
+namespace breast {
+
+TriMesh read_surface(const std::filesystem::path& file);
+void write_surface(const std::filesystem::path& file, const TriMesh& surface);
+PolyLines read_polylines(const std::filesystem::path& file);
+void write_polylines(const std::filesystem::path& file, const PolyLines& lines);
+
+}  // namespace breast

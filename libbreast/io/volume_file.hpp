@@ -1,0 +1,32 @@
+// Image volumes through ITK: NRRD, NIfTI, MetaImage by file ending, a DICOM series from a folder.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "image/volume.hpp"
+
+namespace breast {
+
+/// Series found in a DICOM folder, as listed by error messages.
+struct VolumeSource {
+  std::string description;     ///< "NRRD", "DICOM series 3: T1 TSE, 40 slices"
+  std::string content_sha256;  ///< of grid and voxels, the same for NRRD and DICOM of one scan
+};
+
+/// Reads any scalar volume as float. `series` (1-based, 0 = the only one) picks a DICOM series; a folder
+/// with several and series 0 is an input Error listing them. Refuses missing slices, non-uniform
+/// spacing beyond 1 %, non-finite voxels, colour and vector images.
+Volume<float> read_volume(const std::filesystem::path& file, int series = 0,
+                          VolumeSource* source = nullptr);
+/// Writes .nrrd (gzip), .nii, .nii.gz or .mha atomically.
+void write_volume(const std::filesystem::path& file, const Volume<float>& volume);
+void write_volume(const std::filesystem::path& file, const Volume<std::uint8_t>& volume);
+/// 16-bit signed, for simulated MR.
+void write_volume(const std::filesystem::path& file, const Volume<std::int16_t>& volume);
+/// DICOM MR series, one file a slice, into `folder` (created; complete or absent).
+void write_dicom_series(const std::filesystem::path& folder, const Volume<std::int16_t>& volume,
+                        const std::string& description);
+
+}  // namespace breast

@@ -1,0 +1,48 @@
+// Isotropic laws from first and second derivatives in the invariants I1, I2 alone.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace breast {
+
+/// W and its derivatives at (I1, I2), Pa.
+struct LawValue {
+  double w = 0, w1 = 0, w2 = 0, w11 = 0, w12 = 0, w22 = 0;
+};
+
+enum class LawKind { polynomial, exponential, neo_hookean, mooney_rivlin, yeoh };
+
+/// One law with its constants (Pa, except b).
+/// polynomial (eq. 9): α10, α01, α20, α02, α11; exponential (eq. 10): a, b, c;
+/// neo_hookean: α10 (= μ/2); mooney_rivlin: α10, α01; yeoh: c1, c2, c3 in (I1−3).
+struct Law {
+  LawKind kind = LawKind::neo_hookean;
+  std::vector<double> constants;
+
+  LawValue evaluate(double i1, double i2) const;
+  /// Small-strain shear modulus 2(W1+W2) at the identity, Pa.
+  double shear_modulus() const;
+  /// The law with all stiffness constants multiplied (b of the exponential is not a stiffness).
+  Law scaled(double factor) const;
+  std::string describe() const;
+};
+
+/// Law and density per tissue.
+struct MaterialSet {
+  std::string name;
+  std::array<Law, n_tissues> laws;
+  std::array<double, n_tissues> density;  ///< g/mm^3
+  const Law& law(Tissue t) const { return laws[static_cast<std::size_t>(t)]; }
+};
+
+/// Named set ("seed2008", "wellman", "victre", "mira2018") or a TSV file of the same columns.
+MaterialSet load_materials(const std::string& name_or_file);
+/// Applies "--scale fat=50" settings (per cent). Throws Error (input).
+void scale_materials(MaterialSet& set, const std::vector<std::string>& settings);
+
+}  // namespace breast

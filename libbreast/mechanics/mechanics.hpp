@@ -1,0 +1,55 @@
+// Forward and backward: the two directions of one discrete equilibrium R(X, x, p) = 0.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/progress.hpp"
+#include "core/report.hpp"
+#include "material/law.hpp"
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+enum class Element { q1p0, q2p1 };
+enum class Invariants { isochoric, plain };
+enum class Cut { free, fixed, roller };
+
+/// The MECHANICS options every mechanics tool shares.
+struct MechanicsOptions {
+  MaterialSet materials;
+  Element element = Element::q1p0;
+  Invariants invariants = Invariants::isochoric;
+  double bulk_ratio = 0;  ///< K/μ; 0 means exactly incompressible
+  Cut cut = Cut::free;
+  std::string solver = "auto";  ///< auto | direct | multigrid
+};
+
+/// How a solve went; also fills the contract's report keys.
+struct SolveSummary {
+  SolveRecord record;
+  int newton_iterations = 0, factorisations = 0, steps = 0;
+  double residual = 0;          ///< relative to the load
+  double min_det_F = 0, max_volume_error = 0;
+  long long unknowns = 0;
+  Timer timer;
+  std::vector<std::string> doubts;  ///< what a reader should doubt
+  bool converged() const { return record.status == "converged"; }
+};
+
+/// Solves for mesh.points under `gravity` (mm/s², LPS) from mesh.reference; nodal gravity forces are
+/// those of mesh.imaged. Fills pressure, det_F, solve. Not converged: status says so, no throw; the
+/// mesh then holds the last good state.
+SolveSummary solve_forward(HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
+                           Progress& progress = no_progress());
+
+/// Solves for mesh.reference such that the imaged shape is in equilibrium under `gravity`; sets
+/// mesh.reference and mesh.points (= reference), pressure (of the imaged state), det_F, solve.
+SolveSummary solve_backward(HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
+                            Progress& progress = no_progress());
+
+/// Writes the summary under the contract's keys.
+void write_report(const SolveSummary& summary, const HexMesh& mesh, const MechanicsOptions& options,
+                  Report& report);
+
+}  // namespace breast

@@ -1,0 +1,29 @@
+// Triangle surface and point sets with named scalars.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace breast {
+
+struct TriMesh {
+  std::vector<Vec3> points;                   ///< mm, LPS
+  std::vector<std::array<int, 3>> triangles;  ///< may be empty: a point set
+  std::vector<Vec3> normals;                  ///< per point, may be empty
+  std::map<std::string, std::vector<double>> point_data;
+};
+
+/// One or more polylines with named scalars per point (curve.vtp).
+struct PolyLines {
+  std::vector<Vec3> points;
+  std::vector<std::vector<int>> lines;
+  std::vector<std::string> line_names;  ///< per line, may be empty
+  std::map<std::string, std::vector<double>> point_data;
+  std::map<std::string, std::vector<Vec3>> point_vectors;
+};
+
+}  // namespace breast
