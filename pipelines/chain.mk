@@ -1,0 +1,45 @@
+# The chain, one rule a stage; every file lies in runs/CASE with its report beside it.
+MR_FILES := $(MR) $(if $(wildcard $(MR)/.),$(wildcard $(MR)/*))
+CHAIN_FILES := $(addprefix $(RUN)/,labels.vtkhdf geometry.vtkhdf mesh.vtkhdf reference.vtkhdf \
+  supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti curve.vtp)
+
+$(RUN)/labels.vtkhdf: $(MR_FILES) $(CHEST_WALL) $(SEGMENT)
+	@mkdir -p $(@D)
+	$(SEGMENT) $(MR) $@ --side $(SIDE) $(if $(SERIES),--series $(SERIES)) \
+	  $(if $(CHEST_WALL),--chest-wall $(CHEST_WALL)) --points $(RUN)/points.vtp $(SEGMENT_OPTIONS) $(common)
+$(RUN)/points.vtp: $(RUN)/labels.vtkhdf ;
+
+$(RUN)/geometry.vtkhdf: $(RUN)/labels.vtkhdf $(FIT_HERMITE)
+	$(FIT_HERMITE) $< $@ $(FIT_OPTIONS) $(common)
+
+$(RUN)/mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH)
+	$(HEXMESH) $< $(RUN)/labels.vtkhdf $@ $(HEXMESH_OPTIONS) $(common)
+
+$(RUN)/reference.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD)
+	$(BACKWARD) $< $@ --posture prone $(MECHANICS) $(common)
+
+$(RUN)/supine.vtkhdf: $(RUN)/reference.vtkhdf $(FORWARD)
+	$(FORWARD) $< $@ --posture supine $(MECHANICS) $(common)
+
+$(RUN)/cc.vtkhdf: $(RUN)/reference.vtkhdf $(COMPRESS)
+	$(COMPRESS) $< $@ --view CC --reduction $(REDUCTION) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) \
+	  $(MECHANICS) $(common)
+
+$(RUN)/mlo.vtkhdf: $(RUN)/reference.vtkhdf $(COMPRESS)
+	$(COMPRESS) $< $@ --view MLO --reduction $(REDUCTION) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) \
+	  $(MECHANICS) $(common)
+
+# The mammogram's report must not overwrite the compression's.
+$(RUN)/%.vti: $(RUN)/%.vtkhdf $(RUN)/labels.vtkhdf $(PROJECT)
+	$(PROJECT) $< $@ --labels $(RUN)/labels.vtkhdf --png $(RUN)/$*.png $(PROJECT_OPTIONS) \
+	  --report $(RUN)/$*-mammogram.json --threads $$(pipelines/threads.sh)
+
+$(RUN)/curve.vtp: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(CC2MLO)
+	$(CC2MLO) $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $@ --landmark tumour --table $(RUN)/curve.tsv $(common)
+
+$(RUN)/displacements.tsv: $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf cc.vtkhdf mlo.vtkhdf) $(PROBE)
+	$(PROBE) $(filter %.vtkhdf,$^) > $@
+
+$(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(FIGURES)
+	@pipelines/summary.sh $(RUN) > $@
+	@cat $@

@@ -1,0 +1,26 @@
+# Pictures in the manner of the paper's Figs 4-7, drawn off-screen.
+FIGURE_NAMES := points geometry mesh tissues cc-compression mlo-compression cc-mammogram mlo-mammogram \
+  cc-matching mlo-matching summary
+FIGURES := $(FIGURE_NAMES:%=$(RUN)/figures/%.png)
+F := $(RUN)/figures
+render = mkdir -p $(@D) && $(RENDER) $(filter %.vtkhdf %.vtp %.vti,$^) --figure $1 -o $@
+
+$(F)/points.png: $(RUN)/points.vtp $(RENDER)
+	@$(call render,points)
+$(F)/geometry.png: $(RUN)/geometry.vtkhdf $(RENDER)
+	@$(call render,geometry)
+$(F)/mesh.png: $(RUN)/mesh.vtkhdf $(RENDER)
+	@$(call render,mesh)
+$(F)/tissues.png: $(RUN)/mesh.vtkhdf $(RENDER)
+	@$(call render,tissues)
+$(F)/%-compression.png: $(RUN)/%.vtkhdf $(RENDER)
+	@$(call render,compression)
+$(F)/cc-mammogram.png: $(RUN)/cc.vti $(RUN)/curve.vtp $(RENDER)
+	@$(call render,mammogram)
+$(F)/mlo-mammogram.png: $(RUN)/mlo.vti $(RUN)/curve.vtp $(RENDER)
+	@$(call render,mammogram)
+$(F)/%-matching.png: $(RUN)/%.vtkhdf $(RUN)/curve.vtp $(RENDER)
+	@$(call render,matching)
+$(F)/summary.png: $(RUN)/mesh.vtkhdf $(RUN)/reference.vtkhdf $(RUN)/supine.vtkhdf $(RUN)/cc.vtkhdf \
+  $(RUN)/mlo.vtkhdf $(RUN)/cc.vti $(RUN)/mlo.vti $(RUN)/curve.vtp $(RENDER)
+	@$(call render,summary)

@@ -1,0 +1,21 @@
+# The phantom: a breast MR with known truth. Its stress-free shape is solved to prone on a template and
+# a mesh the chain never uses.
+PHANTOM_MR := runs/phantom/$(PRESET).nrrd
+PHANTOM_TRUTH := runs/phantom/$(PRESET)-truth
+ifndef MR
+  MR := $(PHANTOM_MR)
+  TRUTH := $(PHANTOM_TRUTH)/landmarks.tsv
+endif
+
+$(PHANTOM_MR): $(PHANTOM)
+	@mkdir -p $(@D)
+	$(PHANTOM) $@ --preset $(PRESET) --truth $(PHANTOM_TRUTH) $(common)
+$(PHANTOM_TRUTH)/landmarks.tsv: $(PHANTOM_MR) ;
+
+# Compressed truth of the phantom, on the phantom's own fine mesh: minutes, so a target of its own.
+TRUTH_FILES := $(addprefix $(PHANTOM_TRUTH)/$(SIDE)-,cc.vtkhdf mlo.vtkhdf)
+truth: $(TRUTH_FILES)
+$(PHANTOM_TRUTH)/$(SIDE)-%.vtkhdf: $(PHANTOM_MR) $(COMPRESS)
+	$(COMPRESS) $(PHANTOM_TRUTH)/$(SIDE).vtkhdf $@ --view $(call upper,$*) --reduction $(REDUCTION) \
+	  --at-least $(AT_LEAST) $(MECHANICS) $(common)
+upper = $(if $(filter cc,$1),CC,MLO)

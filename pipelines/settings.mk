@@ -1,0 +1,54 @@
+# Settings, each to be given on the command line: make -f Makefile.pipeline MATERIALS=wellman
+# ---- the case -----------------------------------------------------------------------------------------
+# MR: scan file or DICOM folder; empty runs the phantom PRESET. SIDE: left or right. SERIES: of a DICOM
+# folder with several. CHEST_WALL: corrected label map or clicked points. CASE: name of the run's folder.
+PRESET ?= paper
+SIDE ?= left
+ifdef MR
+  CASE ?= $(basename $(basename $(notdir $(patsubst %/,%,$(MR)))))-$(SIDE)
+else
+  CASE ?= $(PRESET)$(if $(filter right,$(SIDE)),-right)
+endif
+RUN := runs/$(CASE)$(if $(PAPER),-as-printed)
+
+# ---- choices ------------------------------------------------------------------------------------------
+MATERIALS ?= seed2008
+REDUCTION ?= 50
+AT_LEAST ?= 40
+ELEMENTS ?= 16
+ifdef PAPER
+  # Everything as printed in the paper: cuboid, skin as a layer of elements, plain invariants, free cut,
+  # no gravity in compression, augmented Lagrangian.
+  HEXMESH_OPTIONS ?= --template cuboid --elements 16 --skin-as layer
+  MECHANICS ?= --materials $(MATERIALS) --invariants plain --cut free --element q1p0
+  COMPRESS_OPTIONS ?= --gravity off --contact al
+else
+  HEXMESH_OPTIONS ?= --elements $(ELEMENTS)
+  MECHANICS ?= --materials $(MATERIALS)
+  COMPRESS_OPTIONS ?=
+endif
+SEGMENT_OPTIONS ?=
+FIT_OPTIONS ?=
+PROJECT_OPTIONS ?=
+
+# ---- programs: any stage can be somebody else's -------------------------------------------------------
+PRESET_BUILD ?= release
+BUILD := build/release
+BIN := $(BUILD)/bin
+SEGMENT ?= $(BIN)/segment
+FIT_HERMITE ?= $(BIN)/fit-hermite
+HEXMESH ?= $(BIN)/hexmesh
+BACKWARD ?= $(BIN)/backward
+FORWARD ?= $(BIN)/forward
+COMPRESS ?= $(BIN)/compress
+PROJECT ?= $(BIN)/project-mammogram
+CC2MLO ?= $(BIN)/cc2mlo
+PHANTOM ?= $(BIN)/phantom
+PROBE ?= $(BIN)/probe
+RENDER ?= $(BIN)/render
+TOOLS := segment fit-hermite hexmesh backward forward compress project-mammogram cc2mlo phantom probe \
+  evaluate laws render
+PROGRAMS := $(addprefix $(BIN)/,$(TOOLS))
+
+# Options every program gets: its JSON report beside its first output, its share of the cores.
+common = --report $(basename $@).json --threads $$(pipelines/threads.sh)
