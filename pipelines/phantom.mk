@@ -1,7 +1,7 @@
 # The phantom: a breast MR with known truth. Its stress-free shape is solved to prone on a template and
 # a mesh the chain never uses.
-PHANTOM_MR := runs/phantom/$(PRESET).nrrd
-PHANTOM_TRUTH := runs/phantom/$(PRESET)-truth
+PHANTOM_MR := $(RUNS)/phantom/$(PRESET).nrrd
+PHANTOM_TRUTH := $(RUNS)/phantom/$(PRESET)-truth
 ifndef MR
   MR := $(PHANTOM_MR)
   TRUTH := $(PHANTOM_TRUTH)/landmarks.tsv
@@ -9,7 +9,7 @@ endif
 
 $(PHANTOM_MR): $(PHANTOM)
 	@mkdir -p $(@D)
-	$(PHANTOM) $@ --preset $(PRESET) --truth $(PHANTOM_TRUTH) $(common)
+	$(PHANTOM) $@ --preset $(PRESET) --truth $(PHANTOM_TRUTH) $(PHANTOM_OPTIONS) $(common)
 $(PHANTOM_TRUTH)/landmarks.tsv: $(PHANTOM_MR) ;
 
 # Compressed truth of the phantom, on the phantom's own fine mesh: minutes, so a target of its own.

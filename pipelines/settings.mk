@@ -9,7 +9,8 @@ ifdef MR
 else
   CASE ?= $(PRESET)$(if $(filter right,$(SIDE)),-right)
 endif
-RUN := runs/$(CASE)$(if $(PAPER),-as-printed)
+RUNS ?= runs
+RUN := $(RUNS)/$(CASE)$(if $(PAPER),-as-printed)
 
 # ---- choices ------------------------------------------------------------------------------------------
 MATERIALS ?= seed2008
@@ -30,6 +31,7 @@ endif
 SEGMENT_OPTIONS ?=
 FIT_OPTIONS ?=
 PROJECT_OPTIONS ?=
+PHANTOM_OPTIONS ?=
 
 # ---- programs: any stage can be somebody else's -------------------------------------------------------
 PRESET_BUILD ?= release
