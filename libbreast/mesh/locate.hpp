@@ -1,0 +1,74 @@
+// Which element holds a point, and where in it: for landmarks, mammograms and tissue look-up.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+/// A material point of a hexahedral mesh.
+struct Location {
+  int element = -1;
+  Vec3 local{0, 0, 0};  ///< (ξ,η,ζ) in [-1,1]^3
+  double moved = 0;     ///< mm from the point asked for to the point found; 0 when inside
+};
+
+/// Point location in one nodal field (mesh.points, mesh.imaged, mesh.reference) of a mesh of order
+/// 1 or 2: bounding-box tree over the elements (exact boxes: Bézier hulls for order 2), then Newton
+/// on the isoparametric map to 1e-10. Copies the coordinates it needs; all queries are const and
+/// may be made from many threads. A point on a shared face belongs to the lowest element number.
+class Locator {
+ public:
+  /// Throws Error (input) when `nodal` does not have one finite point per node.
+  Locator(const HexMesh& mesh, const std::vector<Vec3>& nodal);
+
+  /// The element containing `point`, or nothing. `hint` is tried first (the element of a
+  /// neighbouring point, for walks along a ray); a point strictly inside it is answered at once.
+  std::optional<Location> find(const Vec3& point, int hint = -1) const;
+  /// As find, else the nearest point of the mesh with the distance moved.
+  Location nearest(const Vec3& point) const;
+  /// Position of a local point of an element in this field.
+  Vec3 position(int element, const Vec3& local) const;
+
+  const Vec3& lower() const { return lower_; }  ///< bounding box of the mesh, mm
+  const Vec3& upper() const { return upper_; }
+
+ private:
+  struct Box {
+    Vec3 lower, upper;
+    double squared_distance(const Vec3& point) const;
+    bool contains(const Vec3& point, double slack) const;
+  };
+  struct Branch {
+    Box box;
+    int left = -1, right = -1;  ///< children, or
+    int first = 0, count = 0;   ///< a leaf's range of order_
+  };
+
+  int build(int first, int count);
+  const Vec3* lattice(int element) const {
+    return &coordinates_[std::size_t(element) * per_element_];
+  }
+  std::optional<Vec3> invert(int element, const Vec3& point) const;
+
+  int order_of_mesh_ = 1;
+  int per_element_ = 8;
+  std::vector<Vec3> coordinates_;  ///< per element, lattice order (ξ fastest)
+  std::vector<Box> boxes_;
+  std::vector<int> order_;
+  std::vector<Branch> tree_;
+  Vec3 lower_, upper_;
+  double slack_ = 0;
+};
+
+/// The point of the given boundary faces nearest to `point` (nipple on the skin).
+Location nearest_on_faces(const HexMesh& mesh, const std::vector<Vec3>& nodal,
+                          const std::vector<Face>& faces, const Vec3& point);
+
+/// The node nearest to `point`.
+int nearest_node(const std::vector<Vec3>& nodal, const Vec3& point);
+
+}  // namespace breast
