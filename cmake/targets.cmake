@@ -1,6 +1,7 @@
 # Warnings, sanitizers and the helpers every folder uses to declare its library, tool or test.
 set(BREAST_WARNINGS -Wall -Wextra -Wpedantic -Wshadow=local -Wnon-virtual-dtor -Woverloaded-virtual
-  -Wno-restrict)  # GCC 12 false positives in std::string
+  -Wno-restrict  # GCC 12 false positives in std::string
+  -Wno-maybe-uninitialized)  # and in its AVX-512 headers under Eigen
 if(BREAST_WERROR)
   list(APPEND BREAST_WARNINGS -Werror)
 endif()
