@@ -54,7 +54,7 @@ void remove_stale_parts(const fs::path& target) {
     const pid_t owner = static_cast<pid_t>(std::atol(name.c_str() + prefix.size()));
     if (owner > 0 && owner != getpid() && kill(owner, 0) == 0) continue;
     std::error_code reason;
-    fs::remove(entry.path(), reason);
+    fs::remove_all(entry.path(), reason);  // a DICOM folder's part is a folder
   }
 }
 

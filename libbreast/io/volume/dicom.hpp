@@ -1,0 +1,25 @@
+// A DICOM folder's series; private to io/volume.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "image/volume.hpp"
+
+namespace breast {
+
+struct DicomSeries {
+  std::string uid;
+  int number = 0;
+  std::string description;
+  std::vector<std::filesystem::path> files;  ///< in the order found
+  std::string label() const;                 ///< "T1 TSE, 40 files (series number 3)"
+};
+
+/// All image series of a folder, in the order of series number, then UID.
+std::vector<DicomSeries> list_dicom_series(const std::filesystem::path& folder);
+/// Reads one series, slices sorted by position along the slice normal. Throws Error (input).
+Volume<float> read_dicom_series(const std::filesystem::path& folder, const DicomSeries& series);
+
+}  // namespace breast

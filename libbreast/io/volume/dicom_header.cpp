@@ -1,0 +1,178 @@
+// A walk through a DICOM file's elements (PS3.5 section 7), enough to know that it is whole and to
+// read short text elements.
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "io/volume/complete.hpp"
+
+namespace breast {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t undefined_length = 0xffffffff;
+constexpr std::uint32_t item = 0xfffee000, item_end = 0xfffee00d, sequence_end = 0xfffee0dd;
+constexpr std::uint32_t pixel_data = 0x7fe00010;
+
+class Walker {
+ public:
+  Walker(const fs::path& file, std::ifstream& in)
+      : file_(file), in_(in), size_(fs::file_size(file)) {}
+
+  /// Group 2 is always explicit; the transfer syntax it names holds for the rest.
+  void walk(DicomHeader& header) {
+    position_ = 132;
+    while (position_ < size_) {
+      const std::uint32_t next = peek_tag();
+      if (next >> 16 == 2) {
+        element(true, 0, &header);
+      } else {
+        element(explicit_syntax(header), 0, &header);
+      }
+    }
+    if (!header.contains("7fe0|0010")) throw broken("ends before the pixel data");
+  }
+
+ private:
+  Error broken(const char* why) const {
+    return input_error(file_.string(), ": damaged or truncated DICOM file (", why, ")");
+  }
+
+  bool explicit_syntax(const DicomHeader& header) const {
+    const auto found = header.find("0002|0010");
+    const std::string syntax = found == header.end() ? "1.2.840.10008.1.2" : found->second;
+    if (syntax == "1.2.840.10008.1.2.2" || syntax == "1.2.840.10008.1.2.1.99") {
+      throw input_error(file_.string(),
+                        ": big-endian or deflated DICOM is not read: convert it first");
+    }
+    return syntax != "1.2.840.10008.1.2";
+  }
+
+  template <class T>
+  T take() {
+    std::array<char, sizeof(T)> bytes;
+    in_.seekg(std::streamoff(position_));
+    if (position_ + sizeof(T) > size_ || !in_.read(bytes.data(), sizeof(T))) {
+      throw broken("ends inside an element's head");
+    }
+    position_ += sizeof(T);
+    return std::bit_cast<T>(bytes);
+  }
+  std::uint32_t take_tag() {
+    const std::uint32_t group = take<std::uint16_t>();
+    return group << 16 | take<std::uint16_t>();
+  }
+  std::uint32_t peek_tag() {
+    const auto here = position_;
+    const std::uint32_t tag = take_tag();
+    position_ = here;
+    return tag;
+  }
+  void skip(std::uint64_t length) {
+    if (length > size_ - position_) throw broken("ends inside an element");
+    position_ += length;
+  }
+
+  /// Items of an undefined-length sequence (or of encapsulated pixel data) up to its delimiter.
+  void items(bool explicit_vr, int depth) {
+    if (depth > 16) throw broken("sequences nested too deeply");
+    for (;;) {
+      const std::uint32_t tag = take_tag();
+      const auto length = take<std::uint32_t>();
+      if (tag == sequence_end) return;
+      if (tag != item) throw broken("an item is expected");
+      if (length != undefined_length) {
+        skip(length);
+        continue;
+      }
+      while (peek_tag() != item_end) element(explicit_vr, depth + 1, nullptr);
+      position_ += 8;
+    }
+  }
+
+  void element(bool explicit_vr, int depth, DicomHeader* header) {
+    const std::uint32_t tag = take_tag();
+    std::uint32_t length = 0;
+    bool unknown_vr = false;
+    if (explicit_vr) {
+      const auto vr = take<std::array<char, 2>>();
+      const std::string name(vr.begin(), vr.end());
+      if (vr[0] < 'A' || vr[0] > 'Z' || vr[1] < 'A' || vr[1] > 'Z')
+        throw broken("no element where one must be");
+      unknown_vr = name == "UN";
+      static constexpr const char* long_form[] = {"OB", "OD", "OF", "OL", "OV", "OW", "SQ",
+                                                  "SV", "UC", "UN", "UR", "UT", "UV"};
+      bool is_long = false;
+      for (const char* other : long_form) is_long = is_long || name == other;
+      if (is_long) position_ += 2;
+      length = is_long ? take<std::uint32_t>() : take<std::uint16_t>();
+    } else {
+      length = take<std::uint32_t>();
+    }
+    if (length == undefined_length) {
+      items(explicit_vr && !unknown_vr, depth + 1);
+      if (header && tag == pixel_data) (*header)["7fe0|0010"] = "encapsulated";
+      return;
+    }
+    if (header && tag == pixel_data) (*header)["7fe0|0010"] = std::to_string(length);
+    if (header && tag != pixel_data && length <= 256) keep(tag, length, *header);
+    skip(length);
+  }
+
+  void keep(std::uint32_t tag, std::uint32_t length, DicomHeader& header) {
+    std::string value(length, '\0');
+    in_.seekg(std::streamoff(position_));
+    if (!in_.read(value.data(), length)) throw broken("ends inside an element");
+    const bool rows_or_bits = tag >> 16 == 0x0028 && length == 2;  // US: binary
+    if (rows_or_bits) {
+      std::uint16_t number = 0;
+      std::memcpy(&number, value.data(), 2);
+      value = std::to_string(number);
+    }
+    while (!value.empty() && (value.back() == ' ' || value.back() == '\0')) value.pop_back();
+    char key[16];
+    std::snprintf(key, sizeof key, "%04x|%04x", tag >> 16, tag & 0xffff);
+    header[key] = value;
+  }
+
+  const fs::path& file_;
+  std::ifstream& in_;
+  std::uint64_t size_, position_ = 0;
+};
+
+/// Uncompressed pixel data must be as long as rows, columns and bits say.
+void check_pixel_bytes(const fs::path& file, const DicomHeader& header) {
+  const auto number = [&](const char* key, double fallback) {
+    const auto found = header.find(key);
+    return found == header.end() ? fallback : std::strtod(found->second.c_str(), nullptr);
+  };
+  const std::string& length = header.at("7fe0|0010");
+  if (length == "encapsulated") return;
+  const double needed = number("0028|0010", 0) * number("0028|0011", 0) * number("0028|0002", 1) *
+                        number("0028|0100", 16) / 8;
+  if (!(needed > 0) || std::strtod(length.c_str(), nullptr) < needed) {
+    throw input_error(file.string(), ": pixel data of ", length, " bytes, rows and columns need ",
+                      needed);
+  }
+}
+
+}  // namespace
+
+bool read_dicom_header(const fs::path& file, DicomHeader& header) {
+  std::ifstream in(file, std::ios::binary);
+  char preamble[132] = {};
+  if (!in || !in.read(preamble, sizeof preamble) || std::memcmp(preamble + 128, "DICM", 4) != 0)
+    return false;
+  header.clear();
+  Walker(file, in).walk(header);
+  check_pixel_bytes(file, header);
+  return true;
+}
+
+}  // namespace breast

@@ -1,0 +1,160 @@
+#include <itkGDCMImageIO.h>
+#include <itkImageSeriesReader.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "io/volume/complete.hpp"
+#include "io/volume/dicom.hpp"
+#include "io/volume/itk_image.hpp"
+
+namespace breast {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "a\b\c" as numbers; empty when the count or a number is wrong.
+std::vector<double> dicom_numbers(const std::string& text, std::size_t count) {
+  std::vector<double> values;
+  std::istringstream in(text);
+  for (std::string piece; std::getline(in, piece, '\\');) {
+    char* end = nullptr;
+    const double value = std::strtod(piece.c_str(), &end);
+    if (end == piece.c_str() || !std::isfinite(value)) return {};
+    values.push_back(value);
+  }
+  if (values.size() != count) values.clear();
+  return values;
+}
+
+struct Slice {
+  fs::path file;
+  Vec3 position;
+  double along = 0;  ///< mm along the slice normal
+};
+
+/// Slices sorted along the normal; sets the in-plane directions.
+std::vector<Slice> sorted_slices(const DicomSeries& series, Vec3& row, Vec3& column) {
+  std::vector<Slice> slices;
+  for (const fs::path& file : series.files) {
+    DicomHeader header;
+    read_dicom_header(file, header);
+    const auto position = dicom_numbers(header["0020|0032"], 3);
+    const auto axes = dicom_numbers(header["0020|0037"], 6);
+    if (position.empty() || axes.empty()) {
+      throw input_error(file.string(),
+                        ": no image position or orientation: not a slice of a volume");
+    }
+    const Vec3 this_row(axes[0], axes[1], axes[2]), this_column(axes[3], axes[4], axes[5]);
+    if (slices.empty()) {
+      row = this_row.normalized();
+      column = this_column.normalized();
+      if (!(row.cross(column).norm() > 0.99)) {
+        throw input_error(file.string(), ": image axes are not perpendicular");
+      }
+    } else if (!((this_row - row).norm() < 1e-3 && (this_column - column).norm() < 1e-3)) {
+      throw input_error(file.string(), ": slice orientation differs from the rest of the series");
+    }
+    slices.push_back({file, Vec3(position[0], position[1], position[2])});
+  }
+  const Vec3 normal = row.cross(column);
+  for (Slice& slice : slices) slice.along = slice.position.dot(normal);
+  std::sort(slices.begin(), slices.end(), [](const Slice& a, const Slice& b) {
+    return a.along != b.along ? a.along < b.along : a.file < b.file;
+  });
+  return slices;
+}
+
+/// Mean slice spacing (mm); refuses gaps, duplicates and spacing that varies by more than 1 %.
+double slice_spacing(const fs::path& folder, const std::vector<Slice>& slices) {
+  const double mean = (slices.back().along - slices.front().along) / (slices.size() - 1);
+  if (!(mean > 1e-3)) {
+    throw input_error(folder.string(),
+                      ": all slices lie at one position (several time points?): "
+                      "give a folder with one volume");
+  }
+  for (std::size_t n = 1; n < slices.size(); ++n) {
+    const double step = slices[n].along - slices[n - 1].along;
+    if (!(std::abs(step - mean) <= 0.01 * mean)) {
+      throw input_error(folder.string(), ": slices ", slices[n - 1].file.filename().string(),
+                        " and ", slices[n].file.filename().string(), " are ", step,
+                        " mm apart, the mean is ", mean,
+                        " mm (bound 1 %): a slice is missing or doubled");
+    }
+  }
+  return mean;
+}
+
+}  // namespace
+
+std::string DicomSeries::label() const {
+  return message(description.empty() ? "no description" : description, ", ", files.size(),
+                 " files");
+}
+
+std::vector<DicomSeries> list_dicom_series(const fs::path& folder) {
+  std::vector<fs::path> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file()) names.push_back(entry.path());
+  }
+  std::sort(names.begin(), names.end());
+  // Series of one UID but several image sizes (localisers) are kept apart.
+  std::map<std::string, DicomSeries> found;
+  for (const fs::path& name : names) {
+    if (name.filename() == "DICOMDIR") continue;
+    DicomHeader header;
+    if (!read_dicom_header(name, header)) {
+      if (name.extension() != ".dcm") continue;
+      throw input_error(name.string(), ": not a DICOM file (empty, truncated or foreign)");
+    }
+    DicomSeries& series =
+        found[header["0020|000e"] + "/" + header["0028|0010"] + "x" + header["0028|0011"]];
+    series.uid = header["0020|000e"];
+    series.number = std::atoi(header["0020|0011"].c_str());
+    series.description = header["0008|103e"];
+    series.files.push_back(name);
+  }
+  std::vector<DicomSeries> list;
+  for (auto& [key, series] : found) list.push_back(std::move(series));
+  std::stable_sort(list.begin(), list.end(),
+                   [](const DicomSeries& a, const DicomSeries& b) { return a.number < b.number; });
+  return list;
+}
+
+Volume<float> read_dicom_series(const fs::path& folder, const DicomSeries& series) {
+  if (series.files.size() < 2) {
+    throw input_error(folder.string(), ": series ", series.label(),
+                      ": a volume needs at least 2 slices");
+  }
+  Vec3 row = Vec3::UnitX(), column = Vec3::UnitY();
+  const std::vector<Slice> slices = sorted_slices(series, row, column);
+  const double spacing = slice_spacing(folder, slices);
+
+  std::vector<std::string> names;
+  for (const Slice& slice : slices) names.push_back(slice.file.string());
+  auto reader = itk::ImageSeriesReader<itk::Image<float, 3>>::New();
+  reader->SetImageIO(itk::GDCMImageIO::New());
+  reader->SetFileNames(names);
+  reader->Update();
+  Volume<float> volume = from_itk(*reader->GetOutput());
+  if (volume.grid.size[2] != static_cast<int>(slices.size())) {
+    throw input_error(folder.string(), ": ", slices.size(), " files gave ", volume.grid.size[2],
+                      " slices: multi-frame files are not read");
+  }
+  // Geometry from all positions, not from the first two slices alone.
+  const Vec3 step = (slices.back().position - slices.front().position) / double(slices.size() - 1);
+  volume.grid.origin = slices.front().position;
+  volume.grid.direction.col(0) = row;
+  volume.grid.direction.col(1) = column;
+  volume.grid.direction.col(2) =
+      step.norm() < spacing * 1.0001 ? row.cross(column) : step.normalized();
+  volume.grid.spacing[2] = step.norm();
+  return volume;
+}
+
+}  // namespace breast
