@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/types.hpp"
@@ -25,12 +26,20 @@ struct Law {
   std::vector<double> constants;
 
   LawValue evaluate(double i1, double i2) const;
+  /// False where the exponential would overflow (b(I1−3) > 50): such a trial step must be rejected.
+  bool in_range(double i1) const;
   /// Small-strain shear modulus 2(W1+W2) at the identity, Pa.
   double shear_modulus() const;
   /// The law with all stiffness constants multiplied (b of the exponential is not a stiffness).
   Law scaled(double factor) const;
   std::string describe() const;
 };
+
+/// "polynomial", "exponential", ...; throws Error (input) naming the choices.
+LawKind law_kind_from_name(std::string_view name);
+std::string_view law_kind_name(LawKind kind);
+/// Names of Law::constants in order: {"a10", "a01", ...}.
+std::vector<std::string_view> law_constant_names(LawKind kind);
 
 /// Law and density per tissue.
 struct MaterialSet {
@@ -42,6 +51,8 @@ struct MaterialSet {
 
 /// Named set ("seed2008", "wellman", "victre", "mira2018") or a TSV file of the same columns.
 MaterialSet load_materials(const std::string& name_or_file);
+/// The names of the embedded sets, in alphabetical order.
+std::vector<std::string> material_set_names();
 /// Applies "--scale fat=50" settings (per cent). Throws Error (input).
 void scale_materials(MaterialSet& set, const std::vector<std::string>& settings);
 

@@ -1,0 +1,109 @@
+// Material sets: the embedded tables of pipelines/materials, or a file of the same columns.
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "core/units.hpp"
+#include "material/embedded.hpp"
+#include "material/law.hpp"
+#include "material/stability.hpp"
+
+namespace breast {
+
+namespace {
+
+const std::string& cell(const Table& table, std::size_t row, const std::string& column) {
+  return table.rows[row][std::size_t(table.column(column))];
+}
+
+// Column of a constant: its name with the unit, as in "a10_Pa"; b has no unit.
+std::string column_of(std::string_view constant) {
+  return constant == "b" ? "b" : std::string(constant) + "_Pa";
+}
+
+Law read_law(const Table& table, std::size_t row, const std::string& where) {
+  Law law;
+  law.kind = law_kind_from_name(cell(table, row, "law"));
+  for (const std::string_view constant : law_constant_names(law.kind)) {
+    const std::string column = column_of(constant);
+    law.constants.push_back(parse_number(cell(table, row, column), where + ", " + column));
+  }
+  check_law(law, where);
+  return law;
+}
+
+MaterialSet read_set(const Table& table, const std::string& name) {
+  MaterialSet set;
+  set.name = name;
+  std::array<bool, n_tissues> given{};
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const std::string tissue_text = cell(table, row, "tissue");
+    const auto tissue = static_cast<std::size_t>(tissue_from_name(tissue_text));
+    const std::string where = "materials " + name + ", tissue " + tissue_text;
+    if (given[tissue]) throw input_error(where, ": appears twice");
+    given[tissue] = true;
+    set.laws[tissue] = read_law(table, row, where);
+    const double density = parse_number(cell(table, row, "density_g_per_mm3"), where + ", density");
+    if (!(density >= 0) || density > 0.1) {
+      throw input_error(where, ": density ", density, " g/mm^3 must lie in 0 to 0.1 (water 0.001)");
+    }
+    set.density[tissue] = density;
+  }
+  const auto fill = [&](Tissue to, Tissue from) {
+    const auto t = static_cast<std::size_t>(to), f = static_cast<std::size_t>(from);
+    if (given[t]) return;
+    if (!given[f]) {
+      throw input_error("materials ", name, ": tissue ", tissue_name(from), " is missing");
+    }
+    set.laws[t] = set.laws[f];
+    set.density[t] = set.density[f];
+    given[t] = true;
+  };
+  fill(Tissue::fibroglandular, Tissue::fibroglandular);
+  fill(Tissue::skin, Tissue::skin);
+  fill(Tissue::tumour, Tissue::fibroglandular);  // an undiagnosed tumour is as stiff as its bed
+  for (const Tissue t : {Tissue::air, Tissue::muscle, Tissue::other}) fill(t, Tissue::fat);
+  return set;
+}
+
+}  // namespace
+
+MaterialSet load_materials(const std::string& name_or_file) {
+  for (const EmbeddedTable& table : embedded_materials()) {
+    if (table.name == name_or_file) {
+      return read_set(parse_table(std::string(table.text), name_or_file), name_or_file);
+    }
+  }
+  if (!std::filesystem::exists(name_or_file)) {
+    std::string names;
+    for (const std::string& name : material_set_names())
+      names += (names.empty() ? "" : ", ") + name;
+    throw input_error("materials '", name_or_file, "': neither a file nor one of ", names);
+  }
+  const std::filesystem::path file(name_or_file);
+  return read_set(read_table(file), file.filename().string());
+}
+
+std::vector<std::string> material_set_names() {
+  std::vector<std::string> names;
+  for (const EmbeddedTable& table : embedded_materials()) names.emplace_back(table.name);
+  return names;
+}
+
+void scale_materials(MaterialSet& set, const std::vector<std::string>& settings) {
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) {
+      throw input_error("--scale '", setting, "': write TISSUE=PERCENT, for example fat=50");
+    }
+    const Tissue tissue = tissue_from_name(setting.substr(0, equals));
+    const double percent = parse_number(setting.substr(equals + 1), "--scale " + setting);
+    if (!(percent > 0) || percent > 1e8) {
+      throw input_error("--scale ", setting, ": percent must lie above 0 and up to 1e8");
+    }
+    Law& law = set.laws[static_cast<std::size_t>(tissue)];
+    law = law.scaled(percent / 100);
+  }
+}
+
+}  // namespace breast

@@ -1,0 +1,30 @@
+// Where a law stays strongly elliptic (every shear on every plane keeps a positive stiffness).
+#pragma once
+
+#include <string>
+
+#include "material/law.hpp"
+
+namespace breast {
+
+/// Second derivative of W (Pa) along the simple shear F ← (I + ε m⊗n)F with unit m ⟂ n, at the
+/// left Cauchy–Green tensor b with det b = 1. At rest it is the shear modulus for every m, n.
+double directional_shear_modulus(const Law& law, const Mat3& b, const Vec3& m, const Vec3& n);
+
+/// Smallest directional shear modulus over all planes (sampled every ~10°), relative to rest.
+double weakest_shear(const Law& law, const Mat3& b);
+
+/// Range of uniaxial stretch around 1, within [low, high], where the weakest shear stays above
+/// zero.
+struct StableRange {
+  double compression = 1, tension = 1;  ///< stretches λ
+  double weakest = 1;                   ///< smallest relative shear modulus met on the way
+};
+StableRange stable_range(const Law& law, double low = 0.3, double high = 3.0);
+
+/// Throws Error (input), beginning with `where`, unless the law is usable: right number of finite
+/// constants, positive rest modulus, and elliptic: by the closed conditions (polynomial: convex and
+/// nondecreasing; exponential: |c| < 0.929 ab), or else by a scan of stretches 0.5–2.
+void check_law(const Law& law, const std::string& where);
+
+}  // namespace breast
