@@ -1,0 +1,96 @@
+#include "meshing/body_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+// Centroid of the polygon's area, not of its points: unevenly spaced points must not move the pole.
+Vec2 area_centroid(const std::vector<Vec2>& curve) {
+  Vec2 sum = Vec2::Zero();
+  double area = 0;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const Vec2 a = curve[i] - curve[0], b = curve[(i + 1) % curve.size()] - curve[0];
+    area += cross(a, b);
+    sum += cross(a, b) * (a + b) / 3;
+  }
+  if (!(std::abs(area) > 0)) throw input_error("rim of the wall encloses no area");
+  return curve[0] + sum / area;
+}
+
+void check_star_shaped(const std::vector<Vec2>& curve, const Vec2& centre, const char* sheet) {
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const Vec2 a = curve[i] - centre, b = curve[(i + 1) % curve.size()] - centre;
+    if (!(cross(a, b) > 0)) {
+      throw input_error(
+          "rim on the ", sheet, " sheet turns back at point ", i, " of ", curve.size(),
+          " seen from its pole (", centre.x(), ", ", centre.y(),
+          "): it must be star-shaped and counter-clockwise; run fit-hermite again with "
+          "more smoothing");
+    }
+  }
+}
+
+}  // namespace
+
+BodyMap::BodyMap(const BreastGeometry& geometry) : geometry_(geometry) {
+  const std::size_t n = geometry.rim_skin.size();
+  if (n < 32 || geometry.rim_wall.size() != n) {
+    throw input_error("rim has ", n, " skin and ", geometry.rim_wall.size(),
+                      " wall points: both must be equal and at least 32");
+  }
+  wall_centre_ = area_centroid(geometry.rim_wall);
+  check_star_shaped(geometry.rim_skin, geometry.centre, "skin");
+  check_star_shaped(geometry.rim_wall, wall_centre_, "wall");
+  cumulative_.assign(n + 1, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    const auto step = [&](const HermiteSheet& sheet, const std::vector<Vec2>& curve) {
+      return (sheet.position(curve[j]) - sheet.position(curve[i])).norm();
+    };
+    cumulative_[i + 1] = cumulative_[i] + 0.5 * (step(geometry.skin, geometry.rim_skin) +
+                                                 step(geometry.wall, geometry.rim_wall));
+  }
+  length_ = cumulative_.back();
+  if (!(length_ > 0)) throw input_error("rim has no length");
+  for (double& value : cumulative_) value /= length_;
+}
+
+// Cubic (Catmull-Rom) through the rim points: smooth whatever the number of template nodes.
+Vec2 BodyMap::rim(const std::vector<Vec2>& curve, double u) const {
+  u -= std::floor(u);
+  const int n = int(curve.size());
+  const auto after = std::upper_bound(cumulative_.begin(), cumulative_.end(), u);
+  const int i = std::clamp(int(after - cumulative_.begin()) - 1, 0, n - 1);
+  const double t = (u - cumulative_[i]) / (cumulative_[i + 1] - cumulative_[i]);
+  const Vec2 &a = curve[(i + n - 1) % n], &b = curve[i], &c = curve[(i + 1) % n],
+             &d = curve[(i + 2) % n];
+  return b + 0.5 * t * ((c - a) + t * ((2 * a - 5 * b + 4 * c - d) + t * (3 * (b - c) + d - a)));
+}
+
+Vec2 BodyMap::skin(double rho, double u) const {
+  return geometry_.centre + rho * (rim(geometry_.rim_skin, u) - geometry_.centre);
+}
+
+Vec2 BodyMap::wall(double rho, double u) const {
+  return wall_centre_ + rho * (rim(geometry_.rim_wall, u) - wall_centre_);
+}
+
+Vec3 BodyMap::cut(double height, double u) const {
+  return (1 - height) * wall_sheet().position(wall(1, u)) +
+         height * skin_sheet().position(skin(1, u));
+}
+
+double BodyMap::cut_height(double u) const {
+  return (cut(1, u) - cut(0, u)).norm();
+}
+
+}  // namespace breast

@@ -1,0 +1,37 @@
+// The body's boundary in the template's own coordinates: polar (ρ, u) on skin and wall, height on
+// the cut between them.
+#pragma once
+
+#include <vector>
+
+#include "surface/hermite.hpp"
+
+namespace breast {
+
+/// u ∈ [0,1) runs once round the rim (equal steps of u are equal lengths of rim, mean of skin and
+/// wall); ρ ∈ [0,1] from the pole (skin: geometry.centre; wall: its rim's centroid) to the rim.
+class BodyMap {
+ public:
+  /// Throws Error (input) when the rim is not star-shaped about its pole, or too short.
+  explicit BodyMap(const BreastGeometry& geometry);
+
+  Vec2 skin(double rho, double u) const;  ///< (s,t) on the skin sheet
+  Vec2 wall(double rho, double u) const;  ///< (s,t) on the wall sheet
+  /// Point of the cut surface: height 0 on the wall's rim, 1 on the skin's.
+  Vec3 cut(double height, double u) const;
+  double cut_height(double u) const;             ///< mm
+  double rim_length() const { return length_; }  ///< mm, mean of skin and wall
+
+  const HermiteSheet& skin_sheet() const { return geometry_.skin; }
+  const HermiteSheet& wall_sheet() const { return geometry_.wall; }
+
+ private:
+  Vec2 rim(const std::vector<Vec2>& curve, double u) const;
+
+  const BreastGeometry& geometry_;
+  Vec2 wall_centre_;
+  std::vector<double> cumulative_;  ///< u at each rim point, first 0; last entry 1 closes the curve
+  double length_ = 0;
+};
+
+}  // namespace breast

@@ -1,0 +1,38 @@
+// The smoothing energy of a hexahedral mesh and its gradient, corner by corner.
+#pragma once
+
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace breast {
+
+class CornerEnergy {
+ public:
+  struct Parameters {
+    double theta = 0.2;  ///< weight of size against shape
+    int power = 4;
+    double epsilon = 1e-6;  ///< regularisation of det A near and below 0
+  };
+  /// connectivity: 8 per element, VTK order. The target edge is that of the mean element of `x`.
+  CornerEnergy(const std::vector<int>& connectivity, const std::vector<Vec3>& x);
+
+  void set(const Parameters& parameters) { parameters_ = parameters; }
+  double edge() const { return edge_; }  ///< mm
+  /// Σ over corners; gradient per node (1/mm). Independent of the number of threads.
+  double evaluate(const std::vector<Vec3>& x, std::vector<Vec3>& gradient);
+  /// Smallest corner determinant, relative to edge³.
+  double min_det(const std::vector<Vec3>& x) const;
+
+ private:
+  double element(const std::vector<Vec3>& x, int e, Vec3* force) const;
+
+  const std::vector<int>& connectivity_;
+  Parameters parameters_;
+  double edge_ = 1;
+  std::vector<int> first_, uses_;  ///< node → its places in the connectivity
+  std::vector<Vec3> forces_;       ///< per place in the connectivity
+  std::vector<double> energies_;   ///< per element
+};
+
+}  // namespace breast

@@ -1,0 +1,52 @@
+// Topology of the hexahedral templates: the half O-grid with a lateral cut ("dome") and, without
+// outer layers, the paper's cuboid.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+/// Core of n × n × l elements standing on the chest wall, m layers around its four sides and its
+/// top; the lowest k rows of the sides' outer faces are the cut, the rest of the outer faces is
+/// skin. n²l + m(n²+4nl) elements. m = 0 is the cuboid: the core's own faces are the body's
+/// boundary.
+struct DomeSize {
+  int n = 10, l = 10, m = 6, k = 3;
+  int elements() const { return n * n * l + m * (n * n + 4 * n * l); }
+};
+
+/// The best-proportioned dome with a number of elements near edge³.
+DomeSize dome_near(int edge);
+/// Throws Error (input) unless n ≥ 2, l ≥ 2, m ≥ 0, 1 ≤ k < l and the size is below 2 million
+/// elements.
+void check_dome(const DomeSize& size);
+
+/// What a template node rests on.
+enum class Support : std::uint8_t {
+  interior,  ///< free in space
+  skin,      ///< on the skin sheet
+  wall,      ///< on the chest-wall sheet
+  cut,       ///< on the cut surface, its two rims included
+};
+
+/// Place of a boundary node on the template's hull.
+struct HullPlace {
+  Support support = Support::interior;
+  double u = 0;       ///< round the rim, [0,1); 0 is the core's corner i = j = 0
+  double rho = 0;     ///< skin and wall: 0 at the pole, 1 at the rim
+  double height = 0;  ///< cut: 0 at the wall, 1 at the skin
+};
+
+struct DomeTemplate {
+  DomeSize size;
+  std::vector<HullPlace> places;  ///< per node
+  std::vector<int>
+      connectivity;  ///< 8 per element, VTK order; ζ of the core points away from the wall
+  std::vector<Face> skin_faces, wall_faces, cut_faces;
+};
+DomeTemplate dome_template(const DomeSize& size);
+
+}  // namespace breast

@@ -1,0 +1,150 @@
+#include "meshing/smooth.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "mesh/quality.hpp"
+#include "meshing/corner_energy.hpp"
+#include "meshing/lbfgs.hpp"
+
+namespace breast {
+
+namespace {
+
+// Unknowns in mm: three of an inside node; two of a sliding node, along an orthonormal tangent
+// frame at its start, so that all unknowns have one scale.
+using Mat2 = Eigen::Matrix2d;
+using Mat32 = Eigen::Matrix<double, 3, 2>;
+
+struct Unknown {
+  int node;
+  int first;  // place in the vector
+  bool slides = false;
+  Mat2 to_parameters;  // (s,t) per mm of the two tangent unknowns
+};
+
+class Smoother {
+ public:
+  Smoother(const std::vector<int>& connectivity, const BodyMap& body, const SmoothOptions& options,
+           const std::vector<bool>& held, const PlacedNodes& start)
+      : energy_(connectivity, start.x), body_(body), options_(options), start_(start), now_(start) {
+    for (int a = 0; a < int(start.x.size()); ++a) {
+      if (start.support[a] == Support::cut || (!held.empty() && held[a])) continue;
+      Unknown unknown{a, size_, start.support[a] != Support::interior, Mat2::Zero()};
+      if (unknown.slides) unknown.to_parameters = tangent_frame(sheet(a).evaluate(start.st[a]));
+      unknowns_.push_back(unknown);
+      size_ += unknown.slides ? 2 : 3;
+    }
+  }
+
+  Eigen::VectorXd zero() const { return Eigen::VectorXd::Zero(size_); }
+  const PlacedNodes& nodes() const { return now_; }
+  CornerEnergy& energy() { return energy_; }
+
+  double value(const Eigen::VectorXd& y, Eigen::VectorXd& gradient) {
+    place(y);
+    double sum = energy_.evaluate(now_.x, node_gradient_);
+    const double weight = options_.tether / (energy_.edge() * energy_.edge());
+    gradient.resize(size_);
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+      const Unknown& unknown = unknowns_[i];
+      const Vec3 moved = now_.x[unknown.node] - start_.x[unknown.node];
+      sum += weight * moved.squaredNorm();
+      const Vec3 total = node_gradient_[unknown.node] + 2 * weight * moved;
+      if (unknown.slides) {
+        gradient.segment<2>(unknown.first) = slopes_[i].transpose() * total;
+      } else {
+        gradient.segment<3>(unknown.first) = total;
+      }
+    }
+    return sum;
+  }
+
+  void place(const Eigen::VectorXd& y) {
+    slopes_.resize(unknowns_.size());
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+      const Unknown& unknown = unknowns_[i];
+      const int a = unknown.node;
+      if (!unknown.slides) {
+        now_.x[a] = start_.x[a] + y.segment<3>(unknown.first);
+        continue;
+      }
+      now_.st[a] = start_.st[a] + unknown.to_parameters * y.segment<2>(unknown.first);
+      const SheetPoint point = sheet(a).evaluate(now_.st[a]);
+      now_.x[a] = point.x;
+      Mat32 tangents;
+      tangents << point.x_s, point.x_t;
+      slopes_[i] = tangents * unknown.to_parameters;
+    }
+  }
+
+ private:
+  const HermiteSheet& sheet(int a) const {
+    return start_.support[a] == Support::skin ? body_.skin_sheet() : body_.wall_sheet();
+  }
+  // Inverse of the upper-triangular factor of [x_s x_t] = Q R.
+  static Mat2 tangent_frame(const SheetPoint& point) {
+    const double length = point.x_s.norm(), along = point.x_s.dot(point.x_t) / length;
+    const double across = point.x_s.cross(point.x_t).norm() / length;
+    Mat2 r;
+    r << length, along, 0, across;
+    return r.inverse();
+  }
+
+  CornerEnergy energy_;
+  const BodyMap& body_;
+  SmoothOptions options_;
+  PlacedNodes start_, now_;
+  std::vector<Unknown> unknowns_;
+  std::vector<Mat32> slopes_;
+  std::vector<Vec3> node_gradient_;
+  int size_ = 0;
+};
+
+double min_scaled_jacobian(const std::vector<int>& connectivity, const std::vector<Vec3>& x) {
+  double least = 1;
+  for (std::size_t e = 0; e < connectivity.size(); e += 8) {
+    std::array<Vec3, 8> corners;
+    for (int a = 0; a < 8; ++a) corners[a] = x[connectivity[e + a]];
+    least = std::min(least, scaled_jacobian(corners.data()));
+  }
+  return least;
+}
+
+}  // namespace
+
+SmoothReport smooth_nodes(const std::vector<int>& connectivity, const BodyMap& body,
+                          const SmoothOptions& options, const std::vector<bool>& held,
+                          PlacedNodes& nodes) {
+  SmoothReport report;
+  report.before = report.after = min_scaled_jacobian(connectivity, nodes.x);
+  Smoother smoother(connectivity, body, options, held, nodes);
+  Eigen::VectorXd y = smoother.zero();
+  const auto energy = [&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) {
+    return smoother.value(at, gradient);
+  };
+  // Folds first, with the plain energy and a regularisation that follows the worst corner; then the
+  // p-norm, which works on the worst corners.
+  double worst = smoother.energy().min_det(nodes.x);
+  for (int round = 0; round < 8 && worst < 1e-3; ++round) {
+    smoother.energy().set({options.theta, 1, std::max(1e-3, 0.5 * std::abs(worst - 0.02))});
+    report.evaluations += minimise_lbfgs(energy, y, {.evaluations = 60}).evaluations;
+    worst = smoother.energy().min_det(smoother.nodes().x);
+  }
+  smoother.energy().set({options.theta, options.power, worst > 0 ? 1e-6 : std::abs(worst)});
+  report.evaluations += minimise_lbfgs(energy, y, {.evaluations = options.evaluations}).evaluations;
+  smoother.place(y);
+  const double after = min_scaled_jacobian(connectivity, smoother.nodes().x);
+  if (after > report.before) {
+    nodes = smoother.nodes();
+    report.after = after;
+    report.kept = true;
+  }
+  return report;
+}
+
+}  // namespace breast

@@ -1,0 +1,31 @@
+// Untangling and smoothing of a placed template by the foldover-free energy.
+#pragma once
+
+#include "core/progress.hpp"
+#include "meshing/place.hpp"
+
+namespace breast {
+
+/// E = Σ_corners ((1−θ)|A|²/(3 χ^{2/3}) + θ (det²A + 1)/(2 χ))^p + tether, A = corner edges / h,
+/// χ = ½(det A + √(ε² + det²A)): Garanzha et al., Foldover-free maps in 50 lines of code, ACM TOG
+/// 40(4), 2021. h is the edge of a cube of the mean element volume.
+struct SmoothOptions {
+  double theta = 0.2;
+  int power = 4;
+  double tether = 1e-3;  ///< weight of Σ|x − x_start|²/h²
+  int evaluations = 260;
+};
+
+struct SmoothReport {
+  double before = 0, after = 0;  ///< minimum scaled Jacobian; after is of the mesh kept
+  bool kept = false;             ///< the smoothed mesh was better
+  int evaluations = 0;
+};
+
+/// Moves inside nodes in space, skin and wall nodes in their parameters; cut nodes stay. Nodes in
+/// `held` (may be empty) stay too. Keeps the better of before and after by minimum scaled Jacobian.
+SmoothReport smooth_nodes(const std::vector<int>& connectivity, const BodyMap& body,
+                          const SmoothOptions& options, const std::vector<bool>& held,
+                          PlacedNodes& nodes);
+
+}  // namespace breast
