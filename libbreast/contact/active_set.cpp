@@ -1,0 +1,217 @@
+#include "contact/active_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace breast {
+
+namespace {
+Vec3 node_vector(const Eigen::VectorXd& field, int node) {
+  return field.segment<3>(3 * node);
+}
+/// A node that changed sides this often within one step keeps touching until convergence.
+constexpr int most_toggles = 3;
+/// Iterations in which touching nodes may move freely onto the plate.
+constexpr int free_moves = 8;
+/// Halvings of a Newton step before it is given up.
+constexpr int most_halvings = 8;
+}  // namespace
+
+std::string describe(StepOutcome outcome) {
+  switch (outcome) {
+    case StepOutcome::converged:
+      return "converged";
+    case StepOutcome::too_many_iterations:
+      return "no convergence within the iteration limit";
+    case StepOutcome::folded:
+      return "an element folds";
+    case StepOutcome::singular:
+      return "the tangent matrix cannot be factorised";
+    case StepOutcome::no_descent:
+      return "no step reduces the residual";
+  }
+  return "unknown";
+}
+
+/// Residual and constraint violation at a state with the present touching set.
+struct ActiveSet::Sweep {
+  double free_norm = 0, scale = 0;  ///< µN: unbalanced force; reaction or load it is compared with
+  double worst_gap = 0;             ///< mm, |distance| over touching nodes
+  double volume_error = 0;
+  Eigen::VectorXd free;  ///< residual without reactions and touching normals
+  double relative() const { return free_norm / scale; }
+};
+
+ActiveSet::ActiveSet(ContactBody& body, std::vector<int> candidates, ActiveSetOptions options)
+    : body_(body),
+      candidates_(std::move(candidates)),
+      options_(options),
+      touching_(candidates_.size(), -1),
+      toggles_(candidates_.size(), 0) {}
+
+ActiveSet::Sweep ActiveSet::measure(const PlatePair& plates, const BodyState& state,
+                                    const BodyForces& forces) const {
+  Sweep sweep;
+  sweep.free = forces.residual;
+  const std::vector<char>& fixed = body_.fixed();
+  for (Eigen::Index i = 0; i < sweep.free.size(); ++i) {
+    if (fixed[std::size_t(i)]) sweep.free[i] = 0;
+  }
+  double reaction = 0;
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    if (touching_[c] < 0) continue;
+    const Gap gap = plates.plate(touching_[c]).gap(node_vector(state.x, candidates_[c]));
+    const Vec3 normal = gap.gradient.normalized();
+    auto force = sweep.free.segment<3>(3 * candidates_[c]);
+    const double pushed = force.dot(normal);
+    reaction += pushed * pushed;
+    force -= pushed * normal;
+    sweep.worst_gap = std::max(sweep.worst_gap, std::abs(gap.distance()));
+  }
+  sweep.free_norm = sweep.free.norm();
+  sweep.scale = std::max({std::sqrt(reaction), body_.load_norm(), 1e-30});
+  sweep.volume_error = forces.max_volume_error;
+  return sweep;
+}
+
+bool ActiveSet::update(const PlatePair& plates, const BodyState& state, const BodyForces& forces,
+                       double scale, bool may_drop, bool balanced) {
+  bool changed = false;
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    const Vec3 x = node_vector(state.x, candidates_[c]);
+    if (touching_[c] < 0) {
+      const int k = plates.nearer(x);
+      if (plates.plate(k).gap(x).distance() < -options_.gap_tolerance) {
+        touching_[c] = static_cast<signed char>(k);
+        ++toggles_[c];
+        changed = true;
+      }
+    } else if (may_drop && (balanced || toggles_[c] < most_toggles)) {
+      const Gap gap = plates.plate(touching_[c]).gap(x);
+      const double pushed =
+          node_vector(forces.residual, candidates_[c]).dot(gap.gradient.normalized());
+      if (pushed < -1e-10 * scale) {
+        touching_[c] = -1;
+        changed = true;
+      }
+    }
+  }
+  return changed;
+}
+
+StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double tolerance) {
+  tolerance_ = tolerance;
+  StepResult result;
+  std::fill(toggles_.begin(), toggles_.end(), 0);
+  if (!body_.forces(state, result.forces)) {
+    result.outcome = StepOutcome::folded;
+    result.failed_trial = state.x;
+    return result;
+  }
+  for (;; ++result.iterations) {
+    const auto balanced = [&](const Sweep& sweep) {
+      return sweep.relative() <= tolerance_ && sweep.worst_gap <= options_.gap_tolerance &&
+             sweep.volume_error <= options_.volume_tolerance;
+    };
+    Sweep now = measure(plates, state, result.forces);
+    const bool converged = balanced(now);
+    // The multipliers of a state far from balance are noise: pulling nodes are dropped after the
+    // first linearised solve, and later only from a converged state.
+    const bool may_drop =
+        converged || (result.iterations > 0 && result.iterations < options_.free_sweeps);
+    const bool changed = update(plates, state, result.forces, now.scale, may_drop, converged);
+    if (changed) now = measure(plates, state, result.forces);
+    result.residual = now.relative();
+    if (converged && !changed) break;
+    if (result.iterations >= options_.max_iterations) {
+      result.outcome = StepOutcome::too_many_iterations;
+      return result;
+    }
+    if (!newton_step(plates, now, state, result)) return result;
+  }
+  for (const int node : candidates_) {
+    const Vec3 x = node_vector(state.x, node);
+    const double distance = plates.plate(plates.nearer(x)).gap(x).distance();
+    result.worst_penetration = std::max(result.worst_penetration, -distance);
+  }
+  return result;
+}
+
+bool ActiveSet::newton_step(const PlatePair& plates, const Sweep& now, BodyState& state,
+                            StepResult& result) {
+  if (!body_.assemble(state)) {
+    result.outcome = StepOutcome::folded;
+    result.failed_trial = state.x;
+    return false;
+  }
+  std::vector<NormalConstraint> constraints;
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    if (touching_[c] < 0) continue;
+    const int node = candidates_[c];
+    const Gap gap = plates.plate(touching_[c]).gap(node_vector(state.x, node));
+    const double steepness = gap.gradient.norm();
+    const Vec3 normal = gap.gradient / steepness;
+    constraints.push_back({node, normal, -gap.value / steepness});
+    // A node sliding on a rounded edge turns its plate force; without this term Newton loses its
+    // quadratic convergence and plate steps collapse.
+    const double multiplier = node_vector(result.forces.residual, node).dot(normal) / steepness;
+    if (multiplier > 0 && !gap.hessian.isZero()) {
+      body_.add_to_tangent(node, -multiplier * gap.hessian);
+    }
+  }
+  BodyState increment;
+  const BodySolve solve = body_.solve(constraints, result.forces.residual, increment);
+  if (solve.shifted) ++result.shifted;
+  if (!solve.ok || !increment.x.allFinite() || !increment.p.allFinite()) {
+    result.outcome = StepOutcome::singular;
+    return false;
+  }
+  return line_search(plates, now, increment, state, result);
+}
+
+bool ActiveSet::line_search(const PlatePair& plates, const Sweep& now, const BodyState& increment,
+                            BodyState& state, StepResult& result) {
+  const BodyState start = state;
+  BodyForces trial_forces;
+  double alpha = 1;
+  const double slope = std::abs(increment.x.dot(now.free));
+  // While nodes are being brought onto the plate the balance is bound to get worse: any admissible
+  // step is then taken. Where the edge becomes straight that can alternate for ever; later
+  // iterations must therefore reduce imbalance and gap together.
+  const bool moving = now.worst_gap > 1e-3 && result.iterations < free_moves;
+  const auto merit = [](const Sweep& sweep) { return sweep.relative() + sweep.worst_gap; };
+  for (int halving = 0; halving <= most_halvings; ++halving, alpha *= 0.5) {
+    state.x = start.x + alpha * increment.x;
+    state.p = start.p + alpha * increment.p;
+    if (!body_.forces(state, trial_forces)) {
+      if (result.failed_trial.size() == 0) result.failed_trial = state.x;
+      continue;
+    }
+    const Sweep trial = measure(plates, state, trial_forces);
+    const bool flatter =
+        result.iterations < free_moves && std::abs(increment.x.dot(trial.free)) <= 0.8 * slope;
+    const bool accepted = moving || flatter || merit(trial) < merit(now) ||
+                          trial.relative() < tolerance_ || halving == most_halvings;
+    if (!accepted) continue;
+    result.forces = std::move(trial_forces);
+    result.history.push_back(
+        {trial.relative(), result.forces.min_det_F, result.forces.max_det_F, alpha});
+    return true;
+  }
+  result.outcome = StepOutcome::folded;
+  return false;
+}
+
+std::vector<double> ActiveSet::normal_forces(const PlatePair& plates, const BodyState& state,
+                                             const BodyForces& forces) const {
+  std::vector<double> pushed(candidates_.size(), 0);
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    if (touching_[c] < 0) continue;
+    const int node = candidates_[c];
+    const Gap gap = plates.plate(touching_[c]).gap(node_vector(state.x, node));
+    pushed[c] = node_vector(forces.residual, node).dot(gap.gradient.normalized());
+  }
+  return pushed;
+}
+
+}  // namespace breast

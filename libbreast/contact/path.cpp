@@ -1,0 +1,277 @@
+#include "contact/path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+namespace breast {
+
+namespace {
+
+/// A converged state that can be returned to.
+struct Waypoint {
+  BodyState state;
+  std::vector<signed char> touching;
+  double thickness = 0, measured = 0;
+};
+
+class Path {
+ public:
+  Path(ContactSolver& solver, PlatePair& plates, const CompressionTarget& target,
+       const NodalArea& area, const PathOptions& options, Progress& progress)
+      : solver_(solver),
+        plates_(plates),
+        target_(target),
+        area_(area),
+        options_(options),
+        progress_(progress),
+        start_thickness_(plates.thickness()) {}
+
+  PathResult run(BodyState& state);
+
+ private:
+  bool march();
+  bool refine_control(Waypoint low, Waypoint high);
+  bool attempt(const BodyState& guess, const std::vector<signed char>& touching, double thickness,
+               double tolerance, Waypoint& reached);
+  bool finish();
+  BodyState predict(double thickness, bool extrapolate) const;
+  double next_thickness(double step) const;
+  double measure(const PathPoint& point) const;
+  PathPoint force_point(const BodyState& state, const StepResult& step, double thickness) const;
+  void tell(const PathPoint& point) const;
+
+  ContactSolver& solver_;
+  PlatePair& plates_;
+  const CompressionTarget& target_;
+  const NodalArea& area_;
+  const PathOptions& options_;
+  Progress& progress_;
+  double start_thickness_;
+  PathResult result_;
+  Waypoint here_, before_;
+  bool have_before_ = false;
+};
+
+PathPoint Path::force_point(const BodyState& state, const StepResult& step,
+                            double thickness) const {
+  PathPoint point;
+  point.thickness = thickness;
+  point.iterations = step.iterations;
+  const std::vector<double> pushed = solver_.normal_forces(plates_, state, step.forces);
+  const std::vector<double> area = area_(state);
+  double paddle_area = 0;
+  for (std::size_t c = 0; c < pushed.size(); ++c) {
+    const int k = solver_.touching()[c];
+    if (k < 0) continue;
+    const int node = solver_.candidates()[c];
+    const Vec3 x = state.x.segment<3>(3 * node);
+    const Plate& plate = plates_.plate(k);
+    const double along = plate.gap(x).gradient.normalized().dot(plate.normal());
+    (k == 0 ? point.paddle_N : point.detector_N) += pushed[c] * along / micronewton_per_newton;
+    if (k == 0 && pushed[c] > 0) paddle_area += area[c];
+  }
+  if (paddle_area > 0) {
+    point.pressure_kPa =
+        point.paddle_N * micronewton_per_newton / paddle_area / pascal_per_kilopascal;
+  }
+  return point;
+}
+
+double Path::measure(const PathPoint& point) const {
+  return target_.kind == TargetKind::pressure ? point.pressure_kPa : point.paddle_N;
+}
+
+void Path::tell(const PathPoint& point) const {
+  double fraction = -1;
+  if (target_.kind == TargetKind::thickness) {
+    const double travel = start_thickness_ - target_.value;
+    if (travel != 0) fraction = (start_thickness_ - point.thickness) / travel;
+  } else if (target_.value > 0) {
+    fraction = std::min(1.0, measure(point) / target_.value);
+  }
+  progress_.update(
+      "compress", fraction,
+      message("thickness ", std::round(10 * point.thickness) / 10, " mm, paddle ",
+              std::round(10 * point.paddle_N) / 10, " N, ", point.iterations, " iterations"));
+}
+
+bool Path::attempt(const BodyState& guess, const std::vector<signed char>& touching,
+                   double thickness, double tolerance, Waypoint& reached) {
+  plates_.close_to(thickness);
+  BodyState state = guess;
+  solver_.set_touching(touching);
+  StepResult step = solver_.solve(plates_, state, tolerance);
+  ++result_.solves;
+  result_.iterations += step.iterations;
+  result_.indefinite += step.shifted;
+  for (const NewtonRecord& record : step.history) {
+    result_.newton.push_back(record);
+    result_.newton_step.push_back(result_.solves);
+  }
+  if (step.outcome != StepOutcome::converged) {
+    ++result_.failures;
+    result_.last_failure = step.outcome;
+    result_.failed_thickness = thickness;
+    result_.failed_trial = step.failed_trial;
+    return false;
+  }
+  if (step.shifted > 0 && result_.first_indefinite_thickness == 0) {
+    result_.first_indefinite_thickness = thickness;
+  }
+  const PathPoint point = force_point(state, step, thickness);
+  tell(point);
+  result_.final_step = std::move(step);
+  reached = {std::move(state), solver_.touching(), thickness, measure(point)};
+  result_.points.push_back(point);
+  return true;
+}
+
+BodyState Path::predict(double thickness, bool extrapolate) const {
+  if (!extrapolate || !have_before_) return here_.state;
+  const double ratio = (thickness - here_.thickness) / (here_.thickness - before_.thickness);
+  return {here_.state.x + ratio * (here_.state.x - before_.state.x),
+          here_.state.p + ratio * (here_.state.p - before_.state.p)};
+}
+
+double Path::next_thickness(double step) const {
+  if (target_.kind == TargetKind::thickness) {
+    const double left = target_.value - here_.thickness;
+    // No sliver of a step just before the end.
+    if (std::abs(left) <= 1.25 * step) return target_.value;
+    return here_.thickness + std::copysign(step, left);
+  }
+  double closing = step;
+  // Force grows exponentially: do not overshoot the target by much.
+  if (have_before_ && before_.measured > 0 && here_.measured > before_.measured) {
+    const double growth =
+        std::log(here_.measured / before_.measured) / (before_.thickness - here_.thickness);
+    closing =
+        std::min(closing, std::max(0.5, std::log(1.15 * target_.value / here_.measured) / growth));
+  }
+  return here_.thickness - closing;
+}
+
+bool Path::march() {
+  double step = options_.first_step;
+  int failures_in_row = 0;
+  while (result_.solves < options_.most_solves) {
+    if (target_.kind == TargetKind::thickness && here_.thickness == target_.value) return true;
+    const double thickness = next_thickness(step);
+    if (target_.kind != TargetKind::thickness && !(thickness > options_.least_thickness)) {
+      result_.failed_thickness = thickness;
+      return false;
+    }
+    // Two refusals in a row: the extrapolation itself may be what folds elements.
+    const bool extrapolate = failures_in_row % 3 != 2;
+    Waypoint reached;
+    if (attempt(predict(thickness, extrapolate), here_.touching, thickness, options_.path_tolerance,
+                reached)) {
+      const int iterations = result_.points.back().iterations;
+      failures_in_row = 0;
+      if (iterations < 6) step = std::min(options_.longest_step, 1.4 * step);
+      if (iterations > 12) step = std::max(options_.shortest_step, 0.7 * step);
+      if (target_.kind != TargetKind::thickness && reached.measured >= target_.value) {
+        return refine_control(here_, std::move(reached));
+      }
+      before_ = std::move(here_);
+      here_ = std::move(reached);
+      have_before_ = true;
+    } else {
+      ++failures_in_row;
+      step = 0.5 * std::min(step, std::abs(thickness - here_.thickness));
+      if (step < options_.shortest_step) return false;
+    }
+  }
+  return false;
+}
+
+/// Bracketed secant (Illinois) on the thickness; interpolated states make each solve short.
+bool Path::refine_control(Waypoint low, Waypoint high) {
+  double f_low = low.measured - target_.value, f_high = high.measured - target_.value;
+  for (int k = 0; k < 40; ++k) {
+    const Waypoint& best =
+        std::abs(high.measured - target_.value) < std::abs(low.measured - target_.value) ? high
+                                                                                         : low;
+    if (std::abs(best.measured - target_.value) <= options_.control_tolerance * target_.value ||
+        std::abs(low.thickness - high.thickness) < 1e-4) {
+      before_ = low;
+      here_ = best;
+      return true;
+    }
+    const double t = f_low / (f_low - f_high);
+    const double thickness = low.thickness + t * (high.thickness - low.thickness);
+    const double w = (thickness - low.thickness) / (high.thickness - low.thickness);
+    BodyState guess{(1 - w) * low.state.x + w * high.state.x,
+                    (1 - w) * low.state.p + w * high.state.p};
+    Waypoint middle;
+    if (!attempt(guess, w < 0.5 ? low.touching : high.touching, thickness, options_.path_tolerance,
+                 middle)) {
+      here_ = low;
+      return false;
+    }
+    const double f = middle.measured - target_.value;
+    if (f < 0) {
+      low = std::move(middle);
+      f_low = f;
+      f_high *= 0.5;
+    } else {
+      high = std::move(middle);
+      f_high = f;
+      f_low *= 0.5;
+    }
+  }
+  here_ = low;
+  return false;
+}
+
+/// Solves the last state tightly, so that it is an equilibrium to the reported tolerance.
+bool Path::finish() {
+  Waypoint reached;
+  const StepOutcome failure = result_.last_failure;
+  const double failed_thickness = result_.failed_thickness;
+  Eigen::VectorXd failed_trial = result_.failed_trial;
+  const bool ok =
+      attempt(here_.state, here_.touching, here_.thickness, options_.tolerance, reached);
+  if (ok) {
+    here_ = std::move(reached);
+    // The tight solve repeats the last point of the path.
+    const std::size_t n = result_.points.size();
+    if (n >= 2 && result_.points[n - 2].thickness == here_.thickness) {
+      result_.points.erase(result_.points.end() - 2);
+    }
+    result_.last_failure = failure;
+    result_.failed_thickness = failed_thickness;
+    result_.failed_trial = std::move(failed_trial);
+  }
+  return ok;
+}
+
+PathResult Path::run(BodyState& state) {
+  here_ = {state, solver_.touching(), plates_.thickness(), 0};
+  // The state the plates start from: touching nothing, or the end of an earlier path.
+  Waypoint first;
+  if (attempt(here_.state, here_.touching, here_.thickness, options_.path_tolerance, first)) {
+    here_ = std::move(first);
+    result_.reached = march();
+  }
+  if (!result_.points.empty() && !finish()) result_.reached = false;
+  if (result_.reached) result_.failed_trial.resize(0);
+  plates_.close_to(here_.thickness);
+  solver_.set_touching(here_.touching);
+  result_.thickness = here_.thickness;
+  state = std::move(here_.state);
+  return std::move(result_);
+}
+
+}  // namespace
+
+PathResult follow_path(ContactSolver& solver, PlatePair& plates, BodyState& state,
+                       const CompressionTarget& target, const NodalArea& area,
+                       const PathOptions& options, Progress& progress) {
+  return Path(solver, plates, target, area, options, progress).run(state);
+}
+
+}  // namespace breast

@@ -1,0 +1,64 @@
+// Closing the plates: from just touching to a thickness, a force or a mean pressure, in adaptive
+// steps with a secant predictor.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "contact/plates.hpp"
+#include "contact/solver.hpp"
+#include "core/progress.hpp"
+
+namespace breast {
+
+enum class TargetKind { thickness, force, pressure };
+
+/// Where to stop: thickness between the flats (mm), paddle force (N), or paddle force per contact
+/// area (kPa).
+struct CompressionTarget {
+  TargetKind kind = TargetKind::thickness;
+  double value = 0;
+};
+
+/// Lengths in mm of thickness.
+struct PathOptions {
+  double first_step = 6, longest_step = 14, shortest_step = 0.02;
+  double least_thickness = 2;    ///< force and pressure control give up here
+  double path_tolerance = 1e-6;  ///< residual on the way; the last state is solved to `tolerance`
+  double tolerance = 1e-9;
+  double control_tolerance = 1e-4;  ///< relative, of force and pressure control
+  int most_solves = 400;
+};
+
+/// A converged state of the path.
+struct PathPoint {
+  double thickness = 0;  ///< mm
+  double paddle_N = 0, detector_N = 0, pressure_kPa = 0;
+  int iterations = 0;
+};
+
+struct PathResult {
+  bool reached = false;
+  StepOutcome last_failure = StepOutcome::converged;  ///< why the path stopped early
+  double failed_thickness = 0;                        ///< mm: the step that could not be made
+  Eigen::VectorXd failed_trial;                       ///< its first refused positions, may be empty
+  double thickness = 0;                               ///< of the final state
+  StepResult final_step;
+  std::vector<PathPoint> points;
+  std::vector<NewtonRecord> newton;  ///< all iterations in order
+  std::vector<int> newton_step;      ///< the step each belongs to
+  int solves = 0, failures = 0, iterations = 0, indefinite = 0;
+  double first_indefinite_thickness = 0;  ///< mm, 0: never
+};
+
+/// Area (mm²) belonging to each node of the deformed skin, for mean pressure along the path.
+using NodalArea = std::function<std::vector<double>(const BodyState&)>;
+
+/// Moves the plates from where they stand to the target; `state` ends in the last valid equilibrium
+/// and the plates at its thickness. `state` must be in equilibrium at the start or touch nothing.
+PathResult follow_path(ContactSolver& solver, PlatePair& plates, BodyState& state,
+                       const CompressionTarget& target, const NodalArea& area,
+                       const PathOptions& options, Progress& progress = no_progress());
+
+}  // namespace breast

@@ -1,0 +1,213 @@
+#include "contact/plates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// The rounded edge becomes straight at this fraction of its radius (methods: slope 4/3 there).
+constexpr double straight_from = 0.8;
+constexpr double straight_slope = 4.0 / 3.0;
+/// A plate must reach at least this far over the breast to compress it, mm.
+constexpr double least_depth = 5.0;
+
+struct Extent {
+  double low = infinity, high = -infinity;
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  bool empty() const { return !(low <= high); }
+  double size() const { return high - low; }
+  double middle() const { return 0.5 * (low + high); }
+};
+
+/// Extent along n of the skin in front of the plane a = start, faces cut exactly at that plane.
+Extent footprint_extent(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate) {
+  Extent extent;
+  const auto inside = [&](const Vec3& point) {
+    return std::abs(point.dot(plate.lateral) - plate.lateral_centre) <= plate.half_width;
+  };
+  for (const Face& face : mesh.skin_faces) {
+    const std::vector<int> nodes = face_nodes(mesh, face);
+    for (int c = 0; c < 4; ++c) {
+      const Vec3& here = x[nodes[c]];
+      const Vec3& next = x[nodes[(c + 1) % 4]];
+      const double a = here.dot(plate.anterior) - plate.edge_start;
+      const double b = next.dot(plate.anterior) - plate.edge_start;
+      if (a >= 0 && inside(here)) extent.add(here.dot(plate.n));
+      if ((a < 0) != (b < 0)) {
+        const Vec3 crossing = here + a / (a - b) * (next - here);
+        if (inside(crossing)) extent.add(crossing.dot(plate.n));
+      }
+    }
+    for (std::size_t c = 4; c < nodes.size(); ++c) {
+      const Vec3& here = x[nodes[c]];
+      if (here.dot(plate.anterior) >= plate.edge_start && inside(here)) {
+        extent.add(here.dot(plate.n));
+      }
+    }
+  }
+  return extent;
+}
+
+/// Most anterior pectoral or cut point within the plate's width.
+double most_anterior_wall(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate) {
+  double wall = -infinity;
+  for (const auto* faces : {&mesh.pectoral_faces, &mesh.cut_faces}) {
+    for (const int node : nodes_of(mesh, *faces)) {
+      const double v = x[node].dot(plate.lateral);
+      if (std::abs(v - plate.lateral_centre) <= plate.half_width) {
+        wall = std::max(wall, x[node].dot(plate.anterior));
+      }
+    }
+  }
+  return wall;
+}
+
+void check_options(const PlateOptions& options) {
+  if (!(options.standoff >= 0)) {
+    throw input_error("plate stand-off ", options.standoff, " mm: must be 0 or more");
+  }
+  if (!(options.edge_radius >= 0)) {
+    throw input_error("plate edge radius ", options.edge_radius, " mm: must be 0 or more");
+  }
+  if (!(std::abs(options.tilt_deg) <= 20)) {
+    throw input_error("paddle tilt ", options.tilt_deg, " degrees: must lie within -20 and 20");
+  }
+  if (!(options.width >= 0)) {
+    throw input_error("plate width ", options.width, " mm: must be 0 (automatic) or more");
+  }
+  if (!(options.detector_share >= 0 && options.detector_share <= 1)) {
+    throw input_error("detector share ", options.detector_share, ": must lie within 0 and 1");
+  }
+}
+
+/// Plate coordinates that do not depend on the level: width, edge start, far edge, mid-depth.
+Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
+                     const PlateOptions& options, double& wall_point) {
+  Plate plate;
+  plate.n = pose.n;
+  plate.anterior = pose.e_u;
+  plate.lateral = pose.e_v;
+  plate.edge_radius = options.edge_radius;
+  const std::vector<int> skin = nodes_of(mesh, mesh.skin_faces);
+  Extent across, along;
+  for (const int node : skin) {
+    across.add(x[node].dot(plate.lateral));
+    along.add(x[node].dot(plate.anterior));
+  }
+  if (across.empty()) throw input_error("the mesh has no skin faces: plates have nothing to press");
+  plate.lateral_centre = across.middle();
+  plate.half_width = options.width > 0 ? 0.5 * options.width : 0.75 * across.size();
+  wall_point = most_anterior_wall(mesh, x, plate);
+  if (!std::isfinite(wall_point)) {
+    throw input_error("no pectoral or cut point lies within the plates' width of ",
+                      2 * plate.half_width, " mm");
+  }
+  plate.edge_start = wall_point + options.standoff;
+  const double depth = along.high - plate.edge_start;
+  if (!(depth >= least_depth)) {
+    throw input_error("the plates miss the breast: with a stand-off of ", options.standoff,
+                      " mm they start ", depth >= 0 ? "only " : "", std::abs(depth), " mm ",
+                      depth >= 0 ? "behind" : "in front of", " the most anterior skin (at least ",
+                      least_depth, " mm of cover is needed); try --standoff ",
+                      std::max(0.0, std::floor(options.standoff + depth - 4 * least_depth)));
+  }
+  plate.mid_depth = plate.edge_start + 0.5 * depth;
+  // Compression lengthens the breast forwards; the plate's front edge must stay ahead of it.
+  plate.far_edge = plate.edge_start + 2 * depth + 20;
+  return plate;
+}
+}  // namespace
+
+EdgeRecession edge_recession(double radius, double s) {
+  if (!(s > 0)) return {};
+  const double limit = straight_from * radius;
+  if (s < limit) {
+    const double root = std::sqrt(radius * radius - s * s);
+    return {radius - root, s / root, radius * radius / (root * root * root)};
+  }
+  return {0.4 * radius + straight_slope * (s - limit), straight_slope, 0};
+}
+
+Gap Plate::gap(const Vec3& x) const {
+  const double a = x.dot(anterior), v = x.dot(lateral) - lateral_centre;
+  Gap gap;
+  gap.value = sign * (x.dot(n) - level) - tilt_slope * (a - mid_depth);
+  gap.gradient = sign * n - tilt_slope * anterior;
+  const auto recede = [&](double s, const Vec3& outward) {
+    const EdgeRecession edge = edge_recession(edge_radius, s);
+    gap.value += edge.value;
+    gap.gradient += edge.slope * outward;
+    gap.hessian += edge.curvature * outward * outward.transpose();
+  };
+  recede(edge_start - a, -anterior);
+  recede(a - far_edge, anterior);
+  recede(v - half_width, lateral);
+  recede(-v - half_width, -lateral);
+  return gap;
+}
+
+Vec3 Plate::normal() const {
+  return (sign * n - tilt_slope * anterior).normalized();
+}
+
+Vec3 Plate::origin() const {
+  const double h = level + sign * tilt_slope * (edge_start - mid_depth);
+  return h * n + edge_start * anterior + lateral_centre * lateral;
+}
+
+void PlatePair::close_to(double thickness) {
+  const double closing = initial_thickness - thickness;
+  paddle.level = paddle_start + (1 - detector_share) * closing;
+  detector.level = detector_start - detector_share * closing;
+}
+
+int PlatePair::nearer(const Vec3& x) const {
+  return paddle.gap(x).value <= detector.gap(x).value ? 0 : 1;
+}
+
+PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
+                       const PlateOptions& options) {
+  check_options(options);
+  PlatePair pair;
+  const Plate plate = place_in_plane(mesh, x, pose, options, pair.wall_point);
+  pair.standoff = options.standoff;
+  pair.detector_share = options.detector_share;
+  pair.paddle = pair.detector = plate;
+  pair.paddle.name = "paddle";
+  pair.detector.name = "detector";
+  pair.detector.sign = -1;
+  pair.paddle.tilt_slope = std::tan(options.tilt_deg * std::numbers::pi / 180);
+
+  const Extent extent = footprint_extent(mesh, x, plate);
+  if (extent.empty() || !(extent.size() > 0)) {
+    throw input_error("the plates' footprint contains no skin; try a smaller --standoff");
+  }
+  pair.initial_thickness = extent.size();
+  pair.paddle_start = extent.low;
+  pair.detector_start = extent.high;
+  pair.close_to(pair.initial_thickness);
+
+  // Skin behind the footprint may reach further than T0: start where nothing is penetrated.
+  double opening = 0;
+  for (const int node : nodes_of(mesh, mesh.skin_faces)) {
+    for (int k = 0; k < 2; ++k) {
+      const double share = k == 0 ? 1 - options.detector_share : options.detector_share;
+      const double gap = pair.plate(k).gap(x[node]).value;
+      if (gap < 0 && share > 0) opening = std::max(opening, -gap / share);
+    }
+  }
+  pair.touching_thickness = pair.initial_thickness + opening;
+  pair.close_to(pair.touching_thickness);
+  return pair;
+}
+
+}  // namespace breast

@@ -1,0 +1,82 @@
+// The compression plates as rigid height fields over a plane normal to the beam: a flat with
+// rounded edges. The gap and its first two derivatives are all the contact solver sees of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+#include "mammo/mammogram.hpp"
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+/// Gap of a point to a plate: positive outside the plate, with derivatives by the point's position.
+struct Gap {
+  double value = 0;  ///< mm, measured along the plate's normal
+  Vec3 gradient{0, 0, 0};
+  Mat3 hessian = Mat3::Zero();  ///< 1/mm
+  /// Signed distance to the plate's surface to first order, mm.
+  double distance() const { return value / gradient.norm(); }
+};
+
+/// Recession of a rounded edge of radius r, s mm beyond where it starts: r − √(r²−s²) up to s = 0.8
+/// r, then straight with the slope reached there (4/3). r = 0 is a straight bevel of that slope.
+struct EdgeRecession {
+  double value = 0, slope = 0, curvature = 0;
+};
+EdgeRecession edge_recession(double radius, double s);
+
+/// One plate. Coordinates: h along the beam, a anterior, v lateral (h, a, v = x·n, x·e_u, x·e_v).
+struct Plate {
+  std::string name;  ///< "paddle" or "detector"
+  double sign = 1;   ///< +1 when the body lies towards +h (paddle), −1 (detector)
+  Vec3 n{0, 0, -1}, anterior{0, -1, 0}, lateral{1, 0, 0};
+  double level = 0;       ///< h of the flat at depth mid_depth
+  double edge_start = 0;  ///< a where the rounded edge towards the chest wall starts
+  double far_edge = 0;    ///< a where the anterior rounded edge starts
+  double lateral_centre = 0, half_width = 0;  ///< flat: |v − centre| ≤ half_width
+  double mid_depth = 0;    ///< a of the tilt axis, where the thickness is defined
+  double tilt_slope = 0;   ///< rise into the gap per mm anterior
+  double edge_radius = 0;  ///< mm
+
+  Gap gap(const Vec3& x) const;
+  /// Unit normal of the flat, from the plate into the gap.
+  Vec3 normal() const;
+  /// Point of the flat where the rounded edge starts, mid-width.
+  Vec3 origin() const;
+};
+
+/// How the plates are placed; lengths in mm.
+struct PlateOptions {
+  double standoff = 25;  ///< most anterior pectoral or cut point to the start of the rounded edge
+  double edge_radius = 15;
+  double tilt_deg = 0;  ///< paddle about the lateral axis; positive narrows the gap anteriorly
+  double width = 0;     ///< lateral size of the flats, 0: half as wide again as the body
+  double detector_share = 0.5;  ///< part of the closing done by the detector side: 0.5 closes about
+                                ///< the breast's mid-plane, which does not drag it along the wall
+};
+
+/// Paddle and detector moving on one parameter, the thickness T between the flats at mid-depth.
+struct PlatePair {
+  Plate paddle, detector;
+  double initial_thickness = 0;   ///< T0: extent along n within the footprint of the body
+  double touching_thickness = 0;  ///< T where the first skin node touches; ≥ T0 beside a wide base
+  double wall_point = 0;          ///< a of the most anterior pectoral or cut point
+  double standoff = 0;
+  double paddle_start = 0, detector_start = 0, detector_share = 0.5;  ///< levels at T0
+
+  /// Moves both plates to thickness T (mm).
+  void close_to(double thickness);
+  double thickness() const { return detector.level - paddle.level; }
+  /// The smaller of the two gaps, and which plate it belongs to (0 paddle, 1 detector).
+  int nearer(const Vec3& x) const;
+  const Plate& plate(int k) const { return k == 0 ? paddle : detector; }
+};
+
+/// Places the plates about the shape `x` (node positions of the gravity-loaded body, mm, LPS).
+/// Throws Error (input) when the plates miss the breast.
+PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
+                       const PlateOptions& options);
+
+}  // namespace breast

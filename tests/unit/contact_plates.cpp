@@ -1,0 +1,137 @@
+// Plates as height fields: derivatives, placement, T0.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contact/plates.hpp"
+#include "core/error.hpp"
+#include "fixtures/block.hpp"
+
+using namespace breast;
+
+namespace {
+
+Plate tilted_plate(double radius) {
+  const ViewPose pose = view_pose(Side::left, 37);
+  Plate plate;
+  plate.n = pose.n;
+  plate.anterior = pose.e_u;
+  plate.lateral = pose.e_v;
+  plate.level = -3;
+  plate.edge_start = 10;
+  plate.far_edge = 60;
+  plate.half_width = 30;
+  plate.lateral_centre = 4;
+  plate.mid_depth = 35;
+  plate.tilt_slope = 0.07;
+  plate.edge_radius = radius;
+  return plate;
+}
+
+Vec3 at(const Plate& plate, double h, double a, double v) {
+  return h * plate.n + a * plate.anterior + (plate.lateral_centre + v) * plate.lateral;
+}
+
+}  // namespace
+
+TEST(Plates, GapDerivativesMatchDifferences) {
+  const Plate plate = tilted_plate(15);
+  const double step = 1e-5;
+  // Flat, round wall edge, straight part, front edge, sides, and a corner.
+  for (const auto& [a, v] : std::vector<std::pair<double, double>>{
+           {30, 0}, {4, 0}, {-9, 3}, {66, -5}, {30, 37}, {30, -41}, {3, 38}}) {
+    const Vec3 x = at(plate, 5, a, v);
+    const Gap gap = plate.gap(x);
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 d = step * Vec3::Unit(i);
+      const Gap up = plate.gap(x + d), down = plate.gap(x - d);
+      EXPECT_NEAR((up.value - down.value) / (2 * step), gap.gradient[i], 1e-8) << a << " " << v;
+      const Vec3 hessian = (up.gradient - down.gradient) / (2 * step);
+      EXPECT_LT((hessian - gap.hessian.col(i)).norm(), 1e-7) << a << " " << v;
+    }
+  }
+}
+
+TEST(Plates, EdgeIsContinuousWhereItBecomesStraight) {
+  const double r = 15, s = 0.8 * r;
+  const EdgeRecession before = edge_recession(r, s - 1e-9), after = edge_recession(r, s + 1e-9);
+  EXPECT_NEAR(before.value, after.value, 1e-8);
+  EXPECT_NEAR(before.slope, after.slope, 1e-8);
+  EXPECT_NEAR(before.value, r - std::sqrt(r * r - s * s), 1e-8);
+  EXPECT_EQ(edge_recession(r, -1).value, 0);
+  EXPECT_NEAR(edge_recession(0, 3).value, 4, 1e-12);
+}
+
+TEST(Plates, PaddleAndDetectorFaceEachOther) {
+  Plate paddle = tilted_plate(10), detector = paddle;
+  paddle.tilt_slope = detector.tilt_slope = 0;
+  detector.sign = -1;
+  detector.level = 7;
+  const Vec3 x = at(paddle, 2, 35, 0);
+  EXPECT_NEAR(paddle.gap(x).value, 5, 1e-12);
+  EXPECT_NEAR(detector.gap(x).value, 5, 1e-12);
+  EXPECT_LT((paddle.normal() + detector.normal()).norm(), 1e-14);
+  EXPECT_NEAR(paddle.gap(paddle.origin()).value, 0, 1e-12);
+}
+
+TEST(Plates, PlacementMeasuresStandoffAndThickness) {
+  // 60 deep (anterior), 40 high, 50 wide; wall at y = 0.
+  const HexMesh mesh = fixtures::block({50, 60, 40}, {5, 6, 4});
+  PlateOptions options;
+  options.standoff = 25;
+  PlatePair plates = place_plates(mesh, mesh.points, view_pose(Side::left, 0), options);
+  EXPECT_NEAR(plates.wall_point, 0, 1e-12);
+  EXPECT_NEAR(plates.paddle.edge_start, 25, 1e-12);
+  EXPECT_NEAR(plates.initial_thickness, 40, 1e-12);
+  EXPECT_NEAR(plates.touching_thickness, 40, 1e-12);
+  EXPECT_NEAR(plates.paddle.mid_depth, 42.5, 1e-12);
+  plates.close_to(30);
+  EXPECT_NEAR(plates.thickness(), 30, 1e-12);
+  // Both plates moved by 5 mm about the mid-plane.
+  const Vec3 middle(25, -42.5, 20);
+  EXPECT_NEAR(plates.paddle.gap(middle).value, 15, 1e-12);
+  EXPECT_NEAR(plates.detector.gap(middle).value, 15, 1e-12);
+}
+
+TEST(Plates, FootprintIsCutAtTheEdgeNotAtNodes) {
+  // A wedge: height 60 at the wall falling to 20 at the front; coarse elements.
+  HexMesh mesh = fixtures::block({50, 60, 60}, {2, 2, 2});
+  for (Vec3& x : mesh.points) {
+    const double shrink = 1 - (-x.y() / 60) * (2.0 / 3);
+    x.z() = 30 + (x.z() - 30) * shrink;
+  }
+  PlateOptions options;
+  options.standoff = 20;
+  options.edge_radius = 5;
+  const PlatePair plates = place_plates(mesh, mesh.points, view_pose(Side::left, 0), options);
+  EXPECT_NEAR(plates.initial_thickness, 60 - 20 * 40.0 / 60, 1e-9);
+  EXPECT_GE(plates.touching_thickness, plates.initial_thickness);
+  for (const int node : nodes_of(mesh, mesh.skin_faces)) {
+    EXPECT_GE(plates.paddle.gap(mesh.points[node]).value, -1e-9);
+    EXPECT_GE(plates.detector.gap(mesh.points[node]).value, -1e-9);
+  }
+}
+
+TEST(Plates, DetectorShareMovesOnePlateOnly) {
+  const HexMesh mesh = fixtures::block({50, 60, 40}, {2, 2, 2});
+  PlateOptions options;
+  options.detector_share = 0;
+  PlatePair plates = place_plates(mesh, mesh.points, view_pose(Side::left, 0), options);
+  const double detector = plates.detector.level;
+  plates.close_to(25);
+  EXPECT_EQ(plates.detector.level, detector);
+  EXPECT_NEAR(plates.thickness(), 25, 1e-12);
+}
+
+TEST(Plates, MissingTheBreastIsAnInputError) {
+  const HexMesh mesh = fixtures::block({50, 60, 40}, {2, 2, 2});
+  PlateOptions options;
+  options.standoff = 80;
+  try {
+    place_plates(mesh, mesh.points, view_pose(Side::left, 0), options);
+    FAIL() << "plates in front of the breast were accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_NE(std::string(error.what()).find("miss the breast"), std::string::npos);
+  }
+}
