@@ -1,0 +1,35 @@
+// Supernodal Cholesky (CHOLMOD) of a symmetric node matrix: one analysis, many factorisations.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+
+#include "solve/node_matrix.hpp"
+
+namespace breast {
+
+class Cholesky {
+ public:
+  /// Orders by nested dissection of the node graph (METIS) and analyses.
+  explicit Cholesky(const NodePattern& pattern);
+  ~Cholesky();
+  Cholesky(const Cholesky&) = delete;
+  Cholesky& operator=(const Cholesky&) = delete;
+
+  /// False when the matrix is not positive definite (or holds a non-finite value).
+  bool factorise(const std::vector<double>& values);
+  Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const;
+
+  double factor_entries() const;  ///< nonzeros of L
+  double factor_gflop() const;    ///< work of one factorisation
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// "OpenBLAS 0.3.21 ..." or "reference BLAS": for reports.
+std::string blas_name();
+
+}  // namespace breast

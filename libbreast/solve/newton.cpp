@@ -1,0 +1,148 @@
+#include "solve/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr double slope_kept = 0.8;  // accept when the slope along the step fell below this part
+
+// One Newton solve: the pieces of the iteration that need to see each other.
+class Iteration {
+ public:
+  Iteration(const SaddleProblem& problem, const Constraints& constraints,
+            const NewtonOptions& options)
+      : problem_(problem), constraints_(constraints), options_(options) {}
+
+  double measure(const SaddleForces& forces) const {
+    Eigen::VectorXd free = forces.r;
+    constraints_.project(free);
+    return free.norm() / problem_.load_norm();
+  }
+
+  bool volumes_hold(const SaddleForces& forces) const {
+    const long rows = forces.theta.size() / long(elements(forces));
+    for (long i = 0; i < forces.theta.size(); ++i) {
+      const double bound = options_.volume_tolerance * problem_.volume_scale(int(i / rows));
+      if (!(std::abs(forces.theta[i]) <= bound)) return false;
+    }
+    return true;
+  }
+
+  // Step length in (0, 1], 0 when none is acceptable. On success `state` and `forces` are the new
+  // ones.
+  double search(const SaddleMatrix& matrix, const SaddleStep& step, double before,
+                SaddleState& state, SaddleForces& forces) const {
+    // Slope of the augmented energy with the new pressure at the old state: −δuᵀ K_κ δu for a free
+    // step.
+    const double start = -step.u.dot(matrix.stiffness.multiply(step.u));
+    const double least = options_.determinant_guard * std::min(1.0, forces.min_det_F);
+    for (double length = 1; length >= options_.min_step; length *= 0.5) {
+      SaddleState trial{state.u + length * step.u, state.p + length * step.p};
+      SaddleForces now = problem_.forces(trial, &matrix.kappa);
+      if (!now.valid || !(now.min_det_F > least)) continue;
+      if (accept(now, step, start, before)) {
+        state = std::move(trial);
+        forces = std::move(now);
+        return length;
+      }
+    }
+    return 0;
+  }
+
+ private:
+  static std::size_t elements(const SaddleForces& forces) {
+    return std::size_t(forces.element_count);
+  }
+
+  bool accept(const SaddleForces& now, const SaddleStep& step, double start, double before) const {
+    if (!now.r.allFinite()) return false;
+    Eigen::VectorXd gradient = now.augmented;
+    constraints_.project(gradient);
+    const double slope = step.u.dot(gradient);
+    return std::abs(slope) <= slope_kept * std::abs(start) || measure(now) < before;
+  }
+
+  const SaddleProblem& problem_;
+  const Constraints& constraints_;
+  const NewtonOptions& options_;
+};
+
+// Increments that carry held components to their targets.
+bool aim(Constraints& constraints, const Eigen::VectorXd* targets, const Eigen::VectorXd& u) {
+  constraints.zero_increments();
+  if (targets == nullptr) return false;
+  double most = 0;
+  for (int node = 0; node < constraints.nodes(); ++node) {
+    const NodeConstraint* held = constraints.at(node);
+    if (held == nullptr) continue;
+    NodeConstraint moved = *held;
+    moved.increment =
+        held->axes.transpose() * (targets->segment<3>(3L * node) - u.segment<3>(3L * node));
+    for (int i = 0; i < 3; ++i) {
+      if (held->held[i]) most = std::max(most, std::abs(moved.increment[i]));
+    }
+    constraints.set(node, moved);
+  }
+  return most > 1e-12 * std::max(1.0, u.lpNorm<Eigen::Infinity>());
+}
+
+}  // namespace
+
+NewtonResult newton(const SaddleProblem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
+                    const Constraints& constraints, const Eigen::VectorXd* targets,
+                    SaddleState& state, const NewtonOptions& options,
+                    const std::function<void(const NewtonIteration&)>& watch) {
+  NewtonResult result;
+  Constraints moving = constraints;
+  const Iteration iteration(problem, constraints, options);
+  const int before = solver.factorisations();
+  for (int i = 0; i <= options.max_iterations; ++i) {
+    if (!problem.tangent(state, result.forces, matrix)) {
+      result.reason = message("element ", result.forces.bad_element, " is folded at the start");
+      break;
+    }
+    result.residual = iteration.measure(result.forces);
+    const bool away = aim(moving, targets, state.u);
+    if (!away && result.residual <= options.tolerance && iteration.volumes_hold(result.forces)) {
+      result.converged = true;
+      break;
+    }
+    if (i == options.max_iterations) {
+      result.reason = message("no convergence in ", i, " iterations: residual ", result.residual,
+                              " of the load, bound ", options.tolerance);
+      break;
+    }
+    const Factorisation factor = solver.factorise(matrix, moving);
+    if (!factor.ok) {
+      result.reason = "the tangent stiffness is far from positive definite (unstable equilibrium)";
+      break;
+    }
+    if (factor.shift > 0) ++result.indefinite;
+    const SaddleStep step = solver.solve(matrix, result.forces.r, result.forces.theta);
+    NewtonIteration record;
+    record.step_length = iteration.search(
+        matrix, step, away ? std::numeric_limits<double>::infinity() : result.residual, state,
+        result.forces);
+    record.shift = factor.shift;
+    record.residual = iteration.measure(result.forces);
+    record.min_det_F = result.forces.min_det_F;
+    record.max_det_F = result.forces.max_det_F;
+    result.iterations.push_back(record);
+    if (watch) watch(record);
+    if (record.step_length == 0) {
+      result.reason =
+          message("no admissible step along the Newton direction: residual ", result.residual,
+                  " of the load, smallest det F ", result.forces.min_det_F);
+      break;
+    }
+  }
+  result.factorisations = solver.factorisations() - before;
+  return result;
+}
+
+}  // namespace breast

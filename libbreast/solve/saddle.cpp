@@ -1,0 +1,211 @@
+#include "solve/saddle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+namespace breast {
+
+namespace {
+
+// Gathers the values of a cell's nodes, or adds them back.
+Eigen::VectorXd gather(const Cells& cells, int e, const Eigen::VectorXd& u) {
+  const int n = cells.nodes_per_cell;
+  Eigen::VectorXd local(3L * n);
+  for (int a = 0; a < n; ++a) local.segment<3>(3L * a) = u.segment<3>(3L * cells.cell(e)[a]);
+  return local;
+}
+
+constexpr double first_shift = 1e-5, shift_growth = 8, largest_shift = 10;
+constexpr int max_pressure_iterations = 60;
+
+}  // namespace
+
+void ElementRows::resize(const Cells& over, int rows_per_element) {
+  cells = &over;
+  rows = rows_per_element;
+  values.assign(std::size_t(over.count()) * rows * 3 * over.nodes_per_cell, 0.0);
+}
+
+Eigen::Map<const Eigen::MatrixXd> ElementRows::at(int e) const {
+  const int columns = 3 * cells->nodes_per_cell;
+  return {values.data() + std::size_t(e) * rows * columns, rows, columns};
+}
+Eigen::Map<Eigen::MatrixXd> ElementRows::at(int e) {
+  const int columns = 3 * cells->nodes_per_cell;
+  return {values.data() + std::size_t(e) * rows * columns, rows, columns};
+}
+
+Eigen::VectorXd ElementRows::apply(const Eigen::VectorXd& u) const {
+  Eigen::VectorXd out(long(rows) * cells->count());
+#pragma omp parallel for num_threads(threads()) schedule(static)
+  for (int e = 0; e < cells->count(); ++e) {
+    out.segment(long(e) * rows, rows).noalias() = at(e) * gather(*cells, e, u);
+  }
+  return out;
+}
+
+Eigen::VectorXd ElementRows::apply_transpose(const Eigen::VectorXd& p) const {
+  int nodes = 0;
+  for (const int node : cells->nodes) nodes = std::max(nodes, node + 1);
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(3L * nodes);
+  const int n = cells->nodes_per_cell;
+  Eigen::VectorXd local(3L * n);
+  for (int e = 0; e < cells->count(); ++e) {
+    local.noalias() = at(e).transpose() * p.segment(long(e) * rows, rows);
+    for (int a = 0; a < n; ++a) out.segment<3>(3L * cells->cell(e)[a]) += local.segment<3>(3L * a);
+  }
+  return out;
+}
+
+Eigen::Map<const Eigen::MatrixXd> PressureSpace::mass_at(int e) const {
+  return {mass.data() + std::size_t(e) * rows * rows, rows, rows};
+}
+Eigen::Map<const Eigen::MatrixXd> PressureSpace::inverse_at(int e) const {
+  return {inverse_mass.data() + std::size_t(e) * rows * rows, rows, rows};
+}
+
+Eigen::VectorXd PressureSpace::multiply(const Eigen::VectorXd& q,
+                                        const Eigen::VectorXd& factor) const {
+  Eigen::VectorXd out(q.size());
+  for (int e = 0; e < elements(); ++e) {
+    out.segment(long(e) * rows, rows).noalias() =
+        factor[e] * (mass_at(e) * q.segment(long(e) * rows, rows));
+  }
+  return out;
+}
+
+Eigen::VectorXd PressureSpace::divide(const Eigen::VectorXd& q,
+                                      const Eigen::VectorXd& factor) const {
+  Eigen::VectorXd out(q.size());
+  for (int e = 0; e < elements(); ++e) {
+    out.segment(long(e) * rows, rows).noalias() =
+        factor[e] * (inverse_at(e) * q.segment(long(e) * rows, rows));
+  }
+  return out;
+}
+
+Eigen::VectorXd SaddleMatrix::multiply_unaugmented(const Eigen::VectorXd& u) const {
+  return stiffness.multiply(u) -
+         divergence.apply_transpose(space->divide(divergence.apply(u), kappa));
+}
+
+SaddleSolver::SaddleSolver(const std::shared_ptr<const NodePattern>& pattern)
+    : cholesky_(*pattern), work_(pattern), constraints_(pattern->nodes()) {}
+
+// Rotates the blocks of constrained nodes into their axes, then replaces held rows and columns by a
+// multiple of the identity of ordinary size.
+void SaddleSolver::impose(const SaddleMatrix& matrix) {
+  const NodePattern& pattern = work_.pattern();
+  work_.values() = matrix.stiffness.values();
+  const double scale = std::max(matrix.diagonal.mean(), 1e-300);
+#pragma omp parallel for num_threads(threads()) schedule(dynamic, 128)
+  for (int column = 0; column < pattern.nodes(); ++column) {
+    const NodeConstraint* right = constraints_.at(column);
+    for (int slot = -1; slot < pattern.rows_count(column); ++slot) {
+      const int row = slot < 0 ? column : pattern.rows_begin(column)[slot];
+      const NodeConstraint* left = constraints_.at(row);
+      if (left == nullptr && right == nullptr) continue;
+      Mat3 block = work_.block(column, slot);
+      if (left != nullptr) block = left->axes.transpose() * block;
+      if (right != nullptr) block = block * right->axes;
+      for (int i = 0; i < 3; ++i) {
+        if (left != nullptr && left->held[i]) block.row(i).setZero();
+        if (right != nullptr && right->held[i]) block.col(i).setZero();
+      }
+      if (slot < 0) {
+        for (int i = 0; i < 3; ++i) {
+          if (right->held[i]) block(i, i) = scale;
+        }
+      }
+      work_.set_block(column, slot, block);
+    }
+  }
+}
+
+Factorisation SaddleSolver::factorise(const SaddleMatrix& matrix, const Constraints& constraints,
+                                      bool may_shift) {
+  constraints_ = constraints;
+  impose(matrix);
+  Factorisation result;
+  const NodePattern& pattern = work_.pattern();
+  double shift = 0;
+  while (true) {
+    if (shift > 0) {
+      shifted_ = work_.values();
+      for (int node = 0; node < pattern.nodes(); ++node) {
+        const double size = shift * matrix.diagonal.segment<3>(3L * node).mean();
+        for (int k = 0; k < 3; ++k) shifted_[pattern.diagonal(node, k, k)] += size;
+      }
+    }
+    ++factorisations_;
+    ++result.attempts;
+    result.ok = cholesky_.factorise(shift > 0 ? shifted_ : work_.values());
+    result.shift = shift;
+    if (result.ok || !may_shift) break;
+    shift = shift > 0 ? shift * shift_growth : std::max(first_shift, last_shift_ / shift_growth);
+    if (!(shift <= largest_shift)) break;
+  }
+  last_shift_ = result.shift;
+  return result;
+}
+
+Eigen::VectorXd SaddleSolver::back_solve(const Eigen::VectorXd& v) const {
+  ++back_solves_;
+  Eigen::VectorXd local = v;
+  constraints_.project(local);
+  constraints_.to_axes(local);
+  Eigen::VectorXd u = cholesky_.solve(local);
+  constraints_.from_axes(u);
+  constraints_.project(u);
+  return u;
+}
+
+SaddleStep SaddleSolver::solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
+                               const Eigen::VectorXd& theta, double tolerance) const {
+  const PressureSpace& space = *matrix.space;
+  const ElementRows& b = matrix.divergence;
+  Eigen::VectorXd right = -r - b.apply_transpose(space.divide(theta, matrix.kappa));
+  const bool moving = constraints_.any_increment();
+  Eigen::VectorXd imposed;
+  if (moving) {
+    imposed = constraints_.increments();
+    right -= matrix.stiffness.multiply(imposed);
+  }
+  SaddleStep step;
+  step.u = back_solve(right);
+  if (moving) step.u += imposed;
+
+  // Conjugate gradients on S = (1 − κc) B K_κ⁻¹ Bᵀ + cM, preconditioned by κ M⁻¹; κc is the same in
+  // every element, so that S is symmetric.
+  const double left_over = 1 - matrix.kappa[0] * space.compliance[0];
+  step.p = Eigen::VectorXd::Zero(theta.size());
+  Eigen::VectorXd s = -theta - b.apply(step.u);
+  Eigen::VectorXd z = space.divide(s, matrix.kappa), d = z;
+  double sz = s.dot(z);
+  const double target = tolerance * tolerance * sz;
+  while (sz > target && step.iterations < max_pressure_iterations) {
+    Eigen::VectorXd sd = space.multiply(d, space.compliance);
+    Eigen::VectorXd w;
+    if (left_over > 1e-12) {
+      w = left_over * back_solve(b.apply_transpose(d));
+      sd += b.apply(w);
+    }
+    const double curvature = d.dot(sd);
+    if (!(curvature > 0)) break;
+    const double alpha = sz / curvature;
+    step.p += alpha * d;
+    if (w.size() > 0) step.u += alpha * w;
+    s -= alpha * sd;
+    z = space.divide(s, matrix.kappa);
+    const double next = s.dot(z);
+    d = z + (next / sz) * d;
+    sz = next;
+    ++step.iterations;
+  }
+  return step;
+}
+
+}  // namespace breast

@@ -1,0 +1,112 @@
+// The linear systems of incompressible equilibrium, for whoever builds on them (forward, backward,
+// contact):
+//
+//     [ K  −Bᵀ ] [ δu ]   [ −r ]        r = ∂Π/∂u, θ = −∂Π/∂p, K = ∂r/∂u, B = ∂θ/∂u, M pressure
+//     mass, [ B   cM ] [ δp ] = [ −θ ]        c = 1/bulk modulus (0: exactly incompressible)
+//
+// solved through the positive definite K + κ Bᵀ M⁻¹ B (element-local, so with the pattern of K) and
+// a few conjugate-gradient iterations on the pressure. Use:
+//
+//     SaddleSolver solver(pattern);                    // ordering and analysis, once per mesh
+//     scene.tangent(state, matrix);                    // fills a SaddleMatrix
+//     matrix.stiffness.add_to_node(n, block);          // optional extra terms (contact curvature)
+//     solver.factorise(matrix, constraints);           // constraints may change every time
+//     SaddleStep step = solver.solve(matrix, r, theta);// increments imposed exactly
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "solve/cholesky.hpp"
+#include "solve/constraints.hpp"
+#include "solve/node_matrix.hpp"
+
+namespace breast {
+
+/// Dense rows per element against its nodes: B, and its sibling ∂θ/∂X.
+struct ElementRows {
+  const Cells* cells = nullptr;
+  int rows = 0;                ///< pressures per element: 1 or 4
+  std::vector<double> values;  ///< per element rows × 3n, column-major
+
+  void resize(const Cells& over, int rows_per_element);
+  Eigen::Map<const Eigen::MatrixXd> at(int element) const;
+  Eigen::Map<Eigen::MatrixXd> at(int element);
+  Eigen::VectorXd apply(const Eigen::VectorXd& u) const;            ///< B u
+  Eigen::VectorXd apply_transpose(const Eigen::VectorXd& p) const;  ///< Bᵀ p
+};
+
+/// What does not change with the state: M⁻¹ per element (rows × rows) and c = 1/bulk modulus.
+struct PressureSpace {
+  int rows = 0;
+  std::vector<double> mass, inverse_mass;  ///< per element rows × rows
+  Eigen::VectorXd compliance;              ///< c per element, 1/Pa
+  int elements() const { return int(compliance.size()); }
+  Eigen::Map<const Eigen::MatrixXd> mass_at(int e) const;
+  Eigen::Map<const Eigen::MatrixXd> inverse_at(int e) const;
+  /// s_e M_e q_e or s_e M_e⁻¹ q_e with one factor s per element.
+  Eigen::VectorXd multiply(const Eigen::VectorXd& q, const Eigen::VectorXd& factor) const;
+  Eigen::VectorXd divide(const Eigen::VectorXd& q, const Eigen::VectorXd& factor) const;
+};
+
+struct SaddleMatrix {
+  NodeMatrix stiffness;      ///< K + κ Bᵀ M⁻¹ B, global axes, without constraints
+  ElementRows divergence;    ///< B
+  Eigen::VectorXd kappa;     ///< κ per element, Pa
+  Eigen::VectorXd diagonal;  ///< of K without κ, made positive: the measure of a shift
+  std::shared_ptr<const PressureSpace> space;
+
+  /// K u without the κ term (for reactions and bordering).
+  Eigen::VectorXd multiply_unaugmented(const Eigen::VectorXd& u) const;
+};
+
+struct Factorisation {
+  bool ok = false;
+  double shift = 0;  ///< added, relative to SaddleMatrix::diagonal; 0: K + κBᵀM⁻¹B was definite
+  int attempts = 0;  ///< numerical factorisations
+};
+
+struct SaddleStep {
+  Eigen::VectorXd u, p;  ///< increments, global axes
+  int iterations = 0;    ///< of the conjugate gradients on the pressure
+};
+
+class SaddleSolver {
+ public:
+  explicit SaddleSolver(const std::shared_ptr<const NodePattern>& pattern);
+
+  /// Imposes the constraints exactly (rotated axes, scaled identity: the pattern never changes) and
+  /// factorises. Without positive definiteness a minimal multiple of SaddleMatrix::diagonal is
+  /// added: ×8 from the last one that was needed / 8. `may_shift` false: fails instead.
+  Factorisation factorise(const SaddleMatrix& matrix, const Constraints& constraints,
+                          bool may_shift = true);
+
+  /// The increments; `tolerance` is the relative residual of the volume equation. `matrix` and the
+  /// constraints are those of the last factorise, except that increments may be given anew.
+  SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
+                   const Eigen::VectorXd& theta, double tolerance = 1e-6) const;
+  void set_increments(const Constraints& constraints) { constraints_ = constraints; }
+
+  /// (K + κBᵀM⁻¹B)⁻¹ v on the free part, held components zero.
+  Eigen::VectorXd back_solve(const Eigen::VectorXd& v) const;
+
+  const Constraints& constraints() const { return constraints_; }
+  const Cholesky& cholesky() const { return cholesky_; }
+  /// Numerical factorisations and back-substitutions so far.
+  int factorisations() const { return factorisations_; }
+  int back_solves() const { return back_solves_; }
+
+ private:
+  void impose(const SaddleMatrix& matrix);
+
+  Cholesky cholesky_;
+  NodeMatrix work_;
+  Constraints constraints_;
+  std::vector<double> shifted_;
+  double last_shift_ = 0;
+  int factorisations_ = 0;
+  mutable int back_solves_ = 0;
+};
+
+}  // namespace breast
