@@ -1,5 +1,6 @@
 #include "meshing/body_map.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -87,6 +88,38 @@ Vec2 BodyMap::wall(double rho, double u) const {
 Vec3 BodyMap::cut(double height, double u) const {
   return (1 - height) * wall_sheet().position(wall(1, u)) +
          height * skin_sheet().position(skin(1, u));
+}
+
+double BodyMap::volume() const {
+  constexpr int around = 256, rings = 48, rows = 8;
+  const Vec3 origin = skin_sheet().position(geometry_.centre);  // near the body: less cancellation
+  double six_volumes = 0;
+  // Rings of quads from the skin's pole to its rim, down the cut, and back to the wall's pole.
+  const auto ring = [&](int r) {
+    std::vector<Vec3> points(around);
+    for (int i = 0; i < around; ++i) {
+      const double u = double(i) / around;
+      if (r <= rings) {
+        points[i] = skin_sheet().position(skin(double(r) / rings, u));
+      } else if (r <= rings + rows) {
+        points[i] = cut(1 - double(r - rings) / rows, u);
+      } else {
+        points[i] = wall_sheet().position(wall(1 - double(r - rings - rows) / rings, u));
+      }
+      points[i] -= origin;
+    }
+    return points;
+  };
+  std::vector<Vec3> before = ring(0);
+  for (int r = 1; r <= 2 * rings + rows; ++r) {
+    const std::vector<Vec3> now = ring(r);
+    for (int i = 0; i < around; ++i) {
+      const int j = (i + 1) % around;
+      six_volumes += before[i].dot(now[i].cross(now[j])) + before[i].dot(now[j].cross(before[j]));
+    }
+    before = now;
+  }
+  return six_volumes / 6;
 }
 
 double BodyMap::cut_height(double u) const {

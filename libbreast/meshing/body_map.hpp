@@ -12,13 +12,17 @@ namespace breast {
 /// wall); ρ ∈ [0,1] from the pole (skin: geometry.centre; wall: its rim's centroid) to the rim.
 class BodyMap {
  public:
-  /// Throws Error (input) when the rim is not star-shaped about its pole, or too short.
+  /// Keeps a reference to the geometry. Throws Error (input) when the rim is not star-shaped about
+  /// its pole, or too short.
   explicit BodyMap(const BreastGeometry& geometry);
 
   Vec2 skin(double rho, double u) const;  ///< (s,t) on the skin sheet
   Vec2 wall(double rho, double u) const;  ///< (s,t) on the wall sheet
   /// Point of the cut surface: height 0 on the wall's rim, 1 on the skin's.
   Vec3 cut(double height, double u) const;
+  /// mm³ inside skin, cut and wall (of a fine triangulation); negative when the sheets are inside
+  /// out.
+  double volume() const;
   double cut_height(double u) const;             ///< mm
   double rim_length() const { return length_; }  ///< mm, mean of skin and wall
 

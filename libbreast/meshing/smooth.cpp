@@ -44,14 +44,16 @@ class Smoother {
   Eigen::VectorXd zero() const { return Eigen::VectorXd::Zero(size_); }
   const PlacedNodes& nodes() const { return now_; }
   CornerEnergy& energy() { return energy_; }
+  void set_sliding_tether(double weight) { sliding_tether_ = weight; }
 
   double value(const Eigen::VectorXd& y, Eigen::VectorXd& gradient) {
     place(y);
     double sum = energy_.evaluate(now_.x, node_gradient_);
-    const double weight = options_.tether / (energy_.edge() * energy_.edge());
+    const double scale = 1 / (energy_.edge() * energy_.edge());
     gradient.resize(size_);
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
       const Unknown& unknown = unknowns_[i];
+      const double weight = scale * (unknown.slides ? sliding_tether_ : options_.tether);
       const Vec3 moved = now_.x[unknown.node] - start_.x[unknown.node];
       sum += weight * moved.squaredNorm();
       const Vec3 total = node_gradient_[unknown.node] + 2 * weight * moved;
@@ -98,6 +100,7 @@ class Smoother {
   CornerEnergy energy_;
   const BodyMap& body_;
   SmoothOptions options_;
+  double sliding_tether_ = options_.tether;
   PlacedNodes start_, now_;
   std::vector<Unknown> unknowns_;
   std::vector<Mat32> slopes_;
@@ -115,6 +118,12 @@ double min_scaled_jacobian(const std::vector<int>& connectivity, const std::vect
   return least;
 }
 
+double signed_volume(const std::vector<int>& connectivity, const std::vector<Vec3>& x) {
+  HexMesh mesh;
+  mesh.connectivity = connectivity;
+  return mesh_volume(mesh, x);
+}
+
 }  // namespace
 
 SmoothReport smooth_nodes(const std::vector<int>& connectivity, const BodyMap& body,
@@ -129,17 +138,21 @@ SmoothReport smooth_nodes(const std::vector<int>& connectivity, const BodyMap& b
   };
   // Folds first, with the plain energy and a regularisation that follows the worst corner; then the
   // p-norm, which works on the worst corners.
+  smoother.set_sliding_tether(1);
   double worst = smoother.energy().min_det(nodes.x);
   for (int round = 0; round < 8 && worst < 1e-3; ++round) {
     smoother.energy().set({options.theta, 1, std::max(1e-3, 0.5 * std::abs(worst - 0.02))});
     report.evaluations += minimise_lbfgs(energy, y, {.evaluations = 60}).evaluations;
     worst = smoother.energy().min_det(smoother.nodes().x);
   }
+  smoother.set_sliding_tether(options.tether);
   smoother.energy().set({options.theta, options.power, worst > 0 ? 1e-6 : std::abs(worst)});
   report.evaluations += minimise_lbfgs(energy, y, {.evaluations = options.evaluations}).evaluations;
   smoother.place(y);
   const double after = min_scaled_jacobian(connectivity, smoother.nodes().x);
-  if (after > report.before) {
+  const double volume = signed_volume(connectivity, nodes.x);
+  const double change = signed_volume(connectivity, smoother.nodes().x) / volume - 1;
+  if (after > report.before && std::abs(change) <= options.volume_change) {
     nodes = smoother.nodes();
     report.after = after;
     report.kept = true;

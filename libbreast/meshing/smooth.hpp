@@ -10,10 +10,11 @@ namespace breast {
 /// χ = ½(det A + √(ε² + det²A)): Garanzha et al., Foldover-free maps in 50 lines of code, ACM TOG
 /// 40(4), 2021. h is the edge of a cube of the mean element volume.
 struct SmoothOptions {
-  double theta = 0.2;
+  double theta = 0.3;
   int power = 4;
   double tether = 1e-3;  ///< weight of Σ|x − x_start|²/h²
   int evaluations = 260;
+  double volume_change = 0.02;
 };
 
 struct SmoothReport {

@@ -1,0 +1,30 @@
+// From a geometry to a hexahedral mesh of its body: template, placement, smoothing, skin layer,
+// checks.
+#pragma once
+
+#include "meshing/dome.hpp"
+#include "meshing/smooth.hpp"
+
+namespace breast {
+
+struct BodyMeshOptions {
+  DomeSize size;          ///< m = 0: cuboid
+  double skin_layer = 0;  ///< mm; > 0: the outermost layer of elements has this thickness
+  SmoothOptions smoothing;
+};
+
+struct BodyMeshReport {
+  double placed_scaled_jacobian = 0;    ///< minimum before smoothing
+  double smoothed_scaled_jacobian = 0;  ///< minimum after
+  int evaluations = 0;
+  double body_volume = 0;  ///< mm³ inside the sheets, cut and wall
+  double mesh_volume = 0;  ///< mm³
+};
+
+/// Mesh with points = imaged, connectivity, face sets, scaled_jacobian, template and geometry; all
+/// elements fat (skin in a layer). Throws Error (input) when an element is folded, saying where, or
+/// when the geometry's rim or orientation is unusable.
+HexMesh body_mesh(const BreastGeometry& geometry, const BodyMeshOptions& options,
+                  BodyMeshReport* report = nullptr);
+
+}  // namespace breast
