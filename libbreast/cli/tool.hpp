@@ -35,8 +35,8 @@ class Run {
   Progress& progress() { return progress_; }
   Report& report() { return report_; }
   Timer& timer() { return timer_; }
-  /// Provenance for an output: the inputs' histories, then this command. Pass (file name, sha, history)
-  /// of every input read.
+  /// Provenance for an output: the inputs' histories, then this command. Pass (file name, sha,
+  /// history) of every input read.
   struct Input {
     std::filesystem::path file;
     std::string sha256;
@@ -48,9 +48,11 @@ class Run {
   /// Data for stdout (tables); nothing else goes there.
   void print(const std::string& text);
   double seconds() const;  ///< since the tool started
+  /// What print() collected: shown only when the tool succeeds, so stdout never holds half a table.
+  const std::string& printed() const { return printed_; }
 
  private:
-  std::string tool_, command_;
+  std::string tool_, command_, printed_;
   Progress& progress_;
   Report report_;
   Timer timer_;
@@ -66,23 +68,25 @@ class Tool {
   Tool& cite(const std::string& reference);
   Tool& example(const std::string& command, const std::string& explanation);
 
-  // Positional arguments, in order of declaration. Inputs must exist; an output's folder must exist and
-  // be writable; both checked before the body runs.
-  Tool& input(std::filesystem::path& value, const std::string& placeholder, const std::string& help);
+  // Positional arguments, in order of declaration. Inputs must exist; an output's folder must exist
+  // and be writable; both checked before the body runs.
+  Tool& input(std::filesystem::path& value, const std::string& placeholder,
+              const std::string& help);
   Tool& inputs(std::vector<std::filesystem::path>& values, const std::string& placeholder,
                const std::string& help);  ///< one or more; only as the last positional
-  Tool& output(std::filesystem::path& value, const std::string& placeholder, const std::string& help);
+  Tool& output(std::filesystem::path& value, const std::string& placeholder,
+               const std::string& help);
 
-  // Options. `name` is "--skin" or "-o,--output"; unit/placeholder is shown in the help; the default is
-  // the variable's present value. Numbers outside [low, high] are usage errors.
+  // Options. `name` is "--skin" or "-o,--output"; unit/placeholder is shown in the help; the
+  // default is the variable's present value. Numbers outside [low, high] are usage errors.
   Tool& number(double& value, const std::string& name, const std::string& unit,
                const std::string& help, double low = -std::numeric_limits<double>::infinity(),
                double high = std::numeric_limits<double>::infinity());
   Tool& number(std::optional<double>& value, const std::string& name, const std::string& unit,
                const std::string& help, double low = -std::numeric_limits<double>::infinity(),
                double high = std::numeric_limits<double>::infinity());
-  Tool& integer(int& value, const std::string& name, const std::string& unit, const std::string& help,
-                int low, int high);
+  Tool& integer(int& value, const std::string& name, const std::string& unit,
+                const std::string& help, int low, int high);
   Tool& text(std::string& value, const std::string& name, const std::string& placeholder,
              const std::string& help);
   Tool& texts(std::vector<std::string>& values, const std::string& name,
@@ -90,19 +94,22 @@ class Tool {
   Tool& choice(std::string& value, const std::string& name, const std::vector<std::string>& choices,
                const std::string& help);
   /// Comma-separated numbers, exactly `count`: "--gravity 0,-9810,0".
-  Tool& numbers(std::vector<double>& values, const std::string& name, const std::string& placeholder,
-                int count, const std::string& help);
+  Tool& numbers(std::vector<double>& values, const std::string& name,
+                const std::string& placeholder, int count, const std::string& help);
   Tool& flag(bool& value, const std::string& name, const std::string& help);
   Tool& input_file(std::filesystem::path& value, const std::string& name,
                    const std::string& placeholder, const std::string& help);
   Tool& output_file(std::filesystem::path& value, const std::string& name,
                     const std::string& placeholder, const std::string& help);
+  /// A folder the tool fills; it may exist already, its parent must.
+  Tool& output_folder(std::filesystem::path& value, const std::string& name,
+                      const std::string& placeholder, const std::string& help);
   Tool& required(const std::string& name);  ///< makes an option mandatory
   /// Checks across arguments, run after parsing and before any file is opened; throw input_error.
   Tool& check(std::function<void()> rule);
 
-  /// Parses, checks, runs. Every Error becomes one line on stderr and its exit code; --report is written
-  /// in success and in failure (with status and reason).
+  /// Parses, checks, runs. Every Error becomes one line on stderr and its exit code; --report is
+  /// written in success and in failure (with status and reason).
   int main(int argc, char** argv, const std::function<void(Run&)>& body);
 
  private:

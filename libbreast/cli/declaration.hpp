@@ -1,0 +1,57 @@
+// What a tool declared about itself: the one source of its help, man page, Markdown page and
+// checks.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace breast {
+
+enum class ArgumentKind { text, number, integer, numbers, choice, flag, input, output, folder };
+
+struct Argument {
+  ArgumentKind kind = ArgumentKind::text;
+  std::vector<std::string> names;  ///< "-o", "--output"; empty for a positional
+  std::string placeholder;         ///< unit or meta-variable shown in the help
+  std::string help;
+  std::string default_text;  ///< empty: none
+  std::vector<std::string> choices;
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  int count = 1;  ///< numbers: how many
+  bool repeatable = false, required = false, given = false;
+  /// Stores the values (already checked in kind and range); for a flag `values` is empty.
+  std::function<void(const std::vector<std::string>& values)> store;
+
+  bool positional() const { return names.empty(); }
+  /// Longest name of an option, placeholder of a positional: how messages call it.
+  const std::string& label() const { return positional() ? placeholder : names.back(); }
+};
+
+struct Declaration {
+  struct Example {
+    std::string command, explanation;
+  };
+  std::string name, summary, version;
+  std::vector<std::string> paragraphs, citations;
+  std::vector<Example> examples;
+  std::vector<Argument> positionals, options, common;
+};
+
+/// The one-line synopsis: "forward REFERENCE.vtkhdf DEFORMED.vtkhdf [options]".
+std::string synopsis(const Declaration& tool);
+/// "number in mm from 0 to 40; default: 2": what the help adds to an argument's own words.
+std::string remarks(const Argument& argument);
+/// "-o, --output FILE".
+std::string usage(const Argument& argument);
+
+std::string help_text(const Declaration& tool);
+std::string help_man(const Declaration& tool);
+std::string help_markdown(const Declaration& tool);
+
+/// The candidate nearest in edit distance when near enough to be a slip, else empty.
+std::string nearest(const std::string& given, const std::vector<std::string>& candidates);
+
+}  // namespace breast

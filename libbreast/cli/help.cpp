@@ -1,0 +1,245 @@
+#include <algorithm>
+#include <sstream>
+
+#include "cli/declaration.hpp"
+#include "core/table.hpp"
+
+namespace breast {
+
+namespace {
+
+struct ExitCode {
+  const char *code, *meaning;
+};
+constexpr ExitCode exit_codes[] = {{"0", "done"},
+                                   {"1", "failed (disk, memory, library)"},
+                                   {"2", "bad usage or bad input; nothing written"},
+                                   {"3", "not converged; nothing written unless asked for"}};
+
+// Words of `text` in lines of at most `width` columns, each line after the first indented.
+std::string wrap(const std::string& text, std::size_t indent, std::size_t width = 88) {
+  std::istringstream words(text);
+  std::string out, word;
+  std::size_t column = indent;
+  while (words >> word) {
+    const bool first = column == indent;
+    if (!first && column + 1 + word.size() > width) {
+      out += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (!first) {
+      out += ' ';
+      ++column;
+    }
+    out += word;
+    column += word.size();
+  }
+  return out;
+}
+
+std::string with_remarks(const Argument& argument) {
+  const std::string extra = remarks(argument);
+  return extra.empty() ? argument.help : argument.help + " (" + extra + ")";
+}
+
+void list_text(std::ostringstream& out, const char* title, const std::vector<Argument>& list) {
+  if (list.empty()) return;
+  out << "\n" << title << ":\n";
+  for (const Argument& argument : list) {
+    out << "  " << usage(argument) << "\n      " << wrap(with_remarks(argument), 6) << "\n";
+  }
+}
+
+// Roff takes a leading dot or quote as a request and a bare minus as a hyphen.
+std::string roff(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '-')
+      out += "\\-";
+    else
+      out += c;
+  }
+  if (!out.empty() && (out[0] == '.' || out[0] == '\'')) out = "\\&" + out;
+  return out;
+}
+
+void list_man(std::ostringstream& out, const char* title, const std::vector<Argument>& list) {
+  if (list.empty()) return;
+  out << ".SH " << title << "\n";
+  for (const Argument& argument : list) {
+    out << ".TP\n.B " << roff(usage(argument)) << "\n" << roff(with_remarks(argument)) << "\n";
+  }
+}
+
+// A vertical bar would end a table cell, an angle bracket would start a tag.
+std::string cell(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|')
+      out += "\\|";
+    else if (c == '<')
+      out += "&lt;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+void list_markdown(std::ostringstream& out, const char* title, const std::vector<Argument>& list) {
+  if (list.empty()) return;
+  out << "\n## " << title << "\n\n| | |\n|---|---|\n";
+  for (const Argument& argument : list) {
+    std::string code = usage(argument);
+    for (std::size_t at = 0; (at = code.find('|', at)) != std::string::npos; at += 2) {
+      code.replace(at, 1, "\\|");
+    }
+    out << "| `" << code << "` | " << cell(with_remarks(argument)) << " |\n";
+  }
+}
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return std::toupper(c); });
+  return text;
+}
+
+}  // namespace
+
+std::string synopsis(const Declaration& tool) {
+  std::string line = tool.name;
+  for (const Argument& argument : tool.positionals) line += " " + usage(argument);
+  for (const Argument& argument : tool.options) {
+    if (argument.required) line += " " + usage(argument);
+  }
+  return line + " [options]";
+}
+
+std::string usage(const Argument& argument) {
+  if (argument.positional()) return argument.placeholder + (argument.repeatable ? "..." : "");
+  std::string text;
+  for (const std::string& name : argument.names) text += (text.empty() ? "" : ", ") + name;
+  if (argument.kind == ArgumentKind::choice) {
+    std::string list;
+    for (const std::string& c : argument.choices) list += (list.empty() ? "" : "|") + c;
+    return text + " " + list;
+  }
+  return argument.kind == ArgumentKind::flag ? text : text + " " + argument.placeholder;
+}
+
+std::string remarks(const Argument& argument) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+  const bool above = argument.low > -std::numeric_limits<double>::infinity();
+  const bool below = argument.high < std::numeric_limits<double>::infinity();
+  if (argument.kind == ArgumentKind::number || argument.kind == ArgumentKind::integer) {
+    if (above && below) {
+      add(format_number(argument.low) + " to " + format_number(argument.high));
+    } else if (above) {
+      add("at least " + format_number(argument.low));
+    } else if (below) {
+      add("at most " + format_number(argument.high));
+    }
+  }
+  if (argument.required && !argument.positional()) add("required");
+  if (argument.repeatable && !argument.positional()) add("may be repeated");
+  if (!argument.default_text.empty()) add("default: " + argument.default_text);
+  return text;
+}
+
+std::string help_text(const Declaration& tool) {
+  std::ostringstream out;
+  out << tool.name << " - " << tool.summary << "\n\nUsage: " << synopsis(tool) << "\n";
+  for (const std::string& paragraph : tool.paragraphs) out << "\n" << wrap(paragraph, 0) << "\n";
+  list_text(out, "Arguments", tool.positionals);
+  list_text(out, "Options", tool.options);
+  list_text(out, "Common options", tool.common);
+  if (!tool.examples.empty()) out << "\nExamples:\n";
+  for (const auto& example : tool.examples) {
+    out << "  " << example.command << "\n      " << wrap(example.explanation, 6) << "\n";
+  }
+  out << "\nExit codes:\n";
+  for (const ExitCode& exit : exit_codes) out << "  " << exit.code << "  " << exit.meaning << "\n";
+  if (!tool.citations.empty()) out << "\nCitation:\n";
+  for (const std::string& citation : tool.citations) out << "  " << wrap(citation, 2) << "\n";
+  return out.str();
+}
+
+std::string help_man(const Declaration& tool) {
+  std::ostringstream out;
+  out << ".TH " << upper(tool.name) << " 1 \"\" \"libbreast " << tool.version << "\" libbreast\n";
+  out << ".SH NAME\n" << roff(tool.name) << " \\- " << roff(tool.summary) << "\n";
+  out << ".SH SYNOPSIS\n.B " << roff(synopsis(tool)) << "\n";
+  if (!tool.paragraphs.empty()) out << ".SH DESCRIPTION\n";
+  for (std::size_t i = 0; i < tool.paragraphs.size(); ++i) {
+    out << (i ? ".PP\n" : "") << roff(tool.paragraphs[i]) << "\n";
+  }
+  list_man(out, "ARGUMENTS", tool.positionals);
+  list_man(out, "OPTIONS", tool.options);
+  list_man(out, "\"COMMON OPTIONS\"", tool.common);
+  if (!tool.examples.empty()) out << ".SH EXAMPLES\n";
+  for (const auto& example : tool.examples) {
+    out << ".TP\n.B " << roff(example.command) << "\n" << roff(example.explanation) << "\n";
+  }
+  out << ".SH \"EXIT STATUS\"\n";
+  for (const ExitCode& exit : exit_codes) {
+    out << ".TP\n.B " << exit.code << "\n" << roff(exit.meaning) << "\n";
+  }
+  if (!tool.citations.empty()) out << ".SH REFERENCES\n";
+  for (std::size_t i = 0; i < tool.citations.size(); ++i) {
+    out << (i ? ".PP\n" : "") << roff(tool.citations[i]) << "\n";
+  }
+  return out.str();
+}
+
+std::string help_markdown(const Declaration& tool) {
+  std::ostringstream out;
+  out << "# " << tool.name << "\n\n"
+      << cell(tool.summary) << "\n\n```\n"
+      << synopsis(tool) << "\n```\n";
+  for (const std::string& paragraph : tool.paragraphs) out << "\n" << cell(paragraph) << "\n";
+  list_markdown(out, "Arguments", tool.positionals);
+  list_markdown(out, "Options", tool.options);
+  list_markdown(out, "Common options", tool.common);
+  if (!tool.examples.empty()) out << "\n## Examples\n";
+  for (const auto& example : tool.examples) {
+    out << "\n" << cell(example.explanation) << "\n\n```\n" << example.command << "\n```\n";
+  }
+  out << "\n## Exit codes\n\n| code | meaning |\n|---|---|\n";
+  for (const ExitCode& exit : exit_codes)
+    out << "| " << exit.code << " | " << exit.meaning << " |\n";
+  if (!tool.citations.empty()) out << "\n## References\n\n";
+  for (const std::string& citation : tool.citations) out << "- " << cell(citation) << "\n";
+  return out.str();
+}
+
+std::string nearest(const std::string& given, const std::vector<std::string>& candidates) {
+  const auto distance = [](const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j <= b.size(); ++j) {
+        const std::size_t above = row[j];
+        row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+        diagonal = above;
+      }
+    }
+    return row[b.size()];
+  };
+  std::string best;
+  std::size_t least = std::max<std::size_t>(2, given.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    std::size_t d = distance(given, candidate);
+    // An abbreviation is a slip too: "--post" for "--posture".
+    if (given.size() >= 4 && candidate.starts_with(given)) d = 1;
+    if (d < least) {
+      least = d;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace breast

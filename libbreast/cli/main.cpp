@@ -1,0 +1,182 @@
+// A tool's run: questions, parsing, checks, body, report, exit code.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+
+#include "cli/parse.hpp"
+#include "cli/progress_sink.hpp"
+#include "cli/tool_impl.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+// Present when the tool links OpenBLAS, absent otherwise.
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+
+namespace breast {
+
+namespace {
+
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
+// One number of threads for OpenMP, BLAS, ITK and VTK; the latter two read their environment late.
+void apply_threads(int threads) {
+  set_threads(threads);
+  if (openblas_set_num_threads) openblas_set_num_threads(breast::threads());
+  const std::string count = std::to_string(breast::threads());
+  setenv("ITK_GLOBAL_DEFAULT_NUMBER_OF_THREADS", count.c_str(), 1);
+  setenv("VTK_SMP_MAX_THREADS", count.c_str(), 1);
+}
+
+const char* failure_status(ErrorKind kind) {
+  if (kind == ErrorKind::input) return "bad_input";
+  return kind == ErrorKind::not_converged ? "not_converged" : "failed";
+}
+
+struct Outcome {
+  int exit_code = 0;
+  std::string status, reason;  ///< set in failure only
+};
+
+// Runs `work` and turns whatever it throws into an outcome.
+Outcome guarded(const std::function<void()>& work) {
+  try {
+    work();
+    return {};
+  } catch (const Error& error) {
+    return {error.exit_code(), failure_status(error.kind()), one_line(error.what())};
+  } catch (const std::bad_alloc&) {
+    return {1, "failed", "out of memory"};
+  } catch (const std::exception& error) {
+    return {1, "failed", one_line(error.what())};
+  } catch (...) {
+    return {1, "failed", "unknown failure"};
+  }
+}
+
+void write_stdout(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw failed_error("stdout cannot be written");
+  }
+}
+
+void write_report(const std::filesystem::path& file, Run& run, const Outcome& outcome) {
+  Report& report = run.report();
+  if (outcome.exit_code != 0) {
+    report.set("status", outcome.status);
+    report.set("reason", outcome.reason);
+  }
+  run.timer().write(report);
+  report.set("seconds/total", run.seconds());
+  report.set("peak_mb", peak_memory_mb());
+  if (!file.empty()) write_text(file, report.json());
+}
+
+// After a usage error the report is still written, unless its own path may be what was wrong: a
+// report must never replace a file named for another purpose.
+bool safe_report(const std::filesystem::path& file, const Tokens& tokens) {
+  if (file.empty()) return false;
+  std::error_code ignored;
+  const auto whole = [&](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(path, ignored);
+  };
+  std::vector<std::string> others = tokens.positionals;
+  for (const Tokens::Option& option : tokens.options) {
+    if (option.name != "--report")
+      others.insert(others.end(), option.values.begin(), option.values.end());
+  }
+  return std::none_of(others.begin(), others.end(),
+                      [&](const std::string& other) { return whole(other) == whole(file); });
+}
+
+}  // namespace
+
+void Tool::Impl::declare_common() {
+  const auto add_common = [&](ArgumentKind kind, const char* name, const char* placeholder,
+                              const char* help) -> Argument& {
+    Argument argument;
+    argument.kind = kind;
+    argument.names = {name};
+    argument.placeholder = placeholder;
+    argument.help = help;
+    declaration.common.push_back(argument);
+    return declaration.common.back();
+  };
+  add_common(ArgumentKind::output, "--report", "FILE.json",
+             "machine-readable report, also of a failure")
+      .store = [this](const std::vector<std::string>& given) { report_file = given.front(); };
+  Argument& count = add_common(ArgumentKind::integer, "--threads", "N", "threads to use");
+  count.low = 1;
+  count.high = 1024;
+  count.default_text = "all cores";
+  count.store = [this](const std::vector<std::string>& given) {
+    threads = std::stoi(given.front());
+  };
+  add_common(ArgumentKind::flag, "--quiet", "", "no progress and no warnings on stderr").store =
+      [this](const std::vector<std::string>&) { quiet = true; };
+  const auto nothing = [](const std::vector<std::string>&) {};
+  add_common(ArgumentKind::flag, "--help", "", "this text").store = nothing;
+  add_common(ArgumentKind::flag, "--version", "", "name and version").store = nothing;
+}
+
+bool Tool::Impl::answer_questions(const std::vector<std::string>& arguments) const {
+  const auto asked = [&](const char* name) {
+    const auto end = std::find(arguments.begin(), arguments.end(), "--");
+    return std::find(arguments.begin(), end, name) != end;
+  };
+  std::string answer;
+  if (asked("--help"))
+    answer = help_text(declaration);
+  else if (asked("--version"))
+    answer = declaration.name + " (libbreast) " + declaration.version + "\n";
+  else if (asked("--help-man"))
+    answer = help_man(declaration);
+  else if (asked("--help-markdown"))
+    answer = help_markdown(declaration);
+  if (!answer.empty()) write_stdout(answer);
+  return !answer.empty();
+}
+
+int Tool::main(int argc, char** argv, const std::function<void(Run&)>& body) {
+  const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  Declaration& declaration = impl_->declaration;
+  const auto complain = [&](const Outcome& outcome) {
+    std::fprintf(stderr, "%s: %s\n", declaration.name.c_str(), outcome.reason.c_str());
+    return outcome.exit_code;
+  };
+  bool answered = false;
+  Outcome outcome = guarded([&] { answered = impl_->answer_questions(arguments); });
+  if (outcome.exit_code != 0) return complain(outcome);
+  if (answered) return 0;
+
+  const Tokens tokens = tokenize(declaration, arguments);
+  outcome = guarded([&] {
+    assign(declaration, tokens);
+    check_paths(declaration, tokens);
+    for (const auto& rule : impl_->rules) rule();
+  });
+  const bool report_possible = outcome.exit_code == 0 || safe_report(impl_->report_file, tokens);
+  StderrProgress progress(declaration.name, impl_->quiet);
+  Run run(declaration.name, history_command(declaration, arguments), progress);
+  if (outcome.exit_code == 0) {
+    apply_threads(impl_->threads);
+    outcome = guarded([&] {
+      body(run);
+      write_stdout(run.printed());
+    });
+  }
+  progress.finish(outcome.exit_code == 0);
+  if (outcome.exit_code != 0) complain(outcome);
+  const Outcome reported = guarded([&] {
+    write_report(report_possible ? impl_->report_file : std::filesystem::path(), run, outcome);
+  });
+  if (outcome.exit_code == 0 && reported.exit_code != 0) return complain(reported);
+  return outcome.exit_code;
+}
+
+}  // namespace breast

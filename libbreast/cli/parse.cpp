@@ -1,0 +1,256 @@
+#include "cli/parse.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "core/table.hpp"
+
+namespace breast {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string join(const std::vector<std::string>& list) {
+  std::string text;
+  for (const std::string& item : list) text += (text.empty() ? "" : ", ") + item;
+  return text;
+}
+
+std::string suggestion(const std::string& given, const std::vector<std::string>& candidates) {
+  const std::string best = nearest(given, candidates);
+  return best.empty() ? "" : "; did you mean '" + best + "'?";
+}
+
+std::vector<std::string> split_commas(const std::string& text) {
+  std::vector<std::string> parts{""};
+  for (const char c : text) {
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+void check_range(const Argument& argument, double value) {
+  if (value >= argument.low && value <= argument.high) return;
+  throw input_error(argument.label(), " ", format_number(value), ": must be ", remarks([&] {
+                      Argument bare = argument;  // only the range is wanted
+                      bare.default_text.clear();
+                      bare.required = bare.repeatable = false;
+                      return bare;
+                    }()));
+}
+
+void check_value(const Argument& argument, const std::string& value) {
+  if (argument.kind == ArgumentKind::number)
+    check_range(argument, parse_number(value, argument.label()));
+  if (argument.kind == ArgumentKind::integer) {
+    const double number = parse_number(value, argument.label());
+    if (number != std::floor(number)) {
+      throw input_error(argument.label(), ": '", value, "' is not a whole number");
+    }
+    check_range(argument, number);
+  }
+  if (argument.kind == ArgumentKind::numbers) {
+    const std::vector<std::string> parts = split_commas(value);
+    if (int(parts.size()) != argument.count) {
+      throw input_error(argument.label(), ": '", value, "' has ", parts.size(), " numbers; give ",
+                        argument.count, " as ", argument.placeholder);
+    }
+    for (const std::string& part : parts) parse_number(part, argument.label());
+  }
+  const auto& choices = argument.choices;
+  if (argument.kind == ArgumentKind::choice &&
+      std::find(choices.begin(), choices.end(), value) == choices.end()) {
+    throw input_error(argument.label(), ": '", value, "' is none of ", join(choices),
+                      suggestion(value, choices));
+  }
+  if (value.empty()) throw input_error(argument.label(), ": is empty");
+}
+
+void store(Argument& argument, const std::vector<std::string>& values) {
+  for (const std::string& value : values) check_value(argument, value);
+  argument.given = true;
+  argument.store(values);
+}
+
+Argument* find_option(Declaration& tool, const std::string& label) {
+  for (auto* list : {&tool.options, &tool.common}) {
+    for (Argument& argument : *list) {
+      if (argument.label() == label) return &argument;
+    }
+  }
+  return nullptr;
+}
+
+void assign_positionals(Declaration& tool, const std::vector<std::string>& values) {
+  auto& wanted = tool.positionals;
+  if (values.size() < wanted.size()) {
+    throw input_error(wanted[values.size()].label(), " is missing; usage: ", synopsis(tool));
+  }
+  const bool open_end = !wanted.empty() && wanted.back().repeatable;
+  if (values.size() > wanted.size() && !open_end) {
+    throw input_error("'", values[wanted.size()],
+                      "' is one argument too many; usage: ", synopsis(tool));
+  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const bool rest = wanted[i].repeatable;
+    store(wanted[i],
+          {values.begin() + long(i), rest ? values.end() : values.begin() + long(i) + 1});
+  }
+}
+
+// Files named on the command line, with what they are for.
+struct NamedPath {
+  const Argument* argument;
+  fs::path path;
+};
+std::vector<NamedPath> named_paths(const Declaration& tool, const Tokens& tokens) {
+  std::vector<NamedPath> list;
+  for (std::size_t i = 0; i < tokens.positionals.size() && !tool.positionals.empty(); ++i) {
+    const Argument& argument = tool.positionals[std::min(i, tool.positionals.size() - 1)];
+    list.push_back({&argument, tokens.positionals[i]});
+  }
+  for (const Tokens::Option& option : tokens.options) {
+    for (const std::string& value : option.values) {
+      const Argument* argument = find_option(const_cast<Declaration&>(tool), option.name);
+      if (argument) list.push_back({argument, value});
+    }
+  }
+  return list;
+}
+
+void check_input(const fs::path& path, const std::string& label) {
+  std::error_code reason;
+  if (!fs::exists(path, reason)) throw input_error(label, ": ", path.string(), " does not exist");
+  if (access(path.c_str(), R_OK) != 0) {
+    throw input_error(label, ": ", path.string(), " cannot be read (no permission)");
+  }
+}
+
+void check_output(const fs::path& path, const std::string& label, bool folder) {
+  std::error_code reason;
+  fs::path bare = path;
+  if (folder && !bare.has_filename()) bare = bare.parent_path();  // "truth/"
+  const fs::path parent = bare.has_parent_path() ? bare.parent_path() : fs::path(".");
+  if (!bare.has_filename()) throw input_error(label, ": ", path.string(), " names no file");
+  if (!fs::is_directory(parent, reason)) {
+    throw input_error(label, ": folder ", parent.string(), " does not exist; make it first");
+  }
+  if (access(parent.c_str(), W_OK | X_OK) != 0) {
+    throw input_error(label, ": folder ", parent.string(), " is not writable");
+  }
+  const bool is_folder = fs::is_directory(bare, reason);
+  if (!folder && is_folder) throw input_error(label, ": ", path.string(), " is a folder");
+  if (folder && !is_folder && fs::exists(bare, reason)) {
+    throw input_error(label, ": ", path.string(), " exists and is not a folder");
+  }
+}
+
+}  // namespace
+
+void assign(Declaration& tool, const Tokens& tokens) {
+  for (const Tokens::Option& option : tokens.options) {  // known even when something else is wrong
+    if (option.name == "--report" && option.values.size() == 1) {
+      store(*find_option(tool, option.name), option.values);
+    }
+  }
+  if (!tokens.problem.empty()) throw input_error(tokens.problem, "; usage: ", synopsis(tool));
+  if (!tokens.unknown.empty()) {
+    std::vector<std::string> names;
+    for (const auto* list : {&tool.options, &tool.common}) {
+      for (const Argument& argument : *list) {
+        names.insert(names.end(), argument.names.begin(), argument.names.end());
+      }
+    }
+    const std::string given = tokens.unknown[0].substr(0, tokens.unknown[0].find('='));
+    std::string hint = suggestion(given, names);
+    if (hint.empty()) hint = "; see " + tool.name + " --help";
+    throw input_error("unknown option '", given, "'", hint);
+  }
+  // Common options first, so that --report is known when another argument is wrong.
+  for (const bool common : {true, false}) {
+    for (const Tokens::Option& option : tokens.options) {
+      Argument* argument = find_option(tool, option.name);
+      const bool is_common =
+          argument >= tool.common.data() && argument < tool.common.data() + tool.common.size();
+      if (is_common != common) continue;
+      if (option.times > 1 && !argument->repeatable && argument->kind != ArgumentKind::flag) {
+        throw input_error(option.name, " is given ", option.times, " times; give it once");
+      }
+      store(*argument, option.values);
+    }
+  }
+  assign_positionals(tool, tokens.positionals);
+  for (const Argument& argument : tool.options) {
+    if (argument.required && !argument.given) {
+      throw input_error(usage(argument), " is missing; usage: ", synopsis(tool));
+    }
+  }
+}
+
+void check_paths(const Declaration& tool, const Tokens& tokens) {
+  std::vector<std::pair<fs::path, std::string>> inputs, outputs;
+  for (const NamedPath& named : named_paths(tool, tokens)) {
+    const std::string& label = named.argument->label();
+    std::error_code ignored;
+    const fs::path whole = fs::weakly_canonical(named.path, ignored);
+    if (named.argument->kind == ArgumentKind::input) {
+      check_input(named.path, label);
+      inputs.emplace_back(whole, label);
+    }
+    const bool folder = named.argument->kind == ArgumentKind::folder;
+    if (named.argument->kind == ArgumentKind::output || folder) {
+      check_output(named.path, label, folder);
+      for (const auto& [other, other_label] : outputs) {
+        if (other == whole) {
+          throw input_error(label, ": ", named.path.string(), " is also given as ", other_label);
+        }
+      }
+      outputs.emplace_back(whole, label);
+    }
+  }
+  for (const auto& [output, label] : outputs) {
+    for (const auto& [input, input_label] : inputs) {
+      if (input == output) {
+        throw input_error(label, ": ", output.filename().string(), " is also the input ",
+                          input_label, "; name another output");
+      }
+    }
+  }
+}
+
+std::string history_command(const Declaration& tool, const std::vector<std::string>& arguments) {
+  std::string command = tool.name;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    const std::size_t equals = argument.starts_with("--") ? argument.find('=') : std::string::npos;
+    const std::string name = argument.substr(0, equals);
+    const auto common =
+        std::find_if(tool.common.begin(), tool.common.end(), [&](const Argument& a) {
+          return std::find(a.names.begin(), a.names.end(), name) != a.names.end();
+        });
+    if (common != tool.common.end()) {  // how it was run, not what was done
+      if (common->kind != ArgumentKind::flag && equals == std::string::npos) ++i;
+      continue;
+    }
+    std::string prefix, value = argument;
+    if (equals != std::string::npos) {
+      prefix = argument.substr(0, equals + 1);
+      value = argument.substr(equals + 1);
+    }
+    while (value.size() > 1 && value.back() == '/') value.pop_back();
+    const std::size_t slash = value.rfind('/');
+    if (slash != std::string::npos) value = value.substr(slash + 1);
+    command += " " + prefix + value;
+  }
+  return command;
+}
+
+}  // namespace breast

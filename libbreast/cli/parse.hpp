@@ -1,0 +1,38 @@
+// Command line -> declared arguments, with every check that needs no file to be opened.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/declaration.hpp"
+
+namespace breast {
+
+/// Raw values per argument: first the positionals in order, then options by name.
+struct Tokens {
+  std::vector<std::string> positionals;
+  struct Option {
+    std::string name;  ///< as declared (label)
+    std::vector<std::string> values;
+    int times = 0;
+  };
+  std::vector<Option> options;
+  std::vector<std::string> unknown;  ///< options nobody declared
+  std::string problem;               ///< other parse trouble, empty when none
+};
+/// Splits the command line by the declared names (CLI11).
+Tokens tokenize(const Declaration& tool, const std::vector<std::string>& arguments);
+
+/// Checks kinds, ranges, choices and counts and stores the values; throws Error (input) saying what
+/// was given and what is valid.
+void assign(Declaration& tool, const Tokens& tokens);
+
+/// Inputs exist and are readable, output folders exist and are writable, no output is also an
+/// input.
+void check_paths(const Declaration& tool, const Tokens& tokens);
+
+/// "tool arguments" with folders removed from every path, without the common options: what the
+/// history of an output keeps.
+std::string history_command(const Declaration& tool, const std::vector<std::string>& arguments);
+
+}  // namespace breast

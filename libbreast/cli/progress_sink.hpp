@@ -1,0 +1,37 @@
+// Where progress goes: a bar on a terminal, sparse lines otherwise, nothing with --quiet.
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/progress.hpp"
+
+namespace breast {
+
+/// Notes and lines are held back for the first seconds, so that a run that fails at once on bad
+/// input says one line, the error.
+class StderrProgress final : public Progress {
+ public:
+  StderrProgress(std::string tool, bool quiet);
+  void update(std::string_view stage, double fraction, std::string_view detail) override;
+  void note(std::string_view text) override;
+  /// Success: shows the notes held back. Failure: drops them. Either way clears the bar.
+  void finish(bool success);
+
+ private:
+  void draw_bar(std::string_view stage, double fraction, std::string_view detail);
+  void clear_bar();
+  void show_notes();
+  double seconds() const;
+
+  std::string tool_, stage_;
+  bool quiet_, terminal_, bar_shown_ = false;
+  double last_line_ = -1e9;
+  std::vector<std::string> held_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::mutex mutex_;
+};
+
+}  // namespace breast

@@ -1,0 +1,35 @@
+// Private part of Tool: its declaration, rules and common options.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cli/declaration.hpp"
+#include "cli/tool.hpp"
+
+namespace breast {
+
+struct Tool::Impl {
+  Declaration declaration;
+  std::vector<std::function<void()>> rules;
+  std::filesystem::path report_file;
+  int threads = 0;
+  bool quiet = false;
+
+  Argument& add(Argument argument) {
+    declaration.options.push_back(std::move(argument));
+    return declaration.options.back();
+  }
+  Argument& add_positional(Argument argument) {
+    declaration.positionals.push_back(std::move(argument));
+    return declaration.positionals.back();
+  }
+  void declare_common();
+  /// Answers --help, --version and the hidden --help-man, --help-markdown; true when one was asked
+  /// for.
+  bool answer_questions(const std::vector<std::string>& arguments) const;
+};
+
+}  // namespace breast
