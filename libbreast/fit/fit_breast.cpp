@@ -1,0 +1,236 @@
+#include "fit/fit_breast.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "fit/closest_point.hpp"
+#include "fit/disc_map.hpp"
+#include "fit/disc_surface.hpp"
+#include "fit/sheet_fit.hpp"
+
+namespace breast {
+
+namespace {
+
+/// The skin as a disc; a ragged mask is smoothed more and cropped closer before it is refused.
+DiscSurface skin_surface(const LabelVolume& labels, BreastRegion& region, const FitOptions& options,
+                         FitReport& report) {
+  const auto body = [](Tissue t) { return t != Tissue::air; };
+  const double attempts[][2] = {{1.5, 1.0}, {3.0, 1.0}, {1.5, 0.5}, {3.0, 0.5}, {4.5, 0.25}};
+  std::string reason;
+  for (const auto& [smoothing, part] : attempts) {
+    region = find_region(labels, part * options.margin_mm);
+    try {
+      const OccupancyField field(labels, region.crop, smoothing, body);
+      DiscSurface surface =
+          extract_skin(field, region.crop, region.nipple, options.surface_step_mm);
+      if (!reason.empty())
+        report.doubts.push_back(message("the skin was smoothed by ", smoothing, " mm and cropped ",
+                                        part * options.margin_mm,
+                                        " mm beyond the breast to become a disc: ", reason));
+      return surface;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::input) throw;
+      if (reason.empty()) reason = error.what();
+    }
+  }
+  throw Error(ErrorKind::input, reason);
+}
+
+SheetData sheet_data(const DiscSurface& surface, const DiscMap& map) {
+  SheetData data;
+  const std::size_t n = surface.points.size();
+  data.points = surface.points;
+  data.normals = surface.normals;
+  data.st = map.st;
+  data.weights = surface.areas;
+  data.tangential.assign(n, 0.1);
+  data.fixed.assign(n, 0);
+  // Border points hold their place in both directions, else the sheet shrinks at its edge.
+  for (const int b : surface.border) data.tangential[b] = 1, data.fixed[b] = 1;
+  for (std::size_t i = 0; i < n; ++i)
+    if (surface.filled[i]) data.weights[i] = 0;
+  return data;
+}
+
+std::vector<double> distances_to_sheet(const HermiteSheet& sheet, const SheetData& data,
+                                       const DiscSurface& surface,
+                                       const std::function<bool(const Vec2&)>& wanted) {
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < data.points.size(); ++i)
+    if (!data.fixed[i] && !surface.filled[i] && wanted(data.st[i]))
+      distances.push_back((sheet.position(data.st[i]) - data.points[i]).norm());
+  return distances;
+}
+
+/// Fits the skin sheet; with max_error_mm refines it by a quarter more patches at a time.
+FitOutcome fit_skin(const DiscSurface& surface, const DiscMap& map, const FitOptions& options,
+                    FitReport& report, SheetData& data, Progress& progress) {
+  FitControl control;
+  control.smoothing = options.smoothing;
+  control.target_rms_mm = options.target_rms_mm;
+  if (options.max_error_mm > 0)
+    control.target_rms_mm = std::min(control.target_rms_mm, options.max_error_mm / 5);
+  report.patches_s = options.patches_s;
+  report.patches_t = options.patches_t;
+  const int most = 40;
+  for (;;) {
+    data = sheet_data(surface, map);
+    FitOutcome outcome =
+        fit_sheet(report.patches_s, report.patches_t, data, control,
+                  [](const HermiteSheet& sheet) { return !check_folds(sheet).folded(); });
+    const auto all = distances_to_sheet(outcome.sheet, data, surface, [](const Vec2&) { return true; });
+    report.whole_skin_to_sheet = summarise(all);
+    progress.update("skin sheet", 0.6,
+                    message(report.patches_s, " x ", report.patches_t, ", rms ", outcome.rms_mm, " mm"));
+    if (!(options.max_error_mm > 0) || report.whole_skin_to_sheet.max_mm <= options.max_error_mm)
+      return outcome;
+    const int next_s = report.patches_s + std::max(1, report.patches_s / 4);
+    const int next_t = report.patches_t + std::max(1, report.patches_t / 4);
+    if (next_s > most || next_t > most)
+      throw not_converged_error("skin sheet: largest distance ", report.whole_skin_to_sheet.max_mm,
+                                " mm with ", report.patches_s, " x ", report.patches_t,
+                                " patches, above --max-error ", options.max_error_mm,
+                                "; ask for less");
+    report.patches_s = next_s;
+    report.patches_t = next_t;
+  }
+}
+
+void measure_fit(const DiscSurface& surface, const SheetData& data, const BreastGeometry& geometry,
+                 FitReport& report) {
+  const auto inside = [&](const Vec2& st) {
+    return inside_star(geometry.rim_skin, geometry.centre, st);
+  };
+  report.skin_to_sheet = summarise(distances_to_sheet(geometry.skin, data, surface, inside));
+  std::vector<Vec3> samples;
+  const int n = 8 * std::max(geometry.skin.nu, geometry.skin.nv);
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const Vec2 st(double(i) / n, double(j) / n);
+      if (inside(st)) samples.push_back(geometry.skin.position(st));
+    }
+  report.sheet_to_skin =
+      summarise(distances_to_triangles(surface.points, surface.triangles, samples));
+}
+
+void find_doubts(const BreastRegion& region, const BreastGeometry& geometry, FitReport& report) {
+  const auto doubt = [&](const auto&... parts) { report.doubts.push_back(message(parts...)); };
+  if (!report.target_reached)
+    doubt("the skin's rms distance is ", report.rms_mm, " mm, above the target; more --elements help");
+  if (report.skin_to_sheet.max_mm > 2)
+    doubt("the skin's largest distance to its sheet is ", report.skin_to_sheet.max_mm, " mm");
+  if (!region.nipple_known)
+    doubt("no nipple landmark in the labels: the most anterior point stands in for it");
+  if (report.nipple_moved_mm > 5)
+    doubt("the nipple landmark lies ", report.nipple_moved_mm, " mm off the skin sheet");
+  if (report.wall_coverage < 0.9)
+    doubt("the chest wall is seen behind ", 100 * report.wall_coverage, " % of the breast only");
+  if (report.filled_points > 0)
+    doubt("the skin leaves the field of view inside the breast's outline: ", report.filled_points,
+          " hole(s) bridged by the smooth sheet");
+  const double margin = double(std::count(geometry.rim_end.begin(), geometry.rim_end.end(),
+                                          RimEnd::margin)) /
+                        double(geometry.rim_end.size());
+  if (margin > 0.1)
+    doubt(std::lround(100 * margin), " % of the rim lies where the sheet ends, not where the breast does "
+          "(field of view, midline, or tissue that never thins)");
+  if (report.rim.skin_angle_min < 30 || report.rim.wall_angle_min < 30)
+    doubt("sharp rim: ", std::lround(report.rim.skin_angle_min), " degrees at the skin, ",
+          std::lround(report.rim.wall_angle_min), " at the wall");
+}
+
+void check_options(const FitOptions& options) {
+  const auto check = [](double value, double low, double high, const char* what) {
+    if (!(value >= low && value <= high))
+      throw input_error(what, " ", value, ": must lie in ", low, "..", high);
+  };
+  check(options.patches_s, 3, 40, "patches along s");
+  check(options.patches_t, 3, 40, "patches along t");
+  check(options.smoothing, 0, 1, "smoothing");
+  check(options.max_error_mm, 0, 100, "largest error (mm)");
+  check(options.target_rms_mm, 0.01, 10, "target rms (mm)");
+  check(options.margin_mm, 5, 100, "margin (mm)");
+  check(options.surface_step_mm, 0.5, 10, "surface raster (mm)");
+  check(options.wall_smoothing_mm, 1, 50, "wall smoothing (mm)");
+  check(options.rim.rays, 32, 1024, "rim rays");
+  check(options.rim.margin, 0.01, 0.3, "rim margin");
+}
+
+}  // namespace
+
+BreastGeometry fit_breast(const LabelVolume& labels, const FitOptions& options, FitReport& report,
+                          Timer& timer, Progress& progress) {
+  check_options(options);
+  if (labels.tissue.size() != labels.grid.voxels())
+    throw input_error("labels: ", labels.tissue.size(), " voxels on a grid of ", labels.grid.voxels());
+  BreastRegion region;
+  DiscSurface surface;
+  {
+    Timer::Scope phase(timer, "skin surface");
+    progress.update("skin surface", 0, "");
+    surface = skin_surface(labels, region, options, report);
+    report.data_points = surface.points.size();
+    report.filled_points =
+        std::size_t(std::count(surface.filled.begin(), surface.filled.end(), char(1)));
+    report.label_ml = region.breast_ml;
+  }
+  DiscMap map;
+  {
+    Timer::Scope phase(timer, "map to square");
+    progress.update("map to square", 0.2, message(surface.points.size(), " points"));
+    map = map_to_square(surface);
+    report.area_ratio_p95 = map.area_ratio_p95;
+  }
+  BreastGeometry geometry;
+  geometry.side = labels.side;
+  geometry.skin_thickness = labels.skin_thickness;
+  SheetData data;
+  {
+    Timer::Scope phase(timer, "skin sheet");
+    FitOutcome outcome = fit_skin(surface, map, options, report, data, progress);
+    geometry.skin = std::move(outcome.sheet);
+    report.smoothing = outcome.smoothing;
+    report.rms_mm = outcome.rms_mm;
+    report.loops = outcome.loops;
+    report.target_reached = outcome.reached || options.smoothing > 0;
+    const FoldCheck folds = check_folds(geometry.skin);
+    report.min_normal_cosine = folds.min_cosine;
+    report.min_area_ratio = folds.min_area_ratio;
+  }
+  WallSheet wall;
+  {
+    Timer::Scope phase(timer, "wall sheet");
+    progress.update("wall sheet", 0.7, "");
+    wall = fit_wall(labels, region, options.patches_s, options.patches_t, options.wall_smoothing_mm);
+    geometry.wall = wall.sheet;
+    report.wall_rms_mm = wall.rms_mm;
+    report.wall_p95_mm = wall.residual_p95_mm;
+    report.wall_coverage = wall.coverage;
+  }
+  {
+    Timer::Scope phase(timer, "rim");
+    progress.update("rim", 0.85, "");
+    const SheetFoot nipple = SheetLocator(geometry.skin, 4).closest(region.nipple);
+    geometry.nipple_st = nipple.st;
+    geometry.nipple = nipple.x;
+    report.nipple_moved_mm = region.nipple_known ? nipple.distance : 0;
+    report.rim = find_rim(geometry.skin, wall, labels.side, geometry.nipple_st, options.rim);
+    geometry.centre = report.rim.centre;
+    geometry.rim_skin = report.rim.skin;
+    geometry.rim_wall = report.rim.wall;
+    geometry.rim_end = report.rim.end;
+  }
+  Timer::Scope phase(timer, "distances");
+  progress.update("distances", 0.95, "");
+  measure_fit(surface, data, geometry, report);
+  report.body_ml = enclosed_volume(geometry) * 1e-3;
+  geometry.fit_mean_mm = report.skin_to_sheet.mean_mm;
+  geometry.fit_p95_mm = report.skin_to_sheet.p95_mm;
+  geometry.fit_max_mm = report.skin_to_sheet.max_mm;
+  find_doubts(region, geometry, report);
+  return geometry;
+}
+
+}  // namespace breast

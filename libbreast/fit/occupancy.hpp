@@ -1,0 +1,53 @@
+// Part of the body (all of it, or the muscle) as a smooth field in a box around one breast: 1 inside,
+// 0 outside, its surface at 1/2.
+#pragma once
+
+#include <functional>
+
+#include "core/types.hpp"
+#include "image/label_volume.hpp"
+#include "image/volume.hpp"
+
+namespace breast {
+
+/// Axis-aligned box in LPS, mm.
+struct Box {
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+};
+
+/// Where the breast is in a label volume and which part of the body its sheets shall cover.
+struct BreastRegion {
+  Box foot;              ///< of the breast's own voxels
+  Box crop;              ///< foot box and margin, clipped to the field of view and just past the midline
+  Vec3 nipple;           ///< landmark, or the most anterior breast voxel
+  bool nipple_known = false;
+  double breast_ml = 0;  ///< volume of the breast's voxels
+};
+
+/// True for the codes that make up the chosen side's breast.
+bool is_breast(Tissue tissue);
+
+/// Throws Error (input) when there is no breast, or the field of view leaves nothing to fit.
+BreastRegion find_region(const LabelVolume& labels, double margin_mm);
+
+/// Largest axis-aligned box inside the (possibly tilted) field of view.
+Box field_of_view(const Grid& grid);
+
+/// Gaussian-smoothed occupancy of some tissues on the voxels around a box.
+class OccupancyField {
+ public:
+  /// `smoothing_mm` is the Gaussian's sigma, at least 0.6 voxels along every axis.
+  OccupancyField(const LabelVolume& labels, const Box& box, double smoothing_mm,
+                 const std::function<bool(Tissue)>& counts);
+  /// Trilinear; values at the border of the field of view are held, but nothing lies in front of it.
+  double value(const Vec3& p) const;
+  Vec3 gradient(const Vec3& p) const;  ///< per mm, central differences of half the smoothing
+  double smoothing() const { return smoothing_; }
+
+ private:
+  Volume<float> occupancy_;
+  double smoothing_ = 0;
+  double front_ = 0;  ///< y of the field of view's anterior end
+};
+
+}  // namespace breast
