@@ -1,0 +1,36 @@
+// Meridian curves of the stress-free breast: its skin and chest wall in half-planes through the
+// axis.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "phantom/shape.hpp"
+
+namespace breast {
+
+/// Skin and wall curves at 64 azimuths, interpolated smoothly between. Each runs in two pieces of
+/// equal arc-length steps: parameter 0 at the axis, 1 at the fold (the middle of the fillet between
+/// breast and chest), 2 at the rim where the cut stands.
+class MeridianMap {
+ public:
+  /// Throws Error (input) when the breast's outline cannot be followed to the chest.
+  explicit MeridianMap(const BreastShape& shape);
+
+  Vec3 skin(double parameter, double azimuth) const { return position(skin_, parameter, azimuth); }
+  Vec3 wall(double parameter, double azimuth) const { return position(wall_, parameter, azimuth); }
+  /// Mean height of the fold above the plane of the axis' foot (mm).
+  double fold_height() const { return fold_height_; }
+  /// Distance from the axis at which the cut stands at azimuth φ and height h (extended straight).
+  double cut_radius(double azimuth, double height) const;
+
+ private:
+  using Curve = std::vector<Vec2>;  ///< (r,h)
+  Vec3 position(const std::vector<Curve>& curves, double parameter, double azimuth) const;
+
+  const BreastShape& shape_;
+  std::vector<Curve> skin_, wall_;  ///< per azimuth
+  double fold_height_ = 0;
+};
+
+}  // namespace breast

@@ -1,0 +1,81 @@
+// Every number that shapes the phantom, in one place.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/report.hpp"
+#include "core/types.hpp"
+
+namespace breast {
+
+/// The rigid thorax (mm). Sections z = const of the pectoral surface are superellipses
+/// |x/half_width|^power + |(y−centre(z))/half_depth|^power = 1, centre = half_depth + tilt z + bend
+/// z².
+struct TorsoParameters {
+  double half_width = 165, half_depth = 102, power = 2.5;
+  double tilt = 0.10, bend = 4e-4;  ///< the upper chest lies further back (mm per mm, per mm)
+  double sternal_groove = 3.0;      ///< depth of the wall's groove over the sternum
+  double fat_medial = 15, fat_lateral = 21;  ///< subcutaneous fat at the sternum and at the side
+};
+
+/// One breast, stress-free (mm). Local axes: h along the breast's axis from the chest wall.
+struct BreastParameters {
+  double centre_x = 80;  ///< lateral distance of the axis' foot from the midline
+  double centre_z = -2;
+  double axis_lateral = 10;  ///< degrees the axis points laterally
+  double axis_inferior = 5;  ///< degrees the axis points downwards
+  double radius = 52;        ///< mean radius at the base
+  double height = 84;        ///< chest wall to nipple base along the axis
+  double shoulder = 26;      ///< height up to which the breast is a cylinder, a dome above
+  double power = 2.25;       ///< fullness of the dome (2 = ellipsoid)
+  double upper_fullness = 0.06, lateral_fullness = 0.04,
+         axillary_tail = 0.08;  ///< relative to radius
+  double fold = 18;             ///< fillet between breast and chest, larger above than below
+  double unevenness = 1.0;      ///< amplitude of the skin's slow undulation
+  double nipple_radius = 4.5, nipple_height = 6;
+};
+
+struct GlandParameters {
+  double fraction = 0.14;  ///< of the breast's volume
+  int lobes = 16;
+  double extent = 0.72;  ///< radius of the gland's region relative to the breast's
+};
+
+struct MriParameters {
+  double voxel_factor = 1;     ///< coarser grid for tests: spacing multiplied, size divided
+  double bias = 2.0;           ///< coil sensitivity, brightest over darkest breast voxel
+  double noise_percent = 2.0;  ///< of the median fat signal
+  Vec3 samples{3, 3, 5};       ///< subsamples per voxel for partial volume
+};
+
+/// (core² + 4 core (shell + skirt)) slab + (core² + 4 core shell) rise + core² shell elements.
+struct MeshParameters {
+  int core = 8;   ///< across the inner square, even
+  int shell = 4;  ///< layers between the inner block and the skin
+  int skirt = 2;  ///< rings of the fat layer around the breast
+  int slab = 2;   ///< layers of the slab on the chest wall
+  int rise = 5;   ///< layers of the inner block above the slab
+  int order = 2;
+};
+
+struct PhantomParameters {
+  std::string preset = "paper";
+  std::uint64_t seed = 1;
+  TorsoParameters torso;
+  BreastParameters left, right;
+  GlandParameters gland;
+  MriParameters mri;
+  MeshParameters mesh;
+  double skin = 1.5;  ///< mm
+  std::string materials = "seed2008";
+  const BreastParameters& side(Side s) const { return s == Side::left ? left : right; }
+};
+
+/// "paper", "small", "large" or "pendulous"; the seed also varies left against right by a few per
+/// cent, as in every woman. Throws Error (input) on another name or an unusable value.
+PhantomParameters phantom_preset(const std::string& name, std::uint64_t seed);
+/// Writes every parameter under "parameters/".
+void write_parameters(const PhantomParameters& parameters, Report& report);
+
+}  // namespace breast

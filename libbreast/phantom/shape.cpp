@@ -1,0 +1,123 @@
+#include "phantom/shape.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "phantom/random.hpp"
+
+namespace breast {
+
+namespace {
+constexpr double degree = std::numbers::pi / 180;
+
+// Union of two bodies with a fillet that ends where the distances differ by `width`.
+double filleted_union(double a, double b, double width) {
+  const double overlap = std::max(width - std::abs(a - b), 0.0) / width;
+  return std::min(a, b) - overlap * overlap * overlap * width / 6;
+}
+}  // namespace
+
+BreastShape::BreastShape(const PhantomParameters& parameters, const Torso& torso, Side side)
+    : p_(parameters.side(side)),
+      torso_(torso),
+      side_(side),
+      skin_(parameters.skin),
+      seed_(mix(parameters.seed, side == Side::left ? 101 : 102)) {
+  const double lateral = lateral_sign(side);
+  foot_ = torso_.wall_point(lateral * p_.centre_x, p_.centre_z);
+  const double out = p_.axis_lateral * degree, down = p_.axis_inferior * degree;
+  axes_[2] = Vec3(lateral * std::sin(out) * std::cos(down), -std::cos(out) * std::cos(down),
+                  -std::sin(down));
+  axes_[0] = (Vec3::UnitX() - axes_[2].x() * axes_[2]).normalized();
+  axes_[1] = axes_[2].cross(axes_[0]);
+  double inside = 0, outside = p_.height + 40;
+  if (!(skin_distance(foot_ + outside * axis()) > 0)) {
+    throw input_error("phantom breast height ", p_.height, " mm: the axis does not leave the skin");
+  }
+  for (int i = 0; i < 60; ++i) {
+    const double h = 0.5 * (inside + outside);
+    (skin_distance(foot_ + h * axis()) < 0 ? inside : outside) = h;
+  }
+  apex_ = foot_ + inside * axis();
+}
+
+Vec3 BreastShape::radial(double azimuth) const {
+  return std::cos(azimuth) * axes_[0] + std::sin(azimuth) * axes_[1];
+}
+
+Vec3 BreastShape::cylindrical(const Vec3& x) const {
+  const Vec3 d = x - foot_;
+  const double a = d.dot(axes_[0]), b = d.dot(axes_[1]);
+  return {std::hypot(a, b), std::atan2(b, a), d.dot(axes_[2])};
+}
+
+double BreastShape::radius(double azimuth) const {
+  const double lateral = lateral_sign(side_) * std::cos(azimuth), up = std::sin(azimuth);
+  const double tail = std::max(0.0, (lateral + up) / std::numbers::sqrt2);
+  return p_.radius * (1 + p_.upper_fullness * up + p_.lateral_fullness * lateral +
+                      p_.axillary_tail * tail * tail * tail);
+}
+
+double BreastShape::fold(double azimuth) const {
+  return p_.fold * (1 + 0.3 * std::sin(azimuth));
+}
+
+// A cylinder up to the shoulder, a superellipsoidal dome above it.
+double BreastShape::body_distance(const Vec3& c) const {
+  const double base = radius(c.y()), dome = p_.height - p_.shoulder;
+  const double u = c.x() / base, v = std::max(0.0, c.z() - p_.shoulder) / dome;
+  const double f = std::pow(std::pow(u, p_.power) + std::pow(v, p_.power) + 1e-12, 1 / p_.power);
+  const double scale = std::pow(f, 1 - p_.power);
+  const double fu = scale * std::pow(u, p_.power - 1) / base;
+  const double fv = scale * std::pow(v, p_.power - 1) / dome;
+  return (f - 1) / std::max(std::hypot(fu, fv), 0.5 / std::max(base, dome));
+}
+
+double BreastShape::skin_distance(const Vec3& x) const {
+  const Vec3 c = cylindrical(x);
+  double body = body_distance(c);
+  const double raised = smooth_step(torso_.skin_distance(x), 5, 25);
+  if (raised > 0) body += p_.unevenness * raised * lattice_noise(seed_, x / 38);
+  return filleted_union(body, torso_.skin_distance(x), fold(c.y()));
+}
+
+double BreastShape::beyond_fold(const Vec3& x, double part) const {
+  const Vec3 c = cylindrical(x);
+  return body_distance(c) - torso_.skin_distance(x) - part * fold(c.y());
+}
+
+double BreastShape::nipple_distance(const Vec3& x) const {
+  const Vec3 d = x - apex_;
+  const double radius = p_.nipple_radius;
+  const double along = std::clamp(d.dot(axis()), -4.0, p_.nipple_height - 0.6 * radius);
+  // A blunt papilla: a capsule flattened along the axis.
+  Vec3 rest = d - along * axis();
+  const double tip = rest.dot(axis());
+  if (tip > 0) rest += (1 / 0.6 - 1) * tip * axis();
+  return rest.norm() - radius;
+}
+
+double BreastShape::outline(const Vec3& x) const {
+  return filleted_union(skin_distance(x), nipple_distance(x), 4.0);
+}
+
+double BreastShape::skin_thickness(const Vec3& x) const {
+  const double from_apex = (x - apex_).norm();
+  return skin_ * (1 + 0.10 * lattice_noise(seed_ + 1, x / 30)) +
+         1.0 * (1 - smooth_step(from_apex, 10, 20));
+}
+
+Vec3 BreastShape::skin_normal(const Vec3& x) const {
+  constexpr double h = 0.05;
+  Vec3 gradient;
+  for (int a = 0; a < 3; ++a) {
+    const Vec3 step = h * Vec3::Unit(a);
+    gradient[a] = skin_distance(x + step) - skin_distance(x - step);
+  }
+  return gradient.normalized();
+}
+
+}  // namespace breast

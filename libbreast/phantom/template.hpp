@@ -1,0 +1,16 @@
+// The phantom's own hexahedral template: a slab of fat on the chest wall, wider than the breast,
+// and on it a half ball (square core and shell) that is the breast. It is none of the templates of
+// `hexmesh`, so the chain never meets its own mesh.
+#pragma once
+
+#include "mesh/hex_mesh.hpp"
+#include "phantom/meridian.hpp"
+
+namespace breast {
+
+/// Stress-free mesh: points = imaged = reference; order 1, or 2 with curved edges. Skin, pectoral
+/// and cut faces are set, tissues are left to the caller. The nipple node is where the axis meets
+/// the skin. Throws Error (input) when an element is folded or `core` is odd.
+HexMesh phantom_mesh(const BreastShape& shape, const MeridianMap& map, const MeshParameters& size);
+
+}  // namespace breast

@@ -1,0 +1,145 @@
+#include "phantom/torso.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "phantom/random.hpp"
+
+namespace breast {
+
+double smooth_step(double value, double low, double high) {
+  const double t = std::clamp((value - low) / (high - low), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+// (f − 1)/|∇f| of the section's superellipse, f homogeneous of degree one about the section's
+// centre.
+double Torso::smooth_distance(const Vec3& x) const {
+  const double v = x.y() - centre(x.z());
+  const double qx = std::abs(x.x()) / p_.half_width, qy = std::abs(v) / p_.half_depth;
+  const double sum = std::pow(qx, p_.power) + std::pow(qy, p_.power);
+  if (sum < 1e-6) return -std::min(p_.half_width, p_.half_depth);
+  const double f = std::pow(sum, 1 / p_.power);
+  const double scale = std::pow(f, 1 - p_.power);
+  const double fx = scale * std::pow(qx, p_.power - 1) / p_.half_width;
+  const double fy = scale * std::pow(qy, p_.power - 1) / p_.half_depth;
+  const double fz = fy * (p_.tilt + 2 * p_.bend * x.z());
+  return (f - 1) / std::sqrt(fx * fx + fy * fy + fz * fz);
+}
+
+double Torso::wall_distance(const Vec3& x) const {
+  const double front = smooth_step(centre(x.z()) - x.y(), 0, 0.6 * p_.half_depth);
+  const double across = x.x() / 15;
+  return smooth_distance(x) + p_.sternal_groove * std::exp(-across * across) * front;
+}
+
+double Torso::skin_distance(const Vec3& x) const {
+  const double thickness =
+      p_.fat_medial + (p_.fat_lateral - p_.fat_medial) * smooth_step(std::abs(x.x()), 15, 150);
+  return smooth_distance(x) - thickness;
+}
+
+Vec3 Torso::wall_normal(const Vec3& x) const {
+  constexpr double h = 0.05;
+  Vec3 gradient;
+  for (int a = 0; a < 3; ++a) {
+    const Vec3 step = h * Vec3::Unit(a);
+    gradient[a] = wall_distance(x + step) - wall_distance(x - step);
+  }
+  return gradient.normalized();
+}
+
+Vec3 Torso::wall_point(double x, double z) const {
+  double outside = centre(z) - 1.5 * p_.half_depth, inside = centre(z);
+  for (int i = 0; i < 60; ++i) {
+    const double y = 0.5 * (outside + inside);
+    (wall_distance({x, y, z}) > 0 ? outside : inside) = y;
+  }
+  return {x, inside, z};
+}
+
+Matter Torso::interior(const Vec3& x) const {
+  const double depth = -wall_distance(x);
+  const double across = std::abs(x.x());
+  const bool front = x.y() < centre(x.z());
+  // Pectoralis major: from the sternum to the axilla, thinner below the sixth rib; at the side the
+  // serratus and latissimus, at the back the erector spinae beside the spine.
+  double muscle = 7;
+  if (front) {
+    const double pectoral = smooth_step(across, 4, 22) * smooth_step(x.z(), -75, -25);
+    muscle = 2.5 + 2.5 * smooth_step(across, 4, 22) + 7 * pectoral;
+  } else {
+    muscle = 9 + 22 * smooth_step(60 - across, 0, 25);
+  }
+  muscle += 1.2 * lattice_noise(seed_ + 5, x / 28);
+  if (depth < muscle) {
+    // Fat planes along the fibres, as seen within every pectoral muscle.
+    const double strand =
+        lattice_noise(seed_ + 6, {x.x() / 40, depth / 3.0, (x.z() + 0.5 * across) / 14});
+    return strand > 0.62 ? Matter::fat : Matter::muscle;
+  }
+  if (depth < muscle + 1.6) return Matter::fat;
+  const double bone = 9;
+  if (depth < muscle + 1.6 + bone) return bone_layer(x, (depth - muscle - 1.6) / bone);
+  if (depth < muscle + 1.6 + bone + 1.5) return Matter::fat;
+  return thorax(x);
+}
+
+// Ribs run obliquely: anterior ends lower. Costal cartilage near the sternum. `depth` in [0,1].
+Matter Torso::bone_layer(const Vec3& x, double depth) const {
+  const double across = std::abs(x.x());
+  const bool front = x.y() < centre(x.z());
+  const double radial = 2 * depth - 1;
+  if (front && across < 17) {
+    const double edge = std::max(std::abs(radial), across / 17);
+    return edge > 0.80 ? Matter::cortex : Matter::marrow;
+  }
+  const double run = front ? 0.32 * across : 0.32 * (2 * p_.half_width - across);
+  const double phase = (x.z() - run + 3 * lattice_noise(seed_ + 7, x / 60)) / 27.0;
+  const double vertical = (phase - std::floor(phase) - 0.5) * 27.0 / 6.8;
+  const double rib = std::hypot(vertical, radial);
+  if (rib > 1) return depth > 0.25 && depth < 0.8 ? Matter::muscle : Matter::fat;
+  if (front && across < 58) return rib > 0.93 ? Matter::fat : Matter::cartilage;
+  return rib > 0.72 ? Matter::cortex : Matter::marrow;
+}
+
+Matter Torso::thorax(const Vec3& x) const {
+  const double back = 2 * p_.half_depth + centre(x.z()) - p_.half_depth;
+  // Vertebral body with canal and spinous process, aorta beside it.
+  const Vec3 spine(0, back - 52, x.z());
+  const double vx = (x.x() - spine.x()) / 20, vy = (x.y() - spine.y()) / 16;
+  const double vertebra = std::sqrt(vx * vx + vy * vy);
+  if (vertebra < 1) {
+    const double disc = x.z() / 25 - std::floor(x.z() / 25);
+    if (disc < 0.18) return Matter::cartilage;
+    return vertebra > 0.9 ? Matter::cortex : Matter::marrow;
+  }
+  if (std::abs(x.x()) < 13 && x.y() > spine.y() + 14) {
+    return std::hypot(x.x(), x.y() - spine.y() - 22) < 7.5 ? Matter::blood : Matter::cortex;
+  }
+  if (std::abs(x.x()) < 42 && x.y() > spine.y() + 6) return Matter::brawn;
+  if (std::hypot(x.x() - 24, x.y() - spine.y() + 12) < 11) return Matter::blood;
+  // Heart, to the left and resting on the diaphragm, in a thin coat of fat.
+  const Vec3 heart_centre(26, centre(x.z()) - 0.36 * p_.half_depth, -12);
+  const double heart = ((x - heart_centre).cwiseQuotient(Vec3(56, 42, 56))).norm() +
+                       0.05 * lattice_noise(seed_ + 8, x / 20);
+  if (heart < 0.80) {
+    const double cavity =
+        ((x - heart_centre - Vec3(4, 3, 2)).cwiseQuotient(Vec3(36, 26, 36))).norm();
+    return cavity < 0.8 ? Matter::blood : Matter::heart;
+  }
+  if (heart < 0.88) return Matter::fat;
+  // Liver under the right dome of the diaphragm; the left dome covers the stomach.
+  const double right = (x - Vec3(-62, centre(-40), -138)).cwiseQuotient(Vec3(92, 92, 92)).norm();
+  if (right < 1) {
+    const double vessel = lattice_noise(seed_ + 9, x / 16);
+    return std::abs(vessel) < 0.03 ? Matter::blood : Matter::liver;
+  }
+  const double left = (x - Vec3(72, centre(-40), -148)).cwiseQuotient(Vec3(80, 88, 88)).norm();
+  if (left < 1) return Matter::brawn;
+  const double vessel = std::abs(lattice_noise(seed_ + 10, x / 24)) +
+                        std::abs(lattice_noise(seed_ + 12, x / 24 + Vec3(7, 3, 5)));
+  return vessel < 0.11 ? Matter::blood : Matter::lung;
+}
+
+}  // namespace breast
