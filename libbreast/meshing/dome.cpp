@@ -224,6 +224,12 @@ DomeSize dome_near(int edge) {
   return best;
 }
 
+DomeSize cuboid_size(int edge) {
+  const DomeSize size{edge, edge, 0, std::max(1, edge / 4)};
+  check_dome(size);
+  return size;
+}
+
 DomeTemplate dome_template(const DomeSize& size) {
   check_dome(size);
   const Numbering number(size);

@@ -1,0 +1,20 @@
+// Thickness of the skin: from the command line, from the scan, onto the mesh.
+#pragma once
+
+#include <string>
+
+#include "image/label_volume.hpp"
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+/// Millimetres from 0 (no skin) to 10. Throws Error (input).
+double parse_skin_thickness(const std::string& text);
+
+/// Thickness measured by segmentation; throws Error (input) when neither file has one.
+double measured_skin_thickness(const LabelVolume& labels, const BreastGeometry& geometry);
+
+/// Membrane of one thickness on every skin face (cut faces carry none); 0 removes the skin.
+void set_membrane_skin(double thickness, HexMesh& mesh);
+
+}  // namespace breast

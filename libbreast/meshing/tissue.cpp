@@ -1,0 +1,149 @@
+#include "meshing/tissue.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "mesh/lattice.hpp"
+#include "mesh/locate.hpp"
+#include "mesh/quality.hpp"
+
+namespace breast {
+
+namespace {
+
+// Voxel look-up by the nearest centre, with the inverse transform computed once.
+class VoxelSampler {
+ public:
+  explicit VoxelSampler(const LabelVolume& labels)
+      : labels_(labels), to_index_(labels.grid.direction.inverse()) {}
+
+  /// −1 outside the volume.
+  std::ptrdiff_t voxel(const Vec3& patient) const {
+    const Grid& grid = labels_.grid;
+    const Vec3 at = (to_index_ * (patient - grid.origin)).cwiseQuotient(grid.spacing);
+    if (!at.allFinite() || at.cwiseAbs().maxCoeff() > 1e6) return -1;
+    const int i = int(std::lround(at.x())), j = int(std::lround(at.y())),
+              k = int(std::lround(at.z()));
+    return grid.contains(i, j, k) ? std::ptrdiff_t(grid.offset(i, j, k)) : -1;
+  }
+
+ private:
+  const LabelVolume& labels_;
+  Mat3 to_index_;
+};
+
+struct ElementSamples {
+  double total = 0, breast = 0, gland = 0, tumour = 0;  // weights in mm³
+};
+
+ElementSamples sample_element(const LabelVolume& labels, const VoxelSampler& sampler,
+                              const HexMesh& mesh, int e) {
+  const int* vtk = lattice::vtk_nodes(mesh.order);
+  std::array<Vec3, 27> own;
+  for (int a = 0; a < mesh.nodes_per_element(); ++a) own[a] = mesh.imaged[mesh.element(e)[vtk[a]]];
+  ElementSamples sums;
+  for (int s = 0; s < 27; ++s) {
+    const Vec3 local = Vec3(s % 3 - 1, (s / 3) % 3 - 1, s / 9 - 1) * (2.0 / 3);
+    Vec3 x;
+    Mat3 jacobian;
+    lattice::evaluate(mesh.order, own.data(), local, x, jacobian);
+    const double weight = std::abs(jacobian.determinant()) * 8 / 27;
+    sums.total += weight;
+    const std::ptrdiff_t voxel = sampler.voxel(x);
+    if (voxel < 0) continue;
+    const Tissue tissue = static_cast<Tissue>(labels.tissue[voxel]);
+    if (!is_breast(tissue)) continue;
+    sums.breast += weight;
+    const double gland = labels.fibroglandular_fraction.empty()
+                             ? double(tissue == Tissue::fibroglandular)
+                             : double(labels.fibroglandular_fraction[voxel]);
+    sums.gland += weight * gland;
+    if (tissue == Tissue::tumour) sums.tumour += weight;
+  }
+  return sums;
+}
+
+// Share of the breast's voxels that lie outside the mesh, from every eighth voxel or so.
+double missed_share(const LabelVolume& labels, const HexMesh& mesh, long long breast_voxels) {
+  const Locator locator(mesh, mesh.imaged);
+  const int stride = std::max(1, int(std::cbrt(double(breast_voxels) / 40000)));
+  const Grid& grid = labels.grid;
+  long long seen = 0, missed = 0;
+#pragma omp parallel for num_threads(threads()) reduction(+ : seen, missed) schedule(dynamic, 1)
+  for (int k = 0; k < grid.size[2]; ++k) {
+    int hint = -1;
+    for (int j = 0; j < grid.size[1]; j += stride) {
+      for (int i = (j / stride + k) % stride; i < grid.size[0]; i += stride) {
+        if (!is_breast(labels.at(i, j, k))) continue;
+        ++seen;
+        const auto found = locator.find(grid.to_patient(Vec3(i, j, k)), hint);
+        if (found) hint = found->element;
+        missed += !found;
+      }
+    }
+  }
+  return seen > 0 ? double(missed) / double(seen) : 0;
+}
+
+}  // namespace
+
+bool is_breast(Tissue tissue) {
+  return tissue == Tissue::fat || tissue == Tissue::fibroglandular || tissue == Tissue::skin ||
+         tissue == Tissue::tumour;
+}
+
+std::array<double, n_tissues> tissue_volumes(const HexMesh& mesh) {
+  std::array<double, n_tissues> sums{};
+  const std::vector<double> volumes = element_volumes(mesh, mesh.points);
+  for (int e = 0; e < mesh.elements(); ++e) sums[int(mesh.tissue[e])] += volumes[e];
+  return sums;
+}
+
+TissueReport assign_tissue(const LabelVolume& labels, HexMesh& mesh) {
+  if (labels.side != mesh.side) {
+    throw input_error("labels are of the ", side_name(labels.side),
+                      " breast and the geometry of the ", side_name(mesh.side),
+                      " one: give the labels the geometry was fitted to");
+  }
+  long long breast_voxels = 0;
+  for (const std::uint8_t code : labels.tissue)
+    breast_voxels += is_breast(static_cast<Tissue>(code));
+  if (breast_voxels == 0)
+    throw input_error("labels hold no breast voxel (fat, fibroglandular, skin)");
+  const int elements = mesh.elements();
+  mesh.tissue.resize(elements, Tissue::fat);
+  mesh.fibroglandular_fraction.assign(elements, 0.0f);
+  const VoxelSampler sampler(labels);
+  std::vector<ElementSamples> samples(elements);
+#pragma omp parallel for num_threads(threads()) schedule(static)
+  for (int e = 0; e < elements; ++e) samples[e] = sample_element(labels, sampler, mesh, e);
+  TissueReport report;
+  double total = 0, inside = 0;
+  const std::vector<double> volumes = element_volumes(mesh, mesh.imaged);
+  for (int e = 0; e < elements; ++e) {
+    const ElementSamples& s = samples[e];
+    total += s.total;
+    inside += s.breast;
+    if (mesh.tissue[e] == Tissue::skin) continue;
+    const double gland = s.breast > 0 ? s.gland / s.breast : 0;
+    mesh.fibroglandular_fraction[e] = float(gland);
+    report.fibroglandular_volume += gland * volumes[e];
+    mesh.tissue[e] = s.breast > 0 && s.tumour >= 0.5 * s.breast ? Tissue::tumour
+                     : gland >= 0.5                             ? Tissue::fibroglandular
+                                                                : Tissue::fat;
+  }
+  if (!(inside > 0)) {
+    throw input_error(
+        "no element of the mesh lies in a breast voxel: labels and geometry are of "
+        "different scans or frames");
+  }
+  report.volume = tissue_volumes(mesh);
+  report.outside_fraction = 1 - inside / total;
+  report.segmented_volume = double(breast_voxels) * labels.grid.voxel_volume();
+  report.missed_fraction = missed_share(labels, mesh, breast_voxels);
+  return report;
+}
+
+}  // namespace breast

@@ -1,0 +1,32 @@
+// Tissue per element from segmented voxels, by volume fraction.
+#pragma once
+
+#include <array>
+
+#include "image/label_volume.hpp"
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+struct TissueReport {
+  std::array<double, n_tissues> volume{};  ///< mm³ per tissue, of whole elements
+  double fibroglandular_volume = 0;        ///< mm³ by element fractions
+  double outside_fraction = 0;             ///< of the mesh's volume: in voxels that are not breast
+  double missed_fraction = 0;   ///< of the segmented breast's volume: voxels outside the mesh
+  double segmented_volume = 0;  ///< mm³ of breast voxels (fat, fibroglandular, skin, tumour)
+};
+
+/// Fills tissue and fibroglandular_fraction from 3³ samples per element, weighted by their volumes,
+/// at the imaged positions. An element is fibroglandular or tumour when at least half of its breast
+/// volume is; elements that are skin already (layer) stay skin. Samples outside the breast count
+/// for nothing; an element without any breast sample is fat. Throws Error (input) when the labels
+/// hold no breast, are of the other side, or do not overlap the mesh.
+TissueReport assign_tissue(const LabelVolume& labels, HexMesh& mesh);
+
+/// The tissue volumes of the mesh as it stands (after a tumour was put in).
+std::array<double, n_tissues> tissue_volumes(const HexMesh& mesh);
+
+/// Breast voxel: fat, fibroglandular, skin or tumour.
+bool is_breast(Tissue tissue);
+
+}  // namespace breast

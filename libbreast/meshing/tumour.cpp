@@ -1,0 +1,195 @@
+#include "meshing/tumour.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "mesh/locate.hpp"
+#include "meshing/tissue.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr double clearance_mm = 8;
+
+struct Region {
+  long long voxels = 0;
+  Vec3 centroid{0, 0, 0};
+  double rms_radius = 0;
+};
+
+template <class Use>
+void for_voxels(const LabelVolume& labels, Tissue tissue, const Use& use) {
+  const Grid& grid = labels.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        if (labels.at(i, j, k) == tissue) use(i, j, k);
+      }
+    }
+  }
+}
+
+Region region_of(const LabelVolume& labels, Tissue tissue) {
+  Region region;
+  double squares = 0;
+  for_voxels(labels, tissue, [&](int i, int j, int k) {
+    const Vec3 at = labels.grid.to_patient(Vec3(i, j, k));
+    ++region.voxels;
+    region.centroid += at;
+    squares += at.squaredNorm();
+  });
+  if (region.voxels == 0) return region;
+  region.centroid /= double(region.voxels);
+  region.rms_radius =
+      std::sqrt(std::max(0.0, squares / double(region.voxels) - region.centroid.squaredNorm()));
+  return region;
+}
+
+bool breast_or_beyond(const LabelVolume& labels, int i, int j, int k) {
+  return !labels.grid.contains(i, j, k) || is_breast(labels.at(i, j, k));
+}
+
+// Breast in all 26 directions at the clearance.
+bool is_clear(const LabelVolume& labels, int i, int j, int k) {
+  const Vec3 reach = clearance_mm * labels.grid.spacing.cwiseInverse();
+  for (int d = 0; d < 27; ++d) {
+    Vec3 way(d % 3 - 1, (d / 3) % 3 - 1, d / 9 - 1);
+    if (d == 13) continue;
+    way = way.normalized().cwiseProduct(reach);
+    if (!breast_or_beyond(labels, i + int(std::lround(way.x())), j + int(std::lround(way.y())),
+                          k + int(std::lround(way.z())))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Has a fat neighbour: the point half-way to it is on the edge.
+std::optional<Vec3> edge_point(const LabelVolume& labels, int i, int j, int k) {
+  constexpr std::array<std::array<int, 3>, 6> steps = {
+      {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+  for (const auto& d : steps) {
+    const int a = i + d[0], b = j + d[1], c = k + d[2];
+    if (!labels.grid.contains(a, b, c) || labels.at(a, b, c) != Tissue::fat) continue;
+    return labels.grid.to_patient(Vec3(i, j, k) + 0.5 * Vec3(d[0], d[1], d[2]));
+  }
+  return std::nullopt;
+}
+
+void check_radius(double radius, const std::string& where) {
+  if (!(radius > 0 && radius <= 50)) {
+    throw input_error("--tumour ", where, ": radius ", radius,
+                      " mm must be above 0 and at most 50");
+  }
+}
+
+}  // namespace
+
+std::optional<Tumour> automatic_tumour(const LabelVolume& labels) {
+  if (const auto named = labels.landmarks.find("tumour"); named != labels.landmarks.end()) {
+    return Tumour{named->second, 0, "landmark of the labels"};
+  }
+  const Region marked = region_of(labels, Tissue::tumour);
+  if (marked.voxels > 0) return Tumour{marked.centroid, 0, "centroid of tumour voxels"};
+  const Region gland = region_of(labels, Tissue::fibroglandular);
+  if (gland.voxels == 0) return std::nullopt;
+  const Vec3 upper_outer = Vec3(lateral_sign(labels.side), 0, 1).normalized();
+  const Vec3 target = gland.centroid + 0.7 * gland.rms_radius * upper_outer;
+  Tumour clear, any;
+  double best_clear = std::numeric_limits<double>::infinity(), best_any = best_clear;
+  for_voxels(labels, Tissue::fibroglandular, [&](int i, int j, int k) {
+    const std::optional<Vec3> edge = edge_point(labels, i, j, k);
+    if (!edge) return;
+    const double distance = (*edge - target).squaredNorm();
+    if (distance < best_any) best_any = distance, any.centre = *edge;
+    if (distance < best_clear && is_clear(labels, i, j, k)) {
+      best_clear = distance, clear.centre = *edge;
+    }
+  });
+  if (!std::isfinite(best_any)) return std::nullopt;
+  Tumour& chosen = std::isfinite(best_clear) ? clear : any;
+  chosen.origin = "artificial, on the edge of the fibroglandular region";
+  return chosen;
+}
+
+Tumour tumour_of(const LabelVolume& labels, const std::string& name) {
+  const Region region = region_of(labels, Tissue::tumour);
+  if (region.voxels == 0) throw input_error("--tumour ", name, ": the labels hold no tumour voxel");
+  const double volume = double(region.voxels) * labels.grid.voxel_volume();
+  return {region.centroid, std::cbrt(3 * volume / (4 * std::numbers::pi)),
+          "tumour voxels of " + name};
+}
+
+Tumour read_tumour(const std::filesystem::path& file) {
+  const Table table = read_table(file);
+  const std::string name = file.filename().string();
+  if (table.rows.empty()) throw input_error("--tumour ", name, ": the table has no row");
+  const auto cell = [&](const std::string& column) {
+    return parse_number(table.rows[0][table.column(column)], name + ", column " + column);
+  };
+  Tumour tumour{Vec3(cell("x_mm"), cell("y_mm"), cell("z_mm")), 0, "first row of " + name};
+  const auto& columns = table.columns;
+  if (std::find(columns.begin(), columns.end(), "radius_mm") != columns.end()) {
+    tumour.radius = cell("radius_mm");
+    check_radius(tumour.radius, name);
+  }
+  return tumour;
+}
+
+Tumour parse_tumour(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  Tumour tumour;
+  std::string rest = text.substr(0, colon);
+  for (int d = 0; d < 3; ++d) {
+    const std::size_t comma = rest.find(',');
+    if ((comma == std::string::npos) != (d == 2)) {
+      throw input_error("--tumour ", text,
+                        ": expected auto, none, a file, or x,y,z[:radius] in mm");
+    }
+    tumour.centre[d] = parse_number(rest.substr(0, comma), "--tumour");
+    if (d < 2) rest = rest.substr(comma + 1);
+  }
+  if (colon != std::string::npos) {
+    tumour.radius = parse_number(text.substr(colon + 1), "--tumour radius");
+    check_radius(tumour.radius, text);
+  }
+  tumour.origin = "given";
+  return tumour;
+}
+
+void add_nipple(HexMesh& mesh) {
+  if (!mesh.geometry) throw failed_error("nipple: the mesh carries no geometry");
+  const Vec3 at = mesh.geometry->nipple;
+  const Location found = nearest_on_faces(mesh, mesh.imaged, mesh.skin_faces, at);
+  mesh.landmarks.push_back({"nipple", at, found.element, found.local, found.moved});
+  mesh.nipple_node = nearest_node(mesh.imaged, at);
+}
+
+void add_tumour(const Tumour& tumour, HexMesh& mesh, double max_moved) {
+  const Locator locator(mesh, mesh.imaged);
+  const Location found = locator.nearest(tumour.centre);
+  if (!(found.moved <= max_moved)) {
+    throw input_error("tumour at (", tumour.centre.x(), ", ", tumour.centre.y(), ", ",
+                      tumour.centre.z(), ") mm lies ", found.moved,
+                      " mm outside the mesh; at most ", max_moved,
+                      ": check the side and that the point is in patient LPS mm");
+  }
+  mesh.landmarks.push_back({"tumour", tumour.centre, found.element, found.local, found.moved});
+  mesh.tumour_node = nearest_node(mesh.imaged, tumour.centre);
+  if (!(tumour.radius > 0)) return;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    int inside = 0;
+    for (int s = 0; s < 27; ++s) {
+      const Vec3 local = Vec3(s % 3 - 1, (s / 3) % 3 - 1, s / 9 - 1) * (2.0 / 3);
+      inside += (locator.position(e, local) - tumour.centre).norm() < tumour.radius;
+    }
+    if (inside >= 14 || e == found.element) mesh.tissue[e] = Tissue::tumour;
+  }
+}
+
+}  // namespace breast

@@ -1,0 +1,45 @@
+// Where the tumour point is, and the landmarks of a mesh.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "image/label_volume.hpp"
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+struct Tumour {
+  Vec3 centre{0, 0, 0};  ///< mm, LPS, MR frame
+  double radius = 0;     ///< mm; 0: a point, no element becomes tumour
+  std::string origin;    ///< how it was chosen, for the report
+};
+
+/// The tumour of the labels (landmark "tumour", else centroid of tumour voxels), else an artificial
+/// one: the point on the edge of the fibroglandular region, at least 8 mm from skin and chest wall
+/// where there is one, nearest to the region's upper outer part (centroid + 0.7 rms radius
+/// laterally and superiorly). Depends on the voxels only, so it is the same imaged point for every
+/// mesh. Nothing when the labels hold no fibroglandular tissue.
+std::optional<Tumour> automatic_tumour(const LabelVolume& labels);
+
+/// Parses "x,y,z" or "x,y,z:radius" (mm). Throws Error (input).
+Tumour parse_tumour(const std::string& text);
+
+/// First row of a table with columns x_mm y_mm z_mm and maybe radius_mm. Throws Error (input).
+Tumour read_tumour(const std::filesystem::path& file);
+
+/// Centroid of the tumour voxels of other labels in the same frame, radius of the ball of their
+/// volume. Throws Error (input) when they hold none; `name` is used in the error.
+Tumour tumour_of(const LabelVolume& labels, const std::string& name);
+
+/// Landmark nipple: the geometry's nipple, located on the skin faces; node nipple_node. Needs
+/// mesh.geometry.
+void add_nipple(HexMesh& mesh);
+
+/// Landmark tumour and tumour_node; with a radius, elements at least half inside the ball become
+/// tumour (the element holding the centre always does). Throws Error (input) when the centre lies
+/// more than `max_moved` mm outside the mesh.
+void add_tumour(const Tumour& tumour, HexMesh& mesh, double max_moved = 10);
+
+}  // namespace breast
