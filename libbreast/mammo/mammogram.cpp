@@ -8,6 +8,17 @@
 
 namespace breast {
 
+Vec2 ViewPose::project(const Vec3& patient) const {
+  const Vec3 d = patient - origin;
+  Vec2 uv(d.dot(e_u), d.dot(e_v));
+  if (source_distance > 0) {
+    const Vec2 foot(0, source_v);
+    const double height = -d.dot(n);  // above the detector
+    uv = foot + (uv - foot) * (source_distance / (source_distance - height));
+  }
+  return uv;
+}
+
 ViewPose view_pose(Side side, double angle_deg) {
   const double theta = angle_deg * std::numbers::pi / 180.0;
   ViewPose pose;

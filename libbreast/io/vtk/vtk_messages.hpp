@@ -1,0 +1,21 @@
+// VTK reports errors as text on stderr; here they become typed errors of ours.
+#pragma once
+
+#include <string>
+
+namespace breast {
+
+/// While it lives, VTK's messages are collected instead of printed. Not for concurrent use.
+class VtkMessages {
+ public:
+  VtkMessages();
+  ~VtkMessages();
+  VtkMessages(const VtkMessages&) = delete;
+  VtkMessages& operator=(const VtkMessages&) = delete;
+
+  bool error() const;
+  /// First error on one line, without source file and pointer values; empty when there was none.
+  std::string first() const;
+};
+
+}  // namespace breast

@@ -1,0 +1,76 @@
+#include "io/vtk/xml_file.hpp"
+
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLImageDataWriter.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "io/vtk/vtk_messages.hpp"
+#include "io/vtk/xml_check.hpp"
+
+namespace breast {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+template <class Reader, class Data>
+vtkSmartPointer<Data> read_xml(const fs::path& file, const std::string& type) {
+  const VtkMessages messages;
+  check_xml(file, type);
+  vtkNew<Reader> reader;
+  reader->SetFileName(file.c_str());
+  try {
+    reader->Update();
+  } catch (const std::exception& problem) {
+    throw input_error(file.string(), ": damaged (", problem.what(), " while reading)");
+  }
+  if (messages.error() || reader->GetErrorCode() != 0) {
+    const std::string reason = messages.first();
+    throw input_error(file.string(), ": damaged (", reason.empty() ? "incomplete" : reason, ")");
+  }
+  vtkSmartPointer<Data> data = reader->GetOutput();
+  return data;
+}
+
+template <class Writer, class Data>
+void write(const fs::path& file, Data* data) {
+  AtomicFile target(file);
+  const VtkMessages messages;
+  vtkNew<Writer> writer;
+  writer->SetFileName(target.temporary().c_str());
+  writer->SetInputData(data);
+  writer->SetDataModeToBinary();
+  writer->SetCompressorTypeToZLib();
+  const bool written = writer->Write() == 1;
+  if (!written || messages.error() || writer->GetErrorCode() != 0) {
+    throw failed_error(file.string(), ": cannot be written (", messages.first(), ")");
+  }
+  seal_xml(target.temporary());
+  target.commit();
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkPolyData> read_poly_data(const fs::path& file) {
+  return read_xml<vtkXMLPolyDataReader, vtkPolyData>(file, "PolyData");
+}
+
+vtkSmartPointer<vtkImageData> read_image_data(const fs::path& file) {
+  return read_xml<vtkXMLImageDataReader, vtkImageData>(file, "ImageData");
+}
+
+void write_xml(const fs::path& file, vtkPolyData* data) {
+  write<vtkXMLPolyDataWriter>(file, data);
+}
+
+void write_xml(const fs::path& file, vtkImageData* data) {
+  write<vtkXMLImageDataWriter>(file, data);
+}
+
+}  // namespace breast

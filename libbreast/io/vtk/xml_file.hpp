@@ -1,0 +1,48 @@
+// What every VTK XML file of ours has in common: opening, checking, field data, writing.
+#pragma once
+
+#include <vtkSmartPointer.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/provenance.hpp"
+#include "core/types.hpp"
+
+class vtkDataArray;
+class vtkDataObject;
+class vtkDataSetAttributes;
+class vtkFieldData;
+class vtkImageData;
+class vtkPolyData;
+
+namespace breast {
+
+/// Reads a .vtp / .vti. Throws Error (input) for missing, truncated, foreign or damaged files.
+vtkSmartPointer<vtkPolyData> read_poly_data(const std::filesystem::path& file);
+vtkSmartPointer<vtkImageData> read_image_data(const std::filesystem::path& file);
+/// Writes atomically, zlib-compressed, inline base64 (a cut file is then never well-formed XML).
+void write_xml(const std::filesystem::path& file, vtkPolyData* data);
+void write_xml(const std::filesystem::path& file, vtkImageData* data);
+
+void add_text(vtkFieldData* fields, const std::string& name, const std::string& text);
+void add_numbers(vtkFieldData* fields, const std::string& name, const std::vector<double>& values);
+void add_history(vtkFieldData* fields, const History& history);
+
+/// `where` begins the message of the Error (input) thrown when the field is absent or not as
+/// expected.
+std::string text_field(vtkFieldData* fields, const std::string& name, const std::string& where);
+std::vector<double> number_field(vtkFieldData* fields, const std::string& name, int count,
+                                 const std::string& where);
+/// Empty when the file has none (another program's file).
+History history_field(vtkFieldData* fields, const std::string& where);
+/// Refuses a file of ours whose schema is another one; a foreign file without schema passes when
+/// `required` is false.
+void check_schema(vtkFieldData* fields, const std::string& schema, bool required,
+                  const std::string& where);
+
+/// All components as doubles, tuple-major; throws Error (input) at the first non-finite value.
+std::vector<double> finite_values(vtkDataArray* array, const std::string& where);
+
+}  // namespace breast

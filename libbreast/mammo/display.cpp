@@ -1,0 +1,46 @@
+#include "mammo/display.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace breast {
+
+namespace {
+
+// A few bright pixels (a tumour, a fold) must not darken the rest: the window ends at the 99.8 %
+// rank of the pixels that show tissue.
+double bright_end(const std::vector<float>& path) {
+  std::vector<float> tissue;
+  for (const float value : path) {
+    if (value > 0) tissue.push_back(value);
+  }
+  if (tissue.empty()) return 1;
+  const auto rank = std::size_t(0.998 * double(tissue.size() - 1));
+  std::nth_element(tissue.begin(), tissue.begin() + std::ptrdiff_t(rank), tissue.end());
+  return tissue[rank];
+}
+
+}  // namespace
+
+HungImage hang(const Mammogram& image) {
+  HungImage hung;
+  hung.width = image.width;
+  hung.height = image.height;
+  hung.window_high = bright_end(image.path);
+  hung.grey.resize(image.path.size());
+  // e_v points away from lateral (CC) and from superior (MLO) on the left side, towards on the
+  // right.
+  const bool left = image.side == Side::left;
+  for (int row = 0; row < image.height; ++row) {
+    const int v = left ? row : image.height - 1 - row;
+    for (int column = 0; column < image.width; ++column) {
+      const int u = left ? column : image.width - 1 - column;
+      const double value = image.path[std::size_t(v) * image.width + u] / hung.window_high;
+      hung.grey[std::size_t(row) * image.width + column] =
+          std::uint16_t(std::lround(65535 * std::clamp(value, 0.0, 1.0)));
+    }
+  }
+  return hung;
+}
+
+}  // namespace breast

@@ -1,0 +1,20 @@
+// A mammogram as it is looked at: hung, windowed, 16 bits.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mammo/mammogram.hpp"
+
+namespace breast {
+
+/// Rows from the top. Chest wall at the left edge for a left breast and at the right edge for a
+/// right one; lateral (CC) or superior (MLO, ML) at the top; dense is bright.
+struct HungImage {
+  int width = 0, height = 0;
+  std::vector<std::uint16_t> grey;
+  double window_low = 0, window_high = 0;  ///< path at grey 0 and 65535
+};
+HungImage hang(const Mammogram& image);
+
+}  // namespace breast

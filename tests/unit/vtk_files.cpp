@@ -1,0 +1,258 @@
+// Surfaces, curves and mammograms: what is written is read back, and what is not a file of that
+// kind, cut, or not finite is refused with a typed error.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "fixtures/scratch_folder.hpp"
+#include "io/mammogram_file.hpp"
+#include "io/surface_file.hpp"
+#include "mammo/display.hpp"
+
+using namespace breast;
+
+namespace {
+
+History some_history() {
+  return {{"segment", "0.1.0", "segment mr.nrrd \"l.vtkhdf\" --side left", {{"mr.nrrd", "ab12"}}},
+          {"fit-hermite", "0.1.0", "fit-hermite l.vtkhdf g.vtkhdf", {}}};
+}
+
+TriMesh some_surface() {
+  TriMesh surface;
+  surface.points = {{0, 0, 0}, {1.25, 0, 1e-17}, {0, -3.1, 2}, {M_PI, 1e6, -7}};
+  surface.triangles = {{0, 1, 2}, {2, 1, 3}};
+  surface.normals = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}};
+  surface.point_data["kind"] = {0, 1, 1, 0};
+  surface.history = some_history();
+  return surface;
+}
+
+PolyLines some_lines() {
+  PolyLines lines;
+  for (int i = 0; i < 40; ++i) lines.points.push_back({0.1 * i, std::sin(i), std::cos(i)});
+  lines.lines = {{7}, {0, 1, 2, 3}, {30, 20, 10}};  // a marker of one point, two curves
+  lines.line_names = {"true tumour", "curve", "arc"};
+  lines.point_data["u_mm"].assign(40, 1.5);
+  lines.point_vectors["imaged"].assign(40, Vec3(1, 2, 3));
+  lines.history = some_history();
+  return lines;
+}
+
+Mammogram some_mammogram(Side side = Side::right) {
+  Mammogram image;
+  image.pose = view_pose(side, 45);
+  image.pose.origin = Vec3(1, 2, 3);
+  image.view = "MLO";
+  image.side = side;
+  image.width = 5;
+  image.height = 3;
+  image.pixel = 0.3;
+  for (int i = 0; i < 15; ++i) {
+    image.path.push_back(float(i));
+    image.thickness.push_back(2.0f * float(i));
+    image.fibroglandular.push_back(0.5f * float(i));
+  }
+  image.history = some_history();
+  return image;
+}
+
+template <class Read>
+void expect_input_error(const Read& read) {
+  try {
+    read();
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+  }
+}
+
+// Every strict prefix that loses more than the final newline must be refused.
+template <class Read>
+void expect_cuts_refused(const std::filesystem::path& file, const Read& read) {
+  const std::string whole = read_text(file);
+  const std::filesystem::path cut = file.parent_path() / ("cut" + file.extension().string());
+  for (std::size_t length = 0; length + 1 < whole.size(); length += 1 + whole.size() / 97) {
+    std::ofstream(cut, std::ios::binary) << whole.substr(0, length);
+    SCOPED_TRACE(length);
+    expect_input_error([&] { read(cut); });
+  }
+}
+
+// Damage anywhere is either refused or harmless (a comment, a name); it never crashes.
+template <class Read>
+void expect_damage_survived(const std::filesystem::path& file, const Read& read) {
+  const std::string whole = read_text(file);
+  const std::filesystem::path bad = file.parent_path() / ("bad" + file.extension().string());
+  for (std::size_t at = 0; at < whole.size(); at += 1 + whole.size() / 211) {
+    std::string text = whole;
+    text[at] = char(text[at] ^ 0x15);
+    std::ofstream(bad, std::ios::binary) << text;
+    try {
+      read(bad);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
+    }
+  }
+}
+
+}  // namespace
+
+TEST(SurfaceFile, RoundTripIsExact) {
+  const ScratchFolder folder;
+  const TriMesh surface = some_surface();
+  write_surface(folder / "s.vtp", surface);
+  const TriMesh back = read_surface(folder / "s.vtp");
+  EXPECT_EQ(back.points, surface.points);
+  EXPECT_EQ(back.triangles, surface.triangles);
+  EXPECT_EQ(back.normals, surface.normals);
+  EXPECT_EQ(back.point_data, surface.point_data);
+  ASSERT_EQ(back.history.size(), 2u);
+  EXPECT_EQ(back.history[0].command, surface.history[0].command);
+  EXPECT_EQ(back.history[0].inputs[0].sha256, "ab12");
+}
+
+TEST(SurfaceFile, ContentHashIgnoresHistoryAndSeesPoints) {
+  const ScratchFolder folder;
+  TriMesh surface = some_surface();
+  write_surface(folder / "a.vtp", surface);
+  surface.history.clear();
+  write_surface(folder / "b.vtp", surface);
+  surface.points[2].x() += 1e-12;
+  write_surface(folder / "c.vtp", surface);
+  const auto sha = [&](const char* name) { return read_surface(folder / name).content_sha256; };
+  EXPECT_EQ(sha("a.vtp"), sha("b.vtp"));
+  EXPECT_NE(sha("a.vtp"), sha("c.vtp"));
+}
+
+TEST(SurfaceFile, PointSetAndPolylinesRoundTrip) {
+  const ScratchFolder folder;
+  TriMesh points;
+  points.points = {{1, 2, 3}, {4, 5, 6}};
+  write_surface(folder / "p.vtp", points);
+  EXPECT_EQ(read_surface(folder / "p.vtp").points, points.points);
+  EXPECT_TRUE(read_surface(folder / "p.vtp").triangles.empty());
+
+  const PolyLines lines = some_lines();
+  write_polylines(folder / "l.vtp", lines);
+  const PolyLines back = read_polylines(folder / "l.vtp");
+  EXPECT_EQ(back.points, lines.points);
+  EXPECT_EQ(back.lines, lines.lines);
+  EXPECT_EQ(back.line_names, lines.line_names);
+  EXPECT_EQ(back.point_data, lines.point_data);
+  EXPECT_EQ(back.point_vectors, lines.point_vectors);
+}
+
+TEST(MammogramFile, RoundTripIsExact) {
+  const ScratchFolder folder;
+  const Mammogram image = some_mammogram();
+  write_mammogram(folder / "m.vti", image);
+  const Mammogram back = read_mammogram(folder / "m.vti");
+  EXPECT_EQ(back.path, image.path);
+  EXPECT_EQ(back.thickness, image.thickness);
+  EXPECT_EQ(back.fibroglandular, image.fibroglandular);
+  EXPECT_EQ(back.pose.n, image.pose.n);
+  EXPECT_EQ(back.pose.e_v, image.pose.e_v);
+  EXPECT_EQ(back.pose.origin, image.pose.origin);
+  EXPECT_EQ(back.pixel, image.pixel);
+  EXPECT_EQ(back.view, "MLO");
+  EXPECT_EQ(back.side, Side::right);
+  EXPECT_EQ(back.width, 5);
+  EXPECT_EQ(back.height, 3);
+}
+
+TEST(MammogramFile, HungWithChestWallOutsideAndLateralOnTop) {
+  const HungImage left = hang(some_mammogram(Side::left));
+  const HungImage right = hang(some_mammogram(Side::right));
+  // Stored pixel (u=4, v=2) is the brightest: anterior, and inferior on the left side.
+  EXPECT_EQ(left.grey[14], 65535);
+  EXPECT_EQ(left.grey[0], 0);
+  EXPECT_EQ(right.grey[0], 65535);
+  EXPECT_EQ(right.grey[14], 0);
+}
+
+TEST(MammogramFile, PngIsSixteenBitGrey) {
+  const ScratchFolder folder;
+  write_mammogram_png(folder / "m.png", some_mammogram());
+  const std::string png = read_text(folder / "m.png");
+  ASSERT_GT(png.size(), 33u);
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_EQ(int(png[19]), 5);   // width
+  EXPECT_EQ(int(png[23]), 3);   // height
+  EXPECT_EQ(int(png[24]), 16);  // bits
+  EXPECT_EQ(int(png[25]), 0);   // grey
+}
+
+TEST(VtkFiles, NonFiniteValuesAreRefusedByPlace) {
+  const ScratchFolder folder;
+  TriMesh surface = some_surface();
+  surface.points[3].y() = std::numeric_limits<double>::quiet_NaN();
+  write_surface(folder / "s.vtp", surface);
+  try {
+    read_surface(folder / "s.vtp");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("Points, tuple 3"), std::string::npos) << error.what();
+  }
+  Mammogram image = some_mammogram();
+  image.thickness[7] = std::numeric_limits<float>::infinity();
+  write_mammogram(folder / "m.vti", image);
+  expect_input_error([&] { read_mammogram(folder / "m.vti"); });
+  PolyLines lines = some_lines();
+  lines.point_vectors["imaged"][5].z() = NAN;
+  write_polylines(folder / "l.vtp", lines);
+  expect_input_error([&] { read_polylines(folder / "l.vtp"); });
+}
+
+TEST(VtkFiles, ForeignFilesAreRefused) {
+  const ScratchFolder folder;
+  write_text(folder / "empty.vtp", "");
+  write_text(folder / "text.vtp", "a,b,c\n1,2,3\n");
+  write_mammogram(folder / "m.vti", some_mammogram());
+  write_surface(folder / "s.vtp", some_surface());
+  expect_input_error([&] { read_surface(folder / "absent.vtp"); });
+  expect_input_error([&] { read_surface(folder / "empty.vtp"); });
+  expect_input_error([&] { read_surface(folder / "text.vtp"); });
+  expect_input_error([&] { read_surface(folder / "m.vti"); });
+  expect_input_error([&] { read_mammogram(folder / "s.vtp"); });
+  expect_input_error([&] { read_polylines(folder / "s.vtp"); });
+}
+
+TEST(VtkFiles, CutFilesAreRefused) {
+  const ScratchFolder folder;
+  write_surface(folder / "s.vtp", some_surface());
+  write_polylines(folder / "l.vtp", some_lines());
+  write_mammogram(folder / "m.vti", some_mammogram());
+  expect_cuts_refused(folder / "s.vtp", [](const auto& file) { read_surface(file); });
+  expect_cuts_refused(folder / "l.vtp", [](const auto& file) { read_polylines(file); });
+  expect_cuts_refused(folder / "m.vti", [](const auto& file) { read_mammogram(file); });
+}
+
+TEST(VtkFiles, DamageNeverCrashes) {
+  const ScratchFolder folder;
+  write_surface(folder / "s.vtp", some_surface());
+  write_polylines(folder / "l.vtp", some_lines());
+  write_mammogram(folder / "m.vti", some_mammogram());
+  expect_damage_survived(folder / "s.vtp", [](const auto& file) { read_surface(file); });
+  expect_damage_survived(folder / "l.vtp", [](const auto& file) { read_polylines(file); });
+  expect_damage_survived(folder / "m.vti", [](const auto& file) { read_mammogram(file); });
+}
+
+TEST(VtkFiles, AFailedWriteLeavesTheOldFile) {
+  const ScratchFolder folder;
+  write_mammogram(folder / "m.vti", some_mammogram());
+  const std::string before = read_text(folder / "m.vti");
+  Mammogram broken = some_mammogram();
+  broken.path.pop_back();
+  EXPECT_THROW(write_mammogram(folder / "m.vti", broken), Error);
+  EXPECT_EQ(read_text(folder / "m.vti"), before);
+  EXPECT_THROW(write_surface(folder / "no" / "s.vtp", some_surface()), Error);
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    EXPECT_EQ(entry.path().filename(), "m.vti");
+  }
+}
