@@ -29,7 +29,7 @@ struct MechanicsOptions {
 struct SolveSummary {
   SolveRecord record;
   int newton_iterations = 0, factorisations = 0, steps = 0;
-  double residual = 0;          ///< relative to the load
+  double residual = 0;  ///< relative to the load
   double min_det_F = 0, max_volume_error = 0;
   long long unknowns = 0;
   Timer timer;
@@ -37,9 +37,9 @@ struct SolveSummary {
   bool converged() const { return record.status == "converged"; }
 };
 
-/// Solves for mesh.points under `gravity` (mm/s², LPS) from mesh.reference; nodal gravity forces are
-/// those of mesh.imaged. Fills pressure, det_F, solve. Not converged: status says so, no throw; the
-/// mesh then holds the last good state.
+/// Solves for mesh.points under `gravity` (mm/s², LPS) from mesh.reference; nodal gravity forces
+/// are those of mesh.imaged. Fills pressure, det_F, solve. Not converged: status says so, no throw;
+/// the mesh then holds the last good state.
 SolveSummary solve_forward(HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
                            Progress& progress = no_progress());
 

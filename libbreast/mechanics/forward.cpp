@@ -1,0 +1,97 @@
+#include <chrono>
+
+#include "core/error.hpp"
+#include "mechanics/mechanics.hpp"
+#include "mechanics/scene.hpp"
+#include "mechanics/solution.hpp"
+
+namespace breast {
+
+namespace {
+
+class ForwardSolve {
+ public:
+  ForwardSolve(HexMesh& mesh, const MechanicsOptions& options, Progress& progress)
+      : mesh_(mesh), scene_(mesh, options), progress_(progress) {}
+
+  SolveSummary run(const Vec3& gravity);
+
+ private:
+  double clock() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  NewtonResult attempt(ForwardProblem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
+                       SaddleState& state, int limit);
+
+  HexMesh& mesh_;
+  Scene scene_;
+  Progress& progress_;
+  SolveSummary summary_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+NewtonResult ForwardSolve::attempt(ForwardProblem& problem, SaddleSolver& solver,
+                                   SaddleMatrix& matrix, SaddleState& state, int limit) {
+  NewtonOptions newton_options;
+  newton_options.max_iterations = limit;
+  ++summary_.steps;
+  NewtonResult result = newton(problem, solver, matrix, scene_.walls(), nullptr, state,
+                               newton_options, [&](const NewtonIteration& iteration) {
+                                 record_iteration(summary_, summary_.steps, iteration, clock());
+                                 progress_.update("forward", -1,
+                                                  message("iteration ", summary_.newton_iterations,
+                                                          ", residual ", iteration.residual));
+                               });
+  summary_.factorisations += result.factorisations;
+  return result;
+}
+
+SolveSummary ForwardSolve::run(const Vec3& gravity) {
+  const Eigen::VectorXd reference = flatten(mesh_.reference);
+  const Eigen::VectorXd load = scene_.gravity_force(gravity);
+  ForwardProblem problem(scene_, reference, load);
+  SaddleState state{reference, scene_.assembly().rest_pressure()};
+  NewtonResult result;
+  {
+    Timer::Scope phase(summary_.timer, "solve");
+    SaddleMatrix matrix = problem.make_matrix();
+    SaddleSolver solver(problem.pattern());
+    LoadPath path;
+    while (!path.finished()) {
+      problem.set_load(path.next() * load);
+      SaddleState trial = state;
+      result = attempt(problem, solver, matrix, trial, 25);
+      if (result.converged) {
+        state = std::move(trial);
+        path.succeed();
+      } else if (!path.fail()) {
+        summary_.record.reason =
+            message("stopped at ", 100 * path.done, " % of the load: ", result.reason);
+        break;
+      }
+    }
+    if (result.indefinite > 0) {
+      summary_.doubts.push_back(message("the tangent was indefinite in ", result.indefinite,
+                                        " iterations: the breast may buckle"));
+    }
+  }
+  summary_.record.status = result.converged ? "converged" : "not_converged";
+  summary_.residual = result.residual;
+  summary_.min_det_F = result.forces.min_det_F;
+  store_state(mesh_, scene_, reference, state, summary_);
+  mesh_.gravity = gravity;
+  judge(summary_, scene_, reference, state);
+  return summary_;
+}
+
+}  // namespace
+
+SolveSummary solve_forward(HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
+                           Progress& progress) {
+  if (mesh.reference.size() != mesh.points.size()) {
+    throw input_error("mesh: no stress-free reference shape; run backward first");
+  }
+  return ForwardSolve(mesh, options, progress).run(gravity);
+}
+
+}  // namespace breast
