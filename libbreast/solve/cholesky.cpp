@@ -6,13 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/parallel.hpp"
-
-extern "C" {
-// Weak: present only when the BLAS is OpenBLAS.
-void openblas_set_num_threads(int) __attribute__((weak));
-char* openblas_get_config() __attribute__((weak));
-}
+#include "solve/blas.hpp"
 
 namespace breast {
 
@@ -80,7 +74,7 @@ Cholesky::Cholesky(const NodePattern& pattern) : impl_(std::make_unique<Impl>())
   common.nmethods = 1;
   common.postorder = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
-  if (openblas_set_num_threads != nullptr) openblas_set_num_threads(threads());
+  prepare_blas();
 
   impl_->starts = pattern.column_start();
   impl_->rows = pattern.row_index();
@@ -140,10 +134,6 @@ double Cholesky::factor_entries() const {
 }
 double Cholesky::factor_gflop() const {
   return impl_->common.fl * 1e-9;
-}
-
-std::string blas_name() {
-  return openblas_get_config != nullptr ? openblas_get_config() : "reference BLAS";
 }
 
 }  // namespace breast

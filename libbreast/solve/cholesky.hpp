@@ -29,7 +29,4 @@ class Cholesky {
   std::unique_ptr<Impl> impl_;
 };
 
-/// "OpenBLAS 0.3.21 ..." or "reference BLAS": for reports.
-std::string blas_name();
-
 }  // namespace breast
