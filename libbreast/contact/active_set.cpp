@@ -38,7 +38,8 @@ struct ActiveSet::Sweep {
   double free_norm = 0, scale = 0;  ///< µN: unbalanced force; reaction or load it is compared with
   double worst_gap = 0;             ///< mm, |distance| over touching nodes
   double volume_error = 0;
-  Eigen::VectorXd free;  ///< residual without reactions and touching normals
+  Eigen::VectorXd free;      ///< residual without reactions and touching normals
+  Eigen::VectorXd gradient;  ///< of the augmented energy, likewise
   double relative() const { return free_norm / scale; }
 };
 
@@ -53,19 +54,19 @@ ActiveSet::Sweep ActiveSet::measure(const PlatePair& plates, const BodyState& st
                                     const BodyForces& forces) const {
   Sweep sweep;
   sweep.free = forces.residual;
-  const std::vector<char>& fixed = body_.fixed();
-  for (Eigen::Index i = 0; i < sweep.free.size(); ++i) {
-    if (fixed[std::size_t(i)]) sweep.free[i] = 0;
-  }
+  sweep.gradient = forces.augmented.size() > 0 ? forces.augmented : forces.residual;
+  body_.remove_held(sweep.free);
+  body_.remove_held(sweep.gradient);
   double reaction = 0;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     if (touching_[c] < 0) continue;
+    const Eigen::Index at = 3 * candidates_[c];
     const Gap gap = plates.plate(touching_[c]).gap(node_vector(state.x, candidates_[c]));
     const Vec3 normal = gap.gradient.normalized();
-    auto force = sweep.free.segment<3>(3 * candidates_[c]);
-    const double pushed = force.dot(normal);
+    const double pushed = sweep.free.segment<3>(at).dot(normal);
     reaction += pushed * pushed;
-    force -= pushed * normal;
+    sweep.free.segment<3>(at) -= pushed * normal;
+    sweep.gradient.segment<3>(at) -= sweep.gradient.segment<3>(at).dot(normal) * normal;
     sweep.worst_gap = std::max(sweep.worst_gap, std::abs(gap.distance()));
   }
   sweep.free_norm = sweep.free.norm();
@@ -166,15 +167,14 @@ bool ActiveSet::newton_step(const PlatePair& plates, const Sweep& now, BodyState
     result.outcome = StepOutcome::singular;
     return false;
   }
-  return line_search(plates, now, increment, state, result);
+  return line_search(plates, now, increment, std::abs(solve.slope), state, result);
 }
 
 bool ActiveSet::line_search(const PlatePair& plates, const Sweep& now, const BodyState& increment,
-                            BodyState& state, StepResult& result) {
+                            double slope, BodyState& state, StepResult& result) {
   const BodyState start = state;
   BodyForces trial_forces;
   double alpha = 1;
-  const double slope = std::abs(increment.x.dot(now.free));
   // While nodes are being brought onto the plate the balance is bound to get worse: any admissible
   // step is then taken. Where the edge becomes straight that can alternate for ever; later
   // iterations must therefore reduce imbalance and gap together.
@@ -189,7 +189,7 @@ bool ActiveSet::line_search(const PlatePair& plates, const Sweep& now, const Bod
     }
     const Sweep trial = measure(plates, state, trial_forces);
     const bool flatter =
-        result.iterations < free_moves && std::abs(increment.x.dot(trial.free)) <= 0.8 * slope;
+        result.iterations < free_moves && std::abs(increment.x.dot(trial.gradient)) <= 0.8 * slope;
     const bool accepted = moving || flatter || merit(trial) < merit(now) ||
                           trial.relative() < tolerance_ || halving == most_halvings;
     if (!accepted) continue;

@@ -19,6 +19,9 @@ struct BodyState {
 /// at free nodes in equilibrium, the reaction at fixed nodes, the plate's force at touching nodes.
 struct BodyForces {
   Eigen::VectorXd residual;
+  /// Gradient of the energy whose tangent is solved with, the volume error penalised; empty when it
+  /// is the residual itself.
+  Eigen::VectorXd augmented;
   double min_det_F = 1, max_det_F = 1;
   double max_volume_error = 0;  ///< worst |mean det F − 1| over elements
 };
@@ -34,16 +37,19 @@ struct NormalConstraint {
 struct BodySolve {
   bool ok = false;
   bool shifted = false;  ///< the constrained tangent was indefinite and was shifted to be solved
+  double slope = 0;      ///< δxᵀ K δx with the tangent solved with: the descent promised
 };
 
 class ContactBody {
  public:
   virtual ~ContactBody() = default;
   virtual int nodes() const = 0;
-  /// Whether degree of freedom 3·node + i is held (chest wall, fixed cut).
-  virtual const std::vector<char>& fixed() const = 0;
+  /// Sets the held components (chest wall, fixed cut) of a vector of 3 per node to zero.
+  virtual void remove_held(Eigen::VectorXd& v) const = 0;
   /// Size of the external load, µN: the scale of the residual while no plate touches.
   virtual double load_norm() const = 0;
+  /// Sum of the external forces on the body, µN.
+  virtual Vec3 weight() const = 0;
   /// Forces of a state. False when the state is inadmissible (a folded element, a law out of
   /// range).
   virtual bool forces(const BodyState& state, BodyForces& forces) = 0;

@@ -18,7 +18,7 @@ namespace {
 /// matrix.
 class QuadraticBody : public ContactBody {
  public:
-  QuadraticBody(int nodes, unsigned seed) : nodes_(nodes), fixed_(3 * nodes, 0) {
+  QuadraticBody(int nodes, unsigned seed) : nodes_(nodes) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(-1, 1);
     const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(
@@ -29,11 +29,11 @@ class QuadraticBody : public ContactBody {
       rest.segment<3>(3 * i) =
           Vec3(10 * uniform(random), -30 - 20 * uniform(random), 15 * uniform(random));
     }
-    fixed_[0] = fixed_[1] = fixed_[2] = 1;
   }
   int nodes() const override { return nodes_; }
-  const std::vector<char>& fixed() const override { return fixed_; }
+  void remove_held(Eigen::VectorXd& v) const override { v.head<3>().setZero(); }
   double load_norm() const override { return 1; }
+  Vec3 weight() const override { return Vec3::Zero(); }
   bool forces(const BodyState& state, BodyForces& forces) override {
     forces.residual = stiffness * (state.x - rest);
     return true;
@@ -60,7 +60,7 @@ class QuadraticBody : public ContactBody {
     const Eigen::MatrixXd q = held.householderQr().householderQ();
     const Eigen::MatrixXd z = q.rightCols(n - held.cols());
     Eigen::MatrixXd reduced = z.transpose() * tangent_ * z;
-    BodySolve result{true, false};
+    BodySolve result{true, false, 0};
     for (double shift = 1; Eigen::LLT<Eigen::MatrixXd>(reduced).info() != Eigen::Success;
          shift *= 4) {
       reduced.diagonal().array() += shift;
@@ -69,6 +69,7 @@ class QuadraticBody : public ContactBody {
     const Eigen::VectorXd right = -z.transpose() * (residual + tangent_ * particular);
     increment.x = particular + z * Eigen::LLT<Eigen::MatrixXd>(reduced).solve(right);
     increment.p.resize(0);
+    result.slope = increment.x.dot(tangent_ * increment.x);
     return result;
   }
 
@@ -77,7 +78,6 @@ class QuadraticBody : public ContactBody {
 
  private:
   int nodes_;
-  std::vector<char> fixed_;
   Eigen::MatrixXd tangent_;
 };
 

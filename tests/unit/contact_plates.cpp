@@ -5,7 +5,7 @@
 
 #include "contact/plates.hpp"
 #include "core/error.hpp"
-#include "fixtures/block.hpp"
+#include "fixtures/standing_block.hpp"
 
 using namespace breast;
 
@@ -76,7 +76,7 @@ TEST(Plates, PaddleAndDetectorFaceEachOther) {
 
 TEST(Plates, PlacementMeasuresStandoffAndThickness) {
   // 60 deep (anterior), 40 high, 50 wide; wall at y = 0.
-  const HexMesh mesh = fixtures::block({50, 60, 40}, {5, 6, 4});
+  const HexMesh mesh = fixtures::standing_block({50, 60, 40}, {5, 6, 4});
   PlateOptions options;
   options.standoff = 25;
   PlatePair plates = place_plates(mesh, mesh.points, view_pose(Side::left, 0), options);
@@ -95,7 +95,7 @@ TEST(Plates, PlacementMeasuresStandoffAndThickness) {
 
 TEST(Plates, FootprintIsCutAtTheEdgeNotAtNodes) {
   // A wedge: height 60 at the wall falling to 20 at the front; coarse elements.
-  HexMesh mesh = fixtures::block({50, 60, 60}, {2, 2, 2});
+  HexMesh mesh = fixtures::standing_block({50, 60, 60}, {2, 2, 2});
   for (Vec3& x : mesh.points) {
     const double shrink = 1 - (-x.y() / 60) * (2.0 / 3);
     x.z() = 30 + (x.z() - 30) * shrink;
@@ -113,7 +113,7 @@ TEST(Plates, FootprintIsCutAtTheEdgeNotAtNodes) {
 }
 
 TEST(Plates, DetectorShareMovesOnePlateOnly) {
-  const HexMesh mesh = fixtures::block({50, 60, 40}, {2, 2, 2});
+  const HexMesh mesh = fixtures::standing_block({50, 60, 40}, {2, 2, 2});
   PlateOptions options;
   options.detector_share = 0;
   PlatePair plates = place_plates(mesh, mesh.points, view_pose(Side::left, 0), options);
@@ -124,7 +124,7 @@ TEST(Plates, DetectorShareMovesOnePlateOnly) {
 }
 
 TEST(Plates, MissingTheBreastIsAnInputError) {
-  const HexMesh mesh = fixtures::block({50, 60, 40}, {2, 2, 2});
+  const HexMesh mesh = fixtures::standing_block({50, 60, 40}, {2, 2, 2});
   PlateOptions options;
   options.standoff = 80;
   try {

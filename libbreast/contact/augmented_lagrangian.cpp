@@ -1,0 +1,178 @@
+#include "contact/augmented_lagrangian.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace breast {
+
+namespace {
+constexpr int most_halvings = 10;
+}
+
+/// Nearer plate, its gap, and the force μN per unit gap gradient.
+struct AugmentedLagrangian::Contact {
+  int plate = 0;
+  Gap gap;
+  double force = 0;
+};
+
+struct AugmentedLagrangian::Balance {
+  Eigen::VectorXd unbalanced;  ///< residual minus plate forces, zero where held
+  Eigen::VectorXd gradient;    ///< of the augmented energy, likewise
+  double scale = 1;
+  double relative() const { return unbalanced.norm() / scale; }
+};
+
+AugmentedLagrangian::AugmentedLagrangian(ContactBody& body, std::vector<int> candidates,
+                                         AugmentedLagrangianOptions options)
+    : body_(body),
+      candidates_(std::move(candidates)),
+      options_(options),
+      penalty_(options.penalty),
+      touching_(candidates_.size(), -1),
+      multipliers_(candidates_.size(), 0),
+      converged_(candidates_.size(), 0) {}
+
+AugmentedLagrangian::Contact AugmentedLagrangian::contact(const PlatePair& plates,
+                                                          const Eigen::VectorXd& x,
+                                                          std::size_t candidate) const {
+  const Vec3 point = x.segment<3>(3 * candidates_[candidate]);
+  Contact contact;
+  // A node keeps to the plate that already pushes it.
+  contact.plate = multipliers_[candidate] > 0 && touching_[candidate] >= 0 ? touching_[candidate]
+                                                                           : plates.nearer(point);
+  contact.gap = plates.plate(contact.plate).gap(point);
+  contact.force = std::max(0.0, multipliers_[candidate] - penalty_ * contact.gap.value);
+  return contact;
+}
+
+AugmentedLagrangian::Balance AugmentedLagrangian::balance(const PlatePair& plates,
+                                                          const BodyState& state,
+                                                          const BodyForces& forces) const {
+  Balance balance;
+  balance.unbalanced = forces.residual;
+  balance.gradient = forces.augmented.size() > 0 ? forces.augmented : forces.residual;
+  double pushed = 0;
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    const Contact at = contact(plates, state.x, c);
+    if (at.force > 0) {
+      balance.unbalanced.segment<3>(3 * candidates_[c]) -= at.force * at.gap.gradient;
+      balance.gradient.segment<3>(3 * candidates_[c]) -= at.force * at.gap.gradient;
+      pushed += at.force * at.force;
+    }
+  }
+  body_.remove_held(balance.unbalanced);
+  body_.remove_held(balance.gradient);
+  balance.scale = std::max({std::sqrt(pushed), body_.load_norm(), 1e-30});
+  return balance;
+}
+
+bool AugmentedLagrangian::equilibrate(const PlatePair& plates, BodyState& state, double tolerance,
+                                      StepResult& result) {
+  for (int k = 0; k < options_.most_iterations; ++k) {
+    const Balance now = balance(plates, state, result.forces);
+    result.residual = now.relative();
+    if (now.relative() <= tolerance && result.forces.max_volume_error <= 1e-8) return true;
+    if (!body_.assemble(state)) break;
+    for (std::size_t c = 0; c < candidates_.size(); ++c) {
+      const Contact at = contact(plates, state.x, c);
+      if (!(at.force > 0)) continue;
+      body_.add_to_tangent(
+          candidates_[c],
+          penalty_ * at.gap.gradient * at.gap.gradient.transpose() - at.force * at.gap.hessian);
+    }
+    BodyState increment;
+    const BodySolve solve = body_.solve({}, now.unbalanced, increment);
+    if (solve.shifted) ++result.shifted;
+    if (!solve.ok || !increment.x.allFinite()) {
+      result.outcome = StepOutcome::singular;
+      return false;
+    }
+    ++result.iterations;
+    const BodyState start = state;
+    bool accepted = false;
+    double alpha = 1;
+    for (int halving = 0; halving <= most_halvings && !accepted; ++halving, alpha *= 0.5) {
+      state.x = start.x + alpha * increment.x;
+      state.p = start.p + alpha * increment.p;
+      BodyForces trial;
+      if (!body_.forces(state, trial)) {
+        if (result.failed_trial.size() == 0) result.failed_trial = state.x;
+        continue;
+      }
+      const Balance there = balance(plates, state, trial);
+      accepted = there.relative() < now.relative() || there.relative() < tolerance ||
+                 std::abs(increment.x.dot(there.gradient)) <= 0.8 * std::abs(solve.slope);
+      if (accepted || halving == most_halvings) {
+        accepted = true;
+        result.forces = std::move(trial);
+        result.history.push_back(
+            {there.relative(), result.forces.min_det_F, result.forces.max_det_F, alpha});
+      }
+    }
+    if (!accepted) {
+      result.outcome = StepOutcome::folded;
+      return false;
+    }
+  }
+  result.outcome = StepOutcome::too_many_iterations;
+  return false;
+}
+
+double AugmentedLagrangian::update_multipliers(const PlatePair& plates, const BodyState& state) {
+  double worst = 0;
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    const Contact at = contact(plates, state.x, c);
+    const double gap = at.gap.distance();
+    worst = std::max(worst, at.force > 0 ? std::abs(gap) : -gap);
+    multipliers_[c] = at.force;
+    touching_[c] = static_cast<signed char>(at.force > 0 ? at.plate : -1);
+  }
+  return worst;
+}
+
+StepResult AugmentedLagrangian::solve(const PlatePair& plates, BodyState& state, double tolerance) {
+  StepResult result;
+  if (!body_.forces(state, result.forces)) {
+    result.outcome = StepOutcome::folded;
+    result.failed_trial = state.x;
+    return result;
+  }
+  double last_gap = 1e30;
+  for (int update = 0; update < options_.most_updates; ++update) {
+    // Early multipliers are rough; their equilibria need not be sharp.
+    const double sharp = std::max(tolerance, update < 2 ? 1e-4 : 1e-6);
+    if (!equilibrate(plates, state, sharp, result)) return result;
+    const double gap = update_multipliers(plates, state);
+    if (gap <= options_.gap_tolerance) {
+      if (!equilibrate(plates, state, tolerance, result)) return result;
+      result.worst_penetration = update_multipliers(plates, state);
+      if (result.worst_penetration <= 2 * options_.gap_tolerance) {
+        converged_ = multipliers_;
+        return result;
+      }
+    }
+    if (gap > 0.25 * last_gap) penalty_ *= 3;
+    last_gap = gap;
+  }
+  result.outcome = StepOutcome::too_many_iterations;
+  return result;
+}
+
+std::vector<double> AugmentedLagrangian::normal_forces(const PlatePair& plates,
+                                                       const BodyState& state,
+                                                       const BodyForces&) const {
+  std::vector<double> pushed(candidates_.size(), 0);
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    const Contact at = contact(plates, state.x, c);
+    pushed[c] = multipliers_[c] * at.gap.gradient.norm();
+  }
+  return pushed;
+}
+
+void AugmentedLagrangian::set_touching(std::vector<signed char> touching) {
+  touching_ = std::move(touching);
+  multipliers_ = converged_;
+}
+
+}  // namespace breast

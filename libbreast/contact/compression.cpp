@@ -1,0 +1,241 @@
+#include "contact/compression.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "contact/active_set.hpp"
+#include "contact/augmented_lagrangian.hpp"
+#include "contact/results.hpp"
+#include "contact/saddle_body.hpp"
+#include "contact/skin_area.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "mechanics/scene.hpp"
+#include "mechanics/solution.hpp"
+
+namespace breast {
+
+namespace {
+
+/// Penalty of the augmented Lagrangian in units of shear modulus times element size.
+constexpr double penalty_factor = 10;
+
+class Compression {
+ public:
+  Compression(HexMesh& mesh, const CompressionOptions& options, const MechanicsOptions& mechanics,
+              Progress& progress)
+      : mesh_(mesh),
+        options_(options),
+        progress_(progress),
+        scene_(mesh, mechanics),
+        reference_(flatten(mesh.reference)),
+        load_(scene_.gravity_force(options.gravity)),
+        problem_(scene_, reference_, load_),
+        solver_(problem_.pattern()) {}
+
+  CompressionSummary run();
+
+ private:
+  bool load_with_gravity(SaddleState& state);
+  std::vector<int> candidates() const;
+  Vec3 weight() const;
+  std::unique_ptr<ContactSolver> contact_solver(ContactBody& body) const;
+  CompressionTarget target() const;
+  void close_plates(SaddleState& state);
+  void record_path();
+  void conclude(const BodyState& state);
+  double clock() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  HexMesh& mesh_;
+  const CompressionOptions& options_;
+  Progress& progress_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Scene scene_;
+  Eigen::VectorXd reference_, load_;
+  ForwardProblem problem_;
+  SaddleSolver solver_;
+  CompressionSummary summary_;
+};
+
+/// Gravity alone, in load steps when one does not converge.
+bool Compression::load_with_gravity(SaddleState& state) {
+  Timer::Scope phase(summary_.timer, "gravity");
+  SaddleMatrix matrix = problem_.make_matrix();
+  LoadPath path;
+  while (!path.finished()) {
+    problem_.set_load(path.next() * load_);
+    SaddleState trial = state;
+    ++summary_.steps;
+    const NewtonResult result =
+        newton(problem_, solver_, matrix, scene_.walls(), nullptr, trial, {},
+               [&](const NewtonIteration& iteration) {
+                 record_iteration(summary_, summary_.steps, iteration, clock());
+                 progress_.update("gravity", -1, message("residual ", iteration.residual));
+               });
+    if (result.converged) {
+      state = std::move(trial);
+      path.succeed();
+    } else if (!path.fail()) {
+      summary_.record.status = "not_converged";
+      summary_.record.reason = message("gravity before compression stopped at ", 100 * path.done,
+                                       " % of the load: ", result.reason);
+      return false;
+    }
+  }
+  return true;
+}
+
+Vec3 Compression::weight() const {
+  Vec3 sum = Vec3::Zero();
+  for (Eigen::Index i = 0; i < load_.size(); i += 3) sum += load_.segment<3>(i);
+  return sum;
+}
+
+/// Skin nodes that nothing holds.
+std::vector<int> Compression::candidates() const {
+  std::vector<int> list;
+  for (const int node : nodes_of(mesh_, mesh_.skin_faces)) {
+    if (scene_.walls().at(node) == nullptr) list.push_back(node);
+  }
+  return list;
+}
+
+std::unique_ptr<ContactSolver> Compression::contact_solver(ContactBody& body) const {
+  if (options_.method == ContactMethod::active_set) {
+    return std::make_unique<ActiveSet>(body, candidates());
+  }
+  double stiffest = 0, volume = 0;
+  for (const double v : scene_.assembly().imaged_volume()) volume += v;
+  for (const Tissue tissue : mesh_.tissue) {
+    stiffest = std::max(stiffest, scene_.options().materials.law(tissue).shear_modulus());
+  }
+  AugmentedLagrangianOptions al;
+  al.penalty = penalty_factor * stiffest * std::cbrt(volume / mesh_.elements());
+  return std::make_unique<AugmentedLagrangian>(body, candidates(), al);
+}
+
+CompressionTarget Compression::target() const {
+  const double initial = summary_.plates.initial_thickness;
+  switch (options_.stop_at) {
+    case StopAt::thickness:
+      return {TargetKind::thickness, options_.target};
+    case StopAt::reduction:
+      return {TargetKind::thickness, initial * (1 - options_.target / 100)};
+    case StopAt::force:
+      return {TargetKind::force, options_.target};
+    case StopAt::pressure:
+      return {TargetKind::pressure, options_.target};
+  }
+  return {};
+}
+
+void Compression::close_plates(SaddleState& state) {
+  SaddleBody body(problem_, solver_, scene_.walls(), weight());
+  const std::unique_ptr<ContactSolver> contact = contact_solver(body);
+  BodyState at{std::move(state.u), std::move(state.p)};
+  const auto area = [&](const BodyState& s) {
+    const std::vector<double> all = skin_area_per_node(mesh_, s.x);
+    std::vector<double> own;
+    for (const int node : contact->candidates()) own.push_back(all[std::size_t(node)]);
+    return own;
+  };
+  {
+    Timer::Scope phase(summary_.timer, "contact");
+    summary_.path =
+        follow_path(*contact, summary_.plates, at, target(), area, options_.path, progress_);
+  }
+  record_path();
+  if (summary_.path.points.empty()) {
+    summary_.record.status = "not_converged";
+    summary_.record.reason = message("no equilibrium with the plates just touching: ",
+                                     describe(summary_.path.last_failure));
+    return;
+  }
+  Timer::Scope phase(summary_.timer, "results");
+  record_compression(mesh_, options_, at, body, *contact, summary_);
+  mesh_.det_F = scene_.assembly().mean_det_f(reference_, at.x);
+  mesh_.pressure = scene_.assembly().mean_pressure(at.p);
+  conclude(at);
+}
+
+void Compression::record_path() {
+  const PathResult& path = summary_.path;
+  for (std::size_t i = 0; i < path.newton.size(); ++i) {
+    const NewtonRecord& newton = path.newton[i];
+    IterationRecord record;
+    record.step = summary_.steps + path.newton_step[i];
+    record.iteration = ++summary_.newton_iterations;
+    record.residual = newton.residual;
+    record.min_det_F = newton.min_det_F;
+    record.max_det_F = newton.max_det_F;
+    record.step_length = newton.step_length;
+    record.seconds = clock();
+    summary_.record.iterations.push_back(record);
+  }
+  summary_.steps += path.solves;
+  summary_.residual = path.final_step.residual;
+}
+
+void Compression::conclude(const BodyState& state) {
+  const PathResult& path = summary_.path;
+  summary_.record.status = path.reached ? "converged" : "stopped_early";
+  if (!path.reached) {
+    summary_.record.reason =
+        message("stopped at thickness ", summary_.thickness_mm, " mm (", summary_.reduction_percent,
+                " % reduction): the step to ", path.failed_thickness, " mm fails, ",
+                describe(path.last_failure), "; ",
+                explain_failure(mesh_, state.x, path.failed_trial, summary_.plates));
+  }
+  summary_.min_det_F = path.final_step.forces.min_det_F;
+  summary_.max_volume_error = path.final_step.forces.max_volume_error;
+  summary_.unknowns = scene_.unknowns();
+  if (path.indefinite > 0) {
+    summary_.doubts.push_back(message(
+        "the tangent was indefinite in ", path.indefinite, " iterations, first at thickness ",
+        path.first_indefinite_thickness, " mm: the breast slips or buckles there"));
+  }
+  if (summary_.reduction_percent > 40 && scene_.options().materials.name == "seed2008") {
+    summary_.doubts.push_back(
+        "the Table II laws stiffen beyond 40 % reduction to forces no patient bears");
+  }
+}
+
+CompressionSummary Compression::run() {
+  SaddleState state{reference_, scene_.assembly().rest_pressure()};
+  if (load_with_gravity(state)) {
+    summary_.plates = place_plates(mesh_, unflatten(state.u),
+                                   view_pose(mesh_.side, options_.angle_deg), options_.plates);
+    const double initial = summary_.plates.initial_thickness;
+    progress_.note(message("T0 ", initial, " mm, stand-off ", options_.plates.standoff,
+                           " mm, edge radius ", options_.plates.edge_radius, " mm"));
+    if (options_.stop_at == StopAt::thickness && !(options_.target < initial)) {
+      throw input_error("thickness ", options_.target, " mm: the breast is only ", initial,
+                        " mm thick between the plates; give less");
+    }
+    close_plates(state);
+  }
+  summary_.factorisations = solver_.factorisations();
+  mesh_.solve = summary_.record;
+  return std::move(summary_);
+}
+
+}  // namespace
+
+CompressionSummary compress(HexMesh& mesh, const CompressionOptions& options,
+                            const MechanicsOptions& mechanics, Progress& progress) {
+  if (mesh.reference.size() != mesh.points.size()) {
+    throw input_error("mesh: no stress-free reference shape; run backward first");
+  }
+  if (!(options.target > 0)) {
+    throw input_error("compression target ", options.target, ": must be above 0");
+  }
+  if (options.stop_at == StopAt::reduction && !(options.target < 100)) {
+    throw input_error("reduction ", options.target, " %: must be below 100");
+  }
+  return Compression(mesh, options, mechanics, progress).run();
+}
+
+}  // namespace breast

@@ -1,0 +1,62 @@
+// Compression of a breast between two plates: gravity first, then the plates from just touching to
+// the target. See methods in docs; equations (7)–(8) of the paper.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact/deformation.hpp"
+#include "contact/path.hpp"
+#include "contact/plates.hpp"
+#include "core/progress.hpp"
+#include "core/report.hpp"
+#include "mechanics/mechanics.hpp"
+
+namespace breast {
+
+enum class StopAt { thickness, reduction, force, pressure };
+enum class ContactMethod { active_set, augmented_lagrangian };
+
+struct CompressionOptions {
+  std::string view = "CC";
+  double angle_deg = 0;  ///< beam angle θ
+  StopAt stop_at = StopAt::reduction;
+  double target = 50;  ///< mm, %, N or kPa
+  PlateOptions plates;
+  Vec3 gravity{0, 0, -9810};  ///< mm/s², LPS
+  ContactMethod method = ContactMethod::active_set;
+  PathOptions path;
+};
+
+struct CompressionSummary : SolveSummary {
+  PlatePair plates;
+  PathResult path;
+  double thickness_mm = 0, reduction_percent = 0, initial_thickness_mm = 0;
+  /// |plates + weight + chest wall + cut| over the larger of paddle force and weight.
+  double force_balance = 0;
+  Vec3 wall_reaction_N{0, 0, 0};  ///< of chest wall and held cut on the body
+  double weight_N = 0;
+  std::map<Tissue, StrainRange> strains;
+  std::vector<double> profile_depth_mm, profile_thickness_mm;  ///< from the plate edge forwards
+  std::vector<std::string> judgement;  ///< against clinical ranges, in words
+};
+
+/// Compresses mesh.reference; sets mesh.points, pressure, det_F, contact, contact_pressure,
+/// gravity, solve. A path that stops early leaves its last equilibrium with status "stopped_early"
+/// and the reason; when gravity alone does not converge the status is "not_converged". Throws Error
+/// (input) when the plates miss the breast or an option is out of range.
+CompressionSummary compress(HexMesh& mesh, const CompressionOptions& options,
+                            const MechanicsOptions& mechanics, Progress& progress = no_progress());
+
+/// Adds compression's own keys to those of the mechanics report.
+void write_report(const CompressionSummary& summary, const HexMesh& mesh,
+                  const MechanicsOptions& mechanics, Report& report);
+
+/// What a mammography physicist would say of force (N), mean pressure (kPa), contact area (cm²) of
+/// the paddle, thickness (mm) and reduction (%), against published ranges.
+std::vector<std::string> judge_compression(double force_N, double mean_kPa, double area_cm2,
+                                           double thickness_mm, double reduction_percent);
+
+}  // namespace breast

@@ -1,0 +1,51 @@
+#include "contact/compression.hpp"
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+void write_report(const CompressionSummary& summary, const HexMesh& mesh,
+                  const MechanicsOptions& mechanics, Report& report) {
+  write_report(static_cast<const SolveSummary&>(summary), mesh, mechanics, report);
+  report.set("indefinite_iterations", summary.path.indefinite);
+  report.set("failed_steps", summary.path.failures);
+  if (!mesh.contact || summary.path.points.empty()) return;
+  const ContactRecord& contact = *mesh.contact;
+  report.set("thickness_mm", contact.thickness_mm);
+  report.set("initial_thickness_mm", contact.initial_thickness_mm);
+  report.set("reduction_percent", contact.reduction_percent);
+  report.set("standoff_mm", contact.standoff_mm);
+  report.set("edge_radius_mm", contact.plates[0].edge_radius);
+  report.set("view", contact.view);
+  report.set("angle_deg", contact.angle_deg);
+  double worst = 0;
+  for (const PlateRecord& plate : contact.plates) {
+    const std::string key = "plates/" + plate.name + "/";
+    report.set(key + "force_N", plate.force_N);
+    report.set(key + "area_cm2", plate.area_cm2);
+    report.set(key + "mean_pressure_kPa", plate.mean_kPa);
+    report.set(key + "peak_pressure_kPa", plate.peak_kPa);
+    report.set(key + "worst_gap_mm", plate.worst_gap_mm);
+    worst = std::max(worst, plate.worst_gap_mm);
+  }
+  report.set("force_N", contact.plates[0].force_N);
+  report.set("pressure_kPa", contact.plates[0].mean_kPa);
+  report.set("area_cm2", contact.plates[0].area_cm2);
+  report.set("worst_gap_mm", worst);
+  report.set("force_balance", summary.force_balance);
+  report.set("wall_reaction_N", summary.wall_reaction_N);
+  report.set("weight_N", summary.weight_N);
+  for (const auto& [tissue, range] : summary.strains) {
+    const std::string key = "strain/" + std::string(tissue_name(tissue)) + "/";
+    report.set(key + "min_stretch", range.min_stretch);
+    report.set(key + "max_stretch", range.max_stretch);
+    report.set(key + "min_det_F", range.min_det_F);
+    report.set(key + "max_det_F", range.max_det_F);
+  }
+  report.set("profile/depth_mm", summary.profile_depth_mm);
+  report.set("profile/thickness_mm", summary.profile_thickness_mm);
+  report.set("path/thickness_mm", contact.path_thickness_mm);
+  report.set("path/force_N", contact.path_force_N);
+  for (const std::string& line : summary.judgement) report.append("judgement", line);
+}
+
+}  // namespace breast

@@ -1,0 +1,66 @@
+#include "contact/skin_area.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesh/shape.hpp"
+
+namespace breast {
+
+namespace {
+struct QuadPoint {
+  double weight;
+  QuadShape shape;
+};
+/// 3×3 Gauss points: exact areas of flat faces of both orders.
+std::vector<QuadPoint> quad_rule(int order) {
+  const double s = std::sqrt(0.6), w[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9}, at[3] = {-s, 0, s};
+  std::vector<QuadPoint> rule;
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) rule.push_back({w[i] * w[j], quad_shape(order, {at[i], at[j]})});
+  }
+  return rule;
+}
+}  // namespace
+
+std::vector<double> skin_area_per_node(const HexMesh& mesh, const Eigen::VectorXd& x) {
+  std::vector<double> area(std::size_t(mesh.nodes()), 0);
+  const std::vector<QuadPoint> rule = quad_rule(mesh.order);
+  for (const Face& face : mesh.skin_faces) {
+    const std::vector<int> nodes = face_nodes(mesh, face);
+    for (const QuadPoint& point : rule) {
+      Vec3 a1 = Vec3::Zero(), a2 = Vec3::Zero();
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const Vec3 position = x.segment<3>(3 * nodes[k]);
+        a1 += point.shape.gradients(0, Eigen::Index(k)) * position;
+        a2 += point.shape.gradients(1, Eigen::Index(k)) * position;
+      }
+      const double dA = point.weight * a1.cross(a2).norm();
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        area[std::size_t(nodes[k])] += dA * point.shape.values[Eigen::Index(k)];
+      }
+    }
+  }
+  return area;
+}
+
+double thickness_at(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& plate, double a) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Face& face : mesh.skin_faces) {
+    const std::vector<int> nodes = face_nodes(mesh, face);
+    for (int c = 0; c < 4; ++c) {
+      const Vec3 here = x.segment<3>(3 * nodes[std::size_t(c)]);
+      const Vec3 next = x.segment<3>(3 * nodes[std::size_t((c + 1) % 4)]);
+      const double p = here.dot(plate.anterior) - a, q = next.dot(plate.anterior) - a;
+      if ((p < 0) == (q < 0)) continue;
+      const double h = (here + p / (p - q) * (next - here)).dot(plate.n);
+      low = std::min(low, h);
+      high = std::max(high, h);
+    }
+  }
+  return low <= high ? high - low : 0;
+}
+
+}  // namespace breast
