@@ -1,0 +1,248 @@
+// The inverse problem: X such that the imaged shape x is in equilibrium. The residual is that of
+// forward, R(X, x, p) = 0 with x given, so that forward returns the imaged shape to rounding error.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "mechanics/mechanics.hpp"
+#include "mechanics/scene.hpp"
+#include "mechanics/solution.hpp"
+#include "solve/gmres.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr int max_iterations = 25, max_gmres = 60;
+constexpr double tolerance = 1e-10, volume_tolerance = 1e-11;
+// A volume error of this size counts as much as the whole load when steps are judged.
+constexpr double typical_strain = 0.05;
+
+class BackwardSolve {
+ public:
+  BackwardSolve(HexMesh& mesh, const MechanicsOptions& options, Progress& progress)
+      : mesh_(mesh),
+        scene_(mesh, options),
+        progress_(progress),
+        imaged_(flatten(mesh.imaged)),
+        matrix_(scene_.assembly().make_matrix()),
+        solver_(scene_.assembly().pattern()) {}
+
+  SolveSummary run(const Vec3& gravity);
+
+ private:
+  struct Trial {
+    Eigen::VectorXd reference, pressure;
+  };
+  // How far a state is from equilibrium.
+  struct Distance {
+    double force = 0, volume = 0;  // relative to the load; worst |θ_e|/V_e
+    double merit = 0;
+  };
+
+  double clock() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  SaddleForces evaluate(const Trial& trial, SaddleMatrix* matrix, ReferenceTangent* tangent) const;
+  Distance distance(const SaddleForces& forces) const;
+  bool direction(const SaddleForces& forces, Trial& step);
+  bool line_search(const Trial& step, const Distance& before, const SaddleForces& at, Trial& trial,
+                   NewtonIteration& record) const;
+  bool newton(Trial& trial);
+  void examine(const Trial& trial);
+
+  HexMesh& mesh_;
+  Scene scene_;
+  Progress& progress_;
+  Eigen::VectorXd imaged_, load_;
+  double load_norm_ = 1;
+  SaddleMatrix matrix_;
+  SaddleSolver solver_;
+  ReferenceTangent tangent_;
+  SolveSummary summary_;
+  std::string failure_;
+  int gmres_iterations_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+SaddleForces BackwardSolve::evaluate(const Trial& trial, SaddleMatrix* matrix,
+                                     ReferenceTangent* tangent) const {
+  AssemblyRequest request;
+  request.matrix = matrix;
+  request.reference = tangent;
+  SaddleForces forces =
+      scene_.assembly().evaluate(trial.reference, {imaged_, trial.pressure}, request);
+  if (forces.valid) forces.r -= load_;
+  return forces;
+}
+
+BackwardSolve::Distance BackwardSolve::distance(const SaddleForces& forces) const {
+  Distance out;
+  Eigen::VectorXd free = forces.r;
+  scene_.walls().project(free);
+  out.force = free.norm() / load_norm_;
+  const std::vector<double>& volume = scene_.assembly().imaged_volume();
+  const long rows = scene_.assembly().pressures()->rows;
+  double square = 0;
+  for (long i = 0; i < forces.theta.size(); ++i) {
+    const double error = std::abs(forces.theta[i]) / volume[i / rows];
+    out.volume = std::max(out.volume, error);
+    square += error * error;
+  }
+  square /= double(std::max<long>(1, forces.theta.size())) * typical_strain * typical_strain;
+  out.merit = std::sqrt(out.force * out.force + square);
+  return out;
+}
+
+// GMRES on [−K_X −Bᵀ; −B_X cM] (v, δp) = (−r, −θ) with v = −δX, preconditioned by the forward
+// problem's factor: near F = 1 moving X one way is moving x the other way.
+bool BackwardSolve::direction(const SaddleForces& forces, Trial& step) {
+  const Factorisation factor = solver_.factorise(matrix_, scene_.walls());
+  if (!factor.ok) return false;
+  const Constraints& walls = scene_.walls();
+  const PressureSpace& space = *matrix_.space;
+  const long n = forces.r.size(), m = forces.theta.size();
+  // Volumes as forces, so that one norm measures both equations: θ κ/(100 h).
+  const double size = std::cbrt(scene_.assembly().imaged_volume()[0]);
+  const double weigh = matrix_.kappa.mean() / (100 * size);
+  const auto apply = [&](const Eigen::VectorXd& z) {
+    const Eigen::VectorXd v = z.head(n), q = z.tail(m);
+    Eigen::VectorXd out(n + m);
+    Eigen::VectorXd top = -tangent_.apply(v) - matrix_.divergence.apply_transpose(q);
+    walls.project(top);
+    out << top, weigh * (space.multiply(q, space.compliance) - tangent_.b_x.apply(v));
+    return out;
+  };
+  const double left_over = 1 - matrix_.kappa[0] * space.compliance[0];
+  const auto precondition = [&](const Eigen::VectorXd& y) {
+    const Eigen::VectorXd top = y.head(n), bottom = y.tail(m) / weigh;
+    Eigen::VectorXd v = solver_.back_solve(
+        top + matrix_.divergence.apply_transpose(space.divide(bottom, matrix_.kappa)));
+    const Eigen::VectorXd q = space.divide(bottom - matrix_.divergence.apply(v), matrix_.kappa);
+    v += left_over * solver_.back_solve(matrix_.divergence.apply_transpose(q));
+    Eigen::VectorXd out(n + m);
+    out << v, q;
+    return out;
+  };
+  Eigen::VectorXd right(n + m);
+  Eigen::VectorXd r = forces.r;
+  walls.project(r);
+  right << -r, -weigh * forces.theta;
+  const GmresResult solved = gmres(apply, precondition, right, 1e-6, max_gmres);
+  gmres_iterations_ += solved.iterations;
+  if (!(solved.residual < 0.5) || !solved.x.allFinite()) return false;
+  step = {-solved.x.head(n), solved.x.tail(m)};
+  return true;
+}
+
+bool BackwardSolve::line_search(const Trial& step, const Distance& before, const SaddleForces& at,
+                                Trial& trial, NewtonIteration& record) const {
+  for (double length = 1; length >= 1.0 / 64; length *= 0.5) {
+    Trial next{trial.reference + length * step.reference, trial.pressure + length * step.pressure};
+    const SaddleForces forces = evaluate(next, nullptr, nullptr);
+    if (!forces.valid || !(forces.max_det_F < 20 * std::max(1.0, at.max_det_F))) continue;
+    const Distance now = distance(forces);
+    if (!(now.merit < before.merit)) continue;
+    record = {now.force, forces.min_det_F, forces.max_det_F, length, 0};
+    trial = std::move(next);
+    return true;
+  }
+  return false;
+}
+
+bool BackwardSolve::newton(Trial& trial) {
+  ++summary_.steps;
+  for (int i = 0; i <= max_iterations; ++i) {
+    SaddleForces forces;
+    {
+      Timer::Scope phase(summary_.timer, "assembly");
+      forces = evaluate(trial, &matrix_, &tangent_);
+    }
+    if (!forces.valid) {
+      failure_ = message("element ", forces.bad_element, " is folded at the start");
+      return false;
+    }
+    const Distance now = distance(forces);
+    summary_.residual = now.force;
+    summary_.min_det_F = forces.min_det_F;
+    if (now.force <= tolerance && now.volume <= volume_tolerance) return true;
+    if (i == max_iterations) break;
+    Trial step;
+    {
+      Timer::Scope phase(summary_.timer, "linear solve");
+      if (!direction(forces, step)) {
+        failure_ = "the inverse problem is singular: no unloaded state exists near this load";
+        return false;
+      }
+    }
+    NewtonIteration record;
+    Timer::Scope phase(summary_.timer, "line search");
+    if (!line_search(step, now, forces, trial, record)) {
+      failure_ = message("no admissible step: residual ", now.force, " of the load");
+      return now.force <= 1e-8 && now.volume <= 1e-9;
+    }
+    record_iteration(summary_, summary_.steps, record, clock());
+    progress_.update(
+        "backward", -1,
+        message("iteration ", summary_.newton_iterations, ", residual ", record.residual));
+  }
+  failure_ = message("no convergence in ", max_iterations, " iterations: residual ",
+                     summary_.residual, " of the load");
+  return false;
+}
+
+// Is the imaged shape a stable equilibrium of the unloaded shape found?
+void BackwardSolve::examine(const Trial& trial) {
+  const SaddleForces forces = evaluate(trial, &matrix_, nullptr);
+  if (!forces.valid) return;
+  const Factorisation factor = solver_.factorise(matrix_, scene_.walls(), false);
+  if (!factor.ok) {
+    summary_.doubts.push_back(
+        "the imaged shape is an unstable equilibrium of the shape found: forward will go "
+        "elsewhere");
+  }
+}
+
+SolveSummary BackwardSolve::run(const Vec3& gravity) {
+  const Eigen::VectorXd load = scene_.gravity_force(gravity);
+  Trial state{imaged_, scene_.assembly().rest_pressure()};
+  bool converged = false;
+  LoadPath path;
+  while (!path.finished()) {
+    load_ = path.next() * load;
+    Eigen::VectorXd free = load_;
+    scene_.walls().project(free);
+    load_norm_ = free.norm() > 0 ? free.norm() : scene_.stiffness_force();
+    Trial trial = state;
+    converged = newton(trial);
+    if (converged) {
+      state = std::move(trial);
+      path.succeed();
+    } else if (!path.fail()) {
+      summary_.record.reason =
+          message("stopped at ", 100 * path.done, " % of the load: ", failure_);
+      break;
+    }
+  }
+  if (converged) {
+    Timer::Scope phase(summary_.timer, "stability");
+    examine(state);
+  }
+  summary_.factorisations = solver_.factorisations();
+  summary_.record.status = converged ? "converged" : "not_converged";
+  store_state(mesh_, scene_, state.reference, {imaged_, state.pressure}, summary_);
+  mesh_.points = mesh_.reference;
+  mesh_.gravity.setZero();
+  judge(summary_, scene_, state.reference, {imaged_, state.pressure});
+  return summary_;
+}
+
+}  // namespace
+
+SolveSummary solve_backward(HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
+                            Progress& progress) {
+  return BackwardSolve(mesh, options, progress).run(gravity);
+}
+
+}  // namespace breast
