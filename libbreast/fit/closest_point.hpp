@@ -15,8 +15,8 @@ struct SheetFoot {
 };
 
 /// Local minimum of the distance reached from `start`: Newton with the sheet's second derivatives
-/// (Gauss–Newton where they are indefinite), bounds as an active set, step halving. Never increases the
-/// distance, never leaves [0,1]^2.
+/// (Gauss–Newton where they are indefinite), bounds as an active set, step halving. Never increases
+/// the distance, never leaves [0,1]^2.
 SheetFoot closest_from(const HermiteSheet& sheet, const Vec3& target, const Vec2& start);
 
 /// Global closest points: seeds from a regular sample of the sheet, then closest_from.
@@ -30,7 +30,9 @@ class SheetLocator {
   const HermiteSheet& sheet_;
   int columns_, rows_;
   std::vector<Vec3> sample_;
-  Vec2 parameter(int i, int j) const { return {double(i) / (columns_ - 1), double(j) / (rows_ - 1)}; }
+  Vec2 parameter(int i, int j) const {
+    return {double(i) / (columns_ - 1), double(j) / (rows_ - 1)};
+  }
 };
 
 }  // namespace breast

@@ -40,8 +40,9 @@ void lay_border(const DiscSurface& surface, std::vector<Vec2>& st) {
   const auto corner = corners(surface);
   const auto ahead = [&](int c) { return (corner[c] + n - corner[0]) % n; };
   if (!(ahead(1) > 0 && ahead(2) > ahead(1) && ahead(3) > ahead(2)))
-    throw input_error("labels: the rim of the skin around the breast has no four corners in order; "
-                      "the body mask is too ragged at the border of the box");
+    throw input_error(
+        "labels: the rim of the skin around the breast has no four corners in order; "
+        "the body mask is too ragged at the border of the box");
   const Vec2 square[5] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
   for (int c = 0; c < 4; ++c) {
     const std::size_t steps = (corner[(c + 1) % 4] + n - corner[c]) % n;
@@ -59,13 +60,15 @@ void lay_border(const DiscSurface& surface, std::vector<Vec2>& st) {
 
 using Weights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// Mean-value weights w_ij = (tan(a/2) + tan(b/2)) / |ij|, a and b the angles at i beside the edge ij.
+/// Mean-value weights w_ij = (tan(a/2) + tan(b/2)) / |ij|, a and b the angles at i beside the edge
+/// ij.
 Weights mean_value_weights(const DiscSurface& surface) {
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& t : surface.triangles)
     for (int v = 0; v < 3; ++v) {
       const int i = t[v], j = t[(v + 1) % 3], k = t[(v + 2) % 3];
-      const Vec3 a = surface.points[j] - surface.points[i], b = surface.points[k] - surface.points[i];
+      const Vec3 a = surface.points[j] - surface.points[i],
+                 b = surface.points[k] - surface.points[i];
       // tan(angle/2) = |a x b| / (|a||b| + a.b)
       const double half = a.cross(b).norm() / std::max(1e-12, a.norm() * b.norm() + a.dot(b));
       entries.emplace_back(i, j, half / a.norm());
@@ -98,7 +101,8 @@ void solve(const Weights& weights, const std::vector<int>& unknown_of, int unkno
   Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(matrix);
-  if (lu.info() != Eigen::Success) throw failed_error("the map of the skin to a square is singular");
+  if (lu.info() != Eigen::Success)
+    throw failed_error("the map of the skin to a square is singular");
   const Eigen::MatrixX2d answer = lu.solve(right);
   for (std::size_t i = 0; i < unknown_of.size(); ++i)
     if (unknown_of[i] >= 0) st[i] = answer.row(unknown_of[i]).transpose();
@@ -110,7 +114,8 @@ double signed_area(const Vec2& a, const Vec2& b, const Vec2& c) {
 
 /// Sander's L2 stretch of the map square -> surface per point (area-weighted over its triangles);
 /// returns that of the whole surface.
-double stretch(const DiscSurface& surface, const std::vector<Vec2>& st, std::vector<double>& sigma) {
+double stretch(const DiscSurface& surface, const std::vector<Vec2>& st,
+               std::vector<double>& sigma) {
   sigma.assign(st.size(), 0);
   std::vector<double> area(st.size(), 0);
   double total = 0, total_area = 0;

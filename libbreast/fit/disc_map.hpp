@@ -10,16 +10,16 @@
 namespace breast {
 
 struct DiscMap {
-  std::vector<Vec2> st;         ///< per point, in [0,1]^2
-  int flipped = 0;              ///< triangles turned over in the square (0 expected)
-  double area_ratio_p95 = 0;    ///< 95 % of |log| area distortion, as a ratio
+  std::vector<Vec2> st;       ///< per point, in [0,1]^2
+  int flipped = 0;            ///< triangles turned over in the square (0 expected)
+  double area_ratio_p95 = 0;  ///< 95 % of |log| area distortion, as a ratio
   int solves = 0;
 };
 
-/// Tutte embedding with mean-value weights (Floater 2003), the border by arc length between the points
-/// nearest to the corners of the (x,z) box, then stretch-minimising reweighting w_ij /= sigma_j
-/// (Yoshizawa 2004) as long as the stretch falls. s runs towards +x, t towards +z.
-/// Throws Error (input) when the border cannot be laid around the square.
+/// Tutte embedding with mean-value weights (Floater 2003), the border by arc length between the
+/// points nearest to the corners of the (x,z) box, then stretch-minimising reweighting w_ij /=
+/// sigma_j (Yoshizawa 2004) as long as the stretch falls. s runs towards +x, t towards +z. Throws
+/// Error (input) when the border cannot be laid around the square.
 DiscMap map_to_square(const DiscSurface& surface, int max_solves = 4);
 
 }  // namespace breast

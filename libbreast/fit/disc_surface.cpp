@@ -55,7 +55,8 @@ Lattice sample(const OccupancyField& field, const Box& box, double step_mm) {
 }
 
 /// Marks the nodes on one side of 1/2 that are joined to the seeds along the lattice's edges.
-std::vector<char> joined(const Lattice& lattice, const std::vector<std::size_t>& seeds, bool inside) {
+std::vector<char> joined(const Lattice& lattice, const std::vector<std::size_t>& seeds,
+                         bool inside) {
   std::vector<char> mark(lattice.nodes(), 0);
   std::vector<std::size_t> stack;
   const auto push = [&](std::size_t n) {
@@ -127,7 +128,8 @@ class MarchingTetrahedra {
 
   int crossing(std::size_t a, std::size_t b) {
     if (a > b) std::swap(a, b);
-    const auto [entry, fresh] = point_of_.try_emplace(a * 8 + edge_type(a, b), int(mesh_.points.size()));
+    const auto [entry, fresh] =
+        point_of_.try_emplace(a * 8 + edge_type(a, b), int(mesh_.points.size()));
     if (fresh) {
       const double va = lattice_.value[a], vb = lattice_.value[b];
       // Kept off the nodes so that no triangle is degenerate; evened out afterwards.
@@ -167,7 +169,8 @@ class MarchingTetrahedra {
     } else {
       const auto& one = in.size() == 1 ? in : out;
       const auto& three = in.size() == 1 ? out : in;
-      add(crossing(one[0], three[0]), crossing(one[0], three[1]), crossing(one[0], three[2]), outward);
+      add(crossing(one[0], three[0]), crossing(one[0], three[1]), crossing(one[0], three[2]),
+          outward);
     }
   }
 
@@ -238,8 +241,7 @@ std::vector<std::vector<int>> border_loops(const RawMesh& mesh) {
 int euler_number(const RawMesh& mesh) {
   std::map<std::pair<int, int>, int> edges;
   for (const auto& t : mesh.triangles)
-    for (int e = 0; e < 3; ++e)
-      ++edges[std::minmax(t[e], t[(e + 1) % 3])];
+    for (int e = 0; e < 3; ++e) ++edges[std::minmax(t[e], t[(e + 1) % 3])];
   return int(mesh.points.size()) - int(edges.size()) + int(mesh.triangles.size());
 }
 
@@ -303,7 +305,8 @@ void even_out(DiscSurface& surface, const OccupancyField& field, int rounds) {
 
 }  // namespace
 
-DiscSurface extract_skin(const OccupancyField& field, const Box& box, const Vec3& nipple, double step_mm) {
+DiscSurface extract_skin(const OccupancyField& field, const Box& box, const Vec3& nipple,
+                         double step_mm) {
   Lattice lattice = sample(field, box, step_mm);
   const auto [low, high] = std::minmax_element(lattice.value.begin(), lattice.value.end());
   if (!(*low < 0.5f && *high > 0.5f))
@@ -316,7 +319,8 @@ DiscSurface extract_skin(const OccupancyField& field, const Box& box, const Vec3
   surface.filled.assign(mesh.points.size(), 0);
   const auto loops = border_loops(mesh);
   if (loops.empty())
-    throw input_error("labels: the breast's skin is closed on all sides: the body behind it is missing");
+    throw input_error(
+        "labels: the breast's skin is closed on all sides: the body behind it is missing");
   for (std::size_t l = 1; l < loops.size(); ++l) close_by_fan(mesh, loops[l], surface.filled);
   if (const int euler = euler_number(mesh); euler != 1)
     throw input_error("labels: the skin around the breast is no disc (Euler number ", euler,

@@ -39,7 +39,8 @@ DistanceSummary summarise(std::vector<double> distances) {
   double sum = 0;
   for (const double d : distances) sum += d;
   summary.mean_mm = sum / double(distances.size());
-  summary.p95_mm = distances[std::min(distances.size() - 1, std::size_t(0.95 * double(distances.size())))];
+  summary.p95_mm =
+      distances[std::min(distances.size() - 1, std::size_t(0.95 * double(distances.size())))];
   summary.max_mm = distances.back();
   return summary;
 }

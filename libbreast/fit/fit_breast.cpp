@@ -13,6 +13,23 @@ namespace breast {
 
 namespace {
 
+/// Where the body touches the anterior end of the field of view its skin was not imaged.
+void check_front(const DiscSurface& surface, double front, FitReport& report) {
+  double cut = 0, total = 0;
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    total += surface.areas[i];
+    if (surface.points[i].y() < front + 1.5) cut += surface.areas[i];
+  }
+  const double percent = 100 * cut / total;
+  if (percent > 10)
+    throw input_error("labels: the body touches the front end of the field of view over ", percent,
+                      " % of its skin; at most 10 % can be bridged; the scan or the crop cuts the "
+                      "breast off");
+  if (percent > 0.1)
+    report.doubts.push_back(message("the front end of the field of view cuts off ", percent,
+                                    " % of the skin: it is flat there"));
+}
+
 /// The skin as a disc; a ragged mask is smoothed more and cropped closer before it is refused.
 DiscSurface skin_surface(const LabelVolume& labels, BreastRegion& region, const FitOptions& options,
                          FitReport& report) {
@@ -25,6 +42,7 @@ DiscSurface skin_surface(const LabelVolume& labels, BreastRegion& region, const 
       const OccupancyField field(labels, region.crop, smoothing, body);
       DiscSurface surface =
           extract_skin(field, region.crop, region.nipple, options.surface_step_mm);
+      check_front(surface, field.front(), report);
       if (!reason.empty())
         report.doubts.push_back(message("the skin was smoothed by ", smoothing, " mm and cropped ",
                                         part * options.margin_mm,
@@ -80,10 +98,12 @@ FitOutcome fit_skin(const DiscSurface& surface, const DiscMap& map, const FitOpt
     FitOutcome outcome =
         fit_sheet(report.patches_s, report.patches_t, data, control,
                   [](const HermiteSheet& sheet) { return !check_folds(sheet).folded(); });
-    const auto all = distances_to_sheet(outcome.sheet, data, surface, [](const Vec2&) { return true; });
+    const auto all =
+        distances_to_sheet(outcome.sheet, data, surface, [](const Vec2&) { return true; });
     report.whole_skin_to_sheet = summarise(all);
-    progress.update("skin sheet", 0.6,
-                    message(report.patches_s, " x ", report.patches_t, ", rms ", outcome.rms_mm, " mm"));
+    progress.update(
+        "skin sheet", 0.6,
+        message(report.patches_s, " x ", report.patches_t, ", rms ", outcome.rms_mm, " mm"));
     if (!(options.max_error_mm > 0) || report.whole_skin_to_sheet.max_mm <= options.max_error_mm)
       return outcome;
     const int next_s = report.patches_s + std::max(1, report.patches_s / 4);
@@ -118,7 +138,8 @@ void measure_fit(const DiscSurface& surface, const SheetData& data, const Breast
 void find_doubts(const BreastRegion& region, const BreastGeometry& geometry, FitReport& report) {
   const auto doubt = [&](const auto&... parts) { report.doubts.push_back(message(parts...)); };
   if (!report.target_reached)
-    doubt("the skin's rms distance is ", report.rms_mm, " mm, above the target; more --elements help");
+    doubt("the skin's rms distance is ", report.rms_mm,
+          " mm, above the target; more --elements help");
   if (report.skin_to_sheet.max_mm > 2)
     doubt("the skin's largest distance to its sheet is ", report.skin_to_sheet.max_mm, " mm");
   if (!region.nipple_known)
@@ -130,15 +151,19 @@ void find_doubts(const BreastRegion& region, const BreastGeometry& geometry, Fit
   if (report.filled_points > 0)
     doubt("the skin leaves the field of view inside the breast's outline: ", report.filled_points,
           " hole(s) bridged by the smooth sheet");
-  const double margin = double(std::count(geometry.rim_end.begin(), geometry.rim_end.end(),
-                                          RimEnd::margin)) /
-                        double(geometry.rim_end.size());
+  const double margin =
+      double(std::count(geometry.rim_end.begin(), geometry.rim_end.end(), RimEnd::margin)) /
+      double(geometry.rim_end.size());
   if (margin > 0.1)
-    doubt(std::lround(100 * margin), " % of the rim lies where the sheet ends, not where the breast does "
+    doubt(std::lround(100 * margin),
+          " % of the rim lies where the sheet ends, not where the breast does "
           "(field of view, midline, or tissue that never thins)");
   if (report.rim.skin_angle_min < 30 || report.rim.wall_angle_min < 30)
     doubt("sharp rim: ", std::lround(report.rim.skin_angle_min), " degrees at the skin, ",
           std::lround(report.rim.wall_angle_min), " at the wall");
+  if (report.rim.skin_angle_max > 160 || report.rim.wall_angle_max > 160)
+    doubt("flat rim: ", std::lround(report.rim.skin_angle_max), " degrees at the skin, ",
+          std::lround(report.rim.wall_angle_max), " at the wall");
 }
 
 void check_options(const FitOptions& options) {
@@ -164,7 +189,8 @@ BreastGeometry fit_breast(const LabelVolume& labels, const FitOptions& options, 
                           Timer& timer, Progress& progress) {
   check_options(options);
   if (labels.tissue.size() != labels.grid.voxels())
-    throw input_error("labels: ", labels.tissue.size(), " voxels on a grid of ", labels.grid.voxels());
+    throw input_error("labels: ", labels.tissue.size(), " voxels on a grid of ",
+                      labels.grid.voxels());
   BreastRegion region;
   DiscSurface surface;
   {
@@ -203,7 +229,8 @@ BreastGeometry fit_breast(const LabelVolume& labels, const FitOptions& options, 
   {
     Timer::Scope phase(timer, "wall sheet");
     progress.update("wall sheet", 0.7, "");
-    wall = fit_wall(labels, region, options.patches_s, options.patches_t, options.wall_smoothing_mm);
+    wall =
+        fit_wall(labels, region, options.patches_s, options.patches_t, options.wall_smoothing_mm);
     geometry.wall = wall.sheet;
     report.wall_rms_mm = wall.rms_mm;
     report.wall_p95_mm = wall.residual_p95_mm;

@@ -15,11 +15,11 @@ namespace breast {
 
 struct FitOptions {
   int patches_s = 10, patches_t = 10;  ///< per sheet
-  double smoothing = 0;         ///< of the skin sheet (see sheet_fit.hpp); 0: automatic
-  double max_error_mm = 0;      ///< > 0: refine the skin sheet until its largest distance is below
+  double smoothing = 0;                ///< of the skin sheet (see sheet_fit.hpp); 0: automatic
+  double max_error_mm = 0;  ///< > 0: refine the skin sheet until its largest distance is below
   double target_rms_mm = 0.3;
-  double margin_mm = 25;        ///< skin beyond the breast's foot
-  double surface_step_mm = 3;   ///< raster of the skin surface
+  double margin_mm = 25;       ///< skin beyond the breast's foot
+  double surface_step_mm = 3;  ///< raster of the skin surface
   double wall_smoothing_mm = 7;
   RimOptions rim;
 };
@@ -29,27 +29,28 @@ struct FitReport {
   int patches_s = 0, patches_t = 0, loops = 0;
   bool target_reached = false;
   std::size_t data_points = 0, filled_points = 0;
-  double area_ratio_p95 = 0;            ///< of the map to the square
-  DistanceSummary skin_to_sheet;        ///< data inside the rim
-  DistanceSummary sheet_to_skin;        ///< sheet inside the rim
-  DistanceSummary whole_skin_to_sheet;  ///< all data
+  double area_ratio_p95 = 0;                         ///< of the map to the square
+  DistanceSummary skin_to_sheet;                     ///< data inside the rim
+  DistanceSummary sheet_to_skin;                     ///< sheet inside the rim
+  DistanceSummary whole_skin_to_sheet;               ///< all data
   double min_normal_cosine = 0, min_area_ratio = 0;  ///< fold check of the skin sheet
   double wall_rms_mm = 0, wall_p95_mm = 0, wall_coverage = 0;
-  double nipple_moved_mm = 0;           ///< landmark to skin sheet
-  double body_ml = 0, label_ml = 0;     ///< volume inside the sheets and cut; of the breast's voxels
+  double nipple_moved_mm = 0;        ///< landmark to skin sheet
+  double body_ml = 0, label_ml = 0;  ///< volume inside the sheets and cut; of the breast's voxels
   Rim rim;
-  std::vector<std::string> doubts;      ///< what a reader of the result should look at
+  std::vector<std::string> doubts;  ///< what a reader of the result should look at
 };
 
-/// Fits everything. Throws Error (input) when the labels hold no breast that can be bounded this way,
-/// Error (not_converged) when no sheet without folds was found or max_error_mm was not met.
+/// Fits everything. Throws Error (input) when the labels hold no breast that can be bounded this
+/// way, Error (not_converged) when no sheet without folds was found or max_error_mm was not met.
 BreastGeometry fit_breast(const LabelVolume& labels, const FitOptions& options, FitReport& report,
                           Timer& timer, Progress& progress = no_progress());
 
 /// Volume (mm^3) inside skin, wall and cut, by the divergence theorem on a polar raster.
 double enclosed_volume(const BreastGeometry& geometry, int rings = 40);
 
-/// Triangles of the body's closed boundary (skin, cut, wall) on the same raster, for pictures and checks.
+/// Triangles of the body's closed boundary (skin, cut, wall) on the same raster, for pictures and
+/// checks.
 struct BoundaryMesh {
   std::vector<Vec3> points;
   std::vector<std::array<int, 3>> triangles;

@@ -70,7 +70,8 @@ void set_sheet_dofs(HermiteSheet& sheet, const std::vector<Vec3>& dofs) {
     for (const int sign : {-1, 1}) {
       const int a = i + sign * di, b = j + sign * dj;
       if (a < 0 || b < 0 || a > sheet.nu || b > sheet.nv) continue;
-      const std::size_t n = std::size_t(j) * (sheet.nu + 1) + i, m = std::size_t(b) * (sheet.nu + 1) + a;
+      const std::size_t n = std::size_t(j) * (sheet.nu + 1) + i,
+                        m = std::size_t(b) * (sheet.nu + 1) + a;
       sum += (dofs[4 * m] - dofs[4 * n]).norm();
       ++count;
     }

@@ -12,14 +12,16 @@ namespace breast {
 /// Degrees of freedom per node, in parameter units of one patch: x, S1 x_1, S2 x_2, S1 S2 x_12.
 struct PatchWeights {
   int patch_i = 0, patch_j = 0;
-  // Entry 4 c + d: corner c (s fastest), degree of freedom d. Derivatives are with respect to (s,t) in [0,1].
+  // Entry 4 c + d: corner c (s fastest), degree of freedom d. Derivatives are with respect to (s,t)
+  // in [0,1].
   std::array<double, 16> value{}, s{}, t{}, ss{}, st{}, tt{};
 };
 
 PatchWeights patch_weights(int nu, int nv, const Vec2& st);
 
-/// The sheet's degrees of freedom, node by node (4 vectors each), from and to its nodes. Writing sets
-/// scale_1, scale_2 to the mean chord length of the adjacent patches (mm) so that x_1, x_2 are near unit.
+/// The sheet's degrees of freedom, node by node (4 vectors each), from and to its nodes. Writing
+/// sets scale_1, scale_2 to the mean chord length of the adjacent patches (mm) so that x_1, x_2 are
+/// near unit.
 std::vector<Vec3> sheet_dofs(const HermiteSheet& sheet);
 void set_sheet_dofs(HermiteSheet& sheet, const std::vector<Vec3>& dofs);
 

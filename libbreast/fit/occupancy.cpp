@@ -36,8 +36,8 @@ double quantile(std::vector<double>& values, double fraction) {
 }
 
 /// x of the cleft: where, within the breast's middle heights, the front of the body lies deepest.
-/// Looked for from 15 mm inside the breast's medial end to `reach` beyond it; NaN when the body goes on
-/// receding (no second breast).
+/// Looked for from 15 mm inside the breast's medial end to `reach` beyond it; NaN when the body
+/// goes on receding (no second breast).
 double cleft_position(const LabelVolume& labels, const Box& foot, double reach) {
   const double step = 3.0;
   const double medial = -lateral_sign(labels.side);  // direction in x towards the midline
@@ -132,9 +132,10 @@ BreastRegion find_region(const LabelVolume& labels, double margin_mm) {
   const std::size_t count = found.coordinate[0].size();
   const double volume = double(count) * labels.grid.voxel_volume() * 1e-3;
   if (count < 1000 || volume < 10)
-    throw input_error("labels: the ", side_name(labels.side), " breast has ", volume,
-                      " ml of fat, fibroglandular, skin and tumour voxels; at least 10 ml are needed; "
-                      "check --side in segment");
+    throw input_error(
+        "labels: the ", side_name(labels.side), " breast has ", volume,
+        " ml of fat, fibroglandular, skin and tumour voxels; at least 10 ml are needed; "
+        "check --side in segment");
   BreastRegion region;
   region.breast_ml = volume;
   for (int a = 0; a < 3; ++a) {
@@ -144,6 +145,9 @@ BreastRegion find_region(const LabelVolume& labels, double margin_mm) {
   const auto nipple = labels.landmarks.find("nipple");
   region.nipple_known = nipple != labels.landmarks.end();
   region.nipple = region.nipple_known ? nipple->second : found.front;
+  if (!region.nipple.allFinite())
+    throw input_error("labels: the nipple landmark is not finite: (", region.nipple.transpose(),
+                      ")");
 
   const Box view = field_of_view(labels.grid);
   const double inside_view = 4.0, past_midline = 4.0;
@@ -197,7 +201,8 @@ OccupancyField::OccupancyField(const LabelVolume& labels, const Box& box, double
       for (int i = 0; i < size[0]; ++i)
         occupancy_.at(i, j, k) =
             counts(labels.at(first[0] + i, first[1] + j, first[2] + k)) ? 1.f : 0.f;
-  for (int a = 0; a < 3; ++a) smooth_axis(occupancy_, a, std::max(0.6, smoothing_mm / g.spacing[a]));
+  for (int a = 0; a < 3; ++a)
+    smooth_axis(occupancy_, a, std::max(0.6, smoothing_mm / g.spacing[a]));
   front_ = field_of_view(g).low.y();
 }
 

@@ -1,5 +1,5 @@
-// Part of the body (all of it, or the muscle) as a smooth field in a box around one breast: 1 inside,
-// 0 outside, its surface at 1/2.
+// Part of the body (all of it, or the muscle) as a smooth field in a box around one breast: 1
+// inside, 0 outside, its surface at 1/2.
 #pragma once
 
 #include <functional>
@@ -17,9 +17,9 @@ struct Box {
 
 /// Where the breast is in a label volume and which part of the body its sheets shall cover.
 struct BreastRegion {
-  Box foot;              ///< of the breast's own voxels
-  Box crop;              ///< foot box and margin, clipped to the field of view and just past the midline
-  Vec3 nipple;           ///< landmark, or the most anterior breast voxel
+  Box foot;     ///< of the breast's own voxels
+  Box crop;     ///< foot box and margin, clipped to the field of view and just past the midline
+  Vec3 nipple;  ///< landmark, or the most anterior breast voxel
   bool nipple_known = false;
   double breast_ml = 0;  ///< volume of the breast's voxels
 };
@@ -39,10 +39,11 @@ class OccupancyField {
   /// `smoothing_mm` is the Gaussian's sigma, at least 0.6 voxels along every axis.
   OccupancyField(const LabelVolume& labels, const Box& box, double smoothing_mm,
                  const std::function<bool(Tissue)>& counts);
-  /// Trilinear; values at the border of the field of view are held, but nothing lies in front of it.
+  /// Trilinear; values at the border of the field of view are held, but nothing lies in front of
+  /// it.
   double value(const Vec3& p) const;
-  Vec3 gradient(const Vec3& p) const;  ///< per mm, central differences of half the smoothing
-  double smoothing() const { return smoothing_; }
+  Vec3 gradient(const Vec3& p) const;      ///< per mm, central differences of half the smoothing
+  double front() const { return front_; }  ///< y of the field of view's anterior end
 
  private:
   Volume<float> occupancy_;

@@ -31,9 +31,15 @@ class ThicknessMap {
         value_[std::size_t(j) * n_ + i] = sign * foot.distance;
       }
   }
-  int count() const { return n_; }
-  Vec2 parameter(int i, int j) const { return {double(i) / (n_ - 1), double(j) / (n_ - 1)}; }
-  double node(int i, int j) const { return value_[std::size_t(j) * n_ + i]; }
+  int count() const {
+    return n_;
+  }
+  Vec2 parameter(int i, int j) const {
+    return {double(i) / (n_ - 1), double(j) / (n_ - 1)};
+  }
+  double node(int i, int j) const {
+    return value_[std::size_t(j) * n_ + i];
+  }
   double at(const Vec2& st) const {
     const double u = std::clamp(st.x(), 0.0, 1.0) * (n_ - 1);
     const double v = std::clamp(st.y(), 0.0, 1.0) * (n_ - 1);
@@ -91,7 +97,8 @@ double sternal_thickness(const ThicknessMap& map, Side side) {
   return edge[20];
 }
 
-/// How far a ray may go: a rounded square (superellipse of order 6), so that the rim has no corners.
+/// How far a ray may go: a rounded square (superellipse of order 6), so that the rim has no
+/// corners.
 double margin_radius(const Vec2& centre, const Vec2& direction, double margin) {
   const double half = 0.5 - margin;
   const auto level = [&](double r) {
@@ -111,8 +118,8 @@ struct RayEnd {
   RimEnd reason;
 };
 
-RayEnd walk(const HermiteSheet& skin, const ThicknessMap& map, const Core& core, const Vec2& direction,
-            double t_min, const RimOptions& options) {
+RayEnd walk(const HermiteSheet& skin, const ThicknessMap& map, const Core& core,
+            const Vec2& direction, double t_min, const RimOptions& options) {
   const double limit = margin_radius(core.centre, direction, options.margin);
   const double step = 0.004;
   const int steps = std::max(2, int(limit / step));
@@ -127,14 +134,17 @@ RayEnd walk(const HermiteSheet& skin, const ThicknessMap& map, const Core& core,
   }
   const double window = 10;  // mm of arc for the slope
   const double flat = std::sin(options.slope_degrees * pi / 180);
+  const double steep = std::sin(options.steep_degrees * pi / 180);
   for (int k = 1; k <= steps; ++k) {
     const double radius = limit * k / steps;
-    if (!(tau[k] >= t_min)) return {radius, RimEnd::thin_tissue};
+    if (!(tau[k] >= options.steep_down_to * t_min)) return {radius, RimEnd::thin_tissue};
     if (tau[k] > options.slope_below * core.thickest) continue;
     int a = k, b = k;
     while (a > 0 && arc[k] - arc[a] < window / 2) --a;
     while (b < steps && arc[b] - arc[k] < window / 2) ++b;
-    if (-(tau[b] - tau[a]) / (arc[b] - arc[a]) < flat) return {radius, RimEnd::slope};
+    const double thinning = -(tau[b] - tau[a]) / (arc[b] - arc[a]);
+    if (tau[k] < t_min && thinning < steep) return {radius, RimEnd::thin_tissue};
+    if (thinning < flat) return {radius, RimEnd::slope};
   }
   return {limit, RimEnd::margin};
 }
@@ -184,7 +194,8 @@ std::optional<Vec2> hit_wall(const WallSheet& wall, const Vec3& from, const Vec3
   return st;
 }
 
-/// Straight segments of neighbours run the same way round and the strip between them does not turn over.
+/// Straight segments of neighbours run the same way round and the strip between them does not turn
+/// over.
 bool cut_is_simple(const HermiteSheet& skin, const HermiteSheet& wall, const Rim& rim) {
   const std::size_t n = rim.skin.size();
   Vec3 before = Vec3::Zero();
@@ -226,9 +237,10 @@ void choose_cut(const HermiteSheet& skin, const WallSheet& wall, Rim& rim) {
   for (const Vec3& d : halfway) mean += d;
   for (const Vec3& d : {mean, Vec3(0, 1, 0)})
     if (lay_cut(skin, wall, std::vector<Vec3>(halfway.size(), d), rim)) return;
-  throw input_error("labels: no straight cut joins the skin's rim to the chest wall without crossing "
-                    "itself; the wall lies in front of the skin or is too ragged: see segment "
-                    "--chest-wall");
+  throw input_error(
+      "labels: no straight cut joins the skin's rim to the chest wall without crossing "
+      "itself; the wall lies in front of the skin or is too ragged: see segment "
+      "--chest-wall");
 }
 
 double median(std::vector<double> v) {
@@ -262,6 +274,8 @@ void measure(const HermiteSheet& skin, const HermiteSheet& wall, Rim& rim) {
   rim.cut_height_median_mm = median(height);
   rim.skin_angle_min = *std::min_element(at_skin.begin(), at_skin.end());
   rim.wall_angle_min = *std::min_element(at_wall.begin(), at_wall.end());
+  rim.skin_angle_max = *std::max_element(at_skin.begin(), at_skin.end());
+  rim.wall_angle_max = *std::max_element(at_wall.begin(), at_wall.end());
   rim.skin_angle_median = median(at_skin);
   rim.wall_angle_median = median(at_wall);
 }
@@ -295,7 +309,8 @@ bool inside_star(const std::vector<Vec2>& curve, const Vec2& centre, const Vec2&
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const Vec2 a = curve[i] - centre, b = curve[(i + 1) % curve.size()] - centre, p = st - centre;
     const double det = a.x() * b.y() - a.y() * b.x();
-    const double u = (p.x() * b.y() - p.y() * b.x()) / det, v = (a.x() * p.y() - a.y() * p.x()) / det;
+    const double u = (p.x() * b.y() - p.y() * b.x()) / det,
+                 v = (a.x() * p.y() - a.y() * p.x()) / det;
     if (u >= 0 && v >= 0) return u + v <= 1;
   }
   return false;

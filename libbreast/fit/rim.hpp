@@ -1,4 +1,5 @@
-// Where the body ends: a closed curve in each sheet's parameters, and the straight cut between them.
+// Where the body ends: a closed curve in each sheet's parameters, and the straight cut between
+// them.
 #pragma once
 
 #include <vector>
@@ -11,30 +12,38 @@ namespace breast {
 
 struct RimOptions {
   int rays = 96;
-  double least_thickness_mm = 0;  ///< tissue where the body ends; 0: sternal tissue + 5, within 15..30
-  double slope_degrees = 15;      ///< ends where tissue thins less than this ...
-  double slope_below = 0.4;       ///< ... and is below this part of its greatest thickness
-  double margin = 0.04;           ///< of the skin sheet's parameters kept outside the body
+  double least_thickness_mm =
+      0;                      ///< tissue where the body ends; 0: sternal tissue + 5, within 15..30
+  double slope_degrees = 15;  ///< ends where tissue thins less than this ...
+  double slope_below = 0.4;   ///< ... and is below this part of its greatest thickness
+  /// Past the least thickness the rim still moves on until the skin is less steep than this to the
+  /// wall, or tissue is thinner than this part of it: a rim on the breast's steep side would leave
+  /// elements with an edge of nearly 180 degrees between skin and cut.
+  double steep_degrees = 40;
+  double steep_down_to = 0.6;
+  double margin = 0.04;  ///< of the skin sheet's parameters kept outside the body
 };
 
 struct Rim {
   Vec2 centre;
   std::vector<Vec2> skin, wall;
   std::vector<RimEnd> end;
-  double least_thickness_mm = 0;   ///< used
+  double least_thickness_mm = 0;  ///< used
   double greatest_thickness_mm = 0;
   double cut_height_min_mm = 0, cut_height_median_mm = 0, cut_height_max_mm = 0;
   /// Angle inside the body between cut and skin, cut and wall, degrees.
-  double skin_angle_min = 0, skin_angle_median = 0, wall_angle_min = 0, wall_angle_median = 0;
+  double skin_angle_min = 0, skin_angle_median = 0, skin_angle_max = 0;
+  double wall_angle_min = 0, wall_angle_median = 0, wall_angle_max = 0;
 };
 
-/// Polar walk about the centre of the thick part (see RimOptions), low-passed; cut directions halfway
-/// between the closest wall point and +y, smoothed until neither the segments cross nor the wall's rim
-/// stops being star-shaped. Throws Error (input) when no such rim exists.
+/// Polar walk about the centre of the thick part (see RimOptions), low-passed; cut directions
+/// halfway between the closest wall point and +y, smoothed until neither the segments cross nor the
+/// wall's rim stops being star-shaped. Throws Error (input) when no such rim exists.
 Rim find_rim(const HermiteSheet& skin, const WallSheet& wall, Side side, const Vec2& nipple_st,
              const RimOptions& options);
 
-/// True when the polygon's angle about `centre` grows from each point to the next and goes round once.
+/// True when the polygon's angle about `centre` grows from each point to the next and goes round
+/// once.
 bool star_shaped(const std::vector<Vec2>& curve, const Vec2& centre);
 Vec2 centroid(const std::vector<Vec2>& curve);
 /// True inside a curve that is star-shaped about `centre`.

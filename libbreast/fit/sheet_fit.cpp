@@ -55,7 +55,8 @@ void add_data(int nu, int nv, const SheetData& data, const std::vector<int>& mem
     const Vec3 pull = metric * data.points[k];
     for (int p = 0; p < 16; ++p) {
       right.segment<3>(3 * p) += w.value[p] * pull;
-      for (int q = 0; q < 16; ++q) matrix.block<3, 3>(3 * p, 3 * q) += w.value[p] * w.value[q] * metric;
+      for (int q = 0; q < 16; ++q)
+        matrix.block<3, 3>(3 * p, 3 * q) += w.value[p] * w.value[q] * metric;
     }
   }
 }
@@ -134,7 +135,8 @@ double project(const HermiteSheet& sheet, SheetData& data) {
   }
   double sum = 0, total = 0;
   for (std::size_t k = 0; k < distance.size(); ++k)
-    if (!data.fixed[k]) sum += data.weights[k] * distance[k] * distance[k], total += data.weights[k];
+    if (!data.fixed[k])
+      sum += data.weights[k] * distance[k] * distance[k], total += data.weights[k];
   return total > 0 ? std::sqrt(sum / total) : 0;
 }
 
@@ -165,8 +167,9 @@ FitOutcome fit_sheet(int nu, int nv, SheetData& data, const FitControl& control,
       ++settled, lowering = false;
   }
   if (best.loops == 0)
-    throw not_converged_error("no sheet of ", nu, " x ", nv,
-                              " patches without folds was found; try --smoothing or other --elements");
+    throw not_converged_error(
+        "no sheet of ", nu, " x ", nv,
+        " patches without folds was found; try --smoothing or other --elements");
   best.loops = loops;
   return best;
 }
@@ -187,12 +190,14 @@ FoldCheck check_folds(const HermiteSheet& sheet, int per_patch) {
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) {
       const std::size_t at = std::size_t(j) * columns + i;
-      if (i + 1 < columns) check.min_cosine = std::min(check.min_cosine, normal[at].dot(normal[at + 1]));
+      if (i + 1 < columns)
+        check.min_cosine = std::min(check.min_cosine, normal[at].dot(normal[at + 1]));
       if (j + 1 < rows)
         check.min_cosine = std::min(check.min_cosine, normal[at].dot(normal[at + columns]));
     }
   std::vector<double> sorted = area;
-  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2), sorted.end());
+  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2),
+                   sorted.end());
   const double median = sorted[sorted.size() / 2];
   check.min_area_ratio = *std::min_element(area.begin(), area.end()) / std::max(1e-12, median);
   return check;

@@ -15,8 +15,8 @@ constexpr double raster = 3.0;  // mm between columns
 
 struct WallData {
   SheetData data;
-  std::vector<double> prior;   // weight from the confidence
-  std::vector<char> foot;      // 1 behind the breast's foot
+  std::vector<double> prior;  // weight from the confidence
+  std::vector<char> foot;     // 1 behind the breast's foot
   double coverage = 0;
 };
 
@@ -90,7 +90,8 @@ void residuals(const HermiteSheet& sheet, const SheetData& data, std::vector<dou
 double quantile_abs(std::vector<double> values, double fraction) {
   if (values.empty()) return 0;
   for (double& v : values) v = std::abs(v);
-  const auto n = std::ptrdiff_t(std::min(values.size() - 1, std::size_t(fraction * double(values.size()))));
+  const auto n =
+      std::ptrdiff_t(std::min(values.size() - 1, std::size_t(fraction * double(values.size()))));
   std::nth_element(values.begin(), values.begin() + n, values.end());
   return values[std::size_t(n)];
 }
@@ -110,8 +111,8 @@ WallSheet fit_wall(const LabelVolume& labels, const BreastRegion& region, int nu
     throw input_error("labels: the chest wall (muscle) is seen behind ", 100 * wall.coverage,
                       " % of the breast; at least 20 % are needed; see segment --chest-wall");
 
-  const double length = std::sqrt((wall.box.high.x() - wall.box.low.x()) *
-                                  (wall.box.high.z() - wall.box.low.z()));
+  const double length =
+      std::sqrt((wall.box.high.x() - wall.box.low.x()) * (wall.box.high.z() - wall.box.low.z()));
   const double smoothing = std::pow(smoothing_mm / length, 4);
   std::vector<double> distance, cos2, of_foot;
   for (int round = 0; round < 6; ++round) {

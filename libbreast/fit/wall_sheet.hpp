@@ -8,13 +8,13 @@
 
 namespace breast {
 
-/// s runs linearly with x, t with z, so x_s × x_t points to the front (-y): out of the chest wall, into
-/// the breast. Beyond the data the sheet goes on straight (least bending).
+/// s runs linearly with x, t with z, so x_s × x_t points to the front (-y): out of the chest wall,
+/// into the breast. Beyond the data the sheet goes on straight (least bending).
 struct WallSheet {
   HermiteSheet sheet;
-  Box box;                  ///< x and z range of the sheet; y range of its data
-  double coverage = 0;      ///< part of the columns behind the breast that show the wall
-  double rms_mm = 0;        ///< robust distance of the data within the breast's foot
+  Box box;              ///< x and z range of the sheet; y range of its data
+  double coverage = 0;  ///< part of the columns behind the breast that show the wall
+  double rms_mm = 0;    ///< robust distance of the data within the breast's foot
   double residual_p95_mm = 0;
 
   Vec2 parameter(const Vec3& p) const {

@@ -1,0 +1,68 @@
+// Curves in parameters: star shapes, insides, centroids; distances to triangles.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "fit/distance.hpp"
+#include "fit/rim.hpp"
+
+using namespace breast;
+
+namespace {
+
+std::vector<Vec2> circle(const Vec2& centre, double radius, int n) {
+  std::vector<Vec2> curve;
+  for (int i = 0; i < n; ++i) {
+    const double a = 2 * std::numbers::pi * i / n;
+    curve.push_back(centre + radius * Vec2(std::cos(a), std::sin(a)));
+  }
+  return curve;
+}
+
+}  // namespace
+
+TEST(RimCurve, CentroidOfAShiftedCircle) {
+  EXPECT_LT((centroid(circle({0.3, 0.6}, 0.2, 96)) - Vec2(0.3, 0.6)).norm(), 1e-12);
+}
+
+TEST(RimCurve, StarShapeNeedsCounterClockwiseOrderAndAnInnerCentre) {
+  auto curve = circle({0.5, 0.5}, 0.3, 64);
+  EXPECT_TRUE(star_shaped(curve, {0.6, 0.5}));
+  EXPECT_FALSE(star_shaped(curve, {0.9, 0.5}));
+  std::reverse(curve.begin(), curve.end());
+  EXPECT_FALSE(star_shaped(curve, {0.5, 0.5}));
+  curve = circle({0.5, 0.5}, 0.3, 64);
+  std::swap(curve[10], curve[11]);
+  EXPECT_FALSE(star_shaped(curve, {0.5, 0.5}));
+}
+
+TEST(RimCurve, InsideAgreesWithTheCircle) {
+  const auto curve = circle({0.5, 0.5}, 0.3, 256);
+  for (int k = 0; k < 200; ++k) {
+    const Vec2 st(0.5 + 0.45 * std::sin(3.1 * k), 0.5 + 0.45 * std::cos(1.3 * k));
+    const double r = (st - Vec2(0.5, 0.5)).norm();
+    if (std::abs(r - 0.3) > 1e-3) {
+      EXPECT_EQ(inside_star(curve, {0.45, 0.52}, st), r < 0.3);
+    }
+  }
+}
+
+TEST(Distance, ToOneTriangle) {
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const auto d = distances_to_triangles(points, {{0, 1, 2}},
+                                        {{0.2, 0.2, 3}, {-1, 0, 0}, {1, 1, 0}, {2, 0, 1}});
+  EXPECT_NEAR(d[0], 3, 1e-12);
+  EXPECT_NEAR(d[1], 1, 1e-12);
+  EXPECT_NEAR(d[2], std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(d[3], std::sqrt(2.0), 1e-12);
+}
+
+TEST(Distance, SummaryOfKnownValues) {
+  std::vector<double> values;
+  for (int i = 0; i < 100; ++i) values.push_back(i);
+  const DistanceSummary summary = summarise(values);
+  EXPECT_NEAR(summary.mean_mm, 49.5, 1e-12);
+  EXPECT_EQ(summary.p95_mm, 95);
+  EXPECT_EQ(summary.max_mm, 99);
+  EXPECT_EQ(summarise({}).count, 0u);
+}
