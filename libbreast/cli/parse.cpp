@@ -174,18 +174,12 @@ void assign(Declaration& tool, const Tokens& tokens) {
     if (hint.empty()) hint = "; see " + tool.name + " --help";
     throw input_error("unknown option '", given, "'", hint);
   }
-  // Common options first, so that --report is known when another argument is wrong.
-  for (const bool common : {true, false}) {
-    for (const Tokens::Option& option : tokens.options) {
-      Argument* argument = find_option(tool, option.name);
-      const bool is_common =
-          argument >= tool.common.data() && argument < tool.common.data() + tool.common.size();
-      if (is_common != common) continue;
-      if (option.times > 1 && !argument->repeatable && argument->kind != ArgumentKind::flag) {
-        throw input_error(option.name, " is given ", option.times, " times; give it once");
-      }
-      store(*argument, option.values);
+  for (const Tokens::Option& option : tokens.options) {
+    Argument* argument = find_option(tool, option.name);
+    if (option.times > 1 && !argument->repeatable && argument->kind != ArgumentKind::flag) {
+      throw input_error(option.name, " is given ", option.times, " times; give it once");
     }
+    store(*argument, option.values);
   }
   assign_positionals(tool, tokens.positionals);
   for (const Argument& argument : tool.options) {

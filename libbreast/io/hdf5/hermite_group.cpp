@@ -1,0 +1,174 @@
+#include "io/hdf5/hermite_group.hpp"
+
+#include <cmath>
+
+namespace breast {
+
+namespace {
+
+const std::string group = "/breast/hermite";
+constexpr int most_patches = 1000;
+constexpr std::size_t least_rim_points = 32;
+
+void put_sheet(Document& document, const std::string& path, const HermiteSheet& sheet) {
+  const std::size_t ni = std::size_t(sheet.nu) + 1, nj = std::size_t(sheet.nv) + 1;
+  const auto put_vectors = [&](const char* name, Vec3 HermiteSheet::Node::*member) {
+    std::vector<Vec3> list;
+    for (const HermiteSheet::Node& node : sheet.nodes) list.push_back(node.*member);
+    document.datasets[path + "/" + name] = reshaped(array_of(list), {nj, ni, 3});
+  };
+  put_vectors("x", &HermiteSheet::Node::x);
+  put_vectors("x_1", &HermiteSheet::Node::x_1);
+  put_vectors("x_2", &HermiteSheet::Node::x_2);
+  put_vectors("x_12", &HermiteSheet::Node::x_12);
+  const auto put_scales = [&](const char* name, double HermiteSheet::Node::*member) {
+    Doubles list;
+    for (const HermiteSheet::Node& node : sheet.nodes) list.push_back(node.*member);
+    document.datasets[path + "/" + name] = reshaped(array_of(list), {nj, ni});
+  };
+  put_scales("scale_1", &HermiteSheet::Node::scale_1);
+  put_scales("scale_2", &HermiteSheet::Node::scale_2);
+  document.attributes[path + "@patches"] = array_of(Integers{sheet.nu, sheet.nv});
+}
+
+HermiteSheet get_sheet(Fields& fields, const std::string& path) {
+  const Integers patches = fields.integer_list(path + "@patches", 2);
+  for (const std::int64_t n : patches) {
+    if (!(n >= 1 && n <= most_patches)) {
+      throw fields.complain()("attribute ", path, "@patches is ", n, ", must be 1 to ",
+                              most_patches);
+    }
+  }
+  HermiteSheet sheet;
+  sheet.nu = int(patches[0]);
+  sheet.nv = int(patches[1]);
+  const std::size_t ni = std::size_t(sheet.nu) + 1, nj = std::size_t(sheet.nv) + 1;
+  sheet.nodes.resize(ni * nj);
+  const auto get_vectors = [&](const char* name, Vec3 HermiteSheet::Node::*member) {
+    const Doubles flat = fields.doubles(path + "/" + name, {nj, ni, 3});
+    for (std::size_t n = 0; n < sheet.nodes.size(); ++n) {
+      sheet.nodes[n].*member = Vec3(flat[3 * n], flat[3 * n + 1], flat[3 * n + 2]);
+    }
+  };
+  get_vectors("x", &HermiteSheet::Node::x);
+  get_vectors("x_1", &HermiteSheet::Node::x_1);
+  get_vectors("x_2", &HermiteSheet::Node::x_2);
+  get_vectors("x_12", &HermiteSheet::Node::x_12);
+  const auto get_scales = [&](const char* name, double HermiteSheet::Node::*member) {
+    const Doubles flat = fields.doubles(path + "/" + name, {nj, ni});
+    for (std::size_t n = 0; n < sheet.nodes.size(); ++n) sheet.nodes[n].*member = flat[n];
+  };
+  get_scales("scale_1", &HermiteSheet::Node::scale_1);
+  get_scales("scale_2", &HermiteSheet::Node::scale_2);
+  return sheet;
+}
+
+Array rim_array(const std::vector<Vec2>& rim) {
+  Doubles flat;
+  for (const Vec2& st : rim) flat.insert(flat.end(), {st.x(), st.y()});
+  return {{rim.size(), 2}, std::move(flat)};
+}
+
+std::vector<Vec2> get_rim(Fields& fields, const std::string& path, std::size_t count) {
+  const Doubles flat = fields.doubles(path, {count, 2});
+  std::vector<Vec2> rim(flat.size() / 2);
+  for (std::size_t i = 0; i < rim.size(); ++i) rim[i] = {flat[2 * i], flat[2 * i + 1]};
+  return rim;
+}
+
+void check_sheet(const HermiteSheet& sheet, const std::string& path, const Complaint& complain) {
+  if (!(sheet.nu >= 1 && sheet.nv >= 1 && sheet.nu <= most_patches && sheet.nv <= most_patches)) {
+    throw complain(path, " has ", sheet.nu, " x ", sheet.nv, " patches, must be 1 to ",
+                   most_patches);
+  }
+  if (sheet.nodes.size() != std::size_t(sheet.nu + 1) * (sheet.nv + 1)) {
+    throw complain(path, " has ", sheet.nodes.size(), " nodes, must be ",
+                   std::size_t(sheet.nu + 1) * (sheet.nv + 1));
+  }
+  for (std::size_t n = 0; n < sheet.nodes.size(); ++n) {
+    if (!(sheet.nodes[n].scale_1 > 0 && sheet.nodes[n].scale_2 > 0)) {
+      throw complain("dataset ", path, "/scale_1 or scale_2 node ", n, " is ",
+                     sheet.nodes[n].scale_1, " or ", sheet.nodes[n].scale_2, ", must be positive");
+    }
+  }
+}
+
+void check_rim(const std::vector<Vec2>& rim, const std::string& path, const Complaint& complain) {
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    for (int d = 0; d < 2; ++d) {
+      if (!(rim[i][d] >= 0 && rim[i][d] <= 1)) {
+        throw complain("dataset ", path, "[", i, ",", d, "] is ", rim[i][d], ", must be 0 to 1");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void check_geometry(const BreastGeometry& geometry, const Complaint& complain) {
+  check_sheet(geometry.skin, group + "/skin", complain);
+  check_sheet(geometry.wall, group + "/wall", complain);
+  const std::size_t n = geometry.rim_skin.size();
+  if (n < least_rim_points || geometry.rim_wall.size() != n || geometry.rim_end.size() != n) {
+    throw complain(group, "/rim has ", n, " skin, ", geometry.rim_wall.size(), " wall and ",
+                   geometry.rim_end.size(), " end entries, must be equal and at least ",
+                   least_rim_points);
+  }
+  check_rim(geometry.rim_skin, group + "/rim/skin", complain);
+  check_rim(geometry.rim_wall, group + "/rim/wall", complain);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (geometry.rim_end[i] > RimEnd::margin) {
+      throw complain("dataset ", group, "/rim/end[", i, "] is ", int(geometry.rim_end[i]),
+                     ", must be 0 to 2");
+    }
+  }
+  check_rim({geometry.centre}, group + "/rim@centre", complain);
+  check_rim({geometry.nipple_st}, group + "@nipple_st", complain);
+  if (!(geometry.skin_thickness >= 0)) {
+    throw complain("attribute ", group, "@skin_thickness is ", geometry.skin_thickness,
+                   ", must be 0 or more");
+  }
+}
+
+void put_hermite(Document& document, const BreastGeometry& geometry) {
+  put_sheet(document, group + "/skin", geometry.skin);
+  put_sheet(document, group + "/wall", geometry.wall);
+  document.datasets[group + "/rim/skin"] = rim_array(geometry.rim_skin);
+  document.datasets[group + "/rim/wall"] = rim_array(geometry.rim_wall);
+  Bytes ends;
+  for (const RimEnd end : geometry.rim_end) ends.push_back(std::uint8_t(end));
+  document.datasets[group + "/rim/end"] = array_of(std::move(ends));
+  auto& attributes = document.attributes;
+  attributes[group + "/rim@centre"] = array_of(Doubles{geometry.centre.x(), geometry.centre.y()});
+  attributes[group + "@nipple_st"] =
+      array_of(Doubles{geometry.nipple_st.x(), geometry.nipple_st.y()});
+  attributes[group + "@nipple"] = array_of(geometry.nipple);
+  attributes[group + "@skin_thickness"] = array_of(geometry.skin_thickness);
+  attributes[group + "@fit_mean_mm"] = array_of(geometry.fit_mean_mm);
+  attributes[group + "@fit_p95_mm"] = array_of(geometry.fit_p95_mm);
+  attributes[group + "@fit_max_mm"] = array_of(geometry.fit_max_mm);
+}
+
+BreastGeometry get_hermite(Fields& fields) {
+  BreastGeometry geometry;
+  geometry.skin = get_sheet(fields, group + "/skin");
+  geometry.wall = get_sheet(fields, group + "/wall");
+  geometry.rim_skin = get_rim(fields, group + "/rim/skin", Fields::any);
+  const std::size_t n = geometry.rim_skin.size();
+  geometry.rim_wall = get_rim(fields, group + "/rim/wall", n);
+  for (const std::uint8_t end : fields.bytes(group + "/rim/end", {n})) {
+    geometry.rim_end.push_back(static_cast<RimEnd>(end));
+  }
+  const Doubles centre = fields.numbers(group + "/rim@centre", 2);
+  const Doubles nipple_st = fields.numbers(group + "@nipple_st", 2);
+  geometry.centre = {centre[0], centre[1]};
+  geometry.nipple_st = {nipple_st[0], nipple_st[1]};
+  geometry.nipple = fields.vector(group + "@nipple");
+  geometry.skin_thickness = fields.number(group + "@skin_thickness");
+  geometry.fit_mean_mm = fields.number(group + "@fit_mean_mm");
+  geometry.fit_p95_mm = fields.number(group + "@fit_p95_mm");
+  geometry.fit_max_mm = fields.number(group + "@fit_max_mm");
+  return geometry;
+}
+
+}  // namespace breast

@@ -1,0 +1,15 @@
+// /breast/hermite: the two sheets and the rim, in geometry files and in the meshes made from them.
+#pragma once
+
+#include "io/hdf5/fields.hpp"
+#include "surface/hermite.hpp"
+
+namespace breast {
+
+void put_hermite(Document& document, const BreastGeometry& geometry);
+/// Everything but history, side and content_sha256.
+BreastGeometry get_hermite(Fields& fields);
+/// Shapes and ranges that the sheets must satisfy; throws through `complain`.
+void check_geometry(const BreastGeometry& geometry, const Complaint& complain);
+
+}  // namespace breast

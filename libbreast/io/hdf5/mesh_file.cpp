@@ -1,0 +1,212 @@
+#include "io/mesh_file.hpp"
+
+#include <limits>
+
+#include "io/hdf5/hermite_group.hpp"
+#include "io/hdf5/mesh_check.hpp"
+#include "io/hdf5/records.hpp"
+#include "io/hdf5/sets_group.hpp"
+#include "io/hdf5/vtkhdf.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr std::uint8_t vtk_hexahedron = 12, vtk_triquadratic_hexahedron = 29;
+const std::string point_data = "/VTKHDF/PointData/", cell_data = "/VTKHDF/CellData/";
+
+void put_grid(Document& document, const HexMesh& mesh) {
+  const std::size_t n = std::size_t(mesh.nodes_per_element()),
+                    elements = std::size_t(mesh.elements());
+  Integers offsets(elements + 1);
+  for (std::size_t e = 0; e <= elements; ++e) offsets[e] = std::int64_t(e * n);
+  const Bytes types(elements, mesh.order == 1 ? vtk_hexahedron : vtk_triquadratic_hexahedron);
+  put_unstructured_grid(document, mesh.points,
+                        Integers(mesh.connectivity.begin(), mesh.connectivity.end()), offsets,
+                        types);
+}
+
+void get_grid(Fields& fields, HexMesh& mesh) {
+  check_unstructured_grid(fields);
+  const Bytes types = fields.bytes("/VTKHDF/Types", {Fields::any});
+  if (types[0] != vtk_hexahedron && types[0] != vtk_triquadratic_hexahedron) {
+    throw fields.complain()("dataset /VTKHDF/Types[0] is ", int(types[0]), ", must be ",
+                            int(vtk_hexahedron), " or ", int(vtk_triquadratic_hexahedron));
+  }
+  mesh.order = types[0] == vtk_hexahedron ? 1 : 2;
+  const std::int64_t n = mesh.nodes_per_element();
+  const Integers offsets = fields.integers("/VTKHDF/Offsets", {types.size() + 1});
+  for (std::size_t e = 0; e < types.size(); ++e) {
+    if (types[e] != types[0]) {
+      throw fields.complain()("dataset /VTKHDF/Types[", e, "] is ", int(types[e]), ", must be ",
+                              int(types[0]), " like the first");
+    }
+    if (offsets[e + 1] - offsets[e] != n) {
+      throw fields.complain()("dataset /VTKHDF/Offsets gives element ", e, " ",
+                              offsets[e + 1] - offsets[e], " nodes, must be ", n);
+    }
+  }
+  mesh.points = fields.vectors("/VTKHDF/Points");
+  const Integers ids = fields.integers("/VTKHDF/Connectivity", {Fields::any});
+  mesh.connectivity.assign(ids.begin(), ids.end());
+}
+
+void put_point_data(Document& document, const HexMesh& mesh) {
+  document.datasets[point_data + "imaged"] = array_of(mesh.imaged);
+  if (!mesh.reference.empty()) {
+    document.datasets[point_data + "reference"] = array_of(mesh.reference);
+    std::vector<Vec3> displacement(mesh.points.size());
+    for (std::size_t i = 0; i < displacement.size(); ++i) {
+      displacement[i] = mesh.points[i] - mesh.reference[i];
+    }
+    document.datasets[point_data + "displacement"] = array_of(displacement);
+  }
+  if (!mesh.contact_pressure.empty()) {
+    document.datasets[point_data + "contact_pressure"] = array_of(Doubles(mesh.contact_pressure));
+  }
+}
+
+void get_point_data(Fields& fields, HexMesh& mesh) {
+  const std::size_t nodes = mesh.points.size();
+  mesh.imaged = fields.vectors(point_data + "imaged", nodes);
+  if (fields.has(point_data + "contact_pressure")) {
+    mesh.contact_pressure = fields.doubles(point_data + "contact_pressure", {nodes});
+  }
+  if (!fields.has(point_data + "reference")) return;
+  mesh.reference = fields.vectors(point_data + "reference", nodes);
+  // Displacement is there for viewing; one that contradicts the two shapes means an edited file.
+  constexpr double tolerance_mm = 1e-6;
+  const auto displacement = fields.vectors(point_data + "displacement", nodes);
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const Vec3 expected = mesh.points[i] - mesh.reference[i];
+    if (!((displacement[i] - expected).norm() <= tolerance_mm)) {
+      throw fields.complain()("dataset ", point_data, "displacement[", i, "] is ",
+                              displacement[i].transpose(),
+                              ", must be Points - reference = ", expected.transpose());
+    }
+  }
+}
+
+void put_cell_data(Document& document, const HexMesh& mesh) {
+  Bytes tissue;
+  for (const Tissue t : mesh.tissue) tissue.push_back(std::uint8_t(t));
+  auto& sets = document.datasets;
+  sets[cell_data + "tissue"] = array_of(std::move(tissue));
+  if (!mesh.fibroglandular_fraction.empty()) {
+    sets[cell_data + "fibroglandular_fraction"] = array_of(Floats(mesh.fibroglandular_fraction));
+  }
+  if (!mesh.pressure.empty()) sets[cell_data + "pressure"] = array_of(Doubles(mesh.pressure));
+  if (!mesh.det_F.empty()) sets[cell_data + "det_F"] = array_of(Doubles(mesh.det_F));
+  if (!mesh.scaled_jacobian.empty()) {
+    sets[cell_data + "scaled_jacobian"] = array_of(Doubles(mesh.scaled_jacobian));
+  }
+  sets["/VTKHDF/FieldData/wall_seconds"] = array_of(Doubles{mesh.wall_seconds});
+}
+
+void get_cell_data(Fields& fields, HexMesh& mesh) {
+  const std::size_t elements = std::size_t(mesh.elements());
+  for (const std::uint8_t code : fields.bytes(cell_data + "tissue", {elements})) {
+    mesh.tissue.push_back(static_cast<Tissue>(code));
+  }
+  if (fields.has(cell_data + "fibroglandular_fraction")) {
+    mesh.fibroglandular_fraction = fields.floats(cell_data + "fibroglandular_fraction", {elements});
+  }
+  const auto optional = [&](const char* name) {
+    return fields.has(cell_data + name) ? fields.doubles(cell_data + name, {elements}) : Doubles{};
+  };
+  mesh.pressure = optional("pressure");
+  mesh.det_F = optional("det_F");
+  mesh.scaled_jacobian = optional("scaled_jacobian");
+  mesh.wall_seconds = fields.doubles("/VTKHDF/FieldData/wall_seconds", {1}).front();
+}
+
+void put_geometry(Document& document, const HexMesh& mesh) {
+  put_hermite(document, *mesh.geometry);
+  document.attributes["/breast/hermite@content_sha256"] = array_of(mesh.geometry->content_sha256);
+}
+
+void get_optional_groups(Fields& fields, HexMesh& mesh) {
+  if (fields.has_group("/breast/hermite")) {
+    mesh.geometry = get_hermite(fields);
+    mesh.geometry->side = mesh.side;
+    mesh.geometry->content_sha256 = fields.text("/breast/hermite@content_sha256");
+  }
+  if (fields.has_group("/breast/solve")) mesh.solve = get_solve(fields);
+  if (fields.has_group("/breast/contact")) mesh.contact = get_contact(fields);
+}
+
+void check_needs(const HexMesh& mesh, const MeshNeeds& needs, const std::string& file) {
+  if (needs.reference && mesh.reference.empty()) {
+    throw input_error(file, ": has no stress-free shape (dataset ", point_data,
+                      "reference); make it with backward");
+  }
+  if (needs.geometry && !mesh.geometry) {
+    throw input_error(file,
+                      ": has no Hermite sheets (group /breast/hermite); make it with hexmesh");
+  }
+  if (needs.contact && !mesh.contact) {
+    throw input_error(file,
+                      ": has no compression record (group /breast/contact); make it with compress");
+  }
+}
+
+}  // namespace
+
+HexMesh read_mesh(const std::filesystem::path& file, const MeshNeeds& needs) {
+  Document document = load_document(file, "mesh/1", "hexmesh");
+  const Complaint complain{ErrorKind::input, file.string(), "; make it again"};
+  Fields fields(document, complain);
+  HexMesh mesh;
+  mesh.content_sha256 = content_sha256(document);
+  const FileHeader header = get_header(fields);
+  mesh.side = header.side;
+  mesh.history = header.history;
+  get_grid(fields, mesh);
+  get_point_data(fields, mesh);
+  get_cell_data(fields, mesh);
+  get_sets(fields, mesh);
+  get_landmarks(fields, mesh);
+  get_skin(fields, mesh);
+  mesh.gravity = fields.vector("/breast@gravity");
+  mesh.template_name = fields.text("/breast/template@name");
+  const Integers size = fields.integer_list("/breast/template@size", 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!(size[i] >= 0 && size[i] <= std::numeric_limits<int>::max())) {
+      throw complain("attribute /breast/template@size[", i, "] is ", size[i],
+                     ", must be 0 or more");
+    }
+    mesh.template_size[i] = int(size[i]);
+  }
+  get_optional_groups(fields, mesh);
+  check_mesh(mesh, complain);
+  check_node_sets(fields, mesh);
+  check_needs(mesh, needs, file.string());
+  return mesh;
+}
+
+void write_mesh(const std::filesystem::path& file, const HexMesh& mesh) {
+  const Complaint complain{ErrorKind::failed, file.string(), ""};
+  check_mesh(mesh, complain);
+  if (mesh.geometry && mesh.geometry->side != mesh.side) {
+    throw complain("mesh is of the ", side_name(mesh.side), " breast, its geometry of the ",
+                   side_name(mesh.geometry->side));
+  }
+  Document document;
+  put_header(document, {"mesh/1", mesh.side, mesh.history});
+  document.attributes["/breast@gravity"] = array_of(mesh.gravity);
+  document.attributes["/breast/template@name"] = array_of(mesh.template_name);
+  document.attributes["/breast/template@size"] =
+      array_of(Integers(mesh.template_size.begin(), mesh.template_size.end()));
+  put_grid(document, mesh);
+  put_point_data(document, mesh);
+  put_cell_data(document, mesh);
+  put_sets(document, mesh);
+  put_landmarks(document, mesh);
+  put_skin(document, mesh);
+  if (mesh.geometry) put_geometry(document, mesh);
+  if (mesh.solve) put_solve(document, *mesh.solve);
+  if (mesh.contact) put_contact(document, *mesh.contact);
+  save_document(file, document);
+}
+
+}  // namespace breast

@@ -1,0 +1,134 @@
+#include "io/hdf5/records.hpp"
+
+#include <limits>
+
+namespace breast {
+
+namespace {
+
+constexpr long int_limit = std::numeric_limits<int>::max();
+const std::string solve_group = "/breast/solve", contact_group = "/breast/contact",
+                  plates_group = "/breast/contact/plates";
+
+// One column of a table of records.
+template <class Record, class Member>
+auto column(const std::vector<Record>& records, Member member) {
+  std::vector<std::decay_t<decltype(records.front().*member)>> list;
+  for (const Record& record : records) list.push_back(record.*member);
+  return list;
+}
+
+struct IterationColumn {
+  const char* name;
+  double IterationRecord::*member;
+};
+constexpr IterationColumn iteration_columns[] = {{"residual", &IterationRecord::residual},
+                                                 {"min_det_F", &IterationRecord::min_det_F},
+                                                 {"max_det_F", &IterationRecord::max_det_F},
+                                                 {"step_length", &IterationRecord::step_length},
+                                                 {"seconds", &IterationRecord::seconds}};
+
+struct PlateColumn {
+  const char* name;
+  double PlateRecord::*member;
+};
+constexpr PlateColumn plate_columns[] = {
+    {"edge_radius", &PlateRecord::edge_radius}, {"force_N", &PlateRecord::force_N},
+    {"area_cm2", &PlateRecord::area_cm2},       {"mean_kPa", &PlateRecord::mean_kPa},
+    {"peak_kPa", &PlateRecord::peak_kPa},       {"worst_gap_mm", &PlateRecord::worst_gap_mm}};
+struct PlateAxis {
+  const char* name;
+  Vec3 PlateRecord::*member;
+};
+const PlateAxis plate_axes[] = {{"normal", &PlateRecord::normal},
+                                {"anterior", &PlateRecord::anterior},
+                                {"origin", &PlateRecord::origin}};
+
+struct ContactNumber {
+  const char* name;
+  double ContactRecord::*member;
+};
+constexpr ContactNumber contact_numbers[] = {
+    {"angle_deg", &ContactRecord::angle_deg},
+    {"thickness_mm", &ContactRecord::thickness_mm},
+    {"reduction_percent", &ContactRecord::reduction_percent},
+    {"initial_thickness_mm", &ContactRecord::initial_thickness_mm},
+    {"standoff_mm", &ContactRecord::standoff_mm}};
+
+}  // namespace
+
+void put_solve(Document& document, const SolveRecord& solve) {
+  document.attributes[solve_group + "@status"] = array_of(solve.status);
+  document.attributes[solve_group + "@reason"] = array_of(solve.reason);
+  Integers steps, iterations;
+  for (const IterationRecord& row : solve.iterations) {
+    steps.push_back(row.step);
+    iterations.push_back(row.iteration);
+  }
+  document.datasets[solve_group + "/step"] = array_of(std::move(steps));
+  document.datasets[solve_group + "/iteration"] = array_of(std::move(iterations));
+  for (const auto& [name, member] : iteration_columns) {
+    document.datasets[solve_group + "/" + name] = array_of(column(solve.iterations, member));
+  }
+}
+
+SolveRecord get_solve(Fields& fields) {
+  SolveRecord solve;
+  solve.status = fields.text(solve_group + "@status");
+  solve.reason = fields.text(solve_group + "@reason");
+  const auto steps = fields.indices(solve_group + "/step", {Fields::any}, -int_limit, int_limit);
+  const auto iterations =
+      fields.indices(solve_group + "/iteration", {steps.size()}, -int_limit, int_limit);
+  solve.iterations.resize(steps.size());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    solve.iterations[i].step = steps[i];
+    solve.iterations[i].iteration = iterations[i];
+  }
+  for (const auto& [name, member] : iteration_columns) {
+    const Doubles list = fields.doubles(solve_group + "/" + name, {steps.size()});
+    for (std::size_t i = 0; i < steps.size(); ++i) solve.iterations[i].*member = list[i];
+  }
+  return solve;
+}
+
+void put_contact(Document& document, const ContactRecord& contact) {
+  document.attributes[contact_group + "@view"] = array_of(contact.view);
+  for (const auto& [name, member] : contact_numbers) {
+    document.attributes[contact_group + "@" + name] = array_of(contact.*member);
+  }
+  auto& sets = document.datasets;
+  sets[plates_group + "/name"] = array_of(column(contact.plates, &PlateRecord::name));
+  for (const auto& [name, member] : plate_axes) {
+    sets[plates_group + "/" + name] = array_of(column(contact.plates, member));
+  }
+  for (const auto& [name, member] : plate_columns) {
+    sets[plates_group + "/" + name] = array_of(column(contact.plates, member));
+  }
+  sets[contact_group + "/path_thickness_mm"] = array_of(Doubles(contact.path_thickness_mm));
+  sets[contact_group + "/path_force_N"] = array_of(Doubles(contact.path_force_N));
+}
+
+ContactRecord get_contact(Fields& fields) {
+  ContactRecord contact;
+  contact.view = fields.text(contact_group + "@view");
+  for (const auto& [name, member] : contact_numbers) {
+    contact.*member = fields.number(contact_group + "@" + name);
+  }
+  const Texts names = fields.texts(plates_group + "/name", {Fields::any});
+  contact.plates.resize(names.size());
+  for (std::size_t p = 0; p < names.size(); ++p) contact.plates[p].name = names[p];
+  for (const auto& [name, member] : plate_axes) {
+    const auto list = fields.vectors(plates_group + "/" + name, names.size());
+    for (std::size_t p = 0; p < names.size(); ++p) contact.plates[p].*member = list[p];
+  }
+  for (const auto& [name, member] : plate_columns) {
+    const Doubles list = fields.doubles(plates_group + "/" + name, {names.size()});
+    for (std::size_t p = 0; p < names.size(); ++p) contact.plates[p].*member = list[p];
+  }
+  contact.path_thickness_mm = fields.doubles(contact_group + "/path_thickness_mm", {Fields::any});
+  contact.path_force_N =
+      fields.doubles(contact_group + "/path_force_N", {contact.path_thickness_mm.size()});
+  return contact;
+}
+
+}  // namespace breast
