@@ -1,0 +1,44 @@
+#include "mechanics/options.hpp"
+
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+
+template <class Value>
+Value pick(const std::string& name, const char* option,
+           std::initializer_list<std::pair<const char*, Value>> choices) {
+  std::string known;
+  for (const auto& [text, value] : choices) {
+    if (name == text) return value;
+    known += (known.empty() ? "" : ", ") + std::string(text);
+  }
+  throw input_error(option, " '", name, "' is unknown: use one of ", known);
+}
+
+}  // namespace
+
+MechanicsOptions mechanics_options(const std::string& materials,
+                                   const std::vector<std::string>& scale,
+                                   const std::string& element, const std::string& invariants,
+                                   std::optional<double> bulk_ratio, const std::string& cut,
+                                   const std::string& solver) {
+  MechanicsOptions options;
+  options.materials = load_materials(materials);
+  scale_materials(options.materials, scale);
+  options.element =
+      pick<Element>(element, "--element", {{"q1p0", Element::q1p0}, {"q2p1", Element::q2p1}});
+  options.invariants =
+      pick<Invariants>(invariants, "--invariants",
+                       {{"isochoric", Invariants::isochoric}, {"plain", Invariants::plain}});
+  options.bulk_ratio = bulk_ratio.value_or(0);
+  options.cut = pick<Cut>(cut, "--cut",
+                          {{"free", Cut::free}, {"fixed", Cut::fixed}, {"roller", Cut::roller}});
+  options.solver = solver;
+  return options;
+}
+
+}  // namespace breast

@@ -1,0 +1,80 @@
+// The contract's keys of a mechanics report.
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.hpp"
+#include "mechanics/mechanics.hpp"
+#include "mesh/quality.hpp"
+#include "solve/blas.hpp"
+
+namespace breast {
+
+namespace {
+
+void write_landmarks(const HexMesh& mesh, Report& report) {
+  for (const Landmark& landmark : mesh.landmarks) {
+    const std::string key = "landmarks/" + landmark.name + "/";
+    const Vec3 imaged = landmark_position(mesh, mesh.imaged, landmark);
+    const Vec3 position = landmark_position(mesh, mesh.points, landmark);
+    report.set(key + "imaged", imaged);
+    report.set(key + "position", position);
+    report.set(key + "displacement_mm", Vec3(position - imaged));
+    report.set(key + "distance_mm", (position - imaged).norm());
+  }
+}
+
+// Law, small-strain modulus and gravity number ρgL/μ of every tissue present; L = cube root of the
+// volume.
+void write_materials(const HexMesh& mesh, const MechanicsOptions& options, Report& report) {
+  const std::vector<double> volumes = element_volumes(mesh, mesh.imaged);
+  std::array<double, n_tissues> volume{};
+  double total = 0;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    volume[std::size_t(mesh.tissue[e])] += volumes[e];
+    total += volumes[e];
+  }
+  if (mesh.skin_model == SkinModel::membrane) volume[std::size_t(Tissue::skin)] = 1e-300;
+  report.set("materials/name", options.materials.name);
+  for (int t = 0; t < n_tissues; ++t) {
+    if (!(volume[t] > 0)) continue;
+    const Law& law = options.materials.laws[t];
+    const std::string tissue(tissue_name(Tissue(t))), key = "materials/" + tissue + "/";
+    report.set(key + "law", law.describe());
+    report.set(key + "shear_modulus_Pa", law.shear_modulus());
+    report.set(key + "gravity_number", options.materials.density[t] * gravity_mm_s2 *
+                                           std::cbrt(total) / law.shear_modulus());
+    if (volume[t] > 1e-6) report.set("volumes_ml/" + tissue, volume[t] / mm3_per_ml);
+  }
+}
+
+}  // namespace
+
+void write_report(const SolveSummary& summary, const HexMesh& mesh, const MechanicsOptions& options,
+                  Report& report) {
+  report.set("status", summary.record.status);
+  report.set("reason", summary.record.reason);
+  report.set("elements", mesh.elements());
+  report.set("unknowns", summary.unknowns);
+  report.set("newton_iterations", summary.newton_iterations);
+  report.set("factorisations", summary.factorisations);
+  report.set("steps", summary.steps);
+  report.set("residual", summary.residual);
+  report.set("min_det_F", summary.min_det_F);
+  report.set("max_volume_error", summary.max_volume_error);
+  report.set("element", options.element == Element::q1p0 ? "q1p0" : "q2p1");
+  report.set("invariants", options.invariants == Invariants::isochoric ? "isochoric" : "plain");
+  if (options.bulk_ratio > 0) report.set("bulk_ratio", options.bulk_ratio);
+  report.set("cut", options.cut == Cut::free    ? "free"
+                    : options.cut == Cut::fixed ? "fixed"
+                                                : "roller");
+  report.set("blas", blas_name());
+  const MeshQuality quality = mesh_quality(mesh, mesh.points);
+  report.set("min_scaled_jacobian", quality.min_scaled_jacobian);
+  report.set("peak_mb", peak_memory_mb());
+  write_materials(mesh, options, report);
+  write_landmarks(mesh, report);
+  summary.timer.write(report);
+  for (const std::string& doubt : summary.doubts) report.append("doubts", doubt);
+}
+
+}  // namespace breast

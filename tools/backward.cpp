@@ -1,0 +1,111 @@
+// backward: the stress-free shape of an imaged breast.
+#include <algorithm>
+
+#include "cli/mechanics_options.hpp"
+#include "cli/tool.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "io/mesh_file.hpp"
+#include "mechanics/element_order.hpp"
+#include "mechanics/options.hpp"
+#include "mesh/quality.hpp"
+
+using namespace breast;
+
+namespace {
+
+struct Choices {
+  std::filesystem::path mesh, reference;
+  std::string posture = "prone";
+  std::vector<double> gravity;
+  MechanicsChoices mechanics;
+};
+
+Vec3 gravity_of(const Choices& c) {
+  if (c.gravity.empty()) return posture_gravity(c.posture);
+  return {c.gravity[0], c.gravity[1], c.gravity[2]};
+}
+
+MechanicsOptions options_of(const MechanicsChoices& m) {
+  return mechanics_options(m.materials, m.scale, m.element, m.invariants, m.bulk_ratio, m.cut,
+                           m.solver);
+}
+
+void declare(Tool& tool, Choices& c) {
+  tool.describe(
+      "Finds the shape the breast would have without gravity: the one that gravity deforms into "
+      "the "
+      "imaged shape. The equations are those of forward with the reference shape unknown, solved "
+      "by "
+      "Newton's method with exact derivatives.");
+  tool.describe(
+      "Afterwards the forward problem is solved from the shape found; closure_mm in the report is "
+      "the "
+      "largest distance of its nodes from the imaged shape.");
+  tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), equation (6)");
+  tool.input(c.mesh, "MESH.vtkhdf", "mesh of the imaged shape (hexmesh)");
+  tool.output(c.reference, "REFERENCE.vtkhdf", "the same mesh, stress-free");
+  tool.choice(c.posture, "--posture", {"prone", "supine", "upright", "off"},
+              "direction of gravity during the scan");
+  tool.numbers(c.gravity, "--gravity", "gx,gy,gz", 3,
+               "gravity in mm/s2, patient axes (left, posterior, superior), instead of --posture");
+  declare_mechanics(tool, c.mechanics);
+  tool.example("backward mesh.vtkhdf reference.vtkhdf", "prone scan, materials of the paper");
+  tool.example("backward mesh.vtkhdf reference.vtkhdf --materials mira2018 --scale fat=120",
+               "softer materials identified in vivo, fat 20 % stiffer");
+}
+
+// Largest distance (mm) of the imaged shape from what forward makes of the shape found.
+void check_closure(const HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
+                   Run& run) {
+  HexMesh again = mesh;
+  SolveSummary summary;
+  {
+    Timer::Scope phase(run.timer(), "closure");
+    summary = solve_forward(again, gravity, options, run.progress());
+  }
+  if (!summary.converged()) {
+    run.warn("forward did not return to the imaged shape: " + summary.record.reason);
+    return;
+  }
+  double worst = 0;
+  for (int i = 0; i < mesh.nodes(); ++i) {
+    worst = std::max(worst, (again.points[i] - mesh.imaged[i]).norm());
+  }
+  run.report().set("closure_mm", worst);
+  if (worst > 1e-6) {
+    run.warn(message("forward returns to the imaged shape only within ", worst,
+                     " mm: another equilibrium is near"));
+  }
+}
+
+void run_backward(const Choices& c, Run& run) {
+  const MechanicsOptions options = options_of(c.mechanics);
+  HexMesh mesh = read_mesh(c.mesh);
+  const std::string sha = mesh.content_sha256;
+  if (options.element == Element::q2p1) mesh = raise_order(mesh);
+  mesh.contact.reset();
+  mesh.contact_pressure.clear();
+  const SolveSummary summary = solve_backward(mesh, gravity_of(c), options, run.progress());
+  if (summary.converged()) check_closure(mesh, gravity_of(c), options, run);
+  mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
+  write_report(summary, mesh, options, run.report());
+  run.timer().write(run.report());
+  for (const std::string& doubt : summary.doubts) run.warn(doubt);
+  if (summary.converged() || c.mechanics.keep_unconverged) {
+    const History before = mesh.history;
+    mesh.history = run.history({{c.mesh, sha, &before}});
+    mesh.wall_seconds = run.seconds();
+    write_mesh(c.reference, mesh);
+  }
+  if (!summary.converged()) throw not_converged_error(summary.record.reason);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choices c;
+  Tool tool("backward", "the stress-free shape of an imaged breast");
+  declare(tool, c);
+  return tool.main(argc, argv, [&c](Run& run) { run_backward(c, run); });
+}

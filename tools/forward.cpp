@@ -1,0 +1,80 @@
+// forward: the shape of a stress-free breast under gravity.
+#include "cli/mechanics_options.hpp"
+#include "cli/tool.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "io/mesh_file.hpp"
+#include "mechanics/element_order.hpp"
+#include "mechanics/options.hpp"
+#include "mesh/quality.hpp"
+
+using namespace breast;
+
+namespace {
+
+struct Choices {
+  std::filesystem::path reference, deformed;
+  std::string posture = "supine";
+  std::vector<double> gravity;
+  MechanicsChoices mechanics;
+};
+
+Vec3 gravity_of(const Choices& c) {
+  if (c.gravity.empty()) return posture_gravity(c.posture);
+  return {c.gravity[0], c.gravity[1], c.gravity[2]};
+}
+
+MechanicsOptions options_of(const MechanicsChoices& m) {
+  return mechanics_options(m.materials, m.scale, m.element, m.invariants, m.bulk_ratio, m.cut,
+                           m.solver);
+}
+
+void declare(Tool& tool, Choices& c) {
+  tool.describe(
+      "Finds the equilibrium of the breast under gravity, from its stress-free shape: "
+      "hyperelastic, "
+      "exactly incompressible unless --bulk-ratio is given, the chest wall held. Nodal gravity "
+      "forces "
+      "are those of the imaged shape, so that under the gravity of the scan the imaged shape comes "
+      "back to rounding error.");
+  tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), equation (5)");
+  tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
+  tool.output(c.deformed, "DEFORMED.vtkhdf", "the same mesh under gravity");
+  tool.choice(c.posture, "--posture", {"supine", "prone", "upright", "off"},
+              "direction of gravity");
+  tool.numbers(c.gravity, "--gravity", "gx,gy,gz", 3,
+               "gravity in mm/s2, patient axes (left, posterior, superior), instead of --posture");
+  declare_mechanics(tool, c.mechanics);
+  tool.example("forward reference.vtkhdf supine.vtkhdf", "lying on the back");
+  tool.example("forward reference.vtkhdf prone.vtkhdf --posture prone --element q2p1",
+               "back to the scanned posture, quadratic elements");
+}
+
+void run_forward(const Choices& c, Run& run) {
+  const MechanicsOptions options = options_of(c.mechanics);
+  HexMesh mesh = read_mesh(c.reference, {.reference = true});
+  const std::string sha = mesh.content_sha256;
+  if (options.element == Element::q2p1) mesh = raise_order(mesh);
+  const SolveSummary summary = solve_forward(mesh, gravity_of(c), options, run.progress());
+  mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
+  mesh.contact.reset();
+  mesh.contact_pressure.clear();
+  write_report(summary, mesh, options, run.report());
+  for (const std::string& doubt : summary.doubts) run.warn(doubt);
+  if (summary.converged() || c.mechanics.keep_unconverged) {
+    const History before = mesh.history;
+    mesh.history = run.history({{c.reference, sha, &before}});
+    mesh.wall_seconds = run.seconds();
+    write_mesh(c.deformed, mesh);
+  }
+  if (!summary.converged()) throw not_converged_error(summary.record.reason);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choices c;
+  Tool tool("forward", "the shape of a stress-free breast under gravity");
+  declare(tool, c);
+  return tool.main(argc, argv, [&c](Run& run) { run_forward(c, run); });
+}

@@ -1,0 +1,110 @@
+// laws: a material set's laws, moduli, stable ranges and curves.
+#include <cmath>
+
+#include "cli/tool.hpp"
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "core/units.hpp"
+#include "material/stability.hpp"
+
+using namespace breast;
+
+namespace {
+
+// A reference size for ρgL/μ: a breast of 0.1 m.
+constexpr double typical_size_mm = 100;
+
+struct Choices {
+  std::string set = "seed2008";
+  std::vector<std::string> scale;
+  bool curves = false;
+  double low = 0.5, high = 2;
+};
+
+std::string fixed(double value, int decimals) {
+  return format_fixed(value, decimals);
+}
+
+// Uniaxial nominal stress (Pa) of an incompressible law, P = 2(λ − λ⁻²)(W1 + W2/λ).
+double uniaxial_stress(const Law& law, double stretch) {
+  const double i1 = stretch * stretch + 2 / stretch;
+  const double i2 = 2 * stretch + 1 / (stretch * stretch);
+  if (!law.in_range(i1)) return std::nan("");
+  const LawValue w = law.evaluate(i1, i2);
+  return 2 * (stretch - 1 / (stretch * stretch)) * (w.w1 + w.w2 / stretch);
+}
+
+// Simple shear stress (Pa), σ12 = 2(W1 + W2)γ.
+double shear_stress(const Law& law, double gamma) {
+  const double invariant = 3 + gamma * gamma;
+  if (!law.in_range(invariant)) return std::nan("");
+  const LawValue w = law.evaluate(invariant, invariant);
+  return 2 * (w.w1 + w.w2) * gamma;
+}
+
+Table summary(const MaterialSet& set, Run& run) {
+  Table table{{"tissue", "law", "shear_modulus_Pa", "gravity_number", "stable_from_stretch",
+               "stable_to_stretch", "weakest_relative_shear"},
+              {}};
+  for (const Tissue tissue :
+       {Tissue::fat, Tissue::fibroglandular, Tissue::skin, Tissue::muscle, Tissue::tumour}) {
+    const Law& law = set.law(tissue);
+    const double modulus = law.shear_modulus();
+    const double number =
+        set.density[std::size_t(tissue)] * gravity_mm_s2 * typical_size_mm / modulus;
+    const StableRange range = stable_range(law);
+    const std::string name(tissue_name(tissue));
+    table.rows.push_back({name, law.describe(), fixed(modulus, 1), fixed(number, 3),
+                          fixed(range.compression, 3), fixed(range.tension, 3),
+                          fixed(range.weakest, 3)});
+    run.report().set("materials/" + name + "/law", law.describe());
+    run.report().set("materials/" + name + "/shear_modulus_Pa", modulus);
+    run.report().set("materials/" + name + "/gravity_number", number);
+    run.report().set("materials/" + name + "/stable_from_stretch", range.compression);
+    run.report().set("materials/" + name + "/stable_to_stretch", range.tension);
+  }
+  return table;
+}
+
+Table curves(const MaterialSet& set, double low, double high) {
+  constexpr int steps = 30;
+  Table table{{"tissue", "stretch", "uniaxial_stress_Pa", "shear", "shear_stress_Pa"}, {}};
+  for (const Tissue tissue :
+       {Tissue::fat, Tissue::fibroglandular, Tissue::skin, Tissue::muscle, Tissue::tumour}) {
+    for (int i = 0; i <= steps; ++i) {
+      const double stretch = low + (high - low) * i / steps, gamma = (high - 1) * i / steps;
+      table.rows.push_back({std::string(tissue_name(tissue)), fixed(stretch, 4),
+                            format_number(uniaxial_stress(set.law(tissue), stretch)),
+                            fixed(gamma, 4), format_number(shear_stress(set.law(tissue), gamma))});
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choices c;
+  Tool tool("laws", "a material set: laws, moduli, stable ranges and curves");
+  tool.describe(
+      "Prints per tissue the law, its shear modulus at rest, the gravity number (density x gravity "
+      "x "
+      "0.1 m / modulus: how much it sags) and the uniaxial stretches between which every shear "
+      "keeps a "
+      "positive stiffness; with --curves, stresses against stretch and shear.");
+  tool.text(c.set, "--materials", "NAME|FILE",
+            "material set: seed2008, wellman, victre, mira2018, or a TSV file");
+  tool.texts(c.scale, "--scale", "TISSUE=PERCENT",
+             "stiffness of one tissue in percent of the set's");
+  tool.flag(c.curves, "--curves", "stress curves instead of the summary");
+  tool.number(c.low, "--from", "STRETCH", "smallest stretch of the curves", 0.05, 1);
+  tool.number(c.high, "--to", "STRETCH", "largest stretch of the curves", 1, 10);
+  tool.example("laws --materials mira2018", "what is in a set");
+  tool.example("laws --materials my-tissues.tsv --curves > curves.tsv", "curves of one's own file");
+  return tool.main(argc, argv, [&c](Run& run) {
+    MaterialSet set = load_materials(c.set);
+    scale_materials(set, c.scale);
+    run.report().set("materials/name", set.name);
+    run.print((c.curves ? curves(set, c.low, c.high) : summary(set, run)).text());
+  });
+}
