@@ -88,6 +88,8 @@ void report_mesh(const HexMesh& mesh, const BodyMeshReport& body, const TissueRe
   }
   report.set("volume_ml", body.mesh_volume / mm3_per_ml);
   report.set("fibroglandular_by_fraction_ml", tissue.fibroglandular_volume / mm3_per_ml);
+  report.set("fibroglandular_threshold", tissue.gland_threshold);
+  report.set("skin_shift_mm", body.skin_shift);
   report.set("segmented_volume_ml", tissue.segmented_volume / mm3_per_ml);
   report.set("volume_error_percent", 100 * (body.mesh_volume / tissue.segmented_volume - 1));
   report.set("sheet_volume_error_percent", 100 * (body.mesh_volume / body.body_volume - 1));

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "mesh/quality.hpp"
+#include "meshing/match_volume.hpp"
 #include "meshing/skin_layer.hpp"
 
 namespace breast {
@@ -42,6 +43,7 @@ HexMesh body_mesh(const BreastGeometry& geometry, const BodyMeshOptions& options
   const SmoothReport smoothed = smooth_nodes(dome.connectivity, body, options.smoothing, {}, nodes);
   local.placed_scaled_jacobian = smoothed.before;
   local.evaluations = smoothed.evaluations;
+  local.skin_shift = match_volume(local.body_volume, body, dome, nodes);
   int layer_elements = 0;
   if (options.skin_layer > 0) {
     layer_elements = add_skin_layer(options.skin_layer, body, dome, nodes);

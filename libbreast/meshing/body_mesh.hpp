@@ -8,9 +8,9 @@
 namespace breast {
 
 struct BodyMeshOptions {
-  DomeSize size;          ///< m = 0: cuboid
+  DomeSize size = {};     ///< m = 0: cuboid
   double skin_layer = 0;  ///< mm; > 0: the outermost layer of elements has this thickness
-  SmoothOptions smoothing;
+  SmoothOptions smoothing = {};
 };
 
 struct BodyMeshReport {
@@ -19,6 +19,7 @@ struct BodyMeshReport {
   int evaluations = 0;
   double body_volume = 0;  ///< mm³ inside the sheets, cut and wall
   double mesh_volume = 0;  ///< mm³
+  double skin_shift = 0;   ///< mm, largest shift of a skin node off its sheet to keep the volume
 };
 
 /// Mesh with points = imaged, connectivity, face sets, scaled_jacobian, template and geometry; all

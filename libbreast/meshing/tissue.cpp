@@ -1,7 +1,9 @@
 #include "meshing/tissue.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -63,6 +65,24 @@ ElementSamples sample_element(const LabelVolume& labels, const VoxelSampler& sam
     if (tissue == Tissue::tumour) sums.tumour += weight;
   }
   return sums;
+}
+
+// The fraction above which whole elements make up the given glandular volume.
+double volume_preserving_threshold(const HexMesh& mesh, const std::vector<double>& volumes,
+                                   double wanted) {
+  std::vector<int> order(volumes.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto& fraction = mesh.fibroglandular_fraction;
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return fraction[a] != fraction[b] ? fraction[a] > fraction[b] : a < b;
+  });
+  double sum = 0, threshold = 1;
+  for (const int e : order) {
+    if (sum + 0.5 * volumes[e] > wanted) break;
+    sum += volumes[e];
+    threshold = fraction[e];
+  }
+  return std::clamp(threshold, 0.3, 0.7);
 }
 
 // Share of the breast's voxels that lie outside the mesh, from every eighth voxel or so.
@@ -130,9 +150,13 @@ TissueReport assign_tissue(const LabelVolume& labels, HexMesh& mesh) {
     const double gland = s.breast > 0 ? s.gland / s.breast : 0;
     mesh.fibroglandular_fraction[e] = float(gland);
     report.fibroglandular_volume += gland * volumes[e];
-    mesh.tissue[e] = s.breast > 0 && s.tumour >= 0.5 * s.breast ? Tissue::tumour
-                     : gland >= 0.5                             ? Tissue::fibroglandular
-                                                                : Tissue::fat;
+  }
+  report.gland_threshold = volume_preserving_threshold(mesh, volumes, report.fibroglandular_volume);
+  for (int e = 0; e < elements; ++e) {
+    if (mesh.tissue[e] == Tissue::skin) continue;
+    const bool gland = mesh.fibroglandular_fraction[e] >= report.gland_threshold;
+    const bool tumour = samples[e].breast > 0 && samples[e].tumour >= 0.5 * samples[e].breast;
+    mesh.tissue[e] = tumour ? Tissue::tumour : gland ? Tissue::fibroglandular : Tissue::fat;
   }
   if (!(inside > 0)) {
     throw input_error(

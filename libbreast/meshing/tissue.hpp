@@ -11,16 +11,19 @@ namespace breast {
 struct TissueReport {
   std::array<double, n_tissues> volume{};  ///< mm³ per tissue, of whole elements
   double fibroglandular_volume = 0;        ///< mm³ by element fractions
+  double gland_threshold = 0.5;            ///< fraction from which an element is fibroglandular
   double outside_fraction = 0;             ///< of the mesh's volume: in voxels that are not breast
   double missed_fraction = 0;   ///< of the segmented breast's volume: voxels outside the mesh
   double segmented_volume = 0;  ///< mm³ of breast voxels (fat, fibroglandular, skin, tumour)
 };
 
 /// Fills tissue and fibroglandular_fraction from 3³ samples per element, weighted by their volumes,
-/// at the imaged positions. An element is fibroglandular or tumour when at least half of its breast
-/// volume is; elements that are skin already (layer) stay skin. Samples outside the breast count
-/// for nothing; an element without any breast sample is fat. Throws Error (input) when the labels
-/// hold no breast, are of the other side, or do not overlap the mesh.
+/// at the imaged positions; samples outside the breast count for nothing, an element without any
+/// breast sample is fat. The elements with the largest fractions are fibroglandular, as many as
+/// give the volume of the fractions' sum, with the threshold kept within 0.3 to 0.7 (one half would
+/// lose thin ducts: their fractions add up and no element reaches a half). An element half tumour
+/// is tumour; elements that are skin already (layer) stay skin. Throws Error (input) when the
+/// labels hold no breast, are of the other side, or do not overlap the mesh.
 TissueReport assign_tissue(const LabelVolume& labels, HexMesh& mesh);
 
 /// The tissue volumes of the mesh as it stands (after a tumour was put in).

@@ -1,0 +1,73 @@
+#include "meshing/match_volume.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mesh/quality.hpp"
+
+namespace breast {
+
+namespace {
+
+double volume_of(const std::vector<int>& connectivity, const std::vector<Vec3>& x) {
+  HexMesh mesh;
+  mesh.connectivity = connectivity;
+  return mesh_volume(mesh, x);
+}
+
+// Parameters of a node on the skin sheet, rim included.
+Vec2 skin_parameters(const BodyMap& body, const DomeTemplate& dome, const PlacedNodes& nodes,
+                     int a) {
+  return nodes.support[a] == Support::skin ? nodes.st[a] : body.skin(1, dome.places[a].u);
+}
+
+// Mean over the faces round each skin node of the sheet's height above the face's centre, mm.
+std::vector<double> gaps(const BodyMap& body, const DomeTemplate& dome, const PlacedNodes& nodes) {
+  std::vector<double> sum(nodes.x.size(), 0.0);
+  std::vector<int> uses(nodes.x.size(), 0);
+  for (const Face& face : dome.skin_faces) {
+    Vec2 st = Vec2::Zero();
+    Vec3 centre = Vec3::Zero();
+    std::array<int, 4> corner;
+    for (int c = 0; c < 4; ++c) {
+      corner[c] =
+          dome.connectivity[std::size_t(face.element) * 8 + hex_face_corners[face.local][c]];
+      st += 0.25 * skin_parameters(body, dome, nodes, corner[c]);
+      centre += 0.25 * nodes.x[corner[c]];
+    }
+    const SheetPoint on_sheet = body.skin_sheet().evaluate(st);
+    const double gap = (on_sheet.x - centre).dot(on_sheet.normal());
+    for (const int a : corner) sum[a] += gap, ++uses[a];
+  }
+  for (std::size_t a = 0; a < sum.size(); ++a) {
+    sum[a] = nodes.support[a] == Support::skin && uses[a] > 0 ? sum[a] / uses[a] : 0;
+  }
+  return sum;
+}
+
+}  // namespace
+
+double match_volume(double wanted, const BodyMap& body, const DomeTemplate& dome,
+                    PlacedNodes& nodes) {
+  const std::vector<double> gap = gaps(body, dome, nodes);
+  const auto shifted = [&](double factor) {
+    std::vector<Vec3> x = nodes.x;
+    for (std::size_t a = 0; a < x.size(); ++a) {
+      if (gap[a] == 0) continue;
+      x[a] += factor * gap[a] * body.skin_sheet().evaluate(nodes.st[a]).normal();
+    }
+    return x;
+  };
+  const double now = volume_of(dome.connectivity, nodes.x);
+  const double gain = volume_of(dome.connectivity, shifted(1)) - now;
+  if (!(gain > 0 && wanted > now)) return 0;
+  const double factor = std::min(2.0 / 3, (wanted - now) / gain);
+  nodes.x = shifted(factor);
+  double largest = 0;
+  for (const double g : gap) largest = std::max(largest, factor * std::abs(g));
+  return largest;
+}
+
+}  // namespace breast

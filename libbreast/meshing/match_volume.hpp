@@ -1,0 +1,16 @@
+// Flat faces between nodes on a curved skin cut corners; a shift of the skin nodes gives the body
+// its volume, and so its weight, back.
+#pragma once
+
+#include "meshing/place.hpp"
+
+namespace breast {
+
+/// Shifts skin nodes (not the rim) along the sheet's normal in proportion to the gap between sheet
+/// and faces round them, so that the mesh has the volume `wanted` (mm³) as far as the skin is to
+/// blame: the factor is at most the two thirds that a paraboloid needs; what the polygon of the rim
+/// cuts off stays off. Returns the largest shift in mm.
+double match_volume(double wanted, const BodyMap& body, const DomeTemplate& dome,
+                    PlacedNodes& nodes);
+
+}  // namespace breast

@@ -1,0 +1,296 @@
+// Templates, placement, smoothing, skin layer, tissue and landmarks on the analytic breast.
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "fixtures/analytic_mesh.hpp"
+#include "mesh/quality.hpp"
+#include "meshing/corner_energy.hpp"
+#include "meshing/skin.hpp"
+#include "meshing/tissue.hpp"
+#include "meshing/tumour.hpp"
+
+namespace breast {
+namespace {
+
+// Tests run beside one another: threads waiting for a busy core cost more than they bring.
+class OneThread : public testing::Environment {
+  void SetUp() override { set_threads(1); }
+};
+const auto* const one_thread = testing::AddGlobalTestEnvironment(new OneThread);
+
+std::pair<int, int> key(const Face& face) {
+  return {face.element, face.local};
+}
+
+void expect_faces_cover_boundary(const HexMesh& mesh) {
+  std::set<std::pair<int, int>> named, boundary;
+  std::size_t count = 0;
+  for (const auto* faces : {&mesh.skin_faces, &mesh.pectoral_faces, &mesh.cut_faces}) {
+    for (const Face& face : *faces) named.insert(key(face));
+    count += faces->size();
+  }
+  for (const Face& face : boundary_faces(mesh)) boundary.insert(key(face));
+  EXPECT_EQ(named.size(), count) << "a face is in two sets";
+  EXPECT_EQ(named, boundary);
+}
+
+TEST(Dome, CountsFollowTheFormula) {
+  for (const DomeSize& size :
+       {DomeSize{10, 10, 6, 3}, {4, 6, 2, 2}, {7, 5, 3, 1}, {16, 16, 0, 4}}) {
+    const DomeTemplate dome = dome_template(size);
+    const int n = size.n, l = size.l, m = size.m, k = size.k;
+    EXPECT_EQ(int(dome.connectivity.size()) / 8, n * n * l + m * (n * n + 4 * n * l));
+    EXPECT_EQ(dome.skin_faces.size(), std::size_t(n * n + 4 * n * (l - k)));
+    EXPECT_EQ(dome.cut_faces.size(), std::size_t(4 * n * k));
+    EXPECT_EQ(dome.wall_faces.size(), std::size_t(n * n + 4 * n * m));
+    EXPECT_EQ(1 + *std::max_element(dome.connectivity.begin(), dome.connectivity.end()),
+              int(dome.places.size()));
+  }
+}
+
+TEST(Dome, SixteenIsThePapersSize) {
+  const DomeSize dome = dome_near(16);
+  EXPECT_EQ((std::array{dome.n, dome.l, dome.m, dome.k}), (std::array{10, 10, 6, 3}));
+  const DomeTemplate cuboid = dome_template(cuboid_size(16));
+  EXPECT_EQ(cuboid.connectivity.size() / 8, 4096u);
+  EXPECT_EQ(cuboid.places.size(), 4913u);
+}
+
+TEST(Dome, EveryEdgeHasAnEvenlyProportionedMember) {
+  for (int edge = 4; edge <= 32; edge += 2) {
+    const double wanted = double(edge) * edge * edge;
+    EXPECT_NEAR(dome_near(edge).elements() / wanted, 1, edge < 8 ? 0.45 : 0.15) << edge;
+  }
+}
+
+TEST(Dome, BadSizesAreRefused) {
+  EXPECT_THROW(check_dome({10, 10, 6, 10}), Error);
+  EXPECT_THROW(check_dome({10, 10, 6, 0}), Error);
+  EXPECT_THROW(check_dome({1, 10, 6, 3}), Error);
+  EXPECT_THROW(check_dome({500, 500, 60, 3}), Error);
+  EXPECT_THROW(dome_near(3), Error);
+}
+
+TEST(BodyMesh, AnalyticBreastIsWellShaped) {
+  BodyMeshReport report;
+  const HexMesh mesh = body_mesh(analytic_breast(), {}, &report);
+  EXPECT_EQ(mesh.elements(), 4000);
+  EXPECT_GT(report.smoothed_scaled_jacobian, 0.6);
+  EXPECT_GT(report.smoothed_scaled_jacobian, report.placed_scaled_jacobian);
+  EXPECT_GT(mesh_quality(mesh, mesh.points).median_scaled_jacobian, 0.9);
+  EXPECT_NEAR(report.mesh_volume / report.body_volume, 1, 0.01);
+  expect_faces_cover_boundary(mesh);
+}
+
+TEST(BodyMesh, VolumeOfTheBodyIsThatOfTheFinestMesh) {
+  BodyMeshReport coarse, fine;
+  body_mesh(analytic_breast(), {.size = dome_near(8)}, &coarse);
+  body_mesh(analytic_breast(), {.size = dome_near(24)}, &fine);
+  EXPECT_NEAR(fine.mesh_volume / fine.body_volume, 1, 0.004);
+  EXPECT_EQ(coarse.body_volume, fine.body_volume);
+}
+
+TEST(BodyMesh, CuboidIsNotFolded) {
+  const HexMesh mesh = body_mesh(analytic_breast(), {.size = cuboid_size(16)});
+  EXPECT_EQ(mesh.elements(), 4096);
+  EXPECT_EQ(mesh.nodes(), 4913);
+  EXPECT_GT(mesh_quality(mesh, mesh.points).min_scaled_jacobian, 0.04);
+  expect_faces_cover_boundary(mesh);
+}
+
+TEST(BodyMesh, SameWhateverTheThreads) {
+  const int before = threads();
+  set_threads(1);
+  const HexMesh one = body_mesh(analytic_breast(), {.size = dome_near(10)});
+  set_threads(2);
+  const HexMesh two = body_mesh(analytic_breast(), {.size = dome_near(10)});
+  set_threads(before);
+  ASSERT_EQ(one.nodes(), two.nodes());
+  for (int a = 0; a < one.nodes(); ++a) ASSERT_EQ(one.points[a], two.points[a]);
+}
+
+TEST(BodyMesh, InsideOutSheetsAreRefused) {
+  BreastGeometry geometry = analytic_breast();
+  for (HermiteSheet* sheet : {&geometry.skin, &geometry.wall}) {
+    for (auto& node : sheet->nodes) {
+      for (Vec3* v : {&node.x, &node.x_1, &node.x_2, &node.x_12}) v->x() = -v->x();
+    }
+  }
+  EXPECT_THROW(body_mesh(geometry, {}), Error);
+}
+
+TEST(BodyMesh, RimThatTurnsBackIsRefused) {
+  BreastGeometry geometry = analytic_breast();
+  std::swap(geometry.rim_skin[10], geometry.rim_skin[14]);
+  EXPECT_THROW(body_mesh(geometry, {}), Error);
+  geometry = analytic_breast();
+  geometry.rim_wall.pop_back();
+  EXPECT_THROW(body_mesh(geometry, {}), Error);
+}
+
+TEST(CornerEnergy, GradientMatchesDifferences) {
+  const DomeTemplate dome = dome_template({4, 4, 2, 1});
+  const BreastGeometry geometry = analytic_breast();
+  std::vector<Vec3> x = place_nodes(dome, BodyMap(geometry)).x, gradient, unused;
+  for (std::size_t a = 0; a < x.size(); ++a) {  // some corners folded
+    x[a] += 6 * Vec3(std::sin(7.0 * a), std::cos(3.0 * a), std::sin(5.0 * a + 1));
+  }
+  CornerEnergy energy(dome.connectivity, x);
+  for (const int power : {1, 4}) {
+    energy.set({0.3, power, 0.5});
+    energy.evaluate(x, gradient);
+    double largest = 0;
+    for (const Vec3& g : gradient) largest = std::max(largest, g.norm());
+    for (std::size_t a = 0; a < x.size(); a += 11) {
+      for (int d = 0; d < 3; ++d) {
+        std::vector<Vec3> plus = x, minus = x;
+        plus[a][d] += 1e-5;
+        minus[a][d] -= 1e-5;
+        const double slope =
+            (energy.evaluate(plus, unused) - energy.evaluate(minus, unused)) / 2e-5;
+        EXPECT_NEAR(slope, gradient[a][d], 1e-7 * largest + 1e-6 * std::abs(slope));
+      }
+    }
+  }
+}
+
+TEST(SkinLayer, HasItsThicknessAndCoversTheSkin) {
+  const double thickness = 1.45;
+  BodyMeshReport report;
+  const HexMesh mesh =
+      body_mesh(analytic_breast(), {.size = {10, 10, 5, 3}, .skin_layer = thickness}, &report);
+  expect_faces_cover_boundary(mesh);
+  EXPECT_GT(report.smoothed_scaled_jacobian, 0.4);
+  EXPECT_EQ(mesh.skin_model, SkinModel::layer);
+  EXPECT_TRUE(mesh.skin_thickness.empty());
+  std::size_t skin_elements = 0;
+  double volume = 0, area = 0;
+  const std::vector<double> volumes = element_volumes(mesh, mesh.points);
+  for (int e = 0; e < mesh.elements(); ++e) {
+    if (mesh.tissue[e] != Tissue::skin) continue;
+    ++skin_elements;
+    volume += volumes[e];
+  }
+  EXPECT_EQ(skin_elements, mesh.skin_faces.size());
+  for (const Face& face : mesh.skin_faces) {
+    EXPECT_EQ(mesh.tissue[face.element], Tissue::skin);
+    std::array<Vec3, 4> c;
+    for (int i = 0; i < 4; ++i) {
+      c[i] = mesh.points[mesh.element(face.element)[hex_face_corners[face.local][i]]];
+    }
+    area += 0.5 * (c[2] - c[0]).cross(c[3] - c[1]).norm();
+  }
+  EXPECT_NEAR(volume / area, thickness, 0.06);
+}
+
+// A ball of gland in a box of fat, voxels of 1 mm, fractions exact at the voxel.
+LabelVolume ball_of_gland(const Vec3& centre, double radius) {
+  LabelVolume labels;
+  labels.grid.size = {170, 150, 170};
+  labels.grid.origin = Vec3(-85, -20, -85);
+  labels.tissue.assign(labels.grid.voxels(), std::uint8_t(Tissue::fat));
+  labels.fibroglandular_fraction.assign(labels.grid.voxels(), 0);
+  for (int k = 0; k < 170; ++k) {
+    for (int j = 0; j < 150; ++j) {
+      for (int i = 0; i < 170; ++i) {
+        const double depth = radius - (labels.grid.to_patient(Vec3(i, j, k)) - centre).norm();
+        const std::size_t voxel = labels.grid.offset(i, j, k);
+        labels.fibroglandular_fraction[voxel] = float(std::clamp(depth + 0.5, 0.0, 1.0));
+        if (depth > 0) labels.tissue[voxel] = std::uint8_t(Tissue::fibroglandular);
+      }
+    }
+  }
+  return labels;
+}
+
+TEST(Tissue, FractionsOfABallAddUpToItsVolume) {
+  const Vec3 centre(0, 45, 0);
+  const double radius = 22, volume = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
+  HexMesh mesh = body_mesh(analytic_breast(), {});
+  const TissueReport report = assign_tissue(ball_of_gland(centre, radius), mesh);
+  EXPECT_NEAR(report.fibroglandular_volume / volume, 1, 0.02);
+  EXPECT_NEAR(report.volume[int(Tissue::fibroglandular)] / volume, 1, 0.06);
+  EXPECT_NEAR(report.outside_fraction, 0, 1e-12);
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const double away = (element_position(mesh, mesh.points, e, Vec3::Zero()) - centre).norm();
+    if (std::abs(away - radius) > 9) {
+      EXPECT_EQ(mesh.tissue[e], away < radius ? Tissue::fibroglandular : Tissue::fat);
+    }
+  }
+}
+
+TEST(Tissue, WrongSideOrFrameIsRefused) {
+  HexMesh mesh = body_mesh(analytic_breast(), {.size = dome_near(8)});
+  LabelVolume labels = ball_of_gland(Vec3(0, 45, 0), 20);
+  labels.grid.origin += Vec3(1000, 0, 0);
+  EXPECT_THROW(assign_tissue(labels, mesh), Error);
+  labels.grid.origin -= Vec3(1000, 0, 0);
+  labels.side = Side::right;
+  EXPECT_THROW(assign_tissue(labels, mesh), Error);
+}
+
+TEST(Tumour, AutomaticPointLiesOnTheEdgeOfTheGland) {
+  const Vec3 centre(0, 45, 0);
+  const LabelVolume labels = ball_of_gland(centre, 22);
+  const auto tumour = automatic_tumour(labels);
+  ASSERT_TRUE(tumour);
+  EXPECT_NEAR((tumour->centre - centre).norm(), 22, 1.2);
+  EXPECT_GT(tumour->centre.x(), 10);  // left breast: lateral is +x
+  EXPECT_GT(tumour->centre.z(), 10);
+  HexMesh coarse = body_mesh(analytic_breast(), {.size = dome_near(8)});
+  HexMesh fine = body_mesh(analytic_breast(), {.size = dome_near(14)});
+  add_tumour(*tumour, coarse);
+  add_tumour(*tumour, fine);
+  for (const HexMesh* mesh : {&coarse, &fine}) {
+    const Landmark* landmark = mesh->landmark("tumour");
+    ASSERT_NE(landmark, nullptr);
+    EXPECT_EQ(landmark->moved, 0);
+    EXPECT_LT((landmark_position(*mesh, mesh->imaged, *landmark) - tumour->centre).norm(), 1e-9);
+  }
+}
+
+TEST(Tumour, BallBecomesTumourElements) {
+  HexMesh mesh = body_mesh(analytic_breast(), {});
+  const Tumour ball = parse_tumour("5,45,3:12");
+  add_tumour(ball, mesh);
+  const double volume = tissue_volumes(mesh)[int(Tissue::tumour)];
+  EXPECT_NEAR(volume / (4.0 / 3 * std::numbers::pi * 12 * 12 * 12), 1, 0.15);
+  EXPECT_THROW(add_tumour(parse_tumour("0,-300,0"), mesh), Error);
+}
+
+TEST(Tumour, TextIsParsedStrictly) {
+  EXPECT_EQ(parse_tumour("1,-2.5,3").centre, Vec3(1, -2.5, 3));
+  EXPECT_EQ(parse_tumour("1,-2.5,3:4").radius, 4);
+  for (const char* bad : {"", "1,2", "1,2,3,4", "1,2,x", "1,2,3:", "1,2,3:-1", "nan,0,0"}) {
+    EXPECT_THROW(parse_tumour(bad), Error) << bad;
+  }
+}
+
+TEST(Nipple, IsTheClosestPointOfTheSkin) {
+  HexMesh mesh = body_mesh(analytic_breast(), {});
+  add_nipple(mesh);
+  const Landmark* nipple = mesh.landmark("nipple");
+  ASSERT_NE(nipple, nullptr);
+  EXPECT_LT(nipple->moved, 0.8);
+  EXPECT_LT((mesh.points[mesh.nipple_node] - mesh.geometry->nipple).norm(), 4);
+}
+
+TEST(Skin, MembraneOnSkinFacesOnly) {
+  HexMesh mesh = body_mesh(analytic_breast(), {.size = dome_near(8)});
+  set_membrane_skin(1.45, mesh);
+  EXPECT_EQ(mesh.skin_thickness, std::vector<double>(mesh.skin_faces.size(), 1.45));
+  set_membrane_skin(0, mesh);
+  EXPECT_EQ(mesh.skin_model, SkinModel::none);
+  EXPECT_TRUE(mesh.skin_thickness.empty());
+  EXPECT_THROW(parse_skin_thickness("-1"), Error);
+  EXPECT_THROW(parse_skin_thickness("thick"), Error);
+}
+
+}  // namespace
+}  // namespace breast
