@@ -15,7 +15,7 @@ namespace {
 constexpr double typical_size_mm = 100;
 
 struct Choices {
-  std::string set = "seed2008";
+  std::string set;
   std::vector<std::string> scale;
   bool curves = false;
   double low = 0.5, high = 2;
@@ -92,15 +92,15 @@ int main(int argc, char** argv) {
       "0.1 m / modulus: how much it sags) and the uniaxial stretches between which every shear "
       "keeps a "
       "positive stiffness; with --curves, stresses against stretch and shear.");
-  tool.text(c.set, "--materials", "NAME|FILE",
-            "material set: seed2008, wellman, victre, mira2018, or a TSV file");
+  tool.word(c.set, "NAME|FILE",
+            "material set: seed2008, wellman, victre, mira2018, or a TSV file of the same columns");
   tool.texts(c.scale, "--scale", "TISSUE=PERCENT",
              "stiffness of one tissue in percent of the set's");
   tool.flag(c.curves, "--curves", "stress curves instead of the summary");
   tool.number(c.low, "--from", "STRETCH", "smallest stretch of the curves", 0.05, 1);
   tool.number(c.high, "--to", "STRETCH", "largest stretch of the curves", 1, 10);
-  tool.example("laws --materials mira2018", "what is in a set");
-  tool.example("laws --materials my-tissues.tsv --curves > curves.tsv", "curves of one's own file");
+  tool.example("laws mira2018", "what is in a set");
+  tool.example("laws my-tissues.tsv --curves > curves.tsv", "curves of one's own file");
   return tool.main(argc, argv, [&c](Run& run) {
     MaterialSet set = load_materials(c.set);
     scale_materials(set, c.scale);

@@ -76,6 +76,11 @@ Tool& Tool::inputs(std::vector<std::filesystem::path>& values, const std::string
   return *this;
 }
 
+Tool& Tool::word(std::string& value, const std::string& placeholder, const std::string& help) {
+  Argument& argument = impl_->add_positional(positional(ArgumentKind::text, placeholder, help));
+  argument.store = [&value](const std::vector<std::string>& given) { value = given.front(); };
+  return *this;
+}
 Tool& Tool::output(std::filesystem::path& value, const std::string& placeholder,
                    const std::string& help) {
   impl_->add_positional(positional(ArgumentKind::output, placeholder, help)).store = into(value);

@@ -76,6 +76,8 @@ class Tool {
                const std::string& help);  ///< one or more; only as the last positional
   Tool& output(std::filesystem::path& value, const std::string& placeholder,
                const std::string& help);
+  /// A positional that is not (always) a file: a name, or a choice the tool resolves itself.
+  Tool& word(std::string& value, const std::string& placeholder, const std::string& help);
 
   // Options. `name` is "--skin" or "-o,--output"; unit/placeholder is shown in the help; the
   // default is the variable's present value. Numbers outside [low, high] are usage errors.

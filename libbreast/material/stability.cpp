@@ -62,11 +62,12 @@ double walk(const Law& law, double end, double& weakest) {
 }
 
 // Convex and nondecreasing in (I1−3, I2−3): polyconvex under det F = 1.
-bool convex_polynomial(const std::vector<double>& c) {
+bool convex(const Law& law) {
+  const std::vector<double>& c = law.constants;
   for (const double value : c) {
     if (!(value >= 0)) return false;
   }
-  return 4 * c[2] * c[3] >= c[4] * c[4];
+  return law.kind != LawKind::polynomial || 4 * c[2] * c[3] >= c[4] * c[4];
 }
 
 }  // namespace
@@ -103,7 +104,7 @@ void check_law(const Law& law, const std::string& where) {
     }
     return;
   }
-  if (law.kind == LawKind::polynomial && convex_polynomial(law.constants)) return;
+  if (convex(law)) return;
   const StableRange range = stable_range(law, 0.5, 2.0);
   if (range.compression > 0.501 || range.tension < 1.99) {
     throw input_error(where, ": the law loses ellipticity outside stretches ", range.compression,

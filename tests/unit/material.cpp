@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "material/law.hpp"
+#include "material/stability.hpp"
+
+namespace breast {
+namespace {
+
+std::vector<Law> all_laws() {
+  return {{LawKind::polynomial, {310, 300, 2250, 3800, 4720}},
+          {LawKind::exponential, {92.39, 4.4, -203.40}},
+          {LawKind::neo_hookean, {610}},
+          {LawKind::mooney_rivlin, {310, 300}},
+          {LawKind::yeoh, {610, 300, 40}}};
+}
+
+TEST(Law, DerivativesAgreeWithDifferences) {
+  const double h = 1e-4, i1 = 3.31, i2 = 3.27;
+  for (const Law& law : all_laws()) {
+    const LawValue v = law.evaluate(i1, i2);
+    const LawValue up = law.evaluate(i1 + h, i2), down = law.evaluate(i1 - h, i2);
+    const LawValue right = law.evaluate(i1, i2 + h), left = law.evaluate(i1, i2 - h);
+    const double scale = std::abs(v.w1) + std::abs(v.w2) + std::abs(v.w11);
+    EXPECT_NEAR((up.w - down.w) / (2 * h), v.w1, 1e-6 * scale) << law.describe();
+    EXPECT_NEAR((right.w - left.w) / (2 * h), v.w2, 1e-6 * scale) << law.describe();
+    EXPECT_NEAR((up.w1 - down.w1) / (2 * h), v.w11, 1e-6 * scale) << law.describe();
+    EXPECT_NEAR((up.w2 - down.w2) / (2 * h), v.w12, 1e-6 * scale) << law.describe();
+    EXPECT_NEAR((right.w2 - left.w2) / (2 * h), v.w22, 1e-6 * scale) << law.describe();
+    EXPECT_NEAR(law.evaluate(3, 3).w, 0, 1e-12) << law.describe();
+  }
+}
+
+TEST(Law, ShearModuliOfThePaper) {
+  const MaterialSet set = load_materials("seed2008");
+  EXPECT_DOUBLE_EQ(set.law(Tissue::fat).shear_modulus(), 1220);
+  EXPECT_DOUBLE_EQ(set.law(Tissue::fibroglandular).shear_modulus(), 1220);
+  EXPECT_NEAR(set.law(Tissue::skin).shear_modulus(), 2 * (92.39 * 4.4 - 203.40), 1e-9);
+  EXPECT_EQ(set.law(Tissue::tumour).constants, set.law(Tissue::fibroglandular).constants);
+}
+
+TEST(Law, ScalingLeavesTheExponentAlone) {
+  const Law scaled = Law{LawKind::exponential, {92.39, 4.4, -203.40}}.scaled(2);
+  EXPECT_EQ(scaled.constants, (std::vector<double>{184.78, 4.4, -406.80}));
+  EXPECT_NEAR(scaled.shear_modulus(), 2 * 406.232, 1e-9);
+}
+
+TEST(Law, ExponentialGuardsAgainstOverflow) {
+  const Law skin{LawKind::exponential, {92.39, 4.4, -203.40}};
+  EXPECT_TRUE(skin.in_range(3 + 49.9 / 4.4));
+  EXPECT_FALSE(skin.in_range(3 + 50.1 / 4.4));
+  EXPECT_FALSE(skin.in_range(std::nan("")));
+}
+
+// The shear modulus along ε m⊗n is the second difference of W.
+TEST(Stability, DirectionalModulusIsTheSecondDifference) {
+  Mat3 f;
+  f << 1.2, 0.3, -0.1, 0.05, 0.9, 0.2, 0.1, -0.15, 1.1;
+  f /= std::cbrt(f.determinant());
+  const Vec3 n = Vec3(1, 2, -1).normalized(), m = Vec3(1, 0, 1).normalized();
+  const auto energy = [&](const Law& law, double e) {
+    const Mat3 g = (Mat3::Identity() + e * m * n.transpose()) * f;
+    const Mat3 c = g.transpose() * g;
+    return law.evaluate(c.trace(), c.inverse().trace()).w;
+  };
+  for (const Law& law : all_laws()) {
+    const double h = 1e-3;
+    const double difference = (energy(law, h) - 2 * energy(law, 0) + energy(law, -h)) / (h * h);
+    const double exact = directional_shear_modulus(law, f * f.transpose(), m, n);
+    EXPECT_NEAR(difference, exact, 1e-4 * std::abs(exact)) << law.describe();
+  }
+}
+
+TEST(Stability, SkinOfThePaperKeepsNineTenthsOfItsShear) {
+  const StableRange range = stable_range({LawKind::exponential, {92.39, 4.4, -203.40}}, 0.3, 3);
+  EXPECT_NEAR(range.weakest, 0.916, 0.004);
+  EXPECT_NEAR(range.compression, 0.3, 1e-9);
+  EXPECT_NEAR(range.tension, 3, 1e-9);
+}
+
+TEST(Stability, RefusesLawsThatLoseEllipticity) {
+  EXPECT_NO_THROW(check_law({LawKind::exponential, {92.39, 4.4, -0.92 * 92.39 * 4.4}}, "skin"));
+  EXPECT_THROW(check_law({LawKind::exponential, {92.39, 4.4, -0.94 * 92.39 * 4.4}}, "skin"), Error);
+  EXPECT_THROW(check_law({LawKind::neo_hookean, {-1}}, "fat"), Error);
+  EXPECT_THROW(check_law({LawKind::neo_hookean, {std::nan("")}}, "fat"), Error);
+  EXPECT_THROW(check_law({LawKind::polynomial, {310, 300}}, "fat"), Error);
+  EXPECT_THROW(check_law({LawKind::yeoh, {610, -900, 0}}, "fat"), Error);
+}
+
+TEST(Materials, EmbeddedSetsLoadAndScale) {
+  EXPECT_EQ(material_set_names(),
+            (std::vector<std::string>{"mira2018", "seed2008", "victre", "wellman"}));
+  for (const std::string& name : material_set_names()) {
+    MaterialSet set = load_materials(name);
+    for (const Law& law : set.laws) EXPECT_GT(law.shear_modulus(), 0) << name;
+    const double before = set.law(Tissue::fat).shear_modulus();
+    scale_materials(set, {"fat=50"});
+    EXPECT_NEAR(set.law(Tissue::fat).shear_modulus(), before / 2, 1e-9 * before);
+  }
+  MaterialSet set = load_materials("seed2008");
+  for (const char* bad : {"fat", "fat=", "fat=-5", "fat=0", "fat=x", "bone=50", "=50"}) {
+    EXPECT_THROW(scale_materials(set, {bad}), Error) << bad;
+  }
+  EXPECT_THROW(load_materials("no-such-set"), Error);
+}
+
+}  // namespace
+}  // namespace breast
