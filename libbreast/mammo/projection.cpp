@@ -1,0 +1,162 @@
+#include "mammo/projection.hpp"
+
+#include <atomic>
+#include <memory>
+
+#include "core/error.hpp"
+#include "mammo/ray_mesh.hpp"
+#include "mammo/voxel_tissue.hpp"
+
+namespace breast {
+
+namespace {
+
+void add_element_tissue(Tissue tissue, double length, TissuePath& mm) {
+  switch (tissue) {
+    case Tissue::fibroglandular:
+    case Tissue::muscle:
+      mm.fibroglandular += length;
+      break;
+    case Tissue::skin:
+      mm.skin += length;
+      break;
+    case Tissue::tumour:
+      mm.tumour += length;
+      break;
+    default:
+      mm.fat += length;
+  }
+}
+
+// One row of pixels; `unlabelled` and `back` are summed over it.
+struct RowSums {
+  TissuePath mm;
+  double unlabelled = 0;
+  int back = 0;
+};
+
+class Projector {
+ public:
+  Projector(const HexMesh& mesh, const ProjectionOptions& options, const ViewPose& pose)
+      : mesh_(mesh), options_(options), rays_(mesh, mesh.points, pose) {
+    if (options.labels != nullptr) {
+      imaged_ = rays_.pieces_of(mesh, mesh.imaged);
+      voxels_ = std::make_unique<VoxelTissue>(*options.labels);
+    }
+  }
+  double volume() const { return rays_.volume(); }
+
+  RowSums row(int v, Mammogram& image) const {
+    RowSums sums;
+    std::vector<Chord> chords;
+    for (int u = 0; u < image.width; ++u) {
+      rays_.trace(image.pixel * Vec2(u, v), chords);
+      if (rays_.leaves_through_back(chords)) ++sums.back;
+      TissuePath mm;
+      const Ray ray = rays_.ray(image.pixel * Vec2(u, v));
+      for (const Chord& chord : chords) {
+        if (voxels_) {
+          sample_chord(ray, chord, mm, sums.unlabelled);
+        } else {
+          add_element_tissue(mesh_.tissue[rays_.element(chord.piece)], chord.leave - chord.enter,
+                             mm);
+        }
+      }
+      const std::size_t at = std::size_t(v) * image.width + u;
+      image.path[at] = float(options_.energy.path(mm));
+      image.thickness[at] = float(mm.total());
+      image.fibroglandular[at] = float(mm.fibroglandular);
+      sums.mm.fat += mm.fat;
+      sums.mm.fibroglandular += mm.fibroglandular;
+      sums.mm.skin += mm.skin;
+      sums.mm.tumour += mm.tumour;
+    }
+    return sums;
+  }
+
+ private:
+  // Midpoint rule with steps of at most half a voxel in the imaged shape.
+  void sample_chord(const Ray& ray, const Chord& chord, TissuePath& mm, double& unlabelled) const {
+    const Trilinear& deformed = rays_.piece(chord.piece);
+    const Trilinear& imaged = imaged_[chord.piece];
+    const double stretch = (imaged.at(chord.local_leave) - imaged.at(chord.local_enter)).norm();
+    const int steps = 1 + int(stretch / (0.5 * voxels_->smallest_spacing()));
+    const double length = (chord.leave - chord.enter) / steps;
+    for (int k = 0; k < steps; ++k) {
+      const double f = (k + 0.5) / steps;
+      Vec3 local = (1 - f) * chord.local_enter + f * chord.local_leave;
+      // A thousandth of a millimetre is far below a voxel; from this start it takes one or two
+      // steps.
+      deformed.invert(ray.at((1 - f) * chord.enter + f * chord.leave), 1e-3, local);
+      voxels_->add(imaged.at(local), length, mm, unlabelled);
+    }
+  }
+
+  const HexMesh& mesh_;
+  const ProjectionOptions& options_;
+  RayMesh rays_;
+  std::vector<Trilinear> imaged_;
+  std::unique_ptr<VoxelTissue> voxels_;
+};
+
+Mammogram empty_image(const HexMesh& mesh, const ImageFrame& frame,
+                      const ProjectionOptions& options) {
+  if (!(options.pixel > 0)) throw input_error("pixel ", options.pixel, " mm: must be positive");
+  const double pixels = (frame.width / options.pixel) * (frame.height / options.pixel);
+  if (!(pixels <= 1e8)) {
+    throw input_error("pixel ", options.pixel, " mm: ", pixels,
+                      " pixels, at most 1e8; use larger pixels");
+  }
+  Mammogram image;
+  image.pose = frame.pose;
+  image.view = frame.view;
+  image.side = mesh.side;
+  image.pixel = options.pixel;
+  image.energy = options.energy.name();
+  image.width = 1 + int(frame.width / options.pixel);
+  image.height = 1 + int(frame.height / options.pixel);
+  const std::size_t n = std::size_t(image.width) * image.height;
+  image.path.assign(n, 0);
+  image.thickness.assign(n, 0);
+  image.fibroglandular.assign(n, 0);
+  return image;
+}
+
+}  // namespace
+
+Mammogram project_mammogram(const HexMesh& mesh, const ProjectionOptions& options,
+                            ProjectionReport* report, Progress& progress) {
+  const ImageFrame frame = image_frame(mesh, options.beam);
+  Mammogram image = empty_image(mesh, frame, options);
+  const Projector projector(mesh, options, frame.pose);
+  std::vector<RowSums> rows(std::size_t(image.height));
+  std::atomic<int> done{0};
+#pragma omp parallel for schedule(dynamic, 4)
+  for (int v = 0; v < image.height; ++v) {
+    rows[v] = projector.row(v, image);
+    const int count = ++done;
+    if (count % 16 == 0) {
+#pragma omp critical(project_progress)
+      progress.update("projecting", double(count) / image.height, {});
+    }
+  }
+  if (report == nullptr) return image;
+  *report = {};
+  double path_mm = 0;
+  const double area = image.pixel * image.pixel;
+  for (const RowSums& row : rows) {  // in order: the same for any number of threads
+    report->volumes.fat += area * row.mm.fat;
+    report->volumes.fibroglandular += area * row.mm.fibroglandular;
+    report->volumes.skin += area * row.mm.skin;
+    report->volumes.tumour += area * row.mm.tumour;
+    report->unlabelled += row.unlabelled;
+    report->back_columns += row.back;
+    path_mm += row.mm.total();
+  }
+  report->imaged_volume = area * path_mm;
+  report->unlabelled = path_mm > 0 ? report->unlabelled / path_mm : 0;
+  report->mesh_volume = projector.volume();
+  return image;
+}
+
+}  // namespace breast

@@ -1,0 +1,74 @@
+// X-rays through a deformed hexahedral mesh: exact entry and exit of every element on a ray.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mammo/mammogram.hpp"
+#include "mammo/trilinear.hpp"
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+/// The stretch of a ray inside one piece of the mesh.
+struct Chord {
+  int piece = 0;
+  double enter = 0, leave = 0;  ///< mm along the ray from its detector point (negative: before it)
+  Vec3 local_enter, local_leave;  ///< piece coordinates in [-1,1]^3
+  std::int8_t face_enter = -1, face_leave = -1;
+};
+
+struct Ray {
+  Vec3 origin;     ///< on the detector, patient frame
+  Vec3 direction;  ///< unit, from the source to the detector
+  Vec3 at(double distance) const { return origin + distance * direction; }
+};
+
+/// Elements of order 1 are one piece each; those of order 2 are cut into 4×4×4 trilinear pieces
+/// (their faces have no closed-form intersection; the pieces' corners lie on the quadratic map).
+/// Neighbouring pieces share their faces, so chords follow each other without gap or overlap.
+class RayMesh {
+ public:
+  /// Rays follow `pose`; coordinates are `nodal` (mesh.points of a compressed mesh).
+  RayMesh(const HexMesh& mesh, const std::vector<Vec3>& nodal, const ViewPose& pose);
+
+  /// The ray that trace follows: it ends less than 1e-6 mm beside (u,v), see the .cpp.
+  Ray ray(const Vec2& uv) const;
+  /// Chords of the ray to detector position (u,v) in mm, from the paddle to the detector.
+  void trace(const Vec2& uv, std::vector<Chord>& chords) const;
+  /// A column that meets the chest wall or the cut surface continues in tissue the mesh does not
+  /// have.
+  bool leaves_through_back(const std::vector<Chord>& chords) const;
+
+  int element(int piece) const { return piece / pieces_per_element_; }
+  /// Piece coordinates to those of its element.
+  Vec3 element_local(int piece, const Vec3& local) const;
+  const Trilinear& piece(int p) const { return pieces_[p]; }
+  int pieces() const { return int(pieces_.size()); }
+  double volume() const;  ///< mm³ of all pieces
+  const ViewPose& pose() const { return pose_; }
+
+  /// The same pieces in another nodal field (mesh.imaged), for mapping points along a chord.
+  std::vector<Trilinear> pieces_of(const HexMesh& mesh, const std::vector<Vec3>& nodal) const;
+
+ private:
+  struct Box {
+    Vec2 lower, upper;
+  };
+  void bin_pieces();
+  void trace_piece(int p, const Ray& ray, const Vec3& a, const Vec3& b,
+                   std::vector<Chord>& chords) const;
+
+  ViewPose pose_;
+  int subdivisions_ = 1, pieces_per_element_ = 1;
+  std::vector<Trilinear> pieces_;
+  std::vector<std::array<Vec3, 8>> corners_;
+  std::vector<Box> boxes_;                ///< of the projected pieces, mm on the detector
+  std::vector<std::uint8_t> back_faces_;  ///< per element, bit f: face f is chest wall or cut
+  Vec2 bins_lower_{0, 0};
+  std::array<int, 2> bins_{0, 0};
+  std::vector<int> bin_first_, bin_pieces_;
+};
+
+}  // namespace breast

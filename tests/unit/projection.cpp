@@ -1,0 +1,300 @@
+// X-rays through meshes with known chords: blocks exactly, balls to the order of the elements,
+// volumes to the pixel rule; labels through the element map; the same image for any number of
+// threads.
+#include "mammo/projection.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "fixtures/analytic_breast.hpp"
+#include "fixtures/block.hpp"
+#include "fixtures/squashed.hpp"
+#include "mammo/ray_mesh.hpp"
+#include "meshing/body_mesh.hpp"
+
+using namespace breast;
+using namespace breast::fixtures;
+
+namespace {
+
+// Block with its wall at the back (y largest), as a breast has it: x → −y.
+HexMesh facing_block(double distortion = 0, int order = 1) {
+  BlockSettings settings;
+  settings.elements = {4, 5, 3};
+  settings.size = {60, 80, 40};
+  settings.distortion = distortion;
+  settings.order = order;
+  HexMesh mesh = block(settings);
+  for (auto* field : {&mesh.points, &mesh.imaged, &mesh.reference}) {
+    for (Vec3& x : *field) x = Vec3(x.y(), -x.x(), x.z());
+  }
+  return mesh;
+}
+
+HexMesh ball(int n, double radius, int order) {
+  BlockSettings settings;
+  settings.elements = {n, n, n};
+  settings.size = {2, 2, 2};
+  settings.order = order;
+  HexMesh mesh = block(settings);
+  for (Vec3& x : mesh.imaged) x = radius * ball_from_cube(x - Vec3::Ones());
+  mesh.points = mesh.reference = mesh.imaged;
+  mesh.skin_faces = boundary_faces(mesh);
+  mesh.pectoral_faces.clear();
+  return mesh;
+}
+
+double traced(const RayMesh& rays, const Vec2& uv) {
+  std::vector<Chord> chords;
+  rays.trace(uv, chords);
+  double sum = 0;
+  for (const Chord& chord : chords) sum += chord.leave - chord.enter;
+  return sum;
+}
+
+const HexMesh& breast_mesh() {
+  static const HexMesh mesh = body_mesh(analytic_breast(), {.size = dome_near(10)});
+  return mesh;
+}
+
+LabelVolume labels_around(const HexMesh& mesh, const std::function<Tissue(const Vec3&)>& tissue) {
+  Vec3 low = mesh.imaged[0], high = low;
+  for (const Vec3& x : mesh.imaged) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  LabelVolume labels;
+  labels.grid.spacing = Vec3(1, 1, 2);
+  labels.grid.origin = low - Vec3::Constant(3);
+  for (int k = 0; k < 3; ++k) {
+    labels.grid.size[k] = int((high - low)[k] / labels.grid.spacing[k]) + 8;
+  }
+  labels.tissue.resize(labels.grid.voxels());
+  labels.fibroglandular_fraction.resize(labels.grid.voxels());
+  labels.chest_wall_confidence.resize(labels.grid.voxels());
+  for (int k = 0; k < labels.grid.size[2]; ++k) {
+    for (int j = 0; j < labels.grid.size[1]; ++j) {
+      for (int i = 0; i < labels.grid.size[0]; ++i) {
+        const Tissue t = tissue(labels.grid.to_patient(Vec3(i, j, k)));
+        labels.tissue[labels.grid.offset(i, j, k)] = std::uint8_t(t);
+        labels.fibroglandular_fraction[labels.grid.offset(i, j, k)] =
+            t == Tissue::fibroglandular ? 1.0f : 0.0f;
+      }
+    }
+  }
+  return labels;
+}
+
+}  // namespace
+
+TEST(Trilinear, InvertsItselfAndKnowsItsVolume) {
+  const HexMesh mesh = facing_block(0.3);
+  const RayMesh rays(mesh, mesh.points, view_pose(Side::left, 0));
+  for (int p = 0; p < rays.pieces(); p += 7) {
+    const Vec3 local(0.3, -0.8, 0.95);
+    Vec3 found = Vec3::Zero();
+    ASSERT_TRUE(rays.piece(p).invert(rays.piece(p).at(local), 1e-12, found));
+    EXPECT_LT((found - local).norm(), 1e-10);
+  }
+  EXPECT_NEAR(rays.volume(), 60 * 80 * 40, 1e-6);
+}
+
+TEST(RayMesh, BlockChordsAreExactInEveryDirection) {
+  const HexMesh mesh = facing_block(0.35);
+  for (const double angle : {0.0, 45.0, 90.0, 17.0}) {
+    const ViewPose pose = view_pose(Side::left, angle);
+    const RayMesh rays(mesh, mesh.points, pose);
+    // The expected chord of the box [0,80] × [-60,0] × [0,40].
+    const Vec3 low(0, -60, 0), high(80, 0, 40);
+    for (double u = 2.5; u < 60; u += 5) {
+      for (double v = -95.3; v < 95; v += 3.1) {
+        const Vec3 x = pose.on_detector({u, v});
+        double enter = -1e9, leave = 1e9;
+        for (int k = 0; k < 3; ++k) {
+          if (std::abs(pose.n[k]) < 1e-12) {
+            if (x[k] <= low[k] || x[k] >= high[k]) leave = enter;
+            continue;
+          }
+          const double a = (low[k] - x[k]) / pose.n[k], b = (high[k] - x[k]) / pose.n[k];
+          enter = std::max(enter, std::min(a, b));
+          leave = std::min(leave, std::max(a, b));
+        }
+        EXPECT_NEAR(traced(rays, {u, v}), std::max(0.0, leave - enter), 1e-5)
+            << angle << " " << u << " " << v;
+      }
+    }
+  }
+}
+
+TEST(RayMesh, RaysInTheFacesOfAnAlignedMeshAreCountedOnce) {
+  const HexMesh mesh = facing_block();
+  const RayMesh rays(mesh, mesh.points, view_pose(Side::left, 0));
+  for (const double u : {0.0, 15.0, 30.0, 45.0}) {
+    for (const double v : {-64.0, -48.0, -32.0, -16.0}) {
+      EXPECT_NEAR(traced(rays, {u, v}), 40, 1e-9);
+    }
+  }
+}
+
+TEST(RayMesh, ChordsFollowEachOtherWithoutGapOrOverlap) {
+  const HexMesh& mesh = breast_mesh();
+  const ViewPose pose = view_pose(mesh.side, 45);
+  const RayMesh rays(mesh, mesh.points, pose);
+  std::vector<Chord> chords;
+  int joints = 0;
+  for (double u = -60; u < 60; u += 3.7) {
+    for (double v = -60; v < 60; v += 4.1) {
+      rays.trace({u, v}, chords);
+      for (std::size_t c = 1; c < chords.size(); ++c) {
+        const double gap = chords[c].enter - chords[c - 1].leave;
+        EXPECT_GT(gap, -1e-7);
+        joints += std::abs(gap) < 1e-7;
+      }
+    }
+  }
+  EXPECT_GT(joints, 1000);
+}
+
+TEST(RayMesh, BallChordsApproachTheSphere) {
+  const double radius = 50;
+  double worst[2] = {0, 0};
+  for (const int order : {1, 2}) {
+    const HexMesh mesh = ball(order == 1 ? 16 : 8, radius, order);
+    const RayMesh rays(mesh, mesh.points, view_pose(Side::left, 30));
+    for (double u = -40; u <= 40; u += 4.3) {
+      for (double v = -25; v <= 25; v += 3.9) {
+        const double exact = 2 * std::sqrt(radius * radius - u * u - v * v);
+        worst[order - 1] = std::max(worst[order - 1], std::abs(traced(rays, {u, v}) - exact));
+      }
+    }
+  }
+  EXPECT_LT(worst[0], 0.8);  // facets of 16³ elements
+  EXPECT_LT(worst[1], 0.2);  // pieces of 8³ quadratic elements
+}
+
+TEST(Projection, ThicknessTimesAreaIsTheVolume) {
+  HexMesh mesh = ball(8, 50, 1);
+  add_contact(mesh, "CC");
+  ProjectionReport report;
+  project_mammogram(mesh, {.pixel = 0.5}, &report);
+  EXPECT_NEAR(report.imaged_volume / report.mesh_volume, 1, 1e-4);
+  // A breast: with what lies behind the posterior edge, the whole is the whole.
+  const HexMesh cc = squashed(breast_mesh(), "CC", 0.6);
+  const ImageFrame frame = image_frame(cc);
+  const RayMesh rays(cc, cc.points, frame.pose);
+  double sum = 0;
+  for (double u = -120.25; u < 120; u += 0.5) {
+    for (double v = -20.25; v < 260; v += 0.5) sum += 0.25 * traced(rays, {u, v});
+  }
+  EXPECT_NEAR(sum / rays.volume(), 1, 1e-3);
+}
+
+TEST(Projection, ConeMagnifiesByDistance) {
+  HexMesh mesh = facing_block();
+  add_contact(mesh, "CC");
+  const ImageFrame frame = image_frame(mesh, Beam::cone);
+  // The anterior upper edge lies 40 mm above the detector.
+  const Vec2 edge = frame.pose.project(Vec3(40, -60, 40));
+  EXPECT_NEAR(edge.x(), 60 * 650.0 / (650 - 40), 1e-9);
+  const RayMesh rays(mesh, mesh.points, frame.pose);
+  const Ray ray = rays.ray({30, frame.pose.source_v});
+  EXPECT_NEAR(traced(rays, {30, frame.pose.source_v}), 40 / std::abs(ray.direction.z()), 1e-5);
+  // What the projection says and where the ray goes agree.
+  const Vec3 inside(33, -41, 17);
+  const Ray through = rays.ray(frame.pose.project(inside));
+  const Vec3 off = inside - through.origin;
+  EXPECT_LT((off - off.dot(through.direction) * through.direction).norm(), 1e-6);
+}
+
+TEST(Projection, NoColumnOfTheImageLeavesThroughTheBack) {
+  for (const char* view : {"CC", "MLO", "ML"}) {
+    const HexMesh mesh = squashed(breast_mesh(), view, 0.6);
+    ProjectionReport report;
+    const Mammogram image = project_mammogram(mesh, {.pixel = 1}, &report);
+    EXPECT_EQ(report.back_columns, 0) << view;
+    EXPECT_EQ(image.thickness[std::size_t(image.width) - 1], 0) << view;  // air in front
+    EXPECT_GT(*std::max_element(image.thickness.begin(), image.thickness.end()), 20) << view;
+  }
+}
+
+TEST(Projection, LabelsAreFollowedThroughTheDeformation) {
+  // A gland ball in the MR frame; the squashed image must show its projected ellipsoid.
+  const Vec3 centre(5, 20, -4);
+  const double radius = 15, lambda = 0.5;
+  const LabelVolume labels = labels_around(breast_mesh(), [&](const Vec3& x) {
+    return (x - centre).norm() < radius ? Tissue::fibroglandular : Tissue::fat;
+  });
+  const HexMesh mesh = squashed(breast_mesh(), "CC", lambda);
+  ProjectionReport report;
+  const Mammogram image = project_mammogram(mesh, {.pixel = 0.5, .labels = &labels}, &report);
+  const double exact = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
+  EXPECT_NEAR(report.volumes.fibroglandular / exact, 1, 0.02);
+  EXPECT_EQ(report.unlabelled, 0);
+  const Vec3 moved(centre.x() / std::sqrt(lambda), centre.y() / std::sqrt(lambda),
+                   centre.z() * lambda);
+  const Vec2 uv = image.pose.project(moved) / image.pixel;
+  const auto at = [&](int du) {
+    return image
+        .fibroglandular[std::size_t(std::lround(uv.y())) * image.width + std::lround(uv.x()) + du];
+  };
+  EXPECT_NEAR(at(0), 2 * radius * lambda, 0.8);
+  const double across = radius / std::sqrt(lambda);
+  EXPECT_GT(at(int(2 * (across - 2))), 1);
+  EXPECT_EQ(at(int(2 * (across + 3))), 0);
+}
+
+TEST(Projection, ElementModeSumsTissue) {
+  HexMesh mesh = facing_block();
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const Vec3 middle = element_position(mesh, mesh.imaged, e, Vec3::Zero());
+    if (middle.z() < 40.0 / 3) mesh.tissue[e] = Tissue::fibroglandular;  // the lowest third
+  }
+  add_contact(mesh, "CC");
+  const Mammogram image = project_mammogram(mesh, {.pixel = 2});
+  const std::size_t middle = std::size_t(image.height / 2) * image.width + 10;
+  EXPECT_NEAR(image.thickness[middle], 40, 1e-5);
+  EXPECT_NEAR(image.fibroglandular[middle], 40.0 / 3, 1e-5);
+  EXPECT_NEAR(image.path[middle], 40.0 / 3 + 0.5 * 80.0 / 3, 1e-5);
+}
+
+TEST(Projection, TheSameForAnyNumberOfThreads) {
+  const HexMesh mesh = squashed(breast_mesh(), "MLO", 0.6);
+  const LabelVolume labels = labels_around(breast_mesh(), [](const Vec3& x) {
+    return std::sin(x.x() / 5) + std::sin(x.z() / 7) > 0.3 ? Tissue::fibroglandular : Tissue::fat;
+  });
+  const int before = threads();
+  set_threads(1);
+  ProjectionReport one, two;
+  const Mammogram a = project_mammogram(mesh, {.pixel = 1, .labels = &labels}, &one);
+  set_threads(2);
+  const Mammogram b = project_mammogram(mesh, {.pixel = 1, .labels = &labels}, &two);
+  set_threads(before);
+  EXPECT_EQ(a.path, b.path);
+  EXPECT_EQ(a.thickness, b.thickness);
+  EXPECT_EQ(one.volumes.fibroglandular, two.volumes.fibroglandular);
+}
+
+TEST(Projection, RefusesWhatItCannotImage) {
+  HexMesh mesh = facing_block();
+  EXPECT_THROW(project_mammogram(mesh, {}), Error);  // no compression record
+  add_contact(mesh, "CC");
+  EXPECT_THROW(project_mammogram(mesh, {.pixel = 1e-4}), Error);
+  EXPECT_THROW(project_mammogram(mesh, {.pixel = std::nan("")}), Error);
+}
+
+TEST(Attenuation, TableInterpolationAndSpectra) {
+  EXPECT_NEAR(attenuation_at(20).fat, 0.0456, 1e-12);
+  EXPECT_NEAR(attenuation_at(50).fibroglandular, 0.0233, 1e-12);
+  EXPECT_LT(attenuation_at(22).fat, attenuation_at(20).fat);
+  EXPECT_GT(attenuation_at(22).fat, attenuation_at(25).fat);
+  EXPECT_THROW(attenuation_at(12), Error);
+  EXPECT_THROW(Energy::parse("no-such-spectrum.tsv"), Error);
+  const TissuePath mm{20, 10, 3, 0};
+  EXPECT_NEAR(Energy::parse("fraction").path(mm), 23, 1e-12);
+  EXPECT_NEAR(Energy::parse("20").path(mm), 20 * 0.0456 + 10 * 0.0802 + 3 * 1.064 * 0.0802, 1e-12);
+  EXPECT_EQ(Energy::parse("20").name(), "20 keV");
+}
