@@ -1,0 +1,105 @@
+#include "segment/bias.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "segment/filters.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr float seed_drop = 0.35f;  // seeds: log intensity this close to the local maximum
+constexpr float fat_low = -0.22f, fat_high = 0.35f;  // fat: residual log intensity
+constexpr float far_below = -1e4f;
+
+/// Gaussian of a width far above the voxel size, on a grid as coarse as that width allows.
+Volume<float> wide_gaussian(const Volume<float>& volume, double sigma) {
+  std::array<int, 3> factor{};
+  for (int d = 0; d < 3; ++d) factor[d] = std::max(1, int(sigma / (3 * volume.grid.spacing[d])));
+  if (factor == std::array<int, 3>{1, 1, 1}) return gaussian(volume, sigma);
+  return resampled(gaussian(coarsened(volume, factor), sigma), volume.grid);
+}
+
+/// Normalised convolution of `value` over `inside` with widths sigma, 3 sigma and 9 sigma: the
+/// narrow one where it has support, the wider ones far from any fat.
+Volume<float> smooth_inside(const Volume<float>& value, const Mask& inside, double sigma) {
+  Volume<float> weighted(value.grid), weight(value.grid), out(value.grid);
+  for (std::size_t n = 0; n < out.voxels.size(); ++n) {
+    weight.voxels[n] = inside.voxels[n];
+    weighted.voxels[n] = inside.voxels[n] ? value.voxels[n] : 0;
+  }
+  // Wide to narrow; each narrower estimate takes over in proportion to its support.
+  double sum = 0, count = 0;
+  for (std::size_t n = 0; n < out.voxels.size(); ++n) {
+    sum += weighted.voxels[n];
+    count += weight.voxels[n];
+  }
+  std::fill(out.voxels.begin(), out.voxels.end(), float(sum / std::max(count, 1.0)));
+  for (const double width : {9 * sigma, 3 * sigma, sigma}) {
+    const Volume<float> numerator = wide_gaussian(weighted, width),
+                        denominator = wide_gaussian(weight, width);
+    constexpr float enough = 0.02f;
+    for (std::size_t n = 0; n < out.voxels.size(); ++n) {
+      out.voxels[n] =
+          (numerator.voxels[n] + enough * out.voxels[n]) / (denominator.voxels[n] + enough);
+    }
+  }
+  return out;
+}
+
+double variation(const std::vector<double>& values) {
+  if (values.size() < 2) return 0;
+  double mean = 0, square = 0;
+  for (const double v : values) mean += v;
+  mean /= double(values.size());
+  for (const double v : values) square += (v - mean) * (v - mean);
+  return std::sqrt(square / double(values.size() - 1)) / mean;
+}
+
+}  // namespace
+
+BiasField fat_bias(const Volume<float>& scan, const Mask& allowed,
+                   const Volume<float>& skin_distance, const BiasSettings& settings) {
+  const std::size_t count = scan.voxels.size();
+  Volume<float> logs(scan.grid, far_below);
+  Mask core(scan.grid);
+  for (std::size_t n = 0; n < count; ++n) {
+    core.voxels[n] =
+        allowed.voxels[n] && -skin_distance.voxels[n] > settings.core && scan.voxels[n] > 0;
+    if (core.voxels[n]) logs.voxels[n] = std::log(scan.voxels[n]);
+  }
+  // The brightest voxel of a noisy window lies above fat; a little smoothing takes that away.
+  Mask fat(scan.grid);
+  {
+    const Volume<float> brightest = box_maximum(logs, 0.5 * settings.window);
+    for (std::size_t n = 0; n < count; ++n) {
+      fat.voxels[n] = core.voxels[n] && logs.voxels[n] > brightest.voxels[n] - seed_drop;
+    }
+  }
+  if (std::none_of(fat.voxels.begin(), fat.voxels.end(), [](auto v) { return v != 0; })) {
+    throw input_error(
+        "no fat found in front of the chest wall: is this a T1 scan without fat suppression?");
+  }
+  BiasField field;
+  for (int pass = 0; pass < 4; ++pass) {
+    field.log_bias = smooth_inside(logs, fat, settings.sigma);
+    for (std::size_t n = 0; n < count; ++n) {
+      const float residual = logs.voxels[n] - field.log_bias.voxels[n];
+      fat.voxels[n] = core.voxels[n] && residual > fat_low && residual < fat_high;
+    }
+  }
+  field.log_bias = smooth_inside(logs, fat, settings.sigma);
+  std::vector<double> before, after;
+  for (std::size_t n = 0; n < count; ++n) {
+    if (!fat.voxels[n]) continue;
+    before.push_back(scan.voxels[n]);
+    after.push_back(scan.voxels[n] / std::exp(field.log_bias.voxels[n]));
+  }
+  field.fat_cv_before = variation(before);
+  field.fat_cv_after = variation(after);
+  return field;
+}
+
+}  // namespace breast

@@ -1,0 +1,24 @@
+// Grids: axes put in patient order, coarser and finer copies.
+#pragma once
+
+#include <cstdint>
+
+#include "image/volume.hpp"
+
+namespace breast {
+
+using Mask = Volume<std::uint8_t>;
+
+/// The same voxels with axes permuted and flipped so that i runs mostly to the patient's left, j to
+/// posterior and k to superior. Every voxel keeps its place in the patient.
+Volume<float> in_patient_order(const Volume<float>& volume);
+/// Mean of blocks of factor[0] x factor[1] x factor[2] voxels; incomplete blocks at the far ends
+/// are averaged over what is there.
+Volume<float> coarsened(const Volume<float>& volume, const std::array<int, 3>& factor);
+/// Grid of coarsened().
+Grid coarsened_grid(const Grid& grid, const std::array<int, 3>& factor);
+/// Trilinear values of `coarse` at the voxels of `fine`, whose axes are parallel; border values
+/// held.
+Volume<float> resampled(const Volume<float>& coarse, const Grid& fine);
+
+}  // namespace breast

@@ -1,0 +1,41 @@
+// From a prone bilateral T1 breast MR to the labels of one breast (methods: segmentation).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/progress.hpp"
+#include "core/report.hpp"
+#include "image/label_volume.hpp"
+#include "surface/tri_mesh.hpp"
+
+namespace breast {
+
+struct SegmentOptions {
+  Side side = Side::left;
+  std::optional<Volume<float>> wall_labels;  ///< corrected label map, code 4 = behind the wall
+  std::vector<Vec3> wall_points;             ///< clicked points on the wall (patient mm)
+};
+
+struct Segmentation {
+  LabelVolume labels;
+  TriMesh points;  ///< data points: scalar "surface" 0 skin, 1 chest wall; "confidence" [0,1]
+  double midline_mm = 0;                         ///< patient x of the sternum
+  double bias_cv_before = 0, bias_cv_after = 0;  ///< coefficient of variation of fat
+  double bias_range = 1;                     ///< brightest over dimmest fat, 1 %-99 % of the breast
+  double muscle_ratio = 0, gland_ratio = 0;  ///< brightness relative to fat
+  double fat_fraction = 0, fat_fraction_grown = 0, fibroglandular_agreement = 0;
+  double wall_confidence_mean = 0;                       ///< over the breast's columns
+  double wall_confident_percent = 0;                     ///< columns with confidence above 0.5
+  double sternal_thickness = 0, greatest_thickness = 0;  ///< mm
+  double nipple_from_extreme = 0;                        ///< mm
+  bool halved = false;              ///< labels have twice the scan's in-plane voxel size
+  std::vector<std::string> doubts;  ///< what a reader should look at
+};
+
+/// Throws Error (input) saying which stage failed on this scan and what to try.
+Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& options,
+                            Progress& progress, Timer& timer);
+
+}  // namespace breast

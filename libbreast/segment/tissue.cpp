@@ -1,0 +1,168 @@
+#include "segment/tissue.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "segment/itk_filters.hpp"
+
+namespace breast {
+
+namespace {
+
+/// Otsu's threshold of ratios in [0.1, 1.3].
+double otsu(const std::vector<float>& ratios) {
+  constexpr int classes = 120;
+  constexpr double low = 0.1, width = 0.01;
+  std::array<double, classes> count{};
+  double total = 0, sum = 0;
+  for (const float r : ratios) {
+    const int c = int((r - low) / width);
+    if (c < 0 || c >= classes) continue;
+    count[c] += 1;
+    total += 1;
+    sum += c;
+  }
+  double below = 0, below_sum = 0, best = -1, place = 60;
+  for (int c = 0; c + 1 < classes; ++c) {
+    below += count[c];
+    below_sum += c * count[c];
+    if (below == 0 || below == total) continue;
+    const double gap = below_sum / below - (sum - below_sum) / (total - below);
+    const double between = below * (total - below) * gap * gap;
+    if (between > best) {
+      best = between;
+      place = c + 1;
+    }
+  }
+  return low + width * place;
+}
+
+double percentile(std::vector<float> values, double fraction, double fallback) {
+  if (values.empty()) return fallback;
+  const auto place = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// One seed per block of about 20 mm: its interior voxel nearest to the brightness of fat.
+std::vector<std::array<int, 3>> fat_seeds(const Volume<float>& ratio, const Mask& interior) {
+  const Grid& grid = ratio.grid;
+  std::array<int, 3> block{};
+  for (int d = 0; d < 3; ++d) block[d] = std::max(3, int(20 / grid.spacing[d]));
+  std::vector<std::array<int, 3>> seeds;
+  for (int k0 = 0; k0 < grid.size[2]; k0 += block[2]) {
+    for (int j0 = 0; j0 < grid.size[1]; j0 += block[1]) {
+      for (int i0 = 0; i0 < grid.size[0]; i0 += block[0]) {
+        double best = 0.05;
+        std::array<int, 3> seed{-1, 0, 0};
+        for (int k = k0; k < std::min(k0 + block[2], grid.size[2]); ++k) {
+          for (int j = j0; j < std::min(j0 + block[1], grid.size[1]); ++j) {
+            for (int i = i0; i < std::min(i0 + block[0], grid.size[0]); ++i) {
+              const double off = std::abs(ratio.at(i, j, k) - 1);
+              if (!interior.at(i, j, k) || !(off < best)) continue;
+              best = off;
+              seed = {i, j, k};
+            }
+          }
+        }
+        if (seed[0] >= 0) seeds.push_back(seed);
+      }
+    }
+  }
+  return seeds;
+}
+
+void compare_with_growing(Fibroglandular& result, const Volume<float>& ratio,
+                          const Mask& interior) {
+  Volume<float> inside = ratio;
+  for (std::size_t n = 0; n < inside.voxels.size(); ++n) {
+    if (!interior.voxels[n]) inside.voxels[n] = -10;
+  }
+  const auto seeds = fat_seeds(ratio, interior);
+  if (seeds.empty()) return;
+  const Mask fat = confidence_connected(inside, seeds, 2.5, 1, 3);
+  double all = 0, grown = 0, by_threshold = 0, both = 0;
+  for (std::size_t n = 0; n < inside.voxels.size(); ++n) {
+    if (!interior.voxels[n]) continue;
+    const bool a = ratio.voxels[n] < result.threshold, b = !fat.voxels[n] && ratio.voxels[n] < 1;
+    all += 1;
+    grown += b;
+    by_threshold += a;
+    both += a && b;
+  }
+  result.fat_fraction_grown = all > 0 ? 1 - grown / all : 0;
+  result.agreement = grown + by_threshold > 0 ? 2 * both / (grown + by_threshold) : 1;
+}
+
+}  // namespace
+
+Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& interior,
+                                   double muscle_ratio) {
+  Fibroglandular result;
+  std::vector<float> values;
+  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
+    if (interior.voxels[n]) values.push_back(ratio.voxels[n]);
+  }
+  const double fat = percentile(values, 0.5, 1) > 0.85 ? percentile(values, 0.5, 1) : 1.0;
+  // Without gland Otsu would split the fat in two: gland is never nearly as bright as fat.
+  // The upper half of the fat, which no gland touches, tells its spread.
+  const double spread = percentile(values, 0.84, fat + 0.07) - fat;
+  result.threshold = std::clamp(otsu(values), 0.5 * (1 + muscle_ratio) - 0.15,
+                                fat - 3 * std::clamp(spread, 0.04, 0.1));
+  std::vector<float> dark;
+  for (const float r : values) {
+    if (r < result.threshold) dark.push_back(r);
+  }
+  result.gland_ratio =
+      std::clamp(percentile(dark, 0.4, muscle_ratio), 0.5 * muscle_ratio, result.threshold - 0.05);
+  result.fraction = Volume<float>(ratio.grid);
+  double gland = 0;
+  const double bright = std::max(fat, 2 * result.threshold - result.gland_ratio);
+  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
+    if (!interior.voxels[n]) continue;
+    // Half at the threshold, one at gland, zero at fat.
+    const double r = ratio.voxels[n], t = result.threshold;
+    const double fraction =
+        r < t ? 0.5 + 0.5 * (t - r) / (t - result.gland_ratio) : 0.5 * (bright - r) / (bright - t);
+    result.fraction.voxels[n] = float(std::clamp(fraction, 0.0, 1.0));
+    gland += r < t;
+  }
+  result.fat_fraction = values.empty() ? 0 : 1 - gland / double(values.size());
+  compare_with_growing(result, ratio, interior);
+  return result;
+}
+
+double skin_thickness(const Volume<float>& ratio, const Mask& breast,
+                      const Volume<float>& skin_distance) {
+  // Mean brightness in shells 0.5 mm thick; the distance map counts from the outermost voxels'
+  // centres, which lie half a voxel inside the surface.
+  constexpr int shells = 20;
+  constexpr double width = 0.5;
+  std::array<double, shells> sum{}, count{};
+  const double half_voxel = 0.25 * (ratio.grid.spacing[0] + ratio.grid.spacing[1]);
+  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
+    const double depth = -skin_distance.voxels[n] + half_voxel;
+    const int shell = int(depth / width);
+    if (!breast.voxels[n] || shell < 0 || shell >= shells) continue;
+    sum[shell] += ratio.voxels[n];
+    count[shell] += 1;
+  }
+  std::vector<std::pair<double, double>> profile;  // depth, brightness
+  for (int s = 0; s < shells; ++s) {
+    if (count[s] > 50) profile.emplace_back((s + 0.5) * width, sum[s] / count[s]);
+  }
+  if (profile.size() < 4) return 0;
+  double bright = 0;
+  for (const auto& [depth, value] : profile) bright = std::max(bright, value);
+  const double dark = profile.front().second;
+  if (!(dark < 0.75 * bright)) return 0;
+  const double half = 0.5 * (dark + bright);
+  for (std::size_t s = 1; s < profile.size(); ++s) {
+    const auto [d0, v0] = profile[s - 1];
+    const auto [d1, v1] = profile[s];
+    if (v1 >= half) return d0 + (half - v0) / (v1 - v0) * (d1 - d0);
+  }
+  return 0;
+}
+
+}  // namespace breast

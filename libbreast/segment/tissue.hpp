@@ -1,0 +1,26 @@
+// Fat and fibroglandular tissue inside the breast, and the thickness of its skin.
+#pragma once
+
+#include "segment/grid_ops.hpp"
+
+namespace breast {
+
+struct Fibroglandular {
+  Volume<float> fraction;   ///< [0,1], 0 outside the interior
+  double threshold = 0;     ///< ratio below which a voxel counts as fibroglandular
+  double gland_ratio = 0;   ///< brightness of gland relative to fat
+  double fat_fraction = 0;  ///< of the interior, by threshold
+  double fat_fraction_grown =
+      0;                 ///< of the interior, by confidence-connected region growing of fat
+  double agreement = 0;  ///< Dice of the fibroglandular voxels of both ways
+};
+/// `interior`: breast beyond the skin and in front of the wall. `ratio` = intensity / bias.
+Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& interior,
+                                   double muscle_ratio);
+
+/// Skin thickness (mm) from the mean brightness against depth below the surface; 0 when the skin
+/// does not show as a dark layer.
+double skin_thickness(const Volume<float>& ratio, const Mask& breast,
+                      const Volume<float>& skin_distance);
+
+}  // namespace breast

@@ -1,0 +1,19 @@
+// A chest wall corrected by hand: from a label map or from clicked points.
+#pragma once
+
+#include <vector>
+
+#include "segment/chest_wall.hpp"
+
+namespace breast {
+
+/// Replaces the wall where the label map (codes as Tissue; muscle = 4) has muscle in the column.
+/// Returns the share of the domain's columns replaced.
+double apply_wall_labels(ChestWall& wall, const WallDomain& domain, const Grid& grid,
+                         const Volume<float>& labels);
+/// Moves the wall through clicked points (patient mm): thin-plate spline of the corrections, held
+/// at zero farther than 50 mm from every point. Throws Error (input) for a point beside the domain.
+void apply_wall_points(ChestWall& wall, const WallDomain& domain, const Grid& grid,
+                       const std::vector<Vec3>& points);
+
+}  // namespace breast

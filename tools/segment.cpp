@@ -1,0 +1,151 @@
+// segment: labels of one breast from a prone T1 MR scan.
+#include "segment/segment.hpp"
+
+#include <cmath>
+
+#include "cli/tool.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/table.hpp"
+#include "core/units.hpp"
+#include "io/label_file.hpp"
+#include "io/surface_file.hpp"
+#include "io/volume_file.hpp"
+#include "segment/overlay.hpp"
+
+using namespace breast;
+
+namespace {
+
+/// Clicked points: a table with columns x_mm y_mm z_mm (or x y z), patient LPS.
+std::vector<Vec3> read_points(const std::filesystem::path& file) {
+  const Table table = read_table(file);
+  const auto column = [&](const std::string& axis) {
+    for (std::size_t n = 0; n < table.columns.size(); ++n) {
+      if (table.columns[n] == axis || table.columns[n] == axis + "_mm") return n;
+    }
+    throw input_error(file.string(), ": no column ", axis, "_mm");
+  };
+  const std::size_t axes[3] = {column("x"), column("y"), column("z")};
+  std::vector<Vec3> points;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    Vec3 point;
+    for (int d = 0; d < 3; ++d) {
+      point[d] = parse_number(table.rows[row][axes[d]], message(file.string(), " row ", row + 1));
+    }
+    points.push_back(point);
+  }
+  if (points.empty()) throw input_error(file.string(), ": no points");
+  return points;
+}
+
+bool is_table(const std::filesystem::path& file) {
+  const std::string ending = file.extension().string();
+  return ending == ".tsv" || ending == ".txt";
+}
+
+Volume<float> read_wall_labels(const std::filesystem::path& file, std::string& sha256) {
+  if (file.extension() != ".vtkhdf") {
+    VolumeSource source;
+    Volume<float> volume = read_volume(file, 0, &source);
+    sha256 = source.content_sha256;
+    return volume;
+  }
+  const LabelVolume labels = read_labels(file);
+  sha256 = labels.content_sha256;
+  Volume<float> volume(labels.grid);
+  volume.voxels.assign(labels.tissue.begin(), labels.tissue.end());
+  return volume;
+}
+
+void fill_report(Report& report, const Segmentation& result) {
+  std::vector<double> millilitres(n_tissues, 0);
+  for (const auto code : result.labels.tissue) millilitres[code] += 1;
+  for (int t = 0; t < n_tissues; ++t) {
+    millilitres[t] *= result.labels.grid.voxel_volume() / mm3_per_ml;
+    if (t > 0) report.set(message("volumes_ml/", tissue_name(Tissue(t))), millilitres[t]);
+  }
+  const double gland = millilitres[int(Tissue::fibroglandular)],
+               fat = millilitres[int(Tissue::fat)];
+  report.set("density_percent", 100 * gland / (gland + fat));
+  report.set("fat_fraction", result.fat_fraction);
+  report.set("fat_fraction_region_growing", result.fat_fraction_grown);
+  report.set("fibroglandular_agreement", result.fibroglandular_agreement);
+  report.set("landmarks/nipple/imaged", result.labels.landmarks.at("nipple"));
+  report.set("nipple_from_extreme_mm", result.nipple_from_extreme);
+  report.set("skin_thickness_mm", result.labels.skin_thickness);
+  report.set("bias/fat_cv_before", result.bias_cv_before);
+  report.set("bias/fat_cv_after", result.bias_cv_after);
+  report.set("bias/range_factor", result.bias_range);
+  report.set("muscle_to_fat", result.muscle_ratio);
+  report.set("fibroglandular_to_fat", result.gland_ratio);
+  report.set("chest_wall/confidence_mean", result.wall_confidence_mean);
+  report.set("chest_wall/confident_percent", result.wall_confident_percent);
+  report.set("chest_wall/sternal_thickness_mm", result.sternal_thickness);
+  report.set("breast_depth_mm", result.greatest_thickness);
+  report.set("midline_mm", result.midline_mm);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::filesystem::path scan_file, labels_file, wall_file, points_file, overlay_file;
+  std::string side;
+  int series = 0;
+  Tool tool("segment", "labels of one breast from a prone T1 MR scan");
+  tool.describe(
+      "Finds the body, the coil's uneven sensitivity, the chest wall (minimum cut), the breast's "
+      "extent "
+      "on it, fat, fibroglandular tissue, skin and nipple. Everything behind the chest wall is "
+      "labelled "
+      "muscle, the rest of the body other.");
+  tool.cite("Pathmanathan et al. 2008, section II-A; Li et al., IEEE TPAMI 28:119 (2006)");
+  tool.input(scan_file, "MR", "scan: .nrrd, .nii, .nii.gz, .mha, or a DICOM folder");
+  tool.output(labels_file, "LABELS.vtkhdf", "tissue labels of the chosen breast");
+  tool.choice(side, "--side", {"left", "right"}, "the patient's left or right breast")
+      .required("--side");
+  tool.integer(series, "--series", "N", "which series of a DICOM folder (0: the only one)", 0,
+               10000);
+  tool.input_file(
+      wall_file, "--chest-wall", "FILE|POINTS",
+      "corrected label map (code 4 behind the wall) or table of points x_mm y_mm z_mm (.tsv)");
+  tool.output_file(points_file, "--points", "OUT.vtp", "skin and chest-wall data points");
+  tool.output_file(overlay_file, "--overlay", "OUT.png",
+                   "slices with contours, to judge the result by");
+  tool.example("segment scan.nrrd labels.vtkhdf --side left --overlay look.png",
+               "the left breast, with a picture");
+  tool.example("segment dicom/ labels.vtkhdf --side right --series 2 --chest-wall clicked.tsv",
+               "second series of a folder, chest wall corrected by clicked points");
+  return tool.main(argc, argv, [&](Run& run) {
+    SegmentOptions options;
+    options.side = side_from_name(side);
+    VolumeSource source;
+    Volume<float> scan;
+    {
+      const Timer::Scope phase(run.timer(), "read");
+      scan = read_volume(scan_file, series, &source);
+    }
+    std::vector<Run::Input> inputs{{scan_file, source.content_sha256, nullptr}};
+    if (!wall_file.empty()) {
+      std::string sha256;
+      if (is_table(wall_file)) {
+        options.wall_points = read_points(wall_file);
+        Sha256 hash;
+        for (const Vec3& point : options.wall_points) hash.update(point.data(), 3 * sizeof(double));
+        sha256 = hash.hex();
+      } else {
+        options.wall_labels = read_wall_labels(wall_file, sha256);
+      }
+      inputs.push_back({wall_file, sha256, nullptr});
+    }
+    Segmentation result = segment_breast(scan, options, run.progress(), run.timer());
+    if (result.halved) run.warn("the labels' voxels are twice the scan's in plane");
+    for (const std::string& doubt : result.doubts) run.warn(doubt);
+    result.labels.history = run.history(inputs);
+    fill_report(run.report(), result);
+    const Timer::Scope phase(run.timer(), "write");
+    if (!overlay_file.empty()) write_overlay(overlay_file, scan, result.labels);
+    if (!points_file.empty()) write_surface(points_file, result.points);
+    write_labels(labels_file, result.labels);
+  });
+}
