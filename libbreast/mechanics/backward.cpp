@@ -98,8 +98,13 @@ BackwardSolve::Distance BackwardSolve::distance(const SaddleForces& forces) cons
 // GMRES on [−K_X −Bᵀ; −B_X cM] (v, δp) = (−r, −θ) with v = −δX, preconditioned by the forward
 // problem's factor: near F = 1 moving X one way is moving x the other way.
 bool BackwardSolve::direction(const SaddleForces& forces, Trial& step) {
-  const Factorisation factor = solver_.factorise(matrix_, scene_.walls());
+  Factorisation factor;
+  {
+    Timer::Scope phase(summary_.timer, "factorisation");
+    factor = solver_.factorise(matrix_, scene_.walls());
+  }
   if (!factor.ok) return false;
+  Timer::Scope phase(summary_.timer, "solve");
   const Constraints& walls = scene_.walls();
   const PressureSpace& space = *matrix_.space;
   const long n = forces.r.size(), m = forces.theta.size();
@@ -169,12 +174,9 @@ bool BackwardSolve::newton(Trial& trial) {
     if (now.force <= tolerance && now.volume <= volume_tolerance) return true;
     if (i == max_iterations) break;
     Trial step;
-    {
-      Timer::Scope phase(summary_.timer, "linear solve");
-      if (!direction(forces, step)) {
-        failure_ = "the inverse problem is singular: no unloaded state exists near this load";
-        return false;
-      }
+    if (!direction(forces, step)) {
+      failure_ = "the inverse problem is singular: no unloaded state exists near this load";
+      return false;
     }
     NewtonIteration record;
     Timer::Scope phase(summary_.timer, "line search");

@@ -34,6 +34,7 @@ NewtonResult ForwardSolve::attempt(ForwardProblem& problem, SaddleSolver& solver
                                    SaddleMatrix& matrix, SaddleState& state, int limit) {
   NewtonOptions newton_options;
   newton_options.max_iterations = limit;
+  newton_options.timer = &summary_.timer;
   ++summary_.steps;
   NewtonResult result = newton(problem, solver, matrix, scene_.walls(), nullptr, state,
                                newton_options, [&](const NewtonIteration& iteration) {
@@ -53,9 +54,11 @@ SolveSummary ForwardSolve::run(const Vec3& gravity) {
   SaddleState state{reference, scene_.assembly().rest_pressure()};
   NewtonResult result;
   {
-    Timer::Scope phase(summary_.timer, "solve");
     SaddleMatrix matrix = problem.make_matrix();
-    SaddleSolver solver(problem.pattern());
+    SaddleSolver solver = [&] {
+      Timer::Scope phase(summary_.timer, "ordering");
+      return SaddleSolver(problem.pattern());
+    }();
     LoadPath path;
     while (!path.finished()) {
       problem.set_load(path.next() * load);

@@ -98,11 +98,18 @@ NewtonResult newton(const SaddleProblem& problem, SaddleSolver& solver, SaddleMa
                     SaddleState& state, const NewtonOptions& options,
                     const std::function<void(const NewtonIteration&)>& watch) {
   NewtonResult result;
+  Timer unused;
+  Timer& timer = options.timer != nullptr ? *options.timer : unused;
   Constraints moving = constraints;
   const Iteration iteration(problem, constraints, options);
   const int before = solver.factorisations();
   for (int i = 0; i <= options.max_iterations; ++i) {
-    if (!problem.tangent(state, result.forces, matrix)) {
+    bool admissible = false;
+    {
+      Timer::Scope phase(timer, "assembly");
+      admissible = problem.tangent(state, result.forces, matrix);
+    }
+    if (!admissible) {
       result.reason = message("element ", result.forces.bad_element, " is folded at the start");
       break;
     }
@@ -117,14 +124,23 @@ NewtonResult newton(const SaddleProblem& problem, SaddleSolver& solver, SaddleMa
                               " of the load, bound ", options.tolerance);
       break;
     }
-    const Factorisation factor = solver.factorise(matrix, moving);
+    Factorisation factor;
+    {
+      Timer::Scope phase(timer, "factorisation");
+      factor = solver.factorise(matrix, moving);
+    }
     if (!factor.ok) {
       result.reason = "the tangent stiffness is far from positive definite (unstable equilibrium)";
       break;
     }
     if (factor.shift > 0) ++result.indefinite;
-    const SaddleStep step = solver.solve(matrix, result.forces.r, result.forces.theta);
+    SaddleStep step;
+    {
+      Timer::Scope phase(timer, "solve");
+      step = solver.solve(matrix, result.forces.r, result.forces.theta);
+    }
     NewtonIteration record;
+    Timer::Scope phase(timer, "line search");
     record.step_length = iteration.search(
         matrix, step, away ? std::numeric_limits<double>::infinity() : result.residual, state,
         result.forces);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/report.hpp"
 #include "solve/saddle.hpp"
 
 namespace breast {
@@ -49,6 +50,7 @@ struct NewtonOptions {
   double tolerance = 1e-10;         ///< ‖r on free components‖ / load norm
   double volume_tolerance = 1e-11;  ///< |θ_e| / V_e
   double min_step = 1.0 / 256;
+  Timer* timer = nullptr;           ///< seconds by phase, when wanted
   double determinant_guard = 0.05;  ///< a trial may shrink the smallest det F to this part
 };
 
