@@ -14,7 +14,7 @@ constexpr int most_toggles = 3;
 /// Iterations in which touching nodes may move freely onto the plate.
 constexpr int free_moves = 8;
 /// Halvings of a Newton step before it is given up.
-constexpr int most_halvings = 8;
+constexpr int most_halvings = 6;
 }  // namespace
 
 std::string describe(StepOutcome outcome) {
@@ -109,6 +109,7 @@ StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double to
     result.failed_trial = state.x;
     return result;
   }
+  double first_imbalance = 0;
   for (;; ++result.iterations) {
     const auto balanced = [&](const Sweep& sweep) {
       return sweep.relative() <= tolerance_ && sweep.worst_gap <= options_.gap_tolerance &&
@@ -124,7 +125,11 @@ StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double to
     if (changed) now = measure(plates, state, result.forces);
     result.residual = now.relative();
     if (converged && !changed) break;
-    if (result.iterations >= options_.max_iterations) {
+    // A step much too long is noticed early: the imbalance grows and stays.
+    if (result.iterations == 1) first_imbalance = now.relative();
+    const bool hopeless =
+        result.iterations >= 6 && now.relative() > 4 * first_imbalance && now.relative() > 0.1;
+    if (result.iterations >= options_.max_iterations || hopeless) {
       result.outcome = StepOutcome::too_many_iterations;
       return result;
     }
@@ -180,6 +185,7 @@ bool ActiveSet::line_search(const PlatePair& plates, const Sweep& now, const Bod
   // iterations must therefore reduce imbalance and gap together.
   const bool moving = now.worst_gap > 1e-3 && result.iterations < free_moves;
   const auto merit = [](const Sweep& sweep) { return sweep.relative() + sweep.worst_gap; };
+  bool any_admissible = false;
   for (int halving = 0; halving <= most_halvings; ++halving, alpha *= 0.5) {
     state.x = start.x + alpha * increment.x;
     state.p = start.p + alpha * increment.p;
@@ -190,15 +196,16 @@ bool ActiveSet::line_search(const PlatePair& plates, const Sweep& now, const Bod
     const Sweep trial = measure(plates, state, trial_forces);
     const bool flatter =
         result.iterations < free_moves && std::abs(increment.x.dot(trial.gradient)) <= 0.8 * slope;
-    const bool accepted = moving || flatter || merit(trial) < merit(now) ||
-                          trial.relative() < tolerance_ || halving == most_halvings;
+    const bool accepted =
+        moving || flatter || merit(trial) < merit(now) || trial.relative() < tolerance_;
+    any_admissible = true;
     if (!accepted) continue;
     result.forces = std::move(trial_forces);
     result.history.push_back(
         {trial.relative(), result.forces.min_det_F, result.forces.max_det_F, alpha});
     return true;
   }
-  result.outcome = StepOutcome::folded;
+  result.outcome = any_admissible ? StepOutcome::no_descent : StepOutcome::folded;
   return false;
 }
 

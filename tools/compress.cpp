@@ -1,0 +1,160 @@
+// compress: a breast between two plates.
+#include <optional>
+#include <sstream>
+
+#include "cli/mechanics_options.hpp"
+#include "cli/tool.hpp"
+#include "contact/compression.hpp"
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "core/units.hpp"
+#include "io/mesh_file.hpp"
+#include "mammo/mammogram.hpp"
+#include "mechanics/element_order.hpp"
+#include "mechanics/options.hpp"
+#include "mesh/quality.hpp"
+
+using namespace breast;
+
+namespace {
+
+/// The command line as given.
+struct Choices {
+  std::filesystem::path reference, compressed;
+  std::string view = "CC", contact = "active-set", wall = "fixed", gravity = "upright";
+  std::optional<double> angle, thickness, reduction, force, pressure;
+  std::optional<double> at_least;
+  double friction = 0;
+  PlateOptions plates;
+  MechanicsChoices mechanics;
+};
+
+/// "upright", "off", or three numbers in mm/s².
+Vec3 gravity_vector(const std::string& text) {
+  if (text.find(',') == std::string::npos) return posture_gravity(text);
+  Vec3 gravity = Vec3::Zero();
+  std::istringstream parts(text);
+  int count = 0;
+  for (std::string part; std::getline(parts, part, ','); ++count) {
+    if (count < 3) gravity[count] = parse_number(part, "--gravity");
+  }
+  if (count != 3) throw input_error("--gravity '", text, "': three numbers are needed, mm/s2");
+  return gravity;
+}
+
+void declare(Tool& tool, Choices& c) {
+  tool.describe(
+      "Loads the stress-free breast with gravity, sets two rigid plates with rounded edges just "
+      "touching it, and closes them to a thickness, a reduction, a force or a mean pressure. "
+      "Contact "
+      "is frictionless and exact: no penalty, no penetration. Both plates move, about the middle "
+      "of "
+      "the breast, so that it is not dragged along the chest wall. The stand-off runs from the "
+      "most "
+      "anterior chest-wall or cut point to the start of the plates' rounded edge; the force "
+      "depends "
+      "strongly on it.");
+  tool.describe(
+      "A path that stops early ends in a valid equilibrium: with --at-least it is written with "
+      "status stopped_early when at least that reduction was reached.");
+  tool.cite("Pathmanathan et al. 2008, section II-D, equations (7)-(8)");
+  tool.example("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 50",
+               "cranio-caudal, half the thickness");
+  tool.example("compress reference.vtkhdf mlo.vtkhdf --view MLO --angle 50 --force 100",
+               "mediolateral oblique at 50 degrees until the paddle presses with 100 N");
+  tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
+  tool.output(c.compressed, "COMPRESSED.vtkhdf", "the compressed mesh with contact forces");
+  tool.choice(c.view, "--view", {"CC", "MLO", "ML"}, "mammographic view").required("--view");
+  tool.number(c.angle, "--angle", "DEG", "beam angle; without it CC 0, MLO 45, ML 90", -90, 90);
+  tool.number(c.thickness, "--thickness", "MM", "stop at this gap between the flats", 0.1, 1000);
+  tool.number(c.reduction, "--reduction", "PERCENT", "stop at this reduction of the thickness", 0,
+              95);
+  tool.number(c.force, "--force", "N", "stop at this paddle force", 1e-6, 1e5);
+  tool.number(c.pressure, "--pressure", "KPA", "stop at this paddle force per contact area", 1e-6,
+              1e4);
+  tool.number(c.at_least, "--at-least", "PERCENT",
+              "accept a path that stops early from this reduction on (default: the target)", 0,
+              100);
+  tool.number(c.plates.standoff, "--standoff", "MM",
+              "from the most anterior chest-wall or cut point to the plate's rounded edge", 0, 500);
+  tool.number(c.plates.edge_radius, "--edge-radius", "MM", "of the plates' rounded edges", 0, 100);
+  tool.number(c.plates.tilt_deg, "--tilt", "DEG",
+              "paddle about the lateral axis; positive narrows the gap at the nipple", -20, 20);
+  tool.text(c.gravity, "--gravity", "upright|off|gx,gy,gz", "gravity during compression, mm/s2");
+  tool.number(c.friction, "--friction", "MU", "only 0: contact is frictionless", 0, 10);
+  tool.choice(c.contact, "--contact", {"active-set", "al"},
+              "exact active set, or the paper's augmented Lagrangian");
+  tool.text(c.wall, "--wall", "fixed", "only fixed: zero displacement, as in the paper");
+  declare_mechanics(tool, c.mechanics);
+  tool.check([&c] {
+    const int targets = int(c.thickness.has_value()) + int(c.reduction.has_value()) +
+                        int(c.force.has_value()) + int(c.pressure.has_value());
+    if (targets != 1) {
+      throw input_error("give exactly one of --thickness, --reduction, --force, --pressure; ",
+                        targets, " were given");
+    }
+    gravity_vector(c.gravity);
+    if (c.friction != 0) {
+      throw input_error("--friction ", c.friction, ": contact is frictionless; only 0 is accepted");
+    }
+    if (c.wall != "fixed") {
+      throw input_error("--wall ", c.wall, ": the chest wall is held; only 'fixed' is accepted");
+    }
+  });
+}
+
+CompressionOptions compression_options(const Choices& c) {
+  CompressionOptions options;
+  options.view = c.view;
+  options.angle_deg = c.angle.value_or(view_angle_deg(c.view));
+  options.plates = c.plates;
+  options.gravity = gravity_vector(c.gravity);
+  options.method =
+      c.contact == "al" ? ContactMethod::augmented_lagrangian : ContactMethod::active_set;
+  const auto stop = [&](const std::optional<double>& value, StopAt at) {
+    if (!value) return;
+    options.stop_at = at;
+    options.target = *value;
+  };
+  stop(c.thickness, StopAt::thickness);
+  stop(c.reduction, StopAt::reduction);
+  stop(c.force, StopAt::force);
+  stop(c.pressure, StopAt::pressure);
+  return options;
+}
+
+void run_compress(const Choices& c, Run& run) {
+  const MechanicsChoices& m = c.mechanics;
+  const MechanicsOptions mechanics = mechanics_options(m.materials, m.scale, m.element,
+                                                       m.invariants, m.bulk_ratio, m.cut, m.solver);
+  const CompressionOptions options = compression_options(c);
+  HexMesh mesh = read_mesh(c.reference, {.reference = true});
+  const std::string sha = mesh.content_sha256;
+  if (mechanics.element == Element::q2p1) mesh = raise_order(mesh);
+  const CompressionSummary summary = compress(mesh, options, mechanics, run.progress());
+  mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
+  write_report(summary, mesh, mechanics, run.report());
+  for (const std::string& line : summary.judgement) run.progress().note(line);
+  for (const std::string& doubt : summary.doubts) run.warn(doubt);
+
+  const std::string& status = summary.record.status;
+  const bool enough =
+      status == "stopped_early" && c.at_least && summary.reduction_percent >= *c.at_least;
+  if (status == "converged" || enough || m.keep_unconverged) {
+    const History before = mesh.history;
+    mesh.history = run.history({{c.reference, sha, &before}});
+    mesh.wall_seconds = run.seconds();
+    write_mesh(c.compressed, mesh);
+  }
+  if (enough) run.warn(summary.record.reason);
+  if (status != "converged" && !enough) throw not_converged_error(summary.record.reason);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choices c;
+  Tool tool("compress", "compress a breast between two mammography plates");
+  declare(tool, c);
+  return tool.main(argc, argv, [&c](Run& run) { run_compress(c, run); });
+}
