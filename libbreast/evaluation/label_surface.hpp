@@ -1,0 +1,13 @@
+// The outer surface of the breast in a label volume.
+#pragma once
+
+#include "image/label_volume.hpp"
+#include "surface/tri_mesh.hpp"
+
+namespace breast {
+
+/// Voxel faces between the breast's tissues and anything else, two triangles each, in mm LPS. The
+/// faces are flat staircases: distances between such surfaces are good to about half a voxel.
+TriMesh breast_surface(const LabelVolume& labels);
+
+}  // namespace breast

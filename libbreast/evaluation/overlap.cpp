@@ -1,0 +1,84 @@
+#include "evaluation/overlap.hpp"
+
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+
+namespace breast {
+
+namespace {
+
+// Classes: the tissue codes, then the breast as a whole.
+constexpr int breast_class = n_tissues, n_classes = n_tissues + 1;
+using Counts = std::array<long long, n_classes>;
+
+void count(Counts& counts, Tissue tissue) {
+  ++counts[std::size_t(tissue)];
+  if (is_breast(tissue)) ++counts[breast_class];
+}
+
+Counts count_all(const LabelVolume& labels) {
+  Counts counts{};
+  for (const std::uint8_t code : labels.tissue) count(counts, static_cast<Tissue>(code));
+  return counts;
+}
+
+// Voxels of `fine` whose nearest voxel of `coarse` has the same class.
+Counts count_common(const LabelVolume& fine, const LabelVolume& coarse) {
+  const Grid& grid = fine.grid;
+  const Mat3 to_coarse = coarse.grid.spacing.cwiseInverse().asDiagonal() *
+                         coarse.grid.direction.inverse() * grid.direction *
+                         grid.spacing.asDiagonal();
+  const Vec3 start = coarse.grid.to_index(grid.origin);
+  Counts total{};
+#pragma omp parallel num_threads(threads())
+  {
+    Counts mine{};
+#pragma omp for schedule(static)
+    for (int k = 0; k < grid.size[2]; ++k) {
+      for (int j = 0; j < grid.size[1]; ++j) {
+        for (int i = 0; i < grid.size[0]; ++i) {
+          const Vec3 at = start + to_coarse * Vec3(i, j, k);
+          const int ci = int(std::lround(at.x())), cj = int(std::lround(at.y())),
+                    ck = int(std::lround(at.z()));
+          if (!coarse.grid.contains(ci, cj, ck)) continue;
+          const Tissue a = fine.at(i, j, k), b = coarse.at(ci, cj, ck);
+          if (a == b) ++mine[std::size_t(a)];
+          if (is_breast(a) && is_breast(b)) ++mine[breast_class];
+        }
+      }
+    }
+#pragma omp critical
+    for (int c = 0; c < n_classes; ++c) total[std::size_t(c)] += mine[std::size_t(c)];
+  }
+  return total;
+}
+
+}  // namespace
+
+bool is_breast(Tissue tissue) {
+  return tissue == Tissue::fat || tissue == Tissue::fibroglandular || tissue == Tissue::skin ||
+         tissue == Tissue::tumour;
+}
+
+LabelOverlap compare_labels(const LabelVolume& given, const LabelVolume& truth) {
+  const double given_ml = given.grid.voxel_volume() / mm3_per_ml;
+  const double truth_ml = truth.grid.voxel_volume() / mm3_per_ml;
+  const bool given_finer = given_ml <= truth_ml;
+  const Counts common = given_finer ? count_common(given, truth) : count_common(truth, given);
+  const Counts of_given = count_all(given), of_truth = count_all(truth);
+  LabelOverlap result;
+  for (int c = 0; c < n_classes; ++c) {
+    const auto i = std::size_t(c);
+    Overlap& overlap = c == breast_class ? result.breast : result.tissue[i];
+    overlap.given_ml = double(of_given[i]) * given_ml;
+    overlap.truth_ml = double(of_truth[i]) * truth_ml;
+    const double both = double(common[i]) * (given_finer ? given_ml : truth_ml);
+    const double sum = overlap.given_ml + overlap.truth_ml;
+    overlap.dice = sum > 0 ? 2 * both / sum : 1;
+  }
+  return result;
+}
+
+}  // namespace breast

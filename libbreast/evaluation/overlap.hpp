@@ -1,0 +1,29 @@
+// How well two label volumes agree voxel by voxel.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "image/label_volume.hpp"
+
+namespace breast {
+
+/// Volumes in ml and Dice = 2|A∩B| / (|A|+|B|) of one class; 1 when both are empty.
+struct Overlap {
+  double given_ml = 0, truth_ml = 0, dice = 0;
+};
+
+struct LabelOverlap {
+  std::array<Overlap, n_tissues> tissue;  ///< by tissue code
+  Overlap breast;                         ///< fat, fibroglandular, skin and tumour together
+};
+
+/// True for the tissues that make up the breast.
+bool is_breast(Tissue tissue);
+
+/// Truth may lie on another grid: each voxel of the finer grid is compared with the nearest voxel
+/// of the other, and the volumes are those of each volume's own grid, so that truth beyond the
+/// given volume's edge counts against it.
+LabelOverlap compare_labels(const LabelVolume& given, const LabelVolume& truth);
+
+}  // namespace breast

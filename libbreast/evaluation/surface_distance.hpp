@@ -1,0 +1,23 @@
+// Distances between two surfaces, both ways.
+#pragma once
+
+#include "surface/tri_mesh.hpp"
+
+namespace breast {
+
+struct Distances {
+  double mean_mm = 0, p95_mm = 0, max_mm = 0;
+};
+
+struct SurfaceComparison {
+  Distances to_truth;    ///< from the given surface's samples to the truth
+  Distances from_truth;  ///< from the truth's samples to the given surface
+  Distances both;        ///< all samples together; max is the Hausdorff distance
+};
+
+/// Samples are the centres of triangles weighted by area, or the points of a point set (no
+/// triangles), each with its distance to the nearest triangle (point) of the other. Throws Error
+/// (input) when either is empty.
+SurfaceComparison compare_surfaces(const TriMesh& given, const TriMesh& truth);
+
+}  // namespace breast

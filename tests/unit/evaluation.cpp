@@ -1,0 +1,138 @@
+// Dice, surface distances and translated labels against shapes whose answers are known.
+#include "evaluation/overlap.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "evaluation/foreign_labels.hpp"
+#include "evaluation/label_surface.hpp"
+#include "evaluation/surface_distance.hpp"
+#include "evaluation/triangle_tree.hpp"
+
+namespace breast {
+namespace {
+
+Grid cube(int n, double spacing) {
+  Grid grid;
+  grid.size = {n, n, n};
+  grid.spacing = Vec3::Constant(spacing);
+  grid.origin = Vec3::Constant(spacing / 2);  // voxel corners at multiples of the spacing
+  return grid;
+}
+
+// Fat in x < limit (mm), air elsewhere.
+LabelVolume half(const Grid& grid, double limit) {
+  LabelVolume labels;
+  labels.grid = grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        labels.tissue.push_back(std::uint8_t(grid.to_patient(Vec3(i, j, k)).x() < limit));
+      }
+    }
+  }
+  return labels;
+}
+
+TEST(Overlap, DiceOfShiftedHalves) {
+  const Grid grid = cube(10, 2);
+  const LabelOverlap same = compare_labels(half(grid, 10), half(grid, 10));
+  EXPECT_EQ(same.breast.dice, 1);
+  EXPECT_DOUBLE_EQ(same.breast.given_ml, 4);
+  const LabelOverlap shifted = compare_labels(half(grid, 10), half(grid, 14));
+  EXPECT_DOUBLE_EQ(shifted.tissue[1].dice, 2 * 5.0 / 12);
+  EXPECT_DOUBLE_EQ(shifted.tissue[1].truth_ml, 5.6);
+}
+
+TEST(Overlap, AnotherGridAndACrop) {
+  // Half the spacing: the same shape. A crop that misses part of the truth: it counts against it.
+  EXPECT_DOUBLE_EQ(compare_labels(half(cube(10, 2), 10), half(cube(20, 1), 10)).breast.dice, 1);
+  EXPECT_DOUBLE_EQ(compare_labels(half(cube(20, 1), 10), half(cube(10, 2), 10)).breast.dice, 1);
+  Grid crop = cube(10, 2);
+  crop.size[2] = 5;
+  EXPECT_DOUBLE_EQ(compare_labels(half(crop, 10), half(cube(10, 2), 10)).breast.dice, 2 * 1.0 / 3);
+}
+
+TEST(SurfaceDistance, PointToTriangle) {
+  const Vec3 a(0, 0, 0), b(4, 0, 0), c(0, 4, 0);
+  EXPECT_DOUBLE_EQ(squared_distance({1, 1, 3}, a, b, c), 9);
+  EXPECT_DOUBLE_EQ(squared_distance({2, -3, 0}, a, b, c), 9);
+  EXPECT_DOUBLE_EQ(squared_distance({-3, -4, 0}, a, b, c), 25);
+  EXPECT_DOUBLE_EQ(squared_distance({4, 4, 0}, a, b, c), 8);
+  EXPECT_DOUBLE_EQ(squared_distance({0, 3, 4}, a, a, a), 25);
+}
+
+TEST(SurfaceDistance, TreeFindsTheNearest) {
+  TriMesh mesh = breast_surface(half(cube(8, 1.5), 6));
+  const TriangleTree tree(mesh);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 x(i * 37 % 19 - 3.1, i * 53 % 17 - 2.2, i * 29 % 23 - 4.3);
+    double best = 1e300;
+    for (const auto& t : mesh.triangles) {
+      best = std::min(
+          best, squared_distance(x, mesh.points[std::size_t(t[0])], mesh.points[std::size_t(t[1])],
+                                 mesh.points[std::size_t(t[2])]));
+    }
+    EXPECT_DOUBLE_EQ(tree.distance(x), std::sqrt(best));
+  }
+}
+
+TEST(SurfaceDistance, ShiftedBoxes) {
+  const Grid grid = cube(10, 2);
+  const SurfaceComparison comparison =
+      compare_surfaces(breast_surface(half(grid, 10)), breast_surface(half(grid, 14)));
+  EXPECT_NEAR(comparison.from_truth.max_mm, 4, 1e-12);
+  EXPECT_NEAR(comparison.to_truth.max_mm, 4, 1e-12);
+  EXPECT_NEAR(comparison.both.max_mm, 4, 1e-12);
+  EXPECT_GT(comparison.both.mean_mm, 0);
+  EXPECT_LE(comparison.both.mean_mm, comparison.both.p95_mm);
+  EXPECT_EQ(
+      compare_surfaces(breast_surface(half(grid, 10)), breast_surface(half(grid, 10))).both.max_mm,
+      0);
+  EXPECT_THROW(compare_surfaces({}, breast_surface(half(grid, 10))), Error);
+}
+
+TEST(SurfaceDistance, PointSets) {
+  TriMesh a, b;
+  a.points = {{0, 0, 0}, {1, 0, 0}};
+  b.points = {{0, 3, 0}, {1, 3, 0}, {1, 7, 0}};
+  const SurfaceComparison comparison = compare_surfaces(a, b);
+  EXPECT_DOUBLE_EQ(comparison.to_truth.mean_mm, 3);
+  EXPECT_DOUBLE_EQ(comparison.from_truth.max_mm, 7);
+  EXPECT_DOUBLE_EQ(comparison.from_truth.mean_mm, 13.0 / 3);
+}
+
+TEST(LabelSurface, IsClosedAndHasTheArea) {
+  const TriMesh mesh = breast_surface(half(cube(10, 2), 10));
+  double area = 0;
+  Vec3 sum = Vec3::Zero();
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = mesh.points[std::size_t(t[0])];
+    const Vec3 n =
+        (mesh.points[std::size_t(t[1])] - a).cross(mesh.points[std::size_t(t[2])] - a) / 2;
+    area += n.norm();
+    sum += n.cwiseAbs();
+  }
+  EXPECT_DOUBLE_EQ(area, 2 * 20 * 20 + 4 * 20 * 10);
+  EXPECT_DOUBLE_EQ(sum.x(), 2 * 20 * 20);
+}
+
+TEST(ForeignLabels, CodesAndRegion) {
+  Volume<float> volume(cube(2, 1), 0.0f);
+  volume.voxels = {0, 1, 29, 88, 0, 1, 29, 60};
+  const TissueCodes codes = parse_tissue_codes({"1=fat", "29=fibroglandular", "88=fat"});
+  LabelVolume labels = translate_labels(volume, codes, "truth.nrrd");
+  const std::vector<std::uint8_t> expected = {0, 1, 2, 1, 0, 1, 2, 6};
+  EXPECT_EQ(labels.tissue, expected);
+  Volume<float> region(cube(2, 1), 2.0f);
+  region.voxels[2] = 1;
+  restrict_breast(labels, region, 2);
+  EXPECT_EQ(labels.tissue[2], std::uint8_t(Tissue::other));
+  EXPECT_EQ(labels.tissue[6], std::uint8_t(Tissue::fibroglandular));
+  EXPECT_THROW(translate_labels(volume, {}, "truth.nrrd"), Error);
+  EXPECT_THROW(parse_tissue_codes({"29"}), Error);
+  EXPECT_THROW(parse_tissue_codes({"29=gland"}), Error);
+}
+
+}  // namespace
+}  // namespace breast

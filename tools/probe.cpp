@@ -1,0 +1,112 @@
+// probe: where the landmarks of deformed meshes are, as a table.
+#include <algorithm>
+
+#include "cli/tool.hpp"
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "io/mesh_file.hpp"
+
+using namespace breast;
+
+namespace {
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> names{""};
+  for (const char c : list) {
+    if (c == ',')
+      names.emplace_back();
+    else
+      names.back() += c;
+  }
+  return names;
+}
+
+// Landmarks asked for, or those of the first file.
+std::vector<std::string> chosen(const std::string& option, const HexMesh& first) {
+  if (!option.empty()) return split(option);
+  std::vector<std::string> names;
+  for (const Landmark& landmark : first.landmarks) names.push_back(landmark.name);
+  return names;
+}
+
+const Landmark& find(const HexMesh& mesh, const std::string& name,
+                     const std::filesystem::path& file) {
+  if (const Landmark* landmark = mesh.landmark(name)) return *landmark;
+  std::string known;
+  for (const Landmark& l : mesh.landmarks) known += (known.empty() ? "" : ", ") + l.name;
+  throw input_error(file.string(), ": has no landmark '", name, "'; it has: ", known);
+}
+
+struct Probe {
+  Vec3 position, imaged;
+};
+Probe probe(const HexMesh& mesh, const std::string& name, const std::filesystem::path& file) {
+  const Landmark& landmark = find(mesh, name, file);
+  return {landmark_position(mesh, mesh.points, landmark),
+          landmark_position(mesh, mesh.imaged, landmark)};
+}
+
+// Column names with their unit, in the order in which add_cells fills them.
+void add_columns(Table& table, const std::string& name, bool relative) {
+  for (const char* what : {"_x_mm", "_y_mm", "_z_mm", "_mm"}) table.columns.push_back(name + what);
+  if (relative) table.columns.push_back(name + "_relative_mm");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::filesystem::path> files;
+  std::filesystem::path base_file;
+  std::string landmarks;
+  Tool tool("probe", "landmark positions and displacements of meshes as a table");
+  tool.describe(
+          "Prints one row a file, tab-separated, to stdout. For each landmark NAME: NAME_x_mm, "
+          "NAME_y_mm, "
+          "NAME_z_mm, its position (LPS); NAME_mm, the length of its displacement from the imaged "
+          "shape; "
+          "and, with --base, NAME_relative_mm, the distance between its positions in this file and "
+          "in "
+          "the base, which also shows a change of direction that leaves the length alone.")
+      .cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Tables III to VI");
+  tool.inputs(files, "FILE.vtkhdf", "meshes written by hexmesh, backward, forward or compress");
+  tool.text(landmarks, "--landmarks", "NAME,...",
+            "landmarks to show; without it, all of the first file");
+  tool.input_file(base_file, "--base", "FILE.vtkhdf", "mesh the relative displacements refer to");
+  tool.example("probe supine.vtkhdf --landmarks tumour,nipple", "supine displacements");
+  tool.example("probe fat-*.vtkhdf --base supine.vtkhdf > fat.tsv",
+               "the effect of a material on the supine shape, as in Table III");
+  return tool.main(argc, argv, [&](Run& run) {
+    std::vector<HexMesh> meshes;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      run.progress().update("reading", double(i) / double(files.size()),
+                            files[i].filename().string());
+      meshes.push_back(read_mesh(files[i]));
+    }
+    const std::vector<std::string> names = chosen(landmarks, meshes.front());
+    if (names.empty()) throw input_error(files.front().string(), ": has no landmarks");
+    const bool relative = !base_file.empty();
+    const HexMesh base = relative ? read_mesh(base_file) : HexMesh();
+    Table table;
+    table.columns = {"file"};
+    for (const std::string& name : names) add_columns(table, name, relative);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      std::vector<std::string> row{files[i].filename().string()};
+      for (const std::string& name : names) {
+        const Probe here = probe(meshes[i], name, files[i]);
+        const double moved = (here.position - here.imaged).norm();
+        for (int d = 0; d < 3; ++d) row.push_back(format_fixed(here.position[d], 4));
+        row.push_back(format_fixed(moved, 4));
+        if (relative) {
+          const Vec3 there = probe(base, name, base_file).position;
+          row.push_back(format_fixed((here.position - there).norm(), 4));
+        }
+        if (files.size() > 1) continue;
+        run.report().set("landmarks/" + name + "/imaged", here.imaged);
+        run.report().set("landmarks/" + name + "/position", here.position);
+        run.report().set("landmarks/" + name + "/displacement_mm", moved);
+      }
+      table.rows.push_back(std::move(row));
+    }
+    run.print(table.text());
+  });
+}
