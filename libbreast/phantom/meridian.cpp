@@ -155,10 +155,12 @@ Vec3 MeridianMap::position(const std::vector<Curve>& curves, double parameter,
   return shape_.at(p.x(), azimuth, p.y());
 }
 
-double MeridianMap::cut_radius(double azimuth, double height) const {
-  const Vec3 foot = shape_.cylindrical(wall(2, azimuth)),
-             rim = shape_.cylindrical(skin(2, azimuth));
-  return foot.x() + (rim.x() - foot.x()) * (height - foot.z()) / (rim.z() - foot.z());
+bool MeridianMap::inside_cut(const Vec3& x, double margin) const {
+  const Vec3 at = shape_.cylindrical(x);
+  if (at.x() > 2.5 * shape_.radius(at.y()) || at.z() < -shape_.parameters().radius) return false;
+  const Vec3 foot = shape_.cylindrical(wall(2, at.y())), rim = shape_.cylindrical(skin(2, at.y()));
+  const double rise = (at.z() - foot.z()) / (rim.z() - foot.z());
+  return at.x() < foot.x() + rise * (rim.x() - foot.x()) - margin;
 }
 
 }  // namespace breast

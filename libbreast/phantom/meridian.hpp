@@ -21,8 +21,9 @@ class MeridianMap {
   Vec3 wall(double parameter, double azimuth) const { return position(wall_, parameter, azimuth); }
   /// Mean height of the fold above the plane of the axis' foot (mm).
   double fold_height() const { return fold_height_; }
-  /// Distance from the axis at which the cut stands at azimuth φ and height h (extended straight).
-  double cut_radius(double azimuth, double height) const;
+  /// Whether a point in front of the chest wall lies on the breast's side of the cut (extended
+  /// straight outwards), more than `margin` mm from it.
+  bool inside_cut(const Vec3& x, double margin) const;
 
  private:
   using Curve = std::vector<Vec2>;  ///< (r,h)

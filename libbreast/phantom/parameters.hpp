@@ -25,20 +25,20 @@ struct BreastParameters {
   double centre_z = -2;
   double axis_lateral = 10;  ///< degrees the axis points laterally
   double axis_inferior = 5;  ///< degrees the axis points downwards
-  double radius = 52;        ///< mean radius at the base
+  double radius = 54;        ///< mean radius at the base
   double height = 84;        ///< chest wall to nipple base along the axis
-  double shoulder = 26;      ///< height up to which the breast is a cylinder, a dome above
-  double power = 2.25;       ///< fullness of the dome (2 = ellipsoid)
+  double shoulder = 18;      ///< height up to which the breast is a cylinder, a dome above
+  double power = 2.05;       ///< fullness of the dome (2 = ellipsoid)
   double upper_fullness = 0.06, lateral_fullness = 0.04,
          axillary_tail = 0.08;  ///< relative to radius
-  double fold = 18;             ///< fillet between breast and chest, larger above than below
+  double fold = 22;             ///< fillet between breast and chest, larger above than below
   double unevenness = 1.0;      ///< amplitude of the skin's slow undulation
-  double nipple_radius = 4.5, nipple_height = 6;
+  double nipple_radius = 5.5, nipple_height = 5;
 };
 
 struct GlandParameters {
   double fraction = 0.14;  ///< of the breast's volume
-  int lobes = 16;
+  int lobes = 18;
   double extent = 0.72;  ///< radius of the gland's region relative to the breast's
 };
 

@@ -13,11 +13,22 @@ std::uint64_t finalise(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-double lattice_value(std::uint64_t seed, std::int64_t i, std::int64_t j, std::int64_t k) {
+// Dot product of the lattice point's pseudo-random gradient (one of 12, Perlin 2002) with `d`.
+double lattice_slope(std::uint64_t seed, std::int64_t i, std::int64_t j, std::int64_t k, double x,
+                     double y, double z) {
   const auto key = std::uint64_t(i) * 0x9e3779b97f4a7c15ULL +
                    std::uint64_t(j) * 0xc2b2ae3d27d4eb4fULL +
                    std::uint64_t(k) * 0x165667b19e3779f9ULL;
-  return 2.0 * double(finalise(seed ^ key) >> 11) * 0x1.0p-53 - 1.0;
+  const std::uint64_t hash = finalise(seed ^ key) >> 33;
+  const double u = hash & 1 ? 1.0 : -1.0, v = hash & 2 ? 1.0 : -1.0;
+  switch ((hash >> 2) % 3) {
+    case 0:
+      return u * x + v * y;
+    case 1:
+      return u * y + v * z;
+    default:
+      return u * z + v * x;
+  }
 }
 }  // namespace
 
@@ -38,19 +49,20 @@ Vec2 normal_pair(std::uint64_t seed, std::uint64_t index) {
 
 double lattice_noise(std::uint64_t seed, const Vec3& point) {
   std::int64_t cell[3];
-  double weight[3];
+  double t[3], weight[3];
   for (int a = 0; a < 3; ++a) {
     const double floor = std::floor(point[a]);
     cell[a] = std::int64_t(floor);
-    const double t = point[a] - floor;
-    weight[a] = t * t * (3 - 2 * t);
+    t[a] = point[a] - floor;
+    weight[a] = t[a] * t[a] * t[a] * (t[a] * (6 * t[a] - 15) + 10);
   }
   double sum = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const int di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2;
     sum += (di ? weight[0] : 1 - weight[0]) * (dj ? weight[1] : 1 - weight[1]) *
            (dk ? weight[2] : 1 - weight[2]) *
-           lattice_value(seed, cell[0] + di, cell[1] + dj, cell[2] + dk);
+           lattice_slope(seed, cell[0] + di, cell[1] + dj, cell[2] + dk, t[0] - di, t[1] - dj,
+                         t[2] - dk);
   }
   return sum;
 }

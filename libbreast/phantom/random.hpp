@@ -15,7 +15,7 @@ double uniform(std::uint64_t seed, std::uint64_t index);
 /// Two independent standard normal numbers (Box-Muller).
 Vec2 normal_pair(std::uint64_t seed, std::uint64_t index);
 
-/// Smooth lattice noise of unit wavelength, roughly in [-1,1], C1, standard deviation about 0.35.
+/// Smooth gradient noise on the unit lattice (Perlin 2002), within [-1,1], C2.
 double lattice_noise(std::uint64_t seed, const Vec3& point);
 
 /// A small sequential stream for building trees and parameters (serial code only).

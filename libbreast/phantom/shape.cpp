@@ -69,10 +69,9 @@ double BreastShape::fold(double azimuth) const {
 double BreastShape::body_distance(const Vec3& c) const {
   const double base = radius(c.y()), dome = p_.height - p_.shoulder;
   const double u = c.x() / base, v = std::max(0.0, c.z() - p_.shoulder) / dome;
-  const double f = std::pow(std::pow(u, p_.power) + std::pow(v, p_.power) + 1e-12, 1 / p_.power);
-  const double scale = std::pow(f, 1 - p_.power);
-  const double fu = scale * std::pow(u, p_.power - 1) / base;
-  const double fv = scale * std::pow(v, p_.power - 1) / dome;
+  const double pu = std::pow(u, p_.power - 1), pv = std::pow(v, p_.power - 1);
+  const double sum = pu * u + pv * v + 1e-12, f = std::pow(sum, 1 / p_.power);
+  const double fu = f / sum * pu / base, fv = f / sum * pv / dome;
   return (f - 1) / std::max(std::hypot(fu, fv), 0.5 / std::max(base, dome));
 }
 

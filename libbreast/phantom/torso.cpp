@@ -17,12 +17,11 @@ double smooth_step(double value, double low, double high) {
 double Torso::smooth_distance(const Vec3& x) const {
   const double v = x.y() - centre(x.z());
   const double qx = std::abs(x.x()) / p_.half_width, qy = std::abs(v) / p_.half_depth;
-  const double sum = std::pow(qx, p_.power) + std::pow(qy, p_.power);
+  const double px = std::pow(qx, p_.power - 1), py = std::pow(qy, p_.power - 1);
+  const double sum = px * qx + py * qy;
   if (sum < 1e-6) return -std::min(p_.half_width, p_.half_depth);
   const double f = std::pow(sum, 1 / p_.power);
-  const double scale = std::pow(f, 1 - p_.power);
-  const double fx = scale * std::pow(qx, p_.power - 1) / p_.half_width;
-  const double fy = scale * std::pow(qy, p_.power - 1) / p_.half_depth;
+  const double fx = f / sum * px / p_.half_width, fy = f / sum * py / p_.half_depth;
   const double fz = fy * (p_.tilt + 2 * p_.bend * x.z());
   return (f - 1) / std::sqrt(fx * fx + fy * fy + fz * fz);
 }
@@ -58,30 +57,33 @@ Vec3 Torso::wall_point(double x, double z) const {
   return {x, inside, z};
 }
 
-Matter Torso::interior(const Vec3& x) const {
-  const double depth = -wall_distance(x);
+// 1 in front, 0 at the back, smooth over the flank.
+double Torso::frontness(const Vec3& x) const {
+  return smooth_step(centre(x.z()) - x.y(), -25, 45);
+}
+
+Matter Torso::interior(const Vec3& x, double depth) const {
   const double across = std::abs(x.x());
-  const bool front = x.y() < centre(x.z());
   // Pectoralis major: from the sternum to the axilla, thinner below the sixth rib; at the side the
   // serratus and latissimus, at the back the erector spinae beside the spine.
-  double muscle = 7;
-  if (front) {
-    const double pectoral = smooth_step(across, 4, 22) * smooth_step(x.z(), -75, -25);
-    muscle = 2.5 + 2.5 * smooth_step(across, 4, 22) + 7 * pectoral;
-  } else {
-    muscle = 9 + 22 * smooth_step(60 - across, 0, 25);
-  }
-  muscle += 1.2 * lattice_noise(seed_ + 5, x / 28);
+  const double pectoral = smooth_step(across, 4, 22) * smooth_step(x.z(), -75, -25);
+  const double front = 2.5 + 2.5 * smooth_step(across, 4, 22) + 6 * pectoral;
+  const double back = 9 + 22 * smooth_step(60 - across, 0, 25);
+  const double w = frontness(x);
+  double muscle = w * front + (1 - w) * back;
+  if (depth > muscle + 16) return thorax(x);
+  muscle += 1.5 * lattice_noise(seed_ + 5, x / 30);
   if (depth < muscle) {
     // Fat planes along the fibres, as seen within every pectoral muscle.
     const double strand =
-        lattice_noise(seed_ + 6, {x.x() / 40, depth / 3.0, (x.z() + 0.5 * across) / 14});
-    return strand > 0.62 ? Matter::fat : Matter::muscle;
+        lattice_noise(seed_ + 6, {x.x() / 45, depth / 3.0, (x.z() + 0.5 * across) / 18});
+    return strand > 0.55 ? Matter::ligament : Matter::muscle;
   }
-  if (depth < muscle + 1.6) return Matter::fat;
-  const double bone = 9;
-  if (depth < muscle + 1.6 + bone) return bone_layer(x, (depth - muscle - 1.6) / bone);
-  if (depth < muscle + 1.6 + bone + 1.5) return Matter::fat;
+  const double bone = 9, plane = 1.1;
+  const double into = depth - muscle - plane;
+  if (into < 0) return Matter::fat;
+  if (into < bone) return bone_layer(x, into / bone);
+  if (into < bone + 0.8) return Matter::fat;
   return thorax(x);
 }
 
@@ -98,7 +100,7 @@ Matter Torso::bone_layer(const Vec3& x, double depth) const {
   const double phase = (x.z() - run + 3 * lattice_noise(seed_ + 7, x / 60)) / 27.0;
   const double vertical = (phase - std::floor(phase) - 0.5) * 27.0 / 6.8;
   const double rib = std::hypot(vertical, radial);
-  if (rib > 1) return depth > 0.25 && depth < 0.8 ? Matter::muscle : Matter::fat;
+  if (rib > 1) return depth > 0.12 && depth < 0.9 ? Matter::muscle : Matter::fat;
   if (front && across < 58) return rib > 0.93 ? Matter::fat : Matter::cartilage;
   return rib > 0.72 ? Matter::cortex : Matter::marrow;
 }
@@ -128,7 +130,11 @@ Matter Torso::thorax(const Vec3& x) const {
         ((x - heart_centre - Vec3(4, 3, 2)).cwiseQuotient(Vec3(36, 26, 36))).norm();
     return cavity < 0.8 ? Matter::blood : Matter::heart;
   }
-  if (heart < 0.88) return Matter::fat;
+  if (heart < 0.84) return Matter::fat;
+  // Mediastinum between sternum and spine: fat with the great vessels.
+  const double middle = std::abs(x.x() - 4 + 9 * lattice_noise(seed_ + 13, x / 35));
+  if (middle < 17 && x.y() > spine.y() - 45) return Matter::brawn;
+  if (middle < 8) return Matter::fat;
   // Liver under the right dome of the diaphragm; the left dome covers the stomach.
   const double right = (x - Vec3(-62, centre(-40), -138)).cwiseQuotient(Vec3(92, 92, 92)).norm();
   if (right < 1) {

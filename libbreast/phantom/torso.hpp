@@ -18,12 +18,13 @@ class Torso {
   Vec3 wall_normal(const Vec3& x) const;
   /// Point of the anterior chest wall at (x, z).
   Vec3 wall_point(double x, double z) const;
-  /// Matter behind the chest wall (wall_distance < 0).
-  Matter interior(const Vec3& x) const;
+  /// Matter behind the chest wall; `depth` = −wall_distance(x) > 0.
+  Matter interior(const Vec3& x, double depth) const;
 
  private:
   double smooth_distance(const Vec3& x) const;
   double centre(double z) const { return p_.half_depth + p_.tilt * z + p_.bend * z * z; }
+  double frontness(const Vec3& x) const;
   Matter bone_layer(const Vec3& x, double depth) const;
   Matter thorax(const Vec3& x) const;
 

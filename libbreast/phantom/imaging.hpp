@@ -1,0 +1,25 @@
+// What the scanner sees: matter per subsample of every voxel of the prone scene, and its labels.
+#pragma once
+
+#include "image/label_volume.hpp"
+#include "phantom/scene.hpp"
+
+namespace breast {
+
+/// Noise-free signal (fat = 1000, no coil bias) and the truth on the same grid.
+struct PhantomImage {
+  Volume<float> signal;
+  std::vector<std::uint8_t> tissue;         ///< majority Tissue per voxel, both breasts
+  std::vector<std::uint8_t> side;           ///< 0 rigid body or air, 1 left breast, 2 right breast
+  std::vector<std::uint8_t> gland_percent;  ///< fibroglandular share of the voxel
+};
+
+/// 512×512×60 voxels of 0.82×0.82×2.5 mm around the chest; coarser by `voxel_factor`.
+Grid phantom_grid(const MriParameters& parameters);
+/// Images the prone shape (mesh.points). Voxels are independent of each other: the result does not
+/// depend on the number of threads.
+PhantomImage image_scene(const PhantomScene& scene, Progress& progress = no_progress());
+/// The label volume `segment` should find for one side, cropped to the breast and its surroundings.
+LabelVolume true_labels(const PhantomScene& scene, const PhantomImage& image, Side side);
+
+}  // namespace breast

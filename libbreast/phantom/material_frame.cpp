@@ -1,0 +1,87 @@
+#include "phantom/material_frame.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "mesh/lattice.hpp"
+
+namespace breast {
+
+BreastFrames::BreastFrames(const PhantomBreast& breast, const Grid& grid)
+    : breast_(breast),
+      grid_(grid),
+      locator_(breast.mesh, breast.mesh.points),
+      nipple_(breast.mesh.points[breast.mesh.nipple_node]) {
+  const Vec3 margin(16, 16, 16);
+  const Vec3 a = grid.to_index(locator_.lower() - margin),
+             b = grid.to_index(locator_.upper() + margin);
+  for (int d = 0; d < 3; ++d) {
+    low_[d] = std::clamp(int(std::floor(std::min(a[d], b[d]))), 0, grid.size[d] - 1);
+    size_[d] = std::clamp(int(std::ceil(std::max(a[d], b[d]))), 0, grid.size[d] - 1) - low_[d] + 1;
+  }
+  element_.assign(std::size_t(size_[0]) * size_[1] * size_[2], -1);
+#pragma omp parallel for schedule(dynamic) num_threads(threads())
+  for (int k = 0; k < size_[2]; ++k)
+    for (int j = 0; j < size_[1]; ++j) {
+      int hint = -1;
+      for (int i = 0; i < size_[0]; ++i) {
+        const Vec3 x = grid_.to_patient(Vec3(i + low_[0], j + low_[1], k + low_[2]));
+        const auto location = locator_.find(x, hint);
+        hint = location ? location->element : -1;
+        element_[(std::size_t(k) * size_[1] + j) * size_[0] + i] = hint;
+      }
+    }
+}
+
+// True when a neighbouring voxel lies in the mesh.
+bool BreastFrames::touches(int i, int j, int k) const {
+  for (int c = std::max(0, k - 1); c <= std::min(size_[2] - 1, k + 1); ++c)
+    for (int b = std::max(0, j - 1); b <= std::min(size_[1] - 1, j + 1); ++b)
+      for (int a = std::max(0, i - 1); a <= std::min(size_[0] - 1, i + 1); ++a)
+        if (element_[(std::size_t(c) * size_[1] + b) * size_[0] + a] >= 0) return true;
+  return false;
+}
+
+bool BreastFrames::at(int i, int j, int k, MaterialFrame& out) const {
+  const Vec3 x = grid_.to_patient(Vec3(i, j, k));
+  i -= low_[0], j -= low_[1], k -= low_[2];
+  if (i < 0 || j < 0 || k < 0 || i >= size_[0] || j >= size_[1] || k >= size_[2]) return false;
+  const int element = element_[(std::size_t(k) * size_[1] + j) * size_[0] + i];
+  if (element >= 0) {
+    if (const auto location = locator_.find(x, element)) {
+      out = frame(*location, x);
+      return true;
+    }
+  }
+  if (!touches(i, j, k) && (x - nipple_).norm() > 15) return false;
+  if (breast_.shape.torso().wall_distance(x) > 0 && !breast_.map.inside_cut(x, 0)) {
+    return false;
+  }
+  out = frame(locator_.nearest(x), x);
+  return true;
+}
+
+// Outside the mesh the map is continued linearly from the nearest point of it.
+MaterialFrame BreastFrames::frame(const Location& location, const Vec3& x) const {
+  const HexMesh& mesh = breast_.mesh;
+  std::array<Vec3, 27> prone, stress_free;
+  const int* vtk = lattice::vtk_nodes(mesh.order);
+  const int* nodes = mesh.element(location.element);
+  for (int a = 0; a < mesh.nodes_per_element(); ++a) {
+    prone[a] = mesh.points[nodes[vtk[a]]];
+    stress_free[a] = mesh.reference[nodes[vtk[a]]];
+  }
+  Vec3 at, material;
+  Mat3 prone_jacobian, jacobian;
+  lattice::evaluate(mesh.order, prone.data(), location.local, at, prone_jacobian);
+  lattice::evaluate(mesh.order, stress_free.data(), location.local, material, jacobian);
+  MaterialFrame out;
+  out.gradient = jacobian * prone_jacobian.inverse();
+  out.prone = x;
+  out.stress_free = material + out.gradient * (x - at);
+  return out;
+}
+
+}  // namespace breast

@@ -1,0 +1,107 @@
+#include "phantom/scanner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "phantom/random.hpp"
+
+namespace breast {
+
+namespace {
+
+struct CoilElement {
+  Vec3 at;
+  double weight;
+};
+
+// Loops beside, between and below the two openings of a prone breast coil.
+std::vector<CoilElement> coil(std::uint64_t seed) {
+  RandomStream stream(seed);
+  std::vector<CoilElement> elements;
+  for (double side : {-1.0, 1.0}) {
+    const Vec3 places[] = {{side * 165, -55, 0},
+                           {side * 45, -75, 0},
+                           {side * 100, -105, 0},
+                           {side * 110, -50, -75},
+                           {side * 110, -50, 75}};
+    for (const Vec3& place : places) {
+      const Vec3 moved = place + 8 * Vec3(stream.normal(), stream.normal(), stream.normal());
+      elements.push_back({moved, stream.uniform(0.7, 1.3)});
+    }
+  }
+  return elements;
+}
+
+double raw_sensitivity(const std::vector<CoilElement>& coil, const Vec3& x) {
+  constexpr double loop = 60;  // mm, radius of a loop
+  double sum = 0;
+  for (const CoilElement& element : coil) {
+    const double d2 = (x - element.at).squaredNorm() / (loop * loop);
+    sum += element.weight / ((1 + d2) * std::sqrt(1 + d2));
+  }
+  return sum;
+}
+
+float percentile(std::vector<float> values, double fraction) {
+  const auto at = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+}  // namespace
+
+Volume<float> coil_sensitivity(const PhantomImage& image, double bias, std::uint64_t seed) {
+  if (!(bias >= 1 && bias <= 20))
+    throw input_error("coil bias ", bias, ": must lie between 1 and 20");
+  const Grid& grid = image.signal.grid;
+  const std::vector<CoilElement> elements = coil(seed);
+  Volume<float> field(grid);
+#pragma omp parallel for schedule(static) num_threads(threads())
+  for (int k = 0; k < grid.size[2]; ++k)
+    for (int j = 0; j < grid.size[1]; ++j)
+      for (int i = 0; i < grid.size[0]; ++i)
+        field.at(i, j, k) =
+            float(std::log(raw_sensitivity(elements, grid.to_patient(Vec3(i, j, k)))));
+  std::vector<float> breast;
+  for (std::size_t n = 0; n < grid.voxels(); ++n)
+    if (image.side[n] > 0 && image.tissue[n] == std::uint8_t(Tissue::fat))
+      breast.push_back(field.voxels[n]);
+  if (breast.empty()) throw input_error("coil sensitivity: the image holds no breast");
+  const double spread = percentile(breast, 0.99) - percentile(breast, 0.01);
+  const double power = std::log(bias) / spread, middle = percentile(breast, 0.5);
+#pragma omp parallel for schedule(static) num_threads(threads())
+  for (std::size_t n = 0; n < grid.voxels(); ++n)
+    field.voxels[n] = float(std::exp(power * (field.voxels[n] - middle)));
+  return field;
+}
+
+Volume<std::int16_t> scan(const PhantomImage& image, const MriParameters& p, std::uint64_t seed) {
+  if (!(p.noise_percent >= 0 && p.noise_percent <= 100)) {
+    throw input_error("noise ", p.noise_percent, " %: must lie between 0 and 100");
+  }
+  const Grid& grid = image.signal.grid;
+  const Volume<float> sensitivity = coil_sensitivity(image, p.bias, mix(seed, 401));
+  const double sigma = 0.01 * p.noise_percent * matter_signal(Matter::fat);
+  const std::uint64_t texture = mix(seed, 402), noise = mix(seed, 403);
+  Volume<std::int16_t> out(grid);
+#pragma omp parallel for schedule(static) num_threads(threads())
+  for (int k = 0; k < grid.size[2]; ++k)
+    for (int j = 0; j < grid.size[1]; ++j)
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const std::size_t n = grid.offset(i, j, k);
+        const Vec3 x = grid.to_patient(Vec3(i, j, k));
+        double signal = image.signal.voxels[n];
+        if (signal > 0) {
+          signal *= sensitivity.voxels[n] * (1 + 0.05 * lattice_noise(texture, x / 6) +
+                                             0.05 * lattice_noise(texture + 1, x / 25));
+        }
+        const Vec2 error = sigma * normal_pair(noise, n);
+        const double magnitude = std::hypot(signal + error.x(), error.y());
+        out.voxels[n] = std::int16_t(std::clamp(std::lround(magnitude), 0L, 32767L));
+      }
+  return out;
+}
+
+}  // namespace breast

@@ -1,0 +1,41 @@
+// The whole phantom: a rigid thorax and two deformable breasts, stress-free and prone.
+#pragma once
+
+#include <memory>
+
+#include "core/progress.hpp"
+#include "phantom/gland.hpp"
+#include "phantom/template.hpp"
+
+namespace breast {
+
+/// One breast. `mesh.reference` is stress-free; `mesh.points` = `mesh.imaged` is prone once solved.
+struct PhantomBreast {
+  PhantomBreast(const PhantomParameters& parameters, const Torso& torso, Side side);
+  PhantomBreast(const PhantomBreast&) = delete;
+  PhantomBreast& operator=(const PhantomBreast&) = delete;
+
+  BreastShape shape;
+  MeridianMap map;
+  GlandField gland;
+  HexMesh mesh;
+};
+
+struct PhantomScene {
+  explicit PhantomScene(const PhantomParameters& parameters);
+  const PhantomBreast& breast(Side side) const { return side == Side::left ? *left : *right; }
+  PhantomBreast& breast(Side side) { return side == Side::left ? *left : *right; }
+
+  PhantomParameters parameters;
+  Torso torso;
+  std::unique_ptr<PhantomBreast> left, right;
+};
+
+/// Tissue and fibroglandular fraction per element from 4³ samples of the gland.
+void assign_gland(const GlandField& gland, HexMesh& mesh);
+/// Landmarks as material points of the stress-free mesh: "nipple" (the axis' point on the skin),
+/// "tumour" (a point on the gland's margin at mid depth, upper outer quadrant), "interior-01" ...
+/// "interior-20" spread over the breast. Their imaged positions are those of mesh.imaged.
+void place_landmarks(const PhantomBreast& breast, HexMesh& mesh);
+
+}  // namespace breast
