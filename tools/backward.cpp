@@ -59,6 +59,7 @@ void declare(Tool& tool, Choices& c) {
 void check_closure(const HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
                    Run& run) {
   HexMesh again = mesh;
+  again.points = again.reference;
   SolveSummary summary;
   {
     Timer::Scope phase(run.timer(), "closure");
@@ -87,7 +88,7 @@ void run_backward(const Choices& c, Run& run) {
   mesh.contact.reset();
   mesh.contact_pressure.clear();
   const SolveSummary summary = solve_backward(mesh, gravity_of(c), options, run.progress());
-  if (summary.converged()) check_closure(mesh, gravity_of(c), options, run);
+  if (summary.converged() && summary.stable) check_closure(mesh, gravity_of(c), options, run);
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
   write_report(summary, mesh, options, run.report());
   run.timer().write(run.report());

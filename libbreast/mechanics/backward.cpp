@@ -199,6 +199,7 @@ void BackwardSolve::examine(const Trial& trial) {
   const SaddleForces forces = evaluate(trial, &matrix_, nullptr);
   if (!forces.valid) return;
   const Factorisation factor = solver_.factorise(matrix_, scene_.walls(), false);
+  summary_.stable = factor.ok;
   if (!factor.ok) {
     summary_.doubts.push_back(
         "the imaged shape is an unstable equilibrium of the shape found: forward will go "

@@ -63,7 +63,7 @@ SolveSummary ForwardSolve::run(const Vec3& gravity) {
     while (!path.finished()) {
       problem.set_load(path.next() * load);
       SaddleState trial = state;
-      result = attempt(problem, solver, matrix, trial, 25);
+      result = attempt(problem, solver, matrix, trial, summary_.steps == 0 ? 25 : 12);
       if (result.converged) {
         state = std::move(trial);
         path.succeed();

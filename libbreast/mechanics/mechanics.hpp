@@ -33,6 +33,7 @@ struct SolveSummary {
   double min_det_F = 0, max_volume_error = 0;
   long long unknowns = 0;
   Timer timer;
+  bool stable = true;  ///< backward: the imaged shape is a stable equilibrium of the shape found
   std::vector<std::string> doubts;  ///< what a reader should doubt
   bool converged() const { return record.status == "converged"; }
 };
@@ -47,6 +48,13 @@ SolveSummary solve_forward(HexMesh& mesh, const Vec3& gravity, const MechanicsOp
 /// mesh.reference and mesh.points (= reference), pressure (of the imaged state), det_F, solve.
 SolveSummary solve_backward(HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
                             Progress& progress = no_progress());
+
+/// The same by fixed point, X ← X − (x(X) − x_imaged), one forward solve an iteration (Sellier
+/// 2011): slower and less robust, an independent check of solve_backward.
+SolveSummary solve_backward_fixed_point(HexMesh& mesh, const Vec3& gravity,
+                                        const MechanicsOptions& options, double tolerance_mm = 1e-8,
+                                        int max_iterations = 60,
+                                        Progress& progress = no_progress());
 
 /// Writes the summary under the contract's keys.
 void write_report(const SolveSummary& summary, const HexMesh& mesh, const MechanicsOptions& options,

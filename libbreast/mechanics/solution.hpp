@@ -19,7 +19,7 @@ void judge(SolveSummary& summary, const Scene& scene, const Eigen::VectorXd& ref
 /// Loads that grow in steps when one step does not converge.
 struct LoadPath {
   double done = 0, step = 1;
-  static constexpr double smallest = 1.0 / 64;
+  static constexpr double smallest = 1.0 / 40;
   double next() const { return std::min(1.0, done + step); }
   void succeed() {
     done = next();

@@ -1,0 +1,188 @@
+// Gravity: the block other programs solved, and the round trip of forward and backward.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+#include "fixtures/shapes.hpp"
+#include "mechanics/element_order.hpp"
+#include "mechanics/mechanics.hpp"
+
+namespace breast {
+namespace {
+
+using fixtures::CapSettings;
+
+MechanicsOptions paper_options() {
+  MechanicsOptions options;
+  options.materials = load_materials("seed2008");
+  return options;
+}
+
+MechanicsOptions one_law(const Law& law) {
+  MechanicsOptions options = paper_options();
+  for (Law& each : options.materials.laws) each = law;
+  return options;
+}
+
+const Law mooney{LawKind::mooney_rivlin, {310, 300}};
+const Law fat{LawKind::polynomial, {310, 300, 2250, 3800, 4720}};
+const Vec3 prone(0, -gravity_mm_s2, 0);
+
+double worst_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, (a[i] - b[i]).norm());
+  return worst;
+}
+
+// Displacement of the corner (100, 100, 100) of a 0.1 m cube clamped at x = 0, gravity along −z.
+Vec3 corner(int n, const MechanicsOptions& options, int* iterations = nullptr) {
+  fixtures::BlockSettings settings;
+  settings.elements = {n, n, n};
+  HexMesh mesh = fixtures::block(settings);
+  const SolveSummary summary = solve_forward(mesh, Vec3(0, 0, -gravity_mm_s2), options);
+  EXPECT_TRUE(summary.converged()) << summary.record.reason;
+  if (iterations != nullptr) *iterations = summary.newton_iterations;
+  const int node = fixtures::node_at(mesh, Vec3(100, 100, 100));
+  return mesh.points[node] - mesh.reference[node];
+}
+
+// deal.II's step-44 and FEBio's three-field element, n = 8, bulk/shear = 1000, agree to these
+// digits.
+TEST(GravityBlock, AgreesWithOtherPrograms) {
+  MechanicsOptions options = one_law(mooney);
+  options.bulk_ratio = 1000;
+  EXPECT_LT((corner(8, options) - Vec3(12.278, -0.4015, -88.407)).norm(), 1e-3);
+  options = one_law(fat);
+  options.bulk_ratio = 1000;
+  EXPECT_LT((corner(8, options) - Vec3(6.7249, -0.2333, -27.366)).norm(), 1e-3);
+}
+
+// Their limit for growing bulk modulus: −88.323 mm.
+TEST(GravityBlock, ExactlyIncompressible) {
+  int iterations = 0;
+  EXPECT_NEAR(corner(8, one_law(mooney), &iterations).z(), -88.323, 6e-4);
+  EXPECT_LE(iterations, 8);
+}
+
+// Law (9) with plain invariants is stiff against volume pointwise and locks: −24.79 against −27.37
+// mm.
+TEST(GravityBlock, PlainInvariantsLock) {
+  MechanicsOptions options = one_law(fat);
+  options.invariants = Invariants::plain;
+  EXPECT_NEAR(corner(8, options).z(), -24.79, 0.02);
+  EXPECT_LT(corner(8, one_law(fat)).z(), -27.3);
+}
+
+struct RoundTrip {
+  double closure = 0;
+  int backward = 0, forward = 0;
+};
+RoundTrip round_trip(HexMesh mesh, const MechanicsOptions& options, const Vec3& gravity = prone) {
+  RoundTrip result;
+  SolveSummary summary = solve_backward(mesh, gravity, options);
+  EXPECT_TRUE(summary.converged()) << summary.record.reason;
+  EXPECT_TRUE(summary.stable);
+  EXPECT_LT(summary.max_volume_error, options.bulk_ratio > 0 ? 0.1 : 1e-9);
+  result.backward = summary.newton_iterations;
+  EXPECT_GT(worst_distance(mesh.reference, mesh.imaged), 0.01);  // it did move
+  summary = solve_forward(mesh, gravity, options);
+  EXPECT_TRUE(summary.converged()) << summary.record.reason;
+  result.forward = summary.newton_iterations;
+  result.closure = worst_distance(mesh.points, mesh.imaged);
+  return result;
+}
+
+TEST(RoundTrip, ClosesToRounding) {
+  const RoundTrip trip = round_trip(fixtures::cap({.elements = 8}), paper_options());
+  EXPECT_LT(trip.closure, 1e-8);
+  EXPECT_LE(trip.backward, 7);
+  EXPECT_LE(trip.forward, 7);
+}
+
+TEST(RoundTrip, ClosesForEveryOption) {
+  const HexMesh plain_mesh = fixtures::cap({.elements = 4, .skin_mm = 0});
+  const HexMesh skin_mesh = fixtures::cap({.elements = 4});
+  MechanicsOptions options = paper_options();
+  EXPECT_LT(round_trip(plain_mesh, options).closure, 1e-8);
+  options.invariants = Invariants::plain;
+  EXPECT_LT(round_trip(skin_mesh, options).closure, 1e-8);
+  options = paper_options();
+  options.bulk_ratio = 200;
+  EXPECT_LT(round_trip(skin_mesh, options).closure, 1e-8);
+  options = paper_options();
+  options.element = Element::q2p1;
+  EXPECT_LT(round_trip(raise_order(skin_mesh), options).closure, 1e-8);
+  for (const Cut cut : {Cut::free, Cut::fixed, Cut::roller}) {
+    options = paper_options();
+    options.cut = cut;
+    EXPECT_LT(round_trip(fixtures::cap({.elements = 6, .with_cut = true}), options).closure, 1e-8);
+  }
+  for (const std::string set : {"wellman", "victre"}) {
+    options = paper_options();
+    options.materials = load_materials(set);
+    EXPECT_LT(round_trip(skin_mesh, options).closure, 1e-8) << set;
+  }
+}
+
+TEST(RoundTrip, RollerHoldsOnlyTheNormal) {
+  HexMesh mesh = fixtures::cap({.elements = 6, .with_cut = true});
+  ASSERT_FALSE(mesh.cut_faces.empty());
+  std::vector<double> nipple;
+  for (const Cut cut : {Cut::free, Cut::roller, Cut::fixed}) {
+    MechanicsOptions options = paper_options();
+    options.cut = cut;
+    HexMesh solved = mesh;
+    ASSERT_TRUE(solve_forward(solved, prone, options).converged());
+    nipple.push_back((landmark_position(solved, solved.points, *solved.landmark("nipple")) -
+                      landmark_position(solved, solved.reference, *solved.landmark("nipple")))
+                         .norm());
+  }
+  EXPECT_GT(nipple[0], nipple[1]);
+  EXPECT_GT(nipple[1], nipple[2]);
+}
+
+TEST(Backward, FixedPointFindsTheSameShape) {
+  HexMesh direct = fixtures::cap({.elements = 6}), iterated = direct;
+  ASSERT_TRUE(solve_backward(direct, prone, paper_options()).converged());
+  const SolveSummary summary = solve_backward_fixed_point(iterated, prone, paper_options(), 1e-10);
+  ASSERT_TRUE(summary.converged()) << summary.record.reason;
+  EXPECT_GE(summary.steps, 5);
+  EXPECT_LT(worst_distance(direct.reference, iterated.reference), 1e-8);
+}
+
+TEST(Backward, NoGravityMovesNothing) {
+  HexMesh mesh = fixtures::cap({.elements = 4});
+  const SolveSummary summary = solve_backward(mesh, Vec3::Zero(), paper_options());
+  EXPECT_TRUE(summary.converged());
+  EXPECT_LT(worst_distance(mesh.reference, mesh.imaged), 1e-10);
+}
+
+// Mesh and gravity turned together: the solution turns with them.
+TEST(Forward, IsFrameIndifferent) {
+  const Mat3 turn = Eigen::AngleAxisd(0.9, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
+  HexMesh mesh = fixtures::cap({.elements = 4}), turned = mesh;
+  for (auto* field : {&turned.imaged, &turned.reference, &turned.points}) {
+    for (Vec3& x : *field) x = turn * x;
+  }
+  ASSERT_TRUE(solve_forward(mesh, prone, paper_options()).converged());
+  ASSERT_TRUE(solve_forward(turned, turn * prone, paper_options()).converged());
+  for (Vec3& x : mesh.points) x = turn * x;
+  EXPECT_LT(worst_distance(mesh.points, turned.points), 1e-9);
+}
+
+TEST(Forward, DoesNotDependOnTheNumberOfThreads) {
+  HexMesh one = fixtures::cap({.elements = 6}), two = one;
+  const int before = threads();
+  set_threads(1);
+  ASSERT_TRUE(solve_forward(one, prone, paper_options()).converged());
+  set_threads(2);
+  ASSERT_TRUE(solve_forward(two, prone, paper_options()).converged());
+  set_threads(before);
+  EXPECT_LT(worst_distance(one.points, two.points), 1e-10);
+}
+
+}  // namespace
+}  // namespace breast
