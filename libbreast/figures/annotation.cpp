@@ -1,0 +1,61 @@
+// Captions, scale bars and compasses of a panel.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "figures/canvas.hpp"
+#include "figures/canvas_impl.hpp"
+
+namespace breast {
+
+namespace {
+constexpr Colour black{0, 0, 0};
+constexpr double letters = 17;  // pixels
+}  // namespace
+
+void Panel::caption(const std::string& words) {
+  text({10, size().y() - 18}, words, letters + 1, black);
+}
+
+void Panel::scale_bar(const Colour& colour) {
+  // The largest round length up to a quarter of the panel.
+  const double available = 0.25 * size().x() * mm_per_pixel();
+  double length = 1;
+  for (const double candidate : {2., 5., 10., 20., 50., 100., 200.}) {
+    if (candidate <= available) length = candidate;
+  }
+  const double pixels = length / mm_per_pixel();
+  const Vec2 right(size().x() - 22, 20), left = right - Vec2(pixels, 0);
+  line(left, right, colour, 3);
+  for (const Vec2& end : {left, right}) line(end - Vec2(0, 5), end + Vec2(0, 5), colour, 2);
+  text(0.5 * (left + right) + Vec2(0, 16), std::to_string(int(length)) + " mm", letters - 1, colour,
+       Align::centre);
+}
+
+void Panel::compass() {
+  struct Axis {
+    Vec3 direction;
+    const char* letter;
+  };
+  // Of each axis the end that is named: patient's left, anterior, superior (LPS).
+  const std::array<Axis, 3> axes = {{{{1, 0, 0}, "L"}, {{0, -1, 0}, "A"}, {{0, 0, 1}, "S"}}};
+  const double arm = 30;
+  Vec2 low(0, 0);
+  for (const Axis& axis : axes) {
+    low =
+        low.cwiseMin(arm * Vec2(axis.direction.dot(impl_->right), axis.direction.dot(impl_->top)));
+  }
+  const Vec2 origin = Vec2(24, 24) - low;
+  for (const Axis& axis : axes) {
+    const Vec2 shown(axis.direction.dot(impl_->right), axis.direction.dot(impl_->top));
+    if (shown.norm() < 0.15) continue;  // points at or away from the viewer
+    const Vec2 tip = origin + arm * shown;
+    line(origin, tip, black, 2);
+    const Vec2 along = shown.normalized(), side(-along.y(), along.x());
+    line(tip, tip - 6 * along + 3.5 * side, black, 2);
+    line(tip, tip - 6 * along - 3.5 * side, black, 2);
+    text(tip + 11 * along, axis.letter, letters - 1, black, Align::centre);
+  }
+}
+
+}  // namespace breast

@@ -1,0 +1,87 @@
+// A picture of several panels with parallel projection, so that a millimetre is the same length all
+// over a panel. Hides VTK.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace breast {
+
+struct Colour {
+  double r = 0, g = 0, b = 0;
+};
+
+/// Quadrilaterals (triangles repeat their last corner).
+struct Facets {
+  std::vector<Vec3> points;
+  std::vector<std::array<int, 4>> quads;
+};
+
+struct Look {
+  Colour colour{0.8, 0.8, 0.8};
+  double opacity = 1;
+  bool smooth = true;  ///< shading across facets that meet below 50°
+  bool edges = false;  ///< draw the facets' edges
+  Colour edge_colour{0.15, 0.15, 0.15};
+  double shine = 0.15;
+};
+
+enum class Align { left, centre, right };
+
+/// One view. Add things, then choose the camera, then the overlay (pixels from the panel's lower
+/// left corner, before supersampling).
+class Panel {
+ public:
+  struct Impl;
+  explicit Panel(std::unique_ptr<Impl> impl);
+  ~Panel();
+
+  void surface(const Facets& facets, const Look& look);
+  void sphere(const Vec3& centre, double radius, const Colour& colour);
+  void cloud(const std::vector<Vec3>& points, double radius, const Colour& colour);
+  void tube(const std::vector<Vec3>& points, double radius, const Colour& colour);
+  /// Grey image in the plane z = 0, rows from the top, lower left pixel centre at (0,0), pixel mm.
+  void image(const std::vector<std::uint16_t>& grey, int width, int height, double pixel);
+  /// Line lying on an image (z slightly above 0), `width` in pixels.
+  void stroke(const std::vector<Vec3>& points, const Colour& colour, double width);
+
+  /// Looks along `direction`, `up` on top, everything added so far in view; `margin` is the part of
+  /// the panel left free round it.
+  void look_along(const Vec3& direction, const Vec3& up, double margin = 0.12);
+  /// The same with a given centre and height of the view in mm.
+  void look_along(const Vec3& direction, const Vec3& up, const Vec3& centre, double height_mm);
+  double mm_per_pixel() const;
+  Vec2 to_pixel(const Vec3& x) const;
+  Vec2 size() const;  ///< pixels
+
+  void text(const Vec2& at, const std::string& words, double height, const Colour& colour,
+            Align align = Align::left);
+  void line(const Vec2& from, const Vec2& to, const Colour& colour, double width);
+  void caption(const std::string& words);            ///< top left
+  void scale_bar(const Colour& colour = {0, 0, 0});  ///< bottom right, a round number of mm
+  void compass();                                    ///< bottom left: left, anterior, superior
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+class Picture {
+ public:
+  Picture(int width, int height);
+  ~Picture();
+  /// Panel covering this part of the picture, fractions from the lower left corner.
+  Panel& panel(double left, double bottom, double right, double top);
+  /// Renders and writes an RGB PNG atomically. Needs a display (PrivateDisplay).
+  void save(const std::filesystem::path& file);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace breast

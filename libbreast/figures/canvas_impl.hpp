@@ -1,0 +1,32 @@
+// Shared by the canvas's source files only; shows VTK.
+#pragma once
+
+#include <vtkLightKit.h>
+#include <vtkNew.h>
+#include <vtkProp.h>
+#include <vtkRenderer.h>
+
+#include "figures/canvas.hpp"
+
+namespace breast {
+
+/// Pictures are drawn this many times larger and averaged down: smooth edges with translucent
+/// surfaces.
+inline constexpr int supersampling = 2;
+
+struct Panel::Impl {
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkLightKit> lights;
+  Vec2 pixels{1, 1};
+  std::vector<Vec3> shown;  ///< points the camera must see
+  Vec3 forward{0, 0, -1}, right{1, 0, 0}, top{0, 1, 0}, centre{0, 0, 0};
+  double height_mm = 1;
+
+  void extend(const Vec3& x) { shown.push_back(x); }
+  void add(vtkProp* prop, const std::vector<Vec3>& points) {
+    renderer->AddViewProp(prop);
+    shown.insert(shown.end(), points.begin(), points.end());
+  }
+};
+
+}  // namespace breast

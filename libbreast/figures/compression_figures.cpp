@@ -1,0 +1,118 @@
+// Shapes between plates (Fig. 5) and the column that a CC pixel is (Fig. 7).
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "figures/parts.hpp"
+
+namespace breast {
+
+namespace {
+
+const HexMesh& compressed(const FigureInput& input, const std::string& view,
+                          const std::string& figure) {
+  for (const auto& named : input.meshes) {
+    const auto& contact = named.mesh.contact;
+    if (contact && (contact->view == view || (view == "MLO" && contact->view == "ML"))) {
+      return named.mesh;
+    }
+  }
+  need(false, figure, "a mesh compressed in the " + view + " view");
+  throw input_error("unreachable");
+}
+
+// The stress-free shape with both plates drawn back until they just touch it.
+HexMesh before_compression(const HexMesh& mesh) {
+  HexMesh before = mesh;
+  before.points = mesh.reference.empty() ? mesh.imaged : mesh.reference;
+  for (PlateRecord& plate : before.contact->plates) {
+    double back = 0;
+    for (const Vec3& x : before.points) {
+      const Vec3 d = x - plate.origin;
+      if (d.dot(plate.anterior) >= 0) back = std::max(back, -d.dot(plate.normal));
+    }
+    plate.origin -= (back + 2) * plate.normal;
+  }
+  return before;
+}
+
+void finish(Panel& panel, const View& view, const std::string& caption) {
+  panel.look_along(view.direction, view.up, 0.1);
+  panel.caption(caption);
+  panel.scale_bar();
+  panel.compass();
+}
+
+void compression_row(Picture& picture, const HexMesh& mesh, double bottom, double top,
+                     char letter) {
+  const auto name = [&](int k) { return "(" + std::string(1, char(letter + k)) + ") "; };
+  const View view = plate_view(mesh);
+  const HexMesh before = before_compression(mesh);
+  Panel& left = picture.panel(0, bottom, 1.0 / 3, top);
+  add_body(left, before, before.points, {});
+  add_plates(left, before, 0.45);
+  finish(left, view, name(0) + "stress-free, " + mesh.contact->view + " plates");
+  Panel& middle = picture.panel(1.0 / 3, bottom, 2.0 / 3, top);
+  add_body(middle, mesh, mesh.points, {});
+  add_plates(middle, mesh, 0.45);
+  finish(middle, view, name(1) + compression_caption(mesh));
+  Panel& right = picture.panel(2.0 / 3, bottom, 1, top);
+  add_body(right, mesh, mesh.points, {.edges = true});
+  add_plates(right, mesh, 0.25);
+  const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg);
+  finish(right, {-pose.e_u + 0.35 * view.direction + 0.3 * pose.n, -pose.n},
+         name(2) + "from the front, with elements");
+}
+
+void add_columns(Panel& panel, const PolyLines& curves, const std::string& name) {
+  for (const auto& line : named_lines(curves, name)) panel.tube(line, 1.2, palette::column);
+}
+
+}  // namespace
+
+void draw_compression(Picture& picture, const FigureInput& input) {
+  std::vector<const HexMesh*> meshes;
+  for (const auto& named : input.meshes) {
+    if (named.mesh.contact) meshes.push_back(&named.mesh);
+  }
+  need(!meshes.empty(), "compression", "a compressed .vtkhdf");
+  const std::size_t rows = std::min<std::size_t>(meshes.size(), 2);
+  for (std::size_t r = 0; r < rows; ++r) {
+    const double top = 1 - double(r) / double(rows), bottom = top - 1 / double(rows);
+    compression_row(picture, *meshes[r], bottom, top, char('a' + 3 * r));
+  }
+}
+
+void draw_matching(Picture& picture, const FigureInput& input) {
+  need(input.curves.has_value(), "matching", "a curve .vtp");
+  const HexMesh& cc = compressed(input, "CC", "matching");
+  const HexMesh& mlo = compressed(input, "MLO", "matching");
+  const BodyStyle style{.skin_opacity = 0.22, .inside = true, .gland_opacity = 0.55};
+  const auto& reference = cc.reference.empty() ? cc.imaged : cc.reference;
+  struct Shape {
+    const HexMesh& mesh;
+    const std::vector<Vec3>& points;
+    std::string line, caption;
+    View view;
+  };
+  const View side = lateral_view(cc.side);
+  const std::vector<Shape> shapes = {
+      {cc, cc.points, "column in CC", "(a) CC: the column of the pixel", plate_view(cc)},
+      {cc,
+       reference,
+       "column in reference",
+       "(b) the same tissue, stress-free",
+       {side.direction + Vec3(0, 0.35, -0.22), side.up}},
+      {mlo, mlo.points, "column in MLO", "(c) the same tissue in " + mlo.contact->view,
+       plate_view(mlo)}};
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    Panel& panel = picture.panel(double(k) / 3, 0, double(k + 1) / 3, 1);
+    add_body(panel, shapes[k].mesh, shapes[k].points, style);
+    add_columns(panel, *input.curves, shapes[k].line);
+    finish(panel, shapes[k].view, shapes[k].caption);
+  }
+}
+
+}  // namespace breast

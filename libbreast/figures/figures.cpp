@@ -1,0 +1,81 @@
+#include "figures/figures.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "core/error.hpp"
+#include "figures/parts.hpp"
+#include "figures/private_display.hpp"
+
+namespace breast {
+
+namespace {
+
+struct Figure {
+  std::string name, summary;
+  int width, height;
+  bool geometry, points;  ///< what .vtkhdf and .vtp files are
+  std::function<void(Picture&, const FigureInput&)> draw;
+};
+
+const std::vector<Figure>& figures() {
+  static const std::vector<Figure> list = {
+      {"points", "data points of skin and chest wall (points .vtp of segment)", 1600, 800, false,
+       true, draw_points},
+      {"geometry", "Hermite sheets with patch lines and rim (geometry .vtkhdf, maybe points .vtp)",
+       1600, 800, true, true, draw_geometry},
+      {"mesh", "element edges, front and back (mesh .vtkhdf)", 1600, 800, false, false, draw_mesh},
+      {"tissues", "fibroglandular region and tumour through a translucent skin (mesh .vtkhdf)",
+       1600, 800, false, false, draw_tissues},
+      {"compression", "shapes between their plates (one or two compressed .vtkhdf)", 1600, 1060,
+       false, false, draw_compression},
+      {"mammogram",
+       "mammograms with axes in mm (one or two .vti), curve, arc and tumour (curve .vtp)", 1600,
+       1000, false, false, draw_mammogram},
+      {"matching", "the column in CC, reference and MLO (cc.vtkhdf mlo.vtkhdf curve.vtp)", 1800,
+       800, false, false, draw_matching},
+      {"summary",
+       "the whole chain (mesh reference supine cc mlo .vtkhdf, cc.vti mlo.vti, curve.vtp)", 2000,
+       1250, false, false, draw_summary},
+  };
+  return list;
+}
+
+const Figure& figure(const std::string& name) {
+  const auto found = std::find_if(figures().begin(), figures().end(),
+                                  [&](const Figure& f) { return f.name == name; });
+  if (found == figures().end()) throw input_error("unknown figure \"", name, "\"");
+  return *found;
+}
+
+}  // namespace
+
+const std::vector<std::string>& figure_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const Figure& f : figures()) list.push_back(f.name);
+    return list;
+  }();
+  return names;
+}
+
+std::string figure_summary(const std::string& name) {
+  return figure(name).summary;
+}
+bool figure_takes_geometry(const std::string& name) {
+  return figure(name).geometry;
+}
+bool figure_takes_points(const std::string& name) {
+  return figure(name).points;
+}
+
+void draw_figure(const std::string& name, const FigureInput& input,
+                 const std::filesystem::path& file) {
+  const Figure& chosen = figure(name);
+  const PrivateDisplay display;
+  Picture picture(chosen.width, chosen.height);
+  chosen.draw(picture, input);
+  picture.save(file);
+}
+
+}  // namespace breast

@@ -1,0 +1,42 @@
+// The pictures of the pipeline, in the manner of Figs 4 to 7 of Pathmanathan et al. 2008.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mammo/mammogram.hpp"
+#include "mesh/hex_mesh.hpp"
+#include "surface/hermite.hpp"
+#include "surface/tri_mesh.hpp"
+
+namespace breast {
+
+/// What a figure is drawn from, in the order given by the user.
+struct FigureInput {
+  struct NamedMesh {
+    std::string name;  ///< file name without folders, for messages
+    HexMesh mesh;
+  };
+  std::vector<NamedMesh> meshes;
+  std::vector<Mammogram> images;
+  std::optional<BreastGeometry> geometry;
+  std::vector<TriMesh> surfaces;    ///< data points of segment
+  std::optional<PolyLines> curves;  ///< of cc2mlo
+};
+
+/// "points", "geometry", "mesh", "tissues", "compression", "mammogram", "matching", "summary".
+const std::vector<std::string>& figure_names();
+/// One line for the help: what the figure shows and needs.
+std::string figure_summary(const std::string& name);
+/// What files ending in .vtkhdf and .vtp hold for this figure.
+bool figure_takes_geometry(const std::string& name);
+bool figure_takes_points(const std::string& name);
+
+/// Draws and writes a PNG. Starts its own display. Throws Error (input) when the figure needs
+/// something that was not given.
+void draw_figure(const std::string& name, const FigureInput& input,
+                 const std::filesystem::path& file);
+
+}  // namespace breast

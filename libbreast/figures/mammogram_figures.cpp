@@ -1,0 +1,174 @@
+// Mammograms with curves on them: Fig. 6.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/table.hpp"
+#include "figures/parts.hpp"
+#include "mammo/display.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr Colour white{1, 1, 1};
+constexpr double above_image = 1;  // mm
+
+// Image position (u,v) in mm to the hung picture's plane, y up.
+class Hanging {
+ public:
+  explicit Hanging(const Mammogram& image)
+      : left_(image.side == Side::left),
+        width_(image.pixel * (image.width - 1)),
+        height_(image.pixel * (image.height - 1)) {}
+  Vec3 at(const Vec2& uv, double z = above_image) const {
+    return left_ ? Vec3(uv.x(), height_ - uv.y(), z) : Vec3(width_ - uv.x(), uv.y(), z);
+  }
+  bool left() const { return left_; }
+  double width() const { return width_; }
+  double height() const { return height_; }
+
+ private:
+  bool left_;
+  double width_, height_;
+};
+
+struct ImageLine {
+  int query = 0;
+  std::vector<Vec2> uv;
+};
+
+std::vector<ImageLine> image_lines(const PolyLines& lines, const std::string& name) {
+  std::vector<ImageLine> found;
+  const auto &u = lines.point_data.at("u_mm"), &v = lines.point_data.at("v_mm"),
+             &query = lines.point_data.at("query");
+  for (std::size_t i = 0; i < lines.lines.size() && i < lines.line_names.size(); ++i) {
+    if (lines.line_names[i] != name || lines.lines[i].empty()) continue;
+    found.push_back({int(query[lines.lines[i].front()]), {}});
+    for (const int p : lines.lines[i]) found.back().uv.emplace_back(u[p], v[p]);
+  }
+  return found;
+}
+
+Colour query_colour(int query, int count) {
+  if (count <= 1) return palette::tumour;
+  const double hue = 6.0 * query / count;  // round the colour circle
+  const auto channel = [&](double shift) {
+    const double k = std::fmod(hue + shift, 6.0);
+    return std::clamp(std::min(k, 4 - k), 0.0, 1.0);
+  };
+  return {1 - 0.9 * channel(5), 1 - 0.9 * channel(3), 1 - 0.9 * channel(1)};
+}
+
+// A filled dot with a dark rim, legible on grey and black.
+void dot(Panel& panel, const Vec3& at, double radius, const Colour& colour) {
+  panel.sphere(at, radius, colour);
+  std::vector<Vec3> circle;
+  for (int k = 0; k <= 32; ++k) {
+    const double a = 2 * std::numbers::pi * k / 32;
+    circle.push_back(at + 1.15 * radius * Vec3(std::cos(a), std::sin(a), 0) + Vec3(0, 0, radius));
+  }
+  panel.stroke(circle, {0, 0, 0}, 1.5);
+}
+
+void cross(Panel& panel, const Vec3& at, double radius) {
+  panel.stroke({at - Vec3(radius, 0, 0), at + Vec3(radius, 0, 0)}, white, 1.5);
+  panel.stroke({at - Vec3(0, radius, 0), at + Vec3(0, radius, 0)}, white, 1.5);
+}
+
+std::string add_curves(Panel& panel, const Mammogram& image, const PolyLines& curves,
+                       const Hanging& hanging) {
+  const auto points = image_lines(curves, "point in CC");
+  const int count = int(points.size());
+  const auto draw = [&](const ImageLine& line, const Colour& colour, double width) {
+    std::vector<Vec3> path;
+    for (const Vec2& uv : line.uv) path.push_back(hanging.at(uv));
+    panel.stroke(path, colour, width);
+  };
+  const bool cc = image.view == "CC";
+  for (const auto& nipple : image_lines(curves, cc ? "nipple in CC" : "nipple in MLO")) {
+    cross(panel, hanging.at(nipple.uv[0]), 2.5);
+  }
+  if (cc) {
+    for (const auto& p : points) {
+      dot(panel, hanging.at(p.uv[0], 3), 1.6, query_colour(p.query, count));
+    }
+    return count > 1 ? "points" : "dot: the point; cross: nipple";
+  }
+  if (count == 1) {
+    for (const auto& line : image_lines(curves, "arc")) draw(line, palette::arc, 2.5);
+  }
+  for (const auto& line : image_lines(curves, "curve")) {
+    draw(line, count == 1 ? Colour{0.1, 0.9, 0.4} : query_colour(line.query, count), 3);
+  }
+  const auto truth = image_lines(curves, "truth in MLO");
+  for (const auto& p : truth) dot(panel, hanging.at(p.uv[0], 3), 1.6, palette::tumour);
+  if (count > 1) return "their curves";
+  return truth.empty() ? "green: its curve; blue: equal nipple distance"
+                       : "green: its curve; blue: equal nipple distance; dot: truth";
+}
+
+void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
+  constexpr double step = 20, letters = 14;
+  const Vec2 low = panel.to_pixel({0, 0, 0}),
+             high = panel.to_pixel({hanging.width(), hanging.height(), 0});
+  for (double u = 0; u <= hanging.width(); u += step) {
+    const Vec2 at(panel.to_pixel(hanging.at({u, 0}, 0)).x(), low.y());
+    panel.line(at, at - Vec2(0, 6), palette::ink, 1);
+    panel.text(at - Vec2(0, 16), format_fixed(u, 0), letters, palette::ink, Align::centre);
+  }
+  // v on the anterior side: the chest wall is at the picture's outer edge.
+  const double x = hanging.left() ? high.x() : low.x();
+  const double outward = hanging.left() ? 1 : -1;
+  const Align align = hanging.left() ? Align::left : Align::right;
+  for (double v = 0; v <= hanging.height(); v += step) {
+    const Vec2 at(x, panel.to_pixel(hanging.at({0, v}, 0)).y());
+    panel.line(at, at + Vec2(6 * outward, 0), palette::ink, 1);
+    panel.text(at + Vec2(10 * outward, 0), format_fixed(v, 0), letters, palette::ink, align);
+  }
+  const std::string anterior = "u (mm) from the posterior edge";
+  panel.text({0.5 * (low.x() + high.x()), low.y() - 36}, anterior, letters, palette::ink,
+             Align::centre);
+  panel.text({x + 10 * outward, high.y() + 14}, "v (mm)", letters, palette::ink, align);
+  const std::string top = image.view == "CC" ? "lateral" : "superior";
+  const std::string bottom = image.view == "CC" ? "medial" : "inferior";
+  const double inset = hanging.left() ? high.x() - 10 : low.x() + 10;
+  const Align inner = hanging.left() ? Align::right : Align::left;
+  const std::string marker = (hanging.left() ? "L " : "R ") + image.view;
+  panel.text({inset, high.y() - 18}, marker, 22, white, inner);
+  panel.text({inset, high.y() - 42}, top, letters, white, inner);
+  panel.text({inset, low.y() + 14}, bottom, letters, white, inner);
+}
+
+}  // namespace
+
+void add_mammogram(Panel& panel, const Mammogram& image, const PolyLines* curves,
+                   const std::string& letter) {
+  const HungImage hung = hang(image);
+  const Hanging hanging(image);
+  panel.image(hung.grey, hung.width, hung.height, image.pixel);
+  std::string words = letter + image.view;
+  if (curves != nullptr) words += "; " + add_curves(panel, image, *curves, hanging);
+  // Room for axes (70 and 100 pixels beside and below) and caption.
+  const Vec2 free = panel.size() - Vec2(100, 110);
+  const double scale = std::max(hanging.width() / free.x(), hanging.height() / free.y());
+  const double sideways = hanging.left() ? 12 : -12;
+  panel.look_along(
+      {0, 0, -1}, {0, 1, 0},
+      Vec3(hanging.width() / 2, hanging.height() / 2, 0) + scale * Vec3(sideways, -10, 0),
+      scale * panel.size().y());
+  panel.caption(words);
+  axis_ticks(panel, image, hanging);
+}
+
+void draw_mammogram(Picture& picture, const FigureInput& input) {
+  need(!input.images.empty(), "mammogram", "a mammogram .vti");
+  const std::size_t count = std::min<std::size_t>(2, input.images.size());
+  const PolyLines* curves = input.curves ? &*input.curves : nullptr;
+  for (std::size_t k = 0; k < count; ++k) {
+    Panel& panel = picture.panel(double(k) / double(count), 0, double(k + 1) / double(count), 1);
+    add_mammogram(panel, input.images[k], curves, k == 0 ? "(a) " : "(b) ");
+  }
+}
+
+}  // namespace breast

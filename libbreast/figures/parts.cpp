@@ -1,0 +1,113 @@
+#include "figures/parts.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "core/units.hpp"
+
+namespace breast {
+
+View lateral_view(Side side) {
+  return {Vec3(-lateral_sign(side), 0, 0), Vec3(0, 0, 1)};
+}
+
+View anterior_view() {
+  return {Vec3(0, 1, 0), Vec3(0, 0, 1)};
+}
+
+View oblique_view(Side side) {
+  return {Vec3(-0.75 * lateral_sign(side), 0.75, -0.35), Vec3(0, 0, 1)};
+}
+
+View plate_view(const HexMesh& mesh) {
+  const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg);
+  // Along the plates' edge, a little from the front and above, so that the plates show their faces;
+  // from the patient's outer side, which in CC is where the technician stands.
+  Vec3 along = pose.e_v;
+  if (along.x() * lateral_sign(mesh.side) > 0) along = -along;
+  return {along - 0.35 * pose.e_u + 0.22 * pose.n, -pose.n};
+}
+
+void add_landmark(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
+                  const std::string& name, double radius, const Colour& colour) {
+  if (const Landmark* landmark = mesh.landmark(name)) {
+    panel.sphere(landmark_position(mesh, nodal, *landmark), radius, colour);
+  }
+}
+
+void add_body(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
+              const BodyStyle& style) {
+  Look skin{.colour = palette::skin, .opacity = style.skin_opacity, .edges = style.edges};
+  skin.smooth = !style.edges;
+  panel.surface(face_facets(mesh, nodal, mesh.skin_faces), skin);
+  if (style.back) {
+    panel.surface(face_facets(mesh, nodal, mesh.pectoral_faces),
+                  {.colour = palette::muscle, .smooth = !style.edges, .edges = style.edges});
+    panel.surface(face_facets(mesh, nodal, mesh.cut_faces),
+                  {.colour = palette::cut,
+                   .opacity = style.skin_opacity < 1 ? 0.6 * style.skin_opacity : 1.0,
+                   .smooth = !style.edges,
+                   .edges = style.edges});
+  }
+  if (!style.inside) return;
+  panel.surface(tissue_facets(mesh, nodal, Tissue::fibroglandular),
+                {.colour = palette::gland, .opacity = style.gland_opacity, .smooth = false});
+  const Facets lesion = tissue_facets(mesh, nodal, Tissue::tumour);
+  if (!lesion.quads.empty()) panel.surface(lesion, {.colour = palette::tumour});
+  add_landmark(panel, mesh, nodal, "tumour", 4, palette::tumour);
+}
+
+namespace {
+// Border of a strip whose points go pairwise from one end to the other.
+std::vector<Vec3> outline(const std::vector<Vec3>& pairs) {
+  std::vector<Vec3> line;
+  for (std::size_t i = 0; i < pairs.size(); i += 2) line.push_back(pairs[i]);
+  for (std::size_t i = pairs.size(); i > 0; i -= 2) line.push_back(pairs[i - 1]);
+  line.push_back(pairs.front());
+  return line;
+}
+}  // namespace
+
+void add_plates(Panel& panel, const HexMesh& mesh, double opacity) {
+  for (const PlateRecord& plate : mesh.contact->plates) {
+    const Vec3 lateral = plate.normal.cross(plate.anterior);
+    double length = 0, half_width = 0;
+    for (const Vec3& x : mesh.points) {
+      const Vec3 d = x - plate.origin;
+      length = std::max(length, d.dot(plate.anterior));
+      if (d.dot(plate.anterior) > 0) half_width = std::max(half_width, std::abs(d.dot(lateral)));
+    }
+    const Facets facets = plate_facets(plate, length + 18, half_width + 15);
+    panel.surface(facets, {.colour = palette::plate, .opacity = opacity, .shine = 0.5});
+    panel.tube(outline(facets.points), 0.5, {0.35, 0.45, 0.55});
+  }
+}
+
+std::string compression_caption(const HexMesh& mesh) {
+  const ContactRecord& contact = *mesh.contact;
+  std::string words = contact.view + " (" + std::string(side_name(mesh.side)) + "), " +
+                      format_fixed(contact.thickness_mm, 1) + " mm";
+  double force = 0;
+  for (const PlateRecord& plate : contact.plates) force = std::max(force, plate.force_N);
+  if (force > 0) words += ", " + format_fixed(force, 0) + " N";
+  return words;
+}
+
+std::vector<std::vector<Vec3>> named_lines(const PolyLines& lines, const std::string& name) {
+  std::vector<std::vector<Vec3>> found;
+  for (std::size_t i = 0; i < lines.lines.size() && i < lines.line_names.size(); ++i) {
+    if (lines.line_names[i] != name) continue;
+    found.emplace_back();
+    for (const int p : lines.lines[i]) found.back().push_back(lines.points[p]);
+  }
+  return found;
+}
+
+void need(bool given, const std::string& figure, const std::string& what) {
+  if (!given) throw input_error("figure ", figure, " needs ", what, ": ", figure_summary(figure));
+}
+
+}  // namespace breast

@@ -1,0 +1,69 @@
+// Parts the figures share: colours, views, a breast, its mammogram.
+#pragma once
+
+#include "figures/body_surfaces.hpp"
+#include "figures/canvas.hpp"
+#include "figures/figures.hpp"
+
+namespace breast::palette {
+
+inline constexpr Colour skin{0.93, 0.74, 0.63};
+inline constexpr Colour muscle{0.42, 0.15, 0.13};
+inline constexpr Colour cut{0.72, 0.52, 0.45};
+inline constexpr Colour gland{0.40, 0.22, 0.42};
+inline constexpr Colour tumour{1.0, 0.82, 0.05};
+inline constexpr Colour column{0.0, 0.62, 0.35};
+inline constexpr Colour arc{0.20, 0.55, 1.0};
+inline constexpr Colour plate{0.55, 0.68, 0.80};
+inline constexpr Colour ink{0, 0, 0};
+
+}  // namespace breast::palette
+
+namespace breast {
+
+/// Direction of view and what is up, in the patient frame.
+struct View {
+  Vec3 direction, up;
+};
+View lateral_view(Side side);  ///< from the body's outer side
+View anterior_view();          ///< from the front
+View oblique_view(Side side);  ///< from front, lateral and above
+/// Along the plates' edges of a compression, paddle on top: shows both plates edge-on.
+View plate_view(const HexMesh& mesh);
+
+struct BodyStyle {
+  double skin_opacity = 1;
+  bool edges = false;
+  bool inside = false;  ///< fibroglandular region and tumour
+  bool back = true;     ///< chest wall and cut
+};
+void add_body(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
+              const BodyStyle& style);
+/// Both plates of the mesh's compression, long enough for the body.
+void add_plates(Panel& panel, const HexMesh& mesh, double opacity);
+/// A landmark of the mesh as a sphere; nothing when it has none of that name.
+void add_landmark(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
+                  const std::string& name, double radius, const Colour& colour);
+/// "MLO, 45°, left: 46.2 mm, 91 N" of a compressed mesh.
+std::string compression_caption(const HexMesh& mesh);
+
+/// Hung mammogram with axes in mm; curves of `curves` (nullable) for its view on top. `letter`
+/// begins the caption.
+void add_mammogram(Panel& panel, const Mammogram& image, const PolyLines* curves,
+                   const std::string& letter);
+/// Points of all lines of that name.
+std::vector<std::vector<Vec3>> named_lines(const PolyLines& lines, const std::string& name);
+
+/// Throws Error (input) naming the figure when fewer were given.
+void need(bool given, const std::string& figure, const std::string& what);
+
+void draw_points(Picture& picture, const FigureInput& input);
+void draw_geometry(Picture& picture, const FigureInput& input);
+void draw_mesh(Picture& picture, const FigureInput& input);
+void draw_tissues(Picture& picture, const FigureInput& input);
+void draw_compression(Picture& picture, const FigureInput& input);
+void draw_mammogram(Picture& picture, const FigureInput& input);
+void draw_matching(Picture& picture, const FigureInput& input);
+void draw_summary(Picture& picture, const FigureInput& input);
+
+}  // namespace breast

@@ -1,0 +1,29 @@
+// VTK 9.1 as packaged draws through X only, and aborts without a display. This one is ours alone.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+
+namespace breast {
+
+/// Starts Xvfb on a display number it picks itself and points DISPLAY at it, whatever DISPLAY was:
+/// pictures are the same on a desktop, over ssh and in a container. Several may run at a time. The
+/// server ends with this object, and also when the process is killed.
+class PrivateDisplay {
+ public:
+  /// Throws Error (failed) naming the Debian packages when Xvfb or the software OpenGL driver is
+  /// missing, or with Xvfb's own words when it does not start within 30 s.
+  PrivateDisplay();
+  ~PrivateDisplay();
+  PrivateDisplay(const PrivateDisplay&) = delete;
+  PrivateDisplay& operator=(const PrivateDisplay&) = delete;
+
+  const std::string& name() const { return name_; }  ///< ":3"
+
+ private:
+  pid_t server_ = -1;
+  std::string name_;
+};
+
+}  // namespace breast

@@ -1,0 +1,87 @@
+// render: off-screen pictures of what the pipeline made.
+#include <algorithm>
+
+#include "cli/tool.hpp"
+#include "core/error.hpp"
+#include "figures/figures.hpp"
+#include "io/geometry_file.hpp"
+#include "io/mammogram_file.hpp"
+#include "io/mesh_file.hpp"
+#include "io/surface_file.hpp"
+
+using namespace breast;
+
+namespace {
+
+struct Choices {
+  std::vector<std::filesystem::path> files;
+  std::string figure;
+  std::filesystem::path output;
+
+  void check() const {
+    for (const auto& file : files) {
+      const std::string ending = file.extension().string();
+      if (ending != ".vtkhdf" && ending != ".vti" && ending != ".vtp") {
+        throw input_error(file.string(), ": render reads .vtkhdf, .vti and .vtp files");
+      }
+    }
+  }
+};
+
+void add_file(const std::filesystem::path& file, const std::string& figure, FigureInput& input) {
+  const std::string ending = file.extension().string();
+  if (ending == ".vti") {
+    input.images.push_back(read_mammogram(file));
+  } else if (ending == ".vtp") {
+    if (figure_takes_points(figure)) {
+      input.surfaces.push_back(read_surface(file));
+    } else {
+      input.curves = read_polylines(file);
+    }
+  } else if (figure_takes_geometry(figure)) {
+    input.geometry = read_geometry(file);
+  } else {
+    input.meshes.push_back({file.filename().string(), read_mesh(file)});
+  }
+}
+
+std::string figure_list() {
+  std::string list;
+  for (const std::string& name : figure_names())
+    list += " " + name + ": " + figure_summary(name) + ".";
+  return list;
+}
+
+void run_render(const Choices& choices, Run& run) {
+  FigureInput input;
+  for (const auto& file : choices.files) add_file(file, choices.figure, input);
+  Timer::Scope phase(run.timer(), "draw");
+  draw_figure(choices.figure, input, choices.output);
+  run.report().set("figure", choices.figure);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choices choices;
+  choices.figure = "mesh";
+  Tool tool("render", "pictures of shapes, plates and mammograms");
+  tool.describe(
+      "Draws without a screen: it starts an X server of its own (Xvfb) and ends it, whatever "
+      "DISPLAY "
+      "says. All views are parallel projections with a scale bar in mm; L, A and S point to the "
+      "patient's left, anterior and superior. Figures:" +
+      figure_list());
+  tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Figs 4 to 7");
+  tool.inputs(choices.files, "FILE...",
+              "meshes (.vtkhdf), mammograms (.vti), points or curves (.vtp)");
+  tool.choice(choices.figure, "--figure", figure_names(), "what to draw");
+  tool.output_file(choices.output, "-o,--output", "OUT.png", "the picture");
+  tool.required("--output");
+  tool.check([&] { choices.check(); });
+  tool.example("render mesh.vtkhdf --figure tissues -o tissues.png",
+               "fibroglandular tissue and tumour through a translucent skin");
+  tool.example("render cc.vti mlo.vti curve.vtp --figure mammogram -o mammograms.png",
+               "both mammograms with the matched curve");
+  return tool.main(argc, argv, [&](Run& run) { run_render(choices, run); });
+}
