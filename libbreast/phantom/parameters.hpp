@@ -26,7 +26,7 @@ struct BreastParameters {
   double axis_lateral = 10;  ///< degrees the axis points laterally
   double axis_inferior = 5;  ///< degrees the axis points downwards
   double radius = 54;        ///< mean radius at the base
-  double height = 84;        ///< chest wall to nipple base along the axis
+  double height = 82;        ///< chest wall to nipple base along the axis
   double shoulder = 18;      ///< height up to which the breast is a cylinder, a dome above
   double power = 2.05;       ///< fullness of the dome (2 = ellipsoid)
   double upper_fullness = 0.06, lateral_fullness = 0.04,

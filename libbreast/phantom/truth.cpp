@@ -1,0 +1,59 @@
+#include "phantom/truth.hpp"
+
+#include "core/units.hpp"
+#include "mesh/shape.hpp"
+
+namespace breast {
+
+TriMesh boundary_surface(const HexMesh& mesh, const std::vector<Vec3>& nodal,
+                         const std::vector<Face>& faces) {
+  const int n = mesh.order == 2 ? 4 : 1;
+  TriMesh surface;
+  for (const Face& face : faces) {
+    const std::vector<int> nodes = face_nodes(mesh, face);
+    const int first = int(surface.points.size());
+    for (int b = 0; b <= n; ++b)
+      for (int a = 0; a <= n; ++a) {
+        const QuadShape shape = quad_shape(mesh.order, Vec2(2.0 * a / n - 1, 2.0 * b / n - 1));
+        Vec3 x = Vec3::Zero();
+        for (std::size_t i = 0; i < nodes.size(); ++i) x += shape.values[i] * nodal[nodes[i]];
+        surface.points.push_back(x);
+      }
+    for (int b = 0; b < n; ++b)
+      for (int a = 0; a < n; ++a) {
+        const int p = first + b * (n + 1) + a, q = p + n + 1;
+        surface.triangles.push_back({p, p + 1, q + 1});
+        surface.triangles.push_back({p, q + 1, q});
+      }
+  }
+  return surface;
+}
+
+void add_landmarks(const PhantomBreast& breast, const Postures& postures, Table& table) {
+  if (table.columns.empty()) {
+    table.columns = {"landmark", "side"};
+    for (const char* posture : {"stress_free", "prone", "supine"})
+      for (const char* axis : {"_x_mm", "_y_mm", "_z_mm"})
+        table.columns.push_back(std::string(posture) + axis);
+  }
+  const HexMesh& mesh = breast.mesh;
+  for (const Landmark& landmark : mesh.landmarks) {
+    std::vector<std::string> row = {landmark.name, std::string(side_name(mesh.side))};
+    for (const auto* nodal : {&mesh.reference, &mesh.points, &postures.supine}) {
+      const Vec3 x = landmark_position(mesh, *nodal, landmark);
+      for (int a = 0; a < 3; ++a) row.push_back(format_fixed(x[a], 6));
+    }
+    table.rows.push_back(std::move(row));
+  }
+}
+
+void report_volumes(const LabelVolume& labels, const std::string& key, Report& report) {
+  std::array<std::size_t, n_tissues> count{};
+  for (std::uint8_t tissue : labels.tissue) ++count[tissue];
+  for (Tissue tissue : {Tissue::fat, Tissue::fibroglandular, Tissue::skin}) {
+    const double ml = double(count[std::size_t(tissue)]) * labels.grid.voxel_volume() / mm3_per_ml;
+    report.set(key + "/" + std::string(tissue_name(tissue)), ml);
+  }
+}
+
+}  // namespace breast

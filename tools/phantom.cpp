@@ -1,0 +1,153 @@
+// phantom: a prone breast MR scan whose stress-free, prone and supine truth is known.
+#include "phantom/parameters.hpp"
+
+#include "cli/tool.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "io/label_file.hpp"
+#include "io/mesh_file.hpp"
+#include "io/surface_file.hpp"
+#include "io/volume_file.hpp"
+#include "mesh/quality.hpp"
+#include "phantom/scanner.hpp"
+#include "phantom/truth.hpp"
+
+using namespace breast;
+
+namespace {
+
+struct Choices {
+  std::filesystem::path image;
+  std::string truth, dicom, preset = "paper", materials = "seed2008";
+  int seed = 1;
+  double bias = 2, noise = 2, coarse = 1;
+};
+
+void declare(Tool& tool, Choices& c) {
+  tool.describe(
+      "Makes a bilateral prone breast MR (T1 without fat suppression, 512x512x60 voxels of "
+      "0.82x0.82x2.5 mm): breasts with skin, fat, an irregular fibroglandular tree and nipple on a "
+      "chest with pectoral muscle, ribs and lung; coil bias, partial volume, Rician noise. The "
+      "breasts "
+      "hang as physics says: their known stress-free shape is solved under prone gravity with "
+      "27-node "
+      "elements on a template that hexmesh does not have, so that the chain can be told its "
+      "errors.");
+  tool.output(c.image, "OUT.nrrd", "the scan (.nrrd, .nii, .nii.gz or .mha)");
+  tool.text(
+      c.truth, "--truth", "DIR",
+      "write labels, surfaces, meshes and landmarks.tsv (stress-free, prone and supine) there");
+  tool.choice(c.preset, "--preset", {"paper", "small", "large", "pendulous"}, "kind of breast");
+  tool.integer(c.seed, "--seed", "N", "another woman of the same kind", 0, 1000000000);
+  tool.text(c.dicom, "--dicom", "DIR", "also write the scan as a DICOM series, one file a slice");
+  tool.number(c.bias, "--bias", "FACTOR", "coil sensitivity: brightest over darkest breast fat", 1,
+              20);
+  tool.number(c.noise, "--noise", "%", "noise in per cent of the fat signal", 0, 100);
+  tool.text(c.materials, "--materials", "NAME|FILE", "material set of the breasts");
+  tool.number(c.coarse, "--coarse", "FACTOR",
+              "larger voxels and, from 2 on, a coarser mesh: for tests", 1, 8);
+  tool.example("phantom paper.nrrd --truth paper-truth", "the default phantom and its truth");
+  tool.example("phantom p.nrrd --preset pendulous --seed 7 --bias 5 --dicom p-dicom",
+               "a pendulous breast under a strong coil bias, also as DICOM");
+}
+
+PhantomParameters parameters_of(const Choices& c) {
+  PhantomParameters p = phantom_preset(c.preset, std::uint64_t(c.seed));
+  p.mri.bias = c.bias;
+  p.mri.noise_percent = c.noise;
+  p.mri.voxel_factor = c.coarse;
+  p.materials = c.materials;
+  if (c.coarse >= 2) p.mesh = {4, 2, 1, 1, 3, 2};
+  return p;
+}
+
+void write_truth_side(const std::filesystem::path& folder, PhantomBreast& breast,
+                      const PhantomScene& scene, const PhantomImage& image, Run& run) {
+  const std::string side(side_name(breast.mesh.side));
+  LabelVolume labels = true_labels(scene, image, breast.mesh.side);
+  labels.history = breast.mesh.history = run.history({});
+  report_volumes(labels, "volumes_ml/" + side, run.report());
+  write_labels(folder / ("labels-" + side + ".vtkhdf"), labels);
+  write_mesh(folder / (side + ".vtkhdf"), breast.mesh);
+  const HexMesh& mesh = breast.mesh;
+  write_surface(folder / ("skin-" + side + ".vtp"),
+                boundary_surface(mesh, mesh.points, mesh.skin_faces));
+  write_surface(folder / ("wall-" + side + ".vtp"),
+                boundary_surface(mesh, mesh.points, mesh.pectoral_faces));
+}
+
+void report_side(const PhantomBreast& breast, const Postures& postures, Report& report) {
+  const HexMesh& mesh = breast.mesh;
+  const std::string side = std::string(side_name(mesh.side)) + "/";
+  report.set(side + "elements", mesh.elements());
+  report.set(side + "unknowns", postures.prone.unknowns);
+  report.set(side + "newton_iterations", postures.prone.newton_iterations);
+  report.set(side + "residual", postures.prone.residual);
+  report.set(side + "min_det_F", postures.prone.min_det_F);
+  report.set(side + "min_scaled_jacobian", mesh_quality(mesh, mesh.points).min_scaled_jacobian);
+  report.set(side + "mesh_ml", mesh_volume(mesh, mesh.points) / mm3_per_ml);
+  report.set(side + "gland_ml", breast.gland.volume_ml());
+  report.set(side + "imaged_gap_mm", postures.imaged_gap);
+  for (const char* name : {"nipple", "tumour"}) {
+    const Landmark& landmark = *mesh.landmark(name);
+    const Vec3 prone = landmark_position(mesh, mesh.points, landmark);
+    const Vec3 supine = landmark_position(mesh, postures.supine, landmark);
+    const std::string key = side + "landmarks/" + name + "/";
+    report.set(key + "imaged", prone);
+    report.set(key + "position", supine);
+    report.set(key + "displacement_mm", Vec3(supine - prone));
+    report.set(key + "distance_mm", (supine - prone).norm());
+  }
+}
+
+void run_phantom(const Choices& c, Run& run) {
+  const PhantomParameters parameters = parameters_of(c);
+  const MaterialSet materials = load_materials(parameters.materials);
+  const std::filesystem::path truth = c.truth;
+  if (!c.truth.empty()) std::filesystem::create_directories(truth);
+  write_parameters(parameters, run.report());
+  run.progress().update("shape", -1, "stress-free breasts and their glands");
+  PhantomScene scene = [&] {
+    Timer::Scope phase(run.timer(), "shape");
+    return PhantomScene(parameters);
+  }();
+  Table landmarks;
+  double worst = 0;
+  for (Side side : {Side::left, Side::right}) {
+    Timer::Scope phase(run.timer(), "mechanics");
+    PhantomBreast& breast = scene.breast(side);
+    const Postures postures = solve_postures(breast.mesh, materials, run.progress());
+    report_side(breast, postures, run.report());
+    add_landmarks(breast, postures, landmarks);
+    if (c.truth.empty()) continue;
+    const TruthError error = truth_error(breast, postures, parameters, materials, run.progress());
+    worst = std::max(worst, error.worst());
+  }
+  PhantomImage image = [&] {
+    Timer::Scope phase(run.timer(), "imaging");
+    return image_scene(scene, run.progress());
+  }();
+  Timer::Scope phase(run.timer(), "writing");
+  const Volume<std::int16_t> mr = scan(image, parameters.mri, parameters.seed);
+  if (!c.truth.empty()) {
+    run.report().set("error_estimate_mm", worst);
+    run.report().set("error_estimate_by",
+                     "largest landmark distance to a mesh of half the resolution");
+    for (Side side : {Side::left, Side::right})
+      write_truth_side(truth, scene.breast(side), scene, image, run);
+    write_table(truth / "landmarks.tsv", landmarks);
+    write_text(truth / "parameters.json", run.report().json());
+  }
+  if (!c.dicom.empty()) write_dicom_series(c.dicom, mr, "phantom " + c.preset);
+  write_volume(c.image, mr);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choices c;
+  Tool tool("phantom", "a prone breast MR scan whose truth is known");
+  declare(tool, c);
+  return tool.main(argc, argv, [&c](Run& run) { run_phantom(c, run); });
+}
