@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
       .cite("Dice 1945, Ecology 26(3):297-302");
   tool.input(given_file, "GIVEN", "label volume (.vtkhdf, .nrrd, .nii, .mha) or surface (.vtp)");
   tool.input(truth_file, "TRUTH", "the same, taken as true");
-  tool.texts(code_texts, "--code", "NUMBER=TISSUE", "meaning of a foreign code in a truth volume");
+  tool.texts(code_texts, "--code", "NUMBER=TISSUE", "meaning of a foreign code in a volume not of ours");
   tool.input_file(region_file, "--region", "FILE",
                   "volume outside which the truth's breast is ignored");
   tool.integer(region_code, "--region-code", "CODE", "value of the region; 0 takes any but 0", 0,
@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
     if (is_surface(given_file))
       given = read_surface(given_file);
     else
-      given_labels = read_any_labels(given_file, {});
+      given_labels = read_any_labels(given_file, codes);
     if (is_surface(truth_file))
       truth = read_surface(truth_file);
     else

@@ -1,0 +1,103 @@
+// Every tool: help, version, man page, usage errors, reports.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "core/atomic_file.hpp"
+#include "core/report.hpp"
+#include "fixtures/run_tool.hpp"
+#include "fixtures/samples.hpp"
+#include "fixtures/scratch_folder.hpp"
+#include "io/mesh_file.hpp"
+
+namespace breast {
+namespace {
+
+std::vector<std::string> all_tools() {
+  std::istringstream in(BREAST_TOOLS);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+TEST(CommonFace, EveryToolIsBuilt) {
+  for (const std::string& tool : all_tools()) {
+    EXPECT_TRUE(std::filesystem::exists(tool_path(tool))) << tool;
+  }
+}
+
+class CommonFace : public testing::TestWithParam<std::string> {
+ protected:
+  ToolResult run(const std::vector<std::string>& arguments) {
+    return run_tool(GetParam(), arguments, folder_.path());
+  }
+  ScratchFolder folder_;
+};
+
+TEST_P(CommonFace, Help) {
+  const ToolResult result = run({"--help"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  for (const char* part :
+       {"Usage: ", "Examples:", "Exit codes:", "--report FILE.json", "--threads N"}) {
+    EXPECT_NE(result.out.find(part), std::string::npos) << part;
+  }
+  EXPECT_EQ(result.out.find("  " + GetParam() + " ") == std::string::npos, false)
+      << "the examples call another name";
+}
+
+TEST_P(CommonFace, VersionAndPages) {
+  EXPECT_EQ(run({"--version"}).out.find(GetParam() + " (libbreast) "), 0u);
+  EXPECT_EQ(run({"--help-man"}).out.find(".TH "), 0u);
+  EXPECT_EQ(run({"--help-markdown"}).out.find("# " + GetParam() + "\n"), 0u);
+}
+
+TEST_P(CommonFace, UsageErrors) {
+  const std::vector<std::vector<std::string>> wrong = {
+      {"--no-such-option"}, {"--threads", "none"}, {"--threads", "0"}, {"--report"}};
+  for (const auto& arguments : wrong) {
+    const ToolResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_EQ(result.error_lines(), 1) << result.err;
+    EXPECT_EQ(result.err.find(GetParam() + ": "), 0u) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_NE(result.err.find(arguments.front()), std::string::npos) << result.err;
+  }
+}
+
+TEST_P(CommonFace, UsageErrorIsReported) {
+  EXPECT_EQ(run({"--no-such-option", "--report", "report.json"}).exit_code, 2);
+  const Report report = Report::parse(read_text(folder_ / "report.json"), "report.json");
+  EXPECT_EQ(report.text("tool"), GetParam());
+  EXPECT_EQ(report.text("status"), "bad_input");
+  EXPECT_NE(report.text("reason").find("--no-such-option"), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tools, CommonFace, testing::ValuesIn(all_tools()), [](const auto& tool) {
+  std::string name = tool.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+TEST(Probe, PrintsPositionsAndRelativeDisplacements) {
+  const ScratchFolder folder;
+  HexMesh mesh = samples::full_mesh();
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    mesh.points[i] = mesh.imaged[i] + Vec3(3, 0, 4);
+  write_mesh(folder / "a.vtkhdf", mesh);
+  for (Vec3& x : mesh.points) x += Vec3(0, 2, 0);
+  write_mesh(folder / "b.vtkhdf", mesh);
+  const ToolResult result =
+      run_tool("probe", {"a.vtkhdf", "b.vtkhdf", "--landmarks", "nipple", "--base", "a.vtkhdf"},
+               folder.path());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out,
+            "file\tnipple_x_mm\tnipple_y_mm\tnipple_z_mm\tnipple_mm\tnipple_relative_mm\n"
+            "a.vtkhdf\t-42.0000\t-90.0000\t-41.0000\t5.0000\t0.0000\n"
+            "b.vtkhdf\t-42.0000\t-88.0000\t-41.0000\t5.3852\t2.0000\n");
+  const ToolResult unknown =
+      run_tool("probe", {"a.vtkhdf", "--landmarks", "nippel"}, folder.path());
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("it has: nipple, tumour"), std::string::npos) << unknown.err;
+}
+
+}  // namespace
+}  // namespace breast

@@ -1,0 +1,37 @@
+#!/bin/sh
+# docs-current.sh [--write] PROGRAM_FOLDER: compares docs/tools/NAME.md and docs/man/NAME.1 with what the
+# built tools say of themselves; exit 1 and a diff when they differ. --write brings them up to date.
+set -eu
+write=no
+if [ "${1:-}" = --write ]; then
+  write=yes
+  shift
+fi
+root=$(cd "$(dirname "$0")/../.." && pwd)
+programs=${1:-$root/build/release/bin}
+if [ ! -d "$programs" ]; then
+  echo "docs-current.sh: $programs does not exist; build first or name the folder of programs" >&2
+  exit 2
+fi
+fresh=$(mktemp -d)
+trap 'rm -rf "$fresh"' EXIT
+mkdir "$fresh/tools" "$fresh/man"
+for program in "$programs"/*; do
+  name=$(basename "$program")
+  # Tools only: what has a file tools/NAME.cpp.
+  [ -x "$program" ] && [ -f "$root/tools/$name.cpp" ] || continue
+  "$program" --help-markdown > "$fresh/tools/$name.md"
+  "$program" --help-man > "$fresh/man/$name.1"
+done
+if [ "$write" = yes ]; then
+  mkdir -p "$root/docs/tools" "$root/docs/man"
+  rm -f "$root"/docs/tools/*.md "$root"/docs/man/*.1
+  cp "$fresh"/tools/*.md "$root/docs/tools/"
+  cp "$fresh"/man/*.1 "$root/docs/man/"
+  exit 0
+fi
+status=0
+diff -ru "$root/docs/tools" "$fresh/tools" || status=1
+diff -ru "$root/docs/man" "$fresh/man" || status=1
+[ $status = 0 ] || echo "docs are stale: run tests/tools/docs-current.sh --write $programs" >&2
+exit $status

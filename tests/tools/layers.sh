@@ -1,0 +1,59 @@
+#!/bin/sh
+# Checks that no folder of libbreast includes what its layer may not. Prints one line a violation; exit 1 when there is any.
+set -eu
+cd "$(dirname "$0")/../.."
+
+# folder: folders whose headers it may include (its own is always allowed). No cycles: each line names
+# only folders with a line above or of a lower layer. contact takes the view's pose from mammo.
+rules="
+core:
+image: core
+surface: core
+material: core
+mesh: surface core
+mammo: mesh image surface core
+cli: core
+io: core image surface mesh mammo
+segment: image surface core
+fit: surface image core
+meshing: mesh surface image core
+fem: material mesh core
+solve: core
+mechanics: fem material mesh solve surface core
+contact: mammo mechanics fem material mesh solve surface core
+phantom: mechanics fem material mesh solve surface image core
+figures: mesh mammo surface image core
+evaluation: surface image core
+"
+
+bad=0
+for folder in libbreast/*/; do
+  name=$(basename "$folder")
+  [ -n "$(find "$folder" -name '*.?pp' -print -quit)" ] || continue
+  if ! line=$(printf '%s' "$rules" | grep "^$name:"); then
+    echo "libbreast/$name has no rule in tests/tools/layers.sh"
+    bad=1
+    continue
+  fi
+  allowed=" $name ${line#*:} "
+  # Lines like  path/file.cpp:12:#include "mesh/shape.hpp"
+  includes=$(grep -rnE '^ *#include "[^"]+"' --include='*.hpp' --include='*.cpp' "$folder" || true)
+  violations=$(printf '%s\n' "$includes" | while IFS= read -r hit; do
+    target=$(printf '%s' "$hit" | sed 's/.*#include "\([^"/]*\)[/"].*/\1/')
+    case "$allowed" in *" $target "*) ;; *) [ -z "$hit" ] || echo "$hit: $name may not include $target" ;; esac
+  done)
+  if [ -n "$violations" ]; then
+    echo "$violations"
+    bad=1
+  fi
+done
+
+# Third parties stay in .cpp files (Eigen apart) and in the headers those files alone share: the folders
+# io/hdf5, io/volume, io/vtk, and NAME_impl.hpp.
+foreign=$(grep -rnE '^ *#include <(hdf5|vtk|itk|opencv|CGAL|CLI|nlohmann|nlopt|cholmod|gtest)' --include='*.hpp' \
+  libbreast | grep -vE '^libbreast/(io/(hdf5|volume|vtk)/|[a-z]+/[a-z_]+_impl\.hpp)' || true)
+if [ -n "$foreign" ]; then
+  echo "third party in a header: $foreign"
+  bad=1
+fi
+exit $bad
