@@ -27,16 +27,23 @@ Vec2 area_centroid(const std::vector<Vec2>& curve) {
   return curve[0] + sum / area;
 }
 
-void check_star_shaped(const std::vector<Vec2>& curve, const Vec2& centre, const char* sheet) {
+// The first rim point from which the curve does not run counter-clockwise round the centre; −1:
+// none.
+int star_shaped_at(const std::vector<Vec2>& curve, const Vec2& centre) {
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const Vec2 a = curve[i] - centre, b = curve[(i + 1) % curve.size()] - centre;
-    if (!(cross(a, b) > 0)) {
-      throw input_error(
-          "rim on the ", sheet, " sheet turns back at point ", i, " of ", curve.size(),
-          " seen from its pole (", centre.x(), ", ", centre.y(),
-          "): it must be star-shaped and counter-clockwise; run fit-hermite again with "
-          "more smoothing");
-    }
+    if (!(cross(a, b) > 0)) return int(i);
+  }
+  return -1;
+}
+
+void check_star_shaped(const std::vector<Vec2>& curve, const Vec2& centre, const char* sheet) {
+  const int i = star_shaped_at(curve, centre);
+  if (i >= 0) {
+    throw input_error("rim on the ", sheet, " sheet turns back at point ", i, " of ", curve.size(),
+                      " seen from its pole (", centre.x(), ", ", centre.y(),
+                      "): it must be star-shaped and counter-clockwise; run fit-hermite again with "
+                      "more smoothing");
   }
 }
 
@@ -48,9 +55,9 @@ BodyMap::BodyMap(const BreastGeometry& geometry) : geometry_(geometry) {
     throw input_error("rim has ", n, " skin and ", geometry.rim_wall.size(),
                       " wall points: both must be equal and at least 32");
   }
-  wall_centre_ = area_centroid(geometry.rim_wall);
+  wall_pole_ = area_centroid(geometry.rim_wall);
   check_star_shaped(geometry.rim_skin, geometry.centre, "skin");
-  check_star_shaped(geometry.rim_wall, wall_centre_, "wall");
+  check_star_shaped(geometry.rim_wall, wall_pole_, "wall");
   cumulative_.assign(n + 1, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t j = (i + 1) % n;
@@ -63,10 +70,42 @@ BodyMap::BodyMap(const BreastGeometry& geometry) : geometry_(geometry) {
   length_ = cumulative_.back();
   if (!(length_ > 0)) throw input_error("rim has no length");
   for (double& value : cumulative_) value /= length_;
+  choose_pole();
+  choose_start();
+}
+
+// The nipple, when it is nearer to the centre than a third of the way to the rim in every
+// direction.
+void BodyMap::choose_pole() {
+  skin_pole_ = geometry_.centre;
+  double nearest = (geometry_.rim_skin[0] - geometry_.centre).norm();
+  for (const Vec2& point : geometry_.rim_skin) {
+    nearest = std::min(nearest, (point - geometry_.centre).norm());
+  }
+  nipple_is_pole_ = (geometry_.nipple_st - geometry_.centre).norm() < nearest / 3 &&
+                    star_shaped_at(geometry_.rim_skin, geometry_.nipple_st) < 0;
+  if (nipple_is_pole_) skin_pole_ = geometry_.nipple_st;
+}
+
+void BodyMap::choose_start() {
+  constexpr int around = 720;
+  std::vector<Vec3> points(around);
+  Vec3 centre = Vec3::Zero();
+  for (int i = 0; i < around; ++i) {
+    points[i] = skin_sheet().position(rim(geometry_.rim_skin, double(i) / around));
+    centre += points[i] / around;
+  }
+  double best = -2;
+  for (int i = 0; i < around; ++i) {
+    const Vec3 way = points[i] - centre;
+    const double towards = -(way.x() + way.z()) / std::hypot(way.x(), way.z());
+    if (towards > best) best = towards, start_ = double(i) / around;
+  }
 }
 
 // Cubic (Catmull-Rom) through the rim points: smooth whatever the number of template nodes.
 Vec2 BodyMap::rim(const std::vector<Vec2>& curve, double u) const {
+  u += start_;
   u -= std::floor(u);
   const int n = int(curve.size());
   const auto after = std::upper_bound(cumulative_.begin(), cumulative_.end(), u);
@@ -78,11 +117,11 @@ Vec2 BodyMap::rim(const std::vector<Vec2>& curve, double u) const {
 }
 
 Vec2 BodyMap::skin(double rho, double u) const {
-  return geometry_.centre + rho * (rim(geometry_.rim_skin, u) - geometry_.centre);
+  return skin_pole_ + rho * (rim(geometry_.rim_skin, u) - skin_pole_);
 }
 
 Vec2 BodyMap::wall(double rho, double u) const {
-  return wall_centre_ + rho * (rim(geometry_.rim_wall, u) - wall_centre_);
+  return wall_pole_ + rho * (rim(geometry_.rim_wall, u) - wall_pole_);
 }
 
 Vec3 BodyMap::cut(double height, double u) const {
@@ -92,7 +131,7 @@ Vec3 BodyMap::cut(double height, double u) const {
 
 double BodyMap::volume() const {
   constexpr int around = 256, rings = 48, rows = 8;
-  const Vec3 origin = skin_sheet().position(geometry_.centre);  // near the body: less cancellation
+  const Vec3 origin = skin_sheet().position(skin_pole_);  // near the body: less cancellation
   double six_volumes = 0;
   // Rings of quads from the skin's pole to its rim, down the cut, and back to the wall's pole.
   const auto ring = [&](int r) {
@@ -120,6 +159,15 @@ double BodyMap::volume() const {
     before = now;
   }
   return six_volumes / 6;
+}
+
+Eigen::Matrix<double, 3, 2> BodyMap::cut_slopes(double height, double u) const {
+  constexpr double step =
+      1e-5;  // the rim is C1: central differences are good to 1e-9 of its length
+  Eigen::Matrix<double, 3, 2> slopes;
+  slopes.col(0) = (cut(height, u + step) - cut(height, u - step)) / (2 * step);
+  slopes.col(1) = cut(1, u) - cut(0, u);
+  return slopes;
 }
 
 double BodyMap::cut_height(double u) const {

@@ -23,6 +23,9 @@ class BodyMap {
   /// mm³ inside skin, cut and wall (of a fine triangulation); negative when the sheets are inside
   /// out.
   double volume() const;
+  /// Columns ∂x/∂u and ∂x/∂height of the cut.
+  Eigen::Matrix<double, 3, 2> cut_slopes(double height, double u) const;
+  bool nipple_is_pole() const { return nipple_is_pole_; }
   double cut_height(double u) const;             ///< mm
   double rim_length() const { return length_; }  ///< mm, mean of skin and wall
 
@@ -30,12 +33,16 @@ class BodyMap {
   const HermiteSheet& wall_sheet() const { return geometry_.wall; }
 
  private:
+  void choose_pole();
+  void choose_start();
   Vec2 rim(const std::vector<Vec2>& curve, double u) const;
 
   const BreastGeometry& geometry_;
-  Vec2 wall_centre_;
+  Vec2 skin_pole_, wall_pole_;
+  double start_ = 0;                ///< of u, as a share of the rim from its first point
   std::vector<double> cumulative_;  ///< u at each rim point, first 0; last entry 1 closes the curve
   double length_ = 0;
+  bool nipple_is_pole_ = false;
 };
 
 }  // namespace breast

@@ -1,4 +1,4 @@
-// The smoothing energy of a hexahedral mesh and its gradient, corner by corner.
+// The smoothing energy of a hexahedral mesh and its gradient, sample by sample.
 #pragma once
 
 #include <vector>
@@ -10,18 +10,19 @@ namespace breast {
 class CornerEnergy {
  public:
   struct Parameters {
-    double theta = 0.2;  ///< weight of size against shape
+    double theta = 0.3;  ///< weight of size against shape
     int power = 4;
-    double epsilon = 1e-6;  ///< regularisation of det A near and below 0
+    double epsilon = 1e-6;   ///< regularisation of det A near and below 0
+    bool mid_edges = false;  ///< samples at the 12 mid-edges too: flat corners (180°) need them
   };
   /// connectivity: 8 per element, VTK order. The target edge is that of the mean element of `x`.
   CornerEnergy(const std::vector<int>& connectivity, const std::vector<Vec3>& x);
 
   void set(const Parameters& parameters) { parameters_ = parameters; }
   double edge() const { return edge_; }  ///< mm
-  /// Σ over corners; gradient per node (1/mm). Independent of the number of threads.
+  /// Σ over samples; gradient per node (1/mm). Independent of the number of threads.
   double evaluate(const std::vector<Vec3>& x, std::vector<Vec3>& gradient);
-  /// Smallest corner determinant, relative to edge³.
+  /// Smallest determinant over the samples, relative to edge³.
   double min_det(const std::vector<Vec3>& x) const;
 
  private:

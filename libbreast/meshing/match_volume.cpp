@@ -6,10 +6,13 @@
 #include <cmath>
 
 #include "mesh/quality.hpp"
+#include "meshing/smooth.hpp"
 
 namespace breast {
 
 namespace {
+
+constexpr double largest_shift = 1;  // mm
 
 double volume_of(const std::vector<int>& connectivity, const std::vector<Vec3>& x) {
   HexMesh mesh;
@@ -18,9 +21,8 @@ double volume_of(const std::vector<int>& connectivity, const std::vector<Vec3>& 
 }
 
 // Parameters of a node on the skin sheet, rim included.
-Vec2 skin_parameters(const BodyMap& body, const DomeTemplate& dome, const PlacedNodes& nodes,
-                     int a) {
-  return nodes.support[a] == Support::skin ? nodes.st[a] : body.skin(1, dome.places[a].u);
+Vec2 skin_parameters(const BodyMap& body, const PlacedNodes& nodes, int a) {
+  return nodes.support[a] == Support::skin ? nodes.st[a] : body.skin(1, nodes.st[a].x());
 }
 
 // Mean over the faces round each skin node of the sheet's height above the face's centre, mm.
@@ -34,7 +36,7 @@ std::vector<double> gaps(const BodyMap& body, const DomeTemplate& dome, const Pl
     for (int c = 0; c < 4; ++c) {
       corner[c] =
           dome.connectivity[std::size_t(face.element) * 8 + hex_face_corners[face.local][c]];
-      st += 0.25 * skin_parameters(body, dome, nodes, corner[c]);
+      st += 0.25 * skin_parameters(body, nodes, corner[c]);
       centre += 0.25 * nodes.x[corner[c]];
     }
     const SheetPoint on_sheet = body.skin_sheet().evaluate(st);
@@ -50,8 +52,11 @@ std::vector<double> gaps(const BodyMap& body, const DomeTemplate& dome, const Pl
 }  // namespace
 
 double match_volume(double wanted, const BodyMap& body, const DomeTemplate& dome,
-                    PlacedNodes& nodes) {
-  const std::vector<double> gap = gaps(body, dome, nodes);
+                    const std::vector<bool>& held, PlacedNodes& nodes) {
+  std::vector<double> gap = gaps(body, dome, nodes);
+  for (std::size_t a = 0; a < gap.size(); ++a) {
+    gap[a] = held[a] ? 0 : std::clamp(gap[a], -1.5 * largest_shift, 1.5 * largest_shift);
+  }
   const auto shifted = [&](double factor) {
     std::vector<Vec3> x = nodes.x;
     for (std::size_t a = 0; a < x.size(); ++a) {
@@ -63,11 +68,17 @@ double match_volume(double wanted, const BodyMap& body, const DomeTemplate& dome
   const double now = volume_of(dome.connectivity, nodes.x);
   const double gain = volume_of(dome.connectivity, shifted(1)) - now;
   if (!(gain > 0 && wanted > now)) return 0;
-  const double factor = std::min(2.0 / 3, (wanted - now) / gain);
-  nodes.x = shifted(factor);
-  double largest = 0;
-  for (const double g : gap) largest = std::max(largest, factor * std::abs(g));
-  return largest;
+  double factor = std::min(2.0 / 3, (wanted - now) / gain);
+  const double shape = worst_shape(dome.connectivity, nodes.x);
+  for (int halvings = 0; halvings < 4; ++halvings, factor /= 2) {
+    const std::vector<Vec3> x = shifted(factor);
+    if (worst_shape(dome.connectivity, x) < 0.9 * shape) continue;
+    nodes.x = x;
+    double largest = 0;
+    for (const double g : gap) largest = std::max(largest, factor * std::abs(g));
+    return largest;
+  }
+  return 0;
 }
 
 }  // namespace breast

@@ -11,6 +11,6 @@ namespace breast {
 /// blame: the factor is at most the two thirds that a paraboloid needs; what the polygon of the rim
 /// cuts off stays off. Returns the largest shift in mm.
 double match_volume(double wanted, const BodyMap& body, const DomeTemplate& dome,
-                    PlacedNodes& nodes);
+                    const std::vector<bool>& held, PlacedNodes& nodes);
 
 }  // namespace breast

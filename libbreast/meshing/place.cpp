@@ -104,9 +104,10 @@ PlacedNodes place_nodes(const DomeTemplate& dome, const BodyMap& body) {
     if (place.support == Support::wall) placed.st[a] = body.wall(place.rho, place.u);
     if (place.support == Support::cut) {
       placed.x[a] = body.cut(place.height, place.u);
-      placed.st[a] = body.wall(1, place.u);  // border of the wall's disc where height is 0
+      placed.st[a] = {place.u, place.height};
     }
-    st.row(a) = placed.st[a];
+    // The wall's rim is the border of the wall's disc.
+    st.row(a) = place.support == Support::cut ? body.wall(1, place.u) : placed.st[a];
   }
   graph_laplace(wall_edges(dome), on_wall, st);
   for (std::size_t a = 0; a < nodes; ++a) {

@@ -10,14 +10,18 @@ namespace breast {
 
 /// Node positions and what each node may slide on.
 struct PlacedNodes {
-  std::vector<Vec3> x;  ///< mm
-  std::vector<Support>
-      support;           ///< skin and wall nodes slide in st; cut nodes (rims too) are fixed
-  std::vector<Vec2> st;  ///< parameters of skin and wall nodes
+  std::vector<Vec3> x;           ///< mm
+  std::vector<Support> support;  ///< skin, wall and cut nodes slide in st
+  std::vector<Vec2> st;          ///< skin, wall: the sheet's (s,t); cut: (u, height)
 };
 
 /// Hull nodes at their places; the wall's disc, then the inside, by Laplace with graph weights.
 /// Throws Error (failed) when a system cannot be solved.
+/// Rim heights are 0 (wall) and 1 (skin) exactly.
+inline bool on_rim(double height) {
+  return height <= 0 || height >= 1;
+}
+
 PlacedNodes place_nodes(const DomeTemplate& dome, const BodyMap& body);
 
 }  // namespace breast

@@ -42,8 +42,10 @@ int add_skin_layer(double thickness, const BodyMap& body, DomeTemplate& dome, Pl
       inner.x[a] -= thickness * body.skin_sheet().evaluate(nodes.st[a]).normal();
       held[a] = true;
     } else if (place.support == Support::cut) {
-      const double top = height_below_layer(body, place.u, thickness);
-      inner.x[a] = body.cut(place.height * top, place.u);
+      const Vec2 at = nodes.st[a];
+      inner.st[a].y() = at.y() * height_below_layer(body, at.x(), thickness);
+      inner.x[a] = body.cut(inner.st[a].y(), at.x());
+      held[a] = true;
     }
   }
   smooth_nodes(dome.connectivity, body, {.evaluations = 120}, held, inner);
@@ -78,7 +80,8 @@ int add_skin_layer(double thickness, const BodyMap& body, DomeTemplate& dome, Pl
     }
   }
   for (std::size_t a = 0; a < old_nodes; ++a) {
-    if (held[a]) inner.support[a] = dome.places[a].support = Support::interior;
+    if (dome.places[a].support == Support::skin)
+      inner.support[a] = dome.places[a].support = Support::interior;
   }
   nodes = std::move(inner);
   return int(below.size());

@@ -33,9 +33,9 @@ class Smoother {
            const std::vector<bool>& held, const PlacedNodes& start)
       : energy_(connectivity, start.x), body_(body), options_(options), start_(start), now_(start) {
     for (int a = 0; a < int(start.x.size()); ++a) {
-      if (start.support[a] == Support::cut || (!held.empty() && held[a])) continue;
+      if (!held.empty() && held[a]) continue;
       Unknown unknown{a, size_, start.support[a] != Support::interior, Mat2::Zero()};
-      if (unknown.slides) unknown.to_parameters = tangent_frame(sheet(a).evaluate(start.st[a]));
+      if (unknown.slides) unknown.to_parameters = tangent_frame(a);
       unknowns_.push_back(unknown);
       size_ += unknown.slides ? 2 : 3;
     }
@@ -76,25 +76,37 @@ class Smoother {
         continue;
       }
       now_.st[a] = start_.st[a] + unknown.to_parameters * y.segment<2>(unknown.first);
-      const SheetPoint point = sheet(a).evaluate(now_.st[a]);
-      now_.x[a] = point.x;
-      Mat32 tangents;
-      tangents << point.x_s, point.x_t;
+      const Mat32 tangents = chart(a, now_.st[a], now_.x[a]);
       slopes_[i] = tangents * unknown.to_parameters;
     }
   }
 
  private:
-  const HermiteSheet& sheet(int a) const {
-    return start_.support[a] == Support::skin ? body_.skin_sheet() : body_.wall_sheet();
+  // Position and slopes of a sliding node's surface at its parameters.
+  Mat32 chart(int a, const Vec2& st, Vec3& x) const {
+    if (start_.support[a] == Support::cut) {
+      x = body_.cut(st.y(), st.x());
+      return body_.cut_slopes(st.y(), st.x());
+    }
+    const bool skin = start_.support[a] == Support::skin;
+    const SheetPoint point = (skin ? body_.skin_sheet() : body_.wall_sheet()).evaluate(st);
+    x = point.x;
+    Mat32 slopes;
+    slopes << point.x_s, point.x_t;
+    return slopes;
   }
-  // Inverse of the upper-triangular factor of [x_s x_t] = Q R.
-  static Mat2 tangent_frame(const SheetPoint& point) {
-    const double length = point.x_s.norm(), along = point.x_s.dot(point.x_t) / length;
-    const double across = point.x_s.cross(point.x_t).norm() / length;
-    Mat2 r;
-    r << length, along, 0, across;
-    return r.inverse();
+  // Inverse of the upper-triangular factor of the slopes = Q R; a rim node moves along its rim
+  // only.
+  Mat2 tangent_frame(int a) const {
+    Vec3 x;
+    const Mat32 slopes = chart(a, start_.st[a], x);
+    const double length = slopes.col(0).norm(), along = slopes.col(0).dot(slopes.col(1)) / length;
+    Mat2 frame = Mat2::Zero();
+    frame(0, 0) = 1 / length;
+    if (start_.support[a] == Support::cut && on_rim(start_.st[a].y())) return frame;
+    frame(1, 1) = length / slopes.col(0).cross(slopes.col(1)).norm();
+    frame(0, 1) = -along * frame(1, 1) / length;
+    return frame;
   }
 
   CornerEnergy energy_;
@@ -108,16 +120,6 @@ class Smoother {
   int size_ = 0;
 };
 
-double min_scaled_jacobian(const std::vector<int>& connectivity, const std::vector<Vec3>& x) {
-  double least = 1;
-  for (std::size_t e = 0; e < connectivity.size(); e += 8) {
-    std::array<Vec3, 8> corners;
-    for (int a = 0; a < 8; ++a) corners[a] = x[connectivity[e + a]];
-    least = std::min(least, scaled_jacobian(corners.data()));
-  }
-  return least;
-}
-
 double signed_volume(const std::vector<int>& connectivity, const std::vector<Vec3>& x) {
   HexMesh mesh;
   mesh.connectivity = connectivity;
@@ -126,11 +128,20 @@ double signed_volume(const std::vector<int>& connectivity, const std::vector<Vec
 
 }  // namespace
 
+double worst_shape(const std::vector<int>& connectivity, const std::vector<Vec3>& x) {
+  HexMesh mesh;
+  mesh.connectivity = connectivity;
+  const MeshQuality quality = mesh_quality(mesh, x);
+  const double folded = quality.min_det / std::max(quality.max_det, 1e-300);
+  return quality.min_det > 0 ? quality.min_scaled_jacobian
+                             : std::min(quality.min_scaled_jacobian, folded);
+}
+
 SmoothReport smooth_nodes(const std::vector<int>& connectivity, const BodyMap& body,
                           const SmoothOptions& options, const std::vector<bool>& held,
                           PlacedNodes& nodes) {
   SmoothReport report;
-  report.before = report.after = min_scaled_jacobian(connectivity, nodes.x);
+  report.before = report.after = worst_shape(connectivity, nodes.x);
   Smoother smoother(connectivity, body, options, held, nodes);
   Eigen::VectorXd y = smoother.zero();
   const auto energy = [&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) {
@@ -141,15 +152,17 @@ SmoothReport smooth_nodes(const std::vector<int>& connectivity, const BodyMap& b
   smoother.set_sliding_tether(1);
   double worst = smoother.energy().min_det(nodes.x);
   for (int round = 0; round < 8 && worst < 1e-3; ++round) {
-    smoother.energy().set({options.theta, 1, std::max(1e-3, 0.5 * std::abs(worst - 0.02))});
+    smoother.energy().set(
+        {options.theta, 1, std::max(1e-3, 0.5 * std::abs(worst - 0.02)), options.mid_edges});
     report.evaluations += minimise_lbfgs(energy, y, {.evaluations = 60}).evaluations;
     worst = smoother.energy().min_det(smoother.nodes().x);
   }
   smoother.set_sliding_tether(options.tether);
-  smoother.energy().set({options.theta, options.power, worst > 0 ? 1e-6 : std::abs(worst)});
+  smoother.energy().set(
+      {options.theta, options.power, worst > 0 ? 1e-6 : std::abs(worst), options.mid_edges});
   report.evaluations += minimise_lbfgs(energy, y, {.evaluations = options.evaluations}).evaluations;
   smoother.place(y);
-  const double after = min_scaled_jacobian(connectivity, smoother.nodes().x);
+  const double after = worst_shape(connectivity, smoother.nodes().x);
   const double volume = signed_volume(connectivity, nodes.x);
   const double change = signed_volume(connectivity, smoother.nodes().x) / volume - 1;
   if (after > report.before && std::abs(change) <= options.volume_change) {

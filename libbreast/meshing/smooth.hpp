@@ -15,6 +15,7 @@ struct SmoothOptions {
   double tether = 1e-3;  ///< weight of Σ|x − x_start|²/h²
   int evaluations = 260;
   double volume_change = 0.02;
+  bool mid_edges = false;  ///< sample the energy at mid-edges too (cuboid)
 };
 
 struct SmoothReport {
@@ -23,7 +24,12 @@ struct SmoothReport {
   int evaluations = 0;
 };
 
-/// Moves inside nodes in space, skin and wall nodes in their parameters; cut nodes stay. Nodes in
+/// Smallest scaled Jacobian; when an element is folded (between its corners too), a negative
+/// number.
+double worst_shape(const std::vector<int>& connectivity, const std::vector<Vec3>& x);
+
+/// Moves inside nodes in space, skin, wall and cut nodes in their parameters, rim nodes along
+/// their rim. Nodes in
 /// `held` (may be empty) stay too. Keeps the better of before and after by minimum scaled Jacobian.
 SmoothReport smooth_nodes(const std::vector<int>& connectivity, const BodyMap& body,
                           const SmoothOptions& options, const std::vector<bool>& held,
