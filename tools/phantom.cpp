@@ -117,13 +117,15 @@ void run_phantom(const Choices& c, Run& run) {
   for (Side side : {Side::left, Side::right}) {
     Timer::Scope phase(run.timer(), "mechanics");
     PhantomBreast& breast = scene.breast(side);
-    const Postures postures = solve_postures(breast.mesh, materials, run.progress());
+    TruthError error;
+    const Postures postures = solve_breast(breast, parameters, materials, error, run.progress());
     report_side(breast, postures, run.report());
     add_landmarks(breast, postures, landmarks);
-    if (c.truth.empty()) continue;
-    const TruthError error = truth_error(breast, postures, parameters, materials, run.progress());
     worst = std::max(worst, error.worst());
   }
+  run.report().set("error_estimate_mm", worst);
+  run.report().set("error_estimate_by",
+                   "largest landmark distance to a mesh of half the resolution");
   PhantomImage image = [&] {
     Timer::Scope phase(run.timer(), "imaging");
     return image_scene(scene, run.progress());
@@ -131,9 +133,6 @@ void run_phantom(const Choices& c, Run& run) {
   Timer::Scope phase(run.timer(), "writing");
   const Volume<std::int16_t> mr = scan(image, parameters.mri, parameters.seed);
   if (!c.truth.empty()) {
-    run.report().set("error_estimate_mm", worst);
-    run.report().set("error_estimate_by",
-                     "largest landmark distance to a mesh of half the resolution");
     for (Side side : {Side::left, Side::right})
       write_truth_side(truth, scene.breast(side), scene, image, run);
     write_table(truth / "landmarks.tsv", landmarks);

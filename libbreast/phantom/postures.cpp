@@ -1,10 +1,9 @@
 #include "phantom/postures.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "mesh/locate.hpp"
 #include "mesh/quality.hpp"
@@ -36,13 +35,11 @@ double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) 
 }  // namespace
 
 Postures solve_postures(HexMesh& mesh, const MaterialSet& materials, Progress& progress) {
-  constexpr double agreement = 1e-6;  // mm
+  constexpr double agreement = 1e-4;  // mm
   Postures out;
-  mesh.imaged = mesh.reference;
   for (int pass = 0; pass < 6; ++pass) {
     out.prone = equilibrium(mesh, "prone", materials, progress);
     out.imaged_gap = largest_distance(mesh.points, mesh.imaged);
-    if (getenv("DBG")) fprintf(stderr, "gap %g\n", out.imaged_gap);
     if (out.imaged_gap < agreement) break;
     mesh.imaged = mesh.points;
   }
@@ -55,35 +52,59 @@ Postures solve_postures(HexMesh& mesh, const MaterialSet& materials, Progress& p
   return out;
 }
 
-TruthError truth_error(const PhantomBreast& breast, const Postures& fine,
-                       const PhantomParameters& parameters, const MaterialSet& materials,
-                       Progress& progress) {
+namespace {
+
+HexMesh half_resolution(const PhantomBreast& breast, const PhantomParameters& parameters) {
   const auto half = [](int n) { return (n + 1) / 2; };
   MeshParameters size = parameters.mesh;
   size.core = 2 * half(half(size.core));
   size.shell = half(size.shell), size.skirt = half(size.skirt);
   size.slab = half(size.slab), size.rise = half(size.rise);
-  HexMesh coarse = phantom_mesh(breast.shape, breast.map, size);
-  assign_gland(breast.gland, coarse);
-  coarse.skin_model = breast.mesh.skin_model;
-  if (coarse.skin_model == SkinModel::membrane)
-    coarse.skin_thickness.assign(coarse.skin_faces.size(), parameters.skin);
-  const Postures solved = solve_postures(coarse, materials, progress);
+  HexMesh mesh = phantom_mesh(breast.shape, breast.map, size);
+  assign_gland(breast.gland, mesh);
+  mesh.skin_model = breast.mesh.skin_model;
+  if (mesh.skin_model == SkinModel::membrane)
+    mesh.skin_thickness.assign(mesh.skin_faces.size(), parameters.skin);
+  return mesh;
+}
+
+TruthError compare(const HexMesh& fine, const Postures& fine_postures, const HexMesh& coarse,
+                   const Postures& coarse_postures) {
   const Locator locator(coarse, coarse.reference);
   TruthError error;
   error.elements = coarse.elements();
-  for (const Landmark& landmark : breast.mesh.landmarks) {
-    const Location at =
-        locator.nearest(landmark_position(breast.mesh, breast.mesh.reference, landmark));
-    const auto gap = [&](const std::vector<Vec3>& coarse_field, const std::vector<Vec3>& field) {
-      return (element_position(coarse, coarse_field, at.element, at.local) -
-              landmark_position(breast.mesh, field, landmark))
+  for (const Landmark& landmark : fine.landmarks) {
+    const Location at = locator.nearest(landmark_position(fine, fine.reference, landmark));
+    const auto gap = [&](const std::vector<Vec3>& there, const std::vector<Vec3>& here) {
+      return (element_position(coarse, there, at.element, at.local) -
+              landmark_position(fine, here, landmark))
           .norm();
     };
-    error.prone_mm = std::max(error.prone_mm, gap(coarse.points, breast.mesh.points));
-    error.supine_mm = std::max(error.supine_mm, gap(solved.supine, fine.supine));
+    error.prone_mm = std::max(error.prone_mm, gap(coarse.points, fine.points));
+    error.supine_mm = std::max(error.supine_mm, gap(coarse_postures.supine, fine_postures.supine));
   }
   return error;
+}
+
+}  // namespace
+
+Postures solve_breast(PhantomBreast& breast, const PhantomParameters& parameters,
+                      const MaterialSet& materials, TruthError& error, Progress& progress) {
+  HexMesh coarse = half_resolution(breast, parameters);
+  const Postures coarse_postures = solve_postures(coarse, materials, progress);
+  // The coarse displacement is a guess of the imaged shape that saves a solve on the fine mesh.
+  HexMesh& mesh = breast.mesh;
+  const Locator locator(coarse, coarse.reference);
+#pragma omp parallel for schedule(dynamic, 256) num_threads(threads())
+  for (int n = 0; n < mesh.nodes(); ++n) {
+    const Location at = locator.nearest(mesh.reference[n]);
+    mesh.imaged[n] = mesh.reference[n] +
+                     element_position(coarse, coarse.points, at.element, at.local) -
+                     element_position(coarse, coarse.reference, at.element, at.local);
+  }
+  const Postures postures = solve_postures(mesh, materials, progress);
+  error = compare(mesh, postures, coarse, coarse_postures);
+  return postures;
 }
 
 }  // namespace breast

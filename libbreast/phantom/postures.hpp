@@ -15,19 +15,22 @@ struct Postures {
 
 /// Wall and cut held. Gravity forces and skin thickness belong to the imaged (prone) shape, as
 /// everywhere in the chain, so prone is solved again with the forces of its own result until they
-/// agree to 1e-6 mm. Throws Error (not converged) naming the side and the posture.
+/// agree to 1e-4 mm (`imaged_gap`). mesh.imaged is the first guess of the prone shape. Throws Error
+/// (not converged) naming the side and the posture.
 Postures solve_postures(HexMesh& mesh, const MaterialSet& materials,
                         Progress& progress = no_progress());
 
-/// The same breast on a mesh of half the resolution: the largest distance (mm) of any landmark's
-/// prone and supine positions to those of `fine` is the error stated for the truth.
+/// Largest distance (mm) of any landmark to where a mesh of half the resolution puts it: the error
+/// stated for the truth.
 struct TruthError {
   double prone_mm = 0, supine_mm = 0;
-  int elements = 0;
+  int elements = 0;  ///< of the coarser mesh
   double worst() const { return prone_mm > supine_mm ? prone_mm : supine_mm; }
 };
-TruthError truth_error(const PhantomBreast& breast, const Postures& fine,
-                       const PhantomParameters& parameters, const MaterialSet& materials,
-                       Progress& progress = no_progress());
+
+/// Solves the breast on a mesh of half the resolution, from there on its own mesh, and compares.
+Postures solve_breast(PhantomBreast& breast, const PhantomParameters& parameters,
+                      const MaterialSet& materials, TruthError& error,
+                      Progress& progress = no_progress());
 
 }  // namespace breast
