@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "fit/slice_interpolation.hpp"
 
 namespace breast {
 
@@ -201,8 +202,9 @@ OccupancyField::OccupancyField(const LabelVolume& labels, const Box& box, double
       for (int i = 0; i < size[0]; ++i)
         occupancy_.at(i, j, k) =
             counts(labels.at(first[0] + i, first[1] + j, first[2] + k)) ? 1.f : 0.f;
+  occupancy_ = fill_between_slices(occupancy_);
   for (int a = 0; a < 3; ++a)
-    smooth_axis(occupancy_, a, std::max(0.6, smoothing_mm / g.spacing[a]));
+    smooth_axis(occupancy_, a, std::max(0.6, smoothing_mm / occupancy_.grid.spacing[a]));
   front_ = field_of_view(g).low.y();
 }
 

@@ -33,7 +33,8 @@ BreastRegion find_region(const LabelVolume& labels, double margin_mm);
 /// Largest axis-aligned box inside the (possibly tilted) field of view.
 Box field_of_view(const Grid& grid);
 
-/// Gaussian-smoothed occupancy of some tissues on the voxels around a box.
+/// Gaussian-smoothed occupancy of some tissues on the voxels around a box, thick slices
+/// interpolated.
 class OccupancyField {
  public:
   /// `smoothing_mm` is the Gaussian's sigma, at least 0.6 voxels along every axis.
