@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 namespace breast {
 
@@ -64,12 +65,21 @@ Facets face_facets(const HexMesh& mesh, const std::vector<Vec3>& nodal,
 Facets tissue_facets(const HexMesh& mesh, const std::vector<Vec3>& nodal, Tissue tissue) {
   HexMesh part;  // the elements of that tissue alone: their boundary is what is drawn
   part.order = mesh.order;
+  std::vector<int> whole;  // element of the mesh
   for (int e = 0; e < mesh.elements(); ++e) {
     if (mesh.tissue[e] != tissue) continue;
+    whole.push_back(e);
     part.connectivity.insert(part.connectivity.end(), mesh.element(e),
                              mesh.element(e) + mesh.nodes_per_element());
   }
-  return face_facets(part, nodal, boundary_faces(part));
+  // Faces on the body's own boundary coincide with skin or muscle, which are drawn already.
+  std::set<std::pair<int, int>> outer;
+  for (const Face& face : boundary_faces(mesh)) outer.emplace(face.element, face.local);
+  std::vector<Face> inner;
+  for (const Face& face : boundary_faces(part)) {
+    if (!outer.contains({whole[face.element], face.local})) inner.push_back(face);
+  }
+  return face_facets(part, nodal, inner);
 }
 
 Facets plate_facets(const PlateRecord& plate, double length, double half_width) {
@@ -120,7 +130,7 @@ SheetFacets sheet_facets(const HermiteSheet& sheet, const std::vector<Vec2>& rim
   }
   const auto trace = [&](bool along_s, double fixed) {
     std::vector<Vec3> line;
-    const int steps = 4 * (along_s ? nu : nv);
+    const int steps = 2 * (along_s ? nu : nv);
     for (int k = 0; k <= steps; ++k) {
       const double moving = double(k) / steps;
       const Vec2 st = along_s ? Vec2(moving, fixed) : Vec2(fixed, moving);

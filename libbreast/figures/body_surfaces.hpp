@@ -12,7 +12,7 @@ namespace breast {
 /// Faces in a nodal field; a 9-node face becomes four quadrilaterals.
 Facets face_facets(const HexMesh& mesh, const std::vector<Vec3>& nodal,
                    const std::vector<Face>& faces);
-/// Outer surface of all elements of one tissue.
+/// Surface of all elements of one tissue, without what lies on the body's boundary.
 Facets tissue_facets(const HexMesh& mesh, const std::vector<Vec3>& nodal, Tissue tissue);
 
 /// A plate with its rounded edge: flat from the edge `length` mm forward, `half_width` mm to either

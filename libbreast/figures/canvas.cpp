@@ -211,6 +211,14 @@ void Panel::look_along(const Vec3& direction, const Vec3& up, const Vec3& centre
   camera->SetClippingRange(1, 3000);
 }
 
+double Panel::height_mm() const {
+  return impl_->height_mm;
+}
+
+void Panel::set_height_mm(double height) {
+  look_along(impl_->forward, impl_->top, impl_->centre, height);
+}
+
 double Panel::mm_per_pixel() const {
   return impl_->height_mm / size().y();
 }

@@ -55,6 +55,8 @@ class Panel {
   void look_along(const Vec3& direction, const Vec3& up, double margin = 0.12);
   /// The same with a given centre and height of the view in mm.
   void look_along(const Vec3& direction, const Vec3& up, const Vec3& centre, double height_mm);
+  double height_mm() const;  ///< of the view
+  void set_height_mm(double height);
   double mm_per_pixel() const;
   Vec2 to_pixel(const Vec3& x) const;
   Vec2 size() const;  ///< pixels

@@ -31,18 +31,35 @@ HexMesh before_compression(const HexMesh& mesh) {
     double back = 0;
     for (const Vec3& x : before.points) {
       const Vec3 d = x - plate.origin;
-      if (d.dot(plate.anterior) >= 0) back = std::max(back, -d.dot(plate.normal));
+      const double behind = -d.dot(plate.anterior), r = plate.edge_radius;
+      if (behind > 0.95 * r) continue;
+      const double rounding = behind > 0 ? r - std::sqrt(r * r - behind * behind) : 0;
+      back = std::max(back, -d.dot(plate.normal) - rounding);
     }
-    plate.origin -= (back + 2) * plate.normal;
+    plate.origin -= back * plate.normal;
   }
   return before;
 }
 
-void finish(Panel& panel, const View& view, const std::string& caption) {
-  panel.look_along(view.direction, view.up, 0.1);
-  panel.caption(caption);
-  panel.scale_bar();
-  panel.compass();
+struct Sight {
+  Panel& panel;
+  View view;
+  std::string caption;
+};
+
+// All at one scale, that of the largest.
+void finish(const std::vector<Sight>& sights) {
+  double height = 0;
+  for (const Sight& sight : sights) {
+    sight.panel.look_along(sight.view.direction, sight.view.up, 0.08);
+    height = std::max(height, sight.panel.height_mm());
+  }
+  for (const Sight& sight : sights) {
+    sight.panel.set_height_mm(height);
+    sight.panel.caption(sight.caption);
+    sight.panel.scale_bar();
+    sight.panel.compass();
+  }
 }
 
 void compression_row(Picture& picture, const HexMesh& mesh, double bottom, double top,
@@ -53,17 +70,18 @@ void compression_row(Picture& picture, const HexMesh& mesh, double bottom, doubl
   Panel& left = picture.panel(0, bottom, 1.0 / 3, top);
   add_body(left, before, before.points, {});
   add_plates(left, before, 0.45);
-  finish(left, view, name(0) + "stress-free, " + mesh.contact->view + " plates");
   Panel& middle = picture.panel(1.0 / 3, bottom, 2.0 / 3, top);
   add_body(middle, mesh, mesh.points, {});
   add_plates(middle, mesh, 0.45);
-  finish(middle, view, name(1) + compression_caption(mesh));
   Panel& right = picture.panel(2.0 / 3, bottom, 1, top);
   add_body(right, mesh, mesh.points, {.edges = true});
   add_plates(right, mesh, 0.25);
   const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg);
-  finish(right, {-pose.e_u + 0.35 * view.direction + 0.3 * pose.n, -pose.n},
-         name(2) + "from the front, with elements");
+  finish({{left, view, name(0) + "stress-free, plates touching"},
+          {middle, view, name(1) + compression_caption(mesh)},
+          {right,
+           {-pose.e_u + 0.35 * view.direction + 0.3 * pose.n, -pose.n},
+           name(2) + "from the front, with elements"}});
 }
 
 void add_columns(Panel& panel, const PolyLines& curves, const std::string& name) {
@@ -107,12 +125,14 @@ void draw_matching(Picture& picture, const FigureInput& input) {
        {side.direction + Vec3(0, 0.35, -0.22), side.up}},
       {mlo, mlo.points, "column in MLO", "(c) the same tissue in " + mlo.contact->view,
        plate_view(mlo)}};
+  std::vector<Sight> sights;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     Panel& panel = picture.panel(double(k) / 3, 0, double(k + 1) / 3, 1);
     add_body(panel, shapes[k].mesh, shapes[k].points, style);
     add_columns(panel, *input.curves, shapes[k].line);
-    finish(panel, shapes[k].view, shapes[k].caption);
+    sights.push_back({panel, shapes[k].view, shapes[k].caption});
   }
+  finish(sights);
 }
 
 }  // namespace breast

@@ -16,6 +16,16 @@ struct Figure {
   int width, height;
   bool geometry, points;  ///< what .vtkhdf and .vtp files are
   std::function<void(Picture&, const FigureInput&)> draw;
+
+  /// Pixels; a single compression or mammogram needs half the room.
+  std::pair<int, int> size(const FigureInput& input) const {
+    const auto pressed =
+        std::count_if(input.meshes.begin(), input.meshes.end(),
+                      [](const auto& named) { return named.mesh.contact.has_value(); });
+    if (name == "compression" && pressed < 2) return {width, height / 2};
+    if (name == "mammogram" && input.images.size() < 2) return {width / 2, height};
+    return {width, height};
+  }
 };
 
 const std::vector<Figure>& figures() {
@@ -73,7 +83,8 @@ void draw_figure(const std::string& name, const FigureInput& input,
                  const std::filesystem::path& file) {
   const Figure& chosen = figure(name);
   const PrivateDisplay display;
-  Picture picture(chosen.width, chosen.height);
+  const auto [width, height] = chosen.size(input);
+  Picture picture(width, height);
   chosen.draw(picture, input);
   picture.save(file);
 }

@@ -61,8 +61,8 @@ void draw_points(Picture& picture, const FigureInput& input) {
 void draw_geometry(Picture& picture, const FigureInput& input) {
   need(input.geometry.has_value(), "geometry", "a geometry .vtkhdf");
   const BreastGeometry& geometry = *input.geometry;
-  const SheetFacets skin = sheet_facets(geometry.skin, geometry.rim_skin, 8);
-  const SheetFacets wall = sheet_facets(geometry.wall, geometry.rim_wall, 8);
+  const SheetFacets skin = sheet_facets(geometry.skin, geometry.rim_skin, 20);
+  const SheetFacets wall = sheet_facets(geometry.wall, geometry.rim_wall, 20);
   const auto add = [&](Panel& panel) {
     panel.surface(skin.inside, {.colour = palette::skin, .opacity = 0.75});
     panel.surface(wall.inside, {.colour = palette::muscle});

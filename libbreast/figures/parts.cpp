@@ -80,7 +80,9 @@ void add_plates(Panel& panel, const HexMesh& mesh, double opacity) {
       length = std::max(length, d.dot(plate.anterior));
       if (d.dot(plate.anterior) > 0) half_width = std::max(half_width, std::abs(d.dot(lateral)));
     }
-    const Facets facets = plate_facets(plate, length + 18, half_width + 15);
+    PlateRecord shown = plate;
+    shown.origin -= 0.4 * plate.normal;  // mm: not in the very surface of the skin it presses
+    const Facets facets = plate_facets(shown, length + 18, half_width + 15);
     panel.surface(facets, {.colour = palette::plate, .opacity = opacity, .shine = 0.5});
     panel.tube(outline(facets.points), 0.5, {0.35, 0.45, 0.55});
   }

@@ -35,7 +35,8 @@ struct BodyStyle {
   double skin_opacity = 1;
   bool edges = false;
   bool inside = false;  ///< fibroglandular region and tumour
-  bool back = true;     ///< chest wall and cut
+  double gland_opacity = 1;
+  bool back = true;  ///< chest wall and cut
 };
 void add_body(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
               const BodyStyle& style);

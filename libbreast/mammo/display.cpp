@@ -7,12 +7,13 @@ namespace breast {
 
 namespace {
 
-// A few bright pixels (a tumour, a fold) must not darken the rest: the window ends at the 99.8 %
-// rank of the pixels that show tissue.
-double bright_end(const std::vector<float>& path) {
+// A few bright pixels (a tumour, a fold) must not darken the rest, nor must the thicker tissue
+// behind the plates: the window ends at the 99.8 % rank of the pixels that show compressed tissue.
+double bright_end(const Mammogram& image) {
   std::vector<float> tissue;
-  for (const float value : path) {
-    if (value > 0) tissue.push_back(value);
+  const int first = int(std::clamp(image.plate_edge_u / image.pixel, 0.0, double(image.width - 1)));
+  for (std::size_t i = 0; i < image.path.size(); ++i) {
+    if (image.path[i] > 0 && int(i % image.width) >= first) tissue.push_back(image.path[i]);
   }
   if (tissue.empty()) return 1;
   const auto rank = std::size_t(0.998 * double(tissue.size() - 1));
@@ -26,7 +27,7 @@ HungImage hang(const Mammogram& image) {
   HungImage hung;
   hung.width = image.width;
   hung.height = image.height;
-  hung.window_high = bright_end(image.path);
+  hung.window_high = bright_end(image);
   hung.grey.resize(image.path.size());
   // e_v points away from lateral (CC) and from superior (MLO) on the left side, towards on the
   // right.

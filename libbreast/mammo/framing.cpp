@@ -73,6 +73,9 @@ ImageFrame image_frame(const HexMesh& mesh, Beam beam) {
   pose.origin += low.y() * pose.e_v;
   pose.source_v = beam == Beam::cone ? -low.y() : 0;
   frame.width = high.x() + air_margin;
+  for (const PlateRecord& plate : mesh.contact->plates) {
+    frame.plate_edge_u = std::max(frame.plate_edge_u, pose.project(plate.origin).x());
+  }
   frame.height = high.y() - low.y();
   return frame;
 }

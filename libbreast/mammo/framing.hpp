@@ -19,6 +19,7 @@ struct ImageFrame {
   ViewPose pose;
   std::string view;
   double width = 0, height = 0;  ///< mm along u and v
+  double plate_edge_u = 0;       ///< mm, where the plates' flats begin
 };
 
 /// Throws Error (input) when the mesh has no compression record or lies wholly behind u = 0.

@@ -37,6 +37,7 @@ struct Mammogram {
   Side side = Side::left;
   int width = 0, height = 0;  ///< pixels along u and v
   double pixel = 0.25;        ///< mm
+  double plate_edge_u = 0;    ///< mm, where the plates' flats begin; behind it tissue is thicker
   std::string energy =
       "fraction";                ///< what `path` is: "fraction" (mm), "20 keV", a spectrum's name
   std::vector<float> path;       ///< line integral (or tissue-weighted mm) per pixel, u fastest

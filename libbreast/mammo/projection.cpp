@@ -112,6 +112,7 @@ Mammogram empty_image(const HexMesh& mesh, const ImageFrame& frame,
   image.view = frame.view;
   image.side = mesh.side;
   image.pixel = options.pixel;
+  image.plate_edge_u = frame.plate_edge_u;
   image.energy = options.energy.name();
   image.width = 1 + int(frame.width / options.pixel);
   image.height = 1 + int(frame.height / options.pixel);

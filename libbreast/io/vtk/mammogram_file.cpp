@@ -66,8 +66,9 @@ std::string content_of(const Mammogram& image) {
   for (const Vec3& v : {image.pose.n, image.pose.e_u, image.pose.e_v, image.pose.origin}) {
     hash.update(v.data(), sizeof(double) * 3);
   }
-  const double numbers[] = {double(image.width),  double(image.height),       image.pixel,
-                            image.pose.angle_deg, image.pose.source_distance, image.pose.source_v};
+  const double numbers[] = {double(image.width), double(image.height), image.pixel,
+                            image.plate_edge_u,  image.pose.angle_deg, image.pose.source_distance,
+                            image.pose.source_v};
   hash.update(numbers, sizeof numbers);
   hash.update(image.view + "/" + std::string(side_name(image.side)) + "/" + image.energy);
   for (const auto* array : {&image.path, &image.thickness, &image.fibroglandular}) {
@@ -105,6 +106,7 @@ Mammogram read_mammogram(const std::filesystem::path& file) {
   image.pose.angle_deg = number_field(fields, "angle", 1, where)[0];
   image.pose.source_distance = number_field(fields, "source_distance", 1, where)[0];
   image.pose.source_v = number_field(fields, "source_v", 1, where)[0];
+  image.plate_edge_u = number_field(fields, "plate_edge_u", 1, where)[0];
   image.view = text_field(fields, "view", where);
   image.side = side_from_name(text_field(fields, "side", where));
   image.energy = text_field(fields, "energy", where);
@@ -131,6 +133,7 @@ void write_mammogram(const std::filesystem::path& file, const Mammogram& image) 
   add_numbers(fields, "e_v", as_list(image.pose.e_v));
   add_numbers(fields, "origin", as_list(image.pose.origin));
   add_numbers(fields, "pixel", {image.pixel});
+  add_numbers(fields, "plate_edge_u", {image.plate_edge_u});
   add_numbers(fields, "angle", {image.pose.angle_deg});
   add_numbers(fields, "source_distance", {image.pose.source_distance});
   add_numbers(fields, "source_v", {image.pose.source_v});
