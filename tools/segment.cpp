@@ -139,7 +139,6 @@ int main(int argc, char** argv) {
       inputs.push_back({wall_file, sha256, nullptr});
     }
     Segmentation result = segment_breast(scan, options, run.progress(), run.timer());
-    if (result.halved) run.warn("the labels' voxels are twice the scan's in plane");
     for (const std::string& doubt : result.doubts) run.warn(doubt);
     result.labels.history = run.history(inputs);
     fill_report(run.report(), result);

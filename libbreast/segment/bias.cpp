@@ -22,29 +22,36 @@ Volume<float> wide_gaussian(const Volume<float>& volume, double sigma) {
   return resampled(gaussian(coarsened(volume, factor), sigma), volume.grid);
 }
 
-/// Normalised convolution of `value` over `inside` with widths sigma, 3 sigma and 9 sigma: the
-/// narrow one where it has support, the wider ones far from any fat.
-Volume<float> smooth_inside(const Volume<float>& value, const Mask& inside, double sigma) {
-  Volume<float> weighted(value.grid), weight(value.grid), out(value.grid);
+/// Adds to `out` the normalised convolution of value - out over `inside`, in proportion to its
+/// support.
+void add_smoothed_residual(Volume<float>& out, const Volume<float>& value, const Mask& inside,
+                           double sigma) {
+  constexpr float enough = 0.02f;
+  Volume<float> weighted(value.grid), weight(value.grid);
   for (std::size_t n = 0; n < out.voxels.size(); ++n) {
     weight.voxels[n] = inside.voxels[n];
-    weighted.voxels[n] = inside.voxels[n] ? value.voxels[n] : 0;
+    weighted.voxels[n] = inside.voxels[n] ? value.voxels[n] - out.voxels[n] : 0;
   }
-  // Wide to narrow; each narrower estimate takes over in proportion to its support.
-  double sum = 0, count = 0;
+  const Volume<float> numerator = wide_gaussian(weighted, sigma),
+                      support = wide_gaussian(weight, sigma);
   for (std::size_t n = 0; n < out.voxels.size(); ++n) {
-    sum += weighted.voxels[n];
-    count += weight.voxels[n];
+    out.voxels[n] += numerator.voxels[n] / (support.voxels[n] + enough);
   }
-  std::fill(out.voxels.begin(), out.voxels.end(), float(sum / std::max(count, 1.0)));
-  for (const double width : {9 * sigma, 3 * sigma, sigma}) {
-    const Volume<float> numerator = wide_gaussian(weighted, width),
-                        denominator = wide_gaussian(weight, width);
-    constexpr float enough = 0.02f;
-    for (std::size_t n = 0; n < out.voxels.size(); ++n) {
-      out.voxels[n] =
-          (numerator.voxels[n] + enough * out.voxels[n]) / (denominator.voxels[n] + enough);
-    }
+}
+
+/// Smooth field through `value` on `inside`: from 9 sigma to sigma, each width correcting what the
+/// wider one left, so that far from any fat the wide ones remain. The last width is used twice: a
+/// one-sided neighbourhood (at skin and chest wall) otherwise flattens the field's slope.
+Volume<float> smooth_inside(const Volume<float>& value, const Mask& inside, double sigma) {
+  double sum = 0, count = 0;
+  for (std::size_t n = 0; n < value.voxels.size(); ++n) {
+    if (!inside.voxels[n]) continue;
+    sum += value.voxels[n];
+    count += 1;
+  }
+  Volume<float> out(value.grid, float(sum / std::max(count, 1.0)));
+  for (const double width : {9 * sigma, 3 * sigma, sigma, sigma}) {
+    add_smoothed_residual(out, value, inside, width);
   }
   return out;
 }
@@ -96,6 +103,17 @@ BiasField fat_bias(const Volume<float>& scan, const Mask& allowed,
     if (!fat.voxels[n]) continue;
     before.push_back(scan.voxels[n]);
     after.push_back(scan.voxels[n] / std::exp(field.log_bias.voxels[n]));
+  }
+  std::vector<float> levels;
+  for (std::size_t n = 0; n < count; ++n) {
+    if (fat.voxels[n]) levels.push_back(field.log_bias.voxels[n]);
+  }
+  if (!levels.empty()) {
+    std::sort(levels.begin(), levels.end());
+    const auto at = [&](double share) {
+      return levels[std::size_t(share * double(levels.size() - 1))];
+    };
+    field.range = std::exp(at(0.99) - at(0.01));
   }
   field.fat_cv_before = variation(before);
   field.fat_cv_after = variation(after);

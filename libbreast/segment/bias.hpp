@@ -7,6 +7,7 @@ namespace breast {
 
 struct BiasField {
   Volume<float> log_bias;  ///< log of the local brightness of fat, on the grid given
+  double range = 1;        ///< 99 % over 1 % of the bias where there is fat
   double fat_cv_before = 0, fat_cv_after = 0;  ///< coefficient of variation of fat
 };
 

@@ -148,7 +148,7 @@ Nipple find_nipple(const Mask& breast, const Mask& body) {
   const Grid& grid = breast.grid;
   Volume<float> filled(grid);
   for (std::size_t n = 0; n < filled.voxels.size(); ++n) filled.voxels[n] = body.voxels[n];
-  const Volume<float> share = gaussian(filled, 3.5);
+  const Volume<float> share = gaussian(filled, 4.5);
   Vec3 extreme(0, 1e9, 0);
   std::vector<Vec3> candidates;
   std::vector<float> convexity;
@@ -173,7 +173,7 @@ Nipple find_nipple(const Mask& breast, const Mask& body) {
     const double away = (candidates[n] - extreme).norm();
     if (away > 25) continue;
     // Depth behind the front breaks ties on a smooth dome: there the most anterior point is meant.
-    const double score = convexity[n] + 0.01 * (candidates[n][1] - extreme[1]);
+    const double score = convexity[n] + 0.02 * (candidates[n][1] - extreme[1]);
     if (score < best) {
       best = score;
       chosen = candidates[n];

@@ -30,8 +30,7 @@ struct Segmentation {
   double wall_confident_percent = 0;                     ///< columns with confidence above 0.5
   double sternal_thickness = 0, greatest_thickness = 0;  ///< mm
   double nipple_from_extreme = 0;                        ///< mm
-  bool halved = false;              ///< labels have twice the scan's in-plane voxel size
-  std::vector<std::string> doubts;  ///< what a reader should look at
+  std::vector<std::string> doubts;                       ///< what a reader should look at
 };
 
 /// Throws Error (input) saying which stage failed on this scan and what to try.

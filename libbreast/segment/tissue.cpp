@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "segment/filters.hpp"
 #include "segment/itk_filters.hpp"
 
 namespace breast {
 
 namespace {
+
+constexpr double growing_smoothing = 1.0;  // mm: keeps noise from carrying the growth into gland
 
 /// Otsu's threshold of ratios in [0.1, 1.3].
 double otsu(const std::vector<float>& ratios) {
@@ -74,13 +77,13 @@ std::vector<std::array<int, 3>> fat_seeds(const Volume<float>& ratio, const Mask
 
 void compare_with_growing(Fibroglandular& result, const Volume<float>& ratio,
                           const Mask& interior) {
-  Volume<float> inside = ratio;
+  Volume<float> inside = gaussian(ratio, growing_smoothing);
   for (std::size_t n = 0; n < inside.voxels.size(); ++n) {
     if (!interior.voxels[n]) inside.voxels[n] = -10;
   }
   const auto seeds = fat_seeds(ratio, interior);
   if (seeds.empty()) return;
-  const Mask fat = confidence_connected(inside, seeds, 2.5, 1, 3);
+  const Mask fat = confidence_connected(inside, seeds, 1.5, 1, 5);
   double all = 0, grown = 0, by_threshold = 0, both = 0;
   for (std::size_t n = 0; n < inside.voxels.size(); ++n) {
     if (!interior.voxels[n]) continue;
@@ -103,21 +106,20 @@ Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& inter
   for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
     if (interior.voxels[n]) values.push_back(ratio.voxels[n]);
   }
-  const double fat = percentile(values, 0.5, 1) > 0.85 ? percentile(values, 0.5, 1) : 1.0;
-  // Without gland Otsu would split the fat in two: gland is never nearly as bright as fat.
-  // The upper half of the fat, which no gland touches, tells its spread.
-  const double spread = percentile(values, 0.84, fat + 0.07) - fat;
-  result.threshold = std::clamp(otsu(values), 0.5 * (1 + muscle_ratio) - 0.15,
-                                fat - 3 * std::clamp(spread, 0.04, 0.1));
+  // Midway between gland and fat (1 by the bias correction). Without gland Otsu would split the fat
+  // in two: gland is never nearly as bright as fat, so the search starts and ends at 0.8.
+  constexpr double brightest_gland = 0.8;
+  const double start = std::clamp(otsu(values), 0.5 * (1 + muscle_ratio) - 0.15, brightest_gland);
   std::vector<float> dark;
   for (const float r : values) {
-    if (r < result.threshold) dark.push_back(r);
+    if (r < start) dark.push_back(r);
   }
   result.gland_ratio =
-      std::clamp(percentile(dark, 0.4, muscle_ratio), 0.5 * muscle_ratio, result.threshold - 0.05);
+      std::clamp(percentile(dark, 0.4, muscle_ratio), 0.5 * muscle_ratio, brightest_gland - 0.05);
+  result.threshold = std::min(0.5 * (1 + result.gland_ratio), brightest_gland);
   result.fraction = Volume<float>(ratio.grid);
   double gland = 0;
-  const double bright = std::max(fat, 2 * result.threshold - result.gland_ratio);
+  const double bright = std::max(1.0, 2 * result.threshold - result.gland_ratio);
   for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
     if (!interior.voxels[n]) continue;
     // Half at the threshold, one at gland, zero at fat.

@@ -1,0 +1,138 @@
+// From the working grid back to the scan's own voxels, cropped to the chosen side.
+#include <algorithm>
+#include <cmath>
+
+#include "segment/filters.hpp"
+#include "segment/itk_filters.hpp"
+#include "segment/work.hpp"
+
+namespace breast {
+
+namespace {
+
+struct Box {
+  std::array<int, 3> first{}, last{};  ///< voxels, inclusive
+};
+
+/// Voxels of `scan` over the domain's columns, from in front of the breast to behind the search
+/// range.
+Box side_box(const Work& coarse, const Grid& grid, Side side) {
+  const Grid& working = coarse.scan.grid;
+  double nearest = 1e9, deepest = 0;
+  for (int k = 0; k < working.size[2]; ++k) {
+    for (int i = coarse.domain.first; i <= coarse.domain.last; ++i) {
+      deepest = std::max(deepest, coarse.domain.deepest.at(i, k));
+      if (!std::isnan(coarse.torso.skin.at(i, k)))
+        nearest = std::min(nearest, coarse.torso.skin.at(i, k));
+    }
+  }
+  const double air = 10, behind = 8;  // mm
+  const Vec3 low = grid.to_index(
+      working.to_patient(Vec3(coarse.domain.first - 0.5, (nearest - air) / working.spacing[1], 0)));
+  const Vec3 high = grid.to_index(working.to_patient(
+      Vec3(coarse.domain.last + 0.5, (deepest + behind) / working.spacing[1], 0)));
+  Box box;
+  for (int d = 0; d < 2; ++d) {
+    box.first[d] = std::clamp(int(std::ceil(low[d] - 1e-6)), 0, grid.size[d] - 1);
+    box.last[d] = std::clamp(int(std::floor(high[d] + 1e-6)), 0, grid.size[d] - 1);
+  }
+  box.last[2] = grid.size[2] - 1;
+  // Air beside the body, for the surfaces' sake.
+  const int beside = int(6 / grid.spacing[0]);
+  if (side == Side::left) box.last[0] = std::min(box.last[0] + beside, grid.size[0] - 1);
+  if (side == Side::right) box.first[0] = std::max(box.first[0] - beside, 0);
+  return box;
+}
+
+Volume<float> cropped(const Volume<float>& volume, const Box& box) {
+  Grid grid = volume.grid;
+  grid.origin = volume.grid.to_patient(Vec3(box.first[0], box.first[1], box.first[2]));
+  for (int d = 0; d < 3; ++d) grid.size[d] = box.last[d] - box.first[d] + 1;
+  Volume<float> out(grid);
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      const float* from = &volume.at(box.first[0], box.first[1] + j, box.first[2] + k);
+      std::copy(from, from + grid.size[0], &out.at(0, j, k));
+    }
+  }
+  return out;
+}
+
+/// Mean brightness of the tissue within about 4 mm.
+Volume<float> local_tissue(const Work& coarse) {
+  Volume<float> weight(coarse.scan.grid), value(coarse.scan.grid);
+  for (std::size_t n = 0; n < weight.voxels.size(); ++n) {
+    weight.voxels[n] = coarse.body.mask.voxels[n];
+    value.voxels[n] = coarse.body.mask.voxels[n] ? coarse.scan.voxels[n] : 0;
+  }
+  weight = gaussian(weight, 4);
+  value = gaussian(value, 4);
+  for (std::size_t n = 0; n < weight.voxels.size(); ++n)
+    value.voxels[n] /= std::max(weight.voxels[n], 1e-3f);
+  return value;
+}
+
+/// Body where the working mask says so; within its last voxel or two, where the scan is above half
+/// the brightness of the tissue nearby.
+Mask fine_body(const Work& coarse, const Volume<float>& scan) {
+  const Volume<float> distance = resampled(coarse.skin_distance, scan.grid);
+  const Volume<float> tissue = resampled(local_tissue(coarse), scan.grid);
+  const double band = 1.2 * coarse.scan.grid.spacing[0];
+  Mask body(scan.grid);
+  for (std::size_t n = 0; n < body.voxels.size(); ++n) {
+    const float d = distance.voxels[n];
+    body.voxels[n] = d < -band || (d < band && scan.voxels[n] > 0.5f * tissue.voxels[n]);
+  }
+  return largest_component(body);
+}
+
+/// Linear interpolation along x of a height field of the working grid; NaN where it has none.
+HeightField on_columns(const HeightField& field, const Grid& from, const Grid& to, double shift) {
+  HeightField out(to.size[0], to.size[2], 0);
+  const double first = from.to_index(to.origin)[0], step = to.spacing[0] / from.spacing[0];
+  for (int k = 0; k < out.nz; ++k) {
+    for (int i = 0; i < out.nx; ++i) {
+      const double x = std::clamp(first + i * step, 0.0, double(field.nx - 1));
+      const int a = std::min(int(x), std::max(field.nx - 2, 0)), b = std::min(a + 1, field.nx - 1);
+      const double left = field.at(a, k), right = field.at(b, k), w = x - a;
+      // At the end of the domain the last column holds.
+      const double value = std::isnan(left)    ? right
+                           : std::isnan(right) ? left
+                                               : left + w * (right - left);
+      out.at(i, k) = value - shift;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side) {
+  Work fine;
+  fine.scan = cropped(scan, side_box(coarse, scan.grid, side));
+  const Grid& grid = fine.scan.grid;
+  const Grid& working = coarse.scan.grid;
+  fine.body = coarse.body;
+  fine.body.mask = fine_body(coarse, fine.scan);
+  fine.skin_distance = signed_distance(fine.body.mask);
+  const Volume<float> log_bias = resampled(coarse.bias.log_bias, grid);
+  fine.ratio = fine.scan;
+  for (std::size_t n = 0; n < log_bias.voxels.size(); ++n) {
+    fine.ratio.voxels[n] =
+        fine.body.mask.voxels[n] ? fine.scan.voxels[n] / std::exp(log_bias.voxels[n]) : 0;
+  }
+  // Depths count from the first voxel of each grid.
+  const double shift = working.to_index(grid.origin)[1] * working.spacing[1];
+  fine.torso.midline = std::clamp(
+      int(std::lround(grid.to_index(working.to_patient(Vec3(coarse.torso.midline, 0, 0)))[0])), 0,
+      grid.size[0] - 1);
+  fine.torso.cleft = coarse.torso.cleft;
+  for (double& depth : fine.torso.cleft) depth -= shift;
+  fine.wall.depth = on_columns(coarse.wall.depth, working, grid, shift);
+  fine.wall.confidence = on_columns(coarse.wall.confidence, working, grid, 0);
+  fine.wall.muscle_ratio = coarse.wall.muscle_ratio;
+  fine.domain = wall_domain(fine.body.mask, fine.torso, side == Side::left);
+  return fine;
+}
+
+}  // namespace breast

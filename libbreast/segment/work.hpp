@@ -1,0 +1,37 @@
+// What the stages of segmentation pass on to each other.
+#pragma once
+
+#include "image/label_volume.hpp"
+#include "segment/bias.hpp"
+#include "segment/extent.hpp"
+#include "segment/tissue.hpp"
+#include "surface/tri_mesh.hpp"
+
+namespace breast {
+
+/// Everything on one grid.
+struct Work {
+  Volume<float> scan, ratio, skin_distance;
+  Body body;
+  Torso torso;
+  WallDomain domain;
+  ChestWall wall;
+  BiasField bias;
+  BreastExtent extent;
+  Mask breast;
+  Fibroglandular gland;
+  double skin = 0;
+};
+
+/// The chosen side of the original scan with everything found so far, for the final labels: where
+/// the working grid was coarser, the body's border is found again on the finer voxels.
+Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side);
+
+/// Inside of the breast: deeper than `skin_depth` mm, more than `wall_margin` mm in front of the
+/// wall.
+Mask interior_of(const Work& work, double skin_depth, double wall_margin);
+LabelVolume labels_of(const Work& work, Side side);
+/// Data for surface fitting: skin at voxel faces against air, wall on the breast's columns.
+TriMesh data_points(const Work& work);
+
+}  // namespace breast
