@@ -1,0 +1,149 @@
+// SHA-256 against published vectors; tables, numbers, reports, histories, atomic files.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/provenance.hpp"
+#include "core/report.hpp"
+#include "core/table.hpp"
+#include "core/types.hpp"
+#include "core/units.hpp"
+#include "fixtures/scratch_folder.hpp"
+
+namespace breast {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string sha256(const std::string& text, std::size_t piece) {
+  Sha256 hash;
+  for (std::size_t i = 0; i < text.size(); i += piece) {
+    hash.update(text.data() + i, std::min(piece, text.size() - i));
+  }
+  return hash.hex();
+}
+
+// FIPS 180-4 examples (NIST CSRC).
+TEST(Sha256Digest, KnownVectors) {
+  const std::pair<std::string, const char*> vectors[] = {
+      {"", "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855"},
+      {"abc", "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"},
+      {"abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq",
+       "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1"},
+      {std::string(1000000, 'a'),
+       "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0"}};
+  for (const auto& [text, digest] : vectors) {
+    for (const std::size_t piece :
+         {std::size_t(1), std::size_t(63), std::size_t(64), std::size_t(1000)}) {
+      EXPECT_EQ(sha256(text, piece), digest);
+    }
+  }
+}
+
+TEST(Provenance, HistoriesMergeInOrderWithoutRepeats) {
+  const HistoryEntry a{"segment", "1", "segment a", {{"mr", "1"}}},
+      b{"hexmesh", "1", "hexmesh b", {}};
+  const History one = {a}, two = {a, b};
+  const History merged = extend_history({&one, &two}, {"forward", "1", "forward c", {}});
+  ASSERT_EQ(merged.size(), 3u);
+  EXPECT_EQ(merged[0].tool, "segment");
+  EXPECT_EQ(merged[1].tool, "hexmesh");
+  EXPECT_EQ(merged[2].tool, "forward");
+}
+
+TEST(Tables, RoundTripAndRefusals) {
+  const Table table = parse_table("# by hand\nname\tx_mm\r\nnipple\t1.5\n\ntumour\t\n", "t.tsv");
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_EQ(table.rows[1][1], "");
+  EXPECT_EQ(table.column("x_mm"), 1);
+  EXPECT_EQ(table.text(), "name\tx_mm\nnipple\t1.5\ntumour\t\n");
+  EXPECT_THROW(table.column("y_mm"), Error);
+  EXPECT_THROW(parse_table("", "t.tsv"), Error);
+  try {
+    parse_table("a\tb\n1\t2\n3\n", "t.tsv");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "t.tsv: line 3 has 1 columns, the header has 2");
+  }
+}
+
+TEST(Numbers, ShortestTextReadsBack) {
+  for (const double x : {0.1, 1.0 / 3, 1e-300, -123456789.123456789, 5e-324}) {
+    EXPECT_EQ(parse_number(format_number(x), "x"), x);
+  }
+  for (const char* bad : {"", "nan", "inf", "1.5mm", " 1", "1e999", "0x10"}) {
+    EXPECT_THROW(parse_number(bad, "x"), Error) << bad;
+  }
+}
+
+TEST(Reports, NestOrderAndNull) {
+  Report report;
+  report.set("status", "ok");
+  report.set("seconds/total", 1.5);
+  report.set("residual", std::nan(""));
+  report.append("warnings", "one");
+  report.append("warnings", "two");
+  const Report back = Report::parse(report.json(), "r.json");
+  EXPECT_EQ(back.json(), report.json());
+  EXPECT_EQ(back.number("seconds/total"), 1.5);
+  EXPECT_EQ(back.text("residual"), "null");
+  EXPECT_THROW(back.number("residual"), Error);
+  EXPECT_THROW(back.number("absent"), Error);
+  EXPECT_THROW(Report::parse("{\"status\": ", "r.json"), Error);
+  EXPECT_THROW(Report::parse("[1]", "r.json"), Error);
+}
+
+TEST(Names, TissuesSidesPostures) {
+  for (int t = 0; t < n_tissues; ++t) {
+    EXPECT_EQ(tissue_from_name(tissue_name(static_cast<Tissue>(t))), static_cast<Tissue>(t));
+  }
+  EXPECT_THROW(tissue_from_name("gland"), Error);
+  EXPECT_THROW(side_from_name("both"), Error);
+  EXPECT_EQ(posture_gravity("supine"), Vec3(0, 9810, 0));
+  EXPECT_THROW(posture_gravity("sitting"), Error);
+}
+
+TEST(AtomicFiles, NothingIsSeenBeforeCommit) {
+  const ScratchFolder folder;
+  write_text(folder / "result", "old");
+  {
+    const AtomicFile file(folder / "result");
+    std::ofstream(file.temporary()) << "half";
+    EXPECT_EQ(read_text(folder / "result"), "old");
+    EXPECT_TRUE(file.temporary().filename().string().starts_with(".result.part-"));
+  }
+  EXPECT_EQ(read_text(folder / "result"), "old");
+  AtomicFile file(folder / "result");
+  std::ofstream(file.temporary()) << "new";
+  file.commit();
+  EXPECT_EQ(read_text(folder / "result"), "new");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(AtomicFiles, PartsOfDeadProcessesGo) {
+  const ScratchFolder folder;
+  const pid_t dead = fork();
+  if (dead == 0) _exit(0);
+  waitpid(dead, nullptr, 0);
+  const fs::path stale = folder / (".result.part-" + std::to_string(dead));
+  const fs::path alive = folder / (".result.part-" + std::to_string(getppid()));
+  const fs::path other = folder / (".another.part-" + std::to_string(dead));
+  for (const fs::path& file : {stale, alive, other}) std::ofstream(file) << "x";
+  write_text(folder / "result", "new");
+  EXPECT_FALSE(fs::exists(stale));
+  EXPECT_TRUE(fs::exists(alive));
+  EXPECT_TRUE(fs::exists(other));
+}
+
+TEST(AtomicFiles, UnwritablePlacesFailInOneLine) {
+  EXPECT_THROW(write_text("/nonexistent-folder/result", "x"), Error);
+  EXPECT_THROW(read_text("/nonexistent-folder/result"), Error);
+}
+
+}  // namespace
+}  // namespace breast
