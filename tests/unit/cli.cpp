@@ -1,0 +1,182 @@
+// A declared tool: parsing, checks before any file is opened, exit codes, history, report.
+#include <gtest/gtest.h>
+
+#include <new>
+#include <stdexcept>
+
+#include "cli/mechanics_options.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "fixtures/scratch_folder.hpp"
+
+namespace breast {
+namespace {
+
+// One run of a small tool inside this process.
+struct Trial {
+  ScratchFolder folder;
+  std::filesystem::path in, out, table;
+  std::vector<double> gravity{0, -9810, 0};
+  std::string posture = "prone";
+  double skin = 2;
+  std::optional<double> force;
+  MechanicsChoices choices;
+  std::function<void(Run&)> body = [](Run&) {};
+  std::string err, stdout_text;
+  bool ran = false;
+
+  Trial() { write_text(folder / "mesh.vtkhdf", "mesh"); }
+
+  int run(std::vector<std::string> arguments) {
+    Tool tool("trial", "tries the common face");
+    tool.input(in, "MESH.vtkhdf", "mesh").output(out, "OUT.vtkhdf", "result");
+    tool.numbers(gravity, "--gravity", "gx,gy,gz", 3, "mm/s2");
+    tool.choice(posture, "--posture", {"prone", "supine"}, "posture");
+    tool.number(skin, "-t,--skin", "MM", "thickness", 0, 40);
+    tool.number(force, "--force", "N", "force", 0, 500);
+    tool.output_file(table, "--table", "FILE.tsv", "table");
+    declare_mechanics(tool, choices);
+    tool.check([this] {
+      if (skin == 13) throw input_error("--skin 13: unlucky");
+    });
+    arguments.insert(arguments.begin(), "trial");
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    testing::internal::CaptureStderr();
+    testing::internal::CaptureStdout();
+    const int code = tool.main(int(argv.size()), argv.data(), [this](Run& r) {
+      ran = true;
+      body(r);
+    });
+    err = testing::internal::GetCapturedStderr();
+    stdout_text = testing::internal::GetCapturedStdout();
+    return code;
+  }
+  std::string mesh() const { return (folder / "mesh.vtkhdf").string(); }
+  std::string result() const { return (folder / "out.vtkhdf").string(); }
+  std::string report() const { return (folder / "report.json").string(); }
+};
+
+TEST(Cli, ValuesReachTheirVariables) {
+  Trial trial;
+  EXPECT_EQ(trial.run({trial.mesh(), "--gravity", "-1,2.5,-3e2", trial.result(), "-t", "1.5",
+                       "--force=90", "--posture", "supine", "--scale", "fat=150", "--scale",
+                       "skin=50", "--element", "q2p1", "--bulk-ratio", "1000"}),
+            0)
+      << trial.err;
+  EXPECT_TRUE(trial.ran);
+  EXPECT_EQ(trial.in, trial.mesh());
+  EXPECT_EQ(trial.gravity, (std::vector<double>{-1, 2.5, -300}));
+  EXPECT_EQ(trial.skin, 1.5);
+  EXPECT_EQ(trial.force, 90);
+  EXPECT_EQ(trial.posture, "supine");
+  EXPECT_EQ(trial.choices.scale, (std::vector<std::string>{"fat=150", "skin=50"}));
+  EXPECT_EQ(trial.choices.element, "q2p1");
+  EXPECT_EQ(trial.choices.bulk_ratio, 1000);
+  EXPECT_EQ(trial.err, "");
+}
+
+TEST(Cli, UsageErrorsAreOneLineAndNothingRuns) {
+  const std::pair<std::vector<std::string>, std::string> wrong[] = {
+      {{"--postur", "prone"}, "did you mean '--posture'?"},
+      {{"--posture", "pron"}, "did you mean 'prone'?"},
+      {{"--posture", "sitting"}, "'sitting' is none of prone, supine"},
+      {{"--gravity", "1,2"}, "has 2 numbers; give 3 as gx,gy,gz"},
+      {{"--gravity", "1,2,x"}, "'x' is not a finite number"},
+      {{"--gravity"}, "--gravity needs a value"},
+      {{"--skin", "41"}, "--skin 41: must be 0 to 40"},
+      {{"--skin", "nan"}, "'nan' is not a finite number"},
+      {{"--skin", "1", "--skin", "2"}, "given 2 times"},
+      {{"--skin", "13"}, "unlucky"},
+      {{"--scale", "fat"}, "not TISSUE=PERCENT"},
+      {{"--scale", "gland=3"}, "unknown tissue 'gland'"},
+      {{"--scale", "fat=-3"}, "above 0"},
+      {{"--threads", "1.5"}, "not a whole number"},
+      {{"extra"}, "one argument too many"},
+      {{"--table", "/no-such-folder/t.tsv"}, "does not exist"}};
+  for (const auto& [arguments, part] : wrong) {
+    Trial trial;
+    std::vector<std::string> all = {trial.mesh(), trial.result()};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    EXPECT_EQ(trial.run(all), 2) << part;
+    EXPECT_FALSE(trial.ran) << part;
+    EXPECT_EQ(std::count(trial.err.begin(), trial.err.end(), '\n'), 1) << trial.err;
+    EXPECT_NE(trial.err.find(part), std::string::npos) << trial.err << " lacks " << part;
+  }
+}
+
+TEST(Cli, PathsAreCheckedBeforeAnythingRuns) {
+  Trial trial;
+  EXPECT_EQ(trial.run({trial.mesh()}), 2);
+  EXPECT_NE(trial.err.find("OUT.vtkhdf is missing"), std::string::npos) << trial.err;
+  EXPECT_EQ(trial.run({(trial.folder / "absent").string(), trial.result()}), 2);
+  EXPECT_EQ(trial.run({trial.mesh(), trial.mesh()}), 2);
+  EXPECT_EQ(trial.run({trial.mesh(), trial.folder.path().string()}), 2);
+  EXPECT_EQ(trial.run({trial.mesh(), trial.result(), "--table", trial.result()}), 2);
+  EXPECT_EQ(trial.run({trial.mesh(), trial.result(), "--report", trial.mesh()}), 2);
+  EXPECT_EQ(read_text(trial.mesh()), "mesh");  // a report never replaces an input
+  EXPECT_FALSE(trial.ran);
+}
+
+TEST(Cli, EveryFailureHasItsExitCodeAndReport) {
+  const std::tuple<std::function<void()>, int, std::string> failures[] = {
+      {[] { throw input_error("bad\nfile"); }, 2, "bad_input"},
+      {[] { throw failed_error("disk"); }, 1, "failed"},
+      {[] { throw not_converged_error("residual 1"); }, 3, "not_converged"},
+      {[] { throw std::bad_alloc(); }, 1, "failed"},
+      {[] { throw std::runtime_error("library\nsays so"); }, 1, "failed"}};
+  for (const auto& [failure, code, status] : failures) {
+    Trial trial;
+    trial.body = [&failure](breast::Run& run) {
+      run.print("half a table");
+      run.warn("dropped on failure");
+      failure();
+    };
+    EXPECT_EQ(trial.run({trial.mesh(), trial.result(), "--report", trial.report()}), code);
+    EXPECT_EQ(std::count(trial.err.begin(), trial.err.end(), '\n'), 1) << trial.err;
+    EXPECT_EQ(trial.err.find("trial: "), 0u);
+    EXPECT_EQ(trial.stdout_text, "");
+    const Report report = Report::parse(read_text(trial.report()), "report");
+    EXPECT_EQ(report.text("status"), status);
+    EXPECT_NE(report.text("reason"), "");
+    EXPECT_GT(report.number("peak_mb"), 0);
+    EXPECT_GE(report.number("seconds/total"), 0);
+  }
+}
+
+TEST(Cli, SuccessReportsAndPrints) {
+  Trial trial;
+  trial.body = [](breast::Run& run) {
+    run.print("a\tb\n");
+    run.warn("look here");
+    run.report().set("status", "stopped_early");
+    const Timer::Scope phase(run.timer(), "assembly");
+  };
+  EXPECT_EQ(trial.run({trial.mesh(), trial.result(), "--report", trial.report()}), 0);
+  EXPECT_EQ(trial.stdout_text, "a\tb\n");
+  EXPECT_EQ(trial.err, "trial: warning: look here\n");
+  const Report report = Report::parse(read_text(trial.report()), "report");
+  EXPECT_EQ(report.text("status"), "stopped_early");
+  EXPECT_TRUE(report.contains("seconds/assembly"));
+  EXPECT_EQ(trial.run({trial.mesh(), trial.result(), "--quiet"}), 0);
+  EXPECT_EQ(trial.err, "");
+}
+
+TEST(Cli, HistoryNamesFilesWithoutFoldersAndNotHowItRan) {
+  Trial trial;
+  History history;
+  const History earlier = {{"hexmesh", "1", "hexmesh a b c", {}}};
+  trial.body = [&](breast::Run& run) { history = run.history({{trial.in, "abc", &earlier}}); };
+  EXPECT_EQ(trial.run({trial.mesh(), "--report", trial.report(), trial.result(), "--threads=1",
+                       "--quiet", "--materials", "/some/where/fat.tsv", "--skin=3"}),
+            0)
+      << trial.err;
+  ASSERT_EQ(history.size(), 2u);
+  EXPECT_EQ(history[1].command, "trial mesh.vtkhdf out.vtkhdf --materials fat.tsv --skin=3");
+  ASSERT_EQ(history[1].inputs.size(), 1u);
+  EXPECT_EQ(history[1].inputs[0].name, "mesh.vtkhdf");
+  EXPECT_EQ(history[1].inputs[0].sha256, "abc");
+}
+
+}  // namespace
+}  // namespace breast
