@@ -70,7 +70,8 @@ int main(int argc, char** argv) {
       .cite("Dice 1945, Ecology 26(3):297-302");
   tool.input(given_file, "GIVEN", "label volume (.vtkhdf, .nrrd, .nii, .mha) or surface (.vtp)");
   tool.input(truth_file, "TRUTH", "the same, taken as true");
-  tool.texts(code_texts, "--code", "NUMBER=TISSUE", "meaning of a foreign code in a volume not of ours");
+  tool.texts(code_texts, "--code", "NUMBER=TISSUE",
+             "meaning of a foreign code in a volume not of ours");
   tool.input_file(region_file, "--region", "FILE",
                   "volume outside which the truth's breast is ignored");
   tool.integer(region_code, "--region-code", "CODE", "value of the region; 0 takes any but 0", 0,
