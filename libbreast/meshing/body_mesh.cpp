@@ -85,15 +85,16 @@ HexMesh body_mesh(const BreastGeometry& geometry, const BodyMeshOptions& options
   local.placed_scaled_jacobian = smoothed.before;
   local.evaluations = smoothed.evaluations;
   local.skin_shift = match_volume(local.body_volume, body, dome, held, nodes);
-  int layer_elements = 0;
+  std::vector<int> layer;
   if (options.skin_layer > 0) {
-    layer_elements = add_skin_layer(options.skin_layer, body, dome, nodes);
+    layer = options.size.m > 0 ? add_skin_layer(options.skin_layer, body, dome, nodes)
+                               : thin_skin_elements(options.skin_layer, body, dome, nodes);
   }
   HexMesh mesh;
   mesh.points = mesh.imaged = nodes.x;
   mesh.connectivity = dome.connectivity;
   mesh.tissue.assign(mesh.elements(), Tissue::fat);
-  std::fill(mesh.tissue.end() - layer_elements, mesh.tissue.end(), Tissue::skin);
+  for (const int e : layer) mesh.tissue[e] = Tissue::skin;
   mesh.skin_faces = dome.skin_faces;
   mesh.pectoral_faces = dome.wall_faces;
   mesh.cut_faces = dome.cut_faces;
@@ -101,7 +102,7 @@ HexMesh body_mesh(const BreastGeometry& geometry, const BodyMeshOptions& options
   mesh.template_name = options.size.m > 0 ? "dome" : "cuboid";
   mesh.template_size = {options.size.n, options.size.l, options.size.m, options.size.k};
   mesh.geometry = geometry;
-  mesh.skin_model = layer_elements > 0 ? SkinModel::layer : SkinModel::none;
+  mesh.skin_model = !layer.empty() ? SkinModel::layer : SkinModel::none;
   refuse_folded(mesh);
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
   local.smoothed_scaled_jacobian =

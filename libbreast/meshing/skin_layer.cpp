@@ -16,23 +16,23 @@ bool on_skin_rim(const HullPlace& place) {
   return place.support == Support::cut && place.height >= 1;
 }
 
-// Cut nodes keep their share of the height below the layer; rim nodes go down the cut until they
-// are `thickness` below the skin.
-double height_below_layer(const BodyMap& body, double u, double thickness) {
-  const Vec3 rim = body.cut(1, u), down = body.cut(0, u) - rim;
-  const Vec3 normal = body.skin_sheet().evaluate(body.skin(1, u)).normal();
-  const double fall = -down.normalized().dot(normal);
-  const double share = thickness / std::max(fall, 0.3) / down.norm();
-  if (!(share < 0.5)) {
-    throw input_error("skin layer of ", thickness, " mm takes ", 100 * share,
-                      " % of the cut's height at the rim; at most 50 %: use a thinner layer");
+void refuse_thick_layer(double thickness, const BodyMap& body, const DomeTemplate& dome) {
+  for (const HullPlace& place : dome.places) {
+    const double row = on_skin_rim(place) ? body.cut_height(place.u) / dome.size.k : 0;
+    if (on_skin_rim(place) && !(thickness < 0.6 * row)) {
+      throw input_error(
+          "skin layer of ", thickness, " mm: the first row of the cut is ", row,
+          " mm high and the layer may take 60 % of it: use a thinner layer or fewer rows "
+          "(--dome n,l,m,k)");
+    }
   }
-  return 1 - share;
 }
 
 }  // namespace
 
-int add_skin_layer(double thickness, const BodyMap& body, DomeTemplate& dome, PlacedNodes& nodes) {
+std::vector<int> add_skin_layer(double thickness, const BodyMap& body, DomeTemplate& dome,
+                                PlacedNodes& nodes) {
+  refuse_thick_layer(thickness, body, dome);
   const std::size_t old_nodes = nodes.x.size();
   PlacedNodes inner = nodes;
   std::vector<bool> held(old_nodes, false);
@@ -42,16 +42,17 @@ int add_skin_layer(double thickness, const BodyMap& body, DomeTemplate& dome, Pl
       inner.x[a] -= thickness * body.skin_sheet().evaluate(nodes.st[a]).normal();
       held[a] = true;
     } else if (place.support == Support::cut) {
-      const Vec2 at = nodes.st[a];
-      inner.st[a].y() = at.y() * height_below_layer(body, at.x(), thickness);
-      inner.x[a] = body.cut(inner.st[a].y(), at.x());
       held[a] = true;
+      if (!on_skin_rim(place)) continue;
+      const Vec2 st = body.skin(1, nodes.st[a].x());
+      inner.x[a] -= thickness * body.skin_sheet().evaluate(st).normal();
     }
   }
   smooth_nodes(dome.connectivity, body, {.evaluations = 120}, held, inner);
 
   std::map<int, int> outer;  // node of the moved hull → its node on the skin
   const std::vector<Face> below = dome.skin_faces;
+  std::vector<int> layer;
   dome.skin_faces.clear();
   for (const Face& face : below) {
     std::array<int, 4> low, high;
@@ -71,6 +72,7 @@ int add_skin_layer(double thickness, const BodyMap& body, DomeTemplate& dome, Pl
     const int e = int(dome.connectivity.size()) / 8;
     dome.connectivity.insert(dome.connectivity.end(), low.begin(), low.end());
     dome.connectivity.insert(dome.connectivity.end(), high.begin(), high.end());
+    layer.push_back(e);
     dome.skin_faces.push_back({e, 5});
     constexpr std::array<int, 4> side_of_edge = {2, 1, 3, 0};
     for (int c = 0; c < 4; ++c) {
@@ -84,7 +86,40 @@ int add_skin_layer(double thickness, const BodyMap& body, DomeTemplate& dome, Pl
       inner.support[a] = dome.places[a].support = Support::interior;
   }
   nodes = std::move(inner);
-  return int(below.size());
+  return layer;
+}
+
+std::vector<int> thin_skin_elements(double thickness, const BodyMap& body, const DomeTemplate& dome,
+                                    PlacedNodes& nodes) {
+  const int n = dome.size.n, l = dome.size.l, k = dome.size.k;
+  const auto number = [&](int i, int j, int row) { return (row * (n + 1) + j) * (n + 1) + i; };
+  const auto outwards = [](int i, int last) { return i == 1 ? 0 : i == last - 1 ? last : i; };
+  std::vector<bool> held(nodes.x.size());
+  for (std::size_t a = 0; a < held.size(); ++a) {
+    held[a] = nodes.support[a] == Support::skin || nodes.support[a] == Support::cut;
+  }
+  for (int row = k; row < l; ++row) {
+    for (int j = 1; j < n; ++j) {
+      for (int i = 1; i < n; ++i) {
+        const int oi = outwards(i, n), oj = outwards(j, n), top = outwards(row, l);
+        if (oi == i && oj == j && top != l) continue;
+        const int under = number(i, j, row), outer = number(oi, oj, top == l ? l : row);
+        const bool rim = nodes.support[outer] == Support::cut;
+        const Vec2 st = rim ? body.skin(1, nodes.st[outer].x()) : nodes.st[outer];
+        nodes.x[under] = nodes.x[outer] - thickness * body.skin_sheet().evaluate(st).normal();
+        // At the rim half-way up the skin's first row, or the element below would be flat.
+        if (rim) nodes.x[under] += 0.5 * (nodes.x[number(oi, oj, row + 1)] - nodes.x[outer]);
+        // Under an edge of the cuboid the wedge decides where the node may be.
+        held[under] = (oi != i) + (oj != j) + (top == l) == 1;
+      }
+    }
+  }
+  smooth_nodes(dome.connectivity, body, {.evaluations = 120, .mid_edges = true}, held, nodes);
+  std::vector<int> layer;
+  for (const Face& face : dome.skin_faces) layer.push_back(face.element);
+  std::sort(layer.begin(), layer.end());
+  layer.erase(std::unique(layer.begin(), layer.end()), layer.end());
+  return layer;
 }
 
 }  // namespace breast

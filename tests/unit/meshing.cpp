@@ -189,6 +189,26 @@ TEST(SkinLayer, HasItsThicknessAndCoversTheSkin) {
   EXPECT_NEAR(volume / area, thickness, 0.06);
 }
 
+TEST(SkinLayer, CuboidKeepsItsCounts) {
+  BodyMeshReport report;
+  const HexMesh mesh =
+      body_mesh(analytic_breast(), {.size = cuboid_size(16), .skin_layer = 1.45}, &report);
+  EXPECT_EQ(mesh.elements(), 4096);
+  EXPECT_EQ(mesh.nodes(), 4913);
+  EXPECT_GT(report.smoothed_scaled_jacobian, 0.02);
+  EXPECT_GT(mesh_quality(mesh, mesh.points).min_det, 0);
+  // Under the middle of the skin's faces the layer is as thick as asked for.
+  const int n = 16;
+  const auto number = [&](int i, int j, int row) { return (row * (n + 1) + j) * (n + 1) + i; };
+  for (int j = 3; j <= n - 3; ++j) {
+    for (int i = 3; i <= n - 3; ++i) {
+      EXPECT_NEAR((mesh.points[number(i, j, n)] - mesh.points[number(i, j, n - 1)]).norm(), 1.45,
+                  0.05);
+    }
+  }
+  for (const Face& face : mesh.skin_faces) EXPECT_EQ(mesh.tissue[face.element], Tissue::skin);
+}
+
 // A ball of gland in a box of fat, voxels of 1 mm, fractions exact at the voxel.
 LabelVolume ball_of_gland(const Vec3& centre, double radius) {
   LabelVolume labels;

@@ -1,0 +1,124 @@
+// hexmesh from files to file: counts, contract keys of the report, refusals.
+#include <gtest/gtest.h>
+
+#include "core/atomic_file.hpp"
+#include "core/report.hpp"
+#include "fixtures/analytic_breast.hpp"
+#include "fixtures/run_tool.hpp"
+#include "fixtures/scratch_folder.hpp"
+#include "image/label_volume.hpp"
+#include "io/geometry_file.hpp"
+#include "io/label_file.hpp"
+#include "io/mesh_file.hpp"
+
+namespace breast {
+namespace {
+
+class HexmeshTool : public testing::Test {
+ protected:
+  // The analytic breast in voxels of 3 mm: a box of fat with a ball of gland behind the nipple.
+  void SetUp() override {
+    BreastGeometry geometry = analytic_breast();
+    geometry.history.push_back({"fit-hermite", "0", "analytic", {}});
+    write_geometry(folder_ / "geometry.vtkhdf", geometry);
+    LabelVolume labels;
+    labels.grid.size = {57, 50, 57};
+    labels.grid.spacing = Vec3::Constant(3);
+    labels.grid.origin = Vec3(-84, -20, -84);
+    labels.tissue.assign(labels.grid.voxels(), std::uint8_t(Tissue::fat));
+    labels.fibroglandular_fraction.assign(labels.grid.voxels(), 0);
+    labels.chest_wall_confidence.assign(labels.grid.voxels(), 1);
+    for (int k = 0; k < 57; ++k) {
+      for (int j = 0; j < 50; ++j) {
+        for (int i = 0; i < 57; ++i) {
+          const Vec3 at = labels.grid.to_patient(Vec3(i, j, k));
+          if ((at - Vec3(0, 45, 0)).norm() > 22) continue;
+          labels.tissue[labels.grid.offset(i, j, k)] = std::uint8_t(Tissue::fibroglandular);
+          labels.fibroglandular_fraction[labels.grid.offset(i, j, k)] = 1;
+        }
+      }
+    }
+    labels.history.push_back({"segment", "0", "analytic", {}});
+    write_labels(folder_ / "labels.vtkhdf", labels);
+  }
+  ToolResult hexmesh(std::vector<std::string> options) {
+    std::vector<std::string> arguments = {"geometry.vtkhdf", "labels.vtkhdf", "mesh.vtkhdf",
+                                          "--quiet",         "--threads",     "1",
+                                          "--report",        "r.json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return run_tool("hexmesh", arguments, folder_.path());
+  }
+  bool written() const { return std::filesystem::exists(folder_ / "mesh.vtkhdf"); }
+  ScratchFolder folder_;
+};
+
+TEST_F(HexmeshTool, DefaultIsADomeWithMembraneSkinAndTumour) {
+  const ToolResult result = hexmesh({});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const HexMesh mesh = read_mesh(folder_ / "mesh.vtkhdf");
+  EXPECT_EQ(mesh.elements(), 4000);
+  EXPECT_EQ(mesh.template_name, "dome");
+  EXPECT_EQ(mesh.skin_model, SkinModel::membrane);
+  EXPECT_EQ(mesh.skin_thickness, std::vector<double>(mesh.skin_faces.size(), 1.45));
+  EXPECT_EQ(mesh.imaged, mesh.points);
+  EXPECT_TRUE(mesh.geometry);
+  EXPECT_EQ(mesh.history.size(), 3u);
+  ASSERT_NE(mesh.landmark("nipple"), nullptr);
+  ASSERT_NE(mesh.landmark("tumour"), nullptr);
+  EXPECT_LT(mesh.landmark("nipple")->moved, 0.01);
+  const Report report = Report::parse(read_text(folder_ / "r.json"), "r.json");
+  EXPECT_EQ(report.number("elements"), 4000);
+  EXPECT_GT(report.number("min_scaled_jacobian"), 0.6);
+  EXPECT_NEAR(report.number("volumes_ml/fibroglandular"), 44.6, 5);
+  EXPECT_NEAR(report.number("sheet_volume_error_percent"), 0, 0.5);
+}
+
+TEST_F(HexmeshTool, CuboidWithLayerHasThePapersCounts) {
+  const ToolResult result =
+      hexmesh({"--template", "cuboid", "--skin-as", "layer", "--tumour", "none"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const HexMesh mesh = read_mesh(folder_ / "mesh.vtkhdf");
+  EXPECT_EQ(mesh.elements(), 4096);
+  EXPECT_EQ(mesh.nodes(), 4913);
+  EXPECT_EQ(mesh.skin_model, SkinModel::layer);
+  EXPECT_TRUE(mesh.skin_thickness.empty());
+  EXPECT_EQ(mesh.landmark("tumour"), nullptr);
+  for (const Face& face : mesh.skin_faces) EXPECT_EQ(mesh.tissue[face.element], Tissue::skin);
+}
+
+TEST_F(HexmeshTool, TumourFromTextAndTable) {
+  ASSERT_EQ(hexmesh({"--elements", "8", "--tumour", "10,45,5:9"}).exit_code, 0);
+  EXPECT_EQ(read_mesh(folder_ / "mesh.vtkhdf").landmark("tumour")->imaged, Vec3(10, 45, 5));
+  write_text(folder_ / "tumour.tsv", "x_mm\ty_mm\tz_mm\tradius_mm\n-8\t40\t2\t10\n");
+  ASSERT_EQ(hexmesh({"--elements", "8", "--tumour", "tumour.tsv"}).exit_code, 0);
+  const HexMesh mesh = read_mesh(folder_ / "mesh.vtkhdf");
+  EXPECT_EQ(mesh.landmark("tumour")->imaged, Vec3(-8, 40, 2));
+  EXPECT_EQ(mesh.tissue[mesh.landmark("tumour")->element], Tissue::tumour);
+}
+
+TEST_F(HexmeshTool, SameFileFromTwoRuns) {
+  ASSERT_EQ(hexmesh({"--elements", "8"}).exit_code, 0);
+  const HexMesh first = read_mesh(folder_ / "mesh.vtkhdf");
+  ASSERT_EQ(hexmesh({"--elements", "8"}).exit_code, 0);
+  EXPECT_EQ(first.content_sha256, read_mesh(folder_ / "mesh.vtkhdf").content_sha256);
+}
+
+TEST_F(HexmeshTool, BadUseIsOneLineAndNoFile) {
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--dome", "10,10,6,10"},
+                                                  {"--dome", "10,10,0,3"},
+                                                  {"--dome", "4,4,2.5,1"},
+                                                  {"--skin", "-1"},
+                                                  {"--skin", "measured"},
+                                                  {"--tumour", "0,0"},
+                                                  {"--tumour", "0,-300,0"},
+                                                  {"--elements", "3"},
+                                                  {"--template", "cuboid", "--dome", "4,4,2,1"}}) {
+    const ToolResult result = hexmesh(options);
+    EXPECT_EQ(result.exit_code, 2) << options[1] << ": " << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(written()) << options[1];
+  }
+}
+
+}  // namespace
+}  // namespace breast
