@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -60,7 +61,7 @@ class Grower {
       direction = perturbed(direction, 0.16, stream_);
       const Vec3 next = at + stream_.uniform(4.5, 8.5) * direction;
       if (generation > 0 && !region_.holds(next)) break;
-      pieces_.push_back({at, next, radius});
+      pieces_.push_back({at, next, radius, generation <= 1});
       at = next;
       if (generation >= 1 && stream_.uniform() < 0.7) lobule(at);
     }
@@ -79,7 +80,7 @@ class Grower {
     const Vec3 centre = at + 2.0 * Vec3(stream_.normal(), stream_.normal(), stream_.normal());
     if (!region_.holds(centre)) return;
     const Vec3 along = 2.5 * Vec3(stream_.normal(), stream_.normal(), stream_.normal());
-    pieces_.push_back({centre - along, centre + along, stream_.uniform(1.8, 4.2)});
+    pieces_.push_back({centre - along, centre + along, stream_.uniform(1.8, 4.2), false});
   }
   const Region& region_;
   RandomStream& stream_;
@@ -144,7 +145,7 @@ std::vector<GlandPiece> grow_gland(const BreastShape& shape, const GlandParamete
     const Vec3 out = shape.radial(azimuth);
     const Vec3 direction = -std::cos(polar) * shape.axis() + std::sin(polar) * out;
     const Vec3 sinus = shape.apex() - 9.0 * shape.axis() + 3.0 * std::sin(polar) * out;
-    pieces.push_back({shape.apex(), sinus, 1.1});
+    pieces.push_back({shape.apex(), sinus, 1.1, true});
     grower.grow(sinus, direction, 1.25, 0);
   }
   if (pieces.empty()) throw input_error("phantom gland: no lobe could grow");
@@ -177,56 +178,74 @@ GlandField::GlandField(const BreastShape& shape, const GlandParameters& paramete
 void GlandField::fill(const std::vector<GlandPiece>& pieces) {
   const Vec3 extent(lattice_.size[0], lattice_.size[1], lattice_.size[2]);
   const Bins bins(pieces, lattice_.origin, lattice_.origin + lattice_.spacing * extent);
+  duct_.assign(lattice_.values.size(), float(reach));
 #pragma omp parallel for schedule(dynamic) num_threads(threads())
   for (int k = 0; k < lattice_.size[2]; ++k)
     for (int j = 0; j < lattice_.size[1]; ++j)
       for (int i = 0; i < lattice_.size[0]; ++i) {
-        const Vec3 x = lattice_.origin + lattice_.spacing * Vec3(i, j, k);
-        double nearest = reach;
-        for (int n : bins.near(x)) nearest = std::min(nearest, piece_distance(pieces[n], x));
+        const Vec3 x = node(i, j, k);
+        double nearest = reach, duct = reach;
+        for (int n : bins.near(x)) {
+          double& distance = pieces[n].duct ? duct : nearest;
+          distance = std::min(distance, piece_distance(pieces[n], x));
+        }
         if (nearest < reach) {
-          nearest +=
-              1.7 * lattice_noise(seed_ + 1, x / 11) + 1.1 * lattice_noise(seed_ + 2, x / 4.2);
+          nearest += 2.6 * lattice_noise(seed_ + 1, x / 22) +
+                     1.8 * lattice_noise(seed_ + 2, x / 9) +
+                     1.2 * lattice_noise(seed_ + 5, x / 3.7);
         }
         lattice_.values[lattice_.at(i, j, k)] = float(nearest);
+        duct_[lattice_.at(i, j, k)] = float(duct);
       }
 }
 
-// Shifts the margin so that the wanted share of the breast's volume lies inside.
-void GlandField::calibrate(const BreastShape& shape, double fraction) {
-  std::vector<float> inside;
-  double breast_cells = 0;
-  const double cell = std::pow(lattice_.spacing, 3);
-  for (int k = 0; k < lattice_.size[2]; ++k)
-    for (int j = 0; j < lattice_.size[1]; ++j)
-      for (int i = 0; i < lattice_.size[0]; ++i) {
-        const float value = lattice_.values[lattice_.at(i, j, k)];
-        if (value >= float(reach) - 2) continue;
-        const Vec3 x = lattice_.origin + lattice_.spacing * Vec3(i, j, k);
-        if (shape.skin_distance(x) < -3 && shape.torso().wall_distance(x) > 2)
-          inside.push_back(value);
-      }
-  // The breast as readers outline it: skin to wall within the fold.
-  const double step = 3;
+namespace {
+
+// Volume (mm³) of the breast as readers outline it: skin to wall within the fold.
+double outlined_volume(const BreastShape& shape) {
+  constexpr double step = 3;
   const double half = 1.4 * shape.parameters().radius, top = shape.parameters().height + 10;
+  const Vec3 across = shape.radial(0), up = shape.radial(0.5 * std::numbers::pi);
+  double volume = 0;
   for (double a = -half; a <= half; a += step)
     for (double b = -half; b <= half; b += step)
       for (double h = -30; h <= top; h += step) {
-        const Vec3 x = shape.foot() + a * shape.radial(0) +
-                       b * shape.radial(0.5 * std::numbers::pi) + h * shape.axis();
+        const Vec3 x = shape.foot() + a * across + b * up + h * shape.axis();
         if (shape.beyond_fold(x, 0.0) < 0 && shape.skin_distance(x) < 0 &&
             shape.torso().wall_distance(x) > 0) {
-          breast_cells += step * step * step;
+          volume += step * step * step;
         }
       }
-  const std::size_t wanted = std::size_t(fraction * breast_cells / cell);
+  return volume;
+}
+
+}  // namespace
+
+// Shifts the margin of the lobes so that, with the main ducts, the wanted share of the breast's
+// volume lies inside.
+void GlandField::calibrate(const BreastShape& shape, double fraction) {
+  const double cell = std::pow(lattice_.spacing, 3), breast = outlined_volume(shape);
+  std::vector<float> inside;
+  for (int k = 0; k < lattice_.size[2]; ++k)
+    for (int j = 0; j < lattice_.size[1]; ++j)
+      for (int i = 0; i < lattice_.size[0]; ++i) {
+        const std::size_t at = lattice_.at(i, j, k);
+        const bool duct = duct_[at] < 0;
+        if (!duct && lattice_.values[at] >= float(reach) - 2) continue;
+        const Vec3 x = node(i, j, k);
+        if (shape.skin_distance(x) < -3 && shape.torso().wall_distance(x) > 2)
+          inside.push_back(duct ? -std::numeric_limits<float>::infinity() : lattice_.values[at]);
+      }
+  const std::size_t wanted = std::size_t(fraction * breast / cell);
   if (wanted >= inside.size()) {
     throw input_error("phantom gland fraction ", fraction, ": the tree reaches only ",
-                      double(inside.size()) * cell / breast_cells, " of the breast; lower it");
+                      double(inside.size()) * cell / breast, " of the breast; lower it");
   }
-  std::nth_element(inside.begin(), inside.begin() + wanted, inside.end());
+  std::nth_element(inside.begin(), inside.begin() + std::ptrdiff_t(wanted), inside.end());
   const float shift = inside[wanted];
-  for (float& value : lattice_.values) value -= shift;
+  for (std::size_t n = 0; n < duct_.size(); ++n)
+    lattice_.values[n] = std::min(lattice_.values[n] - shift, duct_[n]);
+  duct_ = {};
   volume_ml_ = double(wanted) * cell / mm3_per_ml;
 }
 

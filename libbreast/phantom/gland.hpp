@@ -8,10 +8,11 @@
 
 namespace breast {
 
-/// A duct piece (capsule) or a lobule (from == to).
+/// A duct piece or a lobule, both capsules.
 struct GlandPiece {
   Vec3 from, to;
   double radius = 0;
+  bool duct = false;  ///< a main duct, whose width the calibration leaves alone
 };
 
 /// Grows the tree of one breast (serial, a few thousand pieces).
@@ -44,8 +45,12 @@ class GlandField {
   };
   void fill(const std::vector<GlandPiece>& pieces);
   void calibrate(const BreastShape& shape, double fraction);
+  Vec3 node(int i, int j, int k) const {
+    return lattice_.origin + lattice_.spacing * Vec3(i, j, k);
+  }
 
   Lattice lattice_;
+  std::vector<float> duct_;  ///< distance to the main ducts, only until calibrated
   std::uint64_t seed_;
   double volume_ml_ = 0;
   std::size_t pieces_ = 0;

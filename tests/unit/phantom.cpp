@@ -1,0 +1,211 @@
+// The phantom's parts without mechanics: template, gland, imaging, labels, coil and noise.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+#include "fixtures/small_phantom.hpp"
+#include "mesh/quality.hpp"
+#include "phantom/random.hpp"
+#include "phantom/scanner.hpp"
+
+using namespace breast;
+
+namespace {
+
+const PhantomScene& scene() {
+  static const PhantomScene made(small_phantom());
+  return made;
+}
+const PhantomImage& image() {
+  static const PhantomImage made = image_scene(scene());
+  return made;
+}
+
+struct Moments {
+  double sum = 0, squares = 0, count = 0;
+  void add(double x) { sum += x, squares += x * x, ++count; }
+  double mean() const { return sum / count; }
+  double deviation() const { return std::sqrt(squares / count - mean() * mean()); }
+};
+
+}  // namespace
+
+TEST(PhantomRandom, NormalNumbersHaveUnitVarianceAndNoCorrelation) {
+  Moments first, second;
+  double product = 0;
+  constexpr int n = 40000;
+  for (int i = 0; i < n; ++i) {
+    const Vec2 pair = normal_pair(7, i);
+    first.add(pair.x()), second.add(pair.y());
+    product += pair.x() * pair.y();
+  }
+  EXPECT_NEAR(first.mean(), 0, 0.02);
+  EXPECT_NEAR(first.deviation(), 1, 0.02);
+  EXPECT_NEAR(second.deviation(), 1, 0.02);
+  EXPECT_NEAR(product / n, 0, 0.02);
+}
+
+TEST(PhantomTemplate, EveryPresetGivesRoundElementsOnSkinAndWall) {
+  for (const char* preset : {"paper", "small", "large", "pendulous"}) {
+    for (Side side : {Side::left, Side::right}) {
+      PhantomParameters p = phantom_preset(preset, 3);
+      p.mesh = {4, 2, 1, 1, 3, 2};
+      const Torso torso(p.torso, 1);
+      const BreastShape shape(p, torso, side);
+      const MeridianMap map(shape);
+      const HexMesh mesh = phantom_mesh(shape, map, p.mesh);
+      const MeshQuality quality = mesh_quality(mesh, mesh.points);
+      EXPECT_GT(quality.min_det, 0) << preset;
+      EXPECT_GT(quality.min_scaled_jacobian, 0.35) << preset;
+      for (int node : nodes_of(mesh, mesh.skin_faces))
+        EXPECT_NEAR(shape.skin_distance(mesh.points[node]), 0, 1e-3) << preset;
+      for (int node : nodes_of(mesh, mesh.pectoral_faces))
+        EXPECT_NEAR(torso.wall_distance(mesh.points[node]), 0, 1e-3) << preset;
+      EXPECT_EQ(mesh.skin_faces.size() + mesh.pectoral_faces.size() + mesh.cut_faces.size(),
+                boundary_faces(mesh).size());
+    }
+  }
+}
+
+TEST(PhantomTemplate, RefinementKeepsTheVolume) {
+  const PhantomBreast& breast = scene().breast(Side::left);
+  const HexMesh fine = phantom_mesh(breast.shape, breast.map, {8, 4, 2, 2, 5, 2});
+  const double coarse_ml = mesh_volume(breast.mesh, breast.mesh.points);
+  EXPECT_NEAR(coarse_ml / mesh_volume(fine, fine.points), 1, 0.005);
+}
+
+TEST(PhantomGland, FillsTheWantedShareAndReachesTheNipple) {
+  const PhantomBreast& breast = scene().breast(Side::left);
+  double inside = 0, all = 0;
+  const HexMesh& mesh = breast.mesh;
+  const std::vector<double> volumes = element_volumes(mesh, mesh.points);
+  for (int e = 0; e < mesh.elements(); ++e) {
+    inside += volumes[e] * mesh.fibroglandular_fraction[e];
+    all += volumes[e];
+  }
+  EXPECT_NEAR(inside / mm3_per_ml, breast.gland.volume_ml(), 0.06 * breast.gland.volume_ml());
+  EXPECT_GT(inside / all, 0.10);
+  EXPECT_LT(inside / all, 0.26);
+  EXPECT_LT(breast.gland.distance(breast.shape.apex() - 5 * breast.shape.axis()), 0);
+  const Landmark& tumour = *mesh.landmark("tumour");
+  EXPECT_LT(std::abs(breast.gland.distance(tumour.imaged)), 0.5);
+}
+
+TEST(PhantomImage, DoesNotDependOnThreads) {
+  const int before = threads();
+  set_threads(1);
+  const PhantomImage one = image_scene(scene());
+  const Volume<std::int16_t> scan_one = scan(one, scene().parameters.mri, 5);
+  set_threads(2);
+  const PhantomImage two = image_scene(scene());
+  const Volume<std::int16_t> scan_two = scan(two, scene().parameters.mri, 5);
+  set_threads(before);
+  EXPECT_EQ(one.signal.voxels, two.signal.voxels);
+  EXPECT_EQ(one.tissue, two.tissue);
+  EXPECT_EQ(scan_one.voxels, scan_two.voxels);
+}
+
+TEST(PhantomImage, SeedsGiveDifferentBreasts) {
+  const PhantomParameters a = small_phantom(1), b = small_phantom(1), c = small_phantom(2);
+  EXPECT_EQ(a.left.height, b.left.height);
+  EXPECT_NE(a.left.height, c.left.height);
+  EXPECT_NE(a.left.height, a.right.height);
+}
+
+TEST(PhantomImage, SignalAgreesWithLabels) {
+  Moments fat, gland, muscle, air;
+  const PhantomImage& made = image();
+  for (std::size_t n = 0; n < made.tissue.size(); ++n) {
+    const double signal = made.signal.voxels[n];
+    switch (Tissue(made.tissue[n])) {
+      case Tissue::fat:
+        fat.add(signal);
+        break;
+      case Tissue::fibroglandular:
+        gland.add(signal);
+        break;
+      case Tissue::muscle:
+        muscle.add(signal);
+        break;
+      case Tissue::air:
+        air.add(signal);
+        break;
+      default:
+        break;
+    }
+  }
+  EXPECT_GT(fat.mean(), 800);
+  EXPECT_LT(gland.mean(), 600);
+  EXPECT_LT(muscle.mean(), 350);
+  EXPECT_LT(air.mean(), 15);
+  EXPECT_GT(gland.count, 100);
+}
+
+TEST(PhantomImage, LabelsHoldTheVolumeOfTheMesh) {
+  for (Side side : {Side::left, Side::right}) {
+    const LabelVolume labels = true_labels(scene(), image(), side);
+    double breast_voxels = 0;
+    for (std::uint8_t tissue : labels.tissue)
+      if (tissue >= 1 && tissue <= 3) ++breast_voxels;
+    const HexMesh& mesh = scene().breast(side).mesh;
+    const double expected = mesh_volume(mesh, mesh.points);
+    EXPECT_NEAR(breast_voxels * labels.grid.voxel_volume() / expected, 1, 0.04);
+    EXPECT_EQ(labels.side, side);
+    const Vec3 at = labels.grid.to_index(labels.landmarks.at("tumour"));
+    const int i = int(std::lround(at.x())), j = int(std::lround(at.y())),
+              k = int(std::lround(at.z()));
+    ASSERT_TRUE(labels.grid.contains(i, j, k));
+    EXPECT_TRUE(labels.at(i, j, k) == Tissue::fat || labels.at(i, j, k) == Tissue::fibroglandular);
+  }
+}
+
+TEST(PhantomScanner, NoiseIsRicianInAirAndGaussianInFat) {
+  MriParameters mri = scene().parameters.mri;
+  mri.noise_percent = 3;
+  mri.bias = 1;
+  const Volume<std::int16_t> noisy = scan(image(), mri, 9);
+  mri.noise_percent = 0;
+  const Volume<std::int16_t> clean = scan(image(), mri, 9);
+  Moments air, fat;
+  for (std::size_t n = 0; n < noisy.voxels.size(); ++n) {
+    if (image().signal.voxels[n] == 0) air.add(noisy.voxels[n]);
+    if (image().signal.voxels[n] > 900) fat.add(noisy.voxels[n] - clean.voxels[n]);
+  }
+  const double sigma = 30;
+  EXPECT_NEAR(air.mean(), sigma * std::sqrt(M_PI / 2), 0.3);
+  EXPECT_NEAR(air.deviation(), sigma * std::sqrt(2 - M_PI / 2), 0.3);
+  EXPECT_NEAR(fat.deviation(), sigma, 0.6);
+}
+
+TEST(PhantomScanner, BiasSpansTheFactorAskedFor) {
+  for (double bias : {1.0, 2.0, 5.0}) {
+    const Volume<float> field = coil_sensitivity(image(), bias, 3);
+    double low = 1e9, high = 0;
+    for (std::size_t n = 0; n < field.voxels.size(); ++n) {
+      if (image().side[n] == 0 || image().tissue[n] != std::uint8_t(Tissue::fat)) continue;
+      low = std::min<double>(low, field.voxels[n]), high = std::max<double>(high, field.voxels[n]);
+    }
+    EXPECT_GE(high / low, 0.999 * bias);
+    EXPECT_LE(high / low, 1.6 * bias);
+  }
+}
+
+TEST(PhantomParametersTest, RefusesWhatItCannotMake) {
+  EXPECT_THROW(phantom_preset("huge", 1), Error);
+  PhantomParameters p = small_phantom();
+  p.gland.fraction = 0.9;
+  EXPECT_THROW(PhantomScene{p}, Error);
+  p = small_phantom();
+  p.mesh.core = 3;
+  EXPECT_THROW(PhantomScene{p}, Error);
+  p = small_phantom();
+  p.left.centre_x = p.right.centre_x = 40;
+  EXPECT_THROW(PhantomScene{p}, Error);
+  EXPECT_THROW(coil_sensitivity(image(), 0.5, 1), Error);
+  MriParameters mri;
+  mri.voxel_factor = std::nan("");
+  EXPECT_THROW(phantom_grid(mri), Error);
+}

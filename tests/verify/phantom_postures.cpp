@@ -1,0 +1,87 @@
+// The phantom's truth obeys the same discrete mechanics as the chain.
+#include <gtest/gtest.h>
+
+#include "core/units.hpp"
+#include "fixtures/small_phantom.hpp"
+#include "mesh/quality.hpp"
+#include "phantom/postures.hpp"
+
+using namespace breast;
+
+namespace {
+
+struct Solved {
+  Solved()
+      : parameters(small_phantom()),
+        materials(load_materials("seed2008")),
+        torso(parameters.torso, 1),
+        breast(parameters, torso, Side::right),
+        postures(solve_breast(breast, parameters, materials, error)) {}
+  PhantomParameters parameters;
+  MaterialSet materials;
+  Torso torso;
+  PhantomBreast breast;
+  TruthError error;
+  Postures postures;
+};
+Solved& solved() {
+  static Solved made;
+  return made;
+}
+
+double largest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double worst = 0;
+  for (std::size_t n = 0; n < a.size(); ++n) worst = std::max(worst, (a[n] - b[n]).norm());
+  return worst;
+}
+
+}  // namespace
+
+TEST(PhantomPostures, ForwardFromTheStressFreeShapeReturnsTheProneOne) {
+  HexMesh mesh = solved().breast.mesh;
+  const std::vector<Vec3> prone = mesh.points;
+  mesh.points = mesh.reference;
+  MechanicsOptions options;
+  options.materials = solved().materials;
+  options.element = Element::q2p1;
+  options.cut = Cut::fixed;
+  ASSERT_TRUE(solve_forward(mesh, posture_gravity("prone"), options).converged());
+  // The stored imaged shape is the prone one to 1e-4 mm, its forces the same to 1e-7.
+  EXPECT_LT(largest(mesh.points, prone), 1e-6);
+  EXPECT_LT(largest(solved().breast.mesh.imaged, prone), 1e-4);
+}
+
+TEST(PhantomPostures, BackwardFindsTheStressFreeShape) {
+  HexMesh mesh = solved().breast.mesh;
+  const std::vector<Vec3> truth = mesh.reference;
+  MechanicsOptions options;
+  options.materials = solved().materials;
+  options.element = Element::q2p1;
+  options.cut = Cut::fixed;
+  ASSERT_TRUE(solve_backward(mesh, posture_gravity("prone"), options).converged());
+  EXPECT_LT(largest(mesh.reference, truth), 1e-3);
+}
+
+TEST(PhantomPostures, WallAndCutStayAndTheVolumeIsKept) {
+  const HexMesh& mesh = solved().breast.mesh;
+  for (const auto* faces : {&mesh.pectoral_faces, &mesh.cut_faces})
+    for (int node : nodes_of(mesh, *faces)) {
+      EXPECT_LT((mesh.points[node] - mesh.reference[node]).norm(), 1e-12);
+      EXPECT_LT((solved().postures.supine[node] - mesh.reference[node]).norm(), 1e-12);
+    }
+  EXPECT_NEAR(mesh_volume(mesh, mesh.points) / mesh_volume(mesh, mesh.reference), 1, 1e-6);
+  EXPECT_GT(mesh_quality(mesh, solved().postures.supine).min_scaled_jacobian, 0.3);
+}
+
+TEST(PhantomPostures, TheNippleHangsProneAndSinksSupine) {
+  const HexMesh& mesh = solved().breast.mesh;
+  const Landmark& nipple = *mesh.landmark("nipple");
+  const Vec3 free = landmark_position(mesh, mesh.reference, nipple);
+  const Vec3 prone = landmark_position(mesh, mesh.points, nipple);
+  const Vec3 supine = landmark_position(mesh, solved().postures.supine, nipple);
+  EXPECT_LT(prone.y(), free.y() - 1);
+  EXPECT_GT(supine.y(), free.y() + 1);
+  EXPECT_LT((nipple.imaged - prone).norm(), 1e-3);
+  EXPECT_GT(solved().error.worst(), 0);
+  EXPECT_LT(solved().error.worst(), 0.3);
+}
