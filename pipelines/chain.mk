@@ -40,6 +40,12 @@ $(RUN)/curve.vtp: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(CC2MLO)
 $(RUN)/displacements.tsv: $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf cc.vtkhdf mlo.vtkhdf) $(PROBE)
 	$(PROBE) $(filter %.vtkhdf,$^) > $@
 
-$(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(FIGURES)
+# Errors against the phantom's truth (stress-free, prone, supine); a real scan has none.
+ifdef TRUTH
+$(RUN)/truth.tsv: $(TRUTH) $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf) $(PROBE)
+	$(PROBE) $(filter %.vtkhdf,$^) --truth $(TRUTH) > $@
+endif
+
+$(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(if $(TRUTH),$(RUN)/truth.tsv) $(FIGURES)
 	@pipelines/summary.sh $(RUN) > $@
 	@cat $@

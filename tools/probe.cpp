@@ -4,6 +4,7 @@
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "evaluation/landmark_truth.hpp"
 #include "io/mesh_file.hpp"
 
 using namespace breast;
@@ -52,11 +53,19 @@ void add_columns(Table& table, const std::string& name, bool relative) {
   if (relative) table.columns.push_back(name + "_relative_mm");
 }
 
+// Mean errors of a truth comparison under "truth/COLUMN".
+void report_truth(const Table& table, Report& report) {
+  const auto& mean = table.rows[table.rows.size() - 2];
+  for (std::size_t c = 1; c < table.columns.size(); ++c) {
+    report.set("truth/mean_" + table.columns[c], std::stod(mean[c]));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::vector<std::filesystem::path> files;
-  std::filesystem::path base_file;
+  std::filesystem::path base_file, truth_file;
   std::string landmarks;
   Tool tool("probe", "landmark positions and displacements of meshes as a table");
   tool.describe(
@@ -72,6 +81,11 @@ int main(int argc, char** argv) {
   tool.text(landmarks, "--landmarks", "NAME,...",
             "landmarks to show; without it, all of the first file");
   tool.input_file(base_file, "--base", "FILE.vtkhdf", "mesh the relative displacements refer to");
+  tool.input_file(truth_file, "--truth", "FILE.tsv",
+                  "true positions (phantom --truth): prints instead one row a landmark with its "
+                  "error in the posture of each file, mm");
+  tool.example("probe reference.vtkhdf supine.vtkhdf --truth paper-truth/landmarks.tsv",
+               "errors of the chain against the phantom's truth");
   tool.example("probe supine.vtkhdf --landmarks tumour,nipple", "supine displacements");
   tool.example("probe fat-*.vtkhdf --base supine.vtkhdf > fat.tsv",
                "the effect of a material on the supine shape, as in Table III");
@@ -81,6 +95,14 @@ int main(int argc, char** argv) {
       run.progress().update("reading", double(i) / double(files.size()),
                             files[i].filename().string());
       meshes.push_back(read_mesh(files[i]));
+    }
+    if (!truth_file.empty()) {
+      const auto truth =
+          true_landmarks(read_table(truth_file), meshes.front().side, truth_file.string());
+      const Table errors = compare_with_truth(meshes, truth);
+      report_truth(errors, run.report());
+      run.print(errors.text());
+      return;
     }
     const std::vector<std::string> names = chosen(landmarks, meshes.front());
     if (names.empty()) throw input_error(files.front().string(), ": has no landmarks");

@@ -23,7 +23,7 @@ mechanics: fem material mesh solve surface core
 contact: mammo mechanics fem material mesh solve surface core
 phantom: mechanics fem material mesh solve surface image core
 figures: mesh mammo surface image core
-evaluation: surface image core
+evaluation: mesh surface image core
 "
 
 bad=0
