@@ -98,7 +98,10 @@ void Panel::surface(const Facets& facets, const Look& look) {
     property->SetEdgeColor(look.edge_colour.r, look.edge_colour.g, look.edge_colour.b);
     property->SetLineWidth(float(0.7 * supersampling));
   }
-  impl_->add(actor, facets.points);
+  impl_->renderer->AddViewProp(actor);
+  for (const auto& quad : facets.quads) {
+    for (const int corner : quad) impl_->extend(facets.points[corner]);
+  }
 }
 
 void Panel::sphere(const Vec3& centre, double radius, const Colour& colour) {

@@ -43,7 +43,7 @@ const std::vector<Figure>& figures() {
        "mammograms with axes in mm (one or two .vti), curve, arc and tumour (curve .vtp)", 1600,
        1000, false, false, draw_mammogram},
       {"matching", "the column in CC, reference and MLO (cc.vtkhdf mlo.vtkhdf curve.vtp)", 1800,
-       800, false, false, draw_matching},
+       680, false, false, draw_matching},
       {"summary",
        "the whole chain (mesh reference supine cc mlo .vtkhdf, cc.vti mlo.vti, curve.vtp)", 2000,
        1250, false, false, draw_summary},

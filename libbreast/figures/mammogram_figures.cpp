@@ -130,6 +130,14 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
   panel.text({0.5 * (low.x() + high.x()), low.y() - 36}, anterior, letters, palette::ink,
              Align::centre);
   panel.text({x + 10 * outward, high.y() + 14}, "v (mm)", letters, palette::ink, align);
+  const Vec2 edge(panel.to_pixel(hanging.at({image.plate_edge_u, 0}, 0)).x(), low.y());
+  if (image.plate_edge_u > 0) {
+    for (double y = low.y(); y < high.y(); y += 9) {
+      panel.line({edge.x(), y}, {edge.x(), std::min(y + 3, high.y())}, {0.7, 0.7, 0.7}, 1);
+    }
+    panel.text(Vec2(edge.x() + 6 * outward, low.y() + 34), "plates from here", letters - 2,
+               {0.85, 0.85, 0.85}, align);
+  }
   const std::string top = image.view == "CC" ? "lateral" : "superior";
   const std::string bottom = image.view == "CC" ? "medial" : "inferior";
   const double inset = hanging.left() ? high.x() - 10 : low.x() + 10;

@@ -103,7 +103,7 @@ void draw_mesh(Picture& picture, const FigureInput& input) {
 void draw_tissues(Picture& picture, const FigureInput& input) {
   need(!input.meshes.empty(), "tissues", "a mesh .vtkhdf");
   const HexMesh& mesh = input.meshes.front().mesh;
-  const BodyStyle style{.skin_opacity = 0.28, .inside = true};
+  const BodyStyle style{.skin_opacity = 0.28, .inside = true, .gland_opacity = 0.75};
   Panel& left = picture.panel(0, 0, 0.5, 1);
   add_body(left, mesh, mesh.points, style);
   finish(left, lateral_view(mesh.side), "(a) fibroglandular (dark), tumour (yellow), muscle (red)");

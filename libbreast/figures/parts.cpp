@@ -81,7 +81,7 @@ void add_plates(Panel& panel, const HexMesh& mesh, double opacity) {
       if (d.dot(plate.anterior) > 0) half_width = std::max(half_width, std::abs(d.dot(lateral)));
     }
     PlateRecord shown = plate;
-    shown.origin -= 0.4 * plate.normal;  // mm: not in the very surface of the skin it presses
+    shown.origin -= 1.0 * plate.normal;  // mm: clear of the facets of the skin it presses
     const Facets facets = plate_facets(shown, length + 18, half_width + 15);
     panel.surface(facets, {.colour = palette::plate, .opacity = opacity, .shine = 0.5});
     panel.tube(outline(facets.points), 0.5, {0.35, 0.45, 0.55});

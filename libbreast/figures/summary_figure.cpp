@@ -69,7 +69,7 @@ void draw_summary(Picture& picture, const FigureInput& input) {
   const std::vector<Shape> shapes = {{chain.imaged, "(a) as imaged, prone"},
                                      {chain.reference, "(b) stress-free"},
                                      {chain.supine, "(c) supine"}};
-  const BodyStyle style{.skin_opacity = 0.3, .inside = true};
+  const BodyStyle style{.skin_opacity = 0.3, .inside = true, .gland_opacity = 0.7};
   const double split = 0.54;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     Panel& panel = picture.panel(0.2 * double(k), split, 0.2 * double(k + 1), 1);

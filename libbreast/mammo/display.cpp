@@ -7,6 +7,9 @@ namespace breast {
 
 namespace {
 
+// Steeper in the dense tissue than at the skin, as film is.
+constexpr double display_gamma = 2;
+
 // A few bright pixels (a tumour, a fold) must not darken the rest, nor must the thicker tissue
 // behind the plates: the window ends at the 99.8 % rank of the pixels that show compressed tissue.
 double bright_end(const Mammogram& image) {
@@ -38,7 +41,7 @@ HungImage hang(const Mammogram& image) {
       const int u = left ? column : image.width - 1 - column;
       const double value = image.path[std::size_t(v) * image.width + u] / hung.window_high;
       hung.grey[std::size_t(row) * image.width + column] =
-          std::uint16_t(std::lround(65535 * std::clamp(value, 0.0, 1.0)));
+          std::uint16_t(std::lround(65535 * std::pow(std::clamp(value, 0.0, 1.0), display_gamma)));
     }
   }
   return hung;

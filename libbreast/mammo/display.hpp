@@ -13,7 +13,7 @@ namespace breast {
 struct HungImage {
   int width = 0, height = 0;
   std::vector<std::uint16_t> grey;
-  double window_low = 0, window_high = 0;  ///< path at grey 0 and 65535
+  double window_high = 0;  ///< path at grey 65535; grey is proportional to the square of the path
 };
 HungImage hang(const Mammogram& image);
 

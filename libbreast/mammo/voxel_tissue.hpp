@@ -6,9 +6,10 @@
 
 namespace breast {
 
-/// Skin and tumour by the nearest voxel, fibroglandular tissue by its trilinearly interpolated
-/// volume fraction, the rest fat. Voxels labelled air, muscle or other lie inside the mesh only
-/// where mesh and labels disagree by part of a voxel: counted, and taken as fat.
+/// Tissues are interpolated trilinearly between voxels, fibroglandular tissue by its volume
+/// fraction: a nearest-voxel look-up shows the voxel grid as a pattern in the mammogram. Voxels
+/// labelled air, muscle or other lie inside the mesh only where mesh and labels disagree by part of
+/// a voxel: taken as fat, and counted where the nearest voxel is one.
 class VoxelTissue {
  public:
   /// Keeps a reference to the labels.
@@ -19,8 +20,6 @@ class VoxelTissue {
   double smallest_spacing() const { return labels_.grid.spacing.minCoeff(); }
 
  private:
-  double fibroglandular(const Vec3& index) const;
-
   const LabelVolume& labels_;
   Mat3 to_index_;
   Vec3 offset_;

@@ -1,0 +1,155 @@
+// project-mammogram and cc2mlo as a user runs them.
+#include <gtest/gtest.h>
+
+#include "core/atomic_file.hpp"
+#include "core/report.hpp"
+#include "core/table.hpp"
+#include "fixtures/chain_files.hpp"
+#include "fixtures/run_tool.hpp"
+#include "fixtures/scratch_folder.hpp"
+#include "io/mammogram_file.hpp"
+#include "io/surface_file.hpp"
+
+using namespace breast;
+namespace fs = std::filesystem;
+
+namespace {
+
+class MammoTools : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new ScratchFolder;
+    fixtures::write_chain(folder_->path());
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static ToolResult run(const std::string& tool, const std::vector<std::string>& arguments) {
+    return run_tool(tool, arguments, folder_->path());
+  }
+  static fs::path file(const std::string& name) { return *folder_ / name; }
+
+ private:
+  static inline ScratchFolder* folder_ = nullptr;
+};
+
+}  // namespace
+
+TEST_F(MammoTools, ProjectionWritesImagePictureAndReport) {
+  const ToolResult result =
+      run("project-mammogram", {"cc.vtkhdf", "cc.vti", "--labels", "labels.vtkhdf", "--png",
+                                "cc.png", "--pixel", "0.5", "--report", "cc.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(result.out.empty());
+  EXPECT_EQ(result.err.find("history"), std::string::npos) << result.err;  // the right labels
+  const Mammogram image = read_mammogram(file("cc.vti"));
+  EXPECT_EQ(image.view, "CC");
+  EXPECT_EQ(image.history.back().tool, "project-mammogram");
+  EXPECT_TRUE(fs::exists(file("cc.png")));
+  const Report report = Report::parse(read_text(file("cc.json")), "cc.json");
+  EXPECT_EQ(report.text("status"), "ok");
+  EXPECT_NEAR(report.number("volumes_ml/fibroglandular"), 33.5, 1.0);  // 4/3 π 20³ mm³
+  EXPECT_EQ(report.number("columns_through_back"), 0);
+}
+
+TEST_F(MammoTools, ForeignLabelsAreRemarkedOn) {
+  LabelVolume other = fixtures::analytic_labels();
+  other.tissue[0] = std::uint8_t(Tissue::air);
+  write_labels(file("other.vtkhdf"), other);
+  const ToolResult result = run(
+      "project-mammogram", {"cc.vtkhdf", "other.vti", "--labels", "other.vtkhdf", "--pixel", "2"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("history"), std::string::npos) << result.err;
+}
+
+TEST_F(MammoTools, EnergiesAndBeams) {
+  ASSERT_EQ(run("project-mammogram",
+                {"cc.vtkhdf", "mono.vti", "--energy", "20", "--pixel", "2", "--geometry", "cone"})
+                .exit_code,
+            0);
+  const Mammogram mono = read_mammogram(file("mono.vti"));
+  EXPECT_EQ(mono.energy, "20 keV");
+  EXPECT_EQ(mono.pose.source_distance, 650);
+  write_text(file("spectrum.tsv"), "energy_keV\tweight\n19\t0.5\n21\t0.5\n");
+  ASSERT_EQ(run("project-mammogram",
+                {"cc.vtkhdf", "poly.vti", "--energy", "spectrum.tsv", "--pixel", "2"})
+                .exit_code,
+            0);
+  const ToolResult outside = run("project-mammogram", {"cc.vtkhdf", "no.vti", "--energy", "200"});
+  EXPECT_EQ(outside.exit_code, 2);
+  EXPECT_EQ(outside.error_lines(), 1) << outside.err;
+  EXPECT_FALSE(fs::exists(file("no.vti")));
+}
+
+TEST_F(MammoTools, AnUncompressedMeshIsRefused) {
+  const ToolResult result = run("project-mammogram", {"reference.vtkhdf", "no.vti"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.error_lines(), 1) << result.err;
+  EXPECT_NE(result.err.find("compress"), std::string::npos);
+  EXPECT_FALSE(fs::exists(file("no.vti")));
+}
+
+TEST_F(MammoTools, TheTumourLiesOnItsCurve) {
+  const ToolResult result =
+      run("cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "curve.vtp", "--landmark", "tumour", "--table",
+                     "curve.tsv", "--report", "curve.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(result.out.empty());
+  const Table table = read_table(file("curve.tsv"));
+  ASSERT_EQ(table.rows.size(), 1u);
+  EXPECT_EQ(table.rows[0][std::size_t(table.column("status"))], "matched");
+  const Report report = Report::parse(read_text(file("curve.json")), "curve.json");
+  EXPECT_LT(report.number("true_to_curve_mm"), 1e-4);
+  EXPECT_LT(report.number("max_bend_mm"), 1e-5);  // both squashes are affine
+  const PolyLines lines = read_polylines(file("curve.vtp"));
+  for (const char* name : {"curve", "arc", "chord", "column in CC", "column in reference",
+                           "column in MLO", "truth in MLO", "nipple in CC"}) {
+    EXPECT_NE(std::find(lines.line_names.begin(), lines.line_names.end(), name),
+              lines.line_names.end())
+        << name;
+  }
+  EXPECT_EQ(lines.history.back().tool, "cc2mlo");
+}
+
+TEST_F(MammoTools, ThePointOfTheImageIsTheLandmarksPoint) {
+  // u,v of the projected tumour as project-mammogram reports it, given back to cc2mlo.
+  ASSERT_EQ(run("project-mammogram", {"cc.vtkhdf", "uv.vti", "--pixel", "1", "--report", "uv.json"})
+                .exit_code,
+            0);
+  const Mammogram image = read_mammogram(file("uv.vti"));
+  const HexMesh cc = read_mesh(file("cc.vtkhdf"));
+  const Vec2 uv = image.pose.project(landmark_position(cc, cc.points, *cc.landmark("tumour")));
+  const std::string point = format_number(uv.x()) + "," + format_number(uv.y());
+  const ToolResult given = run("cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "p.vtp", "--point", point});
+  const ToolResult named =
+      run("cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "q.vtp", "--landmark", "tumour"});
+  ASSERT_EQ(given.exit_code, 0) << given.err;
+  const Table a = parse_table(given.out, "point"), b = parse_table(named.out, "landmark");
+  for (const char* column : {"cc_u_mm", "cc_v_mm", "curve_mm", "nipple_distance_mm"}) {
+    EXPECT_EQ(a.rows[0][std::size_t(a.column(column))], b.rows[0][std::size_t(b.column(column))]);
+  }
+}
+
+TEST_F(MammoTools, AirAndWrongQuestionsAreRefused) {
+  for (const std::vector<std::string>& question : {std::vector<std::string>{"--point", "1,1"},
+                                                   {"--landmark", "lesion"},
+                                                   {},
+                                                   {"--point", "7"},
+                                                   {"--grid", "3", "--landmark", "tumour"}}) {
+    std::vector<std::string> arguments{"cc.vtkhdf", "mlo.vtkhdf", "none.vtp"};
+    arguments.insert(arguments.end(), question.begin(), question.end());
+    const ToolResult result = run("cc2mlo", arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_FALSE(fs::exists(file("none.vtp")));
+  }
+  const ToolResult swapped =
+      run("cc2mlo", {"cc.vtkhdf", "supine.vtkhdf", "none.vtp", "--grid", "2"});
+  EXPECT_EQ(swapped.exit_code, 2);
+  EXPECT_EQ(swapped.error_lines(), 1) << swapped.err;
+}
+
+TEST_F(MammoTools, AGridGivesOneRowAPoint) {
+  const ToolResult result = run("cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "g.vtp", "--grid", "4"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Table table = parse_table(result.out, "grid");
+  EXPECT_GE(table.rows.size(), 8u);
+  EXPECT_LE(table.rows.size(), 16u);
+}
