@@ -47,13 +47,13 @@ void declare(Tool& tool, Choices& c) {
       "Loads the stress-free breast with gravity, sets two rigid plates with rounded edges just "
       "touching it, and closes them to a thickness, a reduction, a force or a mean pressure. "
       "Contact "
-      "is frictionless and exact: no penalty, no penetration. Both plates move, about the middle "
-      "of "
-      "the breast, so that it is not dragged along the chest wall. The stand-off runs from the "
-      "most "
-      "anterior chest-wall or cut point to the start of the plates' rounded edge; the force "
-      "depends "
-      "strongly on it.");
+      "is frictionless and exact: no penalty, no penetration. Both plates move, about the "
+      "mid-plane "
+      "of the stress-free breast, so that it is not dragged along the chest wall. The stand-off "
+      "runs "
+      "from the most anterior chest-wall or cut point to the start of the plates' rounded edge; "
+      "the "
+      "force depends strongly on it.");
   tool.describe(
       "A path that stops early ends in a valid equilibrium: with --at-least it is written with "
       "status stopped_early when at least that reduction was reached.");

@@ -10,6 +10,9 @@ namespace breast {
 
 namespace {
 
+/// Automatic step lengths as parts of the initial thickness: 6 and 8 mm of a typical breast.
+constexpr double first_part = 0.07, longest_part = 0.095;
+
 /// A converged state that can be returned to.
 struct Waypoint {
   BodyState state;
@@ -155,7 +158,9 @@ double Path::next_thickness(double step) const {
 }
 
 bool Path::march() {
-  double step = options_.first_step;
+  const double size = plates_.initial_thickness;
+  double step = options_.first_step > 0 ? options_.first_step : first_part * size;
+  const double longest = options_.longest_step > 0 ? options_.longest_step : longest_part * size;
   int failures_in_row = 0;
   while (result_.solves < options_.most_solves) {
     if (target_.kind == TargetKind::thickness && here_.thickness == target_.value) return true;
@@ -171,7 +176,7 @@ bool Path::march() {
                 reached)) {
       const int iterations = result_.points.back().iterations;
       failures_in_row = 0;
-      if (iterations < 6) step = std::min(options_.longest_step, 1.4 * step);
+      if (iterations < 6) step = std::min(longest, 1.4 * step);
       if (iterations > 12) step = std::max(options_.shortest_step, 0.7 * step);
       if (target_.kind != TargetKind::thickness && reached.measured >= target_.value) {
         return refine_control(here_, std::move(reached));

@@ -192,8 +192,10 @@ PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const Vi
     throw input_error("the plates' footprint contains no skin; try a smaller --standoff");
   }
   pair.initial_thickness = extent.size();
-  pair.paddle_start = extent.low;
-  pair.detector_start = extent.high;
+  const Extent unloaded = footprint_extent(mesh, mesh.reference, plate);
+  const double middle = (unloaded.empty() ? extent : unloaded).middle() + options.offset;
+  pair.paddle_start = middle - 0.5 * extent.size();
+  pair.detector_start = middle + 0.5 * extent.size();
   pair.close_to(pair.initial_thickness);
 
   // Skin behind the footprint may reach further than T0: start where nothing is penetrated.

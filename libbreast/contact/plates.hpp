@@ -52,9 +52,9 @@ struct PlateOptions {
   double standoff = 25;  ///< most anterior pectoral or cut point to the start of the rounded edge
   double edge_radius = 15;
   double tilt_deg = 0;  ///< paddle about the lateral axis; positive narrows the gap anteriorly
+  double offset = 0;    ///< mm along the beam by which the middle between the plates is shifted
   double width = 0;     ///< lateral size of the flats, 0: half as wide again as the body
-  double detector_share = 0.5;  ///< part of the closing done by the detector side: 0.5 closes about
-                                ///< the breast's mid-plane, which does not drag it along the wall
+  double detector_share = 0.5;  ///< part of the closing done by the detector side
 };
 
 /// Paddle and detector moving on one parameter, the thickness T between the flats at mid-depth.
@@ -74,7 +74,10 @@ struct PlatePair {
   const Plate& plate(int k) const { return k == 0 ? paddle : detector; }
 };
 
-/// Places the plates about the shape `x` (node positions of the gravity-loaded body, mm, LPS).
+/// Places the plates about the shape `x` (node positions of the gravity-loaded body, mm, LPS). They
+/// close on the mid-plane of mesh.reference within the same footprint: upright the breast hangs
+/// below it, and plates that met where it hangs would drag it down the held chest wall (on the two
+/// anatomies tried, with up to ten times the force). The detector lifts it, as in the clinic.
 /// Throws Error (input) when the plates miss the breast.
 PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
                        const PlateOptions& options);

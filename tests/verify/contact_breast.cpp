@@ -1,0 +1,184 @@
+// Compression of the analytic breast: balance, complementarity, release, symmetry, both solvers.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "contact/active_set.hpp"
+#include "contact/compression.hpp"
+#include "contact/saddle_body.hpp"
+#include "contact/skin_area.hpp"
+#include "core/units.hpp"
+#include "fixtures/analytic_mesh.hpp"
+#include "mechanics/scene.hpp"
+
+using namespace breast;
+
+namespace {
+
+constexpr int size = 7;  // a few hundred elements
+
+HexMesh stress_free_breast() {
+  HexMesh mesh = analytic_breast_mesh(size);
+  mesh.reference = mesh.points;
+  return mesh;
+}
+
+MechanicsOptions mechanics() {
+  MechanicsOptions options;
+  options.materials = load_materials("seed2008");
+  return options;
+}
+
+CompressionOptions halfway(const std::string& view) {
+  CompressionOptions options;
+  options.view = view;
+  options.angle_deg = view_angle_deg(view);
+  options.target = 45;
+  return options;
+}
+
+double landmark_distance(const HexMesh& a, const HexMesh& b) {
+  double worst = 0;
+  for (const Landmark& landmark : a.landmarks) {
+    worst = std::max(
+        worst, (landmark_position(a, a.points, landmark) - landmark_position(b, b.points, landmark))
+                   .norm());
+  }
+  return worst;
+}
+
+}  // namespace
+
+class CompressedBreast : public testing::TestWithParam<std::string> {};
+
+TEST_P(CompressedBreast, BalancesDoesNotPenetrateAndKeepsVolume) {
+  HexMesh mesh = stress_free_breast();
+  const CompressionSummary summary = compress(mesh, halfway(GetParam()), mechanics());
+  ASSERT_EQ(summary.record.status, "converged") << summary.record.reason;
+  EXPECT_NEAR(summary.reduction_percent, 45, 1e-9);
+  EXPECT_LT(summary.force_balance, 1e-8);
+  EXPECT_LT(summary.max_volume_error, 1e-8);
+  ASSERT_EQ(mesh.contact->plates.size(), 2u);
+  for (const PlateRecord& plate : mesh.contact->plates) {
+    EXPECT_GT(plate.force_N, 5);
+    EXPECT_GT(plate.area_cm2, 10);
+    EXPECT_LT(plate.worst_gap_mm, 1e-6);
+    EXPECT_NEAR(plate.mean_kPa, plate.force_N / plate.area_cm2 * 10, 1e-9 * plate.mean_kPa);
+    EXPECT_GE(plate.peak_kPa, plate.mean_kPa);
+  }
+  // Pressure only where the skin touches a plate, never a pull.
+  for (int node = 0; node < mesh.nodes(); ++node) {
+    const double pressure = mesh.contact_pressure[std::size_t(node)];
+    EXPECT_GE(pressure, 0);
+    if (!(pressure > 0)) continue;
+    const Vec3& x = mesh.points[std::size_t(node)];
+    EXPECT_LT(std::abs(summary.plates.plate(summary.plates.nearer(x)).gap(x).distance()), 1e-6);
+  }
+  // More force at every step of the path.
+  const std::vector<double>& force = mesh.contact->path_force_N;
+  EXPECT_TRUE(std::is_sorted(force.begin(), force.end()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Views, CompressedBreast, testing::Values("CC", "MLO"));
+
+TEST(Compression, MirrorImageGivesMirrorImage) {
+  HexMesh left = stress_free_breast();
+  HexMesh right = left;
+  right.side = Side::right;
+  const auto mirror = [](std::vector<Vec3>& points) {
+    for (Vec3& x : points) x.x() = -x.x();
+  };
+  mirror(right.points);
+  mirror(right.imaged);
+  mirror(right.reference);
+  // A reflection turns elements inside out: swap their ζ faces, and the local names of boundary
+  // faces.
+  for (int e = 0; e < right.elements(); ++e) {
+    for (int a = 0; a < 4; ++a) {
+      std::swap(right.connectivity[std::size_t(8 * e + a)],
+                right.connectivity[std::size_t(8 * e + a + 4)]);
+    }
+  }
+  for (auto* faces : {&right.skin_faces, &right.pectoral_faces, &right.cut_faces}) {
+    for (Face& face : *faces) {
+      if (face.local >= 4) face.local = 9 - face.local;
+    }
+  }
+  right.landmarks.clear();
+  CompressionOptions options = halfway("MLO");
+  options.target = 35;
+  const CompressionSummary a = compress(left, options, mechanics());
+  const CompressionSummary b = compress(right, options, mechanics());
+  ASSERT_EQ(a.record.status, "converged");
+  ASSERT_EQ(b.record.status, "converged");
+  double worst = 0;
+  for (int node = 0; node < left.nodes(); ++node) {
+    const Vec3& x = left.points[std::size_t(node)];
+    worst = std::max(worst, (Vec3(-x.x(), x.y(), x.z()) - right.points[std::size_t(node)]).norm());
+  }
+  EXPECT_LT(worst, 1e-4);
+  EXPECT_NEAR(left.contact->plates[0].force_N, right.contact->plates[0].force_N, 1e-4);
+}
+
+TEST(Compression, ReleaseReturnsToTheStart) {
+  HexMesh mesh = stress_free_breast();
+  const Scene scene(mesh, mechanics());
+  const Eigen::VectorXd reference = flatten(mesh.reference);
+  const ForwardProblem problem(scene, reference, Eigen::VectorXd::Zero(reference.size()));
+  SaddleSolver solver(problem.pattern());
+  SaddleBody body(problem, solver, scene.walls(), Vec3::Zero());
+  std::vector<int> free_skin;
+  for (const int node : nodes_of(mesh, mesh.skin_faces)) {
+    if (scene.walls().at(node) == nullptr) free_skin.push_back(node);
+  }
+  ActiveSet contact(body, free_skin);
+  PlatePair plates = place_plates(mesh, mesh.points, view_pose(mesh.side, 0), {});
+  const double open = plates.touching_thickness + 1;
+  plates.close_to(open);
+  BodyState state{reference, scene.assembly().rest_pressure()};
+  const auto area = [&](const BodyState&) { return std::vector<double>(free_skin.size(), 1.0); };
+  const double closed = 0.6 * plates.initial_thickness;
+  ASSERT_TRUE(
+      follow_path(contact, plates, state, {TargetKind::thickness, closed}, area, {}).reached);
+  EXPECT_GT((state.x - reference).lpNorm<Eigen::Infinity>(), 5);
+  const PathResult back =
+      follow_path(contact, plates, state, {TargetKind::thickness, open}, area, {});
+  ASSERT_TRUE(back.reached) << describe(back.last_failure);
+  EXPECT_LT((state.x - reference).lpNorm<Eigen::Infinity>(), 1e-3);
+}
+
+TEST(Compression, BothSolversAndBothStepLengthsAgree) {
+  HexMesh exact = stress_free_breast(), paper = exact, steps = exact;
+  CompressionOptions options = halfway("CC");
+  options.target = 35;
+  const CompressionSummary a = compress(exact, options, mechanics());
+  options.path.longest_step = 3;
+  const CompressionSummary b = compress(steps, options, mechanics());
+  options.path.longest_step = 0;
+  options.method = ContactMethod::augmented_lagrangian;
+  const CompressionSummary c = compress(paper, options, mechanics());
+  ASSERT_EQ(a.record.status, "converged") << a.record.reason;
+  ASSERT_EQ(b.record.status, "converged") << b.record.reason;
+  ASSERT_EQ(c.record.status, "converged") << c.record.reason;
+  EXPECT_LT(landmark_distance(exact, steps), 0.1);
+  EXPECT_LT(landmark_distance(exact, paper), 0.05);
+  EXPECT_NEAR(paper.contact->plates[0].force_N / exact.contact->plates[0].force_N, 1, 0.02);
+  EXPECT_LT(paper.contact->plates[0].worst_gap_mm, 0.02);
+}
+
+TEST(Compression, ForceAndPressureAreReached) {
+  for (const auto& [stop, value] :
+       {std::pair{StopAt::force, 30.0}, std::pair{StopAt::pressure, 6.0}}) {
+    HexMesh mesh = stress_free_breast();
+    CompressionOptions options = halfway("CC");
+    options.stop_at = stop;
+    options.target = value;
+    const CompressionSummary summary = compress(mesh, options, mechanics());
+    ASSERT_EQ(summary.record.status, "converged") << summary.record.reason;
+    const PlateRecord& paddle = mesh.contact->plates[0];
+    // Mean pressure jumps when a node joins: the bracket then closes on the jump.
+    const double reached = stop == StopAt::force ? paddle.force_N : paddle.mean_kPa;
+    EXPECT_NEAR(reached / value, 1, stop == StopAt::force ? 1e-3 : 0.1);
+  }
+}
