@@ -79,6 +79,12 @@ StableRange stable_range(const Law& law, double low, double high) {
   return range;
 }
 
+bool always_elliptic(const Law& law) {
+  if (law.kind != LawKind::exponential) return convex(law);
+  const double a = law.constants[0], b = law.constants[1], c = law.constants[2];
+  return a > 0 && b > 0 && c > -0.929 * a * b;
+}
+
 void check_law(const Law& law, const std::string& where) {
   const std::size_t expected = law_constant_names(law.kind).size();
   if (law.constants.size() != expected) {
@@ -104,7 +110,7 @@ void check_law(const Law& law, const std::string& where) {
     }
     return;
   }
-  if (convex(law)) return;
+  if (always_elliptic(law)) return;
   const StableRange range = stable_range(law, 0.5, 2.0);
   if (range.compression > 0.501 || range.tension < 1.99) {
     throw input_error(where, ": the law loses ellipticity outside stretches ", range.compression,

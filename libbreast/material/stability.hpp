@@ -22,6 +22,10 @@ struct StableRange {
 };
 StableRange stable_range(const Law& law, double low = 0.3, double high = 3.0);
 
+/// True where a closed condition proves ellipticity at every isochoric stretch: convex and
+/// nondecreasing in both invariants, or exponential with |c| < 0.929 ab.
+bool always_elliptic(const Law& law);
+
 /// Throws Error (input), beginning with `where`, unless the law is usable: right number of finite
 /// constants, positive rest modulus, and elliptic: by the closed conditions (polynomial: convex and
 /// nondecreasing; exponential: |c| < 0.929 ab), or else by a scan of stretches 0.5–2.

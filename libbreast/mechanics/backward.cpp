@@ -171,7 +171,8 @@ bool BackwardSolve::newton(Trial& trial) {
     const Distance now = distance(forces);
     summary_.residual = now.force;
     summary_.min_det_F = forces.min_det_F;
-    if (now.force <= tolerance && now.volume <= volume_tolerance) return true;
+    const double bound = std::max(tolerance, rounding_force(matrix_, imaged_) / load_norm_);
+    if (now.force <= bound && now.volume <= volume_tolerance) return true;
     if (i == max_iterations) break;
     Trial step;
     if (!direction(forces, step)) {

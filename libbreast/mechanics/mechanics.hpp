@@ -1,6 +1,7 @@
 // Forward and backward: the two directions of one discrete equilibrium R(X, x, p) = 0.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,10 @@ struct SolveSummary {
   long long unknowns = 0;
   Timer timer;
   bool stable = true;  ///< backward: the imaged shape is a stable equilibrium of the shape found
+  /// Estimated discretisation error at the landmarks (largest, and by name: exact minus computed),
+  /// mm; negative when not estimated. See mechanics/error_estimate.hpp.
+  double error_estimate_mm = -1;
+  std::map<std::string, Vec3> landmark_error_mm;
   std::vector<std::string> doubts;  ///< what a reader should doubt
   bool converged() const { return record.status == "converged"; }
 };

@@ -61,6 +61,15 @@ void write_report(const SolveSummary& summary, const HexMesh& mesh, const Mechan
   report.set("residual", summary.residual);
   report.set("min_det_F", summary.min_det_F);
   report.set("max_volume_error", summary.max_volume_error);
+  if (summary.error_estimate_mm >= 0) {
+    report.set("error_estimate_mm", summary.error_estimate_mm);
+    report.set(
+        "error_estimate_how",
+        "dual-weighted residuals at the landmarks: discretisation only, not geometry or laws");
+    for (const auto& [name, error] : summary.landmark_error_mm) {
+      report.set("landmarks/" + name + "/error_estimate_mm", error.norm());
+    }
+  }
   report.set("element", options.element == Element::q1p0 ? "q1p0" : "q2p1");
   report.set("invariants", options.invariants == Invariants::isochoric ? "isochoric" : "plain");
   if (options.bulk_ratio > 0) report.set("bulk_ratio", options.bulk_ratio);

@@ -1,9 +1,12 @@
 #include "mechanics/solution.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "material/stability.hpp"
+#include "mesh/shape.hpp"
 
 namespace breast {
 
@@ -35,12 +38,47 @@ void store_state(HexMesh& mesh, const Scene& scene, const Eigen::VectorXd& refer
   mesh.solve = summary.record;
 }
 
-void judge(SolveSummary& summary, const Scene& scene, const Eigen::VectorXd&, const SaddleState&) {
+namespace {
+
+// Elements whose law is not proven elliptic and has lost it at the element's centre.
+int beyond_stable_range(const Scene& scene, const Eigen::VectorXd& reference,
+                        const Eigen::VectorXd& deformed) {
+  const HexMesh& mesh = scene.mesh();
+  const HexShape centre = hex_shape(mesh.order, Vec3::Zero());
+  int beyond = 0;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const Law& law = scene.options().materials.law(mesh.tissue[e]);
+    if (always_elliptic(law)) continue;
+    Mat3 from = Mat3::Zero(), to = Mat3::Zero();
+    for (int a = 0; a < mesh.nodes_per_element(); ++a) {
+      const int node = mesh.element(e)[a];
+      from += reference.segment<3>(3L * node) * centre.gradients.col(a).transpose();
+      to += deformed.segment<3>(3L * node) * centre.gradients.col(a).transpose();
+    }
+    Mat3 f = to * from.inverse();
+    f /= std::cbrt(f.determinant());
+    if (!(weakest_shear(law, f * f.transpose()) > 0)) ++beyond;
+  }
+  return beyond;
+}
+
+}  // namespace
+
+void judge(SolveSummary& summary, const Scene& scene, const Eigen::VectorXd& reference,
+           const SaddleState& state) {
   const HexMesh& mesh = scene.mesh();
   const auto poor = std::count_if(mesh.scaled_jacobian.begin(), mesh.scaled_jacobian.end(),
                                   [](double quality) { return quality < 0.1; });
   if (poor > 0) {
     summary.doubts.push_back(message(poor, " elements have a scaled Jacobian below 0.1"));
+  }
+  const int beyond = beyond_stable_range(scene, reference, state.u);
+  if (beyond > 0) {
+    summary.doubts.push_back(message(beyond, " elements are beyond the stable range of their law"));
+  }
+  if (summary.min_det_F > 0 && summary.min_det_F < 0.3) {
+    summary.doubts.push_back(
+        message("smallest det F ", summary.min_det_F, " inside an element: refine the mesh there"));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 
@@ -93,6 +94,10 @@ bool aim(Constraints& constraints, const Eigen::VectorXd* targets, const Eigen::
 
 }  // namespace
 
+double rounding_force(const SaddleMatrix& matrix, const Eigen::VectorXd& u) {
+  return 8 * std::numeric_limits<double>::epsilon() * matrix.diagonal.cwiseProduct(u).norm();
+}
+
 NewtonResult newton(const SaddleProblem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
                     const Constraints& constraints, const Eigen::VectorXd* targets,
                     SaddleState& state, const NewtonOptions& options,
@@ -115,7 +120,9 @@ NewtonResult newton(const SaddleProblem& problem, SaddleSolver& solver, SaddleMa
     }
     result.residual = iteration.measure(result.forces);
     const bool away = aim(moving, targets, state.u);
-    if (!away && result.residual <= options.tolerance && iteration.volumes_hold(result.forces)) {
+    const double tolerance =
+        std::max(options.tolerance, rounding_force(matrix, state.u) / problem.load_norm());
+    if (!away && result.residual <= tolerance && iteration.volumes_hold(result.forces)) {
       result.converged = true;
       break;
     }

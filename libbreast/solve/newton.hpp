@@ -67,6 +67,9 @@ struct NewtonResult {
   double residual = 0;
 };
 
+/// Force (µN) that rounding the positions alone can make: no residual gets reliably below it.
+double rounding_force(const SaddleMatrix& matrix, const Eigen::VectorXd& u);
+
 /// Moves `state` to equilibrium. `targets`: positions of held components (3 per node; other entries
 /// ignored); null: held components stay. Not converged: `state` is the last admissible one.
 NewtonResult newton(const SaddleProblem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
