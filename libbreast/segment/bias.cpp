@@ -11,7 +11,9 @@ namespace breast {
 namespace {
 
 constexpr float seed_drop = 0.35f;  // seeds: log intensity this close to the local maximum
-constexpr float fat_low = -0.22f, fat_high = 0.35f;  // fat: residual log intensity
+// Fat: residual log intensity. The weight falls to zero on the dark side, where voxels shared with
+// gland would pull the field down, take in darker ones and so eat into the gland pass by pass.
+constexpr float fat_low = -0.22f, fat_sure = -0.08f, fat_high = 0.35f;
 constexpr float far_below = -1e4f;
 
 /// Gaussian of a width far above the voxel size, on a grid as coarse as that width allows.
@@ -22,15 +24,14 @@ Volume<float> wide_gaussian(const Volume<float>& volume, double sigma) {
   return resampled(gaussian(coarsened(volume, factor), sigma), volume.grid);
 }
 
-/// Adds to `out` the normalised convolution of value - out over `inside`, in proportion to its
+/// Adds to `out` the normalised convolution of value - out with `weight`, in proportion to its
 /// support.
-void add_smoothed_residual(Volume<float>& out, const Volume<float>& value, const Mask& inside,
-                           double sigma) {
-  constexpr float enough = 0.02f;
-  Volume<float> weighted(value.grid), weight(value.grid);
+void add_smoothed_residual(Volume<float>& out, const Volume<float>& value,
+                           const Volume<float>& weight, double sigma, float enough) {
+  Volume<float> weighted(value.grid);
   for (std::size_t n = 0; n < out.voxels.size(); ++n) {
-    weight.voxels[n] = inside.voxels[n];
-    weighted.voxels[n] = inside.voxels[n] ? value.voxels[n] - out.voxels[n] : 0;
+    const float w = weight.voxels[n];
+    weighted.voxels[n] = w > 0 ? w * (value.voxels[n] - out.voxels[n]) : 0;
   }
   const Volume<float> numerator = wide_gaussian(weighted, sigma),
                       support = wide_gaussian(weight, sigma);
@@ -39,21 +40,28 @@ void add_smoothed_residual(Volume<float>& out, const Volume<float>& value, const
   }
 }
 
-/// Smooth field through `value` on `inside`: from 9 sigma to sigma, each width correcting what the
-/// wider one left, so that far from any fat the wide ones remain. The last width is used twice: a
-/// one-sided neighbourhood (at skin and chest wall) otherwise flattens the field's slope.
-Volume<float> smooth_inside(const Volume<float>& value, const Mask& inside, double sigma) {
-  double sum = 0, count = 0;
+/// Smooth field through `value` weighted by `weight`: from 9 sigma to sigma, each width correcting
+/// what the wider one left, so that far from any fat the wide ones remain. The last width is used
+/// twice: a one-sided neighbourhood (at skin and chest wall) otherwise flattens the field's slope.
+Volume<float> smooth_inside(const Volume<float>& value, const Volume<float>& weight, double sigma) {
+  double sum = 0, total = 0;
   for (std::size_t n = 0; n < value.voxels.size(); ++n) {
-    if (!inside.voxels[n]) continue;
-    sum += value.voxels[n];
-    count += 1;
+    if (!(weight.voxels[n] > 0)) continue;
+    sum += weight.voxels[n] * value.voxels[n];
+    total += weight.voxels[n];
   }
-  Volume<float> out(value.grid, float(sum / std::max(count, 1.0)));
-  for (const double width : {9 * sigma, 3 * sigma, sigma, sigma}) {
-    add_smoothed_residual(out, value, inside, width);
-  }
+  Volume<float> out(value.grid, float(sum / std::max(total, 1e-6)));
+  add_smoothed_residual(out, value, weight, 9 * sigma, 0.01f);
+  add_smoothed_residual(out, value, weight, 3 * sigma, 0.01f);
+  // Within a compact gland the narrow width would see its rim alone.
+  add_smoothed_residual(out, value, weight, sigma, 0.05f);
+  add_smoothed_residual(out, value, weight, sigma, 0.05f);
   return out;
+}
+
+float fat_weight(float residual) {
+  if (!(residual > fat_low && residual < fat_high)) return 0;
+  return std::min(1.0f, (residual - fat_low) / (fat_sure - fat_low));
 }
 
 double variation(const std::vector<double>& values) {
@@ -68,7 +76,8 @@ double variation(const std::vector<double>& values) {
 }  // namespace
 
 BiasField fat_bias(const Volume<float>& scan, const Mask& allowed,
-                   const Volume<float>& skin_distance, const BiasSettings& settings) {
+                   const Volume<float>& skin_distance, const BiasSettings& settings,
+                   const Volume<float>* previous) {
   const std::size_t count = scan.voxels.size();
   Volume<float> logs(scan.grid, far_below);
   Mask core(scan.grid);
@@ -77,15 +86,16 @@ BiasField fat_bias(const Volume<float>& scan, const Mask& allowed,
         allowed.voxels[n] && -skin_distance.voxels[n] > settings.core && scan.voxels[n] > 0;
     if (core.voxels[n]) logs.voxels[n] = std::log(scan.voxels[n]);
   }
-  // The brightest voxel of a noisy window lies above fat; a little smoothing takes that away.
-  Mask fat(scan.grid);
+  Volume<float> fat(scan.grid);
   {
-    const Volume<float> brightest = box_maximum(logs, 0.5 * settings.window);
+    Volume<float> flat = logs;
+    for (std::size_t n = 0; previous && n < count; ++n) flat.voxels[n] -= previous->voxels[n];
+    const Volume<float> brightest = box_maximum(flat, 0.5 * settings.window);
     for (std::size_t n = 0; n < count; ++n) {
-      fat.voxels[n] = core.voxels[n] && logs.voxels[n] > brightest.voxels[n] - seed_drop;
+      fat.voxels[n] = core.voxels[n] && flat.voxels[n] > brightest.voxels[n] - seed_drop ? 1 : 0;
     }
   }
-  if (std::none_of(fat.voxels.begin(), fat.voxels.end(), [](auto v) { return v != 0; })) {
+  if (std::none_of(fat.voxels.begin(), fat.voxels.end(), [](float v) { return v > 0; })) {
     throw input_error(
         "no fat found in front of the chest wall: is this a T1 scan without fat suppression?");
   }
@@ -94,19 +104,19 @@ BiasField fat_bias(const Volume<float>& scan, const Mask& allowed,
     field.log_bias = smooth_inside(logs, fat, settings.sigma);
     for (std::size_t n = 0; n < count; ++n) {
       const float residual = logs.voxels[n] - field.log_bias.voxels[n];
-      fat.voxels[n] = core.voxels[n] && residual > fat_low && residual < fat_high;
+      fat.voxels[n] = core.voxels[n] ? fat_weight(residual) : 0;
     }
   }
   field.log_bias = smooth_inside(logs, fat, settings.sigma);
   std::vector<double> before, after;
   for (std::size_t n = 0; n < count; ++n) {
-    if (!fat.voxels[n]) continue;
+    if (!(fat.voxels[n] > 0)) continue;
     before.push_back(scan.voxels[n]);
     after.push_back(scan.voxels[n] / std::exp(field.log_bias.voxels[n]));
   }
   std::vector<float> levels;
   for (std::size_t n = 0; n < count; ++n) {
-    if (fat.voxels[n]) levels.push_back(field.log_bias.voxels[n]);
+    if (fat.voxels[n] > 0) levels.push_back(field.log_bias.voxels[n]);
   }
   if (!levels.empty()) {
     std::sort(levels.begin(), levels.end());

@@ -18,8 +18,11 @@ struct BiasSettings {
 };
 
 /// `allowed` marks tissue that may be fat (in front of the depth limit or of the chest wall);
-/// `skin_distance` (mm) is the depth below the body's surface. All on one grid.
+/// `skin_distance` (mm) is the depth below the body's surface. `previous` (may be null) is an
+/// earlier estimate, divided out before fat is sought: the window may then stay wide enough to see
+/// fat around a compact gland. All on one grid.
 BiasField fat_bias(const Volume<float>& scan, const Mask& allowed,
-                   const Volume<float>& skin_distance, const BiasSettings& settings);
+                   const Volume<float>& skin_distance, const BiasSettings& settings,
+                   const Volume<float>* previous);
 
 }  // namespace breast

@@ -20,7 +20,7 @@ constexpr double wall_clearance = 2;  // mm in front of the wall used for the la
 /// Bias on a grid halved in plane, and the ratio on the working grid. `limit` gives the depth (mm)
 /// per column up to which there may be fat.
 template <class Limit>
-void correct_bias(Work& work, const BiasSettings& settings, const Limit& limit) {
+void correct_bias(Work& work, bool again, const Limit& limit) {
   const std::array<int, 3> half{2, 2, 1};
   const Volume<float> coarse = coarsened(work.scan, half);
   Volume<float> distance = resampled(work.skin_distance, coarse.grid);
@@ -35,7 +35,8 @@ void correct_bias(Work& work, const BiasSettings& settings, const Limit& limit) 
       }
     }
   }
-  work.bias = fat_bias(coarse, allowed, distance, settings);
+  const Volume<float> previous = work.bias.log_bias;
+  work.bias = fat_bias(coarse, allowed, distance, BiasSettings{}, again ? &previous : nullptr);
   const Volume<float> fine = resampled(work.bias.log_bias, work.scan.grid);
   work.ratio = work.scan;
   for (std::size_t n = 0; n < fine.voxels.size(); ++n) {
@@ -49,9 +50,7 @@ void find_wall(Work& work, const SegmentOptions& options, Progress& progress, Ti
     progress.update("chest wall", 0.2 + 0.25 * pass, pass ? "second pass" : "first pass");
     {
       const Timer::Scope phase(timer, "bias");
-      BiasSettings settings;
-      settings.window = pass ? 30 : 50;
-      correct_bias(work, settings, [&](int i, int k) {
+      correct_bias(work, pass > 0, [&](int i, int k) {
         const double sternal = work.torso.cleft[k] + depth_limit;
         if (pass == 0 || std::isnan(work.wall.depth.at(i, k))) return sternal;
         return work.wall.depth.at(i, k) - wall_clearance;
@@ -123,9 +122,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   find_wall(work, options, progress, timer);
   {
     const Timer::Scope phase(timer, "bias");
-    BiasSettings settings;
-    settings.window = 30;
-    correct_bias(work, settings, [&](int i, int k) {
+    correct_bias(work, true, [&](int i, int k) {
       return std::isnan(work.wall.depth.at(i, k)) ? work.torso.cleft[k] + 10
                                                   : work.wall.depth.at(i, k) - wall_clearance;
     });

@@ -1,0 +1,244 @@
+#include "segment/segment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "core/error.hpp"
+#include "fixtures/synthetic_scan.hpp"
+#include "segment/grid_ops.hpp"
+#include "segment/min_cut.hpp"
+
+namespace breast {
+namespace {
+
+using testing::SyntheticScan;
+
+Segmentation run(const Volume<float>& scan, const SegmentOptions& options) {
+  Timer timer;
+  return segment_breast(scan, options, no_progress(), timer);
+}
+
+bool is_breast(std::uint8_t tissue) {
+  return tissue >= 1 && tissue <= 3;
+}
+
+struct Scores {
+  double breast_dice = 0, gland_dice = 0, wall_mean = 0, wall_p95 = 0;
+  int gaps = 0;  ///< columns of the breast without muscle right behind it
+};
+
+Scores score(const SyntheticScan& truth, const LabelVolume& labels, double side) {
+  Scores scores;
+  double both = 0, ours = 0, theirs = 0, gland_both = 0, gland_ours = 0, gland_theirs = 0;
+  std::vector<double> wall;
+  const Grid& grid = labels.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = 0; i < grid.size[0]; ++i) {
+      int last_breast = -1;
+      for (int j = 0; j < grid.size[1]; ++j) {
+        const Vec3 p = grid.to_patient(Vec3(i, j, k));
+        const std::uint8_t tissue = labels.tissue[grid.offset(i, j, k)];
+        const bool a = is_breast(tissue);
+        const bool b = p[0] * side > 0 && !truth.behind_wall(p) && truth.in_ellipsoid(p, 1);
+        const bool g = p[0] * side > 0 && truth.in_gland(p);
+        ours += a;
+        theirs += b;
+        both += a && b;
+        gland_ours += tissue == 2;
+        gland_theirs += g;
+        gland_both += g && tissue == 2;
+        if (a) last_breast = j;
+      }
+      if (last_breast < 0) continue;
+      const Vec3 edge = grid.to_patient(Vec3(i, last_breast + 0.5, k));
+      const bool muscle_next =
+          last_breast + 1 < grid.size[1] && labels.at(i, last_breast + 1, k) == Tissue::muscle;
+      const bool stands =
+          truth.in_ellipsoid(Vec3(edge[0], truth.wall(edge[0], edge[2]) - 1, edge[2]), 0.9);
+      if (!stands) continue;
+      scores.gaps += !muscle_next;
+      wall.push_back(std::abs(edge[1] - truth.wall(edge[0], edge[2])));
+    }
+  }
+  scores.breast_dice = 2 * both / (ours + theirs);
+  scores.gland_dice = 2 * gland_both / (gland_ours + gland_theirs);
+  std::sort(wall.begin(), wall.end());
+  for (const double w : wall) scores.wall_mean += w / double(wall.size());
+  scores.wall_p95 = wall[std::size_t(0.95 * double(wall.size() - 1))];
+  return scores;
+}
+
+TEST(Segment, KnownBreastUnderFivefoldBias) {
+  const SyntheticScan truth;
+  const Volume<float> scan = truth.image();
+  for (const Side side : {Side::left, Side::right}) {
+    SegmentOptions options;
+    options.side = side;
+    const double sign = lateral_sign(side);
+    const Segmentation result = run(scan, options);
+    const Scores scores = score(truth, result.labels, sign);
+    SCOPED_TRACE(std::string(side_name(side)) +
+                 ::testing::PrintToString(std::vector<double>{
+                     scores.breast_dice, scores.gland_dice, scores.wall_mean, scores.wall_p95,
+                     result.bias_cv_before, result.bias_cv_after, result.bias_range}));
+    EXPECT_EQ(result.labels.side, side);
+    EXPECT_GT(scores.breast_dice, 0.93);
+    EXPECT_GT(scores.gland_dice, 0.90);
+    EXPECT_EQ(scores.gaps, 0);
+    EXPECT_LT(scores.wall_mean, 0.8);  // voxels are 2 mm deep
+    EXPECT_LT(scores.wall_p95, 1.6);
+    EXPECT_GT(result.bias_cv_before, 0.3);
+    EXPECT_LT(result.bias_cv_after, 0.07);
+    EXPECT_GT(result.bias_range, 3);
+    EXPECT_NEAR(result.midline_mm, 0, 3);
+    EXPECT_LT((result.labels.landmarks.at("nipple") - truth.nipple(sign)).norm(), 7);
+    EXPECT_GT(result.fibroglandular_agreement, 0.8);
+    EXPECT_GT(result.wall_confident_percent, 90);
+  }
+}
+
+TEST(Segment, ABreastWithoutGlandHasNone) {
+  SyntheticScan truth;
+  truth.gland_scale = 0;
+  SegmentOptions options;
+  const Segmentation result = run(truth.image(), options);
+  double gland = 0, fat = 0;
+  for (const auto tissue : result.labels.tissue) {
+    gland += tissue == 2;
+    fat += tissue == 1;
+  }
+  EXPECT_LT(gland, 0.03 * fat);
+}
+
+TEST(Segment, AxesInAnyOrderGiveTheSameBreast) {
+  const SyntheticScan truth;
+  const Volume<float> scan = truth.image();
+  // As a sagittal acquisition stored from top to bottom: (j, k flipped, i).
+  Volume<float> sagittal;
+  const auto& size = scan.grid.size;
+  sagittal.grid.size = {size[1], size[2], size[0]};
+  sagittal.grid.spacing = Vec3(2, 4, 2);
+  sagittal.grid.direction << 0, 0, 1, 1, 0, 0, 0, -1, 0;
+  sagittal.grid.origin = scan.grid.to_patient(Vec3(0, 0, size[2] - 1));
+  sagittal.voxels.resize(scan.voxels.size());
+  for (int k = 0; k < size[2]; ++k) {
+    for (int j = 0; j < size[1]; ++j) {
+      for (int i = 0; i < size[0]; ++i) sagittal.at(j, size[2] - 1 - k, i) = scan.at(i, j, k);
+    }
+  }
+  const Volume<float> back = in_patient_order(sagittal);
+  EXPECT_EQ(back.grid.size, scan.grid.size);
+  EXPECT_LT((back.grid.origin - scan.grid.origin).norm(), 1e-9);
+  EXPECT_TRUE(back.grid.direction.isIdentity(1e-12));
+  EXPECT_EQ(back.voxels, scan.voxels);
+}
+
+TEST(Segment, ClickedPointsMoveTheWallThere) {
+  const SyntheticScan truth;
+  const Volume<float> scan = truth.image();
+  SegmentOptions options;
+  const Vec3 click(75, truth.wall(75, 0) - 9, 0);
+  options.wall_points = {click};
+  const LabelVolume labels = run(scan, options).labels;
+  const auto wall_near = [&](double x, double z) {
+    const Vec3 index = labels.grid.to_index(Vec3(x, click[1], z));
+    const int i = int(std::lround(index[0])), k = int(std::lround(index[2]));
+    int j = 0;
+    while (j < labels.grid.size[1] && labels.at(i, j, k) != Tissue::muscle) ++j;
+    return labels.grid.to_patient(Vec3(i, j - 0.5, k))[1];
+  };
+  EXPECT_NEAR(wall_near(75, 0), click[1], 2);
+  EXPECT_NEAR(wall_near(20, 0), truth.wall(20, 0), 2) << "far from the click nothing moves";
+  options.wall_points = {Vec3(75, 0, 500)};
+  EXPECT_THROW(run(scan, options), Error);
+}
+
+TEST(Segment, ACorrectedLabelMapReplacesTheWall) {
+  const SyntheticScan truth;
+  const Volume<float> scan = truth.image();
+  SegmentOptions options;
+  options.wall_labels = Volume<float>(truth.grid);
+  const double moved = 6;
+  for (int k = 0; k < truth.grid.size[2]; ++k) {
+    for (int j = 0; j < truth.grid.size[1]; ++j) {
+      for (int i = 0; i < truth.grid.size[0]; ++i) {
+        const Vec3 p = truth.grid.to_patient(Vec3(i, j, k));
+        if (p[1] >= truth.wall(p[0], p[2]) - moved) options.wall_labels->at(i, j, k) = 4;
+      }
+    }
+  }
+  SyntheticScan shifted = truth;
+  const Scores scores = score(shifted, run(scan, options).labels, 1);
+  EXPECT_NEAR(scores.wall_mean, moved, 1.5);
+  std::fill(options.wall_labels->voxels.begin(), options.wall_labels->voxels.end(), 0.0f);
+  EXPECT_THROW(run(scan, options), Error);
+}
+
+TEST(Segment, ScansWithoutABreastAreRefusedInOneLine) {
+  const auto refusal = [](const Volume<float>& scan) -> std::string {
+    try {
+      run(scan, SegmentOptions{});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code(), 2);
+      return error.what();
+    }
+    return "";
+  };
+  SyntheticScan flat;
+  flat.depth = 0;
+  EXPECT_NE(refusal(flat.image()).find("breast"), std::string::npos);
+  Volume<float> uniform(flat.grid, 7.0f);
+  EXPECT_NE(refusal(uniform), "");
+  std::mt19937 random(3);
+  Volume<float> noise(flat.grid);
+  for (float& v : noise.voxels) v = float(random() % 100);
+  EXPECT_NE(refusal(noise), "");
+}
+
+/// Exact answer on a single row by dynamic programming.
+double chain_optimum(const SurfaceProblem& problem) {
+  std::vector<double> best(problem.levels), next(problem.levels);
+  for (int d = 0; d < problem.levels; ++d) best[d] = problem.cost[d];
+  for (int i = 1; i < problem.nx; ++i) {
+    for (int d = 0; d < problem.levels; ++d) {
+      next[d] = std::numeric_limits<double>::infinity();
+      for (int e = 0; e < problem.levels; ++e) {
+        if (std::abs(d - e) > problem.max_step_x) continue;
+        next[d] = std::min(next[d], best[e] + problem.step_cost * std::abs(d - e));
+      }
+      next[d] += problem.cost[std::size_t(i) * problem.levels + d];
+    }
+    best = next;
+  }
+  return *std::min_element(best.begin(), best.end());
+}
+
+TEST(MinCut, EqualsDynamicProgrammingOnARow) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> uniform(-1, 1);
+  for (const int levels : {2, 3, 9}) {
+    SurfaceProblem problem;
+    problem.nx = 40;
+    problem.nz = 1;
+    problem.levels = levels;
+    problem.max_step_x = 2;
+    problem.step_cost = 0.2;
+    for (int n = 0; n < problem.nx * levels; ++n) problem.cost.push_back(uniform(random));
+    const std::vector<int> surface = optimal_surface(problem);
+    double cost = 0;
+    for (int i = 0; i < problem.nx; ++i) {
+      cost += problem.cost[std::size_t(i) * levels + surface[i]];
+      if (i == 0) continue;
+      ASSERT_LE(std::abs(surface[i] - surface[i - 1]), problem.max_step_x);
+      cost += problem.step_cost * std::abs(surface[i] - surface[i - 1]);
+    }
+    EXPECT_NEAR(cost, chain_optimum(problem), 1e-5) << levels;
+  }
+}
+
+}  // namespace
+}  // namespace breast
