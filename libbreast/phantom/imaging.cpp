@@ -207,6 +207,21 @@ PhantomImage image_scene(const PhantomScene& scene, Progress& progress) {
   return image;
 }
 
+namespace {
+
+// The papilla's tip in the prone image: it stands out of the mesh, turned with the tissue behind
+// it.
+Vec3 nipple_tip(const PhantomBreast& breast) {
+  const HexMesh& mesh = breast.mesh;
+  const Vec3 behind = breast.shape.apex() - 6 * breast.shape.axis();
+  const Location at = Locator(mesh, mesh.reference).nearest(behind);
+  const Vec3 base = mesh.points[mesh.nipple_node];
+  const Vec3 out = base - element_position(mesh, mesh.points, at.element, at.local);
+  return base + breast.shape.parameters().nipple_height * out.normalized();
+}
+
+}  // namespace
+
 LabelVolume true_labels(const PhantomScene& scene, const PhantomImage& image, Side side) {
   const Grid& full = image.signal.grid;
   const std::uint8_t own = side == Side::left ? 1 : 2;
@@ -247,8 +262,8 @@ LabelVolume true_labels(const PhantomScene& scene, const PhantomImage& image, Si
           labels.fibroglandular_fraction[to] = 0.01f * float(image.gland_percent[from]);
       }
   const HexMesh& mesh = scene.breast(side).mesh;
-  for (const char* name : {"nipple", "tumour"})
-    labels.landmarks[name] = landmark_position(mesh, mesh.points, *mesh.landmark(name));
+  labels.landmarks["tumour"] = landmark_position(mesh, mesh.points, *mesh.landmark("tumour"));
+  labels.landmarks["nipple"] = nipple_tip(scene.breast(side));
   labels.skin_thickness = scene.parameters.skin;
   return labels;
 }

@@ -28,7 +28,7 @@ struct BreastParameters {
   double radius = 54;        ///< mean radius at the base
   double height = 82;        ///< chest wall to nipple base along the axis
   double shoulder = 18;      ///< height up to which the breast is a cylinder, a dome above
-  double power = 2.05;       ///< fullness of the dome (2 = ellipsoid)
+  double power = 1.92;       ///< fullness of the dome (2 = ellipsoid)
   double upper_fullness = 0.06, lateral_fullness = 0.04,
          axillary_tail = 0.08;  ///< relative to radius
   double fold = 22;             ///< fillet between breast and chest, larger above than below

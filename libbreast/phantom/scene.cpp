@@ -126,8 +126,8 @@ void place_landmarks(const PhantomBreast& breast, HexMesh& mesh) {
   const double height = (breast.shape.apex() - breast.shape.foot()).norm();
   const Vec3 up = breast.shape.radial(0.5 * std::numbers::pi);
   const Vec3 out = lateral_sign(mesh.side) * breast.shape.radial(0);
-  const Vec3 wanted = breast.shape.foot() + 0.27 * height * breast.shape.axis() +
-                      0.30 * breast.shape.parameters().radius * (up + out);
+  const Vec3 wanted = breast.shape.foot() + 0.20 * height * breast.shape.axis() +
+                      0.28 * breast.shape.parameters().radius * (up + out);
   const Vec3 tumour = margin_point(breast, wanted);
   add("tumour", Locator(mesh, mesh.reference).nearest(tumour));
   mesh.tumour_node = nearest_node(mesh.reference, tumour);
