@@ -78,7 +78,7 @@ HexMesh body_mesh(const BreastGeometry& geometry, const BodyMeshOptions& options
   DomeTemplate dome = dome_template(options.size);
   PlacedNodes nodes = place_nodes(dome, body);
   SmoothOptions smoothing = options.smoothing;
-  smoothing.mid_edges = options.size.m == 0;
+  if (options.size.m == 0) smoothing = for_cuboid(smoothing);
   std::vector<bool> held(nodes.x.size(), false);
   const SmoothReport smoothed = smooth_nodes(dome.connectivity, body, smoothing, held, nodes);
   take_node_to_nipple(geometry, body, dome.connectivity, smoothing, held, nodes);

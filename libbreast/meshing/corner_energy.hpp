@@ -10,8 +10,8 @@ namespace breast {
 class CornerEnergy {
  public:
   struct Parameters {
-    double theta = 0.3;  ///< weight of size against shape
-    int power = 4;
+    double theta = 0.2;  ///< weight of size against shape
+    int power = 8;
     double epsilon = 1e-6;   ///< regularisation of det A near and below 0
     bool mid_edges = false;  ///< samples at the 12 mid-edges too: flat corners (180°) need them
   };

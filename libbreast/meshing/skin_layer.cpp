@@ -114,7 +114,7 @@ std::vector<int> thin_skin_elements(double thickness, const BodyMap& body, const
       }
     }
   }
-  smooth_nodes(dome.connectivity, body, {.evaluations = 120, .mid_edges = true}, held, nodes);
+  smooth_nodes(dome.connectivity, body, for_cuboid({.evaluations = 120}), held, nodes);
   std::vector<int> layer;
   for (const Face& face : dome.skin_faces) layer.push_back(face.element);
   std::sort(layer.begin(), layer.end());
