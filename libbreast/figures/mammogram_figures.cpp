@@ -138,6 +138,12 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
     panel.text(Vec2(edge.x() + 6 * outward, low.y() + 34), "plates from here", letters - 2,
                {0.85, 0.85, 0.85}, align);
   }
+  if (std::any_of(image.through_back.begin(), image.through_back.end(),
+                  [](std::uint8_t flag) { return flag != 0; })) {
+    const double chest = hanging.left() ? low.x() + 6 : high.x() - 6;
+    panel.text({chest, low.y() + 14}, "even grey: behind the mesh", letters - 2, {0.85, 0.85, 0.85},
+               hanging.left() ? Align::left : Align::right);
+  }
   const std::string top = image.view == "CC" ? "lateral" : "superior";
   const std::string bottom = image.view == "CC" ? "medial" : "inferior";
   const double inset = hanging.left() ? high.x() - 10 : low.x() + 10;

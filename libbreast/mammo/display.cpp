@@ -9,6 +9,7 @@ namespace {
 
 // Steeper in the dense tissue than at the skin, as film is.
 constexpr double display_gamma = 2;
+constexpr std::uint16_t unknown_grey = 13000;
 
 // A few bright pixels (a tumour, a fold) must not darken the rest, nor must the thicker tissue
 // behind the plates: the window ends at the 99.8 % rank of the pixels that show compressed tissue.
@@ -39,6 +40,10 @@ HungImage hang(const Mammogram& image) {
     const int v = left ? row : image.height - 1 - row;
     for (int column = 0; column < image.width; ++column) {
       const int u = left ? column : image.width - 1 - column;
+      if (image.through_back[std::size_t(v) * image.width + u] != 0) {
+        hung.grey[std::size_t(row) * image.width + column] = unknown_grey;
+        continue;
+      }
       const double value = image.path[std::size_t(v) * image.width + u] / hung.window_high;
       hung.grey[std::size_t(row) * image.width + column] =
           std::uint16_t(std::lround(65535 * std::pow(std::clamp(value, 0.0, 1.0), display_gamma)));

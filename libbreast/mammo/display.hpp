@@ -9,7 +9,8 @@
 namespace breast {
 
 /// Rows from the top. Chest wall at the left edge for a left breast and at the right edge for a
-/// right one; lateral (CC) or superior (MLO, ML) at the top; dense is bright.
+/// right one; lateral (CC) or superior (MLO, ML) at the top; dense is bright. Columns that leave
+/// through the back are an even dark grey.
 struct HungImage {
   int width = 0, height = 0;
   std::vector<std::uint16_t> grey;

@@ -1,6 +1,7 @@
 // A projection image on the detector plane with the pose that made it.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,9 @@ struct Mammogram {
   std::vector<float> path;       ///< line integral (or tissue-weighted mm) per pixel, u fastest
   std::vector<float> thickness;  ///< mm of tissue along each ray
   std::vector<float> fibroglandular;  ///< mm of fibroglandular tissue along each ray
+  /// 1: the column leaves the mesh through the chest wall or the cut; nothing is known of it and
+  /// the other arrays hold 0.
+  std::vector<std::uint8_t> through_back;
   History history;
   std::string content_sha256;
 };

@@ -51,7 +51,12 @@ class Projector {
     std::vector<Chord> chords;
     for (int u = 0; u < image.width; ++u) {
       rays_.trace(image.pixel * Vec2(u, v), chords);
-      if (rays_.leaves_through_back(chords)) ++sums.back;
+      const std::size_t at = std::size_t(v) * image.width + u;
+      if (rays_.leaves_through_back(chords)) {
+        image.through_back[at] = 1;
+        ++sums.back;
+        continue;
+      }
       TissuePath mm;
       const Ray ray = rays_.ray(image.pixel * Vec2(u, v));
       for (const Chord& chord : chords) {
@@ -62,7 +67,6 @@ class Projector {
                              mm);
         }
       }
-      const std::size_t at = std::size_t(v) * image.width + u;
       image.path[at] = float(options_.energy.path(mm));
       image.thickness[at] = float(mm.total());
       image.fibroglandular[at] = float(mm.fibroglandular);
@@ -120,6 +124,7 @@ Mammogram empty_image(const HexMesh& mesh, const ImageFrame& frame,
   image.path.assign(n, 0);
   image.thickness.assign(n, 0);
   image.fibroglandular.assign(n, 0);
+  image.through_back.assign(n, 0);
   return image;
 }
 

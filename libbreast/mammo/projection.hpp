@@ -25,7 +25,7 @@ struct ProjectionReport {
   TissuePath volumes;        ///< mm³ per tissue in the image
   double unlabelled =
       0;  ///< part of the path in voxels labelled air, muscle or other (taken as fat)
-  int back_columns = 0;  ///< pixels whose column leaves through the back (0 by the framing)
+  int back_columns = 0;  ///< pixels whose column leaves through the back: left blank
 };
 
 /// Throws Error (input) for a mesh without compression record or an image beyond 100 million

@@ -221,6 +221,39 @@ TEST(Projection, NoColumnOfTheImageLeavesThroughTheBack) {
   }
 }
 
+TEST(Projection, ATumourBehindTheEdgeIsShownWhenItsColumnIsKnown) {
+  // Sheared so that one side of the chest wall lies far in front of the other.
+  HexMesh mesh = deformed(breast_mesh(), "CC",
+                          [](const Vec3& x) { return Vec3(x.x(), x.y() - 0.6 * x.x(), x.z()); });
+  const ImageFrame narrow = image_frame(mesh);
+  const RayMesh rays(mesh, mesh.points, narrow.pose);
+  int known = -1, unknown = -1;
+  std::vector<Chord> chords;
+  const auto middle = [&](int e) { return element_position(mesh, mesh.points, e, Vec3::Zero()); };
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const Vec2 uv = narrow.pose.project(middle(e));
+    if (uv.x() > -4) continue;
+    rays.trace(uv, chords);
+    (rays.leaves_through_back(chords) ? unknown : known) = e;
+  }
+  ASSERT_GE(known, 0);
+  ASSERT_GE(unknown, 0);
+  mesh.landmarks = {{"tumour", Vec3::Zero(), unknown, Vec3::Zero(), 0}};
+  EXPECT_EQ(image_frame(mesh).pose.origin, narrow.pose.origin);
+  mesh.landmarks[0].element = known;
+  ProjectionReport report;
+  const Mammogram image = project_mammogram(mesh, {.pixel = 2}, &report);
+  EXPECT_NEAR(image.pose.project(middle(known)).x(), 8, 1e-9);
+  int blank = 0;
+  for (std::size_t i = 0; i < image.path.size(); ++i) {
+    if (image.through_back[i] == 0) continue;
+    ++blank;
+    EXPECT_EQ(image.thickness[i], 0);
+  }
+  EXPECT_EQ(blank, report.back_columns);
+  EXPECT_GT(blank, 0);
+}
+
 TEST(Projection, LabelsAreFollowedThroughTheDeformation) {
   // A gland ball in the MR frame; the squashed image must show its projected ellipsoid.
   const Vec3 centre(5, 20, -4);

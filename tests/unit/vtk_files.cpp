@@ -56,6 +56,7 @@ Mammogram some_mammogram(Side side = Side::right) {
     image.path.push_back(float(i));
     image.thickness.push_back(2.0f * float(i));
     image.fibroglandular.push_back(0.5f * float(i));
+    image.through_back.push_back(0);
   }
   image.history = some_history();
   return image;
@@ -150,12 +151,14 @@ TEST(SurfaceFile, PointSetAndPolylinesRoundTrip) {
 
 TEST(MammogramFile, RoundTripIsExact) {
   const ScratchFolder folder;
-  const Mammogram image = some_mammogram();
+  Mammogram image = some_mammogram();
+  image.through_back[3] = 1;
   write_mammogram(folder / "m.vti", image);
   const Mammogram back = read_mammogram(folder / "m.vti");
   EXPECT_EQ(back.path, image.path);
   EXPECT_EQ(back.thickness, image.thickness);
   EXPECT_EQ(back.fibroglandular, image.fibroglandular);
+  EXPECT_EQ(back.through_back, image.through_back);
   EXPECT_EQ(back.pose.n, image.pose.n);
   EXPECT_EQ(back.pose.e_v, image.pose.e_v);
   EXPECT_EQ(back.pose.origin, image.pose.origin);

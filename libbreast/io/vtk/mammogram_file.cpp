@@ -74,6 +74,7 @@ std::string content_of(const Mammogram& image) {
   for (const auto* array : {&image.path, &image.thickness, &image.fibroglandular}) {
     hash.update(array->data(), array->size() * sizeof(float));
   }
+  hash.update(image.through_back.data(), image.through_back.size());
   return hash.hex();
 }
 
@@ -113,6 +114,9 @@ Mammogram read_mammogram(const std::filesystem::path& file) {
   image.path = image_array(data, "path", where);
   image.thickness = image_array(data, "thickness", where);
   image.fibroglandular = image_array(data, "fibroglandular", where);
+  for (const float flag : image_array(data, "through_back", where)) {
+    image.through_back.push_back(flag != 0 ? 1 : 0);
+  }
   image.history = history_field(fields, where);
   image.content_sha256 = content_of(image);
   return image;
@@ -126,6 +130,7 @@ void write_mammogram(const std::filesystem::path& file, const Mammogram& image) 
   add_image(data, "path", image.path);
   add_image(data, "thickness", image.thickness);
   add_image(data, "fibroglandular", image.fibroglandular);
+  add_image(data, "through_back", {image.through_back.begin(), image.through_back.end()});
   vtkFieldData* fields = data->GetFieldData();
   add_text(fields, "schema", schema);
   add_numbers(fields, "n", as_list(image.pose.n));
