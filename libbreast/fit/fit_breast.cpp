@@ -56,7 +56,15 @@ DiscSurface skin_surface(const LabelVolume& labels, BreastRegion& region, const 
   throw Error(ErrorKind::input, reason);
 }
 
-SheetData sheet_data(const DiscSurface& surface, const DiscMap& map) {
+/// 1 inside the sheet, falling to a tenth at its border: what lies there is cropped raggedly and
+/// never part of the body.
+double border_weight(const Vec2& st) {
+  const double distance = std::min(st.minCoeff(), 1 - st.maxCoeff());
+  const double x = std::clamp(distance / 0.04, 0.0, 1.0);
+  return 0.1 + 0.9 * x * x * (3 - 2 * x);
+}
+
+SheetData sheet_data(const DiscSurface& surface, const DiscMap& map, const Vec3& nipple) {
   SheetData data;
   const std::size_t n = surface.points.size();
   data.points = surface.points;
@@ -67,8 +75,12 @@ SheetData sheet_data(const DiscSurface& surface, const DiscMap& map) {
   data.fixed.assign(n, 0);
   // Border points hold their place in both directions, else the sheet shrinks at its edge.
   for (const int b : surface.border) data.tangential[b] = 1, data.fixed[b] = 1;
-  for (std::size_t i = 0; i < n; ++i)
-    if (surface.filled[i]) data.weights[i] = 0;
+  data.trusted.assign(n, 0);
+  const double areola = 20;  // mm
+  for (std::size_t i = 0; i < n; ++i) {
+    data.weights[i] *= surface.filled[i] ? 0 : border_weight(data.st[i]);
+    data.trusted[i] = (data.points[i] - nipple).norm() < areola;
+  }
   return data;
 }
 
@@ -83,24 +95,28 @@ std::vector<double> distances_to_sheet(const HermiteSheet& sheet, const SheetDat
 }
 
 /// Fits the skin sheet; with max_error_mm refines it by a quarter more patches at a time.
-FitOutcome fit_skin(const DiscSurface& surface, const DiscMap& map, const FitOptions& options,
-                    FitReport& report, SheetData& data, Progress& progress) {
+FitOutcome fit_skin(const DiscSurface& surface, const DiscMap& map, const Vec3& nipple,
+                    const FitOptions& options, FitReport& report, SheetData& data,
+                    Progress& progress) {
   FitControl control;
   control.smoothing = options.smoothing;
   control.target_rms_mm = options.target_rms_mm;
-  if (options.max_error_mm > 0)
+  if (options.max_error_mm > 0) {  // then every point counts, outlier or not
     control.target_rms_mm = std::min(control.target_rms_mm, options.max_error_mm / 5);
+    control.outlier_mm = 0;
+  }
   report.patches_s = options.patches_s;
   report.patches_t = options.patches_t;
   const int most = 40;
   for (;;) {
-    data = sheet_data(surface, map);
+    data = sheet_data(surface, map, nipple);
     FitOutcome outcome =
         fit_sheet(report.patches_s, report.patches_t, data, control,
                   [](const HermiteSheet& sheet) { return !check_folds(sheet).folded(); });
-    const auto all =
-        distances_to_sheet(outcome.sheet, data, surface, [](const Vec2&) { return true; });
-    report.whole_skin_to_sheet = summarise(all);
+    report.whole_skin_to_sheet =
+        summarise(distances_to_sheet(outcome.sheet, data, surface, [&](const Vec2& st) {
+          return within_margin(st, options.rim);
+        }));
     progress.update(
         "skin sheet", 0.6,
         message(report.patches_s, " x ", report.patches_t, ", rms ", outcome.rms_mm, " mm"));
@@ -215,7 +231,7 @@ BreastGeometry fit_breast(const LabelVolume& labels, const FitOptions& options, 
   SheetData data;
   {
     Timer::Scope phase(timer, "skin sheet");
-    FitOutcome outcome = fit_skin(surface, map, options, report, data, progress);
+    FitOutcome outcome = fit_skin(surface, map, region.nipple, options, report, data, progress);
     geometry.skin = std::move(outcome.sheet);
     report.smoothing = outcome.smoothing;
     report.rms_mm = outcome.rms_mm;

@@ -97,18 +97,13 @@ double sternal_thickness(const ThicknessMap& map, Side side) {
   return edge[20];
 }
 
-/// How far a ray may go: a rounded square (superellipse of order 6), so that the rim has no
+/// How far a ray may go: a rounded square (superellipse), so that the rim has no
 /// corners.
-double margin_radius(const Vec2& centre, const Vec2& direction, double margin) {
-  const double half = 0.5 - margin;
-  const auto level = [&](double r) {
-    const Vec2 q = (centre + r * direction - Vec2(0.5, 0.5)) / half;
-    return std::pow(q.x(), 6) + std::pow(q.y(), 6);
-  };
+double margin_radius(const Vec2& centre, const Vec2& direction, const RimOptions& options) {
   double low = 0, high = 1.5;
   for (int k = 0; k < 50; ++k) {
     const double middle = 0.5 * (low + high);
-    (level(middle) < 1 ? low : high) = middle;
+    (within_margin(centre + middle * direction, options) ? low : high) = middle;
   }
   return low;
 }
@@ -120,7 +115,7 @@ struct RayEnd {
 
 RayEnd walk(const HermiteSheet& skin, const ThicknessMap& map, const Core& core,
             const Vec2& direction, double t_min, const RimOptions& options) {
-  const double limit = margin_radius(core.centre, direction, options.margin);
+  const double limit = margin_radius(core.centre, direction, options);
   const double step = 0.004;
   const int steps = std::max(2, int(limit / step));
   std::vector<double> arc(steps + 1, 0), tau(steps + 1);
@@ -222,7 +217,7 @@ bool lay_cut(const HermiteSheet& skin, const WallSheet& wall, const std::vector<
   return star_shaped(rim.wall, centroid(rim.wall)) && cut_is_simple(skin, wall.sheet, rim);
 }
 
-void choose_cut(const HermiteSheet& skin, const WallSheet& wall, Rim& rim) {
+bool choose_cut(const HermiteSheet& skin, const WallSheet& wall, Rim& rim) {
   const SheetLocator locator(wall.sheet, 4);
   std::vector<Vec3> halfway;
   for (const Vec2& st : rim.skin) {
@@ -231,16 +226,13 @@ void choose_cut(const HermiteSheet& skin, const WallSheet& wall, Rim& rim) {
     halfway.push_back((to_wall + Vec3(0, 1, 0)).normalized());
   }
   for (const double sigma : {2.0, 4.0, 8.0, 16.0})
-    if (lay_cut(skin, wall, low_pass(halfway, sigma), rim)) return;
+    if (lay_cut(skin, wall, low_pass(halfway, sigma), rim)) return true;
   // Parallel segments cannot cross.
   Vec3 mean = Vec3::Zero();
   for (const Vec3& d : halfway) mean += d;
   for (const Vec3& d : {mean, Vec3(0, 1, 0)})
-    if (lay_cut(skin, wall, std::vector<Vec3>(halfway.size(), d), rim)) return;
-  throw input_error(
-      "labels: no straight cut joins the skin's rim to the chest wall without crossing "
-      "itself; the wall lies in front of the skin or is too ragged: see segment "
-      "--chest-wall");
+    if (lay_cut(skin, wall, std::vector<Vec3>(halfway.size(), d), rim)) return true;
+  return false;
 }
 
 double median(std::vector<double> v) {
@@ -281,6 +273,11 @@ void measure(const HermiteSheet& skin, const HermiteSheet& wall, Rim& rim) {
 }
 
 }  // namespace
+
+bool within_margin(const Vec2& st, const RimOptions& options) {
+  const Vec2 q = (st - Vec2(0.5, 0.5)).cwiseAbs() / (0.5 - options.margin);
+  return std::pow(q.x(), options.margin_order) + std::pow(q.y(), options.margin_order) < 1;
+}
 
 Vec2 centroid(const std::vector<Vec2>& curve) {
   double area = 0;
@@ -341,14 +338,23 @@ Rim find_rim(const HermiteSheet& skin, const WallSheet& wall, Side side, const V
     log_radius.push_back(std::log(end.radius));
     rim.end.push_back(end.reason);
   }
-  log_radius = low_pass(median_of_five(log_radius), options.rays / 36.0);
-  for (int i = 0; i < options.rays; ++i) {
-    const double limit = margin_radius(core.centre, directions[i], options.margin);
-    rim.skin.push_back(core.centre + std::min(std::exp(log_radius[i]), limit) * directions[i]);
+  log_radius = median_of_five(log_radius);
+  // A rim over a dented skin may need more smoothing before a cut can be laid.
+  for (const double stronger : {1.0, 2.0, 4.0}) {
+    const auto smooth =
+        low_pass(log_radius, stronger * options.rays * options.low_pass_degrees / 360);
+    rim.skin.clear();
+    for (int i = 0; i < options.rays; ++i) {
+      const double limit = margin_radius(core.centre, directions[i], options);
+      rim.skin.push_back(core.centre + std::min(std::exp(smooth[i]), limit) * directions[i]);
+    }
+    if (!choose_cut(skin, wall, rim)) continue;
+    measure(skin, wall.sheet, rim);
+    return rim;
   }
-  choose_cut(skin, wall, rim);
-  measure(skin, wall.sheet, rim);
-  return rim;
+  throw input_error(
+      "labels: no straight cut joins the skin's rim to the chest wall without crossing itself; the "
+      "wall lies in front of the skin or is too ragged: see segment --chest-wall");
 }
 
 }  // namespace breast

@@ -21,8 +21,13 @@ struct RimOptions {
   /// elements with an edge of nearly 180 degrees between skin and cut.
   double steep_degrees = 40;
   double steep_down_to = 0.6;
-  double margin = 0.04;  ///< of the skin sheet's parameters kept outside the body
+  double low_pass_degrees = 12;  ///< standard deviation of the smoothing of the rim's log radius
+  int margin_order = 5;          ///< of the superellipse within the sheet's border
+  double margin = 0.035;         ///< of the skin sheet's parameters kept outside the body
 };
+
+/// True where the body may lie: within the superellipse that keeps off the skin sheet's border.
+bool within_margin(const Vec2& st, const RimOptions& options);
 
 struct Rim {
   Vec2 centre;

@@ -140,12 +140,27 @@ double project(const HermiteSheet& sheet, SheetData& data) {
   return total > 0 ? std::sqrt(sum / total) : 0;
 }
 
+namespace {
+
+/// Cauchy weights from the points' distances to the sheet, on top of `prior`.
+void weigh_outliers(const HermiteSheet& sheet, const std::vector<double>& prior, double scale,
+                    SheetData& data) {
+  for (std::size_t k = 0; k < data.points.size(); ++k) {
+    const bool trusted = data.fixed[k] || (!data.trusted.empty() && data.trusted[k]);
+    const double ratio = (sheet.position(data.st[k]) - data.points[k]).norm() / scale;
+    data.weights[k] = trusted ? prior[k] : prior[k] / (1 + ratio * ratio);
+  }
+}
+
+}  // namespace
+
 FitOutcome fit_sheet(int nu, int nv, SheetData& data, const FitControl& control,
                      const std::function<bool(const HermiteSheet&)>& acceptable) {
   FitOutcome best;
   double smoothing = control.smoothing > 0 ? control.smoothing : 1e-6;
   int loops = 0, settled = 0;
   bool lowering = control.smoothing <= 0;
+  const std::vector<double> prior = data.weights;
   while (settled <= control.settle && loops < 40) {
     HermiteSheet sheet = solve_sheet(nu, nv, data, smoothing);
     ++loops;
@@ -157,9 +172,10 @@ FitOutcome fit_sheet(int nu, int nv, SheetData& data, const FitControl& control,
       }
       break;
     }
-    SheetData moved = data;
-    const double rms = project(sheet, moved);
-    data = std::move(moved);
+    data.weights = prior;
+    const double rms = project(sheet, data);
+    if (control.outlier_mm > 0)
+      weigh_outliers(sheet, prior, std::max(control.outlier_mm, 4 * rms), data);
     best = {std::move(sheet), smoothing, rms, loops, rms <= control.target_rms_mm};
     if (lowering && rms > control.target_rms_mm && smoothing / 4 >= control.least_smoothing)
       smoothing /= 4;

@@ -17,7 +17,8 @@ struct SheetData {
   std::vector<double>
       tangential;        ///< weight of the residual across the normal, relative: 0.1; 1 at a border
   std::vector<Vec2> st;  ///< parameter of each point
-  std::vector<char> fixed;  ///< 1: the parameter is never moved
+  std::vector<char> trusted;  ///< 1: never an outlier (near the nipple); may be empty
+  std::vector<char> fixed;    ///< 1: the parameter is never moved
 };
 
 /// Minimises  sum w [(n.r)^2 + b |r - (n.r) n|^2] / sum w  +  smoothing * int |x_ss|^2 + 2|x_st|^2
@@ -33,6 +34,9 @@ struct FitControl {
   double smoothing = 0;  ///< > 0: this one; 0: start at 1e-6 and quarter it until target_rms
   double target_rms_mm = 0.3;
   double least_smoothing = 1e-9;
+  /// Points farther off than this (or 4 rms) lose weight (Cauchy): marks and debris on the skin do
+  /// not dent the sheet. 0: none do.
+  double outlier_mm = 2;
   int settle = 3;  ///< projections at the final smoothing
 };
 
