@@ -56,10 +56,11 @@ void declare(Tool& tool, Choices& c) {
 }
 
 // Largest distance (mm) of the imaged shape from what forward makes of the shape found.
-void check_closure(const HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
-                   Run& run) {
+void check_closure(const HexMesh& mesh, const Vec3& gravity, MechanicsOptions options, Run& run,
+                   SolveSummary& backward) {
   HexMesh again = mesh;
   again.points = again.reference;
+  options.estimate_error = true;
   SolveSummary summary;
   {
     Timer::Scope phase(run.timer(), "closure");
@@ -74,6 +75,9 @@ void check_closure(const HexMesh& mesh, const Vec3& gravity, const MechanicsOpti
     worst = std::max(worst, (again.points[i] - mesh.imaged[i]).norm());
   }
   run.report().set("closure_mm", worst);
+  // Of the equilibrium both directions share.
+  backward.error_estimate_mm = summary.error_estimate_mm;
+  backward.landmark_error_mm = summary.landmark_error_mm;
   if (worst > 1e-6) {
     run.warn(message("forward returns to the imaged shape only within ", worst,
                      " mm: another equilibrium is near"));
@@ -87,8 +91,9 @@ void run_backward(const Choices& c, Run& run) {
   if (options.element == Element::q2p1) mesh = raise_order(mesh);
   mesh.contact.reset();
   mesh.contact_pressure.clear();
-  const SolveSummary summary = solve_backward(mesh, gravity_of(c), options, run.progress());
-  if (summary.converged() && summary.stable) check_closure(mesh, gravity_of(c), options, run);
+  SolveSummary summary = solve_backward(mesh, gravity_of(c), options, run.progress());
+  if (summary.converged() && summary.stable)
+    check_closure(mesh, gravity_of(c), options, run, summary);
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
   write_report(summary, mesh, options, run.report());
   run.timer().write(run.report());

@@ -51,7 +51,8 @@ void declare(Tool& tool, Choices& c) {
 }
 
 void run_forward(const Choices& c, Run& run) {
-  const MechanicsOptions options = options_of(c.mechanics);
+  MechanicsOptions options = options_of(c.mechanics);
+  options.estimate_error = true;
   HexMesh mesh = read_mesh(c.reference, {.reference = true});
   const std::string sha = mesh.content_sha256;
   if (options.element == Element::q2p1) mesh = raise_order(mesh);

@@ -13,9 +13,6 @@ namespace breast {
 
 namespace {
 
-// Ratio κ/μ of the augmentation: far above the material, far below what rounding forbids.
-constexpr double augmentation = 1e3;
-
 template <int N>
 Eigen::Matrix<double, 3, N> gather(const Cells& cells, int c, const Eigen::VectorXd& nodal) {
   Eigen::Matrix<double, 3, N> out;
@@ -50,7 +47,7 @@ class AssemblyOf final : public Assembly {
                      const AssemblyRequest& request, SaddleForces& forces) const;
   bool faces_part(const Eigen::VectorXd& reference, const SaddleState& state,
                   const AssemblyRequest& request, SaddleForces& forces) const;
-  double kappa_of(int e, const HexOutput<N, P>& out) const;
+  double kappa_of(int e, double augmentation, const HexOutput<N, P>& out) const;
 
   bool isochoric_;
   double bulk_ratio_;
@@ -172,7 +169,7 @@ void AssemblyOf<N, P, F>::set_skin(const HexMesh& mesh, const MechanicsOptions&)
 // pressure term has no trace). With a finite bulk modulus κ/K must be one number, so μ at rest is
 // taken.
 template <int N, int P, int F>
-double AssemblyOf<N, P, F>::kappa_of(int e, const HexOutput<N, P>& out) const {
+double AssemblyOf<N, P, F>::kappa_of(int e, double augmentation, const HexOutput<N, P>& out) const {
   const double rest = laws_[law_of_[e]].shear_modulus();
   if (bulk_ratio_ > 0) return std::min(augmentation, bulk_ratio_) * rest;
   const double now = out.k.trace() / (10.0 / 3 * out.gradient_square);
@@ -218,7 +215,7 @@ void AssemblyOf<N, P, F>::store(int e, int at, const SaddleState& state,
   }
   if (request.matrix != nullptr) {
     SaddleMatrix& matrix = *request.matrix;
-    const double kappa = kappa_of(e, out);
+    const double kappa = kappa_of(e, request.augmentation, out);
     matrix.kappa[e] = kappa;
     matrix.divergence.at(e) = out.b;
     Flat(chunk.diagonals.data() + at * 3 * N) = out.k.diagonal();

@@ -27,6 +27,8 @@ struct ReferenceTangent {
 struct AssemblyRequest {
   const Eigen::VectorXd* kappa = nullptr;  ///< fills SaddleForces::augmented
   SaddleMatrix* matrix = nullptr;
+  double augmentation =
+      1e3;  ///< κ/μ of the matrix: far above the material, far below what rounding forbids
   ReferenceTangent* reference = nullptr;
 };
 

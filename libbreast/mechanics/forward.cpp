@@ -1,6 +1,7 @@
 #include <chrono>
 
 #include "core/error.hpp"
+#include "mechanics/error_estimate.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"
@@ -71,6 +72,15 @@ SolveSummary ForwardSolve::run(const Vec3& gravity) {
         summary_.record.reason =
             message("stopped at ", 100 * path.done, " % of the load: ", result.reason);
         break;
+      }
+    }
+    if (result.converged && mesh_.order == 1 && scene_.options().estimate_error) {
+      Timer::Scope phase(summary_.timer, "error estimate");
+      const ErrorEstimate estimate =
+          estimate_error(scene_, reference, state, gravity, matrix, solver);
+      if (estimate.usable && !mesh_.landmarks.empty()) {
+        summary_.error_estimate_mm = estimate.worst_mm;
+        summary_.landmark_error_mm = estimate.landmarks;
       }
     }
     if (result.indefinite > 0) {

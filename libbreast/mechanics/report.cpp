@@ -63,9 +63,9 @@ void write_report(const SolveSummary& summary, const HexMesh& mesh, const Mechan
   report.set("max_volume_error", summary.max_volume_error);
   if (summary.error_estimate_mm >= 0) {
     report.set("error_estimate_mm", summary.error_estimate_mm);
-    report.set(
-        "error_estimate_how",
-        "dual-weighted residuals at the landmarks: discretisation only, not geometry or laws");
+    report.set("error_estimate_how",
+               "one linearised step with 27-node elements on the same geometry: discretisation "
+               "only, not geometry, labels or laws");
     for (const auto& [name, error] : summary.landmark_error_mm) {
       report.set("landmarks/" + name + "/error_estimate_mm", error.norm());
     }

@@ -41,17 +41,21 @@ void check(const HexMesh& mesh, const MechanicsOptions& options) {
 
 }  // namespace
 
+Constraints wall_constraints(const HexMesh& mesh, Cut cut) {
+  Constraints walls(mesh.nodes());
+  if (cut == Cut::fixed) {
+    for (const int node : nodes_of(mesh, mesh.cut_faces)) walls.hold(node);
+  } else if (cut == Cut::roller) {
+    for (const auto& [node, normal] : cut_normals(mesh)) walls.hold_normal(node, normal);
+  }
+  for (const int node : nodes_of(mesh, mesh.pectoral_faces)) walls.hold(node);
+  return walls;
+}
+
 Scene::Scene(const HexMesh& mesh, const MechanicsOptions& options)
-    : mesh_(mesh), options_(options), walls_(mesh.nodes()) {
+    : mesh_(mesh), options_(options), walls_(wall_constraints(mesh, options.cut)) {
   check(mesh, options);
   assembly_ = make_assembly(mesh, options);
-  if (options.cut == Cut::fixed) {
-    for (const int node : nodes_of(mesh, mesh.cut_faces)) walls_.hold(node);
-  } else if (options.cut == Cut::roller) {
-    for (const auto& [node, normal] : cut_normals(mesh)) walls_.hold_normal(node, normal);
-  }
-  for (const int node : nodes_of(mesh, mesh.pectoral_faces)) walls_.hold(node);
-
   double volume = 0, stiffest = 0;
   for (const double v : assembly_->imaged_volume()) volume += v;
   for (const Tissue tissue : mesh.tissue) {

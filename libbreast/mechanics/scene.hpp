@@ -21,6 +21,9 @@
 
 namespace breast {
 
+/// Pectoral faces held; cut faces free, held, or rolling on their mean normal of the imaged shape.
+Constraints wall_constraints(const HexMesh& mesh, Cut cut);
+
 class Scene {
  public:
   /// The mesh must outlive the scene (its sets, tissues and imaged shape are read).

@@ -1,0 +1,26 @@
+// How far a solution with 8-node elements is from one with 27-node elements on the same geometry:
+// one linearised step of the richer problem, solved iteratively. Covers the discretisation inside
+// the given geometry; not the geometry, the labels or the laws.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "mechanics/scene.hpp"
+
+namespace breast {
+
+struct ErrorEstimate {
+  std::map<std::string, Vec3> landmarks;  ///< richer minus computed position, mm
+  double worst_mm = 0;                    ///< largest length over the landmarks
+  int iterations = 0;                     ///< conjugate gradients
+  bool usable = false;                    ///< false: tangent indefinite or no convergence
+};
+
+/// `state` is an equilibrium of 8-node elements under nodal gravity forces; `matrix` and `solver`
+/// are used as workspace.
+ErrorEstimate estimate_error(const Scene& scene, const Eigen::VectorXd& reference,
+                             const SaddleState& state, const Vec3& gravity, SaddleMatrix& matrix,
+                             SaddleSolver& solver);
+
+}  // namespace breast
