@@ -2,10 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 #include "core/error.hpp"
+#include "mesh/quality.hpp"
 #include "meshing/smooth.hpp"
 
 namespace breast {
@@ -24,6 +26,19 @@ void refuse_thick_layer(double thickness, const BodyMap& body, const DomeTemplat
           "skin layer of ", thickness, " mm: the first row of the cut is ", row,
           " mm high and the layer may take 60 % of it: use a thinner layer or fewer rows "
           "(--dome n,l,m,k)");
+    }
+  }
+}
+
+// Inside nodes of folded elements may move again.
+void release_folded(const DomeTemplate& dome, const PlacedNodes& nodes, std::vector<bool>& held) {
+  for (std::size_t e = 0; e < dome.connectivity.size(); e += 8) {
+    std::array<Vec3, 8> corners;
+    for (int a = 0; a < 8; ++a) corners[a] = nodes.x[dome.connectivity[e + a]];
+    if (scaled_jacobian(corners.data()) > 0) continue;
+    for (int a = 0; a < 8; ++a) {
+      const int node = dome.connectivity[e + a];
+      if (nodes.support[node] == Support::interior) held[node] = false;
     }
   }
 }
@@ -115,6 +130,10 @@ std::vector<int> thin_skin_elements(double thickness, const BodyMap& body, const
     }
   }
   smooth_nodes(dome.connectivity, body, for_cuboid({.evaluations = 120}), held, nodes);
+  if (worst_shape(dome.connectivity, nodes.x) <= 0) {
+    release_folded(dome, nodes, held);  // under a sharp nipple the normals of neighbours cross
+    smooth_nodes(dome.connectivity, body, for_cuboid({.evaluations = 120}), held, nodes);
+  }
   std::vector<int> layer;
   for (const Face& face : dome.skin_faces) layer.push_back(face.element);
   std::sort(layer.begin(), layer.end());
