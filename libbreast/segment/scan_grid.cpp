@@ -72,8 +72,12 @@ Volume<float> local_tissue(const Work& coarse) {
   return value;
 }
 
-/// Body where the working mask says so; within its last voxel or two, where the scan is above half
-/// the brightness of the tissue nearby.
+/// Skin is about half as bright as the fat beneath: its edge against air lies near a quarter to a
+/// third of the tissue's mean brightness.
+constexpr float skin_edge = 0.3f;
+
+/// Body where the working mask says so; within its last voxel or two, where the scan is above the
+/// edge of skin.
 Mask fine_body(const Work& coarse, const Volume<float>& scan) {
   const Volume<float> distance = resampled(coarse.skin_distance, scan.grid);
   const Volume<float> tissue = resampled(local_tissue(coarse), scan.grid);
@@ -81,7 +85,7 @@ Mask fine_body(const Work& coarse, const Volume<float>& scan) {
   Mask body(scan.grid);
   for (std::size_t n = 0; n < body.voxels.size(); ++n) {
     const float d = distance.voxels[n];
-    body.voxels[n] = d < -band || (d < band && scan.voxels[n] > 0.5f * tissue.voxels[n]);
+    body.voxels[n] = d < -band || (d < band && scan.voxels[n] > skin_edge * tissue.voxels[n]);
   }
   return largest_component(body);
 }
