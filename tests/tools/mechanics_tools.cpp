@@ -1,0 +1,119 @@
+// backward, forward and laws as programs: exit codes, reports, files.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "core/atomic_file.hpp"
+#include "core/report.hpp"
+#include "fixtures/shapes.hpp"
+#include "io/mesh_file.hpp"
+
+namespace breast {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MechanicsTools : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "breast-mechanics-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    HexMesh mesh = fixtures::cap({.elements = 6});
+    mesh.reference.clear();
+    write_mesh(folder_ / "mesh.vtkhdf", mesh);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  // Exit code of "tool arguments", run in the folder; stderr in err.txt, stdout in out.txt.
+  int run(const std::string& command) const {
+    const std::string line = "cd '" + folder_.string() + "' && '" BREAST_BIN "/" +
+                             command.substr(0, command.find(' ')) + "'" +
+                             command.substr(command.find(' ')) + " >out.txt 2>err.txt";
+    const int status = std::system(line.c_str());
+    return WEXITSTATUS(status);
+  }
+  Report report(const std::string& name) const {
+    return Report::parse(read_text(folder_ / name), name);
+  }
+  bool exists(const std::string& name) const { return fs::exists(folder_ / name); }
+  std::string text(const std::string& name) const { return read_text(folder_ / name); }
+
+  fs::path folder_;
+};
+
+TEST_F(MechanicsTools, BackwardThenForwardReturnsToTheScan) {
+  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --report backward.json"), 0)
+      << text("err.txt");
+  const Report backward = report("backward.json");
+  EXPECT_EQ(backward.text("status"), "converged");
+  EXPECT_LT(backward.number("closure_mm"), 1e-8);
+  EXPECT_LT(backward.number("max_volume_error"), 1e-9);
+  EXPECT_LE(backward.number("newton_iterations"), 8);
+  EXPECT_GT(backward.number("error_estimate_mm"), 0);
+  EXPECT_LT(backward.number("error_estimate_mm"), 1);
+  EXPECT_NEAR(backward.number("materials/fat/shear_modulus_Pa"), 1220, 1e-9);
+  ASSERT_EQ(run("forward reference.vtkhdf prone.vtkhdf --posture prone --report f.json"), 0);
+  const HexMesh prone = read_mesh(folder_ / "prone.vtkhdf", {.reference = true});
+  for (int i = 0; i < prone.nodes(); ++i) {
+    EXPECT_LT((prone.points[i] - prone.imaged[i]).norm(), 1e-8);
+  }
+  EXPECT_EQ(prone.history.size(), 2u);
+  EXPECT_EQ(text("out.txt"), "");
+  ASSERT_EQ(run("forward reference.vtkhdf supine.vtkhdf --report s.json"), 0);
+  EXPECT_GT(report("s.json").number("landmarks/nipple/distance_mm"), 1);
+}
+
+TEST_F(MechanicsTools, QuadraticElementsOnTheSameMesh) {
+  ASSERT_EQ(
+      run("backward mesh.vtkhdf reference.vtkhdf --element q2p1 --cut roller --report b.json"), 0)
+      << text("err.txt");
+  EXPECT_LT(report("b.json").number("closure_mm"), 1e-8);
+  EXPECT_EQ(read_mesh(folder_ / "reference.vtkhdf").order, 2);
+  ASSERT_EQ(run("forward reference.vtkhdf supine.vtkhdf --element q2p1"), 0) << text("err.txt");
+  EXPECT_EQ(run("forward reference.vtkhdf other.vtkhdf --element q1p0"), 2);
+  EXPECT_FALSE(exists("other.vtkhdf"));
+}
+
+TEST_F(MechanicsTools, RefuseWhatTheyCannotDo) {
+  EXPECT_EQ(run("forward mesh.vtkhdf out.vtkhdf"), 2);  // no stress-free shape yet
+  EXPECT_NE(text("err.txt").find("backward"), std::string::npos) << text("err.txt");
+  EXPECT_EQ(run("backward mesh.vtkhdf out.vtkhdf --materials nothing"), 2);
+  EXPECT_EQ(run("backward mesh.vtkhdf out.vtkhdf --scale fat=-3"), 2);
+  EXPECT_EQ(run("backward mesh.vtkhdf out.vtkhdf --element q3"), 2);
+  EXPECT_EQ(run("backward mesh.vtkhdf out.vtkhdf --gravity 0,1"), 2);
+  EXPECT_EQ(run("backward mesh.vtkhdf out.vtkhdf --solver multigrid"), 2);
+  EXPECT_EQ(run("backward absent.vtkhdf out.vtkhdf"), 2);
+  EXPECT_FALSE(exists("out.vtkhdf"));
+}
+
+// Far beyond what the law can carry: exit 3 and nothing written, unless it is asked for.
+TEST_F(MechanicsTools, NotConvergedIsExitThree) {
+  const std::string load = " --gravity 0,3e7,2e7 --materials mira2018";
+  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --materials mira2018 --gravity 0,0,0"), 0)
+      << text("err.txt");
+  EXPECT_EQ(run("forward reference.vtkhdf far.vtkhdf" + load + " --report far.json"), 3)
+      << text("err.txt");
+  EXPECT_FALSE(exists("far.vtkhdf"));
+  EXPECT_EQ(report("far.json").text("status"), "not_converged");
+  EXPECT_EQ(run("forward reference.vtkhdf far.vtkhdf --keep-unconverged" + load), 3);
+  ASSERT_TRUE(exists("far.vtkhdf"));
+  EXPECT_EQ(read_mesh(folder_ / "far.vtkhdf").solve->status, "not_converged");
+}
+
+TEST_F(MechanicsTools, LawsPrintsATable) {
+  ASSERT_EQ(run("laws seed2008 --scale fat=50"), 0) << text("err.txt");
+  EXPECT_NE(text("out.txt").find("fat\tpolynomial a10 155 Pa"), std::string::npos)
+      << text("out.txt");
+  EXPECT_EQ(run("laws seed2008 --curves"), 0);
+  EXPECT_EQ(run("laws nowhere.tsv"), 2);
+  std::ofstream(folder_ / "bad.tsv") << "tissue\tlaw\tdensity_g_per_mm3\ta10_Pa\n"
+                                     << "fat\tneo_hookean\t0.001\t-5\n";
+  EXPECT_EQ(run("laws bad.tsv"), 2);
+  EXPECT_NE(text("err.txt").find("fat"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace breast
