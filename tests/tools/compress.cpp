@@ -1,0 +1,112 @@
+// compress from file to file: contract keys of the report, early stops, refusals.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/report.hpp"
+#include "fixtures/analytic_mesh.hpp"
+#include "fixtures/run_tool.hpp"
+#include "fixtures/scratch_folder.hpp"
+#include "io/mesh_file.hpp"
+
+namespace breast {
+namespace {
+
+class CompressTool : public testing::Test {
+ protected:
+  void SetUp() override {
+    HexMesh mesh = analytic_breast_mesh(5);
+    mesh.reference = mesh.points;
+    mesh.history.push_back({"backward", "0", "analytic", {}});
+    write_mesh(folder_ / "reference.vtkhdf", mesh);
+  }
+  ToolResult compress(std::vector<std::string> options) {
+    std::vector<std::string> arguments = {"reference.vtkhdf", "out.vtkhdf", "--quiet",
+                                          "--threads",        "1",          "--report",
+                                          "r.json",           "--view"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return run_tool("compress", arguments, folder_.path());
+  }
+  Report report() {
+    std::ifstream in(folder_ / "r.json");
+    return Report::parse(std::string(std::istreambuf_iterator<char>(in), {}), "r.json");
+  }
+  bool wrote() const { return std::filesystem::exists(folder_ / "out.vtkhdf"); }
+  ScratchFolder folder_;
+};
+
+TEST_F(CompressTool, WritesTheContactRecordAndTheContractKeys) {
+  const ToolResult result = compress({"CC", "--reduction", "40"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(result.out.empty());
+  const Report r = report();
+  EXPECT_EQ(r.text("status"), "converged");
+  for (const char* key : {"newton_iterations",
+                          "factorisations",
+                          "steps",
+                          "residual",
+                          "min_det_F",
+                          "max_volume_error",
+                          "elements",
+                          "unknowns",
+                          "thickness_mm",
+                          "reduction_percent",
+                          "force_N",
+                          "pressure_kPa",
+                          "area_cm2",
+                          "worst_gap_mm",
+                          "standoff_mm",
+                          "initial_thickness_mm",
+                          "force_balance",
+                          "plates/paddle/force_N",
+                          "plates/detector/peak_pressure_kPa",
+                          "seconds/total",
+                          "peak_mb"}) {
+    EXPECT_TRUE(r.contains(key)) << key;
+  }
+  EXPECT_TRUE(r.contains("judgement"));
+  EXPECT_NEAR(r.number("reduction_percent"), 40, 1e-6);
+  EXPECT_LT(r.number("worst_gap_mm"), 0.01);
+  const HexMesh mesh = read_mesh(folder_ / "out.vtkhdf", {.contact = true});
+  EXPECT_EQ(mesh.contact->view, "CC");
+  EXPECT_NEAR(mesh.contact->plates[0].force_N, r.number("force_N"), 1e-9);
+  EXPECT_EQ(mesh.history.back().tool, "compress");
+  EXPECT_EQ(mesh.contact_pressure.size(), mesh.points.size());
+}
+
+TEST_F(CompressTool, AnEarlyStopIsWrittenOnlyWhenEnoughWasReached) {
+  // No path gets to 95 %: it must stop early, with a reason.
+  const ToolResult refused = compress({"CC", "--reduction", "95", "--at-least", "94"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_FALSE(wrote());
+  EXPECT_NE(refused.err.find("stopped at thickness"), std::string::npos) << refused.err;
+  const ToolResult accepted = compress({"CC", "--reduction", "95", "--at-least", "30"});
+  EXPECT_EQ(accepted.exit_code, 0) << accepted.err;
+  ASSERT_TRUE(wrote());
+  EXPECT_EQ(report().text("status"), "stopped_early");
+  EXPECT_NE(report().text("reason").find("mm"), std::string::npos);
+  EXPECT_EQ(read_mesh(folder_ / "out.vtkhdf").solve->status, "stopped_early");
+}
+
+TEST_F(CompressTool, RefusesWhatItCannotDo) {
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{"CC"},
+                                             {"CC", "--reduction", "40", "--force", "100"},
+                                             {"XX", "--reduction", "40"},
+                                             {"CC", "--reduction", "40", "--friction", "0.3"},
+                                             {"CC", "--reduction", "40", "--wall", "spring:3"},
+                                             {"CC", "--reduction", "40", "--gravity", "sideways"},
+                                             {"CC", "--reduction", "40", "--gravity", "1,2"},
+                                             {"CC", "--reduction", "-4"},
+                                             {"CC", "--thickness", "900"},
+                                             {"CC", "--reduction", "40", "--standoff", "400"}}) {
+    const ToolResult result = compress(options);
+    EXPECT_EQ(result.exit_code, 2) << options.back();
+    EXPECT_EQ(result.error_lines(), 1) << result.err;
+    EXPECT_FALSE(wrote());
+  }
+}
+
+}  // namespace
+}  // namespace breast
