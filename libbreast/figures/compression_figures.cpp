@@ -11,16 +11,12 @@ namespace breast {
 
 namespace {
 
-const HexMesh& compressed(const FigureInput& input, const std::string& view,
-                          const std::string& figure) {
+// The first mesh compressed in CC, or in another view; null when there is none.
+const HexMesh* compressed(const FigureInput& input, bool cc) {
   for (const auto& named : input.meshes) {
-    const auto& contact = named.mesh.contact;
-    if (contact && (contact->view == view || (view == "MLO" && contact->view == "ML"))) {
-      return named.mesh;
-    }
+    if (named.mesh.contact && (named.mesh.contact->view == "CC") == cc) return &named.mesh;
   }
-  need(false, figure, "a mesh compressed in the " + view + " view");
-  throw input_error("unreachable");
+  return nullptr;
 }
 
 // The stress-free shape with both plates drawn back until they just touch it.
@@ -105,32 +101,39 @@ void draw_compression(Picture& picture, const FigureInput& input) {
 
 void draw_matching(Picture& picture, const FigureInput& input) {
   need(input.curves.has_value(), "matching", "a curve .vtp");
-  const HexMesh& cc = compressed(input, "CC", "matching");
-  const HexMesh& mlo = compressed(input, "MLO", "matching");
+  const HexMesh *cc = compressed(input, true), *mlo = compressed(input, false);
+  need(cc != nullptr || mlo != nullptr, "matching", "a compressed .vtkhdf");
+  const HexMesh& any = cc != nullptr ? *cc : *mlo;
   const BodyStyle style{.skin_opacity = 0.22, .inside = true, .gland_opacity = 0.55};
-  const auto& reference = cc.reference.empty() ? cc.imaged : cc.reference;
   struct Shape {
     const HexMesh& mesh;
     const std::vector<Vec3>& points;
     std::string line, caption;
     View view;
   };
-  const View side = lateral_view(cc.side);
-  const std::vector<Shape> shapes = {
-      {cc, cc.points, "column in CC", "(a) CC: the column of the pixel", plate_view(cc)},
-      {cc,
-       reference,
-       "column in reference",
-       "(b) the same tissue, stress-free",
-       {side.direction + Vec3(0, 0.35, -0.22), side.up}},
-      {mlo, mlo.points, "column in MLO", "(c) the same tissue in " + mlo.contact->view,
-       plate_view(mlo)}};
+  const View side = lateral_view(any.side);
+  std::vector<Shape> shapes;
+  if (cc != nullptr) {
+    shapes.push_back(
+        {*cc, cc->points, "column in CC", "CC: the column of the pixel", plate_view(*cc)});
+  }
+  shapes.push_back({any,
+                    any.reference.empty() ? any.imaged : any.reference,
+                    any.reference.empty() ? "column in imaged" : "column in reference",
+                    "the same tissue, stress-free",
+                    {side.direction + Vec3(0, 0.35, -0.22), side.up}});
+  if (mlo != nullptr) {
+    shapes.push_back({*mlo, mlo->points, "column in MLO",
+                      "the same tissue in " + mlo->contact->view, plate_view(*mlo)});
+  }
+  const double width = 1.0 / double(shapes.size());
   std::vector<Sight> sights;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
-    Panel& panel = picture.panel(double(k) / 3, 0, double(k + 1) / 3, 1);
+    Panel& panel = picture.panel(double(k) * width, 0, double(k + 1) * width, 1);
     add_body(panel, shapes[k].mesh, shapes[k].points, style);
     add_columns(panel, *input.curves, shapes[k].line);
-    sights.push_back({panel, shapes[k].view, shapes[k].caption});
+    sights.push_back(
+        {panel, shapes[k].view, "(" + std::string(1, char('a' + k)) + ") " + shapes[k].caption});
   }
   finish(sights);
 }

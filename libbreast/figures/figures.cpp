@@ -23,6 +23,7 @@ struct Figure {
         std::count_if(input.meshes.begin(), input.meshes.end(),
                       [](const auto& named) { return named.mesh.contact.has_value(); });
     if (name == "compression" && pressed < 2) return {width, height / 2};
+    if (name == "matching" && pressed < 2) return {2 * width / 3, height};
     if (name == "mammogram" && input.images.size() < 2) return {width / 2, height};
     return {width, height};
   }
@@ -42,8 +43,9 @@ const std::vector<Figure>& figures() {
       {"mammogram",
        "mammograms with axes in mm (one or two .vti), curve, arc and tumour (curve .vtp)", 1600,
        1000, false, false, draw_mammogram},
-      {"matching", "the column in CC, reference and MLO (cc.vtkhdf mlo.vtkhdf curve.vtp)", 1800,
-       680, false, false, draw_matching},
+      {"matching",
+       "the column in CC, reference and MLO (cc.vtkhdf mlo.vtkhdf, or one of them, curve.vtp)",
+       1800, 680, false, false, draw_matching},
       {"summary",
        "the whole chain (mesh reference supine cc mlo .vtkhdf, cc.vti mlo.vti, curve.vtp)", 2000,
        1250, false, false, draw_summary},
