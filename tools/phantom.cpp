@@ -4,12 +4,10 @@
 #include "cli/tool.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/units.hpp"
 #include "io/label_file.hpp"
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
-#include "mesh/quality.hpp"
 #include "phantom/scanner.hpp"
 #include "phantom/truth.hpp"
 
@@ -23,6 +21,22 @@ struct Choices {
   int seed = 1;
   double bias = 2, noise = 2, coarse = 1;
 };
+
+// A folder for results, made before minutes are spent on them.
+void make_folder(const std::string& folder, const char* option) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure || !std::filesystem::is_directory(folder)) {
+    throw input_error(option, " ", folder, ": cannot make this folder; choose another place");
+  }
+}
+
+void check_image_ending(const std::filesystem::path& image) {
+  const std::string name = image.filename().string();
+  for (const char* ending : {".nrrd", ".nii", ".nii.gz", ".mha"})
+    if (name.ends_with(ending)) return;
+  throw input_error(name, ": unknown ending; use .nrrd, .nii, .nii.gz or .mha");
+}
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
@@ -47,6 +61,7 @@ void declare(Tool& tool, Choices& c) {
   tool.text(c.materials, "--materials", "NAME|FILE", "material set of the breasts");
   tool.number(c.coarse, "--coarse", "FACTOR",
               "larger voxels and, from 2 on, a coarser mesh: for tests", 1, 8);
+  tool.check([&c] { check_image_ending(c.image); });
   tool.example("phantom paper.nrrd --truth paper-truth", "the default phantom and its truth");
   tool.example("phantom p.nrrd --preset pendulous --seed 7 --bias 5 --dicom p-dicom",
                "a pendulous breast under a strong coil bias, also as DICOM");
@@ -77,35 +92,11 @@ void write_truth_side(const std::filesystem::path& folder, PhantomBreast& breast
                 boundary_surface(mesh, mesh.points, mesh.pectoral_faces));
 }
 
-void report_side(const PhantomBreast& breast, const Postures& postures, Report& report) {
-  const HexMesh& mesh = breast.mesh;
-  const std::string side = std::string(side_name(mesh.side)) + "/";
-  report.set(side + "elements", mesh.elements());
-  report.set(side + "unknowns", postures.prone.unknowns);
-  report.set(side + "newton_iterations", postures.prone.newton_iterations);
-  report.set(side + "residual", postures.prone.residual);
-  report.set(side + "min_det_F", postures.prone.min_det_F);
-  report.set(side + "min_scaled_jacobian", mesh_quality(mesh, mesh.points).min_scaled_jacobian);
-  report.set(side + "mesh_ml", mesh_volume(mesh, mesh.points) / mm3_per_ml);
-  report.set(side + "gland_ml", breast.gland.volume_ml());
-  report.set(side + "imaged_gap_mm", postures.imaged_gap);
-  for (const char* name : {"nipple", "tumour"}) {
-    const Landmark& landmark = *mesh.landmark(name);
-    const Vec3 prone = landmark_position(mesh, mesh.points, landmark);
-    const Vec3 supine = landmark_position(mesh, postures.supine, landmark);
-    const std::string key = side + "landmarks/" + name + "/";
-    report.set(key + "imaged", prone);
-    report.set(key + "position", supine);
-    report.set(key + "displacement_mm", Vec3(supine - prone));
-    report.set(key + "distance_mm", (supine - prone).norm());
-  }
-}
-
 void run_phantom(const Choices& c, Run& run) {
   const PhantomParameters parameters = parameters_of(c);
   const MaterialSet materials = load_materials(parameters.materials);
   const std::filesystem::path truth = c.truth;
-  if (!c.truth.empty()) std::filesystem::create_directories(truth);
+  if (!c.truth.empty()) make_folder(c.truth, "--truth");
   write_parameters(parameters, run.report());
   run.progress().update("shape", -1, "stress-free breasts and their glands");
   PhantomScene scene = [&] {
@@ -119,7 +110,7 @@ void run_phantom(const Choices& c, Run& run) {
     PhantomBreast& breast = scene.breast(side);
     TruthError error;
     const Postures postures = solve_breast(breast, parameters, materials, error, run.progress());
-    report_side(breast, postures, run.report());
+    report_breast(breast, postures, run.report());
     add_landmarks(breast, postures, landmarks);
     worst = std::max(worst, error.worst());
   }

@@ -1,6 +1,7 @@
 #include "phantom/truth.hpp"
 
 #include "core/units.hpp"
+#include "mesh/quality.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {
@@ -44,6 +45,30 @@ void add_landmarks(const PhantomBreast& breast, const Postures& postures, Table&
       for (int a = 0; a < 3; ++a) row.push_back(format_fixed(x[a], 6));
     }
     table.rows.push_back(std::move(row));
+  }
+}
+
+void report_breast(const PhantomBreast& breast, const Postures& postures, Report& report) {
+  const HexMesh& mesh = breast.mesh;
+  const std::string side = std::string(side_name(mesh.side)) + "/";
+  report.set(side + "elements", mesh.elements());
+  report.set(side + "unknowns", postures.prone.unknowns);
+  report.set(side + "newton_iterations", postures.prone.newton_iterations);
+  report.set(side + "residual", postures.prone.residual);
+  report.set(side + "min_det_F", postures.prone.min_det_F);
+  report.set(side + "min_scaled_jacobian", mesh_quality(mesh, mesh.points).min_scaled_jacobian);
+  report.set(side + "mesh_ml", mesh_volume(mesh, mesh.points) / mm3_per_ml);
+  report.set(side + "gland_ml", breast.gland.volume_ml());
+  report.set(side + "imaged_gap_mm", postures.imaged_gap);
+  for (const char* name : {"nipple", "tumour"}) {
+    const Landmark& landmark = *mesh.landmark(name);
+    const Vec3 prone = landmark_position(mesh, mesh.points, landmark);
+    const Vec3 supine = landmark_position(mesh, postures.supine, landmark);
+    const std::string key = side + "landmarks/" + name + "/";
+    report.set(key + "imaged", prone);
+    report.set(key + "position", supine);
+    report.set(key + "displacement_mm", Vec3(supine - prone));
+    report.set(key + "distance_mm", (supine - prone).norm());
   }
 }
 

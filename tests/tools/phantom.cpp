@@ -1,0 +1,71 @@
+// The phantom tool as a user runs it, on its coarsest useful setting.
+#include <gtest/gtest.h>
+
+#include "core/atomic_file.hpp"
+#include "core/report.hpp"
+#include "core/table.hpp"
+#include "fixtures/run_tool.hpp"
+#include "fixtures/scratch_folder.hpp"
+#include "io/label_file.hpp"
+#include "io/mesh_file.hpp"
+#include "io/surface_file.hpp"
+#include "io/volume_file.hpp"
+
+using namespace breast;
+
+TEST(PhantomTool, WritesScanDicomAndAConsistentTruth) {
+  ScratchFolder folder;
+  const ToolResult run = run_tool("phantom",
+                                  {"p.nrrd", "--preset", "small", "--coarse", "3", "--truth",
+                                   "truth", "--dicom", "series", "--report", "p.json", "--quiet"},
+                                  folder.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(run.out.empty());
+
+  VolumeSource nrrd, dicom;
+  const Volume<float> scan = read_volume(folder.path() / "p.nrrd", 0, &nrrd);
+  const Volume<float> series = read_volume(folder.path() / "series", 0, &dicom);
+  EXPECT_EQ(scan.voxels, series.voxels);
+  EXPECT_LT((scan.grid.origin - series.grid.origin).norm(), 1e-3);
+
+  const Table landmarks = read_table(folder.path() / "truth/landmarks.tsv");
+  EXPECT_EQ(landmarks.rows.size(), 44u);
+  for (const char* side : {"left", "right"}) {
+    const std::string name(side);
+    const HexMesh mesh =
+        read_mesh(folder.path() / ("truth/" + name + ".vtkhdf"), {.reference = true});
+    const LabelVolume labels = read_labels(folder.path() / ("truth/labels-" + name + ".vtkhdf"));
+    EXPECT_EQ(side_name(labels.side), name);
+    EXPECT_FALSE(read_surface(folder.path() / ("truth/skin-" + name + ".vtp")).triangles.empty());
+    EXPECT_FALSE(read_surface(folder.path() / ("truth/wall-" + name + ".vtp")).triangles.empty());
+    for (const auto& row : landmarks.rows) {
+      if (row[landmarks.column("side")] != name) continue;
+      const Landmark* landmark = mesh.landmark(row[landmarks.column("landmark")]);
+      ASSERT_NE(landmark, nullptr);
+      const Vec3 prone = landmark_position(mesh, mesh.points, *landmark);
+      EXPECT_NEAR(parse_number(row[landmarks.column("prone_y_mm")], "prone"), prone.y(), 1e-5);
+    }
+  }
+  const Report report = Report::parse(read_text(folder.path() / "p.json"), "p.json");
+  EXPECT_GT(report.number("error_estimate_mm"), 0);
+  EXPECT_LT(report.number("error_estimate_mm"), 0.3);
+  EXPECT_GT(report.number("volumes_ml/left/fat"), 200);
+}
+
+TEST(PhantomTool, RefusesBadUsageBeforeItStarts) {
+  ScratchFolder folder;
+  const std::vector<std::vector<std::string>> wrong = {
+      {"p.xyz"},
+      {"p.nrrd", "--preset", "huge"},
+      {"p.nrrd", "--bias", "0.5"},
+      {"p.nrrd", "--noise", "nan"},
+      {"p.nrrd", "--materials", "granite"},
+      {"p.nrrd", "--truth", "/proc/nowhere"},
+  };
+  for (const auto& arguments : wrong) {
+    const ToolResult run = run_tool("phantom", arguments, folder.path());
+    EXPECT_EQ(run.exit_code, 2) << arguments.back() << ": " << run.err;
+    EXPECT_EQ(run.error_lines(), 1) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "p.nrrd"));
+  }
+}
