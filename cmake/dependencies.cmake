@@ -39,4 +39,3 @@ find_package(ITK 5.2 QUIET COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIONI
   ITKImageStatistics ITKBiasCorrection ITKLabelVoting)
 find_package(OpenCV QUIET COMPONENTS core imgproc imgcodecs)
 find_package(CGAL QUIET)
-find_package(NLopt QUIET)

@@ -37,8 +37,15 @@ $(RUN)/%.vti: $(RUN)/%.vtkhdf $(RUN)/labels.vtkhdf $(PROJECT)
 $(RUN)/curve.vtp: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(CC2MLO)
 	$(CC2MLO) $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $@ --landmark tumour --table $(RUN)/curve.tsv $(common)
 
-$(RUN)/displacements.tsv: $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf cc.vtkhdf mlo.vtkhdf) $(PROBE)
-	$(PROBE) $(filter %.vtkhdf,$^) > $@
+# The same with the lateral cut held: what this boundary condition changes at the landmarks.
+$(RUN)/reference-cut-fixed.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD)
+	$(BACKWARD) $< $@ --posture prone $(MECHANICS) --cut fixed $(common)
+$(RUN)/supine-cut-fixed.vtkhdf: $(RUN)/reference-cut-fixed.vtkhdf $(FORWARD)
+	$(FORWARD) $< $@ --posture supine $(MECHANICS) --cut fixed $(common)
+
+$(RUN)/displacements.tsv: $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf \
+  supine-cut-fixed.vtkhdf cc.vtkhdf mlo.vtkhdf) $(PROBE)
+	$(PROBE) $(filter %.vtkhdf,$^) --landmarks tumour,nipple > $@
 
 # Errors against the phantom's truth (stress-free, prone, supine); a real scan has none.
 ifdef TRUTH

@@ -12,10 +12,11 @@ $(PHANTOM_MR): $(PHANTOM)
 	$(PHANTOM) $@ --preset $(PRESET) --truth $(PHANTOM_TRUTH) $(PHANTOM_OPTIONS) $(common)
 $(PHANTOM_TRUTH)/landmarks.tsv: $(PHANTOM_MR) ;
 
-# Compressed truth of the phantom, on the phantom's own fine mesh: minutes, so a target of its own.
+# Compressed truth of the phantom, on the phantom's own mesh and element (quadratic, cut held): minutes,
+# so a target of its own.
 TRUTH_FILES := $(addprefix $(PHANTOM_TRUTH)/$(SIDE)-,cc.vtkhdf mlo.vtkhdf)
 truth: $(TRUTH_FILES)
 $(PHANTOM_TRUTH)/$(SIDE)-%.vtkhdf: $(PHANTOM_MR) $(COMPRESS)
 	$(COMPRESS) $(PHANTOM_TRUTH)/$(SIDE).vtkhdf $@ --view $(call upper,$*) --reduction $(REDUCTION) \
-	  --at-least $(AT_LEAST) $(MECHANICS) $(common)
+	  --at-least $(AT_LEAST) --materials $(MATERIALS) --element q2p1 --cut fixed $(common)
 upper = $(if $(filter cc,$1),CC,MLO)
