@@ -11,6 +11,8 @@ Vec3 node_vector(const Eigen::VectorXd& field, int node) {
 }
 /// A node that changed sides this often within one step keeps touching until convergence.
 constexpr int most_toggles = 3;
+/// Part of the slope along a step that may be left at its end.
+constexpr double slope_kept = 0.8;
 /// Iterations in which touching nodes may move freely onto the plate.
 constexpr int free_moves = 8;
 /// Halvings of a Newton step before it is given up.
@@ -172,11 +174,11 @@ bool ActiveSet::newton_step(const PlatePair& plates, const Sweep& now, BodyState
     result.outcome = StepOutcome::singular;
     return false;
   }
-  return line_search(plates, now, increment, std::abs(solve.slope), state, result);
+  return line_search(plates, now, increment, solve, state, result);
 }
 
 bool ActiveSet::line_search(const PlatePair& plates, const Sweep& now, const BodyState& increment,
-                            double slope, BodyState& state, StepResult& result) {
+                            const BodySolve& solve, BodyState& state, StepResult& result) {
   const BodyState start = state;
   BodyForces trial_forces;
   double alpha = 1;
@@ -194,8 +196,12 @@ bool ActiveSet::line_search(const PlatePair& plates, const Sweep& now, const Bod
       continue;
     }
     const Sweep trial = measure(plates, state, trial_forces);
-    const bool flatter =
-        result.iterations < free_moves && std::abs(increment.x.dot(trial.gradient)) <= 0.8 * slope;
+    // Along a step of an indefinite tangent (a node slipping over the plate edge) the imbalance may
+    // have to grow: going down in energy is then enough.
+    const double along = increment.x.dot(trial.gradient);
+    const bool flatter = solve.shifted ? along <= slope_kept * solve.slope
+                                       : result.iterations < free_moves &&
+                                             std::abs(along) <= slope_kept * std::abs(solve.slope);
     const bool accepted =
         moving || flatter || merit(trial) < merit(now) || trial.relative() < tolerance_;
     any_admissible = true;

@@ -45,7 +45,7 @@ class ActiveSet : public ContactSolver {
   Sweep measure(const PlatePair& plates, const BodyState& state, const BodyForces& forces) const;
   bool newton_step(const PlatePair& plates, const Sweep& now, BodyState& state, StepResult& result);
   bool line_search(const PlatePair& plates, const Sweep& now, const BodyState& increment,
-                   double slope, BodyState& state, StepResult& result);
+                   const BodySolve& solve, BodyState& state, StepResult& result);
 
   ContactBody& body_;
   std::vector<int> candidates_;

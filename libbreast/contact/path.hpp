@@ -23,7 +23,7 @@ struct CompressionTarget {
 
 /// Lengths in mm of thickness; 0 is a part of the initial thickness.
 struct PathOptions {
-  double first_step = 0, longest_step = 0, shortest_step = 0.02;
+  double first_step = 0, longest_step = 0, shortest_step = 0.05;
   double least_thickness = 2;    ///< force and pressure control give up here
   double path_tolerance = 1e-6;  ///< residual on the way; the last state is solved to `tolerance`
   double tolerance = 1e-9;
