@@ -18,6 +18,8 @@ Eigen::VectorXd gather(const Cells& cells, int e, const Eigen::VectorXd& u) {
   return local;
 }
 
+// Below this many cells or nodes a loop of a few microseconds is over before a second thread wakes.
+constexpr int worth_threads = 20000;
 constexpr double first_shift = 1e-5, shift_growth = 8, largest_shift = 10;
 constexpr int max_pressure_iterations = 60;
 
@@ -40,7 +42,7 @@ Eigen::Map<Eigen::MatrixXd> ElementRows::at(int e) {
 
 Eigen::VectorXd ElementRows::apply(const Eigen::VectorXd& u) const {
   Eigen::VectorXd out(long(rows) * cells->count());
-#pragma omp parallel for num_threads(threads()) schedule(static)
+#pragma omp parallel for num_threads(threads()) schedule(static) if (cells->count() > worth_threads)
   for (int e = 0; e < cells->count(); ++e) {
     out.segment(long(e) * rows, rows).noalias() = at(e) * gather(*cells, e, u);
   }
@@ -101,7 +103,8 @@ void SaddleSolver::impose(const SaddleMatrix& matrix) {
   const NodePattern& pattern = work_.pattern();
   work_.values() = matrix.stiffness.values();
   const double scale = std::max(matrix.diagonal.mean(), 1e-300);
-#pragma omp parallel for num_threads(threads()) schedule(dynamic, 128)
+#pragma omp parallel for num_threads(threads()) \
+    schedule(dynamic, 128) if (pattern.nodes() > worth_threads)
   for (int column = 0; column < pattern.nodes(); ++column) {
     const NodeConstraint* right = constraints_.at(column);
     for (int slot = -1; slot < pattern.rows_count(column); ++slot) {
