@@ -21,7 +21,7 @@ ifdef PAPER
   # Everything as printed in the paper: cuboid, skin as a layer of elements, plain invariants, free cut,
   # no gravity in compression, augmented Lagrangian.
   HEXMESH_OPTIONS ?= --template cuboid --elements 16 --skin-as layer
-  MECHANICS ?= --materials $(MATERIALS) --invariants plain --cut free --element q1p0
+  MECHANICS ?= --materials $(MATERIALS) --invariants plain --element q1p0
   COMPRESS_OPTIONS ?= --gravity off --contact al
 else
   HEXMESH_OPTIONS ?= --elements $(ELEMENTS)
