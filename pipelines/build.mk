@@ -1,16 +1,19 @@
-# Set-up and build. A program is as new as its last link, so a stage runs again only when its own program
-# changed.
+# Set-up and build, done before make looks at the stages: make remakes an included file first and then
+# starts again, so that the programs' own times decide which stages are out of date. (As ordinary
+# prerequisites, programs that a build leaves untouched would look older than the build.)
 SOURCES := $(shell find libbreast tools tests cmake pipelines/materials -type f -not -name '.*') \
   CMakeLists.txt CMakePresets.json
+
+ifneq ($(filter-out help setup clean,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
+include build/built.mk
+endif
 
 build/.packages: pipelines/packages.txt pipelines/setup.sh
 	@mkdir -p $(@D)
 	pipelines/setup.sh
 	@touch $@
 
-build/.built: build/.packages $(SOURCES)
-	cmake --preset $(PRESET_BUILD) > build/configure.log || { cat build/configure.log >&2; exit 1; }
+build/built.mk: build/.packages $(SOURCES)
+	cmake --preset $(PRESET_BUILD) > build/configure.log 2>&1 || { cat build/configure.log >&2; exit 1; }
 	cmake --build $(BUILD) -j $$(nproc)
-	@touch $@
-
-$(PROGRAMS): build/.built ;
+	@echo "# Written when the programs in $(BUILD) were last built." > $@

@@ -3,11 +3,11 @@ MR_FILES := $(MR) $(if $(wildcard $(MR)/.),$(wildcard $(MR)/*))
 CHAIN_FILES := $(addprefix $(RUN)/,labels.vtkhdf geometry.vtkhdf mesh.vtkhdf reference.vtkhdf \
   supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti curve.vtp)
 
-$(RUN)/labels.vtkhdf: $(MR_FILES) $(CHEST_WALL) $(SEGMENT)
-	@mkdir -p $(@D)
-	$(SEGMENT) $(MR) $@ --side $(SIDE) $(if $(SERIES),--series $(SERIES)) \
-	  $(if $(CHEST_WALL),--chest-wall $(CHEST_WALL)) --points $(RUN)/points.vtp $(SEGMENT_OPTIONS) $(common)
-$(RUN)/points.vtp: $(RUN)/labels.vtkhdf ;
+$(RUN)/labels.vtkhdf $(RUN)/points.vtp &: $(MR_FILES) $(CHEST_WALL) $(SEGMENT)
+	@mkdir -p $(RUN)
+	$(SEGMENT) $(MR) $(RUN)/labels.vtkhdf --side $(SIDE) $(if $(SERIES),--series $(SERIES)) \
+	  $(if $(CHEST_WALL),--chest-wall $(CHEST_WALL)) --points $(RUN)/points.vtp $(SEGMENT_OPTIONS) \
+	  --report $(RUN)/labels.json $(share)
 
 $(RUN)/geometry.vtkhdf: $(RUN)/labels.vtkhdf $(FIT_HERMITE)
 	$(FIT_HERMITE) $< $@ $(FIT_OPTIONS) $(common)
@@ -32,7 +32,7 @@ $(RUN)/mlo.vtkhdf: $(RUN)/reference.vtkhdf $(COMPRESS)
 # The mammogram's report must not overwrite the compression's.
 $(RUN)/%.vti: $(RUN)/%.vtkhdf $(RUN)/labels.vtkhdf $(PROJECT)
 	$(PROJECT) $< $@ --labels $(RUN)/labels.vtkhdf --png $(RUN)/$*.png $(PROJECT_OPTIONS) \
-	  --report $(RUN)/$*-mammogram.json --threads $$(pipelines/threads.sh)
+	  --report $(RUN)/$*-mammogram.json $(share)
 
 $(RUN)/curve.vtp: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(CC2MLO)
 	$(CC2MLO) $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $@ --landmark tumour --table $(RUN)/curve.tsv $(common)

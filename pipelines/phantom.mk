@@ -7,10 +7,10 @@ ifndef MR
   TRUTH := $(PHANTOM_TRUTH)/landmarks.tsv
 endif
 
-$(PHANTOM_MR): $(PHANTOM)
-	@mkdir -p $(@D)
-	$(PHANTOM) $@ --preset $(PRESET) --truth $(PHANTOM_TRUTH) $(PHANTOM_OPTIONS) $(common)
-$(PHANTOM_TRUTH)/landmarks.tsv: $(PHANTOM_MR) ;
+$(PHANTOM_MR) $(PHANTOM_TRUTH)/landmarks.tsv &: $(PHANTOM)
+	@mkdir -p $(dir $(PHANTOM_MR))
+	$(PHANTOM) $(PHANTOM_MR) --preset $(PRESET) --truth $(PHANTOM_TRUTH) $(PHANTOM_OPTIONS) \
+	  --report $(basename $(PHANTOM_MR)).json $(share)
 
 # Compressed truth of the phantom, on the phantom's own mesh and element (quadratic, cut held): minutes,
 # so a target of its own.

@@ -48,9 +48,7 @@ CC2MLO ?= $(BIN)/cc2mlo
 PHANTOM ?= $(BIN)/phantom
 PROBE ?= $(BIN)/probe
 RENDER ?= $(BIN)/render
-TOOLS := segment fit-hermite hexmesh backward forward compress project-mammogram cc2mlo phantom probe \
-  evaluate laws render
-PROGRAMS := $(addprefix $(BIN)/,$(TOOLS))
 
 # Options every program gets: its JSON report beside its first output, its share of the cores.
-common = --report $(basename $@).json --threads $$(pipelines/threads.sh)
+share = --threads $$(pipelines/threads.sh)
+common = --report $(basename $@).json $(share)
