@@ -5,7 +5,7 @@ SOURCES := $(shell find libbreast tools tests cmake pipelines/materials -type f 
   CMakeLists.txt CMakePresets.json
 
 ifneq ($(filter-out help setup clean,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
-include build/built.mk
+include build/built-$(PRESET_BUILD).mk
 endif
 
 build/.packages: pipelines/packages.txt pipelines/setup.sh
@@ -13,7 +13,7 @@ build/.packages: pipelines/packages.txt pipelines/setup.sh
 	pipelines/setup.sh
 	@touch $@
 
-build/built.mk: build/.packages $(SOURCES)
+build/built-$(PRESET_BUILD).mk: build/.packages $(SOURCES)
 	cmake --preset $(PRESET_BUILD) > build/configure.log 2>&1 || { cat build/configure.log >&2; exit 1; }
 	cmake --build $(BUILD) -j $$(nproc)
 	@echo "# Written when the programs in $(BUILD) were last built." > $@

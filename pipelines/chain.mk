@@ -1,58 +1,93 @@
-# The chain, one rule a stage; every file lies in runs/CASE with its report beside it.
+# The chain, one rule a stage; every file lies in runs/CASE with its report beside it. A stage runs again
+# when its inputs, its program or its settings have changed (pipelines/remember.mk).
 MR_FILES := $(MR) $(if $(wildcard $(MR)/.),$(wildcard $(MR)/*))
 CHAIN_FILES := $(addprefix $(RUN)/,labels.vtkhdf geometry.vtkhdf mesh.vtkhdf reference.vtkhdf \
   supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti curve.vtp)
+MATERIAL_FILE := $(wildcard $(MATERIALS))
 
-$(RUN)/labels.vtkhdf $(RUN)/points.vtp &: $(MR_FILES) $(CHEST_WALL) $(SEGMENT)
+labels_settings := $(SEGMENT) $(MR) --side $(SIDE) $(if $(SERIES),--series $(SERIES)) \
+  $(if $(CHEST_WALL),--chest-wall $(CHEST_WALL)) $(SEGMENT_OPTIONS)
+$(RUN)/labels.vtkhdf $(RUN)/points.vtp &: $(MR_FILES) $(CHEST_WALL) $(SEGMENT) $(call changed,labels)
 	@mkdir -p $(RUN)
 	$(SEGMENT) $(MR) $(RUN)/labels.vtkhdf --side $(SIDE) $(if $(SERIES),--series $(SERIES)) \
 	  $(if $(CHEST_WALL),--chest-wall $(CHEST_WALL)) --points $(RUN)/points.vtp $(SEGMENT_OPTIONS) \
 	  --report $(RUN)/labels.json $(share)
+	@$(call record,labels)
 
-$(RUN)/geometry.vtkhdf: $(RUN)/labels.vtkhdf $(FIT_HERMITE)
+geometry_settings := $(FIT_HERMITE) $(FIT_OPTIONS)
+$(RUN)/geometry.vtkhdf: $(RUN)/labels.vtkhdf $(FIT_HERMITE) $(call changed,geometry)
 	$(FIT_HERMITE) $< $@ $(FIT_OPTIONS) $(common)
+	@$(call record,geometry)
 
-$(RUN)/mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH)
+mesh_settings := $(HEXMESH) $(HEXMESH_OPTIONS)
+$(RUN)/mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH) $(call changed,mesh)
 	$(HEXMESH) $< $(RUN)/labels.vtkhdf $@ $(HEXMESH_OPTIONS) $(common)
+	@$(call record,mesh)
 
-$(RUN)/reference.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD)
-	$(BACKWARD) $< $@ --posture prone $(MECHANICS) $(common)
+reference_settings := $(BACKWARD) $(MECHANICS) --cut $(CUT)
+$(RUN)/reference.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD) $(MATERIAL_FILE) $(call changed,reference)
+	$(BACKWARD) $< $@ --posture prone $(MECHANICS) --cut $(CUT) $(common)
+	@$(call record,reference)
 
-$(RUN)/supine.vtkhdf: $(RUN)/reference.vtkhdf $(FORWARD)
-	$(FORWARD) $< $@ --posture supine $(MECHANICS) $(common)
+supine_settings := $(FORWARD) $(MECHANICS) --cut $(CUT)
+$(RUN)/supine.vtkhdf: $(RUN)/reference.vtkhdf $(FORWARD) $(MATERIAL_FILE) $(call changed,supine)
+	$(FORWARD) $< $@ --posture supine $(MECHANICS) --cut $(CUT) $(common)
+	@$(call record,supine)
 
-$(RUN)/cc.vtkhdf: $(RUN)/reference.vtkhdf $(COMPRESS)
-	$(COMPRESS) $< $@ --view CC --reduction $(REDUCTION) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) \
-	  $(MECHANICS) $(common)
+# The two views: compress, then project. The mammogram's report must not overwrite the compression's.
+define view_rules
+$1_settings := $(COMPRESS) --reduction $(REDUCTION) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) \
+  $(MECHANICS) --cut $(CUT)
+$(RUN)/$1.vtkhdf: $(RUN)/reference.vtkhdf $(COMPRESS) $(MATERIAL_FILE) $$(call changed,$1)
+	$(COMPRESS) $$< $$@ --view $2 --reduction $(REDUCTION) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) \
+	  $(MECHANICS) --cut $(CUT) $$(common)
+	@$$(call record,$1)
 
-$(RUN)/mlo.vtkhdf: $(RUN)/reference.vtkhdf $(COMPRESS)
-	$(COMPRESS) $< $@ --view MLO --reduction $(REDUCTION) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) \
-	  $(MECHANICS) $(common)
+$1-mammogram_settings := $(PROJECT) $(PROJECT_OPTIONS)
+$(RUN)/$1.vti $(RUN)/$1.png &: $(RUN)/$1.vtkhdf $(RUN)/labels.vtkhdf $(PROJECT) $$(call changed,$1-mammogram)
+	$(PROJECT) $(RUN)/$1.vtkhdf $(RUN)/$1.vti --labels $(RUN)/labels.vtkhdf --png $(RUN)/$1.png \
+	  $(PROJECT_OPTIONS) --report $(RUN)/$1-mammogram.json $$(share)
+	@$$(call record,$1-mammogram)
+endef
+$(eval $(call view_rules,cc,CC))
+$(eval $(call view_rules,mlo,MLO))
 
-# The mammogram's report must not overwrite the compression's.
-$(RUN)/%.vti: $(RUN)/%.vtkhdf $(RUN)/labels.vtkhdf $(PROJECT)
-	$(PROJECT) $< $@ --labels $(RUN)/labels.vtkhdf --png $(RUN)/$*.png $(PROJECT_OPTIONS) \
-	  --report $(RUN)/$*-mammogram.json $(share)
-
-$(RUN)/curve.vtp: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(CC2MLO)
-	$(CC2MLO) $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $@ --landmark tumour --table $(RUN)/curve.tsv $(common)
+curve_settings := $(CC2MLO)
+$(RUN)/curve.vtp $(RUN)/curve.tsv &: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(CC2MLO) $(call changed,curve)
+	$(CC2MLO) $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(RUN)/curve.vtp --landmark tumour \
+	  --table $(RUN)/curve.tsv --report $(RUN)/curve.json $(share)
+	@$(call record,curve)
 
 # The same with the lateral cut held: what this boundary condition changes at the landmarks.
-$(RUN)/reference-cut-fixed.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD)
+cut-fixed_settings := $(BACKWARD) $(FORWARD) $(MECHANICS)
+$(RUN)/reference-cut-fixed.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD) $(MATERIAL_FILE) $(call changed,cut-fixed)
 	$(BACKWARD) $< $@ --posture prone $(MECHANICS) --cut fixed $(common)
+	@$(call record,cut-fixed)
 $(RUN)/supine-cut-fixed.vtkhdf: $(RUN)/reference-cut-fixed.vtkhdf $(FORWARD)
 	$(FORWARD) $< $@ --posture supine $(MECHANICS) --cut fixed $(common)
 
-$(RUN)/displacements.tsv: $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf \
-  supine-cut-fixed.vtkhdf cc.vtkhdf mlo.vtkhdf) $(PROBE)
-	$(PROBE) $(filter %.vtkhdf,$^) --landmarks tumour,nipple > $@
+# Tables come from stdout; a rename makes them complete or absent.
+SHOWN := $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf)
+$(RUN)/displacements.tsv: $(SHOWN) $(addprefix $(RUN)/,cc.vtkhdf mlo.vtkhdf) $(PROBE)
+	$(PROBE) $(filter %.vtkhdf,$^) --landmarks tumour,nipple > $@.part
+	@mv $@.part $@
+$(RUN)/cut.tsv: $(RUN)/supine-cut-fixed.vtkhdf $(RUN)/supine.vtkhdf $(PROBE)
+	$(PROBE) $< --base $(RUN)/supine.vtkhdf --landmarks tumour,nipple > $@.part
+	@mv $@.part $@
 
 # Errors against the phantom's truth (stress-free, prone, supine); a real scan has none.
 ifdef TRUTH
-$(RUN)/truth.tsv: $(TRUTH) $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf) $(PROBE)
-	$(PROBE) $(filter %.vtkhdf,$^) --truth $(TRUTH) > $@
+$(RUN)/truth.tsv: $(TRUTH) $(SHOWN) $(PROBE)
+	$(PROBE) $(filter %.vtkhdf,$^) --truth $(TRUTH) > $@.part
+	@mv $@.part $@
+$(RUN)/truth-cut-fixed.tsv: $(TRUTH) $(RUN)/mesh.vtkhdf $(RUN)/reference-cut-fixed.vtkhdf \
+  $(RUN)/supine-cut-fixed.vtkhdf $(PROBE)
+	$(PROBE) $(filter %.vtkhdf,$^) --truth $(TRUTH) > $@.part
+	@mv $@.part $@
 endif
 
-$(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(if $(TRUTH),$(RUN)/truth.tsv) $(FIGURES)
-	@pipelines/summary.sh $(RUN) > $@
+$(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(RUN)/cut.tsv \
+  $(if $(TRUTH),$(RUN)/truth.tsv $(RUN)/truth-cut-fixed.tsv) $(FIGURES) pipelines/summary.sh
+	@pipelines/summary.sh $(RUN) $(if $(TRUTH),$(PHANTOM_MR:.nrrd=.json)) > $@.part
+	@mv $@.part $@
 	@cat $@

@@ -7,10 +7,13 @@ ifndef MR
   TRUTH := $(PHANTOM_TRUTH)/landmarks.tsv
 endif
 
-$(PHANTOM_MR) $(PHANTOM_TRUTH)/landmarks.tsv &: $(PHANTOM)
+phantom_record := $(RUNS)/phantom/.$(PRESET).settings
+phantom_settings := $(PHANTOM) $(PRESET) $(PHANTOM_OPTIONS)
+$(PHANTOM_MR) $(PHANTOM_TRUTH)/landmarks.tsv &: $(PHANTOM) $(call changed,phantom)
 	@mkdir -p $(dir $(PHANTOM_MR))
 	$(PHANTOM) $(PHANTOM_MR) --preset $(PRESET) --truth $(PHANTOM_TRUTH) $(PHANTOM_OPTIONS) \
 	  --report $(basename $(PHANTOM_MR)).json $(share)
+	@$(call record,phantom)
 
 # Compressed truth of the phantom, on the phantom's own mesh and element (quadratic, cut held): minutes,
 # so a target of its own.

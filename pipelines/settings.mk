@@ -17,6 +17,7 @@ MATERIALS ?= seed2008
 REDUCTION ?= 50
 AT_LEAST ?= 40
 ELEMENTS ?= 16
+CUT ?= free
 ifdef PAPER
   # Everything as printed in the paper: cuboid, skin as a layer of elements, plain invariants, free cut,
   # no gravity in compression, augmented Lagrangian.

@@ -3,6 +3,7 @@
 # compressions, the MLO curve, and where the pictures are.
 set -euo pipefail
 run=$1
+truth_report=${2:-}  # of the phantom, for the truth's own error
 # A top-level key of a JSON report (two spaces of indent), or "-".
 key() {
   local value
@@ -23,10 +24,20 @@ echo "== $run"
 echo
 echo "Landmark displacements (mm)"
 columns "$run/displacements.tsv"
+echo
+echo "Held instead of free lateral cut, supine (relative: distance to the free one, mm)"
+columns "$run/cut.tsv"
 if [ -s "$run/truth.tsv" ]; then
+  bound=$(sed -n 's/^  "error_estimate_mm": \([0-9.e-]*\),\{0,1\}$/\1/p' "$truth_report" 2>/dev/null || true)
   echo
-  echo "Error against the phantom's truth (mm)"
+  echo "Error against the phantom's truth (mm). The truth's own error is ${bound:-unknown} mm; smaller errors are not"
+  echo "claimed. The truth holds the lateral cut; points are the phantom's, found in the chain's mesh."
   columns "$run/truth.tsv"
+  echo
+  echo "The same with the cut held in the chain too (mean and largest)"
+  sed -n '1p;/^mean/p;/^largest/p' "$run/truth-cut-fixed.tsv" > "$run/.truth-cut-fixed.part"
+  columns "$run/.truth-cut-fixed.part"
+  rm -f "$run/.truth-cut-fixed.part"
 fi
 echo
 echo "Compression"

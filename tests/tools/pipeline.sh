@@ -29,12 +29,17 @@ grep -qE "bin/(segment|fit-hermite|hexmesh) " <<< "$plan" && fail "a newer mesh 
 pass "touching the mesh rebuilds what depends on it and nothing else"
 run chain > "$work/log" 2>&1 || fail "the rebuilt chain"
 
+plan=$(run -n FIT_OPTIONS="--elements 8x8" chain)
+grep -q "bin/fit-hermite" <<< "$plan" && ! grep -q "bin/segment" <<< "$plan" || fail "changed settings of a stage run it again"
+pass "changed settings of a stage run it again, and not the stages before"
+
 cat > "$work/my-forward" <<EOF
 #!/bin/sh
 echo swapped > "$work/mark"
 exec "$PWD/build/release/bin/forward" "\$@"
 EOF
 chmod +x "$work/my-forward"
+touch -d 2000-01-01 "$work/my-forward"  # older than everything: a swap must not depend on its time
 run FORWARD="$work/my-forward" "$case_dir/supine.vtkhdf" > "$work/log" 2>&1 || fail "the swapped stage runs"
 [ -s "$work/mark" ] || fail "FORWARD= swaps the stage"
 pass "FORWARD= swaps the stage"
