@@ -161,6 +161,21 @@ TEST_F(VolumeFile, TruncationAnywhereIsOneLine) {
       EXPECT_NE(error_of([&] { read_volume(cut); }), "") << ending << " cut to " << part << "/20";
     }
   }
+  // Inside the checksum and length that end a gzip stream, also where the voxels are a whole number
+  // of the reader's buffers.
+  Volume<float> round(volume.grid);
+  round.grid.size = {64, 32, 32};
+  round.voxels.assign(round.grid.voxels(), 1.5F);
+  write_volume(folder / "round.nrrd", round);
+  write_volume(folder / "round.nii.gz", round);
+  for (const char* name : {"whole.nrrd", "whole.nii.gz", "round.nrrd", "round.nii.gz"}) {
+    const auto size = fs::file_size(folder / name);
+    EXPECT_EQ(error_of([&] { read_volume(folder / name); }), "");
+    for (int bytes = 1; bytes <= 9; ++bytes) {
+      fs::resize_file(folder / name, size - std::uintmax_t(bytes));
+      EXPECT_NE(error_of([&] { read_volume(folder / name); }), "") << name << " without " << bytes;
+    }
+  }
   const fs::path dicom = folder / "dicom";
   write_dicom_series(dicom, oblique_volume<std::int16_t>(), "T1");
   const fs::path last = dicom / "slice_0004.dcm";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -47,23 +48,90 @@ double nifti_bytes(const unsigned char* header, std::size_t have) {
   return 0;
 }
 
+struct Content {
+  double bytes = 0;
+  std::vector<unsigned char> head;  ///< the first of them, enough for a header
+  bool compressed = false;
+
+  void add(const unsigned char* data, std::size_t count) {
+    if (bytes == 0) head.assign(data, data + std::min<std::size_t>(count, 600));
+    bytes += double(count);
+  }
+};
+
+/// Inflates the members of a gzip stream up to the last one's checksum and length, which zlib
+/// compares. gzread will not do: it takes a stream cut inside them for whole.
+class Inflater {
+ public:
+  Inflater(const fs::path& file, std::ifstream& in) : file_(file), in_(in) {
+    constexpr int gzip_only = 15 + 16;
+    if (inflateInit2(&z_, gzip_only) != Z_OK) throw failed_error(file.string(), ": no zlib");
+  }
+  ~Inflater() { inflateEnd(&z_); }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+
+  void run(Content& content) {
+    int code = Z_OK;
+    while (code != Z_STREAM_END || another_member()) {
+      if (code == Z_STREAM_END) inflateReset(&z_);
+      if (z_.avail_in == 0) refill();
+      z_.next_out = out_.data();
+      z_.avail_out = unsigned(out_.size());
+      code = inflate(&z_, Z_NO_FLUSH);
+      const bool stuck = code == Z_BUF_ERROR && z_.avail_in == 0 && !in_;
+      if ((code != Z_OK && code != Z_STREAM_END && code != Z_BUF_ERROR) || stuck) {
+        throw input_error(file_.string(), ": truncated or damaged compressed data");
+      }
+      content.add(out_.data(), out_.size() - z_.avail_out);
+    }
+  }
+
+ private:
+  void refill() {
+    in_.read(reinterpret_cast<char*>(in_buffer_.data()), std::streamsize(in_buffer_.size()));
+    z_.next_in = in_buffer_.data();
+    z_.avail_in = unsigned(in_.gcount());
+  }
+  // Whatever else follows a gzip stream is padding.
+  bool another_member() {
+    if (z_.avail_in == 0) refill();
+    return z_.avail_in > 0 && *z_.next_in == 0x1f;
+  }
+
+  const fs::path& file_;
+  std::ifstream& in_;
+  z_stream z_{};
+  std::vector<unsigned char> in_buffer_ = std::vector<unsigned char>(1 << 16),
+                             out_ = std::vector<unsigned char>(1 << 18);
+};
+
+/// What `file` holds from byte `start` on, inflated when it is gzip.
+Content content_from(const fs::path& file, std::streamoff start) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in.seekg(start)) throw input_error(file.string(), ": cannot be opened");
+  char magic[2] = {};
+  in.read(magic, 2);
+  in.clear();
+  in.seekg(start);
+  Content content;
+  content.compressed = magic[0] == '\x1f' && magic[1] == '\x8b';
+  if (content.compressed) {
+    Inflater(file, in).run(content);
+    return content;
+  }
+  std::vector<unsigned char> buffer(1 << 18);
+  while (in) {
+    in.read(reinterpret_cast<char*>(buffer.data()), std::streamsize(buffer.size()));
+    content.add(buffer.data(), std::size_t(in.gcount()));
+  }
+  return content;
+}
+
 void check_nifti(const fs::path& file) {
-  // zlib reads plain files as they are, so one loop serves .nii and .nii.gz and checks the CRC.
-  const gzFile stream = gzopen(file.c_str(), "rb");
-  if (!stream) throw input_error(file.string(), ": cannot be opened");
-  std::vector<unsigned char> buffer(1 << 18), header;
-  double total = 0;
-  int got = 0;
-  while ((got = gzread(stream, buffer.data(), unsigned(buffer.size()))) > 0) {
-    if (total == 0) header.assign(buffer.begin(), buffer.begin() + std::min(got, 600));
-    total += got;
-  }
-  int code = Z_OK;
-  gzerror(stream, &code);
-  const int closed = gzclose(stream);
-  if (got < 0 || code != Z_OK || closed != Z_OK) {
-    throw input_error(file.string(), ": truncated or damaged compressed data");
-  }
+  const Content content = content_from(file, 0);
+  const std::vector<unsigned char>& header = content.head;
+  const double total = content.bytes;
   const double needed = nifti_bytes(header.data(), header.size());
   if (!(needed > 0)) throw input_error(file.string(), ": no NIfTI header");
   if (total < needed) {
@@ -116,11 +184,45 @@ void check_meta(const fs::path& file) {
   throw input_error(file.string(), ": no complete MetaImage header");
 }
 
+void check_gzip(const fs::path& file, std::streamoff start) {
+  if (!content_from(file, start).compressed) {
+    throw input_error(file.string(), ": its voxels are not the gzip data its header announces");
+  }
+}
+
+// ITK's reader counts the voxels itself, but stops before the checksum that ends a gzip stream.
+void check_nrrd(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw input_error(file.string(), ": cannot be opened");
+  bool gzip = false, skips_lines = false;
+  std::string detached;
+  for (std::string line; std::getline(in, line) && line.size() <= 65536;) {
+    if (line.ends_with('\r')) line.pop_back();
+    if (line.empty()) break;
+    const auto colon = line.find(": ");
+    if (line.starts_with('#') || colon == std::string::npos) continue;
+    std::string key = line.substr(0, colon);
+    std::transform(key.begin(), key.end(), key.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    std::string value;
+    std::istringstream(line.substr(colon + 1)) >> value;
+    if (key == "encoding") gzip = value == "gzip" || value == "gz";
+    if (key == "data file" || key == "datafile") detached = value;
+    if (key == "line skip" || key == "lineskip") skips_lines = value != "0";
+  }
+  const bool several = detached == "LIST" || detached.find('%') != std::string::npos;
+  if (!gzip || skips_lines || several) return;
+  if (!detached.empty()) return check_gzip(file.parent_path() / detached, 0);
+  if (!in) throw input_error(file.string(), ": truncated: its header does not end");
+  check_gzip(file, in.tellg());
+}
+
 }  // namespace
 
 void check_complete(const fs::path& file) {
   const std::string name = file.filename().string();
   if (name.ends_with(".nii") || name.ends_with(".nii.gz")) check_nifti(file);
+  if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) check_nrrd(file);
   if (name.ends_with(".mha") || name.ends_with(".mhd")) check_meta(file);
 }
 
