@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "io/mesh_file.hpp"
+#include "mechanics/closing_summary.hpp"
 #include "mechanics/element_order.hpp"
 #include "mechanics/options.hpp"
 #include "mesh/quality.hpp"
@@ -63,7 +64,7 @@ void check_closure(const HexMesh& mesh, const Vec3& gravity, MechanicsOptions op
   options.estimate_error = true;
   SolveSummary summary;
   {
-    Timer::Scope phase(run.timer(), "closure");
+    Timer::Scope phase(backward.timer, "closure");
     summary = solve_forward(again, gravity, options, run.progress());
   }
   if (!summary.converged()) {
@@ -96,7 +97,7 @@ void run_backward(const Choices& c, Run& run) {
     check_closure(mesh, gravity_of(c), options, run, summary);
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
   write_report(summary, mesh, options, run.report());
-  run.timer().write(run.report());
+  tell_summary(run.report(), summary.timer, run.progress());
   for (const std::string& doubt : summary.doubts) run.warn(doubt);
   if (summary.converged() || c.mechanics.keep_unconverged) {
     const History before = mesh.history;

@@ -10,6 +10,7 @@
 #include "core/units.hpp"
 #include "io/mesh_file.hpp"
 #include "mammo/mammogram.hpp"
+#include "mechanics/closing_summary.hpp"
 #include "mechanics/element_order.hpp"
 #include "mechanics/options.hpp"
 #include "mesh/quality.hpp"
@@ -57,6 +58,7 @@ void declare(Tool& tool, Choices& c) {
   tool.describe(
       "A path that stops early ends in a valid equilibrium: with --at-least it is written with "
       "status stopped_early when at least that reduction was reached.");
+  tool.describe("Not offered: friction of the plates, an elastic chest wall.");
   tool.cite("Pathmanathan et al. 2008, section II-D, equations (7)-(8)");
   tool.example("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 50",
                "cranio-caudal, half the thickness");
@@ -67,7 +69,7 @@ void declare(Tool& tool, Choices& c) {
   tool.choice(c.view, "--view", {"CC", "MLO", "ML"}, "mammographic view").required("--view");
   tool.number(c.angle, "--angle", "DEG", "beam angle; without it CC 0, MLO 45, ML 90", -90, 90);
   tool.number(c.thickness, "--thickness", "MM", "stop at this gap between the flats", 0.1, 1000);
-  tool.number(c.reduction, "--reduction", "PERCENT", "stop at this reduction of the thickness", 0,
+  tool.number(c.reduction, "--reduction", "PERCENT", "stop at this reduction of the thickness", 0.1,
               95);
   tool.number(c.force, "--force", "N", "stop at this paddle force", 1e-6, 1e5);
   tool.number(c.pressure, "--pressure", "KPA", "stop at this paddle force per contact area", 1e-6,
@@ -81,10 +83,10 @@ void declare(Tool& tool, Choices& c) {
   tool.number(c.plates.tilt_deg, "--tilt", "DEG",
               "paddle about the lateral axis; positive narrows the gap at the nipple", -20, 20);
   tool.text(c.gravity, "--gravity", "upright|off|gx,gy,gz", "gravity during compression, mm/s2");
-  tool.number(c.friction, "--friction", "MU", "only 0: contact is frictionless", 0, 10);
+  tool.number(c.friction, "--friction", "MU", "only 0 is offered: contact is frictionless");
   tool.choice(c.contact, "--contact", {"active-set", "al"},
               "exact active set, or the paper's augmented Lagrangian");
-  tool.text(c.wall, "--wall", "fixed", "only fixed: zero displacement, as in the paper");
+  tool.text(c.wall, "--wall", "fixed", "only fixed is offered: zero displacement, as in the paper");
   declare_mechanics(tool, c.mechanics);
   tool.check([&c] {
     const int targets = int(c.thickness.has_value()) + int(c.reduction.has_value()) +
@@ -134,7 +136,7 @@ void run_compress(const Choices& c, Run& run) {
   const CompressionSummary summary = compress(mesh, options, mechanics, run.progress());
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
   write_report(summary, mesh, mechanics, run.report());
-  for (const std::string& line : summary.judgement) run.progress().note(line);
+  tell_summary(run.report(), summary.timer, run.progress());
   for (const std::string& doubt : summary.doubts) run.warn(doubt);
 
   const std::string& status = summary.record.status;

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "io/mesh_file.hpp"
+#include "mechanics/closing_summary.hpp"
 #include "mechanics/element_order.hpp"
 #include "mechanics/options.hpp"
 #include "mesh/quality.hpp"
@@ -61,6 +62,7 @@ void run_forward(const Choices& c, Run& run) {
   mesh.contact.reset();
   mesh.contact_pressure.clear();
   write_report(summary, mesh, options, run.report());
+  tell_summary(run.report(), summary.timer, run.progress());
   for (const std::string& doubt : summary.doubts) run.warn(doubt);
   if (summary.converged() || c.mechanics.keep_unconverged) {
     const History before = mesh.history;

@@ -16,7 +16,7 @@ struct MechanicsChoices {
   std::string invariants = "isochoric";  ///< isochoric | plain
   std::optional<double> bulk_ratio;      ///< K/μ; none: exactly incompressible
   std::string cut = "free";              ///< free | fixed | roller
-  std::string solver = "auto";           ///< auto | direct | multigrid
+  std::string solver = "auto";           ///< auto | direct
   bool keep_unconverged = false;         ///< write the file even so, its status saying so
 };
 

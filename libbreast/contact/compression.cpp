@@ -192,10 +192,15 @@ void Compression::conclude(const BodyState& state) {
   summary_.min_det_F = path.final_step.forces.min_det_F;
   summary_.max_volume_error = path.final_step.forces.max_volume_error;
   summary_.unknowns = scene_.unknowns();
-  if (path.indefinite > 0) {
+  if (path.first_indefinite_thickness) {
     summary_.doubts.push_back(message(
         "the tangent was indefinite in ", path.indefinite, " iterations, first at thickness ",
-        path.first_indefinite_thickness, " mm: the breast slips or buckles there"));
+        *path.first_indefinite_thickness, " mm: the breast slips or buckles there"));
+  }
+  for (const std::string& line : summary_.judgement) {
+    if (line.find(" is within the clinical range") == std::string::npos) {
+      summary_.doubts.push_back(line);
+    }
   }
   if (summary_.reduction_percent > 40 && scene_.options().materials.name == "seed2008") {
     summary_.doubts.push_back(

@@ -110,6 +110,9 @@ bool Path::attempt(const BodyState& guess, const std::vector<signed char>& touch
   ++result_.solves;
   result_.iterations += step.iterations;
   result_.indefinite += step.shifted;
+  if (step.shifted > 0 && !result_.first_indefinite_thickness) {
+    result_.first_indefinite_thickness = thickness;
+  }
   for (const NewtonRecord& record : step.history) {
     result_.newton.push_back(record);
     result_.newton_step.push_back(result_.solves);
@@ -120,9 +123,6 @@ bool Path::attempt(const BodyState& guess, const std::vector<signed char>& touch
     result_.failed_thickness = thickness;
     result_.failed_trial = step.failed_trial;
     return false;
-  }
-  if (step.shifted > 0 && result_.first_indefinite_thickness == 0) {
-    result_.first_indefinite_thickness = thickness;
   }
   const PathPoint point = force_point(state, step, thickness);
   tell(point);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,7 +50,7 @@ struct PathResult {
   std::vector<NewtonRecord> newton;  ///< all iterations in order
   std::vector<int> newton_step;      ///< the step each belongs to
   int solves = 0, failures = 0, iterations = 0, indefinite = 0;
-  double first_indefinite_thickness = 0;  ///< mm, 0: never
+  std::optional<double> first_indefinite_thickness;  ///< mm; none: never
 };
 
 /// Area (mm²) belonging to each node of the deformed skin, for mean pressure along the path.

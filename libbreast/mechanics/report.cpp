@@ -1,6 +1,7 @@
 // The contract's keys of a mechanics report.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/units.hpp"
 #include "mechanics/mechanics.hpp"
@@ -61,8 +62,10 @@ void write_report(const SolveSummary& summary, const HexMesh& mesh, const Mechan
   report.set("residual", summary.residual);
   report.set("min_det_F", summary.min_det_F);
   report.set("max_volume_error", summary.max_volume_error);
+  report.set("error_estimate_mm", summary.error_estimate_mm >= 0
+                                      ? summary.error_estimate_mm
+                                      : std::numeric_limits<double>::quiet_NaN());  // null
   if (summary.error_estimate_mm >= 0) {
-    report.set("error_estimate_mm", summary.error_estimate_mm);
     report.set("error_estimate_how",
                "one linearised step with 27-node elements on the same geometry: discretisation "
                "only, not geometry, labels or laws");

@@ -99,6 +99,8 @@ TEST_F(CompressTool, RefusesWhatItCannotDo) {
                                              {"CC", "--reduction", "40", "--gravity", "sideways"},
                                              {"CC", "--reduction", "40", "--gravity", "1,2"},
                                              {"CC", "--reduction", "-4"},
+                                             {"CC", "--reduction", "0"},
+                                             {"CC", "--reduction", "40", "--solver", "multigrid"},
                                              {"CC", "--thickness", "900"},
                                              {"CC", "--reduction", "40", "--standoff", "400"}}) {
     const ToolResult result = compress(options);

@@ -66,6 +66,18 @@ TEST_F(MechanicsTools, BackwardThenForwardReturnsToTheScan) {
   EXPECT_GT(report("s.json").number("landmarks/nipple/distance_mm"), 1);
 }
 
+// What was solved, how, at what cost and how well: for people on stderr, nothing under --quiet.
+TEST_F(MechanicsTools, EndWithASummary) {
+  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --scale fat=50"), 0) << text("err.txt");
+  for (const char* part :
+       {"elements", "unknowns", "fat: polynomial", "μ0 610 Pa", "ρgL/μ0", "Newton iterations",
+        "residual", "peak", "at the landmarks about", "forward returns to the scan within"}) {
+    EXPECT_NE(text("err.txt").find(part), std::string::npos) << part << "\n" << text("err.txt");
+  }
+  ASSERT_EQ(run("forward reference.vtkhdf supine.vtkhdf --quiet"), 0);
+  EXPECT_EQ(text("err.txt"), "");
+}
+
 TEST_F(MechanicsTools, QuadraticElementsOnTheSameMesh) {
   ASSERT_EQ(
       run("backward mesh.vtkhdf reference.vtkhdf --element q2p1 --cut roller --report b.json"), 0)

@@ -1,0 +1,104 @@
+#include "mechanics/closing_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+
+/// Three digits: enough to judge by; the report has them all.
+std::string brief(double value) {
+  char text[32];
+  const bool large = std::abs(value) >= 1000 && std::abs(value) < 1e6;
+  std::snprintf(text, sizeof text, large ? "%.0f" : "%.3g", value);
+  return text;
+}
+
+std::string brief(const Report& report, const std::string& key) {
+  return brief(report.number(key));
+}
+
+std::string whole(const Report& report, const std::string& key) {
+  return std::to_string(static_cast<long long>(report.number(key)));
+}
+
+std::string solved(const Report& report) {
+  std::string line =
+      message("solved ", whole(report, "elements"), " elements (", report.text("element"), "), ");
+  line += report.number("unknowns") > 0 ? whole(report, "unknowns") + " unknowns, " : "";
+  line += report.contains("bulk_ratio") ? "bulk ratio " + brief(report, "bulk_ratio")
+                                        : "exactly incompressible";
+  return line + ", materials " + report.text("materials/name") + ": " + report.text("status");
+}
+
+void add_laws(const Report& report, std::vector<std::string>& lines) {
+  for (int t = 0; t < n_tissues; ++t) {
+    const std::string tissue(tissue_name(Tissue(t))), key = "materials/" + tissue + "/";
+    if (!report.contains(key + "law")) continue;
+    lines.push_back(message(tissue, ": ", report.text(key + "law"), "; μ0 ",
+                            brief(report, key + "shear_modulus_Pa"), " Pa, ρgL/μ0 ",
+                            brief(report, key + "gravity_number")));
+  }
+}
+
+std::string convergence(const Report& report) {
+  return message("steps ", whole(report, "steps"), ", Newton iterations ",
+                 whole(report, "newton_iterations"), ", factorisations ",
+                 whole(report, "factorisations"), "; residual ", brief(report, "residual"),
+                 ", worst |J-1| ", brief(report, "max_volume_error"), ", min det F ",
+                 brief(report, "min_det_F"));
+}
+
+std::string plates(const Report& report) {
+  return message("thickness ", brief(report, "thickness_mm"), " of ",
+                 brief(report, "initial_thickness_mm"), " mm (", brief(report, "reduction_percent"),
+                 " % less); paddle ", brief(report, "force_N"), " N on ", brief(report, "area_cm2"),
+                 " cm2, ", brief(report, "pressure_kPa"), " kPa; worst penetration ",
+                 brief(report, "worst_gap_mm"), " mm");
+}
+
+/// Phases by cost, those under a hundredth of a second left out.
+std::string cost(const Report& report, const Timer& timer) {
+  std::vector<std::pair<double, std::string>> phases;
+  for (const auto& [name, seconds] : timer.seconds()) {
+    if (seconds >= 0.01) phases.emplace_back(seconds, name);
+  }
+  std::sort(phases.rbegin(), phases.rend());
+  std::string line;
+  for (const auto& [seconds, name] : phases) line += name + " " + brief(seconds) + " s, ";
+  return line + "peak " + brief(report, "peak_mb") + " MB";
+}
+
+std::string accuracy(const Report& report) {
+  std::string line = report.contains("error_estimate_how")
+                         ? message("discretisation error at the landmarks about ",
+                                   brief(report, "error_estimate_mm"), " mm (",
+                                   report.text("error_estimate_how"), ")")
+                         : "discretisation error not estimated";
+  if (report.contains("closure_mm")) {
+    line += "; forward returns to the scan within " + brief(report, "closure_mm") + " mm";
+  }
+  return line;
+}
+
+}  // namespace
+
+std::vector<std::string> closing_summary(const Report& report, const Timer& timer) {
+  std::vector<std::string> lines{solved(report)};
+  add_laws(report, lines);
+  lines.push_back(convergence(report));
+  if (report.contains("thickness_mm")) lines.push_back(plates(report));
+  lines.push_back(cost(report, timer));
+  lines.push_back(accuracy(report));
+  return lines;
+}
+
+void tell_summary(const Report& report, const Timer& timer, Progress& progress) {
+  for (const std::string& line : closing_summary(report, timer)) progress.note(line);
+}
+
+}  // namespace breast
