@@ -39,6 +39,20 @@ std::vector<Vec3> read_points(const std::filesystem::path& file) {
   return points;
 }
 
+/// Points of a chest-wall surface; of a file by --points only those marked chest wall.
+std::vector<Vec3> surface_points(const TriMesh& surface, const std::filesystem::path& file) {
+  const auto kind = surface.point_data.find("surface");
+  if (kind == surface.point_data.end()) return surface.points;
+  std::vector<Vec3> points;
+  for (std::size_t n = 0; n < surface.points.size(); ++n) {
+    if (kind->second[n] == 1) points.push_back(surface.points[n]);
+  }
+  if (points.empty()) {
+    throw input_error(file.string(), ": its scalar 'surface' marks no point as chest wall (1)");
+  }
+  return points;
+}
+
 bool is_table(const std::filesystem::path& file) {
   const std::string ending = file.extension().string();
   return ending == ".tsv" || ending == ".txt";
@@ -90,7 +104,7 @@ void fill_report(Report& report, const Segmentation& result) {
 
 int main(int argc, char** argv) {
   std::filesystem::path scan_file, labels_file, wall_file, points_file, overlay_file;
-  std::string side;
+  std::string side, interior = "threshold";
   int series = 0;
   Tool tool("segment", "labels of one breast from a prone T1 MR scan");
   tool.describe(
@@ -108,7 +122,12 @@ int main(int argc, char** argv) {
                10000);
   tool.input_file(
       wall_file, "--chest-wall", "FILE|POINTS",
-      "corrected label map (code 4 behind the wall) or table of points x_mm y_mm z_mm (.tsv)");
+      "corrected chest wall: label map (code 4 behind the wall), surface (.vtp; of a file by "
+      "--points its chest wall), or table of clicked points x_mm y_mm z_mm (.tsv)");
+  tool.choice(interior, "--interior", {"threshold", "region-growing"},
+              "what decides between fat and fibroglandular tissue: threshold: midway between their "
+              "brightness (closer to known truth); region-growing: the paper's 3-D "
+              "confidence-connected growing of fat. The report compares both");
   tool.output_file(points_file, "--points", "OUT.vtp", "skin and chest-wall data points");
   tool.output_file(overlay_file, "--overlay", "OUT.png",
                    "slices with contours, to judge the result by");
@@ -119,6 +138,7 @@ int main(int argc, char** argv) {
   return tool.main(argc, argv, [&](Run& run) {
     SegmentOptions options;
     options.side = side_from_name(side);
+    if (interior == "region-growing") options.interior = Interior::region_growing;
     VolumeSource source;
     Volume<float> scan;
     {
@@ -133,6 +153,11 @@ int main(int argc, char** argv) {
         Sha256 hash;
         for (const Vec3& point : options.wall_points) hash.update(point.data(), 3 * sizeof(double));
         sha256 = hash.hex();
+      } else if (wall_file.extension() == ".vtp") {
+        const TriMesh surface = read_surface(wall_file);
+        options.wall_points = surface_points(surface, wall_file);
+        options.wall_points_of_surface = true;
+        sha256 = surface.content_sha256;
       } else {
         options.wall_labels = read_wall_labels(wall_file, sha256);
       }
@@ -142,6 +167,7 @@ int main(int argc, char** argv) {
     for (const std::string& doubt : result.doubts) run.warn(doubt);
     result.labels.history = run.history(inputs);
     fill_report(run.report(), result);
+    run.report().set("interior", interior);
     const Timer::Scope phase(run.timer(), "write");
     if (!overlay_file.empty()) write_overlay(overlay_file, scan, result.labels);
     if (!points_file.empty()) write_surface(points_file, result.points);

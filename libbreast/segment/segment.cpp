@@ -64,7 +64,8 @@ void find_wall(Work& work, const SegmentOptions& options, Progress& progress, Ti
   if (options.wall_labels)
     apply_wall_labels(work.wall, work.domain, work.scan.grid, *options.wall_labels);
   if (!options.wall_points.empty()) {
-    apply_wall_points(work.wall, work.domain, work.scan.grid, options.wall_points);
+    const auto apply = options.wall_points_of_surface ? apply_wall_surface : apply_wall_points;
+    apply(work.wall, work.domain, work.scan.grid, options.wall_points);
   }
 }
 
@@ -138,7 +139,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
       breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent, options.side);
   work.skin = skin_thickness(work.ratio, work.breast, work.skin_distance);
   work.gland = find_fibroglandular(work.ratio, interior_of(work, 3, work.scan.grid.spacing[1]),
-                                   work.wall.muscle_ratio);
+                                   work.wall.muscle_ratio, options.interior);
   result.labels = labels_of(work, options.side);
   const Nipple nipple = find_nipple(work.breast, work.body.mask);
   result.labels.landmarks["nipple"] = nipple.position;

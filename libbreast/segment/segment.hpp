@@ -12,10 +12,19 @@
 
 namespace breast {
 
+/// What tells fibroglandular tissue from fat.
+enum class Interior {
+  threshold,      ///< midway between the brightness of gland and fat
+  region_growing  ///< the paper's 3-D confidence-connected growing of fat; what is left is gland
+};
+
 struct SegmentOptions {
   Side side = Side::left;
   std::optional<Volume<float>> wall_labels;  ///< corrected label map, code 4 = behind the wall
   std::vector<Vec3> wall_points;             ///< clicked points on the wall (patient mm)
+  /// `wall_points` are those of a surface: dense, and reaching beyond the searched wall.
+  bool wall_points_of_surface = false;
+  Interior interior = Interior::threshold;
 };
 
 struct Segmentation {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "segment/filters.hpp"
 #include "segment/itk_filters.hpp"
 
@@ -75,19 +76,29 @@ std::vector<std::array<int, 3>> fat_seeds(const Volume<float>& ratio, const Mask
   return seeds;
 }
 
-void compare_with_growing(Fibroglandular& result, const Volume<float>& ratio,
-                          const Mask& interior) {
+/// Fibroglandular voxels of the interior: neither reached by growing the fat nor brighter than it.
+/// All zero without seeds.
+Mask gland_by_growing(const Volume<float>& ratio, const Mask& interior) {
   Volume<float> inside = gaussian(ratio, growing_smoothing);
   for (std::size_t n = 0; n < inside.voxels.size(); ++n) {
     if (!interior.voxels[n]) inside.voxels[n] = -10;
   }
   const auto seeds = fat_seeds(ratio, interior);
-  if (seeds.empty()) return;
+  Mask gland(ratio.grid);
+  if (seeds.empty()) return gland;
   const Mask fat = confidence_connected(inside, seeds, 1.5, 1, 5);
-  double all = 0, grown = 0, by_threshold = 0, both = 0;
   for (std::size_t n = 0; n < inside.voxels.size(); ++n) {
+    gland.voxels[n] = interior.voxels[n] && !fat.voxels[n] && ratio.voxels[n] < 1;
+  }
+  return gland;
+}
+
+void compare(Fibroglandular& result, const Volume<float>& ratio, const Mask& interior,
+             const Mask& by_growing) {
+  double all = 0, grown = 0, by_threshold = 0, both = 0;
+  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
     if (!interior.voxels[n]) continue;
-    const bool a = ratio.voxels[n] < result.threshold, b = !fat.voxels[n] && ratio.voxels[n] < 1;
+    const bool a = ratio.voxels[n] < result.threshold, b = by_growing.voxels[n] != 0;
     all += 1;
     grown += b;
     by_threshold += a;
@@ -100,7 +111,7 @@ void compare_with_growing(Fibroglandular& result, const Volume<float>& ratio,
 }  // namespace
 
 Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& interior,
-                                   double muscle_ratio) {
+                                   double muscle_ratio, Interior interior_by) {
   Fibroglandular result;
   std::vector<float> values;
   for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
@@ -130,7 +141,18 @@ Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& inter
     gland += r < t;
   }
   result.fat_fraction = values.empty() ? 0 : 1 - gland / double(values.size());
-  compare_with_growing(result, ratio, interior);
+  const Mask grown = gland_by_growing(ratio, interior);
+  compare(result, ratio, interior, grown);
+  if (interior_by == Interior::region_growing) {
+    if (fat_seeds(ratio, interior).empty()) {
+      throw input_error(
+          "no voxel of the breast is as bright as fat: region growing has nowhere to start; "
+          "use --interior threshold");
+    }
+    for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
+      result.fraction.voxels[n] = grown.voxels[n] ? 1 : 0;
+    }
+  }
   return result;
 }
 

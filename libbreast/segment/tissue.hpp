@@ -2,11 +2,12 @@
 #pragma once
 
 #include "segment/grid_ops.hpp"
+#include "segment/segment.hpp"
 
 namespace breast {
 
 struct Fibroglandular {
-  Volume<float> fraction;   ///< [0,1], 0 outside the interior
+  Volume<float> fraction;   ///< [0,1], 0 outside the interior; 0 or 1 by region growing
   double threshold = 0;     ///< ratio below which a voxel counts as fibroglandular
   double gland_ratio = 0;   ///< brightness of gland relative to fat
   double fat_fraction = 0;  ///< of the interior, by threshold
@@ -15,8 +16,9 @@ struct Fibroglandular {
   double agreement = 0;  ///< Dice of the fibroglandular voxels of both ways
 };
 /// `interior`: breast beyond the skin and in front of the wall. `ratio` = intensity / bias.
+/// Throws Error (input) when region growing is asked for and finds no fat to start from.
 Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& interior,
-                                   double muscle_ratio);
+                                   double muscle_ratio, Interior interior_by);
 
 /// Skin thickness (mm) from the mean brightness against depth below the surface; 0 when the skin
 /// does not show as a dark layer.

@@ -2,7 +2,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "core/error.hpp"
 
@@ -44,6 +46,11 @@ double plate(const Vec2& a, const Vec2& b) {
   return r2 > 0 ? 0.5 * r2 * std::log(r2) : 0;
 }
 
+bool on_wall(const ChestWall& wall, const WallDomain& domain, int i, int k) {
+  return i >= domain.first && i <= domain.last && k >= 0 && k < wall.depth.nz &&
+         std::isfinite(wall.depth.at(i, k));
+}
+
 }  // namespace
 
 void apply_wall_points(ChestWall& wall, const WallDomain& domain, const Grid& grid,
@@ -53,7 +60,7 @@ void apply_wall_points(ChestWall& wall, const WallDomain& domain, const Grid& gr
   for (const Vec3& point : points) {
     const Vec3 index = grid.to_index(point);
     const int i = int(std::lround(index[0])), k = int(std::lround(index[2]));
-    if (i < domain.first || i > domain.last || k < 0 || k >= wall.depth.nz) {
+    if (!on_wall(wall, domain, i, k)) {
       throw input_error("chest-wall point (", point.transpose(),
                         ") mm lies beside the searched chest wall");
     }
@@ -96,6 +103,37 @@ void apply_wall_points(ChestWall& wall, const WallDomain& domain, const Grid& gr
       }
     }
   }
+}
+
+void apply_wall_surface(ChestWall& wall, const WallDomain& domain, const Grid& grid,
+                        const std::vector<Vec3>& points) {
+  struct Sum {
+    Vec3 points = Vec3::Zero();
+    double count = 0;
+  };
+  constexpr double cell = 8;  // mm
+  std::map<std::array<int, 2>, Sum> cells;
+  const auto beside = [&](const Vec3& index) {
+    return !on_wall(wall, domain, int(std::lround(index[0])), int(std::lround(index[2])));
+  };
+  for (const Vec3& point : points) {
+    const Vec3 index = grid.to_index(point);
+    if (beside(index)) continue;
+    Sum& sum = cells[{int(std::floor(index[0] * grid.spacing[0] / cell)),
+                      int(std::floor(index[2] * grid.spacing[2] / cell))}];
+    sum.points += point;
+    sum.count += 1;
+  }
+  std::vector<Vec3> means;
+  for (const auto& [place, sum] : cells) {
+    const Vec3 mean = sum.points / sum.count;
+    if (!beside(grid.to_index(mean))) means.push_back(mean);
+  }
+  if (means.empty()) {
+    throw input_error("none of the chest-wall surface's ", points.size(),
+                      " points lies on the searched chest wall of this scan");
+  }
+  apply_wall_points(wall, domain, grid, means);
 }
 
 }  // namespace breast

@@ -15,5 +15,10 @@ double apply_wall_labels(ChestWall& wall, const WallDomain& domain, const Grid& 
 /// at zero farther than 50 mm from every point. Throws Error (input) for a point beside the domain.
 void apply_wall_points(ChestWall& wall, const WallDomain& domain, const Grid& grid,
                        const std::vector<Vec3>& points);
+/// Moves the wall to a surface given by its points (patient mm): the mean point of every cell of
+/// 8 mm counts as a clicked one; points beside the domain are passed over. Throws Error (input)
+/// when none is left.
+void apply_wall_surface(ChestWall& wall, const WallDomain& domain, const Grid& grid,
+                        const std::vector<Vec3>& points);
 
 }  // namespace breast

@@ -157,6 +157,48 @@ TEST(Segment, ClickedPointsMoveTheWallThere) {
   EXPECT_THROW(run(scan, options), Error);
 }
 
+TEST(Segment, ASurfaceReplacesTheWallAndMayReachBeyondIt) {
+  const SyntheticScan truth;
+  const Volume<float> scan = truth.image();
+  SegmentOptions options;
+  options.wall_points_of_surface = true;
+  const double moved = 6;
+  for (double z = -300; z <= 300; z += 3) {
+    for (double x = -100; x <= 200; x += 3) {
+      options.wall_points.emplace_back(x, truth.wall(x, z) - moved, z);
+    }
+  }
+  const Scores scores = score(truth, run(scan, options).labels, 1);
+  EXPECT_GT(scores.wall_mean, 0.7 * moved);
+  EXPECT_LT(scores.wall_mean, 1.3 * moved);
+  options.wall_points = {Vec3(75, 0, 500)};
+  EXPECT_THROW(run(scan, options), Error);
+}
+
+TEST(Segment, RegionGrowingMakesTheLabelsWhenAskedTo) {
+  const SyntheticScan truth;
+  const Volume<float> scan = truth.image();
+  const auto gland = [](const Segmentation& result) {
+    double fibroglandular = 0, interior = 0;
+    for (const std::uint8_t code : result.labels.tissue) {
+      fibroglandular += code == std::uint8_t(Tissue::fibroglandular);
+      interior += code == std::uint8_t(Tissue::fibroglandular) || code == std::uint8_t(Tissue::fat);
+    }
+    return fibroglandular / interior;
+  };
+  const Segmentation by_threshold = run(scan, SegmentOptions{});
+  SegmentOptions growing;
+  growing.interior = Interior::region_growing;
+  const Segmentation grown = run(scan, growing);
+  EXPECT_EQ(by_threshold.fat_fraction_grown, grown.fat_fraction_grown);
+  EXPECT_NE(by_threshold.labels.tissue, grown.labels.tissue);
+  for (const float fraction : grown.labels.fibroglandular_fraction) {
+    ASSERT_TRUE(fraction == 0 || fraction == 1);
+  }
+  EXPECT_NEAR(gland(grown), 1 - grown.fat_fraction_grown, 0.05);
+  EXPECT_NEAR(gland(by_threshold), 1 - by_threshold.fat_fraction, 0.05);
+}
+
 TEST(Segment, ACorrectedLabelMapReplacesTheWall) {
   const SyntheticScan truth;
   const Volume<float> scan = truth.image();
