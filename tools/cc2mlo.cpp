@@ -126,7 +126,8 @@ int main(int argc, char** argv) {
   tool.output(choices.curve, "CURVE.vtp", "curve, arc, chord and the column in every shape");
   tool.numbers(choices.point, "--point", "u,v", 2, "point of the CC image in mm");
   tool.text(choices.landmark, "--landmark", "NAME",
-            "projection of this landmark (tumour); its true MLO position is compared");
+            "projection of this landmark of the meshes, such as tumour; its true MLO position is "
+            "compared");
   tool.integer(choices.grid, "--grid", "N", "N x N points over the tissue of the CC image", 0, 200);
   tool.output_file(choices.table, "--table", "OUT.tsv", "one row per point");
   tool.check([&] { choices.check(); });

@@ -13,7 +13,19 @@ namespace {
 
 constexpr std::size_t fewest_points = 64;
 
+void check_views(const HexMesh& cc, const HexMesh& mlo) {
+  const auto view = [](const HexMesh& mesh) {
+    return mesh.contact ? mesh.contact->view : std::string("no compression");
+  };
+  const std::string first = view(cc), second = view(mlo);
+  if (first != "CC" || (second != "MLO" && second != "ML")) {
+    throw input_error("the first mesh shows ", first, ", the second ", second,
+                      "; give the CC compression first, then MLO or ML");
+  }
+}
+
 void check_same_body(const HexMesh& cc, const HexMesh& mlo) {
+  check_views(cc, mlo);
   if (cc.side != mlo.side) {
     throw input_error("the CC mesh is of the ", side_name(cc.side), " breast, the MLO mesh of the ",
                       side_name(mlo.side));

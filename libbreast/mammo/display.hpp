@@ -14,8 +14,12 @@ namespace breast {
 struct HungImage {
   int width = 0, height = 0;
   std::vector<std::uint16_t> grey;
-  double window_high = 0;  ///< path at grey 65535; grey is proportional to the square of the path
+  double window_high = 0;  ///< compensated path at grey 65535; grey goes with its square
 };
+/// The path as if all tissue were as thick as between the plates, so that the thicker tissue behind
+/// them is not lost in white: in full where tissue is thicker, by the square root of the ratio
+/// where it is thinner (towards the skin). Same unit and order as `path`.
+std::vector<float> compensated_path(const Mammogram& image);
 HungImage hang(const Mammogram& image);
 
 }  // namespace breast

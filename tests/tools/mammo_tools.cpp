@@ -144,6 +144,15 @@ TEST_F(MammoTools, AirAndWrongQuestionsAreRefused) {
       run("cc2mlo", {"cc.vtkhdf", "supine.vtkhdf", "none.vtp", "--grid", "2"});
   EXPECT_EQ(swapped.exit_code, 2);
   EXPECT_EQ(swapped.error_lines(), 1) << swapped.err;
+  for (const auto& [first, second] : {std::pair{"cc", "cc"}, {"mlo", "cc"}, {"mlo", "mlo"}}) {
+    const ToolResult views =
+        run("cc2mlo", {std::string(first) + ".vtkhdf", std::string(second) + ".vtkhdf", "none.vtp",
+                       "--grid", "2"});
+    EXPECT_EQ(views.exit_code, 2);
+    EXPECT_EQ(views.error_lines(), 1) << views.err;
+    EXPECT_NE(views.err.find("give the CC compression first"), std::string::npos) << views.err;
+    EXPECT_FALSE(fs::exists(file("none.vtp")));
+  }
 }
 
 TEST_F(MammoTools, AGridGivesOneRowAPoint) {
