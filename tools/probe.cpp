@@ -115,9 +115,9 @@ int main(int argc, char** argv) {
       std::vector<std::string> row{files[i].filename().string()};
       for (const std::string& name : names) {
         const Probe here = probe(meshes[i], name, files[i]);
-        const double moved = (here.position - here.imaged).norm();
+        const Vec3 displacement = here.position - here.imaged;
         for (int d = 0; d < 3; ++d) row.push_back(format_fixed(here.position[d], 4));
-        row.push_back(format_fixed(moved, 4));
+        row.push_back(format_fixed(displacement.norm(), 4));
         if (relative) {
           const Vec3 there = probe(base, name, base_file).position;
           row.push_back(format_fixed((here.position - there).norm(), 4));
@@ -125,7 +125,8 @@ int main(int argc, char** argv) {
         if (files.size() > 1) continue;
         run.report().set("landmarks/" + name + "/imaged", here.imaged);
         run.report().set("landmarks/" + name + "/position", here.position);
-        run.report().set("landmarks/" + name + "/displacement_mm", moved);
+        run.report().set("landmarks/" + name + "/displacement_mm", displacement);
+        run.report().set("landmarks/" + name + "/distance_mm", displacement.norm());
       }
       table.rows.push_back(std::move(row));
     }

@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
       "patient's left, anterior and superior. Figures:" +
       figure_list());
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Figs 4 to 7");
-  tool.inputs(choices.files, "FILE...",
+  tool.inputs(choices.files, "FILE",
               "meshes (.vtkhdf), mammograms (.vti), points or curves (.vtp)");
   tool.choice(choices.figure, "--figure", figure_names(), "what to draw");
   tool.output_file(choices.output, "-o,--output", "OUT.png", "the picture");

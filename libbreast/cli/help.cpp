@@ -143,7 +143,9 @@ std::string remarks(const Argument& argument) {
   }
   if (argument.required && !argument.positional()) add("required");
   if (argument.repeatable && !argument.positional()) add("may be repeated");
-  if (!argument.default_text.empty()) add("default: " + argument.default_text);
+  if (!argument.required && !argument.default_text.empty()) {
+    add("default: " + argument.default_text);
+  }
   return text;
 }
 

@@ -33,18 +33,32 @@ std::vector<std::string> summary(const Table& table, const std::string& label, b
 }  // namespace
 
 std::vector<TrueLandmark> true_landmarks(const Table& table, Side side, const std::string& name) {
-  const int landmark = table.column("landmark"), of_side = table.column("side");
+  const auto column_of = [&](const std::string& column) {
+    try {
+      return table.column(column);
+    } catch (const Error& error) {
+      throw input_error(name, ": ", error.what());
+    }
+  };
+  const int landmark = column_of("landmark"), of_side = column_of("side");
+  const auto side_of = [&](const std::string& text) {
+    try {
+      return side_from_name(text);
+    } catch (const Error& error) {
+      throw input_error(name, ": ", error.what());
+    }
+  };
   const auto vector = [&](const std::vector<std::string>& row, const std::string& posture) {
     Vec3 x;
     for (int d = 0; d < 3; ++d) {
       const std::string column = posture + std::array{"_x_mm", "_y_mm", "_z_mm"}[d];
-      x[d] = parse_number(row[table.column(column)], name + ": " + column);
+      x[d] = parse_number(row[column_of(column)], name + ": " + column);
     }
     return x;
   };
   std::vector<TrueLandmark> list;
   for (const auto& row : table.rows) {
-    if (side_from_name(row[of_side]) != side) continue;
+    if (side_of(row[of_side]) != side) continue;
     list.push_back(
         {row[landmark], vector(row, "stress_free"), vector(row, "prone"), vector(row, "supine")});
   }
@@ -84,7 +98,9 @@ Table compare_with_truth(const std::vector<HexMesh>& meshes,
     if (const Landmark* own = first.landmark(point.name); own && point.name == "nipple") {
       prone_error = (landmark_position(first, first.imaged, *own) - point.prone).norm();
     }
-    std::vector<std::string> row{point.name, format_fixed(found.moved, 3),
+    // Not to be taken for the tumour a chain puts into its mesh.
+    const std::string shown_as = point.name == "tumour" ? "true-tumour" : point.name;
+    std::vector<std::string> row{shown_as, format_fixed(found.moved, 3),
                                  format_fixed(prone_error, 3)};
     for (const HexMesh* mesh : shown) {
       const Vec3 there = position_in(point, posture_of(*mesh));

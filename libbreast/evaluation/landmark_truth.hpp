@@ -25,8 +25,9 @@ std::string posture_of(const HexMesh& mesh);
 /// One row a landmark: the true point in the imaged frame is found in the first mesh (outside_mm:
 /// how far it had to move to reach it), then compared with the truth in the posture of each mesh
 /// (POSTURE_error_mm) beside the true displacement from prone (POSTURE_true_mm). All meshes must be
-/// of one topology. The nipple is also compared as found from the image (prone_error_mm); of other
-/// points prone_error_mm is outside_mm, since they are taken at their true prone place.
+/// of one topology. The truth's own "tumour" is called "true-tumour". The nipple is also compared
+/// as found from the image (prone_error_mm); of other points prone_error_mm is outside_mm, since
+/// they are taken at their true prone place.
 Table compare_with_truth(const std::vector<HexMesh>& meshes,
                          const std::vector<TrueLandmark>& truth);
 

@@ -92,9 +92,12 @@ std::string compression_caption(const HexMesh& mesh) {
   const ContactRecord& contact = *mesh.contact;
   std::string words = contact.view + " (" + std::string(side_name(mesh.side)) + "), " +
                       format_fixed(contact.thickness_mm, 1) + " mm";
-  double force = 0;
-  for (const PlateRecord& plate : contact.plates) force = std::max(force, plate.force_N);
-  if (force > 0) words += ", " + format_fixed(force, 0) + " N";
+  // The force people name is the paddle's; the detector also carries part of the weight.
+  for (const PlateRecord& plate : contact.plates) {
+    if (plate.name == "paddle" && plate.force_N > 0) {
+      words += ", " + format_fixed(plate.force_N, 0) + " N";
+    }
+  }
   return words;
 }
 
