@@ -1,7 +1,7 @@
 # Set-up and build, done before make looks at the stages: make remakes an included file first and then
 # starts again, so that the programs' own times decide which stages are out of date. (As ordinary
 # prerequisites, programs that a build leaves untouched would look older than the build.)
-SOURCES := $(shell find libbreast tools tests cmake pipelines/materials -type f -not -name '.*') \
+SOURCES := $(shell find libbreast tools cmake pipelines/materials -type f -not -name '.*') \
   CMakeLists.txt CMakePresets.json
 
 ifneq ($(filter-out help setup clean,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
@@ -15,5 +15,5 @@ build/.packages: pipelines/packages.txt pipelines/setup.sh
 
 build/built-$(PRESET_BUILD).mk: build/.packages $(SOURCES)
 	cmake --preset $(PRESET_BUILD) > build/configure.log 2>&1 || { cat build/configure.log >&2; exit 1; }
-	cmake --build $(BUILD) -j $$(nproc)
+	cmake --build $(BUILD) --target programs -j $$(nproc)
 	@echo "# Written when the programs in $(BUILD) were last built." > $@
