@@ -114,7 +114,10 @@ int main(int argc, char** argv) {
   tool.output(choices.image, "IMAGE.vti", "path, thickness and fibroglandular mm per pixel");
   tool.input_file(choices.labels, "--labels", "LABELS.vtkhdf",
                   "tissue of the MR scan (segment); without, one tissue per element");
-  tool.output_file(choices.png, "--png", "FILE", "16-bit grey image, hung as in the clinic");
+  tool.output_file(
+      choices.png, "--png", "FILE",
+      "16-bit grey image hung as in the clinic, its grey as if all tissue were as thick as "
+      "between the plates");
   tool.number(choices.pixel, "--pixel", "mm", "pixel size", 0.02, 10);
   tool.choice(choices.geometry, "--geometry", {"parallel", "cone"},
               "beam; cone: point source 650 mm above the detector's chest-wall edge");

@@ -179,6 +179,24 @@ TEST(MammogramFile, HungWithChestWallOutsideAndLateralOnTop) {
   EXPECT_EQ(right.grey[14], 0);
 }
 
+// The same gland in fat shows alike between the plates (u >= 2 pixels) and in the thrice as thick
+// tissue behind them.
+TEST(MammogramFile, ThickTissueBehindThePlatesIsNotLostInWhite) {
+  Mammogram image = some_mammogram(Side::left);
+  image.plate_edge_u = 2 * image.pixel;
+  for (int i = 0; i < 15; ++i) {
+    const float thickness = i % 5 < 2 ? 120 : 40, gland = i / 5 == 1 ? 0.5f : 0.25f;
+    image.thickness[i] = thickness;
+    image.path[i] = thickness * (gland + 0.5f * (1 - gland));
+  }
+  const HungImage hung = hang(image);
+  EXPECT_EQ(hung.grey[0], hung.grey[4]);
+  EXPECT_EQ(hung.grey[5], hung.grey[9]);
+  EXPECT_GT(hung.grey[5], 1.3 * hung.grey[0]);
+  image.thickness[4] = image.path[4] = 2;  // a ray through skin only, beside tissue of 40 mm
+  EXPECT_LT(hang(image).grey[4], hung.grey[4]);
+}
+
 TEST(MammogramFile, PngIsSixteenBitGrey) {
   const ScratchFolder folder;
   write_mammogram_png(folder / "m.png", some_mammogram());
