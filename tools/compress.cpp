@@ -127,8 +127,9 @@ CompressionOptions compression_options(const Choices& c) {
 
 void run_compress(const Choices& c, Run& run) {
   const MechanicsChoices& m = c.mechanics;
-  const MechanicsOptions mechanics = mechanics_options(m.materials, m.scale, m.element,
-                                                       m.invariants, m.bulk_ratio, m.cut, m.solver);
+  MechanicsOptions mechanics = mechanics_options(m.materials, m.scale, m.element, m.invariants,
+                                                 m.bulk_ratio, m.cut, m.solver);
+  mechanics.estimate_error = true;
   const CompressionOptions options = compression_options(c);
   HexMesh mesh = read_mesh(c.reference, {.reference = true});
   const std::string sha = mesh.content_sha256;

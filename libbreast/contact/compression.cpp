@@ -11,6 +11,7 @@
 #include "contact/skin_area.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "mechanics/error_estimate.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"
 
@@ -44,6 +45,7 @@ class Compression {
   CompressionTarget target() const;
   void close_plates(SaddleState& state);
   void record_path();
+  void estimate(const BodyState& at, const ContactSolver& contact);
   void conclude(const BodyState& state);
   double clock() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -158,7 +160,31 @@ void Compression::close_plates(SaddleState& state) {
   record_compression(mesh_, options_, at, body, *contact, summary_);
   mesh_.det_F = scene_.assembly().mean_det_f(reference_, at.x);
   mesh_.pressure = scene_.assembly().mean_pressure(at.p);
+  if (scene_.options().estimate_error) estimate(at, *contact);
   conclude(at);
+}
+
+/// Discretisation error of the final state, the touching set held.
+void Compression::estimate(const BodyState& at, const ContactSolver& contact) {
+  if (mesh_.order == 1 && !mesh_.landmarks.empty()) {
+    Timer::Scope phase(summary_.timer, "error estimate");
+    std::vector<TouchingNode> touching;
+    for (std::size_t c = 0; c < contact.candidates().size(); ++c) {
+      const int node = contact.candidates()[c], plate = contact.touching()[c];
+      if (plate < 0) continue;
+      const Gap gap = summary_.plates.plate(plate).gap(at.x.segment<3>(3 * node));
+      touching.push_back({node, plate, gap.gradient.normalized()});
+    }
+    SaddleMatrix matrix = problem_.make_matrix();
+    const ErrorEstimate error = estimate_error(scene_, reference_, {at.x, at.p}, options_.gravity,
+                                               matrix, solver_, touching);
+    if (error.usable) {
+      summary_.error_estimate_mm = error.worst_mm;
+      summary_.landmark_error_mm = error.landmarks;
+      return;
+    }
+  }
+  summary_.doubts.push_back("discretisation error of the compressed shape not estimated");
 }
 
 void Compression::record_path() {

@@ -28,7 +28,7 @@ using Nodes27 = Eigen::Matrix<double, 3, 27>;
 class RicherProblem {
  public:
   RicherProblem(const Scene& scene, const Eigen::VectorXd& reference, const SaddleState& state,
-                const Vec3& gravity);
+                const Vec3& gravity, const std::vector<TouchingNode>& touching);
 
   const HexMesh& mesh() const { return mesh_; }
   /// False when an element is folded at its Gauss points.
@@ -41,6 +41,7 @@ class RicherProblem {
 
  private:
   Eigen::VectorXd raise(const Eigen::VectorXd& corners) const;
+  void hold_between(const std::vector<TouchingNode>& touching);
   void add_elements(const Scene& scene, const Eigen::VectorXd& reference, const SaddleState& state,
                     const Vec3& gravity);
   void add_faces(const Scene& scene, const Eigen::VectorXd& reference,
@@ -79,12 +80,21 @@ std::vector<std::vector<int>> nodes_between(const HexMesh& mesh, int corners) {
   return between;
 }
 
+void hold(const std::vector<TouchingNode>& touching, Constraints& held) {
+  for (const TouchingNode& t : touching) {
+    if (held.at(t.node) == nullptr) held.hold_normal(t.node, t.normal);
+  }
+}
+
 RicherProblem::RicherProblem(const Scene& scene, const Eigen::VectorXd& reference,
-                             const SaddleState& state, const Vec3& gravity)
+                             const SaddleState& state, const Vec3& gravity,
+                             const std::vector<TouchingNode>& touching)
     : mesh_(raise_order(scene.mesh())),
       walls_(wall_constraints(mesh_, scene.options().cut)),
       corners_(scene.nodes()),
       between_(nodes_between(mesh_, corners_)) {
+  hold(touching, walls_);
+  hold_between(touching);
   const Eigen::VectorXd raised_reference = raise(reference);
   const SaddleState raised{raise(state.u), state.p};
   right_ = Eigen::VectorXd::Zero(3L * mesh_.nodes());
@@ -94,6 +104,23 @@ RicherProblem::RicherProblem(const Scene& scene, const Eigen::VectorXd& referenc
   }
   walls_.project(right_);
   invert_blocks();
+}
+
+// A new node rests on a plate when all corners it lies between do.
+void RicherProblem::hold_between(const std::vector<TouchingNode>& touching) {
+  std::vector<const TouchingNode*> at(static_cast<std::size_t>(corners_), nullptr);
+  for (const TouchingNode& t : touching) at[t.node] = &t;
+  for (std::size_t i = 0; i < between_.size(); ++i) {
+    const TouchingNode* first = at[between_[i].front()];
+    Vec3 normal = Vec3::Zero();
+    bool all = first != nullptr;
+    for (const int corner : between_[i]) {
+      all = all && at[corner] != nullptr && at[corner]->plate == first->plate;
+      if (all) normal += at[corner]->normal;
+    }
+    const int node = corners_ + int(i);
+    if (all && walls_.at(node) == nullptr) walls_.hold_normal(node, normal.normalized());
+  }
 }
 
 Eigen::VectorXd RicherProblem::raise(const Eigen::VectorXd& corners) const {
@@ -279,14 +306,16 @@ Eigen::VectorXd solve(const RicherProblem& problem, const SaddleSolver& coarse,
 
 ErrorEstimate estimate_error(const Scene& scene, const Eigen::VectorXd& reference,
                              const SaddleState& state, const Vec3& gravity, SaddleMatrix& matrix,
-                             SaddleSolver& solver) {
+                             SaddleSolver& solver, const std::vector<TouchingNode>& touching) {
   ErrorEstimate estimate;
   AssemblyRequest request;
   request.matrix = &matrix;
   request.augmentation = soft_augmentation;
   if (!scene.assembly().evaluate(reference, state, request).valid) return estimate;
-  if (!solver.factorise(matrix, scene.walls(), false).ok) return estimate;
-  const RicherProblem problem(scene, reference, state, gravity);
+  Constraints held = scene.walls();
+  hold(touching, held);
+  if (!solver.factorise(matrix, held, false).ok) return estimate;
+  const RicherProblem problem(scene, reference, state, gravity, touching);
   if (!problem.valid()) return estimate;
   const Eigen::VectorXd correction = solve(problem, solver, estimate);
   const std::vector<Vec3> nodal = unflatten(correction);

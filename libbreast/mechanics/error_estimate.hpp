@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "mechanics/scene.hpp"
 
@@ -17,10 +18,19 @@ struct ErrorEstimate {
   bool usable = false;                    ///< false: tangent indefinite or no convergence
 };
 
-/// `state` is an equilibrium of 8-node elements under nodal gravity forces; `matrix` and `solver`
-/// are used as workspace.
+/// A node that a plate touches without friction; it may slide at right angles to `normal`.
+struct TouchingNode {
+  int node = 0;
+  int plate = 0;
+  Vec3 normal{0, 0, 1};  ///< unit
+};
+
+/// `state` is an equilibrium of 8-node elements under nodal gravity forces and the plates at
+/// `touching`; `matrix` and `solver` are used as workspace. The touching set is held: these nodes,
+/// and those of the richer problem between nodes on one plate, keep their place along the normal;
+/// the curvature of a plate's edge is left out of the tangent.
 ErrorEstimate estimate_error(const Scene& scene, const Eigen::VectorXd& reference,
                              const SaddleState& state, const Vec3& gravity, SaddleMatrix& matrix,
-                             SaddleSolver& solver);
+                             SaddleSolver& solver, const std::vector<TouchingNode>& touching = {});
 
 }  // namespace breast

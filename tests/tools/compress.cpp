@@ -75,6 +75,24 @@ TEST_F(CompressTool, WritesTheContactRecordAndTheContractKeys) {
   EXPECT_EQ(mesh.contact_pressure.size(), mesh.points.size());
 }
 
+// The estimate against what 27-node elements on the same mesh really differ by.
+TEST_F(CompressTool, EstimatesItsDiscretisationError) {
+  ASSERT_EQ(compress({"CC", "--reduction", "25"}).exit_code, 0);
+  const double estimate = report().number("error_estimate_mm");
+  const HexMesh coarse = read_mesh(folder_ / "out.vtkhdf");
+  ASSERT_EQ(compress({"CC", "--reduction", "25", "--element", "q2p1"}).exit_code, 0);
+  EXPECT_EQ(report().text("error_estimate_mm"), "null");
+  const HexMesh rich = read_mesh(folder_ / "out.vtkhdf");
+  double worst = 0;
+  ASSERT_FALSE(coarse.landmarks.empty());
+  for (const Landmark& landmark : coarse.landmarks) {
+    const Vec3 there = landmark_position(rich, rich.points, *rich.landmark(landmark.name));
+    worst = std::max(worst, (there - landmark_position(coarse, coarse.points, landmark)).norm());
+  }
+  EXPECT_GT(estimate, worst / 3);
+  EXPECT_LT(estimate, worst * 3);
+}
+
 TEST_F(CompressTool, AnEarlyStopIsWrittenOnlyWhenEnoughWasReached) {
   // No path gets to 95 %: it must stop early, with a reason.
   const ToolResult refused = compress({"CC", "--reduction", "95", "--at-least", "94"});
