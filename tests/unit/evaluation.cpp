@@ -6,8 +6,10 @@
 #include "core/error.hpp"
 #include "evaluation/foreign_labels.hpp"
 #include "evaluation/label_surface.hpp"
+#include "evaluation/landmark_truth.hpp"
 #include "evaluation/surface_distance.hpp"
 #include "evaluation/triangle_tree.hpp"
+#include "fixtures/analytic_mesh.hpp"
 
 namespace breast {
 namespace {
@@ -115,6 +117,30 @@ TEST(LabelSurface, IsClosedAndHasTheArea) {
   }
   EXPECT_DOUBLE_EQ(area, 2 * 20 * 20 + 4 * 20 * 10);
   EXPECT_DOUBLE_EQ(sum.x(), 2 * 20 * 20);
+}
+
+TEST(LandmarkTruth, ForeignTablesAreRefusedByFile) {
+  const auto refusal = [](const std::string& text) -> std::string {
+    try {
+      true_landmarks(parse_table(text, "t.tsv"), Side::left, "t.tsv");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code(), 2);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_TRUE(refusal("name\tvalue\na\t1\n").starts_with("t.tsv: "));
+  EXPECT_TRUE(refusal("landmark\tside\nnipple\tleft\n").starts_with("t.tsv: "));
+  EXPECT_TRUE(refusal("landmark\tside\nnipple\tmiddle\n").starts_with("t.tsv: "));
+  EXPECT_TRUE(refusal("landmark\tside\nnipple\tright\n").starts_with("t.tsv: no landmark"));
+}
+
+TEST(LandmarkTruth, ItsTumourIsNotTheChainsTumour) {
+  const HexMesh mesh = analytic_breast_mesh(4);
+  const Vec3 at = mesh.landmarks.front().imaged;
+  const Table table = compare_with_truth({mesh}, {{"nipple", at, at, at}, {"tumour", at, at, at}});
+  EXPECT_EQ(table.rows[0][0], "nipple");
+  EXPECT_EQ(table.rows[1][0], "true-tumour");
 }
 
 TEST(ForeignLabels, CodesAndRegion) {
