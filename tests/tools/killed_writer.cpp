@@ -1,5 +1,5 @@
-// A writer killed at any moment, or out of disk space, leaves no file that could be taken for a
-// result.
+// A writer or a tool killed at any moment, or a full disk, leaves no file that could be taken
+// for a result.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -7,9 +7,13 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <map>
 #include <thread>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "fixtures/chain_files.hpp"
+#include "fixtures/run_tool.hpp"
 #include "fixtures/samples.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/mesh_file.hpp"
@@ -59,6 +63,67 @@ TEST(KilledWriter, LeavesTheOldFileOrTheNew) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 
+// Starts the tool in `folder` with nothing on its stderr.
+pid_t start_tool(const std::string& tool, const std::vector<std::string>& arguments,
+                 const fs::path& folder) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  std::vector<std::string> words{tool_path(tool).string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  if (chdir(folder.c_str()) == 0) execv(argv[0], argv.data());
+  _exit(127);
+}
+
+bool is_part(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.starts_with(".") && name.find(".part-") != std::string::npos;
+}
+
+class KilledTool : public testing::TestWithParam<int> {};
+
+// Whatever the moment, only the whole result or nothing shows; the next run removes what is hidden.
+TEST_P(KilledTool, LeavesTheResultOrNothing) {
+  const ScratchFolder folder;
+  fixtures::write_chain(folder.path(), 6);
+  const std::vector<std::string> line = {"cc.vtkhdf", "out.vti", "--quiet", "--png",
+                                         "out.png",   "--pixel", "0.25"};
+  const auto start = std::chrono::steady_clock::now();
+  const ToolResult whole = run_tool("project-mammogram", line, folder.path());
+  const auto once = std::chrono::steady_clock::now() - start;
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  std::map<std::string, std::string> expected;
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
+    expected[entry.path().filename().string()] = read_text(entry.path());
+  }
+  ASSERT_TRUE(expected.contains("out.vti") && expected.contains("out.png"));
+  int interrupted = 0;
+  constexpr int kills = 10;
+  for (int i = 0; i < kills; ++i) {
+    fs::remove(folder / "out.vti");
+    fs::remove(folder / "out.png");
+    const pid_t child = start_tool("project-mammogram", line, folder.path());
+    std::this_thread::sleep_for(once * (i + 1) / (kills + 1));
+    kill(child, GetParam());
+    int status = 0;
+    waitpid(child, &status, 0);
+    interrupted += WIFSIGNALED(status);
+    for (const auto& entry : fs::directory_iterator(folder.path())) {
+      const std::string name = entry.path().filename().string();
+      if (is_part(entry.path())) continue;
+      ASSERT_TRUE(expected.contains(name)) << name;
+      EXPECT_TRUE(read_text(entry.path()) == expected.at(name)) << name << ", kill " << i;
+    }
+  }
+  EXPECT_GT(interrupted, 0);
+  const ToolResult again = run_tool("project-mammogram", line, folder.path());
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), long(expected.size()));
+}
+INSTANTIATE_TEST_SUITE_P(Signals, KilledTool, testing::Values(SIGKILL, SIGTERM, SIGINT));
+
 TEST(FullDisk, FailsInOneLineAndLeavesNothing) {
   const ScratchFolder folder;
   const pid_t child = fork();
@@ -68,7 +133,7 @@ TEST(FullDisk, FailsInOneLineAndLeavesNothing) {
     setrlimit(RLIMIT_FSIZE, &limit);
     int code = 1;
     try {
-      write_mesh(folder / "mesh.vtkhdf", samples::full_mesh(6));
+      fixtures::write_chain(folder.path(), 6);
     } catch (const Error& error) {
       const bool one_line = std::string(error.what()).find('\n') == std::string::npos;
       code = error.kind() == ErrorKind::failed && one_line ? 0 : 2;
