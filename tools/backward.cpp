@@ -4,7 +4,6 @@
 #include "cli/mechanics_options.hpp"
 #include "cli/tool.hpp"
 #include "core/error.hpp"
-#include "core/units.hpp"
 #include "io/mesh_file.hpp"
 #include "mechanics/closing_summary.hpp"
 #include "mechanics/element_order.hpp"
@@ -17,20 +16,9 @@ namespace {
 
 struct Choices {
   std::filesystem::path mesh, reference;
-  std::string posture = "prone";
-  std::vector<double> gravity;
+  GravityChoices gravity{"prone", {}};
   MechanicsChoices mechanics;
 };
-
-Vec3 gravity_of(const Choices& c) {
-  if (c.gravity.empty()) return posture_gravity(c.posture);
-  return {c.gravity[0], c.gravity[1], c.gravity[2]};
-}
-
-MechanicsOptions options_of(const MechanicsChoices& m) {
-  return mechanics_options(m.materials, m.scale, m.element, m.invariants, m.bulk_ratio, m.cut,
-                           m.solver);
-}
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
@@ -46,10 +34,7 @@ void declare(Tool& tool, Choices& c) {
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), equation (6)");
   tool.input(c.mesh, "MESH.vtkhdf", "mesh of the imaged shape (hexmesh)");
   tool.output(c.reference, "REFERENCE.vtkhdf", "the same mesh, stress-free");
-  tool.choice(c.posture, "--posture", {"prone", "supine", "upright", "off"},
-              "direction of gravity during the scan");
-  tool.numbers(c.gravity, "--gravity", "gx,gy,gz", 3,
-               "gravity in mm/s2, patient axes (left, posterior, superior), instead of --posture");
+  declare_gravity(tool, c.gravity, "direction of gravity during the scan");
   declare_mechanics(tool, c.mechanics);
   tool.example("backward mesh.vtkhdf reference.vtkhdf", "prone scan, materials of the paper");
   tool.example("backward mesh.vtkhdf reference.vtkhdf --materials mira2018 --scale fat=120",
@@ -86,15 +71,15 @@ void check_closure(const HexMesh& mesh, const Vec3& gravity, MechanicsOptions op
 }
 
 void run_backward(const Choices& c, Run& run) {
-  const MechanicsOptions options = options_of(c.mechanics);
+  const MechanicsOptions options = mechanics_options(c.mechanics);
   HexMesh mesh = read_mesh(c.mesh);
   const std::string sha = mesh.content_sha256;
   if (options.element == Element::q2p1) mesh = raise_order(mesh);
   mesh.contact.reset();
   mesh.contact_pressure.clear();
-  SolveSummary summary = solve_backward(mesh, gravity_of(c), options, run.progress());
+  SolveSummary summary = solve_backward(mesh, c.gravity.vector(), options, run.progress());
   if (summary.converged() && summary.stable)
-    check_closure(mesh, gravity_of(c), options, run, summary);
+    check_closure(mesh, c.gravity.vector(), options, run, summary);
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
   write_report(summary, mesh, options, run.report());
   tell_summary(run.report(), summary.timer, run.progress());

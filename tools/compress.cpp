@@ -1,13 +1,10 @@
 // compress: a breast between two plates.
 #include <optional>
-#include <sstream>
 
 #include "cli/mechanics_options.hpp"
 #include "cli/tool.hpp"
 #include "contact/compression.hpp"
 #include "core/error.hpp"
-#include "core/table.hpp"
-#include "core/units.hpp"
 #include "io/mesh_file.hpp"
 #include "mammo/mammogram.hpp"
 #include "mechanics/closing_summary.hpp"
@@ -29,19 +26,6 @@ struct Choices {
   PlateOptions plates;
   MechanicsChoices mechanics;
 };
-
-/// "upright", "off", or three numbers in mm/s².
-Vec3 gravity_vector(const std::string& text) {
-  if (text.find(',') == std::string::npos) return posture_gravity(text);
-  Vec3 gravity = Vec3::Zero();
-  std::istringstream parts(text);
-  int count = 0;
-  for (std::string part; std::getline(parts, part, ','); ++count) {
-    if (count < 3) gravity[count] = parse_number(part, "--gravity");
-  }
-  if (count != 3) throw input_error("--gravity '", text, "': three numbers are needed, mm/s2");
-  return gravity;
-}
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
@@ -95,7 +79,7 @@ void declare(Tool& tool, Choices& c) {
       throw input_error("give exactly one of --thickness, --reduction, --force, --pressure; ",
                         targets, " were given");
     }
-    gravity_vector(c.gravity);
+    parse_gravity(c.gravity);
     if (c.friction != 0) {
       throw input_error("--friction ", c.friction, ": contact is frictionless; only 0 is accepted");
     }
@@ -110,7 +94,7 @@ CompressionOptions compression_options(const Choices& c) {
   options.view = c.view;
   options.angle_deg = c.angle.value_or(view_angle_deg(c.view));
   options.plates = c.plates;
-  options.gravity = gravity_vector(c.gravity);
+  options.gravity = parse_gravity(c.gravity);
   options.method =
       c.contact == "al" ? ContactMethod::augmented_lagrangian : ContactMethod::active_set;
   const auto stop = [&](const std::optional<double>& value, StopAt at) {
@@ -126,9 +110,7 @@ CompressionOptions compression_options(const Choices& c) {
 }
 
 void run_compress(const Choices& c, Run& run) {
-  const MechanicsChoices& m = c.mechanics;
-  MechanicsOptions mechanics = mechanics_options(m.materials, m.scale, m.element, m.invariants,
-                                                 m.bulk_ratio, m.cut, m.solver);
+  MechanicsOptions mechanics = mechanics_options(c.mechanics);
   mechanics.estimate_error = true;
   const CompressionOptions options = compression_options(c);
   HexMesh mesh = read_mesh(c.reference, {.reference = true});
@@ -143,7 +125,7 @@ void run_compress(const Choices& c, Run& run) {
   const std::string& status = summary.record.status;
   const bool enough =
       status == "stopped_early" && c.at_least && summary.reduction_percent >= *c.at_least;
-  if (status == "converged" || enough || m.keep_unconverged) {
+  if (status == "converged" || enough || c.mechanics.keep_unconverged) {
     const History before = mesh.history;
     mesh.history = run.history({{c.reference, sha, &before}});
     mesh.wall_seconds = run.seconds();

@@ -2,7 +2,6 @@
 #include "cli/mechanics_options.hpp"
 #include "cli/tool.hpp"
 #include "core/error.hpp"
-#include "core/units.hpp"
 #include "io/mesh_file.hpp"
 #include "mechanics/closing_summary.hpp"
 #include "mechanics/element_order.hpp"
@@ -15,20 +14,9 @@ namespace {
 
 struct Choices {
   std::filesystem::path reference, deformed;
-  std::string posture = "supine";
-  std::vector<double> gravity;
+  GravityChoices gravity{"supine", {}};
   MechanicsChoices mechanics;
 };
-
-Vec3 gravity_of(const Choices& c) {
-  if (c.gravity.empty()) return posture_gravity(c.posture);
-  return {c.gravity[0], c.gravity[1], c.gravity[2]};
-}
-
-MechanicsOptions options_of(const MechanicsChoices& m) {
-  return mechanics_options(m.materials, m.scale, m.element, m.invariants, m.bulk_ratio, m.cut,
-                           m.solver);
-}
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
@@ -41,10 +29,7 @@ void declare(Tool& tool, Choices& c) {
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), equation (5)");
   tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
   tool.output(c.deformed, "DEFORMED.vtkhdf", "the same mesh under gravity");
-  tool.choice(c.posture, "--posture", {"supine", "prone", "upright", "off"},
-              "direction of gravity");
-  tool.numbers(c.gravity, "--gravity", "gx,gy,gz", 3,
-               "gravity in mm/s2, patient axes (left, posterior, superior), instead of --posture");
+  declare_gravity(tool, c.gravity, "direction of gravity");
   declare_mechanics(tool, c.mechanics);
   tool.example("forward reference.vtkhdf supine.vtkhdf", "lying on the back");
   tool.example("forward reference.vtkhdf prone.vtkhdf --posture prone --element q2p1",
@@ -52,12 +37,12 @@ void declare(Tool& tool, Choices& c) {
 }
 
 void run_forward(const Choices& c, Run& run) {
-  MechanicsOptions options = options_of(c.mechanics);
+  MechanicsOptions options = mechanics_options(c.mechanics);
   options.estimate_error = true;
   HexMesh mesh = read_mesh(c.reference, {.reference = true});
   const std::string sha = mesh.content_sha256;
   if (options.element == Element::q2p1) mesh = raise_order(mesh);
-  const SolveSummary summary = solve_forward(mesh, gravity_of(c), options, run.progress());
+  const SolveSummary summary = solve_forward(mesh, c.gravity.vector(), options, run.progress());
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
   mesh.contact.reset();
   mesh.contact_pressure.clear();

@@ -1,8 +1,11 @@
 #include "cli/mechanics_options.hpp"
 
+#include <sstream>
+
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "core/types.hpp"
+#include "core/units.hpp"
 
 namespace breast {
 
@@ -39,6 +42,31 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices) {
   tool.check([&choices] {
     for (const std::string& scale : choices.scale) check_scale(scale);
   });
+}
+
+Vec3 GravityChoices::vector() const {
+  if (gravity.empty()) return posture_gravity(posture);
+  return {gravity[0], gravity[1], gravity[2]};
+}
+
+void declare_gravity(Tool& tool, GravityChoices& choices, const std::string& help) {
+  std::vector<std::string> postures{"supine", "prone", "upright", "off"};
+  if (choices.posture == "prone") std::swap(postures[0], postures[1]);
+  tool.choice(choices.posture, "--posture", postures, help);
+  tool.numbers(choices.gravity, "--gravity", "gx,gy,gz", 3,
+               "gravity in mm/s2, patient axes (left, posterior, superior), instead of --posture");
+}
+
+Vec3 parse_gravity(const std::string& text) {
+  if (text.find(',') == std::string::npos) return posture_gravity(text);
+  Vec3 gravity = Vec3::Zero();
+  std::istringstream parts(text);
+  int count = 0;
+  for (std::string part; std::getline(parts, part, ','); ++count) {
+    if (count < 3) gravity[count] = parse_number(part, "--gravity");
+  }
+  if (count != 3) throw input_error("--gravity '", text, "': three numbers are needed, mm/s2");
+  return gravity;
 }
 
 }  // namespace breast

@@ -22,4 +22,17 @@ struct MechanicsChoices {
 
 void declare_mechanics(Tool& tool, MechanicsChoices& choices);
 
+/// Direction of gravity as given to forward and backward.
+struct GravityChoices {
+  std::string posture;          ///< supine | prone | upright | off
+  std::vector<double> gravity;  ///< three numbers instead, mm/s²; may be empty
+  Vec3 vector() const;          ///< mm/s², LPS
+};
+
+/// --posture (the present value first) and --gravity.
+void declare_gravity(Tool& tool, GravityChoices& choices, const std::string& help);
+
+/// "upright", "off" or "gx,gy,gz" in mm/s². Throws Error (input) for anything else.
+Vec3 parse_gravity(const std::string& text);
+
 }  // namespace breast

@@ -18,4 +18,12 @@ MechanicsOptions mechanics_options(const std::string& materials,
                                    std::optional<double> bulk_ratio, const std::string& cut,
                                    const std::string& solver);
 
+/// The same from a command line's choices: a struct with members of these names, which belongs to a
+/// layer this one does not include.
+template <class Choices>
+MechanicsOptions mechanics_options(const Choices& c) {
+  return mechanics_options(c.materials, c.scale, c.element, c.invariants, c.bulk_ratio, c.cut,
+                           c.solver);
+}
+
 }  // namespace breast
