@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 
@@ -20,6 +21,13 @@ std::vector<std::string> split_tabs(const std::string& line) {
     if (tab == std::string::npos) return cells;
     start = tab + 1;
   }
+}
+// Whatever the column, also one that is not used: a table of ours has no such cell.
+void refuse_non_finite(const std::string& cell, const std::string& where) {
+  double value = 0;
+  const auto end = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const bool number = end.ec == std::errc() && end.ptr == cell.data() + cell.size();
+  if (number && !std::isfinite(value)) throw input_error(where, ": '", cell, "' is not finite");
 }
 std::string join_tabs(const std::vector<std::string>& cells) {
   std::string line;
@@ -57,6 +65,9 @@ Table parse_table(const std::string& text, const std::string& name) {
     if (cells.size() != table.columns.size()) {
       throw input_error(name, ": line ", number, " has ", cells.size(), " columns, the header has ",
                         table.columns.size());
+    }
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      refuse_non_finite(cells[c], message(name, ": line ", number, ", ", table.columns[c]));
     }
     table.rows.push_back(std::move(cells));
   }

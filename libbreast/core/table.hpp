@@ -14,7 +14,8 @@ struct Table {
   int column(const std::string& name) const;  ///< throws Error (input) naming the columns there are
   std::string text() const;
 };
-/// Lines starting with '#' are comments. Throws Error (input) with the line number.
+/// Lines starting with '#' are comments. Throws Error (input) with the line number, also for a cell
+/// that is nan or inf.
 Table read_table(const std::filesystem::path& file);
 /// The same from text; `name` is used in errors.
 Table parse_table(const std::string& text, const std::string& name);

@@ -64,6 +64,9 @@ TEST(Tables, RoundTripAndRefusals) {
   EXPECT_EQ(table.text(), "name\tx_mm\nnipple\t1.5\ntumour\t\n");
   EXPECT_THROW(table.column("y_mm"), Error);
   EXPECT_THROW(parse_table("", "t.tsv"), Error);
+  for (const char* cell : {"nan", "-inf", "NaN", "infinity"}) {
+    EXPECT_THROW(parse_table(std::string("name\tx_mm\nnipple\t") + cell + "\n", "t.tsv"), Error);
+  }
   try {
     parse_table("a\tb\n1\t2\n3\n", "t.tsv");
     FAIL();
