@@ -1,4 +1,6 @@
 // The whole chain on one picture.
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "figures/parts.hpp"
@@ -6,6 +8,9 @@
 namespace breast {
 
 namespace {
+
+// Pixels of the picture as figures.cpp declares it: the panels' shape follows.
+constexpr double summary_width = 2000, summary_height = 1250;
 
 // The shapes by what their files say of themselves, in any order.
 struct Chain {
@@ -30,16 +35,23 @@ Chain sort_meshes(const FigureInput& input) {
   return chain;
 }
 
-// Height and middle that show all shapes at one scale.
-double common_height(const Chain& chain, const View& view) {
+// Extent of a point set along a direction, mm.
+double extent(const std::vector<Vec3>& points, const Vec3& along) {
+  double low = 1e300, high = -1e300;
+  for (const Vec3& x : points) {
+    low = std::min(low, x.dot(along));
+    high = std::max(high, x.dot(along));
+  }
+  return high - low;
+}
+
+// Height of the view that shows all shapes at one scale in panels of the given width over height.
+double common_height(const Chain& chain, const View& view, double aspect) {
+  const Vec3 across = view.direction.cross(view.up).normalized();
   double height = 1;
   for (const HexMesh* mesh : {chain.imaged, chain.reference, chain.supine}) {
-    double low = 1e300, high = -1e300;
-    for (const Vec3& x : mesh->points) {
-      low = std::min(low, x.dot(view.up));
-      high = std::max(high, x.dot(view.up));
-    }
-    height = std::max(height, high - low);
+    height = std::max({height, extent(mesh->points, view.up) / 0.72,
+                       extent(mesh->points, across) / (0.9 * aspect)});
   }
   return height;
 }
@@ -61,7 +73,9 @@ void draw_summary(Picture& picture, const FigureInput& input) {
            input.images.size() >= 2 && input.curves,
        "summary", "five meshes, two mammograms and the curve");
   const View side = lateral_view(chain.imaged->side);
-  const double height = common_height(chain, side) / 0.72;
+  const double split = 0.54;
+  const double aspect = 0.2 * summary_width / ((1 - split) * summary_height);
+  const double height = common_height(chain, side, aspect);
   struct Shape {
     const HexMesh* mesh;
     std::string caption;
@@ -70,7 +84,6 @@ void draw_summary(Picture& picture, const FigureInput& input) {
                                      {chain.reference, "(b) stress-free"},
                                      {chain.supine, "(c) supine"}};
   const BodyStyle style{.skin_opacity = 0.3, .inside = true, .gland_opacity = 0.7};
-  const double split = 0.54;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     Panel& panel = picture.panel(0.2 * double(k), split, 0.2 * double(k + 1), 1);
     add_body(panel, *shapes[k].mesh, shapes[k].mesh->points, style);
