@@ -30,7 +30,7 @@ columns "$run/cut.tsv"
 if [ -s "$run/truth.tsv" ]; then
   bound=$(sed -n 's/^  "error_estimate_mm": \([0-9.e-]*\),\{0,1\}$/\1/p' "$truth_report" 2>/dev/null || true)
   echo
-  echo "Error against the phantom's truth (mm). The truth's own error is ${bound:-unknown} mm; smaller errors are not"
+  echo "Error against the phantom's truth (mm). The truth's own error is $(fixed "${bound:--}" 3) mm; smaller errors are not"
   echo "claimed. The truth holds the lateral cut; points are the phantom's, found in the chain's mesh."
   columns "$run/truth.tsv"
   echo
