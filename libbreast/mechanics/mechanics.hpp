@@ -23,8 +23,8 @@ struct MechanicsOptions {
   Invariants invariants = Invariants::isochoric;
   double bulk_ratio = 0;  ///< K/μ; 0 means exactly incompressible
   Cut cut = Cut::free;
-  std::string solver = "auto";  ///< auto | direct | multigrid
-  bool estimate_error = false;  ///< forward with q1p0: estimate the discretisation error as well
+  std::string solver = "auto";  ///< auto | direct
+  bool estimate_error = false;  ///< with q1p0: estimate the discretisation error as well
 };
 
 /// How a solve went; also fills the contract's report keys.

@@ -67,9 +67,9 @@ BodyMap::BodyMap(const BreastGeometry& geometry) : geometry_(geometry) {
     cumulative_[i + 1] = cumulative_[i] + 0.5 * (step(geometry.skin, geometry.rim_skin) +
                                                  step(geometry.wall, geometry.rim_wall));
   }
-  length_ = cumulative_.back();
-  if (!(length_ > 0)) throw input_error("rim has no length");
-  for (double& value : cumulative_) value /= length_;
+  const double length = cumulative_.back();
+  if (!(length > 0)) throw input_error("rim has no length");
+  for (double& value : cumulative_) value /= length;
   choose_pole();
   choose_start();
 }
@@ -82,9 +82,9 @@ void BodyMap::choose_pole() {
   for (const Vec2& point : geometry_.rim_skin) {
     nearest = std::min(nearest, (point - geometry_.centre).norm());
   }
-  nipple_is_pole_ = (geometry_.nipple_st - geometry_.centre).norm() < nearest / 3 &&
-                    star_shaped_at(geometry_.rim_skin, geometry_.nipple_st) < 0;
-  if (nipple_is_pole_) skin_pole_ = geometry_.nipple_st;
+  const bool central = (geometry_.nipple_st - geometry_.centre).norm() < nearest / 3 &&
+                       star_shaped_at(geometry_.rim_skin, geometry_.nipple_st) < 0;
+  if (central) skin_pole_ = geometry_.nipple_st;
 }
 
 void BodyMap::choose_start() {

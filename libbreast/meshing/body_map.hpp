@@ -25,9 +25,7 @@ class BodyMap {
   double volume() const;
   /// Columns ∂x/∂u and ∂x/∂height of the cut.
   Eigen::Matrix<double, 3, 2> cut_slopes(double height, double u) const;
-  bool nipple_is_pole() const { return nipple_is_pole_; }
   double cut_height(double u) const;             ///< mm
-  double rim_length() const { return length_; }  ///< mm, mean of skin and wall
 
   const HermiteSheet& skin_sheet() const { return geometry_.skin; }
   const HermiteSheet& wall_sheet() const { return geometry_.wall; }
@@ -41,8 +39,6 @@ class BodyMap {
   Vec2 skin_pole_, wall_pole_;
   double start_ = 0;                ///< of u, as a share of the rim from its first point
   std::vector<double> cumulative_;  ///< u at each rim point, first 0; last entry 1 closes the curve
-  double length_ = 0;
-  bool nipple_is_pole_ = false;
 };
 
 }  // namespace breast

@@ -44,7 +44,6 @@ class BlockLattice {
   int top_shell(int i, int j, int layer) const;
   int perimeter_i(int t) const;
   int perimeter_j(int t) const;
-  void number_nodes();
   void place_nodes();
   void add_slab();
   void add_dome();

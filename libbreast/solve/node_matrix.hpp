@@ -62,7 +62,6 @@ class NodeMatrix {
   explicit NodeMatrix(std::shared_ptr<const NodePattern> pattern);
 
   const NodePattern& pattern() const { return *pattern_; }
-  const std::shared_ptr<const NodePattern>& shared_pattern() const { return pattern_; }
   void set_zero();
   /// Adds cell matrices (3n × 3n, column-major, symmetric, one after another) of cells
   /// first … first+count−1. Sums in cell order whatever the number of threads.

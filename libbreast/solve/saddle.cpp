@@ -156,7 +156,6 @@ Factorisation SaddleSolver::factorise(const SaddleMatrix& matrix, const Constrai
 }
 
 Eigen::VectorXd SaddleSolver::back_solve(const Eigen::VectorXd& v) const {
-  ++back_solves_;
   Eigen::VectorXd local = v;
   constraints_.project(local);
   constraints_.to_axes(local);

@@ -86,16 +86,14 @@ class SaddleSolver {
   /// constraints are those of the last factorise, except that increments may be given anew.
   SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
                    const Eigen::VectorXd& theta, double tolerance = 1e-6) const;
-  void set_increments(const Constraints& constraints) { constraints_ = constraints; }
 
   /// (K + κBᵀM⁻¹B)⁻¹ v on the free part, held components zero.
   Eigen::VectorXd back_solve(const Eigen::VectorXd& v) const;
 
   const Constraints& constraints() const { return constraints_; }
   const Cholesky& cholesky() const { return cholesky_; }
-  /// Numerical factorisations and back-substitutions so far.
+  /// Numerical factorisations so far.
   int factorisations() const { return factorisations_; }
-  int back_solves() const { return back_solves_; }
 
  private:
   void impose(const SaddleMatrix& matrix);
@@ -106,7 +104,6 @@ class SaddleSolver {
   std::vector<double> shifted_;
   double last_shift_ = 0;
   int factorisations_ = 0;
-  mutable int back_solves_ = 0;
 };
 
 }  // namespace breast

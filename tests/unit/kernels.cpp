@@ -7,19 +7,11 @@
 #include "fem/hex_kernel.hpp"
 #include "fem/membrane_kernel.hpp"
 #include "fem/stress.hpp"
+#include "fixtures/laws.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {
 namespace {
-
-const std::vector<Law>& laws() {
-  static const std::vector<Law> list = {{LawKind::polynomial, {310, 300, 2250, 3800, 4720}},
-                                        {LawKind::exponential, {92.39, 4.4, -203.40}},
-                                        {LawKind::neo_hookean, {610}},
-                                        {LawKind::mooney_rivlin, {310, 300}},
-                                        {LawKind::yeoh, {610, 300, 40}}};
-  return list;
-}
 
 double noise(int seed) {
   const double x = std::sin(12.9898 * seed + 78.233) * 43758.5453;

@@ -9,20 +9,12 @@
 #include "fem/hex_kernel.hpp"
 #include "fem/stress.hpp"
 #include "fixtures/block.hpp"
+#include "fixtures/laws.hpp"
 #include "mechanics/element_order.hpp"
 #include "mechanics/scene.hpp"
 
 namespace breast {
 namespace {
-
-const std::vector<Law>& laws() {
-  static const std::vector<Law> list = {{LawKind::polynomial, {310, 300, 2250, 3800, 4720}},
-                                        {LawKind::exponential, {92.39, 4.4, -203.40}},
-                                        {LawKind::neo_hookean, {610}},
-                                        {LawKind::mooney_rivlin, {310, 300}},
-                                        {LawKind::yeoh, {610, 300, 40}}};
-  return list;
-}
 
 MechanicsOptions options_of(const Law& law, Element element, Invariants invariants) {
   MechanicsOptions options;
