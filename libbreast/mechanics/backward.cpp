@@ -29,7 +29,9 @@ class BackwardSolve {
         matrix_(scene_.assembly().make_matrix()),
         solver_(scene_.assembly().pattern()) {}
 
-  SolveSummary run(const Vec3& gravity);
+  /// Nodal forces (µN); `start` is the first guess, and where held nodes stay.
+  SolveSummary run(const Eigen::VectorXd& load, const Eigen::VectorXd& start);
+  SolveSummary run(const Vec3& gravity) { return run(scene_.gravity_force(gravity), imaged_); }
 
  private:
   struct Trial {
@@ -208,9 +210,8 @@ void BackwardSolve::examine(const Trial& trial) {
   }
 }
 
-SolveSummary BackwardSolve::run(const Vec3& gravity) {
-  const Eigen::VectorXd load = scene_.gravity_force(gravity);
-  Trial state{imaged_, scene_.assembly().rest_pressure()};
+SolveSummary BackwardSolve::run(const Eigen::VectorXd& load, const Eigen::VectorXd& start) {
+  Trial state{start, scene_.assembly().rest_pressure()};
   bool converged = false;
   LoadPath path;
   while (!path.finished()) {
@@ -247,6 +248,18 @@ SolveSummary BackwardSolve::run(const Vec3& gravity) {
 SolveSummary solve_backward(HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
                             Progress& progress) {
   return BackwardSolve(mesh, options, progress).run(gravity);
+}
+
+SolveSummary solve_backward_under(HexMesh& mesh, const Eigen::VectorXd& forces,
+                                  const MechanicsOptions& options, Progress& progress) {
+  if (mesh.reference.size() != mesh.imaged.size() || forces.size() != 3L * mesh.nodes()) {
+    throw input_error(
+        "backward under given forces needs a first guess of the reference shape and 3 ",
+        "numbers per node: ", mesh.reference.size(), " and ", forces.size(), " for ", mesh.nodes(),
+        " nodes");
+  }
+  const Eigen::VectorXd start = flatten(mesh.reference);
+  return BackwardSolve(mesh, options, progress).run(forces, start);
 }
 
 }  // namespace breast

@@ -55,6 +55,12 @@ SolveSummary solve_forward(HexMesh& mesh, const Vec3& gravity, const MechanicsOp
 SolveSummary solve_backward(HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
                             Progress& progress = no_progress());
 
+/// The same under any dead nodal forces (µN, 3 per node) instead of gravity, starting from
+/// mesh.reference, where held nodes stay.
+SolveSummary solve_backward_under(HexMesh& mesh, const Eigen::VectorXd& forces,
+                                  const MechanicsOptions& options,
+                                  Progress& progress = no_progress());
+
 /// The same by fixed point, X ← X − (x(X) − x_imaged), one forward solve an iteration (Sellier
 /// 2011): slower and less robust, an independent check of solve_backward.
 SolveSummary solve_backward_fixed_point(HexMesh& mesh, const Vec3& gravity,

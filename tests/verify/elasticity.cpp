@@ -1,14 +1,13 @@
 // Exact and manufactured solutions: patch test, homogeneous deformations, orders of convergence.
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 #include <functional>
 
-#include "fem/hex_kernel.hpp"
 #include "fem/stress.hpp"
 #include "fixtures/block.hpp"
+#include "fixtures/elastic_scene.hpp"
 #include "fixtures/laws.hpp"
 #include "mechanics/element_order.hpp"
 #include "mechanics/scene.hpp"
@@ -16,68 +15,15 @@
 namespace breast {
 namespace {
 
-MechanicsOptions options_of(const Law& law, Element element, Invariants invariants) {
-  MechanicsOptions options;
-  options.materials = load_materials("seed2008");
-  for (Law& each : options.materials.laws) each = law;
-  options.element = element;
-  options.invariants = invariants;
-  return options;
-}
+using fixtures::element_nodes, fixtures::options_of;
 
-// Five-point Gauss rule on [-1, 1].
-constexpr double gauss_at[5] = {-0.9061798459386640, -0.5384693101056831, 0, 0.5384693101056831,
-                                0.9061798459386640};
-constexpr double gauss_weight[5] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
-                                    0.4786286704993665, 0.2369268850561891};
-
-template <class Visit>
-void at_gauss_points(const HexMesh& mesh, const Visit& visit) {
-  for (int q = 0; q < 125; ++q) {
-    const Vec3 local(gauss_at[q % 5], gauss_at[q / 5 % 5], gauss_at[q / 25]);
-    const double weight = gauss_weight[q % 5] * gauss_weight[q / 5 % 5] * gauss_weight[q / 25];
-    visit(hex_shape(mesh.order, local), weight);
-  }
-}
-
-Eigen::Matrix3Xd element_nodes(const HexMesh& mesh, const Eigen::VectorXd& nodal, int e) {
-  Eigen::Matrix3Xd x(3, mesh.nodes_per_element());
-  for (int a = 0; a < x.cols(); ++a) x.col(a) = nodal.segment<3>(3L * mesh.element(e)[a]);
-  return x;
-}
-
-// f_a = ∫ P(F, p) ∇N_a dV of the exact solution: body force and tractions at once.
-Eigen::VectorXd exact_load(const HexMesh& mesh, const Law& law, bool isochoric,
-                           const std::function<Mat3(const Vec3&)>& gradient,
-                           const std::function<double(const Vec3&)>& pressure) {
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(3L * mesh.nodes());
-  const Eigen::VectorXd reference = flatten(mesh.reference);
-  for (int e = 0; e < mesh.elements(); ++e) {
-    const Eigen::Matrix3Xd x = element_nodes(mesh, reference, e);
-    at_gauss_points(mesh, [&](const HexShape& shape, double weight) {
-      const Mat3 jacobian = x * shape.gradients.transpose();
-      const Vec3 at = x * shape.values;
-      const Mat3 f = gradient(at), c = f.transpose() * f;
-      Stress stress;
-      law_stress(law, isochoric, c, f.determinant(), false, stress);
-      add_pressure(pressure(at), c, f.determinant(), false, stress);
-      const Eigen::Matrix3Xd force =
-          f * from_voigt(stress.s) *
-          (shape.gradients.transpose() * jacobian.inverse()).transpose() *
-          (weight * jacobian.determinant());
-      for (int a = 0; a < x.cols(); ++a) load.segment<3>(3L * mesh.element(e)[a]) += force.col(a);
-    });
-  }
-  return load;
-}
-
-// Solves from `state` under a load with the wall x = 0 moved to its prescribed positions.
-NewtonResult solve_loaded(const Scene& scene, const Eigen::VectorXd& load,
-                          const Eigen::VectorXd& targets, SaddleState& state) {
-  const ForwardProblem problem(scene, flatten(scene.mesh().reference), load);
-  SaddleMatrix matrix = problem.make_matrix();
-  SaddleSolver solver(problem.pattern());
-  return newton(problem, solver, matrix, scene.walls(), &targets, state);
+// First Piola–Kirchhoff stress of a deformation and a pressure.
+Mat3 stress_of(const Law& law, bool isochoric, const Mat3& f, double pressure) {
+  const Mat3 c = f.transpose() * f;
+  Stress stress;
+  law_stress(law, isochoric, c, f.determinant(), false, stress);
+  add_pressure(pressure, c, f.determinant(), false, stress);
+  return f * from_voigt(stress.s);
 }
 
 // ∂²W/∂(ln J)² of the plain form at rest, Pa.
@@ -112,10 +58,10 @@ TEST(Patch, AffineMotionOnDistortedMesh) {
         const double extra = -100;  // a pull, so that the dead tractions are stable
         const bool isochoric = invariants == Invariants::isochoric;
         const double rest = scene.assembly().rest_pressure()[0];
-        const Eigen::VectorXd load = exact_load(
-            mesh, law, isochoric, [&](const Vec3&) { return f; },
-            [&](const Vec3&) { return rest + extra; });
-        const NewtonResult result = solve_loaded(scene, load, exact, state);
+        const Mat3 stress = stress_of(law, isochoric, f, rest + extra);
+        const Eigen::VectorXd load =
+            fixtures::exact_load(mesh, [&](const Vec3&) { return stress; });
+        const NewtonResult result = fixtures::solve_held(scene, load, scene.walls(), exact, state);
         EXPECT_TRUE(result.converged) << law.describe() << ": " << result.reason;
         EXPECT_LT((state.u - exact).lpNorm<Eigen::Infinity>(), 1e-8)
             << law.describe() << " order " << order;
@@ -123,51 +69,6 @@ TEST(Patch, AffineMotionOnDistortedMesh) {
           EXPECT_NEAR(p, rest + extra, 1e-5) << law.describe() << " order " << order;
         }
       }
-    }
-  }
-}
-
-// Uniaxial stretch between rollers: P = 2(λ − λ⁻²)(W1 + W2/λ).
-TEST(Exact, UniaxialForceOfEveryLaw) {
-  const double stretch = 0.75, side = 20;
-  for (const int order : {1, 2}) {
-    fixtures::BlockSettings settings;
-    settings.elements = {2, 2, 2};
-    settings.size = Vec3(side, side, side);
-    settings.distortion = 0.1;
-    settings.order = order;
-    const HexMesh mesh = fixtures::block(settings);
-    for (const Law& law : laws()) {
-      const Scene scene(
-          mesh, options_of(law, order == 1 ? Element::q1p0 : Element::q2p1, Invariants::isochoric));
-      const ForwardProblem problem(scene, flatten(mesh.reference),
-                                   Eigen::VectorXd::Zero(3L * mesh.nodes()));
-      Constraints held(mesh.nodes());
-      Eigen::VectorXd targets = flatten(mesh.reference);
-      for (int i = 0; i < mesh.nodes(); ++i) {
-        NodeConstraint c;
-        const Vec3& x = mesh.reference[i];
-        for (int k = 0; k < 3; ++k) c.held[k] = std::abs(x[k]) < 1e-9;
-        if (std::abs(x.x() - side) < 1e-9) {
-          c.held[0] = true;
-          targets[3L * i] = stretch * side;
-        }
-        if (c.held[0] || c.held[1] || c.held[2]) held.set(i, c);
-      }
-      SaddleState state{flatten(mesh.reference), scene.assembly().rest_pressure()};
-      SaddleMatrix matrix = problem.make_matrix();
-      SaddleSolver solver(problem.pattern());
-      const NewtonResult result = newton(problem, solver, matrix, held, &targets, state);
-      ASSERT_TRUE(result.converged) << law.describe() << ": " << result.reason;
-      double force = 0;
-      for (int i = 0; i < mesh.nodes(); ++i) {
-        if (std::abs(mesh.reference[i].x() - side) < 1e-9) force += result.forces.r[3L * i];
-      }
-      const LawValue w =
-          law.evaluate(stretch * stretch + 2 / stretch, 2 * stretch + 1 / (stretch * stretch));
-      const double exact =
-          side * side * 2 * (stretch - 1 / (stretch * stretch)) * (w.w1 + w.w2 / stretch);
-      EXPECT_NEAR(force, exact, 1e-8 * std::abs(exact)) << law.describe();
     }
   }
 }
@@ -206,7 +107,7 @@ FieldError field_error(const HexMesh& mesh, const Eigen::VectorXd& solved) {
   for (int e = 0; e < mesh.elements(); ++e) {
     const Eigen::Matrix3Xd x = element_nodes(mesh, reference, e),
                            u = element_nodes(mesh, solved, e);
-    at_gauss_points(mesh, [&](const HexShape& shape, double weight) {
+    fixtures::at_gauss_points(mesh, [&](const HexShape& shape, double weight) {
       const Mat3 jacobian = x * shape.gradients.transpose();
       const Vec3 at = x * shape.values;
       const double volume = weight * jacobian.determinant();
@@ -230,9 +131,10 @@ FieldError manufactured_error(int n, int order, const Law& law) {
   for (int i = 0; i < mesh.nodes(); ++i)
     targets.segment<3>(3L * i) = Manufactured::map(mesh.reference[i]);
   SaddleState state{flatten(mesh.reference), scene.assembly().rest_pressure()};
-  const NewtonResult result = solve_loaded(
-      scene, exact_load(mesh, law, true, Manufactured::gradient, Manufactured::pressure), targets,
-      state);
+  const Eigen::VectorXd load = fixtures::exact_load(mesh, [&](const Vec3& at) {
+    return stress_of(law, true, Manufactured::gradient(at), Manufactured::pressure(at));
+  });
+  const NewtonResult result = fixtures::solve_held(scene, load, scene.walls(), targets, state);
   EXPECT_TRUE(result.converged) << result.reason;
   return field_error(mesh, state.u);
 }
