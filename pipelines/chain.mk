@@ -24,9 +24,9 @@ $(RUN)/mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH) $(cal
 	$(HEXMESH) $< $(RUN)/labels.vtkhdf $@ $(HEXMESH_OPTIONS) $(common)
 	@$(call record,mesh)
 
-reference_settings := $(BACKWARD) $(MECHANICS) --cut $(CUT)
+reference_settings := $(BACKWARD) $(PRONE) $(MECHANICS) --cut $(CUT)
 $(RUN)/reference.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD) $(MATERIAL_FILE) $(call changed,reference)
-	$(BACKWARD) $< $@ --posture prone $(MECHANICS) --cut $(CUT) $(common)
+	$(BACKWARD) $< $@ $(PRONE) $(MECHANICS) --cut $(CUT) $(common)
 	@$(call record,reference)
 
 supine_settings := $(FORWARD) $(MECHANICS) --cut $(CUT)

@@ -18,6 +18,8 @@ REDUCTION ?= 50
 AT_LEAST ?= 40
 ELEMENTS ?= 16
 CUT ?= free
+# What the imaged shape hangs under; --gravity 0,0,0 takes it as stress-free.
+PRONE ?= --posture prone
 ifdef PAPER
   # Everything as printed in the paper: cuboid, skin as a layer of elements, plain invariants, free cut,
   # no gravity in compression, augmented Lagrangian.

@@ -4,6 +4,7 @@
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "evaluation/curve_distance.hpp"
 #include "evaluation/foreign_labels.hpp"
 #include "evaluation/label_surface.hpp"
 #include "evaluation/overlap.hpp"
@@ -52,12 +53,22 @@ void report_nipple(Run& run, Table& table, const LabelVolume& given, const Label
   run.report().set("nipple_mm", distance);
 }
 
+// Curves of cc2mlo: how far apart they are on the MLO detector.
+void evaluate_curves(Run& run, Table& table, const std::filesystem::path& given,
+                     const std::filesystem::path& truth) {
+  const CurveComparison comparison =
+      compare_curves(read_polylines(given), read_polylines(truth), given.string(), truth.string());
+  table.rows.push_back({"curves", std::to_string(comparison.curves)});
+  report_distances(run, table, "curve", comparison.both);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::filesystem::path given_file, truth_file, region_file;
   std::vector<std::string> code_texts;
   int region_code = 0;
+  bool curves = false;
   Tool tool("evaluate", "agreement of a segmentation or a surface with the truth");
   tool.describe(
           "Two label volumes: Dice and volumes of every tissue and of the breast (fat, "
@@ -76,6 +87,9 @@ int main(int argc, char** argv) {
                   "volume outside which the truth's breast is ignored");
   tool.integer(region_code, "--region-code", "CODE", "value of the region; 0 takes any but 0", 0,
                65535);
+  tool.flag(curves, "--curves",
+            "both files are curves of cc2mlo: distance of the matched curves on the MLO detector");
+  tool.example("evaluate no-skin/curve.vtp curve.vtp --curves", "what a change of model moves");
   tool.example("evaluate labels.vtkhdf truth/labels-left.vtkhdf", "a segmentation of the phantom");
   tool.example(
       "evaluate labels.vtkhdf labels_mr.nrrd --code 1=fat --code 29=fibroglandular --code 2=skin "
@@ -86,6 +100,11 @@ int main(int argc, char** argv) {
     const TissueCodes codes = parse_tissue_codes(code_texts);
     Table table;
     table.columns = {"quantity", "value"};
+    if (curves) {
+      evaluate_curves(run, table, given_file, truth_file);
+      run.print(table.text());
+      return;
+    }
     TriMesh given, truth;
     std::optional<LabelVolume> given_labels, truth_labels;
     run.progress().update("reading", 0, "");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "evaluation/curve_distance.hpp"
 #include "evaluation/foreign_labels.hpp"
 #include "evaluation/label_surface.hpp"
 #include "evaluation/landmark_truth.hpp"
@@ -34,6 +35,41 @@ LabelVolume half(const Grid& grid, double limit) {
     }
   }
   return labels;
+}
+
+// A straight curve along y at x = offset with an arc beside it, in the plane z = height.
+PolyLines straight_curve(double offset, double height) {
+  PolyLines lines;
+  lines.line_names = {"curve", "arc"};
+  lines.lines.resize(2);
+  for (int i = 0; i <= 10; ++i) {
+    lines.lines[0].push_back(int(lines.points.size()));
+    lines.points.emplace_back(offset, i, height);
+  }
+  for (int i = 0; i <= 10; ++i) {
+    lines.lines[1].push_back(int(lines.points.size()));
+    lines.points.emplace_back(10 * std::cos(0.1 * i), 10 * std::sin(0.1 * i), height);
+  }
+  lines.point_data["query"].assign(lines.points.size(), 0);
+  return lines;
+}
+
+TEST(CurveDistance, IsMeasuredAlongTheDetector) {
+  const CurveComparison comparison =
+      compare_curves(straight_curve(2, 7), straight_curve(-1, -4), "given", "truth");
+  EXPECT_EQ(comparison.curves, 1);
+  EXPECT_NEAR(comparison.both.mean_mm, 3, 1e-9);
+  EXPECT_NEAR(comparison.both.max_mm, 3, 1e-9);
+}
+
+TEST(CurveDistance, RefusesFilesWithoutACurve) {
+  PolyLines none = straight_curve(0, 0);
+  none.line_names[0] = "column in CC";
+  EXPECT_THROW(compare_curves(none, straight_curve(0, 0), "given", "truth"), Error);
+  PolyLines flat = straight_curve(0, 0);
+  flat.lines.pop_back();
+  flat.line_names.pop_back();
+  EXPECT_THROW(compare_curves(flat, flat, "given", "truth"), Error);
 }
 
 TEST(Overlap, DiceOfShiftedHalves) {
