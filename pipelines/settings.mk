@@ -1,4 +1,9 @@
 # Settings, each to be given on the command line: make -f Makefile.pipeline MATERIALS=wellman
+# A case file gives any of these settings; the command line overrides it.
+ifdef CASE_FILE
+  include $(CASE_FILE)
+endif
+
 # ---- the case -----------------------------------------------------------------------------------------
 # MR: scan file or DICOM folder; empty runs the phantom PRESET. SIDE: left or right. SERIES: of a DICOM
 # folder with several. CHEST_WALL: corrected label map or clicked points. CASE: name of the run's folder.

@@ -1,0 +1,135 @@
+#!/usr/bin/env bash
+# One self-contained HTML page of a finished case: report.sh RUN RUNS BIN
+# Pictures are inline, so that the page can be sent; the browser's print makes a PDF of it.
+set -euo pipefail
+run=$1 runs=$2 bin=$3
+here=$(dirname "$0")
+key() { [ -s "$1" ] && sed -n "s/^  \"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}$/\1/p" "$1" | head -n 1; }
+escape() { sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g'; }
+# A TSV as a table; cells "fails", "differs", "missing" and "failed" stand out.
+table() {
+  [ -s "$1" ] || return 0
+  escape < "$1" | awk -F'\t' '
+    /^#/ { next }
+    !n++ { print "<table><tr>"; for (i = 1; i <= NF; i++) { gsub("_", " ", $i); print "<th>" $i "</th>" } print "</tr>"; next }
+    { line = "<tr>"
+      for (i = 1; i <= NF; i++) line = line ($i ~ /^(fails|differs|missing|failed)$/ ? "<td class=bad>" : $i ~ /^[-+0-9.eE]+$/ ? "<td class=n>" : "<td>") $i "</td>"
+      print line "</tr>" }
+    END { if (n) print "</table>" }'
+}
+picture() { # FILE CAPTION
+  [ -s "$1" ] || return 0
+  printf '<figure><img alt="%s" src="data:image/png;base64,%s"><figcaption>%s</figcaption></figure>\n' "$2" "$(base64 -w 0 "$1")" "$2"
+}
+dated() { date -u -r "$1" '+%Y-%m-%d %H:%M UTC'; }
+section() { printf '<h2>%s</h2>\n' "$1"; }
+note() { printf '<p>%s</p>\n' "$1"; }
+extra() { # TITLE NOTE FILE...: tables and plots of a slow target, when it was run
+  local title=$1 text=$2 file any=0
+  shift 2
+  for file in "$@"; do [ -s "$file" ] && any=1; done
+  [ $any -eq 1 ] || return 0
+  section "$title"
+  note "$text"
+  for file in "$@"; do
+    [ -s "$file" ] || continue
+    printf '<h3>%s <small>(%s)</small></h3>\n' "$(basename "${file%.*}")" "$(dated "$file")"
+    case "$file" in *.png) picture "$file" "$(basename "$file")" ;; *) table "$file" ;; esac
+  done
+}
+
+cat <<HTML
+<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>libbreast: $(basename "$run")</title>
+<style>
+body { font: 15px/1.45 sans-serif; max-width: 1150px; margin: 2em auto; padding: 0 1em; color: #222 }
+table { border-collapse: collapse; margin: .8em 0; font-size: 13px } th, td { border: 1px solid #ccc; padding: 2px 7px; text-align: left; vertical-align: top }
+th { background: #f2f2f2 } td.n { text-align: right; font-variant-numeric: tabular-nums } td.bad { background: #fbd5d0 }
+figure { margin: 1em 0 } img { max-width: 100% } figcaption { font-size: 13px; color: #555 } pre { font-size: 12px; overflow-x: auto; background: #f7f7f7; padding: .7em }
+@media print { h2 { break-after: avoid } figure, tr { break-inside: avoid } }
+</style></head><body>
+<h1>Breast deformation: case $(basename "$run")</h1>
+<p>From a prone MR scan to the stress-free, supine and compressed shapes, two simulated mammograms and the CC&rarr;MLO curve,
+after Pathmanathan, Gavaghan, Whiteley, Chapman and Brady, IEEE Trans Biomed Eng 55(10), 2008. Made $(date -u '+%Y-%m-%d %H:%M UTC')
+with $("$bin/probe" --version 2>/dev/null | head -n 1), BLAS $(key "$run/reference.json" blas), $(nproc) cores ($(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)).</p>
+HTML
+picture "$run/figures/summary.png" "The chain: as imaged, stress-free, supine, CC and MLO compression, simulated mammograms and the matched curve."
+
+section "Landmarks"
+table "$run/displacements.tsv"
+if [ -s "$run/truth.tsv" ]; then
+  note "Errors against the phantom's truth, mm:"
+  table "$run/truth.tsv"
+fi
+section "Compression"
+printf '<table><tr><th>view<th>status<th>thickness mm<th>reduction %%<th>force N<th>mean pressure kPa<th>area cm2<th>Newton iterations<th>error estimate mm</tr>\n'
+for view in cc mlo; do
+  printf '<tr><td>%s' "${view^^}"
+  for name in status thickness_mm reduction_percent force_N pressure_kPa area_cm2 newton_iterations error_estimate_mm; do
+    value=$(key "$run/$view.json" $name)
+    case "$value" in *[0-9].*) value=$(printf '%.4g' "$value") ;; esac
+    printf '<td>%s' "${value:--}"
+  done
+  printf '</tr>\n'
+done
+printf '</table>\n'
+
+section "Figure 4: from data points to the mesh"
+picture "$run/figures/points.png" "4a. Skin (light) and chest-wall (dark) data points."
+picture "$run/figures/geometry.png" "4b. The fitted cubic-Hermite sheets and the rim where the body ends."
+picture "$run/figures/mesh.png" "4c. The hexahedral mesh from the front, and its back surface (dark)."
+picture "$run/figures/tissues.png" "4d. Fibroglandular elements (dark) and the artificial tumour through the translucent skin."
+section "Figure 5: mammographic compression"
+picture "$run/figures/cc-compression.png" "5a, b. Before and after CC compression, with the plates."
+picture "$run/figures/mlo-compression.png" "5c, d. MLO compression, two views."
+section "Figure 6: simulated mammograms"
+picture "$run/figures/cc-mammogram.png" "6a. CC; the dot is the tumour."
+picture "$run/figures/mlo-mammogram.png" "6b. MLO; the computed curve, the tumour's true position (dot) and the arc of equal nipple distance."
+picture "$run/figures/cc-points.png" "6c. A selection of CC points."
+picture "$run/figures/mlo-curves.png" "6d. Their curves in MLO."
+section "Figure 7: the column of the tumour's pixel"
+picture "$run/figures/cc-matching.png" "7a, b. The column in the CC breast, and the same tissue stress-free."
+picture "$run/figures/mlo-matching.png" "7c. The same tissue stress-free and in the MLO breast."
+
+section "Table II: constants of law (9)"
+table "$run/tables/table2.tsv"
+for entry in "3:III: fat" "4:IV: fibroglandular tissue" "5:V: skin" "6:VI: one element of tumour"; do
+  section "Table ${entry#*:}"
+  note "Prone to supine displacements, mm, when the stiffness of this tissue is scaled; <i>rel</i>: distance from the 100 % row. The paper's figure and the difference stand beside ours."
+  table "$run/tables/table${entry%%:*}.tsv"
+done
+section "The paper's conclusions, in numbers"
+note "Slopes are d ln u / d ln s between the rows of 90 and 110 %. The paper's text rounds its slope of -0.61 to &ldquo;10 % changes ... approximately 10 %&rdquo;; its own rows say 6 to 7 %."
+table "$run/tables/conclusions.tsv"
+extra "Table VII: sensitivities in one solve" "Derivatives from the converged states (tangent-linear), no solve repeated." "$run"/sensitivity/*.tsv
+extra "Leaving parts out" "Change at the landmarks and on the MLO curve against the full model, and the seconds saved." "$run/leaveout/table.tsv"
+extra "Error against run time" "Landmark error (mm) against CPU seconds." "$run"/cost/*.tsv "$run"/cost/*.png
+extra "Stability" "Extreme cases: each converges, or stops with the reason given." "$runs"/stability/*.tsv
+extra "Independent solver" "The same scene in CalculiX." "$runs"/compare/*.tsv
+if [ -s "$run/verify.tsv" ]; then
+  section "Expected values"
+  table "$run/verify.tsv"
+fi
+
+section "Cost"
+printf '<table><tr><th>stage<th>seconds<th>peak MB</tr>\n'
+for stage in labels geometry mesh reference supine cc mlo cc-mammogram mlo-mammogram curve; do
+  seconds=$(awk '/"total":/ { gsub(/[^0-9.eE+-]/, "", $2); value = $2 } END { if (value != "") printf "%.2f", value }' "$run/$stage.json" 2>/dev/null || true)
+  memory=$(key "$run/$stage.json" peak_mb || true)
+  printf '<tr><td>%s<td class=n>%s<td class=n>%s</tr>\n' "$stage" "${seconds:--}" "$([ -n "$memory" ] && printf '%.0f' "$memory" || echo -)"
+done
+printf '</table>\n'
+section "Commands"
+note "Program and settings of every stage:"
+printf '<pre>'
+for record in "$run"/.*.settings; do
+  case "$record" in *scaled-*|*'*'*) continue ;; esac
+  stage=$(basename "$record")
+  stage=${stage#.}
+  printf '%s: %s\n' "${stage%.settings}" "$(escape < "$record")"
+done
+printf '</pre>\n'
+section "What is not reproduced, and why"
+printf '<ul>\n'
+escape < "$here/limits.txt" | sed 's/.*/<li>&/'
+printf '</ul>\n</body></html>\n'
