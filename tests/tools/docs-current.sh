@@ -25,7 +25,11 @@ for program in "$programs"/*; do
 done
 if [ "$write" = yes ]; then
   mkdir -p "$root/docs/tools" "$root/docs/man"
-  rm -f "$root"/docs/tools/*.md "$root"/docs/man/*.1
+  # Pages of tools that no longer exist go; those of tools not built here stay.
+  for page in "$root"/docs/tools/*.md "$root"/docs/man/*.1; do
+    name=$(basename "${page%.*}")
+    [ -f "$root/tools/$name.cpp" ] || rm -f "$page"
+  done
   cp "$fresh"/tools/*.md "$root/docs/tools/"
   cp "$fresh"/man/*.1 "$root/docs/man/"
   exit 0
