@@ -41,7 +41,12 @@ class Projector {
       : mesh_(mesh), options_(options), rays_(mesh, mesh.points, pose) {
     if (options.labels != nullptr) {
       imaged_ = rays_.pieces_of(mesh, mesh.imaged);
-      voxels_ = std::make_unique<VoxelTissue>(*options.labels);
+      Vec3 lower = mesh.imaged.front(), upper = lower;
+      for (const Vec3& x : mesh.imaged) {
+        lower = lower.cwiseMin(x);
+        upper = upper.cwiseMax(x);
+      }
+      voxels_ = std::make_unique<VoxelTissue>(*options.labels, lower, upper);
     }
   }
   double volume() const { return rays_.volume(); }
@@ -59,10 +64,13 @@ class Projector {
       }
       TissuePath mm;
       const Ray ray = rays_.ray(image.pixel * Vec2(u, v));
-      for (const Chord& chord : chords) {
-        if (voxels_) {
-          sample_chord(ray, chord, mm, sums.unlabelled);
-        } else {
+      if (voxels_) {
+        VoxelTissue::Parts parts = VoxelTissue::Parts::Zero();
+        for (const Chord& chord : chords) parts += sample_chord(ray, chord);
+        mm = VoxelTissue::path(parts);
+        sums.unlabelled += VoxelTissue::unlabelled(parts);
+      } else {
+        for (const Chord& chord : chords) {
           add_element_tissue(mesh_.tissue[rays_.element(chord.piece)], chord.leave - chord.enter,
                              mm);
         }
@@ -79,21 +87,25 @@ class Projector {
   }
 
  private:
-  // Midpoint rule with steps of at most half a voxel in the imaged shape.
-  void sample_chord(const Ray& ray, const Chord& chord, TissuePath& mm, double& unlabelled) const {
-    const Trilinear& deformed = rays_.piece(chord.piece);
+  // Midpoint rule with steps of at most half a voxel along every axis of the scan. The chord's
+  // image there is a smooth short curve: a parabola through its two ends and the middle, the only
+  // point for which the element map is inverted.
+  VoxelTissue::Parts sample_chord(const Ray& ray, const Chord& chord) const {
     const Trilinear& imaged = imaged_[chord.piece];
-    const double stretch = (imaged.at(chord.local_leave) - imaged.at(chord.local_enter)).norm();
-    const int steps = 1 + int(stretch / (0.5 * voxels_->smallest_spacing()));
-    const double length = (chord.leave - chord.enter) / steps;
+    Vec3 local = 0.5 * (chord.local_enter + chord.local_leave);
+    rays_.piece(chord.piece).invert(ray.at(0.5 * (chord.enter + chord.leave)), 1e-4, local);
+    const Vec3 start = voxels_->index(imaged.at(chord.local_enter)),
+               middle = voxels_->index(imaged.at(local)),
+               end = voxels_->index(imaged.at(chord.local_leave));
+    const Vec3 slope = 4 * middle - 3 * start - end, bend = 2 * (start + end) - 4 * middle;
+    const double fastest = slope.cwiseAbs().cwiseMax((slope + 2 * bend).cwiseAbs()).maxCoeff();
+    const int steps = 1 + int(fastest / 0.5);
+    VoxelTissue::Parts sum = VoxelTissue::Parts::Zero();
     for (int k = 0; k < steps; ++k) {
       const double f = (k + 0.5) / steps;
-      Vec3 local = (1 - f) * chord.local_enter + f * chord.local_leave;
-      // A thousandth of a millimetre is far below a voxel; from this start it takes one or two
-      // steps.
-      deformed.invert(ray.at((1 - f) * chord.enter + f * chord.leave), 1e-3, local);
-      voxels_->add(imaged.at(local), length, mm, unlabelled);
+      sum += voxels_->at(start + f * (slope + f * bend));
     }
+    return sum * float((chord.leave - chord.enter) / steps);
   }
 
   const HexMesh& mesh_;

@@ -11,7 +11,7 @@ namespace breast {
 
 namespace {
 
-constexpr double bin_mm = 3.0;
+constexpr double bin_mm = 2.0;
 // Rays pass this far beside the position asked for, so that none runs inside a face of a mesh that
 // is aligned with the pixels (the paper's cuboid in CC is).
 const Vec2 aside(3.7e-7, 7.3e-7);
@@ -23,6 +23,13 @@ constexpr int corner_sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1
 Vec3 corner_local(int corner) {
   return {double(corner_sign[corner][0]), double(corner_sign[corner][1]),
           double(corner_sign[corner][2])};
+}
+
+// Bit a: corner a lies on the positive side.
+unsigned above(const Eigen::Array<double, 8, 1>& x) {
+  unsigned mask = 0;
+  for (int a = 0; a < 8; ++a) mask |= unsigned(x[a] > 0) << a;
+  return mask;
 }
 
 // Local coordinates of a point of face f at patch coordinates (s,r).
@@ -41,15 +48,13 @@ RayMesh::RayMesh(const HexMesh& mesh, const std::vector<Vec3>& nodal, const View
       pieces_per_element_(subdivisions_ * subdivisions_ * subdivisions_) {
   pieces_ = pieces_of(mesh, nodal);
   corners_.resize(pieces_.size());
-  boxes_.resize(pieces_.size());
+  const Vec3 foot = pose_.on_detector({0, pose_.source_v});
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
-    boxes_[p].lower = Vec2::Constant(std::numeric_limits<double>::infinity());
-    boxes_[p].upper = -boxes_[p].lower;
     for (int a = 0; a < 8; ++a) {
-      corners_[p][a] = pieces_[p].at(corner_local(a));
-      const Vec2 uv = pose_.project(corners_[p][a]);
-      boxes_[p].lower = boxes_[p].lower.cwiseMin(uv);
-      boxes_[p].upper = boxes_[p].upper.cwiseMax(uv);
+      const Vec3 d = pieces_[p].at(corner_local(a)) - foot;
+      corners_[p].x[a] = d.dot(pose_.e_u);
+      corners_[p].y[a] = d.dot(pose_.e_v);
+      corners_[p].t[a] = d.dot(pose_.n);
     }
   }
   back_faces_.assign(std::size_t(mesh.elements()), 0);
@@ -87,10 +92,16 @@ Vec3 RayMesh::element_local(int piece, const Vec3& local) const {
 }
 
 void RayMesh::bin_pieces() {
+  std::vector<Box> boxes(pieces_.size());
   Vec2 lower = Vec2::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-  for (const Box& box : boxes_) {
-    lower = lower.cwiseMin(box.lower);
-    upper = upper.cwiseMax(box.upper);
+  const double per_distance = pose_.source_distance > 0 ? 1 / pose_.source_distance : 0;
+  for (std::size_t p = 0; p < boxes.size(); ++p) {
+    const Eigen::Array<double, 8, 1> magnified = 1 / (1 + per_distance * corners_[p].t);
+    const Eigen::Array<double, 8, 1> u = corners_[p].x * magnified, v = corners_[p].y * magnified;
+    boxes[p].lower = Vec2(u.minCoeff(), v.minCoeff() + pose_.source_v);
+    boxes[p].upper = Vec2(u.maxCoeff(), v.maxCoeff() + pose_.source_v);
+    lower = lower.cwiseMin(boxes[p].lower);
+    upper = upper.cwiseMax(boxes[p].upper);
   }
   if (!((upper - lower).minCoeff() >= 0) || !((upper - lower).maxCoeff() < 1e4)) {
     throw input_error("mesh: its projection spans ", (upper - lower).maxCoeff(),
@@ -109,12 +120,12 @@ void RayMesh::bin_pieces() {
     }
   };
   bin_first_.assign(std::size_t(bins_[0]) * bins_[1] + 1, 0);
-  for (const Box& box : boxes_) for_bins(box, [&](int bin) { ++bin_first_[bin + 1]; });
+  for (const Box& box : boxes) for_bins(box, [&](int bin) { ++bin_first_[bin + 1]; });
   for (std::size_t b = 1; b < bin_first_.size(); ++b) bin_first_[b] += bin_first_[b - 1];
-  bin_pieces_.resize(std::size_t(bin_first_.back()));
+  candidates_.resize(std::size_t(bin_first_.back()));
   std::vector<int> next(bin_first_.begin(), bin_first_.end() - 1);
-  for (std::size_t p = 0; p < boxes_.size(); ++p) {
-    for_bins(boxes_[p], [&](int bin) { bin_pieces_[next[bin]++] = int(p); });
+  for (std::size_t p = 0; p < boxes.size(); ++p) {
+    for_bins(boxes[p], [&](int bin) { candidates_[next[bin]++] = {boxes[p], int(p)}; });
   }
 }
 
@@ -124,39 +135,43 @@ Ray RayMesh::ray(const Vec2& uv) const {
   return ray;
 }
 
+RayMesh::Target RayMesh::target(const Vec2& position) const {
+  Target target;
+  target.ray = ray(position);
+  target.foot = position + aside - Vec2(0, pose_.source_v);
+  target.slope = Vec2::Zero();
+  target.stretch = 1;
+  if (pose_.source_distance > 0) {
+    target.slope = target.foot / pose_.source_distance;
+    target.stretch = std::sqrt(1 + target.slope.squaredNorm());
+  }
+  return target;
+}
+
 void RayMesh::trace(const Vec2& position, std::vector<Chord>& chords) const {
   chords.clear();
   const Vec2 uv = position + aside;
   const Vec2 cell = (uv - bins_lower_) / bin_mm;
   if (!(cell.minCoeff() >= 0) || cell.x() >= bins_[0] || cell.y() >= bins_[1]) return;
   const int bin = int(cell.y()) * bins_[0] + int(cell.x());
-  const Ray ray = this->ray(position);
-  // Two directions across the ray; for the parallel beam they are the image axes.
-  const Vec3 a = ray.direction.cross(pose_.e_v).normalized() * -1.0;
-  const Vec3 b = ray.direction.cross(a);
+  const Target target = this->target(position);
   for (int k = bin_first_[bin]; k < bin_first_[bin + 1]; ++k) {
-    const int p = bin_pieces_[k];
-    const Box& box = boxes_[p];
+    const Box& box = candidates_[k].box;
     if (uv.x() < box.lower.x() || uv.x() > box.upper.x() || uv.y() < box.lower.y() ||
         uv.y() > box.upper.y()) {
       continue;
     }
-    trace_piece(p, ray, a, b, chords);
+    trace_piece(candidates_[k].piece, target, chords);
   }
   std::sort(chords.begin(), chords.end(), [](const Chord& x, const Chord& y) {
     return x.enter != y.enter ? x.enter < y.enter : x.piece < y.piece;
   });
 }
 
-void RayMesh::trace_piece(int p, const Ray& ray, const Vec3& a, const Vec3& b,
-                          std::vector<Chord>& chords) const {
-  std::array<Vec2, 8> across;
-  std::array<double, 8> along;
-  for (int c = 0; c < 8; ++c) {
-    const Vec3 d = corners_[p][c] - ray.origin;
-    across[c] = Vec2(d.dot(a), d.dot(b));
-    along[c] = d.dot(ray.direction);
-  }
+void RayMesh::trace_piece(int p, const Target& target, std::vector<Chord>& chords) const {
+  const Corners& corners = corners_[p];
+  const Eigen::Array<double, 8, 1> x = corners.x - target.foot.x() - target.slope.x() * corners.t;
+  const Eigen::Array<double, 8, 1> y = corners.y - target.foot.y() - target.slope.y() * corners.t;
   struct Crossing {
     double distance;
     Vec3 local;
@@ -164,14 +179,22 @@ void RayMesh::trace_piece(int p, const Ray& ray, const Vec3& a, const Vec3& b,
   };
   std::array<Crossing, 12> crossings;
   int n = 0;
+  const std::array<unsigned, 4> sides = {above(x), above(-x), above(y), above(-y)};
   for (int f = 0; f < 6; ++f) {
     const auto& q = hex_face_corners[f];
+    const unsigned face = 1u << q[0] | 1u << q[1] | 1u << q[2] | 1u << q[3];
+    if (std::any_of(sides.begin(), sides.end(),
+                    [face](unsigned side) { return (side & face) == face; })) {
+      continue;  // wholly on one side of the ray
+    }
     std::array<PatchHit, 2> hits;
-    const int found = patch_hits({across[q[0]], across[q[1]], across[q[2]], across[q[3]]}, hits);
+    const int found = patch_hits(
+        {Vec2(x[q[0]], y[q[0]]), {x[q[1]], y[q[1]]}, {x[q[2]], y[q[2]]}, {x[q[3]], y[q[3]]}}, hits);
     for (int h = 0; h < found; ++h) {
       const double s = hits[h].s, r = hits[h].r;
-      const double distance = (1 - s) * (1 - r) * along[q[0]] + s * (1 - r) * along[q[1]] +
-                              s * r * along[q[2]] + (1 - s) * r * along[q[3]];
+      const double distance =
+          target.stretch * ((1 - s) * (1 - r) * corners.t[q[0]] + s * (1 - r) * corners.t[q[1]] +
+                            s * r * corners.t[q[2]] + (1 - s) * r * corners.t[q[3]]);
       int place = n++;  // kept in order of distance
       for (; place > 0 && crossings[place - 1].distance > distance; --place) {
         crossings[place] = crossings[place - 1];
@@ -186,7 +209,7 @@ void RayMesh::trace_piece(int p, const Ray& ray, const Vec3& a, const Vec3& b,
     if (n > 2) {  // curved faces: the line may leave and come back
       Vec3 middle = 0.5 * (in.local + out.local);
       const bool solved =
-          pieces_[p].invert(ray.at(0.5 * (in.distance + out.distance)), 1e-9, middle);
+          pieces_[p].invert(target.ray.at(0.5 * (in.distance + out.distance)), 1e-9, middle);
       if (!solved || !(middle.cwiseAbs().maxCoeff() <= 1 + 1e-9)) continue;
     }
     chords.push_back({p, in.distance, out.distance, in.local, out.local, in.face, out.face});

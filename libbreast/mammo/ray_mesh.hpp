@@ -1,6 +1,7 @@
 // X-rays through a deformed hexahedral mesh: exact entry and exit of every element on a ray.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -56,19 +57,36 @@ class RayMesh {
   struct Box {
     Vec2 lower, upper;
   };
+  /// A piece's corners in detector axes from the foot of the source: x = X e_u + Y e_v + T n. The
+  /// ray to (u,v) is where X − u (1 + T/D) = 0 and Y − v (1 + T/D) = 0, D = source distance (1/D =
+  /// 0 for the parallel beam), both linear in the corners: bilinear faces stay bilinear for either
+  /// beam.
+  struct Corners {
+    Eigen::Array<double, 8, 1> x, y, t;
+  };
+  /// One detector position for trace_piece.
+  struct Target {
+    Vec2 foot, slope;  ///< (u,v) from the source's foot, and the same over D
+    double stretch;    ///< mm along the ray for one mm along n
+    Ray ray;
+  };
+  Target target(const Vec2& position) const;
   void bin_pieces();
-  void trace_piece(int p, const Ray& ray, const Vec3& a, const Vec3& b,
-                   std::vector<Chord>& chords) const;
+  void trace_piece(int p, const Target& target, std::vector<Chord>& chords) const;
 
   ViewPose pose_;
   int subdivisions_ = 1, pieces_per_element_ = 1;
   std::vector<Trilinear> pieces_;
-  std::vector<std::array<Vec3, 8>> corners_;
-  std::vector<Box> boxes_;                ///< of the projected pieces, mm on the detector
+  std::vector<Corners> corners_;
   std::vector<std::uint8_t> back_faces_;  ///< per element, bit f: face f is chest wall or cut
   Vec2 bins_lower_{0, 0};
   std::array<int, 2> bins_{0, 0};
-  std::vector<int> bin_first_, bin_pieces_;
+  struct Candidate {
+    Box box;  ///< of the projected piece, mm on the detector
+    int piece;
+  };
+  std::vector<int> bin_first_;
+  std::vector<Candidate> candidates_;  ///< by bin
 };
 
 }  // namespace breast

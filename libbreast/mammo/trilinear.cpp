@@ -67,10 +67,6 @@ double cross(const Vec2& a, const Vec2& b) {
 }  // namespace
 
 int patch_hits(const std::array<Vec2, 4>& p, std::array<PatchHit, 2>& hits) {
-  for (int k = 0; k < 2; ++k) {
-    if (p[0][k] > 0 && p[1][k] > 0 && p[2][k] > 0 && p[3][k] > 0) return 0;
-    if (p[0][k] < 0 && p[1][k] < 0 && p[2][k] < 0 && p[3][k] < 0) return 0;
-  }
   // p0 + s e + r f + s r g = 0; eliminating s: a r² + b r + c = 0.
   const Vec2 e = p[1] - p[0], f = p[3] - p[0], g = p[0] - p[1] + p[2] - p[3];
   const double a = cross(f, g), b = cross(p[0], g) + cross(f, e), c = cross(p[0], e);
