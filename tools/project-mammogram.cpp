@@ -9,6 +9,9 @@
 #include "io/mammogram_file.hpp"
 #include "io/mesh_file.hpp"
 #include "mammo/projection.hpp"
+#include "xray/beam_quality.hpp"
+#include "xray/exposure.hpp"
+#include "xray/spectrum.hpp"
 
 using namespace breast;
 
@@ -18,6 +21,8 @@ struct Choices {
   std::filesystem::path mesh, image, labels, png;
   double pixel = 0.25;
   std::string geometry = "parallel", energy = "fraction";
+  Exposure exposure;
+  int seed = 1;
 };
 
 // Another scan's labels would be sampled without complaint, so their content must be among the
@@ -40,6 +45,11 @@ void report_image(const HexMesh& mesh, const Mammogram& image, const ProjectionR
   report.set("view", image.view);
   report.set("angle_deg", image.pose.angle_deg);
   report.set("energy", image.energy);
+  if (names_spectrum(image.energy)) {
+    const Spectrum spectrum = named_spectrum(image.energy);
+    report.set("mean_keV", spectrum.mean_kev());
+    report.set("half_value_layer_mm_Al", spectrum.half_value_layer());
+  }
   report.set("pixel_mm", image.pixel);
   report.set("width_pixels", image.width);
   report.set("height_pixels", image.height);
@@ -77,7 +87,7 @@ void run_projection(const Choices& choices, Run& run) {
   ProjectionOptions options;
   options.pixel = choices.pixel;
   options.beam = choices.geometry == "cone" ? Beam::cone : Beam::parallel;
-  options.energy = Energy::parse(choices.energy);
+  options.energy = parse_energy(choices.energy);
   LabelVolume labels;
   if (!choices.labels.empty()) {
     labels = read_labels(choices.labels);
@@ -90,6 +100,10 @@ void run_projection(const Choices& choices, Run& run) {
   {
     Timer::Scope phase(run.timer(), "project");
     image = project_mammogram(mesh, options, &projection, run.progress());
+  }
+  {
+    Timer::Scope phase(run.timer(), "expose");
+    expose(image, choices.exposure);
   }
   report_image(mesh, image, projection, run);
   image.history = run.history(inputs);
@@ -107,8 +121,10 @@ int main(int argc, char** argv) {
       "the "
       "ray is mapped back through its element to the MR scan and takes the tissue of the voxel "
       "there, so that the image has the detail of the scan; without, each element has one tissue. "
-      "The image ends where columns would leave the mesh through the chest wall. It shows "
-      "attenuation only: no scatter, noise or detector.");
+      "The image ends where columns would leave the mesh through the chest wall. Beams are "
+      "spectra of Boone, Fewell and Jennings (1997) behind 1 mm beryllium and 0.05 mm rhodium or "
+      "0.03 mm molybdenum; tissue is of Hammerstein's composition (1979) with the cross sections "
+      "of xraylib; the detector integrates energy and has no blur.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), section IV-A, Fig. 6");
   tool.input(choices.mesh, "COMPRESSED.vtkhdf", "compressed shape (compress)");
   tool.output(choices.image, "IMAGE.vti", "path, thickness and fibroglandular mm per pixel");
@@ -123,12 +139,27 @@ int main(int argc, char** argv) {
               "beam; cone: point source 650 mm above the detector's chest-wall edge");
   tool.text(
       choices.energy, "--energy", "fraction|KEV|SPECTRUM",
-      "fraction: mm of fibroglandular tissue plus half the fat; KEV (18-50): line integral of "
-      "the attenuation; SPECTRUM: TSV with columns energy_keV, weight");
-  tool.check([&] { Energy::parse(choices.energy); });
+      "fraction: mm of fibroglandular tissue plus half the fat; KEV (5-100): line integral of the "
+      "attenuation; SPECTRUM: W/Rh:KV or Mo/Mo:KV (22-35 kV), or a TSV with columns energy_keV, "
+      "weight");
+  tool.number(
+      choices.exposure.scatter_fraction, "--scatter", "part",
+      "scattered part of the radiation behind the breast (0.1 with a grid, 0.3-0.5 without)", 0,
+      0.9);
+  tool.number(choices.exposure.photons_per_mm2, "--photons", "per mm2",
+              "photons detected without a breast: Poisson noise; 0: none", 0, 1e9);
+  tool.integer(choices.seed, "--seed", "N", "of the noise", 0, 1000000000);
+  tool.check([&] {
+    choices.exposure.seed = std::uint64_t(choices.seed);
+    parse_energy(choices.energy);
+  });
   tool.example("project-mammogram cc.vtkhdf cc.vti --labels labels.vtkhdf --png cc.png",
                "craniocaudal image with the detail of the scan");
   tool.example("project-mammogram mlo.vtkhdf mlo.vti --energy 20 --pixel 0.1",
                "line integrals at 20 keV, one tissue per element");
+  tool.example(
+      "project-mammogram cc.vtkhdf cc.vti --labels labels.vtkhdf --energy W/Rh:28 "
+      "--scatter 0.1 --photons 50000",
+      "tungsten tube with rhodium filter, grid and quantum noise");
   return tool.main(argc, argv, [&](Run& run) { run_projection(choices, run); });
 }

@@ -1,6 +1,7 @@
-// Linear attenuation of breast tissues, and what a mammogram's `path` is made of.
+// What a mammogram's `path` is made of.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -16,29 +17,25 @@ struct TissuePath {
 struct Attenuation {
   double fat = 0, fibroglandular = 0, skin = 0, tumour = 0;
 };
-/// Means of Johns and Yaffe, Phys. Med. Biol. 32 (1987) 675–695, for fat, fibroglandular tissue and
-/// infiltrating ductal carcinoma, 18–50 keV, interpolated linearly in log energy and log
-/// coefficient; skin is 1.064 times fibroglandular (ratio at 20 keV of the elemental compositions
-/// of Hammerstein et al., Radiology 130 (1979) 485–491). Published values for fat differ by tens of
-/// per cent. Throws Error (input) outside 18–50 keV.
-Attenuation attenuation_at(double kev);
 
 /// How a ray's tissue becomes one number.
 class Energy {
  public:
   /// "fraction": mm of fibroglandular-equivalent tissue, fat counting half (the grey of
   /// Pathmanathan et al. 2008, chosen from the proportions of fat, fibroglandular tissue and air in
-  /// a column); a number: monoenergetic line integral at that many keV; anything else: a spectrum
-  /// file, TSV with columns energy_keV and weight, path = −ln of the weighted mean transmission.
-  static Energy parse(const std::string& text);
+  /// a column).
+  Energy() = default;
+  /// Line integral −ln Σ w exp(−Σ μ mm) / Σ w, one weight and one row of coefficients an energy.
+  Energy(std::string name, const std::vector<double>& weights,
+         const std::vector<Attenuation>& attenuation);
 
   double path(const TissuePath& mm) const;
   const std::string& name() const { return name_; }
 
  private:
-  std::string name_;
-  std::vector<double> weights_;  ///< empty for "fraction"; sum 1
-  std::vector<Attenuation> attenuation_;
+  std::string name_ = "fraction";
+  Eigen::ArrayXf weights_;  ///< empty for "fraction"; sum 1
+  Eigen::ArrayXf fat_, fibroglandular_, skin_, tumour_;
 };
 
 }  // namespace breast

@@ -12,6 +12,7 @@ surface: core
 material: core
 mesh: surface core
 mammo: mesh image surface core
+xray: mammo mesh image surface core
 cli: core
 io: core image surface mesh mammo
 segment: image surface core
@@ -50,7 +51,7 @@ done
 
 # Third parties stay in .cpp files (Eigen apart) and in the headers those files alone share: the folders
 # io/hdf5, io/volume, io/vtk, and NAME_impl.hpp.
-foreign=$(grep -rnE '^ *#include <(hdf5|vtk|itk|opencv|CGAL|CLI|nlohmann|nlopt|cholmod|gtest)' --include='*.hpp' \
+foreign=$(grep -rnE '^ *#include <(hdf5|xraylib|vtk|itk|opencv|CGAL|CLI|nlohmann|nlopt|cholmod|gtest)' --include='*.hpp' \
   libbreast | grep -vE '^libbreast/(io/(hdf5|volume|vtk)/|[a-z]+/[a-z_]+_impl\.hpp)' || true)
 if [ -n "$foreign" ]; then
   echo "third party in a header: $foreign"

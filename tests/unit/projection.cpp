@@ -318,16 +318,3 @@ TEST(Projection, RefusesWhatItCannotImage) {
   EXPECT_THROW(project_mammogram(mesh, {.pixel = 1e-4}), Error);
   EXPECT_THROW(project_mammogram(mesh, {.pixel = std::nan("")}), Error);
 }
-
-TEST(Attenuation, TableInterpolationAndSpectra) {
-  EXPECT_NEAR(attenuation_at(20).fat, 0.0456, 1e-12);
-  EXPECT_NEAR(attenuation_at(50).fibroglandular, 0.0233, 1e-12);
-  EXPECT_LT(attenuation_at(22).fat, attenuation_at(20).fat);
-  EXPECT_GT(attenuation_at(22).fat, attenuation_at(25).fat);
-  EXPECT_THROW(attenuation_at(12), Error);
-  EXPECT_THROW(Energy::parse("no-such-spectrum.tsv"), Error);
-  const TissuePath mm{20, 10, 3, 0};
-  EXPECT_NEAR(Energy::parse("fraction").path(mm), 23, 1e-12);
-  EXPECT_NEAR(Energy::parse("20").path(mm), 20 * 0.0456 + 10 * 0.0802 + 3 * 1.064 * 0.0802, 1e-12);
-  EXPECT_EQ(Energy::parse("20").name(), "20 keV");
-}

@@ -1,0 +1,35 @@
+// Mammographic X-ray spectra: anode, tube voltage, filters.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "xray/anode_tables.hpp"
+
+namespace breast {
+
+struct Spectrum {
+  std::vector<double> kev;      ///< bin centres
+  std::vector<double> fluence;  ///< photons per bin, relative
+
+  double mean_kev() const;  ///< over photons
+  /// mm of aluminium that halve the air kerma. Kerma per photon goes with E times air's
+  /// mass energy-absorption coefficient (xraylib).
+  double half_value_layer() const;
+};
+
+/// Unfiltered, 22-35 kV. Throws Error (input) outside.
+Spectrum anode_spectrum(Anode anode, double kv);
+/// Behind `mm` of an element (atomic number z, density of the solid).
+Spectrum filtered(const Spectrum& spectrum, int z, double mm);
+
+/// Behind `mm` of dry air of 1.205e-3 g/cm³.
+Spectrum behind_air(const Spectrum& spectrum, double mm);
+
+/// "W/Rh:28" or "Mo/Mo:26": 0.05 mm rhodium or 0.03 mm molybdenum, 1 mm beryllium window,
+/// 600 mm air, kV peak.
+Spectrum named_spectrum(const std::string& name);
+/// Whether the text has the form ANODE/FILTER:KV.
+bool names_spectrum(const std::string& text);
+
+}  // namespace breast
