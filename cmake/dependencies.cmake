@@ -38,5 +38,6 @@ find_package(ITK 5.2 QUIET COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIONI
   ITKImageStatistics ITKBiasCorrection ITKLabelVoting)
 find_package(OpenCV QUIET COMPONENTS core imgproc imgcodecs)
 find_package(CGAL QUIET)
+find_package(GDCM QUIET)
 find_library(XRL_LIBRARY xrl)
 find_path(XRL_INCLUDE xraylib.h PATH_SUFFIXES xraylib)

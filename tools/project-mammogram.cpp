@@ -3,12 +3,12 @@
 
 #include "cli/tool.hpp"
 #include "core/error.hpp"
-#include "core/table.hpp"
-#include "core/units.hpp"
 #include "io/label_file.hpp"
+#include "io/mammogram_dicom.hpp"
 #include "io/mammogram_file.hpp"
 #include "io/mesh_file.hpp"
 #include "mammo/projection.hpp"
+#include "mammo/report.hpp"
 #include "xray/beam_quality.hpp"
 #include "xray/exposure.hpp"
 #include "xray/spectrum.hpp"
@@ -18,9 +18,9 @@ using namespace breast;
 namespace {
 
 struct Choices {
-  std::filesystem::path mesh, image, labels, png;
+  std::filesystem::path mesh, image, labels, png, dicom;
   double pixel = 0.25;
-  std::string geometry = "parallel", energy = "fraction";
+  std::string geometry = "parallel", energy = "fraction", dicom_for = "presentation";
   Exposure exposure;
   int seed = 1;
 };
@@ -39,46 +39,19 @@ void check_lineage(const HexMesh& mesh, const LabelVolume& labels, const std::st
   }
 }
 
-void report_image(const HexMesh& mesh, const Mammogram& image, const ProjectionReport& projection,
-                  Run& run) {
-  Report& report = run.report();
-  report.set("view", image.view);
-  report.set("angle_deg", image.pose.angle_deg);
-  report.set("energy", image.energy);
-  if (names_spectrum(image.energy)) {
-    const Spectrum spectrum = named_spectrum(image.energy);
-    report.set("mean_keV", spectrum.mean_kev());
-    report.set("half_value_layer_mm_Al", spectrum.half_value_layer());
-  }
-  report.set("pixel_mm", image.pixel);
-  report.set("width_pixels", image.width);
-  report.set("height_pixels", image.height);
-  report.set("thickness_mm", mesh.contact->thickness_mm);
-  report.set("brightest_path", double(*std::max_element(image.path.begin(), image.path.end())));
-  report.set("mesh_volume_ml", projection.mesh_volume / mm3_per_ml);
-  report.set("imaged_volume_ml", projection.imaged_volume / mm3_per_ml);
-  report.set("volumes_ml/fat", projection.volumes.fat / mm3_per_ml);
-  report.set("volumes_ml/fibroglandular", projection.volumes.fibroglandular / mm3_per_ml);
-  report.set("volumes_ml/skin", projection.volumes.skin / mm3_per_ml);
-  report.set("volumes_ml/tumour", projection.volumes.tumour / mm3_per_ml);
-  report.set("unlabelled_percent", 100 * projection.unlabelled);
-  report.set("columns_through_back", projection.back_columns);
-  for (const Landmark& landmark : mesh.landmarks) {
-    const Vec3 position = landmark_position(mesh, mesh.points, landmark);
-    const Vec2 uv = image.pose.project(position);
-    const std::string key = "landmarks/" + landmark.name + "/";
-    report.set(key + "imaged", landmark.imaged);
-    report.set(key + "position", position);
-    report.set(key + "uv_mm", std::vector<double>{uv.x(), uv.y()});
-    if (uv.x() < 0) {
-      run.warn(landmark.name + " lies " + format_fixed(-uv.x(), 1) +
-               " mm behind the image's posterior edge");
-    }
-  }
-  if (projection.unlabelled > 0.05) {
-    run.warn(format_fixed(100 * projection.unlabelled, 1) +
-             " % of the tissue lies in voxels labelled air, muscle or other (taken as fat)");
-  }
+MammogramDicom about(const HexMesh& mesh, bool for_processing) {
+  MammogramDicom dicom;
+  dicom.for_processing = for_processing;
+  dicom.thickness_mm = mesh.contact->thickness_mm;
+  if (!mesh.contact->plates.empty()) dicom.force_N = mesh.contact->plates.front().force_N;
+  return dicom;
+}
+
+void report_beam(const std::string& energy, Report& report) {
+  if (!names_spectrum(energy)) return;
+  const Spectrum spectrum = named_spectrum(energy);
+  report.set("mean_keV", spectrum.mean_kev());
+  report.set("half_value_layer_mm_Al", spectrum.half_value_layer());
 }
 
 void run_projection(const Choices& choices, Run& run) {
@@ -105,9 +78,14 @@ void run_projection(const Choices& choices, Run& run) {
     Timer::Scope phase(run.timer(), "expose");
     expose(image, choices.exposure);
   }
-  report_image(mesh, image, projection, run);
+  write_report(mesh, image, projection, run.report());
+  report_beam(image.energy, run.report());
+  for (const std::string& doubt : doubts(mesh, image, projection)) run.warn(doubt);
   image.history = run.history(inputs);
   if (!choices.png.empty()) write_mammogram_png(choices.png, image);
+  if (!choices.dicom.empty()) {
+    write_mammogram_dicom(choices.dicom, image, about(mesh, choices.dicom_for == "processing"));
+  }
   write_mammogram(choices.image, image);
 }
 
@@ -134,6 +112,10 @@ int main(int argc, char** argv) {
       choices.png, "--png", "FILE",
       "16-bit grey image hung as in the clinic, its grey as if all tissue were as thick as "
       "between the plates");
+  tool.output_file(choices.dicom, "--dicom", "FILE",
+                   "DICOM mammogram (MG) with view, side, thickness, force and pixel spacing");
+  tool.choice(choices.dicom_for, "--dicom-for", {"presentation", "processing"},
+              "the picture as displayed, or the detector's signal");
   tool.number(choices.pixel, "--pixel", "mm", "pixel size", 0.02, 10);
   tool.choice(choices.geometry, "--geometry", {"parallel", "cone"},
               "beam; cone: point source 650 mm above the detector's chest-wall edge");

@@ -7,6 +7,7 @@ cd "$(dirname "$0")/../.."
 # only folders with a line above or of a lower layer. contact takes the view's pose from mammo.
 rules="
 core:
+dicom: core
 image: core
 surface: core
 material: core
@@ -14,7 +15,7 @@ mesh: surface core
 mammo: mesh image surface core
 xray: mammo mesh image surface core
 cli: core
-io: core image surface mesh mammo
+io: core dicom image surface mesh mammo
 segment: image surface core
 fit: surface image core
 meshing: mesh surface image core
@@ -50,9 +51,9 @@ for folder in libbreast/*/; do
 done
 
 # Third parties stay in .cpp files (Eigen apart) and in the headers those files alone share: the folders
-# io/hdf5, io/volume, io/vtk, and NAME_impl.hpp.
-foreign=$(grep -rnE '^ *#include <(hdf5|xraylib|vtk|itk|opencv|CGAL|CLI|nlohmann|nlopt|cholmod|gtest)' --include='*.hpp' \
-  libbreast | grep -vE '^libbreast/(io/(hdf5|volume|vtk)/|[a-z]+/[a-z_]+_impl\.hpp)' || true)
+# io/hdf5, io/volume, io/dicom, io/vtk, and NAME_impl.hpp.
+foreign=$(grep -rnE '^ *#include <(hdf5|xraylib|vtk|itk|gdcm|opencv|CGAL|CLI|nlohmann|nlopt|cholmod|gtest)' --include='*.hpp' \
+  libbreast | grep -vE '^libbreast/(io/(hdf5|volume|dicom|vtk)/|[a-z]+/[a-z_]+_impl\.hpp)' || true)
 if [ -n "$foreign" ]; then
   echo "third party in a header: $foreign"
   bad=1

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "io/volume/complete.hpp"
+#include "dicom/header.hpp"
 #include "io/volume/dicom.hpp"
 #include "io/volume/itk_image.hpp"
 

@@ -1,3 +1,5 @@
+#include "dicom/header.hpp"
+
 // A walk through a DICOM file's elements (PS3.5 section 7), enough to know that it is whole and to
 // read short text elements.
 #include <array>
@@ -8,7 +10,6 @@
 #include <fstream>
 
 #include "core/error.hpp"
-#include "io/volume/complete.hpp"
 
 namespace breast {
 

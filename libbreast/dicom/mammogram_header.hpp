@@ -1,0 +1,33 @@
+// What a mammogram's DICOM header says about how it was taken.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/types.hpp"
+
+namespace breast {
+
+struct MammogramHeader {
+  std::string view;  ///< "CC", "MLO", "ML"
+  Side side = Side::left;
+  std::optional<double> angle_deg;     ///< of the beam from the vertical, 0-90
+  std::optional<double> thickness_mm;  ///< between the plates
+  std::optional<double> force_N;
+  double pixel_mm = 0;  ///< at the detector
+  /// mm at the detector for one mm in the breast, as far as the header tells; 1 when it does not.
+  double magnification = 1;
+  int columns = 0, rows = 0;
+  /// Patient directions of the image's rows (to the right) and columns (downwards), from letters
+  /// such as A\R or P\FL; not normalised, zero when absent.
+  Vec3 right{0, 0, 0}, down{0, 0, 0};
+};
+
+/// Reads modality, View Position, Image Laterality, Imager Pixel Spacing, Body Part Thickness (mm),
+/// Compression Force (N), Positioner Primary Angle (its sign differs between makers and is
+/// dropped), Patient Orientation. Throws Error (input) when the file is no mammogram, or its view,
+/// side or pixel spacing are missing or not ones we know.
+MammogramHeader read_mammogram_header(const std::filesystem::path& file);
+
+}  // namespace breast

@@ -1,0 +1,188 @@
+#include <gdcmWriter.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "io/dicom/dataset.hpp"
+#include "io/mammogram_dicom.hpp"
+#include "mammo/display.hpp"
+
+namespace breast {
+
+namespace {
+
+using gdcm::VR;
+
+constexpr const char* presentation_class = "1.2.840.10008.5.1.4.1.1.1.2";
+constexpr const char* processing_class = "1.2.840.10008.5.1.4.1.1.1.2.1";
+
+/// A UID from text ("2.25." is the branch for such numbers, PS3.5 B.2).
+std::string uid_from(const std::string& text) {
+  Sha256 hash;
+  hash.update(text);
+  return "2.25." + std::to_string(std::stoull(hash.hex().substr(0, 15), nullptr, 16) + 1);
+}
+
+std::string content_of(const Mammogram& image, bool for_processing) {
+  Sha256 hash;
+  hash.update(image.view + std::string(side_name(image.side)) + image.energy);
+  hash.update(image.path.data(), image.path.size() * sizeof(float));
+  hash.update(&image.pixel, sizeof image.pixel);
+  hash.update(for_processing ? "processing" : "presentation");
+  return hash.hex();
+}
+
+/// The letters of a patient direction, strongest axis first: "FR".
+std::string letters(const Vec3& direction) {
+  const char* names[3] = {"LR", "PA", "HF"};
+  std::vector<std::pair<double, char>> parts;
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(direction[k]) < 0.1) continue;
+    parts.push_back({std::abs(direction[k]), names[k][direction[k] > 0 ? 0 : 1]});
+  }
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first + 1e-9; });
+  std::string text;
+  for (const auto& part : parts) text += part.second;
+  return text;
+}
+
+/// Detector signal, 0-16383, at the same places as the hung picture's greys.
+std::vector<std::uint16_t> detector_signal(const Mammogram& image) {
+  std::vector<std::uint16_t> stored(image.path.size());
+  const bool left = image.side == Side::left;
+  for (int row = 0; row < image.height; ++row) {
+    const int v = left ? row : image.height - 1 - row;
+    for (int column = 0; column < image.width; ++column) {
+      const std::size_t from =
+          std::size_t(v) * image.width + (left ? column : image.width - 1 - column);
+      const double signal = image.through_back[from] != 0 ? 0 : std::exp(-image.path[from]);
+      stored[std::size_t(row) * image.width + column] =
+          std::uint16_t(std::lround(16383 * std::clamp(signal, 0.0, 1.0)));
+    }
+  }
+  return stored;
+}
+
+void add_identity(DatasetBuilder& set, const Mammogram& image, bool for_processing) {
+  const std::string scan = content_of(image, for_processing);
+  set.text(0x00080005, VR::CS, "ISO_IR 100")
+      .text(0x00080008, VR::CS, for_processing ? "ORIGINAL\\PRIMARY" : "DERIVED\\PRIMARY")
+      .text(0x00080016, VR::UI, for_processing ? processing_class : presentation_class)
+      .text(0x00080018, VR::UI, uid_from(scan + "/image"))
+      .text(0x00080060, VR::CS, "MG")
+      .text(0x00080068, VR::CS, for_processing ? "FOR PROCESSING" : "FOR PRESENTATION")
+      .text(0x00080070, VR::LO, "libbreast (simulated)")
+      .text(0x00081030, VR::LO, "Simulated mammogram")
+      .text(0x00100010, VR::PN, "SIMULATED^MAMMOGRAM")
+      .text(0x00100020, VR::LO, "SIMULATED")
+      .text(0x00100030, VR::DA, "")
+      .text(0x00100040, VR::CS, "F")
+      .text(0x0020000d, VR::UI, uid_from(scan + "/study"))
+      .text(0x0020000e, VR::UI, uid_from(scan + "/series"))
+      .text(0x00200010, VR::SH, "1")
+      .text(0x00200011, VR::IS, "1")
+      .text(0x00200013, VR::IS, "1");
+  for (const std::uint32_t empty : {0x00080020u, 0x00080030u}) {  // study date and time
+    set.text(empty, empty == 0x00080020u ? VR::DA : VR::TM, "");
+  }
+  set.text(0x00080050, VR::SH, "").text(0x00080090, VR::PN, "");
+}
+
+void add_positioning(DatasetBuilder& set, const Mammogram& image, const MammogramDicom& about) {
+  const bool left = image.side == Side::left;
+  const double way = left ? 1 : -1;  // of u and v along rows and columns
+  const auto code = [&]() {
+    if (image.view == "CC") return code_item("399162004", "SCT", "cranio-caudal");
+    if (image.view == "MLO") return code_item("399368009", "SCT", "medio-lateral oblique");
+    return code_item("399260004", "SCT", "medio-lateral");
+  };
+  DatasetBuilder view;
+  gdcm::DataSet item = code();
+  view.sequence(0x00540222, {});  // no view modifier
+  item.Replace(view.set().GetDataElement(gdcm::Tag(0x0054, 0x0222)));
+  set.text(0x00200020, VR::CS, letters(way * image.pose.e_u) + "\\" + letters(way * image.pose.e_v))
+      .text(0x00200062, VR::CS, left ? "L" : "R")
+      .text(0x00181508, VR::CS, "MAMMOGRAPHIC")
+      .number(0x00181510, image.pose.angle_deg)
+      .text(0x00185101, VR::CS, image.view)
+      .text(0x00400318, VR::CS, "BREAST")
+      .text(0x00281300, VR::CS, "NO")
+      .sequence(0x00540220, {item})
+      .sequence(0x00082218, {code_item("76752008", "SCT", "Breast")})
+      .sequence(0x00400555, {});
+  if (about.thickness_mm) set.number(0x001811a0, *about.thickness_mm);
+  if (about.force_N) set.number(0x001811a2, *about.force_N);
+  if (image.pose.source_distance > 0) set.number(0x00181110, image.pose.source_distance);
+}
+
+void add_pixels(DatasetBuilder& set, const Mammogram& image, bool for_processing) {
+  const std::uint16_t bits = for_processing ? 14 : 16;
+  const int highest = (1 << bits) - 1;
+  char spacing[40];
+  std::snprintf(spacing, sizeof spacing, "%.8g\\%.8g", image.pixel, image.pixel);
+  set.text(0x00181164, VR::DS, spacing)
+      .text(0x00187004, VR::CS, "DIRECT")
+      .unsigned_short(0x00280002, 1)
+      .text(0x00280004, VR::CS, for_processing ? "MONOCHROME1" : "MONOCHROME2")
+      .unsigned_short(0x00280010, std::uint16_t(image.height))
+      .unsigned_short(0x00280011, std::uint16_t(image.width))
+      .unsigned_short(0x00280100, 16)
+      .unsigned_short(0x00280101, bits)
+      .unsigned_short(0x00280102, std::uint16_t(bits - 1))
+      .unsigned_short(0x00280103, 0)
+      .text(0x00280301, VR::CS, "NO")
+      .text(0x00281040, VR::CS, for_processing ? "LIN" : "LOG")
+      .signed_short(0x00281041, for_processing ? 1 : -1)
+      .number(0x00281052, 0)
+      .number(0x00281053, 1)
+      .text(0x00281054, VR::LO, "US")
+      .text(0x00282110, VR::CS, "00")
+      .text(0x20500020, VR::CS, for_processing ? "INVERSE" : "IDENTITY")
+      .words(0x7fe00010, for_processing ? detector_signal(image) : hang(image).grey);
+  if (!for_processing) {
+    set.number(0x00281050, 0.5 * (highest + 1)).number(0x00281051, highest + 1);
+  }
+}
+
+void add_acquisition(DatasetBuilder& set, const Mammogram& image) {
+  const auto colon = image.energy.find(':');
+  const std::string beam = image.energy.substr(0, colon);
+  if (colon != std::string::npos && (beam == "W/Rh" || beam == "Mo/Mo")) {
+    set.text(0x00180060, VR::DS, image.energy.substr(colon + 1))
+        .text(0x00181191, VR::CS, beam == "W/Rh" ? "TUNGSTEN" : "MOLYBDENUM")
+        .text(0x00187050, VR::CS, beam == "W/Rh" ? "RHODIUM" : "MOLYBDENUM");
+  }
+  set.text(0x00204000, VR::LT, "Simulated by libbreast; path is " + image.energy);
+}
+
+}  // namespace
+
+void write_mammogram_dicom(const std::filesystem::path& file, const Mammogram& image,
+                           const MammogramDicom& about) {
+  if (about.for_processing && image.energy == "fraction") {
+    throw input_error(
+        "a tissue-fraction image has no detector signal: give --energy as keV or a beam");
+  }
+  if (image.width > 65535 || image.height > 65535) {
+    throw input_error(file.string(), ": ", image.width, " x ", image.height,
+                      " pixels, DICOM holds 65535 a side; use larger pixels");
+  }
+  DatasetBuilder set;
+  add_identity(set, image, about.for_processing);
+  add_positioning(set, image, about);
+  add_pixels(set, image, about.for_processing);
+  add_acquisition(set, image);
+  AtomicFile target(file);
+  gdcm::Writer writer;
+  writer.GetFile().SetDataSet(set.set());
+  writer.GetFile().GetHeader().SetDataSetTransferSyntax(
+      gdcm::TransferSyntax::ExplicitVRLittleEndian);
+  writer.SetFileName(target.temporary().c_str());
+  if (!writer.Write()) throw failed_error(file.string(), ": DICOM cannot be written");
+  target.commit();
+}
+
+}  // namespace breast

@@ -1,0 +1,139 @@
+// Mammograms as DICOM: they read back as written, pass a standard validator, and what does not fit
+// is refused by name.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "fixtures/chain_files.hpp"
+#include "fixtures/run_tool.hpp"
+#include "fixtures/scratch_folder.hpp"
+#include "io/mammogram_dicom.hpp"
+#include "io/mammogram_file.hpp"
+#include "mammo/display.hpp"
+
+using namespace breast;
+namespace fs = std::filesystem;
+
+namespace {
+
+class MammogramDicomFile : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new ScratchFolder;
+    fixtures::write_chain(folder_->path());
+    for (const std::string view : {"cc", "mlo"}) {
+      const ToolResult result =
+          run_tool("project-mammogram",
+                   {view + ".vtkhdf", view + ".vti", "--labels", "labels.vtkhdf", "--pixel", "0.5",
+                    "--energy", "W/Rh:28", "--dicom", view + ".dcm"},
+                   folder_->path());
+      ASSERT_EQ(result.exit_code, 0) << result.err;
+    }
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static fs::path file(const std::string& name) { return *folder_ / name; }
+  /// The file with the first occurrence of a text replaced by one of the same length.
+  static fs::path changed(const std::string& name, const std::string& from, const std::string& to) {
+    std::string bytes = read_text(file("mlo.dcm"));
+    const auto at = bytes.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    EXPECT_EQ(from.size(), to.size());
+    bytes.replace(at, from.size(), to);
+    write_text(file(name), bytes);
+    return file(name);
+  }
+
+  static inline ScratchFolder* folder_ = nullptr;
+};
+
+std::string refusal(const fs::path& file) {
+  try {
+    read_mammogram_header(file);
+  } catch (const Error& error) {
+    return error.kind() == ErrorKind::input ? error.what() : "";
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_F(MammogramDicomFile, GeometryAndGreysReadBack) {
+  for (const std::string view : {"cc", "mlo"}) {
+    const Mammogram image = read_mammogram(file(view + ".vti"));
+    const HexMesh mesh = read_mesh(file(view + ".vtkhdf"));
+    const MammogramScan scan = read_mammogram_dicom(file(view + ".dcm"));
+    const MammogramHeader& header = scan.header;
+    EXPECT_EQ(header.view, image.view);
+    EXPECT_EQ(header.side, image.side);
+    EXPECT_EQ(header.columns, image.width);
+    EXPECT_EQ(header.rows, image.height);
+    EXPECT_DOUBLE_EQ(header.pixel_mm, 0.5);
+    EXPECT_NEAR(*header.angle_deg, image.pose.angle_deg, 1e-9);
+    EXPECT_NEAR(*header.thickness_mm, mesh.contact->thickness_mm, 1e-6);
+    EXPECT_NEAR(*header.force_N, mesh.contact->plates.front().force_N, 1e-6);
+    EXPECT_EQ(header.magnification, 1);
+    // Axes as a radiologist hangs the image.
+    const double way = image.side == Side::left ? 1 : -1;
+    EXPECT_GT(way * header.right.dot(image.pose.e_u), 0.9);
+    EXPECT_GT(way * header.down.dot(image.pose.e_v), 0.9);
+    const HungImage hung = hang(image);
+    const auto [low, high] = std::minmax_element(hung.grey.begin(), hung.grey.end());
+    for (std::size_t i = 0; i < hung.grey.size(); i += 17) {
+      ASSERT_NEAR(scan.grey[i], double(hung.grey[i] - *low) / double(*high - *low), 1e-6);
+    }
+  }
+}
+
+TEST_F(MammogramDicomFile, PassesTheValidator) {
+  // dciodvfy, of the Debian package dicom3tools, is the usual judge of DICOM conformance.
+  ASSERT_EQ(run_tool("project-mammogram",
+                     {"cc.vtkhdf", "raw.vti", "--pixel", "0.5", "--energy", "Mo/Mo:28", "--dicom",
+                      "raw.dcm", "--dicom-for", "processing", "--geometry", "cone"},
+                     folder_->path())
+                .exit_code,
+            0);
+  for (const char* name : {"cc.dcm", "mlo.dcm", "raw.dcm"}) {
+    const std::string log = file("verdict.txt").string();
+    const std::string command = "dciodvfy '" + file(name).string() + "' > '" + log + "' 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    const std::string verdict = read_text(log);
+    EXPECT_NE(verdict.find("MammographyImage"), std::string::npos) << verdict;
+    EXPECT_EQ(verdict.find("Error"), std::string::npos) << verdict;
+  }
+}
+
+TEST_F(MammogramDicomFile, TheSameImageGivesTheSameFile) {
+  const Mammogram image = read_mammogram(file("cc.vti"));
+  write_mammogram_dicom(file("one.dcm"), image, {});
+  write_mammogram_dicom(file("two.dcm"), image, {});
+  EXPECT_EQ(read_text(file("one.dcm")), read_text(file("two.dcm")));
+}
+
+TEST_F(MammogramDicomFile, HeadersThatDoNotFitAreRefusedByName) {
+  using namespace std::string_literals;
+  // Elements as stored: tag, type and length before the value.
+  const auto says = [](const fs::path& file, const char* what) {
+    EXPECT_NE(refusal(file).find(what), std::string::npos) << refusal(file);
+  };
+  says(changed("view.dcm", "CS\4\0MLO "s, "CS\4\0XCC "s), "XCC");
+  says(changed("side.dcm", "\x20\0\x62\0CS\2\0"s, "\x20\0\x63\0CS\2\0"s), "laterality");
+  says(changed("pixel.dcm", "\x18\0\x64\x11"s, "\x18\0\x66\x11"s), "pixel spacing is missing");
+  says(changed("modality.dcm", "CS\2\0MG"s, "CS\2\0MR"s), "MR");
+  const std::string whole = read_text(file("mlo.dcm"));
+  write_text(file("cut.dcm"), whole.substr(0, whole.size() - 100));
+  says(file("cut.dcm"), "truncated");
+  write_text(file("text.dcm"), "no DICOM");
+  says(file("text.dcm"), "not a DICOM file");
+}
+
+TEST_F(MammogramDicomFile, ATissueFractionImageHasNoDetectorSignal) {
+  const ToolResult result = run_tool(
+      "project-mammogram",
+      {"cc.vtkhdf", "f.vti", "--pixel", "1", "--dicom", "f.dcm", "--dicom-for", "processing"},
+      folder_->path());
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.error_lines(), 1) << result.err;
+  EXPECT_FALSE(fs::exists(file("f.dcm")));
+}
