@@ -1,5 +1,6 @@
 #include "mammo/projection.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 
@@ -75,7 +76,7 @@ class Projector {
                              mm);
         }
       }
-      image.path[at] = float(options_.energy.path(mm));
+      image.path[at] = chords.empty() ? 0 : float(std::max(0.0, options_.energy.path(mm)));
       image.thickness[at] = float(mm.total());
       image.fibroglandular[at] = float(mm.fibroglandular);
       sums.mm.fat += mm.fat;
