@@ -1,4 +1,4 @@
-// cc2mlo: the curve in the MLO mammogram on which a point of the CC mammogram must lie.
+// cc2mlo: the curve in one mammogram on which a point of another must lie.
 #include <algorithm>
 
 #include "cli/tool.hpp"
@@ -7,105 +7,126 @@
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
 #include "mammo/curve_lines.hpp"
+#include "mammo/point_pair.hpp"
 
 using namespace breast;
 
 namespace {
 
 struct Choices {
-  std::filesystem::path cc, mlo, curve, table;
-  std::vector<double> point;
-  std::string landmark;
+  std::filesystem::path from, to, curve, table, points, truth, supine;
+  std::vector<double> point, pair;
+  std::string landmark, geometry = "parallel";
   int grid = 0;
 
   void check() const {
-    if (int(!point.empty()) + int(!landmark.empty()) + int(grid > 0) != 1) {
-      throw input_error("give exactly one of --point u,v, --landmark NAME and --grid N");
+    const int questions = int(!point.empty()) + int(!pair.empty()) + int(!landmark.empty()) +
+                          int(grid > 0) + int(!points.empty()) + int(!truth.empty());
+    if (questions != 1) {
+      throw input_error(
+          "give exactly one of --point u,v, --pair u,v,u,v, --landmark NAME, --points FILE, "
+          "--truth "
+          "FILE and --grid N");
     }
+    if (!supine.empty() && pair.empty()) throw input_error("--supine is for --pair");
   }
 };
 
-std::vector<MatchQuery> queries_of(const Choices& choices, const Matcher& matcher,
-                                   const HexMesh& mesh) {
+std::vector<MatchQuery> queries_of(const Choices& choices, const Matcher& matcher) {
   if (choices.grid > 0) return grid_queries(matcher, choices.grid);
-  if (!choices.point.empty()) return {{Vec2(choices.point[0], choices.point[1]), ""}};
-  const auto uv = matcher.cc_landmark(choices.landmark);
-  if (!uv) {
-    std::string names;
-    for (const Landmark& landmark : mesh.landmarks) names += " " + landmark.name;
-    throw input_error(choices.cc.string(), ": no landmark \"", choices.landmark,
-                      "\"; it has:", names.empty() ? " none" : names);
+  if (!choices.points.empty()) {
+    return point_queries(read_table(choices.points), choices.points.string());
   }
-  return {{*uv, choices.landmark}};
-}
-
-void report_result(const MatchResult& result, Run& run) {
-  Report& report = run.report();
-  const auto pair = [](const Vec2& uv) { return std::vector<double>{uv.x(), uv.y()}; };
-  report.set("cc_uv_mm", pair(result.query.cc_uv));
-  report.set("column_mm", result.curve.points.back().depth);
-  report.set("curve_points", result.curve.points.size());
-  report.set("curve_mm", result.curve.length);
-  report.set("chord_mm", result.curve.chord);
-  report.set("max_bend_mm", result.curve.max_deviation);
-  if (result.nipple_distance > 0) report.set("nipple_distance_mm", result.nipple_distance);
-  if (result.truth) {
-    report.set("true_uv_mm", pair(*result.truth));
-    report.set("true_to_curve_mm", result.truth_to_curve);
-    report.set("true_to_chord_mm", result.truth_to_chord);
-    report.set("true_to_arc_mm", result.truth_to_arc);
+  if (!choices.truth.empty()) {
+    return truth_queries(matcher, read_table(choices.truth), choices.truth.string());
   }
+  const std::vector<double>& mark = choices.pair.empty() ? choices.point : choices.pair;
+  if (mark.size() >= 2) {
+    MatchQuery query{{mark[0], mark[1]}, "", std::nullopt};
+    if (mark.size() == 4) query.truth = Vec2(mark[2], mark[3]);
+    return {query};
+  }
+  return {landmark_query(matcher, choices.landmark)};
 }
 
 void judge(const std::vector<MatchResult>& results, const Matcher& matcher, Run& run) {
-  if (results.empty())
-    throw input_error("no point of the grid lies on tissue; use a larger --grid");
-  const auto is = [](const char* status) {
-    return [status](const MatchResult& result) { return result.status() == status; };
-  };
+  if (results.empty()) throw input_error("no point lies on tissue; use a larger --grid");
   if (results.size() == 1 && results[0].curve.in_air()) {
-    const Vec2& uv = results[0].query.cc_uv;
-    throw input_error("CC point (", format_fixed(uv.x(), 2), ", ", format_fixed(uv.y(), 2),
-                      ") mm lies in air; the image spans 0-",
-                      format_fixed(matcher.cc_frame().width, 1), " x 0-",
-                      format_fixed(matcher.cc_frame().height, 1), " mm");
+    const Vec2& uv = results[0].query.from_uv;
+    throw input_error(matcher.from_frame().view, " point (", format_fixed(uv.x(), 2), ", ",
+                      format_fixed(uv.y(), 2), ") mm lies in air; the image spans 0-",
+                      format_fixed(matcher.from_frame().width, 1), " x 0-",
+                      format_fixed(matcher.from_frame().height, 1), " mm");
   }
-  const auto back = std::count_if(results.begin(), results.end(), is("through_chest_wall"));
-  if (back > 0) {
+  const auto count = [&](const char* status) {
+    return std::count_if(results.begin(), results.end(),
+                         [&](const MatchResult& result) { return result.status() == status; });
+  };
+  if (const auto back = count("through_chest_wall"); back > 0) {
     run.warn(message(back, " of ", results.size(),
                      " columns leave the mesh through the chest wall:"
                      " their curves end there though the tissue does not"));
   }
-  if (!matcher.cc_landmark("nipple") || !matcher.mlo_landmark("nipple")) {
-    run.warn("the meshes have no nipple landmark: no equal-distance arc");
+  if (const auto behind = count("behind_image"); behind > 0) {
+    run.warn(message(behind, " of ", results.size(), " curves lie partly behind the edge of the ",
+                     matcher.to_frame().view, " image: the spot may not be in it"));
+  }
+  if (results.size() > 1 && count("air") > 0) {
+    run.warn(message(count("air"), " of ", results.size(), " points lie in air"));
+  }
+  if (!matcher.from_landmark("nipple") || !matcher.to_landmark("nipple")) {
+    run.warn("the meshes have no nipple landmark: no equal-distance arc and line");
   }
   run.report().set("queries", results.size());
-  run.report().set("matched",
-                   std::size_t(std::count_if(results.begin(), results.end(), is("matched"))));
+  run.report().set("matched", std::size_t(count("matched")));
+}
+
+void report_pair(const Choices& choices, const Matcher& matcher, Run& run) {
+  const Matcher backward(matcher.to(), matcher.from(),
+                         choices.geometry == "cone" ? Beam::cone : Beam::parallel);
+  const PairPoint pair = locate_pair(matcher, backward, {choices.pair[0], choices.pair[1]},
+                                     {choices.pair[2], choices.pair[3]});
+  Report& report = run.report();
+  const HexMesh& mesh = matcher.from();
+  report.set("spot/residual_mm", pair.residual);
+  report.set("spot/first_to_second_mm", pair.first_to_second);
+  report.set("spot/second_to_first_mm", pair.second_to_first);
+  report.set("spot/imaged", pair.position(mesh, mesh.imaged));
+  if (!mesh.reference.empty()) report.set("spot/reference", pair.position(mesh, mesh.reference));
+  report.set("spot/" + matcher.from_frame().view, pair.position(mesh, mesh.points));
+  report.set("spot/" + matcher.to_frame().view, pair.position(matcher.to(), matcher.to().points));
+  if (choices.supine.empty()) return;
+  const HexMesh supine = read_mesh(choices.supine);
+  if (supine.connectivity != mesh.connectivity) {
+    throw input_error(choices.supine.string(), ": not a shape of the same mesh");
+  }
+  report.set("spot/supine", pair.position(supine, supine.points));
 }
 
 void run_match(const Choices& choices, Run& run) {
-  const HexMesh cc = read_mesh(choices.cc, {.contact = true});
-  const HexMesh mlo = read_mesh(choices.mlo, {.contact = true});
-  const Matcher matcher(cc, mlo);
-  std::vector<MatchResult> results;
+  const HexMesh from = read_mesh(choices.from, {.contact = true});
+  const HexMesh to = read_mesh(choices.to, {.contact = true});
+  const Matcher matcher(from, to, choices.geometry == "cone" ? Beam::cone : Beam::parallel);
+  const std::vector<MatchQuery> queries = queries_of(choices, matcher);
+  std::vector<MatchResult> results(queries.size());
   {
     Timer::Scope phase(run.timer(), "match");
-    for (const MatchQuery& query : queries_of(choices, matcher, cc)) {
-      results.push_back(match_query(matcher, query));
-    }
+    const double start = run.seconds();
+#pragma omp parallel for schedule(dynamic, 4)
+    for (std::size_t q = 0; q < queries.size(); ++q) results[q] = match_query(matcher, queries[q]);
+    run.report().set(
+        "milliseconds_per_curve",
+        1e3 * (run.seconds() - start) / double(std::max<std::size_t>(queries.size(), 1)));
   }
   judge(results, matcher, run);
-  if (results.size() == 1) report_result(results[0], run);
+  if (results.size() == 1) report_match(results[0], run.report());
+  report_truth(results, run.report());
+  if (!choices.pair.empty()) report_pair(choices, matcher, run);
   PolyLines lines = curve_lines(matcher, results);
-  lines.history = run.history({{choices.cc, cc.content_sha256, &cc.history},
-                               {choices.mlo, mlo.content_sha256, &mlo.history}});
-  const Table table = curve_table(results);
-  if (choices.table.empty()) {
-    run.print(table.text());
-  } else {
-    write_table(choices.table, table);
-  }
+  lines.history = run.history({{choices.from, from.content_sha256, &from.history},
+                               {choices.to, to.content_sha256, &to.history}});
+  const Table table = curve_table(matcher, results);
+  choices.table.empty() ? run.print(table.text()) : write_table(choices.table, table);
   write_polylines(choices.curve, lines);
 }
 
@@ -113,26 +134,41 @@ void run_match(const Choices& choices, Run& run) {
 
 int main(int argc, char** argv) {
   Choices choices;
-  Tool tool("cc2mlo", "the MLO curve of a point in the CC mammogram");
+  Tool tool("cc2mlo", "where a point of one mammogram lies in another view");
   tool.describe(
       "A point of the CC mammogram is the shadow of a column of tissue. The column is followed "
       "through the material to the MLO compression and projected there: the point must lie on that "
-      "curve. Beside it the arc of equal distance from the nipple, which radiologists use. u and v "
-      "are mm from the origin stored in the mammogram. The table goes to stdout or --table.");
+      "curve. Views follow from the files: any two compressions of one mesh will do, in either "
+      "order. Beside the curve the rules radiologists use: the arc of equal distance from the "
+      "nipple and the straight line of equal depth behind it. u and v are mm from the origin "
+      "stored "
+      "in the mammogram. The table goes to stdout or --table.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), section IV-A, Figs 6 and 7");
-  tool.input(choices.cc, "CC.vtkhdf", "craniocaudal compression (compress --view CC)");
-  tool.input(choices.mlo, "MLO.vtkhdf",
-             "oblique compression of the same mesh (compress --view MLO)");
-  tool.output(choices.curve, "CURVE.vtp", "curve, arc, chord and the column in every shape");
-  tool.numbers(choices.point, "--point", "u,v", 2, "point of the CC image in mm");
-  tool.text(choices.landmark, "--landmark", "NAME",
-            "projection of this landmark of the meshes, such as tumour; its true MLO position is "
-            "compared");
-  tool.integer(choices.grid, "--grid", "N", "N x N points over the tissue of the CC image", 0, 200);
+  tool.input(choices.from, "CC.vtkhdf", "compression in which the point is marked");
+  tool.input(choices.to, "MLO.vtkhdf", "compression of the same mesh in another view");
+  tool.output(choices.curve, "CURVE.vtp", "curve, arc, line, chord and the column in every shape");
+  tool.numbers(choices.point, "--point", "u,v", 2, "point of the first image in mm");
+  tool.numbers(choices.pair, "--pair", "u,v,u,v", 4,
+               "the same spot in both images: also its place in the body, with residuals");
+  tool.input_file(choices.supine, "--supine", "SUPINE.vtkhdf", "with --pair: the spot there too");
+  tool.text(
+      choices.landmark, "--landmark", "NAME",
+      "projection of this landmark of the meshes, such as tumour; its own place in the second "
+      "view is compared");
+  tool.input_file(choices.points, "--points", "FILE", "TSV with u_mm, v_mm and perhaps name");
+  tool.input_file(
+      choices.truth, "--truth", "FILE",
+      "TSV of true positions: landmark, side, cc_x_mm ... mlo_z_mm; errors are reported");
+  tool.integer(choices.grid, "--grid", "N", "N x N points over the tissue of the first image", 0,
+               200);
+  tool.choice(choices.geometry, "--geometry", {"parallel", "cone"},
+              "beam, as in project-mammogram");
   tool.output_file(choices.table, "--table", "OUT.tsv", "one row per point");
   tool.check([&] { choices.check(); });
   tool.example("cc2mlo cc.vtkhdf mlo.vtkhdf curve.vtp --landmark tumour --table curve.tsv",
                "where the tumour seen in CC lies in MLO");
-  tool.example("cc2mlo cc.vtkhdf mlo.vtkhdf curves.vtp --point 42.5,61", "any point of the image");
+  tool.example("cc2mlo mlo.vtkhdf cc.vtkhdf curve.vtp --point 42.5,61", "from MLO to CC");
+  tool.example("cc2mlo cc.vtkhdf mlo.vtkhdf curve.vtp --pair 31,52,35,48 --supine supine.vtkhdf",
+               "a spot marked in both views: its place in the MR scan and supine");
   return tool.main(argc, argv, [&](Run& run) { run_match(choices, run); });
 }

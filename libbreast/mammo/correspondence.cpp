@@ -13,31 +13,30 @@ namespace {
 
 constexpr std::size_t fewest_points = 64;
 
-void check_views(const HexMesh& cc, const HexMesh& mlo) {
-  const auto view = [](const HexMesh& mesh) {
-    return mesh.contact ? mesh.contact->view : std::string("no compression");
-  };
-  const std::string first = view(cc), second = view(mlo);
-  if (first != "CC" || (second != "MLO" && second != "ML")) {
-    throw input_error("the first mesh shows ", first, ", the second ", second,
-                      "; give the CC compression first, then MLO or ML");
-  }
+std::string view_of(const HexMesh& mesh) {
+  return mesh.contact ? mesh.contact->view : "no compression";
 }
 
-void check_same_body(const HexMesh& cc, const HexMesh& mlo) {
-  check_views(cc, mlo);
-  if (cc.side != mlo.side) {
-    throw input_error("the CC mesh is of the ", side_name(cc.side), " breast, the MLO mesh of the ",
-                      side_name(mlo.side));
+void check_same_body(const HexMesh& from, const HexMesh& to) {
+  const std::string first = view_of(from), second = view_of(to);
+  if (!from.contact || !to.contact ||
+      std::abs(from.contact->angle_deg - to.contact->angle_deg) < 1) {
+    throw input_error("the first mesh shows ", first, ", the second ", second,
+                      "; give two compressions in different views, such as CC and MLO");
   }
-  if (cc.order != mlo.order || cc.connectivity != mlo.connectivity) {
-    throw input_error("the CC and MLO meshes have different elements (", cc.elements(), " and ",
-                      mlo.elements(), "); both must be compressions of one mesh");
+  if (from.side != to.side) {
+    throw input_error("the ", first, " mesh is of the ", side_name(from.side), " breast, the ",
+                      second, " mesh of the ", side_name(to.side));
   }
-  for (int i = 0; i < cc.nodes(); ++i) {
-    const double apart = (cc.imaged[i] - mlo.imaged[i]).norm();
+  if (from.order != to.order || from.connectivity != to.connectivity) {
+    throw input_error("the ", first, " and ", second, " meshes have different elements (",
+                      from.elements(), " and ", to.elements(),
+                      "); both must be compressions of one mesh");
+  }
+  for (int i = 0; i < from.nodes(); ++i) {
+    const double apart = (from.imaged[i] - to.imaged[i]).norm();
     if (!(apart <= 1e-6)) {
-      throw input_error("node ", i, " of the CC and MLO meshes is ", apart,
+      throw input_error("node ", i, " of the ", first, " and ", second, " meshes is ", apart,
                         " mm apart in the imaged shape; both must be compressions of one mesh");
     }
   }
@@ -55,22 +54,31 @@ double departure(const ColumnPoint& a, const ColumnPoint& middle, const ColumnPo
   const auto bend = [](const auto& x, const auto& m, const auto& y) {
     return (m - 0.5 * (x + y)).norm();
   };
-  return std::max({bend(a.mlo_uv, middle.mlo_uv, b.mlo_uv), bend(a.mlo, middle.mlo, b.mlo),
+  return std::max({bend(a.to_uv, middle.to_uv, b.to_uv), bend(a.to, middle.to, b.to),
                    bend(a.reference, middle.reference, b.reference),
                    bend(a.imaged, middle.imaged, b.imaged)});
 }
 
+double line_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 d = (b - a).stableNormalized();
+  return ((p - a) - (p - a).dot(d) * d).norm();
+}
+
 void measure(MatchedCurve& curve) {
   if (curve.points.empty()) return;
-  const Vec2 first = curve.points.front().mlo_uv, last = curve.points.back().mlo_uv;
+  const Vec2 first = curve.points.front().to_uv, last = curve.points.back().to_uv;
   curve.chord = (last - first).norm();
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const ColumnPoint& point = curve.points[i];
-    curve.max_deviation =
-        std::max(curve.max_deviation, segment_distance(point.mlo_uv, first, last));
-    if (i > 0 && curve.points[i - 1].stretch == point.stretch) {
-      curve.length += (point.mlo_uv - curve.points[i - 1].mlo_uv).norm();
-    }
+    curve.max_deviation = std::max(curve.max_deviation, segment_distance(point.to_uv, first, last));
+    curve.reference_deviation = std::max(
+        curve.reference_deviation, line_distance(point.reference, curve.points.front().reference,
+                                                 curve.points.back().reference));
+    if (i == 0 || curve.points[i - 1].stretch != point.stretch) continue;
+    const Vec2& before = curve.points[i - 1].to_uv;
+    const double step = (point.to_uv - before).norm();
+    curve.length += step;
+    if (0.5 * (point.to_uv.x() + before.x()) < 0) curve.behind_image += step;
   }
 }
 
@@ -83,30 +91,30 @@ std::optional<Vec2> project_landmark(const HexMesh& mesh, const ViewPose& pose,
 
 }  // namespace
 
-Matcher::Matcher(const HexMesh& cc, const HexMesh& mlo)
-    : cc_((check_same_body(cc, mlo), cc)),
-      mlo_(mlo),
-      cc_frame_(image_frame(cc)),
-      mlo_frame_(image_frame(mlo)),
-      cc_rays_(cc, cc.points, cc_frame_.pose),
-      mlo_rays_(mlo, mlo.points, mlo_frame_.pose) {}
+Matcher::Matcher(const HexMesh& from, const HexMesh& to, Beam beam)
+    : from_((check_same_body(from, to), from)),
+      to_(to),
+      from_frame_(image_frame(from, beam)),
+      to_frame_(image_frame(to, beam)),
+      from_rays_(from, from.points, from_frame_.pose),
+      to_rays_(to, to.points, to_frame_.pose) {}
 
 ColumnPoint Matcher::point_on(const Ray& ray, const Chord& chord, double distance) const {
   const double f = (distance - chord.enter) / (chord.leave - chord.enter);
   Vec3 local = (1 - f) * chord.local_enter + f * chord.local_leave;
-  cc_rays_.piece(chord.piece).invert(ray.at(distance), 1e-10, local);
+  from_rays_.piece(chord.piece).invert(ray.at(distance), 1e-10, local);
   ColumnPoint point;
-  point.element = cc_rays_.element(chord.piece);
-  point.local = cc_rays_.element_local(chord.piece, local).cwiseMax(-1.0).cwiseMin(1.0);
+  point.element = from_rays_.element(chord.piece);
+  point.local = from_rays_.element_local(chord.piece, local).cwiseMax(-1.0).cwiseMin(1.0);
   point.depth = distance;
   const auto in = [&](const HexMesh& mesh, const std::vector<Vec3>& nodal) {
     return element_position(mesh, nodal, point.element, point.local);
   };
-  point.cc = in(cc_, cc_.points);
-  point.mlo = in(mlo_, mlo_.points);
-  point.imaged = in(cc_, cc_.imaged);
-  point.reference = cc_.reference.empty() ? point.imaged : in(cc_, cc_.reference);
-  point.mlo_uv = mlo_frame_.pose.project(point.mlo);
+  point.from = in(from_, from_.points);
+  point.to = in(to_, to_.points);
+  point.imaged = in(from_, from_.imaged);
+  point.reference = from_.reference.empty() ? point.imaged : in(from_, from_.reference);
+  point.to_uv = to_frame_.pose.project(point.to);
   return point;
 }
 
@@ -126,14 +134,14 @@ void Matcher::refine(const Ray& ray, const Chord& chord, double from, double to,
   points.push_back(end);
 }
 
-MatchedCurve Matcher::match(const Vec2& cc_uv, double tolerance) const {
+MatchedCurve Matcher::match(const Vec2& from_uv, double tolerance) const {
   MatchedCurve curve;
-  curve.cc_uv = cc_uv;
+  curve.from_uv = from_uv;
   std::vector<Chord> chords;
-  cc_rays_.trace(cc_uv, chords);
-  curve.through_back = cc_rays_.leaves_through_back(chords);
+  from_rays_.trace(from_uv, chords);
+  curve.through_back = from_rays_.leaves_through_back(chords);
   if (chords.empty()) return curve;
-  const Ray ray = cc_rays_.ray(cc_uv);
+  const Ray ray = from_rays_.ray(from_uv);
   const std::size_t parts = 1 + fewest_points / (2 * chords.size());
   double tissue = 0;  // passed before this chord
   int stretch = 0;
@@ -159,42 +167,48 @@ MatchedCurve Matcher::match(const Vec2& cc_uv, double tolerance) const {
   return curve;
 }
 
-std::optional<Vec2> Matcher::cc_landmark(std::string_view name) const {
-  return project_landmark(cc_, cc_frame_.pose, name);
+std::optional<Vec2> Matcher::from_landmark(std::string_view name) const {
+  return project_landmark(from_, from_frame_.pose, name);
 }
 
-std::optional<Vec2> Matcher::mlo_landmark(std::string_view name) const {
-  return project_landmark(mlo_, mlo_frame_.pose, name);
+std::optional<Vec2> Matcher::to_landmark(std::string_view name) const {
+  return project_landmark(to_, to_frame_.pose, name);
 }
 
-bool Matcher::tissue_in_mlo(const Vec2& uv) const {
+bool Matcher::tissue_in_to(const Vec2& uv) const {
   std::vector<Chord> chords;
-  mlo_rays_.trace(uv, chords);
+  to_rays_.trace(uv, chords);
   return !chords.empty();
 }
 
-bool Matcher::tissue_in_cc(const Vec2& uv) const {
+bool Matcher::tissue_in_from(const Vec2& uv) const {
   std::vector<Chord> chords;
-  cc_rays_.trace(uv, chords);
+  from_rays_.trace(uv, chords);
   return !chords.empty();
 }
 
-double Matcher::nipple_distance(const Vec2& cc_uv) const {
-  const std::optional<Vec2> nipple = cc_landmark("nipple");
-  return nipple ? (cc_uv - *nipple).norm() : 0;
+double Matcher::nipple_distance(const Vec2& from_uv) const {
+  const std::optional<Vec2> nipple = from_landmark("nipple");
+  return nipple ? (from_uv - *nipple).norm() : 0;
 }
 
-std::vector<std::vector<Vec2>> Matcher::nipple_arc(const Vec2& cc_uv) const {
+std::optional<double> Matcher::nipple_depth_line(const Vec2& from_uv) const {
+  const auto first = from_landmark("nipple"), second = to_landmark("nipple");
+  if (!first || !second) return std::nullopt;
+  return second->x() - (first->x() - from_uv.x());
+}
+
+std::vector<std::vector<Vec2>> Matcher::nipple_arc(const Vec2& from_uv) const {
   std::vector<std::vector<Vec2>> stretches;
-  const std::optional<Vec2> nipple = mlo_landmark("nipple");
-  const double radius = nipple_distance(cc_uv);
+  const std::optional<Vec2> nipple = to_landmark("nipple");
+  const double radius = nipple_distance(from_uv);
   if (!nipple || !(radius > 0)) return stretches;
   const int steps = std::clamp(int(std::numbers::pi * radius / 0.25), 90, 4000);
   bool inside = false;
   for (int k = 0; k <= steps; ++k) {  // the posterior half circle, from one side to the other
     const double angle = std::numbers::pi * (0.5 + double(k) / steps);
     const Vec2 uv = *nipple + radius * Vec2(std::cos(angle), std::sin(angle));
-    const bool tissue = uv.x() >= 0 && tissue_in_mlo(uv);
+    const bool tissue = uv.x() >= 0 && tissue_in_to(uv);
     if (tissue && !inside) stretches.emplace_back();
     if (tissue) stretches.back().push_back(uv);
     inside = tissue;
@@ -202,14 +216,13 @@ std::vector<std::vector<Vec2>> Matcher::nipple_arc(const Vec2& cc_uv) const {
   return stretches;
 }
 
-double distance_to_curve(const MatchedCurve& curve, const Vec2& mlo_uv) {
+double distance_to_curve(const MatchedCurve& curve, const Vec2& to_uv) {
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const ColumnPoint& point = curve.points[i];
-    nearest = std::min(nearest, (mlo_uv - point.mlo_uv).norm());
+    nearest = std::min(nearest, (to_uv - point.to_uv).norm());
     if (i > 0 && curve.points[i - 1].stretch == point.stretch) {
-      nearest =
-          std::min(nearest, segment_distance(mlo_uv, curve.points[i - 1].mlo_uv, point.mlo_uv));
+      nearest = std::min(nearest, segment_distance(to_uv, curve.points[i - 1].to_uv, point.to_uv));
     }
   }
   return nearest;

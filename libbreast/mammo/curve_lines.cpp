@@ -1,9 +1,7 @@
 #include "mammo/curve_lines.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <cctype>
 #include <functional>
-#include <limits>
 
 namespace breast {
 
@@ -48,35 +46,45 @@ void add_column(Writer& writer, const std::string& name, int query, const Matche
 }
 
 void add_result(Writer& writer, int query, const MatchResult& result, const Matcher& matcher) {
-  const ViewPose &cc = matcher.cc_frame().pose, &mlo = matcher.mlo_frame().pose;
+  const ViewPose &from = matcher.from_frame().pose, &to = matcher.to_frame().pose;
+  const std::string &first = matcher.from_frame().view, &second = matcher.to_frame().view;
   const MatchedCurve& curve = result.curve;
-  writer.marker("point in CC", query, cc, result.query.cc_uv);
-  if (result.truth) writer.marker("truth in MLO", query, mlo, *result.truth);
-  const auto in_mlo = [](const ColumnPoint& p) { return p.mlo_uv; };
-  const auto in_cc = [&](const ColumnPoint&) { return result.query.cc_uv; };
+  writer.marker("point in " + first, query, from, result.query.from_uv);
+  if (result.query.truth) writer.marker("truth in " + second, query, to, *result.query.truth);
+  const auto in_to = [](const ColumnPoint& p) { return p.to_uv; };
+  const auto in_from = [&](const ColumnPoint&) { return result.query.from_uv; };
   add_column(
-      writer, "curve", query, curve,
-      [&](const ColumnPoint& p) { return mlo.on_detector(p.mlo_uv); }, in_mlo);
+      writer, "curve", query, curve, [&](const ColumnPoint& p) { return to.on_detector(p.to_uv); },
+      in_to);
   add_column(
-      writer, "column in CC", query, curve, [](const ColumnPoint& p) { return p.cc; }, in_cc);
+      writer, "column in " + first, query, curve, [](const ColumnPoint& p) { return p.from; },
+      in_from);
   add_column(
       writer, "column in reference", query, curve, [](const ColumnPoint& p) { return p.reference; },
-      in_cc);
+      in_from);
   add_column(
       writer, "column in imaged", query, curve, [](const ColumnPoint& p) { return p.imaged; },
-      in_cc);
+      in_from);
   add_column(
-      writer, "column in MLO", query, curve, [](const ColumnPoint& p) { return p.mlo; }, in_mlo);
+      writer, "column in " + second, query, curve, [](const ColumnPoint& p) { return p.to; },
+      in_to);
   if (!curve.in_air()) {
     writer.line("chord", query);
     for (const ColumnPoint& end : {curve.points.front(), curve.points.back()}) {
-      writer.point(mlo.on_detector(end.mlo_uv), end.mlo_uv, end.depth);
+      writer.point(to.on_detector(end.to_uv), end.to_uv, end.depth);
     }
   }
   for (const auto& stretch : result.arc) {
     if (stretch.size() < 2) continue;
     writer.line("arc", query);
-    for (const Vec2& uv : stretch) writer.point(mlo.on_detector(uv), uv, 0);
+    for (const Vec2& uv : stretch) writer.point(to.on_detector(uv), uv, 0);
+  }
+  if (result.depth_line && *result.depth_line >= 0) {
+    writer.line("line", query);
+    for (const double v : {0.0, matcher.to_frame().height}) {
+      const Vec2 uv(*result.depth_line, v);
+      writer.point(to.on_detector(uv), uv, 0);
+    }
   }
 }
 
@@ -86,85 +94,43 @@ std::string number_or_dash(bool known, double value) {
 
 }  // namespace
 
-std::string MatchResult::status() const {
-  if (curve.in_air()) return "air";
-  return curve.through_back ? "through_chest_wall" : "matched";
-}
-
-MatchResult match_query(const Matcher& matcher, const MatchQuery& query) {
-  MatchResult result;
-  result.query = query;
-  result.curve = matcher.match(query.cc_uv);
-  if (result.curve.in_air()) return result;
-  result.arc = matcher.nipple_arc(query.cc_uv);
-  result.nipple_distance = matcher.nipple_distance(query.cc_uv);
-  if (query.landmark.empty()) return result;
-  result.truth = matcher.mlo_landmark(query.landmark);
-  if (!result.truth) return result;
-  result.truth_to_curve = distance_to_curve(result.curve, *result.truth);
-  if (const auto nipple = matcher.mlo_landmark("nipple")) {
-    result.truth_to_arc = std::abs((*result.truth - *nipple).norm() - result.nipple_distance);
-  }
-  MatchedCurve chord;
-  chord.points = {result.curve.points.front(), result.curve.points.back()};
-  chord.points.back().stretch = chord.points.front().stretch;
-  result.truth_to_chord = distance_to_curve(chord, *result.truth);
-  return result;
-}
-
-std::vector<MatchQuery> grid_queries(const Matcher& matcher, int n) {
-  // The image's tissue, found on a coarse raster, then spread evenly inside it.
-  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  const ImageFrame& frame = matcher.cc_frame();
-  for (double v = 0.5; v < frame.height; v += 1) {
-    for (double u = 0.5; u < frame.width; u += 1) {
-      if (!matcher.tissue_in_cc({u, v})) continue;
-      low = low.cwiseMin(Vec2(u, v));
-      high = high.cwiseMax(Vec2(u, v));
-    }
-  }
-  std::vector<MatchQuery> queries;
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
-      const Vec2 f((i + 0.5) / n, (j + 0.5) / n);
-      const Vec2 uv = low + f.cwiseProduct(high - low);
-      if (matcher.tissue_in_cc(uv)) queries.push_back({uv, ""});
-    }
-  }
-  return queries;
-}
-
 PolyLines curve_lines(const Matcher& matcher, const std::vector<MatchResult>& results) {
   Writer writer;
-  for (const char* view : {"CC", "MLO"}) {
-    const bool cc = std::string(view) == "CC";
-    const auto nipple = cc ? matcher.cc_landmark("nipple") : matcher.mlo_landmark("nipple");
-    const ViewPose& pose = cc ? matcher.cc_frame().pose : matcher.mlo_frame().pose;
-    if (nipple) writer.marker(std::string("nipple in ") + view, -1, pose, *nipple);
-  }
+  const auto nipple = [&](const ImageFrame& frame, const std::optional<Vec2>& at) {
+    if (at) writer.marker("nipple in " + frame.view, -1, frame.pose, *at);
+  };
+  nipple(matcher.from_frame(), matcher.from_landmark("nipple"));
+  nipple(matcher.to_frame(), matcher.to_landmark("nipple"));
   for (std::size_t q = 0; q < results.size(); ++q) add_result(writer, int(q), results[q], matcher);
   return writer.take();
 }
 
-Table curve_table(const std::vector<MatchResult>& results) {
+Table curve_table(const Matcher& matcher, const std::vector<MatchResult>& results) {
+  std::string view = matcher.from_frame().view;
+  for (char& letter : view) letter = char(std::tolower(static_cast<unsigned char>(letter)));
   Table table;
-  table.columns = {
-      "query",     "landmark",  "status",           "cc_u_mm",          "cc_v_mm",
-      "column_mm", "curve_mm",  "chord_mm",         "max_bend_mm",      "nipple_distance_mm",
-      "true_u_mm", "true_v_mm", "true_to_curve_mm", "true_to_chord_mm", "true_to_arc_mm"};
+  table.columns = {"query",          "landmark",          "status",           view + "_u_mm",
+                   view + "_v_mm",   "column_mm",         "curve_mm",         "chord_mm",
+                   "max_bend_mm",    "reference_bend_mm", "behind_image_mm",  "nipple_distance_mm",
+                   "true_u_mm",      "true_v_mm",         "true_to_curve_mm", "true_to_chord_mm",
+                   "true_to_arc_mm", "true_to_line_mm"};
   for (std::size_t q = 0; q < results.size(); ++q) {
     const MatchResult& r = results[q];
-    const bool tissue = !r.curve.in_air(), truth = r.truth.has_value();
+    const bool tissue = !r.curve.in_air(), truth = tissue && r.query.truth.has_value();
     const bool nipple = tissue && r.nipple_distance > 0;
     table.rows.push_back(
         {std::to_string(q), r.query.landmark.empty() ? "-" : r.query.landmark, r.status(),
-         format_fixed(r.query.cc_uv.x(), 4), format_fixed(r.query.cc_uv.y(), 4),
+         format_fixed(r.query.from_uv.x(), 4), format_fixed(r.query.from_uv.y(), 4),
          number_or_dash(tissue, tissue ? r.curve.points.back().depth : 0),
          number_or_dash(tissue, r.curve.length), number_or_dash(tissue, r.curve.chord),
-         number_or_dash(tissue, r.curve.max_deviation), number_or_dash(nipple, r.nipple_distance),
-         number_or_dash(truth, truth ? r.truth->x() : 0),
-         number_or_dash(truth, truth ? r.truth->y() : 0), number_or_dash(truth, r.truth_to_curve),
-         number_or_dash(truth, r.truth_to_chord), number_or_dash(truth && nipple, r.truth_to_arc)});
+         number_or_dash(tissue, r.curve.max_deviation),
+         number_or_dash(tissue, r.curve.reference_deviation),
+         number_or_dash(tissue, r.curve.behind_image), number_or_dash(nipple, r.nipple_distance),
+         number_or_dash(truth, truth ? r.query.truth->x() : 0),
+         number_or_dash(truth, truth ? r.query.truth->y() : 0),
+         number_or_dash(truth, r.truth_to_curve), number_or_dash(truth, r.truth_to_chord),
+         number_or_dash(truth && nipple, r.truth_to_arc),
+         number_or_dash(truth && nipple, r.truth_to_line)});
   }
   return table;
 }

@@ -52,58 +52,59 @@ HexMesh bent(const std::string& view) {
 TEST(Correspondence, AnAffineDeformationGivesAStraightCurve) {
   const HexMesh cc = squashed(body(), "CC", 0.5), mlo = squashed(body(), "MLO", 0.6);
   const Matcher matcher(cc, mlo);
-  const MatchedCurve curve = matcher.match(*matcher.cc_landmark("tumour"));
+  const MatchedCurve curve = matcher.match(*matcher.from_landmark("tumour"));
   ASSERT_FALSE(curve.in_air());
   EXPECT_GE(curve.points.size(), 64u);
   EXPECT_LT(curve.max_deviation, 1e-9);
   EXPECT_NEAR(curve.length, curve.chord, 1e-9);
   EXPECT_GT(curve.length, 10);
   // The projected landmark lies on it (its ray passes a millionth of a millimetre beside).
-  EXPECT_LT(distance_to_curve(curve, *matcher.mlo_landmark("tumour")), 2e-6);
+  EXPECT_LT(distance_to_curve(curve, *matcher.to_landmark("tumour")), 2e-6);
   EXPECT_FALSE(curve.through_back);
 }
 
 TEST(Correspondence, EveryPointIsTheSameMaterialInEveryShape) {
   const HexMesh cc = bent("CC"), mlo = bent("MLO");
   const Matcher matcher(cc, mlo);
-  const MatchedCurve curve = matcher.match(*matcher.cc_landmark("tumour"));
+  const MatchedCurve curve = matcher.match(*matcher.from_landmark("tumour"));
   const Locator in_cc(cc, cc.points), in_mlo(mlo, mlo.points), in_imaged(cc, cc.imaged);
   for (std::size_t i = 0; i < curve.points.size(); i += 5) {
     const ColumnPoint& point = curve.points[i];
     // Onto the CC pixel ...
-    EXPECT_LT((matcher.cc_frame().pose.project(point.cc) - curve.cc_uv).norm(), 2e-6);
+    EXPECT_LT((matcher.from_frame().pose.project(point.from) - curve.from_uv).norm(), 2e-6);
     // ... and back: found again in the other shapes, it is the same point of the first.
-    const Location a = in_mlo.nearest(point.mlo), b = in_imaged.nearest(point.imaged);
-    EXPECT_LT((element_position(cc, cc.points, a.element, a.local) - point.cc).norm(), 1e-6);
-    EXPECT_LT((element_position(cc, cc.points, b.element, b.local) - point.cc).norm(), 1e-6);
-    EXPECT_EQ(matcher.mlo_frame().pose.project(point.mlo), point.mlo_uv);
+    const Location a = in_mlo.nearest(point.to), b = in_imaged.nearest(point.imaged);
+    EXPECT_LT((element_position(cc, cc.points, a.element, a.local) - point.from).norm(), 1e-6);
+    EXPECT_LT((element_position(cc, cc.points, b.element, b.local) - point.from).norm(), 1e-6);
+    EXPECT_EQ(matcher.to_frame().pose.project(point.to), point.to_uv);
   }
   // And from MLO to CC: the projection of an MLO curve's points contains the CC pixel.
-  EXPECT_LT(distance_to_curve(curve, *matcher.mlo_landmark("tumour")), 2e-3);
+  EXPECT_LT(distance_to_curve(curve, *matcher.to_landmark("tumour")), 2e-3);
 }
 
 TEST(Correspondence, DepthRunsThroughTheColumnOnce) {
   const HexMesh cc = bent("CC"), mlo = bent("MLO");
   const Matcher matcher(cc, mlo);
-  const MatchedCurve curve = matcher.match(*matcher.cc_landmark("tumour"));
+  const MatchedCurve curve = matcher.match(*matcher.from_landmark("tumour"));
   EXPECT_NEAR(curve.points.front().depth, 0, 1e-9);
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
     EXPECT_GT(curve.points[i].depth, curve.points[i - 1].depth);
-    const double step = (curve.points[i].cc - curve.points[i - 1].cc).norm();
+    const double step = (curve.points[i].from - curve.points[i - 1].from).norm();
     EXPECT_NEAR(curve.points[i].depth - curve.points[i - 1].depth, step, 1e-6);
     // From the paddle to the detector.
-    EXPECT_GT((curve.points[i].cc - curve.points[i - 1].cc).dot(matcher.cc_frame().pose.n), 0);
+    EXPECT_GT((curve.points[i].from - curve.points[i - 1].from).dot(matcher.from_frame().pose.n),
+              0);
   }
 }
 
 TEST(Correspondence, TheCurveIsSampledToItsTolerance) {
   const HexMesh cc = bent("CC"), mlo = bent("MLO");
   const Matcher matcher(cc, mlo);
-  const Vec2 at = *matcher.cc_landmark("tumour") + Vec2(4, 7);
+  const Vec2 at = *matcher.from_landmark("tumour") + Vec2(4, 7);
   const MatchedCurve coarse = matcher.match(at, 0.05), fine = matcher.match(at, 0.001);
   EXPECT_GT(fine.points.size(), coarse.points.size());
   for (const ColumnPoint& point : fine.points) {
-    EXPECT_LT(distance_to_curve(coarse, point.mlo_uv), 0.05);
+    EXPECT_LT(distance_to_curve(coarse, point.to_uv), 0.05);
   }
   EXPECT_GT(fine.max_deviation, 0.5);  // this one is bent
   EXPECT_GT(fine.length, fine.chord);
@@ -112,16 +113,16 @@ TEST(Correspondence, TheCurveIsSampledToItsTolerance) {
 TEST(Correspondence, TheArcKeepsTheDistanceFromTheNipple) {
   const HexMesh cc = bent("CC"), mlo = bent("MLO");
   const Matcher matcher(cc, mlo);
-  const Vec2 tumour = *matcher.cc_landmark("tumour");
+  const Vec2 tumour = *matcher.from_landmark("tumour");
   const double radius = matcher.nipple_distance(tumour);
-  EXPECT_NEAR(radius, (tumour - *matcher.cc_landmark("nipple")).norm(), 1e-12);
+  EXPECT_NEAR(radius, (tumour - *matcher.from_landmark("nipple")).norm(), 1e-12);
   const auto arc = matcher.nipple_arc(tumour);
   ASSERT_FALSE(arc.empty());
   int points = 0;
   for (const auto& stretch : arc) {
     for (const Vec2& uv : stretch) {
-      EXPECT_NEAR((uv - *matcher.mlo_landmark("nipple")).norm(), radius, 1e-9);
-      EXPECT_TRUE(matcher.tissue_in_mlo(uv));
+      EXPECT_NEAR((uv - *matcher.to_landmark("nipple")).norm(), radius, 1e-9);
+      EXPECT_TRUE(matcher.tissue_in_to(uv));
       ++points;
     }
   }
@@ -131,9 +132,9 @@ TEST(Correspondence, TheArcKeepsTheDistanceFromTheNipple) {
 TEST(Correspondence, AirAndTheBackAreNamed) {
   const HexMesh cc = squashed(body(), "CC", 0.5), mlo = squashed(body(), "MLO", 0.6);
   const Matcher matcher(cc, mlo);
-  const MatchedCurve air = matcher.match({matcher.cc_frame().width - 1, 1});
+  const MatchedCurve air = matcher.match({matcher.from_frame().width - 1, 1});
   EXPECT_TRUE(air.in_air());
-  const Vec2 nipple = *matcher.cc_landmark("nipple");
+  const Vec2 nipple = *matcher.from_landmark("nipple");
   const MatchedCurve behind = matcher.match({-3, nipple.y()});
   EXPECT_FALSE(behind.in_air());
   EXPECT_TRUE(behind.through_back);

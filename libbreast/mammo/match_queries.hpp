@@ -1,0 +1,55 @@
+// Questions to a Matcher and all that is found for each.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/report.hpp"
+#include "core/table.hpp"
+#include "mammo/correspondence.hpp"
+
+namespace breast {
+
+/// A point of the first image asked about.
+struct MatchQuery {
+  Vec2 from_uv;
+  std::string landmark;       ///< name when the point is a landmark's projection, else empty
+  std::optional<Vec2> truth;  ///< where it truly lies in the second image, when that is known
+};
+
+/// Everything found for one query.
+struct MatchResult {
+  MatchQuery query;
+  MatchedCurve curve;
+  std::vector<std::vector<Vec2>> arc;
+  double nipple_distance = 0;        ///< mm, 0 without a nipple
+  std::optional<double> depth_line;  ///< mm, u of the straight rule in the second image
+  /// mm from the truth; with `query.truth` only, arc and line with a nipple only.
+  double truth_to_curve = 0, truth_to_arc = 0, truth_to_line = 0, truth_to_chord = 0;
+  /// "matched", "air", "through_chest_wall", "behind_image" (part of the curve).
+  std::string status() const;
+};
+MatchResult match_query(const Matcher& matcher, const MatchQuery& query);
+
+/// A landmark of the meshes: its projection, with its own place in the second view as truth.
+/// Throws Error (input) listing the landmarks there are.
+MatchQuery landmark_query(const Matcher& matcher, const std::string& name);
+/// N × N points spread over the tissue of the first image, those in air left out.
+std::vector<MatchQuery> grid_queries(const Matcher& matcher, int n);
+/// Rows of a table with columns u_mm, v_mm and perhaps name.
+std::vector<MatchQuery> point_queries(const Table& table, const std::string& where);
+/// Rows of a table of true positions: landmark, side and FROM_x_mm, FROM_y_mm, FROM_z_mm, TO_x_mm
+/// ... with the views' names in lower case (cc_x_mm, mlo_x_mm). Rows of the other breast, and those
+/// whose true position lies behind the first image's posterior edge, are left out.
+std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table,
+                                      const std::string& where);
+
+/// Length, bends and distances of one result: keys from_uv_mm, curve_mm, max_bend_mm,
+/// true_to_curve_mm ...
+void report_match(const MatchResult& result, Report& report);
+/// Mean, 95 % and largest distance of the truth to "curve", "arc", "line", "chord", mm, over the
+/// results that have one: keys truth/N, truth/curve/mean_mm ...
+void report_truth(const std::vector<MatchResult>& results, Report& report);
+
+}  // namespace breast
