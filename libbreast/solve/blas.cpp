@@ -4,8 +4,6 @@
 #include <mutex>
 #include <string_view>
 
-#include "core/parallel.hpp"
-
 extern "C" {
 // Weak: present only when the BLAS is OpenBLAS, the gotoblas ones only with run-time kernels.
 void openblas_set_num_threads(int) __attribute__((weak));
@@ -51,7 +49,7 @@ void choose_kernels() {
 void prepare_blas() {
   static std::once_flag once;
   std::call_once(once, choose_kernels);
-  if (openblas_set_num_threads != nullptr) openblas_set_num_threads(threads());
+  if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
 }
 
 std::string blas_name() {

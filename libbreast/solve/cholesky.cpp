@@ -1,139 +1,208 @@
 #include "solve/cholesky.hpp"
 
-#include <cholmod.h>
-
-#include <cstring>
-#include <vector>
+#include <algorithm>
+#include <atomic>
+#include <new>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "solve/blas.hpp"
+#include "solve/block_pool.hpp"
+#include "solve/dense.hpp"
+#include "solve/front_tree.hpp"
 
 namespace breast {
 
-struct Cholesky::Impl {
-  cholmod_common common{};
-  cholmod_sparse matrix{};
-  cholmod_factor* factor = nullptr;
-  cholmod_dense *solution = nullptr, *work_y = nullptr, *work_e = nullptr;
-  std::vector<long> starts, rows;
-
-  ~Impl() {
-    cholmod_l_free_dense(&solution, &common);
-    cholmod_l_free_dense(&work_y, &common);
-    cholmod_l_free_dense(&work_e, &common);
-    cholmod_l_free_factor(&factor, &common);
-    cholmod_l_finish(&common);
-  }
-};
-
 namespace {
-
-// The graph of nodes, lower triangle without values: three times fewer vertices than unknowns.
-std::vector<long> node_ordering(const NodePattern& pattern, cholmod_common& common) {
-  std::vector<long> starts{0}, rows;
-  for (int b = 0; b < pattern.nodes(); ++b) {
-    rows.push_back(b);
-    rows.insert(rows.end(), pattern.rows_begin(b), pattern.rows_begin(b) + pattern.rows_count(b));
-    starts.push_back(long(rows.size()));
-  }
-  cholmod_sparse graph{};
-  graph.nrow = graph.ncol = std::size_t(pattern.nodes());
-  graph.nzmax = rows.size();
-  graph.p = starts.data();
-  graph.i = rows.data();
-  graph.stype = -1;
-  graph.itype = CHOLMOD_LONG;
-  graph.xtype = CHOLMOD_PATTERN;
-  graph.dtype = CHOLMOD_DOUBLE;
-  graph.sorted = graph.packed = 1;
-  std::vector<long> order(static_cast<std::size_t>(pattern.nodes()));
-  if (cholmod_l_metis(&graph, nullptr, 0, 1, order.data(), &common) == 0) {
-    throw failed_error("METIS ordering failed (CHOLMOD status ", common.status, ")");
-  }
-  return order;
-}
-
-cholmod_dense dense_view(Eigen::VectorXd& v) {
-  cholmod_dense view{};
-  view.nrow = view.nzmax = view.d = std::size_t(v.size());
-  view.ncol = 1;
-  view.x = v.data();
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  return view;
-}
-
+// Flops of a subtree that is worth a task of its own, and values of L that are worth one in a
+// solve.
+constexpr double worth_factor_task = 3e6, worth_solve_task = 2e7;
 }  // namespace
 
-Cholesky::Cholesky(const NodePattern& pattern) : impl_(std::make_unique<Impl>()) {
-  cholmod_common& common = impl_->common;
-  cholmod_l_start(&common);
-  common.print = 0;
-  common.supernodal = CHOLMOD_SUPERNODAL;
-  common.final_ll = 1;
-  common.nmethods = 1;
-  common.postorder = 1;
-  common.method[0].ordering = CHOLMOD_GIVEN;
-  prepare_blas();
-
-  impl_->starts = pattern.column_start();
-  impl_->rows = pattern.row_index();
-  cholmod_sparse& matrix = impl_->matrix;
-  matrix.nrow = matrix.ncol = std::size_t(pattern.unknowns());
-  matrix.nzmax = impl_->rows.size();
-  matrix.p = impl_->starts.data();
-  matrix.i = impl_->rows.data();
-  matrix.stype = -1;
-  matrix.itype = CHOLMOD_LONG;
-  matrix.xtype = CHOLMOD_PATTERN;
-  matrix.dtype = CHOLMOD_DOUBLE;
-  matrix.sorted = matrix.packed = 1;
-
-  std::vector<long> order;
-  order.reserve(matrix.nrow);
-  for (const long node : node_ordering(pattern, common)) {
-    for (int k = 0; k < 3; ++k) order.push_back(3 * node + k);
+class Cholesky::Impl {
+ public:
+  explicit Impl(const NodePattern& pattern) : tree(make_front_tree(pattern)) {
+    prepare_blas();
+    try {
+      factor_.reset(new double[std::size_t(tree.panel_start.back())]);
+    } catch (const std::bad_alloc&) {
+      throw failed_error("the Cholesky factor needs ", tree.stored_entries() * 8e-9,
+                         " GB, more than there is: use --solver multigrid or a coarser mesh");
+    }
+    rest_.resize(std::size_t(tree.count()));
+    for (int f = 0; f < tree.count(); ++f) {
+      if (tree.parent[f] < 0) roots_.push_back(f);
+    }
   }
-  impl_->factor = cholmod_l_analyze_p(&matrix, order.data(), nullptr, 0, &common);
-  if (impl_->factor == nullptr) {
-    throw failed_error("Cholesky analysis failed (CHOLMOD status ", common.status, ") for ",
-                       matrix.nrow, " unknowns; out of memory?");
+
+  bool factorise(const std::vector<double>& values);
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+
+  const FrontTree tree;
+
+ private:
+  void factor_subtree(int f, const double* values);
+  void factor_front(int f, const double* values);
+  void add_child(int child, int f);
+  void down_subtree(int f, double* x, std::vector<double>& carried) const;
+  void down_front(int f, double* x, std::vector<double>& carried) const;
+  void up_subtree(int f, double* x) const;
+  void up_front(int f, double* x, std::vector<double>& below) const;
+
+  const double* panel(int f) const { return factor_.get() + tree.panel_start[f]; }
+  double* panel(int f) { return factor_.get() + tree.panel_start[f]; }
+
+  std::vector<int> roots_;
+  std::unique_ptr<double[]> factor_;
+  std::vector<BlockPool::Block> rest_;  // what a front leaves to its parent
+  BlockPool pool_;
+  std::atomic<bool> failed_{false};
+};
+
+// Lower triangle of what the child leaves, into its parent's panel and rest.
+void Cholesky::Impl::add_child(int child, int f) {
+  const int from = tree.columns(child), size = tree.height(child) - from;
+  const int* place = tree.in_parent.data() + tree.row_start[child] + from;
+  const int height = tree.height(f), columns = tree.columns(f), behind = height - columns;
+  const double* source = rest_[child].data.get();
+  double *front = panel(f), *rest = rest_[f].data.get();
+  for (int j = 0; j < size; ++j) {
+    double* column = place[j] < columns ? front + long(place[j]) * height
+                                        : rest + long(place[j] - columns) * behind - columns;
+    const double* values = source + long(j) * size;
+    for (int i = j; i < size; ++i) column[place[i]] += values[i];
   }
+  pool_.give_back(std::move(rest_[child]));
+  rest_[child] = {};
 }
 
+void Cholesky::Impl::factor_front(int f, const double* values) {
+  const int height = tree.height(f), columns = tree.columns(f), behind = height - columns;
+  double* front = panel(f);
+  std::fill_n(front, std::size_t(height) * columns, 0.0);
+  for (long v = tree.entry_start[f]; v < tree.entry_start[f + 1]; ++v) {
+    front[tree.target[v]] += values[tree.source[v]];
+  }
+  if (behind > 0) {
+    rest_[f] = pool_.take(std::size_t(behind) * behind);
+    for (int j = 0; j < behind; ++j) {
+      std::fill_n(rest_[f].data.get() + long(j) * behind + j, behind - j, 0.0);
+    }
+  }
+  for (int k = tree.child_start[f]; k < tree.child_start[f + 1]; ++k) add_child(tree.child[k], f);
+  if (!dense::eliminate(front, height, columns, rest_[f].data.get())) failed_ = true;
+}
+
+void Cholesky::Impl::factor_subtree(int f, const double* values) {
+  if (tree.work[f] < worth_factor_task) {
+    for (int g = tree.subtree[f]; g <= f && !failed_; ++g) factor_front(g, values);
+    return;
+  }
+  for (int k = tree.child_start[f]; k < tree.child_start[f + 1]; ++k) {
+    const int child = tree.child[k];
+#pragma omp task default(none) firstprivate(child, values) if (tree.work[child] > worth_factor_task)
+    factor_subtree(child, values);
+  }
+#pragma omp taskwait
+  if (!failed_) factor_front(f, values);
+}
+
+bool Cholesky::Impl::factorise(const std::vector<double>& values) {
+  failed_ = false;
+  const double* data = values.data();
+#pragma omp parallel num_threads(threads())
+#pragma omp single
+  for (const int root : roots_) factor_subtree(root, data);
+  for (BlockPool::Block& block : rest_) {
+    pool_.give_back(std::move(block));
+    block = {};
+  }
+  return !failed_;
+}
+
+// Going down, a front subtracts its part from the rows behind it: gathered in `carried`, one value
+// per row of every front, and added to the parent's.
+void Cholesky::Impl::down_front(int f, double* x, std::vector<double>& carried) const {
+  const int columns = tree.columns(f);
+  double* own = carried.data() + tree.row_start[f];
+  for (int k = tree.child_start[f]; k < tree.child_start[f + 1]; ++k) {
+    const int child = tree.child[k];
+    for (long r = tree.row_start[child] + tree.columns(child); r < tree.row_start[child + 1]; ++r) {
+      own[tree.in_parent[r]] += carried[r];
+    }
+  }
+  double* solved = x + tree.first_column[f];
+  for (int i = 0; i < columns; ++i) solved[i] += own[i];
+  dense::solve_down(panel(f), tree.height(f), columns, solved, own + columns);
+}
+
+void Cholesky::Impl::down_subtree(int f, double* x, std::vector<double>& carried) const {
+  if (tree.work[f] < worth_solve_task) {
+    for (int g = tree.subtree[f]; g <= f; ++g) down_front(g, x, carried);
+    return;
+  }
+  for (int k = tree.child_start[f]; k < tree.child_start[f + 1]; ++k) {
+    const int child = tree.child[k];
+#pragma omp task default(none) firstprivate(child, x) \
+    shared(carried) if (tree.work[child] > worth_solve_task)
+    down_subtree(child, x, carried);
+  }
+#pragma omp taskwait
+  down_front(f, x, carried);
+}
+
+void Cholesky::Impl::up_front(int f, double* x, std::vector<double>& below) const {
+  const int columns = tree.columns(f), behind = tree.height(f) - columns;
+  const int* rows = tree.rows.data() + tree.row_start[f] + columns;
+  below.resize(std::size_t(behind));
+  for (int i = 0; i < behind; ++i) below[i] = x[rows[i]];
+  dense::solve_up(panel(f), tree.height(f), columns, x + tree.first_column[f], below.data());
+}
+
+void Cholesky::Impl::up_subtree(int f, double* x) const {
+  std::vector<double> below;
+  if (tree.work[f] < worth_solve_task) {
+    for (int g = f; g >= tree.subtree[f]; --g) up_front(g, x, below);
+    return;
+  }
+  up_front(f, x, below);
+  for (int k = tree.child_start[f]; k < tree.child_start[f + 1]; ++k) {
+    const int child = tree.child[k];
+#pragma omp task default(none) firstprivate(child, x) if (tree.work[child] > worth_solve_task)
+    up_subtree(child, x);
+  }
+#pragma omp taskwait
+}
+
+Eigen::VectorXd Cholesky::Impl::solve(const Eigen::VectorXd& right) const {
+  const long n = right.size();
+  Eigen::VectorXd x(n), out(n);
+  for (long i = 0; i < n; ++i) x[i] = right[tree.order[i]];
+  std::vector<double> carried(tree.rows.size(), 0.0);
+#pragma omp parallel num_threads(threads())
+#pragma omp single
+  for (const int root : roots_) {
+    down_subtree(root, x.data(), carried);
+    up_subtree(root, x.data());
+  }
+  for (long i = 0; i < n; ++i) out[tree.order[i]] = x[i];
+  return out;
+}
+
+Cholesky::Cholesky(const NodePattern& pattern) : impl_(std::make_unique<Impl>(pattern)) {}
 Cholesky::~Cholesky() = default;
 
 bool Cholesky::factorise(const std::vector<double>& values) {
-  cholmod_common& common = impl_->common;
-  impl_->matrix.xtype = CHOLMOD_REAL;
-  impl_->matrix.x = const_cast<double*>(values.data());
-  common.quick_return_if_not_posdef = 1;
-  cholmod_l_factorize(&impl_->matrix, impl_->factor, &common);
-  impl_->matrix.x = nullptr;
-  if (common.status < CHOLMOD_OK) {
-    throw failed_error("Cholesky factorisation failed (CHOLMOD status ", common.status,
-                       "): the factor needs about ", factor_entries() * 8e-9,
-                       " GB; use a coarser mesh");
-  }
-  return common.status == CHOLMOD_OK && impl_->factor->minor == impl_->factor->n;
+  return impl_->factorise(values);
 }
-
 Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& right_hand_side) const {
-  Eigen::VectorXd copy = right_hand_side;
-  cholmod_dense b = dense_view(copy);
-  if (cholmod_l_solve2(CHOLMOD_A, impl_->factor, &b, nullptr, &impl_->solution, nullptr,
-                       &impl_->work_y, &impl_->work_e, &impl_->common) == 0) {
-    throw failed_error("Cholesky solve failed (CHOLMOD status ", impl_->common.status, ")");
-  }
-  std::memcpy(copy.data(), impl_->solution->x, sizeof(double) * std::size_t(copy.size()));
-  return copy;
+  return impl_->solve(right_hand_side);
 }
-
 double Cholesky::factor_entries() const {
-  return impl_->common.lnz;
+  return impl_->tree.stored_entries();
 }
 double Cholesky::factor_gflop() const {
-  return impl_->common.fl * 1e-9;
+  return impl_->tree.flops() * 1e-9;
 }
 
 }  // namespace breast

@@ -1,9 +1,11 @@
-// Supernodal Cholesky (CHOLMOD) of a symmetric node matrix: one analysis, many factorisations.
+// Multifrontal Cholesky of a symmetric node matrix: one analysis, many factorisations. Fronts are
+// shared among threads by subtree, large ones by tiles; the result is the same for any number of
+// threads.
 #pragma once
 
 #include <Eigen/Core>
 #include <memory>
-#include <string>
+#include <vector>
 
 #include "solve/node_matrix.hpp"
 
@@ -21,11 +23,11 @@ class Cholesky {
   bool factorise(const std::vector<double>& values);
   Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const;
 
-  double factor_entries() const;  ///< nonzeros of L
+  double factor_entries() const;  ///< values of L as stored, zeros of merged columns included
   double factor_gflop() const;    ///< work of one factorisation
 
  private:
-  struct Impl;
+  class Impl;
   std::unique_ptr<Impl> impl_;
 };
 

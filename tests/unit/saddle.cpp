@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <limits>
 
+#include "core/parallel.hpp"
 #include "fixtures/block.hpp"
 #include "mechanics/scene.hpp"
 #include "solve/gmres.hpp"
@@ -112,6 +114,46 @@ TEST(NodeMatrix, IsSymmetricAndMatchesItsBlocks) {
   const Eigen::VectorXd difference =
       (small.problem->forces(up, nullptr).r - small.problem->forces(down, nullptr).r) / (2 * h);
   EXPECT_LT((difference - matrix.multiply_unaugmented(direction)).norm(), 1e-6 * difference.norm());
+}
+
+// Fronts of all sizes, tiles and subtrees: the solution of a dense solver, the same bits on any
+// number of threads, and no factor where there is none.
+TEST(Cholesky, MatchesADenseSolverOnAnyNumberOfThreads) {
+  fixtures::BlockSettings settings;
+  settings.elements = {9, 8, 7};
+  const HexMesh mesh = fixtures::block(settings);
+  MechanicsOptions options;
+  options.materials = load_materials("seed2008");
+  const Scene scene(mesh, options);
+  const ForwardProblem problem(scene, flatten(mesh.reference),
+                               Eigen::VectorXd::Zero(3L * mesh.nodes()));
+  SaddleMatrix matrix = problem.make_matrix();
+  SaddleForces forces;
+  ASSERT_TRUE(
+      problem.tangent({flatten(mesh.reference), scene.assembly().rest_pressure()}, forces, matrix));
+  for (int node = 0; node < mesh.nodes(); ++node) {
+    matrix.stiffness.add_to_node(node, matrix.diagonal.mean() * Mat3::Identity());
+  }
+  Eigen::VectorXd right(3L * mesh.nodes());
+  for (long i = 0; i < right.size(); ++i) right[i] = fixtures::noise(int(i));
+  const Eigen::VectorXd exact = dense(matrix.stiffness).llt().solve(right);
+  const int before = threads();
+  Cholesky cholesky(*problem.pattern());
+  set_threads(1);
+  ASSERT_TRUE(cholesky.factorise(matrix.stiffness.values()));
+  const Eigen::VectorXd alone = cholesky.solve(right);
+  set_threads(3);
+  ASSERT_TRUE(cholesky.factorise(matrix.stiffness.values()));
+  EXPECT_EQ(cholesky.solve(right), alone);
+  EXPECT_LT((alone - exact).norm(), 1e-11 * exact.norm());
+  for (const double bad : {-1e12, std::numeric_limits<double>::quiet_NaN()}) {
+    NodeMatrix spoiled = matrix.stiffness;
+    spoiled.add_to_node(mesh.nodes() / 2, bad * Mat3::Identity());
+    EXPECT_FALSE(cholesky.factorise(spoiled.values()));
+  }
+  ASSERT_TRUE(cholesky.factorise(matrix.stiffness.values()));
+  EXPECT_EQ(cholesky.solve(right), alone);
+  set_threads(before);
 }
 
 TEST(Constraints, ProjectAndRotate) {
