@@ -23,6 +23,7 @@ fem: material mesh core
 solve: core
 mechanics: fem material mesh solve surface core
 contact: mammo mechanics fem material mesh solve surface core
+deck: mechanics material mesh solve core
 phantom: mechanics fem material mesh solve surface image core
 figures: mesh mammo surface image core
 evaluation: mesh surface image core

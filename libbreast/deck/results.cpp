@@ -1,0 +1,176 @@
+#include "deck/results.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "deck/scene.hpp"
+#include "deck/serendipity.hpp"
+
+namespace breast {
+
+namespace {
+
+// Values by node as they are found; complete() asks that none is missing.
+class NodeValues {
+ public:
+  NodeValues(std::string file, int nodes)
+      : file_(std::move(file)), values_(std::size_t(nodes), Vec3::Constant(std::nan(""))) {}
+
+  void clear() { values_.assign(values_.size(), Vec3::Constant(std::nan(""))); }
+  void set(const std::string& node, const std::array<std::string, 3>& cells) {
+    const double number = parse_number(node, file_ + ", node number");
+    if (!(number >= 1) || !(number <= double(values_.size())) || number != std::floor(number)) {
+      throw input_error(file_, ": node ", node, " is not among the ", values_.size(),
+                        " of the deck; is this the result of another mesh?");
+    }
+    for (int k = 0; k < 3; ++k) {
+      values_[std::size_t(number) - 1][k] = parse_number(cells[k], file_ + ", node " + node);
+    }
+  }
+  const std::vector<Vec3>& complete() const {
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      if (!values_[i].allFinite()) {
+        throw input_error(file_, ": no displacement of node ", i + 1, " of ", values_.size(),
+                          "; did the run end?");
+      }
+    }
+    return values_;
+  }
+
+ private:
+  std::string file_;
+  std::vector<Vec3> values_;
+};
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r+");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
+}
+
+// CalculiX cgx format, ASCII: blocks headed by "100CL" (time in columns 12–24) and "-4  DISP".
+std::vector<Vec3> read_frd(const std::string& name, const std::string& text, int nodes) {
+  NodeValues values(name, nodes);
+  std::istringstream in(text);
+  double time = 0;
+  bool in_block = false, found = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.compare(0, 7, "  100CL") == 0 && line.size() >= 24) {
+      time = parse_number(trimmed(line.substr(12, 12)), name + ", time");
+    } else if (line.compare(0, 9, " -4  DISP") == 0) {
+      values.clear();
+      in_block = found = true;
+    } else if (line.compare(0, 3, " -3") == 0) {
+      in_block = false;
+    } else if (in_block && line.compare(0, 3, " -1") == 0) {
+      if (line.size() < 49) throw input_error(name, ": line cut short: '", line, "'");
+      values.set(trimmed(line.substr(3, 10)),
+                 {trimmed(line.substr(13, 12)), trimmed(line.substr(25, 12)),
+                  trimmed(line.substr(37, 12))});
+    }
+  }
+  if (!found || !(time > 1 - 1e-6)) {
+    throw not_converged_error(name, ": the run stopped at ", 100 * time,
+                              " % of its load; see what the program printed");
+  }
+  return values.complete();
+}
+
+// Lines of a node number and three values, separated by commas or blanks; any other line that is
+// not blank starts a new block, whose values count only if they follow.
+std::vector<Vec3> read_lines(const std::string& name, const std::string& text, int nodes) {
+  NodeValues values(name, nodes);
+  std::istringstream in(text);
+  bool fresh = true;
+  for (std::string line; std::getline(in, line);) {
+    for (char& c : line) c = c == ',' || c == '\r' ? ' ' : c;
+    std::istringstream cells(line);
+    std::vector<std::string> words;
+    for (std::string word; cells >> word;) words.push_back(word);
+    if (words.empty()) continue;
+    const bool row =
+        words.size() == 4 && words[0].find_first_not_of("0123456789") == std::string::npos;
+    if (!row) {
+      fresh = true;
+      continue;
+    }
+    if (fresh) values.clear();
+    fresh = false;
+    values.set(words[0], {trimmed(words[1]), trimmed(words[2]), trimmed(words[3])});
+  }
+  return values.complete();
+}
+
+// "total force (fx,fy,fz) for set HELD and time ..." and the three numbers after it; the last one.
+std::optional<Vec3> read_total_force(const std::string& name, const std::string& text) {
+  const std::size_t title = text.rfind("total force");
+  if (title == std::string::npos) return std::nullopt;
+  std::istringstream in(text.substr(std::min(text.find('\n', title), text.size())));
+  Vec3 force;
+  for (int k = 0; k < 3; ++k) {
+    std::string word;
+    in >> word;
+    force[k] = parse_number(trimmed(word), name + ", total force");
+  }
+  return force;
+}
+
+}  // namespace
+
+DeckResult read_deck_result(const std::filesystem::path& file, int nodes) {
+  const std::string name = file.filename().string(), ending = file.extension().string();
+  DeckResult result;
+  if (ending == ".frd") {
+    result.displacement = read_frd(name, read_text(file), nodes);
+    std::filesystem::path beside = file;
+    beside.replace_extension(".dat");
+    if (std::filesystem::exists(beside)) {
+      result.reaction = read_total_force(beside.filename().string(), read_text(beside));
+    }
+  } else if (ending == ".dat" || ending == ".log") {
+    result.displacement = read_lines(name, read_text(file), nodes);
+  } else {
+    throw input_error("--read-back ", name, ": its ending must be .frd, .dat or .log");
+  }
+  return result;
+}
+
+void apply_displacement(HexMesh& mesh, const std::vector<Vec3>& displacement) {
+  const std::vector<int> nodes = deck_nodes(mesh);
+  if (nodes.size() != displacement.size()) {
+    throw input_error("displacements of ", displacement.size(), " nodes for a deck of ",
+                      nodes.size());
+  }
+  std::vector<Vec3> u(mesh.reference.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < nodes.size(); ++i) u[nodes[i]] = displacement[i];
+  if (mesh.order == 2) interpolate_centres(mesh, u);
+  for (std::size_t i = 0; i < u.size(); ++i) mesh.points[i] = mesh.reference[i] + u[i];
+  mesh.pressure.clear();
+  mesh.det_F.clear();
+  mesh.contact.reset();
+  mesh.contact_pressure.clear();
+}
+
+NodeDifference node_difference(const HexMesh& mesh, const HexMesh& other) {
+  if (mesh.connectivity != other.connectivity) {
+    throw input_error("the two meshes have different elements (", mesh.elements(), " and ",
+                      other.elements(), ")");
+  }
+  NodeDifference difference;
+  for (int i = 0; i < mesh.nodes(); ++i) {
+    const double distance = (mesh.points[i] - other.points[i]).norm();
+    difference.mean_mm += distance / mesh.nodes();
+    if (distance > difference.max_mm) {
+      difference.max_mm = distance;
+      difference.worst_node = i;
+    }
+    difference.largest_displacement_mm =
+        std::max(difference.largest_displacement_mm, (other.points[i] - mesh.reference[i]).norm());
+  }
+  return difference;
+}
+
+}  // namespace breast

@@ -1,0 +1,52 @@
+// A scene as other finite-element programs take it: the same reference shape, elements, laws,
+// supports and nodal gravity forces as `forward`, without anything a deck cannot say.
+#pragma once
+
+#include <vector>
+
+#include "mechanics/mechanics.hpp"
+
+namespace breast {
+
+struct DeckMaterial {
+  Tissue tissue = Tissue::fat;
+  Law law;                  ///< of the isochoric invariants
+  double density = 0;       ///< g/mm³
+  double bulk_modulus = 0;  ///< Pa
+};
+
+/// A node that slides in the plane of a unit normal.
+struct DeckRoller {
+  int node = 0;
+  Vec3 normal{0, 0, 1};
+};
+
+/// Nodes and elements are counted from 0; a deck counts from 1.
+struct DeckScene {
+  std::vector<Vec3> nodes;    ///< stress-free positions, mm
+  int nodes_per_element = 8;  ///< 8, or 20 for a mesh of 27-node elements
+  std::vector<int> connectivity;
+  std::vector<Tissue> tissue;           ///< per element
+  std::vector<DeckMaterial> materials;  ///< of the tissues present, by tissue code
+  std::vector<int> held;                ///< nodes held in all components
+  std::vector<DeckRoller> rolling;
+  std::vector<Vec3> load;  ///< per node, µN: nodal gravity forces of the imaged shape
+  Vec3 gravity{0, 0, 0};   ///< mm/s²
+  int elements() const { return int(tissue.size()); }
+};
+
+/// `options.bulk_ratio` must be given: no deck can say exactly incompressible. A membrane skin has
+/// no counterpart in a deck: it is left out when `without_skin`, refused otherwise (as are plain
+/// invariants). Throws Error (input).
+DeckScene deck_scene(const HexMesh& mesh, const MechanicsOptions& options, const Vec3& gravity,
+                     bool without_skin);
+
+/// The loads with those on held nodes taken out, which do no work (programs differ in whether they
+/// count them in the supports' total force, so no deck has them).
+std::vector<Vec3> free_load(const DeckScene& scene);
+
+/// The deck's nodes as nodes of the mesh: all of an 8-node mesh; of a 27-node mesh the corners and
+/// mid-edges, in order of number.
+std::vector<int> deck_nodes(const HexMesh& mesh);
+
+}  // namespace breast

@@ -1,0 +1,40 @@
+# Comparison with CalculiX (Debian: calculix-ccx), really run beside ours: gravity on the block and on the
+# case's breast without skin, the same nodes, law and bulk modulus. One row a scene in runs/compare/*.tsv.
+# Scenes of the block are named block-N-LAW-BULKRATIO-ELEMENT; poly is the set seed2008's fat.
+COMPARE := $(RUNS)/compare
+COMPARE_SCENES ?= block-8-poly-1000-C3D8I block-8-poly-1000-C3D8 block-8-mr-100-C3D8I \
+  block-8-mr-1000-C3D8I block-4-poly-1000-C3D20R block-16-poly-1000-C3D8I breast-1000-C3D8I
+COMPARE_ELEMENTS ?= 10
+EXPORT_DECK := $(BIN)/export-deck
+COMPARE_FILES := $(COMPARE_SCENES:%=$(COMPARE)/%.tsv)
+compare_run = BIN=$(BIN) pipelines/compare/compare.sh
+compare_needs := $(FORWARD) $(EXPORT_DECK) pipelines/compare/compare.sh
+
+.PHONY: compare
+ifeq ($(shell command -v ccx),)
+compare:
+	@echo "compare: skipped, CalculiX (ccx) is not installed; apt-get install calculix-ccx" >&2
+else
+compare: $(COMPARE)/all.tsv
+	@cat $<
+endif
+$(COMPARE)/all.tsv: $(COMPARE_FILES)
+	@awk 'NR == 1 || FNR > 1' $^ > $@.part
+	@mv $@.part $@
+
+$(COMPARE)/block-%.tsv: $(compare_needs) pipelines/compare/mooney-rivlin.tsv
+	@mkdir -p $(COMPARE)
+	cmake --build $(BUILD) --target block_mesh > $(COMPARE)/.build.log
+	$(BIN)/block_mesh $(call part,1,$*) $(COMPARE)/block-$*.vtkhdf
+	$(compare_run) $(COMPARE)/block-$*.vtkhdf $@ $(call part,3,$*) $(call part,4,$*) \
+	  $(if $(filter mr,$(call part,2,$*)),pipelines/compare/mooney-rivlin.tsv,seed2008) --gravity 0,0,-9810
+part = $(word $1,$(subst -, ,$2))
+
+# The case's breast, stress-free to supine, without skin.
+$(COMPARE)/breast-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH)
+	@mkdir -p $(COMPARE)
+	$(HEXMESH) $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $@ --elements $(COMPARE_ELEMENTS) --skin 0
+$(COMPARE)/breast-reference.vtkhdf: $(COMPARE)/breast-mesh.vtkhdf $(BACKWARD)
+	$(BACKWARD) $< $@ --posture prone --materials $(MATERIALS)
+$(COMPARE)/breast-%.tsv: $(COMPARE)/breast-reference.vtkhdf $(compare_needs)
+	$(compare_run) $< $@ $(call part,1,$*) $(call part,2,$*) $(MATERIALS) --posture supine

@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# forward by CalculiX: ccx-forward.sh REFERENCE DEFORMED [options of forward and export-deck]
+#   make -f Makefile.pipeline FORWARD=pipelines/compare/ccx-forward.sh ...
+# Writes a deck, runs ccx on it, reads its displacements back. BIN: folder of our programs. KEEP=FOLDER
+# keeps deck, log and result there. Exit codes are those of forward.
+set -euo pipefail
+bin=$(realpath "${BIN:-$(dirname "$0")/../../build/release/bin}")
+command -v ccx > /dev/null || { echo "ccx-forward: CalculiX is missing (Debian: calculix-ccx)" >&2; exit 1; }
+[ $# -ge 2 ] || { echo "ccx-forward: usage: ccx-forward.sh REFERENCE DEFORMED [options]" >&2; exit 2; }
+reference=$1 deformed=$2
+shift 2
+threads=$(nproc) report=() options=()
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --report) report=("$1" "$2"); shift 2 ;;
+    --threads) threads=$2; shift 2 ;;
+    *) options+=("$1"); shift ;;
+  esac
+done
+if [ -n "${KEEP:-}" ]; then
+  work=$KEEP
+  mkdir -p "$work"
+else
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+fi
+"$bin/export-deck" "$reference" "$work/deck.inp" "${options[@]}"
+(cd "$work" && rm -f deck.frd deck.dat && OMP_NUM_THREADS=$threads ccx deck > ccx.log 2>&1) ||
+  { grep -m 1 'ERROR' "$work/ccx.log" || tail -n 5 "$work/ccx.log"; } >&2
+[ -s "$work/deck.frd" ] || { echo "ccx-forward: CalculiX wrote no result" >&2; exit 3; }
+"$bin/export-deck" "$reference" "$deformed" --read-back "$work/deck.frd" "${options[@]}" "${report[@]}"

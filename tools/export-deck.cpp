@@ -1,0 +1,153 @@
+// export-deck: a scene for FEBio or CalculiX, and their result back as a mesh.
+#include "cli/mechanics_options.hpp"
+#include "cli/tool.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "core/units.hpp"
+#include "deck/calculix.hpp"
+#include "deck/febio.hpp"
+#include "deck/results.hpp"
+#include "io/mesh_file.hpp"
+#include "mechanics/element_order.hpp"
+#include "mechanics/options.hpp"
+#include "mesh/quality.hpp"
+
+using namespace breast;
+
+namespace {
+
+// Where no bulk modulus is asked for: volume held to about a thousandth.
+constexpr double default_bulk_ratio = 1000;
+
+struct Choices {
+  std::filesystem::path reference, out, result, base;
+  GravityChoices gravity{"supine", {}};
+  MechanicsChoices mechanics;
+  std::string calculix_element;
+  bool without_skin = false;
+};
+
+void declare(Tool& tool, Choices& c) {
+  tool.describe(
+      "Writes what forward would solve (stress-free shape, laws, held nodes, gravity) as input of "
+      "CalculiX or Abaqus (OUT.inp) or FEBio 4 (OUT.feb): the same nodes, elements and laws of the "
+      "isochoric invariants. These programs hold volume by a bulk modulus, --bulk-ratio (1000 when "
+      "not given). A membrane skin is not in them: mesh with hexmesh --skin-as layer or --skin 0, "
+      "or leave it out knowingly. Law (10) is in FEBio only. CalculiX takes gravity as the nodal "
+      "forces forward uses, FEBio as a body force per unit mass.");
+  tool.describe(
+      "With --read-back RESULT writes OUT.vtkhdf instead: the mesh displaced as the other program "
+      "found, for probe and render. --base compares it node by node with another shape of the same "
+      "mesh.");
+  tool.cite(
+      "Dhondt 2004, The Finite Element Method for Three-Dimensional Thermomechanical "
+      "Applications (CalculiX); Maas et al. 2012, J Biomech Eng 134(1) (FEBio)");
+  tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
+  tool.output(c.out, "OUT.inp|OUT.feb|OUT.vtkhdf", "deck, or with --read-back the displaced mesh");
+  declare_gravity(tool, c.gravity, "direction of gravity");
+  declare_mechanics(tool, c.mechanics);
+  tool.flag(c.without_skin, "--without-skin", "leave a membrane skin out of the deck");
+  tool.text(
+      c.calculix_element, "--calculix-element", "TYPE",
+      "C3D8I, C3D8, C3D8R, or with 27-node elements C3D20R, C3D20 (the first is the default)");
+  tool.input_file(c.result, "--read-back", "RESULT",
+                  "displacements of the deck's nodes: .frd or .dat (CalculiX), .log (FEBio)");
+  tool.input_file(c.base, "--base", "FILE.vtkhdf",
+                  "with --read-back: mesh to compare with, node by node");
+  tool.check([&c] {
+    const std::string ending = c.out.extension().string();
+    const bool mesh = ending == ".vtkhdf";
+    if (!mesh && ending != ".inp" && ending != ".feb") {
+      throw input_error(c.out.filename().string(), ": its ending must be .inp, .feb or .vtkhdf");
+    }
+    if (mesh == c.result.empty()) {
+      throw input_error(mesh ? "OUT.vtkhdf needs --read-back RESULT"
+                             : "--read-back writes a mesh: name OUT.vtkhdf");
+    }
+    if (!c.base.empty() && c.result.empty()) throw input_error("--base needs --read-back RESULT");
+  });
+  tool.example("export-deck reference.vtkhdf supine.inp --bulk-ratio 1000 --without-skin",
+               "then: ccx supine");
+  tool.example(
+      "export-deck reference.vtkhdf supine-ccx.vtkhdf --read-back supine.frd "
+      "--base supine.vtkhdf",
+      "CalculiX's answer as a mesh, and its distance to ours");
+}
+
+DeckScene scene_of(const Choices& c, const HexMesh& mesh, Run& run) {
+  MechanicsOptions options = mechanics_options(c.mechanics);
+  if (!(options.bulk_ratio > 0)) {
+    options.bulk_ratio = default_bulk_ratio;
+    run.warn(message("exactly incompressible cannot be written: bulk over shear modulus ",
+                     default_bulk_ratio, " instead (--bulk-ratio)"));
+  }
+  if (mesh.skin_model == SkinModel::membrane && c.without_skin) {
+    run.warn("the membrane skin is left out");
+  }
+  return deck_scene(mesh, options, c.gravity.vector(), c.without_skin);
+}
+
+void write_deck(const Choices& c, const HexMesh& mesh, Run& run) {
+  const DeckScene scene = scene_of(c, mesh, run);
+  const bool calculix = c.out.extension() == ".inp";
+  const std::string element = !c.calculix_element.empty()    ? c.calculix_element
+                              : scene.nodes_per_element == 8 ? "C3D8I"
+                                                             : "C3D20R";
+  write_text(c.out, calculix ? calculix_deck(scene, element) : febio_deck(scene));
+  run.report().set("elements", scene.elements());
+  run.report().set("nodes", scene.nodes.size());
+  run.report().set("held_nodes", scene.held.size());
+  run.report().set("element", calculix ? element : message("hex", scene.nodes_per_element));
+}
+
+// Supports and gravity must add up to nothing.
+void report_balance(const Choices& c, const HexMesh& mesh, const Vec3& reaction, Run& run) {
+  const DeckScene scene = scene_of(c, mesh, run);
+  if (!scene.rolling.empty()) return;  // the rollers' share is not in the total of the held nodes
+  Vec3 weight = Vec3::Zero();
+  for (const Vec3& force : free_load(scene)) weight += force;
+  run.report().set("weight_on_free_nodes_N", weight / micronewton_per_newton);
+  run.report().set("reaction_N", reaction / micronewton_per_newton);
+  run.report().set("force_balance", (reaction + weight).norm() / weight.norm());
+}
+
+void compare(const Choices& c, const HexMesh& mesh, Run& run) {
+  const NodeDifference d = node_difference(mesh, read_mesh(c.base));
+  const double relative = d.max_mm / d.largest_displacement_mm;
+  run.report().set("difference/mean_mm", d.mean_mm);
+  run.report().set("difference/max_mm", d.max_mm);
+  run.report().set("difference/largest_displacement_mm", d.largest_displacement_mm);
+  run.report().set("difference/relative", relative);
+  run.report().set("difference/worst_at", mesh.imaged[d.worst_node]);
+  run.print("mean_mm\tmax_mm\tlargest_displacement_mm\trelative\n" + format_fixed(d.mean_mm, 5) +
+            "\t" + format_fixed(d.max_mm, 5) + "\t" + format_fixed(d.largest_displacement_mm, 4) +
+            "\t" + format_fixed(relative, 6) + "\n");
+}
+
+void read_back(const Choices& c, HexMesh mesh, Run& run) {
+  const DeckResult result = read_deck_result(c.result, int(deck_nodes(mesh).size()));
+  apply_displacement(mesh, result.displacement);
+  mesh.gravity = c.gravity.vector();
+  mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
+  mesh.solve = SolveRecord{"converged", "solved by another program", {}};
+  if (result.reaction) report_balance(c, mesh, *result.reaction, run);
+  if (!c.base.empty()) compare(c, mesh, run);
+  const History before = mesh.history;
+  mesh.history = run.history({{c.reference, mesh.content_sha256, &before}});
+  mesh.wall_seconds = run.seconds();
+  write_mesh(c.out, mesh);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choices c;
+  Tool tool("export-deck", "a scene for FEBio or CalculiX, and their result back as a mesh");
+  declare(tool, c);
+  return tool.main(argc, argv, [&c](Run& run) {
+    HexMesh mesh = read_mesh(c.reference, {.reference = true});
+    if (c.mechanics.element == "q2p1") mesh = raise_order(mesh);
+    c.result.empty() ? write_deck(c, mesh, run) : read_back(c, std::move(mesh), run);
+  });
+}
