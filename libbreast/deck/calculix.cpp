@@ -31,6 +31,11 @@ void check_element(const DeckScene& scene, const std::string& element) {
   }
 }
 
+// D2 of a term (J−1)⁴/D2 that is not wanted. Not 0: CalculiX takes 0 as "not given" and chooses a
+// stiff one of its own (6.7e-9 for fat, 8 % too stiff at K/μ = 5), where Abaqus leaves the term
+// out.
+constexpr double no_term = 1e20;
+
 // Order of the constants: Abaqus Analysis User's Guide, *HYPERELASTIC.
 void write_material(const DeckMaterial& material, std::ostream& out) {
   const std::vector<double>& c = material.law.constants;
@@ -40,11 +45,11 @@ void write_material(const DeckMaterial& material, std::ostream& out) {
   switch (material.law.kind) {
     case LawKind::polynomial:
       type = "POLYNOMIAL, N=2";
-      line = {c[0], c[1], c[2], c[4], c[3], d1, 0};  // C10 C01 C20 C11 C02 D1 D2
+      line = {c[0], c[1], c[2], c[4], c[3], d1, no_term};  // C10 C01 C20 C11 C02 D1 D2
       break;
     case LawKind::yeoh:
       type = "YEOH";
-      line = {c[0], c[1], c[2], d1, 0, 0};
+      line = {c[0], c[1], c[2], d1, no_term, no_term};
       break;
     case LawKind::neo_hookean:
       type = "NEO HOOKE";

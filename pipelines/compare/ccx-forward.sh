@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # forward by CalculiX: ccx-forward.sh REFERENCE DEFORMED [options of forward and export-deck]
 #   make -f Makefile.pipeline FORWARD=pipelines/compare/ccx-forward.sh ...
+# CCX_OPTIONS: options of export-deck that the other stages do not take, as --without-skin.
 # Writes a deck, runs ccx on it, reads its displacements back. BIN: folder of our programs. KEEP=FOLDER
 # keeps deck, log and result there. Exit codes are those of forward.
 set -euo pipefail
@@ -9,10 +10,11 @@ command -v ccx > /dev/null || { echo "ccx-forward: CalculiX is missing (Debian: 
 [ $# -ge 2 ] || { echo "ccx-forward: usage: ccx-forward.sh REFERENCE DEFORMED [options]" >&2; exit 2; }
 reference=$1 deformed=$2
 shift 2
-threads=$(nproc) report=() options=()
+threads=$(nproc) back=()
+read -r -a options <<< "${CCX_OPTIONS:-}"
 while [ $# -gt 0 ]; do
   case "$1" in
-    --report) report=("$1" "$2"); shift 2 ;;
+    --report | --base) back+=("$1" "$2"); shift 2 ;;
     --threads) threads=$2; shift 2 ;;
     *) options+=("$1"); shift ;;
   esac
@@ -28,4 +30,4 @@ fi
 (cd "$work" && rm -f deck.frd deck.dat && OMP_NUM_THREADS=$threads ccx deck > ccx.log 2>&1) ||
   { grep -m 1 'ERROR' "$work/ccx.log" || tail -n 5 "$work/ccx.log"; } >&2
 [ -s "$work/deck.frd" ] || { echo "ccx-forward: CalculiX wrote no result" >&2; exit 3; }
-"$bin/export-deck" "$reference" "$deformed" --read-back "$work/deck.frd" "${options[@]}" "${report[@]}"
+"$bin/export-deck" "$reference" "$deformed" --read-back "$work/deck.frd" "${options[@]}" "${back[@]}"
