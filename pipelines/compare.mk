@@ -3,7 +3,7 @@
 # Scenes of the block are named block-N-LAW-BULKRATIO-ELEMENT; poly is the set seed2008's fat.
 COMPARE := $(RUNS)/compare
 COMPARE_SCENES ?= block-8-poly-1000-C3D8I block-8-poly-1000-C3D8 block-8-mr-100-C3D8I \
-  block-8-mr-1000-C3D8I block-4-poly-1000-C3D20R block-16-poly-1000-C3D8I breast-1000-C3D8I
+  block-8-mr-1000-C3D8I block-4-poly-1000-C3D20R breast-1000-C3D8I block-16-poly-1000-C3D8I
 COMPARE_ELEMENTS ?= 10
 EXPORT_DECK := $(BIN)/export-deck
 COMPARE_FILES := $(COMPARE_SCENES:%=$(COMPARE)/%.tsv)
