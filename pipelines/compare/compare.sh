@@ -34,7 +34,7 @@ code=0
   "${options[@]}" --without-skin --report "$work/ccx.json" > "$work/difference.tsv" 2> "$work/log" || code=$?
 # forward also estimates its discretisation error: that part of its time (by the wall clock).
 share=$(awk -v e="$(number "$work/ours.json" 'error estimate')" -v t="$(number "$work/ours.json" total)" \
-  'BEGIN { printf "%.2f", t > 0 ? e / t : 0 }')
+  'BEGIN { printf "%.2f", (t > 0 ? e / t : 0) }')
 outcome=converged mean=- max=- largest=- relative=- balance=-
 if [ $code = 0 ]; then
   read -r mean max largest relative < <(tail -n 1 "$work/difference.tsv")
