@@ -4,6 +4,7 @@
 #include "cli/mechanics_options.hpp"
 #include "cli/tool.hpp"
 #include "contact/compression.hpp"
+#include "contact/options.hpp"
 #include "core/error.hpp"
 #include "io/mesh_file.hpp"
 #include "mammo/mammogram.hpp"
@@ -19,7 +20,8 @@ namespace {
 /// The command line as given.
 struct Choices {
   std::filesystem::path reference, compressed;
-  std::string view = "CC", contact = "active-set", wall = "fixed", gravity = "upright";
+  std::string view = "CC", contact = "active-set", wall = "fixed", detector = "raised",
+              gravity = "upright";
   std::optional<double> angle, thickness, reduction, force, pressure;
   std::optional<double> at_least;
   double friction = 0;
@@ -32,20 +34,23 @@ void declare(Tool& tool, Choices& c) {
       "Loads the stress-free breast with gravity, sets two rigid plates with rounded edges just "
       "touching it, and closes them to a thickness, a reduction, a force or a mean pressure. "
       "Contact "
-      "is frictionless and exact: no penalty, no penetration. Both plates move, about the "
-      "mid-plane "
-      "of the stress-free breast, so that it is not dragged along the chest wall. The stand-off "
-      "runs "
-      "from the most anterior chest-wall or cut point to the start of the plates' rounded edge; "
-      "the "
-      "force depends strongly on it.");
+      "is exact: no penalty, no penetration. Unless --detector says otherwise both plates move, "
+      "about the mid-plane of the stress-free breast, so that it is not dragged along the chest "
+      "wall. The stand-off runs from the most anterior chest-wall or cut point to the start of the "
+      "plates' rounded edge; the force depends strongly on it.");
   tool.describe(
       "A path that stops early ends in a valid equilibrium: with --at-least it is written with "
       "status stopped_early when at least that reduction was reached.");
-  tool.describe("Not offered: friction of the plates, an elastic chest wall.");
+  tool.describe(
+      "--wall spring lets the chest-wall faces slide on springs at rest in the stress-free shape, "
+      "under gravity as well as between the plates; backward's own wall is always held.");
   tool.cite("Pathmanathan et al. 2008, section II-D, equations (7)-(8)");
   tool.example("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 50",
                "cranio-caudal, half the thickness");
+  tool.example(
+      "compress reference.vtkhdf cc.vtkhdf --view CC --pressure 10 --wall spring:1,0.1 "
+      "--friction 0.3",
+      "to a mean pressure of 10 kPa, on a yielding chest wall, with friction");
   tool.example("compress reference.vtkhdf mlo.vtkhdf --view MLO --angle 50 --force 100",
                "mediolateral oblique at 50 degrees until the paddle presses with 100 N");
   tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
@@ -67,10 +72,15 @@ void declare(Tool& tool, Choices& c) {
   tool.number(c.plates.tilt_deg, "--tilt", "DEG",
               "paddle about the lateral axis; positive narrows the gap at the nipple", -20, 20);
   tool.text(c.gravity, "--gravity", "upright|off|gx,gy,gz", "gravity during compression, mm/s2");
-  tool.number(c.friction, "--friction", "MU", "only 0 is offered: contact is frictionless");
+  tool.text(
+      c.detector, "--detector", "raised|fixed|MM",
+      "lifts the breast to its mid-plane, not at all, or by so much; the paddle does the rest");
+  tool.number(c.friction, "--friction", "MU", "Coulomb's coefficient between skin and plates", 0,
+              2);
   tool.choice(c.contact, "--contact", {"active-set", "al"},
               "exact active set, or the paper's augmented Lagrangian");
-  tool.text(c.wall, "--wall", "fixed", "only fixed is offered: zero displacement, as in the paper");
+  tool.text(c.wall, "--wall", "fixed|spring:KPA_PER_MM[,KPA_PER_MM]",
+            "held as in the paper, or springs across and (without: a third of it) along the wall");
   declare_mechanics(tool, c.mechanics);
   tool.check([&c] {
     const int targets = int(c.thickness.has_value()) + int(c.reduction.has_value()) +
@@ -80,12 +90,8 @@ void declare(Tool& tool, Choices& c) {
                         targets, " were given");
     }
     parse_gravity(c.gravity);
-    if (c.friction != 0) {
-      throw input_error("--friction ", c.friction, ": contact is frictionless; only 0 is accepted");
-    }
-    if (c.wall != "fixed") {
-      throw input_error("--wall ", c.wall, ": the chest wall is held; only 'fixed' is accepted");
-    }
+    parse_wall(c.wall);
+    parse_detector(c.detector);
   });
 }
 
@@ -94,6 +100,9 @@ CompressionOptions compression_options(const Choices& c) {
   options.view = c.view;
   options.angle_deg = c.angle.value_or(view_angle_deg(c.view));
   options.plates = c.plates;
+  options.plates.detector_rise = parse_detector(c.detector);
+  options.friction = c.friction;
+  options.wall = parse_wall(c.wall);
   options.gravity = parse_gravity(c.gravity);
   options.method =
       c.contact == "al" ? ContactMethod::augmented_lagrangian : ContactMethod::active_set;

@@ -49,8 +49,9 @@ ActiveSet::ActiveSet(ContactBody& body, std::vector<int> candidates, ActiveSetOp
     : body_(body),
       candidates_(std::move(candidates)),
       options_(options),
-      touching_(candidates_.size(), -1),
-      toggles_(candidates_.size(), 0) {}
+      toggles_(candidates_.size(), 0) {
+  memory_.touching.assign(candidates_.size(), -1);
+}
 
 ActiveSet::Sweep ActiveSet::measure(const PlatePair& plates, const BodyState& state,
                                     const BodyForces& forces) const {
@@ -61,14 +62,20 @@ ActiveSet::Sweep ActiveSet::measure(const PlatePair& plates, const BodyState& st
   body_.remove_held(sweep.gradient);
   double reaction = 0;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
-    if (touching_[c] < 0) continue;
+    if (memory_.touching[c] < 0) continue;
     const Eigen::Index at = 3 * candidates_[c];
-    const Gap gap = plates.plate(touching_[c]).gap(node_vector(state.x, candidates_[c]));
+    const Gap gap = plates.plate(memory_.touching[c]).gap(node_vector(state.x, candidates_[c]));
     const Vec3 normal = gap.gradient.normalized();
     const double pushed = sweep.free.segment<3>(at).dot(normal);
     reaction += pushed * pushed;
     sweep.free.segment<3>(at) -= pushed * normal;
     sweep.gradient.segment<3>(at) -= sweep.gradient.segment<3>(at).dot(normal) * normal;
+    if (options_.friction.present()) {
+      const Vec3 rubbed =
+          friction_at(plates, c, node_vector(state.x, candidates_[c]), normal, pushed).force;
+      sweep.free.segment<3>(at) -= rubbed;
+      sweep.gradient.segment<3>(at) -= rubbed;
+    }
     sweep.worst_gap = std::max(sweep.worst_gap, std::abs(gap.distance()));
   }
   sweep.free_norm = sweep.free.norm();
@@ -77,24 +84,49 @@ ActiveSet::Sweep ActiveSet::measure(const PlatePair& plates, const BodyState& st
   return sweep;
 }
 
+/// Touching nodes keep their anchor relative to the plate's level, free ones where they are.
+FrictionForce ActiveSet::friction_at(const PlatePair& plates, std::size_t candidate, const Vec3& x,
+                                     const Vec3& normal, double pressed) const {
+  const Vec3 anchor =
+      memory_.anchors[candidate] + plates.plate(memory_.touching[candidate]).shift();
+  return options_.friction.at(x, anchor, normal, pressed);
+}
+
+void ActiveSet::slide_anchors(const PlatePair& plates, const BodyState& state,
+                              const BodyForces& forces) {
+  const std::vector<Vec3> rubbed = friction_forces(plates, state, forces);
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    memory_.anchors[c] = node_vector(state.x, candidates_[c]);
+    if (memory_.touching[c] < 0) continue;
+    // The part across the plate does not matter.
+    memory_.anchors[c] +=
+        rubbed[c] / options_.friction.stick - plates.plate(memory_.touching[c]).shift();
+  }
+}
+
 bool ActiveSet::update(const PlatePair& plates, const BodyState& state, const BodyForces& forces,
                        double scale, bool may_drop, bool balanced) {
   bool changed = false;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     const Vec3 x = node_vector(state.x, candidates_[c]);
-    if (touching_[c] < 0) {
+    if (memory_.touching[c] < 0) {
       const int k = plates.nearer(x);
       if (plates.plate(k).gap(x).distance() < -options_.gap_tolerance) {
-        touching_[c] = static_cast<signed char>(k);
+        memory_.touching[c] = static_cast<signed char>(k);
+        // From now on the anchor moves with the plate.
+        if (options_.friction.present()) memory_.anchors[c] -= plates.plate(k).shift();
         ++toggles_[c];
         changed = true;
       }
     } else if (may_drop && (balanced || toggles_[c] < most_toggles)) {
-      const Gap gap = plates.plate(touching_[c]).gap(x);
+      const Gap gap = plates.plate(memory_.touching[c]).gap(x);
       const double pushed =
           node_vector(forces.residual, candidates_[c]).dot(gap.gradient.normalized());
       if (pushed < -1e-10 * scale) {
-        touching_[c] = -1;
+        if (options_.friction.present()) {
+          memory_.anchors[c] += plates.plate(memory_.touching[c]).shift();
+        }
+        memory_.touching[c] = -1;
         changed = true;
       }
     }
@@ -106,6 +138,9 @@ StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double to
   tolerance_ = tolerance;
   StepResult result;
   std::fill(toggles_.begin(), toggles_.end(), 0);
+  if (options_.friction.present() && memory_.anchors.empty()) {
+    for (const int node : candidates_) memory_.anchors.push_back(node_vector(state.x, node));
+  }
   if (!body_.forces(state, result.forces)) {
     result.outcome = StepOutcome::folded;
     result.failed_trial = state.x;
@@ -137,6 +172,7 @@ StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double to
     }
     if (!newton_step(plates, now, state, result)) return result;
   }
+  if (options_.friction.present()) slide_anchors(plates, state, result.forces);
   for (const int node : candidates_) {
     const Vec3 x = node_vector(state.x, node);
     const double distance = plates.plate(plates.nearer(x)).gap(x).distance();
@@ -153,10 +189,11 @@ bool ActiveSet::newton_step(const PlatePair& plates, const Sweep& now, BodyState
     return false;
   }
   std::vector<NormalConstraint> constraints;
+  Eigen::VectorXd unbalanced = result.forces.residual;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
-    if (touching_[c] < 0) continue;
+    if (memory_.touching[c] < 0) continue;
     const int node = candidates_[c];
-    const Gap gap = plates.plate(touching_[c]).gap(node_vector(state.x, node));
+    const Gap gap = plates.plate(memory_.touching[c]).gap(node_vector(state.x, node));
     const double steepness = gap.gradient.norm();
     const Vec3 normal = gap.gradient / steepness;
     constraints.push_back({node, normal, -gap.value / steepness});
@@ -166,9 +203,17 @@ bool ActiveSet::newton_step(const PlatePair& plates, const Sweep& now, BodyState
     if (multiplier > 0 && !gap.hessian.isZero()) {
       body_.add_to_tangent(node, -multiplier * gap.hessian);
     }
+    if (options_.friction.present()) {
+      // The bound μλ is taken as fixed here, which keeps the tangent symmetric; it follows λ from
+      // one iteration to the next.
+      const FrictionForce rubbed =
+          friction_at(plates, c, node_vector(state.x, node), normal, multiplier * steepness);
+      unbalanced.segment<3>(3 * node) -= rubbed.force;
+      body_.add_to_tangent(node, rubbed.stiffness);
+    }
   }
   BodyState increment;
-  const BodySolve solve = body_.solve(constraints, result.forces.residual, increment);
+  const BodySolve solve = body_.solve(constraints, unbalanced, increment);
   if (solve.shifted) ++result.shifted;
   if (!solve.ok || !increment.x.allFinite() || !increment.p.allFinite()) {
     result.outcome = StepOutcome::singular;
@@ -219,12 +264,26 @@ std::vector<double> ActiveSet::normal_forces(const PlatePair& plates, const Body
                                              const BodyForces& forces) const {
   std::vector<double> pushed(candidates_.size(), 0);
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
-    if (touching_[c] < 0) continue;
+    if (memory_.touching[c] < 0) continue;
     const int node = candidates_[c];
-    const Gap gap = plates.plate(touching_[c]).gap(node_vector(state.x, node));
+    const Gap gap = plates.plate(memory_.touching[c]).gap(node_vector(state.x, node));
     pushed[c] = node_vector(forces.residual, node).dot(gap.gradient.normalized());
   }
   return pushed;
+}
+
+std::vector<Vec3> ActiveSet::friction_forces(const PlatePair& plates, const BodyState& state,
+                                             const BodyForces& forces) const {
+  if (!options_.friction.present()) return {};
+  const std::vector<double> pushed = normal_forces(plates, state, forces);
+  std::vector<Vec3> rubbed(candidates_.size(), Vec3::Zero());
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    if (memory_.touching[c] < 0) continue;
+    const Vec3 x = node_vector(state.x, candidates_[c]);
+    const Vec3 normal = plates.plate(memory_.touching[c]).gap(x).gradient.normalized();
+    rubbed[c] = friction_at(plates, c, x, normal, pushed[c]).force;
+  }
+  return rubbed;
 }
 
 }  // namespace breast

@@ -1,12 +1,13 @@
-// Frictionless contact of a body with two plates at one plate position: a primal-dual active set
-// merged with Newton's method. Touching nodes have their normal displacement eliminated exactly, so
-// a solution neither penetrates nor depends on a penalty.
+// Contact of a body with two plates at one plate position: a primal-dual active set merged with
+// Newton's method. Touching nodes have their normal displacement eliminated exactly, so a solution
+// neither penetrates nor depends on a penalty. Friction, where asked for, is a force on them.
 #pragma once
 
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
+#include "contact/friction.hpp"
 #include "contact/solver.hpp"
 
 namespace breast {
@@ -18,6 +19,7 @@ struct ActiveSetOptions {
   int free_sweeps = 12;
   double gap_tolerance = 1e-8;  ///< mm
   double volume_tolerance = 1e-9;
+  Friction friction;
 };
 
 class ActiveSet : public ContactSolver {
@@ -26,20 +28,22 @@ class ActiveSet : public ContactSolver {
   ActiveSet(ContactBody& body, std::vector<int> candidates, ActiveSetOptions options = {});
 
   /// Equilibrium of `state` with the plates as they stand. On failure `state` is unspecified; the
-  /// set of touching nodes must be restored by the caller (touching(), set_touching()).
+  /// memory must be restored by the caller.
   StepResult solve(const PlatePair& plates, BodyState& state, double tolerance) override;
 
   const std::vector<int>& candidates() const override { return candidates_; }
-  /// Per candidate: −1 free, 0 touches the paddle, 1 the detector.
-  const std::vector<signed char>& touching() const override { return touching_; }
-  void set_touching(std::vector<signed char> touching) override { touching_ = std::move(touching); }
 
   /// Force (µN) of the plate on each candidate along its normal, zero where free.
   std::vector<double> normal_forces(const PlatePair& plates, const BodyState& state,
                                     const BodyForces& forces) const override;
+  std::vector<Vec3> friction_forces(const PlatePair& plates, const BodyState& state,
+                                    const BodyForces& forces) const override;
 
  private:
   struct Sweep;
+  FrictionForce friction_at(const PlatePair& plates, std::size_t candidate, const Vec3& x,
+                            const Vec3& normal, double pressed) const;
+  void slide_anchors(const PlatePair& plates, const BodyState& state, const BodyForces& forces);
   bool update(const PlatePair& plates, const BodyState& state, const BodyForces& forces,
               double scale, bool may_drop, bool balanced);
   Sweep measure(const PlatePair& plates, const BodyState& state, const BodyForces& forces) const;
@@ -51,7 +55,6 @@ class ActiveSet : public ContactSolver {
   std::vector<int> candidates_;
   ActiveSetOptions options_;
   double tolerance_ = 1e-9;
-  std::vector<signed char> touching_;
   std::vector<int> toggles_;
 };
 

@@ -28,10 +28,10 @@ AugmentedLagrangian::AugmentedLagrangian(ContactBody& body, std::vector<int> can
     : body_(body),
       candidates_(std::move(candidates)),
       options_(options),
-      penalty_(options.penalty),
-      touching_(candidates_.size(), -1),
-      multipliers_(candidates_.size(), 0),
-      converged_(candidates_.size(), 0) {}
+      penalty_(options.penalty) {
+  memory_.touching.assign(candidates_.size(), -1);
+  memory_.multipliers.assign(candidates_.size(), 0);
+}
 
 AugmentedLagrangian::Contact AugmentedLagrangian::contact(const PlatePair& plates,
                                                           const Eigen::VectorXd& x,
@@ -39,10 +39,11 @@ AugmentedLagrangian::Contact AugmentedLagrangian::contact(const PlatePair& plate
   const Vec3 point = x.segment<3>(3 * candidates_[candidate]);
   Contact contact;
   // A node keeps to the plate that already pushes it.
-  contact.plate = multipliers_[candidate] > 0 && touching_[candidate] >= 0 ? touching_[candidate]
-                                                                           : plates.nearer(point);
+  contact.plate = memory_.multipliers[candidate] > 0 && memory_.touching[candidate] >= 0
+                      ? memory_.touching[candidate]
+                      : plates.nearer(point);
   contact.gap = plates.plate(contact.plate).gap(point);
-  contact.force = std::max(0.0, multipliers_[candidate] - penalty_ * contact.gap.value);
+  contact.force = std::max(0.0, memory_.multipliers[candidate] - penalty_ * contact.gap.value);
   return contact;
 }
 
@@ -125,8 +126,8 @@ double AugmentedLagrangian::update_multipliers(const PlatePair& plates, const Bo
     const Contact at = contact(plates, state.x, c);
     const double gap = at.gap.distance();
     worst = std::max(worst, at.force > 0 ? std::abs(gap) : -gap);
-    multipliers_[c] = at.force;
-    touching_[c] = static_cast<signed char>(at.force > 0 ? at.plate : -1);
+    memory_.multipliers[c] = at.force;
+    memory_.touching[c] = static_cast<signed char>(at.force > 0 ? at.plate : -1);
   }
   return worst;
 }
@@ -148,7 +149,6 @@ StepResult AugmentedLagrangian::solve(const PlatePair& plates, BodyState& state,
       if (!equilibrate(plates, state, tolerance, result)) return result;
       result.worst_penetration = update_multipliers(plates, state);
       if (result.worst_penetration <= 2 * options_.gap_tolerance) {
-        converged_ = multipliers_;
         return result;
       }
     }
@@ -165,14 +165,9 @@ std::vector<double> AugmentedLagrangian::normal_forces(const PlatePair& plates,
   std::vector<double> pushed(candidates_.size(), 0);
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     const Contact at = contact(plates, state.x, c);
-    pushed[c] = multipliers_[c] * at.gap.gradient.norm();
+    pushed[c] = memory_.multipliers[c] * at.gap.gradient.norm();
   }
   return pushed;
-}
-
-void AugmentedLagrangian::set_touching(std::vector<signed char> touching) {
-  touching_ = std::move(touching);
-  multipliers_ = converged_;
 }
 
 }  // namespace breast

@@ -22,9 +22,6 @@ class AugmentedLagrangian : public ContactSolver {
   StepResult solve(const PlatePair& plates, BodyState& state, double tolerance) override;
   std::vector<double> normal_forces(const PlatePair& plates, const BodyState& state,
                                     const BodyForces& forces) const override;
-  const std::vector<signed char>& touching() const override { return touching_; }
-  /// Goes back to the multipliers of the last converged solve.
-  void set_touching(std::vector<signed char> touching) override;
   const std::vector<int>& candidates() const override { return candidates_; }
 
  private:
@@ -39,8 +36,6 @@ class AugmentedLagrangian : public ContactSolver {
   std::vector<int> candidates_;
   AugmentedLagrangianOptions options_;
   double penalty_;
-  std::vector<signed char> touching_;
-  std::vector<double> multipliers_, converged_;
 };
 
 }  // namespace breast

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "contact/active_set.hpp"
 #include "contact/augmented_lagrangian.hpp"
@@ -19,8 +20,9 @@ namespace breast {
 
 namespace {
 
-/// Penalty of the augmented Lagrangian in units of shear modulus times element size.
-constexpr double penalty_factor = 10;
+/// In units of shear modulus times element size: the penalty of the augmented Lagrangian, and the
+/// springs that stand for sticking friction (at 10 kPa and μ = 0.3 they give by about 0.02 mm).
+constexpr double penalty_factor = 10, stick_factor = 1000;
 
 class Compression {
  public:
@@ -32,15 +34,31 @@ class Compression {
         scene_(mesh, mechanics),
         reference_(flatten(mesh.reference)),
         load_(scene_.gravity_force(options.gravity)),
-        problem_(scene_, reference_, load_),
-        solver_(problem_.pattern()) {}
+        body_(scene_, reference_, load_),
+        held_(scene_.walls()),
+        solver_(body_.pattern()) {
+    if (!options.wall) return;
+    wall_.emplace(mesh, *options.wall);
+    on_wall_.emplace(body_, *wall_);
+    for (const int node : nodes_of(mesh, mesh.pectoral_faces)) held_.release(node);
+    if (mechanics.cut == Cut::free) return;
+    const Constraints cut = wall_constraints(mesh, mechanics.cut);
+    for (const int node : nodes_of(mesh, mesh.cut_faces)) {
+      if (cut.at(node) != nullptr) held_.set(node, *cut.at(node));
+    }
+  }
 
   CompressionSummary run();
 
  private:
   bool load_with_gravity(SaddleState& state);
   std::vector<int> candidates() const;
+  /// The body, on its elastic wall when it has one.
+  const SaddleProblem& problem() const {
+    return on_wall_ ? static_cast<const SaddleProblem&>(*on_wall_) : body_;
+  }
   Vec3 weight() const;
+  double nodal_stiffness() const;
   std::unique_ptr<ContactSolver> contact_solver(ContactBody& body) const;
   CompressionTarget target() const;
   void close_plates(SaddleState& state);
@@ -57,7 +75,10 @@ class Compression {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   Scene scene_;
   Eigen::VectorXd reference_, load_;
-  ForwardProblem problem_;
+  ForwardProblem body_;
+  std::optional<ElasticWall> wall_;
+  std::optional<ProblemOnWall> on_wall_;
+  Constraints held_;
   SaddleSolver solver_;
   CompressionSummary summary_;
 };
@@ -65,14 +86,14 @@ class Compression {
 /// Gravity alone, in load steps when one does not converge.
 bool Compression::load_with_gravity(SaddleState& state) {
   Timer::Scope phase(summary_.timer, "gravity");
-  SaddleMatrix matrix = problem_.make_matrix();
+  SaddleMatrix matrix = problem().make_matrix();
   LoadPath path;
   while (!path.finished()) {
-    problem_.set_load(path.next() * load_);
+    body_.set_load(path.next() * load_);
     SaddleState trial = state;
     ++summary_.steps;
     const NewtonResult result =
-        newton(problem_, solver_, matrix, scene_.walls(), nullptr, trial, {},
+        newton(problem(), solver_, matrix, held_, nullptr, trial, {},
                [&](const NewtonIteration& iteration) {
                  record_iteration(summary_, summary_.steps, iteration, clock());
                  progress_.update("gravity", -1, message("residual ", iteration.residual));
@@ -105,17 +126,25 @@ std::vector<int> Compression::candidates() const {
   return list;
 }
 
-std::unique_ptr<ContactSolver> Compression::contact_solver(ContactBody& body) const {
-  if (options_.method == ContactMethod::active_set) {
-    return std::make_unique<ActiveSet>(body, candidates());
-  }
+/// Shear modulus times element size: what a node resists with, µN/mm.
+double Compression::nodal_stiffness() const {
   double stiffest = 0, volume = 0;
   for (const double v : scene_.assembly().imaged_volume()) volume += v;
   for (const Tissue tissue : mesh_.tissue) {
     stiffest = std::max(stiffest, scene_.options().materials.law(tissue).shear_modulus());
   }
+  return stiffest * std::cbrt(volume / mesh_.elements());
+}
+
+std::unique_ptr<ContactSolver> Compression::contact_solver(ContactBody& body) const {
+  if (options_.method == ContactMethod::active_set) {
+    ActiveSetOptions exact;
+    exact.friction = {options_.friction, stick_factor * nodal_stiffness()};
+    if (exact.friction.present()) exact.max_iterations *= 2;  // the bound follows λ linearly
+    return std::make_unique<ActiveSet>(body, candidates(), exact);
+  }
   AugmentedLagrangianOptions al;
-  al.penalty = penalty_factor * stiffest * std::cbrt(volume / mesh_.elements());
+  al.penalty = penalty_factor * nodal_stiffness();
   return std::make_unique<AugmentedLagrangian>(body, candidates(), al);
 }
 
@@ -135,7 +164,7 @@ CompressionTarget Compression::target() const {
 }
 
 void Compression::close_plates(SaddleState& state) {
-  SaddleBody body(problem_, solver_, scene_.walls(), weight());
+  SaddleBody body(problem(), solver_, held_, weight());
   const std::unique_ptr<ContactSolver> contact = contact_solver(body);
   BodyState at{std::move(state.u), std::move(state.p)};
   const auto area = [&](const BodyState& s) {
@@ -157,7 +186,8 @@ void Compression::close_plates(SaddleState& state) {
     return;
   }
   Timer::Scope phase(summary_.timer, "results");
-  record_compression(mesh_, options_, at, body, *contact, summary_);
+  const Vec3 wall = wall_ ? wall_->force_on_body(at.x) : Vec3::Zero();
+  record_compression(mesh_, options_, at, body, *contact, wall, summary_);
   mesh_.det_F = scene_.assembly().mean_det_f(reference_, at.x);
   mesh_.pressure = scene_.assembly().mean_pressure(at.p);
   if (scene_.options().estimate_error) estimate(at, *contact);
@@ -166,7 +196,8 @@ void Compression::close_plates(SaddleState& state) {
 
 /// Discretisation error of the final state, the touching set held.
 void Compression::estimate(const BodyState& at, const ContactSolver& contact) {
-  if (mesh_.order == 1 && !mesh_.landmarks.empty()) {
+  // The richer problem knows neither friction nor springs.
+  if (mesh_.order == 1 && !mesh_.landmarks.empty() && !wall_ && !(options_.friction > 0)) {
     Timer::Scope phase(summary_.timer, "error estimate");
     std::vector<TouchingNode> touching;
     for (std::size_t c = 0; c < contact.candidates().size(); ++c) {
@@ -175,7 +206,7 @@ void Compression::estimate(const BodyState& at, const ContactSolver& contact) {
       const Gap gap = summary_.plates.plate(plate).gap(at.x.segment<3>(3 * node));
       touching.push_back({node, plate, gap.gradient.normalized()});
     }
-    SaddleMatrix matrix = problem_.make_matrix();
+    SaddleMatrix matrix = problem().make_matrix();
     const ErrorEstimate error = estimate_error(scene_, reference_, {at.x, at.p}, options_.gravity,
                                                matrix, solver_, touching);
     if (error.usable) {
@@ -265,6 +296,13 @@ CompressionSummary compress(HexMesh& mesh, const CompressionOptions& options,
   }
   if (options.stop_at == StopAt::reduction && !(options.target < 100)) {
     throw input_error("reduction ", options.target, " %: must be below 100");
+  }
+  if (!(options.friction >= 0 && options.friction <= 2)) {
+    throw input_error("friction ", options.friction, ": must lie within 0 and 2");
+  }
+  if (options.friction > 0 && options.method == ContactMethod::augmented_lagrangian) {
+    throw input_error("friction ", options.friction,
+                      " with the augmented Lagrangian: only the active set has friction");
   }
   return Compression(mesh, options, mechanics, progress).run();
 }

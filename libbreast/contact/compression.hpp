@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/deformation.hpp"
+#include "contact/elastic_wall.hpp"
 #include "contact/path.hpp"
 #include "contact/plates.hpp"
 #include "core/progress.hpp"
@@ -27,6 +28,8 @@ struct CompressionOptions {
   PlateOptions plates;
   Vec3 gravity{0, 0, -9810};  ///< mm/s², LPS
   ContactMethod method = ContactMethod::active_set;
+  double friction = 0;              ///< Coulomb's μ between skin and plates
+  std::optional<WallSprings> wall;  ///< an elastic chest wall; none: held
   PathOptions path;
 };
 

@@ -16,7 +16,7 @@ constexpr double first_part = 0.07, longest_part = 0.095;
 /// A converged state that can be returned to.
 struct Waypoint {
   BodyState state;
-  std::vector<signed char> touching;
+  ContactMemory memory;
   double thickness = 0, measured = 0;
 };
 
@@ -37,7 +37,7 @@ class Path {
  private:
   bool march();
   bool refine_control(Waypoint low, Waypoint high);
-  bool attempt(const BodyState& guess, const std::vector<signed char>& touching, double thickness,
+  bool attempt(const BodyState& guess, const ContactMemory& memory, double thickness,
                double tolerance, Waypoint& reached);
   bool finish();
   BodyState predict(double thickness, bool extrapolate) const;
@@ -101,11 +101,11 @@ void Path::tell(const PathPoint& point) const {
               std::round(10 * point.paddle_N) / 10, " N, ", point.iterations, " iterations"));
 }
 
-bool Path::attempt(const BodyState& guess, const std::vector<signed char>& touching,
-                   double thickness, double tolerance, Waypoint& reached) {
+bool Path::attempt(const BodyState& guess, const ContactMemory& memory, double thickness,
+                   double tolerance, Waypoint& reached) {
   plates_.close_to(thickness);
   BodyState state = guess;
-  solver_.set_touching(touching);
+  solver_.restore(memory);
   StepResult step = solver_.solve(plates_, state, tolerance);
   ++result_.solves;
   result_.iterations += step.iterations;
@@ -127,7 +127,7 @@ bool Path::attempt(const BodyState& guess, const std::vector<signed char>& touch
   const PathPoint point = force_point(state, step, thickness);
   tell(point);
   result_.final_step = std::move(step);
-  reached = {std::move(state), solver_.touching(), thickness, measure(point)};
+  reached = {std::move(state), solver_.memory(), thickness, measure(point)};
   result_.points.push_back(point);
   return true;
 }
@@ -172,7 +172,7 @@ bool Path::march() {
     // Two refusals in a row: the extrapolation itself may be what folds elements.
     const bool extrapolate = failures_in_row % 3 != 2;
     Waypoint reached;
-    if (attempt(predict(thickness, extrapolate), here_.touching, thickness, options_.path_tolerance,
+    if (attempt(predict(thickness, extrapolate), here_.memory, thickness, options_.path_tolerance,
                 reached)) {
       const int iterations = result_.points.back().iterations;
       failures_in_row = 0;
@@ -212,7 +212,7 @@ bool Path::refine_control(Waypoint low, Waypoint high) {
     BodyState guess{(1 - w) * low.state.x + w * high.state.x,
                     (1 - w) * low.state.p + w * high.state.p};
     Waypoint middle;
-    if (!attempt(guess, w < 0.5 ? low.touching : high.touching, thickness, options_.path_tolerance,
+    if (!attempt(guess, w < 0.5 ? low.memory : high.memory, thickness, options_.path_tolerance,
                  middle)) {
       here_ = low;
       return false;
@@ -238,8 +238,7 @@ bool Path::finish() {
   const StepOutcome failure = result_.last_failure;
   const double failed_thickness = result_.failed_thickness;
   Eigen::VectorXd failed_trial = result_.failed_trial;
-  const bool ok =
-      attempt(here_.state, here_.touching, here_.thickness, options_.tolerance, reached);
+  const bool ok = attempt(here_.state, here_.memory, here_.thickness, options_.tolerance, reached);
   if (ok) {
     here_ = std::move(reached);
     // The tight solve repeats the last point of the path.
@@ -255,17 +254,17 @@ bool Path::finish() {
 }
 
 PathResult Path::run(BodyState& state) {
-  here_ = {state, solver_.touching(), plates_.thickness(), 0};
+  here_ = {state, solver_.memory(), plates_.thickness(), 0};
   // The state the plates start from: touching nothing, or the end of an earlier path.
   Waypoint first;
-  if (attempt(here_.state, here_.touching, here_.thickness, options_.path_tolerance, first)) {
+  if (attempt(here_.state, here_.memory, here_.thickness, options_.path_tolerance, first)) {
     here_ = std::move(first);
     result_.reached = march();
   }
   if (!result_.points.empty() && !finish()) result_.reached = false;
   if (result_.reached) result_.failed_trial.resize(0);
   plates_.close_to(here_.thickness);
-  solver_.set_touching(here_.touching);
+  solver_.restore(here_.memory);
   result_.thickness = here_.thickness;
   state = std::move(here_.state);
   return std::move(result_);

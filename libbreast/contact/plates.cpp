@@ -84,8 +84,8 @@ void check_options(const PlateOptions& options) {
   if (!(options.width >= 0)) {
     throw input_error("plate width ", options.width, " mm: must be 0 (automatic) or more");
   }
-  if (!(options.detector_share >= 0 && options.detector_share <= 1)) {
-    throw input_error("detector share ", options.detector_share, ": must lie within 0 and 1");
+  if (!(options.detector_rise >= 0)) {
+    throw input_error("detector raised by ", options.detector_rise, " mm: must be 0 or more");
   }
 }
 
@@ -166,8 +166,10 @@ Vec3 Plate::origin() const {
 
 void PlatePair::close_to(double thickness) {
   const double closing = initial_thickness - thickness;
-  paddle.level = paddle_start + (1 - detector_share) * closing;
-  detector.level = detector_start - detector_share * closing;
+  // Half each, until the detector has risen as far as it may; the paddle does the rest.
+  const double risen = std::min(0.5 * closing, detector_rise);
+  paddle.level = paddle_start + closing - risen;
+  detector.level = detector_start - risen;
 }
 
 int PlatePair::nearer(const Vec3& x) const {
@@ -180,7 +182,7 @@ PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const Vi
   PlatePair pair;
   const Plate plate = place_in_plane(mesh, x, pose, options, pair.wall_point);
   pair.standoff = options.standoff;
-  pair.detector_share = options.detector_share;
+  pair.detector_rise = options.detector_rise;
   pair.paddle = pair.detector = plate;
   pair.paddle.name = "paddle";
   pair.detector.name = "detector";
@@ -192,8 +194,10 @@ PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const Vi
     throw input_error("the plates' footprint contains no skin; try a smaller --standoff");
   }
   pair.initial_thickness = extent.size();
+  // A detector that does not lift the breast all the way stands under it where it hangs.
   const Extent unloaded = footprint_extent(mesh, mesh.reference, plate);
-  const double middle = (unloaded.empty() ? extent : unloaded).middle() + options.offset;
+  const bool lifts = std::isinf(options.detector_rise) && !unloaded.empty();
+  const double middle = (lifts ? unloaded : extent).middle() + options.offset;
   pair.paddle_start = middle - 0.5 * extent.size();
   pair.detector_start = middle + 0.5 * extent.size();
   pair.close_to(pair.initial_thickness);
@@ -202,9 +206,7 @@ PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const Vi
   double opening = 0;
   for (const int node : nodes_of(mesh, mesh.skin_faces)) {
     for (int k = 0; k < 2; ++k) {
-      const double share = k == 0 ? 1 - options.detector_share : options.detector_share;
-      const double gap = pair.plate(k).gap(x[node]).value;
-      if (gap < 0 && share > 0) opening = std::max(opening, -gap / share);
+      opening = std::max(opening, -2 * pair.plate(k).gap(x[node]).value);
     }
   }
   pair.touching_thickness = pair.initial_thickness + opening;

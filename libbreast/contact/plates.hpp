@@ -2,6 +2,7 @@
 // rounded edges. The gap and its first two derivatives are all the contact solver sees of them.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ struct Plate {
   double edge_radius = 0;  ///< mm
 
   Gap gap(const Vec3& x) const;
+  /// Where the plate has moved along the beam: points fixed to it differ by this, mm.
+  Vec3 shift() const { return level * n; }
   /// Unit normal of the flat, from the plate into the gap.
   Vec3 normal() const;
   /// Point of the flat where the rounded edge starts, mid-width.
@@ -54,7 +57,9 @@ struct PlateOptions {
   double tilt_deg = 0;  ///< paddle about the lateral axis; positive narrows the gap anteriorly
   double offset = 0;    ///< mm along the beam by which the middle between the plates is shifted
   double width = 0;     ///< lateral size of the flats, 0: half as wide again as the body
-  double detector_share = 0.5;  ///< part of the closing done by the detector side
+  /// mm by which the detector lifts the breast from where it hangs before the paddle does the rest;
+  /// infinite: to the mid-plane of the stress-free breast, both plates moving alike.
+  double detector_rise = std::numeric_limits<double>::infinity();
 };
 
 /// Paddle and detector moving on one parameter, the thickness T between the flats at mid-depth.
@@ -64,7 +69,8 @@ struct PlatePair {
   double touching_thickness = 0;  ///< T where the first skin node touches; ≥ T0 beside a wide base
   double wall_point = 0;          ///< a of the most anterior pectoral or cut point
   double standoff = 0;
-  double paddle_start = 0, detector_start = 0, detector_share = 0.5;  ///< levels at T0
+  double paddle_start = 0, detector_start = 0;                     ///< levels at T0
+  double detector_rise = std::numeric_limits<double>::infinity();  ///< mm, as in PlateOptions
 
   /// Moves both plates to thickness T (mm).
   void close_to(double thickness);

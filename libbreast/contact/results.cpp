@@ -16,7 +16,8 @@ constexpr int profile_points = 10;
 /// Force, area and pressures of one plate; adds its nodes to mesh.contact_pressure (kPa).
 PlateRecord record_plate(HexMesh& mesh, const Plate& plate, int k, const BodyState& state,
                          const ContactSolver& solver, const std::vector<double>& pushed,
-                         const std::vector<double>& area, Vec3& total) {
+                         const std::vector<Vec3>& rubbed, const std::vector<double>& area,
+                         Vec3& total) {
   PlateRecord record;
   record.name = plate.name;
   record.normal = plate.normal();
@@ -32,6 +33,7 @@ PlateRecord record_plate(HexMesh& mesh, const Plate& plate, int k, const BodySta
     record.worst_gap_mm = std::max(record.worst_gap_mm, -gap.distance());
     if (solver.touching()[c] != k || !(pushed[c] > 0)) continue;
     force += pushed[c] * gap.gradient.normalized();
+    if (!rubbed.empty()) force += rubbed[c];
     area_mm2 += area[std::size_t(node)];
     const double pressure = pushed[c] / area[std::size_t(node)] / pascal_per_kilopascal;
     mesh.contact_pressure[std::size_t(node)] = pressure;
@@ -47,12 +49,12 @@ PlateRecord record_plate(HexMesh& mesh, const Plate& plate, int k, const BodySta
 }
 
 void record_balance(const BodyState& state, const ContactBody& body, const Vec3& plates,
-                    CompressionSummary& summary) {
+                    const Vec3& springs, CompressionSummary& summary) {
   const Eigen::VectorXd& residual = summary.path.final_step.forces.residual;
   Eigen::VectorXd reaction = residual;
   body.remove_held(reaction);
   reaction = residual - reaction;
-  Vec3 wall = Vec3::Zero();
+  Vec3 wall = springs;
   for (Eigen::Index i = 0; i < state.x.size(); i += 3) wall += reaction.segment<3>(i);
   const Vec3 weight = body.weight();
   summary.wall_reaction_N = wall / micronewton_per_newton;
@@ -68,7 +70,7 @@ void record_balance(const BodyState& state, const ContactBody& body, const Vec3&
 
 void record_compression(HexMesh& mesh, const CompressionOptions& options, const BodyState& state,
                         const ContactBody& body, const ContactSolver& solver,
-                        CompressionSummary& summary) {
+                        const Vec3& wall_springs, CompressionSummary& summary) {
   const PlatePair& plates = summary.plates;
   for (int n = 0; n < mesh.nodes(); ++n) mesh.points[std::size_t(n)] = state.x.segment<3>(3 * n);
   mesh.contact_pressure.assign(std::size_t(mesh.nodes()), 0);
@@ -84,10 +86,12 @@ void record_compression(HexMesh& mesh, const CompressionOptions& options, const 
   const std::vector<double> area = skin_area_per_node(mesh, state.x);
   const std::vector<double> pushed =
       solver.normal_forces(plates, state, summary.path.final_step.forces);
+  const std::vector<Vec3> rubbed =
+      solver.friction_forces(plates, state, summary.path.final_step.forces);
   Vec3 total = Vec3::Zero();
   for (int k = 0; k < 2; ++k) {
     record.plates.push_back(
-        record_plate(mesh, plates.plate(k), k, state, solver, pushed, area, total));
+        record_plate(mesh, plates.plate(k), k, state, solver, pushed, rubbed, area, total));
   }
   for (const PathPoint& point : summary.path.points) {
     record.path_thickness_mm.push_back(point.thickness);
@@ -96,7 +100,7 @@ void record_compression(HexMesh& mesh, const CompressionOptions& options, const 
   summary.thickness_mm = record.thickness_mm;
   summary.reduction_percent = record.reduction_percent;
   summary.initial_thickness_mm = record.initial_thickness_mm;
-  record_balance(state, body, total, summary);
+  record_balance(state, body, total, wall_springs, summary);
   summary.strains = strain_ranges(mesh, state.x);
   double front = plates.paddle.edge_start;
   for (const int node : solver.candidates()) {

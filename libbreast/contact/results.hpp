@@ -10,6 +10,6 @@ namespace breast {
 /// summary from the final state.
 void record_compression(HexMesh& mesh, const CompressionOptions& options, const BodyState& state,
                         const ContactBody& body, const ContactSolver& solver,
-                        CompressionSummary& summary);
+                        const Vec3& wall_springs, CompressionSummary& summary);
 
 }  // namespace breast

@@ -25,10 +25,12 @@ std::vector<QuadPoint> quad_rule(int order) {
 }
 }  // namespace
 
-std::vector<double> skin_area_per_node(const HexMesh& mesh, const Eigen::VectorXd& x) {
-  std::vector<double> area(std::size_t(mesh.nodes()), 0);
+NodalFaces nodal_faces(const HexMesh& mesh, const std::vector<Face>& faces,
+                       const Eigen::VectorXd& x) {
+  NodalFaces spread{std::vector<double>(std::size_t(mesh.nodes()), 0),
+                    std::vector<Vec3>(std::size_t(mesh.nodes()), Vec3::Zero())};
   const std::vector<QuadPoint> rule = quad_rule(mesh.order);
-  for (const Face& face : mesh.skin_faces) {
+  for (const Face& face : faces) {
     const std::vector<int> nodes = face_nodes(mesh, face);
     for (const QuadPoint& point : rule) {
       Vec3 a1 = Vec3::Zero(), a2 = Vec3::Zero();
@@ -37,13 +39,19 @@ std::vector<double> skin_area_per_node(const HexMesh& mesh, const Eigen::VectorX
         a1 += point.shape.gradients(0, Eigen::Index(k)) * position;
         a2 += point.shape.gradients(1, Eigen::Index(k)) * position;
       }
-      const double dA = point.weight * a1.cross(a2).norm();
+      const Vec3 dA = point.weight * a1.cross(a2);
       for (std::size_t k = 0; k < nodes.size(); ++k) {
-        area[std::size_t(nodes[k])] += dA * point.shape.values[Eigen::Index(k)];
+        const double share = point.shape.values[Eigen::Index(k)];
+        spread.area[std::size_t(nodes[k])] += share * dA.norm();
+        spread.vector[std::size_t(nodes[k])] += share * dA;
       }
     }
   }
-  return area;
+  return spread;
+}
+
+std::vector<double> skin_area_per_node(const HexMesh& mesh, const Eigen::VectorXd& x) {
+  return nodal_faces(mesh, mesh.skin_faces, x).area;
 }
 
 double thickness_at(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& plate, double a) {

@@ -29,6 +29,13 @@ struct StepResult {
   Eigen::VectorXd failed_trial;  ///< positions of the first refused trial of a failed step
 };
 
+/// What a method carries from one plate position to the next, per candidate.
+struct ContactMemory {
+  std::vector<signed char> touching;  ///< −1 free, 0 touches the paddle, 1 the detector
+  std::vector<double> multipliers;    ///< µN per unit gap gradient; augmented Lagrangian only
+  std::vector<Vec3> anchors;          ///< where friction holds a node, mm; with friction only
+};
+
 /// Solves one plate position: an ActiveSet, or another method to compare with.
 class ContactSolver {
  public:
@@ -37,9 +44,20 @@ class ContactSolver {
   /// Per candidate normal plate force (µN) and plate (−1 none).
   virtual std::vector<double> normal_forces(const PlatePair& plates, const BodyState& state,
                                             const BodyForces& forces) const = 0;
-  virtual const std::vector<signed char>& touching() const = 0;
-  virtual void set_touching(std::vector<signed char> touching) = 0;
+  /// Per candidate friction force of the plate, µN, at right angles to the normal; empty without
+  /// friction.
+  virtual std::vector<Vec3> friction_forces(const PlatePair&, const BodyState&,
+                                            const BodyForces&) const {
+    return {};
+  }
+  const std::vector<signed char>& touching() const { return memory_.touching; }
+  const ContactMemory& memory() const { return memory_; }
+  /// Goes back to what memory() gave after a converged solve.
+  void restore(ContactMemory memory) { memory_ = std::move(memory); }
   virtual const std::vector<int>& candidates() const = 0;
+
+ protected:
+  ContactMemory memory_;
 };
 
 }  // namespace breast

@@ -1,0 +1,46 @@
+#include "contact/options.hpp"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+/// The whole text as one finite number.
+std::optional<double> number(const std::string& text) {
+  std::istringstream in(text);
+  double value = 0;
+  if (!(in >> value) || !in.eof() || !std::isfinite(value)) return {};
+  return value;
+}
+}  // namespace
+
+std::optional<WallSprings> parse_wall(const std::string& text) {
+  if (text == "fixed") return {};
+  const std::string kind = "spring:";
+  if (text.rfind(kind, 0) == 0) {
+    const std::string rest = text.substr(kind.size());
+    const std::size_t comma = rest.find(',');
+    const std::optional<double> normal = number(rest.substr(0, comma));
+    const std::optional<double> along = comma == std::string::npos
+                                            ? (normal ? std::optional(*normal / 3) : normal)
+                                            : number(rest.substr(comma + 1));
+    if (normal && along && *normal > 0 && *along >= 0) return WallSprings{*normal, *along};
+  }
+  throw input_error("--wall ", text,
+                    ": give 'fixed', 'spring:NORMAL' or 'spring:NORMAL,TANGENTIAL' in kPa/mm, the "
+                    "first above 0; for example spring:1");
+}
+
+double parse_detector(const std::string& text) {
+  if (text == "raised") return std::numeric_limits<double>::infinity();
+  if (text == "fixed") return 0;
+  const std::optional<double> rise = number(text);
+  if (rise && *rise >= 0) return *rise;
+  throw input_error("--detector ", text, ": give 'raised', 'fixed' or a rise in mm, 0 or more");
+}
+
+}  // namespace breast
