@@ -15,6 +15,10 @@ constexpr int most_toggles = 3;
 constexpr double slope_kept = 0.8;
 /// Iterations in which touching nodes may move freely onto the plate.
 constexpr int free_moves = 8;
+/// Pull, as a part of the scale times the tolerance, from which on a node is let go.
+constexpr double least_pull = 0.1;
+/// Longest multiple of a shifted step.
+constexpr double longest_slip = 64;
 /// Halvings of a Newton step before it is given up.
 constexpr int most_halvings = 6;
 }  // namespace
@@ -39,7 +43,7 @@ std::string describe(StepOutcome outcome) {
 struct ActiveSet::Sweep {
   double free_norm = 0, scale = 0;  ///< µN: unbalanced force; reaction or load it is compared with
   double worst_gap = 0;             ///< mm, |distance| over touching nodes
-  double volume_error = 0;
+  double volume_residual = 0;
   Eigen::VectorXd free;      ///< residual without reactions and touching normals
   Eigen::VectorXd gradient;  ///< of the augmented energy, likewise
   double relative() const { return free_norm / scale; }
@@ -80,7 +84,7 @@ ActiveSet::Sweep ActiveSet::measure(const PlatePair& plates, const BodyState& st
   }
   sweep.free_norm = sweep.free.norm();
   sweep.scale = std::max({std::sqrt(reaction), body_.load_norm(), 1e-30});
-  sweep.volume_error = forces.max_volume_error;
+  sweep.volume_residual = forces.volume_residual;
   return sweep;
 }
 
@@ -122,7 +126,7 @@ bool ActiveSet::update(const PlatePair& plates, const BodyState& state, const Bo
       const Gap gap = plates.plate(memory_.touching[c]).gap(x);
       const double pushed =
           node_vector(forces.residual, candidates_[c]).dot(gap.gradient.normalized());
-      if (pushed < -1e-10 * scale) {
+      if (pushed < -least_pull * tolerance_ * scale) {
         if (options_.friction.present()) {
           memory_.anchors[c] += plates.plate(memory_.touching[c]).shift();
         }
@@ -149,8 +153,9 @@ StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double to
   double first_imbalance = 0;
   for (;; ++result.iterations) {
     const auto balanced = [&](const Sweep& sweep) {
-      return sweep.relative() <= tolerance_ && sweep.worst_gap <= options_.gap_tolerance &&
-             sweep.volume_error <= options_.volume_tolerance;
+      return sweep.relative() <= tolerance_ &&
+             sweep.worst_gap <= std::max(options_.gap_tolerance, tolerance_) &&
+             sweep.volume_residual <= std::max(options_.volume_tolerance, tolerance_);
     };
     Sweep now = measure(plates, state, result.forces);
     const bool converged = balanced(now);
@@ -222,6 +227,25 @@ bool ActiveSet::newton_step(const PlatePair& plates, const Sweep& now, BodyState
   return line_search(plates, now, increment, solve, state, result);
 }
 
+/// Along a direction of negative curvature a shifted step is far too short: it is doubled while the
+/// slope stays as steep as promised. `state` and `forces` are those of the length returned.
+double ActiveSet::go_further(const PlatePair& plates, const BodyState& start,
+                             const BodyState& increment, const BodySolve& solve, double along,
+                             BodyState& state, BodyForces& forces) {
+  double alpha = 1;
+  while (along < -slope_kept * solve.slope && alpha < longest_slip) {
+    BodyState further{start.x + 2 * alpha * increment.x, start.p + increment.p};
+    BodyForces there;
+    if (!body_.forces(further, there)) break;
+    along = increment.x.dot(measure(plates, further, there).gradient);
+    if (along > slope_kept * solve.slope) break;
+    alpha *= 2;
+    state = std::move(further);
+    forces = std::move(there);
+  }
+  return alpha;
+}
+
 bool ActiveSet::line_search(const PlatePair& plates, const Sweep& now, const BodyState& increment,
                             const BodySolve& solve, BodyState& state, StepResult& result) {
   const BodyState start = state;
@@ -251,9 +275,12 @@ bool ActiveSet::line_search(const PlatePair& plates, const Sweep& now, const Bod
         moving || flatter || merit(trial) < merit(now) || trial.relative() < tolerance_;
     any_admissible = true;
     if (!accepted) continue;
+    if (solve.shifted && alpha == 1) {
+      alpha = go_further(plates, start, increment, solve, along, state, trial_forces);
+    }
     result.forces = std::move(trial_forces);
-    result.history.push_back(
-        {trial.relative(), result.forces.min_det_F, result.forces.max_det_F, alpha});
+    result.history.push_back({measure(plates, state, result.forces).relative(),
+                              result.forces.min_det_F, result.forces.max_det_F, alpha});
     return true;
   }
   result.outcome = any_admissible ? StepOutcome::no_descent : StepOutcome::folded;

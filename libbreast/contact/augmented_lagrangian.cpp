@@ -73,7 +73,7 @@ bool AugmentedLagrangian::equilibrate(const PlatePair& plates, BodyState& state,
   for (int k = 0; k < options_.most_iterations; ++k) {
     const Balance now = balance(plates, state, result.forces);
     result.residual = now.relative();
-    if (now.relative() <= tolerance && result.forces.max_volume_error <= 1e-8) return true;
+    if (now.relative() <= tolerance && result.forces.volume_residual <= 1e-8) return true;
     if (!body_.assemble(state)) break;
     for (std::size_t c = 0; c < candidates_.size(); ++c) {
       const Contact at = contact(plates, state.x, c);

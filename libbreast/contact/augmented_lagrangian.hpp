@@ -10,7 +10,7 @@ namespace breast {
 
 struct AugmentedLagrangianOptions {
   double penalty = 1e5;         ///< µN/mm per node to start with; about 10 μ h
-  double gap_tolerance = 5e-3;  ///< mm of penetration, or of gap under a force
+  double gap_tolerance = 2e-4;  ///< mm of penetration, or of gap under a force
   int most_updates = 25, most_iterations = 40;
 };
 

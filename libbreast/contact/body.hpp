@@ -24,6 +24,9 @@ struct BodyForces {
   Eigen::VectorXd augmented;
   double min_det_F = 1, max_det_F = 1;
   double max_volume_error = 0;  ///< worst |mean det F − 1| over elements
+  /// Worst remainder of the volume equation over an element's volume: zero in a solution, where a
+  /// compressible body still has a volume error.
+  double volume_residual = 0;
 };
 
 /// Displacement of a node along a unit normal, prescribed in a linearised solve.

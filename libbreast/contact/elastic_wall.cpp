@@ -36,8 +36,11 @@ double ElasticWall::add_forces(const Eigen::VectorXd& x, Eigen::VectorXd& residu
   return energy;
 }
 
-void ElasticWall::add_stiffness(NodeMatrix& matrix) const {
-  for (const Spring& spring : springs_) matrix.add_to_node(spring.node, spring.stiffness);
+void ElasticWall::add_stiffness(SaddleMatrix& matrix) const {
+  for (const Spring& spring : springs_) {
+    matrix.stiffness.add_to_node(spring.node, spring.stiffness);
+    matrix.diagonal.segment<3>(3L * spring.node) += spring.stiffness.diagonal();
+  }
 }
 
 Vec3 ElasticWall::force_on_body(const Eigen::VectorXd& x) const {
@@ -60,7 +63,7 @@ bool ProblemOnWall::tangent(const SaddleState& state, SaddleForces& forces,
                             SaddleMatrix& matrix) const {
   if (!body_.tangent(state, forces, matrix)) return false;
   forces.energy += wall_.add_forces(state.u, forces.r);
-  wall_.add_stiffness(matrix.stiffness);
+  wall_.add_stiffness(matrix);
   return true;
 }
 

@@ -21,7 +21,7 @@ class ElasticWall {
   ElasticWall(const HexMesh& mesh, const WallSprings& springs);
   /// Adds the internal forces of the springs at positions x (3 per node); returns their energy.
   double add_forces(const Eigen::VectorXd& x, Eigen::VectorXd& residual) const;
-  void add_stiffness(NodeMatrix& matrix) const;
+  void add_stiffness(SaddleMatrix& matrix) const;
   /// Force of the wall on the body, µN.
   Vec3 force_on_body(const Eigen::VectorXd& x) const;
 

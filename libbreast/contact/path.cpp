@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -12,6 +13,9 @@ namespace {
 
 /// Automatic step lengths as parts of the initial thickness: 6 and 8 mm of a typical breast.
 constexpr double first_part = 0.07, longest_part = 0.095;
+
+/// States kept to go back to when the last one turns out to be no equilibrium.
+constexpr std::size_t longest_trail = 3;
 
 /// A converged state that can be returned to.
 struct Waypoint {
@@ -56,6 +60,7 @@ class Path {
   PathResult result_;
   Waypoint here_, before_;
   bool have_before_ = false;
+  std::deque<Waypoint> trail_;  ///< the last ones before before_
 };
 
 PathPoint Path::force_point(const BodyState& state, const StepResult& step,
@@ -181,6 +186,8 @@ bool Path::march() {
       if (target_.kind != TargetKind::thickness && reached.measured >= target_.value) {
         return refine_control(here_, std::move(reached));
       }
+      trail_.push_back(std::move(before_));
+      if (trail_.size() > longest_trail) trail_.pop_front();
       before_ = std::move(here_);
       here_ = std::move(reached);
       have_before_ = true;
@@ -232,25 +239,39 @@ bool Path::refine_control(Waypoint low, Waypoint high) {
   return false;
 }
 
-/// Solves the last state tightly, so that it is an equilibrium to the reported tolerance.
+/// Solves the last state tightly, so that it is an equilibrium to the reported tolerance. Close to
+/// where a path ends a loosely solved state may be none: then the one before it is taken.
 bool Path::finish() {
-  Waypoint reached;
   const StepOutcome failure = result_.last_failure;
   const double failed_thickness = result_.failed_thickness;
   Eigen::VectorXd failed_trial = result_.failed_trial;
-  const bool ok = attempt(here_.state, here_.memory, here_.thickness, options_.tolerance, reached);
-  if (ok) {
-    here_ = std::move(reached);
-    // The tight solve repeats the last point of the path.
-    const std::size_t n = result_.points.size();
-    if (n >= 2 && result_.points[n - 2].thickness == here_.thickness) {
-      result_.points.erase(result_.points.end() - 2);
+  for (bool last = true;; last = false) {
+    Waypoint reached;
+    if (attempt(here_.state, here_.memory, here_.thickness, options_.tolerance, reached)) {
+      here_ = std::move(reached);
+      // The tight solve repeats the last point of the path.
+      const std::size_t n = result_.points.size();
+      if (n >= 2 && result_.points[n - 2].thickness == here_.thickness) {
+        result_.points.erase(result_.points.end() - 2);
+      }
+      if (last) {
+        result_.last_failure = failure;
+        result_.failed_thickness = failed_thickness;
+        result_.failed_trial = std::move(failed_trial);
+      }
+      return last;
     }
-    result_.last_failure = failure;
-    result_.failed_thickness = failed_thickness;
-    result_.failed_trial = std::move(failed_trial);
+    if (!have_before_) return false;
+    while (!result_.points.empty() && result_.points.back().thickness != before_.thickness) {
+      result_.points.pop_back();
+    }
+    here_ = std::move(before_);
+    have_before_ = !trail_.empty() && trail_.back().state.x.size() > 0;
+    if (have_before_) {
+      before_ = std::move(trail_.back());
+      trail_.pop_back();
+    }
   }
-  return ok;
 }
 
 PathResult Path::run(BodyState& state) {

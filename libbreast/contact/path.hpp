@@ -26,7 +26,7 @@ struct CompressionTarget {
 struct PathOptions {
   double first_step = 0, longest_step = 0, shortest_step = 0.05;
   double least_thickness = 2;    ///< force and pressure control give up here
-  double path_tolerance = 1e-6;  ///< residual on the way; the last state is solved to `tolerance`
+  double path_tolerance = 1e-4;  ///< residual on the way; the last state is solved to `tolerance`
   double tolerance = 1e-9;
   double control_tolerance = 1e-4;  ///< relative, of force and pressure control
   int most_solves = 400;

@@ -63,6 +63,12 @@ bool SaddleBody::forces(const BodyState& state, BodyForces& forces) {
   forces.min_det_F = at.min_det_F;
   forces.max_det_F = at.max_det_F;
   forces.max_volume_error = at.max_volume_error;
+  forces.volume_residual = 0;
+  const long rows = at.theta.size() / at.element_count;
+  for (long i = 0; i < at.theta.size(); ++i) {
+    forces.volume_residual = std::max(forces.volume_residual,
+                                      std::abs(at.theta[i]) / problem_.volume_scale(int(i / rows)));
+  }
   return true;
 }
 

@@ -25,13 +25,16 @@ struct AssemblyOf<N, P, F>::Chunk {
         energy(element_chunk) {}
 };
 
+constexpr double condensed_ratio = 1e4;  // of bulk to shear modulus
+
 // κ proportional to the present stiffness: trace K = (10/3) μ Σ|∇N|² for a linear solid (the
 // pressure term has no trace). With a finite bulk modulus κ/K must be one number, so μ at rest is
-// taken.
+// taken; up to condensed_ratio it is the bulk modulus itself, which makes the matrix the exact
+// tangent without pressures: strong compression stiffens the laws far beyond μ at rest.
 template <int N, int P, int F>
 double AssemblyOf<N, P, F>::kappa_of(int e, double augmentation, const HexOutput<N, P>& out) const {
   const double rest = laws_[law_of_[e]].shear_modulus();
-  if (bulk_ratio_ > 0) return std::min(augmentation, bulk_ratio_) * rest;
+  if (bulk_ratio_ > 0) return std::min(std::max(augmentation, condensed_ratio), bulk_ratio_) * rest;
   const double now = out.k.trace() / (10.0 / 3 * out.gradient_square);
   return augmentation * (now > rest ? now : rest);
 }

@@ -94,12 +94,14 @@ TEST_F(CompressTool, EstimatesItsDiscretisationError) {
 }
 
 TEST_F(CompressTool, AnEarlyStopIsWrittenOnlyWhenEnoughWasReached) {
-  // No path gets to 95 %: it must stop early, with a reason.
-  const ToolResult refused = compress({"CC", "--reduction", "95", "--at-least", "94"});
+  // Sharp plates beside the held wall fold elements: no path gets to 95 %.
+  const ToolResult refused = compress(
+      {"CC", "--reduction", "95", "--at-least", "94", "--edge-radius", "0", "--standoff", "0"});
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_FALSE(wrote());
   EXPECT_NE(refused.err.find("stopped at thickness"), std::string::npos) << refused.err;
-  const ToolResult accepted = compress({"CC", "--reduction", "95", "--at-least", "30"});
+  const ToolResult accepted = compress(
+      {"CC", "--reduction", "95", "--at-least", "5", "--edge-radius", "0", "--standoff", "0"});
   EXPECT_EQ(accepted.exit_code, 0) << accepted.err;
   ASSERT_TRUE(wrote());
   EXPECT_EQ(report().text("status"), "stopped_early");
@@ -108,19 +110,21 @@ TEST_F(CompressTool, AnEarlyStopIsWrittenOnlyWhenEnoughWasReached) {
 }
 
 TEST_F(CompressTool, RefusesWhatItCannotDo) {
-  for (const std::vector<std::string>& options :
-       std::vector<std::vector<std::string>>{{"CC"},
-                                             {"CC", "--reduction", "40", "--force", "100"},
-                                             {"XX", "--reduction", "40"},
-                                             {"CC", "--reduction", "40", "--friction", "0.3"},
-                                             {"CC", "--reduction", "40", "--wall", "spring:3"},
-                                             {"CC", "--reduction", "40", "--gravity", "sideways"},
-                                             {"CC", "--reduction", "40", "--gravity", "1,2"},
-                                             {"CC", "--reduction", "-4"},
-                                             {"CC", "--reduction", "0"},
-                                             {"CC", "--reduction", "40", "--solver", "multigrid"},
-                                             {"CC", "--thickness", "900"},
-                                             {"CC", "--reduction", "40", "--standoff", "400"}}) {
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+           {"CC"},
+           {"CC", "--reduction", "40", "--force", "100"},
+           {"XX", "--reduction", "40"},
+           {"CC", "--reduction", "40", "--friction", "-0.3"},
+           {"CC", "--reduction", "40", "--wall", "spring:0"},
+           {"CC", "--reduction", "40", "--detector", "up"},
+           {"CC", "--reduction", "40", "--friction", "0.2", "--contact", "al"},
+           {"CC", "--reduction", "40", "--gravity", "sideways"},
+           {"CC", "--reduction", "40", "--gravity", "1,2"},
+           {"CC", "--reduction", "-4"},
+           {"CC", "--reduction", "0"},
+           {"CC", "--reduction", "40", "--solver", "multigrid"},
+           {"CC", "--thickness", "900"},
+           {"CC", "--reduction", "40", "--standoff", "400"}}) {
     const ToolResult result = compress(options);
     EXPECT_EQ(result.exit_code, 2) << options.back();
     EXPECT_EQ(result.error_lines(), 1) << result.err;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "contact/plates.hpp"
 #include "core/error.hpp"
@@ -112,15 +113,32 @@ TEST(Plates, FootprintIsCutAtTheEdgeNotAtNodes) {
   }
 }
 
-TEST(Plates, DetectorShareMovesOnePlateOnly) {
+TEST(Plates, DetectorStaysOrRisesAsFarAsItMay) {
   const HexMesh mesh = fixtures::standing_block({50, 60, 40}, {2, 2, 2});
-  PlateOptions options;
-  options.detector_share = 0;
-  PlatePair plates = place_plates(mesh, mesh.points, view_pose(Side::left, 0), options);
-  const double detector = plates.detector.level;
-  plates.close_to(25);
-  EXPECT_EQ(plates.detector.level, detector);
-  EXPECT_NEAR(plates.thickness(), 25, 1e-12);
+  std::vector<Vec3> hanging = mesh.points;
+  for (Vec3& x : hanging) x.z() -= 0.1 * -x.y();  // sinks towards the nipple
+  const auto place = [&](double rise) {
+    PlateOptions options;
+    options.detector_rise = rise;
+    return place_plates(mesh, hanging, view_pose(Side::left, 0), options);
+  };
+  PlatePair stays = place(0);
+  const double touching = stays.detector_start, top = stays.paddle_start;
+  EXPECT_NEAR(touching, 6, 1e-9);  // the lowest skin: h = −z
+  stays.close_to(25);
+  EXPECT_NEAR(stays.detector.level, touching, 1e-12);
+  EXPECT_NEAR(stays.thickness(), 25, 1e-12);
+  PlatePair rises = place(4);
+  rises.close_to(25);
+  EXPECT_NEAR(rises.detector.level, touching - 4, 1e-12);
+  EXPECT_NEAR(rises.thickness(), 25, 1e-12);
+  rises.close_to(rises.initial_thickness - 2);
+  EXPECT_NEAR(rises.detector.level, touching - 1, 1e-12);
+  EXPECT_NEAR(rises.paddle.level, top + 1, 1e-12);
+  // Lifted all the way: the plates meet at the middle of the unloaded footprint.
+  PlatePair lifts = place(std::numeric_limits<double>::infinity());
+  lifts.close_to(10);
+  EXPECT_NEAR(lifts.paddle.level + lifts.detector.level, -40, 1e-9);
 }
 
 TEST(Plates, MissingTheBreastIsAnInputError) {

@@ -7,35 +7,13 @@
 #include "contact/path.hpp"
 #include "contact/saddle_body.hpp"
 #include "core/units.hpp"
+#include "fixtures/pressed_block.hpp"
 #include "fixtures/standing_block.hpp"
 #include "mechanics/scene.hpp"
 
 using namespace breast;
 
 namespace {
-
-/// Plates wider than the block, edges far away, about its mid-height.
-PlatePair wide_plates(double height) {
-  PlatePair pair;
-  Plate plate;
-  const ViewPose pose = view_pose(Side::left, 0);
-  plate.n = pose.n;
-  plate.anterior = pose.e_u;
-  plate.lateral = pose.e_v;
-  plate.edge_start = -500;
-  plate.far_edge = 500;
-  plate.half_width = 500;
-  plate.edge_radius = 10;
-  pair.paddle = pair.detector = plate;
-  pair.paddle.name = "paddle";
-  pair.detector.name = "detector";
-  pair.detector.sign = -1;
-  pair.initial_thickness = pair.touching_thickness = height;
-  pair.paddle_start = -height;  // beam n = −z: h runs downwards from the top at z = height
-  pair.detector_start = 0;
-  pair.close_to(height);
-  return pair;
-}
 
 /// A block on two symmetry planes, x = 0 and y = 0, free elsewhere.
 Constraints symmetry_planes(const HexMesh& mesh) {
@@ -71,7 +49,7 @@ TEST(ContactBlock, RivlinCompressionBetweenFrictionlessPlates) {
       if (z < 1e-9 || z > size.z() - 1e-9) top_and_bottom.push_back(node);
     }
     ActiveSet contact(body, top_and_bottom);
-    PlatePair plates = wide_plates(size.z());
+    PlatePair plates = fixtures::wide_plates(0, size.z());
     BodyState state{flatten(mesh.reference), scene.assembly().rest_pressure()};
     const auto area = [&](const BodyState&) {
       return std::vector<double>(top_and_bottom.size(), 1.0);
@@ -96,4 +74,38 @@ TEST(ContactBlock, RivlinCompressionBetweenFrictionlessPlates) {
     EXPECT_NEAR(path.points.back().detector_N / exact, 1, 1e-8);
     EXPECT_LT(path.final_step.forces.max_volume_error, 1e-9);
   }
+}
+
+// The cube other programs were run on, on their nodes and with their bulk modulus; force (N) at
+// gaps of the height by a program that prescribes u_z on the touching nodes (all of them push). It
+// stays symmetric, so does a quarter.
+TEST(ContactBlock, ForcesOfTheClampedCubeAgreeWithAnotherProgram) {
+  using fixtures::PressedBlock;
+  PressedBlock nearly(8, 1e4, PressedBlock::Part::quarter);
+  PressedBlock exactly(8, 0, PressedBlock::Part::quarter);
+  for (const auto& [gap, force] : std::vector<std::pair<double, double>>{
+           {0.7, 361.1}, {0.6, 1258.1}, {0.5, 4134.7}, {0.4, 14499}, {0.3, 60532}}) {
+    const PathResult path = nearly.close_to(gap);
+    ASSERT_TRUE(path.reached) << gap << ": " << describe(path.last_failure);
+    EXPECT_NEAR(nearly.force(path) / force, 1, 0.005) << gap;
+    if (std::abs(gap - 0.6) < 0.01) {
+      const Vec3 from_the_plane(28.224, 15.252, -20);
+      EXPECT_LT((nearly.corner() - from_the_plane).norm(), 2e-3);
+    }
+    if (gap < 0.45) continue;
+    const PathResult exact = exactly.close_to(gap);
+    ASSERT_TRUE(exact.reached) << gap;
+    EXPECT_NEAR(exactly.force(exact) / force, 1, 0.025) << gap;
+    EXPECT_LT(exact.final_step.forces.max_volume_error, 1e-9);
+  }
+}
+
+TEST(ContactBlock, TheWholeCubeStaysSymmetricAsLongAsThatIsStable) {
+  using fixtures::PressedBlock;
+  PressedBlock whole(8, 1e4);
+  const PathResult path = whole.close_to(0.6);
+  ASSERT_TRUE(path.reached);
+  EXPECT_NEAR(whole.force(path) / 1258.1, 1, 1e-3);
+  EXPECT_NEAR(path.points.back().detector_N / path.points.back().paddle_N, 1, 1e-6);
+  EXPECT_EQ(path.indefinite, 0);
 }

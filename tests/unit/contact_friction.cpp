@@ -1,0 +1,79 @@
+// Friction's return map, the springs of an elastic wall, and the options that name them.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "contact/elastic_wall.hpp"
+#include "contact/friction.hpp"
+#include "contact/options.hpp"
+#include "core/error.hpp"
+#include "fixtures/standing_block.hpp"
+#include "mechanics/assembly.hpp"
+
+using namespace breast;
+
+TEST(Friction, SticksBelowTheBoundAndSlipsOnIt) {
+  const Friction friction{0.3, 1e6};
+  const Vec3 anchor(1, 2, 3), normal = Vec3(1, 2, -2).normalized();
+  const Vec3 along = normal.unitOrthogonal();
+  const FrictionForce sticks = friction.at(anchor + 1e-4 * along + 5 * normal, anchor, normal, 1e3);
+  EXPECT_FALSE(sticks.slips);
+  EXPECT_LT((sticks.force + 100 * along).norm(), 1e-9);
+  const FrictionForce slips = friction.at(anchor + 1e-2 * along, anchor, normal, 1e3);
+  EXPECT_TRUE(slips.slips);
+  EXPECT_LT((slips.force + 300 * along).norm(), 1e-9);
+  // After the slip the anchor lies where the spring holds exactly the bound.
+  const Vec3 slid = friction.slid_anchor(anchor + 1e-2 * along, slips);
+  EXPECT_LT((friction.at(anchor + 1e-2 * along, slid, normal, 1e3).force - slips.force).norm(),
+            1e-6);
+  EXPECT_EQ(friction.at(anchor + along, anchor, normal, -5).force, Vec3(0, 0, 0));
+}
+
+TEST(Friction, StiffnessIsTheDerivativeAtAFixedBound) {
+  const Friction friction{0.4, 2e5};
+  const Vec3 anchor(0, 0, 0), normal = Vec3(0.2, -1, 0.4).normalized();
+  for (const double reach : {1e-4, 0.3}) {
+    const Vec3 x = reach * Vec3(1, 0.5, -0.7);
+    const Mat3 stiffness = friction.at(x, anchor, normal, 1e4).stiffness;
+    const double step = 1e-3 * reach;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 d = step * Vec3::Unit(i);
+      const Vec3 slope = -(friction.at(x + d, anchor, normal, 1e4).force -
+                           friction.at(x - d, anchor, normal, 1e4).force) /
+                         (2 * step);
+      EXPECT_LT((slope - stiffness.col(i)).norm(), 1e-5 * stiffness.norm()) << reach;
+    }
+  }
+}
+
+TEST(ElasticWall, ForceIsStiffnessTimesAreaTimesMotion) {
+  const HexMesh mesh = fixtures::standing_block({50, 60, 40}, {2, 2, 2});  // wall y = 0: 2000 mm²
+  const ElasticWall wall(mesh, {0.5, 0.2});
+  const auto pushed = [&](const Vec3& by) {
+    std::vector<Vec3> x = mesh.reference;
+    for (Vec3& point : x) point += by;
+    return wall.force_on_body(flatten(x));
+  };
+  // 0.5 kPa/mm · 2000 mm² = 1e6 µN/mm across the wall.
+  EXPECT_LT((pushed({0, 2, 0}) - Vec3(0, -2e6, 0)).norm(), 1e-3);
+  EXPECT_LT((pushed({1, 0, 3}) - Vec3(-0.4e6, 0, -1.2e6)).norm(), 1e-3);
+  EXPECT_THROW(ElasticWall(mesh, {0, 1}), Error);
+  EXPECT_THROW(ElasticWall(mesh, {1, std::nan("")}), Error);
+}
+
+TEST(ContactOptions, WallAndDetectorAreReadOrRefusedInWords) {
+  EXPECT_FALSE(parse_wall("fixed"));
+  EXPECT_NEAR(parse_wall("spring:3")->tangential, 1, 1e-15);
+  EXPECT_EQ(parse_wall("spring:3,0")->tangential, 0);
+  EXPECT_TRUE(std::isinf(parse_detector("raised")));
+  EXPECT_EQ(parse_detector("fixed"), 0);
+  EXPECT_EQ(parse_detector("12.5"), 12.5);
+  for (const char* bad : {"", "spring", "spring:", "spring:0", "spring:-1", "spring:1,-1",
+                          "spring:1,", "spring:nan", "spring:1;2", "free"}) {
+    EXPECT_THROW(parse_wall(bad), Error) << bad;
+  }
+  for (const char* bad : {"", "-1", "nan", "inf", "up", "3mm"}) {
+    EXPECT_THROW(parse_detector(bad), Error) << bad;
+  }
+}
