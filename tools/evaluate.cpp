@@ -7,8 +7,7 @@
 #include "evaluation/curve_distance.hpp"
 #include "evaluation/foreign_labels.hpp"
 #include "evaluation/label_surface.hpp"
-#include "evaluation/overlap.hpp"
-#include "evaluation/surface_distance.hpp"
+#include "evaluation/quantities.hpp"
 #include "io/label_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
@@ -21,36 +20,20 @@ bool is_surface(const std::filesystem::path& file) {
   return file.extension() == ".vtp";
 }
 
-LabelVolume read_any_labels(const std::filesystem::path& file, const TissueCodes& codes) {
+/// `volume` (may be null) receives a foreign volume as it is.
+LabelVolume read_any_labels(const std::filesystem::path& file, const TissueCodes& codes,
+                            Volume<float>* volume) {
   if (file.extension() == ".vtkhdf") return read_labels(file);
-  return translate_labels(read_volume(file), codes, file.string());
+  const Volume<float> foreign = read_volume(file);
+  if (volume != nullptr) *volume = foreign;
+  return translate_labels(foreign, codes, file.string());
 }
 
-void report_distances(Run& run, Table& table, const std::string& name, const Distances& d) {
-  table.rows.push_back({name + "_mean_mm", format_fixed(d.mean_mm, 3)});
-  table.rows.push_back({name + "_p95_mm", format_fixed(d.p95_mm, 3)});
-  table.rows.push_back({name + "_max_mm", format_fixed(d.max_mm, 3)});
-  run.report().set(name + "/mean_mm", d.mean_mm);
-  run.report().set(name + "/p95_mm", d.p95_mm);
-  run.report().set(name + "/max_mm", d.max_mm);
-}
-
-void report_overlap(Run& run, Table& table, const std::string& name, const Overlap& overlap) {
-  if (overlap.given_ml == 0 && overlap.truth_ml == 0) return;
-  table.rows.push_back({name + "_dice", format_fixed(overlap.dice, 4)});
-  table.rows.push_back({name + "_ml", format_fixed(overlap.given_ml, 2)});
-  table.rows.push_back({name + "_truth_ml", format_fixed(overlap.truth_ml, 2)});
-  run.report().set("dice/" + name, overlap.dice);
-  run.report().set("volumes_ml/" + name, overlap.given_ml);
-  run.report().set("truth_volumes_ml/" + name, overlap.truth_ml);
-}
-
-void report_nipple(Run& run, Table& table, const LabelVolume& given, const LabelVolume& truth) {
-  const auto a = given.landmarks.find("nipple"), b = truth.landmarks.find("nipple");
-  if (a == given.landmarks.end() || b == truth.landmarks.end()) return;
-  const double distance = (a->second - b->second).norm();
-  table.rows.push_back({"nipple_mm", format_fixed(distance, 3)});
-  run.report().set("nipple_mm", distance);
+void report(Run& run, Table& table, const std::vector<Quantity>& quantities) {
+  for (const Quantity& q : quantities) {
+    table.rows.push_back({q.name, format_fixed(q.value, q.digits)});
+    run.report().set(q.key, q.value);
+  }
 }
 
 // Curves of cc2mlo: how far apart they are on the MLO detector.
@@ -59,25 +42,24 @@ void evaluate_curves(Run& run, Table& table, const std::filesystem::path& given,
   const CurveComparison comparison =
       compare_curves(read_polylines(given), read_polylines(truth), given.string(), truth.string());
   table.rows.push_back({"curves", std::to_string(comparison.curves)});
-  report_distances(run, table, "curve", comparison.both);
+  report(run, table, distance_quantities("curve", comparison.both));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::filesystem::path given_file, truth_file, region_file;
+  std::filesystem::path given_file, truth_file, region_file, fraction_file;
   std::vector<std::string> code_texts;
-  int region_code = 0;
+  int region_code = 0, nipple_code = 0;
   bool curves = false;
   Tool tool("evaluate", "agreement of a segmentation or a surface with the truth");
   tool.describe(
-          "Two label volumes: Dice and volumes of every tissue and of the breast (fat, "
-          "fibroglandular, skin "
-          "and tumour together), distances between the breasts' surfaces (good to half a voxel) "
-          "and "
+          "Two label volumes: Dice and volumes of every tissue, of the breast (fat, "
+          "fibroglandular, skin and tumour together) and of the body (all but air, where both "
+          "volumes have voxels), the chest walls' distance along y where the true breast has "
+          "muscle behind it, distances between the breasts' surfaces (good to half a voxel) and "
           "between the nipples. Two surfaces or point sets (.vtp), or a label volume and a "
-          "surface: "
-          "distances. Prints a table of quantity and value to stdout.")
+          "surface: distances. Prints a table of quantity and value to stdout.")
       .cite("Dice 1945, Ecology 26(3):297-302");
   tool.input(given_file, "GIVEN", "label volume (.vtkhdf, .nrrd, .nii, .mha) or surface (.vtp)");
   tool.input(truth_file, "TRUTH", "the same, taken as true");
@@ -90,6 +72,13 @@ int main(int argc, char** argv) {
   tool.flag(curves, "--curves",
             "both files are curves of cc2mlo: distance of the matched curves on the MLO detector");
   tool.example("evaluate no-skin/curve.vtp curve.vtp --curves", "what a change of model moves");
+  tool.integer(nipple_code, "--nipple-code", "CODE",
+               "code of the nipple in a foreign TRUTH: the point of the skin nearest to its centre "
+               "is the true nipple",
+               1, 65535);
+  tool.input_file(fraction_file, "--fraction", "FILE",
+                  "true share of fibroglandular tissue per voxel (0-1 or 0-255): prints the Dice "
+                  "within voxels and the most any labelling of these voxels could reach");
   tool.example("evaluate labels.vtkhdf truth/labels-left.vtkhdf", "a segmentation of the phantom");
   tool.example(
       "evaluate labels.vtkhdf labels_mr.nrrd --code 1=fat --code 29=fibroglandular --code 2=skin "
@@ -106,27 +95,31 @@ int main(int argc, char** argv) {
       return;
     }
     TriMesh given, truth;
+    Volume<float> foreign;
     std::optional<LabelVolume> given_labels, truth_labels;
     run.progress().update("reading", 0, "");
     if (is_surface(given_file))
       given = read_surface(given_file);
     else
-      given_labels = read_any_labels(given_file, codes);
+      given_labels = read_any_labels(given_file, codes, nullptr);
     if (is_surface(truth_file))
       truth = read_surface(truth_file);
     else
-      truth_labels = read_any_labels(truth_file, codes);
+      truth_labels = read_any_labels(truth_file, codes, &foreign);
     if (truth_labels && !region_file.empty())
       restrict_breast(*truth_labels, read_volume(region_file), region_code);
-    if (given_labels && truth_labels) {
-      const LabelOverlap overlap = compare_labels(*given_labels, *truth_labels);
-      for (int t = int(Tissue::fat); t < n_tissues; ++t) {
-        const auto tissue = static_cast<Tissue>(t);
-        report_overlap(run, table, std::string(tissue_name(tissue)),
-                       overlap.tissue[std::size_t(t)]);
-      }
-      report_overlap(run, table, "breast", overlap.breast);
-      report_nipple(run, table, *given_labels, *truth_labels);
+    if (truth_labels && nipple_code > 0) {
+      const auto centre = skin_over_code(foreign, nipple_code, *truth_labels);
+      if (!centre)
+        throw input_error("--nipple-code ", nipple_code, ": no such voxel in the breast");
+      truth_labels->landmarks["nipple"] = *centre;
+    }
+    if (given_labels && truth_labels)
+      report(run, table, label_quantities(*given_labels, *truth_labels));
+    if (given_labels && truth_labels && !fraction_file.empty()) {
+      const Volume<float> fraction = read_volume(fraction_file);
+      report(run, table,
+             fraction_quantities(compare_fractions(*given_labels, *truth_labels, fraction)));
     }
     run.progress().update("distances", -1, "");
     if (given_labels) given = breast_surface(*given_labels);
@@ -134,9 +127,9 @@ int main(int argc, char** argv) {
     if (given.points.empty()) throw input_error(given_file.string(), ": holds no breast");
     if (truth.points.empty()) throw input_error(truth_file.string(), ": holds no breast");
     const SurfaceComparison comparison = compare_surfaces(given, truth);
-    report_distances(run, table, "surface", comparison.both);
-    report_distances(run, table, "surface_to_truth", comparison.to_truth);
-    report_distances(run, table, "surface_from_truth", comparison.from_truth);
+    report(run, table, distance_quantities("surface", comparison.both));
+    report(run, table, distance_quantities("surface_to_truth", comparison.to_truth));
+    report(run, table, distance_quantities("surface_from_truth", comparison.from_truth));
     run.print(table.text());
   });
 }

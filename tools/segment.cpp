@@ -7,10 +7,10 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/table.hpp"
-#include "core/units.hpp"
 #include "io/label_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
+#include "segment/measures.hpp"
 #include "segment/overlay.hpp"
 
 using namespace breast;
@@ -72,39 +72,22 @@ Volume<float> read_wall_labels(const std::filesystem::path& file, std::string& s
   return volume;
 }
 
-void fill_report(Report& report, const Segmentation& result) {
-  std::vector<double> millilitres(n_tissues, 0);
-  for (const auto code : result.labels.tissue) millilitres[code] += 1;
-  for (int t = 0; t < n_tissues; ++t) {
-    millilitres[t] *= result.labels.grid.voxel_volume() / mm3_per_ml;
-    if (t > 0) report.set(message("volumes_ml/", tissue_name(Tissue(t))), millilitres[t]);
+void report_measures(Report& report, Table& table, const Segmentation& result) {
+  table.columns = {"quantity", "value"};
+  for (const Measure& measure : measures_of(result)) {
+    report.set(measure.key, measure.value);
+    table.rows.push_back({measure.name, format_number(measure.value)});
   }
-  const double gland = millilitres[int(Tissue::fibroglandular)],
-               fat = millilitres[int(Tissue::fat)];
-  report.set("density_percent", 100 * gland / (gland + fat));
-  report.set("fat_fraction", result.fat_fraction);
-  report.set("fat_fraction_region_growing", result.fat_fraction_grown);
-  report.set("fibroglandular_agreement", result.fibroglandular_agreement);
   report.set("landmarks/nipple/imaged", result.labels.landmarks.at("nipple"));
-  report.set("nipple_from_extreme_mm", result.nipple_from_extreme);
-  report.set("skin_thickness_mm", result.labels.skin_thickness);
-  report.set("bias/fat_cv_before", result.bias_cv_before);
-  report.set("bias/fat_cv_after", result.bias_cv_after);
-  report.set("bias/range_factor", result.bias_range);
-  report.set("muscle_to_fat", result.muscle_ratio);
-  report.set("fibroglandular_to_fat", result.gland_ratio);
-  report.set("chest_wall/confidence_mean", result.wall_confidence_mean);
-  report.set("chest_wall/confident_percent", result.wall_confident_percent);
-  report.set("chest_wall/sternal_thickness_mm", result.sternal_thickness);
-  report.set("breast_depth_mm", result.greatest_thickness);
-  report.set("midline_mm", result.midline_mm);
+  report.set("nipple_base", result.nipple_base);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::filesystem::path scan_file, labels_file, wall_file, points_file, overlay_file;
+  std::filesystem::path scan_file, labels_file, wall_file, points_file, overlay_file, measures_file;
   std::string side, interior = "threshold";
+  SegmentOptions options;
   int series = 0;
   Tool tool("segment", "labels of one breast from a prone T1 MR scan");
   tool.describe(
@@ -131,12 +114,17 @@ int main(int argc, char** argv) {
   tool.output_file(points_file, "--points", "OUT.vtp", "skin and chest-wall data points");
   tool.output_file(overlay_file, "--overlay", "OUT.png",
                    "slices with contours, to judge the result by");
+  tool.output_file(measures_file, "--measures", "OUT.tsv", "every number measured, as a table");
+  tool.number(
+      options.wall_shift, "--chest-wall-shift", "SIGMAS",
+      "move the chest wall by this many of its own standard deviations (--points: sigma_mm), "
+      "backwards when positive: what its uncertainty does to the result",
+      -3, 3);
   tool.example("segment scan.nrrd labels.vtkhdf --side left --overlay look.png",
                "the left breast, with a picture");
   tool.example("segment dicom/ labels.vtkhdf --side right --series 2 --chest-wall clicked.tsv",
                "second series of a folder, chest wall corrected by clicked points");
   return tool.main(argc, argv, [&](Run& run) {
-    SegmentOptions options;
     options.side = side_from_name(side);
     if (interior == "region-growing") options.interior = Interior::region_growing;
     VolumeSource source;
@@ -166,11 +154,13 @@ int main(int argc, char** argv) {
     Segmentation result = segment_breast(scan, options, run.progress(), run.timer());
     for (const std::string& doubt : result.doubts) run.warn(doubt);
     result.labels.history = run.history(inputs);
-    fill_report(run.report(), result);
+    Table measures;
+    report_measures(run.report(), measures, result);
     run.report().set("interior", interior);
     const Timer::Scope phase(run.timer(), "write");
     if (!overlay_file.empty()) write_overlay(overlay_file, scan, result.labels);
     if (!points_file.empty()) write_surface(points_file, result.points);
+    if (!measures_file.empty()) write_table(measures_file, measures);
     write_labels(labels_file, result.labels);
   });
 }

@@ -1,5 +1,6 @@
 #include "evaluation/foreign_labels.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -64,6 +65,58 @@ void restrict_breast(LabelVolume& labels, const Volume<float>& region, int code)
       }
     }
   }
+}
+
+namespace {
+
+/// Nearest face of a breast's voxel against air, within `reach` mm; the point itself without any.
+Vec3 nearest_skin(const LabelVolume& labels, const Vec3& point, double reach) {
+  const Grid& grid = labels.grid;
+  Vec3 nearest = point;
+  double best = reach;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        if (!is_breast(labels.at(i, j, k))) continue;
+        const Vec3 centre = grid.to_patient(Vec3(i, j, k));
+        if (!((centre - point).norm() < best + grid.spacing.maxCoeff())) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+          for (const int step : {-1, 1}) {
+            std::array<int, 3> beside{i, j, k};
+            beside[std::size_t(axis)] += step;
+            if (!grid.contains(beside[0], beside[1], beside[2]) ||
+                labels.at(beside[0], beside[1], beside[2]) != Tissue::air)
+              continue;
+            const Vec3 face = centre + 0.5 * step * grid.spacing[axis] * grid.direction.col(axis);
+            if (!((face - point).norm() < best)) continue;
+            best = (face - point).norm();
+            nearest = face;
+          }
+        }
+      }
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+std::optional<Vec3> skin_over_code(const Volume<float>& volume, int code,
+                                   const LabelVolume& labels) {
+  Vec3 sum = Vec3::Zero();
+  double count = 0;
+  const Grid& grid = volume.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        if (std::lround(volume.at(i, j, k)) != code || !is_breast(labels.at(i, j, k))) continue;
+        sum += Vec3(i, j, k);
+        count += 1;
+      }
+    }
+  }
+  if (count == 0) return std::nullopt;
+  return nearest_skin(labels, grid.to_patient(sum / count), 15);
 }
 
 }  // namespace breast

@@ -1,6 +1,7 @@
 #include "evaluation/overlap.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.hpp"
 #include "core/units.hpp"
@@ -55,6 +56,29 @@ Counts count_common(const LabelVolume& fine, const LabelVolume& coarse) {
   return total;
 }
 
+/// Body against air on the voxels of `fine` within `coarse`, whatever either holds beyond.
+Overlap body_overlap(const LabelVolume& fine, const LabelVolume& coarse) {
+  const Grid& grid = fine.grid;
+  double mine = 0, theirs = 0, both = 0;
+#pragma omp parallel for num_threads(threads()) reduction(+ : mine, theirs, both)
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const Vec3 at = coarse.grid.to_index(grid.to_patient(Vec3(i, j, k)));
+        const int ci = int(std::lround(at.x())), cj = int(std::lround(at.y())),
+                  ck = int(std::lround(at.z()));
+        if (!coarse.grid.contains(ci, cj, ck)) continue;
+        const bool a = fine.at(i, j, k) != Tissue::air, b = coarse.at(ci, cj, ck) != Tissue::air;
+        mine += a;
+        theirs += b;
+        both += a && b;
+      }
+    }
+  }
+  const double ml = grid.voxel_volume() / mm3_per_ml;
+  return {mine * ml, theirs * ml, mine + theirs > 0 ? 2 * both / (mine + theirs) : 1};
+}
+
 }  // namespace
 
 bool is_breast(Tissue tissue) {
@@ -78,6 +102,8 @@ LabelOverlap compare_labels(const LabelVolume& given, const LabelVolume& truth) 
     const double sum = overlap.given_ml + overlap.truth_ml;
     overlap.dice = sum > 0 ? 2 * both / sum : 1;
   }
+  result.body = given_finer ? body_overlap(given, truth) : body_overlap(truth, given);
+  if (!given_finer) std::swap(result.body.given_ml, result.body.truth_ml);
   return result;
 }
 

@@ -16,6 +16,7 @@ struct Overlap {
 struct LabelOverlap {
   std::array<Overlap, n_tissues> tissue;  ///< by tissue code
   Overlap breast;                         ///< fat, fibroglandular, skin and tumour together
+  Overlap body;                           ///< everything but air, where both volumes have voxels
 };
 
 /// True for the tissues that make up the breast.

@@ -6,13 +6,12 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "segment/debris.hpp"
 #include "segment/itk_filters.hpp"
 
 namespace breast {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double percentile(std::vector<float> values, double fraction) {
   const auto place = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
@@ -149,6 +148,49 @@ void peel_partial_voxels(Mask& mask, const Volume<float>& scan) {
 
 }  // namespace
 
+namespace {
+
+/// Mask of what is brighter than the threshold: opened, filled, its border at half height, debris
+/// off.
+/// `from` as in fill_chest().
+Mask body_above(const Volume<float>& scan, double threshold, double from, double& debris_ml) {
+  Mask mask(scan.grid);
+  for (std::size_t n = 0; n < mask.voxels.size(); ++n) mask.voxels[n] = scan.voxels[n] > threshold;
+  open_slices(mask);
+  mask = largest_component(mask);
+  close_and_fill(mask);
+  fill_chest(mask, find_torso(mask), from);
+  peel_partial_voxels(mask, scan);
+  mask = largest_component(mask);
+  debris_ml = remove_debris(mask, find_torso(mask).midline);
+  return debris_ml > 0 ? largest_component(mask) : mask;
+}
+
+/// Share of the columns within 100 mm of the midline that are body 20 mm behind the sternal skin,
+/// or 40 mm if less are there. Less than three quarters means that dim tissue was taken for air and
+/// only a shell of the chest was found.
+double chest_filled(const Mask& mask) {
+  const Torso torso = find_torso(mask);
+  const Grid& grid = mask.grid;
+  const int reach = int(100 / grid.spacing[0]);
+  double least = 1;
+  for (const double behind : {20.0, 40.0}) {
+    double filled = 0, count = 0;
+    for (int k = 0; k < grid.size[2]; ++k) {
+      const int j = std::min(grid.size[1] - 1, int((torso.cleft[k] + behind) / grid.spacing[1]));
+      for (int i = std::max(0, torso.midline - reach);
+           i <= std::min(grid.size[0] - 1, torso.midline + reach); ++i) {
+        filled += mask.at(i, j, k);
+        count += 1;
+      }
+    }
+    if (count > 0) least = std::min(least, filled / count);
+  }
+  return least;
+}
+
+}  // namespace
+
 Body find_body(const Volume<float>& scan) {
   Body body;
   body.air_level = corner_air_level(scan);
@@ -160,120 +202,28 @@ Body find_body(const Volume<float>& scan) {
   for (std::size_t n = 0; n < logs.size(); ++n) {
     logs[n] = std::log(std::max(scan.voxels[n], 0.0f) + float(floor));
   }
-  body.threshold = std::exp(otsu(logs)) - floor;
-  body.mask = Mask(scan.grid);
-  std::size_t count = 0;
-  for (std::size_t n = 0; n < logs.size(); ++n) {
-    body.mask.voxels[n] = scan.voxels[n] > body.threshold;
-    count += body.mask.voxels[n];
-  }
-  open_slices(body.mask);
-  body.mask = largest_component(body.mask);
-  close_and_fill(body.mask);
-  fill_chest(body.mask, find_torso(body.mask), 30);
-  peel_partial_voxels(body.mask, scan);
-  body.mask = largest_component(body.mask);
-  const double fraction = double(count) / double(logs.size());
+  const double otsu_level = std::exp(otsu(logs)) - floor;
+  const double count = double(std::count_if(scan.voxels.begin(), scan.voxels.end(),
+                                            [&](float v) { return v > otsu_level; }));
+  const double fraction = count / double(logs.size());
   if (!(fraction > 0.02 && fraction < 0.95)) {
     throw input_error("the body fills ", 100 * fraction,
                       " % of the scan (2-95 % expected): is this a ",
                       "prone breast MR with air in front?");
   }
+  // Under strong bias and noise Otsu's level may part bright from dim tissue instead of air from
+  // body; air itself ends at about twice its 90th percentile.
+  const double air_end = std::min(otsu_level, 2 * floor);
+  struct Try {
+    double level, from;
+  };
+  for (const Try& attempt : {Try{otsu_level, 30}, Try{otsu_level, 12},
+                             Try{std::sqrt(otsu_level * air_end), 12}, Try{air_end, 12}}) {
+    body.threshold = attempt.level;
+    body.mask = body_above(scan, attempt.level, attempt.from, body.debris_ml);
+    if (chest_filled(body.mask) > 0.75) break;
+  }
   return body;
-}
-
-namespace {
-
-HeightField first_body_voxel(const Mask& body) {
-  HeightField skin(body.grid.size[0], body.grid.size[2], nan);
-  for (int k = 0; k < skin.nz; ++k) {
-    for (int j = body.grid.size[1] - 1; j >= 0; --j) {
-      for (int i = 0; i < skin.nx; ++i) {
-        if (body.at(i, j, k)) skin.at(i, k) = j * body.grid.spacing[1];
-      }
-    }
-  }
-  return skin;
-}
-
-/// Column about which the skin is most nearly its own mirror image, within 60 mm of the body's
-/// middle.
-int mirror_column(const HeightField& skin, double spacing, double deepest) {
-  double sum = 0, count = 0;
-  for (int k = 0; k < skin.nz; ++k) {
-    for (int i = 0; i < skin.nx; ++i) {
-      if (std::isnan(skin.at(i, k))) continue;
-      sum += i;
-      count += 1;
-    }
-  }
-  const double middle = sum / std::max(count, 1.0);
-  const int reach = int(130 / spacing), range = int(60 / spacing);
-  int best = int(middle);
-  double best_cost = std::numeric_limits<double>::infinity();
-  for (int candidate = int(middle) - range; candidate <= int(middle) + range; ++candidate) {
-    double cost = 0, pairs = 0;
-    for (int k = 0; k < skin.nz; ++k) {
-      for (int d = 1; d <= reach; ++d) {
-        const int left = candidate - d, right = candidate + d;
-        if (left < 0 || right >= skin.nx) break;
-        const double a = skin.at(left, k), b = skin.at(right, k);
-        cost +=
-            std::min(std::abs((std::isnan(a) ? deepest : a) - (std::isnan(b) ? deepest : b)), 50.0);
-        pairs += 1;
-      }
-    }
-    if (pairs < 0.5 * reach * skin.nz) continue;
-    if (cost / pairs < best_cost) {
-      best_cost = cost / pairs;
-      best = candidate;
-    }
-  }
-  return std::clamp(best, 0, skin.nx - 1);
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return nan;
-  const auto place = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
-/// Skin over the sternum per slice: deepest of the skin within 15 mm of the midline, median over
-/// neighbouring slices.
-std::vector<double> cleft_depth(const HeightField& skin, int midline, const Grid& grid) {
-  std::vector<double> raw(skin.nz, nan), smooth(skin.nz, nan);
-  const int half = std::max(1, int(15 / grid.spacing[0]));
-  for (int k = 0; k < skin.nz; ++k) {
-    for (int i = std::max(midline - half, 0); i <= std::min(midline + half, skin.nx - 1); ++i) {
-      const double depth = skin.at(i, k);
-      if (!std::isnan(depth) && !(depth <= raw[k])) raw[k] = depth;
-    }
-  }
-  const int window = std::max(1, int(15 / grid.spacing[2]));
-  for (int k = 0; k < skin.nz; ++k) {
-    for (int reach = window; std::isnan(smooth[k]) && reach < 2 * skin.nz; reach *= 2) {
-      std::vector<double> near;
-      for (int c = std::max(k - reach, 0); c <= std::min(k + reach, skin.nz - 1); ++c) {
-        if (!std::isnan(raw[c])) near.push_back(raw[c]);
-      }
-      smooth[k] = median(std::move(near));
-    }
-  }
-  return smooth;
-}
-
-}  // namespace
-
-Torso find_torso(const Mask& body) {
-  Torso torso;
-  torso.skin = first_body_voxel(body);
-  torso.midline =
-      mirror_column(torso.skin, body.grid.spacing[0], body.grid.size[1] * body.grid.spacing[1]);
-  torso.cleft = cleft_depth(torso.skin, torso.midline, body.grid);
-  if (std::isnan(torso.cleft[0]))
-    throw input_error("no skin over the sternum: is the midline in the scan?");
-  return torso;
 }
 
 }  // namespace breast

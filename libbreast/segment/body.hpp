@@ -20,6 +20,7 @@ struct Body {
   Mask mask;             ///< body with lungs and other cavities filled
   double air_level = 0;  ///< n0: 90th percentile of the air in front of the patient
   double threshold = 0;  ///< intensity that separates body from air
+  double debris_ml = 0;  ///< taken off the skin: markers and the like
 };
 /// Otsu on log(I + n0), opening, largest component, closing, filling (methods 8b step 1).
 /// Throws Error (input) when there is no contrast or no air in front.
@@ -31,5 +32,8 @@ struct Torso {
   std::vector<double> cleft;  ///< depth (mm) of the skin over the sternum, per slice
 };
 Torso find_torso(const Mask& body);
+/// Angle (radians) about the body's long axis by which the grid is turned against the body's mirror
+/// plane; 0 where that explains the skin's asymmetry no better.
+double body_roll(const Mask& body);
 
 }  // namespace breast

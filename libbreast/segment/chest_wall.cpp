@@ -7,58 +7,18 @@
 #include "core/error.hpp"
 #include "segment/legendre_surface.hpp"
 #include "segment/min_cut.hpp"
+#include "segment/wall_cost.hpp"
 
 namespace breast {
 
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double window_behind = 10, window_front = 8;  // mm
-constexpr double skin_margin = 6;                       // mm below the skin where no wall is
-constexpr double prior_free = 6,
-                 prior_cost = 0.03;  // mm from the prior that are free, cost a mm beyond
-
 double median(std::vector<float> values) {
   const auto place = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), place, values.end());
   return *place;
 }
-
-/// Profile of ratio along j for one column, averaged over the 3 x 3 neighbouring columns.
-std::vector<float> column_profile(const Volume<float>& ratio, int i, int k) {
-  const auto& size = ratio.grid.size;
-  std::vector<float> profile(size[1], 0);
-  int count = 0;
-  for (int c = std::max(k - 1, 0); c <= std::min(k + 1, size[2] - 1); ++c) {
-    for (int a = std::max(i - 1, 0); a <= std::min(i + 1, size[0] - 1); ++a) {
-      for (int j = 0; j < size[1]; ++j) profile[j] += ratio.at(a, j, c);
-      ++count;
-    }
-  }
-  for (float& value : profile) value /= float(count);
-  return profile;
-}
-
-/// Running means of the fat index f = clip((r - m)/(1 - m)) in front of and behind every voxel.
-struct Windows {
-  std::vector<double> sum;  // prefix sums of f
-  double spacing;
-  Windows(const std::vector<float>& profile, double muscle, double step) : spacing(step) {
-    sum.assign(profile.size() + 1, 0);
-    for (std::size_t j = 0; j < profile.size(); ++j) {
-      sum[j + 1] = sum[j] + std::clamp((profile[j] - muscle) / (1 - muscle), 0.0, 1.0);
-    }
-  }
-  double mean(int from, int to) const {  // voxels from <= j < to
-    from = std::clamp(from, 0, int(sum.size()) - 2);
-    to = std::clamp(to, from + 1, int(sum.size()) - 1);
-    return (sum[to] - sum[from]) / (to - from);
-  }
-  int voxels(double mm) const { return std::max(1, int(std::lround(mm / spacing))); }
-  double behind(int j) const { return mean(j, j + voxels(window_behind)); }
-  double front(int j) const { return mean(j - voxels(window_front), j); }
-  double drop(int j) const { return mean(j - voxels(2.5), j) - mean(j, j + voxels(2.5)); }
-};
 
 /// Brightness of muscle: median ratio 2-8 mm behind the surface.
 double muscle_behind(const Volume<float>& ratio, const WallDomain& domain,
@@ -78,10 +38,6 @@ double muscle_behind(const Volume<float>& ratio, const WallDomain& domain,
   return std::clamp(median(std::move(values)), 0.05, 0.75);
 }
 
-struct Levels {
-  int first = 0, count = 0;  // voxels j
-};
-
 Levels search_levels(const WallDomain& domain, const Grid& grid) {
   const double nearest = *std::min_element(domain.nearest.begin(), domain.nearest.end());
   const double deepest =
@@ -91,25 +47,6 @@ Levels search_levels(const WallDomain& domain, const Grid& grid) {
   levels.count = std::min(grid.size[1] - 1, int(deepest / grid.spacing[1])) - levels.first + 1;
   if (levels.count < 3) throw input_error("the scan ends in front of the chest wall");
   return levels;
-}
-
-/// Fills one column's costs.
-void column_cost(const Volume<float>& ratio, const WallDomain& domain, const HeightField* prior,
-                 double muscle, const Levels& levels, int i, int k, float* cost) {
-  const double step = ratio.grid.spacing[1], skin = domain.skin.at(i, k);
-  const Windows windows(column_profile(ratio, i, k), muscle, step);
-  for (int d = 0; d < levels.count; ++d) {
-    const int j = levels.first + d;
-    const double depth = (j - 0.5) * step;
-    double c = 0;
-    if (!std::isnan(skin)) {
-      c = windows.behind(j) - windows.front(j) - std::clamp(windows.drop(j), -0.5, 1.0);
-      if (depth < skin + skin_margin) c += 3;
-    }
-    if (depth < domain.nearest[k] || depth > domain.deepest.at(i, k)) c += 5;
-    if (prior) c += prior_cost * std::max(0.0, std::abs(depth - prior->at(i, k)) - prior_free);
-    cost[d] = float(c);
-  }
 }
 
 /// Cut on every second column; between them linear.

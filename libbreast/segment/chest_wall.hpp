@@ -19,7 +19,8 @@ WallDomain wall_domain(const Mask& body, const Torso& torso, bool left);
 
 struct ChestWall {
   HeightField depth;        ///< mm, on columns of the domain (all i; NaN outside [first,last])
-  HeightField confidence;   ///< [0,1]
+  HeightField confidence;   ///< [0,1]: fat index in front less that behind over 0.6, clipped
+  HeightField sigma;        ///< mm: standard deviation of the depth (wall_uncertainty.hpp)
   double muscle_ratio = 0;  ///< brightness of muscle relative to fat
 };
 

@@ -6,7 +6,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
-#include "segment/filters.hpp"
 #include "segment/itk_filters.hpp"
 
 namespace breast {
@@ -123,66 +122,56 @@ BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const 
   return extent;
 }
 
+namespace {
+
+/// Columns in which a part hangs over: body in front of at least 4 mm of air in front of the
+/// trunk's skin, and more than a column or two of it (ghosts of the chest's movement are not).
+std::vector<std::uint8_t> overhanging(const Mask& body, const WallDomain& domain,
+                                      const Torso& torso, Side side) {
+  const Grid& grid = body.grid;
+  const int nx = grid.size[0], nz = grid.size[2];
+  constexpr double gap = 4;  // mm
+  std::vector<std::uint8_t> columns(std::size_t(nx) * nz, 0);
+  for (int k = 0; k < nz; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      if (side == Side::left ? i <= torso.midline : i >= torso.midline) continue;
+      const double skin = domain.skin.at(i, k), limit = torso.cleft[k] + 20;
+      const double end = std::isnan(skin) ? limit : std::min(skin, limit);
+      int j = std::clamp(int(end / grid.spacing[1]), 0, grid.size[1] - 1);
+      int air = 0;
+      for (; j >= 0 && !body.at(i, j, k); --j) ++air;
+      columns[std::size_t(k) * nx + i] = j >= 0 && air * grid.spacing[1] >= gap;
+    }
+  }
+  const cv::Mat map(nz, nx, CV_8U, columns.data());
+  cv::morphologyEx(map, map, cv::MORPH_OPEN,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE,
+                                             {2 * std::max(1, int(4 / grid.spacing[0])) + 1, 1}));
+  return columns;
+}
+
+}  // namespace
+
 Mask breast_voxels(const Mask& body, const ChestWall& wall, const WallDomain& domain,
                    const Torso& torso, const BreastExtent& extent, Side side) {
   const Grid& grid = body.grid;
   Mask breast(grid);
+  const std::vector<std::uint8_t> overhang = overhanging(body, domain, torso, side);
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
       if (side == Side::left ? i <= torso.midline : i >= torso.midline) continue;
-      const bool stands = extent.columns[std::size_t(k) * grid.size[0] + i];
+      const std::size_t column = std::size_t(k) * grid.size[0] + i;
       const double skin = domain.skin.at(i, k);
       for (int j = 0; j < grid.size[1]; ++j) {
         const double depth = j * grid.spacing[1];
         if (!body.at(i, j, k) || !(depth < wall.depth.at(i, k))) continue;
-        // A part hanging over: body in front of the air in front of the trunk's skin.
-        const bool hangs = (std::isnan(skin) || depth < skin) && depth < torso.cleft[k] + 20;
-        breast.at(i, j, k) = stands || hangs;
+        const bool hangs =
+            overhang[column] && (std::isnan(skin) || depth < skin) && depth < torso.cleft[k] + 20;
+        breast.at(i, j, k) = extent.columns[column] || hangs;
       }
     }
   }
   return largest_component(breast);
-}
-
-Nipple find_nipple(const Mask& breast, const Mask& body) {
-  const Grid& grid = breast.grid;
-  Volume<float> filled(grid);
-  for (std::size_t n = 0; n < filled.voxels.size(); ++n) filled.voxels[n] = body.voxels[n];
-  const Volume<float> share = gaussian(filled, 4.5);
-  Vec3 extreme(0, 1e9, 0);
-  std::vector<Vec3> candidates;
-  std::vector<float> convexity;
-  for (int j = 0; j < grid.size[1]; ++j) {
-    if ((j - 30 / grid.spacing[1]) * grid.spacing[1] > extreme[1]) break;
-    for (int k = 0; k < grid.size[2]; ++k) {
-      for (int i = 0; i < grid.size[0]; ++i) {
-        if (!breast.at(i, j, k) || (j > 0 && body.at(i, j - 1, k))) continue;
-        const Vec3 place = grid.spacing.cwiseProduct(Vec3(i, j - 0.5, k));
-        // Several voxels may be equally far forward: their middle would need a second pass; the
-        // most convex of them is found below anyway.
-        if (place[1] < extreme[1]) extreme = place;
-        candidates.push_back(place);
-        convexity.push_back(share.at(i, j, k));
-      }
-    }
-  }
-  if (candidates.empty()) throw failed_error("the breast has no skin");
-  double best = 1e9;
-  Vec3 chosen = extreme;
-  for (std::size_t n = 0; n < candidates.size(); ++n) {
-    const double away = (candidates[n] - extreme).norm();
-    if (away > 25) continue;
-    // Depth behind the front breaks ties on a smooth dome: there the most anterior point is meant.
-    const double score = convexity[n] + 0.02 * (candidates[n][1] - extreme[1]);
-    if (score < best) {
-      best = score;
-      chosen = candidates[n];
-    }
-  }
-  Nipple nipple;
-  nipple.position = grid.to_patient(chosen.cwiseQuotient(grid.spacing));
-  nipple.from_extreme = (chosen - extreme).norm();
-  return nipple;
 }
 
 }  // namespace breast

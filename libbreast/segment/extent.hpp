@@ -1,4 +1,4 @@
-// Which part of the body in front of the chest wall is the breast, and where its nipple is.
+// Which part of the body in front of the chest wall is the breast.
 #pragma once
 
 #include "core/types.hpp"
@@ -20,13 +20,5 @@ BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const 
 /// beyond it.
 Mask breast_voxels(const Mask& body, const ChestWall& wall, const WallDomain& domain,
                    const Torso& torso, const BreastExtent& extent, Side side);
-
-struct Nipple {
-  Vec3 position{0, 0, 0};   ///< patient mm
-  double from_extreme = 0;  ///< mm between it and the most anterior point of the breast
-};
-/// Most convex skin point (least body within 6 mm, by a Gaussian) within 25 mm of the most anterior
-/// one.
-Nipple find_nipple(const Mask& breast, const Mask& body);
 
 }  // namespace breast

@@ -124,4 +124,25 @@ Volume<float> resampled(const Volume<float>& coarse, const Grid& fine) {
   return out;
 }
 
+Volume<float> rolled(const Volume<float>& volume, double angle, float outside) {
+  Grid grid = volume.grid;
+  const Vec3 middle = 0.5 * Vec3(grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1);
+  const Vec3 centre = grid.to_patient(middle);
+  Mat3 turn = Mat3::Identity();
+  turn(0, 0) = turn(1, 1) = std::cos(angle);
+  turn(1, 0) = std::sin(angle);
+  turn(0, 1) = -std::sin(angle);
+  grid.direction = grid.direction * turn;
+  grid.origin += centre - grid.to_patient(middle);
+  Volume<float> out(grid);
+#pragma omp parallel for
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i)
+        out.at(i, j, k) = float(sample_linear(volume, grid.to_patient(Vec3(i, j, k)), outside));
+    }
+  }
+  return out;
+}
+
 }  // namespace breast

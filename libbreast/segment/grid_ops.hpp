@@ -21,4 +21,8 @@ Grid coarsened_grid(const Grid& grid, const std::array<int, 3>& factor);
 /// held.
 Volume<float> resampled(const Volume<float>& coarse, const Grid& fine);
 
+/// The volume sampled on a grid of the same size turned by `angle` (radians, i towards j) about its
+/// centre; every tissue keeps its place in the patient.
+Volume<float> rolled(const Volume<float>& volume, double angle, float outside);
+
 }  // namespace breast

@@ -44,20 +44,30 @@ void run(Filter& filter) {
 
 }  // namespace
 
-Mask largest_component(const Mask& mask) {
+Components components(const Mask& mask) {
   using Labels = itk::Image<std::uint32_t, 3>;
   auto filter = itk::ConnectedComponentImageFilter<itk::Image<std::uint8_t, 3>, Labels>::New();
   filter->SetInput(image_of(mask));
   run(*filter);
   const std::uint32_t* label = filter->GetOutput()->GetBufferPointer();
-  std::vector<std::size_t> count(std::size_t(filter->GetObjectCount()) + 1, 0);
-  for (std::size_t n = 0; n < mask.voxels.size(); ++n) {
-    if (label[n]) ++count[label[n]];
-  }
+  return {std::uint32_t(filter->GetObjectCount()),
+          std::vector<std::uint32_t>(label, label + mask.voxels.size())};
+}
+
+std::vector<std::size_t> sizes(const Components& parts) {
+  std::vector<std::size_t> count(std::size_t(parts.count) + 1, 0);
+  for (const std::uint32_t part : parts.label) ++count[part];
+  count[0] = 0;
+  return count;
+}
+
+Mask largest_component(const Mask& mask) {
+  const Components parts = components(mask);
+  const std::vector<std::size_t> count = sizes(parts);
   const auto largest = std::uint32_t(std::max_element(count.begin(), count.end()) - count.begin());
   Mask out(mask.grid);
   if (count[largest] == 0) return out;
-  for (std::size_t n = 0; n < mask.voxels.size(); ++n) out.voxels[n] = label[n] == largest;
+  for (std::size_t n = 0; n < mask.voxels.size(); ++n) out.voxels[n] = parts.label[n] == largest;
   return out;
 }
 

@@ -22,6 +22,22 @@ Mask interior_of(const Work& work, double skin_depth, double wall_margin) {
   return interior;
 }
 
+Mask near_unsure_wall(const Work& work, double reach) {
+  Mask near(work.scan.grid);
+  const Grid& grid = near.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = 0; i < grid.size[0]; ++i) {
+      const double wall = work.wall.depth.at(i, k);
+      if (!(work.wall.confidence.at(i, k) < 0.5)) continue;
+      for (int j = 0; j < grid.size[1]; ++j) {
+        const double ahead = wall - j * grid.spacing[1];
+        near.at(i, j, k) = ahead > 0 && ahead < reach;
+      }
+    }
+  }
+  return near;
+}
+
 LabelVolume labels_of(const Work& work, Side side) {
   LabelVolume labels;
   const Grid& grid = work.scan.grid;
@@ -63,11 +79,13 @@ TriMesh data_points(const Work& work) {
   TriMesh points;
   auto& surface = points.point_data["surface"];
   auto& confidence = points.point_data["confidence"];
+  auto& sigma = points.point_data["sigma_mm"];
   const Grid& grid = work.scan.grid;
-  const auto add = [&](const Vec3& index, double kind, double sure) {
+  const auto add = [&](const Vec3& index, double kind, double sure, double deviation) {
     points.points.push_back(grid.to_patient(index));
     surface.push_back(kind);
     confidence.push_back(sure);
+    sigma.push_back(deviation);
   };
   constexpr int step[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
   for (int k = 0; k < grid.size[2]; ++k) {
@@ -78,7 +96,7 @@ TriMesh data_points(const Work& work) {
           if (!grid.contains(i + s[0], j + s[1], k + s[2]) ||
               work.body.mask.at(i + s[0], j + s[1], k + s[2]))
             continue;
-          add(Vec3(i + 0.5 * s[0], j + 0.5 * s[1], k + 0.5 * s[2]), 0, 1);
+          add(Vec3(i + 0.5 * s[0], j + 0.5 * s[1], k + 0.5 * s[2]), 0, 1, grid.spacing.norm() / 6);
         }
       }
     }
@@ -86,7 +104,8 @@ TriMesh data_points(const Work& work) {
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int i = 0; i < grid.size[0]; ++i) {
       if (!work.extent.columns[std::size_t(k) * grid.size[0] + i]) continue;
-      add(Vec3(i, work.wall.depth.at(i, k) / grid.spacing[1], k), 1, work.wall.confidence.at(i, k));
+      add(Vec3(i, work.wall.depth.at(i, k) / grid.spacing[1], k), 1, work.wall.confidence.at(i, k),
+          work.wall.sigma.at(i, k));
     }
   }
   return points;

@@ -134,6 +134,7 @@ Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side) {
   for (double& depth : fine.torso.cleft) depth -= shift;
   fine.wall.depth = on_columns(coarse.wall.depth, working, grid, shift);
   fine.wall.confidence = on_columns(coarse.wall.confidence, working, grid, 0);
+  fine.wall.sigma = on_columns(coarse.wall.sigma, working, grid, 0);
   fine.wall.muscle_ratio = coarse.wall.muscle_ratio;
   fine.domain = wall_domain(fine.body.mask, fine.torso, side == Side::left);
   return fine;

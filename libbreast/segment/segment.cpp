@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "segment/filters.hpp"
 #include "segment/itk_filters.hpp"
+#include "segment/plausibility.hpp"
 #include "segment/wall_input.hpp"
+#include "segment/wall_uncertainty.hpp"
 #include "segment/work.hpp"
 
 namespace breast {
@@ -15,6 +18,7 @@ namespace {
 
 constexpr double depth_limit =
     45;  // mm behind the sternal skin: no fat for the first bias estimate
+constexpr double least_roll = 0.1;    // radians: less is the asymmetry of people
 constexpr double wall_clearance = 2;  // mm in front of the wall used for the later ones
 
 /// Bias on a grid halved in plane, and the ratio on the working grid. `limit` gives the depth (mm)
@@ -45,6 +49,12 @@ void correct_bias(Work& work, bool again, const Limit& limit) {
   }
 }
 
+/// The scan, halved in plane where its voxels are finer than a millimetre.
+Volume<float> working_copy(const Volume<float>& scan) {
+  const Vec3& spacing = scan.grid.spacing;
+  return spacing[0] < 1 && spacing[1] < 1 ? coarsened(scan, {2, 2, 1}) : scan;
+}
+
 void find_wall(Work& work, const SegmentOptions& options, Progress& progress, Timer& timer) {
   for (int pass = 0; pass < 2; ++pass) {
     progress.update("chest wall", 0.2 + 0.25 * pass, pass ? "second pass" : "first pass");
@@ -61,12 +71,16 @@ void find_wall(Work& work, const SegmentOptions& options, Progress& progress, Ti
   }
   const Timer::Scope phase(timer, "chest_wall");
   snap_chest_wall(work.wall, work.ratio, work.domain);
+  work.wall.sigma = wall_sigma(work.ratio, work.domain, work.wall);
+  const HeightField found = work.wall.depth;
   if (options.wall_labels)
     apply_wall_labels(work.wall, work.domain, work.scan.grid, *options.wall_labels);
   if (!options.wall_points.empty()) {
     const auto apply = options.wall_points_of_surface ? apply_wall_surface : apply_wall_points;
     apply(work.wall, work.domain, work.scan.grid, options.wall_points);
   }
+  hand_set_sigma(work.wall, found);
+  if (options.wall_shift != 0) shift_wall(work.wall, work.domain, options.wall_shift);
 }
 
 void summarise(Segmentation& result, const Work& work) {
@@ -79,26 +93,58 @@ void summarise(Segmentation& result, const Work& work) {
   result.fibroglandular_agreement = work.gland.agreement;
   result.sternal_thickness = work.extent.sternal_thickness;
   result.greatest_thickness = work.extent.greatest_thickness;
-  double sum = 0, sure = 0, count = 0;
+  double sum = 0, sure = 0, sigma = 0, count = 0;
+  std::vector<double> sigmas;
   for (int k = 0; k < work.wall.depth.nz; ++k) {
     for (int i = 0; i < work.wall.depth.nx; ++i) {
       if (!work.extent.columns[std::size_t(k) * work.wall.depth.nx + i]) continue;
       sum += work.wall.confidence.at(i, k);
       sure += work.wall.confidence.at(i, k) > 0.5;
+      sigmas.push_back(work.wall.sigma.at(i, k));
+      sigma += sigmas.back();
       count += 1;
     }
   }
   result.wall_confidence_mean = count > 0 ? sum / count : 0;
   result.wall_confident_percent = count > 0 ? 100 * sure / count : 0;
+  result.wall_sigma_mean = count > 0 ? sigma / count : 0;
+  if (!sigmas.empty()) {
+    const auto place = sigmas.begin() + std::ptrdiff_t(0.95 * double(sigmas.size() - 1));
+    std::nth_element(sigmas.begin(), place, sigmas.end());
+    result.wall_sigma_p95 = *place;
+  }
   if (result.wall_confident_percent < 80) {
     result.doubts.push_back(
         message("chest wall uncertain on ", std::lround(100 - result.wall_confident_percent),
                 " % of the breast's columns: look at it, correct with --chest-wall"));
   }
+  if (result.roll_degrees != 0) {
+    result.doubts.push_back(message("the body lies turned by ", std::lround(result.roll_degrees),
+                                    " degrees against the scan's axes: sampled again upright"));
+  }
+  if (result.cut_by_view_cm2 > 5) {
+    result.doubts.push_back(message("the field of view cuts the breast on ",
+                                    std::lround(result.cut_by_view_cm2),
+                                    " cm2: volume and lateral support are those of what is seen"));
+  }
+  if (result.flat_skin_cm2 > 6) {
+    result.doubts.push_back(
+        message(std::lround(result.flat_skin_cm2),
+                " cm2 of the skin is flat, as if it rested on coil or table: backward assumes that "
+                "the breast hangs free"));
+  }
   if (result.nipple_from_extreme > 10) {
     result.doubts.push_back(message("nipple found ", std::lround(result.nipple_from_extreme),
                                     " mm from the most anterior point: look at it"));
   }
+}
+
+/// Where a wall is held by the limits of the search alone and what lies behind is as bright as fat.
+void refuse_without_contrast(const Segmentation& result) {
+  if (!(result.wall_confidence_mean < 0.15)) return;
+  throw input_error("no chest wall found: behind it the image is as bright as in front (mean ",
+                    "confidence ", result.wall_confidence_mean,
+                    "): is fat saturated, or the scan not T1? Otherwise give --chest-wall");
 }
 
 }  // namespace
@@ -112,13 +158,22 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
     const Timer::Scope phase(timer, "body");
     progress.update("body", 0, "");
     work.scan = in_patient_order(scan);
-    const auto& spacing = work.scan.grid.spacing;
     own = work.scan;
-    if (spacing[0] < 1 && spacing[1] < 1) work.scan = coarsened(own, {2, 2, 1});
+    work.scan = working_copy(own);
     work.body = find_body(work.scan);
+    const double roll = body_roll(work.body.mask);
+    if (std::abs(roll) > least_roll) {
+      own = rolled(own, roll, float(0.5 * work.body.air_level));
+      work.scan = working_copy(own);
+      work.body = find_body(work.scan);
+      result.roll_degrees = roll * 180 / std::numbers::pi;
+    }
+    result.debris_ml = work.body.debris_ml;
     work.torso = find_torso(work.body.mask);
     work.skin_distance = signed_distance(work.body.mask);
     work.domain = wall_domain(work.body.mask, work.torso, options.side == Side::left);
+    result.subcutaneous_brightness = subcutaneous_brightness(work);
+    refuse_saturated_fat(work);
   }
   find_wall(work, options, progress, timer);
   {
@@ -139,13 +194,20 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
       breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent, options.side);
   work.skin = skin_thickness(work.ratio, work.breast, work.skin_distance);
   work.gland = find_fibroglandular(work.ratio, interior_of(work, 3, work.scan.grid.spacing[1]),
-                                   work.wall.muscle_ratio, options.interior);
+                                   near_unsure_wall(work, 8), work.wall.muscle_ratio,
+                                   result.bias_cv_after, options.interior);
   result.labels = labels_of(work, options.side);
   const Nipple nipple = find_nipple(work.breast, work.body.mask);
-  result.labels.landmarks["nipple"] = nipple.position;
+  result.labels.landmarks["nipple"] = nipple.tip;
+  result.nipple_base = nipple.base;
+  result.papilla_height = nipple.height;
   result.nipple_from_extreme = nipple.from_extreme;
   result.points = data_points(work);
+  result.wall_shift = options.wall_shift;
+  result.cut_by_view_cm2 = cut_by_view_cm2(work.breast);
+  result.flat_skin_cm2 = flat_skin_cm2(work);
   summarise(result, work);
+  if (!options.wall_labels && options.wall_points.empty()) refuse_without_contrast(result);
   return result;
 }
 

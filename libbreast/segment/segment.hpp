@@ -24,6 +24,8 @@ struct SegmentOptions {
   std::vector<Vec3> wall_points;             ///< clicked points on the wall (patient mm)
   /// `wall_points` are those of a surface: dense, and reaching beyond the searched wall.
   bool wall_points_of_surface = false;
+  /// Moves the wall by this many of its own standard deviations, backwards when positive.
+  double wall_shift = 0;
   Interior interior = Interior::threshold;
 };
 
@@ -36,10 +38,18 @@ struct Segmentation {
   double muscle_ratio = 0, gland_ratio = 0;  ///< brightness relative to fat
   double fat_fraction = 0, fat_fraction_grown = 0, fibroglandular_agreement = 0;
   double wall_confidence_mean = 0;                       ///< over the breast's columns
+  double wall_sigma_mean = 0, wall_sigma_p95 = 0;        ///< mm, over the breast's columns
   double wall_confident_percent = 0;                     ///< columns with confidence above 0.5
   double sternal_thickness = 0, greatest_thickness = 0;  ///< mm
   double nipple_from_extreme = 0;                        ///< mm
-  std::vector<std::string> doubts;                       ///< what a reader should look at
+  Vec3 nipple_base{0, 0, 0};  ///< patient mm, on the areola's surface beneath the tip
+  double papilla_height = 0;  ///< mm; 0 on a smooth dome
+  double cut_by_view_cm2 = 0, flat_skin_cm2 = 0;  ///< of the breast (plausibility.hpp)
+  double subcutaneous_brightness = 0;
+  double roll_degrees = 0;          ///< by which the labels' grid is turned against the scan's
+  double wall_shift = 0;            ///< standard deviations the wall was moved by
+  double debris_ml = 0;             ///< taken off the skin
+  std::vector<std::string> doubts;  ///< what a reader should look at
 };
 
 /// Throws Error (input) saying which stage failed on this scan and what to try.

@@ -11,6 +11,8 @@ namespace breast {
 
 namespace {
 
+// Vessels, ligaments and noise make specks; gland comes in lobes.
+constexpr double least_lobe = 60;          // mm3
 constexpr double growing_smoothing = 1.0;  // mm: keeps noise from carrying the growth into gland
 
 /// Otsu's threshold of ratios in [0.1, 1.3].
@@ -93,12 +95,27 @@ Mask gland_by_growing(const Volume<float>& ratio, const Mask& interior) {
   return gland;
 }
 
-void compare(Fibroglandular& result, const Volume<float>& ratio, const Mask& interior,
+/// Takes from `dark` its components smaller than the least lobe, and those that lie mostly by an
+/// unsure wall: strands of muscle.
+void remove_specks(Mask& dark, const Mask& by_muscle) {
+  const Components parts = components(dark);
+  const std::vector<std::size_t> count = sizes(parts);
+  std::vector<std::size_t> beside(count.size(), 0);
+  for (std::size_t n = 0; n < dark.voxels.size(); ++n)
+    beside[parts.label[n]] += by_muscle.voxels[n];
+  for (std::size_t n = 0; n < dark.voxels.size(); ++n) {
+    const std::uint32_t part = parts.label[n];
+    const bool small = double(count[part]) * dark.grid.voxel_volume() < least_lobe;
+    if (small || 2 * beside[part] > count[part]) dark.voxels[n] = 0;
+  }
+}
+
+void compare(Fibroglandular& result, const Mask& interior, const Mask& dark,
              const Mask& by_growing) {
   double all = 0, grown = 0, by_threshold = 0, both = 0;
-  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
+  for (std::size_t n = 0; n < interior.voxels.size(); ++n) {
     if (!interior.voxels[n]) continue;
-    const bool a = ratio.voxels[n] < result.threshold, b = by_growing.voxels[n] != 0;
+    const bool a = dark.voxels[n] != 0, b = by_growing.voxels[n] != 0;
     all += 1;
     grown += b;
     by_threshold += a;
@@ -111,7 +128,8 @@ void compare(Fibroglandular& result, const Volume<float>& ratio, const Mask& int
 }  // namespace
 
 Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& interior,
-                                   double muscle_ratio, Interior interior_by) {
+                                   const Mask& by_muscle, double muscle_ratio, double fat_cv,
+                                   Interior interior_by) {
   Fibroglandular result;
   std::vector<float> values;
   for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
@@ -129,20 +147,26 @@ Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& inter
       std::clamp(percentile(dark, 0.4, muscle_ratio), 0.5 * muscle_ratio, brightest_gland - 0.05);
   result.threshold = std::min(0.5 * (1 + result.gland_ratio), brightest_gland);
   result.fraction = Volume<float>(ratio.grid);
+  Mask lobes(ratio.grid);
+  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
+    lobes.voxels[n] = interior.voxels[n] && ratio.voxels[n] < result.threshold;
+  }
+  remove_specks(lobes, by_muscle);
   double gland = 0;
-  const double bright = std::max(1.0, 2 * result.threshold - result.gland_ratio);
+  // Fat scatters about 1: what lies within its scatter is fat, not a few per cent of gland.
+  const double t = result.threshold, bright = std::max(1 - 1.5 * fat_cv, t + 0.02);
   for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
     if (!interior.voxels[n]) continue;
-    // Half at the threshold, one at gland, zero at fat.
-    const double r = ratio.voxels[n], t = result.threshold;
-    const double fraction =
-        r < t ? 0.5 + 0.5 * (t - r) / (t - result.gland_ratio) : 0.5 * (bright - r) / (bright - t);
-    result.fraction.voxels[n] = float(std::clamp(fraction, 0.0, 1.0));
-    gland += r < t;
+    // Half at the threshold, one at gland, zero at fat; a speck stays below half.
+    const double r = ratio.voxels[n];
+    const double fraction = lobes.voxels[n] ? 0.5 + 0.5 * (t - r) / (t - result.gland_ratio)
+                                            : 0.5 * (bright - r) / (bright - t);
+    result.fraction.voxels[n] = float(std::clamp(fraction, 0.0, lobes.voxels[n] ? 1.0 : 0.5));
+    gland += lobes.voxels[n];
   }
   result.fat_fraction = values.empty() ? 0 : 1 - gland / double(values.size());
   const Mask grown = gland_by_growing(ratio, interior);
-  compare(result, ratio, interior, grown);
+  compare(result, interior, lobes, grown);
   if (interior_by == Interior::region_growing) {
     if (fat_seeds(ratio, interior).empty()) {
       throw input_error(

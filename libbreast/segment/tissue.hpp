@@ -15,10 +15,13 @@ struct Fibroglandular {
       0;                 ///< of the interior, by confidence-connected region growing of fat
   double agreement = 0;  ///< Dice of the fibroglandular voxels of both ways
 };
-/// `interior`: breast beyond the skin and in front of the wall. `ratio` = intensity / bias.
-/// Throws Error (input) when region growing is asked for and finds no fat to start from.
+/// `interior`: breast beyond the skin and in front of the wall. `ratio` = intensity / bias, 1 in
+/// fat with coefficient of variation `fat_cv`. Dark components below 60 mm3, or
+/// mostly in `by_muscle`, stay fat. Throws Error
+/// (input) when region growing is asked for and finds no fat to start from.
 Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& interior,
-                                   double muscle_ratio, Interior interior_by);
+                                   const Mask& by_muscle, double muscle_ratio, double fat_cv,
+                                   Interior interior_by);
 
 /// Skin thickness (mm) from the mean brightness against depth below the surface; 0 when the skin
 /// does not show as a dark layer.

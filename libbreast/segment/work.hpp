@@ -4,6 +4,7 @@
 #include "image/label_volume.hpp"
 #include "segment/bias.hpp"
 #include "segment/extent.hpp"
+#include "segment/nipple.hpp"
 #include "segment/tissue.hpp"
 #include "surface/tri_mesh.hpp"
 
@@ -30,6 +31,8 @@ Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side);
 /// Inside of the breast: deeper than `skin_depth` mm, more than `wall_margin` mm in front of the
 /// wall.
 Mask interior_of(const Work& work, double skin_depth, double wall_margin);
+/// Within `reach` mm in front of the wall on columns whose confidence is below a half.
+Mask near_unsure_wall(const Work& work, double reach);
 LabelVolume labels_of(const Work& work, Side side);
 /// Data for surface fitting: skin at voxel faces against air, wall on the breast's columns.
 TriMesh data_points(const Work& work);

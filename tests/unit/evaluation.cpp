@@ -8,8 +8,10 @@
 #include "evaluation/foreign_labels.hpp"
 #include "evaluation/label_surface.hpp"
 #include "evaluation/landmark_truth.hpp"
+#include "evaluation/partial_volume.hpp"
 #include "evaluation/surface_distance.hpp"
 #include "evaluation/triangle_tree.hpp"
+#include "evaluation/wall_distance.hpp"
 #include "fixtures/analytic_mesh.hpp"
 
 namespace breast {
@@ -89,6 +91,68 @@ TEST(Overlap, AnotherGridAndACrop) {
   Grid crop = cube(10, 2);
   crop.size[2] = 5;
   EXPECT_DOUBLE_EQ(compare_labels(half(crop, 10), half(cube(10, 2), 10)).breast.dice, 2 * 1.0 / 3);
+}
+
+// Fat in front of `wall` (mm along y), muscle behind.
+LabelVolume walled(const Grid& grid, double wall) {
+  LabelVolume labels;
+  labels.grid = grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const bool front = grid.to_patient(Vec3(i, j, k)).y() < wall;
+        labels.tissue.push_back(std::uint8_t(front ? Tissue::fat : Tissue::muscle));
+      }
+    }
+  }
+  return labels;
+}
+
+TEST(WallDistance, IsTheShiftAlongY) {
+  const WallDistance moved = compare_walls(walled(cube(40, 1), 23), walled(cube(20, 2), 20));
+  EXPECT_NEAR(moved.bias_mm, 3, 0.2);
+  EXPECT_NEAR(moved.distance.mean_mm, 3, 0.2);
+  EXPECT_NEAR(moved.distance.max_mm, 3, 0.2);
+  EXPECT_EQ(moved.missing_percent, 0);
+  EXPECT_EQ(moved.columns, 20 * 20);
+  const WallDistance none = compare_walls(walled(cube(20, 2), 1e3), walled(cube(20, 2), 20));
+  EXPECT_EQ(none.missing_percent, 100);
+  EXPECT_EQ(compare_walls(walled(cube(20, 2), 20), half(cube(20, 2), 20)).columns, 0)
+      << "a true breast without muscle behind it has no wall";
+}
+
+TEST(Overlap, BodyCountsWhereBothHaveVoxels) {
+  Grid crop = cube(10, 2);
+  crop.size[2] = 5;
+  const Overlap body = compare_labels(half(crop, 10), half(cube(10, 2), 12)).body;
+  EXPECT_DOUBLE_EQ(body.dice, 2 * 5.0 / 11);
+  EXPECT_DOUBLE_EQ(body.given_ml, 2);
+  EXPECT_DOUBLE_EQ(body.truth_ml, 2.4);
+}
+
+TEST(PartialVolume, CeilingTakesTheFullestVoxels) {
+  // 4 x 8 mm3: full, full, half, one per mille of gland; the best labelling takes the first three.
+  Grid grid = cube(1, 2);
+  grid.size = {4, 1, 1};
+  Volume<float> fraction(grid);
+  fraction.voxels = {1, 1, 0.5f, 0.001f};
+  LabelVolume truth = half(grid, 100), given = truth;
+  given.tissue = {2, 2, 1, 1};
+  const PartialVolume result = compare_fractions(given, truth, fraction);
+  EXPECT_NEAR(result.dice, 4 / (2 + 2.501), 1e-6);
+  EXPECT_NEAR(result.ceiling, 5 / (3 + 2.501), 1e-6);
+  EXPECT_NEAR(result.truth_ml, 2.501 * 0.008, 1e-6);
+  for (float& f : fraction.voxels) f *= 255;
+  EXPECT_NEAR(compare_fractions(given, truth, fraction).ceiling, result.ceiling, 1e-6);
+}
+
+TEST(Landmarks, SkinOverACode) {
+  Volume<float> codes(cube(6, 2));
+  codes.at(1, 1, 1) = codes.at(1, 3, 1) = 33;  // centre (3, 5, 3) mm; fat up to x = 8 mm
+  const auto nipple = skin_over_code(codes, 33, half(codes.grid, 8));
+  ASSERT_TRUE(nipple.has_value());
+  EXPECT_LT((*nipple - Vec3(8, 5, 3)).norm(), 1e-12);
+  EXPECT_FALSE(skin_over_code(codes, 34, half(codes.grid, 8)).has_value());
 }
 
 TEST(SurfaceDistance, PointToTriangle) {

@@ -1,0 +1,21 @@
+// What voxels of mixed tissue allow.
+#pragma once
+
+#include "image/label_volume.hpp"
+
+namespace breast {
+
+struct PartialVolume {
+  double dice = 0;      ///< of the given fibroglandular voxels against the true tissue within them
+  double ceiling = 0;   ///< the best any labelling of the fraction's voxels could reach
+  double truth_ml = 0;  ///< fibroglandular tissue by fraction
+  double given_ml = 0;  ///< the given volume's own sum of fractions
+};
+
+/// `fraction`: true share of fibroglandular tissue per voxel, 0 to 1 or 0 to 255, counted where
+/// `truth` is breast. The overlap of a voxel with the tissue is its fraction, so Dice = 2 sum(f
+/// over given) / (voxels given + sum(f)); the ceiling takes the voxels with the largest fractions.
+PartialVolume compare_fractions(const LabelVolume& given, const LabelVolume& truth,
+                                const Volume<float>& fraction);
+
+}  // namespace breast

@@ -1,0 +1,25 @@
+// What a comparison is told by: named numbers for tables and reports.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evaluation/partial_volume.hpp"
+#include "evaluation/surface_distance.hpp"
+#include "image/label_volume.hpp"
+
+namespace breast {
+
+struct Quantity {
+  std::string name;  ///< in a table, with its unit
+  std::string key;   ///< in a report
+  double value;
+  int digits;  ///< worth printing after the point
+};
+
+std::vector<Quantity> distance_quantities(const std::string& name, const Distances& distances);
+std::vector<Quantity> fraction_quantities(const PartialVolume& fractions);
+/// Dice and volumes of every tissue present, of breast and body, the walls' and nipples' distance.
+std::vector<Quantity> label_quantities(const LabelVolume& given, const LabelVolume& truth);
+
+}  // namespace breast

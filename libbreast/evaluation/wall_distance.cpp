@@ -1,0 +1,116 @@
+#include "evaluation/wall_distance.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.hpp"
+#include "evaluation/overlap.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr double lattice = 2, step = 0.2;  // mm
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Nearest label at a patient point; air outside the volume.
+class Sampler {
+ public:
+  explicit Sampler(const LabelVolume& labels)
+      : labels_(labels),
+        to_index_(labels.grid.spacing.cwiseInverse().asDiagonal() *
+                  labels.grid.direction.inverse()) {}
+  Tissue at(const Vec3& p) const {
+    const Vec3 index = to_index_ * (p - labels_.grid.origin);
+    const int i = int(std::lround(index[0])), j = int(std::lround(index[1])),
+              k = int(std::lround(index[2]));
+    return labels_.grid.contains(i, j, k) ? labels_.at(i, j, k) : Tissue::air;
+  }
+
+ private:
+  const LabelVolume& labels_;
+  Mat3 to_index_;
+};
+
+/// Patient box of the breast's voxels.
+Eigen::AlignedBox3d breast_box(const LabelVolume& labels) {
+  Eigen::AlignedBox3d box;
+  for (int k = 0; k < labels.grid.size[2]; ++k) {
+    for (int j = 0; j < labels.grid.size[1]; ++j) {
+      for (int i = 0; i < labels.grid.size[0]; ++i) {
+        if (is_breast(labels.at(i, j, k))) box.extend(labels.grid.to_patient(Vec3(i, j, k)));
+      }
+    }
+  }
+  return box;
+}
+
+/// Where the breast's last run along y ends in muscle; NaN where it does not.
+double breast_end(const Sampler& labels, Vec3 p, double to) {
+  double end = nan;
+  bool inside = false;
+  for (; p[1] < to; p[1] += step) {
+    const Tissue tissue = labels.at(p);
+    if (inside && !is_breast(tissue)) end = tissue == Tissue::muscle ? p[1] - 0.5 * step : nan;
+    inside = is_breast(tissue);
+  }
+  return end;
+}
+
+/// First muscle along y; NaN without.
+double first_muscle(const Sampler& labels, Vec3 p, double to) {
+  for (; p[1] < to; p[1] += step) {
+    if (labels.at(p) == Tissue::muscle) return p[1] - 0.5 * step;
+  }
+  return nan;
+}
+
+}  // namespace
+
+WallDistance compare_walls(const LabelVolume& given, const LabelVolume& truth) {
+  const Eigen::AlignedBox3d box = breast_box(truth);
+  WallDistance result;
+  if (box.isEmpty()) return result;
+  const Sampler ours(given), theirs(truth);
+  const Vec3 low = box.min();
+  const int nx = int(box.sizes()[0] / lattice) + 1, nz = int(box.sizes()[2] / lattice) + 1;
+  constexpr double reach = 60;  // mm behind the true breast
+  std::vector<double> moved(std::size_t(nx) * nz, nan);
+  std::vector<char> counted(moved.size(), 0);
+#pragma omp parallel for num_threads(threads()) schedule(dynamic)
+  for (int k = 0; k < nz; ++k) {
+    for (int i = 0; i < nx; ++i) {
+      const Vec3 from(low[0] + i * lattice, low[1] - 2, low[2] + k * lattice);
+      const double end = breast_end(theirs, from, box.max()[1] + 5);
+      if (std::isnan(end)) continue;
+      const std::size_t column = std::size_t(k) * nx + i;
+      counted[column] = 1;
+      moved[column] = first_muscle(ours, from, box.max()[1] + reach) - end;
+    }
+  }
+  std::vector<double> sizes;
+  double missing = 0;
+  for (std::size_t n = 0; n < moved.size(); ++n) {
+    if (!counted[n]) continue;
+    result.columns += 1;
+    if (std::isnan(moved[n])) {
+      missing += 1;
+      continue;
+    }
+    sizes.push_back(std::abs(moved[n]));
+    result.bias_mm += moved[n];
+    result.distance.mean_mm += sizes.back();
+  }
+  if (result.columns > 0) result.missing_percent = 100 * missing / result.columns;
+  if (sizes.empty()) return result;
+  std::sort(sizes.begin(), sizes.end());
+  result.bias_mm /= double(sizes.size());
+  result.distance.mean_mm /= double(sizes.size());
+  result.distance.p95_mm = sizes[std::size_t(0.95 * double(sizes.size() - 1))];
+  result.distance.max_mm = sizes.back();
+  return result;
+}
+
+}  // namespace breast

@@ -1,0 +1,21 @@
+// How far the chest wall of one label volume lies from that of another.
+#pragma once
+
+#include "evaluation/surface_distance.hpp"
+#include "image/label_volume.hpp"
+
+namespace breast {
+
+struct WallDistance {
+  Distances distance;          ///< |dy|, mm, over the columns compared
+  double bias_mm = 0;          ///< mean of given - true: positive when the given wall is deeper
+  double columns = 0;          ///< compared
+  double missing_percent = 0;  ///< of the true breast's columns without a wall in the given volume
+};
+
+/// On a lattice of columns along patient y, 2 mm apart in x and z, wherever the true breast has
+/// muscle right behind it: depth at which the true breast ends against the depth at which the given
+/// volume first is muscle (nearest voxels, sampled every 0.2 mm). No columns: all zero.
+WallDistance compare_walls(const LabelVolume& given, const LabelVolume& truth);
+
+}  // namespace breast

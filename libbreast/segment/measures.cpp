@@ -1,0 +1,59 @@
+#include "segment/measures.hpp"
+
+#include "core/units.hpp"
+
+namespace breast {
+
+std::vector<Measure> measures_of(const Segmentation& result) {
+  const LabelVolume& labels = result.labels;
+  std::vector<double> millilitres(n_tissues, 0);
+  double by_fraction = 0;
+  const double voxel = labels.grid.voxel_volume() / mm3_per_ml;
+  for (const auto code : labels.tissue) millilitres[code] += voxel;
+  for (const float fraction : labels.fibroglandular_fraction) by_fraction += fraction * voxel;
+  const double gland = millilitres[int(Tissue::fibroglandular)],
+               fat = millilitres[int(Tissue::fat)], skin = millilitres[int(Tissue::skin)];
+  std::vector<Measure> all;
+  const auto add = [&all](const std::string& name, const std::string& key, double value) {
+    all.push_back({name, key, value});
+  };
+  for (int t = 1; t < n_tissues; ++t) {
+    const std::string name(tissue_name(Tissue(t)));
+    add(name + "_ml", "volumes_ml/" + name, millilitres[t]);
+  }
+  add("breast_ml", "breast_ml", fat + gland + skin);
+  add("fibroglandular_by_fraction_ml", "fibroglandular_by_fraction_ml", by_fraction);
+  add("density_percent", "density_percent", 100 * gland / (gland + fat));
+  add("fat_fraction", "fat_fraction", result.fat_fraction);
+  add("fat_fraction_region_growing", "fat_fraction_region_growing", result.fat_fraction_grown);
+  add("fibroglandular_agreement", "fibroglandular_agreement", result.fibroglandular_agreement);
+  const Vec3& nipple = labels.landmarks.at("nipple");
+  constexpr const char* axis[3] = {"x", "y", "z"};
+  for (int d = 0; d < 3; ++d)
+    add(std::string("nipple_") + axis[d] + "_mm", std::string("nipple_") + axis[d] + "_mm",
+        nipple[d]);
+  add("nipple_from_extreme_mm", "nipple_from_extreme_mm", result.nipple_from_extreme);
+  add("papilla_height_mm", "papilla_height_mm", result.papilla_height);
+  add("skin_thickness_mm", "skin_thickness_mm", labels.skin_thickness);
+  add("debris_removed_ml", "debris_removed_ml", result.debris_ml);
+  add("cut_by_view_cm2", "cut_by_view_cm2", result.cut_by_view_cm2);
+  add("flat_skin_cm2", "flat_skin_cm2", result.flat_skin_cm2);
+  add("subcutaneous_brightness", "subcutaneous_brightness", result.subcutaneous_brightness);
+  add("fat_cv_before", "bias/fat_cv_before", result.bias_cv_before);
+  add("fat_cv_after", "bias/fat_cv_after", result.bias_cv_after);
+  add("bias_range_factor", "bias/range_factor", result.bias_range);
+  add("muscle_to_fat", "muscle_to_fat", result.muscle_ratio);
+  add("fibroglandular_to_fat", "fibroglandular_to_fat", result.gland_ratio);
+  add("wall_confidence_mean", "chest_wall/confidence_mean", result.wall_confidence_mean);
+  add("wall_confident_percent", "chest_wall/confident_percent", result.wall_confident_percent);
+  add("wall_sigma_mean_mm", "chest_wall/sigma_mean_mm", result.wall_sigma_mean);
+  add("wall_sigma_p95_mm", "chest_wall/sigma_p95_mm", result.wall_sigma_p95);
+  add("wall_shift_sigmas", "chest_wall/shift_sigmas", result.wall_shift);
+  add("sternal_thickness_mm", "chest_wall/sternal_thickness_mm", result.sternal_thickness);
+  add("breast_depth_mm", "breast_depth_mm", result.greatest_thickness);
+  add("roll_degrees", "roll_degrees", result.roll_degrees);
+  add("midline_mm", "midline_mm", result.midline_mm);
+  return all;
+}
+
+}  // namespace breast

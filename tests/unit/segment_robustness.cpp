@@ -1,0 +1,180 @@
+// One synthetic patient scanned badly in many ways: the same breast, or a refusal in one line.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "evaluation/overlap.hpp"
+#include "evaluation/wall_distance.hpp"
+#include "fixtures/perturbed_scan.hpp"
+#include "fixtures/synthetic_scan.hpp"
+#include "segment/debris.hpp"
+#include "segment/nipple.hpp"
+#include "segment/segment.hpp"
+
+namespace breast {
+namespace {
+
+using testing::SyntheticScan;
+
+Segmentation run(const Volume<float>& scan, const SegmentOptions& options = {}) {
+  Timer timer;
+  return segment_breast(scan, options, no_progress(), timer);
+}
+
+std::string refusal(const Volume<float>& scan) {
+  try {
+    run(scan);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    return error.what();
+  }
+  return "";
+}
+
+struct Patient {
+  SyntheticScan truth;
+  Volume<float> scan = truth.image();
+  Segmentation base = run(scan);
+};
+
+const Patient& patient() {
+  static const Patient one;
+  return one;
+}
+
+void expect_same(const Volume<float>& scan, double dice, double wall_mm, double nipple_mm) {
+  const Segmentation result = run(scan);
+  const LabelVolume &ours = result.labels, &base = patient().base.labels;
+  EXPECT_GT(compare_labels(ours, base).breast.dice, dice);
+  EXPECT_LT(compare_walls(ours, base).distance.mean_mm, wall_mm);
+  EXPECT_LT((ours.landmarks.at("nipple") - base.landmarks.at("nipple")).norm(), nipple_mm);
+}
+
+TEST(SegmentRobustness, FourfoldNoise) {
+  expect_same(testing::noisier(patient().scan, 4), 0.96, 1, 4);
+}
+TEST(SegmentRobustness, TwiceTheBias) {
+  expect_same(testing::more_biased(patient().scan, 2), 0.97, 0.7, 4);
+}
+TEST(SegmentRobustness, ThickSlices) {
+  expect_same(testing::with_slices(patient().scan, 5), 0.95, 1, 4);
+}
+TEST(SegmentRobustness, ObliqueAxes) {
+  expect_same(testing::oblique(patient().scan, 15), 0.92, 1.5, 6);
+}
+TEST(SegmentRobustness, NarrowFieldOfView) {
+  expect_same(testing::narrower(patient().scan, 0.04), 0.93, 1, 4);
+}
+
+TEST(SegmentRobustness, PermutedAxesGiveTheSameVoxels) {
+  const Segmentation result = run(testing::sagittal(patient().scan));
+  EXPECT_EQ(result.labels.tissue, patient().base.labels.tissue);
+  EXPECT_LT(
+      (result.labels.landmarks.at("nipple") - patient().base.labels.landmarks.at("nipple")).norm(),
+      1e-6);
+}
+
+TEST(SegmentRobustness, SaturatedFatIsRefusedWithTheReason) {
+  const SyntheticScan& truth = patient().truth;
+  const auto fat_of = [&](int, int j, int) {
+    const double y = truth.grid.to_patient(Vec3(0, j, 0))[1];
+    const double wall = truth.wall(truth.half_width, 0);
+    return 200 * std::pow(truth.bias, std::clamp((wall - y) / 80, -0.5, 1.2));
+  };
+  const std::string reason = refusal(testing::fat_saturated(patient().scan, fat_of));
+  EXPECT_NE(reason.find("saturated"), std::string::npos) << reason;
+}
+
+TEST(SegmentRobustness, EmptyVolumeIsRefused) {
+  EXPECT_NE(refusal(Volume<float>(patient().scan.grid)), "");
+}
+
+TEST(SegmentRobustness, SigmaCoversTheWallsError) {
+  const SyntheticScan& truth = patient().truth;
+  const TriMesh& points = patient().base.points;
+  const auto &surface = points.point_data.at("surface"), &sigma = points.point_data.at("sigma_mm");
+  double within = 0, count = 0;
+  for (std::size_t n = 0; n < surface.size(); ++n) {
+    const Vec3& p = points.points[n];
+    if (surface[n] != 1 || !truth.in_ellipsoid(Vec3(p[0], truth.wall(p[0], p[2]) - 1, p[2]), 0.9))
+      continue;
+    within += std::abs(p[1] - truth.wall(p[0], p[2])) < 2 * sigma[n];
+    count += 1;
+  }
+  EXPECT_GT(within / count, 0.95);
+  EXPECT_LT(patient().base.wall_sigma_mean, 3) << "a sigma that covers everything says nothing";
+}
+
+TEST(SegmentRobustness, ShiftMovesTheWallByItsSigma) {
+  SegmentOptions options;
+  options.wall_shift = 1;
+  const Segmentation moved = run(patient().scan, options);
+  const WallDistance wall = compare_walls(moved.labels, patient().base.labels);
+  EXPECT_NEAR(wall.bias_mm, moved.wall_sigma_mean, 0.5 * moved.wall_sigma_mean + 0.3);
+  EXPECT_GT(wall.bias_mm, 0.3);
+}
+
+/// A solid ball with a small cylinder (papilla) or crumb on it.
+Mask ball(const Grid& grid, const Vec3& centre, double radius) {
+  Mask mask(grid);
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i)
+        mask.at(i, j, k) = (grid.to_patient(Vec3(i, j, k)) - centre).norm() < radius;
+    }
+  }
+  return mask;
+}
+
+Grid fine_grid() {
+  Grid grid;
+  grid.size = {120, 70, 40};
+  grid.spacing = Vec3(1, 1, 2.5);
+  grid.origin = Vec3(-59.5, -49.5, -48.75);
+  return grid;
+}
+
+void add_ball(Mask& mask, const Vec3& centre, double radius) {
+  const Mask more = ball(mask.grid, centre, radius);
+  for (std::size_t n = 0; n < mask.voxels.size(); ++n) mask.voxels[n] |= more.voxels[n];
+}
+
+TEST(Nipple, PapillaAwayFromTheMostAnteriorPoint) {
+  const Grid grid = fine_grid();
+  const double radius = 42, tilt = 0.3;
+  Mask body = ball(grid, Vec3::Zero(), radius);
+  const Vec3 axis(std::sin(tilt), -std::cos(tilt), 0), tip = (radius + 5) * axis;
+  for (double h = 0; h <= 1; h += 0.25) add_ball(body, (radius - 4 + 4 * h) * axis, 5);
+  const Nipple nipple = find_nipple(body, body);
+  EXPECT_LT((nipple.tip - tip).norm(), 1.5);
+  EXPECT_NEAR(nipple.height, 5, 1.5);
+  EXPECT_LT((nipple.base - radius * axis).norm(), 1.5);
+}
+
+TEST(Nipple, SmoothDomeHasItAtTheFront) {
+  const Mask body = ball(fine_grid(), Vec3::Zero(), 42);
+  const Nipple nipple = find_nipple(body, body);
+  EXPECT_LT((nipple.tip - Vec3(0, -42, 0)).norm(), 6);
+  EXPECT_LT(nipple.height, 1.5);
+}
+
+TEST(Debris, CrumbsGoAndNipplesStay) {
+  const Grid grid = fine_grid();
+  Mask body = ball(grid, Vec3::Zero(), 40);
+  const Mask clean = body;
+  add_ball(body, Vec3(41, -5, 1.25), 2.6);  // a marker on the flank
+  Mask with_papilla = body;
+  add_ball(with_papilla, Vec3(0, -40, 1.25), 3.2);
+  EXPECT_GT(remove_debris(body, 119), 0);
+  double left = 0;
+  for (std::size_t n = 0; n < body.voxels.size(); ++n) left += body.voxels[n] != clean.voxels[n];
+  EXPECT_LT(left, 12) << "voxels still beyond the ball";
+  const Mask before = with_papilla;
+  remove_debris(with_papilla, 119);
+  EXPECT_EQ(with_papilla.at(60, 7, 20), before.at(60, 7, 20));
+  EXPECT_EQ(before.at(60, 7, 20), 1);
+}
+
+}  // namespace
+}  // namespace breast
