@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Prints the imaged position x,y,z (mm) of a landmark from a stage's JSON report: landmark.sh REPORT NAME
+# Prints a place x,y,z (mm) of a landmark from a stage's JSON report: landmark.sh REPORT NAME [imaged|position]
 set -euo pipefail
-awk -v name="\"$2\":" '
+awk -v name="\"$2\":" -v place="\"${3:-imaged}\":" '
   /"landmarks":/ { inside = 1 }
   inside && $1 == name { found = 1 }
-  found && $1 == "\"imaged\":" { take = 1; sub(/.*\[/, "") }
+  found && $1 == place { take = 1; sub(/.*\[/, "") }
   take { gsub(/[^0-9eE+.,-]/, ""); text = text $0 }
   take && (split(text, parts, ",") >= 3 && parts[3] != "") && text !~ /,$/ { print parts[1] "," parts[2] "," parts[3]; exit }
 ' "$1" | grep . || { echo "$1: has no landmark '$2'" >&2; exit 1; }

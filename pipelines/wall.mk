@@ -1,0 +1,25 @@
+# What the chest wall's own uncertainty does to the result: the whole chain with the wall moved everywhere by
+# one standard deviation, backwards and forwards, same tumour, and how far the predictions move. A coherent
+# shift is the worst the band allows: real errors change sign from place to place.
+WALL := $(RUN)/wall
+WALL_VARIANTS := back front
+wall_back := 1
+wall_front := -1
+
+wall-sensitivity: $(WALL)/table.tsv
+.PHONY: wall-sensitivity
+
+define wall_rules
+$(WALL)/$1/curve.tsv: $(RUN)/curve.tsv $(SEGMENT)
+	@mkdir -p $$(@D)
+	+$$(MAKE) -f Makefile.pipeline RUN=$(WALL)/$1 MR=$(MR) \
+	  SEGMENT_OPTIONS='$(SEGMENT_OPTIONS) --chest-wall-shift $(wall_$1)' \
+	  HEXMESH_OPTIONS="$(HEXMESH_OPTIONS) --tumour $$$$(pipelines/landmark.sh $(RUN)/mesh.json tumour)" chain
+	@touch $$@
+endef
+$(foreach v,$(WALL_VARIANTS),$(eval $(call wall_rules,$v)))
+
+$(WALL)/table.tsv: $(WALL_VARIANTS:%=$(WALL)/%/curve.tsv) $(RUN)/supine.vtkhdf pipelines/wall-sensitivity.sh
+	pipelines/wall-sensitivity.sh $(RUN) $(WALL_VARIANTS) > $@.part
+	@mv $@.part $@
+	@cat $@
