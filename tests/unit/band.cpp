@@ -1,0 +1,181 @@
+// The band's linear propagation against re-matched perturbed shapes: derivative, sampling,
+// coverage.
+#include "mammo/band.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/error.hpp"
+#include "fixtures/analytic_breast.hpp"
+#include "fixtures/squashed.hpp"
+#include "mesh/locate.hpp"
+#include "meshing/body_mesh.hpp"
+
+using namespace breast;
+using namespace breast::fixtures;
+
+namespace {
+
+HexMesh breast_with_nipple() {
+  HexMesh mesh = body_mesh(analytic_breast(), {.size = dome_near(8)});
+  mesh.reference = mesh.imaged;
+  const Location found = Locator(mesh, mesh.imaged).nearest(Vec3(0, 0, 0));
+  mesh.landmarks.push_back({"nipple", Vec3(0, 0, 0), found.element, found.local, found.moved});
+  return mesh;
+}
+
+const HexMesh& body() {
+  static const HexMesh mesh = breast_with_nipple();
+  return mesh;
+}
+
+// A compression with three parameters, zero at the expected state: a stiffness that bends both
+// shapes, and the thickness of each.
+HexMesh shape(const char* view, double stiffness, double thickness) {
+  const double lambda = 0.6 + thickness / 90;
+  HexMesh mesh = squashed(body(), view, lambda);
+  for (Vec3& x : mesh.points) {
+    const double s = 1 + stiffness;
+    x += Vec3(3 * std::sin(x.z() / 15), 4 * s * std::sin((x.z() + x.x()) / 20), s * x.y() / 25);
+  }
+  // The detector does not follow the shape: images are compared in the patient frame.
+  return mesh;
+}
+
+NodalField difference(const char* view, double stiffness, double thickness) {
+  const HexMesh plus = shape(view, stiffness, thickness),
+                minus = shape(view, -stiffness, -thickness);
+  NodalField field(plus.points.size());
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    field[i] = (plus.points[i] - minus.points[i]) / (2 * (stiffness + thickness));
+  }
+  return field;
+}
+
+struct Scene {
+  HexMesh cc = shape("CC", 0, 0), mlo = shape("MLO", 0, 0);
+  Matcher matcher{cc, mlo};
+  DerivativeFields from{{"fat", difference("CC", 1e-4, 0)},
+                        {"thickness", difference("CC", 0, 1e-4)}},
+      to{{"fat", difference("MLO", 1e-4, 0)}, {"thickness", difference("MLO", 0, 1e-4)}};
+};
+
+// Where the curve of the same detector position lies for other parameters, in the base image frame.
+MatchedCurve rematched(const Scene& scene, const HexMesh& cc, const HexMesh& mlo, const Vec2& uv) {
+  const Matcher other(cc, mlo);
+  const auto offset = [](const Matcher& a, const Matcher& b, bool to) -> Vec2 {
+    const ViewPose& from = to ? a.to_frame().pose : a.from_frame().pose;
+    return from.project(to ? b.to_frame().pose.origin : b.from_frame().pose.origin);
+  };
+  MatchedCurve curve = other.match(uv - offset(scene.matcher, other, false), 0.001);
+  for (ColumnPoint& point : curve.points) point.to_uv += offset(scene.matcher, other, true);
+  return curve;
+}
+
+// Signed distance of a curve from a point along a direction, where it crosses.
+double crossing(const MatchedCurve& curve, const BandPoint& point) {
+  const Vec2 along(point.normal.y(), -point.normal.x());
+  double found = 1e9;
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    const Vec2 a = curve.points[i - 1].to_uv - point.uv, b = curve.points[i].to_uv - point.uv;
+    const double ta = a.dot(along), tb = b.dot(along);
+    if (ta == tb || ta * tb > 0) continue;
+    const double f = ta / (ta - tb), across = (a + f * (b - a)).dot(point.normal);
+    if (std::abs(across) < std::abs(found)) found = across;
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST(Band, LinearPropagationIsTheDerivativeOfTheCurve) {
+  const Scene scene;
+  const Vec2 uv = *scene.matcher.from_landmark("nipple") + Vec2(-30, 8);
+  const MatchedCurve curve = scene.matcher.match(uv, 0.001);
+  ASSERT_FALSE(curve.in_air());
+  constexpr double step = 1e-3;
+  struct Case {
+    const char *parameter, *cause;
+    HexMesh cc, mlo;
+  };
+  const Case cases[] = {{"fat", "fat", shape("CC", step, 0), shape("MLO", step, 0)},
+                        {"thickness", "thickness in CC", shape("CC", 0, step), scene.mlo},
+                        {"thickness", "thickness in MLO", scene.cc, shape("MLO", 0, step)}};
+  for (const Case& c : cases) {
+    DerivativeFields from = scene.from, to = scene.to;
+    NodalField zero(scene.cc.points.size(), Vec3::Zero());
+    if (c.cause == std::string("thickness in CC")) to["thickness"] = zero;
+    if (c.cause == std::string("thickness in MLO")) from["thickness"] = zero;
+    const Band band = BandModel(scene.matcher, from, to, {{c.parameter, 1, "", ""}}).band(curve);
+    const MatchedCurve moved = rematched(scene, c.cc, c.mlo, uv);
+    int compared = 0;
+    for (std::size_t i = 10; i + 10 < band.points.size(); i += 9) {
+      const double real = std::abs(crossing(moved, band.points[i])) / step;
+      EXPECT_NEAR(band.points[i].deviation, real, 0.02 * real + 0.02) << c.cause << " " << i;
+      ++compared;
+    }
+    EXPECT_GT(compared, 5);
+  }
+}
+
+TEST(Band, PickingIsTheDerivativeByTheMark) {
+  const Scene scene;
+  const Vec2 uv = *scene.matcher.from_landmark("nipple") + Vec2(-30, 8);
+  const MatchedCurve curve = scene.matcher.match(uv, 0.001);
+  const Band band = BandModel(scene.matcher, {}, {}, {{"picking", 1, "mm", ""}}).band(curve);
+  constexpr double step = 1e-2;
+  const MatchedCurve u = scene.matcher.match(uv + Vec2(step, 0), 0.001),
+                     v = scene.matcher.match(uv + Vec2(0, step), 0.001);
+  for (std::size_t i = 10; i + 10 < band.points.size(); i += 9) {
+    const double real = std::hypot(crossing(u, band.points[i]), crossing(v, band.points[i])) / step;
+    EXPECT_NEAR(band.points[i].deviation, real, 0.03 * real + 0.02);
+  }
+}
+
+TEST(Band, CoversSampledCurvesAsOftenAsItSays) {
+  const Scene scene;
+  const std::vector<Prior> priors = {{"fat", 0.3, "", ""},
+                                     {"thickness", 2, "", ""},
+                                     {"picking", 0.7, "", ""},
+                                     {"skin", 1, "", ""}};
+  const BandModel model(scene.matcher, scene.from, scene.to, priors);
+  const Vec2 mark = *scene.matcher.from_landmark("nipple") + Vec2(-28, -6);
+  const MatchedCurve curve = scene.matcher.match(mark, 0.005);
+  const Band band = model.band(curve);
+  EXPECT_EQ(band.without, std::vector<std::string>{"skin"});
+  EXPECT_GT(band.area_95, 0);
+  EXPECT_EQ(band.by_cause.size(), 4u);  // fat, thickness twice, picking
+  std::mt19937 stream(1);
+  std::normal_distribution<double> normal;
+  int inside_95 = 0, inside_50 = 0, counted = 0;
+  for (int sample = 0; sample < 250; ++sample) {
+    const double fat = 0.3 * normal(stream);
+    const HexMesh cc = shape("CC", fat, 2 * normal(stream)),
+                  mlo = shape("MLO", fat, 2 * normal(stream));
+    const Vec2 marked = mark + 0.7 * Vec2(normal(stream), normal(stream));
+    const MatchedCurve sampled = rematched(scene, cc, mlo, marked);
+    const BandPoint& point = band.points[band.points.size() / 2];
+    const double z = std::abs(crossing(sampled, point)) / point.deviation;
+    ++counted;
+    inside_95 += z < half_width_95;
+    inside_50 += z < half_width_50;
+  }
+  EXPECT_GE(inside_95, 0.91 * counted);
+  EXPECT_LE(inside_95, 0.985 * counted);
+  EXPECT_GE(inside_50, 0.40 * counted);
+  EXPECT_LE(inside_50, 0.60 * counted);
+}
+
+TEST(Band, PriorsAreChecked) {
+  const Table table = parse_table("parameter\tstandard_deviation\tsource\nfat\t0.5\tmine\n", "p");
+  const std::vector<Prior> priors = priors_from(table, "p");
+  ASSERT_EQ(priors.size(), 1u);
+  EXPECT_EQ(priors[0].source, "mine");
+  EXPECT_THROW(priors_from(parse_table("parameter\tstandard_deviation\nfat\t-1\n", "p"), "p"),
+               Error);
+  const Scene scene;
+  DerivativeFields wrong{{"fat", NodalField(3)}};
+  EXPECT_THROW(BandModel(scene.matcher, wrong, wrong, default_priors()), Error);
+}
