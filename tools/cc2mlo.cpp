@@ -1,5 +1,6 @@
 // cc2mlo: the curve in one mammogram on which a point of another must lie.
 #include <algorithm>
+#include <optional>
 
 #include "cli/tool.hpp"
 #include "core/error.hpp"
@@ -14,10 +15,11 @@ using namespace breast;
 namespace {
 
 struct Choices {
-  std::filesystem::path from, to, curve, table, points, truth, supine;
+  std::filesystem::path from, to, curve, table, points, truth, supine, priors;
   std::vector<double> point, pair;
   std::string landmark, geometry = "parallel";
   int grid = 0;
+  bool band = false;
 
   void check() const {
     const int questions = int(!point.empty()) + int(!pair.empty()) + int(!landmark.empty()) +
@@ -28,6 +30,7 @@ struct Choices {
           "--truth "
           "FILE and --grid N");
     }
+    if (!priors.empty() && !band) throw input_error("--priors is for --band");
     if (!supine.empty() && pair.empty()) throw input_error("--supine is for --pair");
   }
 };
@@ -49,79 +52,49 @@ std::vector<MatchQuery> queries_of(const Choices& choices, const Matcher& matche
   return {landmark_query(matcher, choices.landmark)};
 }
 
-void judge(const std::vector<MatchResult>& results, const Matcher& matcher, Run& run) {
-  if (results.empty()) throw input_error("no point lies on tissue; use a larger --grid");
-  if (results.size() == 1 && results[0].curve.in_air()) {
-    const Vec2& uv = results[0].query.from_uv;
-    throw input_error(matcher.from_frame().view, " point (", format_fixed(uv.x(), 2), ", ",
-                      format_fixed(uv.y(), 2), ") mm lies in air; the image spans 0-",
-                      format_fixed(matcher.from_frame().width, 1), " x 0-",
-                      format_fixed(matcher.from_frame().height, 1), " mm");
-  }
-  const auto count = [&](const char* status) {
-    return std::count_if(results.begin(), results.end(),
-                         [&](const MatchResult& result) { return result.status() == status; });
-  };
-  if (const auto back = count("through_chest_wall"); back > 0) {
-    run.warn(message(back, " of ", results.size(),
-                     " columns leave the mesh through the chest wall:"
-                     " their curves end there though the tissue does not"));
-  }
-  if (const auto behind = count("behind_image"); behind > 0) {
-    run.warn(message(behind, " of ", results.size(), " curves lie partly behind the edge of the ",
-                     matcher.to_frame().view, " image: the spot may not be in it"));
-  }
-  if (results.size() > 1 && count("air") > 0) {
-    run.warn(message(count("air"), " of ", results.size(), " points lie in air"));
-  }
-  if (!matcher.from_landmark("nipple") || !matcher.to_landmark("nipple")) {
-    run.warn("the meshes have no nipple landmark: no equal-distance arc and line");
-  }
-  run.report().set("queries", results.size());
-  run.report().set("matched", std::size_t(count("matched")));
-}
-
-void report_pair(const Choices& choices, const Matcher& matcher, Run& run) {
-  const Matcher backward(matcher.to(), matcher.from(),
-                         choices.geometry == "cone" ? Beam::cone : Beam::parallel);
+void report_pair(const Choices& choices, const Matcher& matcher, Beam beam, Run& run) {
+  const Matcher backward(matcher.to(), matcher.from(), beam);
   const PairPoint pair = locate_pair(matcher, backward, {choices.pair[0], choices.pair[1]},
                                      {choices.pair[2], choices.pair[3]});
-  Report& report = run.report();
-  const HexMesh& mesh = matcher.from();
-  report.set("spot/residual_mm", pair.residual);
-  report.set("spot/first_to_second_mm", pair.first_to_second);
-  report.set("spot/second_to_first_mm", pair.second_to_first);
-  report.set("spot/imaged", pair.position(mesh, mesh.imaged));
-  if (!mesh.reference.empty()) report.set("spot/reference", pair.position(mesh, mesh.reference));
-  report.set("spot/" + matcher.from_frame().view, pair.position(mesh, mesh.points));
-  report.set("spot/" + matcher.to_frame().view, pair.position(matcher.to(), matcher.to().points));
+  report_spot(pair, matcher, run.report());
   if (choices.supine.empty()) return;
   const HexMesh supine = read_mesh(choices.supine);
-  if (supine.connectivity != mesh.connectivity) {
+  if (supine.connectivity != matcher.from().connectivity) {
     throw input_error(choices.supine.string(), ": not a shape of the same mesh");
   }
-  report.set("spot/supine", pair.position(supine, supine.points));
+  run.report().set("spot/supine", pair.position(supine, supine.points));
 }
 
 void run_match(const Choices& choices, Run& run) {
   const HexMesh from = read_mesh(choices.from, {.contact = true});
   const HexMesh to = read_mesh(choices.to, {.contact = true});
-  const Matcher matcher(from, to, choices.geometry == "cone" ? Beam::cone : Beam::parallel);
+  const Beam beam = choices.geometry == "cone" ? Beam::cone : Beam::parallel;
+  const Matcher matcher(from, to, beam);
+  std::optional<BandModel> band;
+  if (choices.band) {
+    band.emplace(matcher, DerivativeFields{}, DerivativeFields{},
+                 choices.priors.empty()
+                     ? default_priors()
+                     : priors_from(read_table(choices.priors), choices.priors.string()));
+  }
   const std::vector<MatchQuery> queries = queries_of(choices, matcher);
   std::vector<MatchResult> results(queries.size());
   {
     Timer::Scope phase(run.timer(), "match");
     const double start = run.seconds();
 #pragma omp parallel for schedule(dynamic, 4)
-    for (std::size_t q = 0; q < queries.size(); ++q) results[q] = match_query(matcher, queries[q]);
+    for (std::size_t q = 0; q < queries.size(); ++q) {
+      results[q] = match_query(matcher, queries[q], band ? &*band : nullptr);
+    }
     run.report().set(
         "milliseconds_per_curve",
         1e3 * (run.seconds() - start) / double(std::max<std::size_t>(queries.size(), 1)));
   }
-  judge(results, matcher, run);
+  for (const std::string& doubt : match_doubts(matcher, results)) run.warn(doubt);
+  if (band && !band->without().empty()) run.warn(band->what_is_missing());
   if (results.size() == 1) report_match(results[0], run.report());
   report_truth(results, run.report());
-  if (!choices.pair.empty()) report_pair(choices, matcher, run);
+  if (!choices.pair.empty()) report_pair(choices, matcher, beam, run);
   PolyLines lines = curve_lines(matcher, results);
   lines.history = run.history({{choices.from, from.content_sha256, &from.history},
                                {choices.to, to.content_sha256, &to.history}});
@@ -161,13 +134,17 @@ int main(int argc, char** argv) {
       "TSV of true positions: landmark, side, cc_x_mm ... mlo_z_mm; errors are reported");
   tool.integer(choices.grid, "--grid", "N", "N x N points over the tissue of the first image", 0,
                200);
+  tool.flag(choices.band, "--band",
+            "50 % and 95 % bands from parameters, thickness, angle and marking (derivatives in the "
+            "files by sensitivity)");
+  tool.input_file(choices.priors, "--priors", "FILE",
+                  "TSV parameter, standard_deviation (1: relative, degree or mm) for --band");
   tool.choice(choices.geometry, "--geometry", {"parallel", "cone"},
               "beam, as in project-mammogram");
   tool.output_file(choices.table, "--table", "OUT.tsv", "one row per point");
   tool.check([&] { choices.check(); });
   tool.example("cc2mlo cc.vtkhdf mlo.vtkhdf curve.vtp --landmark tumour --table curve.tsv",
                "where the tumour seen in CC lies in MLO");
-  tool.example("cc2mlo mlo.vtkhdf cc.vtkhdf curve.vtp --point 42.5,61", "from MLO to CC");
   tool.example("cc2mlo cc.vtkhdf mlo.vtkhdf curve.vtp --pair 31,52,35,48 --supine supine.vtkhdf",
                "a spot marked in both views: its place in the MR scan and supine");
   return tool.main(argc, argv, [&](Run& run) { run_match(choices, run); });

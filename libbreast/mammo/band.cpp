@@ -103,6 +103,12 @@ BandModel::BandModel(const Matcher& matcher, const DerivativeFields& from,
   }
 }
 
+std::string BandModel::what_is_missing() const {
+  std::string names;
+  for (const std::string& name : without_) names += " " + name;
+  return "the band does not count" + names + ": no derivative in both files (tool sensitivity)";
+}
+
 Vec3 BandModel::moved(const HexMesh& mesh, const ImageFrame& frame, const Vec3& centre,
                       const NodalField& field, const ColumnPoint& point, const Vec3& at,
                       bool turns) const {
@@ -133,7 +139,6 @@ Vec2 BandModel::shift(const ColumnPoint& point, const Mat3& carry, const Cause& 
 
 Band BandModel::band(const MatchedCurve& curve) const {
   Band band;
-  band.without = without_;
   const std::vector<Vec2> normal = normals(curve);
   const ViewPose& first = matcher_.from_frame().pose;
   std::map<std::string, double> squares;

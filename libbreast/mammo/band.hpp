@@ -37,8 +37,7 @@ struct BandPoint {
 struct Band {
   std::vector<BandPoint> points;           ///< one per point of the curve
   std::map<std::string, double> by_cause;  ///< root mean square over the curve, mm
-  std::vector<std::string> without;  ///< priors the meshes have no derivative for: not counted
-  double area_95 = 0;                ///< mm² of the 95 % band
+  double area_95 = 0;                      ///< mm² of the 95 % band
 };
 inline constexpr double half_width_50 = 0.6744897502, half_width_95 = 1.9599639845;
 
@@ -55,6 +54,9 @@ class BandModel {
   BandModel(const Matcher& matcher, const DerivativeFields& from, const DerivativeFields& to,
             std::vector<Prior> priors);
   Band band(const MatchedCurve& curve) const;
+  /// Priors the meshes have no derivative for: not counted.
+  const std::vector<std::string>& without() const { return without_; }
+  std::string what_is_missing() const;  ///< the same as a sentence
 
  private:
   struct Cause {

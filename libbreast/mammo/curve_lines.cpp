@@ -45,6 +45,20 @@ void add_column(Writer& writer, const std::string& name, int query, const Matche
   }
 }
 
+// Both edges of the band, one line per stretch and side.
+void add_band(Writer& writer, const std::string& name, int query, const MatchResult& result,
+              double width, const ViewPose& to) {
+  const auto& points = result.curve.points;
+  for (const double side : {-width, width}) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const BandPoint& at = result.band->points[i];
+      if (i == 0 || points[i - 1].stretch != points[i].stretch) writer.line(name, query);
+      const Vec2 uv = at.uv + side * at.deviation * at.normal;
+      writer.point(to.on_detector(uv), uv, points[i].depth);
+    }
+  }
+}
+
 void add_result(Writer& writer, int query, const MatchResult& result, const Matcher& matcher) {
   const ViewPose &from = matcher.from_frame().pose, &to = matcher.to_frame().pose;
   const std::string &first = matcher.from_frame().view, &second = matcher.to_frame().view;
@@ -68,6 +82,10 @@ void add_result(Writer& writer, int query, const MatchResult& result, const Matc
   add_column(
       writer, "column in " + second, query, curve, [](const ColumnPoint& p) { return p.to; },
       in_to);
+  if (result.band) {
+    add_band(writer, "band 50", query, result, half_width_50, to);
+    add_band(writer, "band 95", query, result, half_width_95, to);
+  }
   if (!curve.in_air()) {
     writer.line("chord", query);
     for (const ColumnPoint& end : {curve.points.front(), curve.points.back()}) {
@@ -109,28 +127,36 @@ Table curve_table(const Matcher& matcher, const std::vector<MatchResult>& result
   std::string view = matcher.from_frame().view;
   for (char& letter : view) letter = char(std::tolower(static_cast<unsigned char>(letter)));
   Table table;
-  table.columns = {"query",          "landmark",          "status",           view + "_u_mm",
-                   view + "_v_mm",   "column_mm",         "curve_mm",         "chord_mm",
-                   "max_bend_mm",    "reference_bend_mm", "behind_image_mm",  "nipple_distance_mm",
-                   "true_u_mm",      "true_v_mm",         "true_to_curve_mm", "true_to_chord_mm",
-                   "true_to_arc_mm", "true_to_line_mm"};
+  table.columns = {
+      "query",          "landmark",          "status",           view + "_u_mm",
+      view + "_v_mm",   "column_mm",         "curve_mm",         "chord_mm",
+      "max_bend_mm",    "reference_bend_mm", "behind_image_mm",  "nipple_distance_mm",
+      "true_u_mm",      "true_v_mm",         "true_to_curve_mm", "true_to_chord_mm",
+      "true_to_arc_mm", "true_to_line_mm",   "band_95_area_mm2", "true_over_deviation"};
   for (std::size_t q = 0; q < results.size(); ++q) {
     const MatchResult& r = results[q];
     const bool tissue = !r.curve.in_air(), truth = tissue && r.query.truth.has_value();
     const bool nipple = tissue && r.nipple_distance > 0;
-    table.rows.push_back(
-        {std::to_string(q), r.query.landmark.empty() ? "-" : r.query.landmark, r.status(),
-         format_fixed(r.query.from_uv.x(), 4), format_fixed(r.query.from_uv.y(), 4),
-         number_or_dash(tissue, tissue ? r.curve.points.back().depth : 0),
-         number_or_dash(tissue, r.curve.length), number_or_dash(tissue, r.curve.chord),
-         number_or_dash(tissue, r.curve.max_deviation),
-         number_or_dash(tissue, r.curve.reference_deviation),
-         number_or_dash(tissue, r.curve.behind_image), number_or_dash(nipple, r.nipple_distance),
-         number_or_dash(truth, truth ? r.query.truth->x() : 0),
-         number_or_dash(truth, truth ? r.query.truth->y() : 0),
-         number_or_dash(truth, r.truth_to_curve), number_or_dash(truth, r.truth_to_chord),
-         number_or_dash(truth && nipple, r.truth_to_arc),
-         number_or_dash(truth && nipple, r.truth_to_line)});
+    table.rows.push_back({std::to_string(q),
+                          r.query.landmark.empty() ? "-" : r.query.landmark,
+                          r.status(),
+                          format_fixed(r.query.from_uv.x(), 4),
+                          format_fixed(r.query.from_uv.y(), 4),
+                          number_or_dash(tissue, tissue ? r.curve.points.back().depth : 0),
+                          number_or_dash(tissue, r.curve.length),
+                          number_or_dash(tissue, r.curve.chord),
+                          number_or_dash(tissue, r.curve.max_deviation),
+                          number_or_dash(tissue, r.curve.reference_deviation),
+                          number_or_dash(tissue, r.curve.behind_image),
+                          number_or_dash(nipple, r.nipple_distance),
+                          number_or_dash(truth, truth ? r.query.truth->x() : 0),
+                          number_or_dash(truth, truth ? r.query.truth->y() : 0),
+                          number_or_dash(truth, r.truth_to_curve),
+                          number_or_dash(truth, r.truth_to_chord),
+                          number_or_dash(truth && nipple, r.truth_to_arc),
+                          number_or_dash(truth && nipple, r.truth_to_line),
+                          number_or_dash(r.band.has_value(), r.band ? r.band->area_95 : 0),
+                          number_or_dash(truth && r.band, r.truth_standardised)});
   }
   return table;
 }

@@ -17,7 +17,7 @@ std::string MatchResult::status() const {
   return curve.behind_image > 0 ? "behind_image" : "matched";
 }
 
-MatchResult match_query(const Matcher& matcher, const MatchQuery& query) {
+MatchResult match_query(const Matcher& matcher, const MatchQuery& query, const BandModel* band) {
   MatchResult result;
   result.query = query;
   result.curve = matcher.match(query.from_uv);
@@ -25,12 +25,14 @@ MatchResult match_query(const Matcher& matcher, const MatchQuery& query) {
   result.arc = matcher.nipple_arc(query.from_uv);
   result.nipple_distance = matcher.nipple_distance(query.from_uv);
   result.depth_line = matcher.nipple_depth_line(query.from_uv);
+  if (band != nullptr) result.band = band->band(result.curve);
   if (!query.truth) return result;
   const Vec2& truth = *query.truth;
   result.truth_to_curve = distance_to_curve(result.curve, truth);
   if (const auto nipple = matcher.to_landmark("nipple")) {
     result.truth_to_arc = std::abs((truth - *nipple).norm() - result.nipple_distance);
   }
+  if (result.band) result.truth_standardised = standardised_distance(*result.band, truth);
   if (result.depth_line) result.truth_to_line = std::abs(truth.x() - *result.depth_line);
   MatchedCurve chord;
   chord.points = {result.curve.points.front(), result.curve.points.back()};
@@ -120,48 +122,6 @@ std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table
                       " breast lies in the first image");
   }
   return queries;
-}
-
-void report_match(const MatchResult& result, Report& report) {
-  const auto pair = [](const Vec2& uv) { return std::vector<double>{uv.x(), uv.y()}; };
-  report.set("from_uv_mm", pair(result.query.from_uv));
-  report.set("column_mm", result.curve.points.back().depth);
-  report.set("curve_points", result.curve.points.size());
-  report.set("curve_mm", result.curve.length);
-  report.set("chord_mm", result.curve.chord);
-  report.set("max_bend_mm", result.curve.max_deviation);
-  report.set("reference_bend_mm", result.curve.reference_deviation);
-  report.set("behind_image_mm", result.curve.behind_image);
-  if (result.nipple_distance > 0) report.set("nipple_distance_mm", result.nipple_distance);
-  if (!result.query.truth) return;
-  report.set("true_uv_mm", pair(*result.query.truth));
-  report.set("true_to_curve_mm", result.truth_to_curve);
-  report.set("true_to_chord_mm", result.truth_to_chord);
-  if (!result.depth_line) return;
-  report.set("true_to_arc_mm", result.truth_to_arc);
-  report.set("true_to_line_mm", result.truth_to_line);
-}
-
-void report_truth(const std::vector<MatchResult>& results, Report& report) {
-  const auto summarise = [&](const char* name, double MatchResult::*distance) {
-    std::vector<double> values;
-    for (const MatchResult& result : results) {
-      if (result.query.truth && !result.curve.in_air()) values.push_back(result.*distance);
-    }
-    if (values.empty()) return;
-    std::sort(values.begin(), values.end());
-    const std::string key = std::string("truth/") + name + "/";
-    report.set("truth/points", values.size());
-    report.set(key + "mean_mm",
-               std::accumulate(values.begin(), values.end(), 0.0) / double(values.size()));
-    report.set(key + "p95_mm", values[std::size_t(std::ceil(0.95 * double(values.size()))) - 1]);
-    report.set(key + "max_mm", values.back());
-  };
-  summarise("curve", &MatchResult::truth_to_curve);
-  summarise("chord", &MatchResult::truth_to_chord);
-  if (results.empty() || !results.front().depth_line) return;
-  summarise("arc", &MatchResult::truth_to_arc);
-  summarise("line", &MatchResult::truth_to_line);
 }
 
 }  // namespace breast

@@ -7,6 +7,7 @@
 
 #include "core/report.hpp"
 #include "core/table.hpp"
+#include "mammo/band.hpp"
 #include "mammo/correspondence.hpp"
 
 namespace breast {
@@ -25,12 +26,15 @@ struct MatchResult {
   std::vector<std::vector<Vec2>> arc;
   double nipple_distance = 0;        ///< mm, 0 without a nipple
   std::optional<double> depth_line;  ///< mm, u of the straight rule in the second image
+  std::optional<Band> band;          ///< when asked for
   /// mm from the truth; with `query.truth` only, arc and line with a nipple only.
   double truth_to_curve = 0, truth_to_arc = 0, truth_to_line = 0, truth_to_chord = 0;
+  double truth_standardised = 0;  ///< distance across the curve over the band's deviation
   /// "matched", "air", "through_chest_wall", "behind_image" (part of the curve).
   std::string status() const;
 };
-MatchResult match_query(const Matcher& matcher, const MatchQuery& query);
+MatchResult match_query(const Matcher& matcher, const MatchQuery& query,
+                        const BandModel* band = nullptr);
 
 /// A landmark of the meshes: its projection, with its own place in the second view as truth.
 /// Throws Error (input) listing the landmarks there are.
@@ -45,11 +49,16 @@ std::vector<MatchQuery> point_queries(const Table& table, const std::string& whe
 std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table,
                                       const std::string& where);
 
+/// What to doubt: columns through the chest wall, curves behind the image, points in air. Throws
+/// Error (input) when there is nothing to report: no point, or the only one in air.
+std::vector<std::string> match_doubts(const Matcher& matcher,
+                                      const std::vector<MatchResult>& results);
 /// Length, bends and distances of one result: keys from_uv_mm, curve_mm, max_bend_mm,
 /// true_to_curve_mm ...
 void report_match(const MatchResult& result, Report& report);
 /// Mean, 95 % and largest distance of the truth to "curve", "arc", "line", "chord", mm, over the
-/// results that have one: keys truth/N, truth/curve/mean_mm ...
+/// results that have one: keys truth/points, truth/curve/mean_mm ..., and what part
+/// of them the bands hold: truth/in_band_50_percent, truth/in_band_95_percent.
 void report_truth(const std::vector<MatchResult>& results, Report& report);
 
 }  // namespace breast

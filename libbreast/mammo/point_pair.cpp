@@ -71,4 +71,15 @@ PairPoint locate_pair(const Matcher& forward, const Matcher& backward, const Vec
   return pair;
 }
 
+void report_spot(const PairPoint& pair, const Matcher& forward, Report& report) {
+  const HexMesh &from = forward.from(), &to = forward.to();
+  report.set("spot/residual_mm", pair.residual);
+  report.set("spot/first_to_second_mm", pair.first_to_second);
+  report.set("spot/second_to_first_mm", pair.second_to_first);
+  report.set("spot/imaged", pair.position(from, from.imaged));
+  if (!from.reference.empty()) report.set("spot/reference", pair.position(from, from.reference));
+  report.set("spot/" + forward.from_frame().view, pair.position(from, from.points));
+  report.set("spot/" + forward.to_frame().view, pair.position(to, to.points));
+}
+
 }  // namespace breast

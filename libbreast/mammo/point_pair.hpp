@@ -1,6 +1,7 @@
 // The same spot marked in two views: where it is in the body.
 #pragma once
 
+#include "core/report.hpp"
 #include "mammo/correspondence.hpp"
 
 namespace breast {
@@ -26,5 +27,8 @@ struct PairPoint {
 /// (input) when a mark lies in air.
 PairPoint locate_pair(const Matcher& forward, const Matcher& backward, const Vec2& first,
                       const Vec2& second);
+
+/// Keys spot/residual_mm, spot/imaged, spot/reference, spot/VIEW ...
+void report_spot(const PairPoint& pair, const Matcher& forward, Report& report);
 
 }  // namespace breast

@@ -14,6 +14,7 @@ material: core
 mesh: surface core
 mammo: mesh image surface core
 xray: mammo mesh image surface core
+page: mammo mesh image surface core
 cli: core
 io: core dicom image surface mesh mammo
 segment: image surface core

@@ -1,0 +1,12 @@
+// MatchLookup -> HDF5 file (schema "lookup/1"). HDF5 only.
+#pragma once
+
+#include <filesystem>
+
+#include "mammo/lookup.hpp"
+
+namespace breast {
+
+void write_lookup(const std::filesystem::path& file, const MatchLookup& lookup);
+
+}  // namespace breast

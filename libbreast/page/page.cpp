@@ -1,0 +1,114 @@
+#include "page/page.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <span>
+
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "mammo/display.hpp"
+
+namespace breast {
+
+extern const char* const page_html;
+
+namespace {
+
+std::string base64(std::span<const unsigned char> bytes) {
+  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve(4 * ((bytes.size() + 2) / 3));
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto at = [&](std::size_t k) {
+      return i + k < bytes.size() ? unsigned(bytes[i + k]) : 0u;
+    };
+    const unsigned three = at(0) << 16 | at(1) << 8 | at(2);
+    for (int k = 0; k < 4; ++k) {
+      text += i + std::size_t(k) < bytes.size() + 1 ? digits[three >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+template <class T>
+std::string encoded(const std::vector<T>& values) {
+  return '"' +
+         base64(
+             {reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(T)}) +
+         '"';
+}
+
+// The picture as hung, 8 bits, every n-th pixel so that none is below a quarter millimetre.
+std::string image_json(const Mammogram& image) {
+  const HungImage hung = hang(image);
+  const int skip = std::max(1, int(0.25 / image.pixel + 0.5));
+  const int width = (hung.width + skip - 1) / skip, height = (hung.height + skip - 1) / skip;
+  std::vector<std::uint8_t> grey;
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      grey.push_back(std::uint8_t(hung.grey[std::size_t(row * skip) * std::size_t(hung.width) +
+                                            std::size_t(column * skip)] >>
+                                  8));
+    }
+  }
+  return "{\"view\":\"" + image.view + "\",\"width\":" + std::to_string(width) +
+         ",\"height\":" + std::to_string(height) +
+         ",\"pixel\":" + format_number(image.pixel * skip) +
+         ",\"u_mm\":" + format_number(image.pixel * (image.width - 1)) +
+         ",\"v_mm\":" + format_number(image.pixel * (image.height - 1)) +
+         ",\"grey\":" + encoded(grey) + "}";
+}
+
+// Edges of the boundary's faces in the MR frame.
+std::string body_json(const HexMesh& mesh) {
+  std::set<std::pair<int, int>> edges;
+  for (const auto* set : {&mesh.skin_faces, &mesh.pectoral_faces, &mesh.cut_faces}) {
+    for (const Face& face : *set) {
+      const std::vector<int> nodes = face_nodes(mesh, face);
+      for (int k = 0; k < 4; ++k) {
+        const int a = nodes[std::size_t(k)], b = nodes[std::size_t((k + 1) % 4)];
+        edges.insert({std::min(a, b), std::max(a, b)});
+      }
+    }
+  }
+  std::vector<float> ends;
+  for (const auto& [a, b] : edges) {
+    for (const int node : {a, b}) {
+      for (int k = 0; k < 3; ++k) ends.push_back(float(mesh.imaged[std::size_t(node)][k]));
+    }
+  }
+  return encoded(ends);
+}
+
+void check_view(const Mammogram& image, const std::string& view, Side side) {
+  if (image.view == view && image.side == side) return;
+  throw input_error("the image shows ", image.view, " of the ", side_name(image.side),
+                    " breast, the compression ", view, " of the ", side_name(side));
+}
+
+}  // namespace
+
+std::string lookup_page(const MatchLookup& lookup, const Mammogram& from, const Mammogram& to,
+                        const HexMesh& body) {
+  check_view(from, lookup.from_view, lookup.side);
+  check_view(to, lookup.to_view, lookup.side);
+  std::string without;
+  for (const std::string& name : lookup.band_without)
+    without += (without.empty() ? "" : ", ") + name;
+  const std::string data =
+      "{\"side\":\"" + std::string(side_name(lookup.side)) +
+      "\",\"pitch\":" + format_number(lookup.pitch) + ",\"nu\":" + std::to_string(lookup.nu) +
+      ",\"nv\":" + std::to_string(lookup.nv) + ",\"samples\":" + std::to_string(lookup.samples) +
+      ",\"status\":" + encoded(lookup.status) + ",\"depth\":" + encoded(lookup.depth) +
+      ",\"curve\":" + encoded(lookup.curve) + ",\"deviation\":" + encoded(lookup.deviation) +
+      ",\"across\":" + encoded(lookup.across) + ",\"imaged\":" + encoded(lookup.imaged) +
+      ",\"from\":" + image_json(from) + ",\"to\":" + image_json(to) + ",\"band_without\":\"" +
+      without + "\",\"body\":" + body_json(body) + "}";
+  std::string page = page_html;
+  const std::string mark = "\"DATA\"";
+  page.replace(page.find(mark), mark.size(), data);
+  return page;
+}
+
+}  // namespace breast
