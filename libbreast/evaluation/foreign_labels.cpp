@@ -1,7 +1,9 @@
 #include "evaluation/foreign_labels.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 #include "core/table.hpp"
@@ -69,17 +71,16 @@ void restrict_breast(LabelVolume& labels, const Volume<float>& region, int code)
 
 namespace {
 
-/// Nearest face of a breast's voxel against air, within `reach` mm; the point itself without any.
-Vec3 nearest_skin(const LabelVolume& labels, const Vec3& point, double reach) {
+/// Faces of the breast's voxels against air within `reach` mm of a point.
+std::vector<Vec3> faces_near(const LabelVolume& labels, const Vec3& point, double reach) {
   const Grid& grid = labels.grid;
-  Vec3 nearest = point;
-  double best = reach;
+  std::vector<Vec3> faces;
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
         if (!is_breast(labels.at(i, j, k))) continue;
         const Vec3 centre = grid.to_patient(Vec3(i, j, k));
-        if (!((centre - point).norm() < best + grid.spacing.maxCoeff())) continue;
+        if (!((centre - point).norm() < reach)) continue;
         for (int axis = 0; axis < 3; ++axis) {
           for (const int step : {-1, 1}) {
             std::array<int, 3> beside{i, j, k};
@@ -87,16 +88,29 @@ Vec3 nearest_skin(const LabelVolume& labels, const Vec3& point, double reach) {
             if (!grid.contains(beside[0], beside[1], beside[2]) ||
                 labels.at(beside[0], beside[1], beside[2]) != Tissue::air)
               continue;
-            const Vec3 face = centre + 0.5 * step * grid.spacing[axis] * grid.direction.col(axis);
-            if (!((face - point).norm() < best)) continue;
-            best = (face - point).norm();
-            nearest = face;
+            faces.push_back(centre + 0.5 * step * grid.spacing[axis] * grid.direction.col(axis));
           }
         }
       }
     }
   }
-  return nearest;
+  return faces;
+}
+
+/// Mean of the skin's faces hardly farther away than the nearest (half the voxels' longest edge),
+/// so that the steps of thick slices do not decide; the point itself without any.
+Vec3 nearest_skin(const LabelVolume& labels, const Vec3& point) {
+  const std::vector<Vec3> faces = faces_near(labels, point, 15);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Vec3& face : faces) nearest = std::min(nearest, (face - point).norm());
+  Vec3 sum = Vec3::Zero();
+  double count = 0;
+  for (const Vec3& face : faces) {
+    if ((face - point).norm() > nearest + 0.5 * labels.grid.spacing.maxCoeff()) continue;
+    sum += face;
+    count += 1;
+  }
+  return count > 0 ? Vec3(sum / count) : point;
 }
 
 }  // namespace
@@ -116,7 +130,7 @@ std::optional<Vec3> skin_over_code(const Volume<float>& volume, int code,
     }
   }
   if (count == 0) return std::nullopt;
-  return nearest_skin(labels, grid.to_patient(sum / count), 15);
+  return nearest_skin(labels, grid.to_patient(sum / count));
 }
 
 }  // namespace breast
