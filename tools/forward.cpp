@@ -26,6 +26,9 @@ void declare(Tool& tool, Choices& c) {
       "forces "
       "are those of the imaged shape, so that under the gravity of the scan the imaged shape comes "
       "back to rounding error.");
+  tool.describe(
+      "A solve that stops has exit code 3, writes nothing, and gives its reason in the report: "
+      "iteration_limit, no_admissible_step, indefinite_tangent or folded_element.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), equation (5)");
   tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
   tool.output(c.deformed, "DEFORMED.vtkhdf", "the same mesh under gravity");

@@ -34,6 +34,23 @@ double uniaxial_stress(const Law& law, double stretch) {
   return 2 * (stretch - 1 / (stretch * stretch)) * (w.w1 + w.w2 / stretch);
 }
 
+// Equibiaxial nominal stress (Pa), 2(λ − λ⁻⁵)(W1 + λ²W2).
+double equibiaxial_stress(const Law& law, double stretch) {
+  const double square = stretch * stretch;
+  const double i1 = 2 * square + 1 / (square * square);
+  if (!law.in_range(i1)) return std::nan("");
+  const LawValue w = law.evaluate(i1, 2 / square + square * square);
+  return 2 * (stretch - std::pow(stretch, -5)) * (w.w1 + square * w.w2);
+}
+
+// Pure shear (planar stretch) nominal stress (Pa), 2(λ − λ⁻³)(W1 + W2).
+double planar_stress(const Law& law, double stretch) {
+  const double i = 1 + stretch * stretch + 1 / (stretch * stretch);
+  if (!law.in_range(i)) return std::nan("");
+  const LawValue w = law.evaluate(i, i);
+  return 2 * (stretch - std::pow(stretch, -3)) * (w.w1 + w.w2);
+}
+
 // Simple shear stress (Pa), σ12 = 2(W1 + W2)γ.
 double shear_stress(const Law& law, double gamma) {
   const double invariant = 3 + gamma * gamma;
@@ -44,7 +61,7 @@ double shear_stress(const Law& law, double gamma) {
 
 Table summary(const MaterialSet& set, Run& run) {
   Table table{{"tissue", "law", "shear_modulus_Pa", "gravity_number", "stable_from_stretch",
-               "stable_to_stretch", "weakest_relative_shear"},
+               "stable_to_stretch", "weakest_relative_shear", "ellipticity_margin"},
               {}};
   for (const Tissue tissue :
        {Tissue::fat, Tissue::fibroglandular, Tissue::skin, Tissue::muscle, Tissue::tumour}) {
@@ -56,7 +73,8 @@ Table summary(const MaterialSet& set, Run& run) {
     const std::string name(tissue_name(tissue));
     table.rows.push_back({name, law.describe(), fixed(modulus, 1), fixed(number, 3),
                           fixed(range.compression, 3), fixed(range.tension, 3),
-                          fixed(range.weakest, 3)});
+                          fixed(range.weakest, 3), fixed(ellipticity_margin(law).value, 3)});
+    run.report().set("materials/" + name + "/ellipticity_margin", ellipticity_margin(law).value);
     run.report().set("materials/" + name + "/law", law.describe());
     run.report().set("materials/" + name + "/shear_modulus_Pa", modulus);
     run.report().set("materials/" + name + "/gravity_number", number);
@@ -68,14 +86,19 @@ Table summary(const MaterialSet& set, Run& run) {
 
 Table curves(const MaterialSet& set, double low, double high) {
   constexpr int steps = 30;
-  Table table{{"tissue", "stretch", "uniaxial_stress_Pa", "shear", "shear_stress_Pa"}, {}};
+  Table table{{"tissue", "stretch", "uniaxial_stress_Pa", "equibiaxial_stress_Pa",
+               "pure_shear_stress_Pa", "shear", "shear_stress_Pa"},
+              {}};
   for (const Tissue tissue :
        {Tissue::fat, Tissue::fibroglandular, Tissue::skin, Tissue::muscle, Tissue::tumour}) {
     for (int i = 0; i <= steps; ++i) {
       const double stretch = low + (high - low) * i / steps, gamma = (high - 1) * i / steps;
+      const Law& law = set.law(tissue);
       table.rows.push_back({std::string(tissue_name(tissue)), fixed(stretch, 4),
-                            format_number(uniaxial_stress(set.law(tissue), stretch)),
-                            fixed(gamma, 4), format_number(shear_stress(set.law(tissue), gamma))});
+                            format_number(uniaxial_stress(law, stretch)),
+                            format_number(equibiaxial_stress(law, stretch)),
+                            format_number(planar_stress(law, stretch)), fixed(gamma, 4),
+                            format_number(shear_stress(law, gamma))});
     }
   }
   return table;
@@ -88,10 +111,10 @@ int main(int argc, char** argv) {
   Tool tool("laws", "a material set: laws, moduli, stable ranges and curves");
   tool.describe(
       "Prints per tissue the law, its shear modulus at rest, the gravity number (density x gravity "
-      "x "
-      "0.1 m / modulus: how much it sags) and the uniaxial stretches between which every shear "
-      "keeps a "
-      "positive stiffness; with --curves, stresses against stretch and shear.");
+      "x 0.1 m / modulus: how much it sags), the uniaxial stretches between which every shear "
+      "keeps a positive stiffness, and the margin of ellipticity: 1 when no constant works against "
+      "it, 0 where the law is refused. With --curves, nominal uniaxial, equibiaxial and pure-shear "
+      "stress against stretch, and simple-shear stress against shear, Pa.");
   tool.word(c.set, "NAME|FILE",
             "material set: seed2008, wellman, victre, mira2018, or a TSV file of the same columns");
   tool.texts(c.scale, "--scale", "TISSUE=PERCENT",

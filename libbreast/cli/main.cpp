@@ -68,8 +68,12 @@ void write_stdout(const std::string& text) {
 void write_report(const std::filesystem::path& file, Run& run, const Outcome& outcome) {
   Report& report = run.report();
   if (outcome.exit_code != 0) {
-    report.set("status", outcome.status);
-    report.set("reason", outcome.reason);
+    // A solve that did not converge has typed its reason already.
+    const bool typed = outcome.exit_code == 3 && report.contains("explanation");
+    if (!typed) {
+      report.set("status", outcome.status);
+      report.set("reason", outcome.reason);
+    }
   }
   run.timer().write(report);
   report.set("seconds/total", run.seconds());

@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "mechanics/error_estimate.hpp"
+#include "mechanics/field_checks.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"
 
@@ -190,6 +191,7 @@ void Compression::close_plates(SaddleState& state) {
   record_compression(mesh_, options_, at, body, *contact, wall, summary_);
   mesh_.det_F = scene_.assembly().mean_det_f(reference_, at.x);
   mesh_.pressure = scene_.assembly().mean_pressure(at.p);
+  check_fields(mesh_, scene_.options(), mesh_.reference, mesh_.points, summary_);
   if (scene_.options().estimate_error) estimate(at, *contact);
   conclude(at);
 }

@@ -160,7 +160,28 @@ void membrane_kernel(const MembraneInput<N>& in, const HexDemand& demand, Membra
   out.valid = std::isfinite(out.energy) && out.residual.allFinite();
 }
 
+template <int N>
+Vec2 membrane_resultants(const MembraneInput<N>& in) {
+  const Eigen::Matrix2Xd g = quad_shape(N == 4 ? 1 : 2, Vec2::Zero()).gradients;
+  const Eigen::Matrix<double, 3, 2> t_ref = in.reference * g.transpose(),
+                                    t_def = in.deformed * g.transpose();
+  const Mat2 reference = t_ref.transpose() * t_ref, deformed = t_def.transpose() * t_def;
+  SurfaceStress stress;
+  if (!surface_stress(*in.law, reference, deformed, stress)) return Vec2::Constant(std::nan(""));
+  Mat2 s;
+  s << stress.s[0], stress.s[2], stress.s[2], stress.s[1];
+  // Skin volume per parametric area over the deformed area turns S into force per length; the
+  // principal values of S^{αβ} are those of S·a.
+  const double per_length = in.volume.sum() / 4 / std::sqrt(deformed.determinant());
+  const Mat2 mixed = per_length * s * deformed;
+  const double mean = 0.5 * mixed.trace();
+  const double spread = std::sqrt(std::max(0.0, mean * mean - mixed.determinant()));
+  return {mean - spread, mean + spread};
+}
+
 template struct QuadRule<4>;
+template Vec2 membrane_resultants<4>(const MembraneInput<4>&);
+template Vec2 membrane_resultants<9>(const MembraneInput<9>&);
 template struct QuadRule<9>;
 template void membrane_kernel<4>(const MembraneInput<4>&, const HexDemand&, MembraneOutput<4>&);
 template void membrane_kernel<9>(const MembraneInput<9>&, const HexDemand&, MembraneOutput<9>&);

@@ -41,6 +41,14 @@ struct MembraneOutput {
 template <int N>
 void membrane_kernel(const MembraneInput<N>& in, const HexDemand& demand, MembraneOutput<N>& out);
 
+/// Principal resultants (Pa·mm: force per length of the deformed face) at the centre of the face,
+/// the smaller first; negative presses the skin together. Not-a-number where the law is out of
+/// range.
+template <int N>
+Vec2 membrane_resultants(const MembraneInput<N>& in);
+
+extern template Vec2 membrane_resultants<4>(const MembraneInput<4>&);
+extern template Vec2 membrane_resultants<9>(const MembraneInput<9>&);
 extern template void membrane_kernel<4>(const MembraneInput<4>&, const HexDemand&,
                                         MembraneOutput<4>&);
 extern template void membrane_kernel<9>(const MembraneInput<9>&, const HexDemand&,

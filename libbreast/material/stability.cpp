@@ -42,6 +42,10 @@ double weakest_shear(const Law& law, const Mat3& b) {
 
 namespace {
 
+// Least of e^{b(λ²+2/λ−3)}/λ² over λ, b near 4.4: beyond |c| = 0.929 ab a shear loses its
+// stiffness.
+constexpr double exponential_bound = 0.929;
+
 Mat3 uniaxial(double stretch) {
   return Vec3(stretch * stretch, 1 / stretch, 1 / stretch).asDiagonal();
 }
@@ -82,7 +86,19 @@ StableRange stable_range(const Law& law, double low, double high) {
 bool always_elliptic(const Law& law) {
   if (law.kind != LawKind::exponential) return convex(law);
   const double a = law.constants[0], b = law.constants[1], c = law.constants[2];
-  return a > 0 && b > 0 && c > -0.929 * a * b;
+  return a > 0 && b > 0 && c > -exponential_bound * a * b;
+}
+
+EllipticityMargin ellipticity_margin(const Law& law) {
+  if (!always_elliptic(law)) return {stable_range(law, 0.5, 2).weakest, false};
+  const std::vector<double>& k = law.constants;
+  if (law.kind == LawKind::exponential) {
+    return {1 - std::max(0.0, -k[2]) / (exponential_bound * k[0] * k[1]), true};
+  }
+  if (law.kind == LawKind::polynomial && k[4] > 0) {
+    return {1 - k[4] * k[4] / (4 * k[2] * k[3]), true};
+  }
+  return {1, true};
 }
 
 void check_law(const Law& law, const std::string& where) {
@@ -103,10 +119,9 @@ void check_law(const Law& law, const std::string& where) {
     const double a = law.constants[0], b = law.constants[1], c = law.constants[2];
     // The weakest plane keeps ab exp(b(I1−3)) + c λ² > 0; the minimum over λ is 0.929 ab.
     if (!(a > 0) || !(b > 0)) throw input_error(where, ": a and b must be positive");
-    if (!(c > -0.929 * a * b)) {
-      throw input_error(where, ": c = ", c,
-                        " Pa loses ellipticity: must exceed -0.929 ab = ", -0.929 * a * b,
-                        " Pa (Veronda-Westmann has c = -ab/2)");
+    if (!(c > -exponential_bound * a * b)) {
+      throw input_error(where, ": c = ", c, " Pa loses ellipticity: must exceed -0.929 ab = ",
+                        -exponential_bound * a * b, " Pa (Veronda-Westmann has c = -ab/2)");
     }
     return;
   }

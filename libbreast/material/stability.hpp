@@ -26,6 +26,15 @@ StableRange stable_range(const Law& law, double low = 0.3, double high = 3.0);
 /// nondecreasing in both invariants, or exponential with |c| < 0.929 ab.
 bool always_elliptic(const Law& law);
 
+/// How far the constants are from losing ellipticity: 1 where no constant works against it, 0 at
+/// the bound. Exponential: 1 − |c|/(0.929 ab); convex polynomial: 1 − α11²/(4 α20 α02); otherwise
+/// the weakest relative shear modulus over stretches 0.5–2.
+struct EllipticityMargin {
+  double value = 0;
+  bool every_stretch = false;  ///< proven for all stretches, or only scanned over 0.5–2
+};
+EllipticityMargin ellipticity_margin(const Law& law);
+
 /// Throws Error (input), beginning with `where`, unless the law is usable: right number of finite
 /// constants, positive rest modulus, and elliptic: by the closed conditions (polynomial: convex and
 /// nondecreasing; exponential: |c| < 0.929 ab), or else by a scan of stretches 0.5–2.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "mechanics/field_checks.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"
@@ -18,6 +19,7 @@ constexpr int max_iterations = 25, max_gmres = 60;
 constexpr double tolerance = 1e-10, volume_tolerance = 1e-11;
 // A volume error of this size counts as much as the whole load when steps are judged.
 constexpr double typical_strain = 0.05;
+constexpr const char* singular = "singular_inverse";
 
 class BackwardSolve {
  public:
@@ -31,7 +33,7 @@ class BackwardSolve {
 
   /// Nodal forces (µN); `start` is the first guess, and where held nodes stay.
   SolveSummary run(const Eigen::VectorXd& load, const Eigen::VectorXd& start);
-  SolveSummary run(const Vec3& gravity) { return run(scene_.gravity_force(gravity), imaged_); }
+  SolveSummary run(const Vec3& gravity);
 
  private:
   struct Trial {
@@ -52,7 +54,13 @@ class BackwardSolve {
   bool line_search(const Trial& step, const Distance& before, const SaddleForces& at, Trial& trial,
                    NewtonIteration& record) const;
   bool newton(Trial& trial);
-  void examine(const Trial& trial);
+  void set_load(const Eigen::VectorXd& load);
+  /// From `state` to the full load, in parts when need be; the part reached.
+  double follow(const Eigen::VectorXd& load, Trial& state);
+  bool stays(const Trial& trial);
+  void conclude(const Trial& state, double reached);
+  double stable_part(const Eigen::VectorXd& load, double reached, bool stable);
+  void store(const Trial& state);
 
   HexMesh& mesh_;
   Scene scene_;
@@ -63,7 +71,7 @@ class BackwardSolve {
   SaddleSolver solver_;
   ReferenceTangent tangent_;
   SolveSummary summary_;
-  std::string failure_;
+  std::string failure_, failure_id_;
   int gmres_iterations_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
@@ -168,6 +176,7 @@ bool BackwardSolve::newton(Trial& trial) {
     }
     if (!forces.valid) {
       failure_ = message("element ", forces.bad_element, " is folded at the start");
+      failure_id_ = stop_name(NewtonStop::folded);
       return false;
     }
     const Distance now = distance(forces);
@@ -178,13 +187,15 @@ bool BackwardSolve::newton(Trial& trial) {
     if (i == max_iterations) break;
     Trial step;
     if (!direction(forces, step)) {
-      failure_ = "the inverse problem is singular: no unloaded state exists near this load";
+      failure_ = "the inverse problem is singular";
+      failure_id_ = singular;
       return false;
     }
     NewtonIteration record;
     Timer::Scope phase(summary_.timer, "line search");
     if (!line_search(step, now, forces, trial, record)) {
       failure_ = message("no admissible step: residual ", now.force, " of the load");
+      failure_id_ = stop_name(NewtonStop::no_step);
       return now.force <= 1e-8 && now.volume <= 1e-9;
     }
     record_iteration(summary_, summary_.steps, record, clock());
@@ -194,52 +205,117 @@ bool BackwardSolve::newton(Trial& trial) {
   }
   failure_ = message("no convergence in ", max_iterations, " iterations: residual ",
                      summary_.residual, " of the load");
+  failure_id_ = stop_name(NewtonStop::iteration_limit);
   return false;
 }
 
-// Is the imaged shape a stable equilibrium of the unloaded shape found?
-void BackwardSolve::examine(const Trial& trial) {
+// Is the imaged shape a stable equilibrium of the unloaded shape found? Of a folded one it is not.
+bool BackwardSolve::stays(const Trial& trial) {
+  Timer::Scope phase(summary_.timer, "stability");
   const SaddleForces forces = evaluate(trial, &matrix_, nullptr);
-  if (!forces.valid) return;
-  const Factorisation factor = solver_.factorise(matrix_, scene_.walls(), false);
-  summary_.stable = factor.ok;
-  if (!factor.ok) {
-    summary_.doubts.push_back(
-        "the imaged shape is an unstable equilibrium of the shape found: forward will go "
-        "elsewhere");
-  }
+  return forces.valid && solver_.factorise(matrix_, scene_.walls(), false).ok;
 }
 
-SolveSummary BackwardSolve::run(const Eigen::VectorXd& load, const Eigen::VectorXd& start) {
-  Trial state{start, scene_.assembly().rest_pressure()};
-  bool converged = false;
+void BackwardSolve::set_load(const Eigen::VectorXd& load) {
+  load_ = load;
+  Eigen::VectorXd free = load_;
+  scene_.walls().project(free);
+  load_norm_ = free.norm() > 0 ? free.norm() : scene_.stiffness_force();
+}
+
+double BackwardSolve::follow(const Eigen::VectorXd& load, Trial& state) {
   LoadPath path;
   while (!path.finished()) {
-    load_ = path.next() * load;
-    Eigen::VectorXd free = load_;
-    scene_.walls().project(free);
-    load_norm_ = free.norm() > 0 ? free.norm() : scene_.stiffness_force();
+    set_load(path.next() * load);
     Trial trial = state;
-    converged = newton(trial);
-    if (converged) {
+    if (newton(trial)) {
       state = std::move(trial);
       path.succeed();
     } else if (!path.fail()) {
-      summary_.record.reason =
-          message("stopped at ", 100 * path.done, " % of the load: ", failure_);
       break;
     }
   }
-  if (converged) {
-    Timer::Scope phase(summary_.timer, "stability");
-    examine(state);
+  return path.done;
+}
+
+// Newton's direction always lowers the residual unless ∂R/∂X is singular: where the path of
+// solutions stops for want of a step or of a direction, it ends. Short of any load it may be that
+// steps were too long.
+void BackwardSolve::conclude(const Trial& state, double reached) {
+  summary_.load_reached = reached;
+  summary_.stable = reached > 0 ? stays(state) : true;
+  SolveRecord& record = summary_.record;
+  if (reached < 1) {
+    const bool ends =
+        reached > 0 && (failure_id_ == singular || failure_id_ == stop_name(NewtonStop::no_step));
+    record.status = "not_converged";
+    summary_.reason_id = ends ? "no_stress_free_body" : failure_id_;
+    record.reason = message("stopped at ", 100 * reached, " % of the load: ", failure_);
+    if (ends) {
+      record.reason = message(
+          "no stress-free body: the shapes that gravity could deform into the "
+          "imaged one end near ",
+          100 * reached, " % of the load (", failure_, ")");
+    }
+  } else if (!summary_.stable) {
+    record.status = "unstable";
+    summary_.reason_id = "unstable_equilibrium";
+    record.reason =
+        "unstable equilibrium: the body found is in balance in the imaged shape but would not stay "
+        "in it";
+  } else {
+    record.status = "converged";
   }
+}
+
+// Stiffnesses times s under the full load are the same problem as part 1/s of the load: the largest
+// part found, within 10 %, whose body exists and stays in the imaged shape.
+double BackwardSolve::stable_part(const Eigen::VectorXd& load, double reached, bool stable) {
+  if (stable) return reached;
+  double low = 0, high = reached;
+  for (int i = 0; i < 7 && high > 1.1 * low; ++i) {
+    const double part = low > 0 ? std::sqrt(low * high) : 0.4 * high;
+    set_load(part * load);
+    Trial trial{imaged_, scene_.assembly().rest_pressure()};
+    (newton(trial) && stays(trial) ? low : high) = part;
+  }
+  return low;
+}
+
+void BackwardSolve::store(const Trial& state) {
   summary_.factorisations = solver_.factorisations();
-  summary_.record.status = converged ? "converged" : "not_converged";
   store_state(mesh_, scene_, state.reference, {imaged_, state.pressure}, summary_);
   mesh_.points = mesh_.reference;
   mesh_.gravity.setZero();
   judge(summary_, scene_, state.reference, {imaged_, state.pressure});
+  check_fields(mesh_, scene_.options(), mesh_.reference, mesh_.imaged, summary_);
+}
+
+SolveSummary BackwardSolve::run(const Eigen::VectorXd& load, const Eigen::VectorXd& start) {
+  Trial state{start, scene_.assembly().rest_pressure()};
+  const double reached = follow(load, state);
+  conclude(state, reached);
+  store(state);
+  return summary_;
+}
+
+SolveSummary BackwardSolve::run(const Vec3& gravity) {
+  const Eigen::VectorXd load = scene_.gravity_force(gravity);
+  Trial state{imaged_, scene_.assembly().rest_pressure()};
+  const double reached = follow(load, state);
+  conclude(state, reached);
+  if (!summary_.converged()) {
+    SolveSummary found = summary_;  // of the state itself; the search only adds to the clock
+    const double part = stable_part(load, found.load_reached, found.stable);
+    found.timer = summary_.timer;
+    summary_ = std::move(found);
+    if (part > 0) {
+      summary_.stiffness_factor_needed = 1 / part;
+      summary_.record.reason += message("; stiffnesses ", std::ceil(100 / part) / 100,
+                                        " times as large would give a stable body");
+    }
+  }
+  store(state);
   return summary_;
 }
 

@@ -41,7 +41,8 @@ void add_laws(const Report& report, std::vector<std::string>& lines) {
     if (!report.contains(key + "law")) continue;
     lines.push_back(message(tissue, ": ", report.text(key + "law"), "; μ0 ",
                             brief(report, key + "shear_modulus_Pa"), " Pa, ρgL/μ0 ",
-                            brief(report, key + "gravity_number")));
+                            brief(report, key + "gravity_number"), ", ellipticity margin ",
+                            brief(report, key + "ellipticity_margin")));
   }
 }
 

@@ -25,6 +25,7 @@ SolveSummary solve_backward_fixed_point(HexMesh& mesh, const Vec3& gravity,
     summary.min_det_F = result.forces.min_det_F;
     ++summary.steps;
     if (!result.converged) {
+      summary.reason_id = stop_name(result.stop);
       summary.record.reason = message("forward solve ", i + 1, " failed: ", result.reason);
       break;
     }
@@ -39,6 +40,7 @@ SolveSummary solve_backward_fixed_point(HexMesh& mesh, const Vec3& gravity,
     state.u -= miss;
   }
   if (!summary.converged() && summary.record.reason.empty()) {
+    summary.reason_id = stop_name(NewtonStop::iteration_limit);
     summary.record.reason =
         message(max_iterations, " fixed-point iterations leave ", distance, " mm");
   }

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "mechanics/error_estimate.hpp"
+#include "mechanics/field_checks.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"
@@ -69,6 +70,8 @@ SolveSummary ForwardSolve::run(const Vec3& gravity) {
         state = std::move(trial);
         path.succeed();
       } else if (!path.fail()) {
+        summary_.reason_id = stop_name(result.stop);
+        summary_.load_reached = path.done;
         summary_.record.reason =
             message("stopped at ", 100 * path.done, " % of the load: ", result.reason);
         break;
@@ -94,6 +97,7 @@ SolveSummary ForwardSolve::run(const Vec3& gravity) {
   store_state(mesh_, scene_, reference, state, summary_);
   mesh_.gravity = gravity;
   judge(summary_, scene_, reference, state);
+  check_fields(mesh_, scene_.options(), mesh_.reference, mesh_.points, summary_);
   return summary_;
 }
 

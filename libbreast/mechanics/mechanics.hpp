@@ -8,6 +8,7 @@
 #include "core/progress.hpp"
 #include "core/report.hpp"
 #include "material/law.hpp"
+#include "mechanics/skin_state.hpp"
 #include "mesh/hex_mesh.hpp"
 
 namespace breast {
@@ -30,6 +31,15 @@ struct MechanicsOptions {
 /// How a solve went; also fills the contract's report keys.
 struct SolveSummary {
   SolveRecord record;
+  /// Why there is no usable answer, as a stable identifier: one of NewtonStop's, or of backward
+  /// "singular_inverse", "no_stress_free_body" (the solutions end before the full load: no body
+  /// that gravity deforms into the imaged shape was found to exist) and "unstable_equilibrium" (one
+  /// exists, but would not stay in that shape). Empty when converged.
+  std::string reason_id;
+  double load_reached = 1;  ///< part of the load up to which solutions were found
+  /// Backward, unstable or without a body: stiffnesses times this would give a stable answer (upper
+  /// bound, to 10 %); 0 when not known.
+  double stiffness_factor_needed = 0;
   int newton_iterations = 0, factorisations = 0, steps = 0;
   double residual = 0;  ///< relative to the load
   double min_det_F = 0, max_volume_error = 0;
@@ -40,7 +50,9 @@ struct SolveSummary {
   /// mm; negative when not estimated. See mechanics/error_estimate.hpp.
   double error_estimate_mm = -1;
   std::map<std::string, Vec3> landmark_error_mm;
-  std::vector<std::string> doubts;  ///< what a reader should doubt
+  std::map<Tissue, double> checkerboard;  ///< see mechanics/pressure_filter.hpp; 8-node elements
+  SkinState skin;                         ///< wrinkling; see mechanics/skin_state.hpp
+  std::vector<std::string> doubts;        ///< what a reader should doubt
   bool converged() const { return record.status == "converged"; }
 };
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/units.hpp"
+#include "material/stability.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mesh/quality.hpp"
 #include "solve/blas.hpp"
@@ -42,10 +43,27 @@ void write_materials(const HexMesh& mesh, const MechanicsOptions& options, Repor
     const std::string tissue(tissue_name(Tissue(t))), key = "materials/" + tissue + "/";
     report.set(key + "law", law.describe());
     report.set(key + "shear_modulus_Pa", law.shear_modulus());
+    report.set(key + "ellipticity_margin", ellipticity_margin(law).value);
     report.set(key + "gravity_number", options.materials.density[t] * gravity_mm_s2 *
                                            std::cbrt(total) / law.shear_modulus());
     if (volume[t] > 1e-6) report.set("volumes_ml/" + tissue, volume[t] / mm3_per_ml);
   }
+}
+
+// Wrinkling of a membrane skin, oscillation of the pressures.
+void write_field_checks(const SolveSummary& summary, Report& report) {
+  for (const auto& [tissue, share] : summary.checkerboard) {
+    report.set("pressure_checkerboard/" + std::string(tissue_name(tissue)), share);
+  }
+  const SkinState& skin = summary.skin;
+  if (skin.faces == 0) return;
+  report.set("skin/faces", skin.faces);
+  report.set("skin/compressed_faces", skin.compressed);
+  report.set("skin/compressed_area_percent", 100 * skin.compressed_share);
+  report.set("skin/wrinkling_faces", skin.wrinkling);
+  report.set("skin/wrinkling_area_percent", 100 * skin.wrinkling_share);
+  report.set("skin/least_resultant_N_per_m", skin.least_resultant_N_per_m);
+  report.set("skin/longest_wrinkle_mm", skin.longest_wrinkle_mm);
 }
 
 }  // namespace
@@ -53,7 +71,15 @@ void write_materials(const HexMesh& mesh, const MechanicsOptions& options, Repor
 void write_report(const SolveSummary& summary, const HexMesh& mesh, const MechanicsOptions& options,
                   Report& report) {
   report.set("status", summary.record.status);
-  report.set("reason", summary.record.reason);
+  // Backward and forward type their reasons; others give them in words alone.
+  report.set("reason", summary.reason_id.empty() ? summary.record.reason : summary.reason_id);
+  if (!summary.reason_id.empty()) {
+    report.set("explanation", summary.record.reason);
+    report.set("load_reached", summary.load_reached);
+  }
+  if (summary.stiffness_factor_needed > 0) {
+    report.set("stiffness_factor_needed", summary.stiffness_factor_needed);
+  }
   report.set("elements", mesh.elements());
   report.set("unknowns", summary.unknowns);
   report.set("newton_iterations", summary.newton_iterations);
@@ -85,6 +111,7 @@ void write_report(const SolveSummary& summary, const HexMesh& mesh, const Mechan
   report.set("peak_mb", peak_memory_mb());
   write_materials(mesh, options, report);
   write_landmarks(mesh, report);
+  write_field_checks(summary, report);
   summary.timer.write(report);
   for (const std::string& doubt : summary.doubts) report.append("doubts", doubt);
 }

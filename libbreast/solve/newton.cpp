@@ -94,6 +94,22 @@ bool aim(Constraints& constraints, const Eigen::VectorXd* targets, const Eigen::
 
 }  // namespace
 
+const char* stop_name(NewtonStop stop) {
+  switch (stop) {
+    case NewtonStop::none:
+      return "";
+    case NewtonStop::folded:
+      return "folded_element";
+    case NewtonStop::iteration_limit:
+      return "iteration_limit";
+    case NewtonStop::indefinite:
+      return "indefinite_tangent";
+    case NewtonStop::no_step:
+      return "no_admissible_step";
+  }
+  return "";
+}
+
 double rounding_force(const SaddleMatrix& matrix, const Eigen::VectorXd& u) {
   return 8 * std::numeric_limits<double>::epsilon() * matrix.diagonal.cwiseProduct(u).norm();
 }
@@ -115,6 +131,7 @@ NewtonResult newton(const SaddleProblem& problem, SaddleSolver& solver, SaddleMa
       admissible = problem.tangent(state, result.forces, matrix);
     }
     if (!admissible) {
+      result.stop = NewtonStop::folded;
       result.reason = message("element ", result.forces.bad_element, " is folded at the start");
       break;
     }
@@ -127,6 +144,7 @@ NewtonResult newton(const SaddleProblem& problem, SaddleSolver& solver, SaddleMa
       break;
     }
     if (i == options.max_iterations) {
+      result.stop = NewtonStop::iteration_limit;
       result.reason = message("no convergence in ", i, " iterations: residual ", result.residual,
                               " of the load, bound ", options.tolerance);
       break;
@@ -137,6 +155,7 @@ NewtonResult newton(const SaddleProblem& problem, SaddleSolver& solver, SaddleMa
       factor = solver.factorise(matrix, moving);
     }
     if (!factor.ok) {
+      result.stop = NewtonStop::indefinite;
       result.reason = "the tangent stiffness is far from positive definite (unstable equilibrium)";
       break;
     }
@@ -158,6 +177,7 @@ NewtonResult newton(const SaddleProblem& problem, SaddleSolver& solver, SaddleMa
     result.iterations.push_back(record);
     if (watch) watch(record);
     if (record.step_length == 0) {
+      result.stop = NewtonStop::no_step;
       result.reason =
           message("no admissible step along the Newton direction: residual ", result.residual,
                   " of the load, smallest det F ", result.forces.min_det_F);

@@ -54,13 +54,20 @@ struct NewtonOptions {
   double determinant_guard = 0.05;  ///< a trial may shrink the smallest det F to this part
 };
 
+/// Why a Newton solve ended without convergence.
+enum class NewtonStop { none, folded, iteration_limit, indefinite, no_step };
+/// Stable identifier: "", "folded_element", "iteration_limit", "indefinite_tangent",
+/// "no_admissible_step".
+const char* stop_name(NewtonStop stop);
+
 struct NewtonIteration {
   double residual = 0, min_det_F = 0, max_det_F = 0, step_length = 0, shift = 0;
 };
 
 struct NewtonResult {
   bool converged = false;
-  std::string reason;  ///< why not
+  NewtonStop stop = NewtonStop::none;
+  std::string reason;  ///< why not, in words
   std::vector<NewtonIteration> iterations;
   int factorisations = 0, indefinite = 0;
   SaddleForces forces;  ///< at the final state (valid when the last state was admissible)

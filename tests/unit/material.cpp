@@ -90,6 +90,23 @@ TEST(Stability, RefusesLawsThatLoseEllipticity) {
   EXPECT_THROW(check_law({LawKind::yeoh, {610, -900, 0}}, "fat"), Error);
 }
 
+TEST(Stability, MarginOfTheConstants) {
+  const EllipticityMargin skin = ellipticity_margin({LawKind::exponential, {92.39, 4.4, -203.40}});
+  EXPECT_NEAR(skin.value, 1 - 203.40 / (0.929 * 92.39 * 4.4), 1e-12);
+  EXPECT_TRUE(skin.every_stretch);
+  const EllipticityMargin fat =
+      ellipticity_margin({LawKind::polynomial, {310, 300, 2250, 3800, 4720}});
+  EXPECT_NEAR(fat.value, 1 - 4720.0 * 4720 / (4 * 2250.0 * 3800), 1e-12);
+  EXPECT_EQ(ellipticity_margin({LawKind::mooney_rivlin, {310, 300}}).value, 1);
+  // A negative constant: scanned, and weaker than at rest.
+  const EllipticityMargin scanned = ellipticity_margin({LawKind::yeoh, {610, -20, 10}});
+  EXPECT_FALSE(scanned.every_stretch);
+  EXPECT_GT(scanned.value, 0);
+  EXPECT_LT(scanned.value, 1);
+  // At the bound the margin vanishes.
+  EXPECT_LT(ellipticity_margin({LawKind::exponential, {100, 4, -0.928 * 400}}).value, 2e-3);
+}
+
 TEST(Materials, EmbeddedSetsLoadAndScale) {
   EXPECT_EQ(material_set_names(),
             (std::vector<std::string>{"mira2018", "seed2008", "victre", "wellman"}));

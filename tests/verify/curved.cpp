@@ -99,7 +99,7 @@ void invert(const HexMesh& mesh, const Eigen::VectorXd& u, const Eigen::VectorXd
     inverse.reference[i] += 0.2 * (inverse.imaged[i] - mesh.reference[i]);
   }
   const SolveSummary summary = solve_backward_under(inverse, forces, fixtures::options_of(fat));
-  out.inverted = summary.converged();
+  out.inverted = summary.load_reached == 1;
   for (int i = 0; i < mesh.nodes(); ++i) {
     out.inversion_mm =
         std::max(out.inversion_mm, (inverse.reference[i] - mesh.reference[i]).norm());

@@ -1,0 +1,25 @@
+// Pressures of 8-node elements with one pressure each oscillate from element to element (their
+// inf-sup constant falls with the mesh size, tests/verify/inf_sup.cpp); displacements do not show
+// it.
+#pragma once
+
+#include <map>
+
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+/// Per element: value at its centre of the linear function fitted to the pressures of the elements
+/// of its tissue around it, weighted by volume times the number of shared nodes. On a regular mesh
+/// this annihilates every oscillation of period two (at a corner of the mesh a quarter stays) and
+/// reproduces linear pressures exactly.
+std::vector<double> filter_pressure(const HexMesh& mesh, const std::vector<Vec3>& nodal,
+                                    const std::vector<double>& pressure);
+
+/// Per tissue present ‖p − p_filtered‖/‖p − mean p‖ over its volume: 0 smooth, 1 nothing but
+/// oscillation.
+std::map<Tissue, double> checkerboard(const HexMesh& mesh, const std::vector<Vec3>& nodal,
+                                      const std::vector<double>& pressure,
+                                      const std::vector<double>& filtered);
+
+}  // namespace breast

@@ -1,0 +1,78 @@
+#include "mechanics/skin_state.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fem/membrane_kernel.hpp"
+
+namespace breast {
+
+namespace {
+
+template <int N>
+Eigen::Matrix<double, 3, N> gather(const std::vector<int>& nodes, const std::vector<Vec3>& nodal) {
+  Eigen::Matrix<double, 3, N> x;
+  for (int a = 0; a < N; ++a) x.col(a) = nodal[nodes[a]];
+  return x;
+}
+
+// Area elements √det a at the rule's points, times its weights.
+template <int N>
+Eigen::Matrix<double, QuadRule<N>::points, 1> areas(const Eigen::Matrix<double, 3, N>& x) {
+  const QuadRule<N>& rule = QuadRule<N>::get();
+  Eigen::Matrix<double, QuadRule<N>::points, 1> out;
+  for (int q = 0; q < QuadRule<N>::points; ++q) {
+    const Eigen::Matrix<double, 3, 2> t = x * rule.gradients[q].transpose();
+    out[q] = rule.weight[q] * std::sqrt((t.transpose() * t).determinant());
+  }
+  return out;
+}
+
+template <int N>
+SkinState state_of(const HexMesh& mesh, const MaterialSet& materials,
+                   const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed) {
+  SkinState state;
+  double total = 0;
+  for (std::size_t f = 0; f < mesh.skin_faces.size(); ++f) {
+    const std::vector<int> nodes = face_nodes(mesh, mesh.skin_faces[f]);
+    MembraneInput<N> in;
+    in.reference = gather<N>(nodes, reference);
+    in.deformed = gather<N>(nodes, deformed);
+    in.volume = mesh.skin_thickness[f] * areas<N>(gather<N>(nodes, mesh.imaged));
+    in.law = &materials.law(Tissue::skin);
+    const double area = areas<N>(in.deformed).sum();
+    const double resultant = membrane_resultants<N>(in)[0];  // Pa·mm
+    const double beneath = materials.law(mesh.tissue[mesh.skin_faces[f].element]).shear_modulus();
+    ++state.faces;
+    total += area;
+    // Rounding makes resultants of either sign in a skin at rest.
+    if (!(resultant < -1e-9 * materials.law(Tissue::skin).shear_modulus())) continue;
+    const double wrinkle = std::numbers::pi * -resultant / beneath;
+    ++state.compressed;
+    state.compressed_share += area;
+    state.least_resultant_N_per_m = std::min(state.least_resultant_N_per_m, 1e-3 * resultant);
+    state.longest_wrinkle_mm = std::max(state.longest_wrinkle_mm, wrinkle);
+    if (wrinkle >= 2 * std::sqrt(area)) {
+      ++state.wrinkling;
+      state.wrinkling_share += area;
+    }
+  }
+  if (total > 0) {
+    state.compressed_share /= total;
+    state.wrinkling_share /= total;
+  }
+  return state;
+}
+
+}  // namespace
+
+SkinState skin_state(const HexMesh& mesh, const MaterialSet& materials,
+                     const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed) {
+  if (mesh.skin_model != SkinModel::membrane) return {};
+  return mesh.order == 1 ? state_of<4>(mesh, materials, reference, deformed)
+                         : state_of<9>(mesh, materials, reference, deformed);
+}
+
+}  // namespace breast

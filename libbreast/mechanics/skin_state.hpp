@@ -1,0 +1,24 @@
+// Where the membrane skin is pressed together, and whether the wrinkles it would throw are ones the
+// mesh can show.
+#pragma once
+
+#include "material/law.hpp"
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+/// A membrane on a soft half-space under a compressive resultant N wrinkles at wave numbers above
+/// 2μ/|N| (μ of the tissue beneath), so with wave lengths below π|N|/μ. Where that is at least two
+/// elements long the mesh itself can wrinkle; shorter wrinkles are beyond it, and harmless to it.
+struct SkinState {
+  int faces = 0, compressed = 0, wrinkling = 0;      ///< counts
+  double compressed_share = 0, wrinkling_share = 0;  ///< of the deformed skin area
+  double least_resultant_N_per_m = 0;                ///< most negative principal resultant
+  double longest_wrinkle_mm = 0;                     ///< largest π|N|/μ
+};
+
+/// Of the membrane of `mesh` at the deformed shape; all zero without one.
+SkinState skin_state(const HexMesh& mesh, const MaterialSet& materials,
+                     const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed);
+
+}  // namespace breast

@@ -1,0 +1,103 @@
+// Every reason for having no answer is said by name, and is true.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/units.hpp"
+#include "fixtures/elastic_scene.hpp"
+#include "fixtures/shapes.hpp"
+
+namespace breast {
+namespace {
+
+const Vec3 prone(0, -gravity_mm_s2, 0);
+
+MechanicsOptions neo_hookean(double a10) {
+  return fixtures::options_of({LawKind::neo_hookean, {a10}});
+}
+
+double closure(HexMesh mesh, const Vec3& gravity, const MechanicsOptions& options) {
+  EXPECT_TRUE(solve_backward(mesh, gravity, options).converged());
+  EXPECT_TRUE(solve_forward(mesh, gravity, options).converged());
+  double worst = 0;
+  for (int i = 0; i < mesh.nodes(); ++i) {
+    worst = std::max(worst, (mesh.points[i] - mesh.imaged[i]).norm());
+  }
+  return worst;
+}
+
+// A cap too soft to hang in this shape: shapes of ever less load exist, up to a part of it that is
+// proportional to the stiffness; the stiffness asked for is enough, a little less is not.
+TEST(Reason, NoStressFreeBody) {
+  const HexMesh cap = fixtures::cap({.elements = 4, .skin_mm = 0});
+  std::vector<double> reached;
+  double needed = 0;
+  for (const double a10 : {10.0, 5.0}) {
+    HexMesh mesh = cap;
+    const SolveSummary summary = solve_backward(mesh, prone, neo_hookean(a10));
+    EXPECT_EQ(summary.record.status, "not_converged");
+    EXPECT_EQ(summary.reason_id, "no_stress_free_body") << summary.record.reason;
+    ASSERT_GT(summary.stiffness_factor_needed, 1);
+    reached.push_back(summary.load_reached);
+    needed = a10 * summary.stiffness_factor_needed;
+    for (const Vec3& x : mesh.reference) EXPECT_TRUE(x.allFinite());
+  }
+  EXPECT_NEAR(reached[0] / reached[1], 2, 0.25);
+  HexMesh mesh = cap;
+  EXPECT_TRUE(solve_backward(mesh, prone, neo_hookean(1.02 * needed)).converged());
+  EXPECT_LT(closure(cap, prone, neo_hookean(2 * needed)), 1e-7);
+  mesh = cap;
+  EXPECT_FALSE(solve_backward(mesh, prone, neo_hookean(0.8 * needed)).converged());
+}
+
+// A column stands under its own weight up to (7.837 EI/w)^(1/3) (Greenhill 1881). The straight body
+// exists either way.
+TEST(Reason, UnstableEquilibrium) {
+  fixtures::BlockSettings settings;
+  settings.elements = {8, 2, 2};
+  settings.size = Vec3(120, 20, 20);
+  const HexMesh column = fixtures::block(settings);
+  const Vec3 down(-gravity_mm_s2, 0, 0);  // towards the held foot
+  const double inertia = std::pow(20, 4) / 12, weight = 1e-3 * gravity_mm_s2 * 400;  // per mm
+  const double critical = weight * std::pow(120, 3) / (7.837 * inertia);             // E, Pa
+  EXPECT_LT(closure(column, down, neo_hookean(2 * critical / 6)), 1e-7);
+  HexMesh mesh = column;
+  const SolveSummary summary = solve_backward(mesh, down, neo_hookean(0.25 * critical / 6));
+  EXPECT_EQ(summary.record.status, "unstable");
+  EXPECT_EQ(summary.reason_id, "unstable_equilibrium");
+  EXPECT_FALSE(summary.stable);
+  EXPECT_LT(summary.residual, 1e-9);
+  EXPECT_NEAR(summary.stiffness_factor_needed, 4, 1.3);  // two elements across are too stiff
+}
+
+TEST(Reason, IterationLimitAndFolding) {
+  const HexMesh mesh = fixtures::cap({.elements = 4});
+  const Scene scene(mesh, neo_hookean(600));
+  const ForwardProblem problem(scene, flatten(mesh.reference), scene.gravity_force(prone));
+  SaddleMatrix matrix = problem.make_matrix();
+  SaddleSolver solver(problem.pattern());
+  SaddleState state{flatten(mesh.reference), scene.assembly().rest_pressure()};
+  NewtonResult result =
+      newton(problem, solver, matrix, scene.walls(), nullptr, state, {.max_iterations = 2});
+  EXPECT_FALSE(result.converged);
+  EXPECT_STREQ(stop_name(result.stop), "iteration_limit");
+  state.u.segment<3>(3L * mesh.element(0)[0]).swap(state.u.segment<3>(3L * mesh.element(0)[6]));
+  result = newton(problem, solver, matrix, scene.walls(), nullptr, state);
+  EXPECT_STREQ(stop_name(result.stop), "folded_element");
+}
+
+// Forward under a load the discrete body cannot carry: a reason by name, the part of the load that
+// it carried, and a finite state.
+TEST(Reason, ForwardBeyondWhatTheMeshCarries) {
+  HexMesh mesh = fixtures::cap({.elements = 4});
+  const SolveSummary summary = solve_forward(mesh, 3000 * prone, neo_hookean(40));
+  ASSERT_FALSE(summary.converged());
+  EXPECT_TRUE(summary.reason_id == "iteration_limit" || summary.reason_id == "no_admissible_step" ||
+              summary.reason_id == "indefinite_tangent")
+      << summary.reason_id;
+  EXPECT_LT(summary.load_reached, 1);
+  for (const Vec3& x : mesh.points) EXPECT_TRUE(x.allFinite());
+}
+
+}  // namespace
+}  // namespace breast

@@ -1,0 +1,114 @@
+// What is said about pressures and skin: filter, checkerboard, resultants, wrinkles.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fem/membrane_kernel.hpp"
+#include "fixtures/block.hpp"
+#include "fixtures/laws.hpp"
+#include "mechanics/pressure_filter.hpp"
+#include "mechanics/skin_state.hpp"
+
+namespace breast {
+namespace {
+
+HexMesh four_cubed(double distortion) {
+  fixtures::BlockSettings settings;
+  settings.distortion = distortion;
+  return fixtures::block(settings);
+}
+
+TEST(PressureFilter, KeepsLinearPressures) {
+  const HexMesh mesh = four_cubed(0.2);
+  std::vector<double> pressure;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    pressure.push_back(7 +
+                       Vec3(3, -2, 5).dot(element_position(mesh, mesh.imaged, e, Vec3::Zero())));
+  }
+  const std::vector<double> filtered = filter_pressure(mesh, mesh.imaged, pressure);
+  for (int e = 0; e < mesh.elements(); ++e) EXPECT_NEAR(filtered[e], pressure[e], 1e-4);
+  EXPECT_LT(checkerboard(mesh, mesh.imaged, pressure, filtered).at(Tissue::fat), 1e-6);
+}
+
+TEST(PressureFilter, RemovesTheCheckerboard) {
+  const HexMesh mesh = four_cubed(0);
+  std::vector<double> smooth, pressure;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const int i = e % 4, j = e / 4 % 4, k = e / 16;
+    smooth.push_back(10 * i);
+    pressure.push_back(smooth.back() + ((i + j + k) % 2 ? 100 : -100));
+  }
+  const std::vector<double> filtered = filter_pressure(mesh, mesh.imaged, pressure);
+  int left = 0;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const bool corner = (e % 4) % 3 == 0 && (e / 4 % 4) % 3 == 0 && (e / 16) % 3 == 0;
+    EXPECT_NEAR(filtered[e], smooth[e], corner ? 26 : 1e-5);
+    left += std::abs(filtered[e] - smooth[e]) > 1;
+  }
+  EXPECT_EQ(left, 8);  // a corner has one neighbour along each axis: a quarter stays there
+  EXPECT_GT(checkerboard(mesh, mesh.imaged, pressure, filtered).at(Tissue::fat), 0.95);
+}
+
+// Tissues are not mixed: a jump between them is theirs.
+TEST(PressureFilter, KeepsJumpsBetweenTissues) {
+  HexMesh mesh = four_cubed(0);
+  std::vector<double> pressure;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    if (e % 4 > 1) mesh.tissue[e] = Tissue::tumour;
+    pressure.push_back(e % 4 > 1 ? 900 : 100);
+  }
+  EXPECT_EQ(filter_pressure(mesh, mesh.imaged, pressure).size(), pressure.size());
+  const std::vector<double> filtered = filter_pressure(mesh, mesh.imaged, pressure);
+  for (int e = 0; e < mesh.elements(); ++e) EXPECT_NEAR(filtered[e], pressure[e], 1e-6);
+}
+
+// A square of skin pulled to λ keeps t/λ of its thickness: the resultant is t/λ times the Cauchy
+// stress over the lateral stretch, force 2(λ − λ⁻²)(W1 + W2/λ) t over the width λ^(−1/2).
+TEST(Membrane, ResultantsOfUniaxialStretch) {
+  for (const double stretch : {0.8, 1.3}) {
+    for (const Law& law : laws()) {
+      MembraneInput<4> in;
+      in.reference << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
+      in.deformed = in.reference;
+      in.deformed.row(0) *= stretch;
+      in.deformed.row(1) /= std::sqrt(stretch);
+      in.volume.setConstant(1.5 / 4);
+      in.law = &law;
+      const LawValue w =
+          law.evaluate(stretch * stretch + 2 / stretch, 2 * stretch + 1 / (stretch * stretch));
+      const double expected = 1.5 * 2 * (stretch - 1 / (stretch * stretch)) *
+                              (w.w1 + w.w2 / stretch) * std::sqrt(stretch);
+      const Vec2 found = membrane_resultants<4>(in);
+      EXPECT_NEAR(found[stretch < 1 ? 0 : 1], expected, 1e-9 * std::abs(expected));
+      EXPECT_NEAR(found[stretch < 1 ? 1 : 0], 0, 1e-9 * std::abs(expected));
+    }
+  }
+}
+
+// A block squeezed along x: its sides' skin is pressed; stiff and thick enough, it wrinkles over
+// elements, and the paper's does not.
+TEST(Skin, WrinklesWhenStiffAndThick) {
+  fixtures::BlockSettings settings;
+  settings.skin_mm = 1.45;
+  HexMesh mesh = fixtures::block(settings);
+  std::vector<Vec3> deformed;
+  for (const Vec3& x : mesh.reference) {
+    deformed.emplace_back(0.8 * x.x(), x.y() / std::sqrt(0.8), x.z() / std::sqrt(0.8));
+  }
+  MaterialSet set = load_materials("seed2008");
+  SkinState state = skin_state(mesh, set, mesh.reference, deformed);
+  EXPECT_EQ(state.faces, 5 * 16);
+  EXPECT_EQ(state.compressed, 4 * 16);  // the far face is only pulled
+  EXPECT_GT(state.compressed_share, 0.7);
+  EXPECT_LT(state.least_resultant_N_per_m, 0);
+  EXPECT_EQ(state.wrinkling, 0);
+  scale_materials(set, {"skin=20000"});
+  for (double& t : mesh.skin_thickness) t = 3;
+  state = skin_state(mesh, set, mesh.reference, deformed);
+  EXPECT_EQ(state.wrinkling, 4 * 16);
+  EXPECT_GT(state.longest_wrinkle_mm, 40);
+  EXPECT_EQ(skin_state(mesh, set, mesh.reference, mesh.reference).compressed, 0);
+}
+
+}  // namespace
+}  // namespace breast
