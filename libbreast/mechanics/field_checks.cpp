@@ -11,20 +11,21 @@ namespace {
 constexpr double much_oscillation = 0.3;
 }
 
-void check_fields(HexMesh& mesh, const MechanicsOptions& options,
+void check_fields(const HexMesh& mesh, const MechanicsOptions& options,
                   const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed,
                   SolveSummary& summary) {
-  mesh.pressure_filtered.clear();
   if (options.element == Element::q1p0) {
-    mesh.pressure_filtered = filter_pressure(mesh, deformed, mesh.pressure);
-    summary.checkerboard = checkerboard(mesh, deformed, mesh.pressure, mesh.pressure_filtered);
+    summary.pressure = pressure_quality(mesh, deformed, mesh.pressure,
+                                        filter_pressure(mesh, deformed, mesh.pressure));
   }
-  for (const auto& [tissue, share] : summary.checkerboard) {
+  for (const auto& [tissue, quality] : summary.pressure) {
+    const double share = quality.checkerboard;
     if (share > much_oscillation) {
-      summary.doubts.push_back(
-          message("pressures of ", tissue_name(tissue), " oscillate from element to element (",
-                  std::round(100 * share),
-                  " % of their spread): use pressure_filtered, or --element q2p1"));
+      summary.doubts.push_back(message("pressures of ", tissue_name(tissue),
+                                       " oscillate from element to element (",
+                                       std::round(100 * share),
+                                       " % of their spread): trust only the filtered range in the "
+                                       "report, or use --element q2p1"));
     }
   }
   summary.skin = skin_state(mesh, options.materials, reference, deformed);

@@ -5,9 +5,9 @@
 
 namespace breast {
 
-/// From a solved state (mesh.pressure and the two shapes): fills mesh.pressure_filtered (8-node
-/// elements), summary.checkerboard and summary.skin, and adds what to doubt.
-void check_fields(HexMesh& mesh, const MechanicsOptions& options,
+/// From a solved state (mesh.pressure and the two shapes): fills summary.pressure (8-node elements)
+/// and summary.skin, and adds what to doubt.
+void check_fields(const HexMesh& mesh, const MechanicsOptions& options,
                   const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed,
                   SolveSummary& summary);
 

@@ -8,6 +8,7 @@
 #include "core/progress.hpp"
 #include "core/report.hpp"
 #include "material/law.hpp"
+#include "mechanics/pressure_filter.hpp"
 #include "mechanics/skin_state.hpp"
 #include "mesh/hex_mesh.hpp"
 
@@ -50,9 +51,9 @@ struct SolveSummary {
   /// mm; negative when not estimated. See mechanics/error_estimate.hpp.
   double error_estimate_mm = -1;
   std::map<std::string, Vec3> landmark_error_mm;
-  std::map<Tissue, double> checkerboard;  ///< see mechanics/pressure_filter.hpp; 8-node elements
-  SkinState skin;                         ///< wrinkling; see mechanics/skin_state.hpp
-  std::vector<std::string> doubts;        ///< what a reader should doubt
+  std::map<Tissue, PressureQuality> pressure;  ///< 8-node elements, by tissue
+  SkinState skin;                              ///< wrinkling; see mechanics/skin_state.hpp
+  std::vector<std::string> doubts;             ///< what a reader should doubt
   bool converged() const { return record.status == "converged"; }
 };
 

@@ -1,7 +1,9 @@
 #include "mechanics/pressure_filter.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mesh/quality.hpp"
 
@@ -55,27 +57,32 @@ std::vector<double> filter_pressure(const HexMesh& mesh, const std::vector<Vec3>
   return filtered;
 }
 
-std::map<Tissue, double> checkerboard(const HexMesh& mesh, const std::vector<Vec3>& nodal,
-                                      const std::vector<double>& pressure,
-                                      const std::vector<double>& filtered) {
+std::map<Tissue, PressureQuality> pressure_quality(const HexMesh& mesh,
+                                                   const std::vector<Vec3>& nodal,
+                                                   const std::vector<double>& pressure,
+                                                   const std::vector<double>& filtered) {
   const std::vector<double> volume = element_volumes(mesh, nodal);
   struct Sums {
     double volume = 0, first = 0, second = 0, off = 0;
+    double least = std::numeric_limits<double>::infinity(), greatest = -least;
   };
   std::map<Tissue, Sums> sums;
   for (int e = 0; e < mesh.elements(); ++e) {
     Sums& s = sums[mesh.tissue[e]];
+    s.least = std::min(s.least, filtered[e]);
+    s.greatest = std::max(s.greatest, filtered[e]);
     s.volume += volume[e];
     s.first += volume[e] * pressure[e];
     s.second += volume[e] * pressure[e] * pressure[e];
     s.off += volume[e] * (pressure[e] - filtered[e]) * (pressure[e] - filtered[e]);
   }
-  std::map<Tissue, double> indicator;
+  std::map<Tissue, PressureQuality> quality;
   for (const auto& [tissue, s] : sums) {
     const double spread = s.second - s.first * s.first / s.volume;
-    indicator[tissue] = spread > 1e-20 * s.second ? std::sqrt(s.off / spread) : 0;
+    quality[tissue] = {spread > 1e-20 * s.second ? std::sqrt(s.off / spread) : 0, s.least,
+                       s.greatest};
   }
-  return indicator;
+  return quality;
 }
 
 }  // namespace breast

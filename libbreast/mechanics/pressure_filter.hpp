@@ -16,10 +16,15 @@ namespace breast {
 std::vector<double> filter_pressure(const HexMesh& mesh, const std::vector<Vec3>& nodal,
                                     const std::vector<double>& pressure);
 
-/// Per tissue present ‖p − p_filtered‖/‖p − mean p‖ over its volume: 0 smooth, 1 nothing but
-/// oscillation.
-std::map<Tissue, double> checkerboard(const HexMesh& mesh, const std::vector<Vec3>& nodal,
-                                      const std::vector<double>& pressure,
-                                      const std::vector<double>& filtered);
+struct PressureQuality {
+  /// ‖p − p_filtered‖/‖p − mean p‖ over the tissue's volume: 0 smooth, 1 nothing but oscillation.
+  double checkerboard = 0;
+  double least = 0, greatest = 0;  ///< filtered, Pa
+};
+/// Of every tissue present.
+std::map<Tissue, PressureQuality> pressure_quality(const HexMesh& mesh,
+                                                   const std::vector<Vec3>& nodal,
+                                                   const std::vector<double>& pressure,
+                                                   const std::vector<double>& filtered);
 
 }  // namespace breast

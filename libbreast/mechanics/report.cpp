@@ -52,8 +52,11 @@ void write_materials(const HexMesh& mesh, const MechanicsOptions& options, Repor
 
 // Wrinkling of a membrane skin, oscillation of the pressures.
 void write_field_checks(const SolveSummary& summary, Report& report) {
-  for (const auto& [tissue, share] : summary.checkerboard) {
-    report.set("pressure_checkerboard/" + std::string(tissue_name(tissue)), share);
+  for (const auto& [tissue, quality] : summary.pressure) {
+    const std::string key = "pressures/" + std::string(tissue_name(tissue)) + "/";
+    report.set(key + "checkerboard", quality.checkerboard);
+    report.set(key + "filtered_min_Pa", quality.least);
+    report.set(key + "filtered_max_Pa", quality.greatest);
   }
   const SkinState& skin = summary.skin;
   if (skin.faces == 0) return;

@@ -60,7 +60,7 @@ struct IterationRecord {
   double residual = 0, min_det_F = 0, max_det_F = 0, step_length = 0, seconds = 0;
 };
 struct SolveRecord {
-  std::string status;  ///< "converged", "unstable", "stopped_early", "not_converged"
+  std::string status;  ///< "converged", "stopped_early", "not_converged"
   std::string reason;  ///< empty when converged
   std::vector<IterationRecord> iterations;
 };
@@ -77,7 +77,6 @@ struct HexMesh {
   std::vector<Tissue> tissue;                  ///< per element
   std::vector<float> fibroglandular_fraction;  ///< per element, may be empty
   std::vector<double> pressure;                ///< Pa, per element
-  std::vector<double> pressure_filtered;       ///< Pa, free of checkerboards (8-node elements)
   std::vector<double> det_F;                   ///< per element mean
   std::vector<double> scaled_jacobian;         ///< per element minimum over corners, of `points`
   std::vector<double> contact_pressure;        ///< kPa per node, compress only

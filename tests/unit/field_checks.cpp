@@ -27,7 +27,8 @@ TEST(PressureFilter, KeepsLinearPressures) {
   }
   const std::vector<double> filtered = filter_pressure(mesh, mesh.imaged, pressure);
   for (int e = 0; e < mesh.elements(); ++e) EXPECT_NEAR(filtered[e], pressure[e], 1e-4);
-  EXPECT_LT(checkerboard(mesh, mesh.imaged, pressure, filtered).at(Tissue::fat), 1e-6);
+  EXPECT_LT(pressure_quality(mesh, mesh.imaged, pressure, filtered).at(Tissue::fat).checkerboard,
+            1e-6);
 }
 
 TEST(PressureFilter, RemovesTheCheckerboard) {
@@ -46,7 +47,8 @@ TEST(PressureFilter, RemovesTheCheckerboard) {
     left += std::abs(filtered[e] - smooth[e]) > 1;
   }
   EXPECT_EQ(left, 8);  // a corner has one neighbour along each axis: a quarter stays there
-  EXPECT_GT(checkerboard(mesh, mesh.imaged, pressure, filtered).at(Tissue::fat), 0.95);
+  EXPECT_GT(pressure_quality(mesh, mesh.imaged, pressure, filtered).at(Tissue::fat).checkerboard,
+            0.95);
 }
 
 // Tissues are not mixed: a jump between them is theirs.

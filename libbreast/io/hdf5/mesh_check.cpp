@@ -30,8 +30,6 @@ void check_lengths(const HexMesh& mesh, const Complaint& complain) {
   check_length(mesh.fibroglandular_fraction, elements, true,
                "/VTKHDF/CellData/fibroglandular_fraction", complain);
   check_length(mesh.pressure, elements, true, "/VTKHDF/CellData/pressure", complain);
-  check_length(mesh.pressure_filtered, elements, true, "/VTKHDF/CellData/pressure_filtered",
-               complain);
   check_length(mesh.det_F, elements, true, "/VTKHDF/CellData/det_F", complain);
   check_length(mesh.scaled_jacobian, elements, true, "/VTKHDF/CellData/scaled_jacobian", complain);
   check_length(mesh.skin_thickness, mesh.skin_faces.size(), true, "/breast/skin/thickness",

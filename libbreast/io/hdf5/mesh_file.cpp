@@ -96,9 +96,6 @@ void put_cell_data(Document& document, const HexMesh& mesh) {
     sets[cell_data + "fibroglandular_fraction"] = array_of(Floats(mesh.fibroglandular_fraction));
   }
   if (!mesh.pressure.empty()) sets[cell_data + "pressure"] = array_of(Doubles(mesh.pressure));
-  if (!mesh.pressure_filtered.empty()) {
-    sets[cell_data + "pressure_filtered"] = array_of(Doubles(mesh.pressure_filtered));
-  }
   if (!mesh.det_F.empty()) sets[cell_data + "det_F"] = array_of(Doubles(mesh.det_F));
   if (!mesh.scaled_jacobian.empty()) {
     sets[cell_data + "scaled_jacobian"] = array_of(Doubles(mesh.scaled_jacobian));
@@ -118,7 +115,6 @@ void get_cell_data(Fields& fields, HexMesh& mesh) {
     return fields.has(cell_data + name) ? fields.doubles(cell_data + name, {elements}) : Doubles{};
   };
   mesh.pressure = optional("pressure");
-  mesh.pressure_filtered = optional("pressure_filtered");
   mesh.det_F = optional("det_F");
   mesh.scaled_jacobian = optional("scaled_jacobian");
   mesh.wall_seconds = fields.doubles("/VTKHDF/FieldData/wall_seconds", {1}).front();
