@@ -6,6 +6,7 @@
 #include "contact/compression.hpp"
 #include "contact/options.hpp"
 #include "core/error.hpp"
+#include "dicom/like_mammogram.hpp"
 #include "io/mesh_file.hpp"
 #include "mammo/mammogram.hpp"
 #include "mechanics/closing_summary.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 /// The command line as given.
 struct Choices {
-  std::filesystem::path reference, compressed;
+  std::filesystem::path reference, compressed, like;
   std::string view = "CC", contact = "active-set", wall = "fixed", detector = "raised",
               gravity = "upright";
   std::optional<double> angle, thickness, reduction, force, pressure;
@@ -53,6 +54,8 @@ void declare(Tool& tool, Choices& c) {
       "to a mean pressure of 10 kPa, on a yielding chest wall, with friction");
   tool.example("compress reference.vtkhdf mlo.vtkhdf --view MLO --angle 50 --force 100",
                "mediolateral oblique at 50 degrees until the paddle presses with 100 N");
+  tool.example("compress reference.vtkhdf mlo.vtkhdf --view MLO --like MG.dcm",
+               "angle and thickness of the patient's own mammogram");
   tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
   tool.output(c.compressed, "COMPRESSED.vtkhdf", "the compressed mesh with contact forces");
   tool.choice(c.view, "--view", {"CC", "MLO", "ML"}, "mammographic view").required("--view");
@@ -63,6 +66,8 @@ void declare(Tool& tool, Choices& c) {
   tool.number(c.force, "--force", "N", "stop at this paddle force", 1e-6, 1e5);
   tool.number(c.pressure, "--pressure", "KPA", "stop at this paddle force per contact area", 1e-6,
               1e4);
+  tool.input_file(c.like, "--like", "MG.dcm",
+                  "angle and target (thickness, else force) of this mammogram; options given win");
   tool.number(c.at_least, "--at-least", "PERCENT",
               "accept a path that stops early from this reduction on (default: the target)", 0,
               100);
@@ -85,7 +90,7 @@ void declare(Tool& tool, Choices& c) {
   tool.check([&c] {
     const int targets = int(c.thickness.has_value()) + int(c.reduction.has_value()) +
                         int(c.force.has_value()) + int(c.pressure.has_value());
-    if (targets != 1) {
+    if (targets != 1 && !(targets == 0 && !c.like.empty())) {
       throw input_error("give exactly one of --thickness, --reduction, --force, --pressure; ",
                         targets, " were given");
     }
@@ -118,11 +123,24 @@ CompressionOptions compression_options(const Choices& c) {
   return options;
 }
 
-void run_compress(const Choices& c, Run& run) {
+// Fills what was not given from the mammogram to imitate.
+void take_from_mammogram(Choices& c, Side side, Report& report) {
+  if (c.like.empty()) return;
+  const LikeMammogram like = like_mammogram(c.like, c.view, side);
+  if (!c.angle) c.angle = like.angle_deg;
+  if (like.force_N) report.set("like/force_N", *like.force_N);
+  if (like.thickness_mm) report.set("like/thickness_mm", *like.thickness_mm);
+  if (c.thickness || c.reduction || c.force || c.pressure) return;
+  c.thickness = like.thickness_mm;
+  if (!c.thickness) c.force = like.force_N;
+}
+
+void run_compress(Choices c, Run& run) {
   MechanicsOptions mechanics = mechanics_options(c.mechanics);
   mechanics.estimate_error = true;
-  const CompressionOptions options = compression_options(c);
   HexMesh mesh = read_mesh(c.reference, {.reference = true});
+  take_from_mammogram(c, mesh.side, run.report());
+  const CompressionOptions options = compression_options(c);
   const std::string sha = mesh.content_sha256;
   if (mechanics.element == Element::q2p1) mesh = raise_order(mesh);
   const CompressionSummary summary = compress(mesh, options, mechanics, run.progress());

@@ -6,6 +6,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "dicom/like_mammogram.hpp"
 #include "fixtures/chain_files.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
@@ -136,4 +137,25 @@ TEST_F(MammogramDicomFile, ATissueFractionImageHasNoDetectorSignal) {
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.error_lines(), 1) << result.err;
   EXPECT_FALSE(fs::exists(file("f.dcm")));
+}
+
+TEST_F(MammogramDicomFile, CompressionLikeAMammogram) {
+  const Side side = read_mesh(file("reference.vtkhdf")).side;
+  const LikeMammogram like = like_mammogram(file("mlo.dcm"), "MLO", side);
+  EXPECT_NEAR(*like.angle_deg, 45, 1e-9);
+  EXPECT_NEAR(*like.thickness_mm, read_mesh(file("mlo.vtkhdf")).contact->thickness_mm, 1e-6);
+  EXPECT_THROW(like_mammogram(file("mlo.dcm"), "CC", side), Error);
+  EXPECT_THROW(
+      like_mammogram(file("mlo.dcm"), "MLO", side == Side::left ? Side::right : Side::left), Error);
+  // The tool: a header that does not fit is one line and exit 2, before anything is solved.
+  for (const std::vector<std::string>& fit :
+       {std::vector<std::string>{"--view", "CC", "--like", "mlo.dcm"},
+        {"--view", "MLO", "--like", "cc.vti"}}) {
+    std::vector<std::string> arguments{"reference.vtkhdf", "no.vtkhdf"};
+    arguments.insert(arguments.end(), fit.begin(), fit.end());
+    const ToolResult result = run_tool("compress", arguments, folder_->path());
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_EQ(result.error_lines(), 1) << result.err;
+    EXPECT_FALSE(fs::exists(file("no.vtkhdf")));
+  }
 }

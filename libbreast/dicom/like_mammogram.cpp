@@ -1,0 +1,25 @@
+#include "dicom/like_mammogram.hpp"
+
+#include "core/error.hpp"
+
+namespace breast {
+
+LikeMammogram like_mammogram(const std::filesystem::path& file, const std::string& view,
+                             Side side) {
+  const MammogramHeader header = read_mammogram_header(file);
+  if (header.side != side) {
+    throw input_error(file.string(), ": a mammogram of the ", side_name(header.side),
+                      " breast, the mesh is of the ", side_name(side));
+  }
+  if (header.view != view) {
+    throw input_error(file.string(), ": shows ", header.view, ", --view is ", view);
+  }
+  if (!header.thickness_mm && !header.force_N) {
+    throw input_error(file.string(),
+                      ": tells neither thickness nor force of the compression; give "
+                      "--thickness or --force");
+  }
+  return {header.angle_deg, header.thickness_mm, header.force_N};
+}
+
+}  // namespace breast
