@@ -1,6 +1,6 @@
 // What noise, coil bias, thick slices, turned axes and cut fields of view do to a segmentation.
 //
-//     bench_segment_robustness MR left|right
+//     bench_segment_robustness MR left|right [CASE]      all cases, or the one of that name
 //
 // Prints one row per perturbation: the result compared with that of the unchanged scan.
 #include <chrono>
@@ -34,13 +34,14 @@ void print_row(const std::string& name, double seconds, const Segmentation& resu
   std::fflush(stdout);
 }
 
-int run(const std::string& file, Side side) {
+int run(const std::string& file, Side side, const std::string& only) {
   const Volume<float> scan = read_volume(file);
   std::optional<Segmentation> base;
   std::printf(
       "case\tseconds\tbreast_dice\tfibroglandular_dice\twall_mean_mm\twall_p95_mm\t"
       "nipple_mm\tfat_cv\tmessages\n");
   for (const auto& perturbation : testing::perturbations(side == Side::left)) {
+    if (base && !only.empty() && perturbation.name != only) continue;
     SegmentOptions options;
     options.side = side;
     const auto start = std::chrono::steady_clock::now();
@@ -65,8 +66,9 @@ int run(const std::string& file, Side side) {
 
 int main(int argc, char** argv) {
   try {
-    if (argc != 3) throw breast::input_error("usage: bench_segment_robustness MR left|right");
-    return breast::run(argv[1], breast::side_from_name(argv[2]));
+    if (argc != 3 && argc != 4)
+      throw breast::input_error("usage: bench_segment_robustness MR left|right [CASE]");
+    return breast::run(argv[1], breast::side_from_name(argv[2]), argc > 3 ? argv[3] : "");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_segment_robustness: %s\n", error.what());
     return 1;
