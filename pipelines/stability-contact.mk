@@ -1,0 +1,13 @@
+# Compression far from the ordinary: one row a case in runs/stability/contact.tsv. With the case's
+# stress-free mesh at the end when it has been made.
+STABILITY := $(RUNS)/stability
+.PHONY: stability-contact
+stability-contact: $(STABILITY)/contact.tsv
+	@cat $<
+$(STABILITY)/contact.tsv: $(COMPRESS) tests/fixtures/contact_cases.hpp tests/bench/stability_contact.cpp \
+  $(wildcard $(RUN)/reference.vtkhdf)
+	@mkdir -p $(STABILITY)
+	cmake -B $(BUILD) -DBREAST_BENCH=ON > $(STABILITY)/.build.log
+	cmake --build $(BUILD) --target stability_contact >> $(STABILITY)/.build.log
+	$(BIN)/stability_contact $(wildcard $(RUN)/reference.vtkhdf) > $@.part
+	@mv $@.part $@
