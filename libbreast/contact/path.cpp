@@ -180,9 +180,10 @@ bool Path::march() {
     if (attempt(predict(thickness, extrapolate), here_.memory, thickness, options_.path_tolerance,
                 reached)) {
       const int iterations = result_.points.back().iterations;
-      failures_in_row = 0;
-      if (iterations < 6) step = std::min(longest, 1.4 * step);
+      // A length that has just been found by halving is used twice before it grows again.
+      if (iterations < 6 && failures_in_row == 0) step = std::min(longest, 1.4 * step);
       if (iterations > 12) step = std::max(options_.shortest_step, 0.7 * step);
+      failures_in_row = 0;
       if (target_.kind != TargetKind::thickness && reached.measured >= target_.value) {
         return refine_control(here_, std::move(reached));
       }
