@@ -7,9 +7,9 @@
 #include "core/error.hpp"
 #include "mechanics/field_checks.hpp"
 #include "mechanics/mechanics.hpp"
+#include "mechanics/reference_system.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"
-#include "solve/gmres.hpp"
 
 namespace breast {
 
@@ -105,8 +105,6 @@ BackwardSolve::Distance BackwardSolve::distance(const SaddleForces& forces) cons
   return out;
 }
 
-// GMRES on [−K_X −Bᵀ; −B_X cM] (v, δp) = (−r, −θ) with v = −δX, preconditioned by the forward
-// problem's factor: near F = 1 moving X one way is moving x the other way.
 bool BackwardSolve::direction(const SaddleForces& forces, Trial& step) {
   Factorisation factor;
   {
@@ -115,39 +113,12 @@ bool BackwardSolve::direction(const SaddleForces& forces, Trial& step) {
   }
   if (!factor.ok) return false;
   Timer::Scope phase(summary_.timer, "solve");
-  const Constraints& walls = scene_.walls();
-  const PressureSpace& space = *matrix_.space;
-  const long n = forces.r.size(), m = forces.theta.size();
-  // Volumes as forces, so that one norm measures both equations: θ κ/(100 h).
   const double size = std::cbrt(scene_.assembly().imaged_volume()[0]);
-  const double weigh = matrix_.kappa.mean() / (100 * size);
-  const auto apply = [&](const Eigen::VectorXd& z) {
-    const Eigen::VectorXd v = z.head(n), q = z.tail(m);
-    Eigen::VectorXd out(n + m);
-    Eigen::VectorXd top = -tangent_.apply(v) - matrix_.divergence.apply_transpose(q);
-    walls.project(top);
-    out << top, weigh * (space.multiply(q, space.compliance) - tangent_.b_x.apply(v));
-    return out;
-  };
-  const double left_over = 1 - matrix_.kappa[0] * space.compliance[0];
-  const auto precondition = [&](const Eigen::VectorXd& y) {
-    const Eigen::VectorXd top = y.head(n), bottom = y.tail(m) / weigh;
-    Eigen::VectorXd v = solver_.back_solve(
-        top + matrix_.divergence.apply_transpose(space.divide(bottom, matrix_.kappa)));
-    const Eigen::VectorXd q = space.divide(bottom - matrix_.divergence.apply(v), matrix_.kappa);
-    v += left_over * solver_.back_solve(matrix_.divergence.apply_transpose(q));
-    Eigen::VectorXd out(n + m);
-    out << v, q;
-    return out;
-  };
-  Eigen::VectorXd right(n + m);
-  Eigen::VectorXd r = forces.r;
-  walls.project(r);
-  right << -r, -weigh * forces.theta;
-  const GmresResult solved = gmres(apply, precondition, right, 1e-6, max_gmres);
+  const ReferenceStep solved = ReferenceSystem(matrix_, tangent_, solver_, size)
+                                   .solve(-forces.r, -forces.theta, 1e-6, max_gmres);
   gmres_iterations_ += solved.iterations;
-  if (!(solved.residual < 0.5) || !solved.x.allFinite()) return false;
-  step = {-solved.x.head(n), solved.x.tail(m)};
+  if (!(solved.residual < 0.5)) return false;
+  step = {solved.x, solved.p};
   return true;
 }
 

@@ -1,4 +1,4 @@
-#include "io/mesh_file.hpp"
+#include "io/derivative_file.hpp"
 
 #include <limits>
 
@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint8_t vtk_hexahedron = 12, vtk_triquadratic_hexahedron = 29;
 const std::string point_data = "/VTKHDF/PointData/", cell_data = "/VTKHDF/CellData/";
+const std::string derivative = point_data + "derivative_", influence = cell_data + "influence_";
 
 void put_grid(Document& document, const HexMesh& mesh) {
   const std::size_t n = std::size_t(mesh.nodes_per_element()),
@@ -184,7 +185,9 @@ HexMesh read_mesh(const std::filesystem::path& file, const MeshNeeds& needs) {
   return mesh;
 }
 
-void write_mesh(const std::filesystem::path& file, const HexMesh& mesh) {
+namespace {
+
+Document mesh_document(const std::filesystem::path& file, const HexMesh& mesh) {
   const Complaint complain{ErrorKind::failed, file.string(), ""};
   check_mesh(mesh, complain);
   if (mesh.geometry && mesh.geometry->side != mesh.side) {
@@ -206,7 +209,47 @@ void write_mesh(const std::filesystem::path& file, const HexMesh& mesh) {
   if (mesh.geometry) put_geometry(document, mesh);
   if (mesh.solve) put_solve(document, *mesh.solve);
   if (mesh.contact) put_contact(document, *mesh.contact);
+  return document;
+}
+
+// What follows `prefix` in the paths of the datasets that begin with it.
+std::vector<std::string> endings(const Document& document, const std::string& prefix) {
+  std::vector<std::string> list;
+  for (const auto& [path, array] : document.datasets) {
+    if (path.starts_with(prefix)) list.push_back(path.substr(prefix.size()));
+  }
+  return list;
+}
+
+}  // namespace
+
+void write_mesh(const std::filesystem::path& file, const HexMesh& mesh) {
+  save_document(file, mesh_document(file, mesh));
+}
+
+void write_mesh(const std::filesystem::path& file, const HexMesh& mesh,
+                const Derivatives& derivatives) {
+  Document document = mesh_document(file, mesh);
+  for (const auto& [parameter, field] : derivatives.position) {
+    document.datasets[derivative + parameter] = array_of(field);
+  }
+  for (const auto& [landmark, field] : derivatives.influence) {
+    document.datasets[influence + landmark] = array_of(Doubles(field));
+  }
   save_document(file, document);
+}
+
+Derivatives read_derivatives(const std::filesystem::path& file, const HexMesh& mesh) {
+  Document document = load_document(file, "mesh/1", "sensitivity");
+  Fields fields(document, {ErrorKind::input, file.string(), "; make it again"});
+  Derivatives out;
+  for (const std::string& parameter : endings(document, derivative)) {
+    out.position[parameter] = fields.vectors(derivative + parameter, mesh.points.size());
+  }
+  for (const std::string& landmark : endings(document, influence)) {
+    out.influence[landmark] = fields.doubles(influence + landmark, {std::size_t(mesh.elements())});
+  }
+  return out;
 }
 
 }  // namespace breast

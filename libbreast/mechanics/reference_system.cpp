@@ -1,0 +1,72 @@
+#include "mechanics/reference_system.hpp"
+
+#include "solve/gmres.hpp"
+
+namespace breast {
+
+ReferenceSystem::ReferenceSystem(const SaddleMatrix& matrix, const ReferenceTangent& tangent,
+                                 const SaddleSolver& solver, double size)
+    : matrix_(matrix),
+      tangent_(tangent),
+      solver_(solver),
+      weigh_(matrix.kappa.mean() / (100 * size)) {}
+
+// On (w, q) with w = −δX: [−K_X −Bᵀ; −B_X cM], or [−K_Xᵀ B_Xᵀ; B cM] for the transpose; both are
+// near [K −Bᵀ; B cM].
+Eigen::VectorXd ReferenceSystem::apply(bool transposed, const Eigen::VectorXd& z) const {
+  const PressureSpace& space = *matrix_.space;
+  const long m = long(space.rows) * space.elements(), n = z.size() - m;
+  const Eigen::VectorXd w = z.head(n), q = z.tail(m);
+  Eigen::VectorXd top =
+      transposed ? Eigen::VectorXd(tangent_.b_x.apply_transpose(q) - tangent_.apply_transpose(w))
+                 : Eigen::VectorXd(-tangent_.apply(w) - matrix_.divergence.apply_transpose(q));
+  solver_.constraints().project(top);
+  Eigen::VectorXd bottom = space.multiply(q, space.compliance);
+  if (transposed) {
+    bottom += matrix_.divergence.apply(w);
+  } else {
+    bottom -= tangent_.b_x.apply(w);
+  }
+  Eigen::VectorXd out(z.size());
+  out << top, weigh_ * bottom;
+  return out;
+}
+
+Eigen::VectorXd ReferenceSystem::precondition(const Eigen::VectorXd& y) const {
+  const PressureSpace& space = *matrix_.space;
+  const long m = long(space.rows) * space.elements(), n = y.size() - m;
+  const double left_over = 1 - matrix_.kappa[0] * space.compliance[0];
+  const Eigen::VectorXd top = y.head(n), bottom = y.tail(m) / weigh_;
+  Eigen::VectorXd w = solver_.back_solve(
+      top + matrix_.divergence.apply_transpose(space.divide(bottom, matrix_.kappa)));
+  const Eigen::VectorXd q = space.divide(bottom - matrix_.divergence.apply(w), matrix_.kappa);
+  w += left_over * solver_.back_solve(matrix_.divergence.apply_transpose(q));
+  Eigen::VectorXd out(y.size());
+  out << w, q;
+  return out;
+}
+
+ReferenceStep ReferenceSystem::run(bool transposed, const Eigen::VectorXd& f,
+                                   const Eigen::VectorXd& v, double tolerance,
+                                   int max_iterations) const {
+  Eigen::VectorXd free = f, right(f.size() + v.size());
+  solver_.constraints().project(free);
+  right << free, weigh_ * v;
+  const GmresResult solved = gmres([&](const Eigen::VectorXd& z) { return apply(transposed, z); },
+                                   [&](const Eigen::VectorXd& y) { return precondition(y); }, right,
+                                   tolerance, max_iterations);
+  return {-solved.x.head(f.size()), solved.x.tail(v.size()), solved.iterations,
+          solved.x.allFinite() ? solved.residual : std::numeric_limits<double>::quiet_NaN()};
+}
+
+ReferenceStep ReferenceSystem::solve(const Eigen::VectorXd& f, const Eigen::VectorXd& v,
+                                     double tolerance, int max_iterations) const {
+  return run(false, f, v, tolerance, max_iterations);
+}
+
+ReferenceStep ReferenceSystem::solve_transposed(const Eigen::VectorXd& f, const Eigen::VectorXd& v,
+                                                double tolerance, int max_iterations) const {
+  return run(true, f, v, tolerance, max_iterations);
+}
+
+}  // namespace breast

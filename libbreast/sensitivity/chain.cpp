@@ -1,0 +1,202 @@
+#include "sensitivity/chain.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "mesh/shape.hpp"
+
+namespace breast {
+
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Mean pressures as the constants of each element's pressure basis.
+Eigen::VectorXd pressures(const Scene& scene, const std::vector<double>& mean,
+                          const std::string& what) {
+  const int rows = scene.assembly().pressures()->rows;
+  if (int(mean.size()) != scene.mesh().elements()) {
+    throw input_error(what,
+                      ": the file holds no pressures; make it with backward, forward or "
+                      "compress");
+  }
+  Eigen::VectorXd p = Eigen::VectorXd::Zero(long(rows) * long(mean.size()));
+  for (std::size_t e = 0; e < mean.size(); ++e) p[long(rows) * long(e)] = mean[e];
+  return p;
+}
+
+LoadedState imaged_state(const Scene& scene, const std::vector<double>& pressure,
+                         const Vec3& gravity) {
+  const HexMesh& mesh = scene.mesh();
+  return {flatten(mesh.reference),
+          {flatten(mesh.imaged), pressures(scene, pressure, "the imaged shape")},
+          gravity};
+}
+
+LoadedState deformed_state(const Scene& scene) {
+  const HexMesh& mesh = scene.mesh();
+  return {flatten(mesh.reference),
+          {flatten(mesh.points), pressures(scene, mesh.pressure, "the deformed shape")},
+          mesh.gravity};
+}
+
+std::vector<PlateContact> contacts_of(const HexMesh& mesh, const PlatePair& plates) {
+  if (!mesh.contact) return {};
+  std::vector<PlateContact> contacts = recorded_contacts(mesh, plates);
+  for (const PlateContact& contact : contacts) {
+    if (!(std::abs(contact.gap.distance()) <= 1e-5)) {
+      throw input_error("node ", contact.node, " presses on the ", plates.plate(contact.plate).name,
+                        " at a distance of ", contact.gap.distance(),
+                        " mm: only exact contact (--contact active-set) has these derivatives");
+    }
+  }
+  return contacts;
+}
+
+}  // namespace
+
+SensitivityChain::SensitivityChain(const HexMesh& state, const std::vector<double>& imaged_pressure,
+                                   const Vec3& imaged_gravity, const MechanicsOptions& options)
+    : mesh_(state),
+      scene_(state, options),
+      plates_(state.contact ? recorded_plates(state) : PlatePair{}),
+      imaged_(scene_, imaged_state(scene_, imaged_pressure, imaged_gravity), {},
+              "the imaged shape"),
+      deformed_(scene_, deformed_state(scene_), contacts_of(state, plates_), "the deformed shape") {
+}
+
+// −∂R/∂m of both states, and the movement the plates impose.
+struct SensitivityChain::Rights {
+  ParameterForces imaged, deformed;
+  Eigen::MatrixXd imposed;  ///< of x, mm (3 a node)
+};
+
+SensitivityChain::Rights SensitivityChain::rights(const std::vector<Parameter>& parameters) const {
+  Rights out{parameter_forces(scene_, imaged_.state(), ParameterKind::imaged_gravity, parameters),
+             parameter_forces(scene_, deformed_.state(), ParameterKind::gravity, parameters),
+             Eigen::MatrixXd::Zero(3L * scene_.nodes(), long(parameters.size()))};
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (!parameters[i].of_plates()) continue;
+    for (const PlateContact& contact : deformed_.contacts()) {
+      const long at = 3L * contact.node;
+      const GapSlope slope = gap_slope(
+          plates_, contact, deformed_.state().deformed.u.segment<3>(at), parameters[i], mesh_.side);
+      out.deformed.force.col(long(i)).segment<3>(at) -= contact.force * slope.gradient;
+      out.imposed.col(long(i)).segment<3>(at) =
+          -slope.value / contact.gap.gradient.norm() * contact.normal();
+    }
+  }
+  out.imaged.force *= -1;
+  out.imaged.volume *= -1;
+  out.deformed.force *= -1;
+  out.deformed.volume *= -1;
+  return out;
+}
+
+// Change of the force along the paddle's normal, N. A node's force is λ∇g: `along` is δλ ∇g, the
+// rest is ∇g turning as node and plate move.
+double SensitivityChain::paddle_force(const Parameter& parameter, const Imbalance& along,
+                                      const SaddleState& moved) const {
+  Vec3 sum = Vec3::Zero();
+  for (const PlateContact& contact : deformed_.contacts()) {
+    if (contact.plate != 0) continue;
+    const long at = 3L * contact.node;
+    const GapSlope slope = gap_slope(plates_, contact, deformed_.state().deformed.u.segment<3>(at),
+                                     parameter, mesh_.side);
+    const Vec3 turned = contact.gap.hessian * moved.u.segment<3>(at) + slope.gradient;
+    sum += along.force.segment<3>(at) + contact.force * turned;
+  }
+  return sum.dot(plates_.paddle.normal()) / micronewton_per_newton;
+}
+
+std::vector<Response> SensitivityChain::tangent(const std::vector<Parameter>& parameters) const {
+  const double start = now();
+  const Rights right = rights(parameters);
+  const double shared = (now() - start) / double(parameters.size());
+  std::vector<Response> responses;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double before = now();
+    const long k = long(i);
+    Response response;
+    response.parameter = parameters[i];
+    Eigen::VectorXd reference = Eigen::VectorXd::Zero(3L * scene_.nodes());
+    const bool moves =
+        !right.imaged.force.col(k).isZero(0) || !right.imaged.volume.col(k).isZero(0);
+    if (moves) {
+      reference =
+          imaged_.solve_reference({right.imaged.force.col(k), right.imaged.volume.col(k)}).u;
+    }
+    const Imbalance carried = deformed_.of_reference(reference);
+    const Imbalance all{right.deformed.force.col(k) - carried.force,
+                        right.deformed.volume.col(k) - carried.volume};
+    const Eigen::VectorXd imposed = right.imposed.col(k);
+    const SaddleState solved = deformed_.solve(all, &imposed);
+    response.position = unflatten(solved.u);
+    response.reference = unflatten(reference);
+    if (contacts() > 0) {
+      Imbalance along = deformed_.apply(solved);
+      along.force -= all.force;
+      response.paddle_force_N = paddle_force(parameters[i], along, solved);
+    }
+    response.seconds = now() - before + shared;
+    responses.push_back(std::move(response));
+  }
+  return responses;
+}
+
+// With Aᵀλ = ℓ at the deformed and A_bᵀν = K_Xᵀλ at the imaged state,
+// ℓ·x' = ℓ·x'_imposed + λ·(−∂R − A x'_imposed) + ν·∂R_b.
+LandmarkGradient SensitivityChain::adjoint(const Landmark& landmark,
+                                           const std::vector<Parameter>& parameters) const {
+  const double start = now();
+  const Rights right = rights(parameters);
+  LandmarkGradient gradient;
+  gradient.name = landmark.name;
+  gradient.by_parameter.assign(parameters.size(), Vec3::Zero());
+  gradient.by_element.assign(std::size_t(mesh_.elements()), 0);
+  const Vec3 away = (landmark_position(mesh_, mesh_.points, landmark) -
+                     landmark_position(mesh_, mesh_.imaged, landmark))
+                        .stableNormalized();
+  const HexShape shape = hex_shape(mesh_.order, landmark.local);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(deformed_.state().deformed.p.size());
+  for (int c = 0; c < 3; ++c) {
+    Eigen::VectorXd output = Eigen::VectorXd::Zero(3L * scene_.nodes());
+    for (int a = 0; a < mesh_.nodes_per_element(); ++a) {
+      output[3L * mesh_.element(landmark.element)[a] + c] += shape.values[a];
+    }
+    const SaddleState late = deformed_.solve_transposed({output, none});
+    const SaddleState early =
+        imaged_.solve_reference_transposed({deformed_.of_reference_transposed(late), none});
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      const long k = long(i);
+      double& value = gradient.by_parameter[i][c];
+      value = late.u.dot(right.deformed.force.col(k)) + late.p.dot(right.deformed.volume.col(k)) -
+              early.u.dot(right.imaged.force.col(k)) - early.p.dot(right.imaged.volume.col(k));
+      if (!parameters[i].of_plates()) continue;
+      const Imbalance moved = deformed_.apply({right.imposed.col(k), none});
+      value +=
+          output.dot(right.imposed.col(k)) - late.u.dot(moved.force) - late.p.dot(moved.volume);
+    }
+    const std::vector<double> now_stiff =
+        element_stiffness_products(scene_, deformed_.state(), late.u);
+    const std::vector<double> then_stiff =
+        element_stiffness_products(scene_, imaged_.state(), early.u);
+    for (std::size_t e = 0; e < now_stiff.size(); ++e) {
+      gradient.by_element[e] += away[c] * (then_stiff[e] - now_stiff[e]);
+    }
+  }
+  gradient.seconds = now() - start;
+  return gradient;
+}
+
+double displacement_elasticity(const HexMesh& mesh, const Landmark& landmark, const Vec3& slope) {
+  const Vec3 u = landmark_position(mesh, mesh.points, landmark) -
+                 landmark_position(mesh, mesh.imaged, landmark);
+  return u.dot(slope) / u.squaredNorm();
+}
+
+}  // namespace breast

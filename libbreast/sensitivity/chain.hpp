@@ -1,0 +1,65 @@
+// Derivatives of a deformed breast through the chain backward → forward or compress: the
+// stress-free shape follows every parameter so that the imaged shape stays the imaged shape.
+// docs/methods.md.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sensitivity/equilibrium.hpp"
+
+namespace breast {
+
+/// How a state answers one parameter, per unit of it.
+struct Response {
+  Parameter parameter;
+  std::vector<Vec3> position, reference;  ///< dx/dm and dX/dm, mm
+  double paddle_force_N = 0;              ///< d(paddle force)/dm; not for the angle
+  double seconds = 0;
+};
+
+/// Derivatives of one landmark by many parameters, from three adjoint solves.
+struct LandmarkGradient {
+  std::string name;
+  std::vector<Vec3> by_parameter;  ///< mm, in the parameters' order
+  /// d(distance from the imaged point)/d ln(stiffness of the element), mm.
+  std::vector<double> by_element;
+  double seconds = 0;
+};
+
+class SensitivityChain {
+ public:
+  /// `state` is a converged forward or compress result with its reference (order 1, or 2 for q2p1),
+  /// `imaged_pressure` the mean pressures (Pa) backward found. Contacts stay as they are: where the
+  /// set of touching nodes changes, derivatives are one-sided. Must not outlive `state`.
+  SensitivityChain(const HexMesh& state, const std::vector<double>& imaged_pressure,
+                   const Vec3& imaged_gravity, const MechanicsOptions& options);
+
+  /// Tangent-linear: two solves a parameter.
+  std::vector<Response> tangent(const std::vector<Parameter>& parameters) const;
+  /// Adjoint: six solves a landmark, however many parameters.
+  LandmarkGradient adjoint(const Landmark& landmark,
+                           const std::vector<Parameter>& parameters) const;
+
+  const Equilibrium& imaged() const { return imaged_; }
+  const Equilibrium& deformed() const { return deformed_; }
+  std::size_t contacts() const { return deformed_.contacts().size(); }
+
+ private:
+  struct Rights;
+  Rights rights(const std::vector<Parameter>& parameters) const;
+  double paddle_force(const Parameter& parameter, const Imbalance& along,
+                      const SaddleState& moved) const;
+
+  const HexMesh& mesh_;
+  Scene scene_;
+  PlatePair plates_;
+  Equilibrium imaged_, deformed_;
+};
+
+/// d ln|u| of a landmark's displacement from its imaged place, per unit of the parameter whose
+/// derivative of position (mm) is `slope`.
+double displacement_elasticity(const HexMesh& mesh, const Landmark& landmark, const Vec3& slope);
+
+}  // namespace breast

@@ -1,0 +1,145 @@
+#include "sensitivity/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr double solve_tolerance = 1e-10;
+constexpr int refinements = 3, most_gmres = 100, most_settling = 4;
+// How far a file's state may be from the equilibrium these options have: larger means other
+// options.
+constexpr double far_mm = 1e-4, settled = 1e-8;
+
+Constraints with_contacts(Constraints held, const std::vector<PlateContact>& contacts) {
+  for (const PlateContact& contact : contacts) held.hold_normal(contact.node, contact.normal());
+  return held;
+}
+
+}  // namespace
+
+Equilibrium::Equilibrium(const Scene& scene, LoadedState state, std::vector<PlateContact> contacts,
+                         const std::string& what)
+    : scene_(scene),
+      state_(std::move(state)),
+      contacts_(std::move(contacts)),
+      held_(with_contacts(scene.walls(), contacts_)),
+      matrix_(scene.assembly().make_matrix()),
+      solver_(scene.assembly().pattern()) {
+  settle(what);
+}
+
+// Fills both tangents; the plates' curvature turns their force as a node slides.
+SaddleForces Equilibrium::assemble() {
+  AssemblyRequest request;
+  request.matrix = &matrix_;
+  request.reference = &reference_tangent_;
+  SaddleForces forces = scene_.assembly().evaluate(state_.reference, state_.deformed, request);
+  if (!forces.valid) return forces;
+  forces.r -= scene_.gravity_force(state_.gravity);
+  for (PlateContact& contact : contacts_) {
+    const double steepness = contact.gap.gradient.norm();
+    const Vec3 r = forces.r.segment<3>(3L * contact.node);
+    contact.force = r.dot(contact.normal()) / steepness;
+    matrix_.stiffness.add_to_node(contact.node, -contact.force * contact.gap.hessian);
+  }
+  return forces;
+}
+
+// The state of a file is an equilibrium to its tolerance; only the pressures of 27-node elements,
+// stored as means, need a linear solve. Anything that moves nodes means other options.
+void Equilibrium::settle(const std::string& what) {
+  const double load =
+      std::max(scene_.gravity_force(state_.gravity).norm(), scene_.stiffness_force());
+  double moved = 0;
+  for (int i = 0;; ++i) {
+    const SaddleForces forces = assemble();
+    if (!forces.valid) throw input_error(what, ": element ", forces.bad_element, " is folded");
+    Eigen::VectorXd free = forces.r;
+    held_.project(free);
+    residual_ = free.norm() / load;
+    if (!solver_.factorise(matrix_, held_, false).ok) {
+      throw failed_error(what, " is an unstable equilibrium: its derivatives do not exist");
+    }
+    if (residual_ <= settled) return;
+    const SaddleStep step = solver_.solve(matrix_, forces.r, forces.theta, 1e-8);
+    moved = std::max(moved, step.u.cwiseAbs().maxCoeff());
+    if (i == most_settling || !(moved <= far_mm)) {
+      throw input_error(
+          what, " is no equilibrium of these options (residual ", residual_,
+          " of the load, a node would move ", moved,
+          " mm): give the MECHANICS options and gravity the file was made with (a compression "
+          "with friction or an elastic wall has no derivatives here)");
+    }
+    state_.deformed.u += step.u;
+    state_.deformed.p += step.p;
+  }
+}
+
+Imbalance Equilibrium::apply(const SaddleState& change) const {
+  const PressureSpace& space = *matrix_.space;
+  return {matrix_.multiply_unaugmented(change.u) - matrix_.divergence.apply_transpose(change.p),
+          matrix_.divergence.apply(change.u) + space.multiply(change.p, space.compliance)};
+}
+
+// Iterative refinement: the pressures come from conjugate gradients.
+void Equilibrium::refine(const Imbalance& right, SaddleState& solution) const {
+  for (int i = 0; i < refinements; ++i) {
+    const Imbalance now = apply(solution);
+    const SaddleStep step =
+        solver_.solve(matrix_, now.force - right.force, now.volume - right.volume, solve_tolerance);
+    solution.u += step.u;
+    solution.p += step.p;
+    if (!(step.u.norm() > solve_tolerance * solution.u.norm())) return;
+  }
+}
+
+SaddleState Equilibrium::solve(const Imbalance& right, const Eigen::VectorXd* imposed) const {
+  SaddleState solution{Eigen::VectorXd::Zero(right.force.size()),
+                       Eigen::VectorXd::Zero(right.volume.size())};
+  if (imposed != nullptr) solution.u = *imposed;
+  refine(right, solution);
+  return solution;
+}
+
+// K is symmetric: with μ = −q the transposed system is that of (force, −volume).
+SaddleState Equilibrium::solve_transposed(const Imbalance& right) const {
+  SaddleState solution = solve({right.force, -right.volume});
+  solution.p = -solution.p;
+  return solution;
+}
+
+Imbalance Equilibrium::of_reference(const Eigen::VectorXd& change) const {
+  return {reference_tangent_.apply(change), reference_tangent_.b_x.apply(change)};
+}
+
+Eigen::VectorXd Equilibrium::of_reference_transposed(const SaddleState& weights) const {
+  return reference_tangent_.apply_transpose(weights.u) +
+         reference_tangent_.b_x.apply_transpose(weights.p);
+}
+
+SaddleState Equilibrium::checked(const ReferenceStep& step) const {
+  if (!(step.residual <= 1e3 * solve_tolerance)) {
+    throw failed_error("the linearised inverse problem was not solved: relative residual ",
+                       step.residual, " after ", step.iterations, " GMRES iterations");
+  }
+  return {step.x, step.p};
+}
+
+SaddleState Equilibrium::solve_reference(const Imbalance& right) const {
+  const double size = std::cbrt(scene_.assembly().imaged_volume()[0]);
+  return checked(ReferenceSystem(matrix_, reference_tangent_, solver_, size)
+                     .solve(right.force, right.volume, solve_tolerance, most_gmres));
+}
+
+SaddleState Equilibrium::solve_reference_transposed(const Imbalance& right) const {
+  const double size = std::cbrt(scene_.assembly().imaged_volume()[0]);
+  return checked(ReferenceSystem(matrix_, reference_tangent_, solver_, size)
+                     .solve_transposed(right.force, right.volume, solve_tolerance, most_gmres));
+}
+
+}  // namespace breast

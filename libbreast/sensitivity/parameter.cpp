@@ -1,0 +1,132 @@
+#include "sensitivity/parameter.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr double radians_per_degree = std::numbers::pi / 180;
+constexpr const char* axis_names[3] = {"x", "y", "z"};
+
+std::set<Tissue> tissues_of(const HexMesh& mesh) {
+  std::set<Tissue> present(mesh.tissue.begin(), mesh.tissue.end());
+  if (mesh.skin_model == SkinModel::membrane && !mesh.skin_faces.empty()) {
+    present.insert(Tissue::skin);
+  }
+  return present;
+}
+
+// Turning towards the axis gravity points along is no turning: the other two are offered.
+void add_gravity(const Vec3& gravity, const std::string& prefix, ParameterKind kind,
+                 std::vector<Parameter>& all) {
+  if (!(gravity.norm() > 0)) return;
+  int along = 0;
+  gravity.cwiseAbs().maxCoeff(&along);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis == along) continue;
+    Parameter parameter{prefix + axis_names[axis], kind};
+    parameter.axis = axis;
+    all.push_back(parameter);
+  }
+}
+
+void add_constants(Tissue tissue, const Law& law, std::vector<Parameter>& all) {
+  const auto names = law_constant_names(law.kind);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (law.constants[i] == 0) continue;
+    Parameter parameter{std::string(tissue_name(tissue)) + "." + std::string(names[i]),
+                        ParameterKind::constant, tissue, i};
+    parameter.value = law.constants[i];
+    all.push_back(parameter);
+  }
+}
+
+bool is_main(const Parameter& parameter) {
+  return parameter.kind != ParameterKind::constant &&
+         parameter.kind != ParameterKind::tissue_density;
+}
+
+}  // namespace
+
+std::string Parameter::per() const {
+  if (relative()) return "1";
+  return kind == ParameterKind::thickness || kind == ParameterKind::standoff ? "mm" : "degree";
+}
+
+bool Parameter::relative() const {
+  return kind <= ParameterKind::tissue_density || kind == ParameterKind::skin_thickness;
+}
+
+bool Parameter::of_plates() const {
+  return kind >= ParameterKind::thickness;
+}
+
+std::vector<Parameter> all_parameters(const HexMesh& state, const MechanicsOptions& options,
+                                      const Vec3& imaged_gravity) {
+  std::vector<Parameter> all;
+  const std::set<Tissue> present = tissues_of(state);
+  for (const Tissue tissue : present) {
+    all.push_back({std::string(tissue_name(tissue)), ParameterKind::scale, tissue});
+  }
+  for (const Tissue tissue : present) add_constants(tissue, options.materials.law(tissue), all);
+  if (imaged_gravity.norm() > 0 || state.gravity.norm() > 0) {
+    all.push_back({"density", ParameterKind::density});
+    for (const Tissue tissue : std::set<Tissue>(state.tissue.begin(), state.tissue.end())) {
+      all.push_back(
+          {std::string(tissue_name(tissue)) + ".density", ParameterKind::tissue_density, tissue});
+    }
+  }
+  if (state.skin_model == SkinModel::membrane) {
+    all.push_back({"skin_thickness", ParameterKind::skin_thickness, Tissue::skin});
+  }
+  add_gravity(state.gravity, "gravity_", ParameterKind::gravity, all);
+  add_gravity(imaged_gravity, "imaged_gravity_", ParameterKind::imaged_gravity, all);
+  if (state.contact) {
+    all.push_back({"thickness", ParameterKind::thickness});
+    all.push_back({"standoff", ParameterKind::standoff});
+    all.push_back({"angle", ParameterKind::angle});
+  }
+  return all;
+}
+
+std::vector<Parameter> pick_parameters(const std::vector<Parameter>& all, const std::string& list) {
+  std::vector<Parameter> picked;
+  const auto pick = [&](const auto& wanted) {
+    bool any = false;
+    for (const Parameter& parameter : all) {
+      if (!wanted(parameter)) continue;
+      any = true;
+      const bool there = std::any_of(picked.begin(), picked.end(),
+                                     [&](const Parameter& p) { return p.name == parameter.name; });
+      if (!there) picked.push_back(parameter);
+    }
+    return any;
+  };
+  std::istringstream words(list);
+  for (std::string word; std::getline(words, word, ',');) {
+    const bool found = word == "main"  ? pick(is_main)
+                       : word == "all" ? pick([](const Parameter&) { return true; })
+                                       : pick([&](const Parameter& p) { return p.name == word; });
+    if (found) continue;
+    std::string known = "main, all";
+    for (const Parameter& parameter : all) known += ", " + parameter.name;
+    throw input_error("parameter '", word, "' is not one this state depends on: use ", known);
+  }
+  if (picked.empty()) throw input_error("no parameter named; 'main' names the usual ones");
+  return picked;
+}
+
+Vec3 turned_gravity(const Vec3& gravity, int axis) {
+  const Vec3 along = gravity.normalized();
+  Vec3 towards = Vec3::Unit(axis);
+  towards -= towards.dot(along) * along;
+  return gravity.norm() * radians_per_degree * towards.normalized();
+}
+
+}  // namespace breast

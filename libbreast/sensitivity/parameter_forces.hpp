@@ -1,0 +1,34 @@
+// ∂R/∂m: how the residual of an equilibrium changes with a parameter at a given shape.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mechanics/scene.hpp"
+#include "sensitivity/parameter.hpp"
+
+namespace breast {
+
+/// A state of one breast: X, (x, p) and the gravity (mm/s²) that acts on it.
+struct LoadedState {
+  Eigen::VectorXd reference;
+  SaddleState deformed;
+  Vec3 gravity{0, 0, 0};
+};
+
+/// One column a parameter; gravity of the other state and plates have columns of zeros.
+struct ParameterForces {
+  Eigen::MatrixXd force;   ///< ∂r/∂m, µN per unit of the parameter (3 a node)
+  Eigen::MatrixXd volume;  ///< ∂θ/∂m, mm³ (with a finite bulk modulus only)
+};
+
+/// `role`: which gravity the state carries, ParameterKind::gravity or imaged_gravity.
+ParameterForces parameter_forces(const Scene& scene, const LoadedState& state, ParameterKind role,
+                                 const std::vector<Parameter>& parameters);
+
+/// λᵀ ∂r/∂(ln stiffness of element e) for every element, the skin's faces counted to their element;
+/// λ is a nodal field (mm).
+std::vector<double> element_stiffness_products(const Scene& scene, const LoadedState& state,
+                                               const Eigen::VectorXd& lambda);
+
+}  // namespace breast

@@ -1,0 +1,85 @@
+#include "sensitivity/plate_motion.hpp"
+
+#include <Eigen/Geometry>
+#include <limits>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "mammo/mammogram.hpp"
+
+namespace breast {
+
+namespace {
+
+Plate recorded_plate(const PlateRecord& record, const ViewPose& pose, double sign) {
+  Plate plate;
+  plate.name = record.name;
+  plate.sign = sign;
+  plate.n = pose.n;
+  plate.anterior = pose.e_u;
+  plate.lateral = pose.e_v;
+  // normal = (sign n − tilt e_u) / |…|
+  const double along = record.normal.dot(pose.n) * sign;
+  if (!(along > 0.5)) {
+    throw input_error("contact record: plate ", record.name, " does not face the beam of ",
+                      pose.angle_deg, " degrees");
+  }
+  plate.tilt_slope = -record.normal.dot(pose.e_u) / along;
+  plate.edge_radius = record.edge_radius;
+  plate.edge_start = plate.mid_depth = record.origin.dot(pose.e_u);
+  plate.level = record.origin.dot(pose.n);
+  plate.lateral_centre = record.origin.dot(pose.e_v);
+  plate.far_edge = plate.half_width = std::numeric_limits<double>::infinity();
+  return plate;
+}
+
+}  // namespace
+
+PlatePair recorded_plates(const HexMesh& mesh) {
+  if (!mesh.contact || mesh.contact->plates.size() != 2) {
+    throw input_error("the state has no record of two plates; make it with compress");
+  }
+  const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg);
+  PlatePair plates;
+  plates.paddle = recorded_plate(mesh.contact->plates[0], pose, 1);
+  plates.detector = recorded_plate(mesh.contact->plates[1], pose, -1);
+  plates.initial_thickness = mesh.contact->initial_thickness_mm;
+  plates.standoff = mesh.contact->standoff_mm;
+  return plates;
+}
+
+std::vector<PlateContact> recorded_contacts(const HexMesh& mesh, const PlatePair& plates) {
+  std::vector<PlateContact> contacts;
+  for (const int node : nodes_of(mesh, mesh.skin_faces)) {
+    if (!(mesh.contact_pressure[std::size_t(node)] > 0)) continue;
+    const Vec3& x = mesh.points[std::size_t(node)];
+    PlateContact contact{node, plates.nearer(x), {}, 0};
+    contact.gap = plates.plate(contact.plate).gap(x);
+    contacts.push_back(contact);
+  }
+  return contacts;
+}
+
+// A plate moving with velocity v at a point and turning with ω: the gap seen from a fixed point
+// changes by −∇g·v, its gradient by ω × ∇g − ∇²g v.
+GapSlope gap_slope(const PlatePair& plates, const PlateContact& contact, const Vec3& x,
+                   const Parameter& parameter, Side side) {
+  const Plate& plate = plates.plate(contact.plate);
+  Vec3 velocity = Vec3::Zero(), turn = Vec3::Zero();
+  if (parameter.kind == ParameterKind::thickness) {
+    velocity = -0.5 * plate.sign * plate.n;
+  } else if (parameter.kind == ParameterKind::standoff) {
+    velocity = plate.anterior;
+  } else if (parameter.kind == ParameterKind::angle) {
+    // dn/dθ of n = (s sin θ, 0, −cos θ) is ω × n with ω = s e_u.
+    turn = lateral_sign(side) * std::numbers::pi / 180 * plate.anterior;
+    const Vec3 centre = 0.5 * (plates.paddle.origin() + plates.detector.origin());
+    velocity = turn.cross(x - centre);
+  } else {
+    return {};
+  }
+  return {-contact.gap.gradient.dot(velocity),
+          turn.cross(contact.gap.gradient) - contact.gap.hessian * velocity};
+}
+
+}  // namespace breast

@@ -1,0 +1,38 @@
+// The plates of a compressed state as the file records them, and how a parameter moves them.
+#pragma once
+
+#include <vector>
+
+#include "contact/plates.hpp"
+#include "mesh/hex_mesh.hpp"
+#include "sensitivity/parameter.hpp"
+
+namespace breast {
+
+/// Paddle and detector of mesh.contact. Their far and lateral edges, which nothing touches, are
+/// taken to be at infinity. Throws Error (input) when there is no record.
+PlatePair recorded_plates(const HexMesh& mesh);
+
+/// A skin node held by a plate.
+struct PlateContact {
+  int node = 0, plate = 0;
+  Gap gap;           ///< at the node
+  double force = 0;  ///< µN per unit of ∇g: R = force · ∇g
+
+  Vec3 normal() const { return gap.gradient.normalized(); }
+};
+
+/// Skin nodes that carry contact pressure, each with the plate it rests on.
+std::vector<PlateContact> recorded_contacts(const HexMesh& mesh, const PlatePair& plates);
+
+/// What a parameter does to one contact at a fixed point: ∂g/∂m and ∂∇g/∂m.
+struct GapSlope {
+  double value = 0;
+  Vec3 gradient{0, 0, 0};
+};
+/// Plates move as rigid bodies: closing by half the thickness each, both along the anterior axis,
+/// or about their common anterior mid-line.
+GapSlope gap_slope(const PlatePair& plates, const PlateContact& contact, const Vec3& x,
+                   const Parameter& parameter, Side side);
+
+}  // namespace breast

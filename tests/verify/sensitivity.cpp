@@ -1,0 +1,177 @@
+// Derivatives through backward and forward against central differences of the chain solved again.
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "fixtures/shapes.hpp"
+#include "mechanics/element_order.hpp"
+#include "sensitivity/chain.hpp"
+
+using namespace breast;
+
+namespace {
+
+constexpr double step = 1e-3;
+
+// Everything the chain backward → forward starts from.
+struct Inputs {
+  HexMesh mesh;
+  MechanicsOptions options;
+  Vec3 imaged_gravity = posture_gravity("prone"), gravity = posture_gravity("supine");
+};
+
+struct Outcome {
+  HexMesh mesh;
+  std::vector<double> imaged_pressure;
+};
+
+Outcome solve_chain(const Inputs& in) {
+  Outcome out{in.mesh, {}};
+  EXPECT_TRUE(solve_backward(out.mesh, in.imaged_gravity, in.options).converged());
+  out.imaged_pressure = out.mesh.pressure;
+  EXPECT_TRUE(solve_forward(out.mesh, in.gravity, in.options).converged());
+  return out;
+}
+
+Inputs changed(Inputs in, const Parameter& parameter, double by) {
+  Law& law = in.options.materials.laws[std::size_t(parameter.tissue)];
+  const double factor = std::exp(by);
+  switch (parameter.kind) {
+    case ParameterKind::scale:
+      law = law.scaled(factor);
+      break;
+    case ParameterKind::constant:
+      law.constants[parameter.constant] *= factor;
+      break;
+    case ParameterKind::density:
+      for (double& density : in.options.materials.density) density *= factor;
+      break;
+    case ParameterKind::tissue_density:
+      in.options.materials.density[std::size_t(parameter.tissue)] *= factor;
+      break;
+    case ParameterKind::skin_thickness:
+      for (double& thickness : in.mesh.skin_thickness) thickness *= factor;
+      break;
+    case ParameterKind::gravity:
+      in.gravity += by * turned_gravity(in.gravity, parameter.axis);
+      break;
+    case ParameterKind::imaged_gravity:
+      in.imaged_gravity += by * turned_gravity(in.imaged_gravity, parameter.axis);
+      break;
+    default:
+      ADD_FAILURE() << parameter.name << " is not of this chain";
+  }
+  return in;
+}
+
+// Root of summed squares over nodes of a − b, and of a.
+double distance(const Eigen::VectorXd& a, const std::vector<Vec3>& b) {
+  return (a - flatten(b)).norm() / a.norm();
+}
+
+void expect_matches(const Inputs& in, const Response& response) {
+  SCOPED_TRACE(response.parameter.name);
+  const HexMesh more = solve_chain(changed(in, response.parameter, step)).mesh;
+  const HexMesh less = solve_chain(changed(in, response.parameter, -step)).mesh;
+  const Eigen::VectorXd x = (flatten(more.points) - flatten(less.points)) / (2 * step);
+  EXPECT_GT(x.cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LT(distance(x, response.position), 1e-5);
+  const Eigen::VectorXd reference =
+      (flatten(more.reference) - flatten(less.reference)) / (2 * step);
+  if (response.parameter.kind == ParameterKind::gravity) return;  // leaves the reference alone
+  EXPECT_LT(distance(reference, response.reference), 1e-5);
+}
+
+Inputs cap_inputs(const fixtures::CapSettings& settings = {.elements = 4}) {
+  Inputs in;
+  in.mesh = fixtures::cap(settings);
+  in.options.materials = load_materials("seed2008");
+  return in;
+}
+
+void expect_all_match(const Inputs& in, const std::string& list) {
+  const Outcome base = solve_chain(in);
+  const SensitivityChain chain(base.mesh, base.imaged_pressure, in.imaged_gravity, in.options);
+  const auto all = all_parameters(base.mesh, in.options, in.imaged_gravity);
+  for (const Response& response : chain.tangent(pick_parameters(all, list))) {
+    expect_matches(in, response);
+  }
+}
+
+TEST(Sensitivity, OfEveryKindOfParameterMatchesFiniteDifferences) {
+  expect_all_match(cap_inputs(), "main,fat.a10,fat.a11,fat.density,skin.a,skin.b,skin.c");
+}
+
+TEST(Sensitivity, WithA27NodeElement) {
+  Inputs in = cap_inputs({.elements = 4});
+  in.mesh = raise_order(in.mesh);
+  in.options.element = Element::q2p1;
+  expect_all_match(in, "fat,skin,imaged_gravity_x");
+}
+
+TEST(Sensitivity, WithPlainInvariantsABulkModulusAndARollingCut) {
+  Inputs in = cap_inputs({.elements = 4, .with_cut = true});
+  in.options.invariants = Invariants::plain;
+  in.options.bulk_ratio = 50;
+  in.options.cut = Cut::roller;
+  in.imaged_gravity = Vec3(500, -9000, 1500);
+  in.gravity = Vec3(0, 4000, -8000);
+  expect_all_match(in, "fat,fibroglandular,fat.a10,fat.a11,skin.b,density,gravity_x");
+}
+
+// Nothing but ratios of stress and weight decides an equilibrium.
+TEST(Sensitivity, StiffnessOfAllTissuesUndoesDensity) {
+  const Inputs in = cap_inputs();
+  const Outcome base = solve_chain(in);
+  const SensitivityChain chain(base.mesh, base.imaged_pressure, in.imaged_gravity, in.options);
+  const auto all = all_parameters(base.mesh, in.options, in.imaged_gravity);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(3L * base.mesh.nodes());
+  double largest = 0;
+  for (const Response& r : chain.tangent(pick_parameters(all, "fat,fibroglandular,skin,density"))) {
+    sum += flatten(r.position);
+    largest = std::max(largest, flatten(r.position).norm());
+  }
+  EXPECT_LT(sum.norm(), 1e-7 * largest);
+}
+
+void expect_adjoint_matches(const Inputs& in, bool elements_add_up) {
+  const Outcome base = solve_chain(in);
+  const SensitivityChain chain(base.mesh, base.imaged_pressure, in.imaged_gravity, in.options);
+  const auto picked =
+      pick_parameters(all_parameters(base.mesh, in.options, in.imaged_gravity), "all");
+  const auto tangent = chain.tangent(picked);
+  for (const Landmark& landmark : base.mesh.landmarks) {
+    const LandmarkGradient adjoint = chain.adjoint(landmark, picked);
+    const Vec3 away = (landmark_position(base.mesh, base.mesh.points, landmark) -
+                       landmark_position(base.mesh, base.mesh.imaged, landmark))
+                          .normalized();
+    double elements = 0, tissues = 0;
+    for (const double value : adjoint.by_element) elements += value;
+    for (std::size_t i = 0; i < picked.size(); ++i) {
+      const Vec3 expected = landmark_position(base.mesh, tangent[i].position, landmark);
+      EXPECT_LT((adjoint.by_parameter[i] - expected).norm(), 1e-7 * expected.norm() + 1e-9)
+          << picked[i].name;
+      if (picked[i].kind == ParameterKind::scale) tissues += away.dot(expected);
+    }
+    if (elements_add_up) {
+      EXPECT_NEAR(elements, tissues, 1e-7 * std::abs(tissues));
+    }
+  }
+}
+
+TEST(Sensitivity, AdjointGivesWhatTheTangentGives) {
+  Inputs in = cap_inputs();
+  expect_adjoint_matches(in, true);
+  in.options.bulk_ratio = 100;  // compressibility belongs to the tissue, not to the element field
+  expect_adjoint_matches(in, false);
+}
+
+TEST(Sensitivity, RefusesAStateOfOtherMaterials) {
+  Inputs in = cap_inputs();
+  const Outcome base = solve_chain(in);
+  scale_materials(in.options.materials, {"fat=101"});
+  EXPECT_THROW(SensitivityChain(base.mesh, base.imaged_pressure, in.imaged_gravity, in.options),
+               Error);
+}
+
+}  // namespace

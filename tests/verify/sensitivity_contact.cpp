@@ -1,0 +1,164 @@
+// Derivatives through backward and compress, the touching nodes held, against central differences
+// of both solved again between the same plates.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "contact/active_set.hpp"
+#include "contact/compression.hpp"
+#include "contact/saddle_body.hpp"
+#include "core/units.hpp"
+#include "fixtures/analytic_mesh.hpp"
+#include "sensitivity/chain.hpp"
+
+using namespace breast;
+
+namespace {
+
+constexpr double step = 2e-4;
+
+struct Inputs {
+  HexMesh mesh;
+  MechanicsOptions options;
+  Vec3 imaged_gravity = posture_gravity("prone"), gravity = posture_gravity("upright");
+  PlatePair plates;
+};
+
+struct Outcome {
+  Eigen::VectorXd x;
+  double paddle_N = 0;
+};
+
+// Both plates turned by `degrees` of beam angle about their mid-line.
+PlatePair turned(PlatePair plates, Side side, double angle, double degrees) {
+  const ViewPose pose = view_pose(side, angle + degrees);
+  const Vec3 centre = 0.5 * (plates.paddle.origin() + plates.detector.origin());
+  for (Plate* plate : {&plates.paddle, &plates.detector}) {
+    const Vec3 arm = plate->origin() - centre;
+    const Vec3 origin = centre + arm.dot(plate->n) * pose.n + arm.dot(plate->anterior) * pose.e_u +
+                        arm.dot(plate->lateral) * pose.e_v;
+    plate->n = pose.n;
+    plate->lateral = pose.e_v;
+    plate->level = origin.dot(pose.n);
+    plate->lateral_centre = origin.dot(pose.e_v);
+  }
+  return plates;
+}
+
+Inputs changed(Inputs in, const Parameter& parameter, double by) {
+  Law& law = in.options.materials.laws[std::size_t(parameter.tissue)];
+  switch (parameter.kind) {
+    case ParameterKind::scale:
+      law = law.scaled(std::exp(by));
+      break;
+    case ParameterKind::density:
+      for (double& density : in.options.materials.density) density *= std::exp(by);
+      break;
+    case ParameterKind::gravity:
+      in.gravity += by * turned_gravity(in.gravity, parameter.axis);
+      break;
+    case ParameterKind::imaged_gravity:
+      in.imaged_gravity += by * turned_gravity(in.imaged_gravity, parameter.axis);
+      break;
+    case ParameterKind::thickness:
+      in.plates.paddle.level -= 0.5 * by;
+      in.plates.detector.level += 0.5 * by;
+      break;
+    case ParameterKind::standoff:
+      in.plates.paddle.edge_start += by;
+      in.plates.detector.edge_start += by;
+      break;
+    case ParameterKind::angle:
+      in.plates = turned(in.plates, in.mesh.side, in.mesh.contact->angle_deg, by);
+      break;
+    default:
+      ADD_FAILURE() << parameter.name;
+  }
+  return in;
+}
+
+// The stress-free shape of these inputs between their plates, from a state nearby.
+Outcome press(const Inputs& in, const HexMesh& near) {
+  HexMesh mesh = in.mesh;
+  EXPECT_TRUE(solve_backward(mesh, in.imaged_gravity, in.options).converged());
+  Scene scene(mesh, in.options);
+  const Eigen::VectorXd load = scene.gravity_force(in.gravity);
+  ForwardProblem problem(scene, flatten(mesh.reference), load);
+  SaddleSolver solver(problem.pattern());
+  SaddleBody body(problem, solver, scene.walls(), Vec3::Zero());
+  std::vector<int> candidates;
+  std::vector<signed char> touching;
+  for (const int node : nodes_of(near, near.skin_faces)) {
+    if (scene.walls().at(node) != nullptr) continue;
+    candidates.push_back(node);
+    const bool pressed = near.contact_pressure[std::size_t(node)] > 0;
+    touching.push_back(
+        pressed ? static_cast<signed char>(in.plates.nearer(near.points[std::size_t(node)]))
+                : static_cast<signed char>(-1));
+  }
+  ActiveSetOptions tight;
+  tight.gap_tolerance = tight.volume_tolerance = 1e-12;
+  ActiveSet contact(body, candidates, tight);
+  ContactMemory memory;
+  memory.touching = touching;
+  contact.restore(memory);
+  BodyState state{flatten(near.points),
+                  Eigen::Map<const Eigen::VectorXd>(near.pressure.data(), near.elements())};
+  const StepResult result = contact.solve(in.plates, state, 1e-11);
+  EXPECT_EQ(result.outcome, StepOutcome::converged) << describe(result.outcome);
+  EXPECT_EQ(contact.touching(), touching) << "the set of touching nodes changed";
+  Outcome out{state.x, 0};
+  const std::vector<double> pushed = contact.normal_forces(in.plates, state, result.forces);
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    if (touching[c] != 0) continue;
+    const Gap gap = in.plates.paddle.gap(state.x.segment<3>(3 * candidates[c]));
+    out.paddle_N += pushed[c] * gap.gradient.normalized().dot(in.plates.paddle.normal()) /
+                    micronewton_per_newton;
+  }
+  return out;
+}
+
+class CompressedSensitivity : public testing::TestWithParam<std::string> {};
+
+TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
+  Inputs in;
+  in.mesh = analytic_breast_mesh(5);
+  in.options.materials = load_materials("seed2008");
+  HexMesh mesh = in.mesh;
+  ASSERT_TRUE(solve_backward(mesh, in.imaged_gravity, in.options).converged());
+  const std::vector<double> imaged_pressure = mesh.pressure;
+  CompressionOptions compression;
+  compression.view = GetParam();
+  compression.angle_deg = view_angle_deg(GetParam());
+  compression.target = 35;
+  ASSERT_EQ(compress(mesh, compression, in.options).record.status, "converged");
+  in.plates = recorded_plates(mesh);
+  in.mesh.contact = mesh.contact;
+  const SensitivityChain chain(mesh, imaged_pressure, in.imaged_gravity, in.options);
+  EXPECT_GT(chain.contacts(), 10u);
+  const auto picked =
+      pick_parameters(all_parameters(mesh, in.options, in.imaged_gravity),
+                      "fat,skin,density,gravity_x,imaged_gravity_z,thickness,standoff,angle");
+  const std::vector<Response> responses = chain.tangent(picked);
+  const Landmark& landmark = mesh.landmarks.back();
+  const LandmarkGradient adjoint = chain.adjoint(landmark, picked);
+  for (std::size_t i = 0; i < picked.size(); ++i) {
+    SCOPED_TRACE(picked[i].name);
+    const Outcome more = press(changed(in, picked[i], step), mesh);
+    const Outcome less = press(changed(in, picked[i], -step), mesh);
+    const Eigen::VectorXd x = (more.x - less.x) / (2 * step);
+    EXPECT_LT((x - flatten(responses[i].position)).norm(), 1e-5 * x.norm());
+    const Vec3 at = landmark_position(mesh, responses[i].position, landmark);
+    EXPECT_LT((adjoint.by_parameter[i] - at).norm(), 1e-6 * at.norm() + 1e-9);
+    if (picked[i].kind == ParameterKind::angle) continue;
+    const double force = (more.paddle_N - less.paddle_N) / (2 * step);
+    EXPECT_NEAR(responses[i].paddle_force_N, force, 1e-5 * std::abs(force) + 1e-6);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Views, CompressedSensitivity, testing::Values("CC", "MLO"),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace

@@ -1,0 +1,158 @@
+// sensitivity: how a deformed breast depends on materials, gravity, skin and plates.
+#include <algorithm>
+
+#include "cli/mechanics_options.hpp"
+#include "cli/tool.hpp"
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "io/derivative_file.hpp"
+#include "mechanics/options.hpp"
+#include "sensitivity/chain.hpp"
+
+using namespace breast;
+
+namespace {
+
+struct Choices {
+  std::filesystem::path reference, state, out, table;
+  std::string parameters = "main";
+  bool adjoint = false;
+  GravityChoices imaged{"prone", {}};
+  MechanicsChoices mechanics;
+};
+
+void declare(Tool& tool, Choices& c) {
+  tool.describe(
+      "Derivatives of all nodal positions and of the landmarks with respect to stiffness, single "
+      "material constants, density, directions of gravity, skin thickness and the plates' pose, "
+      "through backward and then forward or compress: the stress-free shape changes with every "
+      "parameter so that the imaged shape stays as imaged. Nothing is solved again: each state is "
+      "factorised once and every parameter costs two linear solves.");
+  tool.describe(
+      "Parameters: a tissue's name (stiffness scale), TISSUE.CONSTANT as laws names them "
+      "(fat.a10), density, TISSUE.density, skin_thickness, gravity_x, _y, _z (gravity of the state "
+      "turned towards that axis), imaged_gravity_x ... (of the scan), and for a compressed state "
+      "thickness, standoff and angle of the plates. 'main' is all but single constants and "
+      "densities, 'all' is all. Derivatives are mm per unit relative change (d x / d ln m), per "
+      "degree or per mm. The touching nodes of a compression stay the same ones: where that set is "
+      "about to change, derivatives are one-sided. Thickness, place and pose of the plates are "
+      "held "
+      "but for the parameter that moves them. Frictionless contact and a fixed wall only.");
+  tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
+  tool.input(c.state, "STATE.vtkhdf", "what forward or compress made of it");
+  tool.output(c.out, "OUT.vtkhdf",
+              "STATE with arrays derivative_PARAMETER on nodes, or influence_LANDMARK on elements");
+  tool.text(c.parameters, "--parameters", "LIST", "main, all, or names separated by commas");
+  tool.flag(c.adjoint, "--adjoint",
+            "landmarks only, any number of parameters for six solves a landmark, and the influence "
+            "of every element's stiffness on them (mm of displacement per relative change)");
+  tool.output_file(c.table, "--table", "OUT.tsv",
+                   "landmark, parameter, derivative, d ln|u| of the displacement from the imaged "
+                   "place, seconds; without it the table goes to stdout");
+  declare_gravity(tool, c.imaged, "direction of gravity during the scan, as given to backward");
+  declare_mechanics(tool, c.mechanics);
+  tool.cite(
+      "Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Tables III-VI (by solving again)");
+  tool.example("sensitivity reference.vtkhdf supine.vtkhdf supine-sensitivity.vtkhdf",
+               "what the supine prediction hangs on most");
+  tool.example(
+      "sensitivity reference.vtkhdf cc.vtkhdf out.vtkhdf --parameters all --adjoint --table cc.tsv",
+      "every constant and every element, landmarks only");
+}
+
+// The two files must be one breast.
+void check_pair(const HexMesh& reference, const HexMesh& state, const Choices& c) {
+  const bool same =
+      reference.reference.size() == state.reference.size() && reference.tissue == state.tissue &&
+      std::equal(reference.reference.begin(), reference.reference.end(), state.reference.begin(),
+                 [](const Vec3& a, const Vec3& b) { return (a - b).norm() < 1e-9; });
+  if (!same) {
+    throw input_error(c.state.string(), ": was not made from ", c.reference.string(),
+                      " (another stress-free shape)");
+  }
+}
+
+void add_row(const HexMesh& mesh, const Landmark& landmark, const Parameter& parameter,
+             const Vec3& slope, double seconds, Table& table, Report& report) {
+  const double elasticity = displacement_elasticity(mesh, landmark, slope);
+  table.rows.push_back({landmark.name, parameter.name, parameter.per(), format_number(slope.x()),
+                        format_number(slope.y()), format_number(slope.z()),
+                        format_number(elasticity), format_fixed(seconds, 4)});
+  const std::string key = "sensitivity/" + landmark.name + "/" + parameter.name + "/";
+  report.set(key + "derivative_mm", slope);
+  report.set(key + "dlnu", elasticity);
+}
+
+Table by_tangent(const SensitivityChain& chain, const std::vector<Parameter>& parameters,
+                 const HexMesh& mesh, Table table, Derivatives& out, Report& report) {
+  for (const Response& response : chain.tangent(parameters)) {
+    for (const Landmark& landmark : mesh.landmarks) {
+      add_row(mesh, landmark, response.parameter,
+              landmark_position(mesh, response.position, landmark), response.seconds, table,
+              report);
+    }
+    if (chain.contacts() > 0 && response.parameter.kind != ParameterKind::angle) {
+      report.set("sensitivity/paddle/" + response.parameter.name + "/force_N",
+                 response.paddle_force_N);
+    }
+    out.position[response.parameter.name] = response.position;
+  }
+  return table;
+}
+
+Table by_adjoint(const SensitivityChain& chain, const std::vector<Parameter>& parameters,
+                 const HexMesh& mesh, Table table, Derivatives& out, Report& report) {
+  for (const Landmark& landmark : mesh.landmarks) {
+    const LandmarkGradient gradient = chain.adjoint(landmark, parameters);
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      add_row(mesh, landmark, parameters[i], gradient.by_parameter[i],
+              gradient.seconds / double(parameters.size()), table, report);
+    }
+    out.influence[landmark.name] = gradient.by_element;
+  }
+  return table;
+}
+
+void run_sensitivity(const Choices& c, Run& run) {
+  const MechanicsOptions options = mechanics_options(c.mechanics);
+  const HexMesh reference = read_mesh(c.reference, {.reference = true});
+  HexMesh mesh = read_mesh(c.state, {.reference = true});
+  check_pair(reference, mesh, c);
+  const auto parameters =
+      pick_parameters(all_parameters(mesh, options, c.imaged.vector()), c.parameters);
+  const SensitivityChain chain = [&] {
+    Timer::Scope phase(run.timer(), "factorisation");
+    return SensitivityChain(mesh, reference.pressure, c.imaged.vector(), options);
+  }();
+  Table table{{"landmark", "parameter", "per", "dx_mm", "dy_mm", "dz_mm", "dlnu", "seconds"}, {}};
+  Derivatives out;
+  {
+    Timer::Scope phase(run.timer(), "derivatives");
+    table = c.adjoint ? by_adjoint(chain, parameters, mesh, table, out, run.report())
+                      : by_tangent(chain, parameters, mesh, table, out, run.report());
+  }
+  run.report().set("status", "converged");
+  run.report().set("elements", mesh.elements());
+  run.report().set("parameters", parameters.size());
+  run.report().set("contacts", chain.contacts());
+  run.report().set("residual", std::max(chain.imaged().residual(), chain.deformed().residual()));
+  const History state_history = mesh.history;
+  mesh.history = run.history({{c.reference, reference.content_sha256, &reference.history},
+                              {c.state, mesh.content_sha256, &state_history}});
+  mesh.wall_seconds = run.seconds();
+  write_mesh(c.out, mesh, out);
+  if (c.table.empty()) {
+    run.print(table.text());
+  } else {
+    write_table(c.table, table);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choices c;
+  Tool tool("sensitivity", "how a deformed breast depends on materials, gravity, skin and plates");
+  declare(tool, c);
+  return tool.main(argc, argv, [&c](Run& run) { run_sensitivity(c, run); });
+}
