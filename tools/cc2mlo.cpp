@@ -5,6 +5,7 @@
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "io/derivative_file.hpp"
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
 #include "mammo/curve_lines.hpp"
@@ -71,8 +72,11 @@ void run_match(const Choices& choices, Run& run) {
   const Beam beam = choices.geometry == "cone" ? Beam::cone : Beam::parallel;
   const Matcher matcher(from, to, beam);
   std::optional<BandModel> band;
+  DerivativeFields from_derivatives, to_derivatives;
   if (choices.band) {
-    band.emplace(matcher, DerivativeFields{}, DerivativeFields{},
+    from_derivatives = read_derivatives(choices.from, from).position;
+    to_derivatives = read_derivatives(choices.to, to).position;
+    band.emplace(matcher, from_derivatives, to_derivatives,
                  choices.priors.empty()
                      ? default_priors()
                      : priors_from(read_table(choices.priors), choices.priors.string()));

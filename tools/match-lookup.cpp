@@ -5,6 +5,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "io/derivative_file.hpp"
 #include "io/lookup_file.hpp"
 #include "io/mammogram_file.hpp"
 #include "io/mesh_file.hpp"
@@ -29,7 +30,9 @@ void run_lookup(const Choices& choices, Run& run) {
   const HexMesh from = read_mesh(choices.from, {.contact = true});
   const HexMesh to = read_mesh(choices.to, {.contact = true});
   const Matcher matcher(from, to, choices.geometry == "cone" ? Beam::cone : Beam::parallel);
-  const BandModel band(matcher, DerivativeFields{}, DerivativeFields{},
+  const DerivativeFields from_derivatives = read_derivatives(choices.from, from).position,
+                         to_derivatives = read_derivatives(choices.to, to).position;
+  const BandModel band(matcher, from_derivatives, to_derivatives,
                        choices.priors.empty()
                            ? default_priors()
                            : priors_from(read_table(choices.priors), choices.priors.string()));
