@@ -13,12 +13,12 @@
 
 namespace breast {
 
-/// ∂r/∂X and ∂θ/∂X, kept per element (they are applied, never factorised).
+/// ∂r/∂X, ∂θ/∂X and ∂θ/∂x, kept per element (they are applied, never factorised).
 struct ReferenceTangent {
   const Cells* elements = nullptr;
   const Cells* faces = nullptr;
   std::vector<double> element_matrices, face_matrices;  ///< 3n × 3n each, column-major
-  ElementRows b_x;
+  ElementRows b_x, b;
   Eigen::VectorXd apply(const Eigen::VectorXd& v) const;            ///< K_X v
   Eigen::VectorXd apply_transpose(const Eigen::VectorXd& v) const;  ///< K_Xᵀ v
 };

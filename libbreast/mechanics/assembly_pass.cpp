@@ -87,6 +87,7 @@ void AssemblyOf<N, P, F>::store(int e, int at, const SaddleState& state,
   }
   if (request.reference != nullptr) {
     request.reference->b_x.at(e) = out.b_x;
+    request.reference->b.at(e) = out.b;
     std::copy_n(out.k_x.data(), K, request.reference->element_matrices.data() + std::size_t(e) * K);
   }
 }
@@ -206,6 +207,7 @@ SaddleForces AssemblyOf<N, P, F>::evaluate(const Eigen::VectorXd& reference,
     tangent.element_matrices.resize(std::size_t(cells_.count()) * K);
     tangent.face_matrices.resize(std::size_t(face_cells_.count()) * FK);
     tangent.b_x.resize(cells_, P);
+    tangent.b.resize(cells_, P);
   }
   if (!elements_part(reference, state, request, forces)) return forces;
   if (face_cells_.count() > 0 && !faces_part(reference, state, request, forces)) return forces;

@@ -16,6 +16,9 @@ namespace breast {
 namespace {
 
 constexpr int max_iterations = 25, max_gmres = 60;
+// The forward factor only preconditions: one serves until GMRES needs more iterations than this,
+// whose back-solves cost as much as a factorisation.
+constexpr int factor_worn = 10;
 constexpr double tolerance = 1e-10, volume_tolerance = 1e-11;
 // A volume error of this size counts as much as the whole load when steps are judged.
 constexpr double typical_strain = 0.05;
@@ -50,7 +53,8 @@ class BackwardSolve {
   }
   SaddleForces evaluate(const Trial& trial, SaddleMatrix* matrix, ReferenceTangent* tangent) const;
   Distance distance(const SaddleForces& forces) const;
-  bool direction(const SaddleForces& forces, Trial& step);
+  bool precondition_at(const Trial& trial);
+  bool direction(const SaddleForces& forces, double accuracy, Trial& step);
   bool line_search(const Trial& step, const Distance& before, const SaddleForces& at, Trial& trial,
                    NewtonIteration& record) const;
   bool newton(Trial& trial);
@@ -72,7 +76,7 @@ class BackwardSolve {
   ReferenceTangent tangent_;
   SolveSummary summary_;
   std::string failure_, failure_id_;
-  int gmres_iterations_ = 0;
+  int last_gmres_ = max_gmres;  // iterations with the present factor; none yet
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -105,18 +109,23 @@ BackwardSolve::Distance BackwardSolve::distance(const SaddleForces& forces) cons
   return out;
 }
 
-bool BackwardSolve::direction(const SaddleForces& forces, Trial& step) {
-  Factorisation factor;
+// Factorises the forward tangent at the trial, for GMRES.
+bool BackwardSolve::precondition_at(const Trial& trial) {
   {
-    Timer::Scope phase(summary_.timer, "factorisation");
-    factor = solver_.factorise(matrix_, scene_.walls());
+    Timer::Scope phase(summary_.timer, "assembly");
+    if (!evaluate(trial, &matrix_, nullptr).valid) return false;
   }
-  if (!factor.ok) return false;
+  Timer::Scope phase(summary_.timer, "factorisation");
+  last_gmres_ = 0;
+  return solver_.factorise(matrix_, scene_.walls()).ok;
+}
+
+bool BackwardSolve::direction(const SaddleForces& forces, double accuracy, Trial& step) {
   Timer::Scope phase(summary_.timer, "solve");
   const double size = std::cbrt(scene_.assembly().imaged_volume()[0]);
   const ReferenceStep solved = ReferenceSystem(matrix_, tangent_, solver_, size)
-                                   .solve(-forces.r, -forces.theta, 1e-6, max_gmres);
-  gmres_iterations_ += solved.iterations;
+                                   .solve(-forces.r, -forces.theta, accuracy, max_gmres);
+  last_gmres_ = solved.iterations;
   if (!(solved.residual < 0.5)) return false;
   step = {solved.x, solved.p};
   return true;
@@ -143,7 +152,7 @@ bool BackwardSolve::newton(Trial& trial) {
     SaddleForces forces;
     {
       Timer::Scope phase(summary_.timer, "assembly");
-      forces = evaluate(trial, &matrix_, &tangent_);
+      forces = evaluate(trial, nullptr, &tangent_);
     }
     if (!forces.valid) {
       failure_ = message("element ", forces.bad_element, " is folded at the start");
@@ -156,8 +165,16 @@ bool BackwardSolve::newton(Trial& trial) {
     const double bound = std::max(tolerance, rounding_force(matrix_, imaged_) / load_norm_);
     if (now.force <= bound && now.volume <= volume_tolerance) return true;
     if (i == max_iterations) break;
+    const bool worn = last_gmres_ > factor_worn;
+    if (worn && !precondition_at(trial)) {
+      failure_ = "the forward tangent cannot be factorised";
+      failure_id_ = singular;
+      return false;
+    }
     Trial step;
-    if (!direction(forces, step)) {
+    const double accuracy = std::clamp(0.1 * now.merit, 1e-6, 1e-3);
+    if (!direction(forces, accuracy, step) &&
+        (worn || !precondition_at(trial) || !direction(forces, accuracy, step))) {
       failure_ = "the inverse problem is singular";
       failure_id_ = singular;
       return false;

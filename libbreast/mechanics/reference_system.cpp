@@ -19,11 +19,11 @@ Eigen::VectorXd ReferenceSystem::apply(bool transposed, const Eigen::VectorXd& z
   const Eigen::VectorXd w = z.head(n), q = z.tail(m);
   Eigen::VectorXd top =
       transposed ? Eigen::VectorXd(tangent_.b_x.apply_transpose(q) - tangent_.apply_transpose(w))
-                 : Eigen::VectorXd(-tangent_.apply(w) - matrix_.divergence.apply_transpose(q));
+                 : Eigen::VectorXd(-tangent_.apply(w) - tangent_.b.apply_transpose(q));
   solver_.constraints().project(top);
   Eigen::VectorXd bottom = space.multiply(q, space.compliance);
   if (transposed) {
-    bottom += matrix_.divergence.apply(w);
+    bottom += tangent_.b.apply(w);
   } else {
     bottom -= tangent_.b_x.apply(w);
   }

@@ -1,5 +1,6 @@
 // Newton's method for the equilibria of a saddle problem: globalised, with prescribed
-// displacements.
+// displacements. Near the end a factor serves several steps: a tangent a little out of date costs
+// some contraction, a factorisation more.
 #pragma once
 
 #include <Eigen/Core>
@@ -62,6 +63,7 @@ const char* stop_name(NewtonStop stop);
 
 struct NewtonIteration {
   double residual = 0, min_det_F = 0, max_det_F = 0, step_length = 0, shift = 0;
+  double residual_before = 0;
 };
 
 struct NewtonResult {
