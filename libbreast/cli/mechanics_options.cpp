@@ -34,8 +34,8 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices) {
               "bulk over shear modulus; without it, exactly incompressible", 1.0, 1e9);
   tool.choice(choices.cut, "--cut", {"free", "fixed", "roller"},
               "what holds the lateral cut surface where the body ends");
-  tool.choice(choices.solver, "--solver", {"auto", "direct"},
-              "linear solver; auto is direct, an iterative one is not offered");
+  tool.choice(choices.solver, "--solver", {"auto", "direct", "multigrid"},
+              "linear solver: Cholesky, or multigrid for meshes whose factor is not affordable");
   tool.flag(
       choices.keep_unconverged, "--keep-unconverged",
       "write the last state of a solve that did not converge; its status says so, exit code 3");

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "mechanics/assembly_impl.hpp"
+#include "solve/choose_solver.hpp"
 
 namespace breast {
 
@@ -23,6 +24,9 @@ AssemblyOf<N, P, F>::AssemblyOf(const HexMesh& mesh, const MechanicsOptions& opt
   cells_.nodes = mesh.connectivity;
   pattern_ = std::make_shared<NodePattern>(mesh.nodes(), cells_);
   element_map_ = std::make_shared<ScatterMap>(*pattern_, cells_);
+  solver_ = options.solver == "auto"        ? choose_solver(pattern_->unknowns())
+            : options.solver == "multigrid" ? LinearSolver::multigrid
+                                            : LinearSolver::direct;
   laws_.assign(options.materials.laws.begin(), options.materials.laws.end());
   for (const Tissue tissue : mesh.tissue) law_of_.push_back(int(tissue));
   set_imaged(mesh, options);
@@ -134,7 +138,7 @@ std::vector<double> AssemblyOf<N, P, F>::mean_det_f(const Eigen::VectorXd& refer
 }
 
 SaddleMatrix Assembly::make_matrix() const {
-  SaddleMatrix matrix{NodeMatrix(pattern_), {}, {}, {}, space_};
+  SaddleMatrix matrix{NodeMatrix(pattern_), {}, {}, {}, space_, {}};
   matrix.divergence.resize(cells_, space_->rows);
   matrix.kappa = Eigen::VectorXd::Zero(cells_.count());
   matrix.diagonal = Eigen::VectorXd::Zero(pattern_->unknowns());

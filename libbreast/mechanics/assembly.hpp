@@ -27,8 +27,7 @@ struct ReferenceTangent {
 struct AssemblyRequest {
   const Eigen::VectorXd* kappa = nullptr;  ///< fills SaddleForces::augmented
   SaddleMatrix* matrix = nullptr;
-  double augmentation =
-      1e3;  ///< κ/μ of the matrix: far above the material, far below what rounding forbids
+  double augmentation = 0;  ///< κ/μ of the matrix; 0: what suits the linear solver
   ReferenceTangent* reference = nullptr;
 };
 
@@ -46,6 +45,8 @@ class Assembly {
                                          const Eigen::VectorXd& deformed) const = 0;
 
   SaddleMatrix make_matrix() const;
+  /// The linear solver the options ask for, or afford.
+  LinearSolver solver() const { return solver_; }
   const std::shared_ptr<const NodePattern>& pattern() const { return pattern_; }
   const std::shared_ptr<const PressureSpace>& pressures() const { return space_; }
   const Cells& elements() const { return cells_; }
@@ -58,6 +59,7 @@ class Assembly {
   const Eigen::VectorXd& rest_pressure() const { return rest_pressure_; }
 
  protected:
+  LinearSolver solver_ = LinearSolver::direct;
   Cells cells_, face_cells_;
   std::shared_ptr<const NodePattern> pattern_;
   std::shared_ptr<const ScatterMap> element_map_, face_map_;

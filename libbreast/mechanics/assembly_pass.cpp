@@ -27,6 +27,10 @@ struct AssemblyOf<N, P, F>::Chunk {
 
 constexpr double condensed_ratio = 1e4;  // of bulk to shear modulus
 
+// κ/μ: for a factor far above the material and far below what rounding forbids; for multigrid
+// cycles, which degrade with it, just enough to speed up the pressure.
+constexpr double factor_augmentation = 1e3, cycle_augmentation = 10;
+
 // κ proportional to the present stiffness: trace K = (10/3) μ Σ|∇N|² for a linear solid (the
 // pressure term has no trace). With a finite bulk modulus κ/K must be one number, so μ at rest is
 // taken; up to condensed_ratio it is the bulk modulus itself, which makes the matrix the exact
@@ -78,7 +82,8 @@ void AssemblyOf<N, P, F>::store(int e, int at, const SaddleState& state,
   }
   if (request.matrix != nullptr) {
     SaddleMatrix& matrix = *request.matrix;
-    const double kappa = kappa_of(e, request.augmentation, out);
+    const double own = solver_ == LinearSolver::direct ? factor_augmentation : cycle_augmentation;
+    const double kappa = kappa_of(e, request.augmentation > 0 ? request.augmentation : own, out);
     matrix.kappa[e] = kappa;
     matrix.divergence.at(e) = out.b;
     Flat(chunk.diagonals.data() + at * 3 * N) = out.k.diagonal();
@@ -198,6 +203,7 @@ SaddleForces AssemblyOf<N, P, F>::evaluate(const Eigen::VectorXd& reference,
   forces.max_det_F = 0;
   if (request.matrix != nullptr) {
     request.matrix->stiffness.set_zero();
+    request.matrix->positions = state.u;
     request.matrix->diagonal.setZero();
   }
   if (request.reference != nullptr) {

@@ -18,7 +18,7 @@ namespace {
 constexpr int max_iterations = 25, max_gmres = 60;
 // The forward factor only preconditions: one serves until GMRES needs more iterations than this,
 // whose back-solves cost as much as a factorisation.
-constexpr int factor_worn = 10;
+constexpr int factor_worn = 10, levels_worn = 45;
 constexpr double tolerance = 1e-10, volume_tolerance = 1e-11;
 // A volume error of this size counts as much as the whole load when steps are judged.
 constexpr double typical_strain = 0.05;
@@ -32,7 +32,7 @@ class BackwardSolve {
         progress_(progress),
         imaged_(flatten(mesh.imaged)),
         matrix_(scene_.assembly().make_matrix()),
-        solver_(scene_.assembly().pattern()) {}
+        solver_(scene_.assembly().pattern(), scene_.assembly().solver()) {}
 
   /// Nodal forces (µN); `start` is the first guess, and where held nodes stay.
   SolveSummary run(const Eigen::VectorXd& load, const Eigen::VectorXd& start);
@@ -165,7 +165,8 @@ bool BackwardSolve::newton(Trial& trial) {
     const double bound = std::max(tolerance, rounding_force(matrix_, imaged_) / load_norm_);
     if (now.force <= bound && now.volume <= volume_tolerance) return true;
     if (i == max_iterations) break;
-    const bool worn = last_gmres_ > factor_worn;
+    const bool worn =
+        last_gmres_ > (solver_.kind() == LinearSolver::direct ? factor_worn : levels_worn);
     if (worn && !precondition_at(trial)) {
       failure_ = "the forward tangent cannot be factorised";
       failure_id_ = singular;
@@ -271,6 +272,7 @@ double BackwardSolve::stable_part(const Eigen::VectorXd& load, double reached, b
 }
 
 void BackwardSolve::store(const Trial& state) {
+  note_solver(solver_, matrix_, summary_);
   summary_.factorisations = solver_.factorisations();
   store_state(mesh_, scene_, state.reference, {imaged_, state.pressure}, summary_);
   mesh_.points = mesh_.reference;

@@ -59,7 +59,7 @@ SolveSummary ForwardSolve::run(const Vec3& gravity) {
     SaddleMatrix matrix = problem.make_matrix();
     SaddleSolver solver = [&] {
       Timer::Scope phase(summary_.timer, "ordering");
-      return SaddleSolver(problem.pattern());
+      return SaddleSolver(problem.pattern(), scene_.assembly().solver());
     }();
     LoadPath path;
     while (!path.finished()) {
@@ -77,6 +77,7 @@ SolveSummary ForwardSolve::run(const Vec3& gravity) {
         break;
       }
     }
+    note_solver(solver, matrix, summary_);
     if (result.converged && mesh_.order == 1 && scene_.options().estimate_error) {
       Timer::Scope phase(summary_.timer, "error estimate");
       const ErrorEstimate estimate =

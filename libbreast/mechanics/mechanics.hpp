@@ -25,7 +25,7 @@ struct MechanicsOptions {
   Invariants invariants = Invariants::isochoric;
   double bulk_ratio = 0;  ///< K/μ; 0 means exactly incompressible
   Cut cut = Cut::free;
-  std::string solver = "auto";  ///< auto | direct
+  std::string solver = "auto";  ///< auto | direct | multigrid
   bool estimate_error = false;  ///< with q1p0: estimate the discretisation error as well
 };
 
@@ -46,6 +46,8 @@ struct SolveSummary {
   double min_det_F = 0, max_volume_error = 0;
   long long unknowns = 0;
   Timer timer;
+  std::string linear_solver;                                      ///< direct | multigrid, as chosen
+  double matrix_values = 0, factor_values = 0, factor_gflop = 0;  ///< see SaddleSolver
   bool stable = true;  ///< backward: the imaged shape is a stable equilibrium of the shape found
   /// Estimated discretisation error at the landmarks (largest, and by name: exact minus computed),
   /// mm; negative when not estimated. See mechanics/error_estimate.hpp.

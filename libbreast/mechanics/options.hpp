@@ -11,7 +11,7 @@ namespace breast {
 
 /// Names are those of the MECHANICS options: materials (set or file), "TISSUE=PERCENT" scales,
 /// "q1p0" | "q2p1", "isochoric" | "plain", bulk ratio K/μ (none: incompressible), "free" | "fixed"
-/// | "roller", "auto" | "direct". Throws Error (input) for any other.
+/// | "roller", "auto" | "direct" | "multigrid". Throws Error (input) for any other.
 MechanicsOptions mechanics_options(const std::string& materials,
                                    const std::vector<std::string>& scale,
                                    const std::string& element, const std::string& invariants,

@@ -87,6 +87,20 @@ void write_report(const SolveSummary& summary, const HexMesh& mesh, const Mechan
   report.set("unknowns", summary.unknowns);
   report.set("newton_iterations", summary.newton_iterations);
   report.set("factorisations", summary.factorisations);
+  if (!summary.linear_solver.empty()) {
+    report.set("solver/name", summary.linear_solver);
+    report.set("solver/matrix_values", summary.matrix_values);
+    report.set("solver/factor_values", summary.factor_values);
+    report.set("solver/factorisation_gflop", summary.factor_gflop);
+    const auto spent = summary.timer.seconds().find("factorisation");
+    if (spent != summary.timer.seconds().end() && spent->second > 0 && summary.factor_gflop > 0) {
+      // The last one of backward is timed as the check of stability.
+      const int timed =
+          summary.factorisations - (summary.timer.seconds().count("stability") ? 1 : 0);
+      report.set("solver/factorisation_gflop_per_second",
+                 summary.factor_gflop * timed / spent->second);
+    }
+  }
   report.set("steps", summary.steps);
   report.set("residual", summary.residual);
   report.set("min_det_F", summary.min_det_F);

@@ -30,8 +30,8 @@ void check(const HexMesh& mesh, const MechanicsOptions& options) {
   if (mesh.pectoral_faces.empty()) {
     throw input_error("mesh: no pectoral faces, so nothing holds the breast; remesh with hexmesh");
   }
-  if (options.solver == "multigrid") {
-    throw input_error("--solver multigrid is not available in this build: use auto or direct");
+  if (options.solver != "auto" && options.solver != "direct" && options.solver != "multigrid") {
+    throw input_error("--solver '", options.solver, "' is unknown: use auto, direct or multigrid");
   }
   for (const Tissue tissue : mesh.tissue) {
     if (tissue == Tissue::air)

@@ -23,6 +23,13 @@ void record_iteration(SolveSummary& summary, int step, const NewtonIteration& it
   summary.record.iterations.push_back(record);
 }
 
+void note_solver(const SaddleSolver& solver, const SaddleMatrix& matrix, SolveSummary& summary) {
+  summary.linear_solver = solver.kind() == LinearSolver::direct ? "direct" : "multigrid";
+  summary.matrix_values = double(matrix.stiffness.values().size());
+  summary.factor_values = solver.factor_entries();
+  summary.factor_gflop = solver.factor_gflop();
+}
+
 void store_state(HexMesh& mesh, const Scene& scene, const Eigen::VectorXd& reference,
                  const SaddleState& state, SolveSummary& summary) {
   const Assembly& assembly = scene.assembly();

@@ -9,6 +9,8 @@ namespace breast {
 /// Appends Newton iterations of one load step to the record; `clock` is seconds since the start.
 void record_iteration(SolveSummary& summary, int step, const NewtonIteration& iteration,
                       double clock);
+/// Notes what the linear solver needed: call after the last factorisation.
+void note_solver(const SaddleSolver& solver, const SaddleMatrix& matrix, SolveSummary& summary);
 /// Copies positions, pressure, det F, scaled-Jacobian-free results and the record into the mesh.
 void store_state(HexMesh& mesh, const Scene& scene, const Eigen::VectorXd& reference,
                  const SaddleState& state, SolveSummary& summary);

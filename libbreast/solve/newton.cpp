@@ -12,10 +12,10 @@ namespace {
 
 constexpr double slope_kept = 0.8;  // accept when the slope along the step fell below this part
 // A factor is used again once the residual is this small and fell by this part in the last step.
-constexpr double near_enough = 1e-2, gain_wanted = 0.05;
+constexpr double near_enough = 1e-5, gain_wanted = 0.02;
 // Relative residual of the volume equation in a step. Forces are met exactly whatever it is, and
-// volumes gain three digits a step beside Newton's own.
-constexpr double volume_accuracy = 1e-3;
+// volumes gain five digits a step beside Newton's own.
+constexpr double volume_accuracy = 1e-5;
 
 // One Newton solve: the pieces of the iteration that need to see each other.
 class Iteration {

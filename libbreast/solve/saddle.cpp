@@ -94,8 +94,18 @@ Eigen::VectorXd SaddleMatrix::multiply_unaugmented(const Eigen::VectorXd& u) con
          divergence.apply_transpose(space->divide(divergence.apply(u), kappa));
 }
 
-SaddleSolver::SaddleSolver(const std::shared_ptr<const NodePattern>& pattern)
-    : cholesky_(*pattern), work_(pattern), constraints_(pattern->nodes()) {}
+SaddleSolver::SaddleSolver(const std::shared_ptr<const NodePattern>& pattern, LinearSolver kind)
+    : kind_(kind), work_(pattern), constraints_(pattern->nodes()) {
+  if (kind == LinearSolver::direct) cholesky_ = std::make_unique<Cholesky>(*pattern);
+}
+
+double SaddleSolver::factor_entries() const {
+  if (cholesky_ != nullptr) return cholesky_->factor_entries();
+  return factorisations_ == 0 ? 0 : 2 * double(work_.values().size()) * multigrid_.complexity();
+}
+double SaddleSolver::factor_gflop() const {
+  return cholesky_ != nullptr ? cholesky_->factor_gflop() : 0;
+}
 
 // Rotates the blocks of constrained nodes into their axes, then replaces held rows and columns by a
 // multiple of the identity of ordinary size.
@@ -134,18 +144,17 @@ Factorisation SaddleSolver::factorise(const SaddleMatrix& matrix, const Constrai
   impose(matrix);
   Factorisation result;
   const NodePattern& pattern = work_.pattern();
-  double shift = 0;
+  double shift = 0, added = 0;
   while (true) {
-    if (shift > 0) {
-      shifted_ = work_.values();
-      for (int node = 0; node < pattern.nodes(); ++node) {
-        const double size = shift * matrix.diagonal.segment<3>(3L * node).mean();
-        for (int k = 0; k < 3; ++k) shifted_[pattern.diagonal(node, k, k)] += size;
-      }
+    for (int node = 0; node < pattern.nodes() && shift > added; ++node) {
+      const double size = (shift - added) * matrix.diagonal.segment<3>(3L * node).mean();
+      work_.add_to_node(node, size * Mat3::Identity());
     }
+    added = shift;
     ++factorisations_;
     ++result.attempts;
-    result.ok = cholesky_.factorise(shift > 0 ? shifted_ : work_.values());
+    result.ok = cholesky_ != nullptr ? cholesky_->factorise(work_.values())
+                                     : multigrid_.build(work_, constraints_, matrix.positions);
     result.shift = shift;
     if (result.ok || !may_shift) break;
     shift = shift > 0 ? shift * shift_growth : std::max(first_shift, last_shift_ / shift_growth);
@@ -159,7 +168,7 @@ Eigen::VectorXd SaddleSolver::back_solve(const Eigen::VectorXd& v) const {
   Eigen::VectorXd local = v;
   constraints_.project(local);
   constraints_.to_axes(local);
-  Eigen::VectorXd u = cholesky_.solve(local);
+  Eigen::VectorXd u = cholesky_ != nullptr ? cholesky_->solve(local) : multigrid_.cycle(local);
   constraints_.from_axes(u);
   constraints_.project(u);
   return u;
@@ -170,18 +179,26 @@ SaddleStep SaddleSolver::solve(const SaddleMatrix& matrix, const Eigen::VectorXd
   const PressureSpace& space = *matrix.space;
   const ElementRows& b = matrix.divergence;
   Eigen::VectorXd right = -r - b.apply_transpose(space.divide(theta, matrix.kappa));
-  const bool moving = constraints_.any_increment();
   Eigen::VectorXd imposed;
-  if (moving) {
+  if (constraints_.any_increment()) {
     imposed = constraints_.increments();
     right -= matrix.stiffness.multiply(imposed);
   }
+  return cholesky_ != nullptr ? solve_by_factor(matrix, right, imposed, theta, tolerance)
+                              : solve_by_cycles(matrix, right, imposed, theta, tolerance);
+}
+
+// Conjugate gradients on S = (1 − κc) B K_κ⁻¹ Bᵀ + cM, preconditioned by κ M⁻¹; κc is the same in
+// every element, so that S is symmetric.
+SaddleStep SaddleSolver::solve_by_factor(const SaddleMatrix& matrix, const Eigen::VectorXd& right,
+                                         const Eigen::VectorXd& imposed,
+                                         const Eigen::VectorXd& theta, double tolerance) const {
+  const PressureSpace& space = *matrix.space;
+  const ElementRows& b = matrix.divergence;
   SaddleStep step;
   step.u = back_solve(right);
-  if (moving) step.u += imposed;
+  if (imposed.size() > 0) step.u += imposed;
 
-  // Conjugate gradients on S = (1 − κc) B K_κ⁻¹ Bᵀ + cM, preconditioned by κ M⁻¹; κc is the same in
-  // every element, so that S is symmetric.
   const double left_over = 1 - matrix.kappa[0] * space.compliance[0];
   step.p = Eigen::VectorXd::Zero(theta.size());
   Eigen::VectorXd s = -theta - b.apply(step.u);

@@ -4,8 +4,10 @@
 //     [ K  −Bᵀ ] [ δu ]   [ −r ]        r = ∂Π/∂u, θ = −∂Π/∂p, K = ∂r/∂u, B = ∂θ/∂u, M pressure
 //     mass, [ B   cM ] [ δp ] = [ −θ ]        c = 1/bulk modulus (0: exactly incompressible)
 //
-// solved through the positive definite K + κ Bᵀ M⁻¹ B (element-local, so with the pattern of K) and
-// a few conjugate-gradient iterations on the pressure. Use:
+// solved through the positive definite K + κ Bᵀ M⁻¹ B (element-local, so with the pattern of K):
+// directly, by its Cholesky factor and a few conjugate-gradient iterations on the pressure; or, for
+// meshes whose factor is not affordable, by GMRES preconditioned with a multigrid cycle (κ then is
+// about ten times the shear modulus instead of a thousand). Use:
 //
 //     SaddleSolver solver(pattern);                    // ordering and analysis, once per mesh
 //     scene.tangent(state, matrix);                    // fills a SaddleMatrix
@@ -20,6 +22,7 @@
 
 #include "solve/cholesky.hpp"
 #include "solve/constraints.hpp"
+#include "solve/multigrid.hpp"
 #include "solve/node_matrix.hpp"
 
 namespace breast {
@@ -56,10 +59,13 @@ struct SaddleMatrix {
   Eigen::VectorXd kappa;     ///< κ per element, Pa
   Eigen::VectorXd diagonal;  ///< of K without κ, made positive: the measure of a shift
   std::shared_ptr<const PressureSpace> space;
+  Eigen::VectorXd positions;  ///< of the nodes, mm: rigid motions for a multigrid
 
   /// K u without the κ term (for reactions and bordering).
   Eigen::VectorXd multiply_unaugmented(const Eigen::VectorXd& u) const;
 };
+
+enum class LinearSolver { direct, multigrid };
 
 struct Factorisation {
   bool ok = false;
@@ -69,39 +75,54 @@ struct Factorisation {
 
 struct SaddleStep {
   Eigen::VectorXd u, p;  ///< increments, global axes
-  int iterations = 0;    ///< of the conjugate gradients on the pressure
+  int iterations = 0;    ///< of the conjugate gradients on the pressure, or of GMRES
 };
 
 class SaddleSolver {
  public:
-  explicit SaddleSolver(const std::shared_ptr<const NodePattern>& pattern);
+  explicit SaddleSolver(const std::shared_ptr<const NodePattern>& pattern,
+                        LinearSolver kind = LinearSolver::direct);
 
   /// Imposes the constraints exactly (rotated axes, scaled identity: the pattern never changes) and
   /// factorises. Without positive definiteness a minimal multiple of SaddleMatrix::diagonal is
   /// added: ×8 from the last one that was needed / 8. `may_shift` false: fails instead.
+  /// With multigrid the levels are built instead; only an indefinite direction that a coarse space
+  /// sees is noticed.
   Factorisation factorise(const SaddleMatrix& matrix, const Constraints& constraints,
                           bool may_shift = true);
 
-  /// The increments; `tolerance` is the relative residual of the volume equation. `matrix` and the
+  /// The increments; `tolerance` is the relative residual of the volume equation (multigrid: of
+  /// both equations, a tenth of it). `matrix` and the
   /// constraints are those of the last factorise, except that increments may be given anew.
   SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
                    const Eigen::VectorXd& theta, double tolerance = 1e-6) const;
 
-  /// (K + κBᵀM⁻¹B)⁻¹ v on the free part, held components zero.
+  /// (K + κBᵀM⁻¹B)⁻¹ v on the free part, held components zero. With multigrid one cycle: a
+  /// symmetric positive definite approximation.
   Eigen::VectorXd back_solve(const Eigen::VectorXd& v) const;
 
   const Constraints& constraints() const { return constraints_; }
-  const Cholesky& cholesky() const { return cholesky_; }
-  /// Numerical factorisations so far.
+  LinearSolver kind() const { return kind_; }
+  /// Values kept and GFlop of one factorisation; with multigrid values of all levels, and zero.
+  double factor_entries() const;
+  double factor_gflop() const;
+  /// Numerical factorisations (multigrid: constructions of the levels) so far.
   int factorisations() const { return factorisations_; }
 
  private:
   void impose(const SaddleMatrix& matrix);
+  SaddleStep solve_by_factor(const SaddleMatrix& matrix, const Eigen::VectorXd& right,
+                             const Eigen::VectorXd& imposed, const Eigen::VectorXd& theta,
+                             double tolerance) const;
+  SaddleStep solve_by_cycles(const SaddleMatrix& matrix, const Eigen::VectorXd& right,
+                             const Eigen::VectorXd& imposed, const Eigen::VectorXd& theta,
+                             double tolerance) const;
 
-  Cholesky cholesky_;
+  LinearSolver kind_;
+  std::unique_ptr<Cholesky> cholesky_;
+  Multigrid multigrid_;
   NodeMatrix work_;
   Constraints constraints_;
-  std::vector<double> shifted_;
   double last_shift_ = 0;
   int factorisations_ = 0;
 };

@@ -1,97 +1,150 @@
-// Time of a forward solve on the block other programs solved: a 0.1 m cube of fat, law (9), clamped
-// at x = 0, gravity along −z, exactly incompressible.
+// Cost of a forward solve on the block other programs solved: a 0.1 m cube clamped at x = 0,
+// gravity along −z, materials of one law.
 //
-//     bench_gravity_block [N...]        elements along an edge; default 8 16
+//     bench_gravity_block [--law poly|mr] [--bulk-ratio K_OVER_MU] [--element q1p0|q2p1]
+//                         [--solver direct|multigrid] [--threads T] [N...]
 //
-// Prints one row per N. u_* is the displacement of the corner (100, 100, 100) mm.
+// N: elements along an edge; default 8 16 20. Law poly is (9) for fat, mr Mooney–Rivlin 310, 300
+// Pa; without --bulk-ratio the block is exactly incompressible. Prints one line a size: counts,
+// wall seconds by phase, processor and wall seconds in all, memory, the displacement of A =
+// (100,100,100) and B = (100,50,50) mm.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "fixtures/block.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/scene.hpp"
 #include "solve/blas.hpp"
-#include "solve/cholesky.hpp"
 
 namespace breast {
 namespace {
 
+struct Settings {
+  std::string law = "poly", element = "q1p0", solver = "direct";
+  double bulk_ratio = 0;
+  int threads = 1;
+  std::vector<int> sizes;
+};
+
 const std::vector<std::string> phases{"ordering", "assembly", "factorisation", "solve",
                                       "line search"};
 
-MechanicsOptions fat_only() {
+MechanicsOptions one_law(const Settings& s) {
   MechanicsOptions options;
   options.materials = load_materials("seed2008");
-  const Law fat = options.materials.law(Tissue::fat);
-  for (Law& law : options.materials.laws) law = fat;
+  Law law = options.materials.law(Tissue::fat);
+  if (s.law == "mr") law = {LawKind::mooney_rivlin, {310, 300}};
+  for (Law& each : options.materials.laws) each = law;
+  options.bulk_ratio = s.bulk_ratio;
+  options.solver = s.solver;
+  options.element = s.element == "q2p1" ? Element::q2p1 : Element::q1p0;
   return options;
 }
 
 void print_header() {
-  std::printf("n\tthreads\tunknowns\tfactor_entries\tfactor_gflop\tnewton\tfactorisations");
+  std::printf(
+      "n\tlaw\tk_over_mu\telement\tsolver\tthreads\tunknowns\tmatrix_values\tfactor_values"
+      "\tgflop\tnewton\tfactorisations");
   for (const std::string& phase : phases) {
     std::string name = phase;
     for (char& c : name) c = c == ' ' ? '_' : c;
     std::printf("\t%s_s", name.c_str());
   }
-  std::printf("\ttotal_s\tu_x_mm\tu_y_mm\tu_z_mm\tstatus\n");
+  std::printf(
+      "\tcpu_s\twall_s\tgflop_per_s\tpeak_mb\tA_x_mm\tA_y_mm\tA_z_mm\tB_x_mm"
+      "\tB_y_mm\tB_z_mm\tstatus\n");
 }
 
-void print_row(int n) {
-  fixtures::BlockSettings settings;
-  settings.elements = {n, n, n};
-  HexMesh mesh = fixtures::block(settings);
-  const MechanicsOptions options = fat_only();
-  const Scene scene(mesh, options);
-  const Cholesky factor(*scene.assembly().pattern());  // analysis only: the solve makes its own
-
+void print_row(const Settings& s, int n) {
+  fixtures::BlockSettings block;
+  block.elements = {n, n, n};
+  block.order = s.element == "q2p1" ? 2 : 1;
+  HexMesh mesh = fixtures::block(block);
+  const MechanicsOptions options = one_law(s);
   const auto start = std::chrono::steady_clock::now();
+  const std::clock_t cpu_start = std::clock();
   const SolveSummary summary = solve_forward(mesh, Vec3(0, 0, -gravity_mm_s2), options);
-  const double total =
+  const double cpu = double(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+  const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-  std::printf("%d\t%d\t%ld\t%.0f\t%.3f\t%d\t%d", n, threads(), scene.unknowns(),
-              factor.factor_entries(), factor.factor_gflop(), summary.newton_iterations,
-              summary.factorisations);
+  std::printf("%d\t%s\t%g\t%s\t%s\t%d\t%lld\t%.0f\t%.0f\t%.4f\t%d\t%d", n, s.law.c_str(),
+              s.bulk_ratio, s.element.c_str(), s.solver.c_str(), threads(), summary.unknowns,
+              summary.matrix_values, summary.factor_values, summary.factor_gflop,
+              summary.newton_iterations, summary.factorisations);
   const auto& seconds = summary.timer.seconds();
   for (const std::string& phase : phases) {
     const auto found = seconds.find(phase);
     std::printf("\t%.3f", found == seconds.end() ? 0.0 : found->second);
   }
-  const int corner = fixtures::node_at(mesh, settings.size);
-  const Vec3 u = mesh.points[corner] - mesh.reference[corner];
-  std::printf("\t%.3f\t%.4f\t%.4f\t%.4f\t%s\n", total, u.x(), u.y(), u.z(),
-              summary.record.status.c_str());
+  const auto factoring = seconds.find("factorisation");
+  std::printf("\t%.3f\t%.3f\t%.1f\t%.0f", cpu, wall,
+              factoring == seconds.end() ? 0.0
+                                         : summary.factor_gflop * summary.factorisations /
+                                               std::max(1e-9, factoring->second),
+              peak_memory_mb());
+  for (const Vec3& where : {block.size, Vec3(block.size.cwiseProduct(Vec3(1, 0.5, 0.5)))}) {
+    const int node = fixtures::node_at(mesh, where);
+    const Vec3 u = mesh.points[node] - mesh.reference[node];
+    std::printf("\t%.4f\t%.4f\t%.4f", u.x(), u.y(), u.z());
+  }
+  std::printf("\t%s\n", summary.record.status.c_str());
   std::fflush(stdout);
+}
+
+std::string one_of(const std::string& name, const std::string& value,
+                   const std::vector<std::string>& choices) {
+  for (const std::string& choice : choices) {
+    if (choice == value) return value;
+  }
+  throw input_error(name, " '", value, "' is unknown");
+}
+
+Settings read(int argc, char** argv) {
+  Settings s;
+  for (int i = 1; i < argc; ++i) {
+    const std::string name = argv[i];
+    const bool option = name.rfind("--", 0) == 0;
+    if (option && ++i == argc) throw input_error(name, " needs a value");
+    const std::string value = argv[i];
+    if (name == "--law") {
+      s.law = one_of(name, value, {"poly", "mr"});
+    } else if (name == "--element") {
+      s.element = one_of(name, value, {"q1p0", "q2p1"});
+    } else if (name == "--solver") {
+      s.solver = one_of(name, value, {"auto", "direct", "multigrid"});
+    } else if (name == "--bulk-ratio") {
+      s.bulk_ratio = std::atof(value.c_str());
+    } else if (name == "--threads") {
+      s.threads = std::atoi(value.c_str());
+    } else if (option || std::atoi(value.c_str()) < 1 || std::atoi(value.c_str()) > 128) {
+      throw input_error("'", name, "' is neither an option nor a number of elements from 1 to 128");
+    } else {
+      s.sizes.push_back(std::atoi(value.c_str()));
+    }
+  }
+  if (s.sizes.empty()) s.sizes = {8, 16, 20};
+  return s;
 }
 
 }  // namespace
 }  // namespace breast
 
 int main(int argc, char** argv) {
-  std::vector<int> sizes;
-  for (int i = 1; i < argc; ++i) {
-    char* end = nullptr;
-    const long n = std::strtol(argv[i], &end, 10);
-    if (*end != '\0' || n < 1 || n > 64) {
-      std::fprintf(stderr, "bench_gravity_block: '%s' is no number of elements from 1 to 64\n",
-                   argv[i]);
-      return 2;
-    }
-    sizes.push_back(int(n));
-  }
-  if (sizes.empty()) sizes = {8, 16};
   try {
-    breast::set_threads(0);
+    const breast::Settings settings = breast::read(argc, argv);
+    breast::set_threads(settings.threads);
     breast::prepare_blas();
     breast::print_header();
-    for (const int n : sizes) breast::print_row(n);
+    for (const int n : settings.sizes) breast::print_row(settings, n);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_gravity_block: %s\n", error.what());
     return 1;

@@ -18,7 +18,7 @@ struct Small {
   std::unique_ptr<ForwardProblem> problem;
   SaddleState state;
 
-  explicit Small(double bulk_ratio) {
+  explicit Small(double bulk_ratio, const char* solver = "direct") {
     fixtures::BlockSettings settings;
     settings.elements = {2, 2, 2};
     settings.size = Vec3(20, 20, 20);
@@ -28,6 +28,7 @@ struct Small {
     MechanicsOptions options;
     options.materials = load_materials("seed2008");
     options.bulk_ratio = bulk_ratio;
+    options.solver = solver;
     scene = std::make_unique<Scene>(mesh, options);
     problem = std::make_unique<ForwardProblem>(*scene, flatten(mesh.reference),
                                                scene->gravity_force(Vec3(0, 0, -9810)));
@@ -44,9 +45,9 @@ Eigen::MatrixXd dense(const NodeMatrix& matrix) {
 }
 
 // The solver's step satisfies the constrained saddle system, with a rotated prescribed increment.
-TEST(SaddleSolver, SolvesTheConstrainedSystem) {
+void expect_constrained_solution(const char* kind) {
   for (const double bulk_ratio : {0.0, 300.0}) {
-    Small small(bulk_ratio);
+    Small small(bulk_ratio, kind);
     SaddleMatrix matrix = small.problem->make_matrix();
     SaddleForces forces;
     ASSERT_TRUE(small.problem->tangent(small.state, forces, matrix));
@@ -54,7 +55,7 @@ TEST(SaddleSolver, SolvesTheConstrainedSystem) {
     const int touched = fixtures::node_at(small.mesh, Vec3(20, 10, 20));
     const Vec3 normal = Vec3(0.3, -0.2, 1).normalized();
     held.hold_normal(touched, normal, -0.15);
-    SaddleSolver solver(small.problem->pattern());
+    SaddleSolver solver(small.problem->pattern(), small.scene->assembly().solver());
     ASSERT_TRUE(solver.factorise(matrix, held).ok);
     const SaddleStep step = solver.solve(matrix, forces.r, forces.theta, 1e-12);
 
@@ -69,6 +70,64 @@ TEST(SaddleSolver, SolvesTheConstrainedSystem) {
                                    forces.theta;
     EXPECT_LT(volume.norm(), 1e-8 * forces.theta.norm());
   }
+}
+
+TEST(SaddleSolver, SolvesTheConstrainedSystem) {
+  expect_constrained_solution("direct");
+}
+
+TEST(SaddleSolver, SolvesItByMultigridAsWell) {
+  expect_constrained_solution("multigrid");
+}
+
+// GMRES iterations of one step on a block of n³ elements, exactly incompressible.
+int cycles_needed(int n) {
+  fixtures::BlockSettings settings;
+  settings.elements = {n, n, n};
+  settings.distortion = 0.2;
+  const HexMesh mesh = fixtures::block(settings);
+  MechanicsOptions options;
+  options.materials = load_materials("seed2008");
+  options.solver = "multigrid";
+  const Scene scene(mesh, options);
+  const ForwardProblem problem(scene, flatten(mesh.reference),
+                               scene.gravity_force(Vec3(0, 0, -9810)));
+  SaddleMatrix matrix = problem.make_matrix();
+  SaddleForces forces;
+  EXPECT_TRUE(
+      problem.tangent({flatten(mesh.reference), scene.assembly().rest_pressure()}, forces, matrix));
+  SaddleSolver solver(problem.pattern(), scene.assembly().solver());
+  EXPECT_TRUE(solver.factorise(matrix, scene.walls()).ok);
+  return solver.solve(matrix, forces.r, forces.theta, 1e-5).iterations;
+}
+
+TEST(Multigrid, IterationsHardlyGrowWithTheMesh) {
+  const int coarse = cycles_needed(6), fine = cycles_needed(12);
+  RecordProperty("coarse", coarse);
+  RecordProperty("fine", fine);
+  EXPECT_LE(fine, 1.5 * coarse);
+}
+
+TEST(Multigrid, FindsTheEquilibriumOfTheDirectSolver) {
+  fixtures::BlockSettings settings;
+  settings.elements = {6, 6, 6};
+  settings.distortion = 0.2;
+  settings.skin_mm = 1.5;
+  HexMesh direct = fixtures::block(settings), cycles = direct;
+  MechanicsOptions options;
+  options.materials = load_materials("seed2008");
+  options.solver = "direct";
+  ASSERT_TRUE(solve_forward(direct, Vec3(0, 0, -9810), options).converged());
+  options.solver = "multigrid";
+  const SolveSummary summary = solve_forward(cycles, Vec3(0, 0, -9810), options);
+  ASSERT_TRUE(summary.converged());
+  EXPECT_EQ(summary.linear_solver, "multigrid");
+  EXPECT_LE(summary.newton_iterations, 10);
+  double apart = 0;
+  for (int i = 0; i < direct.nodes(); ++i) {
+    apart = std::max(apart, (direct.points[i] - cycles.points[i]).norm());
+  }
+  EXPECT_LT(apart, 1e-7);
 }
 
 TEST(SaddleSolver, IndefiniteMatrixIsShiftedAndSaidToBe) {

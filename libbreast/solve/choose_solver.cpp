@@ -1,0 +1,46 @@
+#include "solve/choose_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "core/parallel.hpp"
+
+namespace breast {
+
+namespace {
+
+// Memory this machine could still give, GB; unlimited where it does not say.
+double available_gb() {
+  std::ifstream info("/proc/meminfo");
+  std::string key, unit;
+  double kb = 0;
+  while (info >> key >> kb) {
+    std::getline(info, unit);
+    if (key == "MemAvailable:") return kb * 1e-6;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+SolverCost predict_cost(double unknowns, int threads) {
+  const double size = unknowns / 15000;  // of the 16³ mesh
+  SolverCost cost;
+  cost.factor_gb = 0.1 * std::pow(size, 1.45);
+  cost.factor_seconds = 0.15 * std::pow(size, 2.1) / threads;
+  cost.cycle_gb = 0.05 * size;
+  cost.cycle_seconds = 1.0 * size / std::min(threads, 2);
+  return cost;
+}
+
+LinearSolver choose_solver(double unknowns) {
+  const SolverCost cost = predict_cost(unknowns, threads());
+  const bool fits = cost.factor_gb < 0.5 * available_gb();
+  return fits && cost.factor_seconds <= cost.cycle_seconds ? LinearSolver::direct
+                                                           : LinearSolver::multigrid;
+}
+
+}  // namespace breast

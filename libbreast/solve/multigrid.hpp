@@ -1,0 +1,43 @@
+// Smoothed-aggregation multigrid for a symmetric node matrix, its coarse spaces made of the rigid
+// motions of aggregates: one V-cycle is a symmetric positive definite stand-in for the inverse.
+// Own code: the packaged libraries that have it (hypre, PETSc) need MPI in every program.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "solve/constraints.hpp"
+#include "solve/node_matrix.hpp"
+
+namespace breast {
+
+class Multigrid {
+ public:
+  Multigrid();
+  ~Multigrid();
+  Multigrid(const Multigrid&) = delete;
+  Multigrid& operator=(const Multigrid&) = delete;
+
+  /// Builds all levels for a matrix in node axes. `positions` (3 per node, mm) give the rigid
+  /// motions, `constraints` the axes and the held components. False when a diagonal entry or the
+  /// coarsest matrix is not positive: the matrix then is not positive definite. (The converse does
+  /// not hold: an indefinite direction that no coarse space sees goes unnoticed.)
+  bool build(const NodeMatrix& matrix, const Constraints& constraints,
+             const Eigen::VectorXd& positions);
+  /// One V-cycle from zero.
+  Eigen::VectorXd cycle(const Eigen::VectorXd& right) const;
+
+  /// The finest level's matrix times v, on all threads.
+  Eigen::VectorXd multiply(const Eigen::VectorXd& v) const;
+
+  int levels() const;
+  /// Entries of all levels over those of the finest.
+  double complexity() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace breast

@@ -1,0 +1,68 @@
+// The saddle system by GMRES with a block triangular preconditioner: a multigrid cycle for
+// K + κBᵀM⁻¹B, the mass matrix over (μ + κ) for the pressure's Schur complement.
+#include <cmath>
+
+#include "solve/gmres.hpp"
+#include "solve/saddle.hpp"
+
+namespace breast {
+
+namespace {
+// GMRES keeps two vectors an iteration; after `restart` it begins again from where it is.
+constexpr int restart = 40, most_restarts = 8;
+constexpr double part_of_tolerance = 0.1;
+}  // namespace
+
+SaddleStep SaddleSolver::solve_by_cycles(const SaddleMatrix& matrix, const Eigen::VectorXd& right,
+                                         const Eigen::VectorXd& imposed,
+                                         const Eigen::VectorXd& theta, double tolerance) const {
+  const PressureSpace& space = *matrix.space;
+  const ElementRows& b = matrix.divergence;
+  const long n = right.size(), m = theta.size();
+  const double left_over = 1 - matrix.kappa[0] * space.compliance[0];
+  // Volumes as forces, so that one norm measures both equations: θκ/h, h the size of an element.
+  const double size = std::cbrt(space.mass[0]);
+  const double weigh = matrix.kappa.mean() / size;
+  const auto free = [&](Eigen::VectorXd v) {
+    constraints_.project(v);
+    return v;
+  };
+  const auto stiffness = [&](Eigen::VectorXd v) {  // of the shifted matrix, on the free part
+    constraints_.to_axes(v);
+    v = multigrid_.multiply(v);
+    constraints_.from_axes(v);
+    return free(std::move(v));
+  };
+  const auto apply = [&](const Eigen::VectorXd& z) {
+    const Eigen::VectorXd u = z.head(n), p = z.tail(m);
+    Eigen::VectorXd out(n + m);
+    out.head(n) = stiffness(u) - left_over * free(b.apply_transpose(p));
+    out.tail(m) = weigh * (b.apply(u) + space.multiply(p, space.compliance));
+    return out;
+  };
+  const auto precondition = [&](const Eigen::VectorXd& y) {
+    Eigen::VectorXd out(n + m);
+    const Eigen::VectorXd u = back_solve(y.head(n));
+    out.head(n) = u;
+    out.tail(m) = space.divide(y.tail(m) / weigh - b.apply(u), matrix.kappa);
+    return out;
+  };
+  Eigen::VectorXd target(n + m), x = Eigen::VectorXd::Zero(n + m);
+  target.head(n) = free(right);
+  target.tail(m) = -weigh * (imposed.size() > 0 ? theta + b.apply(imposed) : theta);
+  const double goal = part_of_tolerance * tolerance * target.norm();
+  SaddleStep step;
+  Eigen::VectorXd residual = target;
+  for (int i = 0; i < most_restarts && residual.norm() > goal; ++i) {
+    const GmresResult part = gmres(apply, precondition, residual, goal / residual.norm(), restart);
+    x += part.x;
+    step.iterations += part.iterations;
+    residual = target - apply(x);
+  }
+  step.u = x.head(n);
+  step.p = x.tail(m);
+  if (imposed.size() > 0) step.u += imposed;
+  return step;
+}
+
+}  // namespace breast
