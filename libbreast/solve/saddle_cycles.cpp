@@ -9,7 +9,7 @@ namespace breast {
 
 namespace {
 // GMRES keeps two vectors an iteration; after `restart` it begins again from where it is.
-constexpr int restart = 40, most_restarts = 8;
+constexpr int restart = 60, most_restarts = 6;
 constexpr double part_of_tolerance = 0.1;
 }  // namespace
 
