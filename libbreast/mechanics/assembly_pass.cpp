@@ -38,7 +38,10 @@ constexpr double factor_augmentation = 1e3, cycle_augmentation = 10;
 template <int N, int P, int F>
 double AssemblyOf<N, P, F>::kappa_of(int e, double augmentation, const HexOutput<N, P>& out) const {
   const double rest = laws_[law_of_[e]].shear_modulus();
-  if (bulk_ratio_ > 0) return std::min(std::max(augmentation, condensed_ratio), bulk_ratio_) * rest;
+  if (bulk_ratio_ > 0) {
+    const double most = solver_ == LinearSolver::direct ? condensed_ratio : augmentation;
+    return std::min(std::max(augmentation, most), bulk_ratio_) * rest;
+  }
   const double now = out.k.trace() / (10.0 / 3 * out.gradient_square);
   return augmentation * (now > rest ? now : rest);
 }

@@ -31,8 +31,8 @@ SolverCost predict_cost(double unknowns, int threads) {
   SolverCost cost;
   cost.factor_gb = 0.1 * std::pow(size, 1.45);
   cost.factor_seconds = 0.15 * std::pow(size, 2.1) / threads;
-  cost.cycle_gb = 0.05 * size;
-  cost.cycle_seconds = 1.0 * size / std::min(threads, 2);
+  cost.cycle_gb = 0.06 * size;
+  cost.cycle_seconds = 0.3 * std::pow(size, 1.8) / threads;
   return cost;
 }
 
