@@ -202,7 +202,9 @@ bool BackwardSolve::newton(Trial& trial) {
 bool BackwardSolve::stays(const Trial& trial) {
   Timer::Scope phase(summary_.timer, "stability");
   const SaddleForces forces = evaluate(trial, &matrix_, nullptr);
-  return forces.valid && solver_.factorise(matrix_, scene_.walls(), false).ok;
+  const bool stable = forces.valid && solver_.factorise(matrix_, scene_.walls(), false).ok;
+  if (!stable) last_gmres_ = max_gmres;  // no factor is left to precondition with
+  return stable;
 }
 
 void BackwardSolve::set_load(const Eigen::VectorXd& load) {
