@@ -22,9 +22,9 @@ struct ReferenceStep {
 
 class ReferenceSystem {
  public:
-  /// `solver` holds the factor of `matrix` under its constraints, which may be of a state near that of
-  /// `tangent`: it only preconditions. All must outlive this. `size` is
-  /// a typical element edge (mm): it makes forces of volumes, so that one norm measures both.
+  /// `solver` holds the factor of `matrix` under its constraints, which may be of a state near that
+  /// of `tangent`: it only preconditions. All must outlive this. `size` is a typical element edge
+  /// (mm): it makes forces of volumes, so that one norm measures both.
   ReferenceSystem(const SaddleMatrix& matrix, const ReferenceTangent& tangent,
                   const SaddleSolver& solver, double size);
 
