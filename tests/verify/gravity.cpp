@@ -184,29 +184,5 @@ TEST(Forward, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_LT(worst_distance(one.points, two.points), 1e-10);
 }
 
-// The estimate against a full solution with 27-node elements on the same geometry.
-TEST(ErrorEstimate, IsTheSizeOfTheError) {
-  const HexMesh mesh = fixtures::cap({.elements = 8});
-  const HexMesh raised = raise_order(mesh);
-  for (const Vec3& gravity : {Vec3(0, gravity_mm_s2, 0), Vec3(6000, 3000, -5000)}) {
-    MechanicsOptions options = paper_options();
-    options.estimate_error = true;
-    HexMesh linear = mesh, quadratic = raised;
-    const SolveSummary summary = solve_forward(linear, gravity, options);
-    ASSERT_TRUE(summary.converged());
-    options.element = Element::q2p1;
-    ASSERT_TRUE(solve_forward(quadratic, gravity, options).converged());
-    double worst = 0;
-    for (const Landmark& landmark : mesh.landmarks) {
-      worst = std::max(worst, (landmark_position(quadratic, quadratic.points, landmark) -
-                               landmark_position(linear, linear.points, landmark))
-                                  .norm());
-    }
-    EXPECT_GT(summary.error_estimate_mm, worst / 3);
-    EXPECT_LT(summary.error_estimate_mm, worst * 3);
-    EXPECT_EQ(summary.landmark_error_mm.size(), mesh.landmarks.size());
-  }
-}
-
 }  // namespace
 }  // namespace breast

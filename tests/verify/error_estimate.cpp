@@ -1,0 +1,96 @@
+// How good the estimate of the discretisation error is: estimated over true error at the landmarks,
+// where a solution with 27-node elements, on the same mesh or a finer one, stands for the truth.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "core/units.hpp"
+#include "fixtures/analytic_mesh.hpp"
+#include "fixtures/shapes.hpp"
+#include "mechanics/element_order.hpp"
+#include "mechanics/mechanics.hpp"
+
+using namespace breast;
+
+namespace {
+
+MechanicsOptions options_of(const std::string& materials) {
+  MechanicsOptions options;
+  options.materials = load_materials(materials);
+  options.estimate_error = true;
+  return options;
+}
+
+HexMesh solved(HexMesh mesh, const Vec3& gravity, MechanicsOptions options, SolveSummary& summary) {
+  if (mesh.order == 2) options.element = Element::q2p1;
+  summary = solve_forward(mesh, gravity, options);
+  EXPECT_TRUE(summary.converged()) << summary.record.reason;
+  return mesh;
+}
+
+// Ratio of estimated to true error, both the largest over the landmarks; told on stdout.
+double effectivity(const char* name, const HexMesh& mesh, const HexMesh& truth_mesh,
+                   const Vec3& gravity, const MechanicsOptions& options) {
+  SolveSummary summary, unused;
+  const HexMesh linear = solved(mesh, gravity, options, summary);
+  const HexMesh truth = solved(truth_mesh, gravity, options, unused);
+  double worst = 0, left = 0;
+  for (const Landmark& landmark : mesh.landmarks) {
+    const Landmark* same = truth.landmark(landmark.name);
+    const Vec3 error = landmark_position(truth, truth.points, *same) -
+                       landmark_position(linear, linear.points, landmark);
+    worst = std::max(worst, error.norm());
+    left = std::max(left, (error - summary.landmark_error_mm.at(landmark.name)).norm());
+  }
+  const double ratio = summary.error_estimate_mm / worst;
+  std::printf("%-28s true %.4f mm, estimate %.4f mm, ratio %.2f, after correction %.4f mm\n", name,
+              worst, summary.error_estimate_mm, ratio, left);
+  return ratio;
+}
+
+const Vec3 supine = posture_gravity("supine"), oblique(6000, 3000, -5000);
+
+TEST(ErrorEstimate, MeetsTheDifferenceToQuadraticElements) {
+  const MechanicsOptions options = options_of("seed2008");
+  const auto expect_fair = [&](const char* name, const HexMesh& mesh, const Vec3& gravity) {
+    const double ratio = effectivity(name, mesh, raise_order(mesh), gravity, options);
+    EXPECT_GT(ratio, 0.5) << name;
+    EXPECT_LT(ratio, 2) << name;
+  };
+  HexMesh breast = analytic_breast_mesh(5);
+  breast.reference = breast.points;
+  expect_fair("cap 4, supine", fixtures::cap({.elements = 4}), supine);
+  expect_fair("cap 4, oblique", fixtures::cap({.elements = 4}), oblique);
+  expect_fair("cap 6, supine", fixtures::cap({.elements = 6}), supine);
+  expect_fair("cap 8, oblique", fixtures::cap({.elements = 8}), oblique);
+  expect_fair("breast 5, supine", breast, supine);
+  expect_fair("breast 5, oblique", breast, oblique);
+}
+
+// A body with flat faces is the same body at every resolution: the finer mesh is the truth.
+TEST(ErrorEstimate, MeetsTheDifferenceToAFinerMesh) {
+  MechanicsOptions options = options_of("seed2008");
+  const auto body = [](int n, int order) {
+    fixtures::BlockSettings settings;
+    settings.elements = {n, n, n};
+    settings.order = order;
+    settings.size = Vec3(100, 100, 100);
+    HexMesh mesh = fixtures::block(settings);
+    const Locator locator(mesh, mesh.imaged);
+    for (const auto& [name, at] : {std::pair<std::string, Vec3>{"corner", {100, 0, 100}},
+                                   std::pair<std::string, Vec3>{"inside", {60, 40, 70}}}) {
+      const Location found = locator.nearest(at);
+      mesh.landmarks.push_back({name, at, found.element, found.local, found.moved});
+    }
+    return mesh;
+  };
+  const HexMesh truth = body(6, 2);
+  for (const int n : {3, 4, 6}) {
+    const double ratio = effectivity(("block " + std::to_string(n)).c_str(), body(n, 1), truth,
+                                     Vec3(0, 0, -gravity_mm_s2), options);
+    EXPECT_GT(ratio, 0.5) << n;
+    EXPECT_LT(ratio, 2) << n;
+  }
+}
+
+}  // namespace
