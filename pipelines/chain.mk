@@ -19,9 +19,9 @@ $(RUN)/geometry.vtkhdf: $(RUN)/labels.vtkhdf $(FIT_HERMITE) $(call changed,geome
 	$(FIT_HERMITE) $< $@ $(FIT_OPTIONS) $(common)
 	@$(call record,geometry)
 
-mesh_settings := $(HEXMESH) $(HEXMESH_OPTIONS)
-$(RUN)/mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH) $(call changed,mesh)
-	$(HEXMESH) $< $(RUN)/labels.vtkhdf $@ $(HEXMESH_OPTIONS) $(common)
+mesh_settings := $(HEXMESH) $(HEXMESH_OPTIONS) $(addprefix --tumour ,$(TUMOUR))
+$(RUN)/mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(wildcard $(TUMOUR)) $(HEXMESH) $(call changed,mesh)
+	$(HEXMESH) $< $(RUN)/labels.vtkhdf $@ $(HEXMESH_OPTIONS) $(addprefix --tumour ,$(TUMOUR)) $(common)
 	@$(call record,mesh)
 
 reference_settings := $(BACKWARD) $(PRONE) $(MECHANICS) --cut $(CUT)

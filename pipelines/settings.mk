@@ -54,6 +54,9 @@ COMPRESS ?= $(BIN)/compress
 PROJECT ?= $(BIN)/project-mammogram
 CC2MLO ?= $(BIN)/cc2mlo
 PHANTOM ?= $(BIN)/phantom
+PHANTOM_MESH ?= $(BIN)/phantom-mesh
+TRUTH_TABLE_TOOL ?= $(BIN)/truth-table
+CALIBRATE ?= $(BIN)/calibrate
 PROBE ?= $(BIN)/probe
 RENDER ?= $(BIN)/render
 

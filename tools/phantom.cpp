@@ -16,20 +16,11 @@ using namespace breast;
 namespace {
 
 struct Choices {
-  std::filesystem::path image;
-  std::string truth, dicom, preset = "paper", materials = "seed2008";
+  std::filesystem::path image, truth, dicom;
+  std::string preset = "paper", materials = "seed2008";
   int seed = 1;
   double bias = 2, noise = 2, coarse = 1;
 };
-
-// A folder for results, made before minutes are spent on them.
-void make_folder(const std::string& folder, const char* option) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure || !std::filesystem::is_directory(folder)) {
-    throw input_error(option, " ", folder, ": cannot make this folder; choose another place");
-  }
-}
 
 void check_image_ending(const std::filesystem::path& image) {
   const std::string name = image.filename().string();
@@ -49,12 +40,13 @@ void declare(Tool& tool, Choices& c) {
       "elements on a template that hexmesh does not have, so that the chain can be told its "
       "errors.");
   tool.output(c.image, "OUT.nrrd", "the scan (.nrrd, .nii, .nii.gz or .mha)");
-  tool.text(
+  tool.output_folder(
       c.truth, "--truth", "DIR",
       "write labels, surfaces, meshes and landmarks.tsv (stress-free, prone and supine) there");
   tool.choice(c.preset, "--preset", {"paper", "small", "large", "pendulous"}, "kind of breast");
   tool.integer(c.seed, "--seed", "N", "another woman of the same kind", 0, 1000000000);
-  tool.text(c.dicom, "--dicom", "DIR", "also write the scan as a DICOM series, one file a slice");
+  tool.output_folder(c.dicom, "--dicom", "DIR",
+                     "also write the scan as a DICOM series, one file a slice");
   tool.number(c.bias, "--bias", "FACTOR", "coil sensitivity: brightest over darkest breast fat", 1,
               20);
   tool.number(c.noise, "--noise", "%", "noise in per cent of the fat signal", 0, 100);
@@ -95,8 +87,6 @@ void write_truth_side(const std::filesystem::path& folder, PhantomBreast& breast
 void run_phantom(const Choices& c, Run& run) {
   const PhantomParameters parameters = parameters_of(c);
   const MaterialSet materials = load_materials(parameters.materials);
-  const std::filesystem::path truth = c.truth;
-  if (!c.truth.empty()) make_folder(c.truth, "--truth");
   write_parameters(parameters, run.report());
   run.progress().update("shape", -1, "stress-free breasts and their glands");
   PhantomScene scene = [&] {
@@ -124,10 +114,16 @@ void run_phantom(const Choices& c, Run& run) {
   Timer::Scope phase(run.timer(), "writing");
   const Volume<std::int16_t> mr = scan(image, parameters.mri, parameters.seed);
   if (!c.truth.empty()) {
+    AtomicFolder folder(c.truth, "landmarks.tsv");
+    const std::filesystem::path& truth = folder.temporary();
     for (Side side : {Side::left, Side::right})
       write_truth_side(truth, scene.breast(side), scene, image, run);
     write_table(truth / "landmarks.tsv", landmarks);
+    for (Side side : {Side::left, Side::right})
+      write_table(truth / ("tumour-" + std::string(side_name(side)) + ".tsv"),
+                  tumour_place(scene.breast(side).mesh));
     write_text(truth / "parameters.json", run.report().json());
+    folder.commit();
   }
   if (!c.dicom.empty()) write_dicom_series(c.dicom, mr, "phantom " + c.preset);
   write_volume(c.image, mr);

@@ -16,7 +16,9 @@ namespace breast {
 namespace fs = std::filesystem;
 
 namespace {
-std::string part_prefix(const fs::path& target) { return "." + target.filename().string() + ".part-"; }
+std::string part_prefix(const fs::path& target) {
+  return "." + target.filename().string() + ".part-";
+}
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)) {
@@ -42,6 +44,34 @@ void AtomicFile::commit() {
   fs::rename(temporary_, target_, reason);
   if (reason) throw failed_error(target_.string(), ": cannot be replaced (", reason.message(), ")");
   committed_ = true;
+}
+
+AtomicFolder::AtomicFolder(const fs::path& target, std::string last)
+    : target_(target.has_filename() ? target : target.parent_path()), last_(std::move(last)) {
+  remove_stale_parts(target_);
+  temporary_ = target_.parent_path() / (part_prefix(target_) + std::to_string(getpid()));
+  std::error_code reason;
+  fs::create_directories(temporary_, reason);
+  if (reason) throw failed_error(target_.string(), ": cannot be made (", reason.message(), ")");
+}
+
+AtomicFolder::~AtomicFolder() {
+  std::error_code ignored;
+  fs::remove_all(temporary_, ignored);
+}
+
+void AtomicFolder::commit() {
+  try {
+    fs::create_directories(target_);
+    fs::remove(target_ / last_);
+    for (const auto& entry : fs::directory_iterator(temporary_)) {
+      const fs::path name = entry.path().filename();
+      if (name != last_) fs::rename(entry.path(), target_ / name);
+    }
+    fs::rename(temporary_ / last_, target_ / last_);
+  } catch (const fs::filesystem_error& error) {
+    throw failed_error(target_.string(), ": cannot be replaced (", error.code().message(), ")");
+  }
 }
 
 void remove_stale_parts(const fs::path& target) {

@@ -5,8 +5,8 @@
 
 namespace breast {
 
-/// Write to temporary() (hidden, `.NAME.part-PID`, same folder, same extension kept as suffix in the
-/// name), then commit(). Without commit the temporary is removed.
+/// Write to temporary() (hidden, `.NAME.part-PID`, same folder, same extension kept as suffix in
+/// the name), then commit(). Without commit the temporary is removed.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path target);
@@ -22,6 +22,25 @@ class AtomicFile {
   std::filesystem::path target_;
   std::filesystem::path temporary_;
   bool committed_ = false;
+};
+
+/// A folder of results: files are written into temporary() (hidden, beside the target), commit()
+/// moves them into the target with `last` as the last one, after the target's old `last` is gone.
+/// Readers that ask for `last` never see half a result. Without commit the temporary is removed.
+class AtomicFolder {
+ public:
+  AtomicFolder(const std::filesystem::path& target, std::string last);
+  ~AtomicFolder();
+  AtomicFolder(const AtomicFolder&) = delete;
+  AtomicFolder& operator=(const AtomicFolder&) = delete;
+
+  const std::filesystem::path& temporary() const { return temporary_; }
+  /// Throws Error (failed) naming the target.
+  void commit();
+
+ private:
+  std::filesystem::path target_, temporary_;
+  std::string last_;
 };
 
 /// Removes `.NAME.part-PID` files of processes that no longer run.

@@ -12,6 +12,8 @@
 namespace breast {
 
 namespace {
+const std::string rows_line = "# rows ";
+
 std::vector<std::string> split_tabs(const std::string& line) {
   std::vector<std::string> cells;
   std::size_t start = 0;
@@ -36,26 +38,28 @@ std::string join_tabs(const std::vector<std::string>& cells) {
 }
 }  // namespace
 
-int Table::column(const std::string& name) const {
-  const auto found = std::find(columns.begin(), columns.end(), name);
+int Table::column(const std::string& column) const {
+  const auto found = std::find(columns.begin(), columns.end(), column);
   if (found != columns.end()) return int(found - columns.begin());
   std::string known;
   for (const std::string& c : columns) known += (known.empty() ? "" : ", ") + c;
-  throw input_error("table has no column '", name, "'; it has: ", known);
+  throw input_error(name, " has no column '", column, "'; it has: ", known);
 }
 
 std::string Table::text() const {
   std::string out = join_tabs(columns);
   for (const auto& row : rows) out += join_tabs(row);
-  return out;
+  return out + rows_line + std::to_string(rows.size()) + "\n";
 }
 
 Table parse_table(const std::string& text, const std::string& name) {
   std::istringstream in(text);
   Table table;
-  std::string line;
+  table.name = name;
+  std::string line, promised;
   for (int number = 1; std::getline(in, line); ++number) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.starts_with(rows_line)) promised = line.substr(rows_line.size());
     if (line.empty() || line[0] == '#') continue;
     std::vector<std::string> cells = split_tabs(line);
     if (table.columns.empty()) {
@@ -72,6 +76,11 @@ Table parse_table(const std::string& text, const std::string& name) {
     table.rows.push_back(std::move(cells));
   }
   if (table.columns.empty()) throw input_error(name, ": no header line");
+  if (!promised.empty() && promised != std::to_string(table.rows.size())) {
+    throw input_error(name, ": has ", table.rows.size(), " rows, its last line promises ",
+                      promised);
+  }
+  table.counted = !promised.empty();
   return table;
 }
 

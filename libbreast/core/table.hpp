@@ -11,11 +11,16 @@ struct Table {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 
-  int column(const std::string& name) const;  ///< throws Error (input) naming the columns there are
-  std::string text() const;
+  std::string name = "table";  ///< of the file it came from, for errors
+  bool counted = false;        ///< read with its closing line "# rows N": nothing was cut off
+
+  /// Throws Error (input) beginning with the table's name and naming the columns there are.
+  int column(const std::string& column) const;
+  std::string text() const;  ///< ends with the line "# rows N"
 };
-/// Lines starting with '#' are comments. Throws Error (input) with the line number, also for a cell
-/// that is nan or inf.
+/// Lines starting with '#' are comments; "# rows N" closes a table of ours and N is checked, so
+/// that one cut at a line's end is refused. Throws Error (input) with the line number, also for a
+/// cell that is nan or inf.
 Table read_table(const std::filesystem::path& file);
 /// The same from text; `name` is used in errors.
 Table parse_table(const std::string& text, const std::string& name);

@@ -1,6 +1,7 @@
 #include "evaluation/landmark_truth.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -10,9 +11,9 @@ namespace breast {
 
 namespace {
 
-Vec3 position_in(const TrueLandmark& truth, const std::string& posture) {
-  return posture == "supine" ? truth.supine
-                             : (posture == "stress_free" ? truth.stress_free : truth.prone);
+const TruePosition* position_in(const TrueLandmark& truth, const std::string& posture) {
+  const auto found = truth.at.find(posture);
+  return found == truth.at.end() ? nullptr : &found->second;
 }
 
 // A summary row over all landmarks: the column's largest or mean value.
@@ -33,14 +34,12 @@ std::vector<std::string> summary(const Table& table, const std::string& label, b
 }  // namespace
 
 std::vector<TrueLandmark> true_landmarks(const Table& table, Side side, const std::string& name) {
-  const auto column_of = [&](const std::string& column) {
-    try {
-      return table.column(column);
-    } catch (const Error& error) {
-      throw input_error(name, ": ", error.what());
-    }
-  };
-  const int landmark = column_of("landmark"), of_side = column_of("side");
+  if (!table.counted) {
+    throw input_error(name,
+                      ": does not end with its number of rows ('# rows N'); it is cut off or "
+                      "old: write it again (phantom --truth, truth-table)");
+  }
+  const int landmark = table.column("landmark"), of_side = table.column("side");
   const auto side_of = [&](const std::string& text) {
     try {
       return side_from_name(text);
@@ -52,22 +51,39 @@ std::vector<TrueLandmark> true_landmarks(const Table& table, Side side, const st
     Vec3 x;
     for (int d = 0; d < 3; ++d) {
       const std::string column = posture + std::array{"_x_mm", "_y_mm", "_z_mm"}[d];
-      x[d] = parse_number(row[column_of(column)], name + ": " + column);
+      x[d] = parse_number(row[table.column(column)], name + ": " + column);
     }
     return x;
   };
+  std::vector<std::string> postures{"stress_free", "prone", "supine"};
+  const auto has = [&](const std::string& column) {
+    return std::find(table.columns.begin(), table.columns.end(), column) != table.columns.end();
+  };
+  for (const char* view : {"cc", "mlo", "ml"})
+    if (has(view + std::string("_x_mm"))) postures.push_back(view);
   std::vector<TrueLandmark> list;
   for (const auto& row : table.rows) {
     if (side_of(row[of_side]) != side) continue;
-    list.push_back(
-        {row[landmark], vector(row, "stress_free"), vector(row, "prone"), vector(row, "supine")});
+    TrueLandmark point{row[landmark], {}};
+    for (const std::string& posture : postures) {
+      TruePosition& there = point.at[posture];
+      there.x = vector(row, posture);
+      const std::string column = posture + "_own_error_mm";
+      if (has(column))
+        there.own_error = parse_number(row[table.column(column)], name + ": " + column);
+    }
+    list.push_back(std::move(point));
   }
   if (list.empty()) throw input_error(name, ": no landmark of the ", side_name(side), " side");
   return list;
 }
 
 std::string posture_of(const HexMesh& mesh) {
-  if (mesh.contact) return "";
+  if (mesh.contact) {
+    std::string view = mesh.contact->view;
+    for (char& c : view) c = char(std::tolower(c));
+    return view;
+  }
   if (mesh.reference.empty()) return "prone";
   if (mesh.gravity.norm() == 0) return "stress_free";
   const Vec3 along = mesh.gravity.normalized();
@@ -85,28 +101,32 @@ Table compare_with_truth(const std::vector<HexMesh>& meshes,
       throw input_error("the meshes differ in their elements; compare files of one chain");
     }
     const std::string posture = posture_of(mesh);
-    if (posture != "stress_free" && posture != "supine") continue;
+    const TruePosition* known = position_in(truth.front(), posture);
+    if (posture == "prone" || known == nullptr) continue;
     shown.push_back(&mesh);
     table.columns.push_back(posture + "_error_mm");
     table.columns.push_back(posture + "_true_mm");
+    if (known->own_error) table.columns.push_back(posture + "_own_error_mm");
   }
   const HexMesh& first = meshes.front();
   const Locator imaged(first, first.imaged);
   for (const TrueLandmark& point : truth) {
-    const Location found = imaged.nearest(point.prone);
+    const Vec3& prone = point.at.at("prone").x;
+    const Location found = imaged.nearest(prone);
     double prone_error = found.moved;
     if (const Landmark* own = first.landmark(point.name); own && point.name == "nipple") {
-      prone_error = (landmark_position(first, first.imaged, *own) - point.prone).norm();
+      prone_error = (landmark_position(first, first.imaged, *own) - prone).norm();
     }
     // Not to be taken for the tumour a chain puts into its mesh.
     const std::string shown_as = point.name == "tumour" ? "true-tumour" : point.name;
     std::vector<std::string> row{shown_as, format_fixed(found.moved, 3),
                                  format_fixed(prone_error, 3)};
     for (const HexMesh* mesh : shown) {
-      const Vec3 there = position_in(point, posture_of(*mesh));
+      const TruePosition& there = *position_in(point, posture_of(*mesh));
       const Vec3 here = element_position(*mesh, mesh->points, found.element, found.local);
-      row.push_back(format_fixed((here - there).norm(), 3));
-      row.push_back(format_fixed((there - point.prone).norm(), 3));
+      row.push_back(format_fixed((here - there.x).norm(), 3));
+      row.push_back(format_fixed((there.x - prone).norm(), 3));
+      if (there.own_error) row.push_back(format_fixed(*there.own_error, 3));
     }
     table.rows.push_back(std::move(row));
   }

@@ -34,6 +34,7 @@ struct BreastParameters {
   double fold = 22;             ///< fillet between breast and chest, larger above than below
   double unevenness = 1.0;      ///< amplitude of the skin's slow undulation
   double nipple_radius = 5.5, nipple_height = 5;
+  double tumour_level = 0.20;  ///< the tumour's place along the axis, of the height
 };
 
 struct GlandParameters {
@@ -75,6 +76,16 @@ struct PhantomParameters {
 /// "paper", "small", "large" or "pendulous"; the seed also varies left against right by a few per
 /// cent, as in every woman. Throws Error (input) on another name or an unusable value.
 PhantomParameters phantom_preset(const std::string& name, std::uint64_t seed);
+/// The same with another breast than the preset's, before left and right are varied.
+PhantomParameters phantom_preset(const std::string& name, std::uint64_t seed,
+                                 const BreastParameters& breast);
+/// The breast of a preset before left and right are varied. "paper" is kind_breast("paper") as
+/// calibrated (tools/calibrate.cpp; the command stands beside the values in parameters.cpp).
+BreastParameters preset_breast(const std::string& name);
+/// The same before any calibration: where the calibration starts.
+BreastParameters kind_breast(const std::string& name);
+/// `breast` as a whole `size` times as large: radius, height and shoulder.
+BreastParameters resized(BreastParameters breast, double size);
 /// Writes every parameter under "parameters/".
 void write_parameters(const PhantomParameters& parameters, Report& report);
 

@@ -52,6 +52,20 @@ Postures solve_postures(HexMesh& mesh, const MaterialSet& materials, Progress& p
   return out;
 }
 
+void carry_landmarks(const HexMesh& from, HexMesh& to) {
+  const Locator locator(to, to.reference);
+  to.landmarks.clear();
+  for (const Landmark& landmark : from.landmarks) {
+    const Vec3 point = landmark_position(from, from.reference, landmark);
+    const Location at = landmark.name == "nipple"
+                            ? nearest_on_faces(to, to.reference, to.skin_faces, point)
+                            : locator.nearest(point);
+    to.landmarks.push_back({landmark.name, element_position(to, to.imaged, at.element, at.local),
+                            at.element, at.local, at.moved});
+    if (landmark.name == "tumour") to.tumour_node = nearest_node(to.reference, point);
+  }
+}
+
 namespace {
 
 HexMesh half_resolution(const PhantomBreast& breast, const PhantomParameters& parameters) {

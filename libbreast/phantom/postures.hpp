@@ -20,6 +20,10 @@ struct Postures {
 Postures solve_postures(HexMesh& mesh, const MaterialSet& materials,
                         Progress& progress = no_progress());
 
+/// Gives `to` the landmarks of `from`: the same points of the stress-free body. Both meshes need
+/// `reference`. The nipple is sought on the skin.
+void carry_landmarks(const HexMesh& from, HexMesh& to);
+
 /// Largest distance (mm) of any landmark to where a mesh of half the resolution puts it: the error
 /// stated for the truth.
 struct TruthError {

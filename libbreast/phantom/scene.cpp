@@ -126,13 +126,14 @@ void place_landmarks(const PhantomBreast& breast, HexMesh& mesh) {
   const double height = (breast.shape.apex() - breast.shape.foot()).norm();
   const Vec3 up = breast.shape.radial(0.5 * std::numbers::pi);
   const Vec3 out = lateral_sign(mesh.side) * breast.shape.radial(0);
-  const Vec3 wanted = breast.shape.foot() + 0.20 * height * breast.shape.axis() +
+  const Vec3 wanted = breast.shape.foot() +
+                      breast.shape.parameters().tumour_level * height * breast.shape.axis() +
                       0.28 * breast.shape.parameters().radius * (up + out);
   const Vec3 tumour = margin_point(breast, wanted);
   add("tumour", Locator(mesh, mesh.reference).nearest(tumour));
   mesh.tumour_node = nearest_node(mesh.reference, tumour);
   int number = 0;
-  for (int e : spread_elements(breast, mesh, 20)) {
+  for (int e : spread_elements(breast, mesh, 50)) {
     ++number;
     add("interior-" + std::string(number < 10 ? "0" : "") + std::to_string(number),
         {e, Vec3::Zero(), 0});

@@ -35,7 +35,7 @@ struct PhantomScene {
 void assign_gland(const GlandField& gland, HexMesh& mesh);
 /// Landmarks as material points of the stress-free mesh: "nipple" (the axis' point on the skin),
 /// "tumour" (a point on the gland's margin at mid depth, upper outer quadrant), "interior-01" ...
-/// "interior-20" spread over the breast. Their imaged positions are those of mesh.imaged.
+/// "interior-50" spread over the breast. Their imaged positions are those of mesh.imaged.
 void place_landmarks(const PhantomBreast& breast, HexMesh& mesh);
 
 }  // namespace breast

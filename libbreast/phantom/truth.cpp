@@ -48,6 +48,13 @@ void add_landmarks(const PhantomBreast& breast, const Postures& postures, Table&
   }
 }
 
+Table tumour_place(const HexMesh& mesh) {
+  const Vec3 x = landmark_position(mesh, mesh.points, *mesh.landmark("tumour"));
+  Table table{{"x_mm", "y_mm", "z_mm"}, {}};
+  table.rows.push_back({format_fixed(x.x(), 6), format_fixed(x.y(), 6), format_fixed(x.z(), 6)});
+  return table;
+}
+
 void report_breast(const PhantomBreast& breast, const Postures& postures, Report& report) {
   const HexMesh& mesh = breast.mesh;
   const std::string side = std::string(side_name(mesh.side)) + "/";

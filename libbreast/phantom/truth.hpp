@@ -20,6 +20,9 @@ TriMesh boundary_surface(const HexMesh& mesh, const std::vector<Vec3>& nodal,
 /// supine. Rows are appended to `table`, whose columns are set when it is empty.
 void add_landmarks(const PhantomBreast& breast, const Postures& postures, Table& table);
 
+/// The tumour's prone place as hexmesh --tumour reads it: x_mm y_mm z_mm.
+Table tumour_place(const HexMesh& mesh);
+
 /// How one breast's solve went and how far its nipple and tumour move, under "left/" or "right/".
 void report_breast(const PhantomBreast& breast, const Postures& postures, Report& report);
 

@@ -27,6 +27,7 @@ contact: mammo mechanics fem material mesh solve surface core
 deck: mechanics material mesh solve core
 sensitivity: contact mammo mechanics fem material mesh solve surface core
 phantom: mechanics fem material mesh solve surface image core
+calibration: phantom mechanics fem material mesh solve surface image core
 figures: mesh mammo surface image core
 evaluation: mesh surface image core
 "

@@ -29,7 +29,7 @@ TEST(PhantomTool, WritesScanDicomAndAConsistentTruth) {
   EXPECT_LT((scan.grid.origin - series.grid.origin).norm(), 1e-3);
 
   const Table landmarks = read_table(folder.path() / "truth/landmarks.tsv");
-  EXPECT_EQ(landmarks.rows.size(), 44u);
+  EXPECT_EQ(landmarks.rows.size(), 104u);
   for (const char* side : {"left", "right"}) {
     const std::string name(side);
     const HexMesh mesh =

@@ -56,12 +56,63 @@ TEST(Provenance, HistoriesMergeInOrderWithoutRepeats) {
   EXPECT_EQ(merged[2].tool, "forward");
 }
 
+TEST(Tables, CutAtALineEndIsRefused) {
+  const Table whole{{"name", "x_mm"}, {{"nipple", "1"}, {"tumour", "2"}}};
+  const std::string text = whole.text();
+  EXPECT_TRUE(parse_table(text, "t.tsv").counted);
+  const std::string without_end = text.substr(0, text.rfind("# rows"));
+  EXPECT_FALSE(parse_table(without_end, "t.tsv").counted);
+  for (const std::string cut : {"name\tx_mm\nnipple\t1\n# rows 2\n", "name\tx_mm\n# rows x\n"}) {
+    try {
+      parse_table(cut, "t.tsv");
+      ADD_FAILURE() << cut;
+    } catch (const Error& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with("t.tsv: has ")) << error.what();
+    }
+  }
+  try {
+    parse_table(text, "t.tsv").column("y_mm");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()), "t.tsv has no column 'y_mm'; it has: name, x_mm");
+  }
+}
+
+TEST(AtomicFolders, TheLastFileStandsForTheWhole) {
+  ScratchFolder scratch;
+  const auto target = scratch.path() / "truth";
+  const auto fill = [](const AtomicFolder& folder, const std::string& what) {
+    write_text(folder.temporary() / "a.txt", what);
+    write_text(folder.temporary() / "last.tsv", what);
+  };
+  {
+    AtomicFolder folder(target, "last.tsv");
+    fill(folder, "one");
+  }
+  EXPECT_FALSE(std::filesystem::exists(target));
+  {
+    AtomicFolder folder(target, "last.tsv");
+    fill(folder, "one");
+    folder.commit();
+  }
+  write_text(target / "other.txt", "somebody else's");
+  {
+    AtomicFolder folder(target, "last.tsv");
+    write_text(folder.temporary() / "a.txt", "two");
+    EXPECT_THROW(folder.commit(), Error);  // no last file
+  }
+  EXPECT_FALSE(std::filesystem::exists(target / "last.tsv"));
+  EXPECT_EQ(read_text(target / "other.txt"), "somebody else's");
+  for (const auto& entry : std::filesystem::directory_iterator(scratch.path()))
+    EXPECT_EQ(entry.path(), target);
+}
+
 TEST(Tables, RoundTripAndRefusals) {
   const Table table = parse_table("# by hand\nname\tx_mm\r\nnipple\t1.5\n\ntumour\t\n", "t.tsv");
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_EQ(table.rows[1][1], "");
   EXPECT_EQ(table.column("x_mm"), 1);
-  EXPECT_EQ(table.text(), "name\tx_mm\nnipple\t1.5\ntumour\t\n");
+  EXPECT_EQ(table.text(), "name\tx_mm\nnipple\t1.5\ntumour\t\n# rows 2\n");
   EXPECT_THROW(table.column("y_mm"), Error);
   EXPECT_THROW(parse_table("", "t.tsv"), Error);
   for (const char* cell : {"nan", "-inf", "NaN", "infinity"}) {

@@ -11,8 +11,10 @@
 #include "evaluation/partial_volume.hpp"
 #include "evaluation/surface_distance.hpp"
 #include "evaluation/triangle_tree.hpp"
+#include "evaluation/truth_table.hpp"
 #include "evaluation/wall_distance.hpp"
 #include "fixtures/analytic_mesh.hpp"
+#include "mesh/locate.hpp"
 
 namespace breast {
 namespace {
@@ -229,18 +231,70 @@ TEST(LandmarkTruth, ForeignTablesAreRefusedByFile) {
     }
     return "";
   };
-  EXPECT_TRUE(refusal("name\tvalue\na\t1\n").starts_with("t.tsv: "));
-  EXPECT_TRUE(refusal("landmark\tside\nnipple\tleft\n").starts_with("t.tsv: "));
-  EXPECT_TRUE(refusal("landmark\tside\nnipple\tmiddle\n").starts_with("t.tsv: "));
-  EXPECT_TRUE(refusal("landmark\tside\nnipple\tright\n").starts_with("t.tsv: no landmark"));
+  EXPECT_TRUE(refusal("landmark\tside\nnipple\tleft\n").starts_with("t.tsv: does not end"));
+  EXPECT_TRUE(refusal("name\tvalue\na\t1\n# rows 1\n").starts_with("t.tsv has no column"));
+  EXPECT_TRUE(refusal("landmark\tside\nnipple\tleft\n# rows 1\n").starts_with("t.tsv has no"));
+  EXPECT_TRUE(refusal("landmark\tside\nnipple\tmiddle\n# rows 1\n").starts_with("t.tsv: "));
+  EXPECT_TRUE(
+      refusal("landmark\tside\nnipple\tright\n# rows 1\n").starts_with("t.tsv: no landmark"));
 }
 
 TEST(LandmarkTruth, ItsTumourIsNotTheChainsTumour) {
   const HexMesh mesh = analytic_breast_mesh(4);
   const Vec3 at = mesh.landmarks.front().imaged;
-  const Table table = compare_with_truth({mesh}, {{"nipple", at, at, at}, {"tumour", at, at, at}});
+  const std::map<std::string, TruePosition> everywhere{
+      {"stress_free", {at, {}}}, {"prone", {at, {}}}, {"supine", {at, {}}}};
+  const Table table = compare_with_truth({mesh}, {{"nipple", everywhere}, {"tumour", everywhere}});
   EXPECT_EQ(table.rows[0][0], "nipple");
   EXPECT_EQ(table.rows[1][0], "true-tumour");
+}
+
+// A breast between plates 40 mm apart whose every point has moved by `by`.
+HexMesh compressed(int n, const Vec3& by) {
+  HexMesh mesh = analytic_breast_mesh(n);
+  mesh.reference = mesh.imaged;
+  for (Vec3& x : mesh.points) x += by;
+  mesh.contact = ContactRecord{};
+  mesh.contact->view = "CC";
+  mesh.contact->thickness_mm = 40;
+  return mesh;
+}
+
+TEST(TruthTable, TheFinerMeshIsTheTruthAndItsDistanceToTheCoarserItsError) {
+  HexMesh fine = compressed(6, Vec3(5, 0, 0)), coarse = compressed(4, Vec3(5, 0.3, 0));
+  const Vec3 at = landmark_position(fine, fine.imaged, fine.landmarks.front());
+  coarse.landmarks = {fine.landmarks.front()};
+  const Location found = Locator(coarse, coarse.imaged).nearest(at);
+  coarse.landmarks[0].element = found.element, coarse.landmarks[0].local = found.local;
+  const Vec3 seen = landmark_position(coarse, coarse.imaged, coarse.landmarks[0]);
+
+  Table imaged{{"landmark", "side"}, {{fine.landmarks[0].name, std::string(side_name(fine.side))}}};
+  for (const char* posture : {"stress_free", "prone", "supine"})
+    for (int d = 0; d < 3; ++d) {
+      imaged.columns.push_back(std::string(posture) + std::array{"_x_mm", "_y_mm", "_z_mm"}[d]);
+      imaged.rows[0].push_back(format_fixed(at[d], 6));
+    }
+  imaged = parse_table(imaged.text(), "landmarks.tsv");
+  const Table table = truth_table(imaged, {coarse, fine});
+  const auto number = [&](const char* column) {
+    return parse_number(table.rows[0][std::size_t(table.column(column))], column);
+  };
+  EXPECT_NEAR(number("cc_x_mm"), at.x() + 5, 1e-5);
+  EXPECT_NEAR(number("cc_own_error_mm"), (seen + Vec3(0, 0.3, 0) - at).norm(), 1e-5);
+
+  // Its reader gives what was written, and a chain's mesh is compared in that view.
+  const auto truth = true_landmarks(parse_table(table.text(), "t.tsv"), fine.side, "t.tsv");
+  const HexMesh chain = compressed(5, Vec3(5, 0, 0.7));
+  const Table errors = compare_with_truth({chain}, truth);
+  const auto error = parse_number(errors.rows[0][std::size_t(errors.column("cc_error_mm"))], "cc");
+  const double moved = parse_number(errors.rows[0][1], "outside");
+  EXPECT_NEAR(error, 0.7, 0.002 + moved);
+  EXPECT_EQ(errors.rows[0][std::size_t(errors.column("cc_own_error_mm"))],
+            format_fixed(number("cc_own_error_mm"), 3));
+
+  EXPECT_THROW(truth_table(imaged, {fine}), Error);
+  coarse.contact->thickness_mm = 41;
+  EXPECT_THROW(truth_table(imaged, {coarse, fine}), Error);
 }
 
 TEST(ForeignLabels, CodesAndRegion) {

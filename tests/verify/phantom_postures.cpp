@@ -62,6 +62,23 @@ TEST(PhantomPostures, BackwardFindsTheStressFreeShape) {
   EXPECT_LT(largest(mesh.reference, truth), 1e-3);
 }
 
+TEST(PhantomPostures, AnotherMeshOfTheBodyCarriesTheSameLandmarks) {
+  PhantomParameters finer = small_phantom();
+  finer.mesh = {6, 3, 2, 2, 4, 1};
+  PhantomBreast other(finer, solved().torso, Side::right);
+  const HexMesh& mesh = solved().breast.mesh;
+  carry_landmarks(mesh, other.mesh);
+  ASSERT_EQ(other.mesh.landmarks.size(), mesh.landmarks.size());
+  for (const Landmark& landmark : mesh.landmarks) {
+    const Landmark* same = other.mesh.landmark(landmark.name);
+    ASSERT_NE(same, nullptr) << landmark.name;
+    const double moved = (landmark_position(other.mesh, other.mesh.reference, *same) -
+                          landmark_position(mesh, mesh.reference, landmark))
+                             .norm();
+    EXPECT_LT(moved, landmark.name == "nipple" ? 0.5 : 1e-6) << landmark.name;
+  }
+}
+
 TEST(PhantomPostures, WallAndCutStayAndTheVolumeIsKept) {
   const HexMesh& mesh = solved().breast.mesh;
   for (const auto* faces : {&mesh.pectoral_faces, &mesh.cut_faces})

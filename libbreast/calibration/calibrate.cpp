@@ -1,0 +1,79 @@
+#include "calibration/calibrate.hpp"
+
+#include <cmath>
+#include <functional>
+#include <nlopt.hpp>
+
+#include "core/error.hpp"
+#include "phantom/postures.hpp"
+#include "phantom/random.hpp"
+
+namespace breast {
+
+LandmarkMotion landmark_motion(const PhantomParameters& parameters, Side side,
+                               const MaterialSet& materials) {
+  const Torso torso(parameters.torso, mix(parameters.seed, 301));
+  PhantomBreast breast(parameters, torso, side);
+  const HexMesh& mesh = breast.mesh;
+  const Postures postures = solve_postures(breast.mesh, materials);
+  const auto moved = [&](const char* name, const std::vector<Vec3>& to) {
+    const Landmark& landmark = *mesh.landmark(name);
+    return (landmark_position(mesh, to, landmark) - landmark_position(mesh, mesh.points, landmark))
+        .norm();
+  };
+  return {moved("nipple", postures.supine), moved("tumour", postures.supine),
+          moved("nipple", mesh.reference), moved("tumour", mesh.reference)};
+}
+
+namespace {
+
+double misfit(const LandmarkMotion& a, const LandmarkMotion& b) {
+  const double differences[] = {a.nipple_supine - b.nipple_supine,
+                                a.tumour_supine - b.tumour_supine, a.nipple_free - b.nipple_free,
+                                a.tumour_free - b.tumour_free};
+  double sum = 0;
+  for (const double d : differences) sum += d * d;
+  return std::sqrt(sum / 4);
+}
+
+}  // namespace
+
+Calibration calibrate(const std::string& preset, std::uint64_t seed, Side side,
+                      const LandmarkMotion& wanted, const MaterialSet& materials,
+                      const MeshParameters& mesh, int max_evaluations, Progress& progress) {
+  const BreastParameters base = kind_breast(preset);
+  Calibration best;
+  best.misfit_mm = HUGE_VAL;
+  int evaluations = 0;
+  const nlopt::vfunc objective = [](const std::vector<double>& x, std::vector<double>&,
+                                    void* data) {
+    return (*static_cast<std::function<double(const std::vector<double>&)>*>(data))(x);
+  };
+  std::function<double(const std::vector<double>&)> at = [&](const std::vector<double>& x) {
+    BreastParameters breast = resized(base, x[0]);
+    breast.tumour_level = x[1];
+    PhantomParameters parameters = phantom_preset(preset, seed, breast);
+    parameters.mesh = mesh;
+    const LandmarkMotion motion = landmark_motion(parameters, side, materials);
+    const double rms = misfit(motion, wanted);
+    ++evaluations;
+    if (rms < best.misfit_mm) best = {x[0], x[1], motion, rms, 0};
+    progress.update("calibrate", double(evaluations) / max_evaluations,
+                    message("size ", x[0], ", tumour level ", x[1], ", misfit ", rms, " mm"));
+    return rms * rms;
+  };
+  nlopt::opt optimiser(nlopt::LN_BOBYQA, 2);
+  optimiser.set_min_objective(objective, &at);
+  optimiser.set_lower_bounds({0.7, 0.08});
+  optimiser.set_upper_bounds({1.3, 0.45});
+  optimiser.set_initial_step({0.05, 0.05});
+  optimiser.set_xtol_abs({1e-3, 1e-3});
+  optimiser.set_maxeval(max_evaluations);
+  std::vector<double> x{1, base.tumour_level};
+  double value = 0;
+  optimiser.optimize(x, value);
+  best.evaluations = evaluations;
+  return best;
+}
+
+}  // namespace breast

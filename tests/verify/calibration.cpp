@@ -1,0 +1,23 @@
+// The calibration finds a phantom again from the way its landmarks move.
+#include <gtest/gtest.h>
+
+#include "calibration/calibrate.hpp"
+
+using namespace breast;
+
+TEST(Calibration, FindsTheSizeAndTumourThatMadeTheMotions) {
+  const MaterialSet materials = load_materials("seed2008");
+  const MeshParameters coarse{2, 1, 1, 1, 2, 2};
+  BreastParameters hidden = resized(kind_breast("small"), 0.94);
+  hidden.tumour_level = 0.26;
+  PhantomParameters parameters = phantom_preset("small", 1, hidden);
+  parameters.mesh = coarse;
+  const LandmarkMotion wanted = landmark_motion(parameters, Side::left, materials);
+  EXPECT_GT(wanted.nipple_supine, wanted.nipple_free);
+
+  const Calibration found =
+      calibrate("small", 1, Side::left, wanted, materials, coarse, 10, no_progress());
+  EXPECT_LE(found.evaluations, 10);
+  EXPECT_NEAR(found.size, 0.94, 0.015);
+  EXPECT_LT(found.misfit_mm, 0.1);
+}

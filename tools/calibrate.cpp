@@ -1,0 +1,74 @@
+// calibrate: the phantom whose landmarks move as far as wanted.
+#include "calibration/calibrate.hpp"
+
+#include "cli/tool.hpp"
+#include "core/table.hpp"
+
+using namespace breast;
+
+namespace {
+
+struct Choices {
+  std::string preset = "paper", side = "left", materials = "seed2008";
+  std::vector<double> supine{8.8, 3.0}, free{4.5, 1.6}, gain{1, 1};
+  int seed = 1, evaluations = 10;
+};
+
+void declare(Tool& tool, Choices& c) {
+  tool.describe(
+      "Finds the size of a phantom's breast and the depth of its tumour for which nipple and "
+      "tumour "
+      "move as far as wanted from the prone to the supine and to the stress-free shape. Least "
+      "squares "
+      "by BOBYQA (NLopt) on a coarse phantom mesh; prints the parameters to put into the preset. "
+      "Motions are what a chain would report: its own are --gain times the phantom's, measured "
+      "once.");
+  tool.cite("Pathmanathan et al. 2008, Tables III and IV: 8.8 and 3.0 mm, 4.5 and 1.6 mm")
+      .cite("Powell 2009, The BOBYQA algorithm, DAMTP 2009/NA06; Johnson, NLopt");
+  tool.choice(c.preset, "--preset", {"paper", "small", "large", "pendulous"}, "kind of breast");
+  tool.integer(c.seed, "--seed", "N", "which woman of the kind", 0, 1000000000);
+  tool.choice(c.side, "--side", {"left", "right"}, "which breast");
+  tool.numbers(c.supine, "--supine", "NIPPLE,TUMOUR", 2, "wanted motion to supine, mm");
+  tool.numbers(c.free, "--stress-free", "NIPPLE,TUMOUR", 2, "wanted motion to stress-free, mm");
+  tool.numbers(c.gain, "--gain", "NIPPLE,TUMOUR", 2,
+               "the chain's motion over the phantom's, measured on a finished case");
+  tool.text(c.materials, "--materials", "NAME|FILE", "material set of the breasts");
+  tool.integer(c.evaluations, "--evaluations", "N", "at most so many trial breasts", 4, 1000);
+  tool.example("calibrate --preset paper --gain 1.23,1.14",
+               "the paper's motions for a chain that moves 23 and 14 % farther than the phantom");
+}
+
+void run_calibrate(const Choices& c, Run& run) {
+  LandmarkMotion wanted{c.supine[0] / c.gain[0], c.supine[1] / c.gain[1], c.free[0] / c.gain[0],
+                        c.free[1] / c.gain[1]};
+  const Calibration found =
+      calibrate(c.preset, std::uint64_t(c.seed), side_from_name(c.side), wanted,
+                load_materials(c.materials), {4, 2, 1, 1, 3, 2}, c.evaluations, run.progress());
+  Table table{{"what", "wanted", "found"}, {}};
+  const auto row = [&](const std::string& what, double want, double have) {
+    table.rows.push_back({what, format_fixed(want, 3), format_fixed(have, 3)});
+    run.report().set("motion/" + what, have);
+  };
+  row("nipple_supine_mm", wanted.nipple_supine, found.motion.nipple_supine);
+  row("tumour_supine_mm", wanted.tumour_supine, found.motion.tumour_supine);
+  row("nipple_stress_free_mm", wanted.nipple_free, found.motion.nipple_free);
+  row("tumour_stress_free_mm", wanted.tumour_free, found.motion.tumour_free);
+  const auto parameter = [&](const std::string& what, double value) {
+    table.rows.push_back({what, "-", format_fixed(value, 4)});
+    run.report().set(what, value);
+  };
+  parameter("size", found.size);
+  parameter("tumour_level", found.tumour_level);
+  parameter("misfit_mm", found.misfit_mm);
+  run.report().set("evaluations", found.evaluations);
+  run.print(table.text());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choices c;
+  Tool tool("calibrate", "the phantom whose landmarks move as far as wanted");
+  declare(tool, c);
+  return tool.main(argc, argv, [&c](Run& run) { run_calibrate(c, run); });
+}

@@ -1,0 +1,69 @@
+// truth-table: true landmark positions under compression, with the truth's own error.
+#include "cli/tool.hpp"
+#include "core/error.hpp"
+#include "evaluation/truth_table.hpp"
+#include "io/mesh_file.hpp"
+
+using namespace breast;
+
+namespace {
+
+// Largest and mean own error of every posture under "own_error/POSTURE".
+double report_errors(const Table& table, Report& report) {
+  double worst = 0;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const std::string ending = "_own_error_mm", &column = table.columns[c];
+    if (!column.ends_with(ending)) continue;
+    const std::string key = "own_error/" + column.substr(0, column.size() - ending.size()) + "/";
+    double largest = 0, sum = 0;
+    for (const auto& row : table.rows) {
+      const double error = parse_number(row[c], column);
+      largest = std::max(largest, error);
+      sum += error;
+    }
+    report.set(key + "largest_mm", largest);
+    report.set(key + "mean_mm", sum / double(table.rows.size()));
+    worst = std::max(worst, largest);
+  }
+  return worst;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::filesystem::path landmarks, out;
+  std::vector<std::filesystem::path> files;
+  Tool tool("truth-table", "true landmark positions under compression, with their own error");
+  tool.describe(
+      "Joins the phantom's landmark table with meshes of the same breast at two resolutions "
+      "(phantom-mesh, compress): the finer ones give the true places, the distance of a landmark "
+      "between the two is stated as the truth's own error. With second order it is about three "
+      "times "
+      "the finer mesh's error; nothing is subtracted. The result is a truth for probe --truth. The "
+      "prone places stay those of the image; their own error is what the finer mesh says of them.");
+  tool.input(landmarks, "LANDMARKS.tsv", "stress-free, prone and supine places (phantom --truth)");
+  tool.output(out, "OUT.tsv", "the same, extended");
+  tool.inputs(files, "MESH.vtkhdf",
+              "prone, supine, CC, MLO ..., each on the fine and the coarse mesh");
+  tool.example("truth-table landmarks.tsv left.tsv fine-cc.vtkhdf coarse-cc.vtkhdf",
+               "adds the CC places of the left side");
+  return tool.main(argc, argv, [&](Run& run) {
+    std::vector<HexMesh> meshes;
+    for (const auto& file : files) meshes.push_back(read_mesh(file, {.reference = true}));
+    const Table table = truth_table(read_table(landmarks), meshes);
+    int most = 0, fewest = meshes.front().elements();
+    for (const HexMesh& mesh : meshes) {
+      most = std::max(most, mesh.elements());
+      fewest = std::min(fewest, mesh.elements());
+      if (!mesh.contact) continue;
+      run.report().set(
+          mesh.contact->view + (mesh.elements() == fewest ? "/coarse" : "/fine") + "/thickness_mm",
+          mesh.contact->thickness_mm);
+    }
+    run.report().set("elements", most);
+    run.report().set("coarse_elements", fewest);
+    run.report().set("error_estimate_mm", report_errors(table, run.report()));
+    run.report().set("error_estimate_by", "largest landmark distance between the two meshes");
+    write_table(out, table);
+  });
+}
