@@ -19,9 +19,11 @@ $(RUN)/geometry.vtkhdf: $(RUN)/labels.vtkhdf $(FIT_HERMITE) $(call changed,geome
 	$(FIT_HERMITE) $< $@ $(FIT_OPTIONS) $(common)
 	@$(call record,geometry)
 
-mesh_settings := $(HEXMESH) $(HEXMESH_OPTIONS) $(addprefix --tumour ,$(TUMOUR))
+# The phantom's own tumour, unless HEXMESH_OPTIONS names another.
+tumour = $(if $(findstring --tumour,$(HEXMESH_OPTIONS)),,$(addprefix --tumour ,$(TUMOUR)))
+mesh_settings := $(HEXMESH) $(HEXMESH_OPTIONS) $(tumour)
 $(RUN)/mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(wildcard $(TUMOUR)) $(HEXMESH) $(call changed,mesh)
-	$(HEXMESH) $< $(RUN)/labels.vtkhdf $@ $(HEXMESH_OPTIONS) $(addprefix --tumour ,$(TUMOUR)) $(common)
+	$(HEXMESH) $< $(RUN)/labels.vtkhdf $@ $(HEXMESH_OPTIONS) $(tumour) $(common)
 	@$(call record,mesh)
 
 reference_settings := $(BACKWARD) $(PRONE) $(MECHANICS) --cut $(CUT)

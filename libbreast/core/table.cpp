@@ -49,7 +49,11 @@ int Table::column(const std::string& column) const {
 std::string Table::text() const {
   std::string out = join_tabs(columns);
   for (const auto& row : rows) out += join_tabs(row);
-  return out + rows_line + std::to_string(rows.size()) + "\n";
+  return out;
+}
+
+std::string Table::closed_text() const {
+  return text() + rows_line + std::to_string(rows.size()) + "\n";
 }
 
 Table parse_table(const std::string& text, const std::string& name) {
@@ -89,7 +93,7 @@ Table read_table(const std::filesystem::path& file) {
 }
 
 void write_table(const std::filesystem::path& file, const Table& table) {
-  write_text(file, table.text());
+  write_text(file, table.closed_text());
 }
 
 std::string format_number(double value) {

@@ -16,7 +16,8 @@ struct Table {
 
   /// Throws Error (input) beginning with the table's name and naming the columns there are.
   int column(const std::string& column) const;
-  std::string text() const;  ///< ends with the line "# rows N"
+  std::string text() const;
+  std::string closed_text() const;  ///< text() and the line "# rows N", as in every file we write
 };
 /// Lines starting with '#' are comments; "# rows N" closes a table of ours and N is checked, so
 /// that one cut at a line's end is refused. Throws Error (input) with the line number, also for a

@@ -274,7 +274,7 @@ TEST(TruthTable, TheFinerMeshIsTheTruthAndItsDistanceToTheCoarserItsError) {
       imaged.columns.push_back(std::string(posture) + std::array{"_x_mm", "_y_mm", "_z_mm"}[d]);
       imaged.rows[0].push_back(format_fixed(at[d], 6));
     }
-  imaged = parse_table(imaged.text(), "landmarks.tsv");
+  imaged = parse_table(imaged.closed_text(), "landmarks.tsv");
   const Table table = truth_table(imaged, {coarse, fine});
   const auto number = [&](const char* column) {
     return parse_number(table.rows[0][std::size_t(table.column(column))], column);
@@ -283,7 +283,7 @@ TEST(TruthTable, TheFinerMeshIsTheTruthAndItsDistanceToTheCoarserItsError) {
   EXPECT_NEAR(number("cc_own_error_mm"), (seen + Vec3(0, 0.3, 0) - at).norm(), 1e-5);
 
   // Its reader gives what was written, and a chain's mesh is compared in that view.
-  const auto truth = true_landmarks(parse_table(table.text(), "t.tsv"), fine.side, "t.tsv");
+  const auto truth = true_landmarks(parse_table(table.closed_text(), "t.tsv"), fine.side, "t.tsv");
   const HexMesh chain = compressed(5, Vec3(5, 0, 0.7));
   const Table errors = compare_with_truth({chain}, truth);
   const auto error = parse_number(errors.rows[0][std::size_t(errors.column("cc_error_mm"))], "cc");
