@@ -290,6 +290,9 @@ CompressionSummary Compression::run() {
 
 CompressionSummary compress(HexMesh& mesh, const CompressionOptions& options,
                             const MechanicsOptions& mechanics, Progress& progress) {
+  if (mechanics.solver == "multigrid") {
+    throw input_error("--solver multigrid is not available for compression: use auto or direct");
+  }
   if (mesh.reference.size() != mesh.points.size()) {
     throw input_error("mesh: no stress-free reference shape; run backward first");
   }

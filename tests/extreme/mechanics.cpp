@@ -33,10 +33,10 @@ TEST(Input, IsRefusedInWords) {
   HexMesh bare = fixtures::cap({.elements = 4});
   bare.skin_thickness.pop_back();
   EXPECT_THROW(solve_forward(bare, prone, options), Error);
-  MechanicsOptions multigrid = options;
-  multigrid.solver = "multigrid";
+  MechanicsOptions unknown = options;
+  unknown.solver = "lu";
   HexMesh mesh = fixtures::cap({.elements = 4});
-  EXPECT_THROW(solve_forward(mesh, prone, multigrid), Error);
+  EXPECT_THROW(solve_forward(mesh, prone, unknown), Error);
 }
 
 // Not-a-number anywhere ends as an error or as "not converged", never as a result.
