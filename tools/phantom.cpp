@@ -1,6 +1,8 @@
 // phantom: a prone breast MR scan whose stress-free, prone and supine truth is known.
 #include "phantom/parameters.hpp"
 
+#include <optional>
+
 #include "cli/tool.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -87,6 +89,9 @@ void write_truth_side(const std::filesystem::path& folder, PhantomBreast& breast
 void run_phantom(const Choices& c, Run& run) {
   const PhantomParameters parameters = parameters_of(c);
   const MaterialSet materials = load_materials(parameters.materials);
+  // Made before minutes are spent on what goes into it.
+  std::optional<AtomicFolder> folder;
+  if (!c.truth.empty()) folder.emplace(c.truth, "landmarks.tsv");
   write_parameters(parameters, run.report());
   run.progress().update("shape", -1, "stress-free breasts and their glands");
   PhantomScene scene = [&] {
@@ -114,8 +119,7 @@ void run_phantom(const Choices& c, Run& run) {
   Timer::Scope phase(run.timer(), "writing");
   const Volume<std::int16_t> mr = scan(image, parameters.mri, parameters.seed);
   if (!c.truth.empty()) {
-    AtomicFolder folder(c.truth, "landmarks.tsv");
-    const std::filesystem::path& truth = folder.temporary();
+    const std::filesystem::path& truth = folder->temporary();
     for (Side side : {Side::left, Side::right})
       write_truth_side(truth, scene.breast(side), scene, image, run);
     write_table(truth / "landmarks.tsv", landmarks);
@@ -123,7 +127,7 @@ void run_phantom(const Choices& c, Run& run) {
       write_table(truth / ("tumour-" + std::string(side_name(side)) + ".tsv"),
                   tumour_place(scene.breast(side).mesh));
     write_text(truth / "parameters.json", run.report().json());
-    folder.commit();
+    folder->commit();
   }
   if (!c.dicom.empty()) write_dicom_series(c.dicom, mr, "phantom " + c.preset);
   write_volume(c.image, mr);

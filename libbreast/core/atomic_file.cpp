@@ -52,7 +52,10 @@ AtomicFolder::AtomicFolder(const fs::path& target, std::string last)
   temporary_ = target_.parent_path() / (part_prefix(target_) + std::to_string(getpid()));
   std::error_code reason;
   fs::create_directories(temporary_, reason);
-  if (reason) throw failed_error(target_.string(), ": cannot be made (", reason.message(), ")");
+  if (reason) {
+    throw input_error(target_.string(), ": this folder cannot be made (", reason.message(),
+                      "); choose another place");
+  }
 }
 
 AtomicFolder::~AtomicFolder() {

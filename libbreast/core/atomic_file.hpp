@@ -29,6 +29,7 @@ class AtomicFile {
 /// Readers that ask for `last` never see half a result. Without commit the temporary is removed.
 class AtomicFolder {
  public:
+  /// Makes temporary(); throws Error (input) where that is not possible.
   AtomicFolder(const std::filesystem::path& target, std::string last);
   ~AtomicFolder();
   AtomicFolder(const AtomicFolder&) = delete;
