@@ -36,6 +36,7 @@ NewtonResult ForwardSolve::attempt(ForwardProblem& problem, SaddleSolver& solver
                                    SaddleMatrix& matrix, SaddleState& state, int limit) {
   NewtonOptions newton_options;
   newton_options.max_iterations = limit;
+  newton_options.reuse_factor = true;
   newton_options.timer = &summary_.timer;
   ++summary_.steps;
   NewtonResult result = newton(problem, solver, matrix, scene_.walls(), nullptr, state,

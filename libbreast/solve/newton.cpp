@@ -145,7 +145,7 @@ NewtonResult newton(const SaddleProblem& problem, SaddleSolver& solver, SaddleMa
   double shift = 0;
   for (int i = 0; i <= options.max_iterations; ++i) {
     const bool away = aim(moving, targets, state.u);
-    const bool serves = !away && factor_serves(result);
+    const bool serves = options.reuse_factor && !away && factor_serves(result);
     const auto reached = [&] {
       const double tolerance =
           std::max(options.tolerance, rounding_force(matrix, state.u) / problem.load_norm());

@@ -51,6 +51,9 @@ struct NewtonOptions {
   double tolerance = 1e-10;         ///< ‖r on free components‖ / load norm
   double volume_tolerance = 1e-11;  ///< |θ_e| / V_e
   double min_step = 1.0 / 256;
+  /// Near the end one factor serves several steps. Stops just below the tolerance, where Newton's
+  /// last step would go far below: not for the start of a path that magnifies small differences.
+  bool reuse_factor = false;
   Timer* timer = nullptr;           ///< seconds by phase, when wanted
   double determinant_guard = 0.05;  ///< a trial may shrink the smallest det F to this part
 };
