@@ -101,8 +101,7 @@ int cycles_needed(int n) {
   return solver.solve(matrix, forces.r, forces.theta, 1e-5).iterations;
 }
 
-// The pressures of 8-node elements are less and less well controlled as elements shrink, and the
-// preconditioner's mass matrix does not know it: some growth stays.
+// They do grow, more than a multigrid should: docs/validation.md, section 2.
 TEST(Multigrid, IterationsGrowSlowlyWithTheMesh) {
   const int coarse = cycles_needed(6), fine = cycles_needed(12);
   RecordProperty("coarse", coarse);
