@@ -36,7 +36,8 @@ NewtonResult ForwardSolve::attempt(ForwardProblem& problem, SaddleSolver& solver
                                    SaddleMatrix& matrix, SaddleState& state, int limit) {
   NewtonOptions newton_options;
   newton_options.max_iterations = limit;
-  newton_options.reuse_factor = true;
+  // The estimate needs the factor at the solution.
+  newton_options.reuse_factor = !scene_.options().estimate_error;
   newton_options.timer = &summary_.timer;
   ++summary_.steps;
   NewtonResult result = newton(problem, solver, matrix, scene_.walls(), nullptr, state,
