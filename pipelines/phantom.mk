@@ -19,7 +19,9 @@ $(PHANTOM_MR) $(PHANTOM_TRUTH)/landmarks.tsv $(PHANTOM_TRUTH)/tumour-$(SIDE).tsv
 
 # Compressed truth of the phantom: the same body (cut held) on eight times the chain's elements, and on an
 # eighth of them, whose distance is the truth's own error. The finer plates close to the coarser's gap.
-# Many minutes, so a target of its own; TRUTH_TABLE is a truth for probe --truth.
+# Many minutes, so a target of its own; TRUTH_TABLE is a truth for probe --truth. The stand-off is 35 mm: nearer
+# to the wall the plates' bevel squeezes the fat between them and the held cut, which the chain's mesh does not have.
+TRUTH_STANDOFF ?= 35
 TRUTH_AT := $(PHANTOM_TRUTH)/$(SIDE)
 TRUTH_TABLE := $(PHANTOM_TRUTH)/$(SIDE)-compressed.tsv
 TRUTH_MESHES := $(foreach level,fine coarse,$(foreach what,$(level) $(level)-supine $(level)-cc $(level)-mlo,\
@@ -30,7 +32,8 @@ $(TRUTH_AT)-coarse.vtkhdf $(TRUTH_AT)-coarse-supine.vtkhdf &: $(PHANTOM_MR) $(PH
 	$(call truth_mesh,coarse,1)
 $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-fine-supine.vtkhdf &: $(PHANTOM_MR) $(PHANTOM_MESH)
 	$(call truth_mesh,fine,2)
-truth_compress = $(COMPRESS) $< $@ --view $(call upper,$*) --cut fixed --at-least $(AT_LEAST) $(common)
+truth_compress = $(COMPRESS) $< $@ --view $(call upper,$*) --cut fixed --standoff $(TRUTH_STANDOFF) \
+  --at-least $(AT_LEAST) $(common)
 $(TRUTH_AT)-coarse-%.vtkhdf: $(TRUTH_AT)-coarse.vtkhdf $(COMPRESS)
 	$(truth_compress) --reduction $(REDUCTION)
 $(TRUTH_AT)-fine-%.vtkhdf: $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-coarse-%.vtkhdf $(COMPRESS)
@@ -40,10 +43,10 @@ $(TRUTH_TABLE): $(PHANTOM_TRUTH)/landmarks.tsv $(TRUTH_MESHES) $(TRUTH_TABLE_TOO
 upper = $(if $(filter cc,$1),CC,MLO)
 thickness = $$(sed -n 's/^  "thickness_mm": \([0-9.]*\),*$$/\1/p' $1)
 
-# The chain between plates as far apart as the truth's, and its errors.
+# The chain between plates as far apart and as far from the wall as the truth's, and its errors.
 $(RUN)/truth-%.vtkhdf: $(RUN)/reference.vtkhdf $(TRUTH_TABLE) $(COMPRESS)
 	$(COMPRESS) $< $@ --view $(call upper,$*) --thickness $(call thickness,$(TRUTH_AT)-fine-$*.json) \
-	  --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) --cut $(CUT) $(common)
+	  --standoff $(TRUTH_STANDOFF) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) --cut $(CUT) $(common)
 $(RUN)/truth-compressed.tsv: $(TRUTH_TABLE) $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf \
   truth-cc.vtkhdf truth-mlo.vtkhdf) $(PROBE)
 	$(PROBE) $(filter %.vtkhdf,$^) --truth $< > $@.part
