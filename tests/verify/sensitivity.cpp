@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "fixtures/chain_inputs.hpp"
 #include "fixtures/shapes.hpp"
 #include "mechanics/element_order.hpp"
 #include "sensitivity/chain.hpp"
@@ -13,19 +14,14 @@ namespace {
 
 constexpr double step = 1e-3;
 
-// Everything the chain backward → forward starts from.
-struct Inputs {
-  HexMesh mesh;
-  MechanicsOptions options;
-  Vec3 imaged_gravity = posture_gravity("prone"), gravity = posture_gravity("supine");
-};
+using fixtures::ChainInputs;
 
 struct Outcome {
   HexMesh mesh;
   std::vector<double> imaged_pressure;
 };
 
-Outcome solve_chain(const Inputs& in) {
+Outcome solve_chain(const ChainInputs& in) {
   Outcome out{in.mesh, {}};
   EXPECT_TRUE(solve_backward(out.mesh, in.imaged_gravity, in.options).converged());
   out.imaged_pressure = out.mesh.pressure;
@@ -33,34 +29,8 @@ Outcome solve_chain(const Inputs& in) {
   return out;
 }
 
-Inputs changed(Inputs in, const Parameter& parameter, double by) {
-  Law& law = in.options.materials.laws[std::size_t(parameter.tissue)];
-  const double factor = std::exp(by);
-  switch (parameter.kind) {
-    case ParameterKind::scale:
-      law = law.scaled(factor);
-      break;
-    case ParameterKind::constant:
-      law.constants[parameter.constant] *= factor;
-      break;
-    case ParameterKind::density:
-      for (double& density : in.options.materials.density) density *= factor;
-      break;
-    case ParameterKind::tissue_density:
-      in.options.materials.density[std::size_t(parameter.tissue)] *= factor;
-      break;
-    case ParameterKind::skin_thickness:
-      for (double& thickness : in.mesh.skin_thickness) thickness *= factor;
-      break;
-    case ParameterKind::gravity:
-      in.gravity += by * turned_gravity(in.gravity, parameter.axis);
-      break;
-    case ParameterKind::imaged_gravity:
-      in.imaged_gravity += by * turned_gravity(in.imaged_gravity, parameter.axis);
-      break;
-    default:
-      ADD_FAILURE() << parameter.name << " is not of this chain";
-  }
+ChainInputs changed(ChainInputs in, const Parameter& parameter, double by) {
+  EXPECT_TRUE(fixtures::change(in, parameter, by)) << parameter.name << " is not of this chain";
   return in;
 }
 
@@ -69,7 +39,7 @@ double distance(const Eigen::VectorXd& a, const std::vector<Vec3>& b) {
   return (a - flatten(b)).norm() / a.norm();
 }
 
-void expect_matches(const Inputs& in, const Response& response) {
+void expect_matches(const ChainInputs& in, const Response& response) {
   SCOPED_TRACE(response.parameter.name);
   const HexMesh more = solve_chain(changed(in, response.parameter, step)).mesh;
   const HexMesh less = solve_chain(changed(in, response.parameter, -step)).mesh;
@@ -82,14 +52,14 @@ void expect_matches(const Inputs& in, const Response& response) {
   EXPECT_LT(distance(reference, response.reference), 1e-5);
 }
 
-Inputs cap_inputs(const fixtures::CapSettings& settings = {.elements = 4}) {
-  Inputs in;
-  in.mesh = fixtures::cap(settings);
-  in.options.materials = load_materials("seed2008");
-  return in;
+ChainInputs cap_inputs(const fixtures::CapSettings& settings = {.elements = 4}) {
+  return {fixtures::cap(settings),
+          {.materials = load_materials("seed2008")},
+          posture_gravity("prone"),
+          posture_gravity("supine")};
 }
 
-void expect_all_match(const Inputs& in, const std::string& list) {
+void expect_all_match(const ChainInputs& in, const std::string& list) {
   const Outcome base = solve_chain(in);
   const SensitivityChain chain(base.mesh, base.imaged_pressure, in.imaged_gravity, in.options);
   const auto all = all_parameters(base.mesh, in.options, in.imaged_gravity);
@@ -103,14 +73,14 @@ TEST(Sensitivity, OfEveryKindOfParameterMatchesFiniteDifferences) {
 }
 
 TEST(Sensitivity, WithA27NodeElement) {
-  Inputs in = cap_inputs({.elements = 4});
+  ChainInputs in = cap_inputs({.elements = 4});
   in.mesh = raise_order(in.mesh);
   in.options.element = Element::q2p1;
   expect_all_match(in, "fat,skin,imaged_gravity_x");
 }
 
 TEST(Sensitivity, WithPlainInvariantsABulkModulusAndARollingCut) {
-  Inputs in = cap_inputs({.elements = 4, .with_cut = true});
+  ChainInputs in = cap_inputs({.elements = 4, .with_cut = true});
   in.options.invariants = Invariants::plain;
   in.options.bulk_ratio = 50;
   in.options.cut = Cut::roller;
@@ -121,7 +91,7 @@ TEST(Sensitivity, WithPlainInvariantsABulkModulusAndARollingCut) {
 
 // Nothing but ratios of stress and weight decides an equilibrium.
 TEST(Sensitivity, StiffnessOfAllTissuesUndoesDensity) {
-  const Inputs in = cap_inputs();
+  const ChainInputs in = cap_inputs();
   const Outcome base = solve_chain(in);
   const SensitivityChain chain(base.mesh, base.imaged_pressure, in.imaged_gravity, in.options);
   const auto all = all_parameters(base.mesh, in.options, in.imaged_gravity);
@@ -134,7 +104,7 @@ TEST(Sensitivity, StiffnessOfAllTissuesUndoesDensity) {
   EXPECT_LT(sum.norm(), 1e-7 * largest);
 }
 
-void expect_adjoint_matches(const Inputs& in, bool elements_add_up) {
+void expect_adjoint_matches(const ChainInputs& in, bool elements_add_up) {
   const Outcome base = solve_chain(in);
   const SensitivityChain chain(base.mesh, base.imaged_pressure, in.imaged_gravity, in.options);
   const auto picked =
@@ -160,14 +130,14 @@ void expect_adjoint_matches(const Inputs& in, bool elements_add_up) {
 }
 
 TEST(Sensitivity, AdjointGivesWhatTheTangentGives) {
-  Inputs in = cap_inputs();
+  ChainInputs in = cap_inputs();
   expect_adjoint_matches(in, true);
   in.options.bulk_ratio = 100;  // compressibility belongs to the tissue, not to the element field
   expect_adjoint_matches(in, false);
 }
 
 TEST(Sensitivity, RefusesAStateOfOtherMaterials) {
-  Inputs in = cap_inputs();
+  ChainInputs in = cap_inputs();
   const Outcome base = solve_chain(in);
   scale_materials(in.options.materials, {"fat=101"});
   EXPECT_THROW(SensitivityChain(base.mesh, base.imaged_pressure, in.imaged_gravity, in.options),

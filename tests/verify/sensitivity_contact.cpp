@@ -11,6 +11,7 @@
 #include "contact/saddle_body.hpp"
 #include "core/units.hpp"
 #include "fixtures/analytic_mesh.hpp"
+#include "fixtures/chain_inputs.hpp"
 #include "sensitivity/chain.hpp"
 
 using namespace breast;
@@ -19,10 +20,7 @@ namespace {
 
 constexpr double step = 2e-4;
 
-struct Inputs {
-  HexMesh mesh;
-  MechanicsOptions options;
-  Vec3 imaged_gravity = posture_gravity("prone"), gravity = posture_gravity("upright");
+struct Inputs : fixtures::ChainInputs {
   PlatePair plates;
 };
 
@@ -48,20 +46,8 @@ PlatePair turned(PlatePair plates, Side side, double angle, double degrees) {
 }
 
 Inputs changed(Inputs in, const Parameter& parameter, double by) {
-  Law& law = in.options.materials.laws[std::size_t(parameter.tissue)];
+  if (fixtures::change(in, parameter, by)) return in;
   switch (parameter.kind) {
-    case ParameterKind::scale:
-      law = law.scaled(std::exp(by));
-      break;
-    case ParameterKind::density:
-      for (double& density : in.options.materials.density) density *= std::exp(by);
-      break;
-    case ParameterKind::gravity:
-      in.gravity += by * turned_gravity(in.gravity, parameter.axis);
-      break;
-    case ParameterKind::imaged_gravity:
-      in.imaged_gravity += by * turned_gravity(in.imaged_gravity, parameter.axis);
-      break;
     case ParameterKind::thickness:
       in.plates.paddle.level -= 0.5 * by;
       in.plates.detector.level += 0.5 * by;
@@ -123,9 +109,11 @@ Outcome press(const Inputs& in, const HexMesh& near) {
 class CompressedSensitivity : public testing::TestWithParam<std::string> {};
 
 TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
-  Inputs in;
-  in.mesh = analytic_breast_mesh(5);
-  in.options.materials = load_materials("seed2008");
+  Inputs in{{analytic_breast_mesh(5),
+             {.materials = load_materials("seed2008")},
+             posture_gravity("prone"),
+             posture_gravity("upright")},
+            {}};
   HexMesh mesh = in.mesh;
   ASSERT_TRUE(solve_backward(mesh, in.imaged_gravity, in.options).converged());
   const std::vector<double> imaged_pressure = mesh.pressure;
