@@ -92,10 +92,7 @@ void check_options(const PlateOptions& options) {
 /// Plate coordinates that do not depend on the level: width, edge start, far edge, mid-depth.
 Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
                      const PlateOptions& options, double& wall_point) {
-  Plate plate;
-  plate.n = pose.n;
-  plate.anterior = pose.e_u;
-  plate.lateral = pose.e_v;
+  Plate plate = plate_facing(pose);
   plate.edge_radius = options.edge_radius;
   const std::vector<int> skin = nodes_of(mesh, mesh.skin_faces);
   Extent across, along;
@@ -176,17 +173,32 @@ int PlatePair::nearer(const Vec3& x) const {
   return paddle.gap(x).value <= detector.gap(x).value ? 0 : 1;
 }
 
-PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
-                       const PlateOptions& options) {
-  check_options(options);
+Plate plate_facing(const ViewPose& pose) {
+  Plate plate;
+  plate.n = pose.n;
+  plate.anterior = pose.e_u;
+  plate.lateral = pose.e_v;
+  return plate;
+}
+
+PlatePair paddle_and_detector(const Plate& plate) {
   PlatePair pair;
-  const Plate plate = place_in_plane(mesh, x, pose, options, pair.wall_point);
-  pair.standoff = options.standoff;
-  pair.detector_rise = options.detector_rise;
   pair.paddle = pair.detector = plate;
   pair.paddle.name = "paddle";
   pair.detector.name = "detector";
   pair.detector.sign = -1;
+  return pair;
+}
+
+PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
+                       const PlateOptions& options) {
+  check_options(options);
+  double wall_point = 0;
+  const Plate plate = place_in_plane(mesh, x, pose, options, wall_point);
+  PlatePair pair = paddle_and_detector(plate);
+  pair.wall_point = wall_point;
+  pair.standoff = options.standoff;
+  pair.detector_rise = options.detector_rise;
   pair.paddle.tilt_slope = std::tan(options.tilt_deg * std::numbers::pi / 180);
 
   const Extent extent = footprint_extent(mesh, x, plate);

@@ -50,6 +50,9 @@ struct Plate {
   Vec3 origin() const;
 };
 
+/// A paddle of no extent yet, square to the beam of `pose`.
+Plate plate_facing(const ViewPose& pose);
+
 /// How the plates are placed; lengths in mm.
 struct PlateOptions {
   double standoff = 25;  ///< most anterior pectoral or cut point to the start of the rounded edge
@@ -79,6 +82,9 @@ struct PlatePair {
   int nearer(const Vec3& x) const;
   const Plate& plate(int k) const { return k == 0 ? paddle : detector; }
 };
+
+/// `plate` as the paddle and its mirror image as the detector; their levels are left to the caller.
+PlatePair paddle_and_detector(const Plate& plate);
 
 /// Places the plates about the shape `x` (node positions of the gravity-loaded body, mm, LPS). They
 /// close on the mid-plane of mesh.reference within the same footprint: upright the breast hangs

@@ -12,12 +12,9 @@ namespace breast {
 namespace {
 
 Plate recorded_plate(const PlateRecord& record, const ViewPose& pose, double sign) {
-  Plate plate;
+  Plate plate = plate_facing(pose);
   plate.name = record.name;
   plate.sign = sign;
-  plate.n = pose.n;
-  plate.anterior = pose.e_u;
-  plate.lateral = pose.e_v;
   // normal = (sign n − tilt e_u) / |…|
   const double along = record.normal.dot(pose.n) * sign;
   if (!(along > 0.5)) {

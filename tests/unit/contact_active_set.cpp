@@ -9,6 +9,7 @@
 #include "contact/active_set.hpp"
 #include "contact/path.hpp"
 #include "core/units.hpp"
+#include "fixtures/wide_plates.hpp"
 
 using namespace breast;
 
@@ -82,26 +83,13 @@ class QuadraticBody : public ContactBody {
 };
 
 PlatePair plates_at(double low, double high, double edge_radius) {
-  PlatePair pair;
-  Plate plate;
-  const ViewPose pose = view_pose(Side::left, 0);
-  plate.n = pose.n;
-  plate.anterior = pose.e_u;
-  plate.lateral = pose.e_v;
+  Plate plate = plate_facing(view_pose(Side::left, 0));
   plate.edge_start = 25;
   plate.far_edge = 200;
   plate.half_width = 200;
   plate.mid_depth = 50;
   plate.edge_radius = edge_radius;
-  pair.paddle = pair.detector = plate;
-  pair.paddle.name = "paddle";
-  pair.detector.name = "detector";
-  pair.detector.sign = -1;
-  pair.paddle_start = low;
-  pair.detector_start = high;
-  pair.initial_thickness = pair.touching_thickness = high - low;
-  pair.close_to(high - low);
-  return pair;
+  return fixtures::pair_at(plate, low, high);
 }
 
 std::vector<int> free_nodes(int nodes) {

@@ -13,11 +13,7 @@ using namespace breast;
 namespace {
 
 Plate tilted_plate(double radius) {
-  const ViewPose pose = view_pose(Side::left, 37);
-  Plate plate;
-  plate.n = pose.n;
-  plate.anterior = pose.e_u;
-  plate.lateral = pose.e_v;
+  Plate plate = plate_facing(view_pose(Side::left, 37));
   plate.level = -3;
   plate.edge_start = 10;
   plate.far_edge = 60;
