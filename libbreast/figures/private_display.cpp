@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -99,9 +100,7 @@ PrivateDisplay::PrivateDisplay() {
   check_installed();
   int number[2];
   if (pipe2(number, O_CLOEXEC) != 0) throw failed_error("pipe: ", std::strerror(errno));
-  std::string log_name = (fs::temp_directory_path() / "breast-xvfb-XXXXXX").string();
-  const int log = mkostemp(log_name.data(), O_CLOEXEC);
-  unlink(log_name.c_str());  // it lives as long as it is open
+  const int log = memfd_create("Xvfb's words", MFD_CLOEXEC);
   const pid_t parent = getpid();
   server_ = fork();
   if (server_ == 0) become_server(parent, number[1], log);

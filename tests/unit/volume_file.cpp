@@ -1,7 +1,6 @@
 #include "io/volume_file.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "fixtures/scratch_folder.hpp"
 
 namespace breast {
 namespace {
@@ -19,14 +19,8 @@ namespace fs = std::filesystem;
 
 class VolumeFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder = fs::temp_directory_path() /
-             (std::string("breast-volume-") + info->name() + "-" + std::to_string(getpid()));
-    fs::create_directories(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
-  fs::path folder;
+  const ScratchFolder scratch;
+  const fs::path& folder = scratch.path();
 };
 
 /// Oblique grid with three different spacings and sizes: any mix-up of axes shows.

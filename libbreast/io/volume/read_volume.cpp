@@ -1,11 +1,10 @@
 #include <itkImageFileReader.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "core/error.hpp"
 #include "core/provenance.hpp"
+#include "core/temporary_folder.hpp"
 #include "io/volume/complete.hpp"
 #include "io/volume/dicom.hpp"
 #include "io/volume/itk_image.hpp"
@@ -41,29 +40,13 @@ void check_layout(const fs::path& file, const itk::ImageIOBase& io) {
   }
 }
 
-/// A folder of its own with a link to the file: NIfTI's reader takes the voxels from scan.nii when
-/// asked for scan.nii.gz and both are there.
-class LinkAlone {
- public:
-  explicit LinkAlone(const fs::path& file) {
-    std::string pattern = (fs::temp_directory_path() / "breast-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw failed_error(pattern, ": no temporary folder");
-    folder_ = pattern;
-    const bool compressed = file.string().ends_with(".gz");
-    link_ = folder_ / (compressed ? "scan.nii.gz" : "scan.nii");
-    fs::create_symlink(fs::absolute(file), link_);
-  }
-  ~LinkAlone() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  LinkAlone(const LinkAlone&) = delete;
-  LinkAlone& operator=(const LinkAlone&) = delete;
-  const fs::path& path() const { return link_; }
-
- private:
-  fs::path folder_, link_;
-};
+/// The file's name where it stands alone: NIfTI's reader takes the voxels from scan.nii when asked
+/// for scan.nii.gz and both are there.
+fs::path link_alone(const fs::path& file, const TemporaryFolder& folder) {
+  const fs::path link = folder / (file.string().ends_with(".gz") ? "scan.nii.gz" : "scan.nii");
+  fs::create_symlink(fs::absolute(file), link);
+  return link;
+}
 
 Volume<float> read_with(const fs::path& file, const fs::path& opened, itk::ImageIOBase* io) {
   io->SetFileName(opened.string());
@@ -87,8 +70,8 @@ Volume<float> read_single_file(const fs::path& file) {
   }
   check_complete(file);
   if (std::string(io->GetNameOfClass()) == "NiftiImageIO") {
-    const LinkAlone link(file);
-    return read_with(file, link.path(), io);
+    const TemporaryFolder folder;
+    return read_with(file, link_alone(file, folder), io);
   }
   return read_with(file, file, io);
 }
