@@ -1,14 +1,13 @@
 // The fit-hermite program: file in, file out, report, refusals.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <fstream>
-#include <sstream>
 
+#include "core/atomic_file.hpp"
 #include "core/report.hpp"
 #include "fit/rim.hpp"
 #include "fixtures/label_breast.hpp"
+#include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/geometry_file.hpp"
 #include "io/label_file.hpp"
@@ -17,20 +16,8 @@ using namespace breast;
 
 namespace {
 
-struct Outcome {
-  int code;
-  std::string error;
-};
-
-Outcome run(const ScratchFolder& folder, const std::string& arguments) {
-  const auto log = folder / "stderr.txt";
-  const std::string command = std::string(BREAST_BIN) + "/fit-hermite " + arguments + " > " +
-                              (folder / "stdout.txt").string() + " 2> " + log.string();
-  const int status = std::system(command.c_str());
-  std::ifstream in(log);
-  std::stringstream text;
-  text << in.rdbuf();
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text.str()};
+ToolResult run(const ScratchFolder& folder, const std::string& arguments) {
+  return run_line("fit-hermite " + arguments, folder.path());
 }
 
 LabelVolume coarse_labels() {
@@ -48,19 +35,16 @@ TEST(FitHermiteTool, WritesAGeometryAndAReport) {
   const auto labels = folder / "labels.vtkhdf", out = folder / "geometry.vtkhdf";
   write_labels(labels, coarse_labels());
   const auto json = folder / "fit.json";
-  const Outcome outcome = run(folder, labels.string() + " " + out.string() +
-                                          " --elements 9x11 --quiet --report " + json.string());
-  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  const ToolResult outcome = run(folder, labels.string() + " " + out.string() +
+                                             " --elements 9x11 --quiet --report " + json.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const BreastGeometry geometry = read_geometry(out);
   EXPECT_EQ(geometry.skin.nu, 9);
   EXPECT_EQ(geometry.skin.nv, 11);
   EXPECT_TRUE(star_shaped(geometry.rim_skin, geometry.centre));
   ASSERT_EQ(geometry.history.size(), 2u);
   EXPECT_EQ(geometry.history.back().tool, "fit-hermite");
-  std::ifstream in(json);
-  std::stringstream text;
-  text << in.rdbuf();
-  const Report report = Report::parse(text.str(), "fit.json");
+  const Report report = Report::parse(read_text(json), "fit.json");
   EXPECT_EQ(report.text("status"), "ok");
   EXPECT_NEAR(report.number("fit/mean_mm"), geometry.fit_mean_mm, 1e-9);
   EXPECT_LT(report.number("fit/mean_mm"), 0.3);
@@ -74,9 +58,9 @@ TEST(FitHermiteTool, RefusesBadUsageBeforeReading) {
   for (const char* bad :
        {"--elements 10", "--elements 2x10", "--elements 10x", "--elements 10x10x10",
         "--smoothing rough", "--smoothing -1", "--smoothing nan", "--max-error 0"}) {
-    const Outcome outcome = run(folder, labels.string() + " " + out.string() + " " + bad);
-    EXPECT_EQ(outcome.code, 2) << bad;
-    EXPECT_NE(outcome.error.find("--"), std::string::npos) << outcome.error;
+    const ToolResult outcome = run(folder, labels.string() + " " + out.string() + " " + bad);
+    EXPECT_EQ(outcome.exit_code, 2) << bad;
+    EXPECT_NE(outcome.err.find("--"), std::string::npos) << outcome.err;
     EXPECT_FALSE(std::filesystem::exists(out)) << bad;
   }
 }
@@ -88,8 +72,8 @@ TEST(FitHermiteTool, LabelsWithoutAChestWallGiveOneLineAndNoFile) {
     if (t == std::uint8_t(Tissue::muscle)) t = std::uint8_t(Tissue::fat);
   const auto file = folder / "labels.vtkhdf", out = folder / "geometry.vtkhdf";
   write_labels(file, labels);
-  const Outcome outcome = run(folder, file.string() + " " + out.string() + " --quiet");
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  const ToolResult outcome = run(folder, file.string() + " " + out.string() + " --quiet");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(out));
 }

@@ -63,20 +63,6 @@ TEST(KilledWriter, LeavesTheOldFileOrTheNew) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 
-// Starts the tool in `folder` with nothing on its stderr.
-pid_t start_tool(const std::string& tool, const std::vector<std::string>& arguments,
-                 const fs::path& folder) {
-  const pid_t child = fork();
-  if (child != 0) return child;
-  std::vector<std::string> words{tool_path(tool).string()};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  if (chdir(folder.c_str()) == 0) execv(argv[0], argv.data());
-  _exit(127);
-}
-
 bool is_part(const fs::path& file) {
   const std::string name = file.filename().string();
   return name.starts_with(".") && name.find(".part-") != std::string::npos;
@@ -104,7 +90,8 @@ TEST_P(KilledTool, LeavesTheResultOrNothing) {
   for (int i = 0; i < kills; ++i) {
     fs::remove(folder / "out.vti");
     fs::remove(folder / "out.png");
-    const pid_t child = start_tool("project-mammogram", line, folder.path());
+    const pid_t child = fork();
+    if (child == 0) become_tool("project-mammogram", line, folder.path());
     std::this_thread::sleep_for(once * (i + 1) / (kills + 1));
     kill(child, GetParam());
     int status = 0;

@@ -1,52 +1,43 @@
 // backward, forward and laws as programs: exit codes, reports, files.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "core/atomic_file.hpp"
 #include "core/report.hpp"
+#include "fixtures/run_tool.hpp"
+#include "fixtures/scratch_folder.hpp"
 #include "fixtures/shapes.hpp"
 #include "io/mesh_file.hpp"
 
 namespace breast {
 namespace {
 
-namespace fs = std::filesystem;
-
 class MechanicsTools : public testing::Test {
  protected:
   void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "breast-mechanics-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
     HexMesh mesh = fixtures::cap({.elements = 6});
     mesh.reference.clear();
     write_mesh(folder_ / "mesh.vtkhdf", mesh);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
-  // Exit code of "tool arguments", run in the folder; stderr in err.txt, stdout in out.txt.
-  int run(const std::string& command) const {
-    const std::string line = "cd '" + folder_.string() + "' && '" BREAST_BIN "/" +
-                             command.substr(0, command.find(' ')) + "'" +
-                             command.substr(command.find(' ')) + " >out.txt 2>err.txt";
-    const int status = std::system(line.c_str());
-    return WEXITSTATUS(status);
+  // Exit code of "tool arguments", run in the folder; what it said is in said_.
+  int run(const std::string& line) {
+    said_ = run_line(line, folder_.path());
+    return said_.exit_code;
   }
   Report report(const std::string& name) const {
     return Report::parse(read_text(folder_ / name), name);
   }
-  bool exists(const std::string& name) const { return fs::exists(folder_ / name); }
-  std::string text(const std::string& name) const { return read_text(folder_ / name); }
+  bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
 
-  fs::path folder_;
+  ScratchFolder folder_;
+  ToolResult said_;
 };
 
 TEST_F(MechanicsTools, BackwardThenForwardReturnsToTheScan) {
-  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --report backward.json"), 0)
-      << text("err.txt");
+  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --report backward.json"), 0) << said_.err;
   const Report backward = report("backward.json");
   EXPECT_EQ(backward.text("status"), "converged");
   EXPECT_LT(backward.number("closure_mm"), 1e-8);
@@ -61,37 +52,37 @@ TEST_F(MechanicsTools, BackwardThenForwardReturnsToTheScan) {
     EXPECT_LT((prone.points[i] - prone.imaged[i]).norm(), 1e-8);
   }
   EXPECT_EQ(prone.history.size(), 2u);
-  EXPECT_EQ(text("out.txt"), "");
+  EXPECT_EQ(said_.out, "");
   ASSERT_EQ(run("forward reference.vtkhdf supine.vtkhdf --report s.json"), 0);
   EXPECT_GT(report("s.json").number("landmarks/nipple/distance_mm"), 1);
 }
 
 // What was solved, how, at what cost and how well: for people on stderr, nothing under --quiet.
 TEST_F(MechanicsTools, EndWithASummary) {
-  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --scale fat=50"), 0) << text("err.txt");
+  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --scale fat=50"), 0) << said_.err;
   for (const char* part :
        {"elements", "unknowns", "fat: polynomial", "μ0 610 Pa", "ρgL/μ0", "Newton iterations",
         "residual", "peak", "at the landmarks about", "forward returns to the scan within"}) {
-    EXPECT_NE(text("err.txt").find(part), std::string::npos) << part << "\n" << text("err.txt");
+    EXPECT_NE(said_.err.find(part), std::string::npos) << part << "\n" << said_.err;
   }
   ASSERT_EQ(run("forward reference.vtkhdf supine.vtkhdf --quiet"), 0);
-  EXPECT_EQ(text("err.txt"), "");
+  EXPECT_EQ(said_.err, "");
 }
 
 TEST_F(MechanicsTools, QuadraticElementsOnTheSameMesh) {
   ASSERT_EQ(
       run("backward mesh.vtkhdf reference.vtkhdf --element q2p1 --cut roller --report b.json"), 0)
-      << text("err.txt");
+      << said_.err;
   EXPECT_LT(report("b.json").number("closure_mm"), 1e-8);
   EXPECT_EQ(read_mesh(folder_ / "reference.vtkhdf").order, 2);
-  ASSERT_EQ(run("forward reference.vtkhdf supine.vtkhdf --element q2p1"), 0) << text("err.txt");
+  ASSERT_EQ(run("forward reference.vtkhdf supine.vtkhdf --element q2p1"), 0) << said_.err;
   EXPECT_EQ(run("forward reference.vtkhdf other.vtkhdf --element q1p0"), 2);
   EXPECT_FALSE(exists("other.vtkhdf"));
 }
 
 TEST_F(MechanicsTools, RefuseWhatTheyCannotDo) {
   EXPECT_EQ(run("forward mesh.vtkhdf out.vtkhdf"), 2);  // no stress-free shape yet
-  EXPECT_NE(text("err.txt").find("backward"), std::string::npos) << text("err.txt");
+  EXPECT_NE(said_.err.find("backward"), std::string::npos) << said_.err;
   EXPECT_EQ(run("backward mesh.vtkhdf out.vtkhdf --materials nothing"), 2);
   EXPECT_EQ(run("backward mesh.vtkhdf out.vtkhdf --scale fat=-3"), 2);
   EXPECT_EQ(run("backward mesh.vtkhdf out.vtkhdf --element q3"), 2);
@@ -105,9 +96,9 @@ TEST_F(MechanicsTools, RefuseWhatTheyCannotDo) {
 TEST_F(MechanicsTools, NotConvergedIsExitThree) {
   const std::string load = " --gravity 0,3e7,2e7 --materials mira2018";
   ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --materials mira2018 --gravity 0,0,0"), 0)
-      << text("err.txt");
+      << said_.err;
   EXPECT_EQ(run("forward reference.vtkhdf far.vtkhdf" + load + " --report far.json"), 3)
-      << text("err.txt");
+      << said_.err;
   EXPECT_FALSE(exists("far.vtkhdf"));
   EXPECT_EQ(report("far.json").text("status"), "not_converged");
   EXPECT_EQ(run("forward reference.vtkhdf far.vtkhdf --keep-unconverged" + load), 3);
@@ -116,15 +107,14 @@ TEST_F(MechanicsTools, NotConvergedIsExitThree) {
 }
 
 TEST_F(MechanicsTools, LawsPrintsATable) {
-  ASSERT_EQ(run("laws seed2008 --scale fat=50"), 0) << text("err.txt");
-  EXPECT_NE(text("out.txt").find("fat\tpolynomial a10 155 Pa"), std::string::npos)
-      << text("out.txt");
+  ASSERT_EQ(run("laws seed2008 --scale fat=50"), 0) << said_.err;
+  EXPECT_NE(said_.out.find("fat\tpolynomial a10 155 Pa"), std::string::npos) << said_.out;
   EXPECT_EQ(run("laws seed2008 --curves"), 0);
   EXPECT_EQ(run("laws nowhere.tsv"), 2);
   std::ofstream(folder_ / "bad.tsv") << "tissue\tlaw\tdensity_g_per_mm3\ta10_Pa\n"
                                      << "fat\tneo_hookean\t0.001\t-5\n";
   EXPECT_EQ(run("laws bad.tsv"), 2);
-  EXPECT_NE(text("err.txt").find("fat"), std::string::npos);
+  EXPECT_NE(said_.err.find("fat"), std::string::npos);
 }
 
 }  // namespace
