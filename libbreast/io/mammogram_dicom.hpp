@@ -3,9 +3,8 @@
 
 #include <filesystem>
 #include <optional>
-#include <vector>
 
-#include "dicom/mammogram_header.hpp"
+#include "dicom/mammogram_scan.hpp"
 #include "mammo/mammogram.hpp"
 
 namespace breast {
@@ -22,11 +21,6 @@ struct MammogramDicom {
 void write_mammogram_dicom(const std::filesystem::path& file, const Mammogram& image,
                            const MammogramDicom& about);
 
-/// A mammogram as stored, pixel (0,0) at the top left, brightness growing with attenuation.
-struct MammogramScan {
-  MammogramHeader header;
-  std::vector<float> grey;  ///< rows from the top; 0 to 1
-};
 /// Any transfer syntax GDCM decodes. Throws Error (input): see read_mammogram_header; colour,
 /// several frames, undecodable pixels.
 MammogramScan read_mammogram_dicom(const std::filesystem::path& file);

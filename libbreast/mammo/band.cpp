@@ -80,12 +80,16 @@ BandModel::BandModel(const Matcher& matcher, const DerivativeFields& from,
       to_centre_(centre_of(matcher.to().points)) {
   const int nodes = matcher.from().nodes();
   for (const Prior& prior : priors) {
-    if (prior.parameter == "picking") {
-      picking_ = prior.deviation;
+    if (prior.parameter == "picking" || prior.parameter == "alignment_from") {
+      in_first_.emplace_back(
+          prior.parameter == "picking" ? "picking" : "alignment in " + matcher.from_frame().view,
+          prior.deviation);
       continue;
     }
-    if (prior.parameter == "marking" || prior.parameter == "alignment") {
-      marking_ = std::hypot(marking_, prior.deviation);
+    if (prior.parameter == "marking" || prior.parameter == "alignment_to") {
+      in_second_.emplace_back(
+          prior.parameter == "marking" ? "marking" : "alignment in " + matcher.to_frame().view,
+          prior.deviation);
       continue;
     }
     const NodalField *first = field_of(from, prior.parameter, nodes),
@@ -146,18 +150,20 @@ Band BandModel::band(const MatchedCurve& curve) const {
     const ColumnPoint& point = curve.points[i];
     const Mat3 carry = jacobian(matcher_.to(), matcher_.to().points, point) *
                        jacobian(matcher_.from(), matcher_.from().points, point).inverse();
-    double variance = marking_ * marking_;
-    squares["marking"] += variance;
+    double variance = 0;
     const auto count = [&](const std::string& cause, const Vec2& shift) {
       const double across = normal[i].dot(shift);
       variance += across * across;
       squares[cause] += across * across;
     };
     for (const Cause& cause : causes_) count(cause.name, shift(point, carry, cause));
+    for (const auto& [cause, deviation] : in_second_) count(cause, deviation * normal[i]);
     for (const Vec3& axis : {first.e_u, first.e_v}) {
       const double magnified = projected(first, point.from, axis).norm();
-      count("picking",
-            projected(matcher_.to_frame().pose, point.to, carry * (picking_ / magnified * axis)));
+      for (const auto& [cause, deviation] : in_first_) {
+        count(cause, projected(matcher_.to_frame().pose, point.to,
+                               carry * (deviation / magnified * axis)));
+      }
     }
     band.points.push_back({point.to_uv, normal[i], std::sqrt(variance)});
     if (i > 0 && curve.points[i - 1].stretch == point.stretch) {

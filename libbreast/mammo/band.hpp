@@ -45,9 +45,9 @@ inline constexpr double half_width_50 = 0.6744897502, half_width_95 = 1.95996398
 /// first image by y' = π[x'_to − (∂x_to/∂ξ)(∂x_from/∂ξ)⁻¹ x'_from] in the second; its part across
 /// the curve counts. Parameters of the breast act on both shapes together; those of a compression
 /// ("thickness", "angle", "standoff") are independent in the two; with "angle" the detector turns
-/// about the middle of the shape. The prior "picking" (mm) is the error of the mark along each axis
-/// of the first image, "marking" of what is compared with it in the second, "alignment" a further
-/// one of the second image.
+/// about the middle of the shape. The priors "picking" and "alignment_from" (mm) are errors of the
+/// mark along each axis of the first image, "marking" and "alignment_to" of what is compared with
+/// it in the second.
 class BandModel {
  public:
   /// Keeps references. Throws Error (input) for a field that does not have a vector per node.
@@ -75,7 +75,8 @@ class BandModel {
   std::vector<Cause> causes_;
   std::vector<std::string> without_;
   Vec3 from_centre_, to_centre_;  ///< of the two shapes, about which a beam turns
-  double picking_ = 0, marking_ = 0;
+  /// mm along each axis of the first and of the second image, by cause.
+  std::vector<std::pair<std::string, double>> in_first_, in_second_;
 };
 
 /// Signed distance across the curve from its nearest point over that point's deviation: within

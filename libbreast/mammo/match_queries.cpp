@@ -74,8 +74,10 @@ std::vector<MatchQuery> grid_queries(const Matcher& matcher, int n) {
   return queries;
 }
 
-std::vector<MatchQuery> point_queries(const Table& table, const std::string& where) {
-  const int u = table.column("u_mm"), v = table.column("v_mm");
+std::vector<MatchQuery> point_queries(const Table& table, const std::string& where,
+                                      const std::function<Vec2(const Vec2&)>& uv_of_pixel) {
+  const int u = table.column(uv_of_pixel ? "x_px" : "u_mm"),
+            v = table.column(uv_of_pixel ? "y_px" : "v_mm");
   const auto named = std::find(table.columns.begin(), table.columns.end(), "name");
   std::vector<MatchQuery> queries;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
@@ -84,6 +86,7 @@ std::vector<MatchQuery> point_queries(const Table& table, const std::string& whe
       return parse_number(table.rows[r][std::size_t(column)], row);
     };
     MatchQuery query{{cell(u), cell(v)}, "", std::nullopt};
+    if (uv_of_pixel) query.from_uv = uv_of_pixel(query.from_uv);
     if (named != table.columns.end()) {
       query.landmark = table.rows[r][std::size_t(named - table.columns.begin())];
     }

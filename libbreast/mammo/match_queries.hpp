@@ -1,6 +1,7 @@
 // Questions to a Matcher and all that is found for each.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,8 +42,10 @@ MatchResult match_query(const Matcher& matcher, const MatchQuery& query,
 MatchQuery landmark_query(const Matcher& matcher, const std::string& name);
 /// N × N points spread over the tissue of the first image, those in air left out.
 std::vector<MatchQuery> grid_queries(const Matcher& matcher, int n);
-/// Rows of a table with columns u_mm, v_mm and perhaps name.
-std::vector<MatchQuery> point_queries(const Table& table, const std::string& where);
+/// Rows of a table with columns u_mm, v_mm and perhaps name; with `uv_of_pixel`, x_px and y_px.
+std::vector<MatchQuery> point_queries(
+    const Table& table, const std::string& where,
+    const std::function<Vec2(const Vec2&)>& uv_of_pixel = nullptr);
 /// Rows of a table of true positions: landmark, side and FROM_x_mm, FROM_y_mm, FROM_z_mm, TO_x_mm
 /// ... with the views' names in lower case (cc_x_mm, mlo_x_mm). Rows of the other breast, and those
 /// whose true position lies behind the first image's posterior edge, are left out.

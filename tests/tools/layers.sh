@@ -13,6 +13,7 @@ surface: core
 material: core
 mesh: surface core
 mammo: mesh image surface core
+align: mammo dicom mesh image surface core
 xray: mammo mesh image surface core
 page: mammo mesh image surface core
 cli: core

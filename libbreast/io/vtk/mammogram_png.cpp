@@ -8,20 +8,26 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "io/mammogram_file.hpp"
+#include "io/picture_file.hpp"
 #include "io/vtk/vtk_messages.hpp"
 #include "mammo/display.hpp"
 
 namespace breast {
 
-void write_mammogram_png(const std::filesystem::path& file, const Mammogram& image) {
-  const HungImage hung = hang(image);
+namespace {
+
+// Rows from the top, `channels` values a pixel.
+template <class T>
+void write_png(const std::filesystem::path& file, const std::vector<T>& values, int width,
+               int height, int channels) {
   vtkNew<vtkImageData> data;
-  data->SetDimensions(hung.width, hung.height, 1);
-  data->AllocateScalars(VTK_UNSIGNED_SHORT, 1);
-  auto* pixels = static_cast<std::uint16_t*>(data->GetScalarPointer());
-  for (int row = 0; row < hung.height; ++row) {  // VTK's first row is the lowest
-    const auto from = hung.grey.begin() + std::ptrdiff_t(row) * hung.width;
-    std::copy(from, from + hung.width, pixels + std::ptrdiff_t(hung.height - 1 - row) * hung.width);
+  data->SetDimensions(width, height, 1);
+  data->AllocateScalars(sizeof(T) == 1 ? VTK_UNSIGNED_CHAR : VTK_UNSIGNED_SHORT, channels);
+  auto* pixels = static_cast<T*>(data->GetScalarPointer());
+  const std::ptrdiff_t row_length = std::ptrdiff_t(width) * channels;
+  for (int row = 0; row < height; ++row) {  // VTK's first row is the lowest
+    const auto from = values.begin() + row * row_length;
+    std::copy(from, from + row_length, pixels + (height - 1 - row) * row_length);
   }
   AtomicFile target(file);
   const VtkMessages messages;
@@ -33,6 +39,17 @@ void write_mammogram_png(const std::filesystem::path& file, const Mammogram& ima
     throw failed_error(file.string(), ": cannot be written (", messages.first(), ")");
   }
   target.commit();
+}
+
+}  // namespace
+
+void write_mammogram_png(const std::filesystem::path& file, const Mammogram& image) {
+  const HungImage hung = hang(image);
+  write_png(file, hung.grey, hung.width, hung.height, 1);
+}
+
+void write_picture_png(const std::filesystem::path& file, const ColourPicture& picture) {
+  write_png(file, picture.rgb(), picture.width(), picture.height(), 3);
 }
 
 }  // namespace breast

@@ -1,0 +1,52 @@
+// A patient's mammogram with the simulated view laid over it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "align/similarity.hpp"
+#include "core/report.hpp"
+#include "dicom/mammogram_scan.hpp"
+#include "mammo/correspondence.hpp"
+
+namespace breast {
+
+enum class MatchEnd { from, to };  ///< which of a matcher's two views
+
+class AlignedView {
+ public:
+  /// Keeps the scan. `nipple` in pixels, when it was marked. Throws Error (input) beginning with
+  /// `where`: see require_view, ImageAxes, image_outline, align_outlines; a marked nipple without
+  /// nipple in the mesh.
+  AlignedView(MammogramScan scan, const Matcher& matcher, MatchEnd end,
+              const std::optional<Vec2>& nipple, const std::string& where);
+
+  /// Pixels (column, row from the centre of the top left one) of the patient's image.
+  Vec2 pixel(const Vec2& uv) const { return axes_.pixel(alignment_.map.apply(uv)); }
+  Vec2 uv(const Vec2& pixel) const { return alignment_.map.invert(axes_.mm(pixel)); }
+  const MammogramScan& scan() const { return scan_; }
+  const Alignment& alignment() const { return alignment_; }
+  const std::vector<Vec2>& simulated_outline() const { return simulated_; }  ///< (u,v), mm
+  double pixel_mm() const { return scan_.header.pixel_mm; }
+
+  /// Keys aligned/VIEW/...: similarity, residuals, header against the simulation.
+  void report(Report& report) const;
+  /// Header and simulation apart, a poor fit.
+  std::vector<std::string> doubts() const;
+
+ private:
+  MammogramScan scan_;
+  ContactRecord compression_;
+  std::string where_;
+  ImageAxes axes_;
+  std::vector<Vec2> simulated_;
+  Alignment alignment_;
+};
+
+/// Throws Error (input) beginning with `where` when the header is of the other breast or another
+/// view than the mesh.
+void require_view(const MammogramHeader& header, const HexMesh& compressed,
+                  const std::string& where);
+
+}  // namespace breast

@@ -1,0 +1,32 @@
+// Where a patient's mammogram lies: its pixels in mm along the axes of the simulated view.
+#pragma once
+
+#include <string>
+
+#include "dicom/mammogram_header.hpp"
+#include "mammo/mammogram.hpp"
+
+namespace breast {
+
+/// Pixel (column, row), counted from the centre of the top left one, to mm on the detector along
+/// e_u (anterior) and e_v of the view, and back. Flips follow from the header's Patient
+/// Orientation; the origin is that pixel, so that only a similarity is left to find.
+class ImageAxes {
+ public:
+  /// Throws Error (input) beginning with `where` when the orientation is missing or the rows do
+  /// not run anteriorly or posteriorly.
+  ImageAxes(const MammogramHeader& header, const ViewPose& pose, const std::string& where);
+
+  Vec2 mm(const Vec2& pixel) const { return mm_per_pixel_.cwiseProduct(pixel); }
+  Vec2 pixel(const Vec2& mm) const { return mm.cwiseQuotient(mm_per_pixel_); }
+  bool contains(const Vec2& mm, double margin) const;  ///< margin in mm inside the border
+  /// mm along u of the border at the chest.
+  double posterior_border() const;
+  bool anterior_is_right() const { return mm_per_pixel_.x() > 0; }
+
+ private:
+  Vec2 mm_per_pixel_;  ///< signed
+  Vec2 last_pixel_;
+};
+
+}  // namespace breast

@@ -1,0 +1,31 @@
+// The skin line in a mammogram, real or simulated.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "align/image_axes.hpp"
+#include "dicom/mammogram_scan.hpp"
+#include "mammo/framing.hpp"
+
+namespace breast {
+
+struct OutlinePoint {
+  Vec2 at;      ///< mm
+  Vec2 normal;  ///< unit, out of the breast
+};
+
+/// Border between the breast and the air before it, in mm of the image axes, about 0.3 mm apart.
+/// Air is what hangs together with the anterior border and is not brighter than its noise and 1 %
+/// of the breast's grey; letters and markers in the air are left out, the image's own borders are
+/// no outline. Throws Error (input) beginning with `where` when there is no breast or no air.
+std::vector<OutlinePoint> image_outline(const MammogramScan& scan, const ImageAxes& axes,
+                                        const std::string& where);
+
+/// Border of the simulated view's tissue in front of its posterior edge, mm in (u,v), about 0.4 mm
+/// apart and exact to 0.01 mm. `tissue` tells whether a column holds any.
+std::vector<Vec2> simulated_outline(const std::function<bool(const Vec2&)>& tissue,
+                                    const ImageFrame& frame);
+
+}  // namespace breast

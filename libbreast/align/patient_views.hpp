@@ -1,0 +1,47 @@
+// Both mammograms of a patient beside the two simulated views: points in their pixels, curves drawn
+// on them, and what the alignment adds to the band.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "align/aligned_view.hpp"
+#include "core/table.hpp"
+#include "image/colour_picture.hpp"
+#include "mammo/match_queries.hpp"
+
+namespace breast {
+
+/// One image as it is given: where it came from, and the nipple when it was marked, in pixels.
+struct PatientImage {
+  MammogramScan scan;
+  std::string where;
+  std::optional<Vec2> nipple;
+};
+
+class PatientViews {
+ public:
+  /// Of the matcher's first and second view. Throws Error (input), see AlignedView.
+  PatientViews(PatientImage from, PatientImage to, const Matcher& matcher);
+
+  const AlignedView& from() const { return from_; }
+  const AlignedView& to() const { return to_; }
+  /// The priors with alignment_from and alignment_to added.
+  std::vector<Prior> with_alignment(std::vector<Prior> priors) const;
+  /// The second image with the outline laid over it, bands, curve, arc and nipple: one line a
+  /// query.
+  ColourPicture picture(const Matcher& matcher, const std::vector<MatchResult>& results) const;
+  void report(Report& report) const;
+  std::vector<std::string> doubts() const;
+
+ private:
+  AlignedView from_, to_;
+};
+
+/// One row per point of every curve: query, stretch, depth_mm, to_u_mm, to_v_mm with the second
+/// view's name, deviation_mm ("-" without band), and with `views` the curve and both edges of the
+/// 95 % band in pixels of the patient's second image.
+Table curve_points_table(const Matcher& matcher, const std::vector<MatchResult>& results,
+                         const PatientViews* views);
+
+}  // namespace breast

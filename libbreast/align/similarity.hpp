@@ -1,0 +1,55 @@
+// Laying a simulated view over a patient's mammogram: rotation, translation and scale.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "align/image_axes.hpp"
+#include "align/outline.hpp"
+
+namespace breast {
+
+/// Simulated (u,v) in mm to mm of the image axes.
+struct Similarity {
+  double scale = 1, rotation_deg = 0;  ///< from u towards v
+  Vec2 shift{0, 0};                    ///< mm, where (u,v) = (0,0) goes
+
+  Vec2 apply(const Vec2& uv) const;
+  Vec2 invert(const Vec2& mm) const;
+};
+
+/// What is known of both images, mm. The simulated side in (u,v), the other in image axes.
+struct AlignmentData {
+  std::vector<Vec2> simulated;  ///< outline
+  double spacing = 0.4;         ///< mm, mean distance of its points
+  std::vector<OutlinePoint> real;
+  double plate_edge_u = 0;  ///< chest-wall edge of the simulated plates
+  /// The nipple in both; without, the most anterior part of the outlines.
+  std::optional<std::pair<Vec2, Vec2>> nipple;
+};
+
+struct Alignment {
+  Similarity map;
+  double residual_mm = 0;  ///< root mean square distance of the simulated outline from the real one
+  /// One standard deviation of a place on the outline along each axis, for the outlines' residual
+  /// (taken as independent every 30 mm, less four).
+  double pose_mm = 0;
+  double rotation_sd_deg = 0, scale_sd = 0;
+  double nipple_mm = 0;  ///< distance of the two nipples (or most anterior parts) that is left
+  double edge_mm = 0;    ///< simulated plate's edge in front of the image's border
+  double used = 0;       ///< part of the simulated outline that lies within the image
+  /// What to add to the band: residual and pose together, mm along each axis.
+  double deviation_mm() const;
+};
+
+/// Least squares over the distances of the simulated outline from the real one (Huber beyond twice
+/// their spread, which is estimated along), the nipple (2 mm when marked, the most anterior part
+/// 5 mm), the chest-wall edge (parallel within 3°, its place within 10 mm) and the scale (within
+/// 10 %), by Gauss–Newton with new nearest points every step. Throws Error (input) beginning with
+/// `where` when less than 40 % of the simulated outline comes to lie within the image or when the
+/// fit does not come to rest.
+Alignment align_outlines(const AlignmentData& data, const ImageAxes& axes,
+                         const std::string& where);
+
+}  // namespace breast

@@ -1,0 +1,13 @@
+// A drawn picture as PNG, through VTK.
+#pragma once
+
+#include <filesystem>
+
+#include "image/colour_picture.hpp"
+
+namespace breast {
+
+/// 8 bits a channel, pixel for pixel.
+void write_picture_png(const std::filesystem::path& file, const ColourPicture& picture);
+
+}  // namespace breast
