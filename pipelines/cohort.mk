@@ -23,7 +23,7 @@ $(COHORT_RUNS)/$1.status: FORCE
 endef
 $(foreach f,$(COHORT_FILES),$(eval $(call cohort_rules,$(call cohort_case,$f),$f)))
 
-$(COHORT_RUNS)/cohort.tsv: $(COHORT_CASES:%=$(COHORT_RUNS)/%.status) pipelines/cohort.sh
+$(COHORT_RUNS)/cohort.tsv: $(COHORT_CASES:%=$(COHORT_RUNS)/%.status) pipelines/cohort.sh pipelines/values.sh
 	@pipelines/cohort.sh table $(COHORT_RUNS) $(COHORT_CASES) > $@.part
 	@mv $@.part $@
 	@cat $@

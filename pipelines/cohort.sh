@@ -2,12 +2,7 @@
 # cohort.sh run STATUS LOG COMMAND...  runs a case; STATUS says "done", or "failed" and why
 # cohort.sh table RUNS CASE...         one table of all cases
 set -euo pipefail
-key() { [ -s "$1" ] && sed -n "s/^  \"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}$/\1/p" "$1" | head -n 1; }
-number() {
-  local value
-  value=$(key "$1" "$2") || true
-  [ -n "$value" ] && printf "%.${3}f" "$value" || printf -- '-'
-}
+. "$(dirname "$0")/values.sh"
 if [ "$1" = run ]; then
   status=$2 log=$3
   shift 3
@@ -26,16 +21,16 @@ printf 'case\tstatus\tvolume_ml\tmin_scaled_jacobian\tsupine_nipple_mm\tsupine_t
 for case in "$@"; do
   IFS=$'\t' read -r status reason < "$runs/$case.status" || true
   run=$runs/$case
-  moved() { # landmark: supine displacement
-    [ -s "$run/displacements.tsv" ] || { printf -- '-'; return; }
-    awk -F'\t' -v column="$1_mm" '/^#/ { next } !at { for (i = 1; i <= NF; i++) if ($i == column) at = i; next }
-      $1 == "supine.vtkhdf" { value = $at } END { print value == "" ? "-" : value }' "$run/displacements.tsv"
+  moved() { # LANDMARK: its supine displacement
+    local value=
+    [ ! -s "$run/displacements.tsv" ] || value=$(cell "$run/displacements.tsv" supine.vtkhdf "$1_mm")
+    printf '%s' "${value:--}"
   }
-  volume=$(awk '/"volumes_ml":/ { inside = 1; next } inside && /}/ { exit } inside { gsub(/[^0-9.eE+-]/, "", $2); sum += $2 }
-    END { printf "%.0f", sum }' "$run/mesh.json" 2>/dev/null || printf -- '-')
-  seconds=$(cat "$run"/*.json 2>/dev/null | awk '/"total":/ { gsub(/[^0-9.eE+-]/, "", $2); sum += $2 } END { printf "%.0f", sum }')
-  printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$case" "$status" "$volume" \
-    "$(number "$run/mesh.json" min_scaled_jacobian 2)" "$(moved nipple)" "$(moved tumour)" \
-    "$(number "$run/cc.json" thickness_mm 1)" "$(number "$run/cc.json" force_N 1)" \
-    "$(number "$run/mlo.json" thickness_mm 1)" "$(number "$run/mlo.json" force_N 1)" "$seconds" "${reason:--}"
+  of() { rounded "$3" "$(key "$run/$1.json" "$2")"; }  # STAGE NAME DIGITS
+  seconds=0
+  for report in "$run"/*.json; do seconds=$(awk -v a="$seconds" -v b="$(number "$report" total)" 'BEGIN { print a + b }'); done
+  printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$case" "$status" "$(of mesh volume_ml 0)" \
+    "$(of mesh min_scaled_jacobian 2)" "$(moved nipple)" "$(moved tumour)" \
+    "$(of cc thickness_mm 1)" "$(of cc force_N 1)" "$(of mlo thickness_mm 1)" "$(of mlo force_N 1)" \
+    "$(rounded 0 "$seconds")" "${reason:--}"
 done

@@ -8,7 +8,7 @@ COMPARE_ELEMENTS ?= 10
 EXPORT_DECK := $(BIN)/export-deck
 COMPARE_FILES := $(COMPARE_SCENES:%=$(COMPARE)/%.tsv)
 compare_run = BIN=$(BIN) pipelines/compare/compare.sh
-compare_needs := $(FORWARD) $(EXPORT_DECK) pipelines/compare/compare.sh
+compare_needs := $(FORWARD) $(EXPORT_DECK) pipelines/compare/compare.sh pipelines/values.sh
 
 .PHONY: compare
 ifeq ($(shell command -v ccx),)

@@ -4,20 +4,15 @@
 # "10 % stiffness, about 10 % displacement"; its own rows say 6 to 7 %.
 set -euo pipefail
 tables=$1
-# cell TABLE PERCENT COLUMN
-cell() {
-  awk -F'\t' -v row="$2" -v column="$3" '
-    /^#/ { next }
-    !at { for (i = 1; i <= NF; i++) if ($i == column) at = i; next }
-    $1 == row { print $at }' "$tables/table$1.tsv"
-}
+. "$(dirname "$0")/values.sh"
+of() { cell "$tables/table$1.tsv" "$2" "$3"; }  # TABLE PERCENT COLUMN
 slope() {
-  awk -v low="$(cell "$1" 90 "$2")" -v high="$(cell "$1" 110 "$2")" \
+  awk -v low="$(of "$1" 90 "$2")" -v high="$(of "$1" 110 "$2")" \
     'BEGIN { if (low > 0 && high > 0) printf "%.4f", log(high / low) / log(110 / 90); else print "-" }'
 }
 # change TABLE PERCENT COLUMN: relative to the 100 per cent row, per cent
 change() {
-  awk -v a="$(cell "$1" "$2" "$3")" -v b="$(cell "$1" 100 "$3")" \
+  awk -v a="$(of "$1" "$2" "$3")" -v b="$(of "$1" 100 "$3")" \
     'BEGIN { if (a == "-" || !(b > 0)) print "-"; else printf "%.3f", 100 * (a / b - 1) }'
 }
 # judge NAME OURS PAPER LOWEST HIGHEST

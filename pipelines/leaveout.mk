@@ -34,7 +34,8 @@ $(LEAVEOUT)/$1/curve.tsv: $(RUN)/curve.tsv $(RUN)/geometry.vtkhdf $(if $(filter 
 endef
 $(foreach v,$(LEAVEOUT_VARIANTS),$(eval $(call leaveout_rules,$v)))
 
-$(LEAVEOUT)/table.tsv: $(LEAVEOUT_VARIANTS:%=$(LEAVEOUT)/%/curve.tsv) $(RUN)/supine.vtkhdf pipelines/leaveout.sh $(PROBE)
+$(LEAVEOUT)/table.tsv: $(LEAVEOUT_VARIANTS:%=$(LEAVEOUT)/%/curve.tsv) $(RUN)/supine.vtkhdf $(PROBE) \
+  pipelines/leaveout.sh pipelines/values.sh
 	pipelines/leaveout.sh $(RUN) $(PROBE) $(LEAVEOUT_VARIANTS) > $@.part
 	@mv $@.part $@
 	@cat $@

@@ -7,20 +7,18 @@ set -euo pipefail
 run=$1 probe=$2
 shift 2
 evaluate=$(dirname "$probe")/evaluate
+. "$(dirname "$0")/values.sh"
 # Distance of a landmark between a file and the base's.
 moved() {
-  "$probe" "$1" --base "$2" --landmarks "$3" --quiet |
-    awk -F'\t' -v column="$3_relative_mm" '!/^#/ && $1 == "file" { for (i = 1; i <= NF; i++) if ($i == column) at = i; next }
-      !/^#/ { printf "%.3f", $at }'
+  rounded 3 "$("$probe" "$1" --base "$2" --landmarks "$3" --quiet | cell - "$(basename "$1")" "$3_relative_mm")"
 }
 seconds() {
   local total=0 stage
   for stage in reference supine cc mlo; do
-    total=$(awk -v t="$total" '/"total":/ { gsub(/[^0-9.eE+-]/, "", $2); t += $2 } END { printf "%.2f", t }' "$1/$stage.json")
+    total=$(awk -v a="$total" -v b="$(number "$1/$stage.json" total)" 'BEGIN { printf "%.2f", a + b }')
   done
   echo "$total"
 }
-key() { sed -n "s/^  \"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}$/\1/p" "$1" | head -n 1; }
 base_seconds=$(seconds "$run")
 printf 'variant\tsupine_tumour_mm\tsupine_nipple_mm\tcc_tumour_mm\tmlo_tumour_mm\tcurve_mean_mm\tcurve_max_mm\tcc_force_N\tseconds\tsaved_seconds\n'
 printf 'base\t0\t0\t0\t0\t0\t0\t%.1f\t%s\t0\n' "$(key "$run/cc.json" force_N)" "$base_seconds"

@@ -4,7 +4,7 @@
 set -euo pipefail
 run=$1 runs=$2 bin=$3
 here=$(dirname "$0")
-key() { [ -s "$1" ] && sed -n "s/^  \"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}$/\1/p" "$1" | head -n 1; }
+. "$here/values.sh"
 escape() { sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g'; }
 # A TSV as a table; cells "fails", "differs", "missing" and "failed" stand out.
 table() {
@@ -114,9 +114,8 @@ fi
 section "Cost"
 printf '<table><tr><th>stage<th>seconds<th>peak MB</tr>\n'
 for stage in labels geometry mesh reference supine cc mlo cc-mammogram mlo-mammogram curve; do
-  seconds=$(awk '/"total":/ { gsub(/[^0-9.eE+-]/, "", $2); value = $2 } END { if (value != "") printf "%.2f", value }' "$run/$stage.json" 2>/dev/null || true)
-  memory=$(key "$run/$stage.json" peak_mb || true)
-  printf '<tr><td>%s<td class=n>%s<td class=n>%s</tr>\n' "$stage" "${seconds:--}" "$([ -n "$memory" ] && printf '%.0f' "$memory" || echo -)"
+  printf '<tr><td>%s<td class=n>%s<td class=n>%s</tr>\n' "$stage" "$(rounded 2 "$(number "$run/$stage.json" total)")" \
+    "$(rounded 0 "$(key "$run/$stage.json" peak_mb)")"
 done
 printf '</table>\n'
 section "Commands"

@@ -4,12 +4,8 @@
 set -euo pipefail
 run=$1
 truth_report=${2:-}  # of the phantom, for the truth's own error
-# A top-level key of a JSON report (two spaces of indent), or "-".
-key() {
-  local value
-  value=$(sed -n "s/^  \"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}$/\1/p" "$run/$1.json" | head -n 1)
-  echo "${value:--}"
-}
+. "$(dirname "$0")/values.sh"
+of() { rounded "$3" "$(key "$run/$1.json" "$2")"; }  # STAGE NAME DIGITS
 # Tab-separated text as aligned columns.
 columns() {
   awk -F'\t' '!/^#/ { n++; for (i = 1; i <= NF; i++) { cell[n, i] = $i; if (length($i) > w[i]) w[i] = length($i) }
@@ -18,7 +14,6 @@ columns() {
             for (i = 1; i <= fields[r]; i++) line = line sprintf("  %-" w[i] "s", cell[r, i]);
             sub(/ +$/, "", line); print line } }' "$1"
 }
-fixed() { [ "$1" = "-" ] && echo "-" || printf "%.${2}f" "$1"; }
 
 echo "== $run"
 echo
@@ -28,9 +23,9 @@ echo
 echo "Held instead of free lateral cut, supine (relative: distance to the free one, mm)"
 columns "$run/cut.tsv"
 if [ -s "$run/truth.tsv" ]; then
-  bound=$(sed -n 's/^  "error_estimate_mm": \([0-9.e-]*\),\{0,1\}$/\1/p' "$truth_report" 2>/dev/null || true)
+  bound=$(key "$truth_report" error_estimate_mm) || true
   echo
-  echo "Error against the phantom's truth (mm). The truth's own error is $(fixed "${bound:--}" 3) mm; smaller errors are not"
+  echo "Error against the phantom's truth (mm). The truth's own error is $(rounded 3 "$bound") mm; smaller errors are not"
   echo "claimed. The truth holds the lateral cut; points are the phantom's, found in the chain's mesh."
   columns "$run/truth.tsv"
   echo
@@ -43,8 +38,8 @@ echo
 echo "Compression"
 for view in cc mlo; do
   printf '  %-3s thickness %s mm, reduction %s %%, force %s N, mean pressure %s kPa, status %s\n' "${view^^}" \
-    "$(fixed "$(key $view thickness_mm)" 1)" "$(fixed "$(key $view reduction_percent)" 1)" \
-    "$(fixed "$(key $view force_N)" 1)" "$(fixed "$(key $view pressure_kPa)" 1)" "$(key $view status)"
+    "$(of $view thickness_mm 1)" "$(of $view reduction_percent 1)" "$(of $view force_N 1)" "$(of $view pressure_kPa 1)" \
+    "$(key "$run/$view.json" status)"
 done
 echo
 echo "CC point to MLO curve: $run/curve.tsv, in ParaView $run/curve.vtp"

@@ -29,7 +29,8 @@ $(RUN)/scaled/tumour-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(
 # material that has no stress-free body leaves an empty mark NAME.failed and a row of dashes, not a stop.
 define scaled_rules
 scaled-$1-$2_settings = $(BACKWARD) $(FORWARD) $(MECHANICS) --cut $(CUT)
-$(RUN)/scaled/$1-$2.done: $3 $(BACKWARD) $(FORWARD) $(MATERIAL_FILE) $$(call changed,scaled-$1-$2)
+$(RUN)/scaled/$1-$2.done: $3 $(BACKWARD) $(FORWARD) $(MATERIAL_FILE) \
+  pipelines/posture-change.sh pipelines/values.sh $$(call changed,scaled-$1-$2)
 	@mkdir -p $$(@D)
 	pipelines/posture-change.sh $3 $(RUN)/scaled/$1-$2 "$(BACKWARD)" "$(FORWARD)" $(MECHANICS) --scale $1=$2 \
 	  --cut $(CUT) $$(share)
@@ -57,6 +58,6 @@ $(TABLES)/table6.tsv: $(RUN)/scaled/tumour-100.done
 $(eval $(call table_rules,6,tumour,$(RUN)/scaled/tumour-100-supine.vtkhdf))
 
 $(TABLES)/conclusions.tsv: $(TABLES)/table3.tsv $(TABLES)/table4.tsv $(TABLES)/table5.tsv $(TABLES)/table6.tsv \
-  pipelines/conclusions.sh
+  pipelines/conclusions.sh pipelines/values.sh
 	pipelines/conclusions.sh $(TABLES) > $@.part
 	@mv $@.part $@

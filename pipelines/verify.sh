@@ -8,13 +8,12 @@ set -euo pipefail
 write=0
 if [ "$1" = --write ]; then write=1; shift; fi
 expected=$1 run=$2
+. "$(dirname "$0")/values.sh"
 value_of() { # FILE ROW COLUMN
   [ -s "$run/$1" ] || return 0
   case "$1" in
-    *.json) sed -n "s/^  \"$3\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}$/\1/p" "$run/$1" | head -n 1 ;;
-    *) awk -F'\t' -v row="$2" -v column="$3" '/^#/ { next }
-         !at { for (i = 1; i <= NF; i++) if ($i == column) at = i; if (!at) exit; next }
-         $1 == row { print $at; exit }' "$run/$1" ;;
+    *.json) key "$run/$1" "$3" ;;
+    *) cell "$run/$1" "$2" "$3" ;;
   esac
 }
 failed=0

@@ -5,12 +5,12 @@ set -euo pipefail
 run=$1
 shift
 here=$(dirname "$0")
+. "$here/values.sh"
 # Distance between a landmark's places in two reports.
 moved() {
   paste -d, <("$here/landmark.sh" "$1" "$3" position) <("$here/landmark.sh" "$2" "$3" position) |
     awk -F, '{ printf "%.2f", sqrt(($1 - $4) ^ 2 + ($2 - $5) ^ 2 + ($3 - $6) ^ 2) }'
 }
-number() { awk -v key="\"$2\":" '$1 == key { gsub(/[^0-9.eE+-]/, "", $2); print $2; exit }' "$1"; }
 printf 'wall\tsigma_mean_mm\tvolume_ml\tsupine_tumour_mm\tsupine_nipple_mm\tcc_tumour_mm\tmlo_tumour_mm\n'
 printf 'as found\t%.2f\t%.1f\t0\t0\t0\t0\n' "$(number "$run/labels.json" sigma_mean_mm)" "$(number "$run/mesh.json" volume_ml)"
 for variant in "$@"; do

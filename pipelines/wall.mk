@@ -19,7 +19,8 @@ $(WALL)/$1/curve.tsv: $(RUN)/curve.tsv $(SEGMENT)
 endef
 $(foreach v,$(WALL_VARIANTS),$(eval $(call wall_rules,$v)))
 
-$(WALL)/table.tsv: $(WALL_VARIANTS:%=$(WALL)/%/curve.tsv) $(RUN)/supine.vtkhdf pipelines/wall-sensitivity.sh
+$(WALL)/table.tsv: $(WALL_VARIANTS:%=$(WALL)/%/curve.tsv) $(RUN)/supine.vtkhdf \
+  pipelines/wall-sensitivity.sh pipelines/landmark.sh pipelines/values.sh
 	pipelines/wall-sensitivity.sh $(RUN) $(WALL_VARIANTS) > $@.part
 	@mv $@.part $@
 	@cat $@

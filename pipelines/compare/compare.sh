@@ -17,7 +17,7 @@ cpu() { # seconds user + system of a command; its exit code in $status
   { time "$@" > "$work/log" 2>&1 || status=$?; } 2> "$work/time" || true
   awk '{ printf "%.3f", $1 + $2 }' "$work/time" > "$work/cpu"
 }
-number() { sed -n "s/^ *\"$2\": \([-0-9.e+]*\),\{0,1\}$/\1/p" "$1" | head -n 1; }
+. "$(dirname "$0")/../values.sh"
 
 cpu "$bin/forward" "$mesh" "$work/ours.vtkhdf" "${options[@]}" --threads 1 --report "$work/ours.json"
 [ $status = 0 ] || { cat "$work/log" >&2; exit $status; }

@@ -1,0 +1,18 @@
+# Values out of what the programs write; the scripts beside this one source it.
+
+# A top-level key (two spaces of indent) of a report: key FILE NAME. Nothing, and false, without the report.
+key() { [ -s "$1" ] && sed -n "s/^  \"$2\": \"\{0,1\}\(.*[^\",]\)\"\{0,1\},\{0,1\}$/\1/p" "$1" | head -n 1; }
+
+# The first number of that name in a report, at any depth: number FILE NAME. Nothing without the report.
+number() { [ ! -s "$1" ] || sed -n "s/^ *\"$2\": \([-+0-9.e]*\),\{0,1\}$/\1/p" "$1" | head -n 1; }
+
+# A number printed with so many digits, "-" where there is none: rounded DIGITS NUMBER
+rounded() { [ -n "$2" ] && printf "%.$1f" "$2" || printf -- '-'; }
+
+# A cell of a table (TSV): cell FILE ROW COLUMN, by the value of the first column and the column's name.
+cell() {
+  awk -F'\t' -v row="$2" -v column="$3" '
+    /^#/ { next }
+    !header { header = 1; for (i = 1; i <= NF; i++) if ($i == column) at = i; next }
+    at && $1 == row && !found { print $at; found = 1 }' "$1"
+}
