@@ -119,6 +119,36 @@ void fill_chest(Mask& mask, const Torso& torso, double from) {
   }
 }
 
+/// The torso widens from the sternum to half its depth: behind `torso_start` mm of the sternal
+/// skin, down to `least_torso`, whatever lies between its sides in this row or one in front is
+/// body. Muscle and lung that the threshold took for air, open to the scan's back or side, come
+/// back.
+void fill_between_sides(Mask& mask, const Torso& torso) {
+  constexpr double torso_start = 30, least_torso = 90;  // mm; the wall is sought to 85
+  const Grid& grid = mask.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    const int start = int((torso.cleft[k] + torso_start) / grid.spacing[1]);
+    const int end =
+        std::min(grid.size[1], int((torso.cleft[k] + least_torso) / grid.spacing[1]) + 1);
+    int low = grid.size[0], high = -1;
+    for (int j = std::max(start, 0); j < end; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        if (!mask.at(i, j, k)) continue;
+        low = std::min(low, i);
+        high = std::max(high, i);
+      }
+      for (int i = low; i <= high; ++i) mask.at(i, j, k) = 1;
+    }
+    for (int i = 0; i < grid.size[0] && start < end; ++i) {
+      const int sternal = std::max(0, int(torso.cleft[k] / grid.spacing[1]));
+      int j = start;
+      while (j > sternal && !mask.at(i, j - 1, k)) --j;
+      if (!mask.at(i, start, k) || j == sternal) continue;
+      for (; j < start; ++j) mask.at(i, j, k) = 1;
+    }
+  }
+}
+
 /// Peels boundary voxels that hold less than half of the tissue just inside them, so that the
 /// mask's border lies at half height whatever the local coil sensitivity.
 void peel_partial_voxels(Mask& mask, const Volume<float>& scan) {
@@ -150,31 +180,14 @@ void peel_partial_voxels(Mask& mask, const Volume<float>& scan) {
 
 namespace {
 
-/// Mask of what is brighter than the threshold: opened, filled, its border at half height, debris
-/// off.
-/// `from` as in fill_chest().
-Mask body_above(const Volume<float>& scan, double threshold, double from, double& debris_ml) {
-  Mask mask(scan.grid);
-  for (std::size_t n = 0; n < mask.voxels.size(); ++n) mask.voxels[n] = scan.voxels[n] > threshold;
-  open_slices(mask);
-  mask = largest_component(mask);
-  close_and_fill(mask);
-  fill_chest(mask, find_torso(mask), from);
-  peel_partial_voxels(mask, scan);
-  mask = largest_component(mask);
-  debris_ml = remove_debris(mask, find_torso(mask).midline);
-  return debris_ml > 0 ? largest_component(mask) : mask;
-}
-
-/// Share of the columns within 100 mm of the midline that are body 20 mm behind the sternal skin,
-/// or 40 mm if less are there. Less than three quarters means that dim tissue was taken for air and
-/// only a shell of the chest was found.
-double chest_filled(const Mask& mask) {
-  const Torso torso = find_torso(mask);
+/// Share of the columns within 100 mm of the midline that are body 20, 40 or 60 mm behind the
+/// sternal skin, whichever are fewest. Less than three quarters means that dim tissue was taken for
+/// air and only a shell of the chest was found.
+double chest_filled(const Mask& mask, const Torso& torso) {
   const Grid& grid = mask.grid;
   const int reach = int(100 / grid.spacing[0]);
   double least = 1;
-  for (const double behind : {20.0, 40.0}) {
+  for (const double behind : {20.0, 40.0, 60.0}) {
     double filled = 0, count = 0;
     for (int k = 0; k < grid.size[2]; ++k) {
       const int j = std::min(grid.size[1] - 1, int((torso.cleft[k] + behind) / grid.spacing[1]));
@@ -187,6 +200,32 @@ double chest_filled(const Mask& mask) {
     if (count > 0) least = std::min(least, filled / count);
   }
   return least;
+}
+
+struct Found {
+  Mask mask;
+  double debris_ml = 0, filled = 0;  ///< filled as chest_filled()
+};
+
+/// Mask of what is brighter than the threshold: opened, filled, its border at half height, debris
+/// off. `from` as in fill_chest().
+Found body_above(const Volume<float>& scan, double threshold, double from) {
+  Found found;
+  Mask& mask = found.mask;
+  mask = Mask(scan.grid);
+  for (std::size_t n = 0; n < mask.voxels.size(); ++n) mask.voxels[n] = scan.voxels[n] > threshold;
+  open_slices(mask);
+  mask = largest_component(mask);
+  close_and_fill(mask);
+  const Torso torso = find_torso(mask);
+  fill_chest(mask, torso, from);
+  found.filled = chest_filled(mask, torso);
+  fill_between_sides(mask, torso);
+  peel_partial_voxels(mask, scan);
+  mask = largest_component(mask);
+  found.debris_ml = remove_debris(mask, find_torso(mask).midline);
+  if (found.debris_ml > 0) mask = largest_component(mask);
+  return found;
 }
 
 }  // namespace
@@ -217,11 +256,16 @@ Body find_body(const Volume<float>& scan) {
   struct Try {
     double level, from;
   };
+  double most_filled = -1;
   for (const Try& attempt : {Try{otsu_level, 30}, Try{otsu_level, 12},
                              Try{std::sqrt(otsu_level * air_end), 12}, Try{air_end, 12}}) {
+    Found found = body_above(scan, attempt.level, attempt.from);
+    if (!(found.filled > most_filled)) continue;
+    most_filled = found.filled;
     body.threshold = attempt.level;
-    body.mask = body_above(scan, attempt.level, attempt.from, body.debris_ml);
-    if (chest_filled(body.mask) > 0.75) break;
+    body.mask = std::move(found.mask);
+    body.debris_ml = found.debris_ml;
+    if (most_filled > 0.75) break;
   }
   return body;
 }

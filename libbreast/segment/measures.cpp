@@ -51,6 +51,9 @@ std::vector<Measure> measures_of(const Segmentation& result) {
   add("wall_shift_sigmas", "chest_wall/shift_sigmas", result.wall_shift);
   add("sternal_thickness_mm", "chest_wall/sternal_thickness_mm", result.sternal_thickness);
   add("breast_depth_mm", "breast_depth_mm", result.greatest_thickness);
+  add("front_left_out_percent", "extent/front_left_out_percent", result.front_left_out_percent);
+  add("lateral_border_mm", "extent/lateral_border_mm", result.lateral_border_mm);
+  add("nipple_depth_mm", "extent/nipple_depth_mm", result.nipple_depth_mm);
   add("roll_degrees", "roll_degrees", result.roll_degrees);
   add("midline_mm", "midline_mm", result.midline_mm);
   return all;

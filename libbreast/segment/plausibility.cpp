@@ -98,4 +98,66 @@ double flat_skin_cm2(const Work& work) {
   return flat / mm2_per_cm2;
 }
 
+Extents extents_of(const Work& work, const Vec3& nipple, Side side) {
+  const Grid& grid = work.scan.grid;
+  Extents found;
+  double front = 0, left_out = 0, breast = 0;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = 0; i < grid.size[0]; ++i) {
+      const double aside =
+          (i - work.torso.midline) * grid.spacing[0] * (side == Side::left ? 1 : -1);
+      if (work.extent.columns[std::size_t(k) * grid.size[0] + i])
+        found.lateral_border_mm = std::max(found.lateral_border_mm, aside);
+      for (int j = 0; j < grid.size[1]; ++j) {
+        breast += work.breast.at(i, j, k);
+        if (!(aside > 0 && j * grid.spacing[1] < work.torso.cleft[k]) ||
+            !work.body.mask.at(i, j, k))
+          continue;
+        front += 1;
+        left_out += !work.breast.at(i, j, k);
+      }
+    }
+  }
+  found.front_left_out_percent = front > 0 ? 100 * left_out / front : 0;
+  found.volume_ml = breast * grid.voxel_volume() / mm3_per_ml;
+  const Vec3 at = grid.to_index(nipple);
+  const int i = std::clamp(int(std::lround(at[0])), 0, grid.size[0] - 1),
+            k = std::clamp(int(std::lround(at[2])), 0, grid.size[2] - 1);
+  found.nipple_depth_mm = work.wall.depth.at(i, k) - at[1] * grid.spacing[1];
+  return found;
+}
+
+std::vector<std::string> extent_doubts(const Extents& found, double greatest_depth_mm) {
+  constexpr double most_left_out = 12;                         // %
+  constexpr double least_volume = 50, most_volume = 3500;      // ml
+  constexpr double least_border = 70, most_border = 230;       // mm
+  constexpr double least_depth = 15, least_share_depth = 0.6;  // mm, of the greatest depth
+  std::vector<std::string> doubts;
+  const auto outside = [](double value, double least, double most) {
+    return !(value >= least && value <= most);
+  };
+  if (!(found.front_left_out_percent < most_left_out)) {
+    doubts.push_back(message("extent doubtful: ", std::lround(found.front_left_out_percent),
+                             " % of the body in front of the sternum's skin is not labelled breast "
+                             "(usually below ",
+                             std::lround(most_left_out), " %): look at --overlay"));
+  }
+  if (outside(found.volume_ml, least_volume, most_volume)) {
+    doubts.push_back(message("extent doubtful: a breast of ", std::lround(found.volume_ml), " ml (",
+                             least_volume, "-", most_volume, " expected): look at --overlay"));
+  }
+  if (outside(found.lateral_border_mm, least_border, most_border)) {
+    doubts.push_back(message("extent doubtful: its lateral border lies ",
+                             std::lround(found.lateral_border_mm), " mm from the midline (",
+                             least_border, "-", most_border, " expected): look at --overlay"));
+  }
+  if (!(found.nipple_depth_mm > std::max(least_depth, least_share_depth * greatest_depth_mm))) {
+    doubts.push_back(message("extent doubtful: the nipple lies ",
+                             std::lround(found.nipple_depth_mm),
+                             " mm in front of the chest wall, the breast is ",
+                             std::lround(greatest_depth_mm), " mm deep: look at --overlay"));
+  }
+  return doubts;
+}
+
 }  // namespace breast

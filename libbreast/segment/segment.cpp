@@ -139,6 +139,14 @@ void summarise(Segmentation& result, const Work& work) {
   }
 }
 
+void doubt_extent(Segmentation& result, const Extents& found) {
+  result.front_left_out_percent = found.front_left_out_percent;
+  result.lateral_border_mm = found.lateral_border_mm;
+  result.nipple_depth_mm = found.nipple_depth_mm;
+  for (std::string& doubt : extent_doubts(found, result.greatest_thickness))
+    result.doubts.push_back(std::move(doubt));
+}
+
 /// Where a wall is held by the limits of the search alone and what lies behind is as bright as fat.
 void refuse_without_contrast(const Segmentation& result) {
   if (!(result.wall_confidence_mean < 0.15)) return;
@@ -207,6 +215,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   result.cut_by_view_cm2 = cut_by_view_cm2(work.breast);
   result.flat_skin_cm2 = flat_skin_cm2(work);
   summarise(result, work);
+  doubt_extent(result, extents_of(work, nipple.tip, options.side));
   if (!options.wall_labels && options.wall_points.empty()) refuse_without_contrast(result);
   return result;
 }

@@ -45,6 +45,7 @@ struct Segmentation {
   Vec3 nipple_base{0, 0, 0};  ///< patient mm, on the areola's surface beneath the tip
   double papilla_height = 0;  ///< mm; 0 on a smooth dome
   double cut_by_view_cm2 = 0, flat_skin_cm2 = 0;  ///< of the breast (plausibility.hpp)
+  double front_left_out_percent = 0, lateral_border_mm = 0, nipple_depth_mm = 0;  ///< Extents
   double subcutaneous_brightness = 0;
   double roll_degrees = 0;          ///< by which the labels' grid is turned against the scan's
   double wall_shift = 0;            ///< standard deviations the wall was moved by

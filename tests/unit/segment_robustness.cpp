@@ -8,8 +8,10 @@
 #include "evaluation/wall_distance.hpp"
 #include "fixtures/perturbed_scan.hpp"
 #include "fixtures/synthetic_scan.hpp"
+#include "segment/body.hpp"
 #include "segment/debris.hpp"
 #include "segment/nipple.hpp"
+#include "segment/plausibility.hpp"
 #include "segment/segment.hpp"
 
 namespace breast {
@@ -57,6 +59,53 @@ TEST(SegmentRobustness, FourfoldNoise) {
 TEST(SegmentRobustness, TwiceTheBias) {
   expect_same(testing::more_biased(patient().scan, 2), 0.97, 0.7, 4);
 }
+/// Coils in front of the patient may leave the chest as dark as air, to the back and the sides:
+/// where the chest wall is sought there must be body all the same.
+TEST(Body, ChestAsDarkAsAirIsFilled) {
+  const SyntheticScan& truth = patient().truth;
+  Volume<float> scan = patient().scan;
+  const Grid& grid = scan.grid;
+  const auto everywhere = [&](const auto& act) {
+    for (int k = 0; k < grid.size[2]; ++k) {
+      for (int j = 0; j < grid.size[1]; ++j) {
+        for (int i = 0; i < grid.size[0]; ++i)
+          act(grid.to_patient(Vec3(i, j, k)), grid.offset(i, j, k));
+      }
+    }
+  };
+  everywhere([&](const Vec3& p, std::size_t n) {
+    const double behind = p[1] - truth.wall(p[0], p[2]);
+    scan.voxels[n] *= float(std::exp(-std::max(0.0, behind) / 12));
+  });
+  const Mask body = find_body(scan).mask;
+  double chest = 0, found = 0, air = 0, taken = 0;
+  everywhere([&](const Vec3& p, std::size_t n) {
+    if (truth.behind_wall(p) && std::abs(p[0]) < 125 && p[1] < 90) {
+      chest += 1;
+      found += body.voxels[n];
+    } else if (p[1] < 40 && !truth.in_body(p)) {
+      air += 1;
+      taken += body.voxels[n];
+    }
+  });
+  EXPECT_GT(found, 0.99 * chest);
+  EXPECT_LT(taken, 0.01 * air);
+}
+
+TEST(SegmentRobustness, ImplausibleExtentIsDoubted) {
+  const auto doubts_of = [](const Segmentation& result, double left_out) {
+    const Extents found{left_out, result.lateral_border_mm, result.nipple_depth_mm, 500};
+    return extent_doubts(found, result.greatest_thickness).size();
+  };
+  const Segmentation& base = patient().base;
+  EXPECT_EQ(doubts_of(base, base.front_left_out_percent), 0u);
+  EXPECT_EQ(doubts_of(base, 40), 1u) << "tissue in front of the sternum left out";
+  Segmentation wrong = base;
+  wrong.lateral_border_mm = 40;
+  wrong.nipple_depth_mm = 0.4 * base.greatest_thickness;
+  EXPECT_EQ(doubts_of(wrong, base.front_left_out_percent), 2u);
+}
+
 TEST(SegmentRobustness, ThickSlices) {
   expect_same(testing::with_slices(patient().scan, 5), 0.95, 1, 4);
 }
