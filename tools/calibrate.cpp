@@ -16,9 +16,10 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Finds the size of a phantom's breast and the depth of its tumour for which nipple and "
-      "tumour "
-      "move as far as wanted from the prone to the supine and to the stress-free shape. Least "
+      "Finds the size of a phantom's breast and the distance of its tumour from the breast's axis "
+      "for "
+      "which nipple and tumour move as far as wanted from the prone to the supine and to the "
+      "stress-free shape. Least "
       "squares "
       "by BOBYQA (NLopt) on a coarse phantom mesh; prints the parameters to put into the preset. "
       "Motions are what a chain would report: its own are --gain times the phantom's, measured "
@@ -34,8 +35,8 @@ void declare(Tool& tool, Choices& c) {
                "the chain's motion over the phantom's, measured on a finished case");
   tool.text(c.materials, "--materials", "NAME|FILE", "material set of the breasts");
   tool.integer(c.evaluations, "--evaluations", "N", "at most so many trial breasts", 4, 1000);
-  tool.example("calibrate --preset paper --gain 1.23,1.14",
-               "the paper's motions for a chain that moves 23 and 14 % farther than the phantom");
+  tool.example("calibrate --preset paper --gain 1.23,1.29",
+               "the paper's motions for a chain that moves 23 and 29 % farther than the phantom");
 }
 
 void run_calibrate(const Choices& c, Run& run) {
@@ -58,6 +59,7 @@ void run_calibrate(const Choices& c, Run& run) {
     run.report().set(what, value);
   };
   parameter("size", found.size);
+  parameter("tumour_aside", found.tumour_aside);
   parameter("tumour_level", found.tumour_level);
   parameter("misfit_mm", found.misfit_mm);
   run.report().set("evaluations", found.evaluations);

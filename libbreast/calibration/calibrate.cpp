@@ -51,25 +51,26 @@ Calibration calibrate(const std::string& preset, std::uint64_t seed, Side side,
   };
   std::function<double(const std::vector<double>&)> at = [&](const std::vector<double>& x) {
     BreastParameters breast = resized(base, x[0]);
-    breast.tumour_level = x[1];
+    breast.tumour_aside = x[1], breast.tumour_level = x[2];
     PhantomParameters parameters = phantom_preset(preset, seed, breast);
     parameters.mesh = mesh;
     const LandmarkMotion motion = landmark_motion(parameters, side, materials);
     const double rms = misfit(motion, wanted);
     ++evaluations;
-    if (rms < best.misfit_mm) best = {x[0], x[1], motion, rms, 0};
-    progress.update("calibrate", double(evaluations) / max_evaluations,
-                    message("size ", x[0], ", tumour level ", x[1], ", misfit ", rms, " mm"));
+    if (rms < best.misfit_mm) best = {x[0], x[1], x[2], motion, rms, 0};
+    progress.update(
+        "calibrate", double(evaluations) / max_evaluations,
+        message("size ", x[0], ", tumour aside ", x[1], ", level ", x[2], ", misfit ", rms, " mm"));
     return rms * rms;
   };
-  nlopt::opt optimiser(nlopt::LN_BOBYQA, 2);
+  nlopt::opt optimiser(nlopt::LN_BOBYQA, 3);
   optimiser.set_min_objective(objective, &at);
-  optimiser.set_lower_bounds({0.7, 0.08});
-  optimiser.set_upper_bounds({1.3, 0.45});
-  optimiser.set_initial_step({0.05, 0.05});
-  optimiser.set_xtol_abs({1e-3, 1e-3});
+  optimiser.set_lower_bounds({0.7, 0.1, 0.5});
+  optimiser.set_upper_bounds({1.3, 0.75, 0.7});
+  optimiser.set_initial_step({0.05, 0.1, 0.05});
+  optimiser.set_xtol_abs({1e-3, 1e-3, 1e-3});
   optimiser.set_maxeval(max_evaluations);
-  std::vector<double> x{1, base.tumour_level};
+  std::vector<double> x{1, base.tumour_aside, base.tumour_level};
   double value = 0;
   optimiser.optimize(x, value);
   best.evaluations = evaluations;

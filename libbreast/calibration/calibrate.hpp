@@ -1,4 +1,4 @@
-// The size of a phantom's breast and the depth of its tumour that give wanted displacements.
+// The size of a phantom's breast and the place of its tumour that give wanted displacements.
 #pragma once
 
 #include "core/progress.hpp"
@@ -14,6 +14,7 @@ struct LandmarkMotion {
 
 struct Calibration {
   double size = 1;          ///< factor on kind_breast's radius, height and shoulder (resized())
+  double tumour_aside = 0;  ///< BreastParameters::tumour_aside
   double tumour_level = 0;  ///< BreastParameters::tumour_level
   LandmarkMotion motion;    ///< of the phantom found
   double misfit_mm = 0;     ///< root mean square over the four motions
@@ -24,9 +25,10 @@ struct Calibration {
 LandmarkMotion landmark_motion(const PhantomParameters& parameters, Side side,
                                const MaterialSet& materials);
 
-/// Least squares of the four motions by NLopt's BOBYQA (Powell 2009) over size (0.7–1.3) and tumour
-/// level (0.08–0.45), on a mesh of `mesh` elements. Deterministic. Throws Error (not converged)
-/// when a trial breast has no equilibrium.
+/// Least squares of the four motions by NLopt's BOBYQA (Powell 2009) over size (0.7–1.3) and the
+/// tumour's distance from the axis (0.1–0.75) and level (0.5–0.7: in front of the mammograms'
+/// posterior edge), on a mesh of `mesh` elements. Deterministic. Throws
+/// Error (not converged) when a trial breast has no equilibrium.
 Calibration calibrate(const std::string& preset, std::uint64_t seed, Side side,
                       const LandmarkMotion& wanted, const MaterialSet& materials,
                       const MeshParameters& mesh, int max_evaluations,

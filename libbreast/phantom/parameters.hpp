@@ -34,7 +34,9 @@ struct BreastParameters {
   double fold = 22;             ///< fillet between breast and chest, larger above than below
   double unevenness = 1.0;      ///< amplitude of the skin's slow undulation
   double nipple_radius = 5.5, nipple_height = 5;
-  double tumour_level = 0.20;  ///< the tumour's place along the axis, of the height
+  double tumour_level = 0.55;  ///< the tumour's place along the axis, of the height
+  double tumour_aside = 0.45;  ///< its distance from the axis, of the radius
+  double tumour_azimuth = 45;  ///< degrees from lateral towards superior: upper outer quadrant
 };
 
 struct GlandParameters {

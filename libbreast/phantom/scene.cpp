@@ -126,9 +126,11 @@ void place_landmarks(const PhantomBreast& breast, HexMesh& mesh) {
   const double height = (breast.shape.apex() - breast.shape.foot()).norm();
   const Vec3 up = breast.shape.radial(0.5 * std::numbers::pi);
   const Vec3 out = lateral_sign(mesh.side) * breast.shape.radial(0);
-  const Vec3 wanted = breast.shape.foot() +
-                      breast.shape.parameters().tumour_level * height * breast.shape.axis() +
-                      0.28 * breast.shape.parameters().radius * (up + out);
+  const BreastParameters& p = breast.shape.parameters();
+  const double azimuth = p.tumour_azimuth * std::numbers::pi / 180;
+  const Vec3 wanted =
+      breast.shape.foot() + p.tumour_level * height * breast.shape.axis() +
+      p.tumour_aside * p.radius * (std::cos(azimuth) * out + std::sin(azimuth) * up);
   const Vec3 tumour = margin_point(breast, wanted);
   add("tumour", Locator(mesh, mesh.reference).nearest(tumour));
   mesh.tumour_node = nearest_node(mesh.reference, tumour);

@@ -9,7 +9,7 @@ TEST(Calibration, FindsTheSizeAndTumourThatMadeTheMotions) {
   const MaterialSet materials = load_materials("seed2008");
   const MeshParameters coarse{2, 1, 1, 1, 2, 2};
   BreastParameters hidden = resized(kind_breast("small"), 0.94);
-  hidden.tumour_level = 0.26;
+  hidden.tumour_aside = 0.30;
   PhantomParameters parameters = phantom_preset("small", 1, hidden);
   parameters.mesh = coarse;
   const LandmarkMotion wanted = landmark_motion(parameters, Side::left, materials);
