@@ -29,20 +29,13 @@ LabelVolume read_any_labels(const std::filesystem::path& file, const TissueCodes
   return translate_labels(foreign, codes, file.string());
 }
 
-void report(Run& run, Table& table, const std::vector<Quantity>& quantities) {
-  for (const Quantity& q : quantities) {
-    table.rows.push_back({q.name, format_fixed(q.value, q.digits)});
-    run.report().set(q.key, q.value);
-  }
-}
-
 // Curves of cc2mlo: how far apart they are on the MLO detector.
 void evaluate_curves(Run& run, Table& table, const std::filesystem::path& given,
                      const std::filesystem::path& truth) {
   const CurveComparison comparison =
       compare_curves(read_polylines(given), read_polylines(truth), given.string(), truth.string());
   table.rows.push_back({"curves", std::to_string(comparison.curves)});
-  report(run, table, distance_quantities("curve", comparison.both));
+  tell(distance_quantities("curve", comparison.both), table, run.report());
 }
 
 }  // namespace
@@ -115,11 +108,11 @@ int main(int argc, char** argv) {
       truth_labels->landmarks["nipple"] = *centre;
     }
     if (given_labels && truth_labels)
-      report(run, table, label_quantities(*given_labels, *truth_labels));
+      tell(label_quantities(*given_labels, *truth_labels), table, run.report());
     if (given_labels && truth_labels && !fraction_file.empty()) {
       const Volume<float> fraction = read_volume(fraction_file);
-      report(run, table,
-             fraction_quantities(compare_fractions(*given_labels, *truth_labels, fraction)));
+      tell(fraction_quantities(compare_fractions(*given_labels, *truth_labels, fraction)), table,
+           run.report());
     }
     run.progress().update("distances", -1, "");
     if (given_labels) given = breast_surface(*given_labels);
@@ -127,9 +120,9 @@ int main(int argc, char** argv) {
     if (given.points.empty()) throw input_error(given_file.string(), ": holds no breast");
     if (truth.points.empty()) throw input_error(truth_file.string(), ": holds no breast");
     const SurfaceComparison comparison = compare_surfaces(given, truth);
-    report(run, table, distance_quantities("surface", comparison.both));
-    report(run, table, distance_quantities("surface_to_truth", comparison.to_truth));
-    report(run, table, distance_quantities("surface_from_truth", comparison.from_truth));
+    tell(distance_quantities("surface", comparison.both), table, run.report());
+    tell(distance_quantities("surface_to_truth", comparison.to_truth), table, run.report());
+    tell(distance_quantities("surface_from_truth", comparison.from_truth), table, run.report());
     run.print(table.text());
   });
 }

@@ -74,10 +74,7 @@ Volume<float> read_wall_labels(const std::filesystem::path& file, std::string& s
 
 void report_measures(Report& report, Table& table, const Segmentation& result) {
   table.columns = {"quantity", "value"};
-  for (const Measure& measure : measures_of(result)) {
-    report.set(measure.key, measure.value);
-    table.rows.push_back({measure.name, format_number(measure.value)});
-  }
+  tell(measures_of(result), table, report);
   report.set("landmarks/nipple/imaged", result.labels.landmarks.at("nipple"));
   report.set("nipple_base", result.nipple_base);
 }

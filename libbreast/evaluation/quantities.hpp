@@ -4,18 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "core/quantity.hpp"
 #include "evaluation/partial_volume.hpp"
 #include "evaluation/surface_distance.hpp"
 #include "image/label_volume.hpp"
 
 namespace breast {
-
-struct Quantity {
-  std::string name;  ///< in a table, with its unit
-  std::string key;   ///< in a report
-  double value;
-  int digits;  ///< worth printing after the point
-};
 
 std::vector<Quantity> distance_quantities(const std::string& name, const Distances& distances);
 std::vector<Quantity> fraction_quantities(const PartialVolume& fractions);

@@ -4,7 +4,7 @@
 
 namespace breast {
 
-std::vector<Measure> measures_of(const Segmentation& result) {
+std::vector<Quantity> measures_of(const Segmentation& result) {
   const LabelVolume& labels = result.labels;
   std::vector<double> millilitres(n_tissues, 0);
   double by_fraction = 0;
@@ -13,7 +13,7 @@ std::vector<Measure> measures_of(const Segmentation& result) {
   for (const float fraction : labels.fibroglandular_fraction) by_fraction += fraction * voxel;
   const double gland = millilitres[int(Tissue::fibroglandular)],
                fat = millilitres[int(Tissue::fat)], skin = millilitres[int(Tissue::skin)];
-  std::vector<Measure> all;
+  std::vector<Quantity> all;
   const auto add = [&all](const std::string& name, const std::string& key, double value) {
     all.push_back({name, key, value});
   };

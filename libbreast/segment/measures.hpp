@@ -1,19 +1,13 @@
 // What a segmentation measured, as named numbers for the report and for a table.
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "core/quantity.hpp"
 #include "segment/segment.hpp"
 
 namespace breast {
 
-struct Measure {
-  std::string name;  ///< in a table, with its unit
-  std::string key;   ///< in a report
-  double value;
-};
-
-std::vector<Measure> measures_of(const Segmentation& result);
+std::vector<Quantity> measures_of(const Segmentation& result);
 
 }  // namespace breast

@@ -1,0 +1,24 @@
+// Named numbers that a table and a report both tell.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/report.hpp"
+#include "core/table.hpp"
+
+namespace breast {
+
+struct Quantity {
+  static constexpr int all_digits = -1;
+
+  std::string name;  ///< in a table, with its unit
+  std::string key;   ///< in a report
+  double value;
+  int digits = all_digits;  ///< worth printing after the point
+};
+
+/// A row (name, value) for each in the table, a key for each in the report.
+void tell(const std::vector<Quantity>& quantities, Table& table, Report& report);
+
+}  // namespace breast
