@@ -26,6 +26,14 @@ class MammoTools : public testing::Test {
     return run_tool(tool, arguments, folder_->path());
   }
   static fs::path file(const std::string& name) { return *folder_ / name; }
+  // "u,v" of the tumour of a compressed mesh in its image, mm.
+  static std::string tumour_mark(const std::string& mesh_name, const std::string& image) {
+    const HexMesh mesh = read_mesh(file(mesh_name));
+    const Vec2 uv =
+        read_mammogram(file(image))
+            .pose.project(landmark_position(mesh, mesh.points, *mesh.landmark("tumour")));
+    return format_number(uv.x()) + "," + format_number(uv.y());
+  }
 
  private:
   static inline ScratchFolder* folder_ = nullptr;
@@ -114,10 +122,7 @@ TEST_F(MammoTools, ThePointOfTheImageIsTheLandmarksPoint) {
   ASSERT_EQ(run("project-mammogram", {"cc.vtkhdf", "uv.vti", "--pixel", "1", "--report", "uv.json"})
                 .exit_code,
             0);
-  const Mammogram image = read_mammogram(file("uv.vti"));
-  const HexMesh cc = read_mesh(file("cc.vtkhdf"));
-  const Vec2 uv = image.pose.project(landmark_position(cc, cc.points, *cc.landmark("tumour")));
-  const std::string point = format_number(uv.x()) + "," + format_number(uv.y());
+  const std::string point = tumour_mark("cc.vtkhdf", "uv.vti");
   const ToolResult given = run("cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "p.vtp", "--point", point});
   const ToolResult named =
       run("cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "q.vtp", "--landmark", "tumour"});
@@ -168,18 +173,12 @@ TEST_F(MammoTools, TheOtherWayRoundAndBack) {
 }
 
 TEST_F(MammoTools, TwoMarksGiveThePointInTheBody) {
-  const HexMesh cc = read_mesh(file("cc.vtkhdf")), mlo = read_mesh(file("mlo.vtkhdf"));
   ASSERT_EQ(run("project-mammogram", {"cc.vtkhdf", "p.vti", "--pixel", "2"}).exit_code, 0);
   ASSERT_EQ(run("project-mammogram", {"mlo.vtkhdf", "q.vti", "--pixel", "2"}).exit_code, 0);
-  const auto mark = [&](const HexMesh& mesh, const char* image) {
-    const Vec2 uv =
-        read_mammogram(file(image))
-            .pose.project(landmark_position(mesh, mesh.points, *mesh.landmark("tumour")));
-    return format_number(uv.x()) + "," + format_number(uv.y());
-  };
-  const ToolResult result = run("cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "pair.vtp", "--pair",
-                                           mark(cc, "p.vti") + "," + mark(mlo, "q.vti"), "--supine",
-                                           "supine.vtkhdf", "--report", "pair.json"});
+  const ToolResult result =
+      run("cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "pair.vtp", "--pair",
+                     tumour_mark("cc.vtkhdf", "p.vti") + "," + tumour_mark("mlo.vtkhdf", "q.vti"),
+                     "--supine", "supine.vtkhdf", "--report", "pair.json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Report report = Report::parse(read_text(file("pair.json")), "pair.json");
   EXPECT_LT(report.number("spot/residual_mm"), 0.02);
