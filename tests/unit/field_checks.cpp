@@ -6,6 +6,7 @@
 #include "fem/membrane_kernel.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/laws.hpp"
+#include "fixtures/pulled_skin.hpp"
 #include "mechanics/pressure_filter.hpp"
 #include "mechanics/skin_state.hpp"
 
@@ -64,22 +65,12 @@ TEST(PressureFilter, KeepsJumpsBetweenTissues) {
   for (int e = 0; e < mesh.elements(); ++e) EXPECT_NEAR(filtered[e], pressure[e], 1e-6);
 }
 
-// A square of skin pulled to λ keeps t/λ of its thickness: the resultant is t/λ times the Cauchy
-// stress over the lateral stretch, force 2(λ − λ⁻²)(W1 + W2/λ) t over the width λ^(−1/2).
+// The resultant is the pull over the width λ^(−1/2) that is left.
 TEST(Membrane, ResultantsOfUniaxialStretch) {
   for (const double stretch : {0.8, 1.3}) {
     for (const Law& law : laws()) {
-      MembraneInput<4> in;
-      in.reference << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
-      in.deformed = in.reference;
-      in.deformed.row(0) *= stretch;
-      in.deformed.row(1) /= std::sqrt(stretch);
-      in.volume.setConstant(1.5 / 4);
-      in.law = &law;
-      const LawValue w =
-          law.evaluate(stretch * stretch + 2 / stretch, 2 * stretch + 1 / (stretch * stretch));
-      const double expected = 1.5 * 2 * (stretch - 1 / (stretch * stretch)) *
-                              (w.w1 + w.w2 / stretch) * std::sqrt(stretch);
+      const MembraneInput<4> in = fixtures::pulled_skin(law, stretch, 1.5);
+      const double expected = 1.5 * fixtures::uniaxial_pull(law, stretch) * std::sqrt(stretch);
       const Vec2 found = membrane_resultants<4>(in);
       EXPECT_NEAR(found[stretch < 1 ? 0 : 1], expected, 1e-9 * std::abs(expected));
       EXPECT_NEAR(found[stretch < 1 ? 1 : 0], 0, 1e-9 * std::abs(expected));
