@@ -62,7 +62,7 @@ std::optional<PatientViews> patient_views(const Choices& choices, const Matcher&
 }
 
 std::vector<MatchQuery> queries_of(const Choices& choices, const Matcher& matcher,
-                                   const PatientViews* patient) {
+                                   const PatientViews* patient, Run& run) {
   if (choices.grid > 0) return grid_queries(matcher, choices.grid);
   const auto first = [&](const Vec2& at) { return patient ? patient->from().uv(at) : at; };
   const auto second = [&](const Vec2& at) { return patient ? patient->to().uv(at) : at; };
@@ -71,7 +71,11 @@ std::vector<MatchQuery> queries_of(const Choices& choices, const Matcher& matche
                          patient ? std::function<Vec2(const Vec2&)>(first) : nullptr);
   }
   if (!choices.truth.empty()) {
-    return truth_queries(matcher, read_table(choices.truth), choices.truth.string());
+    int behind = 0;
+    const auto queries =
+        truth_queries(matcher, read_table(choices.truth), choices.truth.string(), behind);
+    run.report().set("truth/behind_first_image", behind);
+    return queries;
   }
   const std::vector<double>& mark = choices.pair.empty() ? choices.point : choices.pair;
   if (mark.empty()) return {landmark_query(matcher, choices.landmark)};
@@ -140,7 +144,7 @@ void run_match(const Choices& choices, Run& run) {
   }
   Derivatives derivatives;
   const std::optional<BandModel> band = band_model(choices, matcher, patient, derivatives);
-  const std::vector<MatchQuery> queries = queries_of(choices, matcher, patient);
+  const std::vector<MatchQuery> queries = queries_of(choices, matcher, patient, run);
   const auto results = answers(matcher, queries, band ? &*band : nullptr, run);
   for (const std::string& doubt : match_doubts(matcher, results)) run.warn(doubt);
   if (band && !band->without().empty()) run.warn(band->what_is_missing());
@@ -150,7 +154,8 @@ void run_match(const Choices& choices, Run& run) {
   PolyLines lines = curve_lines(matcher, results);
   lines.history = run.history({{choices.from, from.content_sha256, &from.history},
                                {choices.to, to.content_sha256, &to.history}});
-  const Table table = curve_table(matcher, results);
+  Table table = curve_table(matcher, results);
+  if (!choices.truth.empty()) add_truth_summary(results, table);
   choices.table.empty() ? run.print(table.text()) : write_table(choices.table, table);
   if (!choices.curve_table.empty()) {
     write_table(choices.curve_table, curve_points_table(matcher, results, patient));
@@ -206,7 +211,9 @@ void declare(Tool& tool, Choices& choices) {
                   "TSV with u_mm, v_mm (with --cc-image x_px, y_px) and perhaps name");
   tool.input_file(
       choices.truth, "--truth", "FILE",
-      "TSV of true positions: landmark, side, cc_x_mm ... mlo_z_mm; errors are reported");
+      "TSV of true positions: landmark, side, cc_x_mm ... mlo_z_mm (truth-table): distances of the "
+      "true place from curve, chord, arc and line, a row a landmark, then mean, 95 % and largest, "
+      "and the part of them in the bands");
   tool.integer(choices.grid, "--grid", "N", "N x N points over the tissue of the first image", 0,
                200);
   tool.flag(choices.band, "--band",

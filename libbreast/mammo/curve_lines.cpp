@@ -1,6 +1,7 @@
 #include "mammo/curve_lines.hpp"
 
 #include <cctype>
+#include <cmath>
 #include <functional>
 
 namespace breast {
@@ -127,16 +128,20 @@ Table curve_table(const Matcher& matcher, const std::vector<MatchResult>& result
   std::string view = matcher.from_frame().view;
   for (char& letter : view) letter = char(std::tolower(static_cast<unsigned char>(letter)));
   Table table;
-  table.columns = {
-      "query",          "landmark",          "status",           view + "_u_mm",
-      view + "_v_mm",   "column_mm",         "curve_mm",         "chord_mm",
-      "max_bend_mm",    "reference_bend_mm", "behind_image_mm",  "nipple_distance_mm",
-      "true_u_mm",      "true_v_mm",         "true_to_curve_mm", "true_to_chord_mm",
-      "true_to_arc_mm", "true_to_line_mm",   "band_95_area_mm2", "true_over_deviation"};
+  table.columns = {"query",          "landmark",          "status",           view + "_u_mm",
+                   view + "_v_mm",   "column_mm",         "curve_mm",         "chord_mm",
+                   "max_bend_mm",    "reference_bend_mm", "behind_image_mm",  "nipple_distance_mm",
+                   "true_u_mm",      "true_v_mm",         "true_to_curve_mm", "true_to_chord_mm",
+                   "true_to_arc_mm", "true_to_line_mm",   "band_95_area_mm2", "true_over_deviation",
+                   "in_band_50",     "in_band_95"};
   for (std::size_t q = 0; q < results.size(); ++q) {
     const MatchResult& r = results[q];
     const bool tissue = !r.curve.in_air(), truth = tissue && r.query.truth.has_value();
     const bool nipple = tissue && r.nipple_distance > 0;
+    const auto in_band = [&](double width) -> std::string {
+      if (!truth || !r.band) return "-";
+      return std::abs(r.truth_standardised) <= width ? "1" : "0";
+    };
     table.rows.push_back({std::to_string(q),
                           r.query.landmark.empty() ? "-" : r.query.landmark,
                           r.status(),
@@ -156,7 +161,9 @@ Table curve_table(const Matcher& matcher, const std::vector<MatchResult>& result
                           number_or_dash(truth && nipple, r.truth_to_arc),
                           number_or_dash(truth && nipple, r.truth_to_line),
                           number_or_dash(r.band.has_value(), r.band ? r.band->area_95 : 0),
-                          number_or_dash(truth && r.band, r.truth_standardised)});
+                          number_or_dash(truth && r.band, r.truth_standardised),
+                          in_band(half_width_50),
+                          in_band(half_width_95)});
   }
   return table;
 }

@@ -29,11 +29,15 @@ MatchResult match_query(const Matcher& matcher, const MatchQuery& query, const B
   if (!query.truth) return result;
   const Vec2& truth = *query.truth;
   result.truth_to_curve = distance_to_curve(result.curve, truth);
-  if (const auto nipple = matcher.to_landmark("nipple")) {
-    result.truth_to_arc = std::abs((truth - *nipple).norm() - result.nipple_distance);
-  }
   if (result.band) result.truth_standardised = standardised_distance(*result.band, truth);
-  if (result.depth_line) result.truth_to_line = std::abs(truth.x() - *result.depth_line);
+  const auto from_nipple = matcher.from_landmark("nipple"),
+             to_nipple = matcher.to_landmark("nipple");
+  if (from_nipple && to_nipple) {
+    const auto [first, second] = query.nipples.value_or(std::pair(*from_nipple, *to_nipple));
+    const Vec2 behind = query.from_uv - first, there = truth - second;
+    result.truth_to_arc = std::abs(there.norm() - behind.norm());
+    result.truth_to_line = std::abs(there.x() - behind.x());
+  }
   MatchedCurve chord;
   chord.points = {result.curve.points.front(), result.curve.points.back()};
   chord.points.back().stretch = chord.points.front().stretch;
@@ -96,7 +100,7 @@ std::vector<MatchQuery> point_queries(const Table& table, const std::string& whe
 }
 
 std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table,
-                                      const std::string& where) {
+                                      const std::string& where, int& behind) {
   const auto columns = [&](std::string view) {
     for (char& letter : view) letter = char(std::tolower(static_cast<unsigned char>(letter)));
     return std::array<int, 3>{table.column(view + "_x_mm"), table.column(view + "_y_mm"),
@@ -105,6 +109,8 @@ std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table
   const auto from = columns(matcher.from_frame().view), to = columns(matcher.to_frame().view);
   const int name = table.column("landmark"), side = table.column("side");
   std::vector<MatchQuery> queries;
+  std::optional<std::pair<Vec2, Vec2>> nipples;
+  behind = 0;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto& row = table.rows[r];
     if (row[std::size_t(side)] != side_name(matcher.from().side)) continue;
@@ -116,10 +122,16 @@ std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table
       }
       return x;
     };
-    const Vec2 uv = matcher.from_frame().pose.project(position(from));
-    if (uv.x() < 0) continue;
-    queries.push_back({uv, row[std::size_t(name)], matcher.to_frame().pose.project(position(to))});
+    const Vec2 uv = matcher.from_frame().pose.project(position(from)),
+               truth = matcher.to_frame().pose.project(position(to));
+    if (row[std::size_t(name)] == "nipple") nipples = {uv, truth};
+    if (uv.x() < 0) {
+      ++behind;
+      continue;
+    }
+    queries.push_back({uv, row[std::size_t(name)], truth});
   }
+  for (MatchQuery& query : queries) query.nipples = nipples;
   if (queries.empty()) {
     throw input_error(where, ": no landmark of the ", side_name(matcher.from().side),
                       " breast lies in the first image");

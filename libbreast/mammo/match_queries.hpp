@@ -18,6 +18,8 @@ struct MatchQuery {
   Vec2 from_uv;
   std::string landmark;       ///< name when the point is a landmark's projection, else empty
   std::optional<Vec2> truth;  ///< where it truly lies in the second image, when that is known
+  /// The true nipple in both images: the usual rules are then judged as they would be read there.
+  std::optional<std::pair<Vec2, Vec2>> nipples = std::nullopt;
 };
 
 /// Everything found for one query.
@@ -47,10 +49,11 @@ std::vector<MatchQuery> point_queries(
     const Table& table, const std::string& where,
     const std::function<Vec2(const Vec2&)>& uv_of_pixel = nullptr);
 /// Rows of a table of true positions: landmark, side and FROM_x_mm, FROM_y_mm, FROM_z_mm, TO_x_mm
-/// ... with the views' names in lower case (cc_x_mm, mlo_x_mm). Rows of the other breast, and those
-/// whose true position lies behind the first image's posterior edge, are left out.
+/// ... with the views' names in lower case (cc_x_mm, mlo_x_mm). A landmark "nipple" serves arc and
+/// line. Rows of the other breast are left out, and those whose true position lies behind the first
+/// image's posterior edge, which are counted in `behind`.
 std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table,
-                                      const std::string& where);
+                                      const std::string& where, int& behind);
 
 /// What to doubt: columns through the chest wall, curves behind the image, points in air. Throws
 /// Error (input) when there is nothing to report: no point, or the only one in air.
@@ -63,5 +66,8 @@ void report_match(const MatchResult& result, Report& report);
 /// results that have one: keys truth/points, truth/curve/mean_mm ..., and what part
 /// of them the bands hold: truth/in_band_50_percent, truth/in_band_95_percent.
 void report_truth(const std::vector<MatchResult>& results, Report& report);
+/// Rows "mean", "p95" and "largest" of the distances to the truth, and below "mean" of in_band_50
+/// and in_band_95 the percentages, at the end of a curve_table.
+void add_truth_summary(const std::vector<MatchResult>& results, Table& table);
 
 }  // namespace breast

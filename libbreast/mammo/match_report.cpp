@@ -70,17 +70,42 @@ void report_match(const MatchResult& result, Report& report) {
 
 namespace {
 
-void report_coverage(const std::vector<MatchResult>& results, Report& report) {
-  int counted = 0, inside_50 = 0, inside_95 = 0;
+struct Coverage {
+  int counted = 0, in_50 = 0, in_95 = 0;
+  double percent_50() const { return 100.0 * in_50 / counted; }
+  double percent_95() const { return 100.0 * in_95 / counted; }
+};
+
+Coverage coverage_of(const std::vector<MatchResult>& results) {
+  Coverage coverage;
   for (const MatchResult& result : results) {
     if (!result.query.truth || !result.band) continue;
-    ++counted;
-    inside_50 += std::abs(result.truth_standardised) <= half_width_50;
-    inside_95 += std::abs(result.truth_standardised) <= half_width_95;
+    ++coverage.counted;
+    coverage.in_50 += std::abs(result.truth_standardised) <= half_width_50;
+    coverage.in_95 += std::abs(result.truth_standardised) <= half_width_95;
   }
-  if (counted == 0) return;
-  report.set("truth/in_band_50_percent", 100.0 * inside_50 / counted);
-  report.set("truth/in_band_95_percent", 100.0 * inside_95 / counted);
+  return coverage;
+}
+
+struct Summary {
+  std::size_t points = 0;
+  double mean = 0, p95 = 0, largest = 0;
+};
+
+Summary summary_of(const std::vector<MatchResult>& results, double MatchResult::*distance) {
+  std::vector<double> values;
+  for (const MatchResult& result : results) {
+    if (result.query.truth && !result.curve.in_air()) values.push_back(result.*distance);
+  }
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const double n = double(values.size());
+  return {values.size(), std::accumulate(values.begin(), values.end(), 0.0) / n,
+          values[std::size_t(std::ceil(0.95 * n)) - 1], values.back()};
+}
+
+bool has_nipple(const std::vector<MatchResult>& results) {
+  return std::any_of(results.begin(), results.end(), [](const auto& r) { return r.depth_line; });
 }
 
 }  // namespace
@@ -90,26 +115,48 @@ void report_truth(const std::vector<MatchResult>& results, Report& report) {
   report.set("matched",
              std::size_t(std::count_if(results.begin(), results.end(),
                                        [](const auto& r) { return r.status() == "matched"; })));
-  report_coverage(results, report);
+  if (const Coverage coverage = coverage_of(results); coverage.counted > 0) {
+    report.set("truth/in_band_50_percent", coverage.percent_50());
+    report.set("truth/in_band_95_percent", coverage.percent_95());
+  }
   const auto summarise = [&](const char* name, double MatchResult::*distance) {
-    std::vector<double> values;
-    for (const MatchResult& result : results) {
-      if (result.query.truth && !result.curve.in_air()) values.push_back(result.*distance);
-    }
-    if (values.empty()) return;
-    std::sort(values.begin(), values.end());
+    const Summary summary = summary_of(results, distance);
+    if (summary.points == 0) return;
     const std::string key = std::string("truth/") + name + "/";
-    report.set("truth/points", values.size());
-    report.set(key + "mean_mm",
-               std::accumulate(values.begin(), values.end(), 0.0) / double(values.size()));
-    report.set(key + "p95_mm", values[std::size_t(std::ceil(0.95 * double(values.size()))) - 1]);
-    report.set(key + "max_mm", values.back());
+    report.set("truth/points", summary.points);
+    report.set(key + "mean_mm", summary.mean);
+    report.set(key + "p95_mm", summary.p95);
+    report.set(key + "max_mm", summary.largest);
   };
   summarise("curve", &MatchResult::truth_to_curve);
   summarise("chord", &MatchResult::truth_to_chord);
-  if (results.empty() || !results.front().depth_line) return;
+  if (!has_nipple(results)) return;
   summarise("arc", &MatchResult::truth_to_arc);
   summarise("line", &MatchResult::truth_to_line);
+}
+
+void add_truth_summary(const std::vector<MatchResult>& results, Table& table) {
+  const auto set = [&](std::vector<std::string>& row, const char* column, double value) {
+    row[std::size_t(table.column(column))] = format_fixed(value, 4);
+  };
+  const Coverage coverage = coverage_of(results);
+  for (const auto& [name, value] : {std::pair{"mean", &Summary::mean},
+                                    {"p95", &Summary::p95},
+                                    {"largest", &Summary::largest}}) {
+    std::vector<std::string> row(table.columns.size(), "-");
+    row[std::size_t(table.column("landmark"))] = name;
+    set(row, "true_to_curve_mm", summary_of(results, &MatchResult::truth_to_curve).*value);
+    set(row, "true_to_chord_mm", summary_of(results, &MatchResult::truth_to_chord).*value);
+    if (has_nipple(results)) {
+      set(row, "true_to_arc_mm", summary_of(results, &MatchResult::truth_to_arc).*value);
+      set(row, "true_to_line_mm", summary_of(results, &MatchResult::truth_to_line).*value);
+    }
+    if (coverage.counted > 0 && name == std::string("mean")) {
+      set(row, "in_band_50", coverage.percent_50());
+      set(row, "in_band_95", coverage.percent_95());
+    }
+    table.rows.push_back(std::move(row));
+  }
 }
 
 }  // namespace breast

@@ -221,6 +221,31 @@ TEST_F(MammoTools, TablesOfPointsAndOfTruth) {
   EXPECT_LT(report.number("truth/curve/max_mm"), 1e-3);
   EXPECT_GT(report.number("truth/arc/mean_mm"), 0.1);
   EXPECT_LT(report.number("truth/line/max_mm"), 1e-6);  // these squashes keep every depth
+  const Table rows = parse_table(judged.out, "truth");
+  const auto cell = [&](std::size_t row, const char* column) {
+    return rows.rows.at(row).at(std::size_t(rows.column(column)));
+  };
+  const std::size_t points = std::size_t(report.number("truth/points"));
+  ASSERT_GE(rows.rows.size(), points + 3);
+  const std::size_t mean = rows.rows.size() - 3;
+  EXPECT_EQ(cell(mean, "landmark"), "mean");
+  EXPECT_EQ(cell(mean + 2, "landmark"), "largest");
+  EXPECT_NEAR(std::stod(cell(mean, "true_to_arc_mm")), report.number("truth/arc/mean_mm"), 1e-4);
+  // Arc and line are read from the true nipple when the table has it: 5 mm further back in MLO.
+  const Vec3 nipple_cc = landmark_position(cc, cc.points, *cc.landmark("nipple")),
+             nipple_mlo = landmark_position(mlo, mlo.points, *mlo.landmark("nipple"));
+  truth += "nipple\t" + std::string(side_name(cc.side));
+  for (const Vec3& x : {nipple_cc, Vec3(nipple_mlo + Vec3(0, 5, 0))}) {
+    for (int k = 0; k < 3; ++k) truth += "\t" + format_number(x[k]);
+  }
+  truth += "\nbehind\t" + std::string(side_name(cc.side)) + "\t0\t500\t0\t0\t500\t0\n";
+  write_text(file("truth.tsv"), truth);
+  const ToolResult other = run(
+      "cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "t.vtp", "--truth", "truth.tsv", "--report", "o.json"});
+  ASSERT_EQ(other.exit_code, 0) << other.err;
+  const Report moved = Report::parse(read_text(file("o.json")), "o.json");
+  EXPECT_NEAR(moved.number("truth/line/max_mm"), 5, 1e-6);
+  EXPECT_GE(moved.number("truth/behind_first_image"), 1);
 }
 
 TEST_F(MammoTools, AGridGivesOneRowAPoint) {

@@ -1,0 +1,18 @@
+# From view to view, judged: derivatives of the compressed shapes for the band, and the matched curves of the
+# phantom's landmarks against their true places (target `truth` makes these, many minutes).
+SENSITIVITY ?= $(BIN)/sensitivity
+BAND_STATES := cc mlo truth-cc truth-mlo
+$(BAND_STATES:%=$(RUN)/%-sensitivity.vtkhdf): $(RUN)/%-sensitivity.vtkhdf: $(RUN)/%.vtkhdf $(RUN)/reference.vtkhdf $(SENSITIVITY)
+	$(SENSITIVITY) $(RUN)/reference.vtkhdf $< $@ $(PRONE) $(MECHANICS) --cut $(CUT) \
+	  --table $(basename $@).tsv $(common)
+
+# matching.tsv: the chain from the MR; matching-true-mesh.tsv: the true body on as many elements as the chain's.
+# Both are read against the true body on eight times as many.
+$(RUN)/matching.tsv: $(RUN)/truth-cc-sensitivity.vtkhdf $(RUN)/truth-mlo-sensitivity.vtkhdf $(TRUTH_TABLE) $(CC2MLO)
+	$(CC2MLO) $(wordlist 1,2,$^) $(basename $@).vtp --truth $(TRUTH_TABLE) --band --table $@ $(common)
+$(RUN)/matching-true-mesh.tsv: $(TRUTH_TABLE) $(CC2MLO)
+	$(CC2MLO) $(TRUTH_AT)-coarse-cc.vtkhdf $(TRUTH_AT)-coarse-mlo.vtkhdf $(basename $@).vtp \
+	  --truth $(TRUTH_TABLE) --table $@ $(common)
+matching: $(RUN)/matching.tsv $(RUN)/matching-true-mesh.tsv
+	@for table in $^; do echo "$$table"; grep -E '^(query|-)' $$table | cut -f2,15-18,21,22; done
+.PHONY: matching
