@@ -3,11 +3,9 @@
 #include "cli/tool.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/table.hpp"
-#include "core/units.hpp"
 #include "deck/calculix.hpp"
 #include "deck/febio.hpp"
-#include "deck/results.hpp"
+#include "deck/report.hpp"
 #include "io/mesh_file.hpp"
 #include "mechanics/element_order.hpp"
 #include "mechanics/options.hpp"
@@ -95,34 +93,7 @@ void write_deck(const Choices& c, const HexMesh& mesh, Run& run) {
                               : scene.nodes_per_element == 8 ? "C3D8I"
                                                              : "C3D20R";
   write_text(c.out, calculix ? calculix_deck(scene, element) : febio_deck(scene));
-  run.report().set("elements", scene.elements());
-  run.report().set("nodes", scene.nodes.size());
-  run.report().set("held_nodes", scene.held.size());
-  run.report().set("element", calculix ? element : message("hex", scene.nodes_per_element));
-}
-
-// Supports and gravity must add up to nothing.
-void report_balance(const Choices& c, const HexMesh& mesh, const Vec3& reaction, Run& run) {
-  const DeckScene scene = scene_of(c, mesh, run);
-  if (!scene.rolling.empty()) return;  // the rollers' share is not in the total of the held nodes
-  Vec3 weight = Vec3::Zero();
-  for (const Vec3& force : free_load(scene)) weight += force;
-  run.report().set("weight_on_free_nodes_N", weight / micronewton_per_newton);
-  run.report().set("reaction_N", reaction / micronewton_per_newton);
-  run.report().set("force_balance", (reaction + weight).norm() / weight.norm());
-}
-
-void compare(const Choices& c, const HexMesh& mesh, Run& run) {
-  const NodeDifference d = node_difference(mesh, read_mesh(c.base));
-  const double relative = d.max_mm / d.largest_displacement_mm;
-  run.report().set("difference/mean_mm", d.mean_mm);
-  run.report().set("difference/max_mm", d.max_mm);
-  run.report().set("difference/largest_displacement_mm", d.largest_displacement_mm);
-  run.report().set("difference/relative", relative);
-  run.report().set("difference/worst_at", mesh.imaged[d.worst_node]);
-  run.print("mean_mm\tmax_mm\tlargest_displacement_mm\trelative\n" + format_fixed(d.mean_mm, 5) +
-            "\t" + format_fixed(d.max_mm, 5) + "\t" + format_fixed(d.largest_displacement_mm, 4) +
-            "\t" + format_fixed(relative, 6) + "\n");
+  write_report(scene, calculix ? element : message("hex", scene.nodes_per_element), run.report());
 }
 
 void read_back(const Choices& c, HexMesh mesh, Run& run) {
@@ -131,8 +102,11 @@ void read_back(const Choices& c, HexMesh mesh, Run& run) {
   mesh.gravity = c.gravity.vector();
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
   mesh.solve = SolveRecord{"converged", "solved by another program", {}};
-  if (result.reaction) report_balance(c, mesh, *result.reaction, run);
-  if (!c.base.empty()) compare(c, mesh, run);
+  if (result.reaction) write_balance(scene_of(c, mesh, run), *result.reaction, run.report());
+  if (!c.base.empty()) {
+    const NodeDifference difference = node_difference(mesh, read_mesh(c.base));
+    run.print(write_difference(difference, mesh, run.report()).text());
+  }
   const History before = mesh.history;
   mesh.history = run.history({{c.reference, mesh.content_sha256, &before}});
   mesh.wall_seconds = run.seconds();
