@@ -4,10 +4,9 @@
 #include "cli/mechanics_options.hpp"
 #include "cli/tool.hpp"
 #include "core/error.hpp"
-#include "core/table.hpp"
 #include "io/derivative_file.hpp"
 #include "mechanics/options.hpp"
-#include "sensitivity/chain.hpp"
+#include "sensitivity/results.hpp"
 
 using namespace breast;
 
@@ -72,47 +71,6 @@ void check_pair(const HexMesh& reference, const HexMesh& state, const Choices& c
   }
 }
 
-void add_row(const HexMesh& mesh, const Landmark& landmark, const Parameter& parameter,
-             const Vec3& slope, double seconds, Table& table, Report& report) {
-  const double elasticity = displacement_elasticity(mesh, landmark, slope);
-  table.rows.push_back({landmark.name, parameter.name, parameter.per(), format_number(slope.x()),
-                        format_number(slope.y()), format_number(slope.z()),
-                        format_number(elasticity), format_fixed(seconds, 4)});
-  const std::string key = "sensitivity/" + landmark.name + "/" + parameter.name + "/";
-  report.set(key + "derivative_mm", slope);
-  report.set(key + "dlnu", elasticity);
-}
-
-Table by_tangent(const SensitivityChain& chain, const std::vector<Parameter>& parameters,
-                 const HexMesh& mesh, Table table, Derivatives& out, Report& report) {
-  for (const Response& response : chain.tangent(parameters)) {
-    for (const Landmark& landmark : mesh.landmarks) {
-      add_row(mesh, landmark, response.parameter,
-              landmark_position(mesh, response.position, landmark), response.seconds, table,
-              report);
-    }
-    if (chain.contacts() > 0 && response.parameter.kind != ParameterKind::angle) {
-      report.set("sensitivity/paddle/" + response.parameter.name + "/force_N",
-                 response.paddle_force_N);
-    }
-    out.position[response.parameter.name] = response.position;
-  }
-  return table;
-}
-
-Table by_adjoint(const SensitivityChain& chain, const std::vector<Parameter>& parameters,
-                 const HexMesh& mesh, Table table, Derivatives& out, Report& report) {
-  for (const Landmark& landmark : mesh.landmarks) {
-    const LandmarkGradient gradient = chain.adjoint(landmark, parameters);
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-      add_row(mesh, landmark, parameters[i], gradient.by_parameter[i],
-              gradient.seconds / double(parameters.size()), table, report);
-    }
-    out.influence[landmark.name] = gradient.by_element;
-  }
-  return table;
-}
-
 void run_sensitivity(const Choices& c, Run& run) {
   const MechanicsOptions options = mechanics_options(c.mechanics);
   const HexMesh reference = read_mesh(c.reference, {.reference = true});
@@ -124,13 +82,10 @@ void run_sensitivity(const Choices& c, Run& run) {
     Timer::Scope phase(run.timer(), "factorisation");
     return SensitivityChain(mesh, reference.pressure, c.imaged.vector(), options);
   }();
-  Table table{{"landmark", "parameter", "per", "dx_mm", "dy_mm", "dz_mm", "dlnu", "seconds"}, {}};
-  Derivatives out;
-  {
+  const SensitivityResults results = [&] {
     Timer::Scope phase(run.timer(), "derivatives");
-    table = c.adjoint ? by_adjoint(chain, parameters, mesh, table, out, run.report())
-                      : by_tangent(chain, parameters, mesh, table, out, run.report());
-  }
+    return (c.adjoint ? adjoint_results : tangent_results)(chain, parameters, mesh, run.report());
+  }();
   run.report().set("status", "converged");
   run.report().set("elements", mesh.elements());
   run.report().set("parameters", parameters.size());
@@ -140,11 +95,11 @@ void run_sensitivity(const Choices& c, Run& run) {
   mesh.history = run.history({{c.reference, reference.content_sha256, &reference.history},
                               {c.state, mesh.content_sha256, &state_history}});
   mesh.wall_seconds = run.seconds();
-  write_mesh(c.out, mesh, out);
+  write_mesh(c.out, mesh, results.arrays);
   if (c.table.empty()) {
-    run.print(table.text());
+    run.print(results.table.text());
   } else {
-    write_table(c.table, table);
+    write_table(c.table, results.table);
   }
 }
 

@@ -1,0 +1,27 @@
+// What the derivatives of a state say of its landmarks, and the arrays for its file.
+#pragma once
+
+#include "core/report.hpp"
+#include "core/table.hpp"
+#include "mesh/derivatives.hpp"
+#include "sensitivity/chain.hpp"
+
+namespace breast {
+
+struct SensitivityResults {
+  /// landmark, parameter, per (its unit), derivative dx dy dz (mm), dlnu, seconds.
+  Table table;
+  Derivatives arrays;
+};
+
+/// By tangent solves: the motion of all nodes with every parameter. Sets the keys
+/// sensitivity/LANDMARK/PARAMETER/... and sensitivity/paddle/... of the report.
+SensitivityResults tangent_results(const SensitivityChain& chain,
+                                   const std::vector<Parameter>& parameters, const HexMesh& mesh,
+                                   Report& report);
+/// By adjoint solves: the landmarks only, and the influence of every element's stiffness on them.
+SensitivityResults adjoint_results(const SensitivityChain& chain,
+                                   const std::vector<Parameter>& parameters, const HexMesh& mesh,
+                                   Report& report);
+
+}  // namespace breast
