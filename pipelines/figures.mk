@@ -1,5 +1,5 @@
 # Pictures in the manner of the paper's Figs 4-7, drawn off-screen.
-FIGURE_NAMES := points geometry mesh tissues cc-compression mlo-compression cc-mammogram mlo-mammogram \
+FIGURE_NAMES := points geometry mesh tissues cc-compression mlo-compression pressure force-thickness cc-mammogram mlo-mammogram \
   cc-matching mlo-matching summary
 FIGURES := $(FIGURE_NAMES:%=$(RUN)/figures/%.png)
 F := $(RUN)/figures
@@ -15,6 +15,10 @@ $(F)/tissues.png: $(RUN)/mesh.vtkhdf $(RENDER)
 	@$(call render,tissues)
 $(F)/%-compression.png: $(RUN)/%.vtkhdf $(RENDER)
 	@$(call render,compression)
+$(F)/pressure.png: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(RENDER)
+	@$(call render,pressure)
+$(F)/force-thickness.png: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(RENDER)
+	@$(call render,force-thickness)
 $(F)/cc-mammogram.png: $(RUN)/cc.vti $(RUN)/curve.vtp $(RENDER)
 	@$(call render,mammogram)
 $(F)/mlo-mammogram.png: $(RUN)/mlo.vti $(RUN)/curve.vtp $(RENDER)

@@ -11,9 +11,6 @@ namespace breast {
 
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// The rounded edge becomes straight at this fraction of its radius (methods: slope 4/3 there).
-constexpr double straight_from = 0.8;
-constexpr double straight_slope = 4.0 / 3.0;
 /// A plate must reach at least this far over the breast to compress it, mm.
 constexpr double least_depth = 5.0;
 
@@ -123,16 +120,6 @@ Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const View
   return plate;
 }
 }  // namespace
-
-EdgeRecession edge_recession(double radius, double s) {
-  if (!(s > 0)) return {};
-  const double limit = straight_from * radius;
-  if (s < limit) {
-    const double root = std::sqrt(radius * radius - s * s);
-    return {radius - root, s / root, radius * radius / (root * root * root)};
-  }
-  return {0.4 * radius + straight_slope * (s - limit), straight_slope, 0};
-}
 
 Gap Plate::gap(const Vec3& x) const {
   const double a = x.dot(anterior), v = x.dot(lateral) - lateral_centre;

@@ -9,6 +9,7 @@
 #include "core/types.hpp"
 #include "mammo/mammogram.hpp"
 #include "mesh/hex_mesh.hpp"
+#include "mesh/plate_edge.hpp"
 
 namespace breast {
 
@@ -20,13 +21,6 @@ struct Gap {
   /// Signed distance to the plate's surface to first order, mm.
   double distance() const { return value / gradient.norm(); }
 };
-
-/// Recession of a rounded edge of radius r, s mm beyond where it starts: r − √(r²−s²) up to s = 0.8
-/// r, then straight with the slope reached there (4/3). r = 0 is a straight bevel of that slope.
-struct EdgeRecession {
-  double value = 0, slope = 0, curvature = 0;
-};
-EdgeRecession edge_recession(double radius, double s);
 
 /// One plate. Coordinates: h along the beam, a anterior, v lateral (h, a, v = x·n, x·e_u, x·e_v).
 struct Plate {

@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "figures/canvas.hpp"
 #include "figures/canvas_impl.hpp"
@@ -46,6 +49,7 @@ void Panel::compass() {
         low.cwiseMin(arm * Vec2(axis.direction.dot(impl_->right), axis.direction.dot(impl_->top)));
   }
   const Vec2 origin = Vec2(24, 24) - low;
+  std::vector<std::pair<Vec2, std::string>> letters_at;
   for (const Axis& axis : axes) {
     const Vec2 shown(axis.direction.dot(impl_->right), axis.direction.dot(impl_->top));
     if (shown.norm() < 0.15) continue;  // points at or away from the viewer
@@ -54,8 +58,18 @@ void Panel::compass() {
     const Vec2 along = shown.normalized(), side(-along.y(), along.x());
     line(tip, tip - 6 * along + 3.5 * side, black, 2);
     line(tip, tip - 6 * along - 3.5 * side, black, 2);
-    text(tip + 11 * along, axis.letter, letters - 1, black, Align::centre);
+    // Along an oblique beam two axes may coincide: their letters then stand side by side.
+    const Vec2 at = tip + 11 * along;
+    const auto same = std::find_if(letters_at.begin(), letters_at.end(), [&](const auto& other) {
+      return (other.first - at).norm() < 0.5 * letters;
+    });
+    if (same != letters_at.end()) {
+      same->second += axis.letter;
+    } else {
+      letters_at.emplace_back(at, axis.letter);
+    }
   }
+  for (const auto& [at, words] : letters_at) text(at, words, letters - 1, black, Align::centre);
 }
 
 }  // namespace breast

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
+
+#include "mesh/plate_edge.hpp"
 
 namespace breast {
 
@@ -14,6 +15,9 @@ namespace {
 // Corner, edge and centre nodes of a VTK_BIQUADRATIC_QUAD as four quadrilaterals.
 constexpr std::array<std::array<int, 4>, 4> quarters = {
     {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}}};
+
+/// Of the bevel behind a plate's edge, mm.
+constexpr double least_edge_shown = 12;
 
 class Builder {
  public:
@@ -85,18 +89,13 @@ Facets tissue_facets(const HexMesh& mesh, const std::vector<Vec3>& nodal, Tissue
 Facets plate_facets(const PlateRecord& plate, double length, double half_width) {
   const Vec3 normal = plate.normal.normalized();
   const Vec3 anterior = plate.anterior.normalized(), lateral = normal.cross(anterior);
-  const double r = plate.edge_radius;
-  std::vector<Vec3> profile;  // from the end of the wall of the rounded edge to the front
-  const int steps = 10;
-  if (r > 0) {
-    profile.push_back(plate.origin - 1.6 * r * normal - r * anterior);
-    for (int k = 0; k <= steps; ++k) {
-      const double phi = std::numbers::pi / 2 * (1 - double(k) / steps);
-      profile.push_back(plate.origin +
-                        r * ((std::cos(phi) - 1) * normal - std::sin(phi) * anterior));
-    }
-  } else {
-    profile.push_back(plate.origin);
+  std::vector<Vec3> profile;  // from behind the rounded edge to the front
+  const double behind = std::max(1.6 * plate.edge_radius, least_edge_shown);
+  constexpr int steps = 24;
+  for (int k = steps; k >= 0; --k) {
+    const double s = behind * k / steps;
+    profile.push_back(plate.origin - s * anterior -
+                      edge_recession(plate.edge_radius, s).value * normal);
   }
   profile.push_back(plate.origin + length * anterior);
   Facets facets;

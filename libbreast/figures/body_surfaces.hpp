@@ -15,8 +15,8 @@ Facets face_facets(const HexMesh& mesh, const std::vector<Vec3>& nodal,
 /// Surface of all elements of one tissue, without what lies on the body's boundary.
 Facets tissue_facets(const HexMesh& mesh, const std::vector<Vec3>& nodal, Tissue tissue);
 
-/// A plate with its rounded edge: flat from the edge `length` mm forward, `half_width` mm to either
-/// side of its origin.
+/// A plate with its rounded edge and the bevel behind it, as contact has them: flat from the edge
+/// `length` mm forward, `half_width` mm to either side of its origin.
 Facets plate_facets(const PlateRecord& plate, double length, double half_width);
 
 /// The sheet sampled on a grid of `fineness` cells a patch; `inside` are cells within the rim.

@@ -6,13 +6,16 @@
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCoordinate.h>
+#include <vtkDoubleArray.h>
 #include <vtkGlyph3D.h>
 #include <vtkImageActor.h>
 #include <vtkImageData.h>
 #include <vtkImageMapper3D.h>
 #include <vtkImageProperty.h>
 #include <vtkLightKit.h>
+#include <vtkLookupTable.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -33,6 +36,7 @@
 
 #include "core/error.hpp"
 #include "figures/canvas_impl.hpp"
+#include "figures/colour_scale.hpp"
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2);
 VTK_MODULE_INIT(vtkRenderingFreeType);
@@ -57,21 +61,26 @@ vtkSmartPointer<vtkPolyData> vtk_line(const std::vector<Vec3>& points) {
   return data;
 }
 
-}  // namespace
-
-Panel::Panel(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Panel::~Panel() = default;
-
-void Panel::surface(const Facets& facets, const Look& look) {
+vtkSmartPointer<vtkPolyData> vtk_facets(const Facets& facets) {
   vtkNew<vtkCellArray> cells;
   for (const auto& quad : facets.quads) {
     const int corners = quad[2] == quad[3] ? 3 : 4;
     cells->InsertNextCell(corners);
     for (int k = 0; k < corners; ++k) cells->InsertCellPoint(quad[k]);
   }
-  vtkNew<vtkPolyData> data;
+  auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(vtk_points(facets.points));
   data->SetPolys(cells);
+  return data;
+}
+
+}  // namespace
+
+Panel::Panel(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Panel::~Panel() = default;
+
+void Panel::surface(const Facets& facets, const Look& look) {
+  const auto data = vtk_facets(facets);
   vtkNew<vtkPolyDataMapper> mapper;
   if (look.smooth) {
     vtkNew<vtkPolyDataNormals> normals;
@@ -102,6 +111,36 @@ void Panel::surface(const Facets& facets, const Look& look) {
   for (const auto& quad : facets.quads) {
     for (const int corner : quad) impl_->extend(facets.points[corner]);
   }
+}
+
+// The mapper interpolates the values, not their colours, and looks the colours up.
+void Panel::values(const Facets& facets, const std::vector<double>& at_points, double high) {
+  const auto data = vtk_facets(facets);
+  vtkNew<vtkDoubleArray> scalars;
+  for (const double value : at_points) scalars->InsertNextValue(value);
+  data->GetPointData()->SetScalars(scalars);
+  constexpr int shades = 256;
+  vtkNew<vtkLookupTable> table;
+  table->SetNumberOfTableValues(shades);
+  for (int k = 0; k < shades; ++k) {
+    const Colour colour = heat(double(k) / (shades - 1));
+    table->SetTableValue(k, colour.r, colour.g, colour.b, 1);
+  }
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->InterpolateScalarsBeforeMappingOn();
+  mapper->SetLookupTable(table);
+  mapper->SetScalarRange(0, high);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  vtkProperty* property = actor->GetProperty();
+  // Colours are to be read off the bar: hardly any shading.
+  property->SetAmbient(0.75);
+  property->SetDiffuse(0.25);
+  property->EdgeVisibilityOn();
+  property->SetEdgeColor(0.6, 0.55, 0.5);
+  property->SetLineWidth(float(0.4 * supersampling));
+  impl_->add(actor, facets.points);
 }
 
 void Panel::sphere(const Vec3& centre, double radius, const Colour& colour) {

@@ -42,6 +42,8 @@ class Panel {
   ~Panel();
 
   void surface(const Facets& facets, const Look& look);
+  /// Colours by a value at each point of the facets, from 0 to `high` (figures/colour_scale.hpp).
+  void values(const Facets& facets, const std::vector<double>& at_points, double high);
   void sphere(const Vec3& centre, double radius, const Colour& colour);
   void cloud(const std::vector<Vec3>& points, double radius, const Colour& colour);
   void tube(const std::vector<Vec3>& points, double radius, const Colour& colour);

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "figures/parts.hpp"
+#include "mesh/plate_edge.hpp"
 
 namespace breast {
 
@@ -27,9 +28,7 @@ HexMesh before_compression(const HexMesh& mesh) {
     double back = 0;
     for (const Vec3& x : before.points) {
       const Vec3 d = x - plate.origin;
-      const double behind = -d.dot(plate.anterior), r = plate.edge_radius;
-      if (behind > 0.95 * r) continue;
-      const double rounding = behind > 0 ? r - std::sqrt(r * r - behind * behind) : 0;
+      const double rounding = edge_recession(plate.edge_radius, -d.dot(plate.anterior)).value;
       back = std::max(back, -d.dot(plate.normal) - rounding);
     }
     plate.origin -= back * plate.normal;

@@ -22,7 +22,7 @@ struct Figure {
     const auto pressed =
         std::count_if(input.meshes.begin(), input.meshes.end(),
                       [](const auto& named) { return named.mesh.contact.has_value(); });
-    if (name == "compression" && pressed < 2) return {width, height / 2};
+    if ((name == "compression" || name == "pressure") && pressed < 2) return {width, height / 2};
     if (name == "matching" && pressed < 2) return {2 * width / 3, height};
     if (name == "mammogram" && input.images.size() < 2) return {width / 2, height};
     return {width, height};
@@ -40,6 +40,12 @@ const std::vector<Figure>& figures() {
        1600, 800, false, false, draw_tissues},
       {"compression", "shapes between their plates (one or two compressed .vtkhdf)", 1600, 1060,
        false, false, draw_compression},
+      {"pressure",
+       "contact pressure of paddle and detector on the skin (one or two compressed .vtkhdf)", 1600,
+       1300, false, false, draw_pressure},
+      {"force-thickness",
+       "force of both plates on the way to the compressed shape (compressed .vtkhdf)", 1600, 700,
+       false, false, draw_force_thickness},
       {"mammogram",
        "mammograms with axes in mm (one or two .vti), curve, arc and tumour (curve .vtp)", 1600,
        1000, false, false, draw_mammogram},

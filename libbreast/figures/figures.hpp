@@ -26,7 +26,8 @@ struct FigureInput {
   std::optional<PolyLines> curves;  ///< of cc2mlo
 };
 
-/// "points", "geometry", "mesh", "tissues", "compression", "mammogram", "matching", "summary".
+/// "points", "geometry", "mesh", "tissues", "compression", "pressure",
+/// "force-thickness", "mammogram", "matching", "summary".
 const std::vector<std::string>& figure_names();
 /// One line for the help: what the figure shows and needs.
 std::string figure_summary(const std::string& name);

@@ -92,12 +92,8 @@ std::string compression_caption(const HexMesh& mesh) {
   const ContactRecord& contact = *mesh.contact;
   std::string words = contact.view + " (" + std::string(side_name(mesh.side)) + "), " +
                       format_fixed(contact.thickness_mm, 1) + " mm";
-  // The paddle's force is the report's force_N; the detector's differs by what weight and chest
-  // wall carry.
   for (const PlateRecord& plate : contact.plates) {
-    if (plate.name == "paddle" && plate.force_N > 0) {
-      words += ", " + format_fixed(plate.force_N, 0) + " N";
-    }
+    if (plate.force_N > 0) words += ", " + plate.name + " " + format_fixed(plate.force_N, 0) + " N";
   }
   return words;
 }

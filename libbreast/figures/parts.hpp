@@ -45,7 +45,7 @@ void add_plates(Panel& panel, const HexMesh& mesh, double opacity);
 /// A landmark of the mesh as a sphere; nothing when it has none of that name.
 void add_landmark(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
                   const std::string& name, double radius, const Colour& colour);
-/// "MLO, 45°, left: 46.2 mm, 91 N" of a compressed mesh.
+/// "MLO (left), 46.2 mm, paddle 91 N, detector 93 N" of a compressed mesh.
 std::string compression_caption(const HexMesh& mesh);
 
 /// Hung mammogram with axes in mm; curves of `curves` (nullable) for its view on top. `letter`
@@ -63,6 +63,8 @@ void draw_geometry(Picture& picture, const FigureInput& input);
 void draw_mesh(Picture& picture, const FigureInput& input);
 void draw_tissues(Picture& picture, const FigureInput& input);
 void draw_compression(Picture& picture, const FigureInput& input);
+void draw_pressure(Picture& picture, const FigureInput& input);
+void draw_force_thickness(Picture& picture, const FigureInput& input);
 void draw_mammogram(Picture& picture, const FigureInput& input);
 void draw_matching(Picture& picture, const FigureInput& input);
 void draw_summary(Picture& picture, const FigureInput& input);

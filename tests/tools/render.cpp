@@ -71,6 +71,8 @@ TEST_F(Render, EveryFigureIsDrawn) {
       {"mesh", {"mesh.vtkhdf"}},
       {"tissues", {"mesh.vtkhdf"}},
       {"compression", {"cc.vtkhdf", "mlo.vtkhdf"}},
+      {"pressure", {"cc.vtkhdf", "mlo.vtkhdf"}},
+      {"force-thickness", {"cc.vtkhdf", "mlo.vtkhdf"}},
       {"mammogram", {"cc.vti", "mlo.vti", "curve.vtp"}},
       {"matching", {"cc.vtkhdf", "mlo.vtkhdf", "curve.vtp"}},
       {"matching", {"mlo.vtkhdf", "curve.vtp"}},

@@ -1,0 +1,41 @@
+// A line chart over a panel: axes with round ticks, curves with markers, shaded clinical ranges.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "figures/canvas.hpp"
+
+namespace breast {
+
+/// One axis. A logarithmic one needs 0 < low.
+struct Axis {
+  std::string title;
+  double low = 0, high = 1;  ///< values at the start and the end; low > high runs backwards
+  bool logarithmic = false;
+};
+
+class Chart {
+ public:
+  /// Draws frame, ticks and titles.
+  Chart(Panel& panel, const Axis& across, const Axis& upwards);
+  /// Horizontal band of values.
+  void band(double low, double high, const Colour& colour, const std::string& label);
+  /// Points outside the axes are left out, with the pieces that lead to them.
+  void curve(const std::vector<Vec2>& points, const Colour& colour, double width, bool dashed);
+  /// One line of the legend, from the top.
+  void legend(const std::string& words, const Colour& colour, bool dashed);
+  void frame();
+
+ private:
+  Vec2 pixel(const Vec2& value) const;
+  bool inside(const Vec2& value) const;
+  void piece(const Vec2& from, const Vec2& to, const Colour& colour, double width, bool dashed);
+
+  Panel& panel_;
+  Axis across_, upwards_;
+  Vec2 corner_, extent_;  ///< pixels
+  int lines_ = 0;
+};
+
+}  // namespace breast
