@@ -62,10 +62,10 @@ if [ -s "$run/truth.tsv" ]; then
   table "$run/truth.tsv"
 fi
 section "Compression"
-printf '<table><tr><th>view<th>status<th>thickness mm<th>reduction %%<th>force N<th>mean pressure kPa<th>area cm2<th>Newton iterations<th>error estimate mm</tr>\n'
+printf '<table><tr><th>view<th>status<th>thickness mm<th>reduction %%<th>paddle force N<th>detector force N<th>mean pressure kPa<th>area cm2<th>Newton iterations<th>error estimate mm</tr>\n'
 for view in cc mlo; do
   printf '<tr><td>%s' "${view^^}"
-  for name in status thickness_mm reduction_percent force_N pressure_kPa area_cm2 newton_iterations error_estimate_mm; do
+  for name in status thickness_mm reduction_percent force_N detector_force_N pressure_kPa area_cm2 newton_iterations error_estimate_mm; do
     value=$(key "$run/$view.json" $name)
     case "$value" in *[0-9].*) value=$(printf '%.4g' "$value") ;; esac
     printf '<td>%s' "${value:--}"
@@ -82,6 +82,8 @@ picture "$run/figures/tissues.png" "4d. Fibroglandular elements (dark) and the a
 section "Figure 5: mammographic compression"
 picture "$run/figures/cc-compression.png" "5a, b. Before and after CC compression, with the plates."
 picture "$run/figures/mlo-compression.png" "5c, d. MLO compression, two views."
+picture "$run/figures/pressure.png" "Contact pressure under paddle and detector; blue: where the flat of the plate begins."
+picture "$run/figures/force-thickness.png" "Force of both plates against thickness."
 section "Figure 6: simulated mammograms"
 picture "$run/figures/cc-mammogram.png" "6a. CC; the dot is the tumour."
 picture "$run/figures/mlo-mammogram.png" "6b. MLO; the computed curve, the tumour's true position (dot) and the arc of equal nipple distance."

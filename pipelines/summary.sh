@@ -37,9 +37,9 @@ fi
 echo
 echo "Compression"
 for view in cc mlo; do
-  printf '  %-3s thickness %s mm, reduction %s %%, force %s N, mean pressure %s kPa, status %s\n' "${view^^}" \
-    "$(of $view thickness_mm 1)" "$(of $view reduction_percent 1)" "$(of $view force_N 1)" "$(of $view pressure_kPa 1)" \
-    "$(key "$run/$view.json" status)"
+  printf '  %-3s thickness %s mm, reduction %s %%, paddle %s N, detector %s N, mean pressure %s kPa, status %s\n' "${view^^}" \
+    "$(of $view thickness_mm 1)" "$(of $view reduction_percent 1)" "$(of $view force_N 1)" \
+    "$(of $view detector_force_N 1)" "$(of $view pressure_kPa 1)" "$(key "$run/$view.json" status)"
 done
 echo
 echo "CC point to MLO curve: $run/curve.tsv, in ParaView $run/curve.vtp"

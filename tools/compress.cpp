@@ -45,6 +45,15 @@ void declare(Tool& tool, Choices& c) {
   tool.describe(
       "--wall spring lets the chest-wall faces slide on springs at rest in the stress-free shape, "
       "under gravity as well as between the plates; backward's own wall is always held.");
+  tool.describe(
+      "The report gives force, area and pressure of both plates, judges them against clinical "
+      "ranges (judgement: an identifier and a sentence each; doubt_ids: those to read first), and "
+      "says when the plates' forces differ by more than weight and a quarter of the smaller one: a "
+      "plate then presses on the held chest wall or cut. When a path stops early, reason is an "
+      "identifier (folds_at_plate_edge, folds_on_chest_wall, folds_between_edge_and_wall, "
+      "folds_between_plates, folds_behind_plates, shrinks_... with the same endings, "
+      "iteration_limit, singular_tangent, no_descent, solve_limit, out_of_reach, "
+      "gravity_not_carried, no_equilibrium_at_touch) and explanation a sentence.");
   tool.cite("Pathmanathan et al. 2008, section II-D, equations (7)-(8)");
   tool.example("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 50",
                "cranio-caudal, half the thickness");

@@ -7,6 +7,7 @@
 
 #include "contact/active_set.hpp"
 #include "contact/augmented_lagrangian.hpp"
+#include "contact/failure.hpp"
 #include "contact/results.hpp"
 #include "contact/saddle_body.hpp"
 #include "contact/skin_area.hpp"
@@ -66,6 +67,8 @@ class Compression {
   void record_path();
   void estimate(const BodyState& at, const ContactSolver& contact);
   void conclude(const BodyState& state);
+  double load_reached() const;
+  void judge();
   double clock() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
@@ -104,6 +107,8 @@ bool Compression::load_with_gravity(SaddleState& state) {
       path.succeed();
     } else if (!path.fail()) {
       summary_.record.status = "not_converged";
+      summary_.reason_id = "gravity_not_carried";
+      summary_.load_reached = path.done;
       summary_.record.reason = message("gravity before compression stopped at ", 100 * path.done,
                                        " % of the load: ", result.reason);
       return false;
@@ -182,6 +187,8 @@ void Compression::close_plates(SaddleState& state) {
   record_path();
   if (summary_.path.points.empty()) {
     summary_.record.status = "not_converged";
+    summary_.reason_id = "no_equilibrium_at_touch";
+    summary_.load_reached = 0;
     summary_.record.reason = message("no equilibrium with the plates just touching: ",
                                      describe(summary_.path.last_failure));
     return;
@@ -242,28 +249,50 @@ void Compression::conclude(const BodyState& state) {
   const PathResult& path = summary_.path;
   summary_.record.status = path.reached ? "converged" : "stopped_early";
   if (!path.reached) {
-    summary_.record.reason =
-        message("stopped at thickness ", summary_.thickness_mm, " mm (", summary_.reduction_percent,
-                " % reduction): the step to ", path.failed_thickness, " mm fails, ",
-                describe(path.last_failure), "; ",
-                explain_failure(mesh_, state.x, path.failed_trial, summary_.plates));
+    const StopReason why = explain_stop(mesh_, state.x, path, summary_.plates);
+    summary_.reason_id = why.id;
+    summary_.load_reached = load_reached();
+    summary_.record.reason = message("stopped at thickness ", summary_.thickness_mm, " mm (",
+                                     summary_.reduction_percent, " % reduction): ", why.sentence);
   }
   summary_.min_det_F = path.final_step.forces.min_det_F;
   summary_.max_volume_error = path.final_step.forces.max_volume_error;
   summary_.unknowns = scene_.unknowns();
+  judge();
+}
+
+/// Part of the way to the target.
+double Compression::load_reached() const {
+  const CompressionTarget wanted = target();
+  const PathPoint& end = summary_.path.points.back();
+  if (wanted.kind == TargetKind::force) return end.paddle_N / wanted.value;
+  if (wanted.kind == TargetKind::pressure) return end.pressure_kPa / wanted.value;
+  const double initial = summary_.initial_thickness_mm;
+  return (initial - summary_.thickness_mm) / (initial - wanted.value);
+}
+
+/// The result against clinical ranges, then how it was found.
+void Compression::judge() {
+  const PathResult& path = summary_.path;
+  summary_.judgement = judge_compression(
+      *mesh_.contact,
+      {view_pose(mesh_.side, options_.angle_deg).n, weight() / micronewton_per_newton,
+       summary_.wall_reaction_N, summary_.max_volume_error, summary_.places});
   if (path.first_indefinite_thickness) {
-    summary_.doubts.push_back(message(
-        "the tangent was indefinite in ", path.indefinite, " iterations, first at thickness ",
-        *path.first_indefinite_thickness, " mm: the breast slips or buckles there"));
-  }
-  for (const std::string& line : summary_.judgement) {
-    if (line.find(" is within the clinical range") == std::string::npos) {
-      summary_.doubts.push_back(line);
-    }
+    summary_.judgement.push_back(
+        {"slips_or_buckles",
+         message("the tangent was indefinite in ", path.indefinite,
+                 " iterations, first at thickness ", *path.first_indefinite_thickness,
+                 " mm: the breast slips or buckles there"),
+         true});
   }
   if (summary_.reduction_percent > 40 && scene_.options().materials.name == "seed2008") {
-    summary_.doubts.push_back(
-        "the Table II laws stiffen beyond 40 % reduction to forces no patient bears");
+    summary_.judgement.push_back(
+        {"law_stiffens",
+         "the Table II laws stiffen beyond 40 % reduction to forces no patient bears", true});
+  }
+  for (const Judgement& line : summary_.judgement) {
+    if (line.doubtful) summary_.doubts.push_back(line.sentence);
   }
 }
 

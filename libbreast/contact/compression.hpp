@@ -9,6 +9,7 @@
 
 #include "contact/deformation.hpp"
 #include "contact/elastic_wall.hpp"
+#include "contact/judgement.hpp"
 #include "contact/path.hpp"
 #include "contact/plates.hpp"
 #include "core/progress.hpp"
@@ -43,7 +44,8 @@ struct CompressionSummary : SolveSummary {
   double weight_N = 0;
   std::map<Tissue, StrainRange> strains;
   std::vector<double> profile_depth_mm, profile_thickness_mm;  ///< from the plate edge forwards
-  std::vector<std::string> judgement;  ///< against clinical ranges, in words
+  std::vector<PressedPlace> places;                            ///< per plate of the contact record
+  std::vector<Judgement> judgement;  ///< against clinical ranges, and of the solve
 };
 
 /// Compresses mesh.reference; sets mesh.points, pressure, det_F, contact, contact_pressure,
@@ -56,10 +58,5 @@ CompressionSummary compress(HexMesh& mesh, const CompressionOptions& options,
 /// Adds compression's own keys to those of the mechanics report.
 void write_report(const CompressionSummary& summary, const HexMesh& mesh,
                   const MechanicsOptions& mechanics, Report& report);
-
-/// What a mammography physicist would say of force (N), mean pressure (kPa), contact area (cm²) of
-/// the paddle, thickness (mm) and reduction (%), against published ranges.
-std::vector<std::string> judge_compression(double force_N, double mean_kPa, double area_cm2,
-                                           double thickness_mm, double reduction_percent);
 
 }  // namespace breast

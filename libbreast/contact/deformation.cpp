@@ -4,9 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <set>
 
-#include "core/error.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {
@@ -36,30 +34,6 @@ Mat3 deformation_gradient(const HexMesh& mesh, const Eigen::VectorXd& x, int ele
     before += mesh.reference[std::size_t(node)] * shape.gradients.col(a).transpose();
   }
   return now * before.inverse();
-}
-
-Vec3 centre(const HexMesh& mesh, const Eigen::VectorXd& x, int element) {
-  Vec3 sum = Vec3::Zero();
-  for (int a = 0; a < 8; ++a) sum += x.segment<3>(3 * mesh.element(element)[a]);
-  return sum / 8;
-}
-
-/// What an element is caught between, in words.
-std::string surroundings(const HexMesh& mesh, const Eigen::VectorXd& x, int element,
-                         const PlatePair& plates) {
-  const std::vector<int> wall_list = nodes_of(mesh, mesh.pectoral_faces);
-  const std::set<int> wall(wall_list.begin(), wall_list.end());
-  bool on_wall = false;
-  for (int a = 0; a < mesh.nodes_per_element(); ++a) {
-    on_wall = on_wall || wall.count(mesh.element(element)[a]) > 0;
-  }
-  const double behind =
-      plates.paddle.edge_start - centre(mesh, x, element).dot(plates.paddle.anterior);
-  const bool at_edge = std::abs(behind) <= std::max(10.0, 1.5 * plates.paddle.edge_radius);
-  if (on_wall && at_edge) return "pinched between the plate edge and the held chest wall";
-  if (on_wall) return "on the held chest wall";
-  if (at_edge) return "pinched at the plate edge";
-  return behind > 0 ? "behind the plates" : "between the plates";
 }
 
 }  // namespace
@@ -98,27 +72,6 @@ std::vector<double> smallest_det_F(const HexMesh& mesh, const Eigen::VectorXd& x
     smallest[std::size_t(e)] = least;
   }
   return smallest;
-}
-
-std::string explain_failure(const HexMesh& mesh, const Eigen::VectorXd& good,
-                            const Eigen::VectorXd& trial, const PlatePair& plates) {
-  const bool have_trial = trial.size() == good.size() && trial.allFinite();
-  const std::vector<double> det = smallest_det_F(mesh, have_trial ? trial : good);
-  const int worst = int(std::min_element(det.begin(), det.end()) - det.begin());
-  const auto folded = std::count_if(det.begin(), det.end(), [](double d) { return !(d > 0); });
-  const Vec3 at = centre(mesh, good, worst);
-  std::string text;
-  if (folded > 0) {
-    text = message("the next step folds ", folded, folded == 1 ? " element" : " elements",
-                   ", worst element ");
-  } else {
-    text = message("no element folds; the most strained is element ");
-  }
-  text += message(worst, " at (", std::round(at.x() * 10) / 10, ", ", std::round(at.y() * 10) / 10,
-                  ", ", std::round(at.z() * 10) / 10, ") mm, ",
-                  tissue_name(mesh.tissue[std::size_t(worst)]), ", smallest det F ", det[worst],
-                  ", ", surroundings(mesh, good, worst, plates));
-  return text;
 }
 
 }  // namespace breast

@@ -1,12 +1,10 @@
-// How far the tissue is strained, and where a failed trial folds it.
+// How far the tissue is strained.
 #pragma once
 
 #include <Eigen/Core>
 #include <map>
-#include <string>
 #include <vector>
 
-#include "contact/plates.hpp"
 #include "mesh/hex_mesh.hpp"
 
 namespace breast {
@@ -20,10 +18,5 @@ std::map<Tissue, StrainRange> strain_ranges(const HexMesh& mesh, const Eigen::Ve
 
 /// Smallest det F from mesh.reference to `x` over quadrature points and corners, per element.
 std::vector<double> smallest_det_F(const HexMesh& mesh, const Eigen::VectorXd& x);
-
-/// One sentence on why `trial` was refused: the elements that fold, where they lie in the last good
-/// shape (mm), their tissue, and what they are caught between. `trial` may be empty.
-std::string explain_failure(const HexMesh& mesh, const Eigen::VectorXd& good,
-                            const Eigen::VectorXd& trial, const PlatePair& plates);
 
 }  // namespace breast

@@ -1,51 +1,161 @@
+#include "contact/judgement.hpp"
+
+#include <algorithm>
 #include <cmath>
 
-#include "contact/compression.hpp"
 #include "core/error.hpp"
 
 namespace breast {
 
 namespace {
-/// Ranges of clinical practice and where they come from.
+
+/// A range of clinical practice and where it comes from.
 struct Range {
+  const char* id;
   const char* name;
   const char* unit;
   double low, high;
   const char* source;
 };
-constexpr Range force_range{"paddle force", "N", 50, 180, "Dutch protocol, Radiology 181:355"};
-constexpr Range pressure_range{"mean pressure", "kPa", 5, 25, "de Groot 2013"};
-constexpr Range area_range{"contact area", "cm2", 60, 150, "100 N on 100 cm2 is typical"};
-constexpr Range thickness_range{"thickness", "mm", 35, 70, "Helvie; UK 2022 mean 62 mm"};
-constexpr Range reduction_range{"reduction", "%", 35, 55, "VICTRE 45-51 %"};
+constexpr Range area_range{
+    "contact_area", "contact area", "cm2", 60, 150, "100 N on 100 cm2 is typical"};
+constexpr Range thickness_range{
+    "thickness", "thickness", "mm",
+    35,          70,          "means: CC 44 mm, MLO 48 mm, Helvie; MLO 62 mm, UK 2022"};
+constexpr Range reduction_range{"reduction", "reduction", "%", 35, 55, "VICTRE 45-51 %"};
 
-std::string judge(const Range& range, double value) {
-  const double shown = std::abs(value) >= 10 ? std::round(value) : std::round(10 * value) / 10;
-  const char* verdict = value < range.low ? "below" : value > range.high ? "above" : "within";
-  return message(range.name, " ", shown, " ", range.unit, " is ", verdict,
-                 " the clinical range of ", range.low, "-", range.high, " ", range.unit, " (",
-                 range.source, ")");
+/// A plate may pass this part of the smaller plate's force on to wall and cut before the two are
+/// called unbalanced, and always this much.
+constexpr double wall_part = 0.25, wall_least_N = 10;
+/// More than this part of the force on the rounded edge: the flat hardly does the compressing.
+constexpr double most_on_edge = 0.5;
+constexpr double deepest_penetration_mm = 0.05, largest_volume_error = 1e-6;
+
+double shown(double value) {
+  return std::abs(value) >= 10 ? std::round(value) : std::round(10 * value) / 10;
 }
+
+Judgement judge(const Range& range, double value) {
+  // Not a number is never within.
+  const bool low = value < range.low, within = value >= range.low && value <= range.high;
+  const std::string verdict = within ? "within" : low ? "below" : "above";
+  return {std::string(range.id) + "_" + verdict,
+          message(range.name, " ", shown(value), " ", range.unit, " is ", verdict,
+                  " the clinical range of ", range.low, "-", range.high, " ", range.unit, " (",
+                  range.source, ")"),
+          !within};
+}
+
+/// Force and mean pressure of a plate.
+void judge_plate(const PlateRecord& plate, std::vector<Judgement>& list) {
+  const std::string force_id = plate.name + "_force", force_name = plate.name + " force";
+  Judgement force =
+      judge({force_id.c_str(), force_name.c_str(), "N", 50, 180,
+             "proposed end points 50-130 N, PMC3615392; Dutch protocol 180 N, Radiology 181:355"},
+            plate.force_N);
+  if (force.id.ends_with("below")) {
+    force.sentence +=
+        "; a held rigid chest wall and soft moduli give too little: most of the machine's force "
+        "acts on the stiff tissue at the chest wall, which the model leaves out";
+  } else if (force.id.ends_with("above")) {
+    force.sentence +=
+        "; no patient bears it: the laws stiffen too much in compression, or the plate edge is too "
+        "close to the held chest wall";
+  }
+  list.push_back(force);
+  const std::string id = plate.name + "_pressure", name = plate.name + " mean pressure";
+  list.push_back(
+      judge({id.c_str(), name.c_str(), "kPa", 5, 25,
+             "at 180 N 21 +-54 % in CC, 14 +-32 % in MLO, de Groot 2013; 10 kPa proposed"},
+            plate.mean_kPa));
+}
+
+/// Sensors under the plate read far less on the breast itself than force over area says.
+Judgement against_sensors(const ContactRecord& contact) {
+  const bool cc = contact.view == "CC";
+  return {"pressure_against_sensors",
+          message("sensors under a rigid paddle read ", cc ? 2.3 : 0.5, " kPa on the breast in ",
+                  cc ? "CC" : "MLO", ", where only ", cc ? 22 : 14,
+                  " % of the force acts (10.1177/0284185120976925): here the mean is ",
+                  shown(contact.plates.front().mean_kPa), " kPa"),
+          false};
+}
+
+Judgement judge_penetration(const ContactRecord& contact) {
+  double worst = 0;
+  for (const PlateRecord& plate : contact.plates) worst = std::max(worst, plate.worst_gap_mm);
+  const bool good = worst <= deepest_penetration_mm;
+  return {good ? "penetration_within" : "penetration_above",
+          message("worst penetration ", worst, " mm is ", good ? "below " : "not below ",
+                  deepest_penetration_mm, " mm"),
+          !good};
+}
+
+Judgement judge_volume(double error) {
+  const bool good = error <= largest_volume_error;
+  return {good ? "volume_kept" : "volume_changes",
+          message("worst volume change of an element ", error, good ? " is" : " is not", " below ",
+                  largest_volume_error, good ? "" : " (a finite --bulk-ratio lets volumes change)"),
+          !good};
+}
+
+/// A thickness between flats means little where the flats carry little of the force.
+Judgement judge_edge(const PlateRecord& plate, const PressedPlace& where) {
+  const bool much = !(where.edge_part <= most_on_edge);
+  return {
+      plate.name + (much ? "_presses_with_its_edge" : "_presses_with_its_flat"),
+      message("the rounded edge carries ", shown(100 * where.edge_part), " % of the ", plate.name,
+              "'s force",
+              much ? ": the flat reaches too little of the breast; try a smaller --standoff" : ""),
+      much};
+}
+
+std::string place(const PressedPlace& where) {
+  return message("(", std::round(where.peak_at.x()), ", ", std::round(where.peak_at.y()), ", ",
+                 std::round(where.peak_at.z()), ") mm, ", shown(where.peak_to_wall_mm),
+                 " mm from the chest wall or cut");
+}
+
+/// What the plates' forces differ by is weight and wall. The weight is the breast's own; what the
+/// wall carries beyond it a plate presses into wall or cut, through the breast.
+Judgement judge_balance(const ContactRecord& contact, const PressedState& state) {
+  const PlateRecord &paddle = contact.plates[0], &detector = contact.plates[1];
+  const double weight = state.weight_N.dot(state.beam);
+  const double wall = state.wall_reaction_N.dot(state.beam);
+  const double smaller = std::min(paddle.force_N, detector.force_N);
+  const double allowed = std::max(wall_least_N, wall_part * smaller) + std::abs(weight);
+  const std::string forces =
+      message("paddle ", shown(paddle.force_N), " N, detector ", shown(detector.force_N),
+              " N; along the beam the breast weighs ", shown(weight),
+              " N and chest wall and cut hold it with ", shown(wall), " N");
+  if (std::abs(wall) <= allowed) return {"plates_balanced", "plates balanced: " + forces, false};
+  const std::size_t k = paddle.force_N > detector.force_N ? 0 : 1;
+  std::string sentence =
+      "plates not balanced: " + forces + ", more than a quarter of the smaller " + "plate's: the " +
+      contact.plates[k].name + " presses on what is held, not on the breast alone";
+  if (k < state.places.size() && state.places[k].peak_to_wall_mm >= 0) {
+    sentence += message("; its highest pressure, ", shown(contact.plates[k].peak_kPa),
+                        " kPa, is at ", place(state.places[k]));
+  }
+  return {"plates_unbalanced", sentence + "; try a larger --standoff or --edge-radius", true};
+}
+
 }  // namespace
 
-std::vector<std::string> judge_compression(double force_N, double mean_kPa, double area_cm2,
-                                           double thickness_mm, double reduction_percent) {
-  std::vector<std::string> words{judge(force_range, force_N), judge(pressure_range, mean_kPa),
-                                 judge(area_range, area_cm2), judge(thickness_range, thickness_mm),
-                                 judge(reduction_range, reduction_percent)};
-  if (force_N < force_range.low) {
-    words.push_back(
-        "a held rigid chest wall and soft moduli give too little force: most of the machine's "
-        "force "
-        "acts on the stiff tissue at the chest wall, which the model leaves out");
+std::vector<Judgement> judge_compression(const ContactRecord& contact, const PressedState& state) {
+  std::vector<Judgement> list;
+  for (const PlateRecord& plate : contact.plates) judge_plate(plate, list);
+  list.push_back(against_sensors(contact));
+  list.push_back(judge(area_range, contact.plates.front().area_cm2));
+  list.push_back(judge(thickness_range, contact.thickness_mm));
+  list.push_back(judge(reduction_range, contact.reduction_percent));
+  list.push_back(judge_penetration(contact));
+  list.push_back(judge_volume(state.max_volume_error));
+  for (std::size_t k = 0; k < contact.plates.size() && k < state.places.size(); ++k) {
+    list.push_back(judge_edge(contact.plates[k], state.places[k]));
   }
-  if (force_N > force_range.high) {
-    words.push_back(
-        "no patient bears this force: the laws stiffen too much in compression, or the plate edge "
-        "is "
-        "too close to the held chest wall");
-  }
-  return words;
+  list.push_back(judge_balance(contact, state));
+  return list;
 }
 
 }  // namespace breast

@@ -103,7 +103,8 @@ void Path::tell(const PathPoint& point) const {
   progress_.update(
       "compress", fraction,
       message("thickness ", std::round(10 * point.thickness) / 10, " mm, paddle ",
-              std::round(10 * point.paddle_N) / 10, " N, ", point.iterations, " iterations"));
+              std::round(10 * point.paddle_N) / 10, " N, detector ",
+              std::round(10 * point.detector_N) / 10, " N, ", point.iterations, " iterations"));
 }
 
 bool Path::attempt(const BodyState& guess, const ContactMemory& memory, double thickness,
@@ -172,6 +173,7 @@ bool Path::march() {
     const double thickness = next_thickness(step);
     if (target_.kind != TargetKind::thickness && !(thickness > options_.least_thickness)) {
       result_.failed_thickness = thickness;
+      result_.last_failure = StepOutcome::converged;
       return false;
     }
     // Two refusals in a row: the extrapolation itself may be what folds elements.
@@ -198,6 +200,7 @@ bool Path::march() {
       if (step < options_.shortest_step) return false;
     }
   }
+  result_.solve_limit = true;
   return false;
 }
 

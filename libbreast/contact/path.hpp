@@ -42,9 +42,10 @@ struct PathPoint {
 struct PathResult {
   bool reached = false;
   StepOutcome last_failure = StepOutcome::converged;  ///< why the path stopped early
-  double failed_thickness = 0;                        ///< mm: the step that could not be made
-  Eigen::VectorXd failed_trial;                       ///< its first refused positions, may be empty
-  double thickness = 0;                               ///< of the final state
+  bool solve_limit = false;      ///< stopped because of PathOptions::most_solves
+  double failed_thickness = 0;   ///< mm: the step that could not be made
+  Eigen::VectorXd failed_trial;  ///< its first refused positions, may be empty
+  double thickness = 0;          ///< of the final state
   StepResult final_step;
   std::vector<PathPoint> points;
   std::vector<NewtonRecord> newton;  ///< all iterations in order

@@ -24,8 +24,15 @@ void write_report(const CompressionSummary& summary, const HexMesh& mesh,
   report.set("view", contact.view);
   report.set("angle_deg", contact.angle_deg);
   double worst = 0;
-  for (const PlateRecord& plate : contact.plates) {
+  for (std::size_t k = 0; k < contact.plates.size(); ++k) {
+    const PlateRecord& plate = contact.plates[k];
     const std::string key = "plates/" + plate.name + "/";
+    const PressedPlace& place = summary.places.at(k);
+    if (place.peak_to_wall_mm >= 0) {
+      report.set(key + "peak_at", place.peak_at);
+      report.set(key + "peak_to_wall_mm", place.peak_to_wall_mm);
+      report.set(key + "edge_force_percent", 100 * place.edge_part);
+    }
     report.set(key + "force_N", plate.force_N);
     report.set(key + "area_cm2", plate.area_cm2);
     report.set(key + "mean_pressure_kPa", plate.mean_kPa);
@@ -34,6 +41,7 @@ void write_report(const CompressionSummary& summary, const HexMesh& mesh,
     worst = std::max(worst, plate.worst_gap_mm);
   }
   report.set("force_N", contact.plates[0].force_N);
+  report.set("detector_force_N", contact.plates[1].force_N);
   report.set("pressure_kPa", contact.plates[0].mean_kPa);
   report.set("area_cm2", contact.plates[0].area_cm2);
   report.set("worst_gap_mm", worst);
@@ -51,7 +59,11 @@ void write_report(const CompressionSummary& summary, const HexMesh& mesh,
   report.set("profile/thickness_mm", summary.profile_thickness_mm);
   report.set("path/thickness_mm", contact.path_thickness_mm);
   report.set("path/force_N", contact.path_force_N);
-  for (const std::string& line : summary.judgement) report.append("judgement", line);
+  report.set("path/detector_force_N", contact.path_detector_N);
+  for (const Judgement& line : summary.judgement) {
+    report.set("judgement/" + line.id, line.sentence);
+    if (line.doubtful) report.append("doubt_ids", line.id);
+  }
 }
 
 }  // namespace breast

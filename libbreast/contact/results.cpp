@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/skin_area.hpp"
 #include "core/error.hpp"
@@ -13,11 +14,22 @@ namespace {
 
 constexpr int profile_points = 10;
 
+/// Distance of a point to the nearest node of chest wall and cut, mm.
+double distance_to_wall(const HexMesh& mesh, const Vec3& at) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto* faces : {&mesh.pectoral_faces, &mesh.cut_faces}) {
+    for (const int node : nodes_of(mesh, *faces)) {
+      least = std::min(least, (mesh.points[std::size_t(node)] - at).norm());
+    }
+  }
+  return least;
+}
+
 /// Force, area and pressures of one plate; adds its nodes to mesh.contact_pressure (kPa).
 PlateRecord record_plate(HexMesh& mesh, const Plate& plate, int k, const BodyState& state,
                          const ContactSolver& solver, const std::vector<double>& pushed,
                          const std::vector<Vec3>& rubbed, const std::vector<double>& area,
-                         Vec3& total) {
+                         Vec3& total, PressedPlace& place) {
   PlateRecord record;
   record.name = plate.name;
   record.normal = plate.normal();
@@ -26,23 +38,32 @@ PlateRecord record_plate(HexMesh& mesh, const Plate& plate, int k, const BodySta
   record.origin = plate.origin();
   record.edge_radius = plate.edge_radius;
   Vec3 force = Vec3::Zero();
-  double area_mm2 = 0;
+  double area_mm2 = 0, on_edge = 0;
   for (std::size_t c = 0; c < pushed.size(); ++c) {
     const int node = solver.candidates()[c];
     const Gap gap = plate.gap(state.x.segment<3>(3 * node));
     record.worst_gap_mm = std::max(record.worst_gap_mm, -gap.distance());
     if (solver.touching()[c] != k || !(pushed[c] > 0)) continue;
-    force += pushed[c] * gap.gradient.normalized();
-    if (!rubbed.empty()) force += rubbed[c];
+    Vec3 nodal = pushed[c] * gap.gradient.normalized();
+    if (!rubbed.empty()) nodal += rubbed[c];
+    force += nodal;
+    if (state.x.segment<3>(3 * node).dot(plate.anterior) < plate.edge_start) {
+      on_edge += nodal.dot(record.normal);
+    }
     area_mm2 += area[std::size_t(node)];
     const double pressure = pushed[c] / area[std::size_t(node)] / pascal_per_kilopascal;
     mesh.contact_pressure[std::size_t(node)] = pressure;
-    record.peak_kPa = std::max(record.peak_kPa, pressure);
+    if (pressure > record.peak_kPa) {
+      record.peak_kPa = pressure;
+      place.peak_at = state.x.segment<3>(3 * node);
+    }
   }
   total += force;
   record.force_N = force.dot(record.normal) / micronewton_per_newton;
   record.area_cm2 = area_mm2 / mm2_per_cm2;
   if (area_mm2 > 0) {
+    place.peak_to_wall_mm = distance_to_wall(mesh, place.peak_at);
+    place.edge_part = on_edge / force.dot(record.normal);
     record.mean_kPa = record.force_N * micronewton_per_newton / area_mm2 / pascal_per_kilopascal;
   }
   return record;
@@ -89,13 +110,15 @@ void record_compression(HexMesh& mesh, const CompressionOptions& options, const 
   const std::vector<Vec3> rubbed =
       solver.friction_forces(plates, state, summary.path.final_step.forces);
   Vec3 total = Vec3::Zero();
+  summary.places.assign(2, {});
   for (int k = 0; k < 2; ++k) {
-    record.plates.push_back(
-        record_plate(mesh, plates.plate(k), k, state, solver, pushed, rubbed, area, total));
+    record.plates.push_back(record_plate(mesh, plates.plate(k), k, state, solver, pushed, rubbed,
+                                         area, total, summary.places[std::size_t(k)]));
   }
   for (const PathPoint& point : summary.path.points) {
     record.path_thickness_mm.push_back(point.thickness);
     record.path_force_N.push_back(point.paddle_N);
+    record.path_detector_N.push_back(point.detector_N);
   }
   summary.thickness_mm = record.thickness_mm;
   summary.reduction_percent = record.reduction_percent;
@@ -112,9 +135,6 @@ void record_compression(HexMesh& mesh, const CompressionOptions& options, const 
     summary.profile_thickness_mm.push_back(
         thickness_at(mesh, state.x, plates.paddle, plates.paddle.edge_start + depth));
   }
-  const PlateRecord& paddle = record.plates[0];
-  summary.judgement = judge_compression(paddle.force_N, paddle.mean_kPa, paddle.area_cm2,
-                                        record.thickness_mm, record.reduction_percent);
   mesh.contact = std::move(record);
 }
 

@@ -54,12 +54,19 @@ std::string convergence(const Report& report) {
                  brief(report, "min_det_F"));
 }
 
+/// Both plates: they need not press alike.
 std::string plates(const Report& report) {
-  return message("thickness ", brief(report, "thickness_mm"), " of ",
-                 brief(report, "initial_thickness_mm"), " mm (", brief(report, "reduction_percent"),
-                 " % less); paddle ", brief(report, "force_N"), " N on ", brief(report, "area_cm2"),
-                 " cm2, ", brief(report, "pressure_kPa"), " kPa; worst penetration ",
-                 brief(report, "worst_gap_mm"), " mm");
+  std::string line = message("thickness ", brief(report, "thickness_mm"), " of ",
+                             brief(report, "initial_thickness_mm"), " mm (",
+                             brief(report, "reduction_percent"), " % less)");
+  for (const char* name : {"paddle", "detector"}) {
+    const std::string key = std::string("plates/") + name + "/";
+    line += message("; ", name, " ", brief(report, key + "force_N"), " N on ",
+                    brief(report, key + "area_cm2"), " cm2, mean ",
+                    brief(report, key + "mean_pressure_kPa"), " kPa, peak ",
+                    brief(report, key + "peak_pressure_kPa"), " kPa");
+  }
+  return line + "; worst penetration " + brief(report, "worst_gap_mm") + " mm";
 }
 
 /// Phases by cost, those under a hundredth of a second left out.

@@ -74,7 +74,6 @@ void write_field_checks(const SolveSummary& summary, Report& report) {
 void write_report(const SolveSummary& summary, const HexMesh& mesh, const MechanicsOptions& options,
                   Report& report) {
   report.set("status", summary.record.status);
-  // Backward and forward type their reasons; others give them in words alone.
   report.set("reason", summary.reason_id.empty() ? summary.record.reason : summary.reason_id);
   if (!summary.reason_id.empty()) {
     report.set("explanation", summary.record.reason);

@@ -51,7 +51,8 @@ struct ContactRecord {
   double angle_deg = 0;      ///< beam angle θ of the contract
   double thickness_mm = 0, reduction_percent = 0, initial_thickness_mm = 0, standoff_mm = 0;
   std::vector<PlateRecord> plates;
-  std::vector<double> path_thickness_mm, path_force_N;
+  /// The way there: thickness, and the force of paddle and detector (the latter may be empty).
+  std::vector<double> path_thickness_mm, path_force_N, path_detector_N;
 };
 
 /// One row of the iterations table.

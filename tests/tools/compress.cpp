@@ -53,6 +53,7 @@ TEST_F(CompressTool, WritesTheContactRecordAndTheContractKeys) {
                           "thickness_mm",
                           "reduction_percent",
                           "force_N",
+                          "detector_force_N",
                           "pressure_kPa",
                           "area_cm2",
                           "worst_gap_mm",
@@ -65,7 +66,10 @@ TEST_F(CompressTool, WritesTheContactRecordAndTheContractKeys) {
                           "peak_mb"}) {
     EXPECT_TRUE(r.contains(key)) << key;
   }
-  EXPECT_TRUE(r.contains("judgement"));
+  for (const char* id : {"pressure_against_sensors", "penetration_within", "volume_kept",
+                         "plates_balanced", "reduction_within"}) {
+    EXPECT_TRUE(r.contains(std::string("judgement/") + id)) << id;
+  }
   EXPECT_NEAR(r.number("reduction_percent"), 40, 1e-6);
   EXPECT_LT(r.number("worst_gap_mm"), 0.01);
   const HexMesh mesh = read_mesh(folder_ / "out.vtkhdf", {.contact = true});
@@ -105,7 +109,11 @@ TEST_F(CompressTool, AnEarlyStopIsWrittenOnlyWhenEnoughWasReached) {
   EXPECT_EQ(accepted.exit_code, 0) << accepted.err;
   ASSERT_TRUE(wrote());
   EXPECT_EQ(report().text("status"), "stopped_early");
-  EXPECT_NE(report().text("reason").find("mm"), std::string::npos);
+  const std::string id = report().text("reason");
+  EXPECT_FALSE(id.empty());
+  EXPECT_EQ(id.find_first_not_of("abcdefghijklmnopqrstuvwxyz_"), std::string::npos) << id;
+  EXPECT_NE(report().text("explanation").find("mm"), std::string::npos);
+  EXPECT_LT(report().number("load_reached"), 1);
   EXPECT_EQ(read_mesh(folder_ / "out.vtkhdf").solve->status, "stopped_early");
 }
 

@@ -75,6 +75,7 @@ void expect_same(const ContactRecord& a, const ContactRecord& b) {
   EXPECT_EQ(a.standoff_mm, b.standoff_mm);
   EXPECT_EQ(a.path_thickness_mm, b.path_thickness_mm);
   EXPECT_EQ(a.path_force_N, b.path_force_N);
+  EXPECT_EQ(a.path_detector_N, b.path_detector_N);
   ASSERT_EQ(a.plates.size(), b.plates.size());
   for (std::size_t p = 0; p < a.plates.size(); ++p) {
     EXPECT_EQ(a.plates[p].name, b.plates[p].name);

@@ -156,6 +156,11 @@ void check_contact(const ContactRecord& contact, const Complaint& complain) {
     throw complain("group /breast/contact has a path of ", contact.path_thickness_mm.size(),
                    " thicknesses and ", contact.path_force_N.size(), " forces");
   }
+  if (!contact.path_detector_N.empty() &&
+      contact.path_detector_N.size() != contact.path_thickness_mm.size()) {
+    throw complain("group /breast/contact has a path of ", contact.path_thickness_mm.size(),
+                   " thicknesses and ", contact.path_detector_N.size(), " forces of the detector");
+  }
   for (std::size_t p = 0; p < contact.plates.size(); ++p) {
     const PlateRecord& plate = contact.plates[p];
     for (const Vec3& axis : {plate.normal, plate.anterior}) {

@@ -106,6 +106,7 @@ void put_contact(Document& document, const ContactRecord& contact) {
   }
   sets[contact_group + "/path_thickness_mm"] = array_of(Doubles(contact.path_thickness_mm));
   sets[contact_group + "/path_force_N"] = array_of(Doubles(contact.path_force_N));
+  sets[contact_group + "/path_detector_N"] = array_of(Doubles(contact.path_detector_N));
 }
 
 ContactRecord get_contact(Fields& fields) {
@@ -128,6 +129,10 @@ ContactRecord get_contact(Fields& fields) {
   contact.path_thickness_mm = fields.doubles(contact_group + "/path_thickness_mm", {Fields::any});
   contact.path_force_N =
       fields.doubles(contact_group + "/path_force_N", {contact.path_thickness_mm.size()});
+  // Files of earlier versions have the paddle's alone.
+  if (fields.has(contact_group + "/path_detector_N")) {
+    contact.path_detector_N = fields.doubles(contact_group + "/path_detector_N", {Fields::any});
+  }
   return contact;
 }
 

@@ -1,0 +1,26 @@
+// Why the plates could not close further: as an identifier and in words.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "contact/path.hpp"
+#include "contact/plates.hpp"
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+/// `id` is stable: "folds_at_plate_edge", "folds_on_chest_wall", "folds_between_edge_and_wall",
+/// "folds_behind_plates", "folds_between_plates" (where the worst element of the refused step
+/// lies); "shrinks_..." with the same endings (no element folds, but one shrinks too far at once or
+/// its law overflows); "iteration_limit", "singular_tangent", "no_descent"; "solve_limit" and
+/// "out_of_reach" (force or pressure, the plates all but closed).
+struct StopReason {
+  std::string id, sentence;
+};
+
+/// `good`: the last equilibrium, 3 per node.
+StopReason explain_stop(const HexMesh& mesh, const Eigen::VectorXd& good, const PathResult& path,
+                        const PlatePair& plates);
+
+}  // namespace breast

@@ -1,0 +1,40 @@
+// A compression in the terms of a mammography physicist: each figure against its clinical range,
+// and whether the two plates press on the breast alone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+/// One statement about a result. `id` is stable ("paddle_force_above"), the sentence is not.
+struct Judgement {
+  std::string id, sentence;
+  bool doubtful = false;  ///< to be read before the result is used
+};
+
+/// Where a plate presses.
+struct PressedPlace {
+  Vec3 peak_at{0, 0, 0};        ///< of the highest pressure, mm
+  double peak_to_wall_mm = -1;  ///< to the nearest chest-wall or cut node; negative: no contact
+  double edge_part = 0;         ///< of the force along the plate's normal, on its rounded edge
+};
+
+/// What is judged besides the contact record.
+struct PressedState {
+  Vec3 beam{0, 0, -1};  ///< n, from paddle to detector
+  /// On the body, N; the wall's includes a held cut.
+  Vec3 weight_N{0, 0, 0}, wall_reaction_N{0, 0, 0};
+  double max_volume_error = 0;
+  std::vector<PressedPlace> places;  ///< per plate of the record
+};
+
+/// Force and mean pressure of both plates, contact area, thickness, reduction, penetration and
+/// volume against the ranges of practice; how much the rounded edge presses; last the balance of
+/// the plates.
+std::vector<Judgement> judge_compression(const ContactRecord& contact, const PressedState& state);
+
+}  // namespace breast

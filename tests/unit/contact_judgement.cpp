@@ -1,0 +1,122 @@
+// What is said of a compression: every figure against its range, the balance of the plates.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "contact/judgement.hpp"
+
+using namespace breast;
+
+namespace {
+
+/// A CC compression nobody would object to.
+ContactRecord ordinary() {
+  ContactRecord contact;
+  contact.view = "CC";
+  contact.thickness_mm = 45;
+  contact.reduction_percent = 48;
+  for (const char* name : {"paddle", "detector"}) {
+    PlateRecord plate;
+    plate.name = name;
+    plate.force_N = 100;
+    plate.area_cm2 = 100;
+    plate.mean_kPa = 10;
+    plate.peak_kPa = 20;
+    contact.plates.push_back(plate);
+  }
+  return contact;
+}
+
+/// In equilibrium with it: the wall carries the rest along the beam.
+PressedState state_of(const ContactRecord& contact) {
+  PressedState state;
+  state.weight_N = Vec3(0, 0, -5);
+  state.wall_reaction_N = Vec3(0, -100, contact.plates[0].force_N - contact.plates[1].force_N + 5);
+  state.max_volume_error = 1e-12;
+  state.places = {{Vec3(1, 2, 3), 40, 0.3}, {Vec3(4, 5, 6), 2.5, 0.3}};
+  return state;
+}
+
+std::vector<std::string> doubts(const ContactRecord& contact) {
+  std::vector<std::string> ids;
+  for (const Judgement& j : judge_compression(contact, state_of(contact))) {
+    if (j.doubtful) ids.push_back(j.id);
+  }
+  return ids;
+}
+
+using Ids = std::vector<std::string>;
+
+}  // namespace
+
+TEST(Judgement, OrdinaryCompressionIsNotDoubted) {
+  const ContactRecord contact = ordinary();
+  EXPECT_EQ(doubts(contact), Ids{});
+  const std::vector<Judgement> all = judge_compression(contact, state_of(contact));
+  Ids ids;
+  for (const Judgement& j : all) {
+    ids.push_back(j.id);
+    EXPECT_FALSE(j.sentence.empty());
+  }
+  EXPECT_EQ(ids, (Ids{"paddle_force_within", "paddle_pressure_within", "detector_force_within",
+                      "detector_pressure_within", "pressure_against_sensors", "contact_area_within",
+                      "thickness_within", "reduction_within", "penetration_within", "volume_kept",
+                      "paddle_presses_with_its_flat", "detector_presses_with_its_flat",
+                      "plates_balanced"}));
+}
+
+TEST(Judgement, EachFigureOutsideItsRangeIsDoubted) {
+  const auto with = [](const auto& change) {
+    ContactRecord contact = ordinary();
+    change(contact);
+    return doubts(contact);
+  };
+  EXPECT_EQ(with([](ContactRecord& c) { c.plates[0].mean_kPa = 30; }),
+            Ids{"paddle_pressure_above"});
+  EXPECT_EQ(with([](ContactRecord& c) { c.plates[1].mean_kPa = 3; }),
+            Ids{"detector_pressure_below"});
+  EXPECT_EQ(with([](ContactRecord& c) { c.plates[0].area_cm2 = 36; }), Ids{"contact_area_below"});
+  EXPECT_EQ(with([](ContactRecord& c) { c.thickness_mm = 20; }), Ids{"thickness_below"});
+  EXPECT_EQ(with([](ContactRecord& c) { c.reduction_percent = 70; }), Ids{"reduction_above"});
+  EXPECT_EQ(with([](ContactRecord& c) { c.plates[1].worst_gap_mm = 0.2; }),
+            Ids{"penetration_above"});
+  EXPECT_EQ(with([](ContactRecord& c) {
+              c.plates[0].force_N = std::numeric_limits<double>::quiet_NaN();
+            }).front(),
+            "paddle_force_above");
+  EXPECT_EQ(with([](ContactRecord& c) { c.plates[0].force_N = c.plates[1].force_N = 20; }),
+            (Ids{"paddle_force_below", "detector_force_below"}));
+}
+
+// A detector that squeezes tissue against the held cut: the paddle's force alone looks clinical.
+TEST(Judgement, APlatePressingOnTheWallIsSaidWithThePlace) {
+  ContactRecord contact = ordinary();
+  contact.plates[0].force_N = 115;
+  contact.plates[1].force_N = 21000;
+  EXPECT_EQ(doubts(contact), (Ids{"detector_force_above", "plates_unbalanced"}));
+  const std::vector<Judgement> all = judge_compression(contact, state_of(contact));
+  const std::string& sentence = all.back().sentence;
+  EXPECT_NE(sentence.find("21000 N"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("the detector presses on what is held"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("2.5 mm from the chest wall or cut"), std::string::npos) << sentence;
+}
+
+TEST(Judgement, WeightAloneIsNoImbalance) {
+  ContactRecord contact = ordinary();
+  contact.plates[1].force_N = 105;
+  EXPECT_EQ(doubts(contact), Ids{});
+  contact.plates[1].force_N = 140;
+  EXPECT_EQ(doubts(contact), Ids{"plates_unbalanced"});
+}
+
+TEST(Judgement, AnEdgeThatCarriesMostOfTheForceIsDoubted) {
+  const ContactRecord contact = ordinary();
+  PressedState state = state_of(contact);
+  state.places[1].edge_part = 0.8;
+  Ids ids;
+  for (const Judgement& j : judge_compression(contact, state)) {
+    if (j.doubtful) ids.push_back(j.id);
+  }
+  EXPECT_EQ(ids, Ids{"detector_presses_with_its_edge"});
+}
