@@ -20,21 +20,8 @@ namespace {
 /// Clicked points: a table with columns x_mm y_mm z_mm (or x y z), patient LPS.
 std::vector<Vec3> read_points(const std::filesystem::path& file) {
   const Table table = read_table(file);
-  const auto column = [&](const std::string& axis) {
-    for (std::size_t n = 0; n < table.columns.size(); ++n) {
-      if (table.columns[n] == axis || table.columns[n] == axis + "_mm") return n;
-    }
-    throw input_error(file.string(), ": no column ", axis, "_mm");
-  };
-  const std::size_t axes[3] = {column("x"), column("y"), column("z")};
   std::vector<Vec3> points;
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    Vec3 point;
-    for (int d = 0; d < 3; ++d) {
-      point[d] = parse_number(table.rows[row][axes[d]], message(file.string(), " row ", row + 1));
-    }
-    points.push_back(point);
-  }
+  for (std::size_t row = 0; row < table.rows.size(); ++row) points.push_back(table.point(row, ""));
   if (points.empty()) throw input_error(file.string(), ": no points");
   return points;
 }

@@ -46,6 +46,26 @@ int Table::column(const std::string& column) const {
   throw input_error(name, " has no column '", column, "'; it has: ", known);
 }
 
+bool Table::has(const std::string& column) const {
+  return std::find(columns.begin(), columns.end(), column) != columns.end();
+}
+
+const std::string& Table::cell(std::size_t row, const std::string& column) const {
+  return rows[row][std::size_t(this->column(column))];
+}
+
+double Table::number(std::size_t row, const std::string& column) const {
+  return parse_number(cell(row, column), message(name, ", row ", row + 1, ", ", column));
+}
+
+Vec3 Table::point(std::size_t row, const std::string& prefix) const {
+  const auto along = [&](const char* axis) {
+    const std::string bare = prefix + axis;
+    return number(row, has(bare) ? bare : bare + "_mm");
+  };
+  return {along("x"), along("y"), along("z")};
+}
+
 std::string Table::text() const {
   std::string out = join_tabs(columns);
   for (const auto& row : rows) out += join_tabs(row);

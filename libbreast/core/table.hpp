@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/types.hpp"
+
 namespace breast {
 
 struct Table {
@@ -16,6 +18,12 @@ struct Table {
 
   /// Throws Error (input) beginning with the table's name and naming the columns there are.
   int column(const std::string& column) const;
+  bool has(const std::string& column) const;
+  const std::string& cell(std::size_t row, const std::string& column) const;
+  /// A cell that must be a number; throws Error (input) naming table, row (from 1) and column.
+  double number(std::size_t row, const std::string& column) const;
+  /// The numbers of the columns PREFIXx_mm, PREFIXy_mm and PREFIXz_mm (or without _mm), mm.
+  Vec3 point(std::size_t row, const std::string& prefix) const;
   std::string text() const;
   std::string closed_text() const;  ///< text() and the line "# rows N", as in every file we write
 };

@@ -39,7 +39,6 @@ std::vector<TrueLandmark> true_landmarks(const Table& table, Side side, const st
                       ": does not end with its number of rows ('# rows N'); it is cut off or "
                       "old: write it again (phantom --truth, truth-table)");
   }
-  const int landmark = table.column("landmark"), of_side = table.column("side");
   const auto side_of = [&](const std::string& text) {
     try {
       return side_from_name(text);
@@ -47,30 +46,18 @@ std::vector<TrueLandmark> true_landmarks(const Table& table, Side side, const st
       throw input_error(name, ": ", error.what());
     }
   };
-  const auto vector = [&](const std::vector<std::string>& row, const std::string& posture) {
-    Vec3 x;
-    for (int d = 0; d < 3; ++d) {
-      const std::string column = posture + std::array{"_x_mm", "_y_mm", "_z_mm"}[d];
-      x[d] = parse_number(row[table.column(column)], name + ": " + column);
-    }
-    return x;
-  };
   std::vector<std::string> postures{"stress_free", "prone", "supine"};
-  const auto has = [&](const std::string& column) {
-    return std::find(table.columns.begin(), table.columns.end(), column) != table.columns.end();
-  };
   for (const char* view : {"cc", "mlo", "ml"})
-    if (has(view + std::string("_x_mm"))) postures.push_back(view);
+    if (table.has(view + std::string("_x_mm"))) postures.push_back(view);
   std::vector<TrueLandmark> list;
-  for (const auto& row : table.rows) {
-    if (side_of(row[of_side]) != side) continue;
-    TrueLandmark point{row[landmark], {}};
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (side_of(table.cell(row, "side")) != side) continue;
+    TrueLandmark point{table.cell(row, "landmark"), {}};
     for (const std::string& posture : postures) {
       TruePosition& there = point.at[posture];
-      there.x = vector(row, posture);
+      there.x = table.point(row, posture + "_");
       const std::string column = posture + "_own_error_mm";
-      if (has(column))
-        there.own_error = parse_number(row[table.column(column)], name + ": " + column);
+      if (table.has(column)) there.own_error = table.number(row, column);
     }
     list.push_back(std::move(point));
   }

@@ -1,7 +1,6 @@
 #include "mammo/match_queries.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <limits>
@@ -82,7 +81,6 @@ std::vector<MatchQuery> point_queries(const Table& table, const std::string& whe
                                       const std::function<Vec2(const Vec2&)>& uv_of_pixel) {
   const int u = table.column(uv_of_pixel ? "x_px" : "u_mm"),
             v = table.column(uv_of_pixel ? "y_px" : "v_mm");
-  const auto named = std::find(table.columns.begin(), table.columns.end(), "name");
   std::vector<MatchQuery> queries;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const std::string row = where + ", row " + std::to_string(r + 1);
@@ -91,9 +89,7 @@ std::vector<MatchQuery> point_queries(const Table& table, const std::string& whe
     };
     MatchQuery query{{cell(u), cell(v)}, "", std::nullopt};
     if (uv_of_pixel) query.from_uv = uv_of_pixel(query.from_uv);
-    if (named != table.columns.end()) {
-      query.landmark = table.rows[r][std::size_t(named - table.columns.begin())];
-    }
+    if (table.has("name")) query.landmark = table.cell(r, "name");
     queries.push_back(query);
   }
   return queries;
@@ -101,35 +97,24 @@ std::vector<MatchQuery> point_queries(const Table& table, const std::string& whe
 
 std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table,
                                       const std::string& where, int& behind) {
-  const auto columns = [&](std::string view) {
+  const auto place = [&](std::size_t row, const ImageFrame& frame) {
+    std::string view = frame.view;
     for (char& letter : view) letter = char(std::tolower(static_cast<unsigned char>(letter)));
-    return std::array<int, 3>{table.column(view + "_x_mm"), table.column(view + "_y_mm"),
-                              table.column(view + "_z_mm")};
+    return frame.pose.project(table.point(row, view + "_"));
   };
-  const auto from = columns(matcher.from_frame().view), to = columns(matcher.to_frame().view);
-  const int name = table.column("landmark"), side = table.column("side");
   std::vector<MatchQuery> queries;
   std::optional<std::pair<Vec2, Vec2>> nipples;
   behind = 0;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    const auto& row = table.rows[r];
-    if (row[std::size_t(side)] != side_name(matcher.from().side)) continue;
-    const auto position = [&](const std::array<int, 3>& at) {
-      Vec3 x;
-      for (int k = 0; k < 3; ++k) {
-        x[k] = parse_number(row[std::size_t(at[std::size_t(k)])],
-                            where + ", row " + std::to_string(r + 1));
-      }
-      return x;
-    };
-    const Vec2 uv = matcher.from_frame().pose.project(position(from)),
-               truth = matcher.to_frame().pose.project(position(to));
-    if (row[std::size_t(name)] == "nipple") nipples = {uv, truth};
+    if (table.cell(r, "side") != side_name(matcher.from().side)) continue;
+    const std::string& name = table.cell(r, "landmark");
+    const Vec2 uv = place(r, matcher.from_frame()), truth = place(r, matcher.to_frame());
+    if (name == "nipple") nipples = {uv, truth};
     if (uv.x() < 0) {
       ++behind;
       continue;
     }
-    queries.push_back({uv, row[std::size_t(name)], truth});
+    queries.push_back({uv, name, truth});
   }
   for (MatchQuery& query : queries) query.nipples = nipples;
   if (queries.empty()) {

@@ -12,10 +12,6 @@ namespace breast {
 
 namespace {
 
-const std::string& cell(const Table& table, std::size_t row, const std::string& column) {
-  return table.rows[row][std::size_t(table.column(column))];
-}
-
 // Column of a constant: its name with the unit, as in "a10_Pa"; b has no unit.
 std::string column_of(std::string_view constant) {
   return constant == "b" ? "b" : std::string(constant) + "_Pa";
@@ -23,10 +19,9 @@ std::string column_of(std::string_view constant) {
 
 Law read_law(const Table& table, std::size_t row, const std::string& where) {
   Law law;
-  law.kind = law_kind_from_name(cell(table, row, "law"));
+  law.kind = law_kind_from_name(table.cell(row, "law"));
   for (const std::string_view constant : law_constant_names(law.kind)) {
-    const std::string column = column_of(constant);
-    law.constants.push_back(parse_number(cell(table, row, column), where + ", " + column));
+    law.constants.push_back(table.number(row, column_of(constant)));
   }
   check_law(law, where);
   return law;
@@ -37,13 +32,13 @@ MaterialSet read_set(const Table& table, const std::string& name) {
   set.name = name;
   std::array<bool, n_tissues> given{};
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const std::string tissue_text = cell(table, row, "tissue");
+    const std::string tissue_text = table.cell(row, "tissue");
     const auto tissue = static_cast<std::size_t>(tissue_from_name(tissue_text));
     const std::string where = "materials " + name + ", tissue " + tissue_text;
     if (given[tissue]) throw input_error(where, ": appears twice");
     given[tissue] = true;
     set.laws[tissue] = read_law(table, row, where);
-    const double density = parse_number(cell(table, row, "density_g_per_mm3"), where + ", density");
+    const double density = table.number(row, "density_g_per_mm3");
     if (!(density >= 0) || density > 0.1) {
       throw input_error(where, ": density ", density, " g/mm^3 must lie in 0 to 0.1 (water 0.001)");
     }

@@ -129,13 +129,9 @@ Tumour read_tumour(const std::filesystem::path& file) {
   const Table table = read_table(file);
   const std::string name = file.filename().string();
   if (table.rows.empty()) throw input_error("--tumour ", name, ": the table has no row");
-  const auto cell = [&](const std::string& column) {
-    return parse_number(table.rows[0][table.column(column)], name + ", column " + column);
-  };
-  Tumour tumour{Vec3(cell("x_mm"), cell("y_mm"), cell("z_mm")), 0, "first row of " + name};
-  const auto& columns = table.columns;
-  if (std::find(columns.begin(), columns.end(), "radius_mm") != columns.end()) {
-    tumour.radius = cell("radius_mm");
+  Tumour tumour{table.point(0, ""), 0, "first row of " + name};
+  if (table.has("radius_mm")) {
+    tumour.radius = table.number(0, "radius_mm");
     check_radius(tumour.radius, name);
   }
   return tumour;

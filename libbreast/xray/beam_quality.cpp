@@ -24,15 +24,13 @@ Energy from_spectrum(const std::string& name) {
 
 Energy from_file(const std::string& file) {
   const Table table = read_table(file);
-  const int kev = table.column("energy_keV"), weight = table.column("weight");
   std::vector<double> weights;
   std::vector<Attenuation> attenuation;
   double sum = 0;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    const std::string where = file + ", row " + std::to_string(r + 1);
-    const double w = parse_number(table.rows[r][std::size_t(weight)], where);
-    if (!(w >= 0)) throw input_error(where, ": weight ", w, " is negative");
-    attenuation.push_back(attenuation_at(parse_number(table.rows[r][std::size_t(kev)], where)));
+    const double w = table.number(r, "weight");
+    if (!(w >= 0)) throw input_error(file, ", row ", r + 1, ": weight ", w, " is negative");
+    attenuation.push_back(attenuation_at(table.number(r, "energy_keV")));
     weights.push_back(w);
     sum += w;
   }
