@@ -23,7 +23,7 @@ struct Choices {
   std::filesystem::path reference, compressed, like;
   std::string view = "CC", contact = "active-set", wall = "fixed", detector = "raised",
               gravity = "upright";
-  std::optional<double> angle, thickness, reduction, force, pressure;
+  std::optional<double> angle, thickness, reduction, force, pressure, plate_step;
   std::optional<double> at_least;
   double friction = 0;
   PlateOptions plates;
@@ -91,6 +91,9 @@ void declare(Tool& tool, Choices& c) {
       "lifts the breast to its mid-plane, not at all, or by so much; the paddle does the rest");
   tool.number(c.friction, "--friction", "MU", "Coulomb's coefficient between skin and plates", 0,
               2);
+  tool.number(c.plate_step, "--plate-step", "MM",
+              "longest step of the plates on the way (default: 0.095 of the initial thickness)",
+              0.1, 1000);
   tool.choice(c.contact, "--contact", {"active-set", "al"},
               "exact active set, or the paper's augmented Lagrangian");
   tool.text(c.wall, "--wall", "fixed|spring:KPA_PER_MM[,KPA_PER_MM]",
@@ -118,6 +121,8 @@ CompressionOptions compression_options(const Choices& c) {
   options.friction = c.friction;
   options.wall = parse_wall(c.wall);
   options.gravity = parse_gravity(c.gravity);
+  options.path.longest_step = c.plate_step.value_or(0);
+  options.path.first_step = c.plate_step.value_or(0);
   options.method =
       c.contact == "al" ? ContactMethod::augmented_lagrangian : ContactMethod::active_set;
   const auto stop = [&](const std::optional<double>& value, StopAt at) {

@@ -3,28 +3,39 @@
 
 #include <cmath>
 
-#include "contact/active_set.hpp"
-#include "contact/path.hpp"
-#include "contact/saddle_body.hpp"
+#include "contact/skin_area.hpp"
 #include "core/units.hpp"
 #include "fixtures/pressed_block.hpp"
 #include "fixtures/standing_block.hpp"
-#include "mechanics/scene.hpp"
 
 using namespace breast;
 
 namespace {
 
-/// A block on two symmetry planes, x = 0 and y = 0, free elsewhere.
-Constraints symmetry_planes(const HexMesh& mesh) {
-  Constraints held(mesh.nodes());
+using fixtures::PressedBody;
+
+MechanicsOptions seed2008() {
+  MechanicsOptions options;
+  options.materials = load_materials("seed2008");
+  return options;
+}
+
+/// Nodes on z = 0 and z = top.
+std::vector<int> top_and_bottom(const HexMesh& mesh, double top) {
+  std::vector<int> nodes;
   for (int node = 0; node < mesh.nodes(); ++node) {
-    const Vec3& x = mesh.points[std::size_t(node)];
-    NodeConstraint c;
-    c.held = {std::abs(x.x()) < 1e-9, std::abs(x.y()) < 1e-9, false};
-    if (c.held[0] || c.held[1]) held.set(node, c);
+    const double z = mesh.reference[std::size_t(node)].z();
+    if (z < 1e-9 || z > top - 1e-9) nodes.push_back(node);
   }
-  return held;
+  return nodes;
+}
+
+/// Pa between the plates of a homogeneous block of height `ratio`: nominal, force per stress-free
+/// area.
+double rivlin_pressure(const Law& law, double ratio) {
+  const double i1 = ratio * ratio + 2 / ratio, i2 = 2 * ratio + 1 / (ratio * ratio);
+  const LawValue w = law.evaluate(i1, i2);
+  return -2 * (ratio - 1 / (ratio * ratio)) * (w.w1 + w.w2 / ratio);
 }
 
 }  // namespace
@@ -35,27 +46,9 @@ TEST(ContactBlock, RivlinCompressionBetweenFrictionlessPlates) {
   for (const Tissue tissue : {Tissue::fat, Tissue::skin}) {
     HexMesh mesh = fixtures::standing_block(size, {3, 2, 4});
     mesh.tissue.assign(mesh.tissue.size(), tissue);
-    MechanicsOptions options;
-    options.materials = load_materials("seed2008");
-    const Scene scene(mesh, options);
-    const ForwardProblem problem(scene, flatten(mesh.reference),
-                                 Eigen::VectorXd::Zero(3L * mesh.nodes()));
-    SaddleSolver solver(problem.pattern());
-    const Constraints held = symmetry_planes(mesh);
-    SaddleBody body(problem, solver, held, Vec3::Zero());
-    std::vector<int> top_and_bottom;
-    for (int node = 0; node < mesh.nodes(); ++node) {
-      const double z = mesh.points[std::size_t(node)].z();
-      if (z < 1e-9 || z > size.z() - 1e-9) top_and_bottom.push_back(node);
-    }
-    ActiveSet contact(body, top_and_bottom);
-    PlatePair plates = fixtures::wide_plates(0, size.z());
-    BodyState state{flatten(mesh.reference), scene.assembly().rest_pressure()};
-    const auto area = [&](const BodyState&) {
-      return std::vector<double>(top_and_bottom.size(), 1.0);
-    };
-    const PathResult path =
-        follow_path(contact, plates, state, {TargetKind::thickness, ratio * size.z()}, area, {});
+    PressedBody body(mesh, seed2008(), fixtures::mirror_planes(mesh),
+                     top_and_bottom(mesh, size.z()), fixtures::wide_plates(0, size.z()));
+    const PathResult path = body.close_to(ratio * size.z());
     ASSERT_TRUE(path.reached) << describe(path.last_failure) << " at " << path.failed_thickness;
     // Homogeneous: x' = x/√λ, y' = y/√λ, z' = λ (z − h/2) + h/2.
     double worst = 0;
@@ -63,16 +56,54 @@ TEST(ContactBlock, RivlinCompressionBetweenFrictionlessPlates) {
       const Vec3& x = mesh.reference[std::size_t(node)];
       const Vec3 exact(x.x() / std::sqrt(ratio), x.y() / std::sqrt(ratio),
                        ratio * (x.z() - size.z() / 2) + size.z() / 2);
-      worst = std::max(worst, (Vec3(state.x.segment<3>(3 * node)) - exact).norm());
+      worst = std::max(worst, (Vec3(body.state.x.segment<3>(3 * node)) - exact).norm());
     }
     EXPECT_LT(worst, 1e-7);
-    const double i1 = ratio * ratio + 2 / ratio, i2 = 2 * ratio + 1 / (ratio * ratio);
-    const LawValue w = options.materials.law(tissue).evaluate(i1, i2);
-    const double nominal = 2 * (ratio - 1 / (ratio * ratio)) * (w.w1 + w.w2 / ratio);
-    const double exact = -nominal * size.x() * size.y() / micronewton_per_newton;
+    const double exact = rivlin_pressure(seed2008().materials.law(tissue), ratio) * size.x() *
+                         size.y() / micronewton_per_newton;
     EXPECT_NEAR(path.points.back().paddle_N / exact, 1, 1e-8);
     EXPECT_NEAR(path.points.back().detector_N / exact, 1, 1e-8);
     EXPECT_LT(path.final_step.forces.max_volume_error, 1e-9);
+  }
+}
+
+// The patch test: whatever the mesh inside and under the plates, one pressure reaches every node.
+TEST(ContactBlock, UniformPressurePassesThroughADistortedMesh) {
+  constexpr double side = 30, ratio = 0.7;
+  for (const int order : {1, 2}) {
+    SCOPED_TRACE(order);
+    HexMesh mesh = fixtures::block(
+        {.elements = {3, 3, 3}, .size = Vec3(side, side, side), .order = order, .distortion = 0.2});
+    for (int node = 0; order == 1 && node < mesh.nodes(); ++node) {
+      Vec3& x = mesh.reference[std::size_t(node)];
+      const auto inner = [&](double at) { return at > 1e-9 && at < side - 1e-9; };
+      if (inner(x.z()) || !inner(x.x()) || !inner(x.y())) continue;  // faces of the plates
+      x += Vec3(2 * fixtures::noise(node), 2 * fixtures::noise(node + 7), 0);
+    }
+    mesh.imaged = mesh.points = mesh.reference;
+    MechanicsOptions options = seed2008();
+    options.element = order == 1 ? Element::q1p0 : Element::q2p1;
+    PressedBody body(mesh, options, fixtures::mirror_planes(mesh), top_and_bottom(mesh, side),
+                     fixtures::wide_plates(0, side));
+    const PathResult path = body.close_to(ratio * side);
+    ASSERT_TRUE(path.reached) << describe(path.last_failure);
+    // Force per present area.
+    const double exact = rivlin_pressure(options.materials.law(Tissue::fat), ratio) * ratio;
+    std::vector<Face> plates;
+    for (const Face& face : mesh.skin_faces) {
+      double low = side, high = 0;
+      for (const int node : face_nodes(mesh, face)) {
+        low = std::min(low, mesh.reference[std::size_t(node)].z());
+        high = std::max(high, mesh.reference[std::size_t(node)].z());
+      }
+      if (high < 1e-9 || low > side - 1e-9) plates.push_back(face);
+    }
+    const NodalFaces area = nodal_faces(mesh, plates, body.state.x);
+    const std::vector<double> pushed = body.normal_forces(path.final_step.forces);
+    for (std::size_t c = 0; c < pushed.size(); ++c) {
+      const double pressure = pushed[c] / area.area[std::size_t(body.candidates()[c])];
+      EXPECT_NEAR(pressure / exact, 1, 1e-7) << "node " << body.candidates()[c];
+    }
   }
 }
 

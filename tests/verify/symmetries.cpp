@@ -11,6 +11,7 @@
 #include "core/units.hpp"
 #include "fixtures/elastic_scene.hpp"
 #include "fixtures/laws.hpp"
+#include "fixtures/renumbered.hpp"
 #include "fixtures/shapes.hpp"
 #include "mechanics/element_order.hpp"
 
@@ -48,34 +49,9 @@ TEST(Symmetry, RigidMotionMakesNoForce) {
   }
 }
 
-// A permutation that mixes well.
-std::vector<int> shuffled(int count) {
-  std::vector<int> order(static_cast<std::size_t>(count));
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [](int a, int b) { return fixtures::noise(a) < fixtures::noise(b); });
-  return order;
-}
-
 TEST(Symmetry, NumberingDoesNotMatter) {
   const HexMesh mesh = fixtures::cap({.elements = 6});
-  const std::vector<int> nodes = shuffled(mesh.nodes()), elements = shuffled(mesh.elements());
-  std::vector<int> node_now(nodes.size()), element_now(elements.size());
-  for (int i = 0; i < mesh.nodes(); ++i) node_now[nodes[i]] = i;
-  for (int e = 0; e < mesh.elements(); ++e) element_now[elements[e]] = e;
-  HexMesh other = mesh;
-  for (int i = 0; i < mesh.nodes(); ++i) other.imaged[i] = mesh.imaged[nodes[i]];
-  other.points = other.reference = other.imaged;
-  for (int e = 0; e < mesh.elements(); ++e) {
-    other.tissue[e] = mesh.tissue[elements[e]];
-    for (int a = 0; a < 8; ++a) {
-      other.connectivity[8 * std::size_t(e) + a] = node_now[mesh.element(elements[e])[a]];
-    }
-  }
-  for (auto* faces : {&other.skin_faces, &other.pectoral_faces, &other.cut_faces}) {
-    for (Face& face : *faces) face.element = element_now[face.element];
-    std::reverse(faces->begin(), faces->end());
-  }
+  const auto [other, nodes] = fixtures::renumbered(mesh);
   HexMesh a = mesh, b = other;
   ASSERT_TRUE(solve_backward(a, prone, paper_options()).converged());
   ASSERT_TRUE(solve_backward(b, prone, paper_options()).converged());
