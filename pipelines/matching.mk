@@ -16,3 +16,16 @@ $(RUN)/matching-true-mesh.tsv: $(TRUTH_TABLE) $(CC2MLO)
 matching: $(RUN)/matching.tsv $(RUN)/matching-true-mesh.tsv
 	@for table in $^; do echo "$$table"; grep -E '^(query|-)' $$table | cut -f2,15-18,21,22; done
 .PHONY: matching
+
+# The band against solving the chain again with parameters drawn from its priors, on a coarse mesh of the case.
+BAND_SAMPLES ?= 220
+$(RUN)/band-check-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH)
+	$(HEXMESH) $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $@ --elements 8 --tumour none $(common)
+$(RUN)/band-samples.tsv: $(RUN)/band-check-mesh.vtkhdf tests/bench/band_check.cpp $(COMPRESS)
+	cmake -B $(BUILD) -DBREAST_BENCH=ON > $(RUN)/.band-check.log
+	cmake --build $(BUILD) --target band_check >> $(RUN)/.band-check.log
+	$(BIN)/band_check $< 1 $(BAND_SAMPLES) > $@.part
+	@mv $@.part $@
+band-check: $(RUN)/band-samples.tsv
+	@pipelines/band-check.sh $<
+.PHONY: band-check

@@ -24,3 +24,15 @@ $(WALL)/table.tsv: $(WALL_VARIANTS:%=$(WALL)/%/curve.tsv) $(RUN)/supine.vtkhdf \
 	pipelines/wall-sensitivity.sh $(RUN) $(WALL_VARIANTS) > $@.part
 	@mv $@.part $@
 	@cat $@
+
+# Derivatives by stiffness, plates and chest wall in one file a view, and the band they give the tumour's curve.
+DIFFERENCE ?= $(BIN)/difference
+$(RUN)/cc-band.vtkhdf $(RUN)/mlo-band.vtkhdf: $(RUN)/%-band.vtkhdf: $(RUN)/%-sensitivity.vtkhdf \
+  $(WALL_VARIANTS:%=$(WALL)/%/curve.tsv) $(DIFFERENCE)
+	$(DIFFERENCE) $< $(WALL)/back/$*.vtkhdf $(WALL)/front/$*.vtkhdf $@ --parameter chest_wall $(common)
+$(RUN)/band.tsv: $(RUN)/cc-band.vtkhdf $(RUN)/mlo-band.vtkhdf $(CC2MLO)
+	$(CC2MLO) $(wordlist 1,2,$^) $(RUN)/band.vtp --landmark tumour --band --table $@ --curve-table $(RUN)/band-curve.tsv \
+	  $(common)
+band: $(RUN)/band.tsv
+	@sed -n '/"band"/,/}/p' $(RUN)/band.json
+.PHONY: band

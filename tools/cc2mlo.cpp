@@ -217,14 +217,16 @@ void declare(Tool& tool, Choices& choices) {
   tool.integer(choices.grid, "--grid", "N", "N x N points over the tissue of the first image", 0,
                200);
   tool.flag(choices.band, "--band",
-            "50 % and 95 % bands from parameters, thickness, angle and marking (derivatives in the "
-            "files by sensitivity)");
+            "50 % and 95 % bands from parameters, thickness, angle, chest wall and marking "
+            "(derivatives in the "
+            "files by sensitivity and difference)");
   tool.input_file(choices.priors, "--priors", "FILE",
                   "TSV parameter, standard_deviation (1: relative, degree or mm) for --band");
   tool.choice(choices.geometry, "--geometry", {"parallel", "cone"},
               "beam, as in project-mammogram");
   tool.output_file(choices.table, "--table", "OUT.tsv", "one row per point");
   declare_images(tool, choices);
+  tool.describe(default_priors_text());
   tool.check([&] { choices.check(); });
   tool.example("cc2mlo cc.vtkhdf mlo.vtkhdf curve.vtp --landmark tumour --table curve.tsv",
                "where the tumour seen in CC lies in MLO");

@@ -24,6 +24,8 @@ struct Prior {
 };
 /// What is known without the patient: see the table in band_priors.cpp for values and sources.
 std::vector<Prior> default_priors();
+/// The same with their sources as one paragraph, for help texts.
+std::string default_priors_text();
 /// Columns parameter, standard_deviation; further columns are kept as unit and source when so
 /// named.
 std::vector<Prior> priors_from(const Table& table, const std::string& where);

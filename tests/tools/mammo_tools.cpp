@@ -248,6 +248,32 @@ TEST_F(MammoTools, TablesOfPointsAndOfTruth) {
   EXPECT_GE(moved.number("truth/behind_first_image"), 1);
 }
 
+TEST_F(MammoTools, ADifferenceOfTwoModelsIsATermOfTheBand) {
+  const HexMesh body = read_mesh(file("reference.vtkhdf"), {.reference = true});
+  for (const std::string view : {"CC", "MLO"}) {
+    for (const double step : {1.0, -1.0}) {  // half a millimetre anterior, in MLO only
+      HexMesh moved = fixtures::squashed(body, view, 0.6);
+      for (Vec3& x : moved.points) x.y() -= view == "MLO" ? 0.5 * step : 0;
+      write_mesh(file((step > 0 ? "plus-" : "minus-") + view + ".vtkhdf"), moved);
+    }
+    const std::string state = view == "CC" ? "cc.vtkhdf" : "mlo.vtkhdf";
+    const ToolResult result =
+        run("difference", {state, "plus-" + view + ".vtkhdf", "minus-" + view + ".vtkhdf",
+                           view + "-band.vtkhdf", "--report", "difference.json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_LT(Report::parse(read_text(file("difference.json")), "d").number("outside_mm"), 1e-6);
+  }
+  const ToolResult band = run("cc2mlo", {"CC-band.vtkhdf", "MLO-band.vtkhdf", "b.vtp", "--landmark",
+                                         "tumour", "--band", "--report", "band.json"});
+  ASSERT_EQ(band.exit_code, 0) << band.err;
+  const Report report = Report::parse(read_text(file("band.json")), "band.json");
+  EXPECT_NEAR(report.number("band/deviation_mm/chest_wall"), 0.5, 1e-3);  // across the curve
+  const ToolResult views =
+      run("difference", {"cc.vtkhdf", "plus-MLO.vtkhdf", "minus-CC.vtkhdf", "no.vtkhdf"});
+  EXPECT_EQ(views.exit_code, 2);
+  EXPECT_EQ(views.error_lines(), 1) << views.err;
+}
+
 TEST_F(MammoTools, AGridGivesOneRowAPoint) {
   const ToolResult result = run("cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "g.vtp", "--grid", "4"});
   ASSERT_EQ(result.exit_code, 0) << result.err;

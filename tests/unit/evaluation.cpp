@@ -9,12 +9,15 @@
 #include "evaluation/label_surface.hpp"
 #include "evaluation/landmark_truth.hpp"
 #include "evaluation/partial_volume.hpp"
+#include "evaluation/shape_difference.hpp"
 #include "evaluation/surface_distance.hpp"
 #include "evaluation/triangle_tree.hpp"
 #include "evaluation/truth_table.hpp"
 #include "evaluation/wall_distance.hpp"
+#include "fixtures/analytic_breast.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "mesh/locate.hpp"
+#include "meshing/body_mesh.hpp"
 
 namespace breast {
 namespace {
@@ -312,6 +315,42 @@ TEST(ForeignLabels, CodesAndRegion) {
   EXPECT_THROW(translate_labels(volume, {}, "truth.nrrd"), Error);
   EXPECT_THROW(parse_tissue_codes({"29"}), Error);
   EXPECT_THROW(parse_tissue_codes({"29=gland"}), Error);
+}
+
+// Three meshes of one body with other elements; a deformation linear in place is exact in each.
+TEST(ShapeDifference, FollowsThePlacesOfTheScanThroughOtherMeshes) {
+  const auto model = [](int edge, double parameter) {
+    HexMesh mesh = body_mesh(analytic_breast(), {.size = dome_near(edge)});
+    Mat3 slope;
+    slope << 0.1, 0.02, 0, 0, -0.05, 0.03, 0.01, 0, 0.04;
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+      mesh.points[i] = mesh.imaged[i] + parameter * (slope * mesh.imaged[i] + Vec3(1, 2, 3));
+    }
+    return mesh;
+  };
+  const HexMesh base = model(6, 0), plus = model(8, 0.5), minus = model(7, -0.5);
+  const ShapeDifference difference = shape_difference(base, plus, minus, 0.5);
+  const ShapeDifference exact = shape_difference(base, model(6, 0.5), model(6, -0.5), 0.5);
+  EXPECT_LT(exact.outside_mm, 1e-9);
+  EXPECT_GT(difference.outside_mm, 1e-6);  // facets of other meshes
+  const HexMesh unit = model(6, 1);
+  int inside = 0;
+  const Locator in_plus(plus, plus.imaged), in_minus(minus, minus.imaged);
+  for (std::size_t i = 0; i < base.points.size(); ++i) {
+    const Vec3 slope = unit.points[i] - base.points[i];
+    EXPECT_LT((exact.per_node[i] - slope).norm(), 1e-8);
+    if (!in_plus.find(base.imaged[i]) || !in_minus.find(base.imaged[i])) continue;
+    EXPECT_LT((difference.per_node[i] - slope).norm(), 1e-8);
+    ++inside;
+  }
+  EXPECT_GT(inside, base.nodes() / 3);
+  HexMesh other = plus;
+  other.side = Side::right;
+  EXPECT_THROW(shape_difference(base, other, minus, 0.5), Error);
+  for (Vec3& x : other.imaged) x.x() += 100;
+  other.side = plus.side;
+  EXPECT_THROW(shape_difference(base, other, minus, 0.5), Error);
+  EXPECT_THROW(shape_difference(base, plus, minus, 0), Error);
 }
 
 }  // namespace

@@ -1,0 +1,204 @@
+// The band of cc2mlo against solving again: parameters are drawn from the priors, the whole chain
+// is solved with them, and the true MLO places are compared with curve and band of the base model.
+//
+//     band_check MESH.vtkhdf FIRST COUNT [SPREAD]
+//
+// MESH is an imaged mesh (hexmesh --elements 8). Samples FIRST ... FIRST + COUNT - 1, one row a
+// sample and place on stdout: sample, place, distance_mm across the curve, deviation_mm of the
+// band. SPREAD times the priors' deviations. Rows of several runs may be put together;
+// pipelines/band-check.sh judges them.
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <string>
+
+#include "contact/compression.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "io/mesh_file.hpp"
+#include "mammo/band.hpp"
+#include "sensitivity/chain.hpp"
+
+namespace {
+
+using namespace breast;
+
+// Deviations drawn, in the priors' units; those of a compression for CC and MLO.
+struct Draw {
+  double fat = 0, fibroglandular = 0, skin = 0, skin_thickness = 0, density = 0;
+  std::array<double, 2> thickness{}, angle{}, standoff{};
+};
+
+double prior(const std::string& name, double spread) {
+  for (const Prior& p : default_priors()) {
+    if (p.parameter == name) return spread * p.deviation;
+  }
+  throw input_error("no prior ", name);
+}
+
+Draw draw(int sample, double spread) {
+  std::mt19937 stream{unsigned(sample)};
+  std::normal_distribution<double> normal;
+  Draw drawn;
+  drawn.fat = prior("fat", spread) * normal(stream);
+  drawn.fibroglandular = prior("fibroglandular", spread) * normal(stream);
+  drawn.skin = prior("skin", spread) * normal(stream);
+  drawn.skin_thickness = prior("skin_thickness", spread) * normal(stream);
+  drawn.density = prior("density", spread) * normal(stream);
+  for (std::size_t v = 0; v < 2; ++v) {
+    drawn.thickness[v] = prior("thickness", spread) * normal(stream);
+    drawn.angle[v] = prior("angle", spread) * normal(stream);
+    drawn.standoff[v] = prior("standoff", spread) * normal(stream);
+  }
+  return drawn;
+}
+
+constexpr std::array view_names = {"CC", "MLO"};
+
+// The chain with these parameters. Relative deviations are of the logarithm.
+struct Chain {
+  HexMesh reference;
+  std::array<HexMesh, 2> views;
+  MechanicsOptions mechanics;
+};
+
+Chain solve(HexMesh mesh, const Draw& drawn, const std::array<double, 2>& thickness) {
+  Chain chain;
+  chain.mechanics.materials = load_materials("seed2008");
+  MaterialSet& materials = chain.mechanics.materials;
+  const auto percent = [](const char* tissue, double logarithm) {
+    return std::string(tissue) + "=" + std::to_string(100 * std::exp(logarithm));
+  };
+  scale_materials(materials, {percent("fat", drawn.fat), percent("skin", drawn.skin),
+                              percent("fibroglandular", drawn.fibroglandular)});
+  for (double& density : materials.density) density *= std::exp(drawn.density);
+  for (double& mm : mesh.skin_thickness) mm *= std::exp(drawn.skin_thickness);
+  const SolveSummary backward = solve_backward(mesh, posture_gravity("prone"), chain.mechanics);
+  if (!backward.converged()) throw not_converged_error("backward: ", backward.record.reason);
+  chain.reference = mesh;
+  for (std::size_t v = 0; v < 2; ++v) {
+    CompressionOptions options;
+    options.view = view_names[v];
+    options.angle_deg = view_angle_deg(options.view) + drawn.angle[v];
+    // Clear of the wall: 3 deviations nearer the coarse mesh folds behind the plates.
+    options.plates.standoff = 35 + drawn.standoff[v];
+    options.stop_at = thickness[v] > 0 ? StopAt::thickness : StopAt::reduction;
+    options.target = thickness[v] > 0 ? thickness[v] + drawn.thickness[v] : 40;
+    chain.views[v] = mesh;
+    const CompressionSummary summary = compress(chain.views[v], options, chain.mechanics);
+    if (!summary.converged()) throw not_converged_error("compress: ", summary.record.reason);
+  }
+  return chain;
+}
+
+DerivativeFields derivatives(const Chain& chain, const HexMesh& view) {
+  const SensitivityChain sensitivity(view, chain.reference.pressure, posture_gravity("prone"),
+                                     chain.mechanics);
+  DerivativeFields fields;
+  const auto all = all_parameters(view, chain.mechanics, posture_gravity("prone"));
+  for (const Response& response :
+       sensitivity.tangent(pick_parameters(all,
+                                           "fat,fibroglandular,skin,skin_thickness,density,"
+                                           "thickness,standoff,angle"))) {
+    fields[response.parameter.name] = response.position;
+  }
+  return fields;
+}
+
+Vec3 middle(const std::vector<Vec3>& points) {
+  Vec3 low = points.front(), high = low;
+  for (const Vec3& x : points) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  return 0.5 * (low + high);
+}
+
+// (u,v) in the base image of a place seen by a detector that has turned about `centre` (band.hpp).
+Vec2 seen(const Vec3& x, const Vec3& centre, const ImageFrame& base, Side side, double turned) {
+  const ViewPose pose = view_pose(side, base.pose.angle_deg + turned);
+  return base.pose.project(centre) + Vec2((x - centre).dot(pose.e_u), (x - centre).dot(pose.e_v));
+}
+
+// Elements whose middle both base images show, at most `most` of them, spread over the mesh.
+std::vector<int> places(const Matcher& base, std::size_t most) {
+  constexpr double inside = 5;  // mm in front of the posterior edge
+  std::vector<int> shown;
+  for (int e = 0; e < base.from().elements(); ++e) {
+    const auto u = [&](const HexMesh& mesh, const ImageFrame& frame) {
+      return frame.pose.project(element_position(mesh, mesh.points, e, Vec3::Zero())).x();
+    };
+    if (u(base.from(), base.from_frame()) > inside && u(base.to(), base.to_frame()) > inside) {
+      shown.push_back(e);
+    }
+  }
+  std::vector<int> chosen;
+  for (std::size_t k = 0; k < most && !shown.empty(); ++k) {
+    chosen.push_back(shown[k * shown.size() / most]);
+  }
+  return chosen;
+}
+
+void print_row(int sample, int place, const Band& band, const Vec2& truth) {
+  const BandPoint* nearest = nullptr;
+  for (const BandPoint& point : band.points) {
+    if (nearest == nullptr || (truth - point.uv).norm() < (truth - nearest->uv).norm()) {
+      nearest = &point;
+    }
+  }
+  std::printf("%d\t%d\t%.4f\t%.4f\n", sample, place, (truth - nearest->uv).dot(nearest->normal),
+              nearest->deviation);
+}
+
+void run(const std::string& file, int first, int count, double spread) {
+  const HexMesh imaged = read_mesh(file);
+  const Chain base = solve(imaged, {}, {0, 0});
+  const std::array<double, 2> thickness{base.views[0].contact->thickness_mm,
+                                        base.views[1].contact->thickness_mm};
+  const Matcher matcher(base.views[0], base.views[1]);
+  const DerivativeFields from = derivatives(base, base.views[0]),
+                         to = derivatives(base, base.views[1]);
+  std::vector<Prior> priors = default_priors();
+  for (Prior& p : priors) p.deviation *= spread;
+  const BandModel band(matcher, from, to, priors);
+  const std::vector<int> chosen = places(matcher, 24);
+  const std::array<Vec3, 2> centre{middle(base.views[0].points), middle(base.views[1].points)};
+  const double picking = prior("picking", spread);
+  for (int sample = first; sample < first + count; ++sample) {
+    const Draw drawn = draw(sample, spread);
+    Chain truth;
+    try {
+      truth = solve(imaged, drawn, thickness);
+    } catch (const Error& error) {
+      std::printf("# sample %d: %s\n", sample, error.what());
+      continue;
+    }
+    std::mt19937 stream{unsigned(100000 + sample)};
+    std::normal_distribution<double> normal;
+    for (const int e : chosen) {
+      const auto place = [&](std::size_t v) {
+        const HexMesh& mesh = truth.views[v];
+        return seen(element_position(mesh, mesh.points, e, Vec3::Zero()), centre[v],
+                    v == 0 ? matcher.from_frame() : matcher.to_frame(), imaged.side,
+                    drawn.angle[v]);
+      };
+      const Vec2 error = picking * Vec2(normal(stream), normal(stream));
+      const MatchedCurve curve = matcher.match(place(0) + error);
+      if (!curve.in_air()) print_row(sample, e, band.band(curve), place(1));
+    }
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  if (argc < 4) {
+    std::fprintf(stderr, "band_check MESH.vtkhdf FIRST COUNT [SPREAD]\n");
+    return 2;
+  }
+  run(argv[1], std::stoi(argv[2]), std::stoi(argv[3]), argc > 4 ? std::stod(argv[4]) : 1);
+} catch (const breast::Error& error) {
+  std::fprintf(stderr, "band_check: %s\n", error.what());
+  return error.exit_code();
+}

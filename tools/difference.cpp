@@ -1,0 +1,67 @@
+// difference: the derivative of a shape by something that changes the mesh, from two other models.
+#include "cli/tool.hpp"
+#include "core/error.hpp"
+#include "evaluation/shape_difference.hpp"
+#include "io/derivative_file.hpp"
+
+using namespace breast;
+
+namespace {
+
+struct Choices {
+  std::filesystem::path state, plus, minus, out;
+  std::string parameter = "chest_wall";
+  double step = 1;
+};
+
+void run_difference(const Choices& c, Run& run) {
+  HexMesh mesh = read_mesh(c.state, {.reference = true});
+  const HexMesh plus = read_mesh(c.plus, {.reference = true}),
+                minus = read_mesh(c.minus, {.reference = true});
+  Derivatives derivatives = read_derivatives(c.state, mesh);
+  const ShapeDifference difference = shape_difference(mesh, plus, minus, c.step);
+  double largest = 0, sum = 0;
+  for (const Vec3& slope : difference.per_node) {
+    largest = std::max(largest, slope.norm());
+    sum += slope.norm();
+  }
+  derivatives.position[c.parameter] = difference.per_node;
+  run.report().set("outside_mm", difference.outside_mm);
+  run.report().set("derivative/mean_mm", sum / double(mesh.nodes()));
+  run.report().set("derivative/largest_mm", largest);
+  const History history = mesh.history;
+  mesh.history = run.history({{c.state, mesh.content_sha256, &history},
+                              {c.plus, plus.content_sha256, &plus.history},
+                              {c.minus, minus.content_sha256, &minus.history}});
+  write_mesh(c.out, mesh, derivatives);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choices c;
+  Tool tool("difference", "derivative of a shape by what changes the mesh, from two other models");
+  tool.describe(
+      "sensitivity differentiates by materials, gravity and plates; the chest wall changes the "
+      "mesh "
+      "itself. The chain is run again with the wall moved back and forth (segment "
+      "--chest-wall-shift), and every node of STATE, a place of the scan, is followed in both: "
+      "half "
+      "the difference is the derivative, a term of the band of cc2mlo and match-lookup.");
+  tool.input(c.state, "STATE.vtkhdf", "the shape, perhaps with derivatives (sensitivity)");
+  tool.input(c.plus, "PLUS.vtkhdf", "the same posture or view, parameter larger by the step");
+  tool.input(c.minus, "MINUS.vtkhdf", "the same, smaller by the step");
+  tool.output(c.out, "OUT.vtkhdf", "STATE with array derivative_PARAMETER beside those it has");
+  tool.text(c.parameter, "--parameter", "NAME", "what was changed, as named in the band's priors");
+  tool.number(c.step, "--step", "unit", "by how much either way", 1e-12);
+  tool.check([&] {
+    if (c.parameter.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") != std::string::npos ||
+        c.parameter.empty()) {
+      throw input_error("--parameter '", c.parameter, "': small letters and _ expected");
+    }
+  });
+  tool.example(
+      "difference cc-sensitivity.vtkhdf wall/back/cc.vtkhdf wall/front/cc.vtkhdf cc-band.vtkhdf",
+      "the chest wall's one standard deviation in the CC view");
+  return tool.main(argc, argv, [&c](Run& run) { run_difference(c, run); });
+}
