@@ -1,17 +1,11 @@
 // hexmesh: hexahedral mesh of a breast from its Hermite geometry and its labels.
-#include <cmath>
-
 #include "cli/tool.hpp"
 #include "core/error.hpp"
-#include "core/table.hpp"
-#include "core/units.hpp"
 #include "io/geometry_file.hpp"
 #include "io/label_file.hpp"
 #include "io/mesh_file.hpp"
-#include "mesh/quality.hpp"
-#include "meshing/body_mesh.hpp"
+#include "meshing/report.hpp"
 #include "meshing/skin.hpp"
-#include "meshing/tissue.hpp"
 #include "meshing/tumour.hpp"
 
 using namespace breast;
@@ -29,22 +23,10 @@ struct Choices {
     if (shape == "cuboid") {
       options.size = cuboid_size(elements);
     } else {
-      options.size = dome.empty() ? dome_near(elements) : dome_size();
+      options.size = dome.empty() ? dome_near(elements) : dome_of(dome);
     }
     options.skin_layer = skin_as == "layer" ? skin_mm : 0;
     return options;
-  }
-  DomeSize dome_size() const {
-    for (const double number : dome) {
-      if (number != std::floor(number) || std::abs(number) > 1000) {
-        throw input_error("--dome: ", number, " is not a whole number of elements up to 1000");
-      }
-    }
-    const DomeSize size{int(dome[0]), int(dome[1]), int(dome[2]), int(dome[3])};
-    if (size.m < 1)
-      throw input_error("--dome: m must be at least 1 (--template cuboid has no layers)");
-    check_dome(size);
-    return size;
   }
   void check() const {
     if (!dome.empty() && shape == "cuboid")
@@ -69,42 +51,6 @@ std::optional<Tumour> choose_tumour(const Choices& choices, const LabelVolume& l
   return tumour_of(read_labels(choices.tumour), choices.tumour);
 }
 
-void report_mesh(const HexMesh& mesh, const BodyMeshReport& body, const TissueReport& tissue,
-                 Run& run) {
-  Report& report = run.report();
-  const MeshQuality quality = mesh_quality(mesh, mesh.points);
-  report.set("elements", mesh.elements());
-  report.set("nodes", mesh.nodes());
-  report.set("placed_min_scaled_jacobian", body.placed_scaled_jacobian);
-  report.set("min_scaled_jacobian", quality.min_scaled_jacobian);
-  report.set("median_scaled_jacobian", quality.median_scaled_jacobian);
-  report.set("min_det_mm3", quality.min_det);
-  report.set("elements_below_02", quality.below_02);
-  const auto volumes = tissue_volumes(mesh);
-  for (int t = 0; t < n_tissues; ++t) {
-    if (volumes[t] > 0) {
-      report.set("volumes_ml/" + std::string(tissue_name(Tissue(t))), volumes[t] / mm3_per_ml);
-    }
-  }
-  report.set("volume_ml", body.mesh_volume / mm3_per_ml);
-  report.set("fibroglandular_by_fraction_ml", tissue.fibroglandular_volume / mm3_per_ml);
-  report.set("fibroglandular_threshold", tissue.gland_threshold);
-  report.set("skin_shift_mm", body.skin_shift);
-  report.set("segmented_volume_ml", tissue.segmented_volume / mm3_per_ml);
-  report.set("volume_error_percent", 100 * (body.mesh_volume / tissue.segmented_volume - 1));
-  report.set("sheet_volume_error_percent", 100 * (body.mesh_volume / body.body_volume - 1));
-  report.set("outside_breast_percent", 100 * tissue.outside_fraction);
-  report.set("breast_missed_percent", 100 * tissue.missed_fraction);
-  for (const Landmark& landmark : mesh.landmarks) {
-    report.set("landmarks/" + landmark.name + "/imaged", landmark.imaged);
-    report.set("landmarks/" + landmark.name + "/moved_mm", landmark.moved);
-  }
-  if (quality.below_01 > 0) {
-    run.warn(message(quality.below_01, " elements have a scaled Jacobian below 0.1 (smallest ",
-                     format_fixed(quality.min_scaled_jacobian, 3), "): solves will be slower"));
-  }
-}
-
 void run_hexmesh(const Choices& choices, Run& run) {
   const BreastGeometry geometry = read_geometry(choices.geometry);
   const LabelVolume labels = read_labels(choices.labels);
@@ -127,7 +73,9 @@ void run_hexmesh(const Choices& choices, Run& run) {
     add_tumour(*tumour, mesh);
     run.report().set("tumour", tumour->origin);
   }
-  report_mesh(mesh, body, tissue, run);
+  const MeshQuality quality = mesh_quality(mesh, mesh.points);
+  write_report(mesh, quality, body, tissue, run.report());
+  for (const std::string& doubt : doubts(quality)) run.warn(doubt);
   run.report().set("skin_mm", skin_mm);
   mesh.history = run.history({{choices.geometry, geometry.content_sha256, &geometry.history},
                               {choices.labels, labels.content_sha256, &labels.history}});

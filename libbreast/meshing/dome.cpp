@@ -224,6 +224,20 @@ DomeSize dome_near(int edge) {
   return best;
 }
 
+DomeSize dome_of(const std::vector<double>& numbers) {
+  for (const double number : numbers) {
+    if (number != std::floor(number) || std::abs(number) > 1000) {
+      throw input_error("--dome: ", number, " is not a whole number of elements up to 1000");
+    }
+  }
+  const DomeSize size{int(numbers[0]), int(numbers[1]), int(numbers[2]), int(numbers[3])};
+  if (size.m < 1) {
+    throw input_error("--dome: m must be at least 1 (--template cuboid has no layers)");
+  }
+  check_dome(size);
+  return size;
+}
+
 DomeSize cuboid_size(int edge) {
   const DomeSize size{edge, edge, 0, std::max(1, edge / 4)};
   check_dome(size);

@@ -20,6 +20,8 @@ struct DomeSize {
 
 /// The best-proportioned dome with a number of elements near edge³.
 DomeSize dome_near(int edge);
+/// n, l, m, k as given by --dome: whole numbers, m at least 1. Throws Error (input).
+DomeSize dome_of(const std::vector<double>& numbers);
 /// The paper's cuboid of edge³ elements; a quarter of its rows of side faces are the cut.
 DomeSize cuboid_size(int edge);
 /// Throws Error (input) unless n ≥ 2, l ≥ 2, m ≥ 0, 1 ≤ k < l and the size is below 2 million

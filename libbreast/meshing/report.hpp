@@ -1,0 +1,21 @@
+// What hexmesh reports.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/report.hpp"
+#include "mesh/quality.hpp"
+#include "meshing/body_mesh.hpp"
+#include "meshing/tissue.hpp"
+
+namespace breast {
+
+/// Shape, volumes and landmarks of a mesh; keys of the contract (elements, min_scaled_jacobian,
+/// volumes_ml, landmarks).
+void write_report(const HexMesh& mesh, const MeshQuality& quality, const BodyMeshReport& body,
+                  const TissueReport& tissue, Report& report);
+/// Elements so thin that solves will be slower.
+std::vector<std::string> doubts(const MeshQuality& quality);
+
+}  // namespace breast
