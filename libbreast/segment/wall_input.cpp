@@ -136,4 +136,17 @@ void apply_wall_surface(ChestWall& wall, const WallDomain& domain, const Grid& g
   apply_wall_points(wall, domain, grid, means);
 }
 
+std::vector<Vec3> wall_surface_points(const TriMesh& surface, const std::string& name) {
+  const auto kind = surface.point_data.find("surface");
+  if (kind == surface.point_data.end()) return surface.points;
+  std::vector<Vec3> points;
+  for (std::size_t n = 0; n < surface.points.size(); ++n) {
+    if (kind->second[n] == 1) points.push_back(surface.points[n]);
+  }
+  if (points.empty()) {
+    throw input_error(name, ": its scalar 'surface' marks no point as chest wall (1)");
+  }
+  return points;
+}
+
 }  // namespace breast

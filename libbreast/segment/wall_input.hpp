@@ -1,9 +1,11 @@
 // A chest wall corrected by hand: from a label map or from clicked points.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "segment/chest_wall.hpp"
+#include "surface/tri_mesh.hpp"
 
 namespace breast {
 
@@ -20,5 +22,9 @@ void apply_wall_points(ChestWall& wall, const WallDomain& domain, const Grid& gr
 /// when none is left.
 void apply_wall_surface(ChestWall& wall, const WallDomain& domain, const Grid& grid,
                         const std::vector<Vec3>& points);
+
+/// Points of a chest-wall surface; of the data points of a segmentation (scalar "surface") only
+/// those marked chest wall. Throws Error (input), calling it `name`, when none is.
+std::vector<Vec3> wall_surface_points(const TriMesh& surface, const std::string& name);
 
 }  // namespace breast
