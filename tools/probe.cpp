@@ -11,6 +11,36 @@ using namespace breast;
 
 namespace {
 
+struct Choices {
+  std::vector<std::filesystem::path> files;
+  std::filesystem::path base, truth;
+  std::string landmarks;
+};
+
+void declare(Tool& tool, Choices& c) {
+  tool.describe(
+          "Prints one row a file, tab-separated, to stdout. For each landmark NAME: NAME_x_mm, "
+          "NAME_y_mm, "
+          "NAME_z_mm, its position (LPS); NAME_mm, the length of its displacement from the imaged "
+          "shape; "
+          "and, with --base, NAME_relative_mm, the distance between its positions in this file and "
+          "in "
+          "the base, which also shows a change of direction that leaves the length alone.")
+      .cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Tables III to VI");
+  tool.inputs(c.files, "FILE.vtkhdf", "meshes written by hexmesh, backward, forward or compress");
+  tool.text(c.landmarks, "--landmarks", "NAME,...",
+            "landmarks to show; without it, all of the first file");
+  tool.input_file(c.base, "--base", "FILE.vtkhdf", "mesh the relative displacements refer to");
+  tool.input_file(c.truth, "--truth", "FILE.tsv",
+                  "true positions (phantom --truth): prints instead one row a landmark with its "
+                  "error in the posture of each file, mm");
+  tool.example("probe reference.vtkhdf supine.vtkhdf --truth paper-truth/landmarks.tsv",
+               "errors of the chain against the phantom's truth");
+  tool.example("probe supine.vtkhdf --landmarks tumour,nipple", "supine displacements");
+  tool.example("probe fat-*.vtkhdf --base supine.vtkhdf > fat.tsv",
+               "the effect of a material on the supine shape, as in Table III");
+}
+
 std::vector<std::string> split(const std::string& list) {
   std::vector<std::string> names{""};
   for (const char c : list) {
@@ -61,75 +91,61 @@ void report_truth(const Table& table, Report& report) {
   }
 }
 
+void report_landmark(const std::string& name, const Probe& here, Report& report) {
+  const Vec3 displacement = here.position - here.imaged;
+  report.set("landmarks/" + name + "/imaged", here.imaged);
+  report.set("landmarks/" + name + "/position", here.position);
+  report.set("landmarks/" + name + "/displacement_mm", displacement);
+  report.set("landmarks/" + name + "/distance_mm", displacement.norm());
+}
+
+// One row a file; the landmarks of a single file also go to the report.
+void tell_positions(const Choices& c, const std::vector<HexMesh>& meshes, Run& run) {
+  const std::vector<std::string> names = chosen(c.landmarks, meshes.front());
+  if (names.empty()) throw input_error(c.files.front().string(), ": has no landmarks");
+  const bool relative = !c.base.empty();
+  const HexMesh base = relative ? read_mesh(c.base) : HexMesh();
+  Table table{{"file"}, {}};
+  for (const std::string& name : names) add_columns(table, name, relative);
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    std::vector<std::string> row{c.files[i].filename().string()};
+    for (const std::string& name : names) {
+      const Probe here = probe(meshes[i], name, c.files[i]);
+      for (int d = 0; d < 3; ++d) row.push_back(format_fixed(here.position[d], 4));
+      row.push_back(format_fixed((here.position - here.imaged).norm(), 4));
+      if (relative) {
+        const Vec3 there = probe(base, name, c.base).position;
+        row.push_back(format_fixed((here.position - there).norm(), 4));
+      }
+      if (meshes.size() == 1) report_landmark(name, here, run.report());
+    }
+    table.rows.push_back(std::move(row));
+  }
+  run.print(table.text());
+}
+
+void tell_errors(const Choices& c, const std::vector<HexMesh>& meshes, Run& run) {
+  const auto truth = true_landmarks(read_table(c.truth), meshes.front().side, c.truth.string());
+  const Table errors = compare_with_truth(meshes, truth);
+  report_truth(errors, run.report());
+  run.print(errors.text());
+}
+
+void run_probe(const Choices& c, Run& run) {
+  std::vector<HexMesh> meshes;
+  for (std::size_t i = 0; i < c.files.size(); ++i) {
+    run.progress().update("reading", double(i) / double(c.files.size()),
+                          c.files[i].filename().string());
+    meshes.push_back(read_mesh(c.files[i]));
+  }
+  (c.truth.empty() ? tell_positions : tell_errors)(c, meshes, run);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<std::filesystem::path> files;
-  std::filesystem::path base_file, truth_file;
-  std::string landmarks;
+  Choices c;
   Tool tool("probe", "landmark positions and displacements of meshes as a table");
-  tool.describe(
-          "Prints one row a file, tab-separated, to stdout. For each landmark NAME: NAME_x_mm, "
-          "NAME_y_mm, "
-          "NAME_z_mm, its position (LPS); NAME_mm, the length of its displacement from the imaged "
-          "shape; "
-          "and, with --base, NAME_relative_mm, the distance between its positions in this file and "
-          "in "
-          "the base, which also shows a change of direction that leaves the length alone.")
-      .cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Tables III to VI");
-  tool.inputs(files, "FILE.vtkhdf", "meshes written by hexmesh, backward, forward or compress");
-  tool.text(landmarks, "--landmarks", "NAME,...",
-            "landmarks to show; without it, all of the first file");
-  tool.input_file(base_file, "--base", "FILE.vtkhdf", "mesh the relative displacements refer to");
-  tool.input_file(truth_file, "--truth", "FILE.tsv",
-                  "true positions (phantom --truth): prints instead one row a landmark with its "
-                  "error in the posture of each file, mm");
-  tool.example("probe reference.vtkhdf supine.vtkhdf --truth paper-truth/landmarks.tsv",
-               "errors of the chain against the phantom's truth");
-  tool.example("probe supine.vtkhdf --landmarks tumour,nipple", "supine displacements");
-  tool.example("probe fat-*.vtkhdf --base supine.vtkhdf > fat.tsv",
-               "the effect of a material on the supine shape, as in Table III");
-  return tool.main(argc, argv, [&](Run& run) {
-    std::vector<HexMesh> meshes;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      run.progress().update("reading", double(i) / double(files.size()),
-                            files[i].filename().string());
-      meshes.push_back(read_mesh(files[i]));
-    }
-    if (!truth_file.empty()) {
-      const auto truth =
-          true_landmarks(read_table(truth_file), meshes.front().side, truth_file.string());
-      const Table errors = compare_with_truth(meshes, truth);
-      report_truth(errors, run.report());
-      run.print(errors.text());
-      return;
-    }
-    const std::vector<std::string> names = chosen(landmarks, meshes.front());
-    if (names.empty()) throw input_error(files.front().string(), ": has no landmarks");
-    const bool relative = !base_file.empty();
-    const HexMesh base = relative ? read_mesh(base_file) : HexMesh();
-    Table table;
-    table.columns = {"file"};
-    for (const std::string& name : names) add_columns(table, name, relative);
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      std::vector<std::string> row{files[i].filename().string()};
-      for (const std::string& name : names) {
-        const Probe here = probe(meshes[i], name, files[i]);
-        const Vec3 displacement = here.position - here.imaged;
-        for (int d = 0; d < 3; ++d) row.push_back(format_fixed(here.position[d], 4));
-        row.push_back(format_fixed(displacement.norm(), 4));
-        if (relative) {
-          const Vec3 there = probe(base, name, base_file).position;
-          row.push_back(format_fixed((here.position - there).norm(), 4));
-        }
-        if (files.size() > 1) continue;
-        run.report().set("landmarks/" + name + "/imaged", here.imaged);
-        run.report().set("landmarks/" + name + "/position", here.position);
-        run.report().set("landmarks/" + name + "/displacement_mm", displacement);
-        run.report().set("landmarks/" + name + "/distance_mm", displacement.norm());
-      }
-      table.rows.push_back(std::move(row));
-    }
-    run.print(table.text());
-  });
+  declare(tool, c);
+  return tool.main(argc, argv, [&c](Run& run) { run_probe(c, run); });
 }
