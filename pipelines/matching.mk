@@ -29,3 +29,8 @@ $(RUN)/band-samples.tsv: $(RUN)/band-check-mesh.vtkhdf tests/bench/band_check.cp
 band-check: $(RUN)/band-samples.tsv
 	@pipelines/band-check.sh $<
 .PHONY: band-check
+
+# What they cost, on an idle machine: a 0.1 mm image, one curve, the full grid.
+mammo-times: $(addprefix $(RUN)/,cc-sensitivity.vtkhdf mlo-sensitivity.vtkhdf labels.vtkhdf)
+	@pipelines/mammo-times.sh $(BIN) $(RUN)
+.PHONY: mammo-times

@@ -64,7 +64,9 @@ std::vector<std::string> match_doubts(const Matcher& matcher,
 void report_match(const MatchResult& result, Report& report);
 /// Mean, 95 % and largest distance of the truth to "curve", "arc", "line", "chord", mm, over the
 /// results that have one: keys truth/points, truth/curve/mean_mm ..., and what part
-/// of them the bands hold: truth/in_band_50_percent, truth/in_band_95_percent.
+/// of them the bands hold: truth/in_band_50_percent, truth/in_band_95_percent. Of two curves or
+/// more also how far they are from straight, in the second image and as stress-free columns:
+/// straightness/bend_mean_mm, straightness/reference_bend_mean_mm ...
 void report_truth(const std::vector<MatchResult>& results, Report& report);
 /// Rows "mean", "p95" and "largest" of the distances to the truth, and below "mean" of in_band_50
 /// and in_band_95 the percentages, at the end of a curve_table.

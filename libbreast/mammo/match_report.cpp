@@ -104,6 +104,26 @@ Summary summary_of(const std::vector<MatchResult>& results, double MatchResult::
           values[std::size_t(std::ceil(0.95 * n)) - 1], values.back()};
 }
 
+// How far the curves are from straight: in the second view, and before any compression.
+void report_straightness(const std::vector<MatchResult>& results, Report& report) {
+  double bend = 0, most = 0, reference = 0, reference_most = 0;
+  std::size_t counted = 0;
+  for (const MatchResult& result : results) {
+    if (result.curve.in_air()) continue;
+    ++counted;
+    bend += result.curve.max_deviation;
+    most = std::max(most, result.curve.max_deviation);
+    reference += result.curve.reference_deviation;
+    reference_most = std::max(reference_most, result.curve.reference_deviation);
+  }
+  if (counted < 2) return;
+  report.set("straightness/curves", counted);
+  report.set("straightness/bend_mean_mm", bend / double(counted));
+  report.set("straightness/bend_max_mm", most);
+  report.set("straightness/reference_bend_mean_mm", reference / double(counted));
+  report.set("straightness/reference_bend_max_mm", reference_most);
+}
+
 bool has_nipple(const std::vector<MatchResult>& results) {
   return std::any_of(results.begin(), results.end(), [](const auto& r) { return r.depth_line; });
 }
@@ -115,6 +135,7 @@ void report_truth(const std::vector<MatchResult>& results, Report& report) {
   report.set("matched",
              std::size_t(std::count_if(results.begin(), results.end(),
                                        [](const auto& r) { return r.status() == "matched"; })));
+  report_straightness(results, report);
   if (const Coverage coverage = coverage_of(results); coverage.counted > 0) {
     report.set("truth/in_band_50_percent", coverage.percent_50());
     report.set("truth/in_band_95_percent", coverage.percent_95());

@@ -110,6 +110,29 @@ TEST(Correspondence, TheCurveIsSampledToItsTolerance) {
   EXPECT_GT(fine.length, fine.chord);
 }
 
+// Without compression the column is what the CC map's inverse makes of a straight line.
+TEST(Correspondence, TheStressFreeColumnsBendIsThatOfTheInverseMap) {
+  const HexMesh straight = squashed(body(), "CC", 0.5), mlo = bent("MLO"), cc = bent("CC");
+  const Matcher affine(straight, mlo), curved(cc, mlo);
+  const MatchedCurve line = affine.match(*affine.from_landmark("tumour"));
+  EXPECT_LT(line.reference_deviation, 1e-6);
+  EXPECT_GT(line.max_deviation, 0.5);  // bent by the second compression alone
+  const MatchedCurve curve = curved.match(*curved.from_landmark("tumour"));
+  const double across = 1 / std::sqrt(0.6);
+  const auto reference = [&](double z) {  // of the column's point at height z, up to a constant
+    return Vec3(-4 * std::sin(z / 12) / across, -3 * std::sin(z / 15) / across, z / 0.6);
+  };
+  const double top = curve.points.front().from.z(), bottom = curve.points.back().from.z();
+  const Vec3 a = reference(top), d = (reference(bottom) - a).normalized();
+  double expected = 0;
+  for (int k = 0; k <= 200; ++k) {
+    const Vec3 x = reference(top + (bottom - top) * k / 200) - a;
+    expected = std::max(expected, (x - x.dot(d) * d).norm());
+  }
+  EXPECT_GT(expected, 0.5);
+  EXPECT_NEAR(curve.reference_deviation, expected, 0.25 * expected);  // eight elements interpolate
+}
+
 TEST(Correspondence, TheArcKeepsTheDistanceFromTheNipple) {
   const HexMesh cc = bent("CC"), mlo = bent("MLO");
   const Matcher matcher(cc, mlo);
