@@ -97,12 +97,13 @@ BandModel::BandModel(const Matcher& matcher, const DerivativeFields& from,
     if (first == nullptr || second == nullptr) {
       without_.push_back(prior.parameter);
     } else if (std::find(per_view.begin(), per_view.end(), prior.parameter) != per_view.end()) {
-      causes_.push_back(
-          {prior.parameter + " in " + matcher.from_frame().view, prior.deviation, first, nullptr});
-      causes_.push_back(
-          {prior.parameter + " in " + matcher.to_frame().view, prior.deviation, nullptr, second});
+      const bool turns = prior.parameter == "angle";
+      causes_.push_back({prior.parameter + " in " + matcher.from_frame().view, prior.deviation,
+                         first, nullptr, turns});
+      causes_.push_back({prior.parameter + " in " + matcher.to_frame().view, prior.deviation,
+                         nullptr, second, turns});
     } else {
-      causes_.push_back({prior.parameter, prior.deviation, first, second, false});
+      causes_.push_back({prior.parameter, prior.deviation, first, second});
     }
   }
 }

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "core/error.hpp"
@@ -118,6 +120,32 @@ TEST(Band, LinearPropagationIsTheDerivativeOfTheCurve) {
     }
     EXPECT_GT(compared, 5);
   }
+}
+
+// A shape that turns with its detector, about the same axis, has the same image: what is left is
+// the motion along the beam where the curve bends.
+TEST(Band, TheDetectorTurnsWithTheAngle) {
+  const Scene scene;
+  const MatchedCurve curve =
+      scene.matcher.match(*scene.matcher.from_landmark("nipple") + Vec2(-30, 8), 0.001);
+  const auto turning = [](const HexMesh& mesh) {
+    Vec3 low = mesh.points.front(), high = low;
+    for (const Vec3& x : mesh.points) {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    const Vec3 axis = lateral_sign(mesh.side) * std::numbers::pi / 180 * Vec3(0, -1, 0);
+    NodalField field;
+    for (const Vec3& x : mesh.points) field.push_back(axis.cross(x - 0.5 * (low + high)));
+    return field;
+  };
+  const DerivativeFields from{{"angle", turning(scene.cc)}}, to{{"angle", turning(scene.mlo)}};
+  const Band band = BandModel(scene.matcher, from, to, {{"angle", 1, "degree", ""}}).band(curve);
+  for (const BandPoint& point : band.points) EXPECT_LT(point.deviation, 0.01);
+  DerivativeFields still = from;
+  for (Vec3& x : still.at("angle")) x.setZero();  // a shape that stays where it is does not
+  const Band moved = BandModel(scene.matcher, still, to, {{"angle", 1, "degree", ""}}).band(curve);
+  EXPECT_GT(moved.by_cause.at("angle in CC"), 0.01);
 }
 
 TEST(Band, PickingIsTheDerivativeByTheMark) {
