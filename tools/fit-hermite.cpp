@@ -13,8 +13,12 @@ namespace {
 
 using namespace breast;
 
-/// "10x12" -> patches along s (x) and t (z).
+/// "10x12" -> patches along s (x) and t (z); auto: as many as the largest distance needs.
 void parse_elements(const std::string& text, FitOptions& options) {
+  if (text == "auto") {
+    options.most_patches = 15;
+    return;
+  }
   char* end = nullptr;
   const long s = std::strtol(text.c_str(), &end, 10);
   const bool cross = *end == 'x' || *end == 'X';
@@ -22,7 +26,8 @@ void parse_elements(const std::string& text, FitOptions& options) {
                      ? std::strtol(end + 1, &end, 10)
                      : 0;
   if (!cross || *end != 0 || s < 3 || s > 40 || t < 3 || t > 40)
-    throw input_error("--elements ", text, ": must be AxB with A and B in 3..40, such as 10x10");
+    throw input_error("--elements ", text,
+                      ": must be auto or AxB with A and B in 3..40, such as 10x10");
   options.patches_s = int(s);
   options.patches_t = int(t);
 }
@@ -52,6 +57,7 @@ void report_rim(Report& report, const Rim& rim) {
     report.set(std::string("rim/ended/") + names[reason], double(count) / double(rim.end.size()));
   }
   report.set("rim/points", rim.skin.size());
+  report.set("rim/wider_mm", rim.wider_mm);
   report.set("rim/least_thickness_mm", rim.least_thickness_mm);
   report.set("rim/greatest_thickness_mm", rim.greatest_thickness_mm);
   report.set(
@@ -67,6 +73,7 @@ void report_fit(Report& report, const FitReport& fit, const BreastGeometry& geom
   report_distances(report, "fit", fit.skin_to_sheet);
   report_distances(report, "fit/sheet_to_skin", fit.sheet_to_skin);
   report_distances(report, "fit/whole_sheet", fit.whole_skin_to_sheet);
+  report.set("fit/max_at", fit.worst_point);
   report.set("fit/points", fit.data_points);
   report.set("fit/elements", std::vector<double>{double(fit.patches_s), double(fit.patches_t)});
   report.set("fit/smoothing", fit.smoothing);
@@ -89,7 +96,7 @@ void report_fit(Report& report, const FitReport& fit, const BreastGeometry& geom
 
 int main(int argc, char** argv) {
   std::filesystem::path labels_file, geometry_file;
-  std::string elements = "10x10", smoothing = "auto";
+  std::string elements = "auto", smoothing = "auto";
   std::optional<double> max_error;
   Tool tool("fit-hermite", "smooth surfaces of skin and chest wall from labels");
   tool.describe(
@@ -107,13 +114,16 @@ int main(int argc, char** argv) {
           "square)");
   tool.input(labels_file, "LABELS.vtkhdf", "labels of one breast (segment)");
   tool.output(geometry_file, "GEOMETRY.vtkhdf", "two sheets and the rim");
-  tool.text(elements, "--elements", "AxB", "patches of each sheet along x and z");
+  tool.text(elements, "--elements", "AxB|auto",
+            "patches of each sheet along x and z; auto: 10x10, and of the skin up to 15x15 where "
+            "it would lie more than 2 mm off");
   tool.text(smoothing, "--smoothing", "S|auto",
             "weight of the skin's squared second derivatives (parameters 0..1, mm); auto lowers it "
             "until the rms distance is 0.3 mm");
   tool.number(max_error, "--max-error", "MM",
               "refine the skin sheet until no point of the skin is farther from it", 0.05, 100);
-  tool.example("fit-hermite labels.vtkhdf geometry.vtkhdf", "10 x 10 patches, automatic smoothing");
+  tool.example("fit-hermite labels.vtkhdf geometry.vtkhdf",
+               "10 x 10 patches or a few more, automatic smoothing");
   tool.example("fit-hermite labels.vtkhdf geometry.vtkhdf --max-error 1",
                "as many patches as it takes to stay within 1 mm");
   FitOptions options;

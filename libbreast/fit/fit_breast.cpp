@@ -7,6 +7,7 @@
 #include "fit/closest_point.hpp"
 #include "fit/disc_map.hpp"
 #include "fit/disc_surface.hpp"
+#include "fit/rim_volume.hpp"
 #include "fit/sheet_fit.hpp"
 
 namespace breast {
@@ -34,7 +35,8 @@ void check_front(const DiscSurface& surface, double front, FitReport& report) {
 DiscSurface skin_surface(const LabelVolume& labels, BreastRegion& region, const FitOptions& options,
                          FitReport& report) {
   const auto body = [](Tissue t) { return t != Tissue::air; };
-  const double attempts[][2] = {{1.5, 1.0}, {3.0, 1.0}, {1.5, 0.5}, {3.0, 0.5}, {4.5, 0.25}};
+  const double attempts[][2] = {{1.5, 1.0}, {2.0, 1.0}, {2.5, 1.0}, {3.0, 1.0},
+                                {1.5, 0.5}, {3.0, 0.5}, {4.5, 0.25}};
   std::string reason;
   for (const auto& [smoothing, part] : attempts) {
     region = find_region(labels, part * options.margin_mm);
@@ -84,53 +86,74 @@ SheetData sheet_data(const DiscSurface& surface, const DiscMap& map, const Vec3&
   return data;
 }
 
-std::vector<double> distances_to_sheet(const HermiteSheet& sheet, const SheetData& data,
-                                       const DiscSurface& surface,
-                                       const std::function<bool(const Vec2&)>& wanted) {
-  std::vector<double> distances;
+using Wanted = std::function<bool(const Vec2&)>;
+
+/// Data points that say how good the sheet is, and their distances to it, mm.
+std::vector<std::pair<double, Vec3>> measured_points(const HermiteSheet& sheet,
+                                                     const SheetData& data,
+                                                     const DiscSurface& surface,
+                                                     const Wanted& wanted) {
+  std::vector<std::pair<double, Vec3>> measured;
   for (std::size_t i = 0; i < data.points.size(); ++i)
     if (!data.fixed[i] && !surface.filled[i] && wanted(data.st[i]))
-      distances.push_back((sheet.position(data.st[i]) - data.points[i]).norm());
+      measured.emplace_back((sheet.position(data.st[i]) - data.points[i]).norm(), data.points[i]);
+  return measured;
+}
+
+std::vector<double> distances_of(const std::vector<std::pair<double, Vec3>>& measured) {
+  std::vector<double> distances;
+  for (const auto& [distance, point] : measured) distances.push_back(distance);
   return distances;
 }
 
-/// Fits the skin sheet; with max_error_mm refines it by a quarter more patches at a time.
+/// Fits the skin sheet; refines it by a quarter more patches at a time until max_error_mm, which
+/// must be met, or target_max_mm, which should be.
 FitOutcome fit_skin(const DiscSurface& surface, const DiscMap& map, const Vec3& nipple,
                     const FitOptions& options, FitReport& report, SheetData& data,
                     Progress& progress) {
+  const bool demanded = options.max_error_mm > 0;
+  const double wanted = demanded ? options.max_error_mm : options.target_max_mm;
+  const auto summary_of = [&](const HermiteSheet& sheet, const SheetData& at) {
+    return summarise(distances_of(measured_points(
+        sheet, at, surface, [&](const Vec2& st) { return within_margin(st, options.rim); })));
+  };
   FitControl control;
   control.smoothing = options.smoothing;
   control.target_rms_mm = options.target_rms_mm;
-  if (options.max_error_mm > 0) {  // then every point counts, outlier or not
+  if (demanded) {  // then every point counts, outlier or not
     control.target_rms_mm = std::min(control.target_rms_mm, options.max_error_mm / 5);
     control.outlier_mm = 0;
   }
-  report.patches_s = options.patches_s;
-  report.patches_t = options.patches_t;
-  const int most = 40;
+  control.close_enough = [&](const HermiteSheet& sheet, const SheetData& at) {
+    return summary_of(sheet, at).max_mm <= wanted;
+  };
+  int patches_s = options.patches_s, patches_t = options.patches_t;
+  const int most = demanded ? 40 : std::max({patches_s, patches_t, options.most_patches});
+  FitOutcome best;
   for (;;) {
-    data = sheet_data(surface, map, nipple);
+    SheetData used = sheet_data(surface, map, nipple);
     FitOutcome outcome =
-        fit_sheet(report.patches_s, report.patches_t, data, control,
+        fit_sheet(patches_s, patches_t, used, control,
                   [](const HermiteSheet& sheet) { return !check_folds(sheet).folded(); });
-    report.whole_skin_to_sheet =
-        summarise(distances_to_sheet(outcome.sheet, data, surface, [&](const Vec2& st) {
-          return within_margin(st, options.rim);
-        }));
-    progress.update(
-        "skin sheet", 0.6,
-        message(report.patches_s, " x ", report.patches_t, ", rms ", outcome.rms_mm, " mm"));
-    if (!(options.max_error_mm > 0) || report.whole_skin_to_sheet.max_mm <= options.max_error_mm)
-      return outcome;
-    const int next_s = report.patches_s + std::max(1, report.patches_s / 4);
-    const int next_t = report.patches_t + std::max(1, report.patches_t / 4);
-    if (next_s > most || next_t > most)
-      throw not_converged_error("skin sheet: largest distance ", report.whole_skin_to_sheet.max_mm,
-                                " mm with ", report.patches_s, " x ", report.patches_t,
-                                " patches, above --max-error ", options.max_error_mm,
-                                "; ask for less");
-    report.patches_s = next_s;
-    report.patches_t = next_t;
+    const DistanceSummary whole = summary_of(outcome.sheet, used);
+    progress.update("skin sheet", 0.6,
+                    message(patches_s, " x ", patches_t, ", rms ", outcome.rms_mm, " mm"));
+    if (best.loops == 0 || whole.max_mm < report.whole_skin_to_sheet.max_mm) {
+      best = std::move(outcome);
+      data = std::move(used);
+      report.whole_skin_to_sheet = whole;
+      report.patches_s = patches_s;
+      report.patches_t = patches_t;
+    }
+    if (whole.max_mm <= wanted) return best;
+    patches_s += std::max(1, patches_s / 4);
+    patches_t += std::max(1, patches_t / 4);
+    if (patches_s <= most && patches_t <= most) continue;
+    if (!demanded) return best;
+    throw not_converged_error("skin sheet: largest distance ", report.whole_skin_to_sheet.max_mm,
+                              " mm with ", report.patches_s, " x ", report.patches_t,
+                              " patches, above --max-error ", options.max_error_mm,
+                              "; ask for less");
   }
 }
 
@@ -139,7 +162,12 @@ void measure_fit(const DiscSurface& surface, const SheetData& data, const Breast
   const auto inside = [&](const Vec2& st) {
     return inside_star(geometry.rim_skin, geometry.centre, st);
   };
-  report.skin_to_sheet = summarise(distances_to_sheet(geometry.skin, data, surface, inside));
+  const auto measured = measured_points(geometry.skin, data, surface, inside);
+  report.skin_to_sheet = summarise(distances_of(measured));
+  const auto worst =
+      std::max_element(measured.begin(), measured.end(),
+                       [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (worst != measured.end()) report.worst_point = worst->second;
   std::vector<Vec3> samples;
   const int n = 8 * std::max(geometry.skin.nu, geometry.skin.nv);
   for (int j = 0; j <= n; ++j)
@@ -174,6 +202,9 @@ void find_doubts(const BreastRegion& region, const BreastGeometry& geometry, Fit
     doubt(std::lround(100 * margin),
           " % of the rim lies where the sheet ends, not where the breast does "
           "(field of view, midline, or tissue that never thins)");
+  if (!(std::abs(report.body_ml / report.label_ml - 1) < 0.01))
+    doubt("the body inside the rim has ", std::lround(report.body_ml), " ml, the labelled breast ",
+          std::lround(report.label_ml), " ml: the rim cannot follow where the labels end");
   if (report.rim.skin_angle_min < 30 || report.rim.wall_angle_min < 30)
     doubt("sharp rim: ", std::lround(report.rim.skin_angle_min), " degrees at the skin, ",
           std::lround(report.rim.wall_angle_min), " at the wall");
@@ -192,6 +223,8 @@ void check_options(const FitOptions& options) {
   check(options.smoothing, 0, 1, "smoothing");
   check(options.max_error_mm, 0, 100, "largest error (mm)");
   check(options.target_rms_mm, 0.01, 10, "target rms (mm)");
+  check(options.target_max_mm, 0.01, 100, "target of the largest distance (mm)");
+  check(options.most_patches, 3, 40, "most patches a side");
   check(options.margin_mm, 5, 100, "margin (mm)");
   check(options.surface_step_mm, 0.5, 10, "surface raster (mm)");
   check(options.wall_smoothing_mm, 1, 50, "wall smoothing (mm)");
@@ -259,11 +292,9 @@ BreastGeometry fit_breast(const LabelVolume& labels, const FitOptions& options, 
     geometry.nipple_st = nipple.st;
     geometry.nipple = nipple.x;
     report.nipple_moved_mm = region.nipple_known ? nipple.distance : 0;
-    report.rim = find_rim(geometry.skin, wall, labels.side, geometry.nipple_st, options.rim);
-    geometry.centre = report.rim.centre;
-    geometry.rim_skin = report.rim.skin;
-    geometry.rim_wall = report.rim.wall;
-    geometry.rim_end = report.rim.end;
+    const RimRays rays =
+        walk_rim(geometry.skin, wall, labels.side, geometry.nipple_st, options.rim);
+    report.rim = rim_of_volume(region.breast_ml, wall, rays, options.rim, geometry);
   }
   Timer::Scope phase(timer, "distances");
   progress.update("distances", 0.95, "");

@@ -18,6 +18,10 @@ struct FitOptions {
   double smoothing = 0;                ///< of the skin sheet (see sheet_fit.hpp); 0: automatic
   double max_error_mm = 0;  ///< > 0: refine the skin sheet until its largest distance is below
   double target_rms_mm = 0.3;
+  /// Largest distance to aim at: the smoothing is lowered, and up to most_patches a side are used,
+  /// until no point of the skin lies farther from its sheet. Missing it is a doubt, not an error.
+  double target_max_mm = 2;
+  int most_patches = 10;
   double margin_mm = 25;       ///< skin beyond the breast's foot
   double surface_step_mm = 3;  ///< raster of the skin surface
   double wall_smoothing_mm = 7;
@@ -31,6 +35,7 @@ struct FitReport {
   std::size_t data_points = 0, filled_points = 0;
   double area_ratio_p95 = 0;            ///< of the map to the square
   DistanceSummary skin_to_sheet;        ///< data inside the rim
+  Vec3 worst_point{0, 0, 0};            ///< patient mm: the datum farthest from the sheet
   DistanceSummary sheet_to_skin;        ///< sheet inside the rim
   DistanceSummary whole_skin_to_sheet;  ///< all data where the body may lie (rim margin)
   double min_normal_cosine = 0, min_area_ratio = 0;  ///< fold check of the skin sheet

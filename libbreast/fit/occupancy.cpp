@@ -151,7 +151,7 @@ BreastRegion find_region(const LabelVolume& labels, double margin_mm) {
                       ")");
 
   const Box view = field_of_view(labels.grid);
-  const double inside_view = 4.0, past_midline = 4.0;
+  const double inside_view = -5.0, past_midline = 4.0;
   region.crop.low = region.foot.low.array() - margin_mm;
   region.crop.high = region.foot.high.array() + margin_mm;
   for (int a : {0, 2}) {

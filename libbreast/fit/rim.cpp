@@ -313,40 +313,54 @@ bool inside_star(const std::vector<Vec2>& curve, const Vec2& centre, const Vec2&
   return false;
 }
 
-Rim find_rim(const HermiteSheet& skin, const WallSheet& wall, Side side, const Vec2& nipple_st,
-             const RimOptions& options) {
+RimRays walk_rim(const HermiteSheet& skin, const WallSheet& wall, Side side, const Vec2& nipple_st,
+                 const RimOptions& options) {
   const ThicknessMap map(skin, wall, 97);
   const Core core = thick_core(map, nipple_st);
   if (!(core.thickest > 20))
     throw input_error("labels: the breast is at most ", core.thickest,
                       " mm thick near its nipple; at least 20 mm are needed; check the chest wall");
-  Rim rim;
-  rim.centre = core.centre;
-  rim.greatest_thickness_mm = core.thickest;
-  rim.least_thickness_mm = options.least_thickness_mm > 0
-                               ? options.least_thickness_mm
-                               : std::clamp(sternal_thickness(map, side) + 5, 15.0, 30.0);
+  RimRays rays;
+  rays.centre = core.centre;
+  rays.greatest_thickness_mm = core.thickest;
+  rays.least_thickness_mm = options.least_thickness_mm > 0
+                                ? options.least_thickness_mm
+                                : std::clamp(sternal_thickness(map, side) + 5, 15.0, 30.0);
   // A small breast has less tissue everywhere; the rim must lie well below its thickest part.
-  rim.least_thickness_mm = std::min(rim.least_thickness_mm, 0.4 * core.thickest);
-
-  std::vector<double> log_radius;
-  std::vector<Vec2> directions;
+  rays.least_thickness_mm = std::min(rays.least_thickness_mm, 0.4 * core.thickest);
   for (int i = 0; i < options.rays; ++i) {
     const double angle = 2 * pi * i / options.rays;
-    directions.emplace_back(std::cos(angle), std::sin(angle));
-    const RayEnd end = walk(skin, map, core, directions.back(), rim.least_thickness_mm, options);
-    log_radius.push_back(std::log(end.radius));
-    rim.end.push_back(end.reason);
+    rays.direction.emplace_back(std::cos(angle), std::sin(angle));
+    const RayEnd end =
+        walk(skin, map, core, rays.direction.back(), rays.least_thickness_mm, options);
+    rays.radius.push_back(end.radius);
+    rays.end.push_back(end.reason);
   }
+  return rays;
+}
+
+Rim lay_rim(const HermiteSheet& skin, const WallSheet& wall, const RimRays& rays, double wider_mm,
+            const RimOptions& options) {
+  Rim rim;
+  rim.centre = rays.centre;
+  rim.end = rays.end;
+  rim.least_thickness_mm = rays.least_thickness_mm;
+  rim.greatest_thickness_mm = rays.greatest_thickness_mm;
+  rim.wider_mm = wider_mm;
+  std::vector<double> log_radius;
+  for (const double radius : rays.radius) log_radius.push_back(std::log(radius));
   log_radius = median_of_five(log_radius);
   // A rim over a dented skin may need more smoothing before a cut can be laid.
   for (const double stronger : {1.0, 2.0, 4.0}) {
     const auto smooth =
         low_pass(log_radius, stronger * options.rays * options.low_pass_degrees / 360);
     rim.skin.clear();
-    for (int i = 0; i < options.rays; ++i) {
-      const double limit = margin_radius(core.centre, directions[i], options);
-      rim.skin.push_back(core.centre + std::min(std::exp(smooth[i]), limit) * directions[i]);
+    for (std::size_t i = 0; i < smooth.size(); ++i) {
+      const Vec2& way = rays.direction[i];
+      const double radius = std::exp(smooth[i]), limit = margin_radius(rim.centre, way, options);
+      const SheetPoint at = skin.evaluate(rim.centre + std::min(radius, limit) * way);
+      const double mm_per_radius = (at.x_s * way.x() + at.x_t * way.y()).norm();
+      rim.skin.push_back(rim.centre + std::min(radius + wider_mm / mm_per_radius, limit) * way);
     }
     if (!choose_cut(skin, wall, rim)) continue;
     measure(skin, wall.sheet, rim);

@@ -33,6 +33,7 @@ struct Rim {
   Vec2 centre;
   std::vector<Vec2> skin, wall;
   std::vector<RimEnd> end;
+  double wider_mm = 0;            ///< moved outwards by, for the volume's sake
   double least_thickness_mm = 0;  ///< used
   double greatest_thickness_mm = 0;
   double cut_height_min_mm = 0, cut_height_median_mm = 0, cut_height_max_mm = 0;
@@ -41,11 +42,24 @@ struct Rim {
   double wall_angle_min = 0, wall_angle_median = 0, wall_angle_max = 0;
 };
 
-/// Polar walk about the centre of the thick part (see RimOptions), low-passed; cut directions
-/// halfway between the closest wall point and +y, smoothed until neither the segments cross nor the
-/// wall's rim stops being star-shaped. Throws Error (input) when no such rim exists.
-Rim find_rim(const HermiteSheet& skin, const WallSheet& wall, Side side, const Vec2& nipple_st,
-             const RimOptions& options);
+/// Where rays from the centre of the thick part end (see RimOptions).
+struct RimRays {
+  Vec2 centre;
+  std::vector<Vec2> direction;  ///< unit, in the skin's parameters
+  std::vector<double> radius;
+  std::vector<RimEnd> end;
+  double least_thickness_mm = 0, greatest_thickness_mm = 0;
+};
+/// Polar walk about the centre of the thick part. Throws Error (input) when nothing is thick.
+RimRays walk_rim(const HermiteSheet& skin, const WallSheet& wall, Side side, const Vec2& nipple_st,
+                 const RimOptions& options);
+
+/// The rim through the rays' ends, low-passed and moved outwards along the skin by `wider_mm` (not
+/// beyond the margin); cut directions halfway between the closest wall point and +y, smoothed until
+/// neither the segments cross nor the wall's rim stops being star-shaped. Throws Error (input) when
+/// no such rim exists.
+Rim lay_rim(const HermiteSheet& skin, const WallSheet& wall, const RimRays& rays, double wider_mm,
+            const RimOptions& options);
 
 /// True when the polygon's angle about `centre` grows from each point to the next and goes round
 /// once.

@@ -177,7 +177,9 @@ FitOutcome fit_sheet(int nu, int nv, SheetData& data, const FitControl& control,
     if (control.outlier_mm > 0)
       weigh_outliers(sheet, prior, std::max(control.outlier_mm, 4 * rms), data);
     best = {std::move(sheet), smoothing, rms, loops, rms <= control.target_rms_mm};
-    if (lowering && rms > control.target_rms_mm && smoothing / 4 >= control.least_smoothing)
+    const bool close = rms <= control.target_rms_mm &&
+                       (!control.close_enough || control.close_enough(best.sheet, data));
+    if (lowering && !close && smoothing / 4 >= control.least_smoothing)
       smoothing /= 4;
     else
       ++settled, lowering = false;

@@ -34,6 +34,8 @@ struct FitControl {
   double smoothing = 0;  ///< > 0: this one; 0: start at 1e-6 and quarter it until target_rms
   double target_rms_mm = 0.3;
   double least_smoothing = 1e-9;
+  /// May be empty: smoothing is also lowered until this holds, after target_rms.
+  std::function<bool(const HermiteSheet&, const SheetData&)> close_enough;
   /// Points farther off than this (or 4 rms) lose weight (Cauchy): marks and debris on the skin do
   /// not dent the sheet. 0: none do.
   double outlier_mm = 2;

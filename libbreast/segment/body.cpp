@@ -217,6 +217,8 @@ Found body_above(const Volume<float>& scan, double threshold, double from) {
   open_slices(mask);
   mask = largest_component(mask);
   close_and_fill(mask);
+  remove_ghosts(mask, scan);
+  mask = largest_component(mask);
   const Torso torso = find_torso(mask);
   fill_chest(mask, torso, from);
   found.filled = chest_filled(mask, torso);

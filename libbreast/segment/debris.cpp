@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/units.hpp"
+#include "segment/filters.hpp"
 #include "segment/itk_filters.hpp"
 
 namespace breast {
@@ -83,6 +84,37 @@ double remove_debris(Mask& body, int midline) {
     taken += 1;
   }
   return taken * grid.voxel_volume() / mm3_per_ml;
+}
+
+void remove_ghosts(Mask& body, const Volume<float>& scan) {
+  constexpr double deepest = 25, neighbourhood = 15, smoothing = 1.5;  // mm
+  constexpr float dim = 0.15f;
+  const Grid& grid = body.grid;
+  Volume<float> tissue(grid);
+  for (std::size_t n = 0; n < tissue.voxels.size(); ++n)
+    tissue.voxels[n] = body.voxels[n] ? scan.voxels[n] : 0;
+  const Volume<float> brightest = box_maximum(gaussian(tissue, smoothing), neighbourhood);
+  Mask ghost(grid);
+  for (std::size_t n = 0; n < ghost.voxels.size(); ++n)
+    ghost.voxels[n] = body.voxels[n] && scan.voxels[n] < dim * brightest.voxels[n];
+  // From the air inwards, a voxel of the axial slice at a time.
+  std::vector<std::size_t> peeled;
+  for (double depth = 0; depth < deepest; depth += grid.spacing[0]) {
+    peeled.clear();
+    for (int k = 0; k < grid.size[2]; ++k) {
+      for (int j = 1; j + 1 < grid.size[1]; ++j) {
+        for (int i = 1; i + 1 < grid.size[0]; ++i) {
+          const std::size_t n = grid.offset(i, j, k);
+          if (!body.voxels[n] || !ghost.voxels[n]) continue;
+          if (!body.at(i - 1, j, k) || !body.at(i + 1, j, k) || !body.at(i, j - 1, k) ||
+              !body.at(i, j + 1, k))
+            peeled.push_back(n);
+        }
+      }
+    }
+    if (peeled.empty()) break;
+    for (const std::size_t n : peeled) body.voxels[n] = 0;
+  }
 }
 
 }  // namespace breast

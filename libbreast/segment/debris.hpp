@@ -10,4 +10,9 @@ namespace breast {
 /// alike). Returns the volume taken away, ml. `midline` is the column between the halves.
 double remove_debris(Mask& body, int midline);
 
+/// Takes from the body, from its border inwards by at most 25 mm, what is dimmer than 0.15 of the
+/// brightest tissue within 15 mm: ghosts of the heart beside the body that the threshold let in.
+/// Skin is brighter; dark chest is filled in again afterwards.
+void remove_ghosts(Mask& body, const Volume<float>& scan);
+
 }  // namespace breast

@@ -168,7 +168,7 @@ TEST(FitBreast, RimIsStarShapedAndTheCutDoesNotCross) {
 
 TEST(FitBreast, BodyHasTheBreastsVolumeAndAClosedBoundary) {
   const Fitted& f = standard();
-  EXPECT_NEAR(f.report.body_ml / f.report.label_ml, 1, 0.15);
+  EXPECT_NEAR(f.report.body_ml / f.report.label_ml, 1, 0.01);
   const BoundaryMesh mesh = boundary_mesh(f.geometry);
   Vec3 sum = Vec3::Zero();
   for (const auto& t : mesh.triangles)

@@ -225,5 +225,17 @@ TEST(Debris, CrumbsGoAndNipplesStay) {
   EXPECT_EQ(before.at(60, 7, 20), 1);
 }
 
+TEST(Debris, DimGhostBesideTheBodyGoes) {
+  const Grid grid = fine_grid();
+  const Mask clean = ball(grid, Vec3::Zero(), 30);
+  Mask body = clean;
+  add_ball(body, Vec3(34, 0, 0), 10);  // too thick for an opening
+  Volume<float> scan(grid);
+  for (std::size_t n = 0; n < scan.voxels.size(); ++n)
+    scan.voxels[n] = clean.voxels[n] ? 1000.f : body.voxels[n] ? 80.f : 5.f;
+  remove_ghosts(body, scan);
+  EXPECT_EQ(body.voxels, clean.voxels);
+}
+
 }  // namespace
 }  // namespace breast
