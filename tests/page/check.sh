@@ -8,7 +8,7 @@ command -v chromium >/dev/null || { echo "check.sh: install chromium" >&2; exit 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
-"$bin/match-lookup" "$run/cc.vtkhdf" "$run/mlo.vtkhdf" lookup.h5 --page page.html --pitch 1 \
+"$bin/match-lookup" "$run/cc-sensitivity.vtkhdf" "$run/mlo-sensitivity.vtkhdf" lookup.h5 --page page.html --pitch 1 \
   --from-image "$run/cc.vti" --to-image "$run/mlo.vti" --quiet 2>/dev/null
 ! grep -qE '(src|href)=|https?://|fetch\(|XMLHttpRequest' page.html || { echo "the page asks for more files" >&2; exit 1; }
 browser() {  # every network request would go to a closed port
@@ -19,7 +19,7 @@ status=0
 for point in 30,50 20,90 45,40; do
   browser --dump-dom "file://$work/page.html#$point" > dom.txt
   [ -z "$pictures" ] || browser --screenshot="$pictures/page-$point.png" "file://$work/page.html#$point"
-  "$bin/cc2mlo" "$run/cc.vtkhdf" "$run/mlo.vtkhdf" curve.vtp --point $point --quiet > table.tsv
+  "$bin/cc2mlo" "$run/cc-sensitivity.vtkhdf" "$run/mlo-sensitivity.vtkhdf" curve.vtp --point $point --quiet > table.tsv
   # Column length and chord of the page's curve against cc2mlo's, mm.
   sed -n 's/.*data-curve="\([^"]*\)".*/\1/p' dom.txt | tr ';' '\n' > curve.txt
   depth=$(sed -n 's/.*; \([0-9.]*\) mm of tissue.*/\1/p' dom.txt)
