@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "align/patient_views.hpp"
+#include "align/match_question.hpp"
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
@@ -19,30 +19,26 @@ using namespace breast;
 namespace {
 
 struct Choices {
-  std::filesystem::path from, to, curve, table, points, truth, supine, priors;
+  MatchQuestion question;
+  std::filesystem::path from, to, curve, table, supine, priors;
   std::filesystem::path cc_image, mlo_image, picture, curve_table;
-  std::vector<double> point, pair, cc_nipple, mlo_nipple;
-  std::string landmark, geometry = "parallel";
-  int grid = 0;
+  std::vector<double> cc_nipple, mlo_nipple;
+  std::string geometry = "parallel";
   bool band = false;
 
   void check() const {
-    const int questions = int(!point.empty()) + int(!pair.empty()) + int(!landmark.empty()) +
-                          int(grid > 0) + int(!points.empty()) + int(!truth.empty());
-    if (questions != 1) {
-      throw input_error(
-          "give exactly one of --point u,v, --pair u,v,u,v, --landmark NAME, --points FILE, "
-          "--truth FILE and --grid N");
-    }
+    question.check();
     if (!priors.empty() && !band) throw input_error("--priors is for --band");
-    if (!supine.empty() && pair.empty()) throw input_error("--supine is for --pair");
+    if (!supine.empty() && question.pair.empty()) throw input_error("--supine is for --pair");
     if (cc_image.empty() != mlo_image.empty()) {
       throw input_error("--cc-image and --mlo-image go together");
     }
     if (cc_image.empty() && !(picture.empty() && cc_nipple.empty() && mlo_nipple.empty())) {
       throw input_error("--picture, --cc-nipple and --mlo-nipple are for --cc-image, --mlo-image");
     }
-    if (!cc_image.empty() && !truth.empty()) throw input_error("--truth is in mm: no --cc-image");
+    if (!cc_image.empty() && !question.truth.empty()) {
+      throw input_error("--truth is in mm: no --cc-image");
+    }
   }
 };
 
@@ -59,29 +55,6 @@ std::optional<PatientViews> patient_views(const Choices& choices, const Matcher&
   const bool from_cc = matcher.from_frame().view == "CC";
   return PatientViews(from_cc ? std::move(cc) : std::move(mlo),
                       from_cc ? std::move(mlo) : std::move(cc), matcher);
-}
-
-std::vector<MatchQuery> queries_of(const Choices& choices, const Matcher& matcher,
-                                   const PatientViews* patient, Run& run) {
-  if (choices.grid > 0) return grid_queries(matcher, choices.grid);
-  const auto first = [&](const Vec2& at) { return patient ? patient->from().uv(at) : at; };
-  const auto second = [&](const Vec2& at) { return patient ? patient->to().uv(at) : at; };
-  if (!choices.points.empty()) {
-    return point_queries(read_table(choices.points), choices.points.string(),
-                         patient ? std::function<Vec2(const Vec2&)>(first) : nullptr);
-  }
-  if (!choices.truth.empty()) {
-    int behind = 0;
-    const auto queries =
-        truth_queries(matcher, read_table(choices.truth), choices.truth.string(), behind);
-    run.report().set("truth/behind_first_image", behind);
-    return queries;
-  }
-  const std::vector<double>& mark = choices.pair.empty() ? choices.point : choices.pair;
-  if (mark.empty()) return {landmark_query(matcher, choices.landmark)};
-  MatchQuery query{first({mark[0], mark[1]}), "", std::nullopt};
-  if (mark.size() == 4) query.truth = second({mark[2], mark[3]});
-  return {query};
 }
 
 void report_pair(const Choices& choices, const MatchQuery& query, const Matcher& matcher, Beam beam,
@@ -114,20 +87,6 @@ std::optional<BandModel> band_model(const Choices& choices, const Matcher& match
                                   std::move(priors));
 }
 
-std::vector<MatchResult> answers(const Matcher& matcher, const std::vector<MatchQuery>& queries,
-                                 const BandModel* band, Run& run) {
-  Timer::Scope phase(run.timer(), "match");
-  const double start = run.seconds();
-  std::vector<MatchResult> results(queries.size());
-#pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t q = 0; q < queries.size(); ++q) {
-    results[q] = match_query(matcher, queries[q], band);
-  }
-  run.report().set("milliseconds_per_curve", 1e3 * (run.seconds() - start) /
-                                                 double(std::max<std::size_t>(queries.size(), 1)));
-  return results;
-}
-
 void run_match(const Choices& choices, Run& run) {
   const HexMesh from = read_mesh(choices.from, {.contact = true});
   const HexMesh to = read_mesh(choices.to, {.contact = true});
@@ -144,18 +103,23 @@ void run_match(const Choices& choices, Run& run) {
   }
   Derivatives derivatives;
   const std::optional<BandModel> band = band_model(choices, matcher, patient, derivatives);
-  const std::vector<MatchQuery> queries = queries_of(choices, matcher, patient, run);
-  const auto results = answers(matcher, queries, band ? &*band : nullptr, run);
+  int behind = 0;
+  const auto queries = choices.question.queries(matcher, patient, behind);
+  if (behind > 0) run.report().set("truth/behind_first_image", behind);
+  const double start = run.seconds();
+  const auto results = match_queries(matcher, queries, band ? &*band : nullptr);
+  run.report().set("milliseconds_per_curve", 1e3 * (run.seconds() - start) /
+                                                 double(std::max<std::size_t>(queries.size(), 1)));
   for (const std::string& doubt : match_doubts(matcher, results)) run.warn(doubt);
   if (band && !band->without().empty()) run.warn(band->what_is_missing());
   if (results.size() == 1) report_match(results[0], run.report());
   report_truth(results, run.report());
-  if (!choices.pair.empty()) report_pair(choices, queries[0], matcher, beam, run);
+  if (!choices.question.pair.empty()) report_pair(choices, queries[0], matcher, beam, run);
   PolyLines lines = curve_lines(matcher, results);
   lines.history = run.history({{choices.from, from.content_sha256, &from.history},
                                {choices.to, to.content_sha256, &to.history}});
   Table table = curve_table(matcher, results);
-  if (!choices.truth.empty()) add_truth_summary(results, table);
+  if (!choices.question.truth.empty()) add_truth_summary(results, table);
   choices.table.empty() ? run.print(table.text()) : write_table(choices.table, table);
   if (!choices.curve_table.empty()) {
     write_table(choices.curve_table, curve_points_table(matcher, results, patient));
@@ -199,23 +163,23 @@ void declare(Tool& tool, Choices& choices) {
   tool.input(choices.from, "CC.vtkhdf", "compression in which the point is marked");
   tool.input(choices.to, "MLO.vtkhdf", "compression of the same mesh in another view");
   tool.output(choices.curve, "CURVE.vtp", "curve, arc, line, chord and the column in every shape");
-  tool.numbers(choices.point, "--point", "u,v", 2, "point of the first image in mm");
-  tool.numbers(choices.pair, "--pair", "u,v,u,v", 4,
+  tool.numbers(choices.question.point, "--point", "u,v", 2, "point of the first image in mm");
+  tool.numbers(choices.question.pair, "--pair", "u,v,u,v", 4,
                "the same spot in both images: also its place in the body, with residuals");
   tool.input_file(choices.supine, "--supine", "SUPINE.vtkhdf", "with --pair: the spot there too");
   tool.text(
-      choices.landmark, "--landmark", "NAME",
+      choices.question.landmark, "--landmark", "NAME",
       "projection of this landmark of the meshes, such as tumour; its own place in the second "
       "view is compared");
-  tool.input_file(choices.points, "--points", "FILE",
+  tool.input_file(choices.question.points, "--points", "FILE",
                   "TSV with u_mm, v_mm (with --cc-image x_px, y_px) and perhaps name");
   tool.input_file(
-      choices.truth, "--truth", "FILE",
+      choices.question.truth, "--truth", "FILE",
       "TSV of true positions: landmark, side, cc_x_mm ... mlo_z_mm (truth-table): distances of the "
       "true place from curve, chord, arc and line, a row a landmark, then mean, 95 % and largest, "
       "and the part of them in the bands");
-  tool.integer(choices.grid, "--grid", "N", "N x N points over the tissue of the first image", 0,
-               200);
+  tool.integer(choices.question.grid, "--grid", "N",
+               "N x N points over the tissue of the first image", 0, 200);
   tool.flag(choices.band, "--band",
             "50 % and 95 % bands from parameters, thickness, angle, chest wall and marking "
             "(derivatives in the "

@@ -44,6 +44,17 @@ MatchResult match_query(const Matcher& matcher, const MatchQuery& query, const B
   return result;
 }
 
+std::vector<MatchResult> match_queries(const Matcher& matcher,
+                                       const std::vector<MatchQuery>& queries,
+                                       const BandModel* band) {
+  std::vector<MatchResult> results(queries.size());
+#pragma omp parallel for schedule(dynamic, 4)
+  for (std::size_t q = 0; q < queries.size(); ++q) {
+    results[q] = match_query(matcher, queries[q], band);
+  }
+  return results;
+}
+
 MatchQuery landmark_query(const Matcher& matcher, const std::string& name) {
   const auto uv = matcher.from_landmark(name);
   if (!uv) {

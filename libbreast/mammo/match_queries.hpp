@@ -39,6 +39,11 @@ struct MatchResult {
 MatchResult match_query(const Matcher& matcher, const MatchQuery& query,
                         const BandModel* band = nullptr);
 
+/// All of them, on all cores; in order.
+std::vector<MatchResult> match_queries(const Matcher& matcher,
+                                       const std::vector<MatchQuery>& queries,
+                                       const BandModel* band = nullptr);
+
 /// A landmark of the meshes: its projection, with its own place in the second view as truth.
 /// Throws Error (input) listing the landmarks there are.
 MatchQuery landmark_query(const Matcher& matcher, const std::string& name);

@@ -1,0 +1,29 @@
+// What is asked of a pair of views, as it is given on a command line.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "align/patient_views.hpp"
+#include "mammo/match_queries.hpp"
+
+namespace breast {
+
+/// One of these is given. Points are mm of the first image or, with the patient's images, pixels.
+struct MatchQuestion {
+  std::vector<double> point;            ///< u, v
+  std::vector<double> pair;             ///< u, v in the first image, u, v in the second
+  std::string landmark;                 ///< name in the meshes
+  std::filesystem::path points, truth;  ///< tables, see point_queries and truth_queries
+  int grid = 0;                         ///< N of N x N points over the tissue
+
+  /// Throws Error (input) unless exactly one is given.
+  void check() const;
+  /// `behind` counts true places behind the first image's edge. Throws Error (input), see the
+  /// functions of match_queries.hpp.
+  std::vector<MatchQuery> queries(const Matcher& matcher, const PatientViews* patient,
+                                  int& behind) const;
+};
+
+}  // namespace breast
