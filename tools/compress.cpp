@@ -3,12 +3,10 @@
 
 #include "cli/mechanics_options.hpp"
 #include "cli/tool.hpp"
-#include "contact/compression.hpp"
 #include "contact/options.hpp"
 #include "core/error.hpp"
 #include "dicom/like_mammogram.hpp"
 #include "io/mesh_file.hpp"
-#include "mammo/mammogram.hpp"
 #include "mechanics/closing_summary.hpp"
 #include "mechanics/element_order.hpp"
 #include "mechanics/options.hpp"
@@ -18,15 +16,10 @@ using namespace breast;
 
 namespace {
 
-/// The command line as given.
-struct Choices {
+struct Choices : CompressionChoices {
   std::filesystem::path reference, compressed, like;
-  std::string view = "CC", contact = "active-set", wall = "fixed", detector = "raised",
-              gravity = "upright";
-  std::optional<double> angle, thickness, reduction, force, pressure, plate_step;
+  std::string gravity = "upright";
   std::optional<double> at_least;
-  double friction = 0;
-  PlateOptions plates;
   MechanicsChoices mechanics;
 };
 
@@ -100,41 +93,14 @@ void declare(Tool& tool, Choices& c) {
             "held as in the paper, or springs across and (without: a third of it) along the wall");
   declare_mechanics(tool, c.mechanics);
   tool.check([&c] {
-    const int targets = int(c.thickness.has_value()) + int(c.reduction.has_value()) +
-                        int(c.force.has_value()) + int(c.pressure.has_value());
-    if (targets != 1 && !(targets == 0 && !c.like.empty())) {
+    if (c.targets() != 1 && !(c.targets() == 0 && !c.like.empty())) {
       throw input_error("give exactly one of --thickness, --reduction, --force, --pressure; ",
-                        targets, " were given");
+                        c.targets(), " were given");
     }
     parse_gravity(c.gravity);
     parse_wall(c.wall);
     parse_detector(c.detector);
   });
-}
-
-CompressionOptions compression_options(const Choices& c) {
-  CompressionOptions options;
-  options.view = c.view;
-  options.angle_deg = c.angle.value_or(view_angle_deg(c.view));
-  options.plates = c.plates;
-  options.plates.detector_rise = parse_detector(c.detector);
-  options.friction = c.friction;
-  options.wall = parse_wall(c.wall);
-  options.gravity = parse_gravity(c.gravity);
-  options.path.longest_step = c.plate_step.value_or(0);
-  options.path.first_step = c.plate_step.value_or(0);
-  options.method =
-      c.contact == "al" ? ContactMethod::augmented_lagrangian : ContactMethod::active_set;
-  const auto stop = [&](const std::optional<double>& value, StopAt at) {
-    if (!value) return;
-    options.stop_at = at;
-    options.target = *value;
-  };
-  stop(c.thickness, StopAt::thickness);
-  stop(c.reduction, StopAt::reduction);
-  stop(c.force, StopAt::force);
-  stop(c.pressure, StopAt::pressure);
-  return options;
 }
 
 // Fills what was not given from the mammogram to imitate.
@@ -144,7 +110,7 @@ void take_from_mammogram(Choices& c, Side side, Report& report) {
   if (!c.angle) c.angle = like.angle_deg;
   if (like.force_N) report.set("like/force_N", *like.force_N);
   if (like.thickness_mm) report.set("like/thickness_mm", *like.thickness_mm);
-  if (c.thickness || c.reduction || c.force || c.pressure) return;
+  if (c.targets() > 0) return;
   c.thickness = like.thickness_mm;
   if (!c.thickness) c.force = like.force_N;
 }
@@ -154,7 +120,7 @@ void run_compress(Choices c, Run& run) {
   mechanics.estimate_error = true;
   HexMesh mesh = read_mesh(c.reference, {.reference = true});
   take_from_mammogram(c, mesh.side, run.report());
-  const CompressionOptions options = compression_options(c);
+  const CompressionOptions options = compression_options(c, parse_gravity(c.gravity));
   const std::string sha = mesh.content_sha256;
   if (mechanics.element == Element::q2p1) mesh = raise_order(mesh);
   const CompressionSummary summary = compress(mesh, options, mechanics, run.progress());

@@ -43,4 +43,34 @@ double parse_detector(const std::string& text) {
   throw input_error("--detector ", text, ": give 'raised', 'fixed' or a rise in mm, 0 or more");
 }
 
+int CompressionChoices::targets() const {
+  return int(thickness.has_value()) + int(reduction.has_value()) + int(force.has_value()) +
+         int(pressure.has_value());
+}
+
+CompressionOptions compression_options(const CompressionChoices& c, const Vec3& gravity) {
+  CompressionOptions options;
+  options.view = c.view;
+  options.angle_deg = c.angle.value_or(view_angle_deg(c.view));
+  options.plates = c.plates;
+  options.plates.detector_rise = parse_detector(c.detector);
+  options.friction = c.friction;
+  options.wall = parse_wall(c.wall);
+  options.gravity = gravity;
+  options.path.longest_step = c.plate_step.value_or(0);
+  options.path.first_step = c.plate_step.value_or(0);
+  options.method =
+      c.contact == "al" ? ContactMethod::augmented_lagrangian : ContactMethod::active_set;
+  const auto stop = [&](const std::optional<double>& value, StopAt at) {
+    if (!value) return;
+    options.stop_at = at;
+    options.target = *value;
+  };
+  stop(c.thickness, StopAt::thickness);
+  stop(c.reduction, StopAt::reduction);
+  stop(c.force, StopAt::force);
+  stop(c.pressure, StopAt::pressure);
+  return options;
+}
+
 }  // namespace breast

@@ -1,10 +1,10 @@
-// The options of compression that have a small language of their own, from their text.
+// The options of compression from their text on a command line.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "contact/elastic_wall.hpp"
+#include "contact/compression.hpp"
 
 namespace breast {
 
@@ -16,5 +16,17 @@ std::optional<WallSprings> parse_wall(const std::string& text);
 /// mm by which the detector lifts the breast: "raised" infinite, "fixed" 0, or a number ≥ 0. Throws
 /// Error (input) for anything else.
 double parse_detector(const std::string& text);
+
+/// A compression as given on a command line.
+struct CompressionChoices {
+  std::string view = "CC", contact = "active-set", wall = "fixed", detector = "raised";
+  std::optional<double> angle, thickness, reduction, force, pressure, plate_step;
+  double friction = 0;
+  PlateOptions plates;
+  /// How many of thickness, reduction, force and pressure are given; one must be.
+  int targets() const;
+};
+/// `gravity` in mm/s², LPS. Throws Error (input) for a view, wall or detector that is none.
+CompressionOptions compression_options(const CompressionChoices& choices, const Vec3& gravity);
 
 }  // namespace breast
