@@ -4,6 +4,8 @@
 #include "io/geometry_file.hpp"
 #include "io/label_file.hpp"
 #include "io/mesh_file.hpp"
+#include "io/surface_file.hpp"
+#include "meshing/boundary_surface.hpp"
 #include "meshing/report.hpp"
 #include "meshing/skin.hpp"
 #include "meshing/tumour.hpp"
@@ -13,7 +15,7 @@ using namespace breast;
 namespace {
 
 struct Choices {
-  std::filesystem::path geometry, labels, mesh;
+  std::filesystem::path geometry, labels, mesh, surface;
   std::string shape = "dome", skin = "1.45", skin_as = "membrane", tumour = "auto";
   int elements = 16;
   std::vector<double> dome;
@@ -80,6 +82,11 @@ void run_hexmesh(const Choices& choices, Run& run) {
   mesh.history = run.history({{choices.geometry, geometry.content_sha256, &geometry.history},
                               {choices.labels, labels.content_sha256, &labels.history}});
   mesh.wall_seconds = run.seconds();
+  if (!choices.surface.empty()) {
+    TriMesh surface = boundary_surface(mesh);
+    surface.history = mesh.history;
+    write_surface(choices.surface, surface);
+  }
   write_mesh(choices.mesh, mesh);
 }
 
@@ -112,6 +119,9 @@ int main(int argc, char** argv) {
       choices.tumour, "--tumour", "auto|none|x,y,z[:radius]|FILE",
       "tumour point in patient LPS mm; with a radius, elements inside become tumour; FILE is a "
       ".tsv with columns x_mm y_mm z_mm [radius_mm], or labels with tumour voxels");
+  tool.output_file(choices.surface, "--surface", "OUT.vtp",
+                   "the mesh's closed boundary as triangles; scalar part: 0 skin, 1 lateral cut, 2 "
+                   "chest wall");
   tool.check([&] { choices.check(); });
   tool.example("hexmesh geometry.vtkhdf labels.vtkhdf mesh.vtkhdf",
                "about 4000 elements, skin as a membrane of 1.45 mm, artificial tumour");

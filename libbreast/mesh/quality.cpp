@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "mesh/lattice.hpp"
+#include "mesh/positivity.hpp"
 
 namespace breast {
 
@@ -120,6 +121,7 @@ MeshQuality mesh_quality(const HexMesh& mesh, const std::vector<Vec3>& nodal) {
   const std::vector<LocalPoint> checks = check_points(mesh.order);
   quality.min_det = std::numeric_limits<double>::infinity();
   quality.max_det = -quality.min_det;
+  quality.min_det_bound = quality.min_det;
   for (int e = 0; e < mesh.elements(); ++e) {
     const std::array<Vec3, 27> own = lattice_points(mesh, nodal, e);
     double least = std::numeric_limits<double>::infinity();
@@ -129,7 +131,10 @@ MeshQuality mesh_quality(const HexMesh& mesh, const std::vector<Vec3>& nodal) {
       quality.max_det = std::max(quality.max_det, det);
     }
     if (!(least >= quality.min_det)) quality.min_det = least, quality.worst_det_element = e;
-    if (!(least > 0)) ++quality.folded;
+    const double proved = std::min(least, jacobian_lower_bound(mesh, nodal, e));
+    if (!(proved >= quality.min_det_bound)) quality.min_det_bound = proved;
+    if (!(proved > 0)) ++quality.folded;
+    ++quality.histogram[scaled[e] > 0 ? std::min(int(10 * scaled[e]), 9) : 0];
     if (!(scaled[e] >= 0.1)) ++quality.below_01;
     if (!(scaled[e] >= 0.2)) ++quality.below_02;
   }

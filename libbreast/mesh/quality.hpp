@@ -1,6 +1,7 @@
 // Shape of hexahedra: scaled Jacobian, determinants, volumes.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "mesh/hex_mesh.hpp"
@@ -27,8 +28,12 @@ struct MeshQuality {
   /// 3³ for order 2) of all elements. A brick of volume V has V/8.
   double min_det = 0, max_det = 0;
   int worst_det_element = -1;
-  int below_02 = 0, below_01 = 0,
-      folded = 0;  ///< elements by scaled Jacobian (folded: min det ≤ 0)
+  /// Smallest of the elements' proved lower bounds of det ∂x/∂ξ (mm³; positivity.hpp): above 0 no
+  /// element is folded anywhere.
+  double min_det_bound = 0;
+  int below_02 = 0, below_01 = 0;   ///< elements by scaled Jacobian
+  int folded = 0;                   ///< elements not proved unfolded
+  std::array<int, 10> histogram{};  ///< elements by scaled Jacobian: below 0.1, 0.1-0.2, ... 0.9-1
 };
 /// Throws Error (input) for an empty mesh.
 MeshQuality mesh_quality(const HexMesh& mesh, const std::vector<Vec3>& nodal);

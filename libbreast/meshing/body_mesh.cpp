@@ -15,13 +15,14 @@ namespace {
 void refuse_folded(const HexMesh& mesh) {
   const MeshQuality quality = mesh_quality(mesh, mesh.points);
   const bool corners = quality.min_scaled_jacobian > 0;
-  if (corners && quality.min_det > 0) return;
+  if (corners && quality.min_det_bound > 0) return;
   const int element = corners ? quality.worst_det_element : quality.worst_element;
   const Vec3 at = element_position(mesh, mesh.points, element, Vec3::Zero());
   throw input_error("mesh is folded: element ", element, " near (", at.x(), ", ", at.y(), ", ",
                     at.z(), ") mm has scaled Jacobian ",
                     scaled_jacobians(mesh, mesh.points)[element], " and smallest determinant ",
-                    quality.min_det, " mm3 (both must be above 0; ", quality.folded,
+                    quality.min_det, " mm3, at least ", quality.min_det_bound,
+                    " between the points (all must be above 0; ", quality.folded,
                     " folded elements): try --template dome, another --elements or "
                     "--dome, or fit-hermite with more smoothing");
 }

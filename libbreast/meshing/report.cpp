@@ -14,6 +14,9 @@ void write_report(const HexMesh& mesh, const MeshQuality& quality, const BodyMes
   report.set("min_scaled_jacobian", quality.min_scaled_jacobian);
   report.set("median_scaled_jacobian", quality.median_scaled_jacobian);
   report.set("min_det_mm3", quality.min_det);
+  report.set("min_det_bound_mm3", quality.min_det_bound);
+  report.set("scaled_jacobian_histogram",
+             std::vector<double>(quality.histogram.begin(), quality.histogram.end()));
   report.set("elements_below_02", quality.below_02);
   const auto volumes = tissue_volumes(mesh);
   for (int t = 0; t < n_tissues; ++t) {

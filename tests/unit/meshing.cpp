@@ -10,6 +10,7 @@
 #include "core/parallel.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "mesh/quality.hpp"
+#include "meshing/boundary_surface.hpp"
 #include "meshing/corner_energy.hpp"
 #include "meshing/skin.hpp"
 #include "meshing/tissue.hpp"
@@ -94,6 +95,24 @@ TEST(BodyMesh, VolumeOfTheBodyIsThatOfTheFinestMesh) {
   body_mesh(analytic_breast(), {.size = dome_near(24)}, &fine);
   EXPECT_NEAR(fine.mesh_volume / fine.body_volume, 1, 0.004);
   EXPECT_EQ(coarse.body_volume, fine.body_volume);
+}
+
+TEST(BodyMesh, BoundarySurfaceIsClosedAndHoldsTheVolume) {
+  const HexMesh mesh = body_mesh(analytic_breast(), {.size = dome_near(8)});
+  const TriMesh surface = boundary_surface(mesh);
+  EXPECT_EQ(surface.triangles.size(), 2 * boundary_faces(mesh).size());
+  Vec3 area = Vec3::Zero();
+  double volume = 0;
+  std::set<double> parts;
+  for (const auto& t : surface.triangles) {
+    const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
+    area += 0.5 * (b - a).cross(c - a);
+    volume += a.dot(b.cross(c)) / 6;
+    parts.insert(surface.point_data.at("part")[t[0]]);
+  }
+  EXPECT_LT(area.norm(), 1e-6);
+  EXPECT_NEAR(volume / mesh_volume(mesh, mesh.points), 1, 0.01);
+  EXPECT_EQ(parts, (std::set<double>{0, 1, 2}));
 }
 
 TEST(BodyMesh, CuboidIsNotFolded) {

@@ -1,0 +1,14 @@
+// A mesh's boundary as triangles, for solvers and programs that mesh for themselves.
+#pragma once
+
+#include "mesh/hex_mesh.hpp"
+#include "surface/tri_mesh.hpp"
+
+namespace breast {
+
+/// The closed boundary of `points`, two triangles a face, turned outwards; scalar "part": 0 skin,
+/// 1 cut, 2 chest wall. Nodes on the line between two parts occur once in each, so that every point
+/// has one part. Corner nodes only for order 2.
+TriMesh boundary_surface(const HexMesh& mesh);
+
+}  // namespace breast
