@@ -16,7 +16,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 // Standard deviations of what is known beside the outlines.
 constexpr double marked_nipple = 2, anterior_part = 5, edge_place = 10;  // mm
-constexpr double edge_direction = 3 * degree, log_scale = 0.1;
+constexpr double edge_direction = 3 * degree, log_scale = 0.05;
 constexpr double correlation = 30;   // mm of outline that err together: shapes differ in long waves
 constexpr double finest = 0.05;      // mm, no outline is trusted beyond
 constexpr double border_margin = 1;  // mm: outlines end at the image's border

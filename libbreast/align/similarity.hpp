@@ -46,7 +46,7 @@ struct Alignment {
 /// Least squares over the distances of the simulated outline from the real one (Huber beyond twice
 /// their spread, which is estimated along), the nipple (2 mm when marked, the most anterior part
 /// 5 mm), the chest-wall edge (parallel within 3°, its place within 10 mm) and the scale (within
-/// 10 %), by Gauss–Newton with new nearest points every step. Throws Error (input) beginning with
+/// 5 %), by Gauss–Newton with new nearest points every step. Throws Error (input) beginning with
 /// `where` when less than 40 % of the simulated outline comes to lie within the image or when the
 /// fit does not come to rest.
 Alignment align_outlines(const AlignmentData& data, const ImageAxes& axes,
