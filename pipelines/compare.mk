@@ -31,10 +31,13 @@ $(COMPARE)/block-%.tsv: $(compare_needs) pipelines/compare/mooney-rivlin.tsv
 part = $(word $1,$(subst -, ,$2))
 
 # The case's breast, stress-free to supine, without skin.
-$(COMPARE)/breast-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH)
+compare_record := $(COMPARE)/.breast.settings
+compare_settings := $(RUN) $(COMPARE_ELEMENTS) $(MATERIALS)
+$(COMPARE)/breast-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH) $(call changed,compare)
 	@mkdir -p $(COMPARE)
 	$(HEXMESH) $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $@ --elements $(COMPARE_ELEMENTS) --skin 0
-$(COMPARE)/breast-reference.vtkhdf: $(COMPARE)/breast-mesh.vtkhdf $(BACKWARD)
+	@$(call record,compare)
+$(COMPARE)/breast-reference.vtkhdf: $(COMPARE)/breast-mesh.vtkhdf $(BACKWARD) $(MATERIAL_FILE)
 	$(BACKWARD) $< $@ --posture prone --materials $(MATERIALS)
 $(COMPARE)/breast-%.tsv: $(COMPARE)/breast-reference.vtkhdf $(compare_needs)
 	$(compare_run) $< $@ $(call part,1,$*) $(call part,2,$*) $(MATERIALS) --posture supine

@@ -18,7 +18,7 @@ leaveout: $(LEAVEOUT)/table.tsv
 .PHONY: leaveout
 
 # The base set with the fibroglandular law replaced by fat's.
-$(LEAVEOUT)/fat-only.tsv: $(or $(MATERIAL_FILE),pipelines/materials/$(MATERIALS).tsv)
+$(LEAVEOUT)/fat-only.tsv: $(MATERIAL_TABLE)
 	@mkdir -p $(@D)
 	awk -F'\t' -v OFS='\t' '$$1 == "fat" { fat = $$0 } $$1 == "fibroglandular" { $$0 = fat; $$1 = "fibroglandular" } { print }' $< > $@.part
 	@mv $@.part $@

@@ -13,7 +13,7 @@ all: figures tables $(if $(EXPECTED),verify) report
 
 # What the slow targets left behind is embedded with its date; they are not run for the report.
 REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/table.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png $(RUNS)/stability/*.tsv $(RUNS)/compare/*.tsv $(RUN)/sensitivity/*.tsv)
-$(RUN)/report.html: $(RUN)/summary.txt $(TABLES)/conclusions.tsv $(F)/cc-points.png $(F)/mlo-curves.png \
+$(RUN)/report.html: $(RUN)/summary.txt $(TABLES)/table2.tsv $(TABLES)/conclusions.tsv $(F)/cc-points.png $(F)/mlo-curves.png \
   $(if $(EXPECTED),$(RUN)/verify.tsv) pipelines/report.sh pipelines/values.sh pipelines/limits.txt $(REPORT_EXTRAS)
 	pipelines/report.sh $(RUN) $(RUNS) $(BIN) > $@.part
 	@mv $@.part $@

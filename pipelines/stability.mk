@@ -3,7 +3,7 @@
 STABILITY_LIMIT ?= 20000
 stability-mechanics: $(RUNS)/stability/mechanics.tsv
 .PHONY: stability-mechanics
-$(RUNS)/stability/mechanics.tsv: $(SOURCES) tests/extreme/table/cases.cpp tests/extreme/table/print.cpp
+$(RUNS)/stability/mechanics.tsv: $(SOURCES) $(wildcard tests/extreme/table/*)
 	@mkdir -p $(@D)
 	cmake --build $(BUILD) --target print_extreme_mechanics -j $$(nproc)
 	$(BUILD)/tests/print_extreme_mechanics --limit $(STABILITY_LIMIT) > $@.part

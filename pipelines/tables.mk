@@ -41,10 +41,13 @@ $(foreach t,fat fibroglandular skin,$(foreach s,$(SCALES),$(eval $(call scaled_r
 $(foreach s,100 $(SCALES_tumour),$(eval $(call scaled_rules,tumour,$s,$(RUN)/scaled/tumour-mesh.vtkhdf)))
 
 rows_of = $(patsubst %,$(RUN)/scaled/$1-%.done,$(call scales_of,$1))
-$(TABLES)/table2.tsv: pipelines/paper/table2.tsv pipelines/table2.sh $(BIN)/laws $(MATERIAL_FILE)
+MATERIAL_TABLE := $(or $(MATERIAL_FILE),pipelines/materials/$(MATERIALS).tsv)
+table2_settings := pipelines/table2.sh $(MATERIAL_TABLE)
+$(TABLES)/table2.tsv: pipelines/paper/table2.tsv $(MATERIAL_TABLE) pipelines/table2.sh $(call changed,table2)
 	@mkdir -p $(@D)
-	pipelines/table2.sh $< $(or $(MATERIAL_FILE),pipelines/materials/$(MATERIALS).tsv) > $@.part
+	pipelines/table2.sh $< $(MATERIAL_TABLE) > $@.part
 	@mv $@.part $@
+	@$(call record,table2)
 define table_rules
 $(TABLES)/table$1.tsv: pipelines/paper/table$1.tsv $(call rows_of,$2) $(RUN)/supine.vtkhdf pipelines/scaled-table.sh $(PROBE)
 	@mkdir -p $$(@D)
