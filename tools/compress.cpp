@@ -10,6 +10,7 @@
 #include "mechanics/closing_summary.hpp"
 #include "mechanics/element_order.hpp"
 #include "mechanics/options.hpp"
+#include "mechanics/second_solution.hpp"
 #include "mesh/quality.hpp"
 
 using namespace breast;
@@ -21,6 +22,7 @@ struct Choices : CompressionChoices {
   std::string gravity = "upright";
   std::optional<double> at_least;
   MechanicsChoices mechanics;
+  std::string estimate = "step";
 };
 
 void declare(Tool& tool, Choices& c) {
@@ -92,6 +94,7 @@ void declare(Tool& tool, Choices& c) {
   tool.text(c.wall, "--wall", "fixed|spring:KPA_PER_MM[,KPA_PER_MM]",
             "held as in the paper, or springs across and (without: a third of it) along the wall");
   declare_mechanics(tool, c.mechanics);
+  declare_estimate(tool, c.estimate);
   tool.check([&c] {
     if (c.targets() != 1 && !(c.targets() == 0 && !c.like.empty())) {
       throw input_error("give exactly one of --thickness, --reduction, --force, --pressure; ",
@@ -117,13 +120,22 @@ void take_from_mammogram(Choices& c, Side side, Report& report) {
 
 void run_compress(Choices c, Run& run) {
   MechanicsOptions mechanics = mechanics_options(c.mechanics);
-  mechanics.estimate_error = true;
+  mechanics.estimate = estimate_from_name(c.estimate);
   HexMesh mesh = read_mesh(c.reference, {.reference = true});
   take_from_mammogram(c, mesh.side, run.report());
   const CompressionOptions options = compression_options(c, parse_gravity(c.gravity));
   const std::string sha = mesh.content_sha256;
   if (mechanics.element == Element::q2p1) mesh = raise_order(mesh);
-  const CompressionSummary summary = compress(mesh, options, mechanics, run.progress());
+  CompressionSummary summary = compress(mesh, options, mechanics, run.progress());
+  if (mechanics.estimate == Estimate::q2 && mesh.contact) {
+    CompressionOptions same_gap = options;
+    same_gap.stop_at = StopAt::thickness;
+    same_gap.target = mesh.contact->thickness_mm;
+    estimate_by_second_solution(
+        mesh, mechanics, summary, [&](HexMesh& richer, const MechanicsOptions& same) {
+          return static_cast<SolveSummary>(compress(richer, same_gap, same, run.progress()));
+        });
+  }
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
   write_report(summary, mesh, mechanics, run.report());
   tell_summary(run.report(), summary.timer, run.progress());

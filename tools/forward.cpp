@@ -6,6 +6,7 @@
 #include "mechanics/closing_summary.hpp"
 #include "mechanics/element_order.hpp"
 #include "mechanics/options.hpp"
+#include "mechanics/second_solution.hpp"
 #include "mesh/quality.hpp"
 
 using namespace breast;
@@ -16,6 +17,7 @@ struct Choices {
   std::filesystem::path reference, deformed;
   GravityChoices gravity{"supine", {}};
   MechanicsChoices mechanics;
+  std::string estimate = "step";
 };
 
 void declare(Tool& tool, Choices& c) {
@@ -34,6 +36,7 @@ void declare(Tool& tool, Choices& c) {
   tool.output(c.deformed, "DEFORMED.vtkhdf", "the same mesh under gravity");
   declare_gravity(tool, c.gravity, "direction of gravity");
   declare_mechanics(tool, c.mechanics);
+  declare_estimate(tool, c.estimate);
   tool.example("forward reference.vtkhdf supine.vtkhdf", "lying on the back");
   tool.example("forward reference.vtkhdf prone.vtkhdf --posture prone --element q2p1",
                "back to the scanned posture, quadratic elements");
@@ -41,11 +44,17 @@ void declare(Tool& tool, Choices& c) {
 
 void run_forward(const Choices& c, Run& run) {
   MechanicsOptions options = mechanics_options(c.mechanics);
-  options.estimate_error = true;
+  options.estimate = estimate_from_name(c.estimate);
   HexMesh mesh = read_mesh(c.reference, {.reference = true});
   const std::string sha = mesh.content_sha256;
   if (options.element == Element::q2p1) mesh = raise_order(mesh);
-  const SolveSummary summary = solve_forward(mesh, c.gravity.vector(), options, run.progress());
+  SolveSummary summary = solve_forward(mesh, c.gravity.vector(), options, run.progress());
+  if (options.estimate == Estimate::q2) {
+    estimate_by_second_solution(
+        mesh, options, summary, [&](HexMesh& richer, const MechanicsOptions& same) {
+          return solve_forward(richer, c.gravity.vector(), same, run.progress());
+        });
+  }
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
   mesh.contact.reset();
   mesh.contact_pressure.clear();

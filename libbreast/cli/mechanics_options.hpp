@@ -22,6 +22,9 @@ struct MechanicsChoices {
 
 void declare_mechanics(Tool& tool, MechanicsChoices& choices);
 
+/// --estimate: step (the present value first), q2 or none.
+void declare_estimate(Tool& tool, std::string& estimate);
+
 /// Direction of gravity as given to forward and backward.
 struct GravityChoices {
   std::string posture;          ///< supine | prone | upright | off

@@ -8,12 +8,6 @@ void write_report(const CompressionSummary& summary, const HexMesh& mesh,
   write_report(static_cast<const SolveSummary&>(summary), mesh, mechanics, report);
   report.set("indefinite_iterations", summary.path.indefinite);
   report.set("failed_steps", summary.path.failures);
-  if (summary.error_estimate_mm >= 0) {
-    report.set(
-        "error_estimate_how",
-        "one linearised step with 27-node elements on the same geometry, nodes on the plates "
-        "held along their normals: discretisation only, not geometry, labels or laws");
-  }
   if (!mesh.contact || summary.path.points.empty()) return;
   const ContactRecord& contact = *mesh.contact;
   report.set("thickness_mm", contact.thickness_mm);

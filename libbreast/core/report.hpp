@@ -67,6 +67,15 @@ class Timer {
     std::chrono::steady_clock::time_point start_;
   };
   const std::map<std::string, double>& seconds() const { return seconds_; }
+  double seconds(const std::string& phase) const {
+    const auto found = seconds_.find(phase);
+    return found == seconds_.end() ? 0.0 : found->second;
+  }
+  /// Counts `seconds` of phase `from` as phase `to`.
+  void move(const std::string& from, const std::string& to, double seconds) {
+    seconds_[from] -= seconds;
+    seconds_[to] += seconds;
+  }
   /// Sets "seconds/PHASE" for every phase.
   void write(Report& report) const;
 

@@ -81,12 +81,13 @@ std::string cost(const Report& report, const Timer& timer) {
   return line + "peak " + brief(report, "peak_mb") + " MB";
 }
 
-std::string accuracy(const Report& report) {
-  std::string line = report.contains("error_estimate_how")
-                         ? message("discretisation error at the landmarks about ",
-                                   brief(report, "error_estimate_mm"), " mm (",
-                                   report.text("error_estimate_how"), ")")
-                         : "discretisation error not estimated";
+std::string accuracy(const Report& report, const Timer& timer) {
+  std::string line =
+      report.contains("error_estimate_how")
+          ? message("discretisation error at the landmarks about ",
+                    brief(report, "error_estimate_mm"), " mm (", report.text("error_estimate_how"),
+                    "), found in ", brief(timer.seconds("error estimate")), " s")
+          : "discretisation error not estimated";
   if (report.contains("closure_mm")) {
     line += "; forward returns to the scan within " + brief(report, "closure_mm") + " mm";
   }
@@ -101,7 +102,7 @@ std::vector<std::string> closing_summary(const Report& report, const Timer& time
   lines.push_back(convergence(report));
   if (report.contains("thickness_mm")) lines.push_back(plates(report));
   lines.push_back(cost(report, timer));
-  lines.push_back(accuracy(report));
+  lines.push_back(accuracy(report, timer));
   return lines;
 }
 

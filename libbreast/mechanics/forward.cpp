@@ -37,7 +37,7 @@ NewtonResult ForwardSolve::attempt(ForwardProblem& problem, SaddleSolver& solver
   NewtonOptions newton_options;
   newton_options.max_iterations = limit;
   // The estimate needs the factor at the solution.
-  newton_options.reuse_factor = !scene_.options().estimate_error;
+  newton_options.reuse_factor = scene_.options().estimate != Estimate::step;
   newton_options.timer = &summary_.timer;
   ++summary_.steps;
   NewtonResult result = newton(problem, solver, matrix, scene_.walls(), nullptr, state,
@@ -80,13 +80,16 @@ SolveSummary ForwardSolve::run(const Vec3& gravity) {
       }
     }
     note_solver(solver, matrix, summary_);
-    if (result.converged && mesh_.order == 1 && scene_.options().estimate_error) {
+    if (result.converged && mesh_.order == 1 && scene_.options().estimate == Estimate::step) {
       Timer::Scope phase(summary_.timer, "error estimate");
       const ErrorEstimate estimate =
           estimate_error(scene_, reference, state, gravity, matrix, solver);
       if (estimate.usable && !mesh_.landmarks.empty()) {
         summary_.error_estimate_mm = estimate.worst_mm;
         summary_.landmark_error_mm = estimate.landmarks;
+        summary_.error_estimate_how =
+            "one linearised step with 27-node elements on the same geometry: discretisation only, "
+            "not geometry, labels or laws";
       }
     }
     if (result.indefinite > 0) {

@@ -17,6 +17,10 @@ namespace breast {
 enum class Element { q1p0, q2p1 };
 enum class Invariants { isochoric, plain };
 enum class Cut { free, fixed, roller };
+/// How the discretisation error of 8-node elements is estimated: not at all, by one linearised step
+/// with 27-node elements (mechanics/error_estimate.hpp), or by solving once more with them
+/// (mechanics/second_solution.hpp).
+enum class Estimate { none, step, q2 };
 
 /// The MECHANICS options every mechanics tool shares.
 struct MechanicsOptions {
@@ -26,7 +30,7 @@ struct MechanicsOptions {
   double bulk_ratio = 0;  ///< K/μ; 0 means exactly incompressible
   Cut cut = Cut::free;
   std::string solver = "auto";  ///< auto | direct | multigrid
-  bool estimate_error = false;  ///< with q1p0: estimate the discretisation error as well
+  Estimate estimate = Estimate::none;
 };
 
 /// How a solve went; also fills the contract's report keys.
@@ -50,8 +54,9 @@ struct SolveSummary {
   double matrix_values = 0, factor_values = 0, factor_gflop = 0;  ///< see SaddleSolver
   bool stable = true;  ///< backward: the imaged shape is a stable equilibrium of the shape found
   /// Estimated discretisation error at the landmarks (largest, and by name: exact minus computed),
-  /// mm; negative when not estimated. See mechanics/error_estimate.hpp.
+  /// mm; negative when not estimated.
   double error_estimate_mm = -1;
+  std::string error_estimate_how;
   std::map<std::string, Vec3> landmark_error_mm;
   std::map<Tissue, PressureQuality> pressure;  ///< 8-node elements, by tissue
   SkinState skin;                              ///< wrinkling; see mechanics/skin_state.hpp

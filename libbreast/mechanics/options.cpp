@@ -41,4 +41,9 @@ MechanicsOptions mechanics_options(const std::string& materials,
   return options;
 }
 
+Estimate estimate_from_name(const std::string& name) {
+  return pick<Estimate>(name, "--estimate",
+                        {{"none", Estimate::none}, {"step", Estimate::step}, {"q2", Estimate::q2}});
+}
+
 }  // namespace breast

@@ -26,4 +26,7 @@ MechanicsOptions mechanics_options(const Choices& c) {
                            c.solver);
 }
 
+/// "none" | "step" | "q2". Throws Error (input) for any other.
+Estimate estimate_from_name(const std::string& name);
+
 }  // namespace breast

@@ -108,9 +108,7 @@ void write_report(const SolveSummary& summary, const HexMesh& mesh, const Mechan
                                       ? summary.error_estimate_mm
                                       : std::numeric_limits<double>::quiet_NaN());  // null
   if (summary.error_estimate_mm >= 0) {
-    report.set("error_estimate_how",
-               "one linearised step with 27-node elements on the same geometry: discretisation "
-               "only, not geometry, labels or laws");
+    report.set("error_estimate_how", summary.error_estimate_how);
     for (const auto& [name, error] : summary.landmark_error_mm) {
       report.set("landmarks/" + name + "/error_estimate_mm", error.norm());
     }

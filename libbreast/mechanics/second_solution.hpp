@@ -1,0 +1,19 @@
+// The discretisation error of 8-node elements by solving once more with 27-node elements on the
+// same geometry: dear, but without the linearisation of mechanics/error_estimate.hpp.
+#pragma once
+
+#include <functional>
+
+#include "mechanics/mechanics.hpp"
+
+namespace breast {
+
+/// `solved` and `summary` are a converged solution with 8-node elements; `solve` solves the same
+/// scene on the mesh it is given. Fills the summary's error estimate (largest distance of a
+/// landmark between the two, mm) and the phase "error estimate". Where the second solve does not
+/// converge, or 27-node elements were used to begin with, a doubt says so instead.
+void estimate_by_second_solution(
+    const HexMesh& solved, MechanicsOptions options, SolveSummary& summary,
+    const std::function<SolveSummary(HexMesh&, const MechanicsOptions&)>& solve);
+
+}  // namespace breast
