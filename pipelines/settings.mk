@@ -22,6 +22,8 @@ MATERIALS ?= seed2008
 REDUCTION ?= 50
 AT_LEAST ?= 40
 ELEMENTS ?= 16
+# Element of the mechanics, q1p0 or q2p1; empty: the programs' default. ACCURACY=MM chooses both.
+ELEMENT ?=
 CUT ?= free
 # What the imaged shape hangs under; --gravity 0,0,0 takes it as stress-free.
 PRONE ?= --posture prone
@@ -33,7 +35,7 @@ ifdef PAPER
   COMPRESS_OPTIONS ?= --gravity off --contact al
 else
   HEXMESH_OPTIONS ?= --elements $(ELEMENTS)
-  MECHANICS ?= --materials $(MATERIALS)
+  MECHANICS ?= --materials $(MATERIALS) $(addprefix --element ,$(ELEMENT))
   COMPRESS_OPTIONS ?=
 endif
 SEGMENT_OPTIONS ?=

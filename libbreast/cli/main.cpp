@@ -77,6 +77,7 @@ void write_report(const std::filesystem::path& file, Run& run, const Outcome& ou
   }
   run.timer().write(report);
   report.set("seconds/total", run.seconds());
+  report.set("cpu_seconds", cpu_seconds());
   report.set("peak_mb", peak_memory_mb());
   if (!file.empty()) write_text(file, report.json());
 }

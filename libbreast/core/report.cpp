@@ -33,8 +33,12 @@ Report& Report::operator=(Report other) noexcept {
 void Report::set(std::string_view path, double value) {
   impl_->at(path) = Impl::number_or_null(value);
 }
-void Report::set(std::string_view path, long long value) { impl_->at(path) = value; }
-void Report::set(std::string_view path, bool value) { impl_->at(path) = value; }
+void Report::set(std::string_view path, long long value) {
+  impl_->at(path) = value;
+}
+void Report::set(std::string_view path, bool value) {
+  impl_->at(path) = value;
+}
 void Report::set(std::string_view path, std::string_view value) {
   impl_->at(path) = std::string(value);
 }
@@ -70,7 +74,9 @@ std::string Report::text(std::string_view path) const {
   return entry.is_string() ? entry.get<std::string>() : entry.dump();
 }
 
-std::string Report::json() const { return impl_->root.dump(2) + "\n"; }
+std::string Report::json() const {
+  return impl_->root.dump(2) + "\n";
+}
 
 Report Report::parse(const std::string& json, std::string_view name) {
   Report report;
@@ -81,6 +87,13 @@ Report Report::parse(const std::string& json, std::string_view name) {
 
 void Timer::write(Report& report) const {
   for (const auto& [phase, seconds] : seconds_) report.set("seconds/" + phase, seconds);
+}
+
+double cpu_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 double peak_memory_mb() {

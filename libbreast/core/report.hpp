@@ -83,6 +83,8 @@ class Timer {
   std::map<std::string, double> seconds_;
 };
 
+/// CPU time of this process so far, user and system, all threads, in seconds.
+double cpu_seconds();
 /// Peak resident memory of this process in MB.
 double peak_memory_mb();
 

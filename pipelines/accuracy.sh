@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Up a ladder of meshes, cheapest first, until the estimated error is met: accuracy.sh RUN MM "POINT ..." MAKE...
+# Writes RUN/accuracy.tsv, what was tried, and RUN/accuracy.mk, the ELEMENTS and ELEMENT chosen (the last rung where
+# none is good enough).
+set -euo pipefail
+run=$1 wanted=$2 ladder=$3
+shift 3
+. "$(dirname "$0")/values.sh"
+table=$run/accuracy.tsv
+printf 'point\telements\tstress_free_estimate_mm\tsupine_estimate_mm\tcpu_s\tmeets\n' > "$table.part"
+meets=no
+for point in $ladder; do
+  "$@" "$run/cost/$point.done" >&2
+  backward=$run/cost/$point-reference.json forward=$run/cost/$point-supine.json
+  [ ! -f "$run/cost/$point.failed" ] || continue
+  a=$(number "$backward" error_estimate_mm) b=$(number "$forward" error_estimate_mm)
+  cpu=$(awk -v a="$(key "$backward" cpu_seconds)" -v b="$(key "$forward" cpu_seconds)" 'BEGIN { printf "%.2f", a + b }')
+  meets=$(awk -v a="$a" -v b="$b" -v w="$wanted" 'BEGIN { print (a != "" && b != "" && a <= w + 0 && b <= w + 0) ? "yes" : "no" }')
+  printf '%s\t%s\t%s\t%s\t%s\t%s\n' "$point" "$(key "$forward" elements)" "$(rounded 4 "$a")" "$(rounded 4 "$b")" \
+    "$cpu" "$meets" >> "$table.part"
+  chosen=$point
+  [ "$meets" = no ] || break
+done
+[ -n "${chosen:-}" ] || { echo "accuracy: no mesh of the ladder could be solved: see $run/cost/*.failed" >&2; exit 3; }
+mv "$table.part" "$table"
+cat "$table" >&2
+[ "$meets" = yes ] || echo "accuracy: $wanted mm is not met by any mesh tried; the finest is taken" >&2
+IFS=- read -r element _ edge _ <<< "$chosen"
+printf 'ELEMENTS := %s\nELEMENT := %s\n' "$edge" "$element" > "$run/accuracy.mk.part"
+mv "$run/accuracy.mk.part" "$run/accuracy.mk"
