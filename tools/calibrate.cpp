@@ -26,7 +26,7 @@ void declare(Tool& tool, Choices& c) {
       "once.");
   tool.cite("Pathmanathan et al. 2008, Tables III and IV: 8.8 and 3.0 mm, 4.5 and 1.6 mm")
       .cite("Powell 2009, The BOBYQA algorithm, DAMTP 2009/NA06; Johnson, NLopt");
-  tool.choice(c.preset, "--preset", {"paper", "small", "large", "pendulous"}, "kind of breast");
+  tool.choice(c.preset, "--preset", preset_names(), "kind of breast");
   tool.integer(c.seed, "--seed", "N", "which woman of the kind", 0, 1000000000);
   tool.choice(c.side, "--side", {"left", "right"}, "which breast");
   tool.numbers(c.supine, "--supine", "NIPPLE,TUMOUR", 2, "wanted motion to supine, mm");

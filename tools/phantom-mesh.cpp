@@ -29,7 +29,7 @@ void declare(Tool& tool, Choices& c) {
       "finer (truth-table).");
   tool.output(c.mesh, "PRONE.vtkhdf", "the prone mesh with its stress-free reference");
   tool.output_file(c.supine, "--supine", "SUPINE.vtkhdf", "also write the supine shape");
-  tool.choice(c.preset, "--preset", {"paper", "small", "large", "pendulous"}, "as of phantom");
+  tool.choice(c.preset, "--preset", preset_names(), "as of phantom");
   tool.integer(c.seed, "--seed", "N", "as of phantom", 0, 1000000000);
   tool.choice(c.side, "--side", {"left", "right"}, "which breast");
   tool.integer(c.level, "--level", "L", "elements: 4280 L^3", 1, 4);

@@ -45,7 +45,7 @@ void declare(Tool& tool, Choices& c) {
   tool.output_folder(
       c.truth, "--truth", "DIR",
       "write labels, surfaces, meshes and landmarks.tsv (stress-free, prone and supine) there");
-  tool.choice(c.preset, "--preset", {"paper", "small", "large", "pendulous"}, "kind of breast");
+  tool.choice(c.preset, "--preset", preset_names(), "kind of breast");
   tool.integer(c.seed, "--seed", "N", "another woman of the same kind", 0, 1000000000);
   tool.output_folder(c.dicom, "--dicom", "DIR",
                      "also write the scan as a DICOM series, one file a slice");

@@ -5,6 +5,11 @@
 
 namespace breast {
 
+const std::vector<std::string>& preset_names() {
+  static const std::vector<std::string> names{"paper", "small", "large", "pendulous"};
+  return names;
+}
+
 BreastParameters kind_breast(const std::string& name) {
   BreastParameters b;
   if (name == "small") {

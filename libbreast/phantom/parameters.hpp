@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/report.hpp"
 #include "core/types.hpp"
@@ -75,8 +76,10 @@ struct PhantomParameters {
   const BreastParameters& side(Side s) const { return s == Side::left ? left : right; }
 };
 
-/// "paper", "small", "large" or "pendulous"; the seed also varies left against right by a few per
-/// cent, as in every woman. Throws Error (input) on another name or an unusable value.
+/// "paper", "small", "large" and "pendulous": what the functions below take.
+const std::vector<std::string>& preset_names();
+/// The phantom of a preset; the seed also varies left against right by a few per cent, as in every
+/// woman. Throws Error (input) on another name or an unusable value.
 PhantomParameters phantom_preset(const std::string& name, std::uint64_t seed);
 /// The same with another breast than the preset's, before left and right are varied.
 PhantomParameters phantom_preset(const std::string& name, std::uint64_t seed,
