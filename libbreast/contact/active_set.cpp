@@ -19,6 +19,8 @@ constexpr int free_moves = 8;
 constexpr double least_pull = 0.1;
 /// Longest multiple of a shifted step.
 constexpr double longest_slip = 64;
+/// Iterations granted for each with an indefinite tangent: itself and one to settle.
+constexpr int slip_allowance = 2;
 /// Halvings of a Newton step before it is given up.
 constexpr int most_halvings = 6;
 }  // namespace
@@ -167,11 +169,14 @@ StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double to
     if (changed) now = measure(plates, state, result.forces);
     result.residual = now.relative();
     if (converged && !changed) break;
-    // A step much too long is noticed early: the imbalance grows and stays.
+    // A step much too long is noticed early: the imbalance grows and stays. In a slip it may.
     if (result.iterations == 1) first_imbalance = now.relative();
-    const bool hopeless =
-        result.iterations >= 6 && now.relative() > 4 * first_imbalance && now.relative() > 0.1;
-    if (result.iterations >= options_.max_iterations || hopeless) {
+    const bool hopeless = result.shifted == 0 && result.iterations >= 6 &&
+                          now.relative() > 4 * first_imbalance && now.relative() > 0.1;
+    // A slip ends far from where it began: its iterations do not count against the limit.
+    const int allowed = std::min(options_.max_iterations + slip_allowance * result.shifted,
+                                 options_.most_iterations);
+    if (result.iterations >= allowed || hopeless) {
       result.outcome = StepOutcome::too_many_iterations;
       return result;
     }

@@ -13,7 +13,8 @@
 namespace breast {
 
 struct ActiveSetOptions {
-  int max_iterations = 30;
+  int max_iterations = 30;    ///< without a slip
+  int most_iterations = 150;  ///< with one
   /// In the first sweeps violated nodes are added and pulling nodes dropped together; later,
   /// pulling nodes are dropped only at convergence, which cannot cycle.
   int free_sweeps = 12;

@@ -34,7 +34,8 @@ class Path {
         area_(area),
         options_(options),
         progress_(progress),
-        start_thickness_(plates.thickness()) {}
+        start_thickness_(plates.thickness()),
+        tolerance_(options.path_tolerance) {}
 
   PathResult run(BodyState& state);
 
@@ -44,6 +45,7 @@ class Path {
   bool attempt(const BodyState& guess, const ContactMemory& memory, double thickness,
                double tolerance, Waypoint& reached);
   bool finish();
+  bool step_back();
   BodyState predict(double thickness, bool extrapolate) const;
   double next_thickness(double step) const;
   double measure(const PathPoint& point) const;
@@ -57,8 +59,9 @@ class Path {
   const PathOptions& options_;
   Progress& progress_;
   double start_thickness_;
+  double tolerance_;  ///< of the positions on the way
   PathResult result_;
-  Waypoint here_, before_;
+  Waypoint start_, here_, before_;
   bool have_before_ = false;
   std::deque<Waypoint> trail_;  ///< the last ones before before_
 };
@@ -179,8 +182,7 @@ bool Path::march() {
     // Two refusals in a row: the extrapolation itself may be what folds elements.
     const bool extrapolate = failures_in_row % 3 != 2;
     Waypoint reached;
-    if (attempt(predict(thickness, extrapolate), here_.memory, thickness, options_.path_tolerance,
-                reached)) {
+    if (attempt(predict(thickness, extrapolate), here_.memory, thickness, tolerance_, reached)) {
       const int iterations = result_.points.back().iterations;
       // A length that has just been found by halving is used twice before it grows again.
       if (iterations < 6 && failures_in_row == 0) step = std::min(longest, 1.4 * step);
@@ -223,8 +225,7 @@ bool Path::refine_control(Waypoint low, Waypoint high) {
     BodyState guess{(1 - w) * low.state.x + w * high.state.x,
                     (1 - w) * low.state.p + w * high.state.p};
     Waypoint middle;
-    if (!attempt(guess, w < 0.5 ? low.memory : high.memory, thickness, options_.path_tolerance,
-                 middle)) {
+    if (!attempt(guess, w < 0.5 ? low.memory : high.memory, thickness, tolerance_, middle)) {
       here_ = low;
       return false;
     }
@@ -243,12 +244,30 @@ bool Path::refine_control(Waypoint low, Waypoint high) {
   return false;
 }
 
+/// Goes to the waypoint before; false when the start itself is where it stands.
+bool Path::step_back() {
+  if (have_before_) {
+    here_ = std::move(before_);
+  } else if (here_.thickness != start_.thickness) {
+    here_ = start_;
+  } else {
+    return false;
+  }
+  while (!result_.points.empty() && result_.points.back().thickness != here_.thickness) {
+    result_.points.pop_back();
+  }
+  have_before_ = !trail_.empty() && trail_.back().state.x.size() > 0;
+  if (have_before_) {
+    before_ = std::move(trail_.back());
+    trail_.pop_back();
+  }
+  return true;
+}
+
 /// Solves the last state tightly, so that it is an equilibrium to the reported tolerance. Close to
-/// where a path ends a loosely solved state may be none: then the one before it is taken.
+/// where a path ends or slips a loosely solved state may be none: false, and here_ is the last
+/// waypoint that could be solved tightly. Without any there are no points left.
 bool Path::finish() {
-  const StepOutcome failure = result_.last_failure;
-  const double failed_thickness = result_.failed_thickness;
-  Eigen::VectorXd failed_trial = result_.failed_trial;
   for (bool last = true;; last = false) {
     Waypoint reached;
     if (attempt(here_.state, here_.memory, here_.thickness, options_.tolerance, reached)) {
@@ -258,22 +277,11 @@ bool Path::finish() {
       if (n >= 2 && result_.points[n - 2].thickness == here_.thickness) {
         result_.points.erase(result_.points.end() - 2);
       }
-      if (last) {
-        result_.last_failure = failure;
-        result_.failed_thickness = failed_thickness;
-        result_.failed_trial = std::move(failed_trial);
-      }
       return last;
     }
-    if (!have_before_) return false;
-    while (!result_.points.empty() && result_.points.back().thickness != before_.thickness) {
-      result_.points.pop_back();
-    }
-    here_ = std::move(before_);
-    have_before_ = !trail_.empty() && trail_.back().state.x.size() > 0;
-    if (have_before_) {
-      before_ = std::move(trail_.back());
-      trail_.pop_back();
+    if (!step_back()) {
+      result_.points.clear();
+      return false;
     }
   }
 }
@@ -283,10 +291,16 @@ PathResult Path::run(BodyState& state) {
   // The state the plates start from: touching nothing, or the end of an earlier path.
   Waypoint first;
   if (attempt(here_.state, here_.memory, here_.thickness, options_.path_tolerance, first)) {
-    here_ = std::move(first);
+    start_ = here_ = std::move(first);
     result_.reached = march();
+    if (!finish() && !result_.points.empty()) {
+      // What was solved loosely led astray: once more from there, every position solved tightly.
+      tolerance_ = options_.tolerance;
+      result_.reached = march();
+      if (!finish()) result_.reached = false;
+    }
   }
-  if (!result_.points.empty() && !finish()) result_.reached = false;
+  if (result_.points.empty()) result_.reached = false;
   if (result_.reached) result_.failed_trial.resize(0);
   plates_.close_to(here_.thickness);
   solver_.restore(here_.memory);
