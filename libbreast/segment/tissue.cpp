@@ -12,6 +12,8 @@ namespace breast {
 namespace {
 
 // Vessels, ligaments and noise make specks; gland comes in lobes.
+constexpr double skin_to_fat = 0.5;        // brightness of skin in T1
+constexpr double least_dimming = 0.05;     // of the outermost voxels: noise and bias
 constexpr double least_lobe = 60;          // mm3
 constexpr double growing_smoothing = 1.0;  // mm: keeps noise from carrying the growth into gland
 
@@ -203,7 +205,11 @@ double skin_thickness(const Volume<float>& ratio, const Mask& breast,
   double bright = 0;
   for (const auto& [depth, value] : profile) bright = std::max(bright, value);
   const double dark = profile.front().second;
-  if (!(dark < 0.75 * bright)) return 0;
+  if (!(dark < 0.75 * bright)) {
+    // Less than half a voxel of skin shares the outermost voxel with fat and dims it in proportion.
+    const double dimmed = 1 - dark / bright;
+    return dimmed > least_dimming ? dimmed / (1 - skin_to_fat) * 2 * half_voxel : 0;
+  }
   const double half = 0.5 * (dark + bright);
   for (std::size_t s = 1; s < profile.size(); ++s) {
     const auto [d0, v0] = profile[s - 1];

@@ -10,9 +10,11 @@
 #include "fixtures/synthetic_scan.hpp"
 #include "segment/body.hpp"
 #include "segment/debris.hpp"
+#include "segment/itk_filters.hpp"
 #include "segment/nipple.hpp"
 #include "segment/plausibility.hpp"
 #include "segment/segment.hpp"
+#include "segment/tissue.hpp"
 
 namespace breast {
 namespace {
@@ -90,6 +92,28 @@ TEST(Body, ChestAsDarkAsAirIsFilled) {
   });
   EXPECT_GT(found, 0.99 * chest);
   EXPECT_LT(taken, 0.01 * air);
+}
+
+/// A coil plate 12 mm behind the nipple: what would hang in front of it is flat.
+TEST(SegmentRobustness, SkinFlattenedByTheCoilIsDoubted) {
+  const auto flat_doubts = [](const Segmentation& result) {
+    return std::count_if(result.doubts.begin(), result.doubts.end(), [](const std::string& doubt) {
+      return doubt.find("is flat") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(flat_doubts(patient().base), 0);
+  Volume<float> scan = patient().scan;
+  const Grid& grid = scan.grid;
+  const double plate = patient().truth.nipple(1)[1] + 12;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      if (!(grid.to_patient(Vec3(0, j, k))[1] < plate)) continue;
+      for (int i = 0; i < grid.size[0]; ++i) scan.at(i, j, k) = scan.at(0, 0, k);
+    }
+  }
+  const Segmentation pressed = run(scan);
+  EXPECT_EQ(flat_doubts(pressed), 1);
+  EXPECT_GT(pressed.flat_skin_cm2, 6);
 }
 
 TEST(SegmentRobustness, ImplausibleExtentIsDoubted) {
@@ -223,6 +247,22 @@ TEST(Debris, CrumbsGoAndNipplesStay) {
   remove_debris(with_papilla, 119);
   EXPECT_EQ(with_papilla.at(60, 7, 20), before.at(60, 7, 20));
   EXPECT_EQ(before.at(60, 7, 20), 1);
+}
+
+/// Skin a quarter of a voxel thick and half as bright as fat dims the outermost voxels by an
+/// eighth.
+TEST(Skin, ThinnerThanAVoxelIsEstimatedFromItsShare) {
+  const Grid grid = fine_grid();
+  const Mask body = ball(grid, Vec3::Zero(), 35);
+  const Volume<float> distance = signed_distance(body);
+  Volume<float> ratio(grid);
+  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
+    const bool outermost = -distance.voxels[n] < 0.5;
+    ratio.voxels[n] = body.voxels[n] ? (outermost ? 0.875f : 1.f) : 0.f;
+  }
+  EXPECT_NEAR(skin_thickness(ratio, body, distance), 0.25, 0.06);
+  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) ratio.voxels[n] = body.voxels[n];
+  EXPECT_EQ(skin_thickness(ratio, body, distance), 0);
 }
 
 TEST(Debris, DimGhostBesideTheBodyGoes) {
