@@ -14,6 +14,10 @@ constexpr int refinements = 3, most_gmres = 100, most_settling = 4;
 // How far a file's state may be from the equilibrium these options have: larger means other
 // options.
 constexpr double far_mm = 1e-4, settled = 1e-8;
+// Between plates rounding may keep a hundred times that residual of the load, which is gravity's
+// and small beside the plates'; a step that moves no node by a nanometre then has nothing left to
+// gain.
+constexpr double rounded = 1e-6, still_mm = 1e-6;
 
 Constraints with_contacts(Constraints held, const std::vector<PlateContact>& contacts) {
   for (const PlateContact& contact : contacts) held.hold_normal(contact.node, contact.normal());
@@ -55,7 +59,7 @@ SaddleForces Equilibrium::assemble() {
 void Equilibrium::settle(const std::string& what) {
   const double load =
       std::max(scene_.gravity_force(state_.gravity).norm(), scene_.stiffness_force());
-  double moved = 0;
+  double moved = 0, last = far_mm;
   for (int i = 0;; ++i) {
     const SaddleForces forces = assemble();
     if (!forces.valid) throw input_error(what, ": element ", forces.bad_element, " is folded");
@@ -65,9 +69,10 @@ void Equilibrium::settle(const std::string& what) {
     if (!solver_.factorise(matrix_, held_, false).ok) {
       throw failed_error(what, " is an unstable equilibrium: its derivatives do not exist");
     }
-    if (residual_ <= settled) return;
+    if (residual_ <= settled || (residual_ <= rounded && last <= still_mm)) return;
     const SaddleStep step = solver_.solve(matrix_, forces.r, forces.theta, 1e-8);
-    moved = std::max(moved, step.u.cwiseAbs().maxCoeff());
+    last = step.u.cwiseAbs().maxCoeff();
+    moved = std::max(moved, last);
     if (i == most_settling || !(moved <= far_mm)) {
       throw input_error(
           what, " is no equilibrium of these options (residual ", residual_,
