@@ -17,7 +17,7 @@ namespace {
 MechanicsOptions options_of(const std::string& materials) {
   MechanicsOptions options;
   options.materials = load_materials(materials);
-  options.estimate_error = true;
+  options.estimate = Estimate::step;
   return options;
 }
 
