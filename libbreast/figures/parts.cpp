@@ -92,8 +92,10 @@ std::string compression_caption(const HexMesh& mesh) {
   const ContactRecord& contact = *mesh.contact;
   std::string words = contact.view + " (" + std::string(side_name(mesh.side)) + "), " +
                       format_fixed(contact.thickness_mm, 1) + " mm";
-  for (const PlateRecord& plate : contact.plates) {
-    if (plate.force_N > 0) words += ", " + plate.name + " " + format_fixed(plate.force_N, 0) + " N";
+  const PlateRecord &paddle = contact.plates[0], &detector = contact.plates[1];
+  if (paddle.force_N > 0 || detector.force_N > 0) {
+    words +=
+        ", " + format_fixed(paddle.force_N, 0) + " / " + format_fixed(detector.force_N, 0) + " N";
   }
   return words;
 }

@@ -45,7 +45,7 @@ void add_plates(Panel& panel, const HexMesh& mesh, double opacity);
 /// A landmark of the mesh as a sphere; nothing when it has none of that name.
 void add_landmark(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
                   const std::string& name, double radius, const Colour& colour);
-/// "MLO (left), 46.2 mm, paddle 91 N, detector 93 N" of a compressed mesh.
+/// "MLO (left), 46.2 mm, 91 / 93 N" of a compressed mesh: forces of paddle and detector.
 std::string compression_caption(const HexMesh& mesh);
 
 /// Hung mammogram with axes in mm; curves of `curves` (nullable) for its view on top. `letter`
