@@ -41,7 +41,7 @@ $(TRUTH_AT)-fine-%.vtkhdf: $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-coarse-%.vtkhdf $
 $(TRUTH_TABLE): $(PHANTOM_TRUTH)/landmarks.tsv $(TRUTH_MESHES) $(TRUTH_TABLE_TOOL)
 	$(TRUTH_TABLE_TOOL) $< $@ $(TRUTH_MESHES) $(common)
 upper = $(if $(filter cc,$1),CC,MLO)
-thickness = $$(sed -n 's/^  "thickness_mm": \([0-9.]*\),*$$/\1/p' $1)
+thickness = $$(. pipelines/values.sh; key $1 thickness_mm)
 
 # The chain between plates as far apart and as far from the wall as the truth's, and its errors.
 $(RUN)/truth-%.vtkhdf: $(RUN)/reference.vtkhdf $(TRUTH_TABLE) $(COMPRESS)
