@@ -2,6 +2,7 @@
 set terminal pngcairo size 900,640 font 'Sans,11'
 set output picture
 set datafile separator '\t'
+set datafile columnheaders
 set logscale xy
 set xlabel 'CPU time of backward and forward (s)'
 set ylabel 'error of tumour or nipple, supine (mm)'

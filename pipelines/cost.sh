@@ -10,7 +10,7 @@ shift 3
 error() {
   "$probe" "$folder/$1-$2.vtkhdf" --base "$folder/$finest-$2.vtkhdf" --landmarks tumour,nipple --quiet |
     awk -F'\t' '/^#/ { next } $1 == "file" { for (i = 1; i <= NF; i++) at[$i] = i; next }
-      { a = $at["tumour_relative_mm"]; b = $at["nipple_relative_mm"]; printf "%.4f", a > b ? a : b }'
+      { a = $at["tumour_relative_mm"]; b = $at["nipple_relative_mm"]; printf "%.4f", (a > b ? a : b) }'
 }
 printf 'point\telement\ttemplate\tsolver\telements\tunknowns\tnewton_iterations\tcpu_s\twall_s\tpeak_mb'
 printf '\tstress_free_error_mm\tsupine_error_mm\tstress_free_estimate_mm\tsupine_estimate_mm\n'
