@@ -25,15 +25,6 @@ const NodalField* field_of(const DerivativeFields& fields, const std::string& na
   return &found->second;
 }
 
-Vec3 centre_of(const std::vector<Vec3>& points) {
-  Vec3 low = points.front(), high = low;
-  for (const Vec3& x : points) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  return 0.5 * (low + high);
-}
-
 // ∂x/∂ξ in a nodal field, columns by local coordinate.
 Mat3 jacobian(const HexMesh& mesh, const std::vector<Vec3>& nodal, const ColumnPoint& point) {
   const HexShape shape = hex_shape(mesh.order, point.local);
@@ -76,8 +67,8 @@ std::vector<Vec2> normals(const MatchedCurve& curve) {
 BandModel::BandModel(const Matcher& matcher, const DerivativeFields& from,
                      const DerivativeFields& to, std::vector<Prior> priors)
     : matcher_(matcher),
-      from_centre_(centre_of(matcher.from().points)),
-      to_centre_(centre_of(matcher.to().points)) {
+      from_centre_(turning_centre(matcher.from().points)),
+      to_centre_(turning_centre(matcher.to().points)) {
   const int nodes = matcher.from().nodes();
   for (const Prior& prior : priors) {
     if (prior.parameter == "picking" || prior.parameter == "alignment_from") {
@@ -188,6 +179,15 @@ double standardised_distance(const Band& band, const Vec2& uv) {
     standardised = (uv - point.uv).dot(point.normal) / point.deviation;
   }
   return standardised;
+}
+
+Vec3 turning_centre(const std::vector<Vec3>& points) {
+  Vec3 low = points.front(), high = low;
+  for (const Vec3& x : points) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  return 0.5 * (low + high);
 }
 
 }  // namespace breast

@@ -85,4 +85,7 @@ class BandModel {
 /// ±1.96 for 95 % of truths when the band is right.
 double standardised_distance(const Band& band, const Vec2& uv);
 
+/// Middle of a shape's bounding box (mm), about which beam and detector turn with the angle.
+Vec3 turning_centre(const std::vector<Vec3>& points);
+
 }  // namespace breast

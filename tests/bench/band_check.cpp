@@ -105,15 +105,6 @@ DerivativeFields derivatives(const Chain& chain, const HexMesh& view) {
   return fields;
 }
 
-Vec3 middle(const std::vector<Vec3>& points) {
-  Vec3 low = points.front(), high = low;
-  for (const Vec3& x : points) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  return 0.5 * (low + high);
-}
-
 // (u,v) in the base image of a place seen by a detector that has turned about `centre` (band.hpp).
 Vec2 seen(const Vec3& x, const Vec3& centre, const ImageFrame& base, Side side, double turned) {
   const ViewPose pose = view_pose(side, base.pose.angle_deg + turned);
@@ -162,7 +153,8 @@ void run(const std::string& file, int first, int count, double spread) {
   for (Prior& p : priors) p.deviation *= spread;
   const BandModel band(matcher, from, to, priors);
   const std::vector<int> chosen = places(matcher, 24);
-  const std::array<Vec3, 2> centre{middle(base.views[0].points), middle(base.views[1].points)};
+  const std::array<Vec3, 2> centre{turning_centre(base.views[0].points),
+                                   turning_centre(base.views[1].points)};
   const double picking = prior("picking", spread);
   for (int sample = first; sample < first + count; ++sample) {
     const Draw drawn = draw(sample, spread);
