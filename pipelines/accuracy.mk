@@ -3,7 +3,7 @@
 # rung of the ladder, cheapest first, is a point of pipelines/cost.mk.
 ACCURACY_LADDER ?= $(foreach n,4 6 8 10 12 14 16 20 24 32,q1p0-dome-$n)
 ifneq ($(strip $(ACCURACY)),)
-accuracy_settings = $(ACCURACY) $(ACCURACY_LADDER)
+accuracy_settings = $(ACCURACY) $(ACCURACY_LADDER) $(MATERIALS) $(CUT)
 accuracy_record = $(RUN)/.accuracy.settings
 $(RUN)/accuracy.mk: $(RUN)/labels.vtkhdf $(RUN)/geometry.vtkhdf pipelines/accuracy.sh pipelines/values.sh \
   $(HEXMESH) $(BACKWARD) $(FORWARD) $(call changed,accuracy)
