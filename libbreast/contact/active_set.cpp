@@ -71,7 +71,7 @@ ActiveSet::Sweep ActiveSet::measure(const PlatePair& plates, const BodyState& st
     if (memory_.touching[c] < 0) continue;
     const Eigen::Index at = 3 * candidates_[c];
     const Gap gap = plates.plate(memory_.touching[c]).gap(node_vector(state.x, candidates_[c]));
-    const Vec3 normal = gap.gradient.normalized();
+    const Vec3 normal = gap.gradient;
     const double pushed = sweep.free.segment<3>(at).dot(normal);
     reaction += pushed * pushed;
     sweep.free.segment<3>(at) -= pushed * normal;
@@ -82,7 +82,7 @@ ActiveSet::Sweep ActiveSet::measure(const PlatePair& plates, const BodyState& st
       sweep.free.segment<3>(at) -= rubbed;
       sweep.gradient.segment<3>(at) -= rubbed;
     }
-    sweep.worst_gap = std::max(sweep.worst_gap, std::abs(gap.distance()));
+    sweep.worst_gap = std::max(sweep.worst_gap, std::abs(gap.value));
   }
   sweep.free_norm = sweep.free.norm();
   sweep.scale = std::max({std::sqrt(reaction), body_.load_norm(), 1e-30});
@@ -117,7 +117,7 @@ bool ActiveSet::update(const PlatePair& plates, const BodyState& state, const Bo
     const Vec3 x = node_vector(state.x, candidates_[c]);
     if (memory_.touching[c] < 0) {
       const int k = plates.nearer(x);
-      if (plates.plate(k).gap(x).distance() < -options_.gap_tolerance) {
+      if (plates.plate(k).gap(x).value < -options_.gap_tolerance) {
         memory_.touching[c] = static_cast<signed char>(k);
         // From now on the anchor moves with the plate.
         if (options_.friction.present()) memory_.anchors[c] -= plates.plate(k).shift();
@@ -126,8 +126,7 @@ bool ActiveSet::update(const PlatePair& plates, const BodyState& state, const Bo
       }
     } else if (may_drop && (balanced || toggles_[c] < most_toggles)) {
       const Gap gap = plates.plate(memory_.touching[c]).gap(x);
-      const double pushed =
-          node_vector(forces.residual, candidates_[c]).dot(gap.gradient.normalized());
+      const double pushed = node_vector(forces.residual, candidates_[c]).dot(gap.gradient);
       if (pushed < -least_pull * tolerance_ * scale) {
         if (options_.friction.present()) {
           memory_.anchors[c] += plates.plate(memory_.touching[c]).shift();
@@ -185,7 +184,7 @@ StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double to
   if (options_.friction.present()) slide_anchors(plates, state, result.forces);
   for (const int node : candidates_) {
     const Vec3 x = node_vector(state.x, node);
-    const double distance = plates.plate(plates.nearer(x)).gap(x).distance();
+    const double distance = plates.plate(plates.nearer(x)).gap(x).value;
     result.worst_penetration = std::max(result.worst_penetration, -distance);
   }
   return result;
@@ -204,12 +203,11 @@ bool ActiveSet::newton_step(const PlatePair& plates, const Sweep& now, BodyState
     if (memory_.touching[c] < 0) continue;
     const int node = candidates_[c];
     const Gap gap = plates.plate(memory_.touching[c]).gap(node_vector(state.x, node));
-    const double steepness = gap.gradient.norm();
-    const Vec3 normal = gap.gradient / steepness;
-    constraints.push_back({node, normal, -gap.value / steepness});
+    const Vec3 normal = gap.gradient;
+    constraints.push_back({node, normal, -gap.value});
     // A node sliding on a rounded edge turns its plate force; without this term Newton loses its
     // quadratic convergence and plate steps collapse.
-    const double multiplier = node_vector(result.forces.residual, node).dot(normal) / steepness;
+    const double multiplier = node_vector(result.forces.residual, node).dot(normal);
     if (multiplier > 0 && !gap.hessian.isZero()) {
       body_.add_to_tangent(node, -multiplier * gap.hessian);
     }
@@ -217,7 +215,7 @@ bool ActiveSet::newton_step(const PlatePair& plates, const Sweep& now, BodyState
       // The bound μλ is taken as fixed here, which keeps the tangent symmetric; it follows λ from
       // one iteration to the next.
       const FrictionForce rubbed =
-          friction_at(plates, c, node_vector(state.x, node), normal, multiplier * steepness);
+          friction_at(plates, c, node_vector(state.x, node), normal, multiplier);
       unbalanced.segment<3>(3 * node) -= rubbed.force;
       body_.add_to_tangent(node, rubbed.stiffness);
     }
@@ -299,7 +297,7 @@ std::vector<double> ActiveSet::normal_forces(const PlatePair& plates, const Body
     if (memory_.touching[c] < 0) continue;
     const int node = candidates_[c];
     const Gap gap = plates.plate(memory_.touching[c]).gap(node_vector(state.x, node));
-    pushed[c] = node_vector(forces.residual, node).dot(gap.gradient.normalized());
+    pushed[c] = node_vector(forces.residual, node).dot(gap.gradient);
   }
   return pushed;
 }
@@ -312,7 +310,7 @@ std::vector<Vec3> ActiveSet::friction_forces(const PlatePair& plates, const Body
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     if (memory_.touching[c] < 0) continue;
     const Vec3 x = node_vector(state.x, candidates_[c]);
-    const Vec3 normal = plates.plate(memory_.touching[c]).gap(x).gradient.normalized();
+    const Vec3 normal = plates.plate(memory_.touching[c]).gap(x).gradient;
     rubbed[c] = friction_at(plates, c, x, normal, pushed[c]).force;
   }
   return rubbed;

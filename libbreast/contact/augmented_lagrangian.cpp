@@ -124,7 +124,7 @@ double AugmentedLagrangian::update_multipliers(const PlatePair& plates, const Bo
   double worst = 0;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     const Contact at = contact(plates, state.x, c);
-    const double gap = at.gap.distance();
+    const double gap = at.gap.value;
     worst = std::max(worst, at.force > 0 ? std::abs(gap) : -gap);
     memory_.multipliers[c] = at.force;
     memory_.touching[c] = static_cast<signed char>(at.force > 0 ? at.plate : -1);
@@ -159,15 +159,9 @@ StepResult AugmentedLagrangian::solve(const PlatePair& plates, BodyState& state,
   return result;
 }
 
-std::vector<double> AugmentedLagrangian::normal_forces(const PlatePair& plates,
-                                                       const BodyState& state,
+std::vector<double> AugmentedLagrangian::normal_forces(const PlatePair&, const BodyState&,
                                                        const BodyForces&) const {
-  std::vector<double> pushed(candidates_.size(), 0);
-  for (std::size_t c = 0; c < candidates_.size(); ++c) {
-    const Contact at = contact(plates, state.x, c);
-    pushed[c] = memory_.multipliers[c] * at.gap.gradient.norm();
-  }
-  return pushed;
+  return memory_.multipliers;
 }
 
 }  // namespace breast

@@ -213,7 +213,7 @@ void Compression::estimate(const BodyState& at, const ContactSolver& contact) {
       const int node = contact.candidates()[c], plate = contact.touching()[c];
       if (plate < 0) continue;
       const Gap gap = summary_.plates.plate(plate).gap(at.x.segment<3>(3 * node));
-      touching.push_back({node, plate, gap.gradient.normalized()});
+      touching.push_back({node, plate, gap.gradient});
     }
     SaddleMatrix matrix = problem().make_matrix();
     const ErrorEstimate error = estimate_error(scene_, reference_, {at.x, at.p}, options_.gravity,

@@ -80,7 +80,7 @@ PathPoint Path::force_point(const BodyState& state, const StepResult& step,
     const int node = solver_.candidates()[c];
     const Vec3 x = state.x.segment<3>(3 * node);
     const Plate& plate = plates_.plate(k);
-    const double along = plate.gap(x).gradient.normalized().dot(plate.normal());
+    const double along = plate.gap(x).gradient.dot(plate.normal());
     (k == 0 ? point.paddle_N : point.detector_N) += pushed[c] * along / micronewton_per_newton;
     if (k == 0 && pushed[c] > 0) paddle_area += area[c];
   }

@@ -6,11 +6,14 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "mesh/plate_edge.hpp"
 
 namespace breast {
 
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Sharper edges are rounded to this: on a corner the direction of a force would be undefined, mm.
+constexpr double least_edge_radius = 1.0;
 /// A plate must reach at least this far over the breast to compress it, mm.
 constexpr double least_depth = 5.0;
 
@@ -90,7 +93,7 @@ void check_options(const PlateOptions& options) {
 Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
                      const PlateOptions& options, double& wall_point) {
   Plate plate = plate_facing(pose);
-  plate.edge_radius = options.edge_radius;
+  plate.edge_radius = std::max(least_edge_radius, options.edge_radius);
   const std::vector<int> skin = nodes_of(mesh, mesh.skin_faces);
   Extent across, along;
   for (const int node : skin) {
@@ -119,24 +122,69 @@ Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const View
   plate.far_edge = plate.edge_start + 2 * depth + 20;
   return plate;
 }
+/// Skin behind the footprint may reach further than T0: the thickness at which nothing is
+/// penetrated.
+double touching_thickness(const HexMesh& mesh, const std::vector<Vec3>& x, PlatePair pair) {
+  const std::vector<int> skin = nodes_of(mesh, mesh.skin_faces);
+  double thickness = pair.initial_thickness, opening = 1;
+  // Once, but for a tilted paddle, whose edge drawing back moves across the body.
+  for (int k = 0; k < 20 && opening > 1e-9; ++k) {
+    opening = 0;
+    for (const int node : skin) {
+      for (int side = 0; side < 2; ++side) {
+        opening = std::max(opening, 2 * pair.plate(side).overlap(x[node]));
+      }
+    }
+    thickness += opening;
+    pair.close_to(thickness);
+  }
+  return thickness;
+}
 }  // namespace
 
-Gap Plate::gap(const Vec3& x) const {
-  const double a = x.dot(anterior), v = x.dot(lateral) - lateral_centre;
-  Gap gap;
-  gap.value = sign * (x.dot(n) - level) - tilt_slope * (a - mid_depth);
-  gap.gradient = sign * n - tilt_slope * anterior;
-  const auto recede = [&](double s, const Vec3& outward) {
-    const EdgeRecession edge = edge_recession(edge_radius, s);
-    gap.value += edge.value;
-    gap.gradient += edge.slope * outward;
-    gap.hessian += edge.curvature * outward * outward.transpose();
+/// A point seen from the plate: height over the flat, and the way back onto the prism's outline.
+struct Plate::Place {
+  Vec3 normal;
+  double height = 0;           ///< mm over the flat
+  Vec3 beyond{0, 0, 0};        ///< from the outline of the flat to the point, in its plane, mm
+  Mat3 across = Mat3::Zero();  ///< projection onto the directions in which the outline is passed
+};
+
+Plate::Place Plate::place(const Vec3& x) const {
+  Place at;
+  at.normal = normal();
+  const Vec3 from = x - origin();
+  at.height = from.dot(at.normal);
+  const auto pass = [&](double s, const Vec3& outward) {
+    if (!(s > 0)) return;
+    at.beyond += s * outward;
+    at.across += outward * outward.transpose();
   };
-  recede(edge_start - a, -anterior);
-  recede(a - far_edge, anterior);
-  recede(v - half_width, lateral);
-  recede(-v - half_width, -lateral);
-  return gap;
+  const Vec3 along = (anterior + tilt_slope * sign * n).normalized();
+  const double a = from.dot(along), v = from.dot(lateral);
+  pass(-a, -along);
+  pass(a - (far_edge - edge_start), along);
+  pass(v - half_width, lateral);
+  pass(-v - half_width, -lateral);
+  return at;
+}
+
+Gap Plate::gap(const Vec3& x) const {
+  const Place at = place(x);
+  const double above = at.height + edge_radius;  // the swept prism's top lies a radius below
+  if (at.beyond.isZero()) return {at.height, at.normal, Mat3::Zero()};
+  const Vec3 to = at.beyond + std::max(0.0, above) * at.normal;
+  const double length = to.norm();
+  const Vec3 direction = to / length;
+  Mat3 moving = at.across;
+  if (above > 0) moving += at.normal * at.normal.transpose();
+  return {length - edge_radius, direction, (moving - direction * direction.transpose()) / length};
+}
+
+double Plate::overlap(const Vec3& x) const {
+  const Place at = place(x);
+  const double down = edge_recession(edge_radius, at.beyond.norm());
+  return std::isinf(down) ? 0 : std::max(0.0, -(at.height + down)) / at.normal.dot(sign * n);
 }
 
 Vec3 Plate::normal() const {
@@ -201,14 +249,7 @@ PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const Vi
   pair.detector_start = middle + 0.5 * extent.size();
   pair.close_to(pair.initial_thickness);
 
-  // Skin behind the footprint may reach further than T0: start where nothing is penetrated.
-  double opening = 0;
-  for (const int node : nodes_of(mesh, mesh.skin_faces)) {
-    for (int k = 0; k < 2; ++k) {
-      opening = std::max(opening, -2 * pair.plate(k).gap(x[node]).value);
-    }
-  }
-  pair.touching_thickness = pair.initial_thickness + opening;
+  pair.touching_thickness = touching_thickness(mesh, x, pair);
   pair.close_to(pair.touching_thickness);
   return pair;
 }

@@ -1,5 +1,5 @@
-// The compression plates as rigid height fields over a plane normal to the beam: a flat with
-// rounded edges. The gap and its first two derivatives are all the contact solver sees of them.
+// The compression plates as rigid bodies: a flat, rounded edges, upright walls behind them. The
+// signed distance and its first two derivatives are all the contact solver sees of them.
 #pragma once
 
 #include <limits>
@@ -9,20 +9,19 @@
 #include "core/types.hpp"
 #include "mammo/mammogram.hpp"
 #include "mesh/hex_mesh.hpp"
-#include "mesh/plate_edge.hpp"
 
 namespace breast {
 
-/// Gap of a point to a plate: positive outside the plate, with derivatives by the point's position.
+/// Distance of a point to a plate, with derivatives by the point's position.
 struct Gap {
-  double value = 0;  ///< mm, measured along the plate's normal
-  Vec3 gradient{0, 0, 0};
+  double value = 0;             ///< mm, negative inside the plate
+  Vec3 gradient{0, 0, 0};       ///< unit normal of the plate where it is nearest
   Mat3 hessian = Mat3::Zero();  ///< 1/mm
-  /// Signed distance to the plate's surface to first order, mm.
-  double distance() const { return value / gradient.norm(); }
 };
 
-/// One plate. Coordinates: h along the beam, a anterior, v lateral (h, a, v = x·n, x·e_u, x·e_v).
+/// One plate: a ball of radius edge_radius swept over a prism with an upright wall behind, before
+/// and beside it. Coordinates: h along the beam, a anterior, v lateral (h, a, v = x·n, x·e_u,
+/// x·e_v).
 struct Plate {
   std::string name;  ///< "paddle" or "detector"
   double sign = 1;   ///< +1 when the body lies towards +h (paddle), −1 (detector)
@@ -35,13 +34,21 @@ struct Plate {
   double tilt_slope = 0;   ///< rise into the gap per mm anterior
   double edge_radius = 0;  ///< mm
 
+  /// Signed distance. Inside the plate it is to the flat, from where the plate came.
   Gap gap(const Vec3& x) const;
+  /// How far the plate must draw back along the beam for the point to lie outside, mm; 0 if it
+  /// does.
+  double overlap(const Vec3& x) const;
   /// Where the plate has moved along the beam: points fixed to it differ by this, mm.
   Vec3 shift() const { return level * n; }
   /// Unit normal of the flat, from the plate into the gap.
   Vec3 normal() const;
   /// Point of the flat where the rounded edge starts, mid-width.
   Vec3 origin() const;
+
+ private:
+  struct Place;
+  Place place(const Vec3& x) const;
 };
 
 /// A paddle of no extent yet, square to the beam of `pose`.

@@ -42,9 +42,9 @@ PlateRecord record_plate(HexMesh& mesh, const Plate& plate, int k, const BodySta
   for (std::size_t c = 0; c < pushed.size(); ++c) {
     const int node = solver.candidates()[c];
     const Gap gap = plate.gap(state.x.segment<3>(3 * node));
-    record.worst_gap_mm = std::max(record.worst_gap_mm, -gap.distance());
+    record.worst_gap_mm = std::max(record.worst_gap_mm, -gap.value);
     if (solver.touching()[c] != k || !(pushed[c] > 0)) continue;
-    Vec3 nodal = pushed[c] * gap.gradient.normalized();
+    Vec3 nodal = pushed[c] * gap.gradient;
     if (!rubbed.empty()) nodal += rubbed[c];
     force += nodal;
     if (state.x.segment<3>(3 * node).dot(plate.anterior) < plate.edge_start) {

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
-
-#include "mesh/plate_edge.hpp"
 
 namespace breast {
 
@@ -16,8 +15,8 @@ namespace {
 constexpr std::array<std::array<int, 4>, 4> quarters = {
     {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}}};
 
-/// Of the bevel behind a plate's edge, mm.
-constexpr double least_edge_shown = 12;
+/// Of the upright wall behind a plate's rounded edge, mm.
+constexpr double wall_shown = 15;
 
 class Builder {
  public:
@@ -89,13 +88,14 @@ Facets tissue_facets(const HexMesh& mesh, const std::vector<Vec3>& nodal, Tissue
 Facets plate_facets(const PlateRecord& plate, double length, double half_width) {
   const Vec3 normal = plate.normal.normalized();
   const Vec3 anterior = plate.anterior.normalized(), lateral = normal.cross(anterior);
-  std::vector<Vec3> profile;  // from behind the rounded edge to the front
-  const double behind = std::max(1.6 * plate.edge_radius, least_edge_shown);
+  std::vector<Vec3> profile;  // down the wall, round the edge, to the front
+  const double r = plate.edge_radius;
+  profile.push_back(plate.origin - r * anterior - (r + wall_shown) * normal);
   constexpr int steps = 24;
   for (int k = steps; k >= 0; --k) {
-    const double s = behind * k / steps;
-    profile.push_back(plate.origin - s * anterior -
-                      edge_recession(plate.edge_radius, s).value * normal);
+    const double angle = 0.5 * std::numbers::pi * k / steps;
+    profile.push_back(plate.origin - r * std::sin(angle) * anterior -
+                      r * (1 - std::cos(angle)) * normal);
   }
   profile.push_back(plate.origin + length * anterior);
   Facets facets;

@@ -28,7 +28,7 @@ HexMesh before_compression(const HexMesh& mesh) {
     double back = 0;
     for (const Vec3& x : before.points) {
       const Vec3 d = x - plate.origin;
-      const double rounding = edge_recession(plate.edge_radius, -d.dot(plate.anterior)).value;
+      const double rounding = edge_recession(plate.edge_radius, -d.dot(plate.anterior));
       back = std::max(back, -d.dot(plate.normal) - rounding);
     }
     plate.origin -= back * plate.normal;

@@ -3,11 +3,8 @@
 
 namespace breast {
 
-/// Recession of a rounded edge of radius r, s mm beyond where it starts: r − √(r²−s²) up to s = 0.8
-/// r, then straight with the slope reached there (4/3). r = 0 is a straight bevel of that slope.
-struct EdgeRecession {
-  double value = 0, slope = 0, curvature = 0;
-};
-EdgeRecession edge_recession(double radius, double s);
+/// How far a plate's rounded edge of radius r lies behind its flat, mm, at s mm beyond where it
+/// starts: r − √(r²−s²). From s = r on the edge stands upright and there is no plate: infinite.
+double edge_recession(double radius, double s);
 
 }  // namespace breast

@@ -46,9 +46,8 @@ SaddleForces Equilibrium::assemble() {
   if (!forces.valid) return forces;
   forces.r -= scene_.gravity_force(state_.gravity);
   for (PlateContact& contact : contacts_) {
-    const double steepness = contact.gap.gradient.norm();
     const Vec3 r = forces.r.segment<3>(3L * contact.node);
-    contact.force = r.dot(contact.normal()) / steepness;
+    contact.force = r.dot(contact.normal());
     matrix_.stiffness.add_to_node(contact.node, -contact.force * contact.gap.hessian);
   }
   return forces;

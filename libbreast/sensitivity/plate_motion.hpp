@@ -17,9 +17,9 @@ PlatePair recorded_plates(const HexMesh& mesh);
 struct PlateContact {
   int node = 0, plate = 0;
   Gap gap;           ///< at the node
-  double force = 0;  ///< µN per unit of ∇g: R = force · ∇g
+  double force = 0;  ///< µN along the normal
 
-  Vec3 normal() const { return gap.gradient.normalized(); }
+  Vec3 normal() const { return gap.gradient; }
 };
 
 /// Skin nodes that carry contact pressure, each with the plate it rests on.

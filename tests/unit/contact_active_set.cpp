@@ -107,7 +107,7 @@ double complementarity(QuadraticBody& body, const PlatePair& plates, const BodyS
   for (int node = 1; node < body.nodes(); ++node) {
     const Vec3 x = state.x.segment<3>(3 * node), r = forces.residual.segment<3>(3 * node);
     const Gap gap = plates.plate(plates.nearer(x)).gap(x);
-    const Vec3 normal = gap.gradient.normalized();
+    const Vec3 normal = gap.gradient;
     const double push = r.dot(normal);
     worst = std::max({worst, -gap.value, -push / 1e3, (r - push * normal).norm() / 1e3,
                       std::min(gap.value, push / 1e3)});

@@ -1,4 +1,4 @@
-// Plates as height fields: derivatives, placement, T0.
+// Plates as rounded bodies: distance and derivatives, placement, T0.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +7,7 @@
 #include "contact/plates.hpp"
 #include "core/error.hpp"
 #include "fixtures/standing_block.hpp"
+#include "mesh/plate_edge.hpp"
 
 using namespace breast;
 
@@ -34,29 +35,61 @@ Vec3 at(const Plate& plate, double h, double a, double v) {
 TEST(Plates, GapDerivativesMatchDifferences) {
   const Plate plate = tilted_plate(15);
   const double step = 1e-5;
-  // Flat, round wall edge, straight part, front edge, sides, and a corner.
-  for (const auto& [a, v] : std::vector<std::pair<double, double>>{
-           {30, 0}, {4, 0}, {-9, 3}, {66, -5}, {30, 37}, {30, -41}, {3, 38}}) {
-    const Vec3 x = at(plate, 5, a, v);
+  // Over the flat, round the wall edge, behind its wall, the front edge, sides, and a corner.
+  for (const Vec3& place : {Vec3(5, 30, 0), Vec3(5, 4, 0), Vec3(-40, -9, 3), Vec3(5, 66, -5),
+                            Vec3(5, 30, 37), Vec3(5, 30, -41), Vec3(5, 3, 38), Vec3(-4, 4, 37)}) {
+    const Vec3 x = at(plate, place[0], place[1], place[2]);
     const Gap gap = plate.gap(x);
+    EXPECT_NEAR(gap.gradient.norm(), 1, 1e-12) << place;
     for (int i = 0; i < 3; ++i) {
       const Vec3 d = step * Vec3::Unit(i);
       const Gap up = plate.gap(x + d), down = plate.gap(x - d);
-      EXPECT_NEAR((up.value - down.value) / (2 * step), gap.gradient[i], 1e-8) << a << " " << v;
+      EXPECT_NEAR((up.value - down.value) / (2 * step), gap.gradient[i], 1e-8) << place;
       const Vec3 hessian = (up.gradient - down.gradient) / (2 * step);
-      EXPECT_LT((hessian - gap.hessian.col(i)).norm(), 1e-7) << a << " " << v;
+      EXPECT_LT((hessian - gap.hessian.col(i)).norm(), 1e-7) << place;
     }
   }
 }
 
-TEST(Plates, EdgeIsContinuousWhereItBecomesStraight) {
-  const double r = 15, s = 0.8 * r;
-  const EdgeRecession before = edge_recession(r, s - 1e-9), after = edge_recession(r, s + 1e-9);
-  EXPECT_NEAR(before.value, after.value, 1e-8);
-  EXPECT_NEAR(before.slope, after.slope, 1e-8);
-  EXPECT_NEAR(before.value, r - std::sqrt(r * r - s * s), 1e-8);
-  EXPECT_EQ(edge_recession(r, -1).value, 0);
-  EXPECT_NEAR(edge_recession(0, 3).value, 4, 1e-12);
+TEST(Plates, GapIsTheDistanceToTheRoundedEdge) {
+  Plate plate = tilted_plate(15);
+  plate.tilt_slope = 0;
+  // Centre of the rounding: a radius below the flat, where the edge starts.
+  const Vec3 centre = at(plate, plate.level - 15, plate.edge_start, 0);
+  for (const double angle : {0.1, 0.7, 1.5}) {
+    for (const double away : {-2.0, 0.0, 6.0}) {
+      const Vec3 out = std::cos(angle) * plate.n - std::sin(angle) * plate.anterior;
+      const Gap gap = plate.gap(centre + (15 + away) * out);
+      EXPECT_NEAR(gap.value, away, 1e-12) << angle;
+      EXPECT_LT((gap.gradient - out).norm(), 1e-12) << angle;
+    }
+  }
+  // Behind the wall only the way to it counts, however far the plate has come.
+  EXPECT_NEAR(plate.gap(at(plate, plate.level - 80, plate.edge_start - 21, 0)).value, 6, 1e-12);
+}
+
+TEST(Plates, OverlapIsTheWayBackAlongTheBeam) {
+  Plate plate = tilted_plate(15);
+  plate.tilt_slope = 0;
+  for (const Vec3& place :
+       {Vec3(-20, 30, 0), Vec3(-25, 4, 0), Vec3(-30, -2, 3), Vec3(-12, 5, 37)}) {
+    const Vec3 x = at(plate, place[0], place[1], place[2]);
+    const double back = plate.overlap(x);
+    ASSERT_GT(back, 0) << place;
+    Plate drawn = plate;
+    drawn.level -= back;
+    EXPECT_NEAR(drawn.gap(x).value, 0, 1e-10) << place;
+  }
+  EXPECT_EQ(plate.overlap(at(plate, -80, 10 - 16, 0)), 0) << "behind the wall";
+  EXPECT_EQ(plate.overlap(at(plate, 5, 30, 0)), 0);
+}
+
+TEST(Plates, EdgeRecedesOnACircleUntilItStandsUpright) {
+  EXPECT_EQ(edge_recession(15, -1), 0);
+  EXPECT_NEAR(edge_recession(15, 9), 3, 1e-12);
+  EXPECT_NEAR(edge_recession(15, 15 - 1e-12), 15, 1e-5);
+  EXPECT_TRUE(std::isinf(edge_recession(15, 15)));
+  EXPECT_TRUE(std::isinf(edge_recession(0, 1e-3)));
 }
 
 TEST(Plates, PaddleAndDetectorFaceEachOther) {

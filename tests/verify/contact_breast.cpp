@@ -74,7 +74,7 @@ TEST_P(CompressedBreast, BalancesDoesNotPenetrateAndKeepsVolume) {
     EXPECT_GE(pressure, 0);
     if (!(pressure > 0)) continue;
     const Vec3& x = mesh.points[std::size_t(node)];
-    EXPECT_LT(std::abs(summary.plates.plate(summary.plates.nearer(x)).gap(x).distance()), 1e-6);
+    EXPECT_LT(std::abs(summary.plates.plate(summary.plates.nearer(x)).gap(x).value), 1e-6);
   }
   // More force at every step of the path.
   const std::vector<double>& force = mesh.contact->path_force_N;

@@ -100,7 +100,7 @@ Outcome press(const Inputs& in, const HexMesh& near) {
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (touching[c] != 0) continue;
     const Gap gap = in.plates.paddle.gap(state.x.segment<3>(3 * candidates[c]));
-    out.paddle_N += pushed[c] * gap.gradient.normalized().dot(in.plates.paddle.normal()) /
+    out.paddle_N += pushed[c] * gap.gradient.dot(in.plates.paddle.normal()) /
                     micronewton_per_newton;
   }
   return out;
