@@ -19,9 +19,7 @@ $(PHANTOM_MR) $(PHANTOM_TRUTH)/landmarks.tsv $(PHANTOM_TRUTH)/tumour-$(SIDE).tsv
 
 # Compressed truth of the phantom: the same body (cut held) on eight times the chain's elements, and on an
 # eighth of them, whose distance is the truth's own error. The finer plates close to the coarser's gap.
-# Many minutes, so a target of its own; TRUTH_TABLE is a truth for probe --truth. The stand-off is 35 mm: nearer
-# to the wall the plates' bevel squeezes the fat between them and the held cut, which the chain's mesh does not have.
-TRUTH_STANDOFF ?= 35
+# Many minutes, so a target of its own; TRUTH_TABLE is a truth for probe --truth.
 TRUTH_AT := $(PHANTOM_TRUTH)/$(SIDE)
 TRUTH_TABLE := $(PHANTOM_TRUTH)/$(SIDE)-compressed.tsv
 TRUTH_MESHES := $(foreach level,fine coarse,$(foreach what,$(level) $(level)-supine $(level)-cc $(level)-mlo,\
@@ -32,21 +30,26 @@ $(TRUTH_AT)-coarse.vtkhdf $(TRUTH_AT)-coarse-supine.vtkhdf &: $(PHANTOM_MR) $(PH
 	$(call truth_mesh,coarse,1)
 $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-fine-supine.vtkhdf &: $(PHANTOM_MR) $(PHANTOM_MESH)
 	$(call truth_mesh,fine,2)
-truth_compress = $(COMPRESS) $< $@ --view $(call upper,$*) --cut fixed --standoff $(TRUTH_STANDOFF) \
-  --at-least $(AT_LEAST) $(common)
-$(TRUTH_AT)-coarse-%.vtkhdf: $(TRUTH_AT)-coarse.vtkhdf $(COMPRESS)
-	$(truth_compress) --reduction $(REDUCTION)
-$(TRUTH_AT)-fine-%.vtkhdf: $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-coarse-%.vtkhdf $(COMPRESS)
-	$(truth_compress) --thickness $(call thickness,$(TRUTH_AT)-coarse-$*.json)
+truth_compress = $(COMPRESS) $< $@ --cut fixed --at-least $(AT_LEAST) $(common)
+define truth_view
+truth-$1_record := $(PHANTOM_TRUTH)/.$(SIDE)-$1.settings
+truth-$1_settings := $(COMPRESS) $(REDUCTION) $(AT_LEAST) $(phantom_settings)
+$(TRUTH_AT)-coarse-$1.vtkhdf: $(TRUTH_AT)-coarse.vtkhdf $(COMPRESS) $$(call changed,truth-$1)
+	$$(truth_compress) --view $2 --reduction $(REDUCTION)
+	@$$(call record,truth-$1)
+$(TRUTH_AT)-fine-$1.vtkhdf: $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-coarse-$1.vtkhdf $(COMPRESS)
+	$$(truth_compress) --view $2 $$(call same_plates,$(TRUTH_AT)-coarse-$1.json)
+# The chain between plates as far apart and at the same place as the truth's.
+$(RUN)/truth-$1.vtkhdf: $(RUN)/reference.vtkhdf $(TRUTH_TABLE) $(COMPRESS)
+	$(COMPRESS) $$< $$@ --view $2 $$(call same_plates,$(TRUTH_AT)-fine-$1.json) \
+	  --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) --cut $(CUT) $$(common)
+endef
+$(eval $(call truth_view,cc,CC))
+$(eval $(call truth_view,mlo,MLO))
 $(TRUTH_TABLE): $(PHANTOM_TRUTH)/landmarks.tsv $(TRUTH_MESHES) $(TRUTH_TABLE_TOOL)
 	$(TRUTH_TABLE_TOOL) $< $@ $(TRUTH_MESHES) $(common)
-upper = $(if $(filter cc,$1),CC,MLO)
-thickness = $$(. pipelines/values.sh; key $1 thickness_mm)
-
-# The chain between plates as far apart and as far from the wall as the truth's, and its errors.
-$(RUN)/truth-%.vtkhdf: $(RUN)/reference.vtkhdf $(TRUTH_TABLE) $(COMPRESS)
-	$(COMPRESS) $< $@ --view $(call upper,$*) --thickness $(call thickness,$(TRUTH_AT)-fine-$*.json) \
-	  --standoff $(TRUTH_STANDOFF) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) --cut $(CUT) $(common)
+same_plates = --thickness $$(. pipelines/values.sh; key $1 thickness_mm) \
+  --edge-at $$(. pipelines/values.sh; key $1 edge_at_mm)
 $(RUN)/truth-compressed.tsv: $(TRUTH_TABLE) $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf \
   truth-cc.vtkhdf truth-mlo.vtkhdf) $(PROBE)
 	$(PROBE) $(filter %.vtkhdf,$^) --truth $< > $@.part

@@ -77,7 +77,11 @@ void declare(Tool& tool, Choices& c) {
               100);
   tool.number(c.plates.standoff, "--standoff", "MM",
               "from the most anterior chest-wall or cut point to the plate's rounded edge", 0, 500);
-  tool.number(c.plates.edge_radius, "--edge-radius", "MM", "of the plates' rounded edges", 0, 100);
+  tool.number(c.plates.edge_at, "--edge-at", "MM",
+              "anterior coordinate (-y) of the rounded edge's start, instead of --standoff", -1e4,
+              1e4);
+  tool.number(c.plates.edge_radius, "--edge-radius", "MM",
+              "of the plates' rounded edges (at least 1)", 0, 100);
   tool.number(c.plates.tilt_deg, "--tilt", "DEG",
               "paddle about the lateral axis; positive narrows the gap at the nipple", -20, 20);
   tool.text(c.gravity, "--gravity", "upright|off|gx,gy,gz", "gravity during compression, mm/s2");

@@ -305,8 +305,8 @@ CompressionSummary Compression::run() {
     summary_.plates = place_plates(mesh_, unflatten(state.u),
                                    view_pose(mesh_.side, options_.angle_deg), options_.plates);
     const double initial = summary_.plates.initial_thickness;
-    progress_.note(message("T0 ", initial, " mm, stand-off ", options_.plates.standoff,
-                           " mm, edge radius ", options_.plates.edge_radius, " mm"));
+    progress_.note(message("T0 ", initial, " mm, stand-off ", summary_.plates.standoff,
+                           " mm, edge radius ", summary_.plates.paddle.edge_radius, " mm"));
     if (options_.stop_at == StopAt::thickness && !(options_.target < initial)) {
       throw input_error("thickness ", options_.target, " mm: the breast is only ", initial,
                         " mm thick between the plates; give less");

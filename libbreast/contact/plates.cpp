@@ -108,14 +108,15 @@ Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const View
     throw input_error("no pectoral or cut point lies within the plates' width of ",
                       2 * plate.half_width, " mm");
   }
-  plate.edge_start = wall_point + options.standoff;
+  plate.edge_start = options.edge_at.value_or(wall_point + options.standoff);
   const double depth = along.high - plate.edge_start;
   if (!(depth >= least_depth)) {
-    throw input_error("the plates miss the breast: with a stand-off of ", options.standoff,
-                      " mm they start ", depth >= 0 ? "only " : "", std::abs(depth), " mm ",
-                      depth >= 0 ? "behind" : "in front of", " the most anterior skin (at least ",
-                      least_depth, " mm of cover is needed); try --standoff ",
-                      std::max(0.0, std::floor(options.standoff + depth - 4 * least_depth)));
+    throw input_error(
+        "the plates miss the breast: with a stand-off of ", plate.edge_start - wall_point,
+        " mm they start ", depth >= 0 ? "only " : "", std::abs(depth), " mm ",
+        depth >= 0 ? "behind" : "in front of", " the most anterior skin (at least ", least_depth,
+        " mm of cover is needed); try --standoff ",
+        std::max(0.0, std::floor(plate.edge_start - wall_point + depth - 4 * least_depth)));
   }
   plate.mid_depth = plate.edge_start + 0.5 * depth;
   // Compression lengthens the breast forwards; the plate's front edge must stay ahead of it.
@@ -232,7 +233,7 @@ PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const Vi
   const Plate plate = place_in_plane(mesh, x, pose, options, wall_point);
   PlatePair pair = paddle_and_detector(plate);
   pair.wall_point = wall_point;
-  pair.standoff = options.standoff;
+  pair.standoff = plate.edge_start - wall_point;
   pair.detector_rise = options.detector_rise;
   pair.paddle.tilt_slope = std::tan(options.tilt_deg * std::numbers::pi / 180);
 

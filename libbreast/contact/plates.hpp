@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,9 @@ Plate plate_facing(const ViewPose& pose);
 /// How the plates are placed; lengths in mm.
 struct PlateOptions {
   double standoff = 25;  ///< most anterior pectoral or cut point to the start of the rounded edge
+  /// Where the rounded edge starts along the anterior axis (−y of the patient), instead of
+  /// standoff: one machine about several meshes of a breast.
+  std::optional<double> edge_at;
   double edge_radius = 15;
   double tilt_deg = 0;  ///< paddle about the lateral axis; positive narrows the gap anteriorly
   double offset = 0;    ///< mm along the beam by which the middle between the plates is shifted

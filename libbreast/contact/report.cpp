@@ -14,6 +14,7 @@ void write_report(const CompressionSummary& summary, const HexMesh& mesh,
   report.set("initial_thickness_mm", contact.initial_thickness_mm);
   report.set("reduction_percent", contact.reduction_percent);
   report.set("standoff_mm", contact.standoff_mm);
+  report.set("edge_at_mm", -contact.plates[1].origin.y());
   report.set("edge_radius_mm", contact.plates[0].edge_radius);
   report.set("view", contact.view);
   report.set("angle_deg", contact.angle_deg);

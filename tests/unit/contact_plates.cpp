@@ -123,6 +123,17 @@ TEST(Plates, PlacementMeasuresStandoffAndThickness) {
   EXPECT_NEAR(plates.detector.gap(middle).value, 15, 1e-12);
 }
 
+TEST(Plates, EdgeMayBeGivenByItsPlace) {
+  const HexMesh mesh = fixtures::standing_block({50, 60, 40}, {2, 2, 2});
+  PlateOptions options;
+  options.edge_at = 18;
+  options.edge_radius = 0;
+  const PlatePair plates = place_plates(mesh, mesh.points, view_pose(Side::left, 0), options);
+  EXPECT_NEAR(plates.paddle.edge_start, 18, 1e-12);
+  EXPECT_NEAR(plates.standoff, 18, 1e-12);
+  EXPECT_NEAR(plates.paddle.edge_radius, 1, 0) << "no corner is sharper";
+}
+
 TEST(Plates, FootprintIsCutAtTheEdgeNotAtNodes) {
   // A wedge: height 60 at the wall falling to 20 at the front; coarse elements.
   HexMesh mesh = fixtures::standing_block({50, 60, 60}, {2, 2, 2});
