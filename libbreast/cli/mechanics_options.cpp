@@ -46,8 +46,8 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices) {
 
 void declare_estimate(Tool& tool, std::string& estimate) {
   tool.choice(estimate, "--estimate", {"step", "q2", "none"},
-              "discretisation error at the landmarks by one linearised step with 27-node elements, "
-              "by a whole second solution with them (dear), or not at all");
+              "discretisation error at the landmarks by two steps with 27-node elements and one "
+              "matrix, by a whole second solution with them (dear), or not at all");
 }
 
 Vec3 GravityChoices::vector() const {

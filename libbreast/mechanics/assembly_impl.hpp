@@ -31,7 +31,7 @@ class AssemblyOf final : public Assembly {
 
  private:
   static constexpr int K = 9 * N * N, FK = 9 * F * F;
-  static constexpr int element_chunk = N == 8 ? 4096 : 256;
+  static constexpr int element_chunk = N == 8 ? 512 : 64;
   using Basis = Eigen::Matrix<double, P, HexRule<N>::points>;
   struct Chunk;
 

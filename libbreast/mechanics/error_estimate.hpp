@@ -1,6 +1,6 @@
 // How far a solution with 8-node elements is from one with 27-node elements on the same geometry:
-// one linearised step of the richer problem, solved iteratively. Covers the discretisation inside
-// the given geometry; not the geometry, the labels or the laws.
+// two steps of the richer problem with one matrix, solved iteratively. Covers the discretisation
+// inside the given geometry; not the geometry, the labels or the laws.
 #pragma once
 
 #include <map>

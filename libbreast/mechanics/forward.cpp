@@ -36,8 +36,7 @@ NewtonResult ForwardSolve::attempt(ForwardProblem& problem, SaddleSolver& solver
                                    SaddleMatrix& matrix, SaddleState& state, int limit) {
   NewtonOptions newton_options;
   newton_options.max_iterations = limit;
-  // The estimate needs the factor at the solution.
-  newton_options.reuse_factor = scene_.options().estimate != Estimate::step;
+  newton_options.reuse_factor = true;
   newton_options.timer = &summary_.timer;
   ++summary_.steps;
   NewtonResult result = newton(problem, solver, matrix, scene_.walls(), nullptr, state,
@@ -88,7 +87,7 @@ SolveSummary ForwardSolve::run(const Vec3& gravity) {
         summary_.error_estimate_mm = estimate.worst_mm;
         summary_.landmark_error_mm = estimate.landmarks;
         summary_.error_estimate_how =
-            "one linearised step with 27-node elements on the same geometry: discretisation only, "
+            "two steps towards 27-node elements on the same geometry: discretisation only, "
             "not geometry, labels or laws";
       }
     }

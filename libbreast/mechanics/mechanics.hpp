@@ -17,9 +17,9 @@ namespace breast {
 enum class Element { q1p0, q2p1 };
 enum class Invariants { isochoric, plain };
 enum class Cut { free, fixed, roller };
-/// How the discretisation error of 8-node elements is estimated: not at all, by one linearised step
-/// with 27-node elements (mechanics/error_estimate.hpp), or by solving once more with them
-/// (mechanics/second_solution.hpp).
+/// How the discretisation error of 8-node elements is estimated: not at all, by two steps with
+/// 27-node elements and one matrix (mechanics/error_estimate.hpp), or by solving once more with
+/// them (mechanics/second_solution.hpp).
 enum class Estimate { none, step, q2 };
 
 /// The MECHANICS options every mechanics tool shares.

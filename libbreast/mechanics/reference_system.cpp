@@ -35,12 +35,10 @@ Eigen::VectorXd ReferenceSystem::apply(bool transposed, const Eigen::VectorXd& z
 Eigen::VectorXd ReferenceSystem::precondition(const Eigen::VectorXd& y) const {
   const PressureSpace& space = *matrix_.space;
   const long m = long(space.rows) * space.elements(), n = y.size() - m;
-  const double left_over = 1 - matrix_.kappa[0] * space.compliance[0];
   const Eigen::VectorXd top = y.head(n), bottom = y.tail(m) / weigh_;
   Eigen::VectorXd w = solver_.back_solve(
       top + matrix_.divergence.apply_transpose(space.divide(bottom, matrix_.kappa)));
   const Eigen::VectorXd q = space.divide(bottom - matrix_.divergence.apply(w), matrix_.kappa);
-  w += left_over * solver_.back_solve(matrix_.divergence.apply_transpose(q));
   Eigen::VectorXd out(y.size());
   out << w, q;
   return out;
