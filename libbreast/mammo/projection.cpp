@@ -54,40 +54,50 @@ class Projector {
 
   RowSums row(int v, Mammogram& image) const {
     RowSums sums;
-    std::vector<Chord> chords;
-    for (int u = 0; u < image.width; ++u) {
-      rays_.trace(image.pixel * Vec2(u, v), chords);
-      const std::size_t at = std::size_t(v) * image.width + u;
-      if (rays_.leaves_through_back(chords)) {
-        image.through_back[at] = 1;
-        ++sums.back;
-        continue;
-      }
-      TissuePath mm;
-      const Ray ray = rays_.ray(image.pixel * Vec2(u, v));
-      if (voxels_) {
-        VoxelTissue::Parts parts = VoxelTissue::Parts::Zero();
-        for (const Chord& chord : chords) parts += sample_chord(ray, chord);
-        mm = VoxelTissue::path(parts);
-        sums.unlabelled += VoxelTissue::unlabelled(parts);
-      } else {
-        for (const Chord& chord : chords) {
-          add_element_tissue(mesh_.tissue[rays_.element(chord.piece)], chord.leave - chord.enter,
-                             mm);
-        }
-      }
-      image.path[at] = chords.empty() ? 0 : float(std::max(0.0, options_.energy.path(mm)));
-      image.thickness[at] = float(mm.total());
-      image.fibroglandular[at] = float(mm.fibroglandular);
-      sums.mm.fat += mm.fat;
-      sums.mm.fibroglandular += mm.fibroglandular;
-      sums.mm.skin += mm.skin;
-      sums.mm.tumour += mm.tumour;
+    ChordPacket chords;
+    for (int u = 0; u < image.width;) {
+      const int rays = rays_.trace(image.pixel * Vec2(u, v), image.pixel,
+                                   std::min(packet_rays, image.width - u), chords);
+      for (int k = 0; k < rays; ++k, ++u) pixel(u, v, chords[k], image, sums);
     }
     return sums;
   }
 
  private:
+  void pixel(int u, int v, const std::vector<Chord>& chords, Mammogram& image,
+             RowSums& sums) const {
+    if (chords.empty()) return;
+    const std::size_t at = std::size_t(v) * image.width + u;
+    if (rays_.leaves_through_back(chords)) {
+      image.through_back[at] = 1;
+      ++sums.back;
+      return;
+    }
+    TissuePath mm;
+    if (voxels_) {
+      const Ray ray = rays_.ray(image.pixel * Vec2(u, v));
+      VoxelTissue::Parts parts = VoxelTissue::Parts::Zero();
+      double length = 0;
+      for (const Chord& chord : chords) {
+        parts += sample_chord(ray, chord);
+        length += chord.leave - chord.enter;
+      }
+      mm = VoxelTissue::path(parts, length);
+      sums.unlabelled += VoxelTissue::unlabelled(parts);
+    } else {
+      for (const Chord& chord : chords) {
+        add_element_tissue(mesh_.tissue[rays_.element(chord.piece)], chord.leave - chord.enter, mm);
+      }
+    }
+    image.path[at] = float(std::max(0.0, options_.energy.path(mm)));
+    image.thickness[at] = float(mm.total());
+    image.fibroglandular[at] = float(mm.fibroglandular);
+    sums.mm.fat += mm.fat;
+    sums.mm.fibroglandular += mm.fibroglandular;
+    sums.mm.skin += mm.skin;
+    sums.mm.tumour += mm.tumour;
+  }
+
   // Midpoint rule with steps of at most half a voxel along every axis of the scan. The chord's
   // image there is a smooth short curve: a parabola through its two ends and the middle, the only
   // point for which the element map is inverted.

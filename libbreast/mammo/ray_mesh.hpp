@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mammo/mammogram.hpp"
+#include "mammo/patch_hits.hpp"
 #include "mammo/trilinear.hpp"
 #include "mesh/hex_mesh.hpp"
 
@@ -26,6 +27,9 @@ struct Ray {
   Vec3 at(double distance) const { return origin + distance * direction; }
 };
 
+/// Chords of neighbouring rays, one list a ray.
+using ChordPacket = std::array<std::vector<Chord>, packet_rays>;
+
 /// Elements of order 1 are one piece each; those of order 2 are cut into 4×4×4 trilinear pieces
 /// (their faces have no closed-form intersection; the pieces' corners lie on the quadratic map).
 /// Neighbouring pieces share their faces, so chords follow each other without gap or overlap.
@@ -38,6 +42,10 @@ class RayMesh {
   Ray ray(const Vec2& uv) const;
   /// Chords of the ray to detector position (u,v) in mm, from the paddle to the detector.
   void trace(const Vec2& uv, std::vector<Chord>& chords) const;
+  /// The same for the rays to (u + k step, v), k = 0 ... count − 1 (at most packet_rays), together:
+  /// several times faster. Stops at the border of the table of candidates; returns how many rays
+  /// were followed (at least one).
+  int trace(const Vec2& uv, double step, int count, ChordPacket& chords) const;
   /// A column that meets the chest wall or the cut surface continues in tissue the mesh does not
   /// have.
   bool leaves_through_back(const std::vector<Chord>& chords) const;
@@ -64,21 +72,19 @@ class RayMesh {
   struct Corners {
     Eigen::Array<double, 8, 1> x, y, t;
   };
-  /// One detector position for trace_piece.
-  struct Target {
-    Vec2 foot, slope;  ///< (u,v) from the source's foot, and the same over D
-    double stretch;    ///< mm along the ray for one mm along n
-    Ray ray;
-  };
-  Target target(const Vec2& position) const;
+  struct Packet;
+  struct Crossings;
+  void trace_piece(int p, const Packet& packet, ChordPacket& chords) const;
+  void add_chords(int p, const Packet& packet, int ray, const Crossings& crossings,
+                  std::vector<Chord>& chords) const;
   void bin_pieces();
-  void trace_piece(int p, const Target& target, std::vector<Chord>& chords) const;
 
   ViewPose pose_;
   int subdivisions_ = 1, pieces_per_element_ = 1;
   std::vector<Trilinear> pieces_;
   std::vector<Corners> corners_;
   std::vector<std::uint8_t> back_faces_;  ///< per element, bit f: face f is chest wall or cut
+  static constexpr double bin_mm = 2;
   Vec2 bins_lower_{0, 0};
   std::array<int, 2> bins_{0, 0};
   struct Candidate {

@@ -1,13 +1,22 @@
 #include "mammo/trilinear.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 
 namespace breast {
 
+namespace {
+// Of the hexahedron's corners in VTK order.
+constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                            {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+}  // namespace
+
+Vec3 Trilinear::corner(int a) {
+  return {double(sign[a][0]), double(sign[a][1]), double(sign[a][2])};
+}
+
 Trilinear Trilinear::through(const std::array<Vec3, 8>& corners) {
-  constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                              {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
   Trilinear map;
   map.c.fill(Vec3::Zero());
   for (int a = 0; a < 8; ++a) {
@@ -40,9 +49,11 @@ bool Trilinear::invert(const Vec3& x, double tolerance, Vec3& local) const {
       return true;
     }
     const Mat3 j = jacobian(l);
-    const double det = j.determinant();
+    const Vec3 yz = j.col(1).cross(j.col(2)), zx = j.col(2).cross(j.col(0));
+    const double det = j.col(0).dot(yz);
     if (!(std::abs(det) > 1e-14)) return false;
-    l += j.inverse() * residual;
+    const Vec3 xy = j.col(0).cross(j.col(1));
+    l += Vec3(yz.dot(residual), zx.dot(residual), xy.dot(residual)) / det;  // Cramer's rule
     if (!(l.cwiseAbs().maxCoeff() < 3)) return false;
   }
   return false;
@@ -58,38 +69,6 @@ double Trilinear::volume() const {
     }
   }
   return sum;
-}
-
-namespace {
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-}  // namespace
-
-int patch_hits(const std::array<Vec2, 4>& p, std::array<PatchHit, 2>& hits) {
-  // p0 + s e + r f + s r g = 0; eliminating s: a r² + b r + c = 0.
-  const Vec2 e = p[1] - p[0], f = p[3] - p[0], g = p[0] - p[1] + p[2] - p[3];
-  const double a = cross(f, g), b = cross(p[0], g) + cross(f, e), c = cross(p[0], e);
-  double roots[2];
-  int n = 0;
-  const double discriminant = b * b - 4 * a * c;
-  if (!(discriminant >= 0)) return 0;
-  const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
-  if (q != 0) roots[n++] = c / q;
-  if (a != 0 && (n == 0 || q / a != roots[0])) roots[n++] = q / a;
-  constexpr double slack = 1e-9;
-  int found = 0;
-  for (int k = 0; k < n; ++k) {
-    const double r = roots[k];
-    if (!(r >= -slack && r <= 1 + slack)) continue;
-    const Vec2 along = e + r * g;
-    const double length2 = along.squaredNorm();
-    if (!(length2 > 0)) continue;
-    const double s = -(p[0] + r * f).dot(along) / length2;
-    if (!(s >= -slack && s <= 1 + slack)) continue;
-    hits[found++] = {s, r};
-  }
-  return found;
 }
 
 }  // namespace breast

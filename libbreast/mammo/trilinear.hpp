@@ -1,5 +1,5 @@
-// The map of one 8-node hexahedron as a polynomial: cheap to evaluate, to invert and to cut with a
-// ray.
+// The map of one 8-node hexahedron as a polynomial: cheap to evaluate and to
+// invert.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@ namespace breast {
 struct Trilinear {
   std::array<Vec3, 8> c;
 
+  static Vec3 corner(int a);  ///< its (ξ,η,ζ), VTK order
   /// Corners in VTK order.
   static Trilinear through(const std::array<Vec3, 8>& corners);
   Vec3 at(const Vec3& local) const;
@@ -21,13 +22,5 @@ struct Trilinear {
   bool invert(const Vec3& x, double tolerance, Vec3& local) const;
   double volume() const;  ///< mm³, exact; negative when inside out
 };
-
-/// A bilinear patch met by a line.
-struct PatchHit {
-  double s = 0, r = 0;  ///< patch coordinates in [0,1]: corner 0→1 and 0→3
-};
-/// Where the patch with corners p (already projected along the line, relative to it) contains the
-/// origin: 0, 1 or 2 hits. Coordinates up to 1e-9 outside the patch count as its border.
-int patch_hits(const std::array<Vec2, 4>& p, std::array<PatchHit, 2>& hits);
 
 }  // namespace breast

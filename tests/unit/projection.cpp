@@ -159,6 +159,38 @@ TEST(RayMesh, ChordsFollowEachOtherWithoutGapOrOverlap) {
   EXPECT_GT(joints, 1000);
 }
 
+TEST(RayMesh, APacketOfRaysIsTheRaysOneByOne) {
+  const HexMesh& mesh = breast_mesh();
+  ViewPose pose = view_pose(mesh.side, 45);
+  for (const double distance : {0.0, 650.0}) {
+    pose.source_distance = distance;
+    const RayMesh rays(mesh, mesh.points, pose);
+    ChordPacket packet;
+    std::vector<Chord> single;
+    const double step = 0.31;
+    int compared = 0, shortened = 0;
+    for (double v = -60; v < 60; v += 2.3) {
+      for (int i = 0; i < 400;) {
+        const int count = rays.trace({-60 + i * step, v}, step, packet_rays, packet);
+        ASSERT_GE(count, 1);
+        shortened += count < packet_rays;
+        for (int k = 0; k < count; ++k, ++i) {
+          rays.trace({-60 + i * step, v}, single);
+          ASSERT_EQ(packet[k].size(), single.size()) << i << " " << v;
+          for (std::size_t c = 0; c < single.size(); ++c, ++compared) {
+            EXPECT_EQ(packet[k][c].piece, single[c].piece);
+            EXPECT_NEAR(packet[k][c].enter, single[c].enter, 1e-9);
+            EXPECT_NEAR(packet[k][c].leave, single[c].leave, 1e-9);
+            EXPECT_LT((packet[k][c].local_leave - single[c].local_leave).norm(), 1e-9);
+          }
+        }
+      }
+    }
+    EXPECT_GT(compared, 10000);
+    EXPECT_GT(shortened, 100);
+  }
+}
+
 TEST(RayMesh, BallChordsApproachTheSphere) {
   const double radius = 50;
   double worst[2] = {0, 0};

@@ -4,6 +4,7 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <cmath>
 
@@ -25,12 +26,13 @@ Vec3 vector_field(vtkFieldData* fields, const std::string& name, const std::stri
   return {v[0], v[1], v[2]};
 }
 
-void add_image(vtkImageData* data, const std::string& name, const std::vector<float>& values) {
+template <class Array, class Value>
+void add_image(vtkImageData* data, const std::string& name, const std::vector<Value>& values) {
   if (vtkIdType(values.size()) != data->GetNumberOfPoints()) {
     throw failed_error("mammogram array ", name, " has ", values.size(), " values for ",
                        data->GetNumberOfPoints(), " pixels");
   }
-  vtkNew<vtkFloatArray> array;
+  vtkNew<Array> array;
   array->SetName(name.c_str());
   array->SetNumberOfValues(vtkIdType(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
@@ -127,10 +129,10 @@ void write_mammogram(const std::filesystem::path& file, const Mammogram& image) 
   data->SetDimensions(image.width, image.height, 1);
   data->SetSpacing(image.pixel, image.pixel, image.pixel);
   data->SetOrigin(0, 0, 0);
-  add_image(data, "path", image.path);
-  add_image(data, "thickness", image.thickness);
-  add_image(data, "fibroglandular", image.fibroglandular);
-  add_image(data, "through_back", {image.through_back.begin(), image.through_back.end()});
+  add_image<vtkFloatArray>(data, "path", image.path);
+  add_image<vtkFloatArray>(data, "thickness", image.thickness);
+  add_image<vtkFloatArray>(data, "fibroglandular", image.fibroglandular);
+  add_image<vtkUnsignedCharArray>(data, "through_back", image.through_back);
   vtkFieldData* fields = data->GetFieldData();
   add_text(fields, "schema", schema);
   add_numbers(fields, "n", as_list(image.pose.n));

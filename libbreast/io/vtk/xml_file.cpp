@@ -39,7 +39,7 @@ vtkSmartPointer<Data> read_xml(const fs::path& file, const std::string& type) {
 }
 
 template <class Writer, class Data>
-void write(const fs::path& file, Data* data) {
+void write(const fs::path& file, Data* data, int compression) {
   AtomicFile target(file);
   const VtkMessages messages;
   vtkNew<Writer> writer;
@@ -47,6 +47,7 @@ void write(const fs::path& file, Data* data) {
   writer->SetInputData(data);
   writer->SetDataModeToBinary();
   writer->SetCompressorTypeToZLib();
+  writer->SetCompressionLevel(compression);
   const bool written = writer->Write() == 1;
   if (!written || messages.error() || writer->GetErrorCode() != 0) {
     throw failed_error(file.string(), ": cannot be written (", messages.first(), ")");
@@ -66,11 +67,12 @@ vtkSmartPointer<vtkImageData> read_image_data(const fs::path& file) {
 }
 
 void write_xml(const fs::path& file, vtkPolyData* data) {
-  write<vtkXMLPolyDataWriter>(file, data);
+  write<vtkXMLPolyDataWriter>(file, data, 5);
 }
 
 void write_xml(const fs::path& file, vtkImageData* data) {
-  write<vtkXMLImageDataWriter>(file, data);
+  write<vtkXMLImageDataWriter>(file, data,
+                               1);  // pixels of float: more takes seconds and saves little
 }
 
 }  // namespace breast
