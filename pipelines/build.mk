@@ -4,7 +4,12 @@
 SOURCES := $(shell find libbreast tools cmake pipelines/materials -type f -not -name '.*') \
   CMakeLists.txt CMakePresets.json
 
-ifneq ($(filter-out help setup clean,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
+# `make -n` and `make -q` only plan: they take the programs as they are, where make would build an included file first.
+letters := $(filter-out -%,$(firstword $(MAKEFLAGS)))
+planning := $(findstring n,$(letters))$(findstring q,$(letters))
+ifneq ($(planning),)
+-include $(wildcard build/built-$(PRESET_BUILD).mk)
+else ifneq ($(filter-out help setup clean,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
 include build/built-$(PRESET_BUILD).mk
 endif
 
@@ -13,7 +18,9 @@ build/.packages: pipelines/packages.txt pipelines/setup.sh
 	pipelines/setup.sh
 	@touch $@
 
+ifeq ($(planning),)
 build/built-$(PRESET_BUILD).mk: build/.packages $(SOURCES)
 	cmake --preset $(PRESET_BUILD) > build/configure.log 2>&1 || { cat build/configure.log >&2; exit 1; }
 	cmake --build $(BUILD) --target programs -j $$(nproc)
 	@echo "# Written when the programs in $(BUILD) were last built." > $@
+endif

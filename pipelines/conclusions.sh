@@ -1,37 +1,37 @@
 #!/usr/bin/env bash
-# The paper's conclusions, in numbers, from Tables III to VI: conclusions.sh TABLES
-# Slopes d ln u / d ln s are those of the rows 90 and 110 per cent. The paper's text rounds its -0.61 to
-# "10 % stiffness, about 10 % displacement"; its own rows say 6 to 7 %.
+# Values of the paper's conclusions (pipelines/paper/conclusions.tsv), a line each: name, value ("-": no solution).
+#   conclusions.sh rows TABLE3 TABLE4 TABLE5 TABLE6 [PREFIX]  slopes d ln u / d ln s between the rows of 90 and 110 per
+#                                                            cent, from columns PREFIXnipple_mm, PREFIXtumour_mm
+#   conclusions.sh slopes SLOPES TABLE6                      slopes as `sensitivity --table` wrote them
+# Of TABLE6 the changes by a stiff tumour are taken.
 set -euo pipefail
-tables=$1
 . "$(dirname "$0")/values.sh"
-of() { cell "$tables/table$1.tsv" "$2" "$3"; }  # TABLE PERCENT COLUMN
-slope() {
-  awk -v low="$(of "$1" 90 "$2")" -v high="$(of "$1" 110 "$2")" \
-    'BEGIN { if (low > 0 && high > 0) printf "%.4f", log(high / low) / log(110 / 90); else print "-" }'
+how=$1
+shift
+if [ "$how" = rows ]; then
+  tables=("$1" "$2" "$3") stiff=$4 prefix=${5:-}
+  slope() { # NUMBER-OF-TISSUE TISSUE LANDMARK
+    awk -v low="$(cell "${tables[$1]}" 90 "$prefix$3_mm")" -v high="$(cell "${tables[$1]}" 110 "$prefix$3_mm")" \
+      'BEGIN { if (low > 0 && high > 0) printf "%.4f", log(high / low) / log(110 / 90); else print "-" }'
+  }
+else
+  slopes=$1 stiff=$2 prefix=
+  slope() {
+    awk -F'\t' -v tissue="$2" -v landmark="$3" '$1 == landmark && $2 == tissue { value = sprintf("%.4f", $7) }
+      END { print (value == "" ? "-" : value) }' "$slopes"
+  }
+fi
+change() { # PERCENT LANDMARK: relative to the 100 per cent row, per cent
+  awk -v a="$(cell "$stiff" "$1" "$prefix$2_mm")" -v b="$(cell "$stiff" 100 "$prefix$2_mm")" \
+    'BEGIN { if (a == "" || a == "-" || !(b > 0)) print "-"; else printf "%.3f", 100 * (a / b - 1) }'
 }
-# change TABLE PERCENT COLUMN: relative to the 100 per cent row, per cent
-change() {
-  awk -v a="$(of "$1" "$2" "$3")" -v b="$(of "$1" 100 "$3")" \
-    'BEGIN { if (a == "-" || !(b > 0)) print "-"; else printf "%.3f", 100 * (a / b - 1) }'
-}
-# judge NAME OURS PAPER LOWEST HIGHEST
-judge() {
-  awk -v OFS='\t' -v name="$1" -v ours="$2" -v paper="$3" -v low="$4" -v high="$5" 'BEGIN {
-    verdict = (ours == "-") ? "not evaluated" : (ours + 0 >= low + 0 && ours + 0 <= high + 0) ? "holds" : "fails"
-    print name, ours, paper, low, high, verdict }'
-}
-printf 'conclusion\tours\tpaper\tlowest\thighest\tverdict\n'
-judge "slope of nipple displacement, fat" "$(slope 3 nipple_mm)" "$(slope 3 paper_nipple_mm)" -0.71 -0.51
-judge "slope of tumour displacement, fat" "$(slope 3 tumour_mm)" "$(slope 3 paper_tumour_mm)" -0.81 -0.61
-judge "slope of nipple displacement, fibroglandular" "$(slope 4 nipple_mm)" "$(slope 4 paper_nipple_mm)" -0.15 0.15
-judge "slope of tumour displacement, fibroglandular" "$(slope 4 tumour_mm)" "$(slope 4 paper_tumour_mm)" -0.15 0.15
-judge "slope of nipple displacement, skin" "$(slope 5 nipple_mm)" "$(slope 5 paper_nipple_mm)" -0.05 0.05
-judge "slope of tumour displacement, skin" "$(slope 5 tumour_mm)" "$(slope 5 paper_tumour_mm)" -0.05 0.05
-judge "tumour 10 times as stiff: tumour displacement, % change" "$(change 6 1000 tumour_mm)" "$(change 6 1000 paper_tumour_mm)" -5 5
-judge "tumour 20 times as stiff: nipple displacement, % change" "$(change 6 2000 nipple_mm)" "$(change 6 2000 paper_nipple_mm)" -1 1
+tissues=(fat fibroglandular skin)
 for landmark in nipple tumour; do
-  order() { awk -v f="$(slope 3 "$1${landmark}_mm")" -v g="$(slope 4 "$1${landmark}_mm")" -v s="$(slope 5 "$1${landmark}_mm")" \
-    'function a(x) { return x < 0 ? -x : x } BEGIN { if (f == "-" || g == "-" || s == "-") print "-"; else print (a(f) > 3 * a(g) && a(g) > a(s)) ? 1 : 0 }'; }
-  judge "$landmark: fat more than 3 times fibroglandular, that more than skin (1: yes)" "$(order "")" "$(order paper_)" 1 1
+  for t in 0 1 2; do
+    value[t]=$(slope $t "${tissues[$t]}" $landmark)
+    printf '%s_%s\t%s\n' "${tissues[$t]}" $landmark "${value[$t]}"
+  done
+  awk -v name="order_$landmark" -v f="${value[0]}" -v g="${value[1]}" -v s="${value[2]}" 'function size(x) { return x < 0 ? -x : x }
+    BEGIN { print name "\t" (f == "-" || g == "-" || s == "-" ? "-" : (size(f) > 3 * size(g) && size(g) > size(s)) ? 1 : 0) }'
 done
+printf 'tumour_1000\t%s\ntumour_2000\t%s\n' "$(change 1000 tumour)" "$(change 2000 nipple)"

@@ -5,7 +5,6 @@
 set -euo pipefail
 mesh=$1 name=$2 backward=$3 forward=$4
 shift 4
-. "$(dirname "$0")/values.sh"
 rm -f "$name"-reference.vtkhdf "$name"-supine.vtkhdf "$name".failed
 # Exit 3 of a program becomes the mark; any other failure stops.
 solve() {
@@ -13,7 +12,7 @@ solve() {
   shift 4
   "$program" "$input" "$output" --posture "$posture" "$@" --report "${output%.vtkhdf}.json" || code=$?
   if [ "$code" -eq 3 ]; then
-    key "${output%.vtkhdf}.json" reason > "$name.failed"
+    sed -n 's/^  "\(explanation\|reason\)": "\(.*\)",\{0,1\}$/\2/p' "${output%.vtkhdf}.json" | tail -n 1 > "$name.failed"
   elif [ "$code" -ne 0 ]; then
     exit "$code"
   fi

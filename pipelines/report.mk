@@ -7,14 +7,20 @@ $(RUN)/verify.tsv: $(EXPECTED) pipelines/verify.sh pipelines/values.sh $(RUN)/su
 	@mv $@.part $@
 	@cat $@
 
-report: $(RUN)/report.html
+CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
+report: $(RUN)/report.html $(if $(CHROMIUM),$(RUN)/report.pdf)
+	@$(if $(CHROMIUM),,echo "report: no PDF: chromium is not installed (apt-get install chromium); any browser prints the page" >&2)
 all: figures tables $(if $(EXPECTED),verify) report
 .PHONY: verify report all
 
 # What the slow targets left behind is embedded with its date; they are not run for the report.
-REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/table.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png $(RUNS)/stability/*.tsv $(RUNS)/compare/*.tsv $(RUN)/sensitivity/*.tsv)
-$(RUN)/report.html: $(RUN)/summary.txt $(TABLES)/table2.tsv $(TABLES)/conclusions.tsv $(F)/cc-points.png $(F)/mlo-curves.png \
+REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/*.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png $(RUN)/budget/*.tsv $(RUN)/budget/*.png \
+  $(RUNS)/stability/*.tsv $(RUNS)/compare/*.tsv)
+$(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(F)/cc-points.png $(F)/mlo-curves.png \
   $(if $(EXPECTED),$(RUN)/verify.tsv) pipelines/report.sh pipelines/values.sh pipelines/limits.txt $(REPORT_EXTRAS)
 	pipelines/report.sh $(RUN) $(RUNS) $(BIN) > $@.part
 	@mv $@.part $@
+	@echo "$@"
+$(RUN)/report.pdf: $(RUN)/report.html
+	pipelines/print.sh "$(CHROMIUM)" $< $@
 	@echo "$@"

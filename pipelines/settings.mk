@@ -28,11 +28,13 @@ ELEMENT ?=
 CUT ?= free
 # What the imaged shape hangs under; --gravity 0,0,0 takes it as stress-free.
 PRONE ?= --posture prone
+# As printed in the paper: cuboid, skin as a layer of elements, plain invariants, free cut.
+PRINTED_HEXMESH = --template cuboid --elements $(ELEMENTS) --skin-as layer
+PRINTED_MECHANICS = --materials $(MATERIALS) --invariants plain --element q1p0
 ifdef PAPER
-  # Everything as printed in the paper: cuboid, skin as a layer of elements, plain invariants, free cut,
-  # no gravity in compression, augmented Lagrangian.
-  HEXMESH_OPTIONS ?= --template cuboid --elements 16 --skin-as layer
-  MECHANICS ?= --materials $(MATERIALS) --invariants plain --element q1p0
+  # Everything as printed: no gravity in compression and augmented Lagrangian too.
+  HEXMESH_OPTIONS ?= $(PRINTED_HEXMESH)
+  MECHANICS ?= $(PRINTED_MECHANICS)
   COMPRESS_OPTIONS ?= --gravity off --contact al
 else
   HEXMESH_OPTIONS ?= --elements $(ELEMENTS)

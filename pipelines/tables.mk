@@ -1,46 +1,92 @@
 # The paper's Tables II to VI: prone-to-supine displacements of tumour and nipple when one tissue's stiffness
 # is scaled. Each row is a backward and a forward solve; each table puts the paper's row beside ours. The paper's
-# data set is private: with the phantom the rows are comparable, with a scan only the trends are.
+# data set is private: with the phantom the rows are comparable, with a scan only the trends are. Every table is made
+# twice: with the case's own mesh and mechanics (tableN.tsv), and as printed in the paper (tableN-as-printed.tsv).
+# Table VII and VIII are ours: slopes in one solve, and the conclusions under other material sets.
 TABLES := $(RUN)/tables
-SCALED_TISSUES := fat fibroglandular skin tumour
 SCALES := 10 50 90 110 200 1000
 SCALES_tumour := 150 200 500 1000 2000
 scales_of = $(or $(SCALES_$1),$(SCALES))
+PAPER_TABLES := 3 4 5 6
+tissue_3 := fat
+tissue_4 := fibroglandular
+tissue_5 := skin
+tissue_6 := tumour
+BOTH := own $(if $(PAPER),,printed)
+ending_printed := -as-printed
 
 table2: $(TABLES)/table2.tsv
-table3: $(TABLES)/table3.tsv
-table4: $(TABLES)/table4.tsv
-table5: $(TABLES)/table5.tsv
-table6: $(TABLES)/table6.tsv
-tables: $(TABLES)/table2.tsv $(TABLES)/table3.tsv $(TABLES)/table4.tsv $(TABLES)/table5.tsv $(TABLES)/table6.tsv \
-  $(TABLES)/conclusions.tsv
-.PHONY: table2 table3 table4 table5 table6 tables
+table7: $(TABLES)/table7.tsv
+table8: $(TABLES)/table8.tsv
+define table_target
+table$1: $(foreach m,$(BOTH),$(TABLES)/table$1$(ending_$m).tsv)
+endef
+$(foreach n,$(PAPER_TABLES),$(eval $(call table_target,$n)))
+TABLE_FILES := $(foreach m,$(BOTH),$(foreach n,$(PAPER_TABLES),$(TABLES)/table$n$(ending_$m).tsv)) \
+  $(addprefix $(TABLES)/,table2.tsv conclusions.tsv table7.tsv $(if $(PAPER),,table8.tsv findings.tsv))
+tables: $(TABLE_FILES)
+	@for table in $(TABLES)/conclusions.tsv $(if $(PAPER),,$(TABLES)/table8.tsv $(TABLES)/findings.tsv); do echo; cat $$table; done
+.PHONY: table2 table3 table4 table5 table6 table7 table8 tables
+
+# The two models: folder of its scaled solves, mesh, hexmesh options, mechanics, supine shape.
+own_folder := $(RUN)/scaled
+own_mesh := $(RUN)/mesh.vtkhdf
+own_hexmesh = $(HEXMESH_OPTIONS)
+own_mechanics = $(MECHANICS)
+own_supine := $(RUN)/supine.vtkhdf
+printed_folder := $(VARIANTS)/scaled-as-printed
+printed_mesh := $(VARIANTS)/as-printed-mesh.vtkhdf
+printed_hexmesh = $(PRINTED_HEXMESH)
+printed_mechanics = $(PRINTED_MECHANICS)
+printed_supine := $(VARIANTS)/as-printed-supine.vtkhdf
+$(printed_supine): $(VARIANTS)/as-printed.done ;
 
 # Table VI has one whole element of tumour, round the tumour point of the base mesh.
-tumour-mesh_settings = $(HEXMESH) $(HEXMESH_OPTIONS) element
-$(RUN)/scaled/tumour-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(RUN)/mesh.vtkhdf $(HEXMESH) \
-  $(call changed,tumour-mesh)
-	@mkdir -p $(@D)
-	$(HEXMESH) $< $(RUN)/labels.vtkhdf $@ $(HEXMESH_OPTIONS) \
-	  --tumour $$(pipelines/landmark.sh $(RUN)/mesh.json tumour):0.1 $(common)
-	@$(call record,tumour-mesh)
-
-# $(call scaled_rules,TISSUE,PERCENT,MESH): stress-free and supine shape with one tissue's stiffness scaled. A
-# material that has no stress-free body leaves an empty mark NAME.failed and a row of dashes, not a stop.
-define scaled_rules
-scaled-$1-$2_settings = $(BACKWARD) $(FORWARD) $(MECHANICS) --cut $(CUT)
-$(RUN)/scaled/$1-$2.done: $3 $(BACKWARD) $(FORWARD) $(MATERIAL_FILE) \
-  pipelines/posture-change.sh pipelines/values.sh $$(call changed,scaled-$1-$2)
+define tumour_mesh_rules
+tumour-mesh-$1_settings = $(HEXMESH) $($1_hexmesh) element
+$($1_folder)/tumour-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $($1_mesh) $(HEXMESH) \
+  $$(call changed,tumour-mesh-$1)
 	@mkdir -p $$(@D)
-	pipelines/posture-change.sh $3 $(RUN)/scaled/$1-$2 "$(BACKWARD)" "$(FORWARD)" $(MECHANICS) --scale $1=$2 \
-	  --cut $(CUT) $$(share)
-	@$$(call record,scaled-$1-$2)
+	$(HEXMESH) $$< $(RUN)/labels.vtkhdf $$@ $($1_hexmesh) \
+	  --tumour $$$$(pipelines/landmark.sh $($1_mesh:.vtkhdf=.json) tumour):0.1 $$(common)
+	@$$(call record,tumour-mesh-$1)
+endef
+
+# $(call scaled_rules,FOLDER,TISSUE,PERCENT,MESH,MECHANICS[,NEEDS]): stress-free and supine shape with one tissue's
+# stiffness scaled. A material that has no stress-free body leaves a mark NAME.failed and a row of dashes, not a stop.
+define scaled_rules
+scaled-$1-$2-$3_record = $1/.$2-$3.settings
+scaled-$1-$2-$3_settings = $(BACKWARD) $(FORWARD) $5 --cut $(CUT)
+$1/$2-$3.done: $4 $6 $(BACKWARD) $(FORWARD) $(MATERIAL_FILE) pipelines/posture-change.sh $$(call changed,scaled-$1-$2-$3)
+	@mkdir -p $$(@D)
+	pipelines/posture-change.sh $4 $1/$2-$3 "$(BACKWARD)" "$(FORWARD)" $5 --scale $2=$3 --cut $(CUT) $$(share)
+	@$$(call record,scaled-$1-$2-$3)
 	@touch $$@
 endef
-$(foreach t,fat fibroglandular skin,$(foreach s,$(SCALES),$(eval $(call scaled_rules,$t,$s,$(RUN)/mesh.vtkhdf))))
-$(foreach s,100 $(SCALES_tumour),$(eval $(call scaled_rules,tumour,$s,$(RUN)/scaled/tumour-mesh.vtkhdf)))
+rows_of = $(patsubst %,$1/$2-%.done,$(call scales_of,$2))
+define model_rules
+$(call tumour_mesh_rules,$1)
+$(foreach t,fat fibroglandular skin,$(foreach s,$(SCALES),$(call \
+  scaled_rules,$($1_folder),$t,$s,$($1_mesh),$($1_mechanics))$(newline)))
+$(foreach s,100 $(SCALES_tumour),$(call \
+  scaled_rules,$($1_folder),tumour,$s,$($1_folder)/tumour-mesh.vtkhdf,$($1_mechanics))$(newline))
+$(foreach n,$(PAPER_TABLES),$(call table_rules,$1,$n,$(tissue_$n))$(newline))
+endef
+# $(call table_rules,MODEL,NUMBER,TISSUE): relative displacements of Table VI refer to its own mesh.
+define table_rules
+$(TABLES)/table$2$(ending_$1).tsv: pipelines/paper/table$2.tsv $(call rows_of,$($1_folder),$3) $($1_supine) \
+  $(if $(filter tumour,$3),$($1_folder)/tumour-100.done) pipelines/scaled-table.sh $(PROBE)
+	@mkdir -p $$(@D)
+	pipelines/scaled-table.sh $$< $($1_folder)/$3 $(if $(filter tumour,$3),$($1_folder)/tumour-100-supine.vtkhdf,$($1_supine)) \
+	  $(PROBE) > $$@.part
+	@mv $$@.part $$@
+endef
+define newline
 
-rows_of = $(patsubst %,$(RUN)/scaled/$1-%.done,$(call scales_of,$1))
+
+endef
+$(foreach m,$(BOTH),$(eval $(call model_rules,$m)))
+
 MATERIAL_TABLE := $(or $(MATERIAL_FILE),pipelines/materials/$(MATERIALS).tsv)
 table2_settings := pipelines/table2.sh $(MATERIAL_TABLE)
 $(TABLES)/table2.tsv: pipelines/paper/table2.tsv $(MATERIAL_TABLE) pipelines/table2.sh $(call changed,table2)
@@ -48,19 +94,27 @@ $(TABLES)/table2.tsv: pipelines/paper/table2.tsv $(MATERIAL_TABLE) pipelines/tab
 	pipelines/table2.sh $< $(MATERIAL_TABLE) > $@.part
 	@mv $@.part $@
 	@$(call record,table2)
-define table_rules
-$(TABLES)/table$1.tsv: pipelines/paper/table$1.tsv $(call rows_of,$2) $(RUN)/supine.vtkhdf pipelines/scaled-table.sh $(PROBE)
-	@mkdir -p $$(@D)
-	pipelines/scaled-table.sh $$< $(RUN)/scaled/$2 $3 $(PROBE) > $$@.part
-	@mv $$@.part $$@
-endef
-$(eval $(call table_rules,3,fat,$(RUN)/supine.vtkhdf))
-$(eval $(call table_rules,4,fibroglandular,$(RUN)/supine.vtkhdf))
-$(eval $(call table_rules,5,skin,$(RUN)/supine.vtkhdf))
-$(TABLES)/table6.tsv: $(RUN)/scaled/tumour-100.done
-$(eval $(call table_rules,6,tumour,$(RUN)/scaled/tumour-100-supine.vtkhdf))
 
-$(TABLES)/conclusions.tsv: $(TABLES)/table3.tsv $(TABLES)/table4.tsv $(TABLES)/table5.tsv $(TABLES)/table6.tsv \
-  pipelines/conclusions.sh pipelines/values.sh
-	pipelines/conclusions.sh $(TABLES) > $@.part
+# The conclusions in numbers: from the paper's own rows, as printed, and as the case is solved.
+conclusion_values = $(addprefix $(TABLES)/.conclusions-,$(addsuffix .values,paper $(BOTH)))
+$(TABLES)/.conclusions-paper.values: prefix := paper_
+$(TABLES)/.conclusions-paper.values $(TABLES)/.conclusions-own.values: $(PAPER_TABLES:%=$(TABLES)/table%.tsv) pipelines/conclusions.sh
+	@pipelines/conclusions.sh rows $(filter %.tsv,$^) $(prefix) > $@.part
 	@mv $@.part $@
+$(TABLES)/.conclusions-printed.values: $(PAPER_TABLES:%=$(TABLES)/table%-as-printed.tsv) pipelines/conclusions.sh
+	@pipelines/conclusions.sh rows $(filter %.tsv,$^) > $@.part
+	@mv $@.part $@
+$(TABLES)/conclusions.tsv: pipelines/paper/conclusions.tsv $(conclusion_values) pipelines/judge.sh
+	pipelines/judge.sh $< paper=$(TABLES)/.conclusions-paper.values \
+	  $(if $(PAPER),,as_printed=$(TABLES)/.conclusions-printed.values) ours=$(TABLES)/.conclusions-own.values > $@.part
+	@mv $@.part $@
+
+# Table VII, ours: all slopes from one solve of `sensitivity` on the base state, against the rows solved again.
+$(eval $(call slopes_rules,$(RUN)/base,$(own_supine),$(RUN)/reference.vtkhdf,$(own_supine),$(MECHANICS),fat$(comma)fibroglandular$(comma)skin))
+$(eval $(call slopes_rules,$(own_folder)/tumour-100,$(own_folder)/tumour-100.done,$(own_folder)/tumour-100-reference.vtkhdf,$(own_folder)/tumour-100-supine.vtkhdf,$(MECHANICS),tumour))
+$(TABLES)/table7.tsv: $(RUN)/base-slopes.tsv $(own_folder)/tumour-100-slopes.tsv \
+  $(foreach n,$(PAPER_TABLES),$(call rows_of,$(own_folder),$(tissue_$n))) pipelines/table7.sh pipelines/landmark.sh
+	@mkdir -p $(@D)
+	pipelines/table7.sh $(own_supine:.vtkhdf=.json) $(own_folder) $(wordlist 1,2,$^) > $@.part
+	@mv $@.part $@
+	@cat $@
