@@ -75,8 +75,11 @@ void declare(Tool& tool, Choices& c) {
   tool.number(c.at_least, "--at-least", "PERCENT",
               "accept a path that stops early from this reduction on (default: the target)", 0,
               100);
-  tool.number(c.plates.standoff, "--standoff", "MM",
-              "from the most anterior chest-wall or cut point to the plate's rounded edge", 0, 500);
+  tool.number(
+      c.plates.standoff, "--standoff", "MM",
+      "from the most anterior chest-wall or cut point to the plate's rounded edge (default: "
+      "a third of the breast's depth in front of that point, at most 25)",
+      0, 500);
   tool.number(c.plates.edge_at, "--edge-at", "MM",
               "anterior coordinate (-y) of the rounded edge's start, instead of --standoff", -1e4,
               1e4);

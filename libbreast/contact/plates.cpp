@@ -14,6 +14,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Sharper edges are rounded to this: on a corner the direction of a force would be undefined, mm.
 constexpr double least_edge_radius = 1.0;
+/// Stand-off unless given: this part of the breast's depth, and no more than so many mm.
+constexpr double standoff_part = 1.0 / 3, most_standoff = 25;
 /// A plate must reach at least this far over the breast to compress it, mm.
 constexpr double least_depth = 5.0;
 
@@ -72,8 +74,8 @@ double most_anterior_wall(const HexMesh& mesh, const std::vector<Vec3>& x, const
 }
 
 void check_options(const PlateOptions& options) {
-  if (!(options.standoff >= 0)) {
-    throw input_error("plate stand-off ", options.standoff, " mm: must be 0 or more");
+  if (options.standoff && !(*options.standoff >= 0)) {
+    throw input_error("plate stand-off ", *options.standoff, " mm: must be 0 or more");
   }
   if (!(options.edge_radius >= 0)) {
     throw input_error("plate edge radius ", options.edge_radius, " mm: must be 0 or more");
@@ -108,7 +110,8 @@ Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const View
     throw input_error("no pectoral or cut point lies within the plates' width of ",
                       2 * plate.half_width, " mm");
   }
-  plate.edge_start = options.edge_at.value_or(wall_point + options.standoff);
+  const double automatic = std::min(most_standoff, standoff_part * (along.high - wall_point));
+  plate.edge_start = options.edge_at.value_or(wall_point + options.standoff.value_or(automatic));
   const double depth = along.high - plate.edge_start;
   if (!(depth >= least_depth)) {
     throw input_error(

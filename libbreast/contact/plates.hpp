@@ -57,7 +57,9 @@ Plate plate_facing(const ViewPose& pose);
 
 /// How the plates are placed; lengths in mm.
 struct PlateOptions {
-  double standoff = 25;  ///< most anterior pectoral or cut point to the start of the rounded edge
+  /// Most anterior pectoral or cut point to the start of the rounded edge; without it a third of
+  /// the breast's depth in front of that point, at most 25.
+  std::optional<double> standoff;
   /// Where the rounded edge starts along the anterior axis (−y of the patient), instead of
   /// standoff: one machine about several meshes of a breast.
   std::optional<double> edge_at;

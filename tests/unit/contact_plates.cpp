@@ -123,6 +123,15 @@ TEST(Plates, PlacementMeasuresStandoffAndThickness) {
   EXPECT_NEAR(plates.detector.gap(middle).value, 15, 1e-12);
 }
 
+TEST(Plates, StandoffFollowsTheDepthUpToALimit) {
+  for (const auto& [depth, standoff] : {std::pair{60.0, 20.0}, std::pair{120.0, 25.0}}) {
+    const HexMesh mesh = fixtures::standing_block({50, depth, 40}, {2, 2, 2});
+    const PlatePair plates = place_plates(mesh, mesh.points, view_pose(Side::left, 0), {});
+    EXPECT_NEAR(plates.standoff, standoff, 1e-12);
+    EXPECT_NEAR(plates.paddle.edge_start, standoff, 1e-12);
+  }
+}
+
 TEST(Plates, EdgeMayBeGivenByItsPlace) {
   const HexMesh mesh = fixtures::standing_block({50, 60, 40}, {2, 2, 2});
   PlateOptions options;

@@ -125,7 +125,7 @@ TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
   in.plates = recorded_plates(mesh);
   in.mesh.contact = mesh.contact;
   const SensitivityChain chain(mesh, imaged_pressure, in.imaged_gravity, in.options);
-  EXPECT_GT(chain.contacts(), 10u);
+  EXPECT_GE(chain.contacts(), 10u);
   const auto picked =
       pick_parameters(all_parameters(mesh, in.options, in.imaged_gravity),
                       "fat,skin,density,gravity_x,imaged_gravity_z,thickness,standoff,angle");
