@@ -21,6 +21,10 @@ constexpr double least_pull = 0.1;
 constexpr double longest_slip = 64;
 /// Iterations granted for each with an indefinite tangent: itself and one to settle.
 constexpr int slip_allowance = 2;
+/// A hasty solve is given up when the first step has to be shorter than this, or when after so many
+/// iterations the imbalance is still this part of the first.
+constexpr double hasty_first_step = 0.2, hasty_reduction = 0.5;
+constexpr int hasty_iterations = 8;
 /// Halvings of a Newton step before it is given up.
 constexpr int most_halvings = 6;
 }  // namespace
@@ -139,6 +143,13 @@ bool ActiveSet::update(const PlatePair& plates, const BodyState& state, const Bo
   return changed;
 }
 
+/// Positions too far from the last one show it in the first iterations.
+bool ActiveSet::begins_badly(const StepResult& result, double first_imbalance) {
+  if (result.iterations == 1) return result.history.back().step_length < hasty_first_step;
+  return result.iterations == hasty_iterations &&
+         result.residual > hasty_reduction * first_imbalance;
+}
+
 StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double tolerance) {
   tolerance_ = tolerance;
   StepResult result;
@@ -170,8 +181,9 @@ StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double to
     if (converged && !changed) break;
     // A step much too long is noticed early: the imbalance grows and stays. In a slip it may.
     if (result.iterations == 1) first_imbalance = now.relative();
-    const bool hopeless = result.shifted == 0 && result.iterations >= 6 &&
-                          now.relative() > 4 * first_imbalance && now.relative() > 0.1;
+    const bool hopeless = (result.shifted == 0 && result.iterations >= 6 &&
+                           now.relative() > 4 * first_imbalance && now.relative() > 0.1) ||
+                          (hasty_ && begins_badly(result, first_imbalance));
     // A slip ends far from where it began: its iterations do not count against the limit.
     const int allowed = std::min(options_.max_iterations + slip_allowance * result.shifted,
                                  options_.most_iterations);

@@ -42,6 +42,7 @@ class ActiveSet : public ContactSolver {
 
  private:
   struct Sweep;
+  static bool begins_badly(const StepResult& result, double first_imbalance);
   FrictionForce friction_at(const PlatePair& plates, std::size_t candidate, const Vec3& x,
                             const Vec3& normal, double pressed) const;
   void slide_anchors(const PlatePair& plates, const BodyState& state, const BodyForces& forces);

@@ -14,6 +14,9 @@ namespace {
 /// Automatic step lengths as parts of the initial thickness: 6 and 8 mm of a typical breast.
 constexpr double first_part = 0.07, longest_part = 0.095;
 
+/// Steps longer than this part of the longest are given up when they begin badly.
+constexpr double hasty_part = 0.3;
+
 /// States kept to go back to when the last one turns out to be no equilibrium.
 constexpr std::size_t longest_trail = 3;
 
@@ -182,7 +185,11 @@ bool Path::march() {
     // Two refusals in a row: the extrapolation itself may be what folds elements.
     const bool extrapolate = failures_in_row % 3 != 2;
     Waypoint reached;
-    if (attempt(predict(thickness, extrapolate), here_.memory, thickness, tolerance_, reached)) {
+    solver_.set_hasty(std::abs(thickness - here_.thickness) > hasty_part * longest);
+    const bool arrived =
+        attempt(predict(thickness, extrapolate), here_.memory, thickness, tolerance_, reached);
+    solver_.set_hasty(false);
+    if (arrived) {
       const int iterations = result_.points.back().iterations;
       // A length that has just been found by halving is used twice before it grows again.
       if (iterations < 6 && failures_in_row == 0) step = std::min(longest, 1.4 * step);

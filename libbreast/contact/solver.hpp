@@ -55,9 +55,12 @@ class ContactSolver {
   /// Goes back to what memory() gave after a converged solve.
   void restore(ContactMemory memory) { memory_ = std::move(memory); }
   virtual const std::vector<int>& candidates() const = 0;
+  /// Whether a position that begins badly may be given up at once, since a nearer one can be tried.
+  void set_hasty(bool hasty) { hasty_ = hasty; }
 
  protected:
   ContactMemory memory_;
+  bool hasty_ = false;
 };
 
 }  // namespace breast
