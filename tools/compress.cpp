@@ -83,6 +83,8 @@ void declare(Tool& tool, Choices& c) {
   tool.number(c.plates.edge_at, "--edge-at", "MM",
               "anterior coordinate (-y) of the rounded edge's start, instead of --standoff", -1e4,
               1e4);
+  tool.number(c.plates.middle_at, "--middle-at", "MM",
+              "coordinate along the beam of the plane about which the plates close", -1e4, 1e4);
   tool.number(c.plates.edge_radius, "--edge-radius", "MM",
               "of the plates' rounded edges (at least 1)", 0, 100);
   tool.number(c.plates.tilt_deg, "--tilt", "DEG",

@@ -63,6 +63,8 @@ struct PlateOptions {
   /// Where the rounded edge starts along the anterior axis (−y of the patient), instead of
   /// standoff: one machine about several meshes of a breast.
   std::optional<double> edge_at;
+  /// Where the plane lies, along the beam, about which they close; for the same purpose.
+  std::optional<double> middle_at;
   double edge_radius = 15;
   double tilt_deg = 0;  ///< paddle about the lateral axis; positive narrows the gap anteriorly
   double offset = 0;    ///< mm along the beam by which the middle between the plates is shifted
@@ -85,6 +87,8 @@ struct PlatePair {
   /// Moves both plates to thickness T (mm).
   void close_to(double thickness);
   double thickness() const { return detector.level - paddle.level; }
+  /// Of the plane about which the plates close, along the beam, mm.
+  double middle() const { return 0.5 * (paddle_start + detector_start); }
   /// The smaller of the two gaps, and which plate it belongs to (0 paddle, 1 detector).
   int nearer(const Vec3& x) const;
   const Plate& plate(int k) const { return k == 0 ? paddle : detector; }

@@ -15,6 +15,7 @@ void write_report(const CompressionSummary& summary, const HexMesh& mesh,
   report.set("reduction_percent", contact.reduction_percent);
   report.set("standoff_mm", contact.standoff_mm);
   report.set("edge_at_mm", -contact.plates[1].origin.y());
+  report.set("middle_at_mm", summary.plates.middle());
   report.set("edge_radius_mm", contact.plates[0].edge_radius);
   report.set("view", contact.view);
   report.set("angle_deg", contact.angle_deg);

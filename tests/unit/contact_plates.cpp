@@ -136,10 +136,14 @@ TEST(Plates, EdgeMayBeGivenByItsPlace) {
   const HexMesh mesh = fixtures::standing_block({50, 60, 40}, {2, 2, 2});
   PlateOptions options;
   options.edge_at = 18;
+  options.middle_at = -13;  // the block reaches from −40 to 0
   options.edge_radius = 0;
   const PlatePair plates = place_plates(mesh, mesh.points, view_pose(Side::left, 0), options);
   EXPECT_NEAR(plates.paddle.edge_start, 18, 1e-12);
   EXPECT_NEAR(plates.standoff, 18, 1e-12);
+  EXPECT_NEAR(plates.middle(), -13, 1e-12);
+  EXPECT_NEAR(plates.initial_thickness, 40, 1e-12);
+  EXPECT_NEAR(plates.touching_thickness, 54, 1e-12) << "opened until the lower side is clear";
   EXPECT_NEAR(plates.paddle.edge_radius, 1, 0) << "no corner is sharper";
 }
 
