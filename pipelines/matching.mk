@@ -21,14 +21,32 @@ matching: $(RUN)/matching.tsv $(RUN)/matching-true-mesh.tsv
 BAND_SAMPLES ?= 220
 $(RUN)/band-check-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH)
 	$(HEXMESH) $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $@ --elements 8 --tumour none $(common)
+# $(call bench,NAME): builds the benchmark program NAME.
+bench = cmake -B $(BUILD) -DBREAST_BENCH=ON > $(RUN)/.$1.log && cmake --build $(BUILD) --target $1 >> $(RUN)/.$1.log
 $(RUN)/band-samples.tsv: $(RUN)/band-check-mesh.vtkhdf tests/bench/band_check.cpp $(COMPRESS)
-	cmake -B $(BUILD) -DBREAST_BENCH=ON > $(RUN)/.band-check.log
-	cmake --build $(BUILD) --target band_check >> $(RUN)/.band-check.log
+	$(call bench,band_check)
 	$(BIN)/band_check $< 1 $(BAND_SAMPLES) > $@.part
 	@mv $@.part $@
 band-check: $(RUN)/band-samples.tsv
 	@pipelines/band-check.sh $<
 .PHONY: band-check
+
+# The band of the chain from the MR scan against the phantom's true body: its places as they are (band-nominal), and
+# moved by parameters drawn from the priors along the true body's own derivatives (band-drawn; BAND_DRAWS of them).
+BAND_DRAWS ?= 100
+BAND_PLACES ?= 200
+TRUE_SENSITIVITIES := $(foreach view,cc mlo,$(TRUTH_AT)-coarse-$(view)-sensitivity.vtkhdf)
+$(TRUE_SENSITIVITIES): %-sensitivity.vtkhdf: %.vtkhdf $(TRUTH_AT)-coarse.vtkhdf $(SENSITIVITY)
+	$(SENSITIVITY) $(TRUTH_AT)-coarse.vtkhdf $< $@ --posture prone --cut fixed --table $(basename $@).tsv $(common)
+band_bodies := $(RUN)/truth-cc-sensitivity.vtkhdf $(RUN)/truth-mlo-sensitivity.vtkhdf $(TRUE_SENSITIVITIES)
+$(RUN)/band-nominal.tsv $(RUN)/band-drawn.tsv &: $(band_bodies) tests/bench/band_truth.cpp
+	$(call bench,band_truth)
+	$(BIN)/band_truth $(band_bodies) 1 1 $(BAND_PLACES) 0 > $(RUN)/band-nominal.tsv.part
+	$(BIN)/band_truth $(band_bodies) 1 $(BAND_DRAWS) $(BAND_PLACES) > $(RUN)/band-drawn.tsv.part
+	@for rows in nominal drawn; do mv $(RUN)/band-$$rows.tsv.part $(RUN)/band-$$rows.tsv; done
+band-truth: $(RUN)/band-nominal.tsv $(RUN)/band-drawn.tsv
+	@pipelines/band-check.sh $^
+.PHONY: band-truth
 
 # What they cost, on an idle machine: a 0.1 mm image, one curve, the full grid.
 mammo-times: $(addprefix $(RUN)/,cc-sensitivity.vtkhdf mlo-sensitivity.vtkhdf labels.vtkhdf)

@@ -12,6 +12,7 @@
 #include <random>
 #include <string>
 
+#include "bench/band_rows.hpp"
 #include "contact/compression.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -28,13 +29,6 @@ struct Draw {
   double fat = 0, fibroglandular = 0, skin = 0, skin_thickness = 0, density = 0;
   std::array<double, 2> thickness{}, angle{}, standoff{};
 };
-
-double prior(const std::string& name, double spread) {
-  for (const Prior& p : default_priors()) {
-    if (p.parameter == name) return spread * p.deviation;
-  }
-  throw input_error("no prior ", name);
-}
 
 Draw draw(int sample, double spread) {
   std::mt19937 stream{unsigned(sample)};
@@ -105,42 +99,6 @@ DerivativeFields derivatives(const Chain& chain, const HexMesh& view) {
   return fields;
 }
 
-// (u,v) in the base image of a place seen by a detector that has turned about `centre` (band.hpp).
-Vec2 seen(const Vec3& x, const Vec3& centre, const ImageFrame& base, Side side, double turned) {
-  const ViewPose pose = view_pose(side, base.pose.angle_deg + turned);
-  return base.pose.project(centre) + Vec2((x - centre).dot(pose.e_u), (x - centre).dot(pose.e_v));
-}
-
-// Elements whose middle both base images show, at most `most` of them, spread over the mesh.
-std::vector<int> places(const Matcher& base, std::size_t most) {
-  constexpr double inside = 5;  // mm in front of the posterior edge
-  std::vector<int> shown;
-  for (int e = 0; e < base.from().elements(); ++e) {
-    const auto u = [&](const HexMesh& mesh, const ImageFrame& frame) {
-      return frame.pose.project(element_position(mesh, mesh.points, e, Vec3::Zero())).x();
-    };
-    if (u(base.from(), base.from_frame()) > inside && u(base.to(), base.to_frame()) > inside) {
-      shown.push_back(e);
-    }
-  }
-  std::vector<int> chosen;
-  for (std::size_t k = 0; k < most && !shown.empty(); ++k) {
-    chosen.push_back(shown[k * shown.size() / most]);
-  }
-  return chosen;
-}
-
-void print_row(int sample, int place, const Band& band, const Vec2& truth) {
-  const BandPoint* nearest = nullptr;
-  for (const BandPoint& point : band.points) {
-    if (nearest == nullptr || (truth - point.uv).norm() < (truth - nearest->uv).norm()) {
-      nearest = &point;
-    }
-  }
-  std::printf("%d\t%d\t%.4f\t%.4f\n", sample, place, (truth - nearest->uv).dot(nearest->normal),
-              nearest->deviation);
-}
-
 void run(const std::string& file, int first, int count, double spread) {
   const HexMesh imaged = read_mesh(file);
   const Chain base = solve(imaged, {}, {0, 0});
@@ -152,7 +110,7 @@ void run(const std::string& file, int first, int count, double spread) {
   std::vector<Prior> priors = default_priors();
   for (Prior& p : priors) p.deviation *= spread;
   const BandModel band(matcher, from, to, priors);
-  const std::vector<int> chosen = places(matcher, 24);
+  const std::vector<int> chosen = shown_elements(matcher, base.views, 24);
   const std::array<Vec3, 2> centre{turning_centre(base.views[0].points),
                                    turning_centre(base.views[1].points)};
   const double picking = prior("picking", spread);
