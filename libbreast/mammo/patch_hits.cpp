@@ -16,22 +16,6 @@ unsigned bits(const std::array<double, packet_rays>& flags) {
 
 }  // namespace
 
-unsigned may_hit(const PatchCorners& p) {
-  alignas(64) std::array<double, packet_rays> reach;  // of the patch beyond the ray, at the least
-  const Lanes &x0 = *p.x[0], &x1 = *p.x[1], &x2 = *p.x[2], &x3 = *p.x[3];
-  const Lanes &y0 = *p.y[0], &y1 = *p.y[1], &y2 = *p.y[2], &y3 = *p.y[3];
-  for (int k = 0; k < packet_rays; ++k) {
-    const double left = std::min(std::min(x0.of[k], x1.of[k]), std::min(x2.of[k], x3.of[k]));
-    const double right = std::max(std::max(x0.of[k], x1.of[k]), std::max(x2.of[k], x3.of[k]));
-    const double below = std::min(std::min(y0.of[k], y1.of[k]), std::min(y2.of[k], y3.of[k]));
-    const double above = std::max(std::max(y0.of[k], y1.of[k]), std::max(y2.of[k], y3.of[k]));
-    reach[k] = std::min(std::min(-left, right), std::min(-below, above));
-  }
-  unsigned mask = 0;
-  for (int k = 0; k < packet_rays; ++k) mask |= unsigned(reach[k] >= 0) << k;
-  return mask;
-}
-
 void patch_hits(const PatchCorners& p, PatchHits& hits) {
   constexpr double slack = 1e-9;
   alignas(64) std::array<double, packet_rays> first, second;

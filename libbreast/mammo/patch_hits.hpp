@@ -24,7 +24,5 @@ struct PatchHits {
 
 /// Coordinates up to 1e-9 outside the patch count as its border.
 void patch_hits(const PatchCorners& corners, PatchHits& hits);
-/// Bit k: the four corners do not lie wholly on one side of ray k, along either axis.
-unsigned may_hit(const PatchCorners& corners);
 
 }  // namespace breast

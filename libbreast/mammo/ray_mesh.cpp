@@ -59,13 +59,22 @@ Vec3 RayMesh::element_local(int piece, const Vec3& local) const {
 
 void RayMesh::bin_pieces() {
   std::vector<Box> boxes(pieces_.size());
+  face_boxes_.resize(pieces_.size());
   Vec2 lower = Vec2::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   const double per_distance = pose_.source_distance > 0 ? 1 / pose_.source_distance : 0;
   for (std::size_t p = 0; p < boxes.size(); ++p) {
     const Eigen::Array<double, 8, 1> magnified = 1 / (1 + per_distance * corners_[p].t);
     const Eigen::Array<double, 8, 1> u = corners_[p].x * magnified, v = corners_[p].y * magnified;
-    boxes[p].lower = Vec2(u.minCoeff(), v.minCoeff() + pose_.source_v);
-    boxes[p].upper = Vec2(u.maxCoeff(), v.maxCoeff() + pose_.source_v);
+    for (int f = 0; f < 6; ++f) {
+      Box& box = face_boxes_[p][f];
+      for (const int a : hex_face_corners[f]) {
+        const Vec2 corner(u[a], v[a] + pose_.source_v);
+        box.lower = box.lower.cwiseMin(corner);
+        box.upper = box.upper.cwiseMax(corner);
+      }
+      boxes[p].lower = boxes[p].lower.cwiseMin(box.lower);
+      boxes[p].upper = boxes[p].upper.cwiseMax(box.upper);
+    }
     lower = lower.cwiseMin(boxes[p].lower);
     upper = upper.cwiseMax(boxes[p].upper);
   }

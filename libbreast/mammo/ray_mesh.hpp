@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "mammo/mammogram.hpp"
@@ -63,7 +64,7 @@ class RayMesh {
 
  private:
   struct Box {
-    Vec2 lower, upper;
+    Vec2 lower = Vec2::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   };
   /// A piece's corners in detector axes from the foot of the source: x = X e_u + Y e_v + T n. The
   /// ray to (u,v) is where X − u (1 + T/D) = 0 and Y − v (1 + T/D) = 0, D = source distance (1/D =
@@ -83,7 +84,8 @@ class RayMesh {
   int subdivisions_ = 1, pieces_per_element_ = 1;
   std::vector<Trilinear> pieces_;
   std::vector<Corners> corners_;
-  std::vector<std::uint8_t> back_faces_;  ///< per element, bit f: face f is chest wall or cut
+  std::vector<std::array<Box, 6>> face_boxes_;  ///< of each face, projected
+  std::vector<std::uint8_t> back_faces_;        ///< per element, bit f: face f is chest wall or cut
   static constexpr double bin_mm = 2;
   Vec2 bins_lower_{0, 0};
   std::array<int, 2> bins_{0, 0};

@@ -36,6 +36,12 @@ struct RayMesh::Packet {
   double foot_y = 0, slope_y = 0;
   Vec2 first{0, 0};  // position of the first ray
   double step = 0;
+  Box box;  // of the positions the rays pass
+
+  bool may_meet(const Box& other) const {
+    return box.upper.x() >= other.lower.x() && box.lower.x() <= other.upper.x() &&
+           box.upper.y() >= other.lower.y() && box.lower.y() <= other.upper.y();
+  }
 };
 
 // Where one ray crosses the faces of a piece, in order.
@@ -91,14 +97,10 @@ int RayMesh::trace(const Vec2& position, double step, int count, ChordPacket& ch
     packet.slope_x.of[k] = slope;
     packet.stretch.of[k] = std::sqrt(1 + slope * slope + packet.slope_y * packet.slope_y);
   }
-  const double last = packet.foot_x.of[packet.rays - 1];
+  packet.box = {uv, Vec2(packet.foot_x.of[packet.rays - 1], uv.y())};
   const int bin = int(cell.y()) * bins_[0] + int(cell.x());
   for (int k = bin_first_[bin]; k < bin_first_[bin + 1]; ++k) {
-    const Box& box = candidates_[k].box;
-    if (last < box.lower.x() || uv.x() > box.upper.x() || uv.y() < box.lower.y() ||
-        uv.y() > box.upper.y()) {
-      continue;
-    }
+    if (!packet.may_meet(candidates_[k].box)) continue;
     trace_piece(candidates_[k].piece, packet, chords);
   }
   for (int k = 0; k < packet.rays; ++k) {
@@ -118,17 +120,17 @@ void RayMesh::trace_piece(int p, const Packet& packet, ChordPacket& chords) cons
     }
   }
   std::array<Crossings, packet_rays> crossings;
+  const unsigned all = (1u << packet.rays) - 1;
   unsigned crossed = 0;
   for (int f = 0; f < 6; ++f) {
+    if (!packet.may_meet(face_boxes_[p][f])) continue;
     const auto& q = hex_face_corners[f];
     const PatchCorners patch{{&x[q[0]], &x[q[1]], &x[q[2]], &x[q[3]]},
                              {&y[q[0]], &y[q[1]], &y[q[2]], &y[q[3]]}};
-    const unsigned may = may_hit(patch) & ((1u << packet.rays) - 1);
-    if (may == 0) continue;
     PatchHits hits;
     patch_hits(patch, hits);
     for (int h = 0; h < 2; ++h) {
-      for (unsigned left = hits.hit[h] & may; left != 0; left &= left - 1) {
+      for (unsigned left = hits.hit[h] & all; left != 0; left &= left - 1) {
         const int k = std::countr_zero(left);
         const double s = hits.s[h].of[k], r = hits.r[h].of[k];
         const double distance =
