@@ -39,11 +39,11 @@ $(BUDGET)/cut/mesh.vtkhdf: $(RUN)/mesh.vtkhdf
 
 # $(call budget_follow,TRUE): the chain's mesh deformed as the true body.
 budget_follow = $(call bench,follow_shape) && $(BIN)/follow_shape $(RUN)/mesh.vtkhdf $1 $@ > $(basename $@)-outside.tsv
-$(BUDGET)/backward/reference.vtkhdf: $(RUN)/mesh.vtkhdf $(TRUTH_AT)-fine.vtkhdf tests/bench/follow_shape.cpp
+$(BUDGET)/backward/reference.vtkhdf: $(RUN)/mesh.vtkhdf $(TRUTH_AT)-fine.vtkhdf tests/truth/follow_shape.cpp
 	@mkdir -p $(@D)
 	$(call budget_follow,$(TRUTH_AT)-fine.vtkhdf)
 $(BUDGET)/compression/cc.vtkhdf $(BUDGET)/compression/mlo.vtkhdf: $(BUDGET)/compression/%.vtkhdf: \
-  $(RUN)/mesh.vtkhdf $(TRUTH_TABLE) tests/bench/follow_shape.cpp
+  $(RUN)/mesh.vtkhdf $(TRUTH_TABLE) tests/truth/follow_shape.cpp
 	@mkdir -p $(@D)
 	$(call budget_follow,$(TRUTH_AT)-fine-$*.vtkhdf)
 

@@ -39,7 +39,7 @@ TRUE_SENSITIVITIES := $(foreach view,cc mlo,$(TRUTH_AT)-coarse-$(view)-sensitivi
 $(TRUE_SENSITIVITIES): %-sensitivity.vtkhdf: %.vtkhdf $(TRUTH_AT)-coarse.vtkhdf $(SENSITIVITY)
 	$(SENSITIVITY) $(TRUTH_AT)-coarse.vtkhdf $< $@ --posture prone --cut fixed --table $(basename $@).tsv $(common)
 band_bodies := $(RUN)/truth-cc-sensitivity.vtkhdf $(RUN)/truth-mlo-sensitivity.vtkhdf $(TRUE_SENSITIVITIES)
-$(RUN)/band-nominal.tsv $(RUN)/band-drawn.tsv &: $(band_bodies) tests/bench/band_truth.cpp
+$(RUN)/band-nominal.tsv $(RUN)/band-drawn.tsv &: $(band_bodies) tests/truth/band_truth.cpp
 	$(call bench,band_truth)
 	$(BIN)/band_truth $(band_bodies) 1 1 $(BAND_PLACES) 0 > $(RUN)/band-nominal.tsv.part
 	$(BIN)/band_truth $(band_bodies) 1 $(BAND_DRAWS) $(BAND_PLACES) > $(RUN)/band-drawn.tsv.part
