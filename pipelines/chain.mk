@@ -3,7 +3,12 @@
 MR_FILES := $(MR) $(if $(wildcard $(MR)/.),$(wildcard $(MR)/*))
 CHAIN_FILES := $(addprefix $(RUN)/,labels.vtkhdf geometry.vtkhdf mesh.vtkhdf reference.vtkhdf \
   supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti curve.vtp)
-MATERIAL_FILE := $(wildcard $(MATERIALS))
+MATERIAL_FILE := $(or $(wildcard $(MATERIALS)),$(filter $(RUN)/%,$(MATERIALS)))
+# LEAVE_OUT=no-gland: the set with the fibroglandular law replaced by fat's.
+$(RUN)/fat-only.tsv: $(whole_set)
+	@mkdir -p $(@D)
+	awk -F'\t' -v OFS='\t' '$$1 == "fat" { fat = $$0 } $$1 == "fibroglandular" { $$0 = fat; $$1 = "fibroglandular" } { print }' $< > $@.part
+	@mv $@.part $@
 
 labels_settings := $(SEGMENT) $(MR) --side $(SIDE) $(if $(SERIES),--series $(SERIES)) \
   $(if $(CHEST_WALL),--chest-wall $(CHEST_WALL)) $(SEGMENT_OPTIONS)

@@ -1,7 +1,7 @@
 # Expected values, and one self-contained page of everything a run produced.
 EXPECTED ?= $(wildcard pipelines/expected/$(CASE)$(if $(PAPER),-as-printed).tsv)
 verify: $(RUN)/verify.tsv
-$(RUN)/verify.tsv: $(EXPECTED) pipelines/verify.sh pipelines/values.sh $(RUN)/summary.txt $(TABLES)/conclusions.tsv
+$(RUN)/verify.tsv: $(EXPECTED) pipelines/verify.sh pipelines/values.sh $(RUN)/summary.txt $(TABLE_FILES)
 	$(if $(EXPECTED),,$(error no expected values for case $(CASE): name a file with EXPECTED=))
 	@pipelines/verify.sh $(EXPECTED) $(RUN) > $@.part || { cat $@.part; exit 1; }
 	@mv $@.part $@

@@ -41,6 +41,22 @@ else
   MECHANICS ?= --materials $(MATERIALS) $(addprefix --element ,$(ELEMENT))
   COMPRESS_OPTIONS ?=
 endif
+# Parts of the model to do without: no-skin no-gland no-backward no-gravity-in-compression (what each is worth: leaveout).
+LEAVE_OUT ?=
+leave_out = $(filter $1,$(LEAVE_OUT))
+ifneq ($(call leave_out,no-skin),)
+  override HEXMESH_OPTIONS += --skin 0
+endif
+ifneq ($(call leave_out,no-backward),)
+  override PRONE := --gravity 0,0,0
+endif
+ifneq ($(call leave_out,no-gravity-in-compression),)
+  override COMPRESS_OPTIONS += --gravity off
+endif
+ifneq ($(call leave_out,no-gland),)
+  whole_set := $(or $(wildcard $(MATERIALS)),pipelines/materials/$(MATERIALS).tsv)
+  override MATERIALS := $(RUN)/fat-only.tsv
+endif
 SEGMENT_OPTIONS ?=
 FIT_OPTIONS ?=
 PROJECT_OPTIONS ?=
