@@ -8,7 +8,7 @@ here=$(dirname "$0")
 escape() { sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g'; }
 # A TSV as a table; cells "fails", "differs", "missing" and "failed" stand out.
 table() {
-  [ -s "$1" ] || return 0
+  [ -s "$1" ] || [ -p "$1" ] || return 0
   escape < "$1" | awk -F'\t' '
     /^#/ { next }
     !n++ { print "<table><tr>"; for (i = 1; i <= NF; i++) { gsub("_", " ", $i); print "<th>" $i "</th>" } print "</tr>"; next }
@@ -64,8 +64,8 @@ picture "$run/figures/summary.png" "The chain: as imaged, stress-free, supine, C
 section "Landmarks"
 table "$run/displacements.tsv"
 if [ -s "$run/truth.tsv" ]; then
-  note "Errors against the phantom's truth, mm:"
-  table "$run/truth.tsv"
+  note "Errors against the phantom's truth, mm, the mean and the largest over all its landmarks below:"
+  table <(awk -F'\t' '/^#/ { next } !n++ || $1 ~ /^(nipple|tumour|mean|largest)$/' "$run/truth.tsv")
 fi
 section "Compression"
 printf '<table><tr><th>view<th>status<th>thickness mm<th>reduction %%<th>paddle force N<th>detector force N<th>mean pressure kPa<th>area cm2<th>Newton iterations<th>error estimate mm</tr>\n'

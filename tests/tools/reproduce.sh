@@ -4,11 +4,17 @@
 #   killed  the same tables made in a run killed three times, and started again, byte for byte
 #   threads landmarks of a run on another number of threads, within a stated tolerance
 #   cohort  a case that fails is named with its reason and does not stop the other
-# reproduce.sh [all|killed|threads|cohort]...  (all four without arguments; `killed` and `threads` need `all`)
+# reproduce.sh [all|killed|threads|cohort]...  (all four without arguments; `killed` and `threads` compare with `all`)
+# KEEP=FOLDER keeps the runs there and continues with what it holds.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+if [ -n "${KEEP:-}" ]; then
+  mkdir -p "$KEEP"
+  work=$(cd "$KEEP" && pwd)
+else
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+fi
 settings=(PRESET=small PHANTOM_OPTIONS="--coarse 2" ELEMENTS=6 REDUCTION=30 AT_LEAST=20 FINDINGS_FINEST=4)
 run() { make -f Makefile.pipeline "${settings[@]}" "$@"; }
 passed=0
