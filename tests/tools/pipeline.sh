@@ -33,6 +33,11 @@ plan=$(run -n FIT_OPTIONS="--elements 8x8" chain)
 grep -q "bin/fit-hermite" <<< "$plan" && ! grep -q "bin/segment" <<< "$plan" || fail "changed settings of a stage run it again"
 pass "changed settings of a stage run it again, and not the stages before"
 
+built=$(stat -c %y build/built-*.mk)
+run -n -W CMakeLists.txt ACCURACY=0.5 chain > "$work/log" 2>&1 || fail "a plan with changed sources"
+[ "$built" = "$(stat -c %y build/built-*.mk)" ] && [ ! -e "$case_dir/accuracy.mk" ] || fail "make -n builds and solves nothing"
+pass "make -n builds and solves nothing, even with changed sources or ACCURACY"
+
 cat > "$work/my-forward" <<EOF
 #!/bin/sh
 echo swapped > "$work/mark"
