@@ -9,8 +9,9 @@ if [ "$1" = run ]; then
   if "$@" > "$log" 2>&1; then
     printf 'done\t\n' > "$status"
   else
-    # The last line a program printed before make's own "*** [...] Error", else make's.
-    reason=$({ grep -v '^make' "$log" | grep -E '^[a-z0-9-]+: ' || cat "$log"; } | tail -n 1 | tr '\t' ' ')
+    # What make misses, else the last line a program printed before make's own "*** [...] Error", else make's.
+    reason=$({ grep -m 1 -E '^make.*No rule to make target' "$log" || grep -vE '^(make|set-up)' "$log" | grep -E '^[a-z0-9-]+: ' || cat "$log"; } |
+      tail -n 1 | tr '\t' ' ')
     printf 'failed\t%s\n' "${reason:-see $log}" > "$status"
   fi
   exit 0
