@@ -39,7 +39,9 @@ printed_mesh := $(VARIANTS)/as-printed-mesh.vtkhdf
 printed_hexmesh = $(PRINTED_HEXMESH)
 printed_mechanics = $(PRINTED_MECHANICS)
 printed_supine := $(VARIANTS)/as-printed-supine.vtkhdf
-$(printed_supine): $(VARIANTS)/as-printed.done ;
+# What a model's tables wait for; a variant's shapes are those of its mark.
+own_solved := $(own_supine)
+printed_solved := $(VARIANTS)/as-printed.done
 
 # Table VI has one whole element of tumour, round the tumour point of the base mesh.
 define tumour_mesh_rules
@@ -74,7 +76,7 @@ $(foreach n,$(PAPER_TABLES),$(call table_rules,$1,$n,$(tissue_$n))$(newline))
 endef
 # $(call table_rules,MODEL,NUMBER,TISSUE): relative displacements of Table VI refer to its own mesh.
 define table_rules
-$(TABLES)/table$2$(ending_$1).tsv: pipelines/paper/table$2.tsv $(call rows_of,$($1_folder),$3) $($1_supine) \
+$(TABLES)/table$2$(ending_$1).tsv: pipelines/paper/table$2.tsv $(call rows_of,$($1_folder),$3) $($1_solved) \
   $(if $(filter tumour,$3),$($1_folder)/tumour-100.done) pipelines/scaled-table.sh $(PROBE)
 	@mkdir -p $$(@D)
 	pipelines/scaled-table.sh $$< $($1_folder)/$3 $(if $(filter tumour,$3),$($1_folder)/tumour-100-supine.vtkhdf,$($1_supine)) \
