@@ -16,3 +16,17 @@ cell() {
     !header { header = 1; for (i = 1; i <= NF; i++) if ($i == column) at = i; next }
     at && $1 == row && !found { print $at; found = 1 }' "$1"
 }
+
+# Largest distance (mm) of tumour or nipple between two shapes: apart PROBE FILE BASE
+apart() {
+  "$1" "$2" --base "$3" --landmarks tumour,nipple --quiet |
+    awk -F'\t' '/^#/ { next } $1 == "file" { for (i = 1; i <= NF; i++) at[$i] = i; next }
+      { a = $at["tumour_relative_mm"]; b = $at["nipple_relative_mm"]; printf "%.4f", (a > b ? a : b) }'
+}
+
+# What two solves one after the other say of the second's shape: its stress-free shape has an error of its own, which
+# it carries along. carried_estimate BACKWARD_JSON FORWARD_JSON, mm; nothing when either is not estimated.
+carried_estimate() {
+  awk -v a="$(number "$1" error_estimate_mm)" -v b="$(number "$2" error_estimate_mm)" \
+    'BEGIN { if (a != "" && b != "") print a + b }'
+}

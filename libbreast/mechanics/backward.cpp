@@ -187,6 +187,7 @@ bool BackwardSolve::newton(Trial& trial) {
       failure_id_ = stop_name(NewtonStop::no_step);
       return now.force <= 1e-8 && now.volume <= 1e-9;
     }
+    record.linear_iterations = last_gmres_;
     record_iteration(summary_, summary_.steps, record, clock());
     progress_.update(
         "backward", -1,

@@ -46,6 +46,7 @@ struct SolveSummary {
   /// bound, to 10 %); 0 when not known.
   double stiffness_factor_needed = 0;
   int newton_iterations = 0, factorisations = 0, steps = 0;
+  int linear_iterations = 0;  ///< of all Newton steps: see SaddleStep, ReferenceStep
   double residual = 0;  ///< relative to the load
   double min_det_F = 0, max_volume_error = 0;
   long long unknowns = 0;

@@ -85,6 +85,7 @@ void write_report(const SolveSummary& summary, const HexMesh& mesh, const Mechan
   report.set("elements", mesh.elements());
   report.set("unknowns", summary.unknowns);
   report.set("newton_iterations", summary.newton_iterations);
+  report.set("linear_iterations", summary.linear_iterations);
   report.set("factorisations", summary.factorisations);
   if (!summary.linear_solver.empty()) {
     report.set("solver/name", summary.linear_solver);

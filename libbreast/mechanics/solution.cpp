@@ -20,6 +20,7 @@ void record_iteration(SolveSummary& summary, int step, const NewtonIteration& it
   record.max_det_F = iteration.max_det_F;
   record.step_length = iteration.step_length;
   record.seconds = clock;
+  summary.linear_iterations += iteration.linear_iterations;
   summary.record.iterations.push_back(record);
 }
 

@@ -156,6 +156,7 @@ NewtonIteration Solve::step() {
   NewtonIteration record;
   Timer::Scope phase(timer_, "line search");
   record.residual_before = result_.residual;
+  record.linear_iterations = step.iterations;
   record.step_length =
       search(step, away_ ? std::numeric_limits<double>::infinity() : result_.residual);
   record.shift = shift_;

@@ -67,6 +67,7 @@ const char* stop_name(NewtonStop stop);
 struct NewtonIteration {
   double residual = 0, min_det_F = 0, max_det_F = 0, step_length = 0, shift = 0;
   double residual_before = 0;
+  int linear_iterations = 0;  ///< see SaddleStep
 };
 
 struct NewtonResult {

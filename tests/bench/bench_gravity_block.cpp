@@ -52,7 +52,7 @@ MechanicsOptions one_law(const Settings& s) {
 void print_header() {
   std::printf(
       "n\tlaw\tk_over_mu\telement\tsolver\tthreads\tunknowns\tmatrix_values\tfactor_values"
-      "\tgflop\tnewton\tfactorisations");
+      "\tgflop\tnewton\tfactorisations\tlinear_iterations");
   for (const std::string& phase : phases) {
     std::string name = phase;
     for (char& c : name) c = c == ' ' ? '_' : c;
@@ -76,10 +76,10 @@ void print_row(const Settings& s, int n) {
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-  std::printf("%d\t%s\t%g\t%s\t%s\t%d\t%lld\t%.0f\t%.0f\t%.4f\t%d\t%d", n, s.law.c_str(),
+  std::printf("%d\t%s\t%g\t%s\t%s\t%d\t%lld\t%.0f\t%.0f\t%.4f\t%d\t%d\t%d", n, s.law.c_str(),
               s.bulk_ratio, s.element.c_str(), s.solver.c_str(), threads(), summary.unknowns,
               summary.matrix_values, summary.factor_values, summary.factor_gflop,
-              summary.newton_iterations, summary.factorisations);
+              summary.newton_iterations, summary.factorisations, summary.linear_iterations);
   const auto& seconds = summary.timer.seconds();
   for (const std::string& phase : phases) {
     const auto found = seconds.find(phase);
