@@ -1,23 +1,29 @@
 // hexmesh: hexahedral mesh of a breast from its Hermite geometry and its labels.
+#include <cmath>
+
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "io/geometry_file.hpp"
 #include "io/label_file.hpp"
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
+#include "io/tet_mesh_file.hpp"
 #include "meshing/boundary_surface.hpp"
 #include "meshing/report.hpp"
 #include "meshing/skin.hpp"
 #include "meshing/tumour.hpp"
+#include "tetrahedra/delaunay.hpp"
+#include "tetrahedra/report.hpp"
+#include "tetrahedra/tissue.hpp"
 
 using namespace breast;
 
 namespace {
 
 struct Choices {
-  std::filesystem::path geometry, labels, mesh, surface;
+  std::filesystem::path geometry, labels, mesh, surface, tetrahedra;
   std::string shape = "dome", skin = "1.45", skin_as = "membrane", tumour = "auto";
-  int elements = 16;
+  int elements = 16, order = 1;
   std::vector<double> dome;
 
   BodyMeshOptions mesh_options(double skin_mm) const {
@@ -27,12 +33,19 @@ struct Choices {
     } else {
       options.size = dome.empty() ? dome_near(elements) : dome_of(dome);
     }
+    options.order = order;
     options.skin_layer = skin_as == "layer" ? skin_mm : 0;
     return options;
   }
   void check() const {
     if (!dome.empty() && shape == "cuboid")
       throw input_error("--dome goes with --template dome only");
+    if (!tetrahedra.empty() && tetrahedra.extension() != ".vtu")
+      throw input_error("--tetrahedra ", tetrahedra.string(), ": must end in .vtu");
+    if (!tetrahedra.empty() && skin_as == "layer")
+      throw input_error(
+          "--tetrahedra goes with --skin-as membrane: its elements are thicker than "
+          "a layer of skin");
     if (skin != "measured") parse_skin_thickness(skin);
     mesh_options(1);
     if (tumour != "auto" && tumour != "none" && !std::filesystem::exists(tumour))
@@ -51,6 +64,21 @@ std::optional<Tumour> choose_tumour(const Choices& choices, const LabelVolume& l
   if (std::filesystem::path(choices.tumour).extension() == ".tsv")
     return read_tumour(choices.tumour);
   return tumour_of(read_labels(choices.tumour), choices.tumour);
+}
+
+void write_for_others(const Choices& choices, const HexMesh& mesh, Run& run) {
+  if (choices.surface.empty() && choices.tetrahedra.empty()) return;
+  TriMesh surface = boundary_surface(mesh);
+  surface.history = mesh.history;
+  if (!choices.surface.empty()) write_surface(choices.surface, surface);
+  if (choices.tetrahedra.empty()) return;
+  Timer::Scope phase(run.timer(), "tetrahedra");
+  const double volume = mesh_volume(mesh, mesh.points);
+  TetMesh tetrahedra = delaunay_tetrahedra(surface, std::cbrt(volume / mesh.elements()));
+  copy_tissue(mesh, tetrahedra);
+  tetrahedra.history = mesh.history;
+  write_report(tetrahedra, volume, run.report());
+  write_tet_mesh(choices.tetrahedra, tetrahedra);
 }
 
 void run_hexmesh(const Choices& choices, Run& run) {
@@ -82,11 +110,7 @@ void run_hexmesh(const Choices& choices, Run& run) {
   mesh.history = run.history({{choices.geometry, geometry.content_sha256, &geometry.history},
                               {choices.labels, labels.content_sha256, &labels.history}});
   mesh.wall_seconds = run.seconds();
-  if (!choices.surface.empty()) {
-    TriMesh surface = boundary_surface(mesh);
-    surface.history = mesh.history;
-    write_surface(choices.surface, surface);
-  }
+  write_for_others(choices, mesh, run);
   write_mesh(choices.mesh, mesh);
 }
 
@@ -112,6 +136,10 @@ int main(int argc, char** argv) {
                "about N^3 elements; 16 gives 4000 (dome) or the paper's 4096 (cuboid)", 4, 64);
   tool.numbers(choices.dome, "--dome", "n,l,m,k", 4,
                "core n x n x l elements, m layers round it, k rows of cut faces");
+  tool.integer(choices.order, "--order", "1|2",
+               "8-node elements with flat faces, or 27-node ones whose boundary nodes lie on the "
+               "sheets and the cut (for --element q2p1)",
+               1, 2);
   tool.text(choices.skin, "--skin", "MM|0|measured", "thickness of the skin in mm");
   tool.choice(choices.skin_as, "--skin-as", {"membrane", "layer"},
               "skin as a membrane on the outer faces or as the outermost layer of elements");
@@ -122,6 +150,10 @@ int main(int argc, char** argv) {
   tool.output_file(choices.surface, "--surface", "OUT.vtp",
                    "the mesh's closed boundary as triangles; scalar part: 0 skin, 1 lateral cut, 2 "
                    "chest wall");
+  tool.output_file(choices.tetrahedra, "--tetrahedra", "OUT.vtu",
+                   "tetrahedra of the same body for other solvers, about as long in edge as the "
+                   "hexahedra, with the boundary's triangles; tissue per tetrahedron, part per "
+                   "triangle as in --surface");
   tool.check([&] { choices.check(); });
   tool.example("hexmesh geometry.vtkhdf labels.vtkhdf mesh.vtkhdf",
                "about 4000 elements, skin as a membrane of 1.45 mm, artificial tumour");

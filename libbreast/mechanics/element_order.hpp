@@ -1,12 +1,4 @@
-// From 8-node to 27-node elements on the same geometry.
+// raise_order() lives with the meshes; here for the mechanics, whose tools raise the order.
 #pragma once
 
-#include "mesh/hex_mesh.hpp"
-
-namespace breast {
-
-/// The same body with 27-node elements: new nodes at the trilinear positions of every nodal field,
-/// so that shapes, landmarks and face sets are unchanged. A mesh of order 2 is returned as it is.
-HexMesh raise_order(const HexMesh& mesh);
-
-}  // namespace breast
+#include "mesh/element_order.hpp"

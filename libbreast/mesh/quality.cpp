@@ -88,13 +88,34 @@ double scaled_jacobian(const Vec3* corners) {
                                                 axis({4, 5, 6, 7}, {0, 1, 2, 3})));
 }
 
+namespace {
+
+// The same measure of a curved element: the tangents at its 27 lattice points for the edges.
+double curved_scaled_jacobian(const HexMesh& mesh, const std::array<Vec3, 27>& own) {
+  double worst = 1;
+  for (int a = 0; a < 27; ++a) {
+    Vec3 x;
+    Mat3 jacobian;
+    lattice::evaluate(mesh.order, own.data(), Vec3(a % 3 - 1, (a / 3) % 3 - 1, a / 9 - 1), x,
+                      jacobian);
+    worst =
+        std::min(worst, normalised_determinant(jacobian.col(0), jacobian.col(1), jacobian.col(2)));
+  }
+  return worst;
+}
+
+}  // namespace
+
+double scaled_jacobian(const HexMesh& mesh, const std::vector<Vec3>& nodal, int element) {
+  if (mesh.order == 2) return curved_scaled_jacobian(mesh, lattice_points(mesh, nodal, element));
+  std::array<Vec3, 8> corners;
+  for (int a = 0; a < 8; ++a) corners[a] = nodal[mesh.element(element)[a]];
+  return scaled_jacobian(corners.data());
+}
+
 std::vector<double> scaled_jacobians(const HexMesh& mesh, const std::vector<Vec3>& nodal) {
   std::vector<double> all(mesh.elements());
-  for (int e = 0; e < mesh.elements(); ++e) {
-    std::array<Vec3, 8> corners;
-    for (int a = 0; a < 8; ++a) corners[a] = nodal[mesh.element(e)[a]];
-    all[e] = scaled_jacobian(corners.data());
-  }
+  for (int e = 0; e < mesh.elements(); ++e) all[e] = scaled_jacobian(mesh, nodal, e);
   return all;
 }
 

@@ -14,7 +14,9 @@ namespace breast {
 /// Jacobian").
 double scaled_jacobian(const Vec3* corners);
 
-/// Per element, of the given nodal field (corner nodes for order 2).
+/// Of an element and of all, in the given nodal field; order 2: the least at the 27 lattice points,
+/// with the map's tangents for edges (at the corners of a straight element the same number).
+double scaled_jacobian(const HexMesh& mesh, const std::vector<Vec3>& nodal, int element);
 std::vector<double> scaled_jacobians(const HexMesh& mesh, const std::vector<Vec3>& nodal);
 
 /// Per element, mm³ (exact for order 1; 3³ Gauss points for order 2).

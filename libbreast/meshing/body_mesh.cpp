@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "mesh/element_order.hpp"
 #include "mesh/quality.hpp"
 #include "meshing/match_volume.hpp"
 #include "meshing/skin_layer.hpp"
@@ -63,6 +64,42 @@ void take_node_to_nipple(const BreastGeometry& geometry, const BodyMap& body,
   }
 }
 
+// The template put into the body. Flat faces get the volume back that they cut off; curved ones do
+// not need it.
+PlacedNodes smoothed_nodes(const BreastGeometry& geometry, const BodyMap& body,
+                           const BodyMeshOptions& options, const DomeTemplate& dome,
+                           BodyMeshReport& report) {
+  PlacedNodes nodes = place_nodes(dome, body);
+  SmoothOptions smoothing = options.smoothing;
+  if (options.size.m == 0) smoothing = for_cuboid(smoothing);
+  std::vector<bool> held(nodes.x.size(), false);
+  const SmoothReport smoothed = smooth_nodes(dome.connectivity, body, smoothing, held, nodes);
+  take_node_to_nipple(geometry, body, dome.connectivity, smoothing, held, nodes);
+  report.placed_scaled_jacobian = smoothed.before;
+  report.evaluations = smoothed.evaluations;
+  if (options.order == 1)
+    report.skin_shift = match_volume(report.body_volume, body, dome, held, nodes);
+  return nodes;
+}
+
+HexMesh mesh_of(const BreastGeometry& geometry, const DomeTemplate& dome, const PlacedNodes& nodes,
+                const std::vector<int>& layer) {
+  HexMesh mesh;
+  mesh.points = mesh.imaged = nodes.x;
+  mesh.connectivity = dome.connectivity;
+  mesh.tissue.assign(mesh.elements(), Tissue::fat);
+  for (const int e : layer) mesh.tissue[e] = Tissue::skin;
+  mesh.skin_faces = dome.skin_faces;
+  mesh.pectoral_faces = dome.wall_faces;
+  mesh.cut_faces = dome.cut_faces;
+  mesh.side = geometry.side;
+  mesh.template_name = dome.size.m > 0 ? "dome" : "cuboid";
+  mesh.template_size = {dome.size.n, dome.size.l, dome.size.m, dome.size.k};
+  mesh.geometry = geometry;
+  mesh.skin_model = !layer.empty() ? SkinModel::layer : SkinModel::none;
+  return mesh;
+}
+
 }  // namespace
 
 HexMesh body_mesh(const BreastGeometry& geometry, const BodyMeshOptions& options,
@@ -77,38 +114,26 @@ HexMesh body_mesh(const BreastGeometry& geometry, const BodyMeshOptions& options
         "rims counter-clockwise)");
   }
   DomeTemplate dome = dome_template(options.size);
-  PlacedNodes nodes = place_nodes(dome, body);
-  SmoothOptions smoothing = options.smoothing;
-  if (options.size.m == 0) smoothing = for_cuboid(smoothing);
-  std::vector<bool> held(nodes.x.size(), false);
-  const SmoothReport smoothed = smooth_nodes(dome.connectivity, body, smoothing, held, nodes);
-  take_node_to_nipple(geometry, body, dome.connectivity, smoothing, held, nodes);
-  local.placed_scaled_jacobian = smoothed.before;
-  local.evaluations = smoothed.evaluations;
-  local.skin_shift = match_volume(local.body_volume, body, dome, held, nodes);
+  PlacedNodes nodes = smoothed_nodes(geometry, body, options, dome, local);
   std::vector<int> layer;
   if (options.skin_layer > 0) {
     layer = options.size.m > 0 ? add_skin_layer(options.skin_layer, body, dome, nodes)
                                : thin_skin_elements(options.skin_layer, body, dome, nodes);
   }
-  HexMesh mesh;
-  mesh.points = mesh.imaged = nodes.x;
-  mesh.connectivity = dome.connectivity;
-  mesh.tissue.assign(mesh.elements(), Tissue::fat);
-  for (const int e : layer) mesh.tissue[e] = Tissue::skin;
-  mesh.skin_faces = dome.skin_faces;
-  mesh.pectoral_faces = dome.wall_faces;
-  mesh.cut_faces = dome.cut_faces;
-  mesh.side = geometry.side;
-  mesh.template_name = options.size.m > 0 ? "dome" : "cuboid";
-  mesh.template_size = {options.size.n, options.size.l, options.size.m, options.size.k};
-  mesh.geometry = geometry;
-  mesh.skin_model = !layer.empty() ? SkinModel::layer : SkinModel::none;
+  HexMesh mesh = mesh_of(geometry, dome, nodes, layer);
   refuse_folded(mesh);
+  if (options.order == 2) {
+    mesh = raise_order(mesh);
+    local.curved = curve_boundary(body, nodes, mesh);
+    refuse_folded(mesh);
+  }
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
   local.smoothed_scaled_jacobian =
       *std::min_element(mesh.scaled_jacobian.begin(), mesh.scaled_jacobian.end());
   local.mesh_volume = mesh_volume(mesh, mesh.points);
+  local.skin_distance = boundary_distance(body, Hull::skin, mesh.skin_faces, nodes, mesh);
+  local.wall_distance = boundary_distance(body, Hull::wall, mesh.pectoral_faces, nodes, mesh);
+  local.cut_distance = boundary_distance(body, Hull::cut, mesh.cut_faces, nodes, mesh);
   if (report) *report = local;
   return mesh;
 }

@@ -2,6 +2,8 @@
 // checks.
 #pragma once
 
+#include "meshing/boundary_distance.hpp"
+#include "meshing/curve_boundary.hpp"
 #include "meshing/dome.hpp"
 #include "meshing/smooth.hpp"
 
@@ -9,6 +11,7 @@ namespace breast {
 
 struct BodyMeshOptions {
   DomeSize size = {};     ///< m = 0: cuboid
+  int order = 1;          ///< 2: 27-node elements whose boundary nodes lie on the surfaces
   double skin_layer = 0;  ///< mm; > 0: the outermost layer of elements has this thickness
   SmoothOptions smoothing = {};
 };
@@ -20,6 +23,8 @@ struct BodyMeshReport {
   double body_volume = 0;  ///< mm³ inside the sheets, cut and wall
   double mesh_volume = 0;  ///< mm³
   double skin_shift = 0;   ///< mm, largest shift of a skin node off its sheet to keep the volume
+  CurveReport curved;      ///< order 2 only
+  BoundaryDistance skin_distance, wall_distance, cut_distance;  ///< of the mesh's boundary
 };
 
 /// Mesh with points = imaged, connectivity, face sets, scaled_jacobian, template and geometry; all

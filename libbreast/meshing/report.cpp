@@ -6,6 +6,29 @@
 
 namespace breast {
 
+namespace {
+
+void write_distance(const char* part, const BoundaryDistance& distance, Report& report) {
+  const std::string key = std::string("boundary/") + part;
+  report.set(key + "_mean_mm", distance.mean);
+  report.set(key + "_p95_mm", distance.p95);
+  report.set(key + "_max_mm", distance.max);
+}
+
+void write_boundary(const HexMesh& mesh, const BodyMeshReport& body, Report& report) {
+  report.set("order", mesh.order);
+  write_distance("skin", body.skin_distance, report);
+  write_distance("wall", body.wall_distance, report);
+  write_distance("cut", body.cut_distance, report);
+  if (mesh.order == 1) return;
+  report.set("boundary/curved_nodes", body.curved.nodes);
+  report.set("boundary/largest_bow_mm", body.curved.largest_bow);
+  report.set("boundary/held_back_nodes", body.curved.held_back);
+  report.set("boundary/held_back_by_mm", body.curved.largest_gap);
+}
+
+}  // namespace
+
 void write_report(const HexMesh& mesh, const MeshQuality& quality, const BodyMeshReport& body,
                   const TissueReport& tissue, Report& report) {
   report.set("elements", mesh.elements());
@@ -18,6 +41,7 @@ void write_report(const HexMesh& mesh, const MeshQuality& quality, const BodyMes
   report.set("scaled_jacobian_histogram",
              std::vector<double>(quality.histogram.begin(), quality.histogram.end()));
   report.set("elements_below_02", quality.below_02);
+  write_boundary(mesh, body, report);
   const auto volumes = tissue_volumes(mesh);
   for (int t = 0; t < n_tissues; ++t) {
     if (volumes[t] > 0) {

@@ -96,6 +96,24 @@ TEST_F(HexmeshTool, TumourFromTextAndTable) {
   EXPECT_EQ(mesh.tissue[mesh.landmark("tumour")->element], Tissue::tumour);
 }
 
+TEST_F(HexmeshTool, CurvedBoundaryAndTetrahedra) {
+  const ToolResult result = hexmesh({"--elements", "8", "--order", "2", "--tetrahedra", "t.vtu"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const HexMesh mesh = read_mesh(folder_ / "mesh.vtkhdf");
+  EXPECT_EQ(mesh.order, 2);
+  EXPECT_EQ(mesh.connectivity.size(), 27u * mesh.elements());
+  EXPECT_LT(mesh.landmark("nipple")->moved, 0.01);
+  const Report report = Report::parse(read_text(folder_ / "r.json"), "r.json");
+  EXPECT_LT(report.number("boundary/skin_mean_mm"), 0.05);
+  EXPECT_GT(report.number("boundary/curved_nodes"), 500);
+  EXPECT_EQ(report.number("boundary/held_back_nodes"), 0);
+  EXPECT_GT(report.number("min_det_bound_mm3"), 0);
+  EXPECT_NEAR(report.number("sheet_volume_error_percent"), 0, 0.1);
+  EXPECT_NEAR(report.number("tetrahedra/volume_error_percent"), 0, 1);
+  EXPECT_GT(report.number("tetrahedra/least_volume_mm3"), 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "t.vtu"));
+}
+
 TEST_F(HexmeshTool, SameFileFromTwoRuns) {
   ASSERT_EQ(hexmesh({"--elements", "8"}).exit_code, 0);
   const HexMesh first = read_mesh(folder_ / "mesh.vtkhdf");
@@ -112,6 +130,9 @@ TEST_F(HexmeshTool, BadUseIsOneLineAndNoFile) {
                                                   {"--tumour", "0,0"},
                                                   {"--tumour", "0,-300,0"},
                                                   {"--elements", "3"},
+                                                  {"--order", "3"},
+                                                  {"--tetrahedra", "t.vtk"},
+                                                  {"--tetrahedra", "t.vtu", "--skin-as", "layer"},
                                                   {"--template", "cuboid", "--dome", "4,4,2,1"}}) {
     const ToolResult result = hexmesh(options);
     EXPECT_EQ(result.exit_code, 2) << options[1] << ": " << result.err;

@@ -21,6 +21,7 @@ io: core dicom image surface mesh mammo
 segment: image surface core
 fit: surface image core
 meshing: mesh surface image core
+tetrahedra: mesh surface core
 fem: material mesh core
 solve: core
 mechanics: fem material mesh solve surface core

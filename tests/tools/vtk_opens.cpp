@@ -10,12 +10,14 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
 
 #include "fixtures/samples.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/geometry_file.hpp"
 #include "io/label_file.hpp"
 #include "io/mesh_file.hpp"
+#include "io/tet_mesh_file.hpp"
 
 namespace breast {
 namespace {
@@ -64,6 +66,28 @@ TEST(VtkOpens, Meshes) {
     ASSERT_NE(seconds, nullptr);
     EXPECT_EQ(seconds->GetTuple1(0), mesh.wall_seconds);
   }
+}
+
+TEST(VtkOpens, Tetrahedra) {
+  const ScratchFolder folder;
+  TetMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.tetrahedra = {{0, 1, 2, 3}};
+  mesh.tissue = {Tissue::tumour};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  mesh.part = {2, 1, 0, 0};
+  write_tet_mesh(folder / "t.vtu", mesh);
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName((folder / "t.vtu").c_str());
+  reader->Update();
+  vtkUnstructuredGrid* grid = reader->GetOutput();
+  ASSERT_EQ(grid->GetNumberOfCells(), 5);
+  EXPECT_EQ(grid->GetCellType(0), VTK_TETRA);
+  EXPECT_EQ(grid->GetCellType(4), VTK_TRIANGLE);
+  expect_vectors(grid->GetPoints()->GetData(), mesh.points, "points");
+  EXPECT_EQ(grid->GetCellData()->GetArray("tissue")->GetTuple1(0), double(Tissue::tumour));
+  EXPECT_EQ(grid->GetCellData()->GetArray("part")->GetTuple1(1), 2);
+  EXPECT_EQ(grid->GetCellData()->GetArray("part")->GetTuple1(0), 255);
 }
 
 TEST(VtkOpens, LabelVolumes) {

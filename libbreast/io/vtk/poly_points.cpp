@@ -5,6 +5,7 @@
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPointSet.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
@@ -14,7 +15,7 @@
 
 namespace breast {
 
-void set_points(vtkPolyData* data, const std::vector<Vec3>& points) {
+void set_points(vtkPointSet* data, const std::vector<Vec3>& points) {
   vtkNew<vtkPoints> list;
   list->SetDataTypeToDouble();
   list->SetNumberOfPoints(vtkIdType(points.size()));

@@ -12,11 +12,12 @@
 
 class vtkDataArray;
 class vtkDoubleArray;
+class vtkPointSet;
 class vtkPolyData;
 
 namespace breast {
 
-void set_points(vtkPolyData* data, const std::vector<Vec3>& points);
+void set_points(vtkPointSet* data, const std::vector<Vec3>& points);
 void set_scalars(vtkPolyData* data, const std::map<std::string, std::vector<double>>& scalars);
 vtkSmartPointer<vtkDoubleArray> vector_array(const std::string& name,
                                              const std::vector<Vec3>& values);

@@ -3,10 +3,12 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -73,6 +75,10 @@ void write_xml(const fs::path& file, vtkPolyData* data) {
 void write_xml(const fs::path& file, vtkImageData* data) {
   write<vtkXMLImageDataWriter>(file, data,
                                1);  // pixels of float: more takes seconds and saves little
+}
+
+void write_xml(const fs::path& file, vtkUnstructuredGrid* data) {
+  write<vtkXMLUnstructuredGridWriter>(file, data);
 }
 
 }  // namespace breast

@@ -16,6 +16,7 @@ class vtkDataSetAttributes;
 class vtkFieldData;
 class vtkImageData;
 class vtkPolyData;
+class vtkUnstructuredGrid;
 
 namespace breast {
 
@@ -25,6 +26,7 @@ vtkSmartPointer<vtkImageData> read_image_data(const std::filesystem::path& file)
 /// Writes atomically, zlib-compressed, inline base64 (a cut file is then never well-formed XML).
 void write_xml(const std::filesystem::path& file, vtkPolyData* data);
 void write_xml(const std::filesystem::path& file, vtkImageData* data);
+void write_xml(const std::filesystem::path& file, vtkUnstructuredGrid* data);
 
 void add_text(vtkFieldData* fields, const std::string& name, const std::string& text);
 void add_numbers(vtkFieldData* fields, const std::string& name, const std::vector<double>& values);

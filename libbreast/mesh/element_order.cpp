@@ -1,4 +1,4 @@
-#include "mechanics/element_order.hpp"
+#include "mesh/element_order.hpp"
 
 #include <algorithm>
 #include <array>

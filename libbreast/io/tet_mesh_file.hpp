@@ -1,0 +1,14 @@
+// Tetrahedra for other programs as VTK .vtu, through VTK.
+#pragma once
+
+#include <filesystem>
+
+#include "mesh/tet_mesh.hpp"
+
+namespace breast {
+
+/// Cells: the tetrahedra, then the boundary's triangles. CellData: tissue (tetrahedra; 0 for
+/// triangles), part (triangles: 0 skin, 1 cut, 2 chest wall; 255 for tetrahedra).
+void write_tet_mesh(const std::filesystem::path& file, const TetMesh& mesh);
+
+}  // namespace breast

@@ -1,0 +1,13 @@
+// Tissue of hexahedra for the tetrahedra of the same body.
+#pragma once
+
+#include "mesh/hex_mesh.hpp"
+#include "mesh/tet_mesh.hpp"
+
+namespace breast {
+
+/// Every tetrahedron takes the tissue of the hexahedron (of `points`) that holds its centroid, or
+/// of the nearest one.
+void copy_tissue(const HexMesh& hexahedra, TetMesh& mesh);
+
+}  // namespace breast

@@ -1,0 +1,19 @@
+// A surface in parts put together again: one node a place, and the lines between its parts.
+#pragma once
+
+#include "surface/tri_mesh.hpp"
+
+namespace breast {
+
+struct WeldedSurface {
+  std::vector<Vec3> points;
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<int> part;                ///< per triangle
+  std::vector<std::vector<int>> seams;  ///< closed lines between two parts, first node repeated
+};
+
+/// Joins points at exactly the same place. Throws Error (input) unless every edge belongs to two
+/// triangles that run along it in opposite ways.
+WeldedSurface weld(const TriMesh& surface);
+
+}  // namespace breast
