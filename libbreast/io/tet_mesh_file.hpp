@@ -7,7 +7,7 @@
 
 namespace breast {
 
-/// Cells: the tetrahedra, then the boundary's triangles. CellData: tissue (tetrahedra; 0 for
+/// Cells: the tetrahedra, then the boundary's triangles, turned outwards. CellData: tissue (tetrahedra; 0 for
 /// triangles), part (triangles: 0 skin, 1 cut, 2 chest wall; 255 for tetrahedra).
 void write_tet_mesh(const std::filesystem::path& file, const TetMesh& mesh);
 

@@ -15,7 +15,7 @@ struct TetMesh {
   std::vector<Vec3> points;                    ///< mm, LPS
   std::vector<std::array<int, 4>> tetrahedra;  ///< positive volume, node order as VTK_TETRA
   std::vector<Tissue> tissue;                  ///< per tetrahedron
-  std::vector<std::array<int, 3>> triangles;   ///< the boundary, turned outwards
+  std::vector<std::array<int, 3>> triangles;   ///< the boundary, turned inwards
   std::vector<std::uint8_t> part;              ///< per triangle: 0 skin, 1 cut, 2 chest wall
   History history;
 };

@@ -82,7 +82,6 @@ void add_boundary(const Complex& complex, const Surface& surface, const WeldedSu
     }
     const Vec3 middle =
         (mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]]) / 3;
-    std::swap(corner[1], corner[2]);  // CGAL turns them into the cell
     const auto nearest = tree.closest_point_and_primitive(to_cgal(middle)).second;
     mesh.triangles.push_back(corner);
     mesh.part.push_back(std::uint8_t(welded.part[nearest.idx()]));

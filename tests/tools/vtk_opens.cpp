@@ -1,6 +1,7 @@
 // VTK 9.1's own reader opens every kind of VTKHDF file we write, with the arrays where a user of
 // ParaView looks for them.
 #include <gtest/gtest.h>
+#include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -84,6 +85,7 @@ TEST(VtkOpens, Tetrahedra) {
   ASSERT_EQ(grid->GetNumberOfCells(), 5);
   EXPECT_EQ(grid->GetCellType(0), VTK_TETRA);
   EXPECT_EQ(grid->GetCellType(4), VTK_TRIANGLE);
+  EXPECT_EQ(grid->GetCell(1)->GetPointId(1), 1);  // triangles are turned outwards
   expect_vectors(grid->GetPoints()->GetData(), mesh.points, "points");
   EXPECT_EQ(grid->GetCellData()->GetArray("tissue")->GetTuple1(0), double(Tissue::tumour));
   EXPECT_EQ(grid->GetCellData()->GetArray("part")->GetTuple1(1), 2);

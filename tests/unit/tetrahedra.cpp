@@ -71,7 +71,7 @@ TEST(Tetrahedra, ConformAndHaveTheBoundaryInParts) {
     inside += a.dot(b.cross(c)) / 6;
     add(area, mesh.part[i], a, b, c);
   }
-  EXPECT_NEAR(inside / tet_quality(mesh).volume, 1, 1e-9);  // turned outwards, and closed
+  EXPECT_NEAR(-inside / tet_quality(mesh).volume, 1, 1e-9);  // turned inwards, and closed
   const TriMesh surface = boundary_surface(hex);
   for (const auto& t : surface.triangles) {
     add(hex_area, int(surface.point_data.at("part")[t[0]]), surface.points[t[0]],

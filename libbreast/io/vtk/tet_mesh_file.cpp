@@ -26,7 +26,7 @@ void write_tet_mesh(const std::filesystem::path& file, const TetMesh& mesh) {
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& c = mesh.triangles[t];
-    const vtkIdType corners[3] = {c[0], c[1], c[2]};
+    const vtkIdType corners[3] = {c[0], c[2], c[1]};  // outwards, as other solvers expect
     grid->InsertNextCell(VTK_TRIANGLE, 3, corners);
     tissue->InsertNextValue(static_cast<unsigned char>(Tissue::air));
     part->InsertNextValue(mesh.part[t]);
