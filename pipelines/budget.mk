@@ -10,6 +10,7 @@
 #   compression   the true compressed shapes on the chain's mesh: what is left is projection and matching
 BUDGET := $(RUN)/budget
 BUDGET_FINER ?= 20
+budget_finer = --elements $(BUDGET_FINER) $(subst --elements $(ELEMENTS),,$(HEXMESH_OPTIONS))
 BUDGET_ROWS := segmentation body tissue cut discretisation backward compression
 upper = $(if $(filter cc,$1),CC,MLO)
 budget_truth := $(PHANTOM_TRUTH)/labels-$(SIDE).vtkhdf
@@ -29,7 +30,7 @@ $(BUDGET)/tissue/mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(HEXMESH)
 	$(HEXMESH) $< $(budget_truth) $@ $(HEXMESH_OPTIONS) $(tumour) $(common)
 $(BUDGET)/discretisation/mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH)
 	@mkdir -p $(@D)
-	$(HEXMESH) $< $(RUN)/labels.vtkhdf $@ $(HEXMESH_OPTIONS) --elements $(BUDGET_FINER) $(tumour) $(common)
+	$(HEXMESH) $< $(RUN)/labels.vtkhdf $@ $(budget_finer) $(tumour) $(common)
 $(BUDGET)/body/mesh.vtkhdf: $(TRUTH_AT)-coarse.vtkhdf
 	@mkdir -p $(@D)
 	cp $< $@
