@@ -33,8 +33,8 @@ band-check: $(RUN)/band-samples.tsv
 
 # The band of the chain from the MR scan against the phantom's true body: its places as they are (band-nominal), and
 # moved by parameters drawn from the priors along the true body's own derivatives (band-drawn; BAND_DRAWS of them).
-BAND_DRAWS ?= 100
-BAND_PLACES ?= 200
+BAND_DRAWS ?= 400
+BAND_PLACES ?= 150
 TRUE_SENSITIVITIES := $(foreach view,cc mlo,$(TRUTH_AT)-coarse-$(view)-sensitivity.vtkhdf)
 $(TRUE_SENSITIVITIES): %-sensitivity.vtkhdf: %.vtkhdf $(TRUTH_AT)-coarse.vtkhdf $(SENSITIVITY)
 	$(SENSITIVITY) $(TRUTH_AT)-coarse.vtkhdf $< $@ --posture prone --cut fixed --table $(basename $@).tsv $(common)
