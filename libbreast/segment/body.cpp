@@ -209,7 +209,7 @@ struct Found {
 
 /// Mask of what is brighter than the threshold: opened, filled, its border at half height, debris
 /// off. `from` as in fill_chest().
-Found body_above(const Volume<float>& scan, double threshold, double from) {
+Found body_above(const Volume<float>& scan, double threshold, double from, Side side) {
   Found found;
   Mask& mask = found.mask;
   mask = Mask(scan.grid);
@@ -219,20 +219,20 @@ Found body_above(const Volume<float>& scan, double threshold, double from) {
   close_and_fill(mask);
   remove_ghosts(mask, scan);
   mask = largest_component(mask);
-  const Torso torso = find_torso(mask);
+  const Torso torso = find_torso(mask, side);
   fill_chest(mask, torso, from);
   found.filled = chest_filled(mask, torso);
   fill_between_sides(mask, torso);
   peel_partial_voxels(mask, scan);
   mask = largest_component(mask);
-  found.debris_ml = remove_debris(mask, find_torso(mask).midline);
+  found.debris_ml = remove_debris(mask, find_torso(mask, side).midline);
   if (found.debris_ml > 0) mask = largest_component(mask);
   return found;
 }
 
 }  // namespace
 
-Body find_body(const Volume<float>& scan) {
+Body find_body(const Volume<float>& scan, Side side) {
   Body body;
   body.air_level = corner_air_level(scan);
   const auto [low, high] = std::minmax_element(scan.voxels.begin(), scan.voxels.end());
@@ -261,7 +261,7 @@ Body find_body(const Volume<float>& scan) {
   double most_filled = -1;
   for (const Try& attempt : {Try{otsu_level, 30}, Try{otsu_level, 12},
                              Try{std::sqrt(otsu_level * air_end), 12}, Try{air_end, 12}}) {
-    Found found = body_above(scan, attempt.level, attempt.from);
+    Found found = body_above(scan, attempt.level, attempt.from, side);
     if (!(found.filled > most_filled)) continue;
     most_filled = found.filled;
     body.threshold = attempt.level;

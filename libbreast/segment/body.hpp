@@ -24,16 +24,20 @@ struct Body {
 };
 /// Otsu on log(I + n0), opening, largest component, closing, filling (methods 8b step 1).
 /// Throws Error (input) when there is no contrast or no air in front.
-Body find_body(const Volume<float>& scan);
+/// `side` is the breast wanted; it matters where the field of view holds no other.
+Body find_body(const Volume<float>& scan, Side side);
 
 struct Torso {
   HeightField skin;           ///< first body voxel from the front
   int midline = 0;            ///< column i of the sternum
   std::vector<double> cleft;  ///< depth (mm) of the skin over the sternum, per slice
+  bool one_breast = false;    ///< the other is not in the field of view
 };
-Torso find_torso(const Mask& body);
+/// The midline is the skin's mirror column; where one breast alone is in view (less than 270 mm of
+/// body and no valley between two) it is the deepest column medial of the breast of `side`.
+Torso find_torso(const Mask& body, Side side);
 /// Angle (radians) about the body's long axis by which the grid is turned against the body's mirror
-/// plane; 0 where that explains the skin's asymmetry no better.
+/// plane; 0 where that explains the skin's asymmetry no better, or one breast alone is in view.
 double body_roll(const Mask& body);
 
 }  // namespace breast

@@ -1,6 +1,7 @@
 #include "segment/extent.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
@@ -19,6 +20,10 @@ double median(std::vector<double> values, double fallback) {
   const auto place = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), place, values.end());
   return *place;
+}
+
+bool on_side(int i, const Torso& torso, Side side) {
+  return side == Side::left ? i > torso.midline : i < torso.midline;
 }
 
 /// Distance from the wall to the nearest air: the tissue's thickness however the column grazes it.
@@ -52,42 +57,61 @@ void tidy(std::vector<std::uint8_t>& columns, const Grid& grid, int thick_i, int
   }
 }
 
+/// Tissue in front of the chest wall per column, mm: along the column and to the nearest air.
+struct Thickness {
+  HeightField column, normal;
+  double sternal = 8;  ///< median over the sternum
+};
+
+Thickness thickness_before(const ChestWall& wall, const WallDomain& domain, const Torso& torso,
+                           const Volume<float>& skin_distance) {
+  const Grid& grid = skin_distance.grid;
+  Thickness found{HeightField(grid.size[0], grid.size[2], nan),
+                  HeightField(grid.size[0], grid.size[2], nan)};
+  std::vector<double> sternal;
+  const int half = std::max(1, int(8 / grid.spacing[0]));
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      found.column.at(i, k) = wall.depth.at(i, k) - domain.skin.at(i, k);
+      found.normal.at(i, k) = normal_thickness(skin_distance, wall, i, k);
+      if (std::abs(i - torso.midline) > half || std::isnan(found.column.at(i, k))) continue;
+      sternal.push_back(found.column.at(i, k));
+    }
+  }
+  found.sternal = median(sternal, found.sternal);
+  return found;
+}
+
+/// Column (i, k) of the side with the thickest tissue.
+std::array<int, 2> thickest_column(const Thickness& thickness, const WallDomain& domain,
+                                   const Torso& torso, Side side) {
+  std::array<int, 2> place{-1, -1};
+  double thickest = 0;
+  for (int k = 0; k < thickness.normal.nz; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      if (!on_side(i, torso, side) || !(thickness.normal.at(i, k) > thickest)) continue;
+      thickest = thickness.normal.at(i, k);
+      place = {i, k};
+    }
+  }
+  if (place[0] < 0 || !(thickest > thickness.sternal + 3)) {
+    throw input_error("no breast stands out on the ", side_name(side), " side (greatest depth ",
+                      thickest, " mm, sternum ", thickness.sternal, " mm)");
+  }
+  return place;
+}
+
 }  // namespace
 
 BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const Torso& torso,
                          const Volume<float>& skin_distance, Side side) {
   const Grid& grid = skin_distance.grid;
   const int nx = grid.size[0], nz = grid.size[2];
+  const Thickness measured = thickness_before(wall, domain, torso, skin_distance);
+  const HeightField& thickness = measured.column;
   BreastExtent extent;
-  HeightField thickness(nx, nz, nan), normal(nx, nz, nan);
-  std::vector<double> sternal;
-  const int half = std::max(1, int(8 / grid.spacing[0]));
-  for (int k = 0; k < nz; ++k) {
-    for (int i = domain.first; i <= domain.last; ++i) {
-      thickness.at(i, k) = wall.depth.at(i, k) - domain.skin.at(i, k);
-      normal.at(i, k) = normal_thickness(skin_distance, wall, i, k);
-      if (std::abs(i - torso.midline) > half || std::isnan(thickness.at(i, k))) continue;
-      sternal.push_back(thickness.at(i, k));
-    }
-  }
-  extent.sternal_thickness = median(sternal, 8);
-  const auto on_side = [&](int i) {
-    return side == Side::left ? i > torso.midline : i < torso.midline;
-  };
-  int thick_i = -1, thick_k = -1;
-  double thickest = 0;
-  for (int k = 0; k < nz; ++k) {
-    for (int i = domain.first; i <= domain.last; ++i) {
-      if (!on_side(i) || !(normal.at(i, k) > thickest)) continue;
-      thickest = normal.at(i, k);
-      thick_i = i;
-      thick_k = k;
-    }
-  }
-  if (thick_i < 0 || !(thickest > extent.sternal_thickness + 3)) {
-    throw input_error("no breast stands out on the ", side_name(side), " side (greatest depth ",
-                      thickest, " mm, sternum ", extent.sternal_thickness, " mm)");
-  }
+  extent.sternal_thickness = measured.sternal;
+  const auto [thick_i, thick_k] = thickest_column(measured, domain, torso, side);
   for (const double t : thickness.depth) {
     if (t > extent.greatest_thickness) extent.greatest_thickness = t;
   }
@@ -97,7 +121,7 @@ BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const 
   const int step = std::max(1, int(6 / grid.spacing[0]));
   for (int k = 0; k < nz; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
-      if (!on_side(i) || wall.depth.at(i, k) > domain.deepest.at(i, k) - 3) continue;
+      if (!on_side(i, torso, side) || wall.depth.at(i, k) > domain.deepest.at(i, k) - 3) continue;
       const int a = std::max(i - step, domain.first), b = std::min(i + step, domain.last);
       const double slope =
           std::abs(wall.depth.at(b, k) - wall.depth.at(a, k)) / ((b - a) * grid.spacing[0]);
@@ -115,7 +139,7 @@ BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const 
   tidy(extent.columns, grid, thick_i, thick_k);
   for (int k = 0; k < nz; ++k) {
     for (int i = 0; i < nx; ++i) {
-      if (!on_side(i) || std::isnan(thickness.at(i, k)))
+      if (!on_side(i, torso, side) || std::isnan(thickness.at(i, k)))
         extent.columns[std::size_t(k) * nx + i] = 0;
     }
   }
@@ -134,7 +158,7 @@ std::vector<std::uint8_t> overhanging(const Mask& body, const WallDomain& domain
   std::vector<std::uint8_t> columns(std::size_t(nx) * nz, 0);
   for (int k = 0; k < nz; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
-      if (side == Side::left ? i <= torso.midline : i >= torso.midline) continue;
+      if (!on_side(i, torso, side)) continue;
       const double skin = domain.skin.at(i, k), limit = torso.cleft[k] + 20;
       const double end = std::isnan(skin) ? limit : std::min(skin, limit);
       int j = std::clamp(int(end / grid.spacing[1]), 0, grid.size[1] - 1);
@@ -159,7 +183,7 @@ Mask breast_voxels(const Mask& body, const ChestWall& wall, const WallDomain& do
   const std::vector<std::uint8_t> overhang = overhanging(body, domain, torso, side);
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
-      if (side == Side::left ? i <= torso.midline : i >= torso.midline) continue;
+      if (!on_side(i, torso, side)) continue;
       const std::size_t column = std::size_t(k) * grid.size[0] + i;
       const double skin = domain.skin.at(i, k);
       for (int j = 0; j < grid.size[1]; ++j) {

@@ -130,6 +130,7 @@ Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side) {
   fine.torso.midline = std::clamp(
       int(std::lround(grid.to_index(working.to_patient(Vec3(coarse.torso.midline, 0, 0)))[0])), 0,
       grid.size[0] - 1);
+  fine.torso.one_breast = coarse.torso.one_breast;
   fine.torso.cleft = coarse.torso.cleft;
   for (double& depth : fine.torso.cleft) depth -= shift;
   fine.wall.depth = on_columns(coarse.wall.depth, working, grid, shift);

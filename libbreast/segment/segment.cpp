@@ -127,6 +127,12 @@ void summarise(Segmentation& result, const Work& work) {
                                     std::lround(result.cut_by_view_cm2),
                                     " cm2: volume and lateral support are those of what is seen"));
   }
+  if (work.torso.one_breast) {
+    result.doubts.push_back(message(
+        "one breast alone in the field of view: its midline was taken from the deepest skin "
+        "medial of it, at x = ",
+        std::lround(result.midline_mm), " mm: look at the sternal border"));
+  }
   if (result.flat_skin_cm2 > 6) {
     result.doubts.push_back(
         message(std::lround(result.flat_skin_cm2),
@@ -168,16 +174,16 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
     work.scan = in_patient_order(scan);
     own = work.scan;
     work.scan = working_copy(own);
-    work.body = find_body(work.scan);
+    work.body = find_body(work.scan, options.side);
     const double roll = body_roll(work.body.mask);
     if (std::abs(roll) > least_roll) {
       own = rolled(own, roll, float(0.5 * work.body.air_level));
       work.scan = working_copy(own);
-      work.body = find_body(work.scan);
+      work.body = find_body(work.scan, options.side);
       result.roll_degrees = roll * 180 / std::numbers::pi;
     }
     result.debris_ml = work.body.debris_ml;
-    work.torso = find_torso(work.body.mask);
+    work.torso = find_torso(work.body.mask, options.side);
     work.skin_distance = signed_distance(work.body.mask);
     work.domain = wall_domain(work.body.mask, work.torso, options.side == Side::left);
     result.subcutaneous_brightness = subcutaneous_brightness(work);

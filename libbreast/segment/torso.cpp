@@ -118,14 +118,50 @@ std::vector<double> cleft_depth(const HeightField& skin, int midline, const Grid
   return smooth;
 }
 
+/// Mean depth of the skin per column over the slices (mm); `deepest` where a slice has none.
+std::vector<double> mean_profile(const HeightField& skin, double deepest) {
+  std::vector<double> profile(skin.nx, 0);
+  for (int i = 0; i < skin.nx; ++i) {
+    for (int k = 0; k < skin.nz; ++k) {
+      const double depth = skin.at(i, k);
+      profile[i] += (std::isnan(depth) ? deepest : depth) / skin.nz;
+    }
+  }
+  return profile;
+}
+
+/// No second breast in view: the body is narrower than a chest, and the skin does not come forward
+/// on both sides of its mirror column (a single breast's own axis).
+bool one_breast_in_view(const HeightField& skin, int mirror, double spacing, double deepest) {
+  constexpr double narrowest_chest = 270, valley = 8;  // mm
+  const std::vector<double> profile = mean_profile(skin, deepest);
+  const auto columns =
+      std::count_if(profile.begin(), profile.end(), [&](double p) { return p < deepest; });
+  if (double(columns) * spacing >= narrowest_chest) return false;
+  const auto left = std::min_element(profile.begin(), profile.begin() + mirror + 1);
+  const auto right = std::min_element(profile.begin() + mirror, profile.end());
+  return profile[mirror] - std::max(*left, *right) < valley;
+}
+
+/// Deepest column between the breast's tip and the field of view's medial end.
+int medial_valley(const HeightField& skin, double deepest, Side side) {
+  const std::vector<double> profile = mean_profile(skin, deepest);
+  const auto tip = std::min_element(profile.begin(), profile.end());
+  const bool left = side == Side::left;
+  const auto place = std::max_element(left ? profile.begin() : tip, left ? tip + 1 : profile.end());
+  return int(place - profile.begin());
+}
+
 }  // namespace
 
-Torso find_torso(const Mask& body) {
+Torso find_torso(const Mask& body, Side side) {
   Torso torso;
   torso.skin = first_body_voxel(body);
   double cost = 0;
-  torso.midline = mirror_column(torso.skin, body.grid.spacing[0],
-                                body.grid.size[1] * body.grid.spacing[1], cost);
+  const double spacing = body.grid.spacing[0], deepest = body.grid.size[1] * body.grid.spacing[1];
+  torso.midline = mirror_column(torso.skin, spacing, deepest, cost);
+  torso.one_breast = one_breast_in_view(torso.skin, torso.midline, spacing, deepest);
+  if (torso.one_breast) torso.midline = medial_valley(torso.skin, deepest, side);
   torso.cleft = cleft_depth(torso.skin, torso.midline, body.grid);
   if (std::isnan(torso.cleft[0]))
     throw input_error("no skin over the sternum: is the midline in the scan?");
@@ -142,6 +178,9 @@ double body_roll(const Mask& body) {
     return cost;
   };
   const double straight = asymmetry(0);
+  double mirror_cost = 0;
+  const int mirror = mirror_column(skin, body.grid.spacing[0], deepest, mirror_cost);
+  if (one_breast_in_view(skin, mirror, body.grid.spacing[0], deepest)) return 0;
   double best = 0, least = straight;
   const auto try_angle = [&](double degrees) {
     const double cost = asymmetry(degrees);

@@ -1,6 +1,7 @@
 // One synthetic patient scanned badly in many ways: the same breast, or a refusal in one line.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -47,12 +48,15 @@ const Patient& patient() {
   return one;
 }
 
-void expect_same(const Volume<float>& scan, double dice, double wall_mm, double nipple_mm) {
-  const Segmentation result = run(scan);
+void expect_same(const Segmentation& result, double dice, double wall_mm, double nipple_mm) {
   const LabelVolume &ours = result.labels, &base = patient().base.labels;
   EXPECT_GT(compare_labels(ours, base).breast.dice, dice);
   EXPECT_LT(compare_walls(ours, base).distance.mean_mm, wall_mm);
   EXPECT_LT((ours.landmarks.at("nipple") - base.landmarks.at("nipple")).norm(), nipple_mm);
+}
+
+void expect_same(const Volume<float>& scan, double dice, double wall_mm, double nipple_mm) {
+  expect_same(run(scan), dice, wall_mm, nipple_mm);
 }
 
 TEST(SegmentRobustness, FourfoldNoise) {
@@ -79,7 +83,7 @@ TEST(Body, ChestAsDarkAsAirIsFilled) {
     const double behind = p[1] - truth.wall(p[0], p[2]);
     scan.voxels[n] *= float(std::exp(-std::max(0.0, behind) / 12));
   });
-  const Mask body = find_body(scan).mask;
+  const Mask body = find_body(scan, Side::left).mask;
   double chest = 0, found = 0, air = 0, taken = 0;
   everywhere([&](const Vec3& p, std::size_t n) {
     if (truth.behind_wall(p) && std::abs(p[0]) < 125 && p[1] < 90) {
@@ -140,6 +144,19 @@ TEST(SegmentRobustness, NarrowFieldOfView) {
   expect_same(testing::narrower(patient().scan, 0.04), 0.93, 1, 4);
 }
 
+TEST(SegmentRobustness, OneBreastAloneInTheFieldOfView) {
+  const Volume<float> alone = testing::one_breast(patient().scan, true);
+  const Segmentation result = run(alone);
+  // Anywhere on the flat of the sternum that is in view; the breast does not hang on it.
+  EXPECT_NEAR(result.midline_mm, patient().base.midline_mm, 25);
+  expect_same(result, 0.95, 0.7, 4);
+  ASSERT_FALSE(result.doubts.empty());
+  EXPECT_TRUE(std::any_of(result.doubts.begin(), result.doubts.end(), [](const std::string& doubt) {
+    return doubt.find("one breast alone") != std::string::npos;
+  }));
+  for (const std::string& doubt : patient().base.doubts)
+    EXPECT_EQ(doubt.find("one breast alone"), std::string::npos);
+}
 TEST(SegmentRobustness, PermutedAxesGiveTheSameVoxels) {
   const Segmentation result = run(testing::sagittal(patient().scan));
   EXPECT_EQ(result.labels.tissue, patient().base.labels.tissue);
