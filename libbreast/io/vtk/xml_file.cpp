@@ -40,6 +40,9 @@ vtkSmartPointer<Data> read_xml(const fs::path& file, const std::string& type) {
   return data;
 }
 
+/// zlib's levels; on pixels of float a higher one takes seconds and saves little.
+constexpr int geometry_compression = 5, image_compression = 1;
+
 template <class Writer, class Data>
 void write(const fs::path& file, Data* data, int compression) {
   AtomicFile target(file);
@@ -69,16 +72,15 @@ vtkSmartPointer<vtkImageData> read_image_data(const fs::path& file) {
 }
 
 void write_xml(const fs::path& file, vtkPolyData* data) {
-  write<vtkXMLPolyDataWriter>(file, data, 5);
+  write<vtkXMLPolyDataWriter>(file, data, geometry_compression);
 }
 
 void write_xml(const fs::path& file, vtkImageData* data) {
-  write<vtkXMLImageDataWriter>(file, data,
-                               1);  // pixels of float: more takes seconds and saves little
+  write<vtkXMLImageDataWriter>(file, data, image_compression);
 }
 
 void write_xml(const fs::path& file, vtkUnstructuredGrid* data) {
-  write<vtkXMLUnstructuredGridWriter>(file, data);
+  write<vtkXMLUnstructuredGridWriter>(file, data, geometry_compression);
 }
 
 }  // namespace breast
