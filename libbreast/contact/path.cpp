@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -49,6 +50,8 @@ class Path {
                double tolerance, Waypoint& reached);
   bool finish();
   bool step_back();
+  bool be_patient();
+  void drop_points_beyond_here();
   BodyState predict(double thickness, bool extrapolate) const;
   double next_thickness(double step) const;
   double measure(const PathPoint& point) const;
@@ -66,7 +69,9 @@ class Path {
   PathResult result_;
   Waypoint start_, here_, before_;
   bool have_before_ = false;
-  std::deque<Waypoint> trail_;  ///< the last ones before before_
+  bool patient_ = false;                 ///< positions that begin badly are solved all the same
+  std::optional<Waypoint> first_haste_;  ///< the state before the first that was not
+  std::deque<Waypoint> trail_;           ///< the last ones before before_
 };
 
 PathPoint Path::force_point(const BodyState& state, const StepResult& step,
@@ -185,7 +190,8 @@ bool Path::march() {
     // Two refusals in a row: the extrapolation itself may be what folds elements.
     const bool extrapolate = failures_in_row % 3 != 2;
     Waypoint reached;
-    solver_.set_hasty(std::abs(thickness - here_.thickness) > hasty_part * longest);
+    const bool hasty = !patient_ && std::abs(thickness - here_.thickness) > hasty_part * longest;
+    solver_.set_hasty(hasty);
     const bool arrived =
         attempt(predict(thickness, extrapolate), here_.memory, thickness, tolerance_, reached);
     solver_.set_hasty(false);
@@ -205,8 +211,13 @@ bool Path::march() {
       have_before_ = true;
     } else {
       ++failures_in_row;
+      if (hasty && !first_haste_) first_haste_ = here_;
       step = 0.5 * std::min(step, std::abs(thickness - here_.thickness));
-      if (step < options_.shortest_step) return false;
+      if (step < options_.shortest_step) {
+        if (!be_patient()) return false;
+        step = longest;
+        failures_in_row = 0;
+      }
     }
   }
   result_.solve_limit = true;
@@ -251,6 +262,12 @@ bool Path::refine_control(Waypoint low, Waypoint high) {
   return false;
 }
 
+void Path::drop_points_beyond_here() {
+  while (!result_.points.empty() && result_.points.back().thickness != here_.thickness) {
+    result_.points.pop_back();
+  }
+}
+
 /// Goes to the waypoint before; false when the start itself is where it stands.
 bool Path::step_back() {
   if (have_before_) {
@@ -260,14 +277,24 @@ bool Path::step_back() {
   } else {
     return false;
   }
-  while (!result_.points.empty() && result_.points.back().thickness != here_.thickness) {
-    result_.points.pop_back();
-  }
+  drop_points_beyond_here();
   have_before_ = !trail_.empty() && trail_.back().state.x.size() > 0;
   if (have_before_) {
     before_ = std::move(trail_.back());
     trail_.pop_back();
   }
+  return true;
+}
+
+/// Once, back to where haste first changed the way: short steps may follow a branch that ends where
+/// a long one goes over to the next.
+bool Path::be_patient() {
+  if (patient_ || !first_haste_) return false;
+  patient_ = true;
+  here_ = *first_haste_;
+  have_before_ = false;
+  trail_.clear();
+  drop_points_beyond_here();
   return true;
 }
 
