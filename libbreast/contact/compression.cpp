@@ -222,8 +222,9 @@ void Compression::estimate(const BodyState& at, const ContactSolver& contact) {
       summary_.error_estimate_mm = error.worst_mm;
       summary_.landmark_error_mm = error.landmarks;
       summary_.error_estimate_how =
-          "two steps towards 27-node elements on the same geometry, nodes on the plates "
-          "held along their normals: discretisation only, not geometry, labels or laws";
+          message(error.how(),
+                  ", nodes on the plates held along their normals: discretisation only, not "
+                  "geometry, labels or laws");
       return;
     }
   }

@@ -61,11 +61,12 @@ ErrorEstimate estimate_error(const Scene& scene, const Eigen::VectorXd& referenc
   if (!problem.valid()) return estimate;
   double target = 0;
   Eigen::VectorXd correction = Eigen::VectorXd::Zero(problem.right_hand_side().size()), step;
-  for (int i = 0; i < steps; ++i) {
-    if (i > 0 && !problem.move(step)) return estimate;
-    if (!solve(problem, solver, target, estimate.iterations, step)) return estimate;
+  for (; estimate.steps < steps; ++estimate.steps) {
+    if (estimate.steps > 0 && !problem.move(step)) break;
+    if (!solve(problem, solver, target, estimate.iterations, step)) break;
     correction += step;
   }
+  if (estimate.steps == 0) return estimate;
   const std::vector<Vec3> nodal = unflatten(correction);
   for (const Landmark& landmark : problem.mesh().landmarks) {
     const Vec3 error = landmark_position(problem.mesh(), nodal, landmark);

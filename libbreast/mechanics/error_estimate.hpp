@@ -15,7 +15,13 @@ struct ErrorEstimate {
   std::map<std::string, Vec3> landmarks;  ///< richer minus computed position, mm
   double worst_mm = 0;                    ///< largest length over the landmarks
   int iterations = 0;                     ///< conjugate gradients
-  bool usable = false;                    ///< false: tangent indefinite or no convergence
+  int steps = 0;        ///< 2, or 1 where the second fails: then good to a factor of about 2 only
+  bool usable = false;  ///< false: tangent indefinite or no convergence already in the first
+  /// How it was found, for reports.
+  std::string how() const {
+    return steps == 2 ? "two steps towards 27-node elements on the same geometry"
+                      : "one step towards 27-node elements on the same geometry, a second fails";
+  }
 };
 
 /// A node that a plate touches without friction; it may slide at right angles to `normal`.

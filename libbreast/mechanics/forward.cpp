@@ -87,8 +87,7 @@ SolveSummary ForwardSolve::run(const Vec3& gravity) {
         summary_.error_estimate_mm = estimate.worst_mm;
         summary_.landmark_error_mm = estimate.landmarks;
         summary_.error_estimate_how =
-            "two steps towards 27-node elements on the same geometry: discretisation only, "
-            "not geometry, labels or laws";
+            message(estimate.how(), ": discretisation only, not geometry, labels or laws");
       }
     }
     if (result.indefinite > 0) {
