@@ -51,6 +51,23 @@ function(breast_tool name)
   set_property(GLOBAL APPEND PROPERTY BREAST_TOOLS ${name})
 endfunction()
 
+# breast_bench(NAME DEPENDS lib...): program NAME from NAME.cpp that measures and is no tool; it may use the
+# tests' fixtures. Left out, with one line, when a library it needs was left out.
+function(breast_bench name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;SYSTEM" ${ARGN})
+  foreach(library ${ARG_DEPENDS})
+    if(NOT TARGET breast_${library})
+      message(STATUS "Program ${name} is left out: libbreast/${library} is not built")
+      return()
+    endif()
+  endforeach()
+  add_executable(${name} ${name}.cpp)
+  target_compile_options(${name} PRIVATE ${BREAST_WARNINGS})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  list(TRANSFORM ARG_DEPENDS PREPEND breast_)
+  target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} ${ARG_SYSTEM})
+endfunction()
+
 # breast_test(LABEL SOURCE DEPENDS lib...): GoogleTest program LABEL_SOURCE; every TEST becomes a CTest
 # with that label (unit, verify, extreme, tools).
 function(breast_test label source)
