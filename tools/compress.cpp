@@ -8,9 +8,9 @@
 #include "dicom/like_mammogram.hpp"
 #include "io/mesh_file.hpp"
 #include "mechanics/closing_summary.hpp"
-#include "mechanics/element_order.hpp"
 #include "mechanics/options.hpp"
 #include "mechanics/second_solution.hpp"
+#include "mesh/element_order.hpp"
 #include "mesh/quality.hpp"
 
 using namespace breast;

@@ -7,8 +7,8 @@
 #include "deck/febio.hpp"
 #include "deck/report.hpp"
 #include "io/mesh_file.hpp"
-#include "mechanics/element_order.hpp"
 #include "mechanics/options.hpp"
+#include "mesh/element_order.hpp"
 #include "mesh/quality.hpp"
 
 using namespace breast;

@@ -7,8 +7,8 @@
 #include "core/parallel.hpp"
 #include "fem/hex_kernel.hpp"
 #include "fem/membrane_kernel.hpp"
-#include "mechanics/element_order.hpp"
 #include "mechanics/pressure_filter.hpp"
+#include "mesh/element_order.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mechanics/element_order.hpp"
+#include "mesh/element_order.hpp"
 
 namespace breast {
 

@@ -14,7 +14,7 @@
 #include "deck/serendipity.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "fixtures/shapes.hpp"
-#include "mechanics/element_order.hpp"
+#include "mesh/element_order.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {

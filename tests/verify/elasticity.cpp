@@ -9,8 +9,8 @@
 #include "fixtures/block.hpp"
 #include "fixtures/elastic_scene.hpp"
 #include "fixtures/laws.hpp"
-#include "mechanics/element_order.hpp"
 #include "mechanics/scene.hpp"
+#include "mesh/element_order.hpp"
 
 namespace breast {
 namespace {

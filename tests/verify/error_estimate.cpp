@@ -7,8 +7,8 @@
 #include "core/units.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/shapes.hpp"
-#include "mechanics/element_order.hpp"
 #include "mechanics/mechanics.hpp"
+#include "mesh/element_order.hpp"
 
 using namespace breast;
 

@@ -7,8 +7,8 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "fixtures/shapes.hpp"
-#include "mechanics/element_order.hpp"
 #include "mechanics/mechanics.hpp"
+#include "mesh/element_order.hpp"
 
 namespace breast {
 namespace {

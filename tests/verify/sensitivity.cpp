@@ -5,7 +5,7 @@
 #include "core/units.hpp"
 #include "fixtures/chain_inputs.hpp"
 #include "fixtures/shapes.hpp"
-#include "mechanics/element_order.hpp"
+#include "mesh/element_order.hpp"
 #include "sensitivity/chain.hpp"
 
 using namespace breast;

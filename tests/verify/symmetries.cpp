@@ -13,7 +13,7 @@
 #include "fixtures/laws.hpp"
 #include "fixtures/renumbered.hpp"
 #include "fixtures/shapes.hpp"
-#include "mechanics/element_order.hpp"
+#include "mesh/element_order.hpp"
 
 namespace breast {
 namespace {

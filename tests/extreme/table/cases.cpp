@@ -7,7 +7,7 @@
 #include "core/units.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/block.hpp"
-#include "mechanics/element_order.hpp"
+#include "mesh/element_order.hpp"
 #include "mesh/quality.hpp"
 
 namespace breast::extreme {
