@@ -248,8 +248,7 @@ PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const Vi
   // A detector that does not lift the breast all the way stands under it where it hangs.
   const Extent unloaded = footprint_extent(mesh, mesh.reference, plate);
   const bool lifts = std::isinf(options.detector_rise) && !unloaded.empty();
-  const double middle =
-      options.middle_at.value_or((lifts ? unloaded : extent).middle() + options.offset);
+  const double middle = options.middle_at.value_or((lifts ? unloaded : extent).middle());
   pair.paddle_start = middle - 0.5 * extent.size();
   pair.detector_start = middle + 0.5 * extent.size();
   pair.close_to(pair.initial_thickness);

@@ -67,7 +67,6 @@ struct PlateOptions {
   std::optional<double> middle_at;
   double edge_radius = 15;
   double tilt_deg = 0;  ///< paddle about the lateral axis; positive narrows the gap anteriorly
-  double offset = 0;    ///< mm along the beam by which the middle between the plates is shifted
   double width = 0;     ///< lateral size of the flats, 0: half as wide again as the body
   /// mm by which the detector lifts the breast from where it hangs before the paddle does the rest;
   /// infinite: to the mid-plane of the stress-free breast, both plates moving alike.

@@ -98,7 +98,7 @@ RicherProblem::RicherProblem(const Scene& scene, const Eigen::VectorXd& referenc
   add_elements();
   if (valid_ && mesh_.skin_model == SkinModel::membrane) {
     prepare_faces();
-    add_faces();
+    add_faces(true);
   }
   walls_.project(right_);
   invert_blocks();
@@ -218,15 +218,15 @@ void RicherProblem::prepare_faces() {
   }
 }
 
-void RicherProblem::add_faces() {
+void RicherProblem::add_faces(bool matrices) {
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     MembraneOutput<9> out;
     const MembraneInput<9> in{gather<9>(faces_[f].data(), reference_),
                               gather<9>(faces_[f].data(), deformed_), face_volume_[f],
                               &scene_.options().materials.law(Tissue::skin)};
-    membrane_kernel<9>(in, {true, false}, out);
+    membrane_kernel<9>(in, {matrices, false}, out);
     valid_ = valid_ && out.valid;
-    face_matrices_.push_back(out.k.cast<float>());
+    if (matrices) face_matrices_.push_back(out.k.cast<float>());
     for (int a = 0; a < 9; ++a) right_.segment<3>(3L * faces_[f][a]) -= out.residual.col(a);
   }
 }
@@ -252,15 +252,7 @@ bool RicherProblem::move(const Eigen::VectorXd& v) {
   }
   right_.setZero();
   add_rights(rights);
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
-    MembraneOutput<9> out;
-    const MembraneInput<9> in{gather<9>(faces_[f].data(), reference_),
-                              gather<9>(faces_[f].data(), deformed_), face_volume_[f],
-                              &scene_.options().materials.law(Tissue::skin)};
-    membrane_kernel<9>(in, {false, false}, out);
-    valid_ = valid_ && out.valid;
-    for (int a = 0; a < 9; ++a) right_.segment<3>(3L * faces_[f][a]) -= out.residual.col(a);
-  }
+  add_faces(false);
   walls_.project(right_);
   return valid_;
 }

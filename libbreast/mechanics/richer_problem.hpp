@@ -43,7 +43,7 @@ class RicherProblem {
   Element element(int e, const Eigen::VectorXd& moved) const;
   void add_elements();
   void add_rights(const Eigen::MatrixXd& rights);
-  void add_faces();
+  void add_faces(bool matrices);  // forces of the skin into right_; with its matrices, once
   void invert_blocks();
   double kappa(int e, const HexOutput<27, 4>& out) const;
 
