@@ -19,6 +19,8 @@ constexpr int free_moves = 8;
 constexpr double least_pull = 0.1;
 /// Longest multiple of a shifted step.
 constexpr double longest_slip = 64;
+/// Friction's bounds follow the normal forces once the imbalance is this part of their lag.
+constexpr double balance_to_follow = 0.1;
 /// Iterations granted for each with an indefinite tangent: itself and one to settle.
 constexpr int slip_allowance = 2;
 /// A hasty solve is given up when the first step has to be shorter than this, or when after so many
@@ -82,7 +84,7 @@ ActiveSet::Sweep ActiveSet::measure(const PlatePair& plates, const BodyState& st
     sweep.gradient.segment<3>(at) -= sweep.gradient.segment<3>(at).dot(normal) * normal;
     if (options_.friction.present()) {
       const Vec3 rubbed =
-          friction_at(plates, c, node_vector(state.x, candidates_[c]), normal, pushed).force;
+          friction_at(plates, c, node_vector(state.x, candidates_[c]), normal).force;
       sweep.free.segment<3>(at) -= rubbed;
       sweep.gradient.segment<3>(at) -= rubbed;
     }
@@ -96,15 +98,35 @@ ActiveSet::Sweep ActiveSet::measure(const PlatePair& plates, const BodyState& st
 
 /// Touching nodes keep their anchor relative to the plate's level, free ones where they are.
 FrictionForce ActiveSet::friction_at(const PlatePair& plates, std::size_t candidate, const Vec3& x,
-                                     const Vec3& normal, double pressed) const {
+                                     const Vec3& normal) const {
   const Vec3 anchor =
       memory_.anchors[candidate] + plates.plate(memory_.touching[candidate]).shift();
-  return options_.friction.at(x, anchor, normal, pressed);
+  return options_.friction.at(x, anchor, normal, memory_.bounds[candidate]);
 }
 
-void ActiveSet::slide_anchors(const PlatePair& plates, const BodyState& state,
+/// How far the bounds in use are from μλ, µN.
+double ActiveSet::bound_lag(const PlatePair& plates, const BodyState& state,
+                            const BodyForces& forces) const {
+  const std::vector<double> pushed = normal_forces(plates, state, forces);
+  double sum = 0;
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    if (memory_.touching[c] < 0) continue;
+    const double lag = options_.friction.bound(pushed[c]) - memory_.bounds[c];
+    sum += lag * lag;
+  }
+  return std::sqrt(sum);
+}
+
+void ActiveSet::follow_bounds(const PlatePair& plates, const BodyState& state,
                               const BodyForces& forces) {
-  const std::vector<Vec3> rubbed = friction_forces(plates, state, forces);
+  const std::vector<double> pushed = normal_forces(plates, state, forces);
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    memory_.bounds[c] = options_.friction.bound(pushed[c]);
+  }
+}
+
+void ActiveSet::slide_anchors(const PlatePair& plates, const BodyState& state) {
+  const std::vector<Vec3> rubbed = friction_forces(plates, state);
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     memory_.anchors[c] = node_vector(state.x, candidates_[c]);
     if (memory_.touching[c] < 0) continue;
@@ -156,6 +178,7 @@ StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double to
   std::fill(toggles_.begin(), toggles_.end(), 0);
   if (options_.friction.present() && memory_.anchors.empty()) {
     for (const int node : candidates_) memory_.anchors.push_back(node_vector(state.x, node));
+    memory_.bounds.assign(candidates_.size(), 0);
   }
   if (!body_.forces(state, result.forces)) {
     result.outcome = StepOutcome::folded;
@@ -170,6 +193,13 @@ StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double to
              sweep.volume_residual <= std::max(options_.volume_tolerance, tolerance_);
     };
     Sweep now = measure(plates, state, result.forces);
+    // Bounds that followed λ in every iteration could swing for ever: λ follows them.
+    if (options_.friction.present() &&
+        now.relative() <=
+            std::max(tolerance_, balance_to_follow * bound_lag(plates, state, result.forces) / now.scale)) {
+      follow_bounds(plates, state, result.forces);
+      now = measure(plates, state, result.forces);
+    }
     const bool converged = balanced(now);
     // The multipliers of a state far from balance are noise: pulling nodes are dropped after the
     // first linearised solve, and later only from a converged state.
@@ -193,7 +223,7 @@ StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double to
     }
     if (!newton_step(plates, now, state, result)) return result;
   }
-  if (options_.friction.present()) slide_anchors(plates, state, result.forces);
+  if (options_.friction.present()) slide_anchors(plates, state);
   for (const int node : candidates_) {
     const Vec3 x = node_vector(state.x, node);
     const double distance = plates.plate(plates.nearer(x)).gap(x).value;
@@ -224,10 +254,7 @@ bool ActiveSet::newton_step(const PlatePair& plates, const Sweep& now, BodyState
       body_.add_to_tangent(node, -multiplier * gap.hessian);
     }
     if (options_.friction.present()) {
-      // The bound μλ is taken as fixed here, which keeps the tangent symmetric; it follows λ from
-      // one iteration to the next.
-      const FrictionForce rubbed =
-          friction_at(plates, c, node_vector(state.x, node), normal, multiplier);
+      const FrictionForce rubbed = friction_at(plates, c, node_vector(state.x, node), normal);
       unbalanced.segment<3>(3 * node) -= rubbed.force;
       body_.add_to_tangent(node, rubbed.stiffness);
     }
@@ -268,8 +295,11 @@ bool ActiveSet::line_search(const PlatePair& plates, const Sweep& now, const Bod
   double alpha = 1;
   // While nodes are being brought onto the plate the balance is bound to get worse: any admissible
   // step is then taken. Where the edge becomes straight that can alternate for ever; later
-  // iterations must therefore reduce imbalance and gap together.
-  const bool moving = now.worst_gap > 1e-3 && result.iterations < free_moves;
+  // iterations must therefore reduce imbalance and gap together. A slipping node offers no
+  // resistance until it turns back, where friction has another sign: with friction no step goes
+  // beyond the place where the slope has turned that much.
+  const bool rubs = options_.friction.present();
+  const bool moving = !rubs && now.worst_gap > 1e-3 && result.iterations < free_moves;
   const auto merit = [](const Sweep& sweep) { return sweep.relative() + sweep.worst_gap; };
   bool any_admissible = false;
   for (int halving = 0; halving <= most_halvings; ++halving, alpha *= 0.5) {
@@ -284,7 +314,7 @@ bool ActiveSet::line_search(const PlatePair& plates, const Sweep& now, const Bod
     // have to grow: going down in energy is then enough.
     const double along = increment.x.dot(trial.gradient);
     const bool flatter = solve.shifted ? along <= slope_kept * solve.slope
-                                       : result.iterations < free_moves &&
+                                       : (rubs || result.iterations < free_moves) &&
                                              std::abs(along) <= slope_kept * std::abs(solve.slope);
     const bool accepted =
         moving || flatter || merit(trial) < merit(now) || trial.relative() < tolerance_;
@@ -314,16 +344,15 @@ std::vector<double> ActiveSet::normal_forces(const PlatePair& plates, const Body
   return pushed;
 }
 
-std::vector<Vec3> ActiveSet::friction_forces(const PlatePair& plates, const BodyState& state,
-                                             const BodyForces& forces) const {
+std::vector<Vec3> ActiveSet::friction_forces(const PlatePair& plates,
+                                             const BodyState& state) const {
   if (!options_.friction.present()) return {};
-  const std::vector<double> pushed = normal_forces(plates, state, forces);
   std::vector<Vec3> rubbed(candidates_.size(), Vec3::Zero());
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     if (memory_.touching[c] < 0) continue;
     const Vec3 x = node_vector(state.x, candidates_[c]);
     const Vec3 normal = plates.plate(memory_.touching[c]).gap(x).gradient;
-    rubbed[c] = friction_at(plates, c, x, normal, pushed[c]).force;
+    rubbed[c] = friction_at(plates, c, x, normal).force;
   }
   return rubbed;
 }

@@ -37,15 +37,17 @@ class ActiveSet : public ContactSolver {
   /// Force (µN) of the plate on each candidate along its normal, zero where free.
   std::vector<double> normal_forces(const PlatePair& plates, const BodyState& state,
                                     const BodyForces& forces) const override;
-  std::vector<Vec3> friction_forces(const PlatePair& plates, const BodyState& state,
-                                    const BodyForces& forces) const override;
+  std::vector<Vec3> friction_forces(const PlatePair& plates,
+                                    const BodyState& state) const override;
 
  private:
   struct Sweep;
   static bool begins_badly(const StepResult& result, double first_imbalance);
   FrictionForce friction_at(const PlatePair& plates, std::size_t candidate, const Vec3& x,
-                            const Vec3& normal, double pressed) const;
-  void slide_anchors(const PlatePair& plates, const BodyState& state, const BodyForces& forces);
+                            const Vec3& normal) const;
+  double bound_lag(const PlatePair& plates, const BodyState& state, const BodyForces& forces) const;
+  void follow_bounds(const PlatePair& plates, const BodyState& state, const BodyForces& forces);
+  void slide_anchors(const PlatePair& plates, const BodyState& state);
   bool update(const PlatePair& plates, const BodyState& state, const BodyForces& forces,
               double scale, bool may_drop, bool balanced);
   Sweep measure(const PlatePair& plates, const BodyState& state, const BodyForces& forces) const;

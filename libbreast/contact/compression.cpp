@@ -23,8 +23,8 @@ namespace breast {
 namespace {
 
 /// In units of shear modulus times element size: the penalty of the augmented Lagrangian, and the
-/// springs that stand for sticking friction (at 10 kPa and μ = 0.3 they give by about 0.02 mm).
-constexpr double penalty_factor = 10, stick_factor = 1000;
+/// springs that stand for sticking friction (at 10 kPa and μ = 0.3 they give by about 0.2 mm).
+constexpr double penalty_factor = 10, stick_factor = 100;
 
 class Compression {
  public:
@@ -146,7 +146,7 @@ std::unique_ptr<ContactSolver> Compression::contact_solver(ContactBody& body) co
   if (options_.method == ContactMethod::active_set) {
     ActiveSetOptions exact;
     exact.friction = {options_.friction, stick_factor * nodal_stiffness()};
-    if (exact.friction.present()) exact.max_iterations *= 2;  // the bound follows λ linearly
+    if (exact.friction.present()) exact.max_iterations *= 2;  // bounds are followed linearly
     return std::make_unique<ActiveSet>(body, candidates(), exact);
   }
   AugmentedLagrangianOptions al;

@@ -3,9 +3,8 @@
 namespace breast {
 
 FrictionForce Friction::at(const Vec3& x, const Vec3& anchor, const Vec3& normal,
-                           double pressed) const {
+                           double bound) const {
   FrictionForce friction;
-  const double bound = coefficient * pressed;
   if (!(bound > 0)) {
     friction.slips = true;
     return friction;

@@ -108,7 +108,7 @@ void record_compression(HexMesh& mesh, const CompressionOptions& options, const 
   const std::vector<double> pushed =
       solver.normal_forces(plates, state, summary.path.final_step.forces);
   const std::vector<Vec3> rubbed =
-      solver.friction_forces(plates, state, summary.path.final_step.forces);
+      solver.friction_forces(plates, state);
   Vec3 total = Vec3::Zero();
   summary.places.assign(2, {});
   for (int k = 0; k < 2; ++k) {

@@ -34,6 +34,7 @@ struct ContactMemory {
   std::vector<signed char> touching;  ///< −1 free, 0 touches the paddle, 1 the detector
   std::vector<double> multipliers;    ///< µN per unit gap gradient; augmented Lagrangian only
   std::vector<Vec3> anchors;          ///< where friction holds a node, mm; with friction only
+  std::vector<double> bounds;         ///< the most it is held with, µN; with friction only
 };
 
 /// Solves one plate position: an ActiveSet, or another method to compare with.
@@ -46,10 +47,7 @@ class ContactSolver {
                                             const BodyForces& forces) const = 0;
   /// Per candidate friction force of the plate, µN, at right angles to the normal; empty without
   /// friction.
-  virtual std::vector<Vec3> friction_forces(const PlatePair&, const BodyState&,
-                                            const BodyForces&) const {
-    return {};
-  }
+  virtual std::vector<Vec3> friction_forces(const PlatePair&, const BodyState&) const { return {}; }
   const std::vector<signed char>& touching() const { return memory_.touching; }
   const ContactMemory& memory() const { return memory_; }
   /// Goes back to what memory() gave after a converged solve.
