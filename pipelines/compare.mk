@@ -1,12 +1,16 @@
 # Comparison with CalculiX (Debian: calculix-ccx), really run beside ours: gravity on the block and on the
-# case's breast without skin, the same nodes, law and bulk modulus. One row a scene in runs/compare/*.tsv.
-# Scenes of the block are named block-N-LAW-BULKRATIO-ELEMENT; poly is the set seed2008's fat.
+# case's breast without skin, and the block between plates; the same nodes, law and bulk modulus. One row a scene in
+# runs/compare/*.tsv. Scenes of the block are named block-N-LAW-BULKRATIO-ELEMENT, poly is the set seed2008's fat, and
+# pressed-N-BULKRATIO-ELEMENT-GAP-MODE (pipelines/compare/press.sh).
 COMPARE := $(RUNS)/compare
 COMPARE_SCENES ?= block-8-poly-1000-C3D8I block-8-poly-1000-C3D8 block-8-mr-100-C3D8I \
   block-8-mr-1000-C3D8I block-4-poly-1000-C3D20R breast-1000-C3D8I block-16-poly-1000-C3D8I
+COMPARE_PRESSED ?= pressed-8-10000-C3D8I-60-contact pressed-8-10000-C3D8I-50-prescribed \
+  pressed-16-10000-C3D8I-60-contact pressed-16-10000-C3D8I-50-prescribed
 COMPARE_ELEMENTS ?= 10
 EXPORT_DECK := $(BIN)/export-deck
 COMPARE_FILES := $(COMPARE_SCENES:%=$(COMPARE)/%.tsv)
+PRESSED_FILES := $(COMPARE_PRESSED:%=$(COMPARE)/%.tsv)
 compare_run = BIN=$(BIN) pipelines/compare/compare.sh
 compare_needs := $(FORWARD) $(EXPORT_DECK) pipelines/compare/compare.sh pipelines/values.sh
 
@@ -15,10 +19,12 @@ ifeq ($(shell command -v ccx),)
 compare:
 	@echo "compare: skipped, CalculiX (ccx) is not installed; apt-get install calculix-ccx" >&2
 else
-compare: $(COMPARE)/all.tsv
-	@cat $<
+compare: $(COMPARE)/all.tsv $(COMPARE)/pressed.tsv
+	@cat $^
 endif
 $(COMPARE)/all.tsv: $(COMPARE_FILES)
+$(COMPARE)/pressed.tsv: $(PRESSED_FILES)
+$(COMPARE)/all.tsv $(COMPARE)/pressed.tsv:
 	@awk 'NR == 1 || FNR > 1' $^ > $@.part
 	@mv $@.part $@
 
@@ -28,6 +34,10 @@ $(COMPARE)/block-%.tsv: $(compare_needs) pipelines/compare/mooney-rivlin.tsv
 	$(BIN)/block_mesh $(call part,1,$*) $(COMPARE)/block-$*.vtkhdf
 	$(compare_run) $(COMPARE)/block-$*.vtkhdf $@ $(call part,3,$*) $(call part,4,$*) \
 	  $(if $(filter mr,$(call part,2,$*)),pipelines/compare/mooney-rivlin.tsv,seed2008) --gravity 0,0,-9810
+$(COMPARE)/pressed-%.tsv: $(EXPORT_DECK) tests/bench/bench_pressed_block.cpp pipelines/compare/press.sh
+	@mkdir -p $(COMPARE)
+	cmake --build $(BUILD) --target block_mesh bench_pressed_block > $(COMPARE)/.build.log
+	BIN=$(BIN) pipelines/compare/press.sh $@ $(call part,1,$*) $(call part,2,$*) $(call part,3,$*) $(call part,4,$*) $(call part,5,$*)
 part = $(word $1,$(subst -, ,$2))
 
 # The case's breast, stress-free to supine, without skin.

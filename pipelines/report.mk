@@ -15,7 +15,7 @@ all: figures tables $(if $(EXPECTED),verify) report
 
 # What the slow targets left behind is embedded with its date; they are not run for the report.
 REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/*.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png $(RUN)/budget/*.tsv $(RUN)/budget/*.png \
-  $(RUNS)/stability/*.tsv $(RUNS)/compare/*.tsv)
+  $(RUNS)/stability/*.tsv $(RUNS)/compare/all.tsv $(RUNS)/compare/pressed.tsv)
 $(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(F)/cc-points.png $(F)/mlo-curves.png \
   $(if $(EXPECTED),$(RUN)/verify.tsv) pipelines/report.sh pipelines/values.sh pipelines/limits.txt $(REPORT_EXTRAS)
 	pipelines/report.sh $(RUN) $(RUNS) $(BIN) > $@.part

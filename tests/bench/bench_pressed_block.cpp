@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "core/report.hpp"
 #include "fixtures/pressed_block.hpp"
 #include "solve/blas.hpp"
 
@@ -27,13 +28,14 @@ void press(int n, double bulk_ratio, int last_gap, PressedBlock::Part part) {
   for (int gap = 70; gap >= last_gap; gap -= 10) {
     const int before = block.factorisations();
     const auto start = clock_type::now();
+    const double cpu = breast::cpu_seconds();
     const breast::PathResult path = block.close_to(gap / 100.0);
     const double seconds = std::chrono::duration<double>(clock_type::now() - start).count();
     const breast::Vec3 u = block.corner();
-    std::printf("%d\t%d\t%g\t%d\t%.1f\t%.4f\t%.4f\t%.4f\t%d\t%d\t%d\t%d\t%.2e\t%.2f\t%s\n", n,
+    std::printf("%d\t%d\t%g\t%d\t%.1f\t%.4f\t%.4f\t%.4f\t%d\t%d\t%d\t%d\t%.2e\t%.2f\t%.2f\t%s\n", n,
                 breast::threads(), bulk_ratio, gap, block.force(path), u.x(), u.y(), u.z(),
                 path.iterations, path.failures, block.factorisations() - before, path.indefinite,
-                path.final_step.forces.max_volume_error, seconds,
+                path.final_step.forces.max_volume_error, seconds, breast::cpu_seconds() - cpu,
                 path.reached ? "reached" : "stopped_early");
     std::fflush(stdout);
     if (!path.reached) return;
@@ -76,7 +78,7 @@ int main(int argc, char** argv) {
     breast::prepare_blas();
     std::printf(
         "n\tthreads\tbulk_ratio\tgap_percent\tforce_N\tu_x_mm\tu_y_mm\tu_z_mm\tnewton\t"
-        "failed_steps\tfactorisations\tindefinite\tvolume_error\tseconds\tstatus\n");
+        "failed_steps\tfactorisations\tindefinite\tvolume_error\tseconds\tcpu_seconds\tstatus\n");
     for (const int n : sizes) press(n, bulk_ratio, last_gap, part);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_pressed_block: %s\n", error.what());
