@@ -34,8 +34,8 @@ function(breast_library name)
   target_link_libraries(breast_${name} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_SYSTEM})
 endfunction()
 
-# breast_tool(NAME DEPENDS lib...): program NAME from NAME.cpp; left out, with one line, when a library
-# it needs was left out.
+# breast_tool(NAME DEPENDS lib...): program NAME from NAME.cpp and, where there is one, NAME_options.cpp (a
+# hyphen in NAME is written _ there); left out, with one line, when a library it needs was left out.
 function(breast_tool name)
   cmake_parse_arguments(ARG "" "" "DEPENDS;SYSTEM" ${ARGN})
   foreach(library ${ARG_DEPENDS})
@@ -44,7 +44,9 @@ function(breast_tool name)
       return()
     endif()
   endforeach()
-  add_executable(${name} ${name}.cpp)
+  string(REPLACE "-" "_" options ${name}_options.cpp)
+  file(GLOB options CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${options})
+  add_executable(${name} ${name}.cpp ${options})
   target_compile_options(${name} PRIVATE ${BREAST_WARNINGS})
   list(TRANSFORM ARG_DEPENDS PREPEND breast_)
   target_link_libraries(${name} PRIVATE breast_cli ${ARG_DEPENDS} ${ARG_SYSTEM})

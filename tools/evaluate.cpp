@@ -8,6 +8,7 @@
 #include "evaluation/foreign_labels.hpp"
 #include "evaluation/label_surface.hpp"
 #include "evaluation/quantities.hpp"
+#include "evaluation/surface_distance.hpp"
 #include "io/label_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"

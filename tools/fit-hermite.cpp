@@ -1,11 +1,6 @@
 // fit-hermite: bicubic Hermite sheets of skin and chest wall, and the rim where the body ends.
-#include <cctype>
-#include <cmath>
-#include <cstdlib>
-
-#include "cli/tool.hpp"
 #include "core/error.hpp"
-#include "fit/fit_breast.hpp"
+#include "fit_hermite_options.hpp"
 #include "io/geometry_file.hpp"
 #include "io/label_file.hpp"
 
@@ -13,37 +8,7 @@ namespace {
 
 using namespace breast;
 
-/// "10x12" -> patches along s (x) and t (z); auto: as many as the largest distance needs.
-void parse_elements(const std::string& text, FitOptions& options) {
-  if (text == "auto") {
-    options.most_patches = 15;
-    return;
-  }
-  char* end = nullptr;
-  const long s = std::strtol(text.c_str(), &end, 10);
-  const bool cross = *end == 'x' || *end == 'X';
-  const long t = cross && std::isdigit(static_cast<unsigned char>(end[1]))
-                     ? std::strtol(end + 1, &end, 10)
-                     : 0;
-  if (!cross || *end != 0 || s < 3 || s > 40 || t < 3 || t > 40)
-    throw input_error("--elements ", text,
-                      ": must be auto or AxB with A and B in 3..40, such as 10x10");
-  options.patches_s = int(s);
-  options.patches_t = int(t);
-}
-
-void parse_smoothing(const std::string& text, FitOptions& options) {
-  options.smoothing = 0;
-  if (text == "auto") return;
-  char* end = nullptr;
-  options.smoothing = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || *end != 0 || !(options.smoothing > 0 && options.smoothing <= 1))
-    throw input_error("--smoothing ", text,
-                      ": must be auto or a number above 0 and at most 1 "
-                      "(automatic choices lie between 1e-9 and 1e-6)");
-}
-
-void report_distances(Report& report, const std::string& key, const DistanceSummary& summary) {
+void report_distances(Report& report, const std::string& key, const Distances& summary) {
   report.set(key + "/mean_mm", summary.mean_mm);
   report.set(key + "/p95_mm", summary.p95_mm);
   report.set(key + "/max_mm", summary.max_mm);
@@ -92,61 +57,28 @@ void report_fit(Report& report, const FitReport& fit, const BreastGeometry& geom
   report.set("volumes_ml/labels", fit.label_ml);
 }
 
+void run_fit(const FitChoices& choices, Run& run) {
+  const LabelVolume labels = [&] {
+    const Timer::Scope phase(run.timer(), "read");
+    return read_labels(choices.labels);
+  }();
+  FitReport fit;
+  BreastGeometry geometry = fit_breast(labels, choices.options(), fit, run.timer(), run.progress());
+  report_fit(run.report(), fit, geometry);
+  for (const std::string& doubt : fit.doubts) run.warn(doubt);
+  geometry.history = run.history({{choices.labels, labels.content_sha256, &labels.history}});
+  const Timer::Scope phase(run.timer(), "write");
+  write_geometry(choices.geometry, geometry);
+  run.progress().note(message("skin to sheet: mean ", fit.skin_to_sheet.mean_mm, ", 95 % ",
+                              fit.skin_to_sheet.p95_mm, ", largest ", fit.skin_to_sheet.max_mm,
+                              " mm; ", fit.body_ml, " ml inside the rim"));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::filesystem::path labels_file, geometry_file;
-  std::string elements = "auto", smoothing = "auto";
-  std::optional<double> max_error;
+  FitChoices choices;
   Tool tool("fit-hermite", "smooth surfaces of skin and chest wall from labels");
-  tool.describe(
-      "Fits two bicubic Hermite sheets, larger than the body, to the skin and to the front of the "
-      "chest wall, and finds the rim: the closed curve where the breast ends and a straight cut "
-      "joins "
-      "the sheets. The skin need not be a graph over the chest wall: it is mapped to a square "
-      "first. "
-      "Fitting alternates closest-point projection and linear least squares with smoothing by "
-      "second "
-      "derivatives.");
-  tool.cite("Pathmanathan et al., IEEE Trans Biomed Eng 55(10), 2008, section II-A")
-      .cite(
-          "Yoshizawa, Belyaev, Seidel, Proc. Shape Modeling International, 2004 (map to the "
-          "square)");
-  tool.input(labels_file, "LABELS.vtkhdf", "labels of one breast (segment)");
-  tool.output(geometry_file, "GEOMETRY.vtkhdf", "two sheets and the rim");
-  tool.text(elements, "--elements", "AxB|auto",
-            "patches of each sheet along x and z; auto: 10x10, and of the skin up to 15x15 where "
-            "it would lie more than 2 mm off");
-  tool.text(smoothing, "--smoothing", "S|auto",
-            "weight of the skin's squared second derivatives (parameters 0..1, mm); auto lowers it "
-            "until the rms distance is 0.3 mm");
-  tool.number(max_error, "--max-error", "MM",
-              "refine the skin sheet until no point of the skin is farther from it", 0.05, 100);
-  tool.example("fit-hermite labels.vtkhdf geometry.vtkhdf",
-               "10 x 10 patches or a few more, automatic smoothing");
-  tool.example("fit-hermite labels.vtkhdf geometry.vtkhdf --max-error 1",
-               "as many patches as it takes to stay within 1 mm");
-  FitOptions options;
-  tool.check([&] {
-    parse_elements(elements, options);
-    parse_smoothing(smoothing, options);
-    options.max_error_mm = max_error.value_or(0);
-  });
-  return tool.main(argc, argv, [&](Run& run) {
-    LabelVolume labels;
-    {
-      Timer::Scope phase(run.timer(), "read");
-      labels = read_labels(labels_file);
-    }
-    FitReport fit;
-    BreastGeometry geometry = fit_breast(labels, options, fit, run.timer(), run.progress());
-    report_fit(run.report(), fit, geometry);
-    for (const std::string& doubt : fit.doubts) run.warn(doubt);
-    geometry.history = run.history({{labels_file, labels.content_sha256, &labels.history}});
-    Timer::Scope phase(run.timer(), "write");
-    write_geometry(geometry_file, geometry);
-    run.progress().note(message("skin to sheet: mean ", fit.skin_to_sheet.mean_mm, ", 95 % ",
-                                fit.skin_to_sheet.p95_mm, ", largest ", fit.skin_to_sheet.max_mm,
-                                " mm; ", fit.body_ml, " ml inside the rim"));
-  });
+  declare_fit_hermite(tool, choices);
+  return tool.main(argc, argv, [&](Run& run) { run_fit(choices, run); });
 }

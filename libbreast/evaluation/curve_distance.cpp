@@ -66,15 +66,6 @@ void flatten(Curve& curve, const Vec3& normal) {
   for (Vec3& point : curve) point -= point.dot(normal) * normal;
 }
 
-Distances summary(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  Distances result;
-  for (const double value : values) result.mean_mm += value / double(values.size());
-  result.p95_mm = values[std::size_t(0.95 * double(values.size() - 1))];
-  result.max_mm = values.back();
-  return result;
-}
-
 }  // namespace
 
 CurveComparison compare_curves(const PolyLines& given, const PolyLines& truth,
@@ -93,7 +84,7 @@ CurveComparison compare_curves(const PolyLines& given, const PolyLines& truth,
     for (const Vec3& point : curve) distances.push_back(distance_to(other->second, point));
     for (const Vec3& point : other->second) distances.push_back(distance_to(curve, point));
   }
-  return {summary(std::move(distances)), int(ours.size())};
+  return {summarise(distances), int(ours.size())};
 }
 
 }  // namespace breast

@@ -1,7 +1,7 @@
 // Distance between two matched curves in the plane of the mammogram.
 #pragma once
 
-#include "evaluation/surface_distance.hpp"
+#include "core/distances.hpp"
 #include "surface/tri_mesh.hpp"
 
 namespace breast {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "core/distances.hpp"
 #include "core/quantity.hpp"
 #include "evaluation/partial_volume.hpp"
-#include "evaluation/surface_distance.hpp"
 #include "image/label_volume.hpp"
 
 namespace breast {

@@ -10,13 +10,9 @@ namespace breast {
 
 namespace {
 
-struct Sample {
-  double distance, weight;
-};
-
-std::vector<Sample> samples_to(const TriMesh& from, const TriangleTree& target) {
+std::vector<WeightedDistance> samples_to(const TriMesh& from, const TriangleTree& target) {
   const bool points = from.triangles.empty();
-  std::vector<Sample> samples(points ? from.points.size() : from.triangles.size());
+  std::vector<WeightedDistance> samples(points ? from.points.size() : from.triangles.size());
 #pragma omp parallel for num_threads(threads()) schedule(dynamic, 256)
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (points) {
@@ -31,31 +27,18 @@ std::vector<Sample> samples_to(const TriMesh& from, const TriangleTree& target) 
   return samples;
 }
 
-Distances summary(std::vector<Sample> samples) {
-  std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
-    return std::pair(a.distance, a.weight) < std::pair(b.distance, b.weight);
-  });
-  double total = 0, sum = 0;
-  for (const Sample& s : samples) {
-    total += s.weight;
-    sum += s.weight * s.distance;
-  }
-  if (!(total > 0)) throw input_error("surface has no area: every triangle is degenerate");
-  Distances result{sum / total, 0, samples.back().distance};
-  double passed = 0;
-  for (const Sample& s : samples) {
-    passed += s.weight;
-    result.p95_mm = s.distance;
-    if (passed >= 0.95 * total) break;
-  }
-  return result;
+Distances summary(std::vector<WeightedDistance> samples) {
+  if (std::none_of(samples.begin(), samples.end(),
+                   [](const WeightedDistance& s) { return s.weight > 0; }))
+    throw input_error("surface has no area: every triangle is degenerate");
+  return summarise(std::move(samples));
 }
 
 // Both directions count the same, whatever their number of triangles or points.
-void normalise(std::vector<Sample>& samples) {
+void normalise(std::vector<WeightedDistance>& samples) {
   double total = 0;
-  for (const Sample& s : samples) total += s.weight;
-  for (Sample& s : samples) s.weight /= total;
+  for (const WeightedDistance& s : samples) total += s.weight;
+  for (WeightedDistance& s : samples) s.weight /= total;
 }
 
 }  // namespace
@@ -63,8 +46,8 @@ void normalise(std::vector<Sample>& samples) {
 SurfaceComparison compare_surfaces(const TriMesh& given, const TriMesh& truth) {
   if (given.points.empty()) throw input_error("the given surface is empty");
   if (truth.points.empty()) throw input_error("the true surface is empty");
-  std::vector<Sample> forth = samples_to(given, TriangleTree(truth));
-  std::vector<Sample> back = samples_to(truth, TriangleTree(given));
+  std::vector<WeightedDistance> forth = samples_to(given, TriangleTree(truth));
+  std::vector<WeightedDistance> back = samples_to(truth, TriangleTree(given));
   SurfaceComparison result;
   result.to_truth = summary(forth);
   result.from_truth = summary(back);

@@ -1,13 +1,10 @@
 // Distances between two surfaces, both ways.
 #pragma once
 
+#include "core/distances.hpp"
 #include "surface/tri_mesh.hpp"
 
 namespace breast {
-
-struct Distances {
-  double mean_mm = 0, p95_mm = 0, max_mm = 0;
-};
 
 struct SurfaceComparison {
   Distances to_truth;    ///< from the given surface's samples to the truth

@@ -1,7 +1,6 @@
 #include "evaluation/wall_distance.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -101,15 +100,11 @@ WallDistance compare_walls(const LabelVolume& given, const LabelVolume& truth) {
     }
     sizes.push_back(std::abs(moved[n]));
     result.bias_mm += moved[n];
-    result.distance.mean_mm += sizes.back();
   }
   if (result.columns > 0) result.missing_percent = 100 * missing / result.columns;
   if (sizes.empty()) return result;
-  std::sort(sizes.begin(), sizes.end());
   result.bias_mm /= double(sizes.size());
-  result.distance.mean_mm /= double(sizes.size());
-  result.distance.p95_mm = sizes[std::size_t(0.95 * double(sizes.size() - 1))];
-  result.distance.max_mm = sizes.back();
+  result.distance = summarise(sizes);
   return result;
 }
 

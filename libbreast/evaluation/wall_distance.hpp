@@ -1,7 +1,7 @@
 // How far the chest wall of one label volume lies from that of another.
 #pragma once
 
-#include "evaluation/surface_distance.hpp"
+#include "core/distances.hpp"
 #include "image/label_volume.hpp"
 
 namespace breast {

@@ -5,7 +5,6 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace breast {
@@ -29,20 +28,6 @@ std::vector<double> distances_to_triangles(const std::vector<Vec3>& points,
   for (std::size_t q = 0; q < queries.size(); ++q)
     distance[q] = std::sqrt(tree.squared_distance(to(queries[q])));
   return distance;
-}
-
-DistanceSummary summarise(std::vector<double> distances) {
-  DistanceSummary summary;
-  summary.count = distances.size();
-  if (distances.empty()) return summary;
-  std::sort(distances.begin(), distances.end());
-  double sum = 0;
-  for (const double d : distances) sum += d;
-  summary.mean_mm = sum / double(distances.size());
-  summary.p95_mm =
-      distances[std::min(distances.size() - 1, std::size_t(0.95 * double(distances.size())))];
-  summary.max_mm = distances.back();
-  return summary;
 }
 
 }  // namespace breast

@@ -14,10 +14,4 @@ std::vector<double> distances_to_triangles(const std::vector<Vec3>& points,
                                            const std::vector<std::array<int, 3>>& triangles,
                                            const std::vector<Vec3>& queries);
 
-struct DistanceSummary {
-  double mean_mm = 0, p95_mm = 0, max_mm = 0;
-  std::size_t count = 0;
-};
-DistanceSummary summarise(std::vector<double> distances);
-
 }  // namespace breast

@@ -5,10 +5,9 @@
 
 #include "core/error.hpp"
 #include "fit/closest_point.hpp"
-#include "fit/disc_map.hpp"
-#include "fit/disc_surface.hpp"
+#include "fit/distance.hpp"
 #include "fit/rim_volume.hpp"
-#include "fit/sheet_fit.hpp"
+#include "fit/skin_sheet.hpp"
 
 namespace breast {
 
@@ -56,105 +55,6 @@ DiscSurface skin_surface(const LabelVolume& labels, BreastRegion& region, const 
     }
   }
   throw Error(ErrorKind::input, reason);
-}
-
-/// 1 inside the sheet, falling to a tenth at its border: what lies there is cropped raggedly and
-/// never part of the body.
-double border_weight(const Vec2& st) {
-  const double distance = std::min(st.minCoeff(), 1 - st.maxCoeff());
-  const double x = std::clamp(distance / 0.04, 0.0, 1.0);
-  return 0.1 + 0.9 * x * x * (3 - 2 * x);
-}
-
-SheetData sheet_data(const DiscSurface& surface, const DiscMap& map, const Vec3& nipple) {
-  SheetData data;
-  const std::size_t n = surface.points.size();
-  data.points = surface.points;
-  data.normals = surface.normals;
-  data.st = map.st;
-  data.weights = surface.areas;
-  data.tangential.assign(n, 0.1);
-  data.fixed.assign(n, 0);
-  // Border points hold their place in both directions, else the sheet shrinks at its edge.
-  for (const int b : surface.border) data.tangential[b] = 1, data.fixed[b] = 1;
-  data.trusted.assign(n, 0);
-  const double areola = 20;  // mm
-  for (std::size_t i = 0; i < n; ++i) {
-    data.weights[i] *= surface.filled[i] ? 0 : border_weight(data.st[i]);
-    data.trusted[i] = (data.points[i] - nipple).norm() < areola;
-  }
-  return data;
-}
-
-using Wanted = std::function<bool(const Vec2&)>;
-
-/// Data points that say how good the sheet is, and their distances to it, mm.
-std::vector<std::pair<double, Vec3>> measured_points(const HermiteSheet& sheet,
-                                                     const SheetData& data,
-                                                     const DiscSurface& surface,
-                                                     const Wanted& wanted) {
-  std::vector<std::pair<double, Vec3>> measured;
-  for (std::size_t i = 0; i < data.points.size(); ++i)
-    if (!data.fixed[i] && !surface.filled[i] && wanted(data.st[i]))
-      measured.emplace_back((sheet.position(data.st[i]) - data.points[i]).norm(), data.points[i]);
-  return measured;
-}
-
-std::vector<double> distances_of(const std::vector<std::pair<double, Vec3>>& measured) {
-  std::vector<double> distances;
-  for (const auto& [distance, point] : measured) distances.push_back(distance);
-  return distances;
-}
-
-/// Fits the skin sheet; refines it by a quarter more patches at a time until max_error_mm, which
-/// must be met, or target_max_mm, which should be.
-FitOutcome fit_skin(const DiscSurface& surface, const DiscMap& map, const Vec3& nipple,
-                    const FitOptions& options, FitReport& report, SheetData& data,
-                    Progress& progress) {
-  const bool demanded = options.max_error_mm > 0;
-  const double wanted = demanded ? options.max_error_mm : options.target_max_mm;
-  const auto summary_of = [&](const HermiteSheet& sheet, const SheetData& at) {
-    return summarise(distances_of(measured_points(
-        sheet, at, surface, [&](const Vec2& st) { return within_margin(st, options.rim); })));
-  };
-  FitControl control;
-  control.smoothing = options.smoothing;
-  control.target_rms_mm = options.target_rms_mm;
-  if (demanded) {  // then every point counts, outlier or not
-    control.target_rms_mm = std::min(control.target_rms_mm, options.max_error_mm / 5);
-    control.outlier_mm = 0;
-  }
-  control.close_enough = [&](const HermiteSheet& sheet, const SheetData& at) {
-    return summary_of(sheet, at).max_mm <= wanted;
-  };
-  int patches_s = options.patches_s, patches_t = options.patches_t;
-  const int most = demanded ? 40 : std::max({patches_s, patches_t, options.most_patches});
-  FitOutcome best;
-  for (;;) {
-    SheetData used = sheet_data(surface, map, nipple);
-    FitOutcome outcome =
-        fit_sheet(patches_s, patches_t, used, control,
-                  [](const HermiteSheet& sheet) { return !check_folds(sheet).folded(); });
-    const DistanceSummary whole = summary_of(outcome.sheet, used);
-    progress.update("skin sheet", 0.6,
-                    message(patches_s, " x ", patches_t, ", rms ", outcome.rms_mm, " mm"));
-    if (best.loops == 0 || whole.max_mm < report.whole_skin_to_sheet.max_mm) {
-      best = std::move(outcome);
-      data = std::move(used);
-      report.whole_skin_to_sheet = whole;
-      report.patches_s = patches_s;
-      report.patches_t = patches_t;
-    }
-    if (whole.max_mm <= wanted) return best;
-    patches_s += std::max(1, patches_s / 4);
-    patches_t += std::max(1, patches_t / 4);
-    if (patches_s <= most && patches_t <= most) continue;
-    if (!demanded) return best;
-    throw not_converged_error("skin sheet: largest distance ", report.whole_skin_to_sheet.max_mm,
-                              " mm with ", report.patches_s, " x ", report.patches_t,
-                              " patches, above --max-error ", options.max_error_mm,
-                              "; ask for less");
-  }
 }
 
 void measure_fit(const DiscSurface& surface, const SheetData& data, const BreastGeometry& geometry,
@@ -232,6 +132,89 @@ void check_options(const FitOptions& options) {
   check(options.rim.margin, 0.01, 0.3, "rim margin");
 }
 
+/// One fit on its way: what every step finds for the next ones.
+struct Fit {
+  const LabelVolume& labels;
+  const FitOptions& options;
+  FitReport& report;
+  Timer& timer;
+  Progress& progress;
+  BreastRegion region;
+  DiscSurface surface;
+  DiscMap map;
+  SheetData data;
+  WallSheet wall;
+  BreastGeometry geometry;
+};
+
+void find_surface(Fit& fit) {
+  const Timer::Scope phase(fit.timer, "skin surface");
+  fit.progress.update("skin surface", 0, "");
+  fit.surface = skin_surface(fit.labels, fit.region, fit.options, fit.report);
+  const std::vector<char>& filled = fit.surface.filled;
+  fit.report.data_points = fit.surface.points.size();
+  fit.report.filled_points = std::size_t(std::count(filled.begin(), filled.end(), char(1)));
+  fit.report.label_ml = fit.region.breast_ml;
+}
+
+void find_map(Fit& fit) {
+  const Timer::Scope phase(fit.timer, "map to square");
+  fit.progress.update("map to square", 0.2, message(fit.surface.points.size(), " points"));
+  fit.map = map_to_square(fit.surface);
+  fit.report.area_ratio_p95 = fit.map.area_ratio_p95;
+}
+
+void find_skin_sheet(Fit& fit) {
+  const Timer::Scope phase(fit.timer, "skin sheet");
+  SkinSheet skin =
+      fit_skin(fit.surface, fit.map, fit.region.nipple, fit.options, fit.report, fit.progress);
+  fit.geometry.skin = std::move(skin.outcome.sheet);
+  fit.data = std::move(skin.data);
+  fit.report.smoothing = skin.outcome.smoothing;
+  fit.report.rms_mm = skin.outcome.rms_mm;
+  fit.report.loops = skin.outcome.loops;
+  fit.report.target_reached = skin.outcome.reached || fit.options.smoothing > 0;
+  const FoldCheck folds = check_folds(fit.geometry.skin);
+  fit.report.min_normal_cosine = folds.min_cosine;
+  fit.report.min_area_ratio = folds.min_area_ratio;
+}
+
+void find_wall_sheet(Fit& fit) {
+  const Timer::Scope phase(fit.timer, "wall sheet");
+  fit.progress.update("wall sheet", 0.7, "");
+  fit.wall = fit_wall(fit.labels, fit.region, fit.options.patches_s, fit.options.patches_t,
+                      fit.options.wall_smoothing_mm);
+  fit.geometry.wall = fit.wall.sheet;
+  fit.report.wall_rms_mm = fit.wall.rms_mm;
+  fit.report.wall_p95_mm = fit.wall.residual_p95_mm;
+  fit.report.wall_coverage = fit.wall.coverage;
+}
+
+void find_rim(Fit& fit) {
+  const Timer::Scope phase(fit.timer, "rim");
+  fit.progress.update("rim", 0.85, "");
+  BreastGeometry& geometry = fit.geometry;
+  const SheetFoot nipple = SheetLocator(geometry.skin, 4).closest(fit.region.nipple);
+  geometry.nipple_st = nipple.st;
+  geometry.nipple = nipple.x;
+  fit.report.nipple_moved_mm = fit.region.nipple_known ? nipple.distance : 0;
+  const RimRays rays =
+      walk_rim(geometry.skin, fit.wall, fit.labels.side, geometry.nipple_st, fit.options.rim);
+  fit.report.rim = rim_of_volume(fit.region.breast_ml, fit.wall, rays, fit.options.rim, geometry);
+}
+
+void judge(Fit& fit) {
+  const Timer::Scope phase(fit.timer, "distances");
+  fit.progress.update("distances", 0.95, "");
+  BreastGeometry& geometry = fit.geometry;
+  measure_fit(fit.surface, fit.data, geometry, fit.report);
+  fit.report.body_ml = enclosed_volume(geometry) * 1e-3;
+  geometry.fit_mean_mm = fit.report.skin_to_sheet.mean_mm;
+  geometry.fit_p95_mm = fit.report.skin_to_sheet.p95_mm;
+  geometry.fit_max_mm = fit.report.skin_to_sheet.max_mm;
+  find_doubts(fit.region, geometry, fit.report);
+}
+
 }  // namespace
 
 BreastGeometry fit_breast(const LabelVolume& labels, const FitOptions& options, FitReport& report,
@@ -240,71 +223,16 @@ BreastGeometry fit_breast(const LabelVolume& labels, const FitOptions& options, 
   if (labels.tissue.size() != labels.grid.voxels())
     throw input_error("labels: ", labels.tissue.size(), " voxels on a grid of ",
                       labels.grid.voxels());
-  BreastRegion region;
-  DiscSurface surface;
-  {
-    Timer::Scope phase(timer, "skin surface");
-    progress.update("skin surface", 0, "");
-    surface = skin_surface(labels, region, options, report);
-    report.data_points = surface.points.size();
-    report.filled_points =
-        std::size_t(std::count(surface.filled.begin(), surface.filled.end(), char(1)));
-    report.label_ml = region.breast_ml;
-  }
-  DiscMap map;
-  {
-    Timer::Scope phase(timer, "map to square");
-    progress.update("map to square", 0.2, message(surface.points.size(), " points"));
-    map = map_to_square(surface);
-    report.area_ratio_p95 = map.area_ratio_p95;
-  }
-  BreastGeometry geometry;
-  geometry.side = labels.side;
-  geometry.skin_thickness = labels.skin_thickness;
-  SheetData data;
-  {
-    Timer::Scope phase(timer, "skin sheet");
-    FitOutcome outcome = fit_skin(surface, map, region.nipple, options, report, data, progress);
-    geometry.skin = std::move(outcome.sheet);
-    report.smoothing = outcome.smoothing;
-    report.rms_mm = outcome.rms_mm;
-    report.loops = outcome.loops;
-    report.target_reached = outcome.reached || options.smoothing > 0;
-    const FoldCheck folds = check_folds(geometry.skin);
-    report.min_normal_cosine = folds.min_cosine;
-    report.min_area_ratio = folds.min_area_ratio;
-  }
-  WallSheet wall;
-  {
-    Timer::Scope phase(timer, "wall sheet");
-    progress.update("wall sheet", 0.7, "");
-    wall =
-        fit_wall(labels, region, options.patches_s, options.patches_t, options.wall_smoothing_mm);
-    geometry.wall = wall.sheet;
-    report.wall_rms_mm = wall.rms_mm;
-    report.wall_p95_mm = wall.residual_p95_mm;
-    report.wall_coverage = wall.coverage;
-  }
-  {
-    Timer::Scope phase(timer, "rim");
-    progress.update("rim", 0.85, "");
-    const SheetFoot nipple = SheetLocator(geometry.skin, 4).closest(region.nipple);
-    geometry.nipple_st = nipple.st;
-    geometry.nipple = nipple.x;
-    report.nipple_moved_mm = region.nipple_known ? nipple.distance : 0;
-    const RimRays rays =
-        walk_rim(geometry.skin, wall, labels.side, geometry.nipple_st, options.rim);
-    report.rim = rim_of_volume(region.breast_ml, wall, rays, options.rim, geometry);
-  }
-  Timer::Scope phase(timer, "distances");
-  progress.update("distances", 0.95, "");
-  measure_fit(surface, data, geometry, report);
-  report.body_ml = enclosed_volume(geometry) * 1e-3;
-  geometry.fit_mean_mm = report.skin_to_sheet.mean_mm;
-  geometry.fit_p95_mm = report.skin_to_sheet.p95_mm;
-  geometry.fit_max_mm = report.skin_to_sheet.max_mm;
-  find_doubts(region, geometry, report);
-  return geometry;
+  Fit fit{labels, options, report, timer, progress, {}, {}, {}, {}, {}, {}};
+  fit.geometry.side = labels.side;
+  fit.geometry.skin_thickness = labels.skin_thickness;
+  find_surface(fit);
+  find_map(fit);
+  find_skin_sheet(fit);
+  find_wall_sheet(fit);
+  find_rim(fit);
+  judge(fit);
+  return std::move(fit.geometry);
 }
 
 }  // namespace breast

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "core/distances.hpp"
 #include "core/progress.hpp"
 #include "core/report.hpp"
-#include "fit/distance.hpp"
 #include "fit/rim.hpp"
 #include "image/label_volume.hpp"
 #include "surface/hermite.hpp"
@@ -33,11 +33,11 @@ struct FitReport {
   int patches_s = 0, patches_t = 0, loops = 0;
   bool target_reached = false;
   std::size_t data_points = 0, filled_points = 0;
-  double area_ratio_p95 = 0;            ///< of the map to the square
-  DistanceSummary skin_to_sheet;        ///< data inside the rim
-  Vec3 worst_point{0, 0, 0};            ///< patient mm: the datum farthest from the sheet
-  DistanceSummary sheet_to_skin;        ///< sheet inside the rim
-  DistanceSummary whole_skin_to_sheet;  ///< all data where the body may lie (rim margin)
+  double area_ratio_p95 = 0;      ///< of the map to the square
+  Distances skin_to_sheet;        ///< data inside the rim
+  Vec3 worst_point{0, 0, 0};      ///< patient mm: the datum farthest from the sheet
+  Distances sheet_to_skin;        ///< sheet inside the rim
+  Distances whole_skin_to_sheet;  ///< all data where the body may lie (rim margin)
   double min_normal_cosine = 0, min_area_ratio = 0;  ///< fold check of the skin sheet
   double wall_rms_mm = 0, wall_p95_mm = 0, wall_coverage = 0;
   double nipple_moved_mm = 0;        ///< landmark to skin sheet

@@ -24,7 +24,7 @@ struct BodyMeshReport {
   double mesh_volume = 0;  ///< mm³
   double skin_shift = 0;   ///< mm, largest shift of a skin node off its sheet to keep the volume
   CurveReport curved;      ///< order 2 only
-  BoundaryDistance skin_distance, wall_distance, cut_distance;  ///< of the mesh's boundary
+  Distances skin_distance, wall_distance, cut_distance;  ///< of the mesh's boundary
 };
 
 /// Mesh with points = imaged, connectivity, face sets, scaled_jacobian, template and geometry; all

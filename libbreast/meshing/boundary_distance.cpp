@@ -1,7 +1,6 @@
 #include "meshing/boundary_distance.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 
 #include "mesh/shape.hpp"
 
@@ -9,12 +8,8 @@ namespace breast {
 
 namespace {
 
-struct Sample {
-  double distance, area;
-};
-
 void sample_face(const BodyMap& body, Hull part, const Face& face, const PlacedNodes& nodes,
-                 const HexMesh& mesh, std::vector<Sample>& samples) {
+                 const HexMesh& mesh, std::vector<WeightedDistance>& samples) {
   constexpr int along = 5;
   const std::vector<int> list = face_nodes(mesh, face);
   std::vector<Vec2> at;
@@ -36,25 +31,11 @@ void sample_face(const BodyMap& body, Hull part, const Face& face, const PlacedN
 
 }  // namespace
 
-BoundaryDistance boundary_distance(const BodyMap& body, Hull part, const std::vector<Face>& faces,
-                                   const PlacedNodes& nodes, const HexMesh& mesh) {
-  std::vector<Sample> samples;
+Distances boundary_distance(const BodyMap& body, Hull part, const std::vector<Face>& faces,
+                            const PlacedNodes& nodes, const HexMesh& mesh) {
+  std::vector<WeightedDistance> samples;
   for (const Face& face : faces) sample_face(body, part, face, nodes, mesh, samples);
-  std::sort(samples.begin(), samples.end(),
-            [](const Sample& a, const Sample& b) { return a.distance < b.distance; });
-  BoundaryDistance result;
-  double area = 0, sum = 0;
-  for (const Sample& s : samples) area += s.area, sum += s.area * s.distance;
-  if (!(area > 0)) return result;
-  result.mean = sum / area;
-  result.max = samples.back().distance;
-  double below = 0;
-  for (const Sample& s : samples) {
-    below += s.area;
-    result.p95 = s.distance;
-    if (below >= 0.95 * area) break;
-  }
-  return result;
+  return summarise(std::move(samples));
 }
 
 }  // namespace breast

@@ -8,11 +8,11 @@ namespace breast {
 
 namespace {
 
-void write_distance(const char* part, const BoundaryDistance& distance, Report& report) {
+void write_distance(const char* part, const Distances& distance, Report& report) {
   const std::string key = std::string("boundary/") + part;
-  report.set(key + "_mean_mm", distance.mean);
-  report.set(key + "_p95_mm", distance.p95);
-  report.set(key + "_max_mm", distance.max);
+  report.set(key + "_mean_mm", distance.mean_mm);
+  report.set(key + "_p95_mm", distance.p95_mm);
+  report.set(key + "_max_mm", distance.max_mm);
 }
 
 void write_boundary(const HexMesh& mesh, const BodyMeshReport& body, Report& report) {

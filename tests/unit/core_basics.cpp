@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/atomic_file.hpp"
+#include "core/distances.hpp"
 #include "core/error.hpp"
 #include "core/provenance.hpp"
 #include "core/report.hpp"
@@ -124,6 +125,24 @@ TEST(Tables, RoundTripAndRefusals) {
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "t.tsv: line 3 has 1 columns, the header has 2");
   }
+}
+
+TEST(DistanceSummary, KnownValuesInAnyOrder) {
+  std::vector<double> values;
+  for (int i = 0; i < 100; ++i) values.push_back(37 * i % 100);
+  const Distances alike = summarise(values);
+  EXPECT_NEAR(alike.mean_mm, 49.5, 1e-12);
+  EXPECT_EQ(alike.p95_mm, 94) << "95 of 100 values are at most 94";
+  EXPECT_EQ(alike.max_mm, 99);
+  EXPECT_EQ(summarise(std::vector<double>{}).max_mm, 0);
+}
+
+TEST(DistanceSummary, WeighsByArea) {
+  const Distances sized = summarise({WeightedDistance{3, 1}, {1, 18}, {2, 1}});
+  EXPECT_NEAR(sized.mean_mm, 23.0 / 20, 1e-12);
+  EXPECT_EQ(sized.p95_mm, 2);
+  EXPECT_EQ(sized.max_mm, 3);
+  EXPECT_EQ(summarise({WeightedDistance{5, 0}}).max_mm, 0) << "no weight, nothing to tell";
 }
 
 TEST(Numbers, ShortestTextReadsBack) {

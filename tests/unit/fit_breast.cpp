@@ -117,7 +117,7 @@ TEST(FitBreast, SkinSheetMeetsTheTrueSkin) {
   std::vector<double> truth;
   for (const Vec2& st : inside_samples(f.geometry))
     truth.push_back(f.shape.distance(f.geometry.skin.position(st)));
-  const DistanceSummary summary = summarise(truth);
+  const Distances summary = summarise(truth);
   EXPECT_LT(summary.mean_mm, 0.25);
   EXPECT_LT(summary.p95_mm, 0.7);
   EXPECT_LT(f.report.nipple_moved_mm, 1.5);

@@ -56,13 +56,3 @@ TEST(Distance, ToOneTriangle) {
   EXPECT_NEAR(d[2], std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(d[3], std::sqrt(2.0), 1e-12);
 }
-
-TEST(Distance, SummaryOfKnownValues) {
-  std::vector<double> values;
-  for (int i = 0; i < 100; ++i) values.push_back(i);
-  const DistanceSummary summary = summarise(values);
-  EXPECT_NEAR(summary.mean_mm, 49.5, 1e-12);
-  EXPECT_EQ(summary.p95_mm, 95);
-  EXPECT_EQ(summary.max_mm, 99);
-  EXPECT_EQ(summarise({}).count, 0u);
-}

@@ -154,9 +154,9 @@ TEST(CurvedBoundary, NodesLieOnTheSheetsAndTheVolumeIsTheBodys) {
   EXPECT_GT(curved.curved.largest_bow, 0.5);
   EXPECT_EQ(nodes_off(body, Hull::skin, mesh, mesh.skin_faces, 1e-6), 0);
   EXPECT_EQ(nodes_off(body, Hull::wall, mesh, mesh.pectoral_faces, 1e-6), 0);
-  EXPECT_LT(curved.skin_distance.mean, 0.15 * flat.skin_distance.mean);
-  EXPECT_LT(curved.cut_distance.mean, 0.15 * flat.cut_distance.mean);
-  EXPECT_LT(curved.skin_distance.max, flat.skin_distance.max);
+  EXPECT_LT(curved.skin_distance.mean_mm, 0.15 * flat.skin_distance.mean_mm);
+  EXPECT_LT(curved.cut_distance.mean_mm, 0.15 * flat.cut_distance.mean_mm);
+  EXPECT_LT(curved.skin_distance.max_mm, flat.skin_distance.max_mm);
   EXPECT_LT(std::abs(curved.mesh_volume / curved.body_volume - 1), 0.001);
 }
 

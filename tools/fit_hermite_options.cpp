@@ -1,0 +1,83 @@
+#include "fit_hermite_options.hpp"
+
+#include <cctype>
+#include <cstdlib>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+
+/// "10x12" -> patches along s (x) and t (z); auto: as many as the largest distance needs.
+void parse_elements(const std::string& text, FitOptions& options) {
+  if (text == "auto") {
+    options.most_patches = 15;
+    return;
+  }
+  char* end = nullptr;
+  const long s = std::strtol(text.c_str(), &end, 10);
+  const bool cross = *end == 'x' || *end == 'X';
+  const long t = cross && std::isdigit(static_cast<unsigned char>(end[1]))
+                     ? std::strtol(end + 1, &end, 10)
+                     : 0;
+  if (!cross || *end != 0 || s < 3 || s > 40 || t < 3 || t > 40)
+    throw input_error("--elements ", text,
+                      ": must be auto or AxB with A and B in 3..40, such as 10x10");
+  options.patches_s = int(s);
+  options.patches_t = int(t);
+}
+
+void parse_smoothing(const std::string& text, FitOptions& options) {
+  options.smoothing = 0;
+  if (text == "auto") return;
+  char* end = nullptr;
+  options.smoothing = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != 0 || !(options.smoothing > 0 && options.smoothing <= 1))
+    throw input_error("--smoothing ", text,
+                      ": must be auto or a number above 0 and at most 1 "
+                      "(automatic choices lie between 1e-9 and 1e-6)");
+}
+
+}  // namespace
+
+FitOptions FitChoices::options() const {
+  FitOptions options;
+  parse_elements(elements, options);
+  parse_smoothing(smoothing, options);
+  options.max_error_mm = max_error.value_or(0);
+  return options;
+}
+
+void declare_fit_hermite(Tool& tool, FitChoices& choices) {
+  tool.describe(
+      "Fits two bicubic Hermite sheets, larger than the body, to the skin and to the front of the "
+      "chest wall, and finds the rim: the closed curve where the breast ends and a straight cut "
+      "joins "
+      "the sheets. The skin need not be a graph over the chest wall: it is mapped to a square "
+      "first. "
+      "Fitting alternates closest-point projection and linear least squares with smoothing by "
+      "second "
+      "derivatives.");
+  tool.cite("Pathmanathan et al., IEEE Trans Biomed Eng 55(10), 2008, section II-A")
+      .cite(
+          "Yoshizawa, Belyaev, Seidel, Proc. Shape Modeling International, 2004 (map to the "
+          "square)");
+  tool.input(choices.labels, "LABELS.vtkhdf", "labels of one breast (segment)");
+  tool.output(choices.geometry, "GEOMETRY.vtkhdf", "two sheets and the rim");
+  tool.text(choices.elements, "--elements", "AxB|auto",
+            "patches of each sheet along x and z; auto: 10x10, and of the skin up to 15x15 where "
+            "it would lie more than 2 mm off");
+  tool.text(choices.smoothing, "--smoothing", "S|auto",
+            "weight of the skin's squared second derivatives (parameters 0..1, mm); auto lowers it "
+            "until the rms distance is 0.3 mm");
+  tool.number(choices.max_error, "--max-error", "MM",
+              "refine the skin sheet until no point of the skin is farther from it", 0.05, 100);
+  tool.example("fit-hermite labels.vtkhdf geometry.vtkhdf",
+               "10 x 10 patches or a few more, automatic smoothing");
+  tool.example("fit-hermite labels.vtkhdf geometry.vtkhdf --max-error 1",
+               "as many patches as it takes to stay within 1 mm");
+  tool.check([&choices] { choices.options(); });
+}
+
+}  // namespace breast

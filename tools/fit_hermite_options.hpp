@@ -1,0 +1,25 @@
+// What fit-hermite is asked on the command line.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "cli/tool.hpp"
+#include "fit/fit_breast.hpp"
+
+namespace breast {
+
+struct FitChoices {
+  std::filesystem::path labels, geometry;
+  std::string elements = "auto", smoothing = "auto";
+  std::optional<double> max_error;  ///< mm
+
+  /// Throws Error (input) for texts that are not to be read.
+  FitOptions options() const;
+};
+
+/// All options of the tool, its description and examples.
+void declare_fit_hermite(Tool& tool, FitChoices& choices);
+
+}  // namespace breast
