@@ -11,9 +11,6 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
-// Present when the tool links OpenBLAS, absent otherwise.
-extern "C" void openblas_set_num_threads(int) __attribute__((weak));
-
 namespace breast {
 
 namespace {
@@ -24,10 +21,9 @@ std::string one_line(std::string text) {
   return text;
 }
 
-// One number of threads for OpenMP, BLAS, ITK and VTK; the latter two read their environment late.
+// One number of threads for OpenMP, ITK and VTK; the latter two read their environment late.
 void apply_threads(int threads) {
   set_threads(threads);
-  if (openblas_set_num_threads) openblas_set_num_threads(breast::threads());
   const std::string count = std::to_string(breast::threads());
   setenv("ITK_GLOBAL_DEFAULT_NUMBER_OF_THREADS", count.c_str(), 1);
   setenv("VTK_SMP_MAX_THREADS", count.c_str(), 1);

@@ -1,4 +1,5 @@
-// Threads: one number for the whole process, set once by the tool (OpenMP and BLAS follow it).
+// Threads: one number for the whole process, set once by the tool (OpenMP follows it; BLAS keeps to
+// one, see blas.hpp).
 #pragma once
 
 namespace breast {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/blas.hpp"
 #include "core/error.hpp"
 #include "fit/closest_point.hpp"
 #include "fit/hermite_basis.hpp"
@@ -102,6 +103,7 @@ HermiteSheet solve_sheet(int nu, int nv, const SheetData& data, double smoothing
     }
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
+  prepare_blas();
   Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor;
   factor.cholmod().print = 0;
   factor.compute(matrix);

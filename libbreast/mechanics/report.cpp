@@ -3,11 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/blas.hpp"
 #include "core/units.hpp"
 #include "material/stability.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mesh/quality.hpp"
-#include "solve/blas.hpp"
 
 namespace breast {
 

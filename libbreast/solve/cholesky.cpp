@@ -4,9 +4,9 @@
 #include <atomic>
 #include <new>
 
+#include "core/blas.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "solve/blas.hpp"
 #include "solve/block_pool.hpp"
 #include "solve/dense.hpp"
 #include "solve/front_tree.hpp"

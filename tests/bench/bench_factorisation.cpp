@@ -18,12 +18,12 @@
 #include <functional>
 #include <vector>
 
+#include "core/blas.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "fixtures/block.hpp"
 #include "mechanics/scene.hpp"
-#include "solve/blas.hpp"
 #include "solve/cholesky.hpp"
 
 extern "C" void openblas_set_num_threads(int);

@@ -16,13 +16,13 @@
 #include <string>
 #include <vector>
 
+#include "core/blas.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "fixtures/block.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/scene.hpp"
-#include "solve/blas.hpp"
 
 namespace breast {
 namespace {

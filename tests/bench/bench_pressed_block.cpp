@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "core/blas.hpp"
 #include "core/parallel.hpp"
 #include "core/report.hpp"
 #include "fixtures/pressed_block.hpp"
-#include "solve/blas.hpp"
 
 namespace {
 

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "core/blas.hpp"
 #include "core/parallel.hpp"
 #include "fixtures/contact_cases.hpp"
 #include "io/mesh_file.hpp"
 #include "mammo/mammogram.hpp"
-#include "solve/blas.hpp"
 
 namespace {
 

@@ -51,6 +51,20 @@ TEST(FitHermiteTool, WritesAGeometryAndAReport) {
   EXPECT_GT(report.number("volumes_ml/body"), 100);
 }
 
+TEST(FitHermiteTool, TheSameGeometryOnAnyNumberOfThreads) {
+  const ScratchFolder folder;
+  write_labels(folder / "labels.vtkhdf", coarse_labels());
+  std::vector<std::string> contents;
+  for (const char* threads : {"1", "2", "3"}) {
+    const ToolResult outcome =
+        run(folder, std::string("labels.vtkhdf geometry.vtkhdf --quiet --threads ") + threads);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    contents.push_back(read_geometry(folder / "geometry.vtkhdf").content_sha256);
+  }
+  EXPECT_EQ(contents[0], contents[1]);
+  EXPECT_EQ(contents[0], contents[2]);
+}
+
 TEST(FitHermiteTool, RefusesBadUsageBeforeReading) {
   const ScratchFolder folder;
   const auto labels = folder / "labels.vtkhdf", out = folder / "geometry.vtkhdf";

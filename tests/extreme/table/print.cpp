@@ -8,10 +8,10 @@
 #include <cstring>
 #include <exception>
 
+#include "core/blas.hpp"
 #include "core/parallel.hpp"
 #include "extreme/table/cases.hpp"
 #include "mechanics/scene.hpp"
-#include "solve/blas.hpp"
 
 namespace breast::extreme {
 namespace {

@@ -5,7 +5,8 @@
 
 namespace breast {
 
-/// Sets OpenBLAS to one thread: fronts are shared among OpenMP threads, and two pools of threads
+/// Sets OpenBLAS to one thread: its products sum in an order that follows their number, and what a
+/// tool finds must not; fronts are shared among OpenMP threads besides, and two pools of threads
 /// that spin while they wait get into each other's way. OpenBLAS 0.3.21 does not know processors
 /// newer than itself and falls back to kernels of 2004 (SSE3), five times slower: when that
 /// happened and the processor has AVX2 or AVX-512, its table of kernels is chosen again.

@@ -1,4 +1,4 @@
-#include "solve/blas.hpp"
+#include "core/blas.hpp"
 
 #include <cstdlib>
 #include <mutex>
