@@ -1,0 +1,109 @@
+// segment on a folder as a scanner exports it: several series, files in no order.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/atomic_file.hpp"
+#include "core/report.hpp"
+#include "core/table.hpp"
+#include "fixtures/run_tool.hpp"
+#include "fixtures/scratch_folder.hpp"
+#include "fixtures/synthetic_scan.hpp"
+#include "io/label_file.hpp"
+#include "io/surface_file.hpp"
+#include "io/volume_file.hpp"
+
+namespace breast {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A bilateral scan on thick slices, as the 16 bits of a scanner.
+Volume<std::int16_t> scan() {
+  testing::SyntheticScan patient;
+  patient.grid.size = {100, 77, 30};
+  patient.grid.spacing = Vec3(3, 3, 5);
+  const Volume<float> image = patient.image();
+  Volume<std::int16_t> out(image.grid);
+  for (std::size_t n = 0; n < image.voxels.size(); ++n)
+    out.voxels[n] = std::int16_t(std::lround(image.voxels[n]));
+  return out;
+}
+
+class SegmentFolder : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const Volume<std::int16_t> t1 = scan();
+    write_volume(folder_ / "t1.nrrd", t1);
+    write_dicom_series(folder_ / "t1", t1, "T1 prone");
+    Volume<std::int16_t> localiser(t1.grid);
+    localiser.grid.size[2] = 3;
+    localiser.voxels.assign(localiser.grid.voxels(), 7);
+    write_dicom_series(folder_ / "localiser", localiser, "localiser");
+    fs::create_directory(folder_ / "exam");
+    gather("t1");
+    gather("localiser");
+  }
+  /// Into one folder, under names whose order is not that of the slices.
+  void gather(const std::string& series) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder_ / series))
+      files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (std::size_t n = 0; n < files.size(); ++n) {
+      const std::string name = std::to_string(1000 + 37 * n % 101) + series + ".dcm";
+      fs::rename(files[n], folder_ / "exam" / name);
+    }
+  }
+  ToolResult segment(const std::string& scan, std::vector<std::string> options) {
+    std::vector<std::string> arguments = {scan, "out.vtkhdf", "--side", "left", "--quiet"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return run_tool("segment", arguments, folder_.path());
+  }
+  ScratchFolder folder_;
+};
+
+TEST_F(SegmentFolder, SeveralSeriesAreListedAndOneIsAskedFor) {
+  for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--series", "3"}}) {
+    const ToolResult listed = segment("exam", options);
+    EXPECT_EQ(listed.exit_code, 2);
+    EXPECT_EQ(listed.error_lines(), 1) << listed.err;
+    for (const char* word : {"2 series", "--series", "T1 prone, 30 files", "localiser, 3 files"})
+      EXPECT_NE(listed.err.find(word), std::string::npos) << word << " in " << listed.err;
+    EXPECT_FALSE(fs::exists(folder_ / "out.vtkhdf"));
+  }
+}
+
+TEST_F(SegmentFolder, TheChosenSeriesGivesWhatItsOwnFileGives) {
+  const std::string listed = segment("exam", {}).err;
+  const std::size_t name = listed.find(" = T1 prone");
+  ASSERT_NE(name, std::string::npos) << listed;
+  const std::string number(1, listed[name - 1]);  // of the list "1 = ...; 2 = ..."
+  const ToolResult chosen =
+      segment("exam", {"--series", number, "--overlay", "look.png", "--points", "p.vtp",
+                       "--measures", "m.tsv", "--report", "r.json"});
+  ASSERT_EQ(chosen.exit_code, 0) << chosen.err;
+  const LabelVolume of_folder = read_labels(folder_ / "out.vtkhdf");
+  ASSERT_EQ(segment("t1.nrrd", {}).exit_code, 0);
+  const LabelVolume of_file = read_labels(folder_ / "out.vtkhdf");
+  EXPECT_EQ(of_folder.tissue, of_file.tissue);
+  EXPECT_LT((of_folder.landmarks.at("nipple") - of_file.landmarks.at("nipple")).norm(), 1e-3);
+
+  EXPECT_GT(fs::file_size(folder_ / "look.png"), 10000u);
+  EXPECT_GT(read_surface(folder_ / "p.vtp").points.size(), 1000u);
+  const Report report = Report::parse(read_text(folder_ / "r.json"), "r.json");
+  const Table measures = read_table(folder_ / "m.tsv");
+  const auto volume = std::find_if(measures.rows.begin(), measures.rows.end(),
+                                   [](const auto& row) { return row[0] == "breast_ml"; });
+  ASSERT_NE(volume, measures.rows.end());
+  EXPECT_EQ(parse_number((*volume)[1], "breast_ml"), report.number("breast_ml"));
+  EXPECT_GT(report.number("breast_ml"), 300);
+
+  const std::string other = number == "1" ? "2" : "1";
+  const ToolResult localiser = segment("exam", {"--series", other});
+  EXPECT_EQ(localiser.exit_code, 2);
+  EXPECT_EQ(localiser.error_lines(), 1) << localiser.err;
+}
+
+}  // namespace
+}  // namespace breast
