@@ -1,6 +1,10 @@
 // hexmesh from files to file: counts, contract keys of the report, refusals.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "core/atomic_file.hpp"
 #include "core/report.hpp"
 #include "fixtures/analytic_breast.hpp"
@@ -10,6 +14,8 @@
 #include "io/geometry_file.hpp"
 #include "io/label_file.hpp"
 #include "io/mesh_file.hpp"
+#include "mesh/locate.hpp"
+#include "mesh/quality.hpp"
 
 namespace breast {
 namespace {
@@ -21,6 +27,10 @@ class HexmeshTool : public testing::Test {
     BreastGeometry geometry = analytic_breast();
     geometry.history.push_back({"fit-hermite", "0", "analytic", {}});
     write_geometry(folder_ / "geometry.vtkhdf", geometry);
+    write_labels(folder_ / "labels.vtkhdf", labels_with(Tissue::fibroglandular, 22));
+  }
+  /// A ball about (0, 45, 0) mm in a box of fat.
+  static LabelVolume labels_with(Tissue tissue, double radius) {
     LabelVolume labels;
     labels.grid.size = {57, 50, 57};
     labels.grid.spacing = Vec3::Constant(3);
@@ -32,14 +42,15 @@ class HexmeshTool : public testing::Test {
       for (int j = 0; j < 50; ++j) {
         for (int i = 0; i < 57; ++i) {
           const Vec3 at = labels.grid.to_patient(Vec3(i, j, k));
-          if ((at - Vec3(0, 45, 0)).norm() > 22) continue;
-          labels.tissue[labels.grid.offset(i, j, k)] = std::uint8_t(Tissue::fibroglandular);
-          labels.fibroglandular_fraction[labels.grid.offset(i, j, k)] = 1;
+          if ((at - Vec3(0, 45, 0)).norm() > radius) continue;
+          labels.tissue[labels.grid.offset(i, j, k)] = std::uint8_t(tissue);
+          labels.fibroglandular_fraction[labels.grid.offset(i, j, k)] =
+              tissue == Tissue::fibroglandular;
         }
       }
     }
     labels.history.push_back({"segment", "0", "analytic", {}});
-    write_labels(folder_ / "labels.vtkhdf", labels);
+    return labels;
   }
   ToolResult hexmesh(std::vector<std::string> options) {
     std::vector<std::string> arguments = {"geometry.vtkhdf", "labels.vtkhdf", "mesh.vtkhdf",
@@ -94,6 +105,63 @@ TEST_F(HexmeshTool, TumourFromTextAndTable) {
   const HexMesh mesh = read_mesh(folder_ / "mesh.vtkhdf");
   EXPECT_EQ(mesh.landmark("tumour")->imaged, Vec3(-8, 40, 2));
   EXPECT_EQ(mesh.tissue[mesh.landmark("tumour")->element], Tissue::tumour);
+}
+
+TEST_F(HexmeshTool, TumourAsNode) {
+  ASSERT_EQ(hexmesh({"--elements", "8", "--tumour", "10,45,5"}).exit_code, 0);
+  const HexMesh mesh = read_mesh(folder_ / "mesh.vtkhdf");
+  EXPECT_EQ(std::count(mesh.tissue.begin(), mesh.tissue.end(), Tissue::tumour), 0);
+  const Landmark& tumour = *mesh.landmark("tumour");
+  const Vec3 at(10, 45, 5);
+  EXPECT_LT((element_position(mesh, mesh.points, tumour.element, tumour.local) - at).norm(), 1e-6);
+  for (const Vec3& x : mesh.points)
+    EXPECT_LE((mesh.points[std::size_t(mesh.tumour_node)] - at).norm(), (x - at).norm());
+}
+
+TEST_F(HexmeshTool, TumourAsElement) {
+  ASSERT_EQ(hexmesh({"--elements", "8", "--tumour", "10,45,5:0.5"}).exit_code, 0);
+  const HexMesh mesh = read_mesh(folder_ / "mesh.vtkhdf");
+  ASSERT_EQ(std::count(mesh.tissue.begin(), mesh.tissue.end(), Tissue::tumour), 1);
+  EXPECT_EQ(mesh.tissue[mesh.landmark("tumour")->element], Tissue::tumour);
+}
+
+TEST_F(HexmeshTool, TumourAsSphereHasItsVolume) {
+  const double radius = 16;
+  ASSERT_EQ(hexmesh({"--tumour", "4,48,-3:16"}).exit_code, 0);
+  const Report report = Report::parse(read_text(folder_ / "r.json"), "r.json");
+  const double ball = 4 * std::numbers::pi / 3 * std::pow(radius, 3) / 1000;  // ml
+  EXPECT_NEAR(report.number("volumes_ml/tumour") / ball, 1, 0.05);
+  const HexMesh mesh = read_mesh(folder_ / "mesh.vtkhdf");
+  const std::vector<double> volumes = element_volumes(mesh, mesh.points);
+  double sum = 0, farthest = 0;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    if (mesh.tissue[e] != Tissue::tumour) continue;
+    sum += volumes[e] / 1000;
+    const Vec3 middle = element_position(mesh, mesh.points, e, Vec3::Zero());
+    farthest = std::max(farthest, (middle - Vec3(4, 48, -3)).norm());
+  }
+  EXPECT_NEAR(report.number("volumes_ml/tumour"), sum, 1e-6 * sum);
+  EXPECT_LT(farthest, radius + 1) << "its elements lie together";
+}
+
+/// Tumour voxels of the labels themselves, and of labels given beside them.
+TEST_F(HexmeshTool, TumourOfLabels) {
+  const LabelVolume marked = labels_with(Tissue::tumour, 15);
+  write_labels(folder_ / "marked.vtkhdf", marked);
+  const double voxels =
+      double(std::count(marked.tissue.begin(), marked.tissue.end(), std::uint8_t(Tissue::tumour))) *
+      marked.grid.voxel_volume() / 1000;
+  ASSERT_EQ(hexmesh({"--tumour", "marked.vtkhdf"}).exit_code, 0);
+  const Report beside = Report::parse(read_text(folder_ / "r.json"), "r.json");
+  EXPECT_NEAR(beside.number("volumes_ml/tumour") / voxels, 1, 0.05);
+  EXPECT_GT(beside.number("volumes_ml/fibroglandular"), 10) << "the gland around it stays";
+  EXPECT_LT((read_mesh(folder_ / "mesh.vtkhdf").landmark("tumour")->imaged - Vec3(0, 45, 0)).norm(),
+            0.1);
+
+  write_labels(folder_ / "labels.vtkhdf", marked);
+  ASSERT_EQ(hexmesh({}).exit_code, 0);
+  const Report own = Report::parse(read_text(folder_ / "r.json"), "r.json");
+  EXPECT_NEAR(own.number("volumes_ml/tumour") / voxels, 1, 0.1) << "elements at least half tumour";
 }
 
 TEST_F(HexmeshTool, CurvedBoundaryAndTetrahedra) {
