@@ -1,20 +1,8 @@
 #include "segment/measures.hpp"
 
-#include <algorithm>
-
 #include "core/units.hpp"
 
 namespace breast {
-
-namespace {
-
-// A layer below two voxels comes out thin: the truth lies between the estimate and two voxels.
-double most_skin(const LabelVolume& labels) {
-  const Vec3& spacing = labels.grid.spacing;  // in plane: the first two (patient order)
-  return std::max(labels.skin_thickness, spacing[0] + spacing[1]);
-}
-
-}  // namespace
 
 std::vector<Quantity> measures_of(const Segmentation& result) {
   const LabelVolume& labels = result.labels;
@@ -47,7 +35,6 @@ std::vector<Quantity> measures_of(const Segmentation& result) {
   add("nipple_from_extreme_mm", "nipple_from_extreme_mm", result.nipple_from_extreme);
   add("papilla_height_mm", "papilla_height_mm", result.papilla_height);
   add("skin_thickness_mm", "skin_thickness_mm", labels.skin_thickness);
-  add("skin_thickness_at_most_mm", "skin_thickness_at_most_mm", most_skin(labels));
   add("debris_removed_ml", "debris_removed_ml", result.debris_ml);
   add("cut_by_view_cm2", "cut_by_view_cm2", result.cut_by_view_cm2);
   add("flat_skin_cm2", "flat_skin_cm2", result.flat_skin_cm2);

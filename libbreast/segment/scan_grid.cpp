@@ -120,10 +120,10 @@ Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side) {
   fine.body.mask = fine_body(coarse, fine.scan);
   fine.skin_distance = signed_distance(fine.body.mask);
   const Volume<float> log_bias = resampled(coarse.bias.log_bias, grid);
-  fine.ratio = fine.scan;
+  fine.ratio = fine.brightness = fine.scan;
   for (std::size_t n = 0; n < log_bias.voxels.size(); ++n) {
-    fine.ratio.voxels[n] =
-        fine.body.mask.voxels[n] ? fine.scan.voxels[n] / std::exp(log_bias.voxels[n]) : 0;
+    fine.brightness.voxels[n] /= std::exp(log_bias.voxels[n]);
+    fine.ratio.voxels[n] = fine.body.mask.voxels[n] ? fine.brightness.voxels[n] : 0;
   }
   // Depths count from the first voxel of each grid.
   const double shift = working.to_index(grid.origin)[1] * working.spacing[1];

@@ -8,6 +8,7 @@
 #include "segment/filters.hpp"
 #include "segment/itk_filters.hpp"
 #include "segment/plausibility.hpp"
+#include "segment/skin_thickness.hpp"
 #include "segment/wall_input.hpp"
 #include "segment/wall_uncertainty.hpp"
 #include "segment/work.hpp"
@@ -206,7 +207,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   work.extent = find_extent(work.wall, work.domain, work.torso, work.skin_distance, options.side);
   work.breast =
       breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent, options.side);
-  work.skin = skin_thickness(work.ratio, work.breast, work.skin_distance);
+  work.skin = skin_thickness(work.brightness, work.breast, work.skin_distance);
   work.gland = find_fibroglandular(work.ratio, interior_of(work, 3, work.scan.grid.spacing[1]),
                                    near_unsure_wall(work, 8), work.wall.muscle_ratio,
                                    result.bias_cv_after, options.interior);

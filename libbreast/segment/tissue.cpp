@@ -12,8 +12,6 @@ namespace breast {
 namespace {
 
 // Vessels, ligaments and noise make specks; gland comes in lobes.
-constexpr double skin_to_fat = 0.5;        // brightness of skin in T1
-constexpr double least_dimming = 0.05;     // of the outermost voxels: noise and bias
 constexpr double least_lobe = 60;          // mm3
 constexpr double growing_smoothing = 1.0;  // mm: keeps noise from carrying the growth into gland
 
@@ -180,43 +178,6 @@ Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& inter
     }
   }
   return result;
-}
-
-double skin_thickness(const Volume<float>& ratio, const Mask& breast,
-                      const Volume<float>& skin_distance) {
-  // Mean brightness in shells 0.5 mm thick; the distance map counts from the outermost voxels'
-  // centres, which lie half a voxel inside the surface.
-  constexpr int shells = 20;
-  constexpr double width = 0.5;
-  std::array<double, shells> sum{}, count{};
-  const double half_voxel = 0.25 * (ratio.grid.spacing[0] + ratio.grid.spacing[1]);
-  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
-    const double depth = -skin_distance.voxels[n] + half_voxel;
-    const int shell = int(depth / width);
-    if (!breast.voxels[n] || shell < 0 || shell >= shells) continue;
-    sum[shell] += ratio.voxels[n];
-    count[shell] += 1;
-  }
-  std::vector<std::pair<double, double>> profile;  // depth, brightness
-  for (int s = 0; s < shells; ++s) {
-    if (count[s] > 50) profile.emplace_back((s + 0.5) * width, sum[s] / count[s]);
-  }
-  if (profile.size() < 4) return 0;
-  double bright = 0;
-  for (const auto& [depth, value] : profile) bright = std::max(bright, value);
-  const double dark = profile.front().second;
-  if (!(dark < 0.75 * bright)) {
-    // Less than half a voxel of skin shares the outermost voxel with fat and dims it in proportion.
-    const double dimmed = 1 - dark / bright;
-    return dimmed > least_dimming ? dimmed / (1 - skin_to_fat) * 2 * half_voxel : 0;
-  }
-  const double half = 0.5 * (dark + bright);
-  for (std::size_t s = 1; s < profile.size(); ++s) {
-    const auto [d0, v0] = profile[s - 1];
-    const auto [d1, v1] = profile[s];
-    if (v1 >= half) return d0 + (half - v0) / (v1 - v0) * (d1 - d0);
-  }
-  return 0;
 }
 
 }  // namespace breast

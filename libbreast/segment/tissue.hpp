@@ -1,4 +1,4 @@
-// Fat and fibroglandular tissue inside the breast, and the thickness of its skin.
+// Fat and fibroglandular tissue inside the breast.
 #pragma once
 
 #include "segment/grid_ops.hpp"
@@ -22,10 +22,5 @@ struct Fibroglandular {
 Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& interior,
                                    const Mask& by_muscle, double muscle_ratio, double fat_cv,
                                    Interior interior_by);
-
-/// Skin thickness (mm) from the mean brightness against depth below the surface; 0 when the skin
-/// does not show as a dark layer.
-double skin_thickness(const Volume<float>& ratio, const Mask& breast,
-                      const Volume<float>& skin_distance);
 
 }  // namespace breast

@@ -13,6 +13,7 @@ namespace breast {
 /// Everything on one grid.
 struct Work {
   Volume<float> scan, ratio, skin_distance;
+  Volume<float> brightness;  ///< as ratio (scan over bias), also outside the body
   Body body;
   Torso torso;
   WallDomain domain;

@@ -15,6 +15,7 @@
 #include "segment/nipple.hpp"
 #include "segment/plausibility.hpp"
 #include "segment/segment.hpp"
+#include "segment/skin_thickness.hpp"
 #include "segment/tissue.hpp"
 
 namespace breast {
@@ -106,18 +107,10 @@ TEST(SegmentRobustness, SkinFlattenedByTheCoilIsDoubted) {
     });
   };
   EXPECT_EQ(flat_doubts(patient().base), 0);
-  Volume<float> scan = patient().scan;
-  const Grid& grid = scan.grid;
-  const double plate = patient().truth.nipple(1)[1] + 12;
-  for (int k = 0; k < grid.size[2]; ++k) {
-    for (int j = 0; j < grid.size[1]; ++j) {
-      if (!(grid.to_patient(Vec3(0, j, k))[1] < plate)) continue;
-      for (int i = 0; i < grid.size[0]; ++i) scan.at(i, j, k) = scan.at(0, 0, k);
-    }
-  }
-  const Segmentation pressed = run(scan);
-  EXPECT_EQ(flat_doubts(pressed), 1);
-  EXPECT_GT(pressed.flat_skin_cm2, 6);
+  const Segmentation flattened =
+      run(testing::pressed(patient().scan, patient().truth.nipple(1)[1] + 12));
+  EXPECT_EQ(flat_doubts(flattened), 1);
+  EXPECT_GT(flattened.flat_skin_cm2, 6);
 }
 
 TEST(SegmentRobustness, ImplausibleExtentIsDoubted) {
@@ -266,20 +259,51 @@ TEST(Debris, CrumbsGoAndNipplesStay) {
   EXPECT_EQ(before.at(60, 7, 20), 1);
 }
 
-/// Skin a quarter of a voxel thick and half as bright as fat dims the outermost voxels by an
-/// eighth.
-TEST(Skin, ThinnerThanAVoxelIsEstimatedFromItsShare) {
-  const Grid grid = fine_grid();
-  const Mask body = ball(grid, Vec3::Zero(), 35);
-  const Volume<float> distance = signed_distance(body);
-  Volume<float> ratio(grid);
-  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
-    const bool outermost = -distance.voxels[n] < 0.5;
-    ratio.voxels[n] = body.voxels[n] ? (outermost ? 0.875f : 1.f) : 0.f;
+/// A ball of fat in a layer of skin, as a scanner sees it: every voxel the mean of its parts.
+Volume<float> skinned_ball(double radius, double thickness, double skin_to_fat) {
+  Volume<float> image(fine_grid());
+  const Vec3& spacing = image.grid.spacing;
+  for (int k = 0; k < image.grid.size[2]; ++k) {
+    for (int j = 0; j < image.grid.size[1]; ++j) {
+      for (int i = 0; i < image.grid.size[0]; ++i) {
+        const Vec3 centre = image.grid.to_patient(Vec3(i, j, k));
+        const double off = centre.norm() - radius;
+        const int parts = off > -thickness - 2 && off < 2 ? 5 : 1;
+        double sum = 0;
+        for (int n = 0; n < parts * parts * parts; ++n) {
+          const Vec3 at(n % parts, n / parts % parts, n / parts / parts);
+          const Vec3 part = (at + Vec3::Constant(0.5)) / parts - Vec3::Constant(0.5);
+          const double depth = radius - (centre + spacing.cwiseProduct(part)).norm();
+          sum += depth < 0 ? 0 : depth < thickness ? skin_to_fat : 1;
+        }
+        image.at(i, j, k) = float(sum / (parts * parts * parts));
+      }
+    }
   }
-  EXPECT_NEAR(skin_thickness(ratio, body, distance), 0.25, 0.06);
-  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) ratio.voxels[n] = body.voxels[n];
-  EXPECT_EQ(skin_thickness(ratio, body, distance), 0);
+  return image;
+}
+
+/// From half a voxel to three: the layer's thickness, and none where there is none.
+TEST(Skin, ThicknessOfKnownLayers) {
+  const double radius = 35;
+  const Mask body = ball(fine_grid(), Vec3::Zero(), radius);
+  const Volume<float> distance = signed_distance(body);
+  for (const double thickness : {0.5, 0.8, 1.5, 3.0}) {
+    const Volume<float> image = skinned_ball(radius, thickness, 0.5);
+    EXPECT_NEAR(skin_thickness(image, body, distance), thickness, 0.15);
+  }
+  EXPECT_LT(skin_thickness(skinned_ball(radius, 0, 0.5), body, distance), 0.15);
+  for (const double skin : {0.4, 0.6}) {
+    const Volume<float> image = skinned_ball(radius, 1.5, skin);
+    EXPECT_NEAR(skin_thickness(image, body, distance), 1.5, 0.25) << "not as bright as assumed";
+  }
+}
+
+TEST(Skin, WithoutFatBehindItIsNotMeasured) {
+  const Mask body = ball(fine_grid(), Vec3::Zero(), 35);
+  Volume<float> dark = skinned_ball(35, 1.5, 0.5);
+  for (float& v : dark.voxels) v *= 0.5f;
+  EXPECT_EQ(skin_thickness(dark, body, signed_distance(body)), 0);
 }
 
 TEST(Debris, DimGhostBesideTheBodyGoes) {
