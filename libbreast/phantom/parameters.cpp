@@ -6,7 +6,7 @@
 namespace breast {
 
 const std::vector<std::string>& preset_names() {
-  static const std::vector<std::string> names{"paper", "small", "large", "pendulous"};
+  static const std::vector<std::string> names{"paper", "flat", "small", "large", "pendulous"};
   return names;
 }
 
@@ -19,12 +19,15 @@ BreastParameters kind_breast(const std::string& name) {
     b.centre_x = 90, b.radius = 60, b.height = 100, b.shoulder = 34, b.fold = 20;
   } else if (name == "pendulous") {
     b.centre_x = 82, b.radius = 50, b.height = 108, b.shoulder = 48, b.axis_inferior = 10;
+  } else if (name == "flat") {
+    b.radius = 46, b.height = 47, b.shoulder = 12, b.fold = 12;
+    b.nipple_radius = 4, b.nipple_height = 4;
   } else if (name == "paper") {
     // The paper's tumour moves a third as far as the nipple. Only a place low and medial does so
     // and still lies far enough in front of the chest wall to be seen in both mammograms.
     b.tumour_azimuth = 240;
   } else {
-    throw input_error("preset '", name, "' is unknown: choose paper, small, large or pendulous");
+    throw input_error("preset '", name, "' is unknown: choose paper, flat, small, large or pendulous");
   }
   return b;
 }

@@ -76,7 +76,7 @@ struct PhantomParameters {
   const BreastParameters& side(Side s) const { return s == Side::left ? left : right; }
 };
 
-/// "paper", "small", "large" and "pendulous": what the functions below take.
+/// "paper", "flat", "small", "large" and "pendulous": what the functions below take.
 const std::vector<std::string>& preset_names();
 /// The phantom of a preset; the seed also varies left against right by a few per cent, as in every
 /// woman. Throws Error (input) on another name or an unusable value.

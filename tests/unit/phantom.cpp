@@ -49,7 +49,7 @@ TEST(PhantomRandom, NormalNumbersHaveUnitVarianceAndNoCorrelation) {
 }
 
 TEST(PhantomTemplate, EveryPresetGivesRoundElementsOnSkinAndWall) {
-  for (const char* preset : {"paper", "small", "large", "pendulous"}) {
+  for (const char* preset : {"paper", "flat", "small", "large", "pendulous"}) {
     for (Side side : {Side::left, Side::right}) {
       PhantomParameters p = phantom_preset(preset, 3);
       p.mesh = {4, 2, 1, 1, 3, 2};
