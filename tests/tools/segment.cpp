@@ -18,12 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A bilateral scan on thick slices, as the 16 bits of a scanner.
+/// A bilateral scan in the 16 bits of a scanner.
 Volume<std::int16_t> scan() {
-  testing::SyntheticScan patient;
-  patient.grid.size = {100, 77, 30};
-  patient.grid.spacing = Vec3(3, 3, 5);
-  const Volume<float> image = patient.image();
+  const Volume<float> image = testing::SyntheticScan::coarse().image();
   Volume<std::int16_t> out(image.grid);
   for (std::size_t n = 0; n < image.voxels.size(); ++n)
     out.voxels[n] = std::int16_t(std::lround(image.voxels[n]));

@@ -23,8 +23,9 @@ Chain run(const Volume<float>& scan, const std::vector<Vec3>& clicked) {
   options.wall_points = clicked;
   Timer timer;
   chain.segmentation = segment_breast(scan, options, no_progress(), timer);
-  const BreastGeometry geometry =
-      fit_breast(chain.segmentation.labels, FitOptions{}, chain.fit, timer);
+  FitOptions fit;
+  fit.surface_step_mm = 5;
+  const BreastGeometry geometry = fit_breast(chain.segmentation.labels, fit, chain.fit, timer);
   chain.mesh = body_mesh(geometry, {.size = dome_near(8)});
   return chain;
 }
@@ -42,7 +43,7 @@ double wall_depth(const HexMesh& mesh) {
 }
 
 TEST(ClickedWall, MovesTheMeshsWall) {
-  const testing::SyntheticScan truth;
+  const testing::SyntheticScan truth = testing::SyntheticScan::coarse();
   const Volume<float> scan = truth.image();
   constexpr double back = 6;  // mm
   std::vector<Vec3> clicked;
