@@ -56,6 +56,23 @@ Volume<float> working_copy(const Volume<float>& scan) {
   return spacing[0] < 1 && spacing[1] < 1 ? coarsened(scan, {2, 2, 1}) : scan;
 }
 
+/// Samples a turned body again until it lies straight, always from the scan itself: skin that a
+/// turned breast hides from the front can make the first angle half of what it should be. Returns
+/// the angle (radians).
+double stand_upright(Work& work, Volume<float>& own, Side side) {
+  const Volume<float> scan = own;
+  double roll = 0;
+  for (int pass = 0; pass < 3; ++pass) {
+    const double more = body_roll(work.body.mask);
+    if (!(std::abs(more) > (pass == 0 ? least_roll : least_roll / 3))) break;
+    roll += more;
+    own = rolled(scan, roll, float(0.5 * work.body.air_level));
+    work.scan = working_copy(own);
+    work.body = find_body(work.scan, side);
+  }
+  return roll;
+}
+
 void find_wall(Work& work, const SegmentOptions& options, Progress& progress, Timer& timer) {
   for (int pass = 0; pass < 2; ++pass) {
     progress.update("chest wall", 0.2 + 0.25 * pass, pass ? "second pass" : "first pass");
@@ -114,10 +131,19 @@ void summarise(Segmentation& result, const Work& work) {
     std::nth_element(sigmas.begin(), place, sigmas.end());
     result.wall_sigma_p95 = *place;
   }
+}
+
+/// What a reader of the result should look at, but for its extent.
+void find_doubts(Segmentation& result, const Work& work) {
   if (result.wall_confident_percent < 80) {
     result.doubts.push_back(
         message("chest wall uncertain on ", std::lround(100 - result.wall_confident_percent),
                 " % of the breast's columns: look at it, correct with --chest-wall"));
+  }
+  if (result.muscle_ratio < 0.12) {
+    result.doubts.push_back(message(
+        "behind the chest wall the image has ", std::lround(100 * result.muscle_ratio),
+        " % of the brightness of fat (muscle 20-40 %): lung, or fat is saturated: look at it"));
   }
   if (result.roll_degrees != 0) {
     result.doubts.push_back(message("the body lies turned by ", std::lround(result.roll_degrees),
@@ -154,12 +180,17 @@ void doubt_extent(Segmentation& result, const Extents& found) {
     result.doubts.push_back(std::move(doubt));
 }
 
-/// Where a wall is held by the limits of the search alone and what lies behind is as bright as fat.
+/// Where a wall is held by the limits of the search alone, or what lies behind is as bright as fat
+/// (muscle has 0.2 to 0.4 of it in T1).
 void refuse_without_contrast(const Segmentation& result) {
-  if (!(result.wall_confidence_mean < 0.15)) return;
-  throw input_error("no chest wall found: behind it the image is as bright as in front (mean ",
-                    "confidence ", result.wall_confidence_mean,
-                    "): is fat saturated, or the scan not T1? Otherwise give --chest-wall");
+  constexpr double least_confidence = 0.15, brightest_muscle = 0.6;
+  if (result.wall_confidence_mean >= least_confidence && result.muscle_ratio < brightest_muscle)
+    return;
+  throw input_error(
+      "no chest wall found: behind it the image has ", std::lround(100 * result.muscle_ratio),
+      " % of the brightness in front (at most ", std::lround(100 * brightest_muscle),
+      " % expected), mean confidence ", result.wall_confidence_mean, " (at least ",
+      least_confidence, "): is fat saturated, or the scan not T1? Otherwise give --chest-wall");
 }
 
 }  // namespace
@@ -176,13 +207,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
     own = work.scan;
     work.scan = working_copy(own);
     work.body = find_body(work.scan, options.side);
-    const double roll = body_roll(work.body.mask);
-    if (std::abs(roll) > least_roll) {
-      own = rolled(own, roll, float(0.5 * work.body.air_level));
-      work.scan = working_copy(own);
-      work.body = find_body(work.scan, options.side);
-      result.roll_degrees = roll * 180 / std::numbers::pi;
-    }
+    result.roll_degrees = stand_upright(work, own, options.side) * 180 / std::numbers::pi;
     result.debris_ml = work.body.debris_ml;
     work.torso = find_torso(work.body.mask, options.side);
     work.skin_distance = signed_distance(work.body.mask);
@@ -222,6 +247,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   result.cut_by_view_cm2 = cut_by_view_cm2(work.breast);
   result.flat_skin_cm2 = flat_skin_cm2(work);
   summarise(result, work);
+  find_doubts(result, work);
   doubt_extent(result, extents_of(work, nipple.tip, options.side));
   if (!options.wall_labels && options.wall_points.empty()) refuse_without_contrast(result);
   return result;

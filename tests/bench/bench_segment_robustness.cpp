@@ -30,25 +30,34 @@ Volume<float> saturated(const Volume<float>& scan) {
   return testing::fat_saturated(scan, [&](int i, int j, int k) { return fat.at(i, j, k); });
 }
 
-/// Largest Dice of fibroglandular tissue between the labels and the same sampled again as the scan
-/// is.
-double ceiling(const testing::Perturbation& perturbation, const LabelVolume& labels) {
-  Volume<float> gland(labels.grid);
-  for (std::size_t n = 0; n < gland.voxels.size(); ++n)
-    gland.voxels[n] = labels.tissue[n] == std::uint8_t(Tissue::fibroglandular);
-  const Volume<float> share = perturbation.apply(gland);
+/// Largest Dice of fibroglandular tissue between the labels and `share`, known of each voxel,
+/// sampled again as the scan is and cut at some threshold.
+double ceiling(const testing::Perturbation& perturbation, const LabelVolume& labels,
+               const std::vector<float>& share) {
+  Volume<float> before(labels.grid);
+  before.voxels = share;
+  const Volume<float> after = perturbation.apply(before);
   LabelVolume again;
-  again.grid = share.grid;
-  again.tissue.resize(share.voxels.size());
+  again.grid = after.grid;
+  again.tissue.resize(after.voxels.size());
   double best = 0;
   for (double least = 0.1; least < 0.65; least += 0.05) {
     for (std::size_t n = 0; n < again.tissue.size(); ++n)
       again.tissue[n] =
-          std::uint8_t(share.voxels[n] >= least ? Tissue::fibroglandular : Tissue::air);
+          std::uint8_t(after.voxels[n] >= least ? Tissue::fibroglandular : Tissue::air);
     const LabelOverlap overlap = compare_labels(again, labels);
     best = std::max(best, overlap.tissue[std::size_t(Tissue::fibroglandular)].dice);
   }
   return best;
+}
+
+/// Of the labels, and of the fractions that brightness gave: columns of the table.
+std::string ceilings(const testing::Perturbation& perturbation, const LabelVolume& labels) {
+  std::vector<float> gland;
+  for (const std::uint8_t tissue : labels.tissue)
+    gland.push_back(tissue == std::uint8_t(Tissue::fibroglandular));
+  return message(ceiling(perturbation, labels, gland), "\t",
+                 ceiling(perturbation, labels, labels.fibroglandular_fraction));
 }
 
 struct Timed {
@@ -85,10 +94,11 @@ void print_row(const std::string& name, const Timed& found, const Segmentation& 
 int run(const std::string& file, Side side, const std::string& only) {
   const Volume<float> scan = read_volume(file);
   std::printf(
-      "case\tseconds\tbreast_dice\tfibroglandular_dice\tceiling\twall_mean_mm\twall_p95_mm\t"
+      "case\tseconds\tbreast_dice\tfibroglandular_dice\tof_labels\tof_fractions\twall_mean_"
+      "mm\twall_p95_mm\t"
       "nipple_mm\tfat_cv\tmessages\n");
   const Timed base = timed(scan, side);
-  print_row("unchanged", base, base.result, "");
+  print_row("unchanged", base, base.result, "\t");
   auto cases =
       testing::perturbations(side == Side::left, base.result.labels.landmarks.at("nipple"));
   cases.push_back({"fat saturated", saturated});
@@ -97,11 +107,11 @@ int run(const std::string& file, Side side, const std::string& only) {
     try {
       const Timed found = timed(perturbation.apply(scan), side);
       const std::string most = perturbation.samples_again
-                                   ? message(ceiling(perturbation, base.result.labels))
-                                   : std::string();
+                                   ? ceilings(perturbation, base.result.labels)
+                                   : std::string("\t");
       print_row(perturbation.name, found, base.result, most);
     } catch (const Error& error) {
-      std::printf("%s\t\t\t\t\t\t\t\t\trefused: %s\n", perturbation.name.c_str(), error.what());
+      std::printf("%s\t\t\t\t\t\t\t\t\t\trefused: %s\n", perturbation.name.c_str(), error.what());
     }
   }
   return 0;

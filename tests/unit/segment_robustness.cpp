@@ -131,7 +131,9 @@ TEST(SegmentRobustness, ThickSlices) {
   expect_same(testing::with_slices(patient().scan, 5), 0.95, 1, 4);
 }
 TEST(SegmentRobustness, ObliqueAxes) {
-  expect_same(testing::oblique(patient().scan, 15), 0.92, 1.5, 6);
+  const Segmentation result = run(testing::oblique(patient().scan, 15));
+  EXPECT_NEAR(std::abs(result.roll_degrees), 15, 1);
+  expect_same(result, 0.92, 1.5, 6);
 }
 TEST(SegmentRobustness, NarrowFieldOfView) {
   expect_same(testing::narrower(patient().scan, 0.04), 0.93, 1, 4);
@@ -167,6 +169,34 @@ TEST(SegmentRobustness, SaturatedFatIsRefusedWithTheReason) {
   };
   const std::string reason = refusal(testing::fat_saturated(patient().scan, fat_of));
   EXPECT_NE(reason.find("saturated"), std::string::npos) << reason;
+}
+
+/// The same patient with another brightness (of fat) of muscle and lung.
+Volume<float> with_chest(double brightness) {
+  const SyntheticScan& truth = patient().truth;
+  Volume<float> scan = patient().scan;
+  const Grid& grid = scan.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const double signal = truth.signal(grid.to_patient(Vec3(i, j, k)));
+        if (signal > 0 && signal < 0.5) scan.at(i, j, k) *= float(brightness / signal);
+      }
+    }
+  }
+  return scan;
+}
+
+/// Fat that is saturated where it does not show beneath the skin: no wall is found there.
+TEST(SegmentRobustness, NoMuscleBehindTheWallIsRefusedOrDoubted) {
+  EXPECT_NE(refusal(with_chest(0.85)).find("of the brightness in front"), std::string::npos);
+  const auto lung_doubts = [](const Segmentation& result) {
+    return std::count_if(result.doubts.begin(), result.doubts.end(), [](const std::string& doubt) {
+      return doubt.find("lung") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(lung_doubts(run(with_chest(0.08))), 1);
+  EXPECT_EQ(lung_doubts(patient().base), 0);
 }
 
 TEST(SegmentRobustness, EmptyVolumeIsRefused) {
