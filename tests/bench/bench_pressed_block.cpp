@@ -1,11 +1,13 @@
 // Compression of the block other programs compressed: a 0.1 m cube of fat, law (9), clamped at
 // x = 0, between frictionless plates.
 //
-//     bench_pressed_block [--bulk-ratio K_OVER_MU] [--to GAP_PERCENT] [--quarter] [N...]
+//     bench_pressed_block [--bulk-ratio K_OVER_MU] [--from GAP] [--to GAP] [--quarter]
+//         [--clear MM] [N...]
 //
-// N: elements along an edge (default 8); without a bulk ratio exactly incompressible. Prints one
-// row per N and gap (70, 60, ... % of the height): paddle force and the displacement of the corner
-// (100, 100, 100) mm. Seconds and iterations are those since the last row.
+// N: elements along an edge (default 8); without a bulk ratio exactly incompressible. The plates
+// keep one element, or --clear, from the clamp. Prints one row per N and gap (70, 60, ... % of the
+// height, the first --from, the last --to): paddle force and the displacement of the corner (100,
+// 100, 100) mm. Seconds and iterations are those since the last row.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -23,9 +25,10 @@ namespace {
 using breast::fixtures::PressedBlock;
 using clock_type = std::chrono::steady_clock;
 
-void press(int n, double bulk_ratio, int last_gap, PressedBlock::Part part) {
-  PressedBlock block(n, bulk_ratio, part);
-  for (int gap = 70; gap >= last_gap; gap -= 10) {
+void press(int n, double bulk_ratio, int first_gap, int last_gap, PressedBlock::Part part,
+           double clear) {
+  PressedBlock block(n, bulk_ratio, part, clear);
+  for (int gap = first_gap; gap >= last_gap; gap -= 10) {
     const int before = block.factorisations();
     const auto start = clock_type::now();
     const double cpu = breast::cpu_seconds();
@@ -36,7 +39,7 @@ void press(int n, double bulk_ratio, int last_gap, PressedBlock::Part part) {
                 breast::threads(), bulk_ratio, gap, block.force(path), u.x(), u.y(), u.z(),
                 path.iterations, path.failures, block.factorisations() - before, path.indefinite,
                 path.final_step.forces.max_volume_error, seconds, breast::cpu_seconds() - cpu,
-                path.reached ? "reached" : "stopped_early");
+                path.reached ? "reached" : describe(path.last_failure).c_str());
     std::fflush(stdout);
     if (!path.reached) return;
   }
@@ -58,14 +61,19 @@ int number(const std::string& text, int low, int high) {
 int main(int argc, char** argv) {
   std::vector<int> sizes;
   double bulk_ratio = 0;
-  int last_gap = 30;
+  int first_gap = 70, last_gap = 30;
   PressedBlock::Part part = PressedBlock::Part::whole;
+  double clear = 0;
   for (int i = 1; i < argc; ++i) {
     const std::string option = argv[i];
     if (option == "--bulk-ratio" && i + 1 < argc) {
       bulk_ratio = number(argv[++i], 1, 1000000000);
+    } else if (option == "--from" && i + 1 < argc) {
+      first_gap = number(argv[++i], 10, 90);
     } else if (option == "--to" && i + 1 < argc) {
       last_gap = number(argv[++i], 10, 70);
+    } else if (option == "--clear" && i + 1 < argc) {
+      clear = number(argv[++i], 1, 90);
     } else if (option == "--quarter") {
       part = PressedBlock::Part::quarter;
     } else {
@@ -79,7 +87,7 @@ int main(int argc, char** argv) {
     std::printf(
         "n\tthreads\tbulk_ratio\tgap_percent\tforce_N\tu_x_mm\tu_y_mm\tu_z_mm\tnewton\t"
         "failed_steps\tfactorisations\tindefinite\tvolume_error\tseconds\tcpu_seconds\tstatus\n");
-    for (const int n : sizes) press(n, bulk_ratio, last_gap, part);
+    for (const int n : sizes) press(n, bulk_ratio, first_gap, last_gap, part, clear);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_pressed_block: %s\n", error.what());
     return 1;
