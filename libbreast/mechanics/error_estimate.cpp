@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mechanics/richer_problem.hpp"
+#include "solve/conjugate_gradients.hpp"
 
 namespace breast {
 
@@ -16,31 +17,6 @@ constexpr int max_iterations = 200;
 // strain error does to it: a single linearised step is wrong by half, however fine the mesh. The
 // second step sees that square; a third changes a tenth.
 constexpr int steps = 2;
-
-// Conjugate gradients until the preconditioned residual is `target` or below; `target` zero: made
-// from the start's. False: no convergence.
-bool solve(const RicherProblem& problem, const SaddleSolver& coarse, double& target,
-           int& iterations, Eigen::VectorXd& x) {
-  Eigen::VectorXd r = problem.right_hand_side();
-  x = Eigen::VectorXd::Zero(r.size());
-  Eigen::VectorXd z = problem.precondition(r, coarse), d = z;
-  double rz = r.dot(z);
-  if (!(target > 0)) target = relative_accuracy * relative_accuracy * rz;
-  while (rz > target && iterations < max_iterations) {
-    const Eigen::VectorXd ad = problem.apply(d);
-    const double curvature = d.dot(ad);
-    if (!(curvature > 0)) return false;
-    const double alpha = rz / curvature;
-    x += alpha * d;
-    r -= alpha * ad;
-    z = problem.precondition(r, coarse);
-    const double next = r.dot(z);
-    d = z + (next / rz) * d;
-    rz = next;
-    ++iterations;
-  }
-  return rz <= target && x.allFinite();
-}
 
 }  // namespace
 
@@ -59,12 +35,22 @@ ErrorEstimate estimate_error(const Scene& scene, const Eigen::VectorXd& referenc
   if (!solver.factorise(matrix, held, false).ok) return estimate;
   RicherProblem problem(scene, reference, state, gravity, touching);
   if (!problem.valid()) return estimate;
-  double target = 0;
+  ConjugateGradientLimits limits{relative_accuracy, 0, max_iterations};
   Eigen::VectorXd correction = Eigen::VectorXd::Zero(problem.right_hand_side().size()), step;
   for (; estimate.steps < steps; ++estimate.steps) {
     if (estimate.steps > 0 && !problem.move(step)) break;
-    if (!solve(problem, solver, target, estimate.iterations, step)) break;
+    const ConjugateGradientResult solved = conjugate_gradients(
+        [&](const Eigen::VectorXd& v) { return problem.apply(v); },
+        [&](const Eigen::VectorXd& v) { return problem.precondition(v, solver); },
+        problem.right_hand_side(), limits);
+    estimate.iterations += solved.iterations;
+    if (!solved.converged) break;
+    step = solved.x;
     correction += step;
+    // The second step to the accuracy of the first.
+    if (estimate.steps == 0) {
+      limits = {0, relative_accuracy * solved.start, max_iterations - estimate.iterations};
+    }
   }
   if (estimate.steps == 0) return estimate;
   const std::vector<Vec3> nodal = unflatten(correction);

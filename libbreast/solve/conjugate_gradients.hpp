@@ -1,0 +1,30 @@
+// Preconditioned conjugate gradients for symmetric positive definite maps.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solve/gmres.hpp"
+
+namespace breast {
+
+/// When to stop: r = b − A x is measured by √(rᵀ P r), P the preconditioner.
+struct ConjugateGradientLimits {
+  double relative = 0;  ///< to its start, P's norm of b
+  double absolute = 0;  ///< or itself
+  int iterations = 0;   ///< at most
+};
+
+struct ConjugateGradientResult {
+  Eigen::VectorXd x;
+  int iterations = 0;
+  double start = 0, residual = 0;  ///< P's norm of b, and of r at the end
+  bool converged = false;
+};
+
+/// Solves A x = b from zero. Stops early, not converged, along a direction without positive
+/// curvature (Hestenes and Stiefel 1952).
+ConjugateGradientResult conjugate_gradients(const LinearMap& a, const LinearMap& p,
+                                            const Eigen::VectorXd& b,
+                                            const ConjugateGradientLimits& limits);
+
+}  // namespace breast
