@@ -20,7 +20,9 @@ struct BlockMatrix {
 
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
     out.resize(long(R) * rows);
-#pragma omp parallel for num_threads(threads()) schedule(static)
+    // Below some tens of microseconds a product is over before a second thread wakes.
+    const bool large = start.back() * R * C > 200000;
+#pragma omp parallel for num_threads(threads()) schedule(static) if (large)
     for (int i = 0; i < rows; ++i) {
       Eigen::Matrix<double, R, 1> sum = Eigen::Matrix<double, R, 1>::Zero();
       for (long k = start[i]; k < start[i + 1]; ++k) {
@@ -28,6 +30,16 @@ struct BlockMatrix {
       }
       out.template segment<R>(long(R) * i) = sum;
     }
+  }
+  /// Of a square matrix.
+  Eigen::VectorXd diagonal() const {
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(long(R) * rows);
+    for (int i = 0; i < rows; ++i) {
+      for (long k = start[i]; k < start[i + 1]; ++k) {
+        if (column[k] == i) out.template segment<R>(long(R) * i) = block[k].diagonal();
+      }
+    }
+    return out;
   }
   /// out += Aᵀ x.
   void add_transposed(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
@@ -38,6 +50,34 @@ struct BlockMatrix {
       }
     }
   }
+};
+
+/// Rows of a matrix gathered block by block, in the order in which columns appear.
+template <int R, int C>
+class RowSum {
+ public:
+  explicit RowSum(int columns) : place_(std::size_t(columns), -1) {}
+  Eigen::Matrix<double, R, C>& at(int column) {
+    if (place_[column] < 0) {
+      place_[column] = int(columns_.size());
+      columns_.push_back(column);
+      blocks_.push_back(Eigen::Matrix<double, R, C>::Zero());
+    }
+    return blocks_[place_[column]];
+  }
+  /// Appends the row to a matrix and forgets it.
+  void flush(BlockMatrix<R, C>& to) {
+    to.column.insert(to.column.end(), columns_.begin(), columns_.end());
+    to.block.insert(to.block.end(), blocks_.begin(), blocks_.end());
+    to.start.push_back(long(to.column.size()));
+    for (const int column : columns_) place_[column] = -1;
+    columns_.clear();
+    blocks_.clear();
+  }
+
+ private:
+  std::vector<int> place_, columns_;
+  std::vector<Eigen::Matrix<double, R, C>> blocks_;
 };
 
 /// Both triangles of a symmetric node matrix.

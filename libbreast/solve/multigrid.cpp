@@ -49,7 +49,7 @@ struct Multigrid::Impl {
   template <int B>
   Eigen::VectorXd cycle(const Level<B>& level, std::size_t next,
                         const Eigen::VectorXd& right) const {
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(right.size()), residual;
+    Eigen::VectorXd x, residual;
     level.smooth(right, x);
     level.a.multiply(x, residual);
     residual = right - residual;

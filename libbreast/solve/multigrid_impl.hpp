@@ -18,11 +18,11 @@ struct Level {
   BlockMatrix<B, B> a;
   BlockMatrix<B, 6> interpolation;
   Eigen::VectorXd inverse_diagonal;
-  double largest = 1;  ///< eigenvalue of D⁻¹A, a little above
+  double largest = 1;  ///< eigenvalue of D⁻¹A: too low, and the smoother magnifies what is above
 
   /// False when a diagonal entry is not positive.
   bool prepare();
-  /// x after a Chebyshev polynomial in D⁻¹A, from x.
+  /// x after a Chebyshev polynomial in D⁻¹A, from x; from zero where x is empty.
   void smooth(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
   /// Smoothed interpolation from aggregates; `motions` of this level become those of the next.
   Motions<6> coarsen(const Motions<B>& motions, double threshold);

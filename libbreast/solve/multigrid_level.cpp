@@ -1,65 +1,33 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/lanczos.hpp"
 #include "solve/multigrid_impl.hpp"
 
 namespace breast {
 
 namespace {
 
-constexpr int degree = 3, power_iterations = 12;
+constexpr int degree = 3, lanczos_steps = 12;
 constexpr double lowest_part = 1.0 / 12;  // of the spectrum's upper end: what the smoother leaves
-
-// Rows of blocks gathered by column, in the order in which columns appear.
-template <int R, int C>
-class RowSum {
- public:
-  explicit RowSum(int columns) : place_(std::size_t(columns), -1) {}
-  Eigen::Matrix<double, R, C>& at(int column) {
-    if (place_[column] < 0) {
-      place_[column] = int(columns_.size());
-      columns_.push_back(column);
-      blocks_.push_back(Eigen::Matrix<double, R, C>::Zero());
-    }
-    return blocks_[place_[column]];
-  }
-  /// Appends the row to a matrix and forgets it.
-  void flush(BlockMatrix<R, C>& to) {
-    to.column.insert(to.column.end(), columns_.begin(), columns_.end());
-    to.block.insert(to.block.end(), blocks_.begin(), blocks_.end());
-    to.start.push_back(long(to.column.size()));
-    for (const int column : columns_) place_[column] = -1;
-    columns_.clear();
-    blocks_.clear();
-  }
-
- private:
-  std::vector<int> place_, columns_;
-  std::vector<Eigen::Matrix<double, R, C>> blocks_;
-};
 
 }  // namespace
 
 template <int B>
 bool Level<B>::prepare() {
-  inverse_diagonal.resize(long(B) * a.rows);
-  for (int i = 0; i < a.rows; ++i) {
-    for (long k = a.start[i]; k < a.start[i + 1]; ++k) {
-      if (a.column[k] == i) {
-        inverse_diagonal.segment<B>(long(B) * i) = a.block[k].diagonal().cwiseInverse();
-      }
-    }
-  }
+  inverse_diagonal = a.diagonal().cwiseInverse();
   if (!(inverse_diagonal.minCoeff() > 0) || !inverse_diagonal.allFinite()) return false;
-  // A start that is no eigenvector of anything, the same every time.
-  Eigen::VectorXd x(inverse_diagonal.size()), ax;
-  for (long i = 0; i < x.size(); ++i) x[i] = std::sin(1.0 + 7.3 * double(i));
-  for (int i = 0; i < power_iterations; ++i) {
-    x /= x.norm();
-    a.multiply(x, ax);
-    x = inverse_diagonal.cwiseProduct(ax);
-  }
-  largest = 1.1 * x.norm();
+  // D^−1/2 A D^−1/2 has the eigenvalues of D⁻¹A. A start that is no eigenvector of anything, the
+  // same every time.
+  const Eigen::VectorXd root = inverse_diagonal.cwiseSqrt();
+  Eigen::VectorXd start(root.size());
+  for (long i = 0; i < start.size(); ++i) start[i] = std::sin(1.0 + 7.3 * double(i));
+  const auto scaled = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    Eigen::VectorXd ax;
+    a.multiply(root.cwiseProduct(x), ax);
+    return root.cwiseProduct(ax);
+  };
+  largest = largest_eigenvalue(scaled, start, lanczos_steps);
   return std::isfinite(largest);
 }
 
@@ -70,8 +38,13 @@ void Level<B>::smooth(const Eigen::VectorXd& right, Eigen::VectorXd& x) const {
   const double sigma = centre / half;
   double rho = 1 / sigma;
   Eigen::VectorXd residual, step;
-  a.multiply(x, residual);
-  residual = right - residual;
+  if (x.size() == 0) {
+    residual = right;
+    x = Eigen::VectorXd::Zero(right.size());
+  } else {
+    a.multiply(x, residual);
+    residual = right - residual;
+  }
   step = inverse_diagonal.cwiseProduct(residual) / centre;
   x += step;
   for (int i = 1; i < degree; ++i) {
