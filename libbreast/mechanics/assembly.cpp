@@ -138,9 +138,9 @@ std::vector<double> AssemblyOf<N, P, F>::mean_det_f(const Eigen::VectorXd& refer
 }
 
 SaddleMatrix Assembly::make_matrix() const {
-  SaddleMatrix matrix{NodeMatrix(pattern_), {}, {}, {}, space_, {}};
+  SaddleMatrix matrix{NodeMatrix(pattern_), {}, {}, {}, {}, space_, {}};
   matrix.divergence.resize(cells_, space_->rows);
-  matrix.kappa = Eigen::VectorXd::Zero(cells_.count());
+  matrix.kappa = matrix.shear = Eigen::VectorXd::Zero(cells_.count());
   matrix.diagonal = Eigen::VectorXd::Zero(pattern_->unknowns());
   return matrix;
 }

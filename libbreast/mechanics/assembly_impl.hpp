@@ -45,7 +45,8 @@ class AssemblyOf final : public Assembly {
                      const AssemblyRequest& request, SaddleForces& forces) const;
   bool faces_part(const Eigen::VectorXd& reference, const SaddleState& state,
                   const AssemblyRequest& request, SaddleForces& forces) const;
-  double kappa_of(int e, double augmentation, const HexOutput<N, P>& out) const;
+  double shear_of(int e, const HexOutput<N, P>& out) const;
+  double kappa_of(int e, double augmentation, double shear) const;
 
   bool isochoric_;
   double bulk_ratio_;

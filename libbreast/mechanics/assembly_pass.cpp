@@ -28,22 +28,27 @@ struct AssemblyOf<N, P, F>::Chunk {
 constexpr double condensed_ratio = 1e4;  // of bulk to shear modulus
 
 // κ/μ: for a factor far above the material and far below what rounding forbids; for multigrid
-// cycles, which degrade with it, just enough to speed up the pressure.
-constexpr double factor_augmentation = 1e3, cycle_augmentation = 10;
+// cycles, which degrade with it, just enough to keep the matrix positive definite where K is not
+// and to help the pressure (1, 3, 10: 19, 16, 30 iterations on the block of 24³).
+constexpr double factor_augmentation = 1e3, cycle_augmentation = 3;
 
-// κ proportional to the present stiffness: trace K = (10/3) μ Σ|∇N|² for a linear solid (the
-// pressure term has no trace). With a finite bulk modulus κ/K must be one number, so μ at rest is
-// taken; up to condensed_ratio it is the bulk modulus itself, which makes the matrix the exact
-// tangent without pressures: strong compression stiffens the laws far beyond μ at rest.
+// The present stiffness: trace K = (10/3) μ Σ|∇N|² for a linear solid (the pressure term has no
+// trace).
 template <int N, int P, int F>
-double AssemblyOf<N, P, F>::kappa_of(int e, double augmentation, const HexOutput<N, P>& out) const {
+double AssemblyOf<N, P, F>::shear_of(int e, const HexOutput<N, P>& out) const {
   const double rest = laws_[law_of_[e]].shear_modulus();
-  if (bulk_ratio_ > 0) {
-    const double most = solver_ == LinearSolver::direct ? condensed_ratio : augmentation;
-    return std::min(std::max(augmentation, most), bulk_ratio_) * rest;
-  }
   const double now = out.k.trace() / (10.0 / 3 * out.gradient_square);
-  return augmentation * (now > rest ? now : rest);
+  return now > rest ? now : rest;
+}
+
+// κ proportional to the present stiffness. With a finite bulk modulus κ/K must be one number, so μ
+// at rest is taken; up to condensed_ratio it is the bulk modulus itself, which makes the matrix the
+// exact tangent without pressures: strong compression stiffens the laws far beyond μ at rest.
+template <int N, int P, int F>
+double AssemblyOf<N, P, F>::kappa_of(int e, double augmentation, double shear) const {
+  if (!(bulk_ratio_ > 0)) return augmentation * shear;
+  const double most = solver_ == LinearSolver::direct ? condensed_ratio : augmentation;
+  return std::min(std::max(augmentation, most), bulk_ratio_) * laws_[law_of_[e]].shear_modulus();
 }
 
 template <int N, int P, int F>
@@ -86,8 +91,10 @@ void AssemblyOf<N, P, F>::store(int e, int at, const SaddleState& state,
   if (request.matrix != nullptr) {
     SaddleMatrix& matrix = *request.matrix;
     const double own = solver_ == LinearSolver::direct ? factor_augmentation : cycle_augmentation;
-    const double kappa = kappa_of(e, request.augmentation > 0 ? request.augmentation : own, out);
+    const double shear = shear_of(e, out);
+    const double kappa = kappa_of(e, request.augmentation > 0 ? request.augmentation : own, shear);
     matrix.kappa[e] = kappa;
+    matrix.shear[e] = shear;
     matrix.divergence.at(e) = out.b;
     Flat(chunk.diagonals.data() + at * 3 * N) = out.k.diagonal();
     out.k.noalias() += out.b.transpose() * (kappa * inverse * out.b);

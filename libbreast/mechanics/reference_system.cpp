@@ -38,7 +38,7 @@ Eigen::VectorXd ReferenceSystem::precondition(const Eigen::VectorXd& y) const {
   const Eigen::VectorXd top = y.head(n), bottom = y.tail(m) / weigh_;
   Eigen::VectorXd w = solver_.back_solve(
       top + matrix_.divergence.apply_transpose(space.divide(bottom, matrix_.kappa)));
-  const Eigen::VectorXd q = space.divide(bottom - matrix_.divergence.apply(w), matrix_.kappa);
+  const Eigen::VectorXd q = solver_.schur_solve(matrix_, bottom - matrix_.divergence.apply(w));
   Eigen::VectorXd out(y.size());
   out << w, q;
   return out;

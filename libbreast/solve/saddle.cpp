@@ -10,89 +10,12 @@ namespace breast {
 
 namespace {
 
-// Gathers the values of a cell's nodes, or adds them back.
-Eigen::VectorXd gather(const Cells& cells, int e, const Eigen::VectorXd& u) {
-  const int n = cells.nodes_per_cell;
-  Eigen::VectorXd local(3L * n);
-  for (int a = 0; a < n; ++a) local.segment<3>(3L * a) = u.segment<3>(3L * cells.cell(e)[a]);
-  return local;
-}
-
-// Below this many cells or nodes a loop of a few microseconds is over before a second thread wakes.
+// Below this many nodes a loop of a few microseconds is over before a second thread wakes.
 constexpr int worth_threads = 20000;
 constexpr double first_shift = 1e-5, shift_growth = 8, largest_shift = 10;
 constexpr int max_pressure_iterations = 60;
 
 }  // namespace
-
-void ElementRows::resize(const Cells& over, int rows_per_element) {
-  cells = &over;
-  rows = rows_per_element;
-  values.assign(std::size_t(over.count()) * rows * 3 * over.nodes_per_cell, 0.0);
-}
-
-Eigen::Map<const Eigen::MatrixXd> ElementRows::at(int e) const {
-  const int columns = 3 * cells->nodes_per_cell;
-  return {values.data() + std::size_t(e) * rows * columns, rows, columns};
-}
-Eigen::Map<Eigen::MatrixXd> ElementRows::at(int e) {
-  const int columns = 3 * cells->nodes_per_cell;
-  return {values.data() + std::size_t(e) * rows * columns, rows, columns};
-}
-
-Eigen::VectorXd ElementRows::apply(const Eigen::VectorXd& u) const {
-  Eigen::VectorXd out(long(rows) * cells->count());
-#pragma omp parallel for num_threads(threads()) schedule(static) if (cells->count() > worth_threads)
-  for (int e = 0; e < cells->count(); ++e) {
-    out.segment(long(e) * rows, rows).noalias() = at(e) * gather(*cells, e, u);
-  }
-  return out;
-}
-
-Eigen::VectorXd ElementRows::apply_transpose(const Eigen::VectorXd& p) const {
-  int nodes = 0;
-  for (const int node : cells->nodes) nodes = std::max(nodes, node + 1);
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(3L * nodes);
-  const int n = cells->nodes_per_cell;
-  Eigen::VectorXd local(3L * n);
-  for (int e = 0; e < cells->count(); ++e) {
-    local.noalias() = at(e).transpose() * p.segment(long(e) * rows, rows);
-    for (int a = 0; a < n; ++a) out.segment<3>(3L * cells->cell(e)[a]) += local.segment<3>(3L * a);
-  }
-  return out;
-}
-
-Eigen::Map<const Eigen::MatrixXd> PressureSpace::mass_at(int e) const {
-  return {mass.data() + std::size_t(e) * rows * rows, rows, rows};
-}
-Eigen::Map<const Eigen::MatrixXd> PressureSpace::inverse_at(int e) const {
-  return {inverse_mass.data() + std::size_t(e) * rows * rows, rows, rows};
-}
-
-Eigen::VectorXd PressureSpace::multiply(const Eigen::VectorXd& q,
-                                        const Eigen::VectorXd& factor) const {
-  Eigen::VectorXd out(q.size());
-  for (int e = 0; e < elements(); ++e) {
-    out.segment(long(e) * rows, rows).noalias() =
-        factor[e] * (mass_at(e) * q.segment(long(e) * rows, rows));
-  }
-  return out;
-}
-
-Eigen::VectorXd PressureSpace::divide(const Eigen::VectorXd& q,
-                                      const Eigen::VectorXd& factor) const {
-  Eigen::VectorXd out(q.size());
-  for (int e = 0; e < elements(); ++e) {
-    out.segment(long(e) * rows, rows).noalias() =
-        factor[e] * (inverse_at(e) * q.segment(long(e) * rows, rows));
-  }
-  return out;
-}
-
-Eigen::VectorXd SaddleMatrix::multiply_unaugmented(const Eigen::VectorXd& u) const {
-  return stiffness.multiply(u) -
-         divergence.apply_transpose(space->divide(divergence.apply(u), kappa));
-}
 
 SaddleSolver::SaddleSolver(const std::shared_ptr<const NodePattern>& pattern, LinearSolver kind)
     : kind_(kind), work_(pattern), constraints_(pattern->nodes()) {
@@ -101,7 +24,9 @@ SaddleSolver::SaddleSolver(const std::shared_ptr<const NodePattern>& pattern, Li
 
 double SaddleSolver::factor_entries() const {
   if (cholesky_ != nullptr) return cholesky_->factor_entries();
-  return factorisations_ == 0 ? 0 : 2 * double(work_.values().size()) * multigrid_.complexity();
+  return factorisations_ == 0
+             ? 0
+             : 2 * double(work_.values().size()) * multigrid_.complexity() + schur_.entries();
 }
 double SaddleSolver::factor_gflop() const {
   return cholesky_ != nullptr ? cholesky_->factor_gflop() : 0;
@@ -154,7 +79,8 @@ Factorisation SaddleSolver::factorise(const SaddleMatrix& matrix, const Constrai
     ++factorisations_;
     ++result.attempts;
     result.ok = cholesky_ != nullptr ? cholesky_->factorise(work_.values())
-                                     : multigrid_.build(work_, constraints_, matrix.positions);
+                                     : multigrid_.build(work_, constraints_, matrix.positions) &&
+                                           schur_.build(matrix, work_, constraints_);
     result.shift = shift;
     if (result.ok || !may_shift) break;
     shift = shift > 0 ? shift * shift_growth : std::max(first_shift, last_shift_ / shift_growth);
@@ -172,6 +98,11 @@ Eigen::VectorXd SaddleSolver::back_solve(const Eigen::VectorXd& v) const {
   constraints_.from_axes(u);
   constraints_.project(u);
   return u;
+}
+
+Eigen::VectorXd SaddleSolver::schur_solve(const SaddleMatrix& matrix,
+                                          const Eigen::VectorXd& q) const {
+  return cholesky_ != nullptr ? matrix.space->divide(q, matrix.kappa) : schur_.solve(q);
 }
 
 SaddleStep SaddleSolver::solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,

@@ -6,8 +6,9 @@
 //
 // solved through the positive definite K + κ Bᵀ M⁻¹ B (element-local, so with the pattern of K):
 // directly, by its Cholesky factor and a few conjugate-gradient iterations on the pressure; or, for
-// meshes whose factor is not affordable, by GMRES preconditioned with a multigrid cycle (κ then is
-// about ten times the shear modulus instead of a thousand). Use:
+// meshes whose factor is not affordable, by GMRES preconditioned with a multigrid cycle and a
+// sparse stand-in for the pressure's Schur complement (κ then is three times the shear modulus
+// instead of a thousand). Use:
 //
 //     SaddleSolver solver(pattern);                    // ordering and analysis, once per mesh
 //     scene.tangent(state, matrix);                    // fills a SaddleMatrix
@@ -24,46 +25,10 @@
 #include "solve/constraints.hpp"
 #include "solve/multigrid.hpp"
 #include "solve/node_matrix.hpp"
+#include "solve/pressure_schur.hpp"
+#include "solve/saddle_matrix.hpp"
 
 namespace breast {
-
-/// Dense rows per element against its nodes: B, and its sibling ∂θ/∂X.
-struct ElementRows {
-  const Cells* cells = nullptr;
-  int rows = 0;                ///< pressures per element: 1 or 4
-  std::vector<double> values;  ///< per element rows × 3n, column-major
-
-  void resize(const Cells& over, int rows_per_element);
-  Eigen::Map<const Eigen::MatrixXd> at(int element) const;
-  Eigen::Map<Eigen::MatrixXd> at(int element);
-  Eigen::VectorXd apply(const Eigen::VectorXd& u) const;            ///< B u
-  Eigen::VectorXd apply_transpose(const Eigen::VectorXd& p) const;  ///< Bᵀ p
-};
-
-/// What does not change with the state: M⁻¹ per element (rows × rows) and c = 1/bulk modulus.
-struct PressureSpace {
-  int rows = 0;
-  std::vector<double> mass, inverse_mass;  ///< per element rows × rows
-  Eigen::VectorXd compliance;              ///< c per element, 1/Pa
-  int elements() const { return int(compliance.size()); }
-  Eigen::Map<const Eigen::MatrixXd> mass_at(int e) const;
-  Eigen::Map<const Eigen::MatrixXd> inverse_at(int e) const;
-  /// s_e M_e q_e or s_e M_e⁻¹ q_e with one factor s per element.
-  Eigen::VectorXd multiply(const Eigen::VectorXd& q, const Eigen::VectorXd& factor) const;
-  Eigen::VectorXd divide(const Eigen::VectorXd& q, const Eigen::VectorXd& factor) const;
-};
-
-struct SaddleMatrix {
-  NodeMatrix stiffness;      ///< K + κ Bᵀ M⁻¹ B, global axes, without constraints
-  ElementRows divergence;    ///< B
-  Eigen::VectorXd kappa;     ///< κ per element, Pa
-  Eigen::VectorXd diagonal;  ///< of K without κ, made positive: the measure of a shift
-  std::shared_ptr<const PressureSpace> space;
-  Eigen::VectorXd positions;  ///< of the nodes, mm: rigid motions for a multigrid
-
-  /// K u without the κ term (for reactions and bordering).
-  Eigen::VectorXd multiply_unaugmented(const Eigen::VectorXd& u) const;
-};
 
 enum class LinearSolver { direct, multigrid };
 
@@ -101,6 +66,10 @@ class SaddleSolver {
   /// symmetric positive definite approximation.
   Eigen::VectorXd back_solve(const Eigen::VectorXd& v) const;
 
+  /// S⁻¹ q for the pressure's Schur complement S = (1 − κc) B K_κ⁻¹ Bᵀ + cM of `matrix`, about:
+  /// κM⁻¹q beside a factor; with multigrid that of the last factorise, and no fixed linear map.
+  Eigen::VectorXd schur_solve(const SaddleMatrix& matrix, const Eigen::VectorXd& q) const;
+
   const Constraints& constraints() const { return constraints_; }
   LinearSolver kind() const { return kind_; }
   /// Values kept and GFlop of one factorisation; with multigrid values of all levels, and zero.
@@ -121,6 +90,7 @@ class SaddleSolver {
   LinearSolver kind_;
   std::unique_ptr<Cholesky> cholesky_;
   Multigrid multigrid_;
+  PressureSchur schur_;
   NodeMatrix work_;
   Constraints constraints_;
   double last_shift_ = 0;

@@ -1,5 +1,5 @@
 // The saddle system by GMRES with a block triangular preconditioner: a multigrid cycle for
-// K + κBᵀM⁻¹B, the mass matrix over (μ + κ) for the pressure's Schur complement.
+// K + κBᵀM⁻¹B, PressureSchur for the pressure's Schur complement.
 #include <cmath>
 
 #include "solve/gmres.hpp"
@@ -44,7 +44,7 @@ SaddleStep SaddleSolver::solve_by_cycles(const SaddleMatrix& matrix, const Eigen
     Eigen::VectorXd out(n + m);
     const Eigen::VectorXd u = back_solve(y.head(n));
     out.head(n) = u;
-    out.tail(m) = space.divide(y.tail(m) / weigh - b.apply(u), matrix.kappa);
+    out.tail(m) = schur_.solve(y.tail(m) / weigh - b.apply(u));
     return out;
   };
   Eigen::VectorXd target(n + m), x = Eigen::VectorXd::Zero(n + m);
