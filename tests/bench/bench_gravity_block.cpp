@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/one_of.hpp"
 #include "core/blas.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -98,14 +99,6 @@ void print_row(const Settings& s, int n) {
   }
   std::printf("\t%s\n", summary.record.status.c_str());
   std::fflush(stdout);
-}
-
-std::string one_of(const std::string& name, const std::string& value,
-                   const std::vector<std::string>& choices) {
-  for (const std::string& choice : choices) {
-    if (choice == value) return value;
-  }
-  throw input_error(name, " '", value, "' is unknown");
 }
 
 Settings read(int argc, char** argv) {
