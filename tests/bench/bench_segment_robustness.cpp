@@ -4,9 +4,9 @@
 //     bench_segment_robustness MR left|right [CASE]      all cases, or the one of that name
 //
 // Prints one row per perturbation: the result compared with that of the unchanged scan. Where the
-// scan is sampled again so are the unchanged scan's labels: the column "ceiling" is the best Dice
-// of fibroglandular tissue that a threshold of their shares reaches, which no segmentation of those
-// voxels can be asked to exceed.
+// scan is sampled again so are, in the same way, the labels and the fibroglandular fractions (that
+// is, the brightness) of the unchanged one: "of_labels" is what the new voxels could hold,
+// "of_fractions" what the limit between fat and gland would find in them if it stayed where it was.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -30,34 +30,31 @@ Volume<float> saturated(const Volume<float>& scan) {
   return testing::fat_saturated(scan, [&](int i, int j, int k) { return fat.at(i, j, k); });
 }
 
-/// Largest Dice of fibroglandular tissue between the labels and `share`, known of each voxel,
-/// sampled again as the scan is and cut at some threshold.
-double ceiling(const testing::Perturbation& perturbation, const LabelVolume& labels,
-               const std::vector<float>& share) {
+/// Dice of fibroglandular tissue between the labels and `share`, known of each voxel, sampled again
+/// as the scan is and cut at `least`.
+double sampled_again(const testing::Perturbation& perturbation, const LabelVolume& labels,
+                     const std::vector<float>& share, double least) {
   Volume<float> before(labels.grid);
   before.voxels = share;
   const Volume<float> after = perturbation.apply(before);
   LabelVolume again;
   again.grid = after.grid;
-  again.tissue.resize(after.voxels.size());
-  double best = 0;
-  for (double least = 0.1; least < 0.65; least += 0.05) {
-    for (std::size_t n = 0; n < again.tissue.size(); ++n)
-      again.tissue[n] =
-          std::uint8_t(after.voxels[n] >= least ? Tissue::fibroglandular : Tissue::air);
-    const LabelOverlap overlap = compare_labels(again, labels);
-    best = std::max(best, overlap.tissue[std::size_t(Tissue::fibroglandular)].dice);
-  }
-  return best;
+  for (const float value : after.voxels)
+    again.tissue.push_back(std::uint8_t(value >= least ? Tissue::fibroglandular : Tissue::air));
+  return compare_labels(again, labels).tissue[std::size_t(Tissue::fibroglandular)].dice;
 }
 
-/// Of the labels, and of the fractions that brightness gave: columns of the table.
+/// Of the labels at the best cut, and at one half of the fractions that brightness gave: columns of
+/// the table.
 std::string ceilings(const testing::Perturbation& perturbation, const LabelVolume& labels) {
   std::vector<float> gland;
   for (const std::uint8_t tissue : labels.tissue)
     gland.push_back(tissue == std::uint8_t(Tissue::fibroglandular));
-  return message(ceiling(perturbation, labels, gland), "\t",
-                 ceiling(perturbation, labels, labels.fibroglandular_fraction));
+  double best = 0;
+  for (double least = 0.3; least < 0.65; least += 0.1)
+    best = std::max(best, sampled_again(perturbation, labels, gland, least));
+  return message(best, "\t",
+                 sampled_again(perturbation, labels, labels.fibroglandular_fraction, 0.5));
 }
 
 struct Timed {

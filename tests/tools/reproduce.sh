@@ -72,8 +72,8 @@ check_threads() {
       most=$(awk -F, -v most="$most" '{ d = sqrt(($1 - $4) ^ 2 + ($2 - $5) ^ 2 + ($3 - $6) ^ 2); print (d > most ? d : most) }' <<< "$a,$b")
     done
   done
-  awk -v most="$most" 'BEGIN { exit !(most <= 0.1) }' || fail "landmarks on two threads within 0.1 mm: $most"
-  pass "threads: landmarks of all four shapes on two threads lie within $most mm (0.1 allowed: the fit of the skin sums in another order)"
+  awk -v most="$most" 'BEGIN { exit !(most <= 1e-9) }' || fail "landmarks on two threads within 1e-9 mm: $most"
+  pass "threads: landmarks of all four shapes on two threads lie within $most mm (1e-9 allowed)"
 }
 
 check_cohort() {
