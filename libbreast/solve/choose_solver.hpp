@@ -14,7 +14,8 @@ struct SolverCost {
 /// For a mesh of `unknowns` displacements, on `threads` threads.
 SolverCost predict_cost(double unknowns, int threads);
 
-/// The direct solver where its memory fits in half of what is available and it is not slower.
+/// The direct solver, which knows every instability, where its memory fits in half of what is
+/// available and it takes less than four times the time of multigrid.
 LinearSolver choose_solver(double unknowns);
 
 }  // namespace breast
