@@ -1,5 +1,5 @@
 # Compression far from the ordinary: one row a case in runs/stability/contact.tsv. With the case's
-# stress-free mesh at the end when it has been made.
+# stress-free mesh at the end when it has been made. A case that stops short (code 3) is a row of the table.
 STABILITY := $(RUNS)/stability
 .PHONY: stability-contact
 stability-contact: $(STABILITY)/contact.tsv
@@ -9,5 +9,5 @@ $(STABILITY)/contact.tsv: $(COMPRESS) tests/fixtures/contact_cases.hpp tests/ben
 	@mkdir -p $(STABILITY)
 	cmake -B $(BUILD) -DBREAST_BENCH=ON > $(STABILITY)/.build.log
 	cmake --build $(BUILD) --target stability_contact >> $(STABILITY)/.build.log
-	$(BIN)/stability_contact $(wildcard $(RUN)/reference.vtkhdf) > $@.part
+	$(BIN)/stability_contact $(wildcard $(RUN)/reference.vtkhdf) > $@.part || [ $$? -eq 3 ]
 	@mv $@.part $@
