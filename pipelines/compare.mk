@@ -6,7 +6,7 @@ COMPARE := $(RUNS)/compare
 COMPARE_SCENES ?= block-8-poly-1000-C3D8I block-8-poly-1000-C3D8 block-8-mr-100-C3D8I \
   block-8-mr-1000-C3D8I block-4-poly-1000-C3D20R breast-1000-C3D8I block-16-poly-1000-C3D8I
 COMPARE_PRESSED ?= pressed-8-10000-C3D8I-60-contact pressed-8-10000-C3D8I-50-prescribed \
-  pressed-16-10000-C3D8I-60-contact pressed-16-10000-C3D8I-50-prescribed
+  pressed-16-10000-C3D8I-60-contact
 COMPARE_ELEMENTS ?= 10
 EXPORT_DECK := $(BIN)/export-deck
 COMPARE_FILES := $(COMPARE_SCENES:%=$(COMPARE)/%.tsv)
