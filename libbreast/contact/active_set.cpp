@@ -196,7 +196,8 @@ StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double to
     // Bounds that followed λ in every iteration could swing for ever: λ follows them.
     if (options_.friction.present() &&
         now.relative() <=
-            std::max(tolerance_, balance_to_follow * bound_lag(plates, state, result.forces) / now.scale)) {
+            std::max(tolerance_,
+                     balance_to_follow * bound_lag(plates, state, result.forces) / now.scale)) {
       follow_bounds(plates, state, result.forces);
       now = measure(plates, state, result.forces);
     }

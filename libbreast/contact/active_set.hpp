@@ -37,8 +37,7 @@ class ActiveSet : public ContactSolver {
   /// Force (µN) of the plate on each candidate along its normal, zero where free.
   std::vector<double> normal_forces(const PlatePair& plates, const BodyState& state,
                                     const BodyForces& forces) const override;
-  std::vector<Vec3> friction_forces(const PlatePair& plates,
-                                    const BodyState& state) const override;
+  std::vector<Vec3> friction_forces(const PlatePair& plates, const BodyState& state) const override;
 
  private:
   struct Sweep;

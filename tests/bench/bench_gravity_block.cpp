@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/one_of.hpp"
+#include "bench/command_line.hpp"
 #include "core/blas.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -103,28 +103,23 @@ void print_row(const Settings& s, int n) {
 
 Settings read(int argc, char** argv) {
   Settings s;
-  for (int i = 1; i < argc; ++i) {
-    const std::string name = argv[i];
-    const bool option = name.rfind("--", 0) == 0;
-    if (option && ++i == argc) throw input_error(name, " needs a value");
-    const std::string value = argv[i];
-    if (name == "--law") {
-      s.law = one_of(name, value, {"poly", "mr"});
-    } else if (name == "--element") {
-      s.element = one_of(name, value, {"q1p0", "q2p1"});
-    } else if (name == "--solver") {
-      s.solver = one_of(name, value, {"auto", "direct", "multigrid"});
-    } else if (name == "--bulk-ratio") {
-      s.bulk_ratio = std::atof(value.c_str());
-    } else if (name == "--threads") {
-      s.threads = std::atoi(value.c_str());
-    } else if (option || std::atoi(value.c_str()) < 1 || std::atoi(value.c_str()) > 128) {
-      throw input_error("'", name, "' is neither an option nor a number of elements from 1 to 128");
-    } else {
-      s.sizes.push_back(std::atoi(value.c_str()));
-    }
-  }
-  if (s.sizes.empty()) s.sizes = {8, 16, 20};
+  s.sizes = read_command_line(
+      argc, argv,
+      {{"--law",
+        [&](const std::string& v) {
+          s.law = one_of("--law", v, {"poly", "mr"});
+        }},
+       {"--element",
+        [&](const std::string& v) {
+          s.element = one_of("--element", v, {"q1p0", "q2p1"});
+        }},
+       {"--solver",
+        [&](const std::string& v) {
+          s.solver = one_of("--solver", v, {"auto", "direct", "multigrid"});
+        }},
+       {"--bulk-ratio", [&](const std::string& v) { s.bulk_ratio = std::atof(v.c_str()); }},
+       {"--threads", [&](const std::string& v) { s.threads = std::atoi(v.c_str()); }}},
+      1, {8, 16, 20});
   return s;
 }
 

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/one_of.hpp"
+#include "bench/command_line.hpp"
 #include "core/blas.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -116,26 +116,19 @@ void print_row(int n, const Row& row, const Row& first) {
 
 Settings read(int argc, char** argv) {
   Settings s;
-  for (int i = 1; i < argc; ++i) {
-    const std::string name = argv[i];
-    const bool option = name.rfind("--", 0) == 0;
-    if (option && ++i == argc) throw input_error(name, " needs a value");
-    const std::string value = argv[i];
-    if (name == "--body") {
-      s.body = one_of(name, value, {"block", "dome"});
-    } else if (name == "--element") {
-      s.element = one_of(name, value, {"q1p0", "q2p1"});
-    } else if (name == "--distortion") {
-      s.distortion = std::atof(value.c_str());
-    } else if (name == "--threads") {
-      s.threads = std::atoi(value.c_str());
-    } else if (option || std::atoi(value.c_str()) < 2 || std::atoi(value.c_str()) > 128) {
-      throw input_error("'", name, "' is neither an option nor a number of elements from 2 to 128");
-    } else {
-      s.sizes.push_back(std::atoi(value.c_str()));
-    }
-  }
-  if (s.sizes.empty()) s.sizes = {24, 48};
+  s.sizes = read_command_line(
+      argc, argv,
+      {{"--body",
+        [&](const std::string& v) {
+          s.body = one_of("--body", v, {"block", "dome"});
+        }},
+       {"--element",
+        [&](const std::string& v) {
+          s.element = one_of("--element", v, {"q1p0", "q2p1"});
+        }},
+       {"--distortion", [&](const std::string& v) { s.distortion = std::atof(v.c_str()); }},
+       {"--threads", [&](const std::string& v) { s.threads = std::atoi(v.c_str()); }}},
+      2, {24, 48});
   return s;
 }
 

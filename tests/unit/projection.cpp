@@ -13,6 +13,7 @@
 #include "fixtures/analytic_breast.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/squashed.hpp"
+#include "fixtures/traced.hpp"
 #include "mammo/ray_mesh.hpp"
 #include "meshing/body_mesh.hpp"
 
@@ -46,14 +47,6 @@ HexMesh ball(int n, double radius, int order) {
   mesh.skin_faces = boundary_faces(mesh);
   mesh.pectoral_faces.clear();
   return mesh;
-}
-
-double traced(const RayMesh& rays, const Vec2& uv) {
-  std::vector<Chord> chords;
-  rays.trace(uv, chords);
-  double sum = 0;
-  for (const Chord& chord : chords) sum += chord.leave - chord.enter;
-  return sum;
 }
 
 const HexMesh& breast_mesh() {

@@ -8,6 +8,7 @@
 
 #include "fixtures/analytic_breast.hpp"
 #include "fixtures/squashed.hpp"
+#include "fixtures/traced.hpp"
 #include "mammo/framing.hpp"
 #include "mammo/projection.hpp"
 #include "mammo/ray_mesh.hpp"
@@ -20,17 +21,8 @@ namespace {
 
 const HexMesh& body(int order) {
   static const HexMesh linear = body_mesh(analytic_breast(), {.size = dome_near(10)});
-  static const HexMesh curved =
-      body_mesh(analytic_breast(), {.size = dome_near(5), .order = 2});
+  static const HexMesh curved = body_mesh(analytic_breast(), {.size = dome_near(5), .order = 2});
   return order == 1 ? linear : curved;
-}
-
-double thickness(const RayMesh& rays, const Vec2& uv) {
-  std::vector<Chord> chords;
-  rays.trace(uv, chords);
-  double sum = 0;
-  for (const Chord& chord : chords) sum += chord.leave - chord.enter;
-  return sum;
 }
 
 class Moved : public testing::TestWithParam<std::tuple<int, Beam>> {};
@@ -56,10 +48,10 @@ TEST_P(Moved, BodyAndMachineTogetherGiveTheSameImage) {
   double most = 0;
   for (double u = 1.37; u < 70; u += 2.9) {
     for (double v = -3.1; v < 160; v += 3.7) {
-      const double t = thickness(rays, {u, v});
+      const double t = traced(rays, {u, v});
       most = std::max(most, t);
       // Rays step aside by up to 1e-6 mm; at the rim chords change a hundred times as fast.
-      ASSERT_NEAR(thickness(elsewhere, {u, v}), t, 1e-4) << u << " " << v;
+      ASSERT_NEAR(traced(elsewhere, {u, v}), t, 1e-4) << u << " " << v;
     }
   }
   EXPECT_GT(most, 30);
@@ -85,7 +77,7 @@ TEST(Consistency, ImageConvergesWithThePixel) {
       const Vec2 at(column(random), row(random));
       const std::size_t nearest =
           std::size_t(std::lround(at.y())) * image.width + std::size_t(std::lround(at.x()));
-      sum += std::abs(image.thickness[nearest] - thickness(rays, pixel * at));
+      sum += std::abs(image.thickness[nearest] - traced(rays, pixel * at));
     }
     error.push_back(sum / draws);
   }

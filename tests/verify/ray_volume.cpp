@@ -7,6 +7,7 @@
 #include "fixtures/analytic_breast.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/squashed.hpp"
+#include "fixtures/traced.hpp"
 #include "mammo/framing.hpp"
 #include "mammo/ray_mesh.hpp"
 #include "meshing/body_mesh.hpp"
@@ -69,7 +70,6 @@ TEST(RayVolume, PointSourceChordsOfABlockAreExact) {
   pose.source_distance = 650;
   pose.source_v = 12;
   const RayMesh rays(mesh, mesh.points, pose);
-  std::vector<Chord> chords;
   int hits = 0;
   for (double u = -70; u < 70; u += 3.1) {
     for (double v = -70; v < 70; v += 2.7) {
@@ -81,9 +81,7 @@ TEST(RayVolume, PointSourceChordsOfABlockAreExact) {
         enter = std::max(enter, std::min(a, b));
         leave = std::min(leave, std::max(a, b));
       }
-      rays.trace({u, v}, chords);
-      double sum = 0;
-      for (const Chord& chord : chords) sum += chord.leave - chord.enter;
+      const double sum = traced(rays, {u, v});
       ASSERT_NEAR(sum, std::max(0.0, leave - enter), 1e-8) << u << " " << v;
       hits += sum > 0;
     }
@@ -104,15 +102,12 @@ TEST(RayVolume, PointSourceChordsOfABallConvergeWithTheElements) {
     pose.source_distance = 650;
     pose.origin = 60 * pose.n;
     const RayMesh rays(mesh, mesh.points, pose);
-    std::vector<Chord> chords;
     for (double u = -40; u < 40; u += 2.3) {
       for (double v = -20; v < 20; v += 2.9) {
         const Ray ray = rays.ray({u, v});
         const double along = ray.origin.dot(ray.direction);
         const double inside = along * along - ray.origin.squaredNorm() + radius * radius;
-        rays.trace({u, v}, chords);
-        double sum = 0;
-        for (const Chord& chord : chords) sum += chord.leave - chord.enter;
+        const double sum = traced(rays, {u, v});
         double& error = worst[n == 16];
         error = std::max(error, std::abs(sum - 2 * std::sqrt(inside)));
       }
