@@ -104,25 +104,20 @@ FrictionForce ActiveSet::friction_at(const PlatePair& plates, std::size_t candid
   return options_.friction.at(x, anchor, normal, memory_.bounds[candidate]);
 }
 
-/// How far the bounds in use are from μλ, µN.
-double ActiveSet::bound_lag(const PlatePair& plates, const BodyState& state,
-                            const BodyForces& forces) const {
-  const std::vector<double> pushed = normal_forces(plates, state, forces);
-  double sum = 0;
+/// Where the state is balanced well enough for its normal forces to mean something, takes μλ for
+/// the bounds. They do not follow in every iteration: then both could swing for ever.
+bool ActiveSet::follow_bounds(const PlatePair& plates, const BodyState& state,
+                              const BodyForces& forces, const Sweep& now) {
+  std::vector<double> wanted = normal_forces(plates, state, forces);
+  double lag = 0;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    wanted[c] = options_.friction.bound(wanted[c]);
     if (memory_.touching[c] < 0) continue;
-    const double lag = options_.friction.bound(pushed[c]) - memory_.bounds[c];
-    sum += lag * lag;
+    lag = std::hypot(lag, wanted[c] - memory_.bounds[c]);
   }
-  return std::sqrt(sum);
-}
-
-void ActiveSet::follow_bounds(const PlatePair& plates, const BodyState& state,
-                              const BodyForces& forces) {
-  const std::vector<double> pushed = normal_forces(plates, state, forces);
-  for (std::size_t c = 0; c < candidates_.size(); ++c) {
-    memory_.bounds[c] = options_.friction.bound(pushed[c]);
-  }
+  if (now.relative() > std::max(tolerance_, balance_to_follow * lag / now.scale)) return false;
+  memory_.bounds = std::move(wanted);
+  return true;
 }
 
 void ActiveSet::slide_anchors(const PlatePair& plates, const BodyState& state) {
@@ -193,12 +188,7 @@ StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double to
              sweep.volume_residual <= std::max(options_.volume_tolerance, tolerance_);
     };
     Sweep now = measure(plates, state, result.forces);
-    // Bounds that followed λ in every iteration could swing for ever: λ follows them.
-    if (options_.friction.present() &&
-        now.relative() <=
-            std::max(tolerance_,
-                     balance_to_follow * bound_lag(plates, state, result.forces) / now.scale)) {
-      follow_bounds(plates, state, result.forces);
+    if (options_.friction.present() && follow_bounds(plates, state, result.forces, now)) {
       now = measure(plates, state, result.forces);
     }
     const bool converged = balanced(now);

@@ -44,8 +44,8 @@ class ActiveSet : public ContactSolver {
   static bool begins_badly(const StepResult& result, double first_imbalance);
   FrictionForce friction_at(const PlatePair& plates, std::size_t candidate, const Vec3& x,
                             const Vec3& normal) const;
-  double bound_lag(const PlatePair& plates, const BodyState& state, const BodyForces& forces) const;
-  void follow_bounds(const PlatePair& plates, const BodyState& state, const BodyForces& forces);
+  bool follow_bounds(const PlatePair& plates, const BodyState& state, const BodyForces& forces,
+                     const Sweep& now);
   void slide_anchors(const PlatePair& plates, const BodyState& state);
   bool update(const PlatePair& plates, const BodyState& state, const BodyForces& forces,
               double scale, bool may_drop, bool balanced);

@@ -10,8 +10,6 @@ namespace breast {
 
 namespace {
 
-// Below this many nodes a loop of a few microseconds is over before a second thread wakes.
-constexpr int worth_threads = 20000;
 constexpr double first_shift = 1e-5, shift_growth = 8, largest_shift = 10;
 constexpr int max_pressure_iterations = 60;
 

@@ -8,16 +8,13 @@ namespace breast {
 
 namespace {
 
-// Gathers the values of a cell's nodes, or adds them back.
+// The values of a cell's nodes.
 Eigen::VectorXd gather(const Cells& cells, int e, const Eigen::VectorXd& u) {
   const int n = cells.nodes_per_cell;
   Eigen::VectorXd local(3L * n);
   for (int a = 0; a < n; ++a) local.segment<3>(3L * a) = u.segment<3>(3L * cells.cell(e)[a]);
   return local;
 }
-
-// Below this many cells a loop of a few microseconds is over before a second thread wakes.
-constexpr int worth_threads = 20000;
 
 }  // namespace
 
