@@ -166,6 +166,7 @@ int Tool::main(int argc, char** argv, const std::function<void(Run&)>& body) {
   Run run(declaration.name, history_command(declaration, arguments), progress);
   if (outcome.exit_code == 0) {
     apply_threads(impl_->threads);
+    if (threads() > 1) sleep_when_waiting(argv);
     outcome = guarded([&] {
       body(run);
       write_stdout(run.printed());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 
 namespace breast {
 
@@ -23,10 +24,12 @@ inline std::string one_of(const std::string& name, const std::string& value,
 /// What each option does with its value.
 using BenchOptions = std::map<std::string, std::function<void(const std::string& value)>>;
 
-/// Hands every option its value and returns the numbers of elements, `otherwise` without any.
+/// Hands every option its value and returns the numbers of elements, `otherwise` without any; sees
+/// to it that threads wait as in the tools.
 /// Throws Error (input) on what is neither an option nor a number from `least` to 128.
 inline std::vector<int> read_command_line(int argc, char** argv, const BenchOptions& options,
                                           int least, const std::vector<int>& otherwise) {
+  sleep_when_waiting(argv);
   std::vector<int> sizes;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
