@@ -35,7 +35,9 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices) {
   tool.choice(choices.cut, "--cut", {"free", "fixed", "roller"},
               "what holds the lateral cut surface where the body ends");
   tool.choice(choices.solver, "--solver", {"auto", "direct", "multigrid"},
-              "linear solver: Cholesky, or multigrid for meshes whose factor is not affordable");
+              "linear solver: a Cholesky factor; multigrid, with a check of stability; or "
+              "multigrid where it "
+              "is cheaper, and a factor where multigrid meets a difficulty");
   tool.flag(
       choices.keep_unconverged, "--keep-unconverged",
       "write the last state of a solve that did not converge; its status says so, exit code 3");

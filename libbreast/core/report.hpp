@@ -71,6 +71,7 @@ class Timer {
     const auto found = seconds_.find(phase);
     return found == seconds_.end() ? 0.0 : found->second;
   }
+  void add(const std::string& phase, double seconds) { seconds_[phase] += seconds; }
   /// Counts `seconds` of phase `from` as phase `to`.
   void move(const std::string& from, const std::string& to, double seconds) {
     seconds_[from] -= seconds;

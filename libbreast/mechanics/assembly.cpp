@@ -5,7 +5,6 @@
 
 #include "core/error.hpp"
 #include "mechanics/assembly_impl.hpp"
-#include "solve/choose_solver.hpp"
 
 namespace breast {
 
@@ -24,9 +23,7 @@ AssemblyOf<N, P, F>::AssemblyOf(const HexMesh& mesh, const MechanicsOptions& opt
   cells_.nodes = mesh.connectivity;
   pattern_ = std::make_shared<NodePattern>(mesh.nodes(), cells_);
   element_map_ = std::make_shared<ScatterMap>(*pattern_, cells_);
-  solver_ = options.solver == "auto"        ? choose_solver(pattern_->unknowns())
-            : options.solver == "multigrid" ? LinearSolver::multigrid
-                                            : LinearSolver::direct;
+  if (options.solver == "multigrid") solver_ = LinearSolver::multigrid;
   laws_.assign(options.materials.laws.begin(), options.materials.laws.end());
   for (const Tissue tissue : mesh.tissue) law_of_.push_back(int(tissue));
   set_imaged(mesh, options);

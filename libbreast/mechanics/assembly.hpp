@@ -45,7 +45,7 @@ class Assembly {
                                          const Eigen::VectorXd& deformed) const = 0;
 
   SaddleMatrix make_matrix() const;
-  /// The linear solver the options ask for, or afford.
+  /// The linear solver matrices are made for: multigrid where the options say so, else direct.
   LinearSolver solver() const { return solver_; }
   const std::shared_ptr<const NodePattern>& pattern() const { return pattern_; }
   const std::shared_ptr<const PressureSpace>& pressures() const { return space_; }

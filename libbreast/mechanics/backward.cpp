@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "mechanics/chosen_solver.hpp"
 #include "mechanics/field_checks.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/reference_system.hpp"
@@ -22,13 +23,15 @@ constexpr int factor_worn = 10, levels_worn = 45;
 constexpr double tolerance = 1e-10, volume_tolerance = 1e-11;
 // A volume error of this size counts as much as the whole load when steps are judged.
 constexpr double typical_strain = 0.05;
+constexpr double nearly_incompressible = 100;  // κ/μ
 constexpr const char* singular = "singular_inverse";
 
 class BackwardSolve {
  public:
-  BackwardSolve(HexMesh& mesh, const MechanicsOptions& options, Progress& progress)
+  BackwardSolve(HexMesh& mesh, const MechanicsOptions& options, bool hasty, Progress& progress)
       : mesh_(mesh),
         scene_(mesh, options),
+        hasty_(hasty),
         progress_(progress),
         imaged_(flatten(mesh.imaged)),
         matrix_(scene_.assembly().make_matrix()),
@@ -51,7 +54,8 @@ class BackwardSolve {
   double clock() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  SaddleForces evaluate(const Trial& trial, SaddleMatrix* matrix, ReferenceTangent* tangent) const;
+  SaddleForces evaluate(const Trial& trial, SaddleMatrix* matrix, ReferenceTangent* tangent,
+                        double augmentation = 0) const;
   Distance distance(const SaddleForces& forces) const;
   bool precondition_at(const Trial& trial);
   bool direction(const SaddleForces& forces, double accuracy, Trial& step);
@@ -68,6 +72,7 @@ class BackwardSolve {
 
   HexMesh& mesh_;
   Scene scene_;
+  bool hasty_;
   Progress& progress_;
   Eigen::VectorXd imaged_, load_;
   double load_norm_ = 1;
@@ -81,9 +86,10 @@ class BackwardSolve {
 };
 
 SaddleForces BackwardSolve::evaluate(const Trial& trial, SaddleMatrix* matrix,
-                                     ReferenceTangent* tangent) const {
+                                     ReferenceTangent* tangent, double augmentation) const {
   AssemblyRequest request;
   request.matrix = matrix;
+  request.augmentation = augmentation;
   request.reference = tangent;
   SaddleForces forces =
       scene_.assembly().evaluate(trial.reference, {imaged_, trial.pressure}, request);
@@ -117,7 +123,7 @@ bool BackwardSolve::precondition_at(const Trial& trial) {
   }
   Timer::Scope phase(summary_.timer, "factorisation");
   last_gmres_ = 0;
-  return solver_.factorise(matrix_, scene_.walls()).ok;
+  return solver_.factorise(matrix_, scene_.walls(), !hasty_).ok;
 }
 
 bool BackwardSolve::direction(const SaddleForces& forces, double accuracy, Trial& step) {
@@ -126,7 +132,7 @@ bool BackwardSolve::direction(const SaddleForces& forces, double accuracy, Trial
   const ReferenceStep solved = ReferenceSystem(matrix_, tangent_, solver_, size)
                                    .solve(-forces.r, -forces.theta, accuracy, max_gmres);
   last_gmres_ = solved.iterations;
-  if (!(solved.residual < 0.5)) return false;
+  if (!(solved.residual < 0.5) || (hasty_ && solved.iterations == max_gmres)) return false;
   step = {solved.x, solved.p};
   return true;
 }
@@ -202,9 +208,17 @@ bool BackwardSolve::newton(Trial& trial) {
 // Is the imaged shape a stable equilibrium of the unloaded shape found? Of a folded one it is not.
 bool BackwardSolve::stays(const Trial& trial) {
   Timer::Scope phase(summary_.timer, "stability");
-  const SaddleForces forces = evaluate(trial, &matrix_, nullptr);
-  const bool stable = forces.valid && solver_.factorise(matrix_, scene_.walls(), false).ok;
-  if (!stable) last_gmres_ = max_gmres;  // no factor is left to precondition with
+  const auto definite = [&](double augmentation) {
+    return evaluate(trial, &matrix_, nullptr, augmentation).valid &&
+           solver_.factorise(matrix_, scene_.walls(), false).ok && solver_.positive_definite();
+  };
+  // The augmentation that suits a multigrid need not hold what incompressibility holds.
+  bool stable = definite(0);
+  if (!stable && !hasty_ && solver_.kind() == LinearSolver::multigrid) {
+    stable = definite(nearly_incompressible);
+    last_gmres_ = max_gmres;
+  }
+  if (!stable) last_gmres_ = max_gmres;  // nothing is left to precondition with
   return stable;
 }
 
@@ -223,7 +237,7 @@ double BackwardSolve::follow(const Eigen::VectorXd& load, Trial& state) {
     if (newton(trial)) {
       state = std::move(trial);
       path.succeed();
-    } else if (!path.fail()) {
+    } else if (hasty_ || !path.fail()) {
       break;
     }
   }
@@ -288,7 +302,7 @@ SolveSummary BackwardSolve::run(const Eigen::VectorXd& load, const Eigen::Vector
   Trial state{start, scene_.assembly().rest_pressure()};
   const double reached = follow(load, state);
   conclude(state, reached);
-  store(state);
+  if (!hasty_ || summary_.converged()) store(state);
   return summary_;
 }
 
@@ -298,6 +312,7 @@ SolveSummary BackwardSolve::run(const Vec3& gravity) {
   const double reached = follow(load, state);
   conclude(state, reached);
   if (!summary_.converged()) {
+    if (hasty_) return summary_;
     SolveSummary found = summary_;  // of the state itself; the search only adds to the clock
     const double part = stable_part(load, found.load_reached, found.stable);
     found.timer = summary_.timer;
@@ -316,7 +331,10 @@ SolveSummary BackwardSolve::run(const Vec3& gravity) {
 
 SolveSummary solve_backward(HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
                             Progress& progress) {
-  return BackwardSolve(mesh, options, progress).run(gravity);
+  return with_chosen_solver(3.0 * mesh.nodes(), options, progress,
+                            [&](const MechanicsOptions& chosen, bool hasty) {
+                              return BackwardSolve(mesh, chosen, hasty, progress).run(gravity);
+                            });
 }
 
 SolveSummary solve_backward_under(HexMesh& mesh, const Eigen::VectorXd& forces,
@@ -328,7 +346,10 @@ SolveSummary solve_backward_under(HexMesh& mesh, const Eigen::VectorXd& forces,
         " nodes");
   }
   const Eigen::VectorXd start = flatten(mesh.reference);
-  return BackwardSolve(mesh, options, progress).run(forces, start);
+  return with_chosen_solver(
+      3.0 * mesh.nodes(), options, progress, [&](const MechanicsOptions& chosen, bool hasty) {
+        return BackwardSolve(mesh, chosen, hasty, progress).run(forces, start);
+      });
 }
 
 }  // namespace breast

@@ -29,7 +29,7 @@ struct MechanicsOptions {
   Invariants invariants = Invariants::isochoric;
   double bulk_ratio = 0;  ///< K/μ; 0 means exactly incompressible
   Cut cut = Cut::free;
-  std::string solver = "auto";  ///< auto | direct | multigrid
+  std::string solver = "auto";  ///< auto | direct | multigrid; see mechanics/chosen_solver.hpp
   Estimate estimate = Estimate::none;
 };
 
@@ -47,7 +47,7 @@ struct SolveSummary {
   double stiffness_factor_needed = 0;
   int newton_iterations = 0, factorisations = 0, steps = 0;
   int linear_iterations = 0;  ///< of all Newton steps: see SaddleStep, ReferenceStep
-  double residual = 0;  ///< relative to the load
+  double residual = 0;        ///< relative to the load
   double min_det_F = 0, max_volume_error = 0;
   long long unknowns = 0;
   Timer timer;

@@ -24,10 +24,6 @@ double available_gb() {
   return std::numeric_limits<double>::infinity();
 }
 
-// A factor tells for certain whether an equilibrium is stable; multigrid sees it in part and takes
-// long over a body that is not. So much more time is the factor worth.
-constexpr double certainty = 4;
-
 }  // namespace
 
 SolverCost predict_cost(double unknowns, int threads) {
@@ -40,11 +36,11 @@ SolverCost predict_cost(double unknowns, int threads) {
   return cost;
 }
 
-LinearSolver choose_solver(double unknowns) {
+SolverChoice choose_solver(double unknowns) {
   const SolverCost cost = predict_cost(unknowns, threads());
   const bool fits = cost.factor_gb < 0.5 * available_gb();
-  return fits && cost.factor_seconds <= certainty * cost.cycle_seconds ? LinearSolver::direct
-                                                                       : LinearSolver::multigrid;
+  const bool direct = fits && cost.factor_seconds <= cost.cycle_seconds;
+  return {direct ? LinearSolver::direct : LinearSolver::multigrid, fits};
 }
 
 }  // namespace breast

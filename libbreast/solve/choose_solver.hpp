@@ -14,8 +14,11 @@ struct SolverCost {
 /// For a mesh of `unknowns` displacements, on `threads` threads.
 SolverCost predict_cost(double unknowns, int threads);
 
-/// The direct solver, which knows every instability, where its memory fits in half of what is
-/// available and it takes less than four times the time of multigrid.
-LinearSolver choose_solver(double unknowns);
+struct SolverChoice {
+  LinearSolver first = LinearSolver::direct;  ///< the cheaper one
+  bool direct_fits = true;                    ///< in half the memory that is available
+};
+/// The direct solver where it fits and is expected to be faster, else multigrid.
+SolverChoice choose_solver(double unknowns);
 
 }  // namespace breast

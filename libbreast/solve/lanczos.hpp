@@ -1,4 +1,4 @@
-// The upper end of a symmetric map's spectrum by Lanczos' method.
+// The ends of a symmetric map's spectrum by Lanczos' method.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,5 +12,18 @@ namespace breast {
 /// map is not. Unlike as many power iterations it is not misled by a start that hardly contains the
 /// eigenvector (Saad 2011, "Numerical methods for large eigenvalue problems", section 6.3).
 double largest_eigenvalue(const LinearMap& a, const Eigen::VectorXd& start, int steps);
+
+struct LowestEigenvalue {
+  double value = 0;     ///< the lowest Ritz value: the eigenvalue is not above it
+  double residual = 0;  ///< there is an eigenvalue within this distance of it
+  int steps = 0;
+  /// Above zero, unless the start contained next to nothing of a lower eigenvector.
+  bool positive() const { return value > 2 * residual; }
+};
+
+/// The lowest eigenvalue of p a for symmetric maps, p positive definite: its sign is that of the
+/// lowest eigenvalue of a. From `start` (not zero), until the sign is known or for `most` products.
+LowestEigenvalue lowest_eigenvalue(const LinearMap& a, const LinearMap& p,
+                                   const Eigen::VectorXd& start, int most);
 
 }  // namespace breast

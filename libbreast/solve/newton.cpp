@@ -16,6 +16,7 @@ constexpr double near_enough = 1e-5, gain_wanted = 0.02;
 // Relative residual of the volume equation in a step. Forces are met exactly whatever it is, and
 // volumes gain five digits a step beside Newton's own.
 constexpr double volume_accuracy = 1e-5;
+constexpr int patient_restarts = 6;
 
 // Increments that carry held components to their targets.
 bool aim(Constraints& constraints, const Eigen::VectorXd* targets, const Eigen::VectorXd& u) {
@@ -70,7 +71,8 @@ class Solve {
   /// True when the iteration is over: converged, or no tangent at the start.
   bool look(int i);
   bool factorise();
-  NewtonIteration step();
+  bool direction(SaddleStep& step);
+  NewtonIteration move(const SaddleStep& step);
   double search(const SaddleStep& step, double before);
   bool accept(const SaddleForces& now, const SaddleStep& step, double start, double before) const;
   void give_up(NewtonStop stop, const std::string& reason);
@@ -136,7 +138,7 @@ bool Solve::look(int i) {
 
 bool Solve::factorise() {
   Timer::Scope phase(timer_, "factorisation");
-  const Factorisation factor = solver_.factorise(matrix_, moving_);
+  const Factorisation factor = solver_.factorise(matrix_, moving_, !options_.hasty);
   shift_ = factor.shift;
   if (!factor.ok) {
     give_up(NewtonStop::indefinite,
@@ -147,12 +149,17 @@ bool Solve::factorise() {
   return factor.ok;
 }
 
-NewtonIteration Solve::step() {
-  SaddleStep step;
-  {
-    Timer::Scope phase(timer_, "solve");
-    step = solver_.solve(matrix_, result_.forces.r, result_.forces.theta, volume_accuracy);
-  }
+bool Solve::direction(SaddleStep& step) {
+  Timer::Scope phase(timer_, "solve");
+  step = solver_.solve(matrix_, result_.forces.r, result_.forces.theta, volume_accuracy,
+                       options_.hasty ? 1 : patient_restarts);
+  if (step.solved || !options_.hasty) return true;
+  give_up(NewtonStop::linear_solver,
+          message(step.iterations, " iterations did not solve a linear system"));
+  return false;
+}
+
+NewtonIteration Solve::move(const SaddleStep& step) {
   NewtonIteration record;
   Timer::Scope phase(timer_, "line search");
   record.residual_before = result_.residual;
@@ -205,7 +212,9 @@ NewtonResult Solve::run(const std::function<void(const NewtonIteration&)>& watch
       break;
     }
     if (!serves_ && !factorise()) break;
-    const NewtonIteration record = step();
+    SaddleStep step;
+    if (!direction(step)) break;
+    const NewtonIteration record = move(step);
     result_.iterations.push_back(record);
     if (watch) watch(record);
     if (record.step_length == 0 && !serves_) {
@@ -233,6 +242,8 @@ const char* stop_name(NewtonStop stop) {
       return "indefinite_tangent";
     case NewtonStop::no_step:
       return "no_admissible_step";
+    case NewtonStop::linear_solver:
+      return "linear_solver";
   }
   return "";
 }

@@ -54,14 +54,17 @@ struct NewtonOptions {
   /// Near the end one factor serves several steps. Stops just below the tolerance, where Newton's
   /// last step would go far below: not for the start of a path that magnifies small differences.
   bool reuse_factor = false;
+  /// Gives up at the first tangent that is not positive definite and at the first linear system
+  /// that 60 iterations do not solve: where somebody else stands by.
+  bool hasty = false;
   Timer* timer = nullptr;           ///< seconds by phase, when wanted
   double determinant_guard = 0.05;  ///< a trial may shrink the smallest det F to this part
 };
 
 /// Why a Newton solve ended without convergence.
-enum class NewtonStop { none, folded, iteration_limit, indefinite, no_step };
+enum class NewtonStop { none, folded, iteration_limit, indefinite, no_step, linear_solver };
 /// Stable identifier: "", "folded_element", "iteration_limit", "indefinite_tangent",
-/// "no_admissible_step".
+/// "no_admissible_step", "linear_solver".
 const char* stop_name(NewtonStop stop);
 
 struct NewtonIteration {

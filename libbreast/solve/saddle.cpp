@@ -85,6 +85,7 @@ Factorisation SaddleSolver::factorise(const SaddleMatrix& matrix, const Constrai
     if (!(shift <= largest_shift)) break;
   }
   last_shift_ = result.shift;
+  definite_ = result.ok && result.shift == 0;
   return result;
 }
 
@@ -104,7 +105,7 @@ Eigen::VectorXd SaddleSolver::schur_solve(const SaddleMatrix& matrix,
 }
 
 SaddleStep SaddleSolver::solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
-                               const Eigen::VectorXd& theta, double tolerance) const {
+                               const Eigen::VectorXd& theta, double tolerance, int restarts) const {
   const PressureSpace& space = *matrix.space;
   const ElementRows& b = matrix.divergence;
   Eigen::VectorXd right = -r - b.apply_transpose(space.divide(theta, matrix.kappa));
@@ -114,7 +115,7 @@ SaddleStep SaddleSolver::solve(const SaddleMatrix& matrix, const Eigen::VectorXd
     right -= matrix.stiffness.multiply(imposed);
   }
   return cholesky_ != nullptr ? solve_by_factor(matrix, right, imposed, theta, tolerance)
-                              : solve_by_cycles(matrix, right, imposed, theta, tolerance);
+                              : solve_by_cycles(matrix, right, imposed, theta, tolerance, restarts);
 }
 
 // Conjugate gradients on S = (1 − κc) B K_κ⁻¹ Bᵀ + cM, preconditioned by κ M⁻¹; κc is the same in

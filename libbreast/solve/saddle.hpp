@@ -41,6 +41,7 @@ struct Factorisation {
 struct SaddleStep {
   Eigen::VectorXd u, p;  ///< increments, global axes
   int iterations = 0;    ///< of the conjugate gradients on the pressure, or of GMRES
+  bool solved = true;    ///< to the tolerance
 };
 
 class SaddleSolver {
@@ -52,15 +53,21 @@ class SaddleSolver {
   /// factorises. Without positive definiteness a minimal multiple of SaddleMatrix::diagonal is
   /// added: ×8 from the last one that was needed / 8. `may_shift` false: fails instead.
   /// With multigrid the levels are built instead; only an indefinite direction that a coarse space
-  /// sees is noticed.
+  /// sees is noticed: see positive_definite.
   Factorisation factorise(const SaddleMatrix& matrix, const Constraints& constraints,
                           bool may_shift = true);
 
   /// The increments; `tolerance` is the relative residual of the volume equation (multigrid: of
   /// both equations, a tenth of it). `matrix` and the
   /// constraints are those of the last factorise, except that increments may be given anew.
+  /// GMRES gives up after `restarts` times 60 iterations.
   SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
-                   const Eigen::VectorXd& theta, double tolerance = 1e-6) const;
+                   const Eigen::VectorXd& theta, double tolerance = 1e-6, int restarts = 6) const;
+
+  /// Whether the matrix of the last factorise is positive definite. A factor knows; with multigrid
+  /// the lowest eigenvalue of cycle times matrix by Lanczos, and false also where that is too near
+  /// zero to tell.
+  bool positive_definite() const;
 
   /// (K + κBᵀM⁻¹B)⁻¹ v on the free part, held components zero. With multigrid one cycle: a
   /// symmetric positive definite approximation.
@@ -85,7 +92,7 @@ class SaddleSolver {
                              double tolerance) const;
   SaddleStep solve_by_cycles(const SaddleMatrix& matrix, const Eigen::VectorXd& right,
                              const Eigen::VectorXd& imposed, const Eigen::VectorXd& theta,
-                             double tolerance) const;
+                             double tolerance, int restarts) const;
 
   LinearSolver kind_;
   std::unique_ptr<Cholesky> cholesky_;
@@ -94,6 +101,7 @@ class SaddleSolver {
   NodeMatrix work_;
   Constraints constraints_;
   double last_shift_ = 0;
+  bool definite_ = false;  // the last factorise succeeded without a shift
   int factorisations_ = 0;
 };
 

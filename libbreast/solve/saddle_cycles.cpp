@@ -3,19 +3,22 @@
 #include <cmath>
 
 #include "solve/gmres.hpp"
+#include "solve/lanczos.hpp"
 #include "solve/saddle.hpp"
 
 namespace breast {
 
 namespace {
 // GMRES keeps two vectors an iteration; after `restart` it begins again from where it is.
-constexpr int restart = 60, most_restarts = 6;
+constexpr int restart = 60;
 constexpr double part_of_tolerance = 0.1;
+constexpr int most_lanczos_steps = 100;
 }  // namespace
 
 SaddleStep SaddleSolver::solve_by_cycles(const SaddleMatrix& matrix, const Eigen::VectorXd& right,
                                          const Eigen::VectorXd& imposed,
-                                         const Eigen::VectorXd& theta, double tolerance) const {
+                                         const Eigen::VectorXd& theta, double tolerance,
+                                         int restarts) const {
   const PressureSpace& space = *matrix.space;
   const ElementRows& b = matrix.divergence;
   const long n = right.size(), m = theta.size();
@@ -53,16 +56,27 @@ SaddleStep SaddleSolver::solve_by_cycles(const SaddleMatrix& matrix, const Eigen
   const double goal = part_of_tolerance * tolerance * target.norm();
   SaddleStep step;
   Eigen::VectorXd residual = target;
-  for (int i = 0; i < most_restarts && residual.norm() > goal; ++i) {
+  for (int i = 0; i < restarts && residual.norm() > goal; ++i) {
     const GmresResult part = gmres(apply, precondition, residual, goal / residual.norm(), restart);
     x += part.x;
     step.iterations += part.iterations;
+    step.solved = part.converged;
     residual = target - apply(x);
   }
   step.u = x.head(n);
   step.p = x.tail(m);
   if (imposed.size() > 0) step.u += imposed;
   return step;
+}
+
+bool SaddleSolver::positive_definite() const {
+  if (cholesky_ != nullptr || !definite_) return definite_;
+  Eigen::VectorXd start(3L * constraints_.nodes());  // an eigenvector of nothing
+  for (long i = 0; i < start.size(); ++i) start[i] = std::sin(2.0 + 5.1 * double(i));
+  return lowest_eigenvalue([&](const Eigen::VectorXd& v) { return multigrid_.multiply(v); },
+                           [&](const Eigen::VectorXd& v) { return multigrid_.cycle(v); }, start,
+                           most_lanczos_steps)
+      .positive();
 }
 
 }  // namespace breast

@@ -52,22 +52,55 @@ TEST(Reason, NoStressFreeBody) {
 
 // A column stands under its own weight up to (7.837 EI/w)^(1/3) (Greenhill 1881). The straight body
 // exists either way.
-TEST(Reason, UnstableEquilibrium) {
+HexMesh column(int across) {
   fixtures::BlockSettings settings;
-  settings.elements = {8, 2, 2};
+  settings.elements = {4 * across, across, across};
   settings.size = Vec3(120, 20, 20);
-  const HexMesh column = fixtures::block(settings);
-  const Vec3 down(-gravity_mm_s2, 0, 0);  // towards the held foot
+  return fixtures::block(settings);
+}
+
+const Vec3 down(-gravity_mm_s2, 0, 0);  // towards the column's held foot
+
+// Young's modulus below which it does not stand, Pa.
+double critical_modulus() {
   const double inertia = std::pow(20, 4) / 12, weight = 1e-3 * gravity_mm_s2 * 400;  // per mm
-  const double critical = weight * std::pow(120, 3) / (7.837 * inertia);             // E, Pa
-  EXPECT_LT(closure(column, down, neo_hookean(2 * critical / 6)), 1e-7);
-  HexMesh mesh = column;
+  return weight * std::pow(120, 3) / (7.837 * inertia);
+}
+
+TEST(Reason, UnstableEquilibrium) {
+  const double critical = critical_modulus();
+  EXPECT_LT(closure(column(2), down, neo_hookean(2 * critical / 6)), 1e-7);
+  HexMesh mesh = column(2);
   const SolveSummary summary = solve_backward(mesh, down, neo_hookean(0.25 * critical / 6));
   EXPECT_EQ(summary.record.status, "unstable");
   EXPECT_EQ(summary.reason_id, "unstable_equilibrium");
   EXPECT_FALSE(summary.stable);
   EXPECT_LT(summary.residual, 1e-9);
   EXPECT_NEAR(summary.stiffness_factor_needed, 4, 1.3);  // two elements across are too stiff
+}
+
+// The same with a mesh that multigrid is chosen for: it keeps what stands well, and leaves what
+// falls or hardly stands to a factor. By itself it knows a tenth above the limit of the mesh from a
+// tenth below.
+TEST(Reason, MultigridSeesTheUnstableEquilibrium) {
+  const HexMesh fine = column(8);
+  const auto solved = [&](double modulus, const char* solver) {
+    HexMesh mesh = fine;
+    MechanicsOptions options = neo_hookean(modulus / 6);
+    options.solver = solver;
+    return solve_backward(mesh, down, options);
+  };
+  const SolveSummary falls = solved(0.25 * critical_modulus(), "direct");
+  ASSERT_EQ(falls.reason_id, "unstable_equilibrium");
+  // Found to a tenth, from above.
+  const double limit = 0.25 * critical_modulus() * falls.stiffness_factor_needed;
+  EXPECT_EQ(solved(2 * limit, "auto").linear_solver, "multigrid");
+  for (const char* solver : {"auto", "multigrid"}) {
+    const SolveSummary above = solved(1.1 * limit, solver), below = solved(0.8 * limit, solver);
+    EXPECT_TRUE(above.converged()) << above.record.reason;
+    EXPECT_EQ(below.reason_id, "unstable_equilibrium");
+    EXPECT_EQ(below.linear_solver, std::string(solver) == "auto" ? "direct" : "multigrid");
+  }
 }
 
 TEST(Reason, IterationLimitAndFolding) {

@@ -163,6 +163,31 @@ TEST(PressureSchur, InvertsSmoothAndAlternatingPressures) {
   EXPECT_NEAR(smooth_by_mass, 1, 0.5);
 }
 
+// A tangent moved down by a multiple of its diagonal: cycles say what a factor says, at a
+// thousandth of the multiple where it changes.
+TEST(Multigrid, KnowsDefinitenessAsAFactorDoes) {
+  AtRest cycles(cube(10, 0.2), LinearSolver::multigrid), exact(cube(10, 0.2), LinearSolver::direct);
+  const auto definite = [&](AtRest& body, double by) {
+    const SaddleMatrix before = *body.matrix;
+    for (int node = 0; node < body.mesh.nodes(); ++node) {
+      const double size = body.matrix->diagonal.segment<3>(3L * node).mean();
+      body.matrix->stiffness.add_to_node(node, -by * size * Mat3::Identity());
+    }
+    const bool yes = body.solver->factorise(*body.matrix, body.scene->walls(), false).ok &&
+                     body.solver->positive_definite();
+    *body.matrix = before;
+    return yes;
+  };
+  double low = 0, high = 1;
+  ASSERT_TRUE(definite(exact, low));
+  ASSERT_FALSE(definite(exact, high));
+  while (high - low > 1e-6 * high)
+    (definite(exact, 0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+  for (const double part : {0.0, 0.5, 0.99, 0.999})
+    EXPECT_TRUE(definite(cycles, part * low)) << part;
+  for (const double part : {1.001, 1.01, 2.0}) EXPECT_FALSE(definite(cycles, part * high)) << part;
+}
+
 TEST(Multigrid, FindsTheEquilibriumOfTheDirectSolver) {
   fixtures::BlockSettings settings;
   settings.elements = {6, 6, 6};
@@ -345,6 +370,31 @@ TEST(Lanczos, BoundsTheLargestEigenvalue) {
   EXPECT_LE(bound, 1.1 * 5.7);
   const auto twice = [](const Eigen::VectorXd& v) -> Eigen::VectorXd { return 2 * v; };
   EXPECT_EQ(largest_eigenvalue(twice, Eigen::VectorXd::Unit(9, 4), 12), 2);
+}
+
+// The sign of the lowest eigenvalue, preconditioned or not, also where it is a thousandth of the
+// others; and no verdict where it is zero.
+TEST(Lanczos, KnowsTheSignOfTheLowestEigenvalue) {
+  Eigen::VectorXd scales = Eigen::VectorXd::LinSpaced(200, 1, 100), start(200);
+  for (int i = 0; i < 200; ++i) start[i] = fixtures::noise(i);
+  const auto verdict = [&](double lowest) {
+    Eigen::VectorXd eigenvalues = Eigen::VectorXd::LinSpaced(200, 0.3, 1.2);
+    eigenvalues[0] = lowest;
+    const Eigen::MatrixXd a =
+        scales.asDiagonal() * known_spectrum(eigenvalues) * scales.asDiagonal();
+    return lowest_eigenvalue([&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return a * v; },
+                             [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
+                               return v.cwiseQuotient(scales.cwiseAbs2());
+                             },
+                             start, 100);
+  };
+  const LowestEigenvalue above = verdict(1e-3), below = verdict(-1e-3), zero = verdict(0);
+  EXPECT_TRUE(above.positive());
+  EXPECT_NEAR(above.value, 1e-3, 1e-6);
+  EXPECT_LT(above.steps, 50);
+  EXPECT_FALSE(below.positive());
+  EXPECT_LT(below.value, 0);
+  EXPECT_FALSE(zero.positive());
 }
 
 }  // namespace

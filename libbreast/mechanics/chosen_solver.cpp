@@ -1,0 +1,44 @@
+#include "mechanics/chosen_solver.hpp"
+
+#include "core/error.hpp"
+#include "solve/choose_solver.hpp"
+
+namespace breast {
+
+namespace {
+
+// With plain invariants the laws resist changes of volume beside the pressure (law 9 with 176 times
+// its shear modulus), which no cycle likes: 630 iterations where isochoric ones take 70.
+SolverChoice choice_for(double unknowns, const MechanicsOptions& options) {
+  SolverChoice choice = choose_solver(unknowns);
+  if (options.invariants == Invariants::plain && choice.direct_fits) {
+    choice.first = LinearSolver::direct;
+  }
+  return choice;
+}
+
+}  // namespace
+
+SolveSummary with_chosen_solver(double unknowns, const MechanicsOptions& options,
+                                Progress& progress, const SolveAttempt& attempt) {
+  MechanicsOptions chosen = options;
+  if (options.solver != "auto") return attempt(chosen, false);
+  const SolverChoice choice = choice_for(unknowns, options);
+  chosen.solver = choice.first == LinearSolver::direct ? "direct" : "multigrid";
+  if (choice.first == LinearSolver::direct || !choice.direct_fits) return attempt(chosen, false);
+
+  Timer timer;
+  SolveSummary quick;
+  {
+    Timer::Scope phase(timer, "multigrid attempt");
+    quick = attempt(chosen, true);
+  }
+  if (quick.converged()) return quick;
+  progress.note(message("multigrid gave up (", quick.record.reason, "): solving directly"));
+  chosen.solver = "direct";
+  SolveSummary sure = attempt(chosen, false);
+  sure.timer.add("multigrid attempt", timer.seconds("multigrid attempt"));
+  return sure;
+}
+
+}  // namespace breast
