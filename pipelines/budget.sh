@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The error budget's table: budget.sh RUN ROW...  Mean and largest error, mm, of the truth's places in the stress-free
 # and supine shapes, and of their MLO places from the curve (mean, 95 %, largest), with one stage replaced by the
-# truth; cpu_s: what the chain's own stage took, user seconds (chain: all of it).
+# truth; cpu_s: what the chain's own stage took, user seconds (chain: all of it); missing: why a cell is "-".
 set -euo pipefail
 run=$1
 shift
@@ -35,10 +35,19 @@ landmark_row() { # TABLE: mean and largest of both shapes
 curve() { awk -F'\t' -v row="$2" '
   /^#/ { next }
   !header { header = 1; for (i = 1; i <= NF; i++) { if ($i == "landmark") name = i; if ($i == "true_to_curve_mm") at = i }; next }
-  $name == row { printf "%.3f", $at }' "$1"; }
-printf 'replaced\tstress_free_mean_mm\tstress_free_largest_mm\tsupine_mean_mm\tsupine_largest_mm\tcurve_mean_mm\tcurve_p95_mm\tcurve_largest_mm\tcpu_s\n'
+  $name == row { printf "%.3f", $at; found = 1 }
+  END { if (!found) printf "-" }' "$1"; }
+missing() { # FOLDER ROW
+  local shape said=
+  [ "$2" != compression ] || said="stress-free, supine: not solved in this row"
+  for shape in reference supine cc mlo; do
+    [ ! -f "$1/$shape.failed" ] || said="${said:+$said; }$shape: $(key "$1/$shape.json" reason || cat "$1/$shape.failed")"
+  done
+  echo "${said:--}"
+}
+printf 'replaced\tstress_free_mean_mm\tstress_free_largest_mm\tsupine_mean_mm\tsupine_largest_mm\tcurve_mean_mm\tcurve_p95_mm\tcurve_largest_mm\tcpu_s\tmissing\n'
 for row in chain "$@"; do
   at=$run/budget/$row
-  printf '%s\t%s\t%s\t%s\t%s\t%s\n' "$row" "$(landmark_row "$at/landmarks.tsv")" "$(curve "$at/curves.tsv" mean)" \
-    "$(curve "$at/curves.tsv" p95)" "$(curve "$at/curves.tsv" largest)" "$(cpu $(stages "$row"))"
+  printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$row" "$(landmark_row "$at/landmarks.tsv")" "$(curve "$at/curves.tsv" mean)" \
+    "$(curve "$at/curves.tsv" p95)" "$(curve "$at/curves.tsv" largest)" "$(cpu $(stages "$row"))" "$(missing "$at" "$row")"
 done

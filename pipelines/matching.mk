@@ -21,8 +21,8 @@ matching: $(RUN)/matching.tsv $(RUN)/matching-true-mesh.tsv
 BAND_SAMPLES ?= 220
 $(RUN)/band-check-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH)
 	$(HEXMESH) $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $@ --elements 8 --tumour none $(common)
-# $(call bench,NAME): builds the benchmark program NAME.
-bench = cmake -B $(BUILD) -DBREAST_BENCH=ON > $(RUN)/.$1.log && cmake --build $(BUILD) --target $1 >> $(RUN)/.$1.log
+# $(call bench,NAME): builds the benchmark program NAME, one recipe at a time.
+bench = flock $(BUILD)/.bench $(SHELL) -c 'cmake -B $(BUILD) -DBREAST_BENCH=ON && cmake --build $(BUILD) --target $1' > $(RUN)/.$1.log
 $(RUN)/band-samples.tsv: $(RUN)/band-check-mesh.vtkhdf tests/bench/band_check.cpp $(COMPRESS)
 	$(call bench,band_check)
 	$(BIN)/band_check $< 1 $(BAND_SAMPLES) > $@.part

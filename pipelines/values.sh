@@ -6,6 +6,9 @@ key() { [ -s "$1" ] && sed -n "s/^  \"$2\": \"\{0,1\}\(.*[^\",]\)\"\{0,1\},\{0,1
 # The first number of that name in a report, at any depth: number FILE NAME. Nothing without the report.
 number() { [ ! -s "$1" ] || sed -n "s/^ *\"$2\": \([-+0-9.e]*\),\{0,1\}$/\1/p" "$1" | head -n 1; }
 
+# Why a solve ended without a result: its report's sentence, or its typed reason where it has none. why FILE
+why() { local sentence; sentence=$(key "$1" explanation); if [ -n "$sentence" ]; then echo "$sentence"; else key "$1" reason; fi; }
+
 # A number printed with so many digits, "-" where there is none: rounded DIGITS NUMBER
 rounded() { [ -n "$2" ] && printf "%.$1f" "$2" || printf -- '-'; }
 

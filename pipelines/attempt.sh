@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# A solve that may have no solution: attempt.sh NAME PROGRAM INPUT [ARGUMENT]...
+# writes NAME.vtkhdf and its report. Where it does not converge (exit 3), or INPUT itself was not found, the reason stays
+# in NAME.failed and NAME.vtkhdf is absent: a finding, not an error. Any other failure stops.
+set -euo pipefail
+. "$(dirname "$0")/values.sh"
+name=$1 program=$2 input=$3
+shift 3
+rm -f "$name.vtkhdf" "$name.json" "$name.failed"
+if [ -f "${input%.vtkhdf}.failed" ]; then
+  cp "${input%.vtkhdf}.failed" "$name.failed"
+  exit 0
+fi
+code=0
+"$program" "$input" "$name.vtkhdf" "$@" --report "$name.json" || code=$?
+case $code in
+  0) ;;
+  3) why "$name.json" > "$name.failed" ;;
+  *) exit "$code" ;;
+esac
