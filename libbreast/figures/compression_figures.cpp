@@ -114,7 +114,8 @@ void draw_matching(Picture& picture, const FigureInput& input) {
   std::vector<Shape> shapes;
   if (cc != nullptr) {
     shapes.push_back(
-        {*cc, cc->points, "column in CC", "CC: the column of the pixel", plate_view(*cc)});
+        {*cc, cc->points, "column in CC", "CC: the pixel's column (green), tumour (yellow)",
+         plate_view(*cc)});
   }
   shapes.push_back({any,
                     any.reference.empty() ? any.imaged : any.reference,

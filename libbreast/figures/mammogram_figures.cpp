@@ -105,7 +105,7 @@ std::string add_curves(Panel& panel, const Mammogram& image, const PolyLines& cu
   for (const auto& p : truth) dot(panel, hanging.at(p.uv[0], 3), 1.6, palette::tumour);
   if (count > 1) return "their curves";
   return truth.empty() ? "green: its curve; blue: equal nipple distance"
-                       : "green: its curve; blue: equal nipple distance; dot: truth";
+                       : "green: its curve; blue: equal nipple distance; dot: model's own place";
 }
 
 void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {

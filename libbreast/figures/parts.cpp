@@ -81,7 +81,10 @@ void add_plates(Panel& panel, const HexMesh& mesh, double opacity) {
       if (d.dot(plate.anterior) > 0) half_width = std::max(half_width, std::abs(d.dot(lateral)));
     }
     PlateRecord shown = plate;
-    shown.origin -= 1.0 * plate.normal;  // mm: clear of the facets of the skin it presses
+    // Clear of the facets of the skin it presses, on the rounded edge too (a parallel surface).
+    constexpr double clear = 1.5;  // mm
+    shown.origin -= clear * plate.normal;
+    shown.edge_radius = std::max(0.0, plate.edge_radius - clear);
     const Facets facets = plate_facets(shown, length + 18, half_width + 15);
     panel.surface(facets, {.colour = palette::plate, .opacity = opacity, .shine = 0.5});
     panel.tube(outline(facets.points), 0.5, {0.35, 0.45, 0.55});

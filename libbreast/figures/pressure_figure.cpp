@@ -43,6 +43,8 @@ void add_side(Panel& panel, const HexMesh& mesh, const PlateRecord& plate, doubl
                 format_fixed(plate.force_N, 0) + " N on " + format_fixed(plate.area_cm2, 0) +
                 " cm2, mean " + format_fixed(plate.mean_kPa, 1) + " kPa, peak " +
                 format_fixed(plate.peak_kPa, 0) + " kPa");
+  panel.text({0.5 * panel.size().x(), 16}, "blue: the plate's flat ends, its rounded edge begins", 14,
+             palette::ink, Align::centre);
   colour_bar(panel, high, "kPa");
   panel.scale_bar();
   panel.compass();
