@@ -2,9 +2,9 @@
 # table and one plot. The error is the landmarks' distance to the finest solution (COST_FINEST) of the same geometry.
 # A point is named ELEMENT-TEMPLATE-N[-SOLVER]; its solves are cached below RUN/cost.
 COST := $(RUN)/cost
-COST_FINEST ?= q2p1-dome-20
-COST_POINTS ?= $(addprefix q1p0-dome-,4 6 8 10 12 14 16 20 24 32) $(addprefix q2p1-dome-,4 6 8 10 12 16) \
-  $(addprefix q1p0-cuboid-,8 12 16 24) $(addprefix q1p0-dome-,16-multigrid 24-multigrid 32-multigrid)
+COST_FINEST ?= q2p1-dome-24
+COST_POINTS ?= $(addprefix q1p0-dome-,4 6 8 10 12 14 16 20 24 32) $(addprefix q2p1-dome-,4 6 8 10 12 16 20 24) \
+  $(addprefix q1p0-cuboid-,8 12 16 24) $(addsuffix -direct,$(addprefix q1p0-dome-,12 16 20 24) q2p1-dome-12)
 cost: $(COST)/cost.tsv $(COST)/cost.png
 	@cat $<
 .PHONY: cost
