@@ -129,7 +129,7 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
   const std::string anterior = "u (mm) from the posterior edge";
   panel.text({0.5 * (low.x() + high.x()), low.y() - 36}, anterior, letters, palette::ink,
              Align::centre);
-  panel.text({x + 10 * outward, high.y() + 14}, "v (mm)", letters, palette::ink, align);
+  panel.text({x + 10 * outward, low.y() - 18}, "v (mm)", letters, palette::ink, align);
   const Vec2 edge(panel.to_pixel(hanging.at({image.plate_edge_u, 0}, 0)).x(), low.y());
   if (image.plate_edge_u > 0) {
     for (double y = low.y(); y < high.y(); y += 9) {
