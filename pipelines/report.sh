@@ -130,7 +130,7 @@ fi
 extra "Leaving parts out" "Change at the landmarks and on the MLO curve against the full model, and the CPU seconds saved; then the least model that stays within the error asked for, and what it gives." "$run/leaveout/table.tsv" "$run/leaveout/recommendation.tsv"
 extra "Error against run time" "Landmark error (mm) against CPU seconds." "$run"/cost/*.tsv "$run"/cost/*.png
 extra "Error budget" "What is left of the errors (mm) when one stage of the chain is replaced by the phantom's truth, and that stage's CPU seconds." "$run"/budget/*.tsv "$run"/budget/*.png
-extra "Stability" "Extreme cases: each converges, or stops with the reason given." "$runs"/stability/*.tsv
+extra "Stability" "Extreme cases: each converges, or stops with the reason given." "$runs"/stability/summary.tsv "$runs"/stability/mechanics.tsv "$runs"/stability/contact.tsv
 extra "Independent solver" "The same scene in CalculiX." "$runs"/compare/all.tsv "$runs"/compare/pressed.tsv
 if [ -s "$run/verify.tsv" ]; then
   section "Expected values"

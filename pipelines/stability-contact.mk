@@ -11,3 +11,11 @@ $(STABILITY)/contact.tsv: $(COMPRESS) tests/fixtures/contact_cases.hpp tests/ben
 	cmake --build $(BUILD) --target stability_contact >> $(STABILITY)/.build.log
 	$(BIN)/stability_contact $(wildcard $(RUN)/reference.vtkhdf) > $@.part || [ $$? -eq 3 ]
 	@mv $@.part $@
+
+# Both tables, and one page of what became of every case.
+.PHONY: stability
+stability: $(STABILITY)/summary.tsv
+	@cat $<
+$(STABILITY)/summary.tsv: $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv pipelines/stability-summary.sh
+	pipelines/stability-summary.sh $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv > $@.part
+	@mv $@.part $@
