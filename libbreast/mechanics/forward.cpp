@@ -27,7 +27,7 @@ class ForwardSolve {
                        SaddleState& state, int limit);
   NewtonResult follow(ForwardProblem& problem, const Eigen::VectorXd& load, SaddleSolver& solver,
                       SaddleMatrix& matrix, SaddleState& state);
-  void check_stability(const SaddleSolver& solver);
+  void check_stability(const SaddleMatrix& matrix, SaddleSolver& solver);
   void estimate(const Eigen::VectorXd& reference, const SaddleState& state, const Vec3& gravity,
                 SaddleMatrix& matrix, SaddleSolver& solver);
 
@@ -81,9 +81,11 @@ NewtonResult ForwardSolve::follow(ForwardProblem& problem, const Eigen::VectorXd
   return result;
 }
 
-// Whether the equilibrium found is known to be stable, from the last tangent.
-void ForwardSolve::check_stability(const SaddleSolver& solver) {
+// Whether the equilibrium found is known to be stable, from the last tangent. Where the start was
+// the equilibrium there is no factor of it yet.
+void ForwardSolve::check_stability(const SaddleMatrix& matrix, SaddleSolver& solver) {
   Timer::Scope phase(summary_.timer, "stability");
+  if (solver.factorisations() == 0) solver.factorise(matrix, scene_.walls(), false);
   if (solver.positive_definite()) return;
   if (hasty_) {
     summary_.record.status = "not_converged";
@@ -121,7 +123,7 @@ SolveSummary ForwardSolve::run(const Vec3& gravity) {
     result = follow(problem, load, solver, matrix, state);
     summary_.record.status = result.converged ? "converged" : "not_converged";
     note_solver(solver, matrix, summary_);
-    if (result.converged) check_stability(solver);
+    if (result.converged) check_stability(matrix, solver);
     if (summary_.converged()) estimate(reference, state, gravity, matrix, solver);
   }
   if (hasty_ && !summary_.converged()) return summary_;

@@ -161,6 +161,19 @@ TEST(Backward, NoGravityMovesNothing) {
   EXPECT_LT(worst_distance(mesh.reference, mesh.imaged), 1e-10);
 }
 
+// At rest already: no step, and nothing to doubt.
+TEST(Forward, NoGravityMovesNothing) {
+  HexMesh mesh = fixtures::cap({.elements = 4});
+  for (const char* solver : {"direct", "multigrid"}) {
+    MechanicsOptions options = paper_options();
+    options.solver = solver;
+    const SolveSummary summary = solve_forward(mesh, Vec3::Zero(), options);
+    EXPECT_TRUE(summary.converged());
+    EXPECT_TRUE(summary.doubts.empty()) << summary.doubts.front();
+    EXPECT_LT(worst_distance(mesh.points, mesh.imaged), 1e-10);
+  }
+}
+
 // Mesh and gravity turned together: the solution turns with them.
 TEST(Forward, IsFrameIndifferent) {
   const Mat3 turn = Eigen::AngleAxisd(0.9, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
