@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/step_search.hpp"
+
 namespace breast {
 
 namespace {
@@ -11,14 +13,10 @@ Vec3 node_vector(const Eigen::VectorXd& field, int node) {
 }
 /// A node that changed sides this often within one step keeps touching until convergence.
 constexpr int most_toggles = 3;
-/// Part of the slope along a step that may be left at its end.
-constexpr double slope_kept = 0.8;
 /// Iterations in which touching nodes may move freely onto the plate.
 constexpr int free_moves = 8;
 /// Pull, as a part of the scale times the tolerance, from which on a node is let go.
 constexpr double least_pull = 0.1;
-/// Longest multiple of a shifted step.
-constexpr double longest_slip = 64;
 /// Friction's bounds follow the normal forces once the imbalance is this part of their lag.
 constexpr double balance_to_follow = 0.1;
 /// Iterations granted for each with an indefinite tangent: itself and one to settle.
@@ -27,8 +25,6 @@ constexpr int slip_allowance = 2;
 /// iterations the imbalance is still this part of the first.
 constexpr double hasty_first_step = 0.2, hasty_reduction = 0.5;
 constexpr int hasty_iterations = 8;
-/// Halvings of a Newton step before it is given up.
-constexpr int most_halvings = 6;
 }  // namespace
 
 std::string describe(StepOutcome outcome) {
@@ -202,13 +198,13 @@ StepResult ActiveSet::solve(const PlatePair& plates, BodyState& state, double to
     if (converged && !changed) break;
     // A step much too long is noticed early: the imbalance grows and stays. In a slip it may.
     if (result.iterations == 1) first_imbalance = now.relative();
-    const bool hopeless = (result.shifted == 0 && result.iterations >= 6 &&
-                           now.relative() > 4 * first_imbalance && now.relative() > 0.1) ||
-                          (hasty_ && begins_badly(result, first_imbalance));
+    const bool hopeless = result.shifted == 0 && result.iterations >= 6 &&
+                          now.relative() > 4 * first_imbalance && now.relative() > 0.1;
+    result.hurried = hasty_ && begins_badly(result, first_imbalance);
     // A slip ends far from where it began: its iterations do not count against the limit.
     const int allowed = std::min(options_.max_iterations + slip_allowance * result.shifted,
                                  options_.most_iterations);
-    if (result.iterations >= allowed || hopeless) {
+    if (result.iterations >= allowed || hopeless || result.hurried) {
       result.outcome = StepOutcome::too_many_iterations;
       return result;
     }
@@ -260,67 +256,26 @@ bool ActiveSet::newton_step(const PlatePair& plates, const Sweep& now, BodyState
   return line_search(plates, now, increment, solve, state, result);
 }
 
-/// Along a direction of negative curvature a shifted step is far too short: it is doubled while the
-/// slope stays as steep as promised. `state` and `forces` are those of the length returned.
-double ActiveSet::go_further(const PlatePair& plates, const BodyState& start,
-                             const BodyState& increment, const BodySolve& solve, double along,
-                             BodyState& state, BodyForces& forces) {
-  double alpha = 1;
-  while (along < -slope_kept * solve.slope && alpha < longest_slip) {
-    BodyState further{start.x + 2 * alpha * increment.x, start.p + increment.p};
-    BodyForces there;
-    if (!body_.forces(further, there)) break;
-    along = increment.x.dot(measure(plates, further, there).gradient);
-    if (along > slope_kept * solve.slope) break;
-    alpha *= 2;
-    state = std::move(further);
-    forces = std::move(there);
-  }
-  return alpha;
-}
-
 bool ActiveSet::line_search(const PlatePair& plates, const Sweep& now, const BodyState& increment,
                             const BodySolve& solve, BodyState& state, StepResult& result) {
-  const BodyState start = state;
-  BodyForces trial_forces;
-  double alpha = 1;
+  const auto merit = [](const Sweep& sweep) { return sweep.relative() + sweep.worst_gap; };
+  const bool early = result.iterations < free_moves;
   // While nodes are being brought onto the plate the balance is bound to get worse: any admissible
   // step is then taken. Where the edge becomes straight that can alternate for ever; later
   // iterations must therefore reduce imbalance and gap together. A slipping node offers no
   // resistance until it turns back, where friction has another sign: with friction no step goes
   // beyond the place where the slope has turned that much.
   const bool rubs = options_.friction.present();
-  const bool moving = !rubs && now.worst_gap > 1e-3 && result.iterations < free_moves;
-  const auto merit = [](const Sweep& sweep) { return sweep.relative() + sweep.worst_gap; };
-  bool any_admissible = false;
-  for (int halving = 0; halving <= most_halvings; ++halving, alpha *= 0.5) {
-    state.x = start.x + alpha * increment.x;
-    state.p = start.p + alpha * increment.p;
-    if (!body_.forces(state, trial_forces)) {
-      if (result.failed_trial.size() == 0) result.failed_trial = state.x;
-      continue;
-    }
-    const Sweep trial = measure(plates, state, trial_forces);
-    // Along a step of an indefinite tangent (a node slipping over the plate edge) the imbalance may
-    // have to grow: going down in energy is then enough.
-    const double along = increment.x.dot(trial.gradient);
-    const bool flatter = solve.shifted ? along <= slope_kept * solve.slope
-                                       : (rubs || result.iterations < free_moves) &&
-                                             std::abs(along) <= slope_kept * std::abs(solve.slope);
-    const bool accepted =
-        moving || flatter || merit(trial) < merit(now) || trial.relative() < tolerance_;
-    any_admissible = true;
-    if (!accepted) continue;
-    if (solve.shifted && alpha == 1) {
-      alpha = go_further(plates, start, increment, solve, along, state, trial_forces);
-    }
-    result.forces = std::move(trial_forces);
-    result.history.push_back({measure(plates, state, result.forces).relative(),
-                              result.forces.min_det_F, result.forces.max_det_F, alpha});
-    return true;
-  }
-  result.outcome = any_admissible ? StepOutcome::no_descent : StepOutcome::folded;
-  return false;
+  StepRule rule;
+  rule.merit = merit(now);
+  rule.tolerance = tolerance_;
+  rule.any = !rubs && now.worst_gap > 1e-3 && early;
+  rule.flat_suffices = rubs || early;
+  const auto appraise = [&](const BodyState& at, const BodyForces& forces) -> Appraisal {
+    const Sweep sweep = measure(plates, at, forces);
+    return {sweep.relative(), merit(sweep), increment.x.dot(sweep.gradient)};
+  };
+  return search_step(body_, increment, solve, rule, appraise, state, result);
 }
 
 std::vector<double> ActiveSet::normal_forces(const PlatePair& plates, const BodyState& state,

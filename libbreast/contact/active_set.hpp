@@ -51,8 +51,6 @@ class ActiveSet : public ContactSolver {
               double scale, bool may_drop, bool balanced);
   Sweep measure(const PlatePair& plates, const BodyState& state, const BodyForces& forces) const;
   bool newton_step(const PlatePair& plates, const Sweep& now, BodyState& state, StepResult& result);
-  double go_further(const PlatePair& plates, const BodyState& start, const BodyState& increment,
-                    const BodySolve& solve, double along, BodyState& state, BodyForces& forces);
   bool line_search(const PlatePair& plates, const Sweep& now, const BodyState& increment,
                    const BodySolve& solve, BodyState& state, StepResult& result);
 

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace breast {
+#include "contact/step_search.hpp"
 
-namespace {
-constexpr int most_halvings = 10;
-}
+namespace breast {
 
 /// Nearer plate, its gap, and the force μN per unit gap gradient.
 struct AugmentedLagrangian::Contact {
@@ -25,12 +23,10 @@ struct AugmentedLagrangian::Balance {
 
 AugmentedLagrangian::AugmentedLagrangian(ContactBody& body, std::vector<int> candidates,
                                          AugmentedLagrangianOptions options)
-    : body_(body),
-      candidates_(std::move(candidates)),
-      options_(options),
-      penalty_(options.penalty) {
+    : body_(body), candidates_(std::move(candidates)), options_(options) {
   memory_.touching.assign(candidates_.size(), -1);
   memory_.multipliers.assign(candidates_.size(), 0);
+  memory_.penalty = options.penalty;
 }
 
 AugmentedLagrangian::Contact AugmentedLagrangian::contact(const PlatePair& plates,
@@ -43,7 +39,8 @@ AugmentedLagrangian::Contact AugmentedLagrangian::contact(const PlatePair& plate
                       ? memory_.touching[candidate]
                       : plates.nearer(point);
   contact.gap = plates.plate(contact.plate).gap(point);
-  contact.force = std::max(0.0, memory_.multipliers[candidate] - penalty_ * contact.gap.value);
+  contact.force =
+      std::max(0.0, memory_.multipliers[candidate] - memory_.penalty * contact.gap.value);
   return contact;
 }
 
@@ -78,9 +75,9 @@ bool AugmentedLagrangian::equilibrate(const PlatePair& plates, BodyState& state,
     for (std::size_t c = 0; c < candidates_.size(); ++c) {
       const Contact at = contact(plates, state.x, c);
       if (!(at.force > 0)) continue;
-      body_.add_to_tangent(
-          candidates_[c],
-          penalty_ * at.gap.gradient * at.gap.gradient.transpose() - at.force * at.gap.hessian);
+      body_.add_to_tangent(candidates_[c],
+                           memory_.penalty * at.gap.gradient * at.gap.gradient.transpose() -
+                               at.force * at.gap.hessian);
     }
     BodyState increment;
     const BodySolve solve = body_.solve({}, now.unbalanced, increment);
@@ -90,31 +87,14 @@ bool AugmentedLagrangian::equilibrate(const PlatePair& plates, BodyState& state,
       return false;
     }
     ++result.iterations;
-    const BodyState start = state;
-    bool accepted = false;
-    double alpha = 1;
-    for (int halving = 0; halving <= most_halvings && !accepted; ++halving, alpha *= 0.5) {
-      state.x = start.x + alpha * increment.x;
-      state.p = start.p + alpha * increment.p;
-      BodyForces trial;
-      if (!body_.forces(state, trial)) {
-        if (result.failed_trial.size() == 0) result.failed_trial = state.x;
-        continue;
-      }
-      const Balance there = balance(plates, state, trial);
-      accepted = there.relative() < now.relative() || there.relative() < tolerance ||
-                 std::abs(increment.x.dot(there.gradient)) <= 0.8 * std::abs(solve.slope);
-      if (accepted || halving == most_halvings) {
-        accepted = true;
-        result.forces = std::move(trial);
-        result.history.push_back(
-            {there.relative(), result.forces.min_det_F, result.forces.max_det_F, alpha});
-      }
-    }
-    if (!accepted) {
-      result.outcome = StepOutcome::folded;
-      return false;
-    }
+    StepRule rule;
+    rule.merit = now.relative();
+    rule.tolerance = tolerance;
+    const auto appraise = [&](const BodyState& trial, const BodyForces& forces) -> Appraisal {
+      const Balance there = balance(plates, trial, forces);
+      return {there.relative(), there.relative(), increment.x.dot(there.gradient)};
+    };
+    if (!search_step(body_, increment, solve, rule, appraise, state, result)) return false;
   }
   result.outcome = StepOutcome::too_many_iterations;
   return false;
@@ -140,19 +120,22 @@ StepResult AugmentedLagrangian::solve(const PlatePair& plates, BodyState& state,
     return result;
   }
   double last_gap = 1e30;
+  int first = 0;  // iterations to an equilibrium with the multipliers of before
   for (int update = 0; update < options_.most_updates; ++update) {
     // Early multipliers are rough; their equilibria need not be sharp.
     const double sharp = std::max(tolerance, update < 2 ? 1e-4 : 1e-6);
     if (!equilibrate(plates, state, sharp, result)) return result;
+    if (update == 0) first = result.iterations;
     const double gap = update_multipliers(plates, state);
     if (gap <= options_.gap_tolerance) {
       if (!equilibrate(plates, state, tolerance, result)) return result;
       result.worst_penetration = update_multipliers(plates, state);
       if (result.worst_penetration <= 2 * options_.gap_tolerance) {
+        result.corrections = result.iterations - first;
         return result;
       }
     }
-    if (gap > 0.25 * last_gap) penalty_ *= 3;
+    if (gap > 0.25 * last_gap) memory_.penalty *= 3;
     last_gap = gap;
   }
   result.outcome = StepOutcome::too_many_iterations;

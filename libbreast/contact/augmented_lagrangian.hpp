@@ -35,7 +35,6 @@ class AugmentedLagrangian : public ContactSolver {
   ContactBody& body_;
   std::vector<int> candidates_;
   AugmentedLagrangianOptions options_;
-  double penalty_;
 };
 
 }  // namespace breast

@@ -136,6 +136,7 @@ bool Path::attempt(const BodyState& guess, const ContactMemory& memory, double t
   }
   if (step.outcome != StepOutcome::converged) {
     ++result_.failures;
+    if (step.hurried && !first_haste_) first_haste_ = here_;
     result_.last_failure = step.outcome;
     result_.failed_thickness = thickness;
     result_.failed_trial = step.failed_trial;
@@ -196,7 +197,7 @@ bool Path::march() {
         attempt(predict(thickness, extrapolate), here_.memory, thickness, tolerance_, reached);
     solver_.set_hasty(false);
     if (arrived) {
-      const int iterations = result_.points.back().iterations;
+      const int iterations = result_.final_step.iterations - result_.final_step.corrections;
       // A length that has just been found by halving is used twice before it grows again.
       if (iterations < 6 && failures_in_row == 0) step = std::min(longest, 1.4 * step);
       if (iterations > 12) step = std::max(options_.shortest_step, 0.7 * step);
@@ -211,7 +212,6 @@ bool Path::march() {
       have_before_ = true;
     } else {
       ++failures_in_row;
-      if (hasty && !first_haste_) first_haste_ = here_;
       step = 0.5 * std::min(step, std::abs(thickness - here_.thickness));
       if (step < options_.shortest_step) {
         if (!be_patient()) return false;

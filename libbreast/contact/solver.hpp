@@ -22,8 +22,11 @@ struct NewtonRecord {
 struct StepResult {
   StepOutcome outcome = StepOutcome::converged;
   int iterations = 0, shifted = 0;  ///< shifted: iterations whose tangent was indefinite
-  double residual = 0;              ///< relative, at the end
-  double worst_penetration = 0;     ///< mm, over all candidates
+  /// Of the iterations, those after a first equilibrium, which say nothing of the plates' step.
+  int corrections = 0;
+  bool hurried = false;          ///< given up at its bad beginning
+  double residual = 0;           ///< relative, at the end
+  double worst_penetration = 0;  ///< mm, over all candidates
   BodyForces forces;
   std::vector<NewtonRecord> history;
   Eigen::VectorXd failed_trial;  ///< positions of the first refused trial of a failed step
@@ -33,6 +36,7 @@ struct StepResult {
 struct ContactMemory {
   std::vector<signed char> touching;  ///< −1 free, 0 touches the paddle, 1 the detector
   std::vector<double> multipliers;    ///< µN per unit gap gradient; augmented Lagrangian only
+  double penalty = 0;                 ///< µN/mm; augmented Lagrangian only
   std::vector<Vec3> anchors;          ///< where friction holds a node, mm; with friction only
   std::vector<double> bounds;         ///< the most it is held with, µN; with friction only
 };

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "contact/active_set.hpp"
+#include "contact/augmented_lagrangian.hpp"
 #include "contact/path.hpp"
 #include "core/units.hpp"
 #include "fixtures/wide_plates.hpp"
@@ -155,7 +156,7 @@ TEST(ActiveSet, NothingTouchesWhenThePlatesAreWide) {
 }
 
 namespace {
-PathResult close(PlatePair& plates, ActiveSet& contact, BodyState& state,
+PathResult close(PlatePair& plates, ContactSolver& contact, BodyState& state,
                  const CompressionTarget& target, PathOptions options = {}) {
   const auto area = [&](const BodyState&) {
     return std::vector<double>(contact.candidates().size(), 25.0);
@@ -207,4 +208,24 @@ TEST(CompressionPath, ForceAndPressureControlHitTheirTarget) {
     EXPECT_NEAR(kind == TargetKind::force ? end.paddle_N : end.pressure_kPa, value, 2e-3 * value);
     EXPECT_EQ(end.thickness, path.thickness);
   }
+}
+
+// How many updates the multipliers need says nothing of how far the plates may move at once.
+TEST(CompressionPath, CorrectionsDoNotShortenTheSteps) {
+  QuadraticBody body(24, 13);
+  BodyState exact{body.rest, {}}, penalised = exact;
+  PathOptions options;
+  options.first_step = options.longest_step = 4;
+  PlatePair plates = plates_at(-20, 20, 15);
+  ActiveSet active_set(body, free_nodes(24));
+  const PathResult a = close(plates, active_set, exact, {TargetKind::thickness, 12}, options);
+  plates = plates_at(-20, 20, 15);
+  AugmentedLagrangian paper(body, free_nodes(24), {10});
+  const PathResult b = close(plates, paper, penalised, {TargetKind::thickness, 12}, options);
+  ASSERT_TRUE(a.reached && b.reached);
+  int most = 0;
+  for (const PathPoint& point : b.points) most = std::max(most, point.iterations);
+  EXPECT_GT(most, 12) << "no position with many corrections: the test shows nothing";
+  EXPECT_EQ(a.points.size(), b.points.size());
+  EXPECT_LT((exact.x - penalised.x).lpNorm<Eigen::Infinity>(), 0.01);
 }
