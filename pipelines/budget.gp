@@ -16,6 +16,7 @@ set title 'Error budget: what is left when one stage is replaced by the truth'
 set key outside top center horizontal
 set xlabel 'replaced by the truth' offset 0,-1.2
 set bmargin 5.5
+set style textbox opaque noborder margins 0.2,0.1  # values stand clear of the dashed lines
 stage(row) = row eq 'chain' ? "nothing\n(the chain)" : row eq 'segmentation' ? "labels\n" : \
   row eq 'body' ? "labels, surfaces\nand mesh" : row eq 'tissue' ? "tissue\non the mesh" : row eq 'cut' ? "support of\nthe cut" : \
   row eq 'discretisation' ? "(finer mesh,\nnot truth)" : row eq 'backward' ? "stress-free\nshape" : \
@@ -31,6 +32,6 @@ do for [k=1:3] {
   chain[k] = STATS_max
 }
 plot for [k=1:3] table using (height(k)):xtic(stage(strcol('replaced'))) title title_of[k] lc rgb colour[k], \
-  for [k=1:3] '' using ($0 + 0.25 * (k - 2)):(height(k)):(missing(k) ? '–' : sprintf('%.2f', height(k))) \
-    with labels offset 0,0.6 font ',9' notitle, \
-  for [k=1:3] chain[k] with lines dashtype 2 lw 1.5 lc rgb colour[k] notitle
+  for [k=1:3] chain[k] with lines dashtype 2 lw 1.5 lc rgb colour[k] notitle, \
+  for [k=1:3] table using ($0 + 0.25 * (k - 2)):(height(k)):(missing(k) ? '–' : sprintf('%.2f', height(k))) \
+    with labels boxed offset 0,0.6 font ',9' notitle
