@@ -90,6 +90,7 @@ bool AugmentedLagrangian::equilibrate(const PlatePair& plates, BodyState& state,
     StepRule rule;
     rule.merit = now.relative();
     rule.tolerance = tolerance;
+    rule.kinks = true;
     const auto appraise = [&](const BodyState& trial, const BodyForces& forces) -> Appraisal {
       const Balance there = balance(plates, trial, forces);
       return {there.relative(), there.relative(), increment.x.dot(there.gradient)};

@@ -10,7 +10,7 @@ namespace {
 constexpr double slope_kept = 0.8;
 /// Longest multiple of a shifted step.
 constexpr double longest_slip = 64;
-/// Halvings of a Newton step before it is given up.
+/// Times a Newton step is shortened before it is given up.
 constexpr int most_halvings = 6;
 
 /// A trial state with its forces.
@@ -45,6 +45,13 @@ bool accepted(const Appraisal& seen, const BodySolve& solve, const StepRule& rul
   return rule.flat_suffices && std::abs(seen.along) <= slope_kept * std::abs(solve.slope);
 }
 
+// The next length to try: half of the last, with kinks where the slope would be zero if it were
+// linear from the start to the last trial's.
+double shorten(const Trial& trial, const BodySolve& solve, const StepRule& rule) {
+  const double slope = std::abs(solve.slope);
+  return rule.kinks && trial.seen.along > slope ? slope / (slope + trial.seen.along) : 0.5;
+}
+
 }  // namespace
 
 bool search_step(ContactBody& body, const BodyState& increment, const BodySolve& solve,
@@ -53,8 +60,10 @@ bool search_step(ContactBody& body, const BodyState& increment, const BodySolve&
   const BodyState start = state;
   double alpha = 1;
   bool any_admissible = false;
-  for (int halving = 0; halving <= most_halvings; ++halving, alpha *= 0.5) {
+  double shorter = 0.5;
+  for (int halving = 0; halving <= most_halvings; ++halving, alpha *= shorter) {
     Trial trial;
+    shorter = 0.5;
     trial.state = {start.x + alpha * increment.x, start.p + alpha * increment.p};
     if (!body.forces(trial.state, trial.forces)) {
       if (result.failed_trial.size() == 0) result.failed_trial = trial.state.x;
@@ -62,6 +71,7 @@ bool search_step(ContactBody& body, const BodyState& increment, const BodySolve&
     }
     any_admissible = true;
     trial.seen = appraise(trial.state, trial.forces);
+    shorter = shorten(trial, solve, rule);
     if (!accepted(trial.seen, solve, rule)) continue;
     if (solve.shifted && alpha == 1) {
       alpha = go_further(body, start, increment, solve, appraise, trial);

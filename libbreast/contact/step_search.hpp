@@ -22,10 +22,13 @@ struct StepRule {
   double tolerance = 0;       ///< imbalance of a solution
   bool any = false;           ///< every admissible length
   bool flat_suffices = true;  ///< an end where the energy is flatter along the step
+  /// The energy has kinks: a penalty that sets in along the step can be hundreds of times as stiff
+  /// as the tangent knows, so halves would be too long for long.
+  bool kinks = false;
 };
 
-/// Halves the increment until a length of it is accepted, and doubles it where the body slips. Sets
-/// `state` and the result's forces and adds the iteration to its history; else false, and the
+/// Shortens the increment until a length of it is accepted, and doubles it where the body slips.
+/// Sets `state` and the result's forces and adds the iteration to its history; else false, and the
 /// result's outcome says why.
 bool search_step(ContactBody& body, const BodyState& increment, const BodySolve& solve,
                  const StepRule& rule, const Appraise& appraise, BodyState& state,

@@ -9,6 +9,7 @@
 #include "contact/active_set.hpp"
 #include "contact/augmented_lagrangian.hpp"
 #include "contact/path.hpp"
+#include "contact/step_search.hpp"
 #include "core/units.hpp"
 #include "fixtures/wide_plates.hpp"
 
@@ -207,6 +208,32 @@ TEST(CompressionPath, ForceAndPressureControlHitTheirTarget) {
     const PathPoint& end = path.points.back();
     EXPECT_NEAR(kind == TargetKind::force ? end.paddle_N : end.pressure_kPa, value, 2e-3 * value);
     EXPECT_EQ(end.thickness, path.thickness);
+  }
+}
+
+// A penalty that sets in at once, 320 times as stiff as the tangent knows: halves of the step are
+// all too long, the place where the slope vanishes is found at once.
+TEST(StepSearch, ShortensToWhereAKinkedEnergyIsFlat) {
+  QuadraticBody body(4, 13);
+  BodyState increment{Eigen::VectorXd::Ones(body.rest.size()), {}};
+  BodySolve solve;
+  solve.slope = 1;
+  const auto appraise = [&](const BodyState& at, const BodyForces&) -> Appraisal {
+    const double along = 320 * (at.x - body.rest)[0] - 1;
+    return {std::abs(along), std::abs(along), along};
+  };
+  StepRule rule;
+  rule.merit = 1;
+  for (const bool kinks : {false, true}) {
+    rule.kinks = kinks;
+    BodyState state{body.rest, {}};
+    StepResult result;
+    EXPECT_EQ(search_step(body, increment, solve, rule, appraise, state, result), kinks);
+    if (kinks) {
+      EXPECT_NEAR(result.history.at(0).step_length, 1.0 / 320, 1e-4);
+    } else {
+      EXPECT_EQ(result.outcome, StepOutcome::no_descent);
+    }
   }
 }
 
