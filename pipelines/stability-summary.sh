@@ -16,7 +16,7 @@ summary() {
       if (!(key in cases)) order[++keys] = key
       ++cases[key]
       if ($at[name[3]] > worst[key] + 0) worst[key] = $at[name[3]]
-      if (!(key in least) || $at[name[4]] + 0 < least[key]) least[key] = $at[name[4]] + 0
+      if ($at[name[4]] + 0 > 0 && (!(key in least) || $at[name[4]] + 0 < least[key])) least[key] = $at[name[4]] + 0
       if ($at[name[5]] > most[key] + 0) most[key] = $at[name[5]]
       seconds[key] += $at[name[6]]
       if (!good || $at[name[2]] != "converged") which[key] = which[key] (which[key] == "" ? "" : "; ") $at[name[1]]
@@ -24,8 +24,9 @@ summary() {
     END {
       for (k = 1; k <= keys; ++k) {
         key = order[k]
-        printf "%s\t%d\t%.1e\t%.3f\t%d\t%.1f\t%s\n", key, cases[key], worst[key], least[key], most[key], seconds[key],
-          which[key] == "" ? "-" : which[key]
+        # A scene refused before its first state has neither residual nor det F.
+        printf "%s\t%d\t%s\t%s\t%d\t%.1f\t%s\n", key, cases[key], key in least ? sprintf("%.1e", worst[key]) : "-",
+          key in least ? sprintf("%.3f", least[key]) : "-", most[key], seconds[key], which[key] == "" ? "-" : which[key]
       }
     }'
 }

@@ -1,5 +1,6 @@
 #include "contact/step_search.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace breast {
@@ -12,6 +13,8 @@ constexpr double slope_kept = 0.8;
 constexpr double longest_slip = 64;
 /// Times a Newton step is shortened before it is given up.
 constexpr int most_halvings = 6;
+/// Of a length, when it is shortened by the slope.
+constexpr double least_part = 0.01;
 
 /// A trial state with its forces.
 struct Trial {
@@ -45,11 +48,12 @@ bool accepted(const Appraisal& seen, const BodySolve& solve, const StepRule& rul
   return rule.flat_suffices && std::abs(seen.along) <= slope_kept * std::abs(solve.slope);
 }
 
-// The next length to try: half of the last, with kinks where the slope would be zero if it were
-// linear from the start to the last trial's.
+/// The part of a length to try next: half, and with kinks what would make the slope zero if it were
+/// linear from the start to the trial's. Where the tangent is indefinite it is anything but that.
 double shorten(const Trial& trial, const BodySolve& solve, const StepRule& rule) {
   const double slope = std::abs(solve.slope);
-  return rule.kinks && trial.seen.along > slope ? slope / (slope + trial.seen.along) : 0.5;
+  if (!rule.kinks || solve.shifted || !(trial.seen.along > slope)) return 0.5;
+  return std::max(least_part, slope / (slope + trial.seen.along));
 }
 
 }  // namespace
