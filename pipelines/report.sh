@@ -52,7 +52,7 @@ table { border-collapse: collapse; margin: .8em 0; font-size: 13px } th, td { bo
 th { background: #f2f2f2 } td.n { text-align: right; font-variant-numeric: tabular-nums } td.bad { background: #fbd5d0 }
 figure { margin: 1em 0 } img { max-width: 100% } figcaption { font-size: 13px; color: #555 } pre { font-size: 12px; overflow-x: auto; background: #f7f7f7; padding: .7em }
 @page { size: A4 landscape; margin: 12mm }
-@media print { body { max-width: none; margin: 0; font-size: 11px } table { font-size: 9px } img { max-height: 165mm } h2 { break-after: avoid } figure, tr { break-inside: avoid } pre { white-space: pre-wrap } }
+@media print { body { max-width: none; margin: 0; font-size: 11px } table { font-size: 9px } img { max-height: 165mm } figure:first-of-type img { max-height: 140mm } h2 { break-after: avoid } figure, tr { break-inside: avoid } pre { white-space: pre-wrap } }
 </style></head><body>
 <h1>Breast deformation: case $(basename "$run")</h1>
 <p>From a prone MR scan to the stress-free, supine and compressed shapes, two simulated mammograms and the CC&rarr;MLO curve,
@@ -92,7 +92,7 @@ picture "$run/figures/pressure.png" "Contact pressure under paddle and detector;
 picture "$run/figures/force-thickness.png" "Force of both plates against thickness."
 section "Figure 6: simulated mammograms"
 picture "$run/figures/cc-mammogram.png" "6a. CC; the dot is the tumour."
-picture "$run/figures/mlo-mammogram.png" "6b. MLO; the computed curve, the tumour's true position (dot) and the arc of equal nipple distance."
+picture "$run/figures/mlo-mammogram.png" "6b. MLO; the computed curve, the place the model gives the tumour (dot) and the arc of equal nipple distance."
 picture "$run/figures/cc-points.png" "6c. A selection of CC points."
 picture "$run/figures/mlo-curves.png" "6d. Their curves in MLO."
 section "Figure 7: the column of the tumour's pixel"
