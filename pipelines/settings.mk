@@ -21,7 +21,7 @@ RUN := $(RUNS)/$(CASE)$(if $(PAPER),-as-printed)
 MATERIALS ?= seed2008
 REDUCTION ?= 50
 # As printed, elements on the edge of the cuboid fold early (docs/validation.md, 3).
-AT_LEAST ?= $(if $(PAPER),10,40)
+AT_LEAST ?= $(if $(PAPER),30,40)
 ELEMENTS ?= 16
 # Element of the mechanics, q1p0 or q2p1; empty: the programs' default. ACCURACY=MM chooses both.
 ELEMENT ?=
