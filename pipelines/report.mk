@@ -13,13 +13,17 @@ report: $(RUN)/report.html $(if $(CHROMIUM),$(RUN)/report.pdf)
 all: figures tables $(if $(EXPECTED),verify) report
 .PHONY: verify report all
 
-# What the slow targets left behind is embedded with its date; they are not run for the report.
+# What the slow targets left behind is embedded with its date. Named as prerequisites they would be solved anew where a
+# program is newer; so the page remembers which files they were, of when.
 REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/*.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png $(RUN)/budget/*.tsv $(RUN)/budget/*.png \
   $(RUNS)/stability/*.tsv $(RUNS)/compare/all.tsv $(RUNS)/compare/pressed.tsv)
+report_settings = $(foreach file,$(REPORT_EXTRAS),$(file) $(shell stat -c %Y $(file)))
+report_record = $(RUN)/report.settings
 $(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(F)/cc-points.png $(F)/mlo-curves.png \
-  $(if $(EXPECTED),$(RUN)/verify.tsv) pipelines/report.sh pipelines/values.sh pipelines/limits.txt $(REPORT_EXTRAS)
+  $(if $(EXPECTED),$(RUN)/verify.tsv) pipelines/report.sh pipelines/values.sh pipelines/limits.txt $(call changed,report)
 	pipelines/report.sh $(RUN) $(RUNS) $(BIN) > $@.part
 	@mv $@.part $@
+	@$(call record,report)
 	@echo "$@"
 $(RUN)/report.pdf: $(RUN)/report.html
 	pipelines/print.sh "$(CHROMIUM)" $< $@
