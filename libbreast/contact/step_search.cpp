@@ -13,7 +13,8 @@ constexpr double slope_kept = 0.8;
 constexpr double longest_slip = 64;
 /// Times a Newton step is shortened before it is given up.
 constexpr int most_halvings = 6;
-/// Of a length, when it is shortened by the slope.
+/// Times more that the slope says by how much, and the least part of a length it may say.
+constexpr int most_by_slope = 3;
 constexpr double least_part = 0.01;
 
 /// A trial state with its forces.
@@ -48,12 +49,12 @@ bool accepted(const Appraisal& seen, const BodySolve& solve, const StepRule& rul
   return rule.flat_suffices && std::abs(seen.along) <= slope_kept * std::abs(solve.slope);
 }
 
-/// The part of a length to try next: half, and with kinks what would make the slope zero if it were
-/// linear from the start to the trial's. Where the tangent is indefinite it is anything but that.
-double shorten(const Trial& trial, const BodySolve& solve, const StepRule& rule) {
+/// The part of a length at which the slope would be zero if it were linear from the start to the
+/// trial's.
+double flat_part(const Trial& trial, const BodySolve& solve) {
   const double slope = std::abs(solve.slope);
-  if (!rule.kinks || solve.shifted || !(trial.seen.along > slope)) return 0.5;
-  return std::max(least_part, slope / (slope + trial.seen.along));
+  if (!(trial.seen.along > 0)) return 0.5;
+  return std::clamp(slope / (slope + trial.seen.along), least_part, 0.5);
 }
 
 }  // namespace
@@ -65,7 +66,9 @@ bool search_step(ContactBody& body, const BodyState& increment, const BodySolve&
   double alpha = 1;
   bool any_admissible = false;
   double shorter = 0.5;
-  for (int halving = 0; halving <= most_halvings; ++halving, alpha *= shorter) {
+  // Where the tangent is indefinite the slope is anything but linear.
+  const int most = most_halvings + (rule.kinks && !solve.shifted ? most_by_slope : 0);
+  for (int i = 0; i <= most; ++i, alpha *= shorter) {
     Trial trial;
     shorter = 0.5;
     trial.state = {start.x + alpha * increment.x, start.p + alpha * increment.p};
@@ -75,7 +78,7 @@ bool search_step(ContactBody& body, const BodyState& increment, const BodySolve&
     }
     any_admissible = true;
     trial.seen = appraise(trial.state, trial.forces);
-    shorter = shorten(trial, solve, rule);
+    if (i >= most_halvings) shorter = flat_part(trial, solve);
     if (!accepted(trial.seen, solve, rule)) continue;
     if (solve.shifted && alpha == 1) {
       alpha = go_further(body, start, increment, solve, appraise, trial);

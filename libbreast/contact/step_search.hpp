@@ -23,7 +23,7 @@ struct StepRule {
   bool any = false;           ///< every admissible length
   bool flat_suffices = true;  ///< an end where the energy is flatter along the step
   /// The energy has kinks: a penalty that sets in along the step can be hundreds of times as stiff
-  /// as the tangent knows, so halves would be too long for long.
+  /// as the tangent knows, so after halves the slope says how much shorter.
   bool kinks = false;
 };
 
