@@ -45,13 +45,13 @@ macro(breast_leave_out_without_its_libraries what)
 endmacro()
 
 # breast_tool(NAME DEPENDS lib...): program NAME from NAME.cpp and, where there is one, NAME_options.cpp (a
-# hyphen in NAME is written _ there); left out, with one line, when a library it needs was left out.
+# hyphen in NAME is written _ there), SOURCES that several tools share; left out, with one line, when a library it needs was left out.
 function(breast_tool name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;SYSTEM" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "DEPENDS;SYSTEM;SOURCES" ${ARGN})
   breast_leave_out_without_its_libraries("Tool ${name}")
   string(REPLACE "-" "_" options ${name}_options.cpp)
   file(GLOB options CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${options})
-  add_executable(${name} ${name}.cpp ${options})
+  add_executable(${name} ${name}.cpp ${options} ${ARG_SOURCES})
   target_compile_options(${name} PRIVATE ${BREAST_WARNINGS})
   list(TRANSFORM ARG_DEPENDS PREPEND breast_)
   target_link_libraries(${name} PRIVATE breast_cli ${ARG_DEPENDS} ${ARG_SYSTEM})

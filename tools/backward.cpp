@@ -5,11 +5,8 @@
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "io/mesh_file.hpp"
-#include "mechanics/closing_summary.hpp"
-#include "mechanics/options.hpp"
 #include "mechanics/second_solution.hpp"
-#include "mesh/element_order.hpp"
-#include "mesh/quality.hpp"
+#include "mechanics_run.hpp"
 
 using namespace breast;
 
@@ -53,17 +50,16 @@ void declare(Tool& tool, Choices& c) {
 }
 
 // Largest distance (mm) of the imaged shape from what forward makes of the shape found.
-void check_closure(const HexMesh& mesh, const Vec3& gravity, MechanicsOptions options, Run& run,
-                   SolveSummary& backward) {
-  HexMesh again = mesh;
-  again.points = again.reference;
-  SolveSummary summary;
+void check_closure(HexMesh mesh, const Vec3& gravity, const MechanicsOptions& options, Run& run,
+                   Equilibrium& backward) {
+  store(backward, mesh);
+  Equilibrium again;
   {
     Timer::Scope phase(backward.timer, "closure");
-    summary = solve_forward(again, gravity, options, run.progress());
+    again = solve_forward(mesh, gravity, options, run.progress());
   }
-  if (!summary.converged()) {
-    run.warn("forward did not return to the imaged shape: " + summary.record.reason);
+  if (!again.converged()) {
+    run.warn("forward did not return to the imaged shape: " + again.record.reason);
     return;
   }
   double worst = 0;
@@ -71,11 +67,11 @@ void check_closure(const HexMesh& mesh, const Vec3& gravity, MechanicsOptions op
     worst = std::max(worst, (again.points[i] - mesh.imaged[i]).norm());
   }
   run.report().set("closure_mm", worst);
-  backward.timer.move("closure", "error estimate", summary.timer.seconds("error estimate"));
+  backward.timer.move("closure", "error estimate", again.timer.seconds("error estimate"));
   // Of the equilibrium both directions share.
-  backward.error_estimate_mm = summary.error_estimate_mm;
-  backward.landmark_error_mm = summary.landmark_error_mm;
-  backward.error_estimate_how = summary.error_estimate_how;
+  backward.error_estimate_mm = again.error_estimate_mm;
+  backward.landmark_error_mm = again.landmark_error_mm;
+  backward.error_estimate_how = again.error_estimate_how;
   if (worst > 1e-6) {
     run.warn(message("forward returns to the imaged shape only within ", worst,
                      " mm: another equilibrium is near"));
@@ -83,32 +79,19 @@ void check_closure(const HexMesh& mesh, const Vec3& gravity, MechanicsOptions op
 }
 
 void run_backward(const Choices& c, Run& run) {
-  MechanicsOptions options = mechanics_options(c.mechanics);
-  options.estimate = estimate_from_name(c.estimate);
-  HexMesh mesh = read_mesh(c.mesh);
-  const std::string sha = mesh.content_sha256;
-  if (options.element == Element::q2p1) mesh = raise_order(mesh);
-  mesh.contact.reset();
-  mesh.contact_pressure.clear();
-  SolveSummary summary = solve_backward(mesh, c.gravity.vector(), options, run.progress());
-  if (summary.converged()) check_closure(mesh, c.gravity.vector(), options, run, summary);
-  if (options.estimate == Estimate::q2) {
+  const Vec3 gravity = c.gravity.vector();
+  MechanicsRun mechanics(run, c.mechanics, c.estimate, c.mesh, read_mesh(c.mesh));
+  const HexMesh& mesh = mechanics.mesh();
+  Equilibrium found = solve_backward(mesh, gravity, mechanics.options(), run.progress());
+  if (found.converged()) check_closure(mesh, gravity, mechanics.options(), run, found);
+  if (mechanics.options().estimate == Estimate::q2) {
     estimate_by_second_solution(
-        mesh, options, summary, [&](HexMesh& richer, const MechanicsOptions& same) {
-          return solve_backward(richer, c.gravity.vector(), same, run.progress());
+        mesh, mechanics.options(), found, [&](const HexMesh& richer, const MechanicsOptions& same) {
+          return solve_backward(richer, gravity, same, run.progress());
         });
   }
-  mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
-  write_report(summary, mesh, options, run.report());
-  tell_summary(run.report(), summary.timer, run.progress());
-  for (const std::string& doubt : summary.doubts) run.warn(doubt);
-  if (summary.converged() || c.mechanics.keep_unconverged) {
-    const History before = mesh.history;
-    mesh.history = run.history({{c.mesh, sha, &before}});
-    mesh.wall_seconds = run.seconds();
-    write_mesh(c.reference, mesh);
-  }
-  if (!summary.converged()) throw not_converged_error(summary.record.reason);
+  write_report(found, mesh, mechanics.options(), run.report());
+  mechanics.finish(found, c.reference);
 }
 
 }  // namespace

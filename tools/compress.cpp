@@ -7,11 +7,8 @@
 #include "core/error.hpp"
 #include "dicom/like_mammogram.hpp"
 #include "io/mesh_file.hpp"
-#include "mechanics/closing_summary.hpp"
-#include "mechanics/options.hpp"
 #include "mechanics/second_solution.hpp"
-#include "mesh/element_order.hpp"
-#include "mesh/quality.hpp"
+#include "mechanics_run.hpp"
 
 using namespace breast;
 
@@ -47,7 +44,8 @@ void declare(Tool& tool, Choices& c) {
       "plate then presses on the held chest wall or cut. When a path stops early, reason is an "
       "identifier (folds_at_plate_edge, folds_on_chest_wall, folds_between_edge_and_wall, "
       "folds_between_plates, folds_behind_plates, shrinks_... with the same endings, "
-      "iteration_limit, singular_tangent, no_descent, solve_limit, out_of_reach, "
+      "iteration_limit, indefinite_tangent, no_admissible_step, solve_limit, out_of_reach, "
+      "jump_at_target, "
       "gravity_not_carried, no_equilibrium_at_touch) and explanation a sentence.");
   tool.cite("Pathmanathan et al. 2008, section II-D, equations (7)-(8)");
   tool.example("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 50",
@@ -128,39 +126,25 @@ void take_from_mammogram(Choices& c, Side side, Report& report) {
 }
 
 void run_compress(Choices c, Run& run) {
-  MechanicsOptions mechanics = mechanics_options(c.mechanics);
-  mechanics.estimate = estimate_from_name(c.estimate);
-  HexMesh mesh = read_mesh(c.reference, {.reference = true});
+  MechanicsRun mechanics(run, c.mechanics, c.estimate, c.reference,
+                         read_mesh(c.reference, {.reference = true}));
+  const HexMesh& mesh = mechanics.mesh();
   take_from_mammogram(c, mesh.side, run.report());
   const CompressionOptions options = compression_options(c, parse_gravity(c.gravity));
-  const std::string sha = mesh.content_sha256;
-  if (mechanics.element == Element::q2p1) mesh = raise_order(mesh);
-  CompressionSummary summary = compress(mesh, options, mechanics, run.progress());
-  if (mechanics.estimate == Estimate::q2 && mesh.contact) {
+  CompressionResult found = compress(mesh, options, mechanics.options(), run.progress());
+  if (mechanics.options().estimate == Estimate::q2 && found.contact) {
     CompressionOptions same_gap = options;
     same_gap.stop_at = StopAt::thickness;
-    same_gap.target = mesh.contact->thickness_mm;
+    same_gap.target = found.thickness_mm;
     estimate_by_second_solution(
-        mesh, mechanics, summary, [&](HexMesh& richer, const MechanicsOptions& same) {
-          return static_cast<SolveSummary>(compress(richer, same_gap, same, run.progress()));
+        mesh, mechanics.options(), found, [&](const HexMesh& richer, const MechanicsOptions& same) {
+          return compress(richer, same_gap, same, run.progress());
         });
   }
-  mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
-  write_report(summary, mesh, mechanics, run.report());
-  tell_summary(run.report(), summary.timer, run.progress());
-  for (const std::string& doubt : summary.doubts) run.warn(doubt);
-
-  const std::string& status = summary.record.status;
-  const bool enough =
-      status == "stopped_early" && c.at_least && summary.reduction_percent >= *c.at_least;
-  if (status == "converged" || enough || c.mechanics.keep_unconverged) {
-    const History before = mesh.history;
-    mesh.history = run.history({{c.reference, sha, &before}});
-    mesh.wall_seconds = run.seconds();
-    write_mesh(c.compressed, mesh);
-  }
-  if (enough) run.warn(summary.record.reason);
-  if (status != "converged" && !enough) throw not_converged_error(summary.record.reason);
+  write_report(found, mesh, mechanics.options(), run.report());
+  const bool enough = found.record.status == SolveStatus::stopped_early && c.at_least &&
+                      found.reduction_percent >= *c.at_least;
+  mechanics.finish(found, c.compressed, enough, plate_lines(run.report()));
 }
 
 }  // namespace

@@ -1,13 +1,9 @@
 // forward: the shape of a stress-free breast under gravity.
 #include "cli/mechanics_options.hpp"
 #include "cli/tool.hpp"
-#include "core/error.hpp"
 #include "io/mesh_file.hpp"
-#include "mechanics/closing_summary.hpp"
-#include "mechanics/options.hpp"
 #include "mechanics/second_solution.hpp"
-#include "mesh/element_order.hpp"
-#include "mesh/quality.hpp"
+#include "mechanics_run.hpp"
 
 using namespace breast;
 
@@ -43,31 +39,19 @@ void declare(Tool& tool, Choices& c) {
 }
 
 void run_forward(const Choices& c, Run& run) {
-  MechanicsOptions options = mechanics_options(c.mechanics);
-  options.estimate = estimate_from_name(c.estimate);
-  HexMesh mesh = read_mesh(c.reference, {.reference = true});
-  const std::string sha = mesh.content_sha256;
-  if (options.element == Element::q2p1) mesh = raise_order(mesh);
-  SolveSummary summary = solve_forward(mesh, c.gravity.vector(), options, run.progress());
-  if (options.estimate == Estimate::q2) {
+  MechanicsRun mechanics(run, c.mechanics, c.estimate, c.reference,
+                         read_mesh(c.reference, {.reference = true}));
+  const HexMesh& mesh = mechanics.mesh();
+  Equilibrium found =
+      solve_forward(mesh, c.gravity.vector(), mechanics.options(), run.progress());
+  if (mechanics.options().estimate == Estimate::q2) {
     estimate_by_second_solution(
-        mesh, options, summary, [&](HexMesh& richer, const MechanicsOptions& same) {
+        mesh, mechanics.options(), found, [&](const HexMesh& richer, const MechanicsOptions& same) {
           return solve_forward(richer, c.gravity.vector(), same, run.progress());
         });
   }
-  mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
-  mesh.contact.reset();
-  mesh.contact_pressure.clear();
-  write_report(summary, mesh, options, run.report());
-  tell_summary(run.report(), summary.timer, run.progress());
-  for (const std::string& doubt : summary.doubts) run.warn(doubt);
-  if (summary.converged() || c.mechanics.keep_unconverged) {
-    const History before = mesh.history;
-    mesh.history = run.history({{c.reference, sha, &before}});
-    mesh.wall_seconds = run.seconds();
-    write_mesh(c.deformed, mesh);
-  }
-  if (!summary.converged()) throw not_converged_error(summary.record.reason);
+  write_report(found, mesh, mechanics.options(), run.report());
+  mechanics.finish(found, c.deformed);
 }
 
 }  // namespace

@@ -3,149 +3,179 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/step_search.hpp"
+#include "core/error.hpp"
+#include "solve/equilibrate.hpp"
 
 namespace breast {
 
-/// Nearer plate, its gap, and the force μN per unit gap gradient.
-struct AugmentedLagrangian::Contact {
-  int plate = 0;
-  Gap gap;
-  double force = 0;
+namespace {
+constexpr double volume_tolerance = 1e-8;
+}
+
+/// A penalised equilibrium with the multipliers given.
+class AugmentedLagrangian::System final : public TangentSystem {
+ public:
+  System(AugmentedLagrangian& owner, State& state, double tolerance)
+      : TangentSystem(owner.problem_, owner.solver_, owner.matrix_, state),
+        owner_(owner),
+        tolerance_(tolerance) {}
+
+  bool begin() { return look(); }
+
+  Balance assess(const NewtonResult& so_far) override {
+    Balance now;
+    now.residual = now.merit = relative(state_, forces_);
+    const bool done = now.residual <= tolerance_ &&
+                      problem_.volume_residual(forces_) <= volume_tolerance;
+    const int folded = done ? problem_.folded_element(state_) : -1;
+    now.converged = done && folded < 0;
+    if (folded >= 0) {
+      now.stop = NewtonStop::folded;
+      now.reason = message("element ", folded, " is turned inside out at a corner");
+    } else if (!done && int(so_far.iterations.size()) >= owner_.options_.most_iterations) {
+      now.stop = NewtonStop::iteration_limit;
+      now.reason = describe(now.stop);
+    }
+    return now;
+  }
+
+  NewtonDirection direction(const Balance&) override {
+    if (!assemble()) return {NewtonStop::folded, describe(NewtonStop::folded)};
+    if (!factorise(problem_.constraints()).ok) {
+      return {NewtonStop::indefinite, describe(NewtonStop::indefinite)};
+    }
+    NewtonDirection direction = solve(contact_volume_accuracy, gmres_restarts);
+    if (!step_.u.allFinite()) {
+      return {NewtonStop::indefinite, describe(NewtonStop::indefinite)};
+    }
+    return direction;
+  }
+
+  LineSearchRule rule(const NewtonResult&, const Balance& now,
+                      const NewtonDirection& direction) const override {
+    LineSearchRule rule;
+    rule.merit = now.merit;
+    rule.tolerance = tolerance_;
+    rule.flat_suffices = true;
+    rule.downhill_suffices = direction.shift > 0;
+    rule.kinks = true;
+    return rule;
+  }
+
+ private:
+  /// Unbalanced force over that of the plates.
+  double relative(const State& state, const Forces& forces) const {
+    double square = 0;
+    for (std::size_t c = 0; c < owner_.candidates_.size(); ++c) {
+      const double force = owner_.plate_->at(c, state.x).force;
+      square += force * force;
+    }
+    return problem_.free_norm(forces) /
+           std::max({std::sqrt(square), problem_.load_norm(), 1e-30});
+  }
+
+  Appraisal appraise(const State& state, const Forces& forces) const override {
+    Eigen::VectorXd gradient = forces.augmented.size() > 0 ? forces.augmented : forces.r;
+    problem_.constraints().project(gradient);
+    const double there = relative(state, forces);
+    return {there, there, along(gradient)};
+  }
+
+  AugmentedLagrangian& owner_;
+  double tolerance_;
 };
 
-struct AugmentedLagrangian::Balance {
-  Eigen::VectorXd unbalanced;  ///< residual minus plate forces, zero where held
-  Eigen::VectorXd gradient;    ///< of the augmented energy, likewise
-  double scale = 1;
-  double relative() const { return unbalanced.norm() / scale; }
-};
-
-AugmentedLagrangian::AugmentedLagrangian(ContactBody& body, std::vector<int> candidates,
+AugmentedLagrangian::AugmentedLagrangian(const Problem& body, SaddleSolver& solver,
+                                         std::vector<int> candidates,
                                          AugmentedLagrangianOptions options)
-    : body_(body), candidates_(std::move(candidates)), options_(options) {
+    : problem_(body),
+      solver_(solver),
+      matrix_(body.make_matrix()),
+      candidates_(std::move(candidates)),
+      options_(options),
+      plate_(std::make_shared<PlateTerm>(candidates_)) {
   memory_.touching.assign(candidates_.size(), -1);
   memory_.multipliers.assign(candidates_.size(), 0);
   memory_.penalty = options.penalty;
+  problem_.add(plate_);
 }
 
-AugmentedLagrangian::Contact AugmentedLagrangian::contact(const PlatePair& plates,
-                                                          const Eigen::VectorXd& x,
-                                                          std::size_t candidate) const {
-  const Vec3 point = x.segment<3>(3 * candidates_[candidate]);
-  Contact contact;
-  // A node keeps to the plate that already pushes it.
-  contact.plate = memory_.multipliers[candidate] > 0 && memory_.touching[candidate] >= 0
-                      ? memory_.touching[candidate]
-                      : plates.nearer(point);
-  contact.gap = plates.plate(contact.plate).gap(point);
-  contact.force =
-      std::max(0.0, memory_.multipliers[candidate] - memory_.penalty * contact.gap.value);
-  return contact;
-}
-
-AugmentedLagrangian::Balance AugmentedLagrangian::balance(const PlatePair& plates,
-                                                          const BodyState& state,
-                                                          const BodyForces& forces) const {
-  Balance balance;
-  balance.unbalanced = forces.residual;
-  balance.gradient = forces.augmented.size() > 0 ? forces.augmented : forces.residual;
-  double pushed = 0;
+// A node keeps to the plate that already presses on it.
+void AugmentedLagrangian::set_terms() {
+  plate_->set_penalty(memory_.penalty);
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
-    const Contact at = contact(plates, state.x, c);
-    if (at.force > 0) {
-      balance.unbalanced.segment<3>(3 * candidates_[c]) -= at.force * at.gap.gradient;
-      balance.gradient.segment<3>(3 * candidates_[c]) -= at.force * at.gap.gradient;
-      pushed += at.force * at.force;
-    }
+    const bool pressed = memory_.multipliers[c] > 0 && memory_.touching[c] >= 0;
+    plate_->entry(c).plate = pressed ? memory_.touching[c] : -1;
+    plate_->entry(c).multiplier = memory_.multipliers[c];
   }
-  body_.remove_held(balance.unbalanced);
-  body_.remove_held(balance.gradient);
-  balance.scale = std::max({std::sqrt(pushed), body_.load_norm(), 1e-30});
-  return balance;
 }
 
-bool AugmentedLagrangian::equilibrate(const PlatePair& plates, BodyState& state, double tolerance,
-                                      StepResult& result) {
-  for (int k = 0; k < options_.most_iterations; ++k) {
-    const Balance now = balance(plates, state, result.forces);
-    result.residual = now.relative();
-    if (now.relative() <= tolerance && result.forces.volume_residual <= 1e-8) return true;
-    if (!body_.assemble(state)) break;
-    for (std::size_t c = 0; c < candidates_.size(); ++c) {
-      const Contact at = contact(plates, state.x, c);
-      if (!(at.force > 0)) continue;
-      body_.add_to_tangent(candidates_[c],
-                           memory_.penalty * at.gap.gradient * at.gap.gradient.transpose() -
-                               at.force * at.gap.hessian);
-    }
-    BodyState increment;
-    const BodySolve solve = body_.solve({}, now.unbalanced, increment);
-    if (solve.shifted) ++result.shifted;
-    if (!solve.ok || !increment.x.allFinite()) {
-      result.outcome = StepOutcome::singular;
-      return false;
-    }
-    ++result.iterations;
-    StepRule rule;
-    rule.merit = now.relative();
-    rule.tolerance = tolerance;
-    rule.kinks = true;
-    const auto appraise = [&](const BodyState& trial, const BodyForces& forces) -> Appraisal {
-      const Balance there = balance(plates, trial, forces);
-      return {there.relative(), there.relative(), increment.x.dot(there.gradient)};
-    };
-    if (!search_step(body_, increment, solve, rule, appraise, state, result)) return false;
+bool AugmentedLagrangian::equilibrate(State& state, double tolerance, ContactStep& step) {
+  set_terms();
+  System system(*this, state, tolerance);
+  if (!system.begin()) {
+    step.stop = NewtonStop::folded;
+    step.failed_trial = state.x;
+    return false;
   }
-  result.outcome = StepOutcome::too_many_iterations;
-  return false;
+  NewtonResult part = newton(system);
+  step.iterations.insert(step.iterations.end(), part.iterations.begin(), part.iterations.end());
+  step.indefinite += part.indefinite;
+  step.residual = part.residual;
+  step.stop = part.stop;
+  step.reason = part.reason;
+  step.forces = system.forces();
+  if (!part.converged && step.failed_trial.size() == 0) step.failed_trial = system.refused();
+  return part.converged;
 }
 
-double AugmentedLagrangian::update_multipliers(const PlatePair& plates, const BodyState& state) {
+double AugmentedLagrangian::update_multipliers(const State& state) {
   double worst = 0;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
-    const Contact at = contact(plates, state.x, c);
-    const double gap = at.gap.value;
-    worst = std::max(worst, at.force > 0 ? std::abs(gap) : -gap);
+    const PlateForce at = plate_->at(c, state.x);
+    worst = std::max(worst, at.force > 0 ? std::abs(at.gap.value) : -at.gap.value);
     memory_.multipliers[c] = at.force;
     memory_.touching[c] = static_cast<signed char>(at.force > 0 ? at.plate : -1);
   }
   return worst;
 }
 
-StepResult AugmentedLagrangian::solve(const PlatePair& plates, BodyState& state, double tolerance) {
-  StepResult result;
-  if (!body_.forces(state, result.forces)) {
-    result.outcome = StepOutcome::folded;
-    result.failed_trial = state.x;
-    return result;
+void AugmentedLagrangian::finish(ContactStep& step) const {
+  step.converged = true;
+  step.contacts.resize(candidates_.size());
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    step.contacts[c].plate = memory_.touching[c];
+    step.contacts[c].normal = memory_.multipliers[c];
   }
+  step.failed_trial.resize(0);
+}
+
+ContactStep AugmentedLagrangian::solve(const PlatePair& plates, State& state, double tolerance) {
+  plate_->set_plates(plates);
+  ContactStep step;
   double last_gap = 1e30;
-  int first = 0;  // iterations to an equilibrium with the multipliers of before
+  std::size_t first = 0;  // iterations to an equilibrium with the multipliers of before
   for (int update = 0; update < options_.most_updates; ++update) {
     // Early multipliers are rough; their equilibria need not be sharp.
     const double sharp = std::max(tolerance, update < 2 ? 1e-4 : 1e-6);
-    if (!equilibrate(plates, state, sharp, result)) return result;
-    if (update == 0) first = result.iterations;
-    const double gap = update_multipliers(plates, state);
+    if (!equilibrate(state, sharp, step)) return step;
+    if (update == 0) first = step.iterations.size();
+    const double gap = update_multipliers(state);
     if (gap <= options_.gap_tolerance) {
-      if (!equilibrate(plates, state, tolerance, result)) return result;
-      result.worst_penetration = update_multipliers(plates, state);
-      if (result.worst_penetration <= 2 * options_.gap_tolerance) {
-        result.corrections = result.iterations - first;
-        return result;
+      if (!equilibrate(state, tolerance, step)) return step;
+      step.worst_penetration = update_multipliers(state);
+      if (step.worst_penetration <= 2 * options_.gap_tolerance) {
+        step.corrections = int(step.iterations.size() - first);
+        finish(step);
+        return step;
       }
     }
     if (gap > 0.25 * last_gap) memory_.penalty *= 3;
     last_gap = gap;
   }
-  result.outcome = StepOutcome::too_many_iterations;
-  return result;
-}
-
-std::vector<double> AugmentedLagrangian::normal_forces(const PlatePair&, const BodyState&,
-                                                       const BodyForces&) const {
-  return memory_.multipliers;
+  step.stop = NewtonStop::iteration_limit;
+  step.reason = describe(step.stop);
+  return step;
 }
 
 }  // namespace breast

@@ -1,10 +1,13 @@
-// The paper's way of holding the plates out of the body: Uzawa updates of nodal contact forces
+// The paper's way of keeping the plates out of the body: Uzawa updates of nodal contact forces
 // around penalised equilibria. Kept to compare with the active set; it leaves a small penetration.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "contact/solver.hpp"
+#include "contact/terms/plate.hpp"
+#include "solve/saddle.hpp"
 
 namespace breast {
 
@@ -16,25 +19,28 @@ struct AugmentedLagrangianOptions {
 
 class AugmentedLagrangian : public ContactSolver {
  public:
-  AugmentedLagrangian(ContactBody& body, std::vector<int> candidates,
+  /// `body`: everything but the plates. `solver` must outlive this.
+  AugmentedLagrangian(const Problem& body, SaddleSolver& solver, std::vector<int> candidates,
                       AugmentedLagrangianOptions options = {});
 
-  StepResult solve(const PlatePair& plates, BodyState& state, double tolerance) override;
-  std::vector<double> normal_forces(const PlatePair& plates, const BodyState& state,
-                                    const BodyForces& forces) const override;
+  ContactStep solve(const PlatePair& plates, State& state, double tolerance) override;
+  const Problem& problem() const override { return problem_; }
+  Constraints constraints(const State&) const override { return problem_.constraints(); }
   const std::vector<int>& candidates() const override { return candidates_; }
 
  private:
-  struct Contact;
-  struct Balance;
-  Contact contact(const PlatePair& plates, const Eigen::VectorXd& x, std::size_t candidate) const;
-  Balance balance(const PlatePair& plates, const BodyState& state, const BodyForces& forces) const;
-  bool equilibrate(const PlatePair& plates, BodyState& state, double tolerance, StepResult& result);
-  double update_multipliers(const PlatePair& plates, const BodyState& state);
+  class System;
+  void set_terms();
+  bool equilibrate(State& state, double tolerance, ContactStep& step);
+  double update_multipliers(const State& state);
+  void finish(ContactStep& step) const;
 
-  ContactBody& body_;
+  Problem problem_;
+  SaddleSolver& solver_;
+  SaddleMatrix matrix_;
   std::vector<int> candidates_;
   AugmentedLagrangianOptions options_;
+  std::shared_ptr<PlateTerm> plate_;
 };
 
 }  // namespace breast

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "contact/deformation.hpp"
-#include "contact/elastic_wall.hpp"
 #include "contact/judgement.hpp"
 #include "contact/path.hpp"
 #include "contact/plates.hpp"
 #include "core/progress.hpp"
 #include "core/report.hpp"
-#include "mechanics/mechanics.hpp"
+#include "mechanics/equilibrium.hpp"
+#include "mechanics/options.hpp"
 
 namespace breast {
 
@@ -30,11 +30,12 @@ struct CompressionOptions {
   Vec3 gravity{0, 0, -9810};  ///< mm/s², LPS
   ContactMethod method = ContactMethod::active_set;
   double friction = 0;              ///< Coulomb's μ between skin and plates
-  std::optional<WallSprings> wall;  ///< an elastic chest wall; none: held
+  std::optional<SupportStiffness> wall;  ///< an elastic chest wall; none: fixed
   PathOptions path;
 };
 
-struct CompressionSummary : SolveSummary {
+/// A compressed breast.
+struct CompressionResult : Equilibrium {
   PlatePair plates;
   PathResult path;
   double thickness_mm = 0, reduction_percent = 0, initial_thickness_mm = 0;
@@ -48,15 +49,17 @@ struct CompressionSummary : SolveSummary {
   std::vector<Judgement> judgement;  ///< against clinical ranges, and of the solve
 };
 
-/// Compresses mesh.reference; sets mesh.points, pressure, det_F, contact, contact_pressure,
-/// gravity, solve. A path that stops early leaves its last equilibrium with status "stopped_early"
-/// and the reason; when gravity alone does not converge the status is "not_converged". Throws Error
-/// (input) when the plates miss the breast or an option is out of range.
-CompressionSummary compress(HexMesh& mesh, const CompressionOptions& options,
-                            const MechanicsOptions& mechanics, Progress& progress = no_progress());
+/// Compresses mesh.reference. A path that stops early leaves its last equilibrium with status
+/// stopped_early and the reason; when gravity alone does not converge the status is not_converged.
+/// Throws Error (input) when the plates miss the breast or an option is out of range.
+CompressionResult compress(const HexMesh& mesh, const CompressionOptions& options,
+                           const MechanicsOptions& mechanics, Progress& progress = no_progress());
 
-/// Adds compression's own keys to those of the mechanics report.
-void write_report(const CompressionSummary& summary, const HexMesh& mesh,
+/// The mechanics report with compression's own keys; `mesh` is the one that was solved.
+void write_report(const CompressionResult& result, const HexMesh& mesh,
                   const MechanicsOptions& mechanics, Report& report);
+
+/// The plates in one line, from a report filled by write_report; none where there are no plates.
+std::vector<std::string> plate_lines(const Report& report);
 
 }  // namespace breast

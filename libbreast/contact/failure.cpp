@@ -38,21 +38,6 @@ StopReason surroundings(const HexMesh& mesh, const Eigen::VectorXd& x, int eleme
   return {"between_plates", "between the plates"};
 }
 
-std::string outcome_id(StepOutcome outcome) {
-  switch (outcome) {
-    case StepOutcome::too_many_iterations:
-      return "iteration_limit";
-    case StepOutcome::singular:
-      return "singular_tangent";
-    case StepOutcome::no_descent:
-      return "no_descent";
-    case StepOutcome::converged:
-    case StepOutcome::folded:
-      break;
-  }
-  return "";
-}
-
 }  // namespace
 
 StopReason explain_stop(const HexMesh& mesh, const Eigen::VectorXd& good, const PathResult& path,
@@ -60,7 +45,13 @@ StopReason explain_stop(const HexMesh& mesh, const Eigen::VectorXd& good, const 
   if (path.solve_limit) {
     return {"solve_limit", message("the limit of ", path.solves, " plate positions is reached")};
   }
-  if (path.last_failure == StepOutcome::converged) {
+  if (path.jump) {
+    return {"jump_at_target",
+            message("the force or pressure jumps over the target, from ", path.jump->first, " to ",
+                    path.jump->second, " (N or kPa), between positions less than a tenth of a "
+                    "micrometre apart: the body snaps through")};
+  }
+  if (path.last_failure == NewtonStop::none) {
     return {"out_of_reach",
             message("the plates would have to close to ", path.failed_thickness, " mm")};
   }
@@ -70,8 +61,9 @@ StopReason explain_stop(const HexMesh& mesh, const Eigen::VectorXd& good, const 
   const auto folded = std::count_if(det.begin(), det.end(), [](double d) { return !(d > 0); });
   const StopReason where = surroundings(mesh, good, worst, plates);
   StopReason reason;
-  reason.id = outcome_id(path.last_failure);
-  if (reason.id.empty()) reason.id = (folded > 0 ? "folds_" : "shrinks_") + where.id;
+  reason.id = path.last_failure == NewtonStop::folded
+                  ? (folded > 0 ? "folds_" : "shrinks_") + where.id
+                  : std::string(stop_name(path.last_failure));
   const Vec3 at = centre(mesh, good, worst);
   reason.sentence = message(
       "the step to ", path.failed_thickness, " mm fails, ", describe(path.last_failure), "; ",

@@ -18,7 +18,7 @@ std::optional<double> number(const std::string& text) {
 }
 }  // namespace
 
-std::optional<WallSprings> parse_wall(const std::string& text) {
+std::optional<SupportStiffness> parse_wall(const std::string& text) {
   if (text == "fixed") return {};
   const std::string kind = "spring:";
   if (text.rfind(kind, 0) == 0) {
@@ -28,7 +28,7 @@ std::optional<WallSprings> parse_wall(const std::string& text) {
     const std::optional<double> along = comma == std::string::npos
                                             ? (normal ? std::optional(*normal / 3) : normal)
                                             : number(rest.substr(comma + 1));
-    if (normal && along && *normal > 0 && *along >= 0) return WallSprings{*normal, *along};
+    if (normal && along && *normal > 0 && *along >= 0) return SupportStiffness{*normal, *along};
   }
   throw input_error("--wall ", text,
                     ": give 'fixed', 'spring:NORMAL' or 'spring:NORMAL,TANGENTIAL' in kPa/mm, the "

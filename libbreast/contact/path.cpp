@@ -16,14 +16,17 @@ namespace {
 constexpr double first_part = 0.07, longest_part = 0.095;
 
 /// Steps longer than this part of the longest are given up when they begin badly.
-constexpr double hasty_part = 0.3;
+constexpr double fast_part = 0.3;
+
+/// Plate positions nearer than this are one, mm.
+constexpr double narrowest_bracket = 1e-4;
 
 /// States kept to go back to when the last one turns out to be no equilibrium.
 constexpr std::size_t longest_trail = 3;
 
 /// A converged state that can be returned to.
 struct Waypoint {
-  BodyState state;
+  State state;
   ContactMemory memory;
   double thickness = 0, measured = 0;
 };
@@ -41,21 +44,21 @@ class Path {
         start_thickness_(plates.thickness()),
         tolerance_(options.path_tolerance) {}
 
-  PathResult run(BodyState& state);
+  PathResult run(State& state);
 
  private:
   bool march();
   bool refine_control(Waypoint low, Waypoint high);
-  bool attempt(const BodyState& guess, const ContactMemory& memory, double thickness,
+  bool attempt(const State& guess, const ContactMemory& memory, double thickness,
                double tolerance, Waypoint& reached);
   bool finish();
   bool step_back();
   bool be_patient();
   void drop_points_beyond_here();
-  BodyState predict(double thickness, bool extrapolate) const;
+  State predict(double thickness, bool extrapolate) const;
   double next_thickness(double step) const;
   double measure(const PathPoint& point) const;
-  PathPoint force_point(const BodyState& state, const StepResult& step, double thickness) const;
+  PathPoint force_point(const State& state, const ContactStep& step, double thickness) const;
   void tell(const PathPoint& point) const;
 
   ContactSolver& solver_;
@@ -74,23 +77,21 @@ class Path {
   std::deque<Waypoint> trail_;           ///< the last ones before before_
 };
 
-PathPoint Path::force_point(const BodyState& state, const StepResult& step,
+PathPoint Path::force_point(const State& state, const ContactStep& step,
                             double thickness) const {
   PathPoint point;
   point.thickness = thickness;
-  point.iterations = step.iterations;
-  const std::vector<double> pushed = solver_.normal_forces(plates_, state, step.forces);
+  point.iterations = int(step.iterations.size());
   const std::vector<double> area = area_(state);
   double paddle_area = 0;
-  for (std::size_t c = 0; c < pushed.size(); ++c) {
-    const int k = solver_.touching()[c];
-    if (k < 0) continue;
-    const int node = solver_.candidates()[c];
-    const Vec3 x = state.x.segment<3>(3 * node);
-    const Plate& plate = plates_.plate(k);
-    const double along = plate.gap(x).gradient.dot(plate.normal());
-    (k == 0 ? point.paddle_N : point.detector_N) += pushed[c] * along / micronewton_per_newton;
-    if (k == 0 && pushed[c] > 0) paddle_area += area[c];
+  for (std::size_t c = 0; c < step.contacts.size(); ++c) {
+    const NodalContact& contact = step.contacts[c];
+    if (contact.plate < 0) continue;
+    const Vec3 x = state.x.segment<3>(3L * solver_.candidates()[c]);
+    const Plate& plate = plates_.plate(contact.plate);
+    const double along = contact.normal * plate.gap(x).gradient.dot(plate.normal());
+    (contact.plate == 0 ? point.paddle_N : point.detector_N) += along / micronewton_per_newton;
+    if (contact.plate == 0 && contact.normal > 0) paddle_area += area[c];
   }
   if (paddle_area > 0) {
     point.pressure_kPa =
@@ -118,26 +119,26 @@ void Path::tell(const PathPoint& point) const {
               std::round(10 * point.detector_N) / 10, " N, ", point.iterations, " iterations"));
 }
 
-bool Path::attempt(const BodyState& guess, const ContactMemory& memory, double thickness,
+bool Path::attempt(const State& guess, const ContactMemory& memory, double thickness,
                    double tolerance, Waypoint& reached) {
   plates_.close_to(thickness);
-  BodyState state = guess;
+  State state = guess;
   solver_.restore(memory);
-  StepResult step = solver_.solve(plates_, state, tolerance);
+  ContactStep step = solver_.solve(plates_, state, tolerance);
   ++result_.solves;
-  result_.iterations += step.iterations;
-  result_.indefinite += step.shifted;
-  if (step.shifted > 0 && !result_.first_indefinite_thickness) {
+  result_.iterations += int(step.iterations.size());
+  result_.indefinite += step.indefinite;
+  if (step.indefinite > 0 && !result_.first_indefinite_thickness) {
     result_.first_indefinite_thickness = thickness;
   }
-  for (const NewtonRecord& record : step.history) {
+  for (const NewtonIteration& record : step.iterations) {
     result_.newton.push_back(record);
     result_.newton_step.push_back(result_.solves);
   }
-  if (step.outcome != StepOutcome::converged) {
+  if (!step.converged) {
     ++result_.failures;
     if (step.hurried && !first_haste_) first_haste_ = here_;
-    result_.last_failure = step.outcome;
+    result_.last_failure = step.stop;
     result_.failed_thickness = thickness;
     result_.failed_trial = step.failed_trial;
     return false;
@@ -150,10 +151,10 @@ bool Path::attempt(const BodyState& guess, const ContactMemory& memory, double t
   return true;
 }
 
-BodyState Path::predict(double thickness, bool extrapolate) const {
+State Path::predict(double thickness, bool extrapolate) const {
   if (!extrapolate || !have_before_) return here_.state;
   const double ratio = (thickness - here_.thickness) / (here_.thickness - before_.thickness);
-  return {here_.state.x + ratio * (here_.state.x - before_.state.x),
+  return {here_.state.reference, here_.state.x + ratio * (here_.state.x - before_.state.x),
           here_.state.p + ratio * (here_.state.p - before_.state.p)};
 }
 
@@ -180,24 +181,26 @@ bool Path::march() {
   double step = options_.first_step > 0 ? options_.first_step : first_part * size;
   const double longest = options_.longest_step > 0 ? options_.longest_step : longest_part * size;
   int failures_in_row = 0;
+  result_.jump.reset();
   while (result_.solves < options_.most_solves) {
     if (target_.kind == TargetKind::thickness && here_.thickness == target_.value) return true;
     const double thickness = next_thickness(step);
     if (target_.kind != TargetKind::thickness && !(thickness > options_.least_thickness)) {
       result_.failed_thickness = thickness;
-      result_.last_failure = StepOutcome::converged;
+      result_.last_failure = NewtonStop::none;
       return false;
     }
     // Two refusals in a row: the extrapolation itself may be what folds elements.
     const bool extrapolate = failures_in_row % 3 != 2;
     Waypoint reached;
-    const bool hasty = !patient_ && std::abs(thickness - here_.thickness) > hasty_part * longest;
-    solver_.set_hasty(hasty);
+    const bool fail_fast = !patient_ && std::abs(thickness - here_.thickness) > fast_part * longest;
+    solver_.set_fail_fast(fail_fast);
     const bool arrived =
         attempt(predict(thickness, extrapolate), here_.memory, thickness, tolerance_, reached);
-    solver_.set_hasty(false);
+    solver_.set_fail_fast(false);
     if (arrived) {
-      const int iterations = result_.final_step.iterations - result_.final_step.corrections;
+      const int iterations =
+          int(result_.final_step.iterations.size()) - result_.final_step.corrections;
       // A length that has just been found by halving is used twice before it grows again.
       if (iterations < 6 && failures_in_row == 0) step = std::min(longest, 1.4 * step);
       if (iterations > 12) step = std::max(options_.shortest_step, 0.7 * step);
@@ -231,17 +234,21 @@ bool Path::refine_control(Waypoint low, Waypoint high) {
     const Waypoint& best =
         std::abs(high.measured - target_.value) < std::abs(low.measured - target_.value) ? high
                                                                                          : low;
-    if (std::abs(best.measured - target_.value) <= options_.control_tolerance * target_.value ||
-        std::abs(low.thickness - high.thickness) < 1e-4) {
+    const bool met =
+        std::abs(best.measured - target_.value) <= options_.control_tolerance * target_.value;
+    if (met || std::abs(low.thickness - high.thickness) < narrowest_bracket) {
+      // Without the target between two positions that cannot be told apart, the body snaps through
+      // there: the last equilibrium before it is the answer.
+      if (!met) result_.jump = {low.measured, high.measured};
       before_ = low;
-      here_ = best;
-      return true;
+      here_ = met ? best : low;
+      return met;
     }
     const double t = f_low / (f_low - f_high);
     const double thickness = low.thickness + t * (high.thickness - low.thickness);
     const double w = (thickness - low.thickness) / (high.thickness - low.thickness);
-    BodyState guess{(1 - w) * low.state.x + w * high.state.x,
-                    (1 - w) * low.state.p + w * high.state.p};
+    State guess{low.state.reference, (1 - w) * low.state.x + w * high.state.x,
+                (1 - w) * low.state.p + w * high.state.p};
     Waypoint middle;
     if (!attempt(guess, w < 0.5 ? low.memory : high.memory, thickness, tolerance_, middle)) {
       here_ = low;
@@ -320,7 +327,7 @@ bool Path::finish() {
   }
 }
 
-PathResult Path::run(BodyState& state) {
+PathResult Path::run(State& state) {
   here_ = {state, solver_.memory(), plates_.thickness(), 0};
   // The state the plates start from: touching nothing, or the end of an earlier path.
   Waypoint first;
@@ -345,7 +352,7 @@ PathResult Path::run(BodyState& state) {
 
 }  // namespace
 
-PathResult follow_path(ContactSolver& solver, PlatePair& plates, BodyState& state,
+PathResult follow_path(ContactSolver& solver, PlatePair& plates, State& state,
                        const CompressionTarget& target, const NodalArea& area,
                        const PathOptions& options, Progress& progress) {
   return Path(solver, plates, target, area, options, progress).run(state);

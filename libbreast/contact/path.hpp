@@ -41,25 +41,28 @@ struct PathPoint {
 
 struct PathResult {
   bool reached = false;
-  StepOutcome last_failure = StepOutcome::converged;  ///< why the path stopped early
+  NewtonStop last_failure = NewtonStop::none;  ///< why the path stopped early
   bool solve_limit = false;      ///< stopped because of PathOptions::most_solves
+  /// Force or pressure control: the path jumps over its target. What the quantity is on the two
+  /// sides of the jump, N or kPa.
+  std::optional<std::pair<double, double>> jump;
   double failed_thickness = 0;   ///< mm: the step that could not be made
   Eigen::VectorXd failed_trial;  ///< its first refused positions, may be empty
   double thickness = 0;          ///< of the final state
-  StepResult final_step;
+  ContactStep final_step;
   std::vector<PathPoint> points;
-  std::vector<NewtonRecord> newton;  ///< all iterations in order
+  std::vector<NewtonIteration> newton;  ///< all iterations in order
   std::vector<int> newton_step;      ///< the step each belongs to
   int solves = 0, failures = 0, iterations = 0, indefinite = 0;
   std::optional<double> first_indefinite_thickness;  ///< mm; none: never
 };
 
 /// Area (mm²) belonging to each node of the deformed skin, for mean pressure along the path.
-using NodalArea = std::function<std::vector<double>(const BodyState&)>;
+using NodalArea = std::function<std::vector<double>(const State&)>;
 
 /// Moves the plates from where they stand to the target; `state` ends in the last valid equilibrium
 /// and the plates at its thickness. `state` must be in equilibrium at the start or touch nothing.
-PathResult follow_path(ContactSolver& solver, PlatePair& plates, BodyState& state,
+PathResult follow_path(ContactSolver& solver, PlatePair& plates, State& state,
                        const CompressionTarget& target, const NodalArea& area,
                        const PathOptions& options, Progress& progress = no_progress());
 

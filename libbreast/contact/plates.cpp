@@ -208,6 +208,10 @@ void PlatePair::close_to(double thickness) {
   detector.level = detector_start - risen;
 }
 
+double PlatePair::paddle_share() const {
+  return 0.5 * (initial_thickness - thickness()) < detector_rise ? 0.5 : 1;
+}
+
 int PlatePair::nearer(const Vec3& x) const {
   return paddle.gap(x).value <= detector.gap(x).value ? 0 : 1;
 }

@@ -86,6 +86,9 @@ struct PlatePair {
   /// Moves both plates to thickness T (mm).
   void close_to(double thickness);
   double thickness() const { return detector.level - paddle.level; }
+  /// How much of any further closing the paddle does: a half, or all where the detector has risen as
+  /// far as it may.
+  double paddle_share() const;
   /// Of the plane about which the plates close, along the beam, mm.
   double middle() const { return 0.5 * (paddle_start + detector_start); }
   /// The smaller of the two gaps, and which plate it belongs to (0 paddle, 1 detector).

@@ -1,15 +1,19 @@
+#include <cmath>
+#include <cstdio>
+
 #include "contact/compression.hpp"
-#include "mesh/hex_mesh.hpp"
+#include "core/error.hpp"
+#include "mechanics/mechanics.hpp"
 
 namespace breast {
 
-void write_report(const CompressionSummary& summary, const HexMesh& mesh,
+void write_report(const CompressionResult& summary, const HexMesh& mesh,
                   const MechanicsOptions& mechanics, Report& report) {
-  write_report(static_cast<const SolveSummary&>(summary), mesh, mechanics, report);
+  write_report(static_cast<const Equilibrium&>(summary), mesh, mechanics, report);
   report.set("indefinite_iterations", summary.path.indefinite);
   report.set("failed_steps", summary.path.failures);
-  if (!mesh.contact || summary.path.points.empty()) return;
-  const ContactRecord& contact = *mesh.contact;
+  if (!summary.contact) return;
+  const ContactRecord& contact = *summary.contact;
   report.set("thickness_mm", contact.thickness_mm);
   report.set("initial_thickness_mm", contact.initial_thickness_mm);
   report.set("reduction_percent", contact.reduction_percent);
@@ -41,6 +45,7 @@ void write_report(const CompressionSummary& summary, const HexMesh& mesh,
   report.set("pressure_kPa", contact.plates[0].mean_kPa);
   report.set("area_cm2", contact.plates[0].area_cm2);
   report.set("worst_gap_mm", worst);
+  report.set("worst_nodal_gap_mm", summary.path.final_step.worst_penetration);
   report.set("force_balance", summary.force_balance);
   report.set("wall_reaction_N", summary.wall_reaction_N);
   report.set("weight_N", summary.weight_N);
@@ -60,6 +65,32 @@ void write_report(const CompressionSummary& summary, const HexMesh& mesh,
     report.set("judgement/" + line.id, line.sentence);
     if (line.doubtful) report.append("doubt_ids", line.id);
   }
+}
+
+namespace {
+
+/// Three digits: enough to judge by; the report has them all.
+std::string brief(const Report& report, const std::string& key) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", report.number(key));
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> plate_lines(const Report& report) {
+  if (!report.contains("thickness_mm")) return {};
+  std::string line = message("thickness ", brief(report, "thickness_mm"), " of ",
+                             brief(report, "initial_thickness_mm"), " mm (",
+                             brief(report, "reduction_percent"), " % less)");
+  for (const char* name : {"paddle", "detector"}) {
+    const std::string key = std::string("plates/") + name + "/";
+    line += message("; ", name, " ", brief(report, key + "force_N"), " N on ",
+                    brief(report, key + "area_cm2"), " cm2, mean ",
+                    brief(report, key + "mean_pressure_kPa"), " kPa, peak ",
+                    brief(report, key + "peak_pressure_kPa"), " kPa");
+  }
+  return {line + "; deepest penetration " + brief(report, "worst_gap_mm") + " mm"};
 }
 
 }  // namespace breast

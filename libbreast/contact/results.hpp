@@ -3,13 +3,14 @@
 
 #include "contact/compression.hpp"
 #include "contact/solver.hpp"
+#include "mechanics/scene.hpp"
 
 namespace breast {
 
-/// Fills the mesh (points, det_F, contact record, contact pressure) and the physical part of the
-/// summary from the final state.
-void record_compression(HexMesh& mesh, const CompressionOptions& options, const BodyState& state,
-                        const ContactBody& body, const ContactSolver& solver,
-                        const Vec3& wall_springs, CompressionSummary& summary);
+/// Fills contact record, contact pressure and the physical part of the result from the final state,
+/// the last of `result.path`.
+void record_compression(const Scene& scene, const CompressionOptions& options, const State& state,
+                        const ContactSolver& solver, const Vec3& weight,
+                        CompressionResult& result);
 
 }  // namespace breast

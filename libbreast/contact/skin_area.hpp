@@ -8,14 +8,6 @@
 
 namespace breast {
 
-/// Boundary faces spread over their nodes, mm²: ∫ N_a dA, and with its direction ∫ N_a n dA.
-struct NodalFaces {
-  std::vector<double> area;
-  std::vector<Vec3> vector;
-};
-NodalFaces nodal_faces(const HexMesh& mesh, const std::vector<Face>& faces,
-                       const Eigen::VectorXd& x);
-
 /// Area (mm²) of the skin in shape `x` (3 per node) that belongs to each node: ∫ N_a dA.
 std::vector<double> skin_area_per_node(const HexMesh& mesh, const Eigen::VectorXd& x);
 

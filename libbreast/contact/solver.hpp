@@ -2,40 +2,39 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
-#include "contact/body.hpp"
 #include "contact/plates.hpp"
+#include "solve/newton.hpp"
+#include "solve/problem.hpp"
 
 namespace breast {
 
-enum class StepOutcome { converged, too_many_iterations, folded, singular, no_descent };
-/// In words, for reports.
-std::string describe(StepOutcome outcome);
+/// Relative residual of the volume equation in each linearised solve of contact: its remainder is
+/// taken up by the next iteration.
+inline constexpr double contact_volume_accuracy = 1e-4;
 
-/// One Newton iteration as the path records it.
-struct NewtonRecord {
-  double residual = 0, min_det_F = 0, max_det_F = 0, step_length = 0;
+/// The forces of the plates on one candidate.
+struct NodalContact {
+  int plate = -1;       ///< 0 paddle, 1 detector; −1: touches neither
+  double normal = 0;    ///< along the plate's normal, µN
+  Vec3 friction{0, 0, 0};  ///< at right angles to it, µN
 };
 
-struct StepResult {
-  StepOutcome outcome = StepOutcome::converged;
-  int iterations = 0, shifted = 0;  ///< shifted: iterations whose tangent was indefinite
+struct ContactStep : NewtonResult {
+  Forces forces;  ///< of the final state, plates and friction included
   /// Of the iterations, those after a first equilibrium, which say nothing of the plates' step.
   int corrections = 0;
   bool hurried = false;          ///< given up at its bad beginning
-  double residual = 0;           ///< relative, at the end
   double worst_penetration = 0;  ///< mm, over all candidates
-  BodyForces forces;
-  std::vector<NewtonRecord> history;
-  Eigen::VectorXd failed_trial;  ///< positions of the first refused trial of a failed step
+  std::vector<NodalContact> contacts;  ///< per candidate, when converged
+  Eigen::VectorXd failed_trial;        ///< positions of the first refused trial of a failed step
 };
 
 /// What a method carries from one plate position to the next, per candidate.
 struct ContactMemory {
   std::vector<signed char> touching;  ///< −1 free, 0 touches the paddle, 1 the detector
-  std::vector<double> multipliers;    ///< µN per unit gap gradient; augmented Lagrangian only
+  std::vector<double> multipliers;    ///< µN per unit gap gradient
   double penalty = 0;                 ///< µN/mm; augmented Lagrangian only
   std::vector<Vec3> anchors;          ///< where friction holds a node, mm; with friction only
   std::vector<double> bounds;         ///< the most it is held with, µN; with friction only
@@ -45,24 +44,24 @@ struct ContactMemory {
 class ContactSolver {
  public:
   virtual ~ContactSolver() = default;
-  virtual StepResult solve(const PlatePair& plates, BodyState& state, double tolerance) = 0;
-  /// Per candidate normal plate force (µN) and plate (−1 none).
-  virtual std::vector<double> normal_forces(const PlatePair& plates, const BodyState& state,
-                                            const BodyForces& forces) const = 0;
-  /// Per candidate friction force of the plate, µN, at right angles to the normal; empty without
-  /// friction.
-  virtual std::vector<Vec3> friction_forces(const PlatePair&, const BodyState&) const { return {}; }
+  /// Equilibrium of `state` with the plates as they stand. On failure `state` is unspecified; the
+  /// memory must be restored by the caller.
+  virtual ContactStep solve(const PlatePair& plates, State& state, double tolerance) = 0;
+  /// The problem of the last solve, the plates' terms included; and its constraints at a state: what
+  /// is held, and the normals of touching nodes.
+  virtual const Problem& problem() const = 0;
+  virtual Constraints constraints(const State& state) const = 0;
   const std::vector<signed char>& touching() const { return memory_.touching; }
   const ContactMemory& memory() const { return memory_; }
   /// Goes back to what memory() gave after a converged solve.
-  void restore(ContactMemory memory) { memory_ = std::move(memory); }
+  virtual void restore(ContactMemory memory) { memory_ = std::move(memory); }
   virtual const std::vector<int>& candidates() const = 0;
   /// Whether a position that begins badly may be given up at once, since a nearer one can be tried.
-  void set_hasty(bool hasty) { hasty_ = hasty; }
+  void set_fail_fast(bool fail_fast) { fail_fast_ = fail_fast; }
 
  protected:
   ContactMemory memory_;
-  bool hasty_ = false;
+  bool fail_fast_ = false;
 };
 
 }  // namespace breast

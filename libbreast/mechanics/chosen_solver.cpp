@@ -19,24 +19,24 @@ SolverChoice choice_for(double unknowns, const MechanicsOptions& options) {
 
 }  // namespace
 
-SolveSummary with_chosen_solver(double unknowns, const MechanicsOptions& options,
-                                Progress& progress, const SolveAttempt& attempt) {
+Equilibrium with_chosen_solver(double unknowns, const MechanicsOptions& options,
+                               Progress& progress, const SolveAttempt& attempt) {
   MechanicsOptions chosen = options;
-  if (options.solver != "auto") return attempt(chosen, false);
+  if (options.solver != SolverOption::automatic) return attempt(chosen, false);
   const SolverChoice choice = choice_for(unknowns, options);
-  chosen.solver = choice.first == LinearSolver::direct ? "direct" : "multigrid";
+  chosen.solver = choice.first == LinearSolver::direct ? SolverOption::direct : SolverOption::multigrid;
   if (choice.first == LinearSolver::direct || !choice.direct_fits) return attempt(chosen, false);
 
   Timer timer;
-  SolveSummary quick;
+  Equilibrium quick;
   {
     Timer::Scope phase(timer, "multigrid attempt");
     quick = attempt(chosen, true);
   }
   if (quick.converged()) return quick;
   progress.note(message("multigrid gave up (", quick.record.reason, "): solving directly"));
-  chosen.solver = "direct";
-  SolveSummary sure = attempt(chosen, false);
+  chosen.solver = SolverOption::direct;
+  Equilibrium sure = attempt(chosen, false);
   sure.timer.add("multigrid attempt", timer.seconds("multigrid attempt"));
   return sure;
 }

@@ -54,21 +54,6 @@ std::string convergence(const Report& report) {
                  brief(report, "min_det_F"));
 }
 
-/// Both plates: they need not press alike.
-std::string plates(const Report& report) {
-  std::string line = message("thickness ", brief(report, "thickness_mm"), " of ",
-                             brief(report, "initial_thickness_mm"), " mm (",
-                             brief(report, "reduction_percent"), " % less)");
-  for (const char* name : {"paddle", "detector"}) {
-    const std::string key = std::string("plates/") + name + "/";
-    line += message("; ", name, " ", brief(report, key + "force_N"), " N on ",
-                    brief(report, key + "area_cm2"), " cm2, mean ",
-                    brief(report, key + "mean_pressure_kPa"), " kPa, peak ",
-                    brief(report, key + "peak_pressure_kPa"), " kPa");
-  }
-  return line + "; worst penetration " + brief(report, "worst_gap_mm") + " mm";
-}
-
 /// Phases by cost, those under a hundredth of a second left out.
 std::string cost(const Report& report, const Timer& timer) {
   std::vector<std::pair<double, std::string>> phases;
@@ -96,18 +81,20 @@ std::string accuracy(const Report& report, const Timer& timer) {
 
 }  // namespace
 
-std::vector<std::string> closing_summary(const Report& report, const Timer& timer) {
+std::vector<std::string> closing_summary(const Report& report, const Timer& timer,
+                                         const std::vector<std::string>& results) {
   std::vector<std::string> lines{solved(report)};
   add_laws(report, lines);
   lines.push_back(convergence(report));
-  if (report.contains("thickness_mm")) lines.push_back(plates(report));
+  lines.insert(lines.end(), results.begin(), results.end());
   lines.push_back(cost(report, timer));
   lines.push_back(accuracy(report, timer));
   return lines;
 }
 
-void tell_summary(const Report& report, const Timer& timer, Progress& progress) {
-  for (const std::string& line : closing_summary(report, timer)) progress.note(line);
+void tell_summary(const Report& report, const Timer& timer, Progress& progress,
+                  const std::vector<std::string>& results) {
+  for (const std::string& line : closing_summary(report, timer, results)) progress.note(line);
 }
 
 }  // namespace breast

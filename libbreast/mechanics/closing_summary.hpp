@@ -11,10 +11,13 @@ namespace breast {
 
 /// What was solved (elements, unknowns, law of every tissue), how it converged, what it cost and
 /// how accurate it is, from a report filled by write_report. Phases with their seconds come from
-/// `timer`. What to doubt is not among the lines.
-std::vector<std::string> closing_summary(const Report& report, const Timer& timer);
+/// `timer`; `results` are lines of the tool's own, such as the plates' forces. What to doubt is not
+/// among the lines.
+std::vector<std::string> closing_summary(const Report& report, const Timer& timer,
+                                         const std::vector<std::string>& results = {});
 
 /// Tells these lines as notes.
-void tell_summary(const Report& report, const Timer& timer, Progress& progress);
+void tell_summary(const Report& report, const Timer& timer, Progress& progress,
+                  const std::vector<std::string>& results = {});
 
 }  // namespace breast

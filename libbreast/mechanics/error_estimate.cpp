@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "mechanics/richer_problem.hpp"
 #include "solve/conjugate_gradients.hpp"
 
@@ -19,22 +20,30 @@ constexpr int max_iterations = 200;
 // than it found (a body near the largest load it bears), the second is not added.
 constexpr int steps = 2;
 
-}  // namespace
-
-ErrorEstimate estimate_error(const Scene& scene, const Eigen::VectorXd& reference,
-                             const SaddleState& state, const Vec3& gravity, SaddleMatrix& matrix,
-                             SaddleSolver& solver, const std::vector<TouchingNode>& touching) {
-  ErrorEstimate estimate;
-  AssemblyRequest request;
+// Factorises the 8-node problem, which preconditions the richer one.
+bool prepare_coarse(const Scene& scene, const State& state, const Vec3& gravity,
+                    const ContactEstimate& contact, SaddleMatrix& matrix, SaddleSolver& solver) {
+  Problem coarse = scene.problem(scene.gravity_force(gravity)).problem;
+  if (contact.friction) coarse.add(contact.friction);
+  Request request;
   request.matrix = &matrix;
   request.augmentation = RicherProblem::augmentation;
-  if (!scene.assembly().evaluate(reference, state, request).valid) return estimate;
+  if (!coarse.evaluate(state, request).valid) return false;
   Constraints held = scene.walls();
-  for (const TouchingNode& t : touching) {
+  for (const TouchingNode& t : contact.touching) {
     if (held.at(t.node) == nullptr) held.hold_normal(t.node, t.normal);
   }
-  if (!solver.factorise(matrix, held, false).ok) return estimate;
-  RicherProblem problem(scene, reference, state, gravity, touching);
+  return solver.factorise(matrix, held, false).ok;
+}
+
+}  // namespace
+
+ErrorEstimate estimate_error(const Scene& scene, const State& state, const Vec3& gravity,
+                             SaddleMatrix& matrix, SaddleSolver& solver,
+                             const ContactEstimate& contact) {
+  ErrorEstimate estimate;
+  if (!prepare_coarse(scene, state, gravity, contact, matrix, solver)) return estimate;
+  RicherProblem problem(scene, state, gravity, contact);
   if (!problem.valid()) return estimate;
   ConjugateGradientLimits limits{relative_accuracy, 0, max_iterations};
   Eigen::VectorXd correction = Eigen::VectorXd::Zero(problem.right_hand_side().size()), step;
@@ -64,6 +73,15 @@ ErrorEstimate estimate_error(const Scene& scene, const Eigen::VectorXd& referenc
   }
   estimate.usable = true;
   return estimate;
+}
+
+void note_estimate(const ErrorEstimate& estimate, const std::string& condition,
+                   SolveSummary& summary) {
+  if (!estimate.usable) return;
+  summary.error_estimate_mm = estimate.worst_mm;
+  summary.landmark_error_mm = estimate.landmarks;
+  summary.error_estimate_how = message(
+      estimate.how(), condition, ": discretisation only, not geometry, labels or laws");
 }
 
 }  // namespace breast

@@ -3,10 +3,12 @@
 // inside the given geometry; not the geometry, the labels or the laws.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "mechanics/equilibrium.hpp"
 #include "mechanics/scene.hpp"
 
 namespace breast {
@@ -24,19 +26,38 @@ struct ErrorEstimate {
   }
 };
 
-/// A node that a plate touches without friction; it may slide at right angles to `normal`.
+/// A node that a plate touches; without friction it may slide at right angles to `normal`.
 struct TouchingNode {
   int node = 0;
   int plate = 0;
   Vec3 normal{0, 0, 1};  ///< unit
 };
 
-/// `state` is an equilibrium of 8-node elements under nodal gravity forces and the plates at
-/// `touching`; `matrix` and `solver` are used as workspace. The touching set is held: these nodes,
-/// and those of the richer problem between nodes on one plate, keep their place along the normal;
-/// the curvature of a plate's edge is left out of the tangent.
-ErrorEstimate estimate_error(const Scene& scene, const Eigen::VectorXd& reference,
-                             const SaddleState& state, const Vec3& gravity, SaddleMatrix& matrix,
-                             SaddleSolver& solver, const std::vector<TouchingNode>& touching = {});
+/// The mesh of 27-node elements: the first `corners` nodes are those of the 8-node mesh, every other
+/// lies between the corners that `between` lists for it.
+struct RicherMesh {
+  const HexMesh& mesh;
+  int corners;
+  const std::vector<std::vector<int>>& between;
+};
+
+/// What plates do to the body at the solution.
+struct ContactEstimate {
+  std::vector<TouchingNode> touching;
+  std::shared_ptr<const Term> friction;  ///< on the 8-node mesh; null: none
+  std::function<std::shared_ptr<const Term>(const RicherMesh&)> raise_friction;
+};
+
+/// `state` is an equilibrium of `scene` under `gravity` (mm/s²) and the plates; `matrix` and
+/// `solver` are used as workspace. All terms of the scene take part. The touching set is fixed:
+/// these nodes, and those of the richer problem between nodes on one plate, keep their place along
+/// the normal; the curvature of a plate's edge is left out of the tangent.
+ErrorEstimate estimate_error(const Scene& scene, const State& state, const Vec3& gravity,
+                             SaddleMatrix& matrix, SaddleSolver& solver,
+                             const ContactEstimate& contact = {});
+
+/// Puts a usable estimate into the summary; `condition` continues the sentence on how it was found.
+void note_estimate(const ErrorEstimate& estimate, const std::string& condition,
+                   SolveSummary& summary);
 
 }  // namespace breast

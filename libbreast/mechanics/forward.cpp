@@ -3,77 +3,84 @@
 #include "core/error.hpp"
 #include "mechanics/chosen_solver.hpp"
 #include "mechanics/error_estimate.hpp"
-#include "mechanics/field_checks.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"
+#include "solve/equilibrate.hpp"
 
 namespace breast {
 
 namespace {
 
+constexpr int first_limit = 25, later_limit = 12;  // Newton iterations of a load step
+
 class ForwardSolve {
  public:
-  ForwardSolve(HexMesh& mesh, const MechanicsOptions& options, bool hasty, Progress& progress)
-      : mesh_(mesh), scene_(mesh, options), hasty_(hasty), progress_(progress) {}
+  ForwardSolve(const HexMesh& mesh, const MechanicsOptions& options, bool fail_fast,
+               Progress& progress)
+      : mesh_(mesh), scene_(mesh, options), fail_fast_(fail_fast), progress_(progress) {}
 
-  SolveSummary run(const Vec3& gravity);
+  Equilibrium run(const Vec3& gravity);
 
  private:
+  // What a solve holds beside its state; freed before results are gathered.
+  struct Workspace {
+    LoadedProblem loaded;
+    SaddleMatrix matrix;
+    SaddleSolver solver;
+  };
+
   double clock() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  NewtonResult attempt(ForwardProblem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
-                       SaddleState& state, int limit);
-  NewtonResult follow(ForwardProblem& problem, const Eigen::VectorXd& load, SaddleSolver& solver,
-                      SaddleMatrix& matrix, SaddleState& state);
-  void check_stability(const SaddleMatrix& matrix, SaddleSolver& solver);
-  void estimate(const Eigen::VectorXd& reference, const SaddleState& state, const Vec3& gravity,
-                SaddleMatrix& matrix, SaddleSolver& solver);
+  EquilibriumResult attempt(Workspace& work, State& state);
+  EquilibriumResult follow(Workspace& work, const Eigen::VectorXd& load, State& state);
+  void check_stability(Workspace& work);
+  void estimate(Workspace& work, const State& state, const Vec3& gravity);
 
-  HexMesh& mesh_;
+  const HexMesh& mesh_;
   Scene scene_;
-  bool hasty_;
+  bool fail_fast_;
   Progress& progress_;
-  SolveSummary summary_;
+  Equilibrium found_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-NewtonResult ForwardSolve::attempt(ForwardProblem& problem, SaddleSolver& solver,
-                                   SaddleMatrix& matrix, SaddleState& state, int limit) {
-  NewtonOptions newton_options;
-  newton_options.max_iterations = limit;
-  newton_options.reuse_factor = true;
-  newton_options.hasty = hasty_;
-  newton_options.timer = &summary_.timer;
-  ++summary_.steps;
-  NewtonResult result = newton(problem, solver, matrix, scene_.walls(), nullptr, state,
-                               newton_options, [&](const NewtonIteration& iteration) {
-                                 record_iteration(summary_, summary_.steps, iteration, clock());
-                                 progress_.update("forward", -1,
-                                                  message("iteration ", summary_.newton_iterations,
-                                                          ", residual ", iteration.residual));
-                               });
-  summary_.factorisations += result.factorisations;
+EquilibriumResult ForwardSolve::attempt(Workspace& work, State& state) {
+  NewtonOptions options;
+  options.max_iterations = found_.steps == 0 ? first_limit : later_limit;
+  options.reuse_factor = true;
+  options.fail_fast = fail_fast_;
+  options.timer = &found_.timer;
+  ++found_.steps;
+  EquilibriumResult result = equilibrate(
+      work.loaded.problem, work.solver, work.matrix, state, options, nullptr,
+      [&](const NewtonIteration& iteration) {
+        record_iteration(found_, found_.steps, iteration, clock());
+        progress_.update("forward", -1,
+                         message("iteration ", found_.newton_iterations, ", residual ",
+                                 iteration.residual));
+      });
+  found_.factorisations += result.factorisations;
   return result;
 }
 
 // Follows the load from `state`; on success that is the last equilibrium.
-NewtonResult ForwardSolve::follow(ForwardProblem& problem, const Eigen::VectorXd& load,
-                                  SaddleSolver& solver, SaddleMatrix& matrix, SaddleState& state) {
-  NewtonResult result;
+EquilibriumResult ForwardSolve::follow(Workspace& work, const Eigen::VectorXd& load,
+                                       State& state) {
+  EquilibriumResult result;
   LoadPath path;
   while (!path.finished()) {
-    problem.set_load(path.next() * load);
-    SaddleState trial = state;
-    result = attempt(problem, solver, matrix, trial, summary_.steps == 0 ? 25 : 12);
+    work.loaded.set_load(path.next() * load);
+    State trial = state;
+    result = attempt(work, trial);
     if (result.converged) {
       state = std::move(trial);
       path.succeed();
-    } else if (hasty_ || !path.fail()) {
-      summary_.reason_id = stop_name(result.stop);
-      summary_.load_reached = path.done;
-      summary_.record.reason =
+    } else if (fail_fast_ || !path.fail()) {
+      found_.reason_id = stop_name(result.stop);
+      found_.load_reached = path.done;
+      found_.record.reason =
           message("stopped at ", 100 * path.done, " % of the load: ", result.reason);
       break;
     }
@@ -83,73 +90,65 @@ NewtonResult ForwardSolve::follow(ForwardProblem& problem, const Eigen::VectorXd
 
 // Whether the equilibrium found is known to be stable, from the last tangent. Where the start was
 // the equilibrium there is no factor of it yet.
-void ForwardSolve::check_stability(const SaddleMatrix& matrix, SaddleSolver& solver) {
-  Timer::Scope phase(summary_.timer, "stability");
-  if (solver.factorisations() == 0) solver.factorise(matrix, scene_.walls(), false);
-  if (solver.positive_definite()) return;
-  if (hasty_) {
-    summary_.record.status = "not_converged";
-    summary_.record.reason = "the equilibrium found is not known to be stable";
+void ForwardSolve::check_stability(Workspace& work) {
+  Timer::Scope phase(found_.timer, "stability");
+  if (work.solver.factorisations() == 0) {
+    work.solver.factorise(work.matrix, scene_.walls(), false);
+  }
+  found_.stable = work.solver.positive_definite();
+  if (found_.stable) return;
+  if (fail_fast_) {
+    found_.record.status = SolveStatus::not_converged;
+    found_.record.reason = "the equilibrium found is not known to be stable";
   } else {
-    summary_.doubts.push_back(
-        "the last tangent is not known to be positive definite: the equilibrium may be unstable");
+    found_.doubts.push_back(unknown_stability);
   }
 }
 
-void ForwardSolve::estimate(const Eigen::VectorXd& reference, const SaddleState& state,
-                            const Vec3& gravity, SaddleMatrix& matrix, SaddleSolver& solver) {
-  if (mesh_.order != 1 || scene_.options().estimate != Estimate::step) return;
-  Timer::Scope phase(summary_.timer, "error estimate");
-  const ErrorEstimate estimate = estimate_error(scene_, reference, state, gravity, matrix, solver);
-  if (!estimate.usable || mesh_.landmarks.empty()) return;
-  summary_.error_estimate_mm = estimate.worst_mm;
-  summary_.landmark_error_mm = estimate.landmarks;
-  summary_.error_estimate_how =
-      message(estimate.how(), ": discretisation only, not geometry, labels or laws");
+void ForwardSolve::estimate(Workspace& work, const State& state, const Vec3& gravity) {
+  if (mesh_.order != 1 || mesh_.landmarks.empty()) return;
+  if (scene_.options().estimate != Estimate::step) return;
+  Timer::Scope phase(found_.timer, "error estimate");
+  note_estimate(estimate_error(scene_, state, gravity, work.matrix, work.solver), "",
+                found_);
 }
 
-SolveSummary ForwardSolve::run(const Vec3& gravity) {
-  const Eigen::VectorXd reference = flatten(mesh_.reference);
+Equilibrium ForwardSolve::run(const Vec3& gravity) {
   const Eigen::VectorXd load = scene_.gravity_force(gravity);
-  ForwardProblem problem(scene_, reference, load);
-  SaddleState state{reference, scene_.assembly().rest_pressure()};
-  NewtonResult result;
+  State state = scene_.at_rest(flatten(mesh_.reference));
+  EquilibriumResult result;
   {
-    SaddleMatrix matrix = problem.make_matrix();
-    SaddleSolver solver = [&] {
-      Timer::Scope phase(summary_.timer, "ordering");
-      return SaddleSolver(problem.pattern(), scene_.assembly().solver());
-    }();
-    result = follow(problem, load, solver, matrix, state);
-    summary_.record.status = result.converged ? "converged" : "not_converged";
-    note_solver(solver, matrix, summary_);
-    if (result.converged) check_stability(matrix, solver);
-    if (summary_.converged()) estimate(reference, state, gravity, matrix, solver);
+    Workspace work{scene_.problem(load), scene_.solid().space()->make_matrix(), [&] {
+                     Timer::Scope phase(found_.timer, "ordering");
+                     return SaddleSolver(scene_.solid().space()->pattern, scene_.solid().solver());
+                   }()};
+    result = follow(work, load, state);
+    if (result.converged) found_.record.status = SolveStatus::converged;
+    note_solver(work.solver, work.matrix, found_);
+    if (result.converged) check_stability(work);
+    if (found_.converged()) estimate(work, state, gravity);
   }
-  if (hasty_ && !summary_.converged()) return summary_;
+  if (fail_fast_ && !found_.converged()) return found_;
   if (result.indefinite > 0) {
-    summary_.doubts.push_back(message("the tangent was indefinite in ", result.indefinite,
-                                      " iterations: the breast may buckle"));
+    found_.doubts.push_back(message("the tangent was indefinite in ", result.indefinite,
+                                    " iterations: the breast may buckle"));
   }
-  summary_.residual = result.residual;
-  summary_.min_det_F = result.forces.min_det_F;
-  store_state(mesh_, scene_, reference, state, summary_);
-  mesh_.gravity = gravity;
-  judge(summary_, scene_, reference, state);
-  check_fields(mesh_, scene_.options(), mesh_.reference, mesh_.points, summary_);
-  return summary_;
+  found_.residual = result.residual;
+  found_.min_det_F = result.forces.min_det_F;
+  conclude(found_, scene_, state, gravity);
+  return found_;
 }
 
 }  // namespace
 
-SolveSummary solve_forward(HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
-                           Progress& progress) {
+Equilibrium solve_forward(const HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
+                          Progress& progress) {
   if (mesh.reference.size() != mesh.points.size()) {
     throw input_error("mesh: no stress-free reference shape; run backward first");
   }
   return with_chosen_solver(3.0 * mesh.nodes(), options, progress,
-                            [&](const MechanicsOptions& chosen, bool hasty) {
-                              return ForwardSolve(mesh, chosen, hasty, progress).run(gravity);
+                            [&](const MechanicsOptions& chosen, bool fail_fast) {
+                              return ForwardSolve(mesh, chosen, fail_fast, progress).run(gravity);
                             });
 }
 

@@ -37,8 +37,23 @@ MechanicsOptions mechanics_options(const std::string& materials,
   options.bulk_ratio = bulk_ratio.value_or(0);
   options.cut = pick<Cut>(cut, "--cut",
                           {{"free", Cut::free}, {"fixed", Cut::fixed}, {"roller", Cut::roller}});
-  options.solver = solver;
+  options.solver = pick<SolverOption>(solver, "--solver",
+                                      {{"auto", SolverOption::automatic},
+                                       {"direct", SolverOption::direct},
+                                       {"multigrid", SolverOption::multigrid}});
   return options;
+}
+
+const char* element_name(Element element) {
+  return element == Element::q1p0 ? "q1p0" : "q2p1";
+}
+
+const char* invariants_name(Invariants invariants) {
+  return invariants == Invariants::isochoric ? "isochoric" : "plain";
+}
+
+const char* cut_name(Cut cut) {
+  return cut == Cut::free ? "free" : cut == Cut::fixed ? "fixed" : "roller";
 }
 
 Estimate estimate_from_name(const std::string& name) {

@@ -1,13 +1,36 @@
-// The MECHANICS options from their names on a command line.
+// The MECHANICS options every mechanics tool shares, and their names on a command line.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "mechanics/mechanics.hpp"
+#include "material/law.hpp"
+#include "mechanics/terms/elastic_support.hpp"
 
 namespace breast {
+
+enum class Element { q1p0, q2p1 };
+enum class Invariants { isochoric, plain };
+enum class Cut { free, fixed, roller };
+/// How the discretisation error of 8-node elements is estimated: not at all, by two steps with
+/// 27-node elements and one matrix (mechanics/error_estimate.hpp), or by solving once more with
+/// them (mechanics/second_solution.hpp).
+enum class Estimate { none, step, q2 };
+/// The linear solver; automatic: see mechanics/chosen_solver.hpp.
+enum class SolverOption { automatic, direct, multigrid };
+
+struct MechanicsOptions {
+  MaterialSet materials;
+  Element element = Element::q1p0;
+  Invariants invariants = Invariants::isochoric;
+  double bulk_ratio = 0;  ///< K/μ; 0 means exactly incompressible
+  Cut cut = Cut::free;
+  /// Springs under the chest wall, at rest in the stress-free shape; none: it is fixed.
+  std::optional<SupportStiffness> wall;
+  SolverOption solver = SolverOption::automatic;
+  Estimate estimate = Estimate::none;
+};
 
 /// Names are those of the MECHANICS options: materials (set or file), "TISSUE=PERCENT" scales,
 /// "q1p0" | "q2p1", "isochoric" | "plain", bulk ratio K/μ (none: incompressible), "free" | "fixed"
@@ -28,5 +51,8 @@ MechanicsOptions mechanics_options(const Choices& c) {
 
 /// "none" | "step" | "q2". Throws Error (input) for any other.
 Estimate estimate_from_name(const std::string& name);
+const char* element_name(Element element);
+const char* invariants_name(Invariants invariants);
+const char* cut_name(Cut cut);
 
 }  // namespace breast

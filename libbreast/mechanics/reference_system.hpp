@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "mechanics/assembly.hpp"
+#include "solve/reference_tangent.hpp"
 #include "solve/saddle.hpp"
 
 namespace breast {

@@ -13,11 +13,11 @@ namespace breast {
 
 namespace {
 
-void write_landmarks(const HexMesh& mesh, Report& report) {
+void write_landmarks(const HexMesh& mesh, const std::vector<Vec3>& points, Report& report) {
   for (const Landmark& landmark : mesh.landmarks) {
     const std::string key = "landmarks/" + landmark.name + "/";
     const Vec3 imaged = landmark_position(mesh, mesh.imaged, landmark);
-    const Vec3 position = landmark_position(mesh, mesh.points, landmark);
+    const Vec3 position = landmark_position(mesh, points, landmark);
     report.set(key + "imaged", imaged);
     report.set(key + "position", position);
     report.set(key + "displacement_mm", Vec3(position - imaged));
@@ -52,7 +52,7 @@ void write_materials(const HexMesh& mesh, const MechanicsOptions& options, Repor
 
 // Wrinkling of a membrane skin, oscillation of the pressures.
 void write_field_checks(const SolveSummary& summary, Report& report) {
-  for (const auto& [tissue, quality] : summary.pressure) {
+  for (const auto& [tissue, quality] : summary.pressure_quality) {
     const std::string key = "pressures/" + std::string(tissue_name(tissue)) + "/";
     report.set(key + "checkerboard", quality.checkerboard);
     report.set(key + "filtered_min_Pa", quality.least);
@@ -71,9 +71,9 @@ void write_field_checks(const SolveSummary& summary, Report& report) {
 
 }  // namespace
 
-void write_report(const SolveSummary& summary, const HexMesh& mesh, const MechanicsOptions& options,
+void write_report(const Equilibrium& summary, const HexMesh& mesh, const MechanicsOptions& options,
                   Report& report) {
-  report.set("status", summary.record.status);
+  report.set("status", status_name(summary.record.status));
   report.set("reason", summary.reason_id.empty() ? summary.record.reason : summary.reason_id);
   if (!summary.reason_id.empty()) {
     report.set("explanation", summary.record.reason);
@@ -114,18 +114,18 @@ void write_report(const SolveSummary& summary, const HexMesh& mesh, const Mechan
       report.set("landmarks/" + name + "/error_estimate_mm", error.norm());
     }
   }
-  report.set("element", options.element == Element::q1p0 ? "q1p0" : "q2p1");
-  report.set("invariants", options.invariants == Invariants::isochoric ? "isochoric" : "plain");
+  report.set("stable", summary.stable);
+  report.set("element", element_name(options.element));
+  report.set("invariants", invariants_name(options.invariants));
   if (options.bulk_ratio > 0) report.set("bulk_ratio", options.bulk_ratio);
-  report.set("cut", options.cut == Cut::free    ? "free"
-                    : options.cut == Cut::fixed ? "fixed"
-                                                : "roller");
+  report.set("cut", cut_name(options.cut));
   report.set("blas", blas_name());
-  const MeshQuality quality = mesh_quality(mesh, mesh.points);
+  const std::vector<Vec3>& points = summary.points.empty() ? mesh.points : summary.points;
+  const MeshQuality quality = mesh_quality(mesh, points);
   report.set("min_scaled_jacobian", quality.min_scaled_jacobian);
   report.set("peak_mb", peak_memory_mb());
   write_materials(mesh, options, report);
-  write_landmarks(mesh, report);
+  write_landmarks(mesh, points, report);
   write_field_checks(summary, report);
   summary.timer.write(report);
   for (const std::string& doubt : summary.doubts) report.append("doubts", doubt);

@@ -1,5 +1,6 @@
 // The linearised problem of 27-node elements at a solution with 8-node ones, nearly incompressible:
-// what estimate_error solves. Kept per element in single precision: an estimate needs two digits.
+// what estimate_error solves. Its terms are those of the scene on the richer mesh; its tangent is
+// kept by cells in single precision, since an estimate needs two digits.
 #pragma once
 
 #include <vector>
@@ -9,19 +10,16 @@
 
 namespace breast {
 
-template <int N, int P>
-struct HexInput;
-template <int N, int P>
-struct HexOutput;
-
 class RicherProblem {
  public:
-  /// κ/μ of a step, whose pressures are δp = κM⁻¹(θ + Bδu): near the material, so that conjugate
+  /// κ/μ of a step, whose pressures are δp = −κM⁻¹(θ + Bδu): near the material, so that conjugate
   /// gradients are few; what volume error is left is for the pressures of the next.
   static constexpr double augmentation = 5;
 
-  RicherProblem(const Scene& scene, const Eigen::VectorXd& reference, const SaddleState& state,
-                const Vec3& gravity, const std::vector<TouchingNode>& touching);
+  RicherProblem(const Scene& coarse, const State& state, const Vec3& gravity,
+                const ContactEstimate& contact);
+  RicherProblem(const RicherProblem&) = delete;
+  RicherProblem& operator=(const RicherProblem&) = delete;
 
   const HexMesh& mesh() const { return mesh_; }
   /// False when an element is folded at its Gauss points.
@@ -36,29 +34,18 @@ class RicherProblem {
   bool move(const Eigen::VectorXd& v);
 
  private:
-  struct Element;
   Eigen::VectorXd raise(const Eigen::VectorXd& corners) const;
-  void hold_between(const std::vector<TouchingNode>& touching);
-  void prepare_faces();
-  Element element(int e, const Eigen::VectorXd& moved) const;
-  void add_elements();
-  void add_rights(const Eigen::MatrixXd& rights);
-  void add_faces(bool matrices);  // forces of the skin into right_; with its matrices, once
-  void invert_blocks();
-  double kappa(int e, const HexOutput<27, 4>& out) const;
+  void hold_touching(const std::vector<TouchingNode>& touching);
+  void linearise();
 
-  const Scene& scene_;
-  Vec3 gravity_;
-  HexMesh mesh_;
-  Constraints walls_;
   int corners_ = 0;
+  HexMesh mesh_;
   std::vector<std::vector<int>> between_;  // corners of every node that is not one
-  Eigen::VectorXd reference_, deformed_, kappa_, pressure_;  // 4 pressures an element
-  std::vector<float> matrices_;  // lower triangles by columns, of every element
-  std::vector<Eigen::Matrix<float, 27, 27>> face_matrices_;
-  std::vector<std::vector<int>> faces_;
-  std::vector<Eigen::Matrix<double, 9, 1>> face_volume_;
-  std::vector<Mat3> blocks_;  // of nodes between corners
+  Scene scene_;
+  Problem problem_;
+  State state_;  // 4 pressures an element
+  PackedTangent tangent_;
+  std::vector<Mat3> blocks_;  // inverse, of nodes between corners
   Eigen::VectorXd right_;
   bool valid_ = true;
 };

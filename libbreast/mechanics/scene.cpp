@@ -1,9 +1,11 @@
 #include "mechanics/scene.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "mechanics/terms/membrane.hpp"
 
 namespace breast {
 
@@ -25,13 +27,10 @@ std::vector<std::pair<int, Vec3>> cut_normals(const HexMesh& mesh) {
   return normals;
 }
 
-void check(const HexMesh& mesh, const MechanicsOptions& options) {
+void check(const HexMesh& mesh) {
   if (mesh.elements() == 0) throw input_error("mesh: no elements");
   if (mesh.pectoral_faces.empty()) {
     throw input_error("mesh: no pectoral faces, so nothing holds the breast; remesh with hexmesh");
-  }
-  if (options.solver != "auto" && options.solver != "direct" && options.solver != "multigrid") {
-    throw input_error("--solver '", options.solver, "' is unknown: use auto, direct or multigrid");
   }
   for (const Tissue tissue : mesh.tissue) {
     if (tissue == Tissue::air)
@@ -41,27 +40,36 @@ void check(const HexMesh& mesh, const MechanicsOptions& options) {
 
 }  // namespace
 
-Constraints wall_constraints(const HexMesh& mesh, Cut cut) {
+Constraints wall_constraints(const HexMesh& mesh, const MechanicsOptions& options) {
   Constraints walls(mesh.nodes());
-  if (cut == Cut::fixed) {
+  if (options.cut == Cut::fixed) {
     for (const int node : nodes_of(mesh, mesh.cut_faces)) walls.hold(node);
-  } else if (cut == Cut::roller) {
+  } else if (options.cut == Cut::roller) {
     for (const auto& [node, normal] : cut_normals(mesh)) walls.hold_normal(node, normal);
   }
+  if (options.wall) return walls;
   for (const int node : nodes_of(mesh, mesh.pectoral_faces)) walls.hold(node);
   return walls;
 }
 
-Scene::Scene(const HexMesh& mesh, const MechanicsOptions& options)
-    : mesh_(mesh), options_(options), walls_(wall_constraints(mesh, options.cut)) {
-  check(mesh, options);
-  assembly_ = make_assembly(mesh, options);
-  double volume = 0, stiffest = 0;
-  for (const double v : assembly_->imaged_volume()) volume += v;
-  for (const Tissue tissue : mesh.tissue) {
-    stiffest = std::max(stiffest, options.materials.law(tissue).shear_modulus());
+void LoadedProblem::set_load(const Eigen::VectorXd& force) {
+  load->set(force);
+  Eigen::VectorXd free = force;
+  problem.constraints().project(free);
+  const double norm = free.norm();
+  problem.set_load_norm(norm > 0 ? norm : stiffness_force);
+}
+
+Scene::Scene(const HexMesh& mesh, const MechanicsOptions& options, TangentStorage storage)
+    : mesh_(mesh), options_(options), walls_(wall_constraints(mesh, options)) {
+  check(mesh);
+  solid_ = make_solid(mesh, options, storage);
+  if (mesh.skin_model == SkinModel::membrane && !mesh.skin_faces.empty()) {
+    membrane_ = make_membrane(mesh, options, *solid_->space());
   }
-  stiffness_force_ = 1e-2 * stiffest * std::cbrt(volume) * std::cbrt(volume);
+  if (options.wall) {
+    support_ = std::make_shared<ElasticSupport>(mesh, mesh.pectoral_faces, *options.wall);
+  }
 }
 
 long Scene::unknowns() const {
@@ -69,62 +77,49 @@ long Scene::unknowns() const {
   for (int node = 0; node < nodes(); ++node) {
     for (int i = 0; i < 3; ++i) held += walls_.held(node, i) ? 1 : 0;
   }
-  return 3L * nodes() - held + assembly_->rest_pressure().size();
+  return 3L * nodes() - held + solid_->rest_pressure().size();
+}
+
+double Scene::volume() const {
+  double sum = 0;
+  for (int e = 0; e < mesh_.elements(); ++e) sum += solid_->space()->pressures->volume(e);
+  return sum;
+}
+
+double Scene::element_size() const {
+  return std::cbrt(volume() / mesh_.elements());
+}
+
+double Scene::stiffest() const {
+  double most = 0;
+  for (const Tissue tissue : mesh_.tissue) {
+    most = std::max(most, options_.materials.law(tissue).shear_modulus());
+  }
+  return most;
+}
+
+double Scene::stiffness_force() const {
+  const double size = std::cbrt(volume());
+  return 1e-2 * stiffest() * size * size;
+}
+
+LoadedProblem Scene::problem(const Eigen::VectorXd& force) const {
+  LoadedProblem loaded{Problem(solid_->space(), walls_), std::make_shared<DeadLoad>(force),
+                       stiffness_force()};
+  loaded.problem.add(solid_);
+  if (membrane_) loaded.problem.add(membrane_);
+  if (support_) loaded.problem.add(support_);
+  loaded.problem.add(loaded.load);
+  loaded.set_load(force);
+  return loaded;
 }
 
 Eigen::VectorXd Scene::gravity_force(const Vec3& gravity) const {
   Eigen::VectorXd force(3L * nodes());
   for (int node = 0; node < nodes(); ++node) {
-    force.segment<3>(3L * node) = assembly_->nodal_mass()[node] * gravity;
+    force.segment<3>(3L * node) = solid_->nodal_mass()[node] * gravity;
   }
   return force;
-}
-
-ForwardProblem::ForwardProblem(const Scene& scene, Eigen::VectorXd reference, Eigen::VectorXd load)
-    : scene_(scene), reference_(std::move(reference)) {
-  set_load(load);
-}
-
-void ForwardProblem::set_load(const Eigen::VectorXd& load) {
-  load_ = load;
-  Eigen::VectorXd free = load;
-  scene_.walls().project(free);
-  const double norm = free.norm();
-  load_norm_ = norm > 0 ? norm : scene_.stiffness_force();
-}
-
-std::shared_ptr<const NodePattern> ForwardProblem::pattern() const {
-  return scene_.assembly().pattern();
-}
-
-SaddleMatrix ForwardProblem::make_matrix() const {
-  return scene_.assembly().make_matrix();
-}
-
-SaddleForces ForwardProblem::forces(const SaddleState& state, const Eigen::VectorXd* kappa) const {
-  AssemblyRequest request;
-  request.kappa = kappa;
-  SaddleForces forces = scene_.assembly().evaluate(reference_, state, request);
-  if (!forces.valid) return forces;
-  forces.r -= load_;
-  if (kappa != nullptr) forces.augmented -= load_;
-  forces.energy -= load_.dot(state.u - reference_);
-  return forces;
-}
-
-bool ForwardProblem::tangent(const SaddleState& state, SaddleForces& forces,
-                             SaddleMatrix& matrix) const {
-  AssemblyRequest request;
-  request.matrix = &matrix;
-  forces = scene_.assembly().evaluate(reference_, state, request);
-  if (!forces.valid) return false;
-  forces.r -= load_;
-  forces.energy -= load_.dot(state.u - reference_);
-  return true;
-}
-
-double ForwardProblem::volume_scale(int element) const {
-  return scene_.assembly().imaged_volume()[element];
 }
 
 }  // namespace breast

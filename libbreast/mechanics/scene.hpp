@@ -1,75 +1,76 @@
-// A scene: one breast, its laws, what holds it and what loads it. Terms that are absent cost
-// nothing: without skin there is no membrane, without gravity no load. Contact builds on this:
+// A scene: one breast, its laws, what holds it and what loads it, as terms and constraints. What is
+// absent costs nothing: without skin there is no membrane, without springs no support.
 //
 //     Scene scene(mesh, options);
-//     ForwardProblem problem(scene, flatten(mesh.reference), scene.gravity_force(g));
-//     SaddleMatrix matrix = problem.make_matrix();
-//     SaddleSolver solver(problem.pattern());
-//     SaddleState state{x, p};                 // e.g. of the gravity-loaded breast
-//     problem.tangent(state, forces, matrix);  // forces.r includes the load; false: inadmissible
-//     Constraints held = scene.walls();        // then held.hold_normal(node, n, gap) for plates
-//     matrix.stiffness.add_to_node(node, curvature);
-//     solver.factorise(matrix, held);
-//     SaddleStep step = solver.solve(matrix, forces.r, forces.theta);
+//     LoadedProblem loaded = scene.problem(scene.gravity_force(g));
+//     loaded.problem.add(...);                 // contact adds its terms to a copy
+//     State state = scene.rest();
+//     EquilibriumResult result = equilibrate(loaded.problem, solver, matrix, state);
 #pragma once
 
 #include <Eigen/Core>
 #include <memory>
 
-#include "mechanics/assembly.hpp"
-#include "solve/newton.hpp"
+#include "mechanics/terms/dead_load.hpp"
+#include "mechanics/terms/elastic_support.hpp"
+#include "mechanics/terms/solid.hpp"
+#include "solve/problem.hpp"
 
 namespace breast {
 
-/// Pectoral faces held; cut faces free, held, or rolling on their mean normal of the imaged shape.
-Constraints wall_constraints(const HexMesh& mesh, Cut cut);
+/// Chest wall (pectoral faces) and cut as the options hold them: the wall fixed unless it rests on
+/// springs; the cut free, fixed, or rolling on its mean normal of the imaged shape.
+Constraints wall_constraints(const HexMesh& mesh, const MechanicsOptions& options);
+
+/// A problem and the load in it, which may change.
+struct LoadedProblem {
+  Problem problem;
+  std::shared_ptr<DeadLoad> load;
+  double stiffness_force = 1;  ///< stands for the load where there is none, µN
+
+  /// Sets the nodal forces (µN, 3 per node) and the norm residuals are compared with.
+  void set_load(const Eigen::VectorXd& force);
+};
 
 class Scene {
  public:
-  /// The mesh must outlive the scene (its sets, tissues and imaged shape are read).
-  Scene(const HexMesh& mesh, const MechanicsOptions& options);
+  /// The mesh must outlive the scene (its sets, tissues and imaged shape are read). Throws Error
+  /// (input) when mesh and options do not fit.
+  Scene(const HexMesh& mesh, const MechanicsOptions& options,
+        TangentStorage storage = TangentStorage::assembled);
 
   const HexMesh& mesh() const { return mesh_; }
   const MechanicsOptions& options() const { return options_; }
-  const Assembly& assembly() const { return *assembly_; }
-  int nodes() const { return assembly_->nodes(); }
-  long unknowns() const;  ///< displacements not held, and pressures
-
-  /// Pectoral faces held; cut faces free, held, or rolling on their mean normal of the imaged
-  /// shape.
+  const Solid& solid() const { return *solid_; }
+  /// Null without springs under the chest wall.
+  const ElasticSupport* support() const { return support_.get(); }
   const Constraints& walls() const { return walls_; }
+  int nodes() const { return solid_->space()->nodes(); }
+  long unknowns() const;  ///< displacements not held, and pressures
+  /// Mean edge of an element of the imaged shape, mm, and the largest shear modulus at rest, Pa.
+  double element_size() const;
+  double stiffest() const;
+
+  /// Terms and constraints of this scene under nodal forces (µN, 3 per node).
+  LoadedProblem problem(const Eigen::VectorXd& force) const;
   /// Nodal gravity forces, µN (3 per node), from the imaged shape. `gravity`: mm/s², LPS.
   Eigen::VectorXd gravity_force(const Vec3& gravity) const;
   /// A force that stands for the stiffness of the scene where there is no load, µN.
-  double stiffness_force() const { return stiffness_force_; }
+  double stiffness_force() const;
+  /// `shape` (3 per node) without stress.
+  State at_rest(const Eigen::VectorXd& shape) const {
+    return {shape, shape, solid_->rest_pressure()};
+  }
 
  private:
+  double volume() const;
+
   const HexMesh& mesh_;
   MechanicsOptions options_;
-  std::unique_ptr<Assembly> assembly_;
+  std::shared_ptr<const Solid> solid_;
+  std::shared_ptr<const Term> membrane_;
+  std::shared_ptr<const ElasticSupport> support_;
   Constraints walls_;
-  double stiffness_force_ = 1;
-};
-
-/// Equilibrium in x and p with X given, under a constant nodal load.
-class ForwardProblem final : public SaddleProblem {
- public:
-  ForwardProblem(const Scene& scene, Eigen::VectorXd reference, Eigen::VectorXd load);
-
-  std::shared_ptr<const NodePattern> pattern() const override;
-  SaddleMatrix make_matrix() const override;
-  SaddleForces forces(const SaddleState& state, const Eigen::VectorXd* kappa) const override;
-  bool tangent(const SaddleState& state, SaddleForces& forces, SaddleMatrix& matrix) const override;
-  double load_norm() const override { return load_norm_; }
-  double volume_scale(int element) const override;
-
-  void set_load(const Eigen::VectorXd& load);
-  const Eigen::VectorXd& reference() const { return reference_; }
-
- private:
-  const Scene& scene_;
-  Eigen::VectorXd reference_, load_;
-  double load_norm_ = 1;
 };
 
 }  // namespace breast

@@ -8,12 +8,12 @@
 
 namespace breast {
 
-/// `solved` and `summary` are a converged solution with 8-node elements; `solve` solves the same
-/// scene on the mesh it is given. Fills the summary's error estimate (largest distance of a
-/// landmark between the two, mm) and the phase "error estimate". Where the second solve does not
-/// converge, or 27-node elements were used to begin with, a doubt says so instead.
+/// `solved` is a converged solution on `mesh` of 8-node elements; `solve` solves the same scene on
+/// the mesh it is given. Fills the error estimate (largest distance of a landmark between the two,
+/// mm) and the phase "error estimate". Where the second solve does not converge, or 27-node
+/// elements were used to begin with, a doubt says so instead.
 void estimate_by_second_solution(
-    const HexMesh& solved, MechanicsOptions options, SolveSummary& summary,
-    const std::function<SolveSummary(HexMesh&, const MechanicsOptions&)>& solve);
+    const HexMesh& mesh, MechanicsOptions options, Equilibrium& solved,
+    const std::function<Equilibrium(const HexMesh&, const MechanicsOptions&)>& solve);
 
 }  // namespace breast

@@ -6,6 +6,8 @@
 
 #include "core/error.hpp"
 #include "material/stability.hpp"
+#include "mechanics/field_checks.hpp"
+#include "mesh/quality.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {
@@ -31,26 +33,10 @@ void note_solver(const SaddleSolver& solver, const SaddleMatrix& matrix, SolveSu
   summary.factor_gflop = solver.factor_gflop();
 }
 
-void store_state(HexMesh& mesh, const Scene& scene, const Eigen::VectorXd& reference,
-                 const SaddleState& state, SolveSummary& summary) {
-  const Assembly& assembly = scene.assembly();
-  mesh.reference = unflatten(reference);
-  mesh.points = unflatten(state.u);
-  mesh.pressure = assembly.mean_pressure(state.p);
-  mesh.det_F = assembly.mean_det_f(reference, state.u);
-  summary.unknowns = scene.unknowns();
-  summary.max_volume_error = 0;
-  for (const double j : mesh.det_F) {
-    summary.max_volume_error = std::max(summary.max_volume_error, std::abs(j - 1));
-  }
-  mesh.solve = summary.record;
-}
-
 namespace {
 
 // Elements whose law is not proven elliptic and has lost it at the element's centre.
-int beyond_stable_range(const Scene& scene, const Eigen::VectorXd& reference,
-                        const Eigen::VectorXd& deformed) {
+int beyond_stable_range(const Scene& scene, const State& state) {
   const HexMesh& mesh = scene.mesh();
   const HexShape centre = hex_shape(mesh.order, Vec3::Zero());
   int beyond = 0;
@@ -60,8 +46,8 @@ int beyond_stable_range(const Scene& scene, const Eigen::VectorXd& reference,
     Mat3 from = Mat3::Zero(), to = Mat3::Zero();
     for (int a = 0; a < mesh.nodes_per_element(); ++a) {
       const int node = mesh.element(e)[a];
-      from += reference.segment<3>(3L * node) * centre.gradients.col(a).transpose();
-      to += deformed.segment<3>(3L * node) * centre.gradients.col(a).transpose();
+      from += state.reference.segment<3>(3L * node) * centre.gradients.col(a).transpose();
+      to += state.x.segment<3>(3L * node) * centre.gradients.col(a).transpose();
     }
     Mat3 f = to * from.inverse();
     f /= std::cbrt(f.determinant());
@@ -70,24 +56,40 @@ int beyond_stable_range(const Scene& scene, const Eigen::VectorXd& reference,
   return beyond;
 }
 
+void judge(Equilibrium& equilibrium, const Scene& scene, const State& state) {
+  const std::vector<double> quality = scaled_jacobians(scene.mesh(), equilibrium.points);
+  const auto poor =
+      std::count_if(quality.begin(), quality.end(), [](double q) { return !(q >= 0.1); });
+  if (poor > 0) {
+    equilibrium.doubts.push_back(message(poor, " elements have a scaled Jacobian below 0.1"));
+  }
+  const int beyond = beyond_stable_range(scene, state);
+  if (beyond > 0) {
+    equilibrium.doubts.push_back(
+        message(beyond, " elements are beyond the stable range of their law"));
+  }
+  if (equilibrium.min_det_F > 0 && equilibrium.min_det_F < 0.3) {
+    equilibrium.doubts.push_back(message("smallest det F ", equilibrium.min_det_F,
+                                         " inside an element: refine the mesh there"));
+  }
+}
+
 }  // namespace
 
-void judge(SolveSummary& summary, const Scene& scene, const Eigen::VectorXd& reference,
-           const SaddleState& state) {
-  const HexMesh& mesh = scene.mesh();
-  const auto poor = std::count_if(mesh.scaled_jacobian.begin(), mesh.scaled_jacobian.end(),
-                                  [](double quality) { return quality < 0.1; });
-  if (poor > 0) {
-    summary.doubts.push_back(message(poor, " elements have a scaled Jacobian below 0.1"));
+void conclude(Equilibrium& equilibrium, const Scene& scene, const State& state,
+              const Vec3& gravity) {
+  equilibrium.reference = unflatten(state.reference);
+  equilibrium.points = unflatten(state.x);
+  equilibrium.gravity = gravity;
+  equilibrium.pressure = scene.solid().mean_pressure(state.p);
+  equilibrium.det_F = scene.solid().mean_det_f(state.reference, state.x);
+  equilibrium.unknowns = scene.unknowns();
+  equilibrium.max_volume_error = 0;
+  for (const double j : equilibrium.det_F) {
+    equilibrium.max_volume_error = std::max(equilibrium.max_volume_error, std::abs(j - 1));
   }
-  const int beyond = beyond_stable_range(scene, reference, state.u);
-  if (beyond > 0) {
-    summary.doubts.push_back(message(beyond, " elements are beyond the stable range of their law"));
-  }
-  if (summary.min_det_F > 0 && summary.min_det_F < 0.3) {
-    summary.doubts.push_back(
-        message("smallest det F ", summary.min_det_F, " inside an element: refine the mesh there"));
-  }
+  judge(equilibrium, scene, state);
+  check_fields(scene, equilibrium);
 }
 
 }  // namespace breast

@@ -1,22 +1,29 @@
-// Shared ends of forward and backward: filling mesh and summary from a solved state.
+// Shared ends of forward, backward and compress: from a solved state to an Equilibrium.
 #pragma once
 
-#include "mechanics/mechanics.hpp"
+#include <algorithm>
+
+#include "mechanics/equilibrium.hpp"
 #include "mechanics/scene.hpp"
+#include "solve/newton.hpp"
+#include "solve/saddle.hpp"
 
 namespace breast {
 
-/// Appends Newton iterations of one load step to the record; `clock` is seconds since the start.
+/// What a solve says of an end whose tangent is not known to be positive definite.
+inline constexpr const char* unknown_stability =
+    "the last tangent is not known to be positive definite: the equilibrium may be unstable";
+
+/// Appends one Newton iteration of a load step to the record; `clock` is seconds since the start.
 void record_iteration(SolveSummary& summary, int step, const NewtonIteration& iteration,
                       double clock);
 /// Notes what the linear solver needed: call after the last factorisation.
 void note_solver(const SaddleSolver& solver, const SaddleMatrix& matrix, SolveSummary& summary);
-/// Copies positions, pressure, det F, scaled-Jacobian-free results and the record into the mesh.
-void store_state(HexMesh& mesh, const Scene& scene, const Eigen::VectorXd& reference,
-                 const SaddleState& state, SolveSummary& summary);
-/// Adds to `doubts` what the final state gives reason to doubt.
-void judge(SolveSummary& summary, const Scene& scene, const Eigen::VectorXd& reference,
-           const SaddleState& state);
+/// Copies positions, pressures, det F and gravity (mm/s²), and judges them: poor or strained
+/// elements, oscillating pressures and wrinkling skin add to `doubts`. In a backward solve
+/// state.x is the imaged shape.
+void conclude(Equilibrium& equilibrium, const Scene& scene, const State& state,
+              const Vec3& gravity);
 
 /// Loads that grow in steps when one step does not converge.
 struct LoadPath {

@@ -44,13 +44,18 @@ struct PlateRecord {
   Vec3 anterior{0, -1, 0};      ///< unit, in the plate, away from the chest wall
   Vec3 origin{0, 0, 0};         ///< point of the flat where the rounded edge starts, mid-width
   double edge_radius = 0;       ///< mm
-  double force_N = 0, area_cm2 = 0, mean_kPa = 0, peak_kPa = 0, worst_gap_mm = 0;
+  double force_N = 0, area_cm2 = 0, mean_kPa = 0, peak_kPa = 0;
+  /// How deep the body enters the plate, mm, over sampled points of every free boundary face.
+  double worst_gap_mm = 0;
 };
 struct ContactRecord {
   std::string view;          ///< "CC", "MLO", "ML"
   double angle_deg = 0;      ///< beam angle θ of the contract
   double thickness_mm = 0, reduction_percent = 0, initial_thickness_mm = 0, standoff_mm = 0;
   std::vector<PlateRecord> plates;
+  /// How much of any further closing the paddle does: a half, or all where the detector has risen as
+  /// far as it may.
+  double paddle_share = 0.5;
   /// The way there: thickness, and the force of paddle and detector (the latter may be empty).
   std::vector<double> path_thickness_mm, path_force_N, path_detector_N;
 };
@@ -60,8 +65,17 @@ struct IterationRecord {
   int step = 0, iteration = 0;
   double residual = 0, min_det_F = 0, max_det_F = 0, step_length = 0, seconds = 0;
 };
+enum class SolveStatus {
+  converged,
+  stopped_early,  ///< compress: a valid equilibrium short of the target
+  unstable,       ///< backward: in balance, but it would not stay in that shape
+  not_converged,
+};
+/// Name in files and reports, and back; nothing for any other text.
+const char* status_name(SolveStatus status);
+std::optional<SolveStatus> status_from_name(const std::string& name);
 struct SolveRecord {
-  std::string status;  ///< "converged", "stopped_early", "not_converged"
+  SolveStatus status = SolveStatus::not_converged;
   std::string reason;  ///< empty when converged
   std::vector<IterationRecord> iterations;
 };

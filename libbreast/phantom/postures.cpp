@@ -12,18 +12,20 @@ namespace breast {
 
 namespace {
 
-SolveSummary equilibrium(HexMesh& mesh, const char* posture, const MaterialSet& materials,
-                         Progress& progress) {
+// Solves and leaves the mesh in that shape.
+SolveSummary take_posture(HexMesh& mesh, const char* posture, const MaterialSet& materials,
+                          Progress& progress) {
   MechanicsOptions options;
   options.materials = materials;
   options.element = mesh.order == 2 ? Element::q2p1 : Element::q1p0;
   options.cut = Cut::fixed;
-  SolveSummary summary = solve_forward(mesh, posture_gravity(posture), options, progress);
-  if (!summary.converged()) {
+  Equilibrium found = solve_forward(mesh, posture_gravity(posture), options, progress);
+  if (!found.converged()) {
     throw not_converged_error("phantom, ", side_name(mesh.side), " breast, ", posture, ": ",
-                              summary.record.reason);
+                              found.record.reason);
   }
-  return summary;
+  store(found, mesh);
+  return found;
 }
 
 double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
@@ -38,16 +40,15 @@ Postures solve_postures(HexMesh& mesh, const MaterialSet& materials, Progress& p
   constexpr double agreement = 1e-4;  // mm
   Postures out;
   for (int pass = 0; pass < 6; ++pass) {
-    out.prone = equilibrium(mesh, "prone", materials, progress);
+    out.prone = take_posture(mesh, "prone", materials, progress);
     out.imaged_gap = largest_distance(mesh.points, mesh.imaged);
     if (out.imaged_gap < agreement) break;
     mesh.imaged = mesh.points;
   }
   for (Landmark& landmark : mesh.landmarks)
     landmark.imaged = landmark_position(mesh, mesh.imaged, landmark);
-  mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
   HexMesh supine = mesh;
-  out.supine_solve = equilibrium(supine, "supine", materials, progress);
+  out.supine_solve = take_posture(supine, "supine", materials, progress);
   out.supine = std::move(supine.points);
   return out;
 }

@@ -18,7 +18,7 @@ double now() {
 // Mean pressures as the constants of each element's pressure basis.
 Eigen::VectorXd pressures(const Scene& scene, const std::vector<double>& mean,
                           const std::string& what) {
-  const int rows = scene.assembly().pressures()->rows;
+  const int rows = scene.solid().space()->pressures->rows;
   if (int(mean.size()) != scene.mesh().elements()) {
     throw input_error(what,
                       ": the file holds no pressures; make it with backward, forward or "
@@ -32,15 +32,15 @@ Eigen::VectorXd pressures(const Scene& scene, const std::vector<double>& mean,
 LoadedState imaged_state(const Scene& scene, const std::vector<double>& pressure,
                          const Vec3& gravity) {
   const HexMesh& mesh = scene.mesh();
-  return {flatten(mesh.reference),
-          {flatten(mesh.imaged), pressures(scene, pressure, "the imaged shape")},
+  return {{flatten(mesh.reference), flatten(mesh.imaged),
+           pressures(scene, pressure, "the imaged shape")},
           gravity};
 }
 
 LoadedState deformed_state(const Scene& scene) {
   const HexMesh& mesh = scene.mesh();
-  return {flatten(mesh.reference),
-          {flatten(mesh.points), pressures(scene, mesh.pressure, "the deformed shape")},
+  return {{flatten(mesh.reference), flatten(mesh.points),
+           pressures(scene, mesh.pressure, "the deformed shape")},
           mesh.gravity};
 }
 
@@ -84,7 +84,7 @@ SensitivityChain::Rights SensitivityChain::rights(const std::vector<Parameter>& 
     for (const PlateContact& contact : deformed_.contacts()) {
       const long at = 3L * contact.node;
       const GapSlope slope = gap_slope(
-          plates_, contact, deformed_.state().deformed.u.segment<3>(at), parameters[i], mesh_.side);
+          plates_, contact, deformed_.state().state.x.segment<3>(at), parameters[i], mesh_.side);
       out.deformed.force.col(long(i)).segment<3>(at) -= contact.force * slope.gradient;
       out.imposed.col(long(i)).segment<3>(at) = -slope.value * contact.normal();
     }
@@ -99,12 +99,12 @@ SensitivityChain::Rights SensitivityChain::rights(const std::vector<Parameter>& 
 // Change of the force along the paddle's normal, N. A node's force is λ∇g: `along` is δλ ∇g, the
 // rest is ∇g turning as node and plate move.
 double SensitivityChain::paddle_force(const Parameter& parameter, const Imbalance& along,
-                                      const SaddleState& moved) const {
+                                      const Direction& moved) const {
   Vec3 sum = Vec3::Zero();
   for (const PlateContact& contact : deformed_.contacts()) {
     if (contact.plate != 0) continue;
     const long at = 3L * contact.node;
-    const GapSlope slope = gap_slope(plates_, contact, deformed_.state().deformed.u.segment<3>(at),
+    const GapSlope slope = gap_slope(plates_, contact, deformed_.state().state.x.segment<3>(at),
                                      parameter, mesh_.side);
     const Vec3 turned = contact.gap.hessian * moved.u.segment<3>(at) + slope.gradient;
     sum += along.force.segment<3>(at) + contact.force * turned;
@@ -133,7 +133,7 @@ std::vector<Response> SensitivityChain::tangent(const std::vector<Parameter>& pa
     const Imbalance all{right.deformed.force.col(k) - carried.force,
                         right.deformed.volume.col(k) - carried.volume};
     const Eigen::VectorXd imposed = right.imposed.col(k);
-    const SaddleState solved = deformed_.solve(all, &imposed);
+    const Direction solved = deformed_.solve(all, &imposed);
     response.position = unflatten(solved.u);
     response.reference = unflatten(reference);
     if (contacts() > 0) {
@@ -161,14 +161,14 @@ LandmarkGradient SensitivityChain::adjoint(const Landmark& landmark,
                      landmark_position(mesh_, mesh_.imaged, landmark))
                         .stableNormalized();
   const HexShape shape = hex_shape(mesh_.order, landmark.local);
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(deformed_.state().deformed.p.size());
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(deformed_.state().state.p.size());
   for (int c = 0; c < 3; ++c) {
     Eigen::VectorXd output = Eigen::VectorXd::Zero(3L * scene_.nodes());
     for (int a = 0; a < mesh_.nodes_per_element(); ++a) {
       output[3L * mesh_.element(landmark.element)[a] + c] += shape.values[a];
     }
-    const SaddleState late = deformed_.solve_transposed({output, none});
-    const SaddleState early =
+    const Direction late = deformed_.solve_transposed({output, none});
+    const Direction early =
         imaged_.solve_reference_transposed({deformed_.of_reference_transposed(late), none});
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       const long k = long(i);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sensitivity/equilibrium.hpp"
+#include "sensitivity/linearised_state.hpp"
 
 namespace breast {
 
@@ -42,20 +42,20 @@ class SensitivityChain {
   LandmarkGradient adjoint(const Landmark& landmark,
                            const std::vector<Parameter>& parameters) const;
 
-  const Equilibrium& imaged() const { return imaged_; }
-  const Equilibrium& deformed() const { return deformed_; }
+  const LinearisedState& imaged() const { return imaged_; }
+  const LinearisedState& deformed() const { return deformed_; }
   std::size_t contacts() const { return deformed_.contacts().size(); }
 
  private:
   struct Rights;
   Rights rights(const std::vector<Parameter>& parameters) const;
   double paddle_force(const Parameter& parameter, const Imbalance& along,
-                      const SaddleState& moved) const;
+                      const Direction& moved) const;
 
   const HexMesh& mesh_;
   Scene scene_;
   PlatePair plates_;
-  Equilibrium imaged_, deformed_;
+  LinearisedState imaged_, deformed_;
 };
 
 /// d ln|u| of a landmark's displacement from its imaged place, per unit of the parameter whose

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/parallel.hpp"
+#include "fem/gather.hpp"
 #include "fem/hex_kernel.hpp"
 #include "fem/membrane_kernel.hpp"
 #include "fem/stress.hpp"
@@ -53,22 +54,15 @@ std::vector<Column> columns_of(const std::vector<Parameter>& parameters,
   return columns;
 }
 
-template <int N>
-Eigen::Matrix<double, 3, N> gather(const int* nodes, const Eigen::VectorXd& field) {
-  Eigen::Matrix<double, 3, N> out;
-  for (int a = 0; a < N; ++a) out.col(a) = field.segment<3>(3L * nodes[a]);
-  return out;
-}
-
 // Forces of one element, 3N × columns.
 template <int N>
 Eigen::MatrixXd element_forces(const Scene& scene, const LoadedState& state, int e,
                                const std::vector<Column>& columns) {
   const HexRule<N>& rule = HexRule<N>::get();
-  const int* nodes = scene.assembly().elements().cell(e);
+  const int* nodes = scene.solid().space()->cells.cell(e);
   const bool isochoric = scene.options().invariants == Invariants::isochoric;
-  const Eigen::Matrix<double, 3, N> from = gather<N>(nodes, state.reference);
-  const Eigen::Matrix<double, 3, N> to = gather<N>(nodes, state.deformed.u);
+  const Eigen::Matrix<double, 3, N> from = gather<N>(nodes, state.state.reference);
+  const Eigen::Matrix<double, 3, N> to = gather<N>(nodes, state.state.x);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * N, long(columns.size()));
   Stress first, second;
   for (int q = 0; q < HexRule<N>::points; ++q) {
@@ -100,8 +94,8 @@ Eigen::MatrixXd face_forces(const Scene& scene, const LoadedState& state, std::s
   const QuadRule<F>& rule = QuadRule<F>::get();
   const HexMesh& mesh = scene.mesh();
   MembraneInput<F> in;
-  in.reference = gather<F>(nodes.data(), state.reference);
-  in.deformed = gather<F>(nodes.data(), state.deformed.u);
+  in.reference = gather<F>(nodes.data(), state.state.reference);
+  in.deformed = gather<F>(nodes.data(), state.state.x);
   Eigen::Matrix<double, 3, F> imaged;
   for (int a = 0; a < F; ++a) imaged.col(a) = mesh.imaged[std::size_t(nodes[std::size_t(a)])];
   std::array<double, QuadRule<F>::points> volume, i1, i2;
@@ -210,13 +204,13 @@ void add_compliance(const Scene& scene, const LoadedState& state,
                     const std::vector<Parameter>& parameters, Eigen::MatrixXd& volume) {
   if (!(scene.options().bulk_ratio > 0)) return;
   const HexMesh& mesh = scene.mesh();
-  const PressureSpace& space = *scene.assembly().pressures();
+  const PressureSpace& space = *scene.solid().space()->pressures;
   const bool isochoric = scene.options().invariants == Invariants::isochoric;
   for (int e = 0; e < mesh.elements(); ++e) {
     const Tissue tissue = mesh.tissue[std::size_t(e)];
     const long at = long(space.rows) * e;
     const Eigen::VectorXd p =
-        (state.deformed.p - scene.assembly().rest_pressure()).segment(at, space.rows);
+        (state.state.p - scene.solid().rest_pressure()).segment(at, space.rows);
     for (const Column& column : columns_of(parameters, scene.options().materials, tissue, false)) {
       const LawSlope slope = column.slope(3, 3);
       const double modulus = 2 * (slope.w1 + slope.w2) / column.law->shear_modulus();
@@ -234,7 +228,7 @@ ParameterForces parameter_forces(const Scene& scene, const LoadedState& state, P
                                  const std::vector<Parameter>& parameters) {
   ParameterForces out;
   out.force = Eigen::MatrixXd::Zero(3L * scene.nodes(), long(parameters.size()));
-  out.volume = Eigen::MatrixXd::Zero(state.deformed.p.size(), long(parameters.size()));
+  out.volume = Eigen::MatrixXd::Zero(state.state.p.size(), long(parameters.size()));
   visit(scene, state, parameters,
         [&](int, const int* nodes, const Eigen::MatrixXd& forces, const std::vector<Column>& own) {
           for (std::size_t k = 0; k < own.size(); ++k) {

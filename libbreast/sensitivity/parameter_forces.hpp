@@ -9,10 +9,9 @@
 
 namespace breast {
 
-/// A state of one breast: X, (x, p) and the gravity (mm/s²) that acts on it.
+/// A state of one breast and the gravity (mm/s²) that acts on it.
 struct LoadedState {
-  Eigen::VectorXd reference;
-  SaddleState deformed;
+  State state;
   Vec3 gravity{0, 0, 0};
 };
 

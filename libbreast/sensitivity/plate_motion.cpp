@@ -42,6 +42,8 @@ PlatePair recorded_plates(const HexMesh& mesh) {
   plates.detector = recorded_plate(mesh.contact->plates[1], pose, -1);
   plates.initial_thickness = mesh.contact->initial_thickness_mm;
   plates.standoff = mesh.contact->standoff_mm;
+  // The share is all the file says of how far the detector may rise.
+  plates.detector_rise = mesh.contact->paddle_share < 1 ? std::numeric_limits<double>::infinity() : 0;
   return plates;
 }
 
@@ -64,7 +66,8 @@ GapSlope gap_slope(const PlatePair& plates, const PlateContact& contact, const V
   const Plate& plate = plates.plate(contact.plate);
   Vec3 velocity = Vec3::Zero(), turn = Vec3::Zero();
   if (parameter.kind == ParameterKind::thickness) {
-    velocity = -0.5 * plate.sign * plate.n;
+    const double paddle = plates.paddle_share();
+    velocity = -(contact.plate == 0 ? paddle : 1 - paddle) * plate.sign * plate.n;
   } else if (parameter.kind == ParameterKind::standoff) {
     velocity = plate.anterior;
   } else if (parameter.kind == ParameterKind::angle) {

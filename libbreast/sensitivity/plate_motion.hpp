@@ -30,8 +30,9 @@ struct GapSlope {
   double value = 0;
   Vec3 gradient{0, 0, 0};
 };
-/// Plates move as rigid bodies: closing by half the thickness each, both along the anterior axis,
-/// or about their common anterior mid-line.
+/// Plates move as rigid bodies: closing by their shares of the thickness (a half each, or the paddle
+/// alone where the detector has risen as far as it may), both along the anterior axis, or about
+/// their common anterior mid-line.
 GapSlope gap_slope(const PlatePair& plates, const PlateContact& contact, const Vec3& x,
                    const Parameter& parameter, Side side);
 

@@ -1,76 +1,39 @@
-// Newton's method for the equilibria of a saddle problem: globalised, with prescribed
-// displacements. Near the end a factor serves several steps: a tangent a little out of date costs
-// some contraction, a factorisation more.
+// Newton's method, once for all problems: forward, inverse and contact differ only in what they
+// solve for and in what they call balanced (NewtonSystem). The line search is the same for all.
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/report.hpp"
-#include "solve/saddle.hpp"
+#include "solve/state.hpp"
 
 namespace breast {
 
-/// Positions u (3 per node) and pressures p (rows per element).
-struct SaddleState {
-  Eigen::VectorXd u, p;
-};
-
-/// Residuals of a state: r = ∂Π/∂u, θ = −∂Π/∂p (per element, mm³).
-struct SaddleForces {
-  bool valid = false;    ///< false: a folded element or a law out of range; nothing else is set
-  int bad_element = -1;  ///< the first one, when not valid
-  int element_count = 0;
-  double energy = 0;
-  Eigen::VectorXd r, theta;
-  /// Gradient of the augmented energy, r + κBᵀM⁻¹θ; only when asked for with a κ.
-  Eigen::VectorXd augmented;
-  double min_det_F = 1, max_det_F = 1, max_volume_error = 0;
-};
-
-/// The nonlinear problem: what mechanics provides and a Newton iteration needs.
-class SaddleProblem {
- public:
-  virtual ~SaddleProblem() = default;
-  virtual std::shared_ptr<const NodePattern> pattern() const = 0;
-  virtual SaddleMatrix make_matrix() const = 0;
-  /// `kappa` (per element) may be null.
-  virtual SaddleForces forces(const SaddleState& state, const Eigen::VectorXd* kappa) const = 0;
-  /// Forces and tangent together. False (and forces.valid false) at an inadmissible state.
-  virtual bool tangent(const SaddleState& state, SaddleForces& forces,
-                       SaddleMatrix& matrix) const = 0;
-  /// Norm the residual is compared with, µN; and the volume each θ is compared with, mm³.
-  virtual double load_norm() const = 0;
-  virtual double volume_scale(int element) const = 0;
-};
-
-struct NewtonOptions {
-  int max_iterations = 30;
-  double tolerance = 1e-10;         ///< ‖r on free components‖ / load norm
-  double volume_tolerance = 1e-11;  ///< |θ_e| / V_e
-  double min_step = 1.0 / 256;
-  /// Near the end one factor serves several steps. Stops just below the tolerance, where Newton's
-  /// last step would go far below: not for the start of a path that magnifies small differences.
-  bool reuse_factor = false;
-  /// Gives up at the first tangent that is not positive definite and at the first linear system
-  /// that 60 iterations do not solve: where somebody else stands by.
-  bool hasty = false;
-  Timer* timer = nullptr;           ///< seconds by phase, when wanted
-  double determinant_guard = 0.05;  ///< a trial may shrink the smallest det F to this part
-};
-
 /// Why a Newton solve ended without convergence.
-enum class NewtonStop { none, folded, iteration_limit, indefinite, no_step, linear_solver };
+enum class NewtonStop {
+  none,
+  folded,            ///< an element turns inside out
+  iteration_limit,
+  indefinite,        ///< the tangent is far from positive definite
+  no_step,           ///< no length along the direction is acceptable
+  linear_solver,     ///< a linear system was not solved
+  singular_inverse,  ///< the linearised inverse problem is singular
+};
 /// Stable identifier: "", "folded_element", "iteration_limit", "indefinite_tangent",
-/// "no_admissible_step", "linear_solver".
+/// "no_admissible_step", "linear_solver", "singular_inverse".
 const char* stop_name(NewtonStop stop);
+/// In words, for reports.
+const char* describe(NewtonStop stop);
 
 struct NewtonIteration {
-  double residual = 0, min_det_F = 0, max_det_F = 0, step_length = 0, shift = 0;
+  double residual = 0;  ///< relative, after the step
   double residual_before = 0;
-  int linear_iterations = 0;  ///< see SaddleStep
+  double min_det_F = 0, max_det_F = 0;
+  double step_length = 0;  ///< 0: none was acceptable
+  double shift = 0;        ///< see Factorisation
+  int linear_iterations = 0;
 };
 
 struct NewtonResult {
@@ -78,19 +41,73 @@ struct NewtonResult {
   NewtonStop stop = NewtonStop::none;
   std::string reason;  ///< why not, in words
   std::vector<NewtonIteration> iterations;
-  int factorisations = 0, indefinite = 0;
-  SaddleForces forces;  ///< at the final state (valid when the last state was admissible)
-  double residual = 0;
+  int indefinite = 0;  ///< iterations whose tangent had to be shifted
+  int factorisations = 0;
+  double residual = 0;  ///< relative, of the final state
 };
 
-/// Force (µN) that rounding the positions alone can make: no residual gets reliably below it.
-double rounding_force(const SaddleMatrix& matrix, const Eigen::VectorXd& u);
+/// How far the present state is from a solution.
+struct Balance {
+  double residual = 0;  ///< of the forces, relative
+  double merit = 0;     ///< what a step is to reduce
+  bool converged = false;
+  bool nearly = false;  ///< good enough where no further step can be made
+  NewtonStop stop = NewtonStop::none;  ///< not none: the solve ends here
+  std::string reason;
+};
 
-/// Moves `state` to equilibrium. `targets`: positions of held components (3 per node; other entries
-/// ignored); null: held components stay. Not converged: `state` is the last admissible one.
-NewtonResult newton(const SaddleProblem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
-                    const Constraints& constraints, const Eigen::VectorXd* targets,
-                    SaddleState& state, const NewtonOptions& options = {},
+struct NewtonDirection {
+  NewtonStop stop = NewtonStop::none;  ///< not none: there is no direction
+  std::string reason;
+  double slope = 0;  ///< δxᵀ K δx with the tangent solved with: the descent promised
+  double shift = 0;
+  int linear_iterations = 0;
+  bool provisional = false;  ///< found with an older factor: that it fails is not the end
+};
+
+/// A state a part of the direction away.
+struct Appraisal {
+  double residual = 0;  ///< relative
+  double merit = 0;
+  double along = 0;  ///< gradient of the augmented energy along the direction
+};
+struct Trial {
+  State state;
+  Forces forces;
+  Appraisal seen;
+};
+
+/// What a line search accepts beside a merit below the one at the start.
+struct LineSearchRule {
+  double merit = 0;            ///< at the start
+  double tolerance = 0;        ///< residual of a solution
+  int most_halvings = 6;       ///< before the direction is given up
+  bool any = false;            ///< every admissible length
+  bool flat_suffices = false;  ///< an end where the energy is flatter along the direction
+  /// The tangent was shifted and the body may slip: going down in energy suffices, and a step is
+  /// doubled while the slope stays as steep as promised.
+  bool downhill_suffices = false;
+  /// The energy has kinks: a penalty that sets in along the step can be hundreds of times as stiff
+  /// as the tangent knows, so after halves the slope says how much shorter.
+  bool kinks = false;
+};
+
+class NewtonSystem {
+ public:
+  virtual ~NewtonSystem() = default;
+  /// The present state. `so_far` holds the iterations made.
+  virtual Balance assess(const NewtonResult& so_far) = 0;
+  virtual NewtonDirection direction(const Balance& now) = 0;
+  virtual LineSearchRule rule(const NewtonResult& so_far, const Balance& now,
+                              const NewtonDirection& direction) const = 0;
+  /// The state `length` times the direction away; nothing where it is inadmissible. Beyond length 1
+  /// pressures stay as at 1.
+  virtual std::optional<Trial> attempt(double length) = 0;
+  virtual void accept(Trial trial) = 0;
+};
+
+/// Iterates until the system says that it converged or stops.
+NewtonResult newton(NewtonSystem& system,
                     const std::function<void(const NewtonIteration&)>& watch = {});
 
 }  // namespace breast

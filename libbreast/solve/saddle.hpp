@@ -1,8 +1,8 @@
 // The linear systems of incompressible equilibrium, for whoever builds on them (forward, backward,
 // contact):
 //
-//     [ K  −Bᵀ ] [ δu ]   [ −r ]        r = ∂Π/∂u, θ = −∂Π/∂p, K = ∂r/∂u, B = ∂θ/∂u, M pressure
-//     mass, [ B   cM ] [ δp ] = [ −θ ]        c = 1/bulk modulus (0: exactly incompressible)
+//     [ K  −Bᵀ ] [ δu ]   [ −r ]        r = ∂Π/∂u, θ = −∂Π/∂p, K = ∂r/∂u, B = ∂θ/∂u,
+//     [ B   cM ] [ δp ] = [ −θ ]        M pressure mass, c = 1/bulk modulus (0: incompressible)
 //
 // solved through the positive definite K + κ Bᵀ M⁻¹ B (element-local, so with the pattern of K):
 // directly, by its Cholesky factor and a few conjugate-gradient iterations on the pressure; or, for
@@ -11,8 +11,7 @@
 // instead of a thousand). Use:
 //
 //     SaddleSolver solver(pattern);                    // ordering and analysis, once per mesh
-//     scene.tangent(state, matrix);                    // fills a SaddleMatrix
-//     matrix.stiffness.add_to_node(n, block);          // optional extra terms (contact curvature)
+//     problem.tangent(state, forces, matrix);          // fills a SaddleMatrix
 //     solver.factorise(matrix, constraints);           // constraints may change every time
 //     SaddleStep step = solver.solve(matrix, r, theta);// increments imposed exactly
 #pragma once
@@ -21,16 +20,19 @@
 #include <memory>
 #include <vector>
 
-#include "solve/cholesky.hpp"
+#include "solve/direct/cholesky.hpp"
 #include "solve/constraints.hpp"
-#include "solve/multigrid.hpp"
+#include "solve/multigrid/multigrid.hpp"
 #include "solve/node_matrix.hpp"
-#include "solve/pressure_schur.hpp"
+#include "solve/multigrid/pressure_schur.hpp"
 #include "solve/saddle_matrix.hpp"
 
 namespace breast {
 
 enum class LinearSolver { direct, multigrid };
+
+/// Times that GMRES begins again, after 60 iterations each, before it gives up.
+inline constexpr int gmres_restarts = 6;
 
 struct Factorisation {
   bool ok = false;
@@ -62,7 +64,8 @@ class SaddleSolver {
   /// constraints are those of the last factorise, except that increments may be given anew.
   /// GMRES gives up after `restarts` times 60 iterations.
   SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
-                   const Eigen::VectorXd& theta, double tolerance = 1e-6, int restarts = 6) const;
+                   const Eigen::VectorXd& theta, double tolerance = 1e-6,
+                   int restarts = gmres_restarts) const;
 
   /// Whether the matrix of the last factorise is positive definite. A factor knows; with multigrid
   /// the lowest eigenvalue of cycle times matrix by Lanczos, and false also where that is too near

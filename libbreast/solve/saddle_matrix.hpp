@@ -28,6 +28,8 @@ struct PressureSpace {
   std::vector<double> mass, inverse_mass;  ///< per element rows × rows
   Eigen::VectorXd compliance;              ///< c per element, 1/Pa
   int elements() const { return int(compliance.size()); }
+  /// Of an element of the imaged shape, mm³: the first basis function is one.
+  double volume(int e) const { return mass[std::size_t(e) * rows * rows]; }
   Eigen::Map<const Eigen::MatrixXd> mass_at(int e) const;
   Eigen::Map<const Eigen::MatrixXd> inverse_at(int e) const;
   /// s_e M_e q_e or s_e M_e⁻¹ q_e with one factor s per element.

@@ -24,7 +24,7 @@
 #include "core/units.hpp"
 #include "fixtures/block.hpp"
 #include "mechanics/scene.hpp"
-#include "solve/cholesky.hpp"
+#include "solve/direct/cholesky.hpp"
 
 extern "C" void openblas_set_num_threads(int);
 

@@ -58,7 +58,7 @@ constexpr ContactNumber contact_numbers[] = {
 }  // namespace
 
 void put_solve(Document& document, const SolveRecord& solve) {
-  document.attributes[solve_group + "@status"] = array_of(solve.status);
+  document.attributes[solve_group + "@status"] = array_of(std::string(status_name(solve.status)));
   document.attributes[solve_group + "@reason"] = array_of(solve.reason);
   Integers steps, iterations;
   for (const IterationRecord& row : solve.iterations) {
@@ -74,7 +74,13 @@ void put_solve(Document& document, const SolveRecord& solve) {
 
 SolveRecord get_solve(Fields& fields) {
   SolveRecord solve;
-  solve.status = fields.text(solve_group + "@status");
+  const std::string status = fields.text(solve_group + "@status");
+  const std::optional<SolveStatus> known = status_from_name(status);
+  if (!known) {
+    throw fields.complain()(solve_group, "@status '", status,
+                            "' is unknown: converged, stopped_early, unstable or not_converged");
+  }
+  solve.status = *known;
   solve.reason = fields.text(solve_group + "@reason");
   const auto steps = fields.indices(solve_group + "/step", {Fields::any}, -int_limit, int_limit);
   const auto iterations =
@@ -96,6 +102,7 @@ void put_contact(Document& document, const ContactRecord& contact) {
   for (const auto& [name, member] : contact_numbers) {
     document.attributes[contact_group + "@" + name] = array_of(contact.*member);
   }
+  document.attributes[contact_group + "@paddle_share"] = array_of(contact.paddle_share);
   auto& sets = document.datasets;
   sets[plates_group + "/name"] = array_of(column(contact.plates, &PlateRecord::name));
   for (const auto& [name, member] : plate_axes) {
@@ -114,6 +121,14 @@ ContactRecord get_contact(Fields& fields) {
   contact.view = fields.text(contact_group + "@view");
   for (const auto& [name, member] : contact_numbers) {
     contact.*member = fields.number(contact_group + "@" + name);
+  }
+  // Files of earlier versions do not say; with a detector that was not raised they are wrong.
+  if (fields.has_attribute(contact_group + "@paddle_share")) {
+    contact.paddle_share = fields.number(contact_group + "@paddle_share");
+    if (!(contact.paddle_share >= 0 && contact.paddle_share <= 1)) {
+      throw fields.complain()(contact_group, "@paddle_share ", contact.paddle_share,
+                              ": must lie within 0 and 1");
+    }
   }
   const Texts names = fields.texts(plates_group + "/name", {Fields::any});
   contact.plates.resize(names.size());

@@ -1,0 +1,279 @@
+#include "contact/active_set_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+
+Vec3 node_vector(const Eigen::VectorXd& field, int node) {
+  return field.segment<3>(3L * node);
+}
+/// A node that changed sides this often within one step keeps touching until convergence.
+constexpr int most_toggles = 3;
+/// Iterations in which touching nodes may move freely onto the plate.
+constexpr int free_moves = 8;
+/// Pull, relative to the scale times the tolerance, from which on a node is let go.
+constexpr double least_pull = 0.1;
+/// Friction's bounds follow the normal forces once the imbalance is this fraction of their lag.
+constexpr double balance_to_follow = 0.1;
+/// Iterations granted for each with an indefinite tangent: itself and one to settle.
+constexpr int slip_allowance = 2;
+/// A solve that may fail fast is given up when the first step has to be shorter than this, or when
+/// after so many iterations the imbalance is still this fraction of the first.
+constexpr double fast_first_step = 0.2, fast_reduction = 0.5;
+constexpr int fast_iterations = 8;
+/// A step much too long is noticed early: after so many iterations the imbalance is this many times
+/// the first, and more than the last number of the forces.
+constexpr int hopeless_iterations = 6;
+constexpr double hopeless_growth = 4, hopeless_imbalance = 0.1;
+
+}  // namespace
+
+/// Residual and constraint violation at a state with the present touching set.
+struct ActiveSet::System::Sweep {
+  double free_norm = 0, scale = 0;  ///< µN: unbalanced force; reaction or load it is compared with
+  double worst_gap = 0;             ///< mm, |distance| over touching nodes
+  double volume_residual = 0;
+  Eigen::VectorXd gradient;  ///< of the augmented energy, without reactions and touching normals
+  double relative() const { return free_norm / scale; }
+  double merit() const { return relative() + worst_gap; }
+};
+
+ActiveSet::System::System(ActiveSet& owner, State& state, double tolerance)
+    : TangentSystem(owner.problem_, owner.solver_, owner.matrix_, state),
+      owner_(owner),
+      tolerance_(tolerance),
+      toggles_(owner.candidates_.size(), 0) {}
+
+/// Force of the plate along its normal, µN: what balances everything else there.
+double ActiveSet::System::pressed(std::size_t c, const State& state, const Forces& forces) const {
+  const int node = owner_.candidates_[c];
+  const Gap gap =
+      owner_.plates_.plate(owner_.memory_.touching[c]).gap(node_vector(state.x, node));
+  return owner_.plate_->entry(c).multiplier + node_vector(forces.r, node).dot(gap.gradient);
+}
+
+ActiveSet::System::Sweep ActiveSet::System::measure(const State& state,
+                                                    const Forces& forces) const {
+  Sweep sweep;
+  Eigen::VectorXd free = forces.r;
+  sweep.gradient = forces.augmented.size() > 0 ? forces.augmented : forces.r;
+  problem_.constraints().project(free);
+  problem_.constraints().project(sweep.gradient);
+  double reaction = 0;
+  for (std::size_t c = 0; c < owner_.candidates_.size(); ++c) {
+    if (owner_.memory_.touching[c] < 0) continue;
+    const int node = owner_.candidates_[c];
+    const Eigen::Index at = 3L * node;
+    const Gap gap =
+        owner_.plates_.plate(owner_.memory_.touching[c]).gap(node_vector(state.x, node));
+    const double force = pressed(c, state, forces);
+    reaction += force * force;
+    free.segment<3>(at) -= free.segment<3>(at).dot(gap.gradient) * gap.gradient;
+    sweep.gradient.segment<3>(at) -=
+        sweep.gradient.segment<3>(at).dot(gap.gradient) * gap.gradient;
+    sweep.worst_gap = std::max(sweep.worst_gap, std::abs(gap.value));
+  }
+  sweep.free_norm = free.norm();
+  sweep.scale = std::max({std::sqrt(reaction), problem_.load_norm(), 1e-30});
+  sweep.volume_residual = problem_.volume_residual(forces);
+  return sweep;
+}
+
+bool ActiveSet::System::balanced(const Sweep& sweep) const {
+  return sweep.relative() <= tolerance_ &&
+         sweep.worst_gap <= std::max(owner_.options_.gap_tolerance, tolerance_) &&
+         sweep.volume_residual <= std::max(owner_.options_.volume_tolerance, tolerance_);
+}
+
+/// Changes the memory and lets the terms and the present forces follow.
+void ActiveSet::System::change(const std::function<void()>& what) {
+  const auto of_plates = [&] {
+    Forces part;
+    part.r = part.augmented = Eigen::VectorXd::Zero(forces_.r.size());
+    Request request;
+    request.kappa = &matrix_.kappa;  // asks for the augmented forces too
+    owner_.plate_->add(state_, request, part);
+    if (owner_.friction_ != nullptr) owner_.friction_->add(state_, request, part);
+    return part;
+  };
+  const Forces before = of_plates();
+  what();
+  owner_.set_terms(PlatePair(owner_.plates_));
+  const Forces after = of_plates();
+  forces_.r += after.r - before.r;
+  if (forces_.augmented.size() > 0) forces_.augmented += after.augmented - before.augmented;
+}
+
+/// Where the state is balanced well enough for its normal forces to mean something, takes μλ for
+/// the bounds. They do not follow in every iteration: then both could swing for ever.
+bool ActiveSet::System::follow_bounds(const Sweep& now) {
+  std::vector<double> wanted(owner_.candidates_.size(), 0);
+  double lag = 0;
+  for (std::size_t c = 0; c < wanted.size(); ++c) {
+    if (owner_.memory_.touching[c] < 0) continue;
+    wanted[c] = owner_.options_.friction.bound(pressed(c, state_, forces_));
+    lag = std::hypot(lag, wanted[c] - owner_.memory_.bounds[c]);
+  }
+  if (now.relative() > std::max(tolerance_, balance_to_follow * lag / now.scale)) return false;
+  change([&] { owner_.memory_.bounds = std::move(wanted); });
+  return true;
+}
+
+/// From now on the node's anchor moves with the plate.
+bool ActiveSet::System::touch(std::size_t c) {
+  const Vec3 x = node_vector(state_.x, owner_.candidates_[c]);
+  const int k = owner_.plates_.nearer(x);
+  if (!(owner_.plates_.plate(k).gap(x).value < -owner_.options_.gap_tolerance)) return false;
+  owner_.memory_.touching[c] = static_cast<signed char>(k);
+  owner_.memory_.multipliers[c] = 0;
+  if (rubs()) owner_.memory_.anchors[c] -= owner_.plates_.plate(k).shift();
+  ++toggles_[c];
+  return true;
+}
+
+bool ActiveSet::System::let_go(std::size_t c, double pull) {
+  if (!(pressed(c, state_, forces_) < -pull)) return false;
+  if (rubs()) {
+    owner_.memory_.anchors[c] += owner_.plates_.plate(owner_.memory_.touching[c]).shift();
+  }
+  owner_.memory_.touching[c] = -1;
+  return true;
+}
+
+bool ActiveSet::System::update(double scale, bool may_drop, bool at_balance) {
+  bool changed = false;
+  change([&] {
+    for (std::size_t c = 0; c < owner_.candidates_.size(); ++c) {
+      if (owner_.memory_.touching[c] < 0) {
+        changed = touch(c) || changed;
+      } else if (may_drop && (at_balance || toggles_[c] < most_toggles)) {
+        changed = let_go(c, least_pull * tolerance_ * scale) || changed;
+      }
+    }
+  });
+  return changed;
+}
+
+bool ActiveSet::System::hopeless(const NewtonResult& so_far, const Sweep& now) const {
+  return so_far.indefinite == 0 && int(so_far.iterations.size()) >= hopeless_iterations &&
+         now.relative() > hopeless_growth * first_imbalance_ &&
+         now.relative() > hopeless_imbalance;
+}
+
+/// Positions too far from the last one show it in the first iterations.
+bool ActiveSet::System::begins_badly(const NewtonResult& so_far, const Sweep& now) const {
+  const int made = int(so_far.iterations.size());
+  if (made == 1) return so_far.iterations.back().step_length < fast_first_step;
+  return made == fast_iterations && now.relative() > fast_reduction * first_imbalance_;
+}
+
+Balance ActiveSet::System::verdict(const NewtonResult& so_far, const Sweep& now, bool done) {
+  const ActiveSetOptions& options = owner_.options_;
+  const int made = int(so_far.iterations.size());
+  Balance balance;
+  balance.residual = now.relative();
+  balance.merit = now.merit();
+  if (done) {
+    const int folded = problem_.folded_element(state_);
+    balance.converged = folded < 0;
+    if (folded >= 0) {
+      balance.stop = NewtonStop::folded;
+      balance.reason = message("element ", folded, " is turned inside out at a corner");
+    }
+    return balance;
+  }
+  if (made == 1) first_imbalance_ = now.relative();
+  hurried_ = owner_.fail_fast_ && begins_badly(so_far, now);
+  // A snap-through ends far from where it began: its iterations do not count against the limit.
+  const int allowed =
+      std::min(options.max_iterations + slip_allowance * so_far.indefinite, options.most_iterations);
+  if (made >= allowed || hopeless(so_far, now) || hurried_) {
+    balance.stop = NewtonStop::iteration_limit;
+    balance.reason = describe(balance.stop);
+  }
+  return balance;
+}
+
+Balance ActiveSet::System::assess(const NewtonResult& so_far) {
+  Sweep now = measure(state_, forces_);
+  if (rubs() && follow_bounds(now)) now = measure(state_, forces_);
+  const bool at_balance = balanced(now);
+  // The multipliers of a state far from balance are noise: pulling nodes are dropped after the
+  // first linearised solve, and later only from a converged state.
+  const int made = int(so_far.iterations.size());
+  const bool may_drop = at_balance || (made > 0 && made < owner_.options_.free_sweeps);
+  const bool changed = update(now.scale, may_drop, at_balance);
+  if (changed) now = measure(state_, forces_);
+  worst_gap_ = now.worst_gap;
+  return verdict(so_far, now, at_balance && !changed);
+}
+
+// A node sliding on a rounded edge turns its plate force; without that in the tangent Newton loses
+// its quadratic convergence and plate steps collapse.
+NewtonDirection ActiveSet::System::direction(const Balance&) {
+  change([&] {
+    for (std::size_t c = 0; c < owner_.candidates_.size(); ++c) {
+      const bool held = owner_.memory_.touching[c] >= 0;
+      owner_.memory_.multipliers[c] = held ? std::max(0.0, pressed(c, state_, forces_)) : 0;
+    }
+  });
+  if (!assemble()) return {NewtonStop::folded, describe(NewtonStop::folded)};
+  const Factorisation factor = factorise(owner_.constraints(state_));
+  if (!factor.ok) return {NewtonStop::indefinite, describe(NewtonStop::indefinite)};
+  NewtonDirection direction = solve(contact_volume_accuracy, gmres_restarts);
+  if (!step_.u.allFinite() || !step_.p.allFinite()) {
+    return {NewtonStop::indefinite, describe(NewtonStop::indefinite)};
+  }
+  return direction;
+}
+
+LineSearchRule ActiveSet::System::rule(const NewtonResult& so_far, const Balance& now,
+                                       const NewtonDirection& direction) const {
+  const bool early = int(so_far.iterations.size()) < free_moves;
+  // While nodes are being brought onto the plate the balance is bound to get worse: any admissible
+  // step is then taken. Where the edge becomes straight that can alternate for ever; later
+  // iterations must therefore reduce imbalance and gap together. A slipping node offers no
+  // resistance until it turns back, where friction has another sign: with friction no step goes
+  // beyond the place where the slope has turned that much.
+  LineSearchRule rule;
+  rule.merit = now.merit;
+  rule.tolerance = tolerance_;
+  rule.any = !rubs() && worst_gap_ > 1e-3 && early;
+  rule.flat_suffices = rubs() || early;
+  rule.downhill_suffices = direction.shift > 0;
+  return rule;
+}
+
+Appraisal ActiveSet::System::appraise(const State& state, const Forces& forces) const {
+  const Sweep sweep = measure(state, forces);
+  return {sweep.relative(), sweep.merit(), along(sweep.gradient)};
+}
+
+// Anchors slide after their nodes; the part across the plate does not matter.
+std::vector<NodalContact> ActiveSet::System::finish() {
+  std::vector<NodalContact> contacts(owner_.candidates_.size());
+  std::size_t entry = 0;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const int k = owner_.memory_.touching[c];
+    if (k < 0) {
+      if (rubs()) owner_.memory_.anchors[c] = node_vector(state_.x, owner_.candidates_[c]);
+      continue;
+    }
+    contacts[c].plate = k;
+    contacts[c].normal = pressed(c, state_, forces_);
+    if (!rubs()) continue;
+    contacts[c].friction =
+        owner_.friction_->at(owner_.friction_->entries()[entry++], state_.x).force;
+    owner_.memory_.anchors[c] = node_vector(state_.x, owner_.candidates_[c]) +
+                                contacts[c].friction / owner_.options_.friction.stick -
+                                owner_.plates_.plate(k).shift();
+  }
+  return contacts;
+}
+
+}  // namespace breast

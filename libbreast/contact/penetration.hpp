@@ -1,0 +1,21 @@
+// How deep the body enters a plate, measured where contact is not imposed: inside the faces.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "contact/plates.hpp"
+#include "mesh/hex_mesh.hpp"
+#include "solve/constraints.hpp"
+
+namespace breast {
+
+/// Boundary faces (skin, cut, chest wall) with a node that can move.
+std::vector<Face> free_boundary_faces(const HexMesh& mesh, const Constraints& held);
+
+/// Deepest penetration of the faces into the plate in shape `x` (3 per node), mm, at 5×5 points of
+/// every face, its corners included; 0 where nothing enters.
+double deepest_penetration(const HexMesh& mesh, const std::vector<Face>& faces,
+                           const Eigen::VectorXd& x, const Plate& plate);
+
+}  // namespace breast

@@ -1,0 +1,17 @@
+// Friction of a solution with 8-node elements, on the mesh of 27-node elements of its error estimate.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "contact/terms/friction.hpp"
+#include "mechanics/error_estimate.hpp"
+
+namespace breast {
+
+/// The same tractions, anchors and stick stiffness per area: every node of a face whose corners one
+/// plate holds takes its part of the face, ∫N dA, in the shape `x` (3 per node of the 8-node mesh).
+std::shared_ptr<const Term> raise_friction(const FrictionTerm& coarse, const HexMesh& mesh,
+                                           const Eigen::VectorXd& x, const RicherMesh& richer);
+
+}  // namespace breast

@@ -1,0 +1,64 @@
+#include "contact/terms/friction.hpp"
+
+#include <algorithm>
+
+namespace breast {
+
+FrictionForce friction_force(const Vec3& x, const Vec3& anchor, const Vec3& normal, double bound,
+                             double stick) {
+  FrictionForce friction;
+  if (!(bound > 0)) {
+    friction.slips = true;
+    return friction;
+  }
+  const Mat3 tangential = Mat3::Identity() - normal * normal.transpose();
+  const Vec3 trial = -stick * (tangential * (x - anchor));
+  const double size = trial.norm();
+  if (size <= bound) {
+    friction.force = trial;
+    friction.stiffness = stick * tangential;
+    friction.energy = 0.5 * size * size / stick;
+    return friction;
+  }
+  const Vec3 along = trial / size;
+  friction.slips = true;
+  friction.force = bound * along;
+  friction.stiffness = bound / size * stick * (tangential - along * along.transpose());
+  friction.energy = bound * (size - 0.5 * bound) / stick;
+  return friction;
+}
+
+void FrictionTerm::set_entries(std::vector<FrictionEntry> entries) {
+  entries_ = std::move(entries);
+  cells_.nodes_per_cell = 1;
+  cells_.nodes.clear();
+  for (const FrictionEntry& entry : entries_) cells_.nodes.push_back(entry.node);
+}
+
+FrictionForce FrictionTerm::at(const FrictionEntry& entry, const Eigen::VectorXd& x) const {
+  const Vec3 point = x.segment<3>(3L * entry.node);
+  const Vec3 normal = plates_.plate(entry.plate).gap(point).gradient;
+  return friction_force(point, entry.anchor, normal, entry.bound, entry.stick);
+}
+
+bool FrictionTerm::add(const State& state, const Request& request, Forces& forces) const {
+  PackedCells* packed = request.packed != nullptr ? &request.packed->next(cells_) : nullptr;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const int node = entries_[i].node;
+    const FrictionForce now = at(entries_[i], state.x);
+    forces.energy += now.energy;
+    forces.r.segment<3>(3L * node) -= now.force;
+    if (request.kappa != nullptr) forces.augmented.segment<3>(3L * node) -= now.force;
+    if (request.matrix != nullptr) request.matrix->stiffness.add_to_node(node, now.stiffness);
+    if (packed != nullptr) packed->set(int(i), now.stiffness.data());
+  }
+  return true;
+}
+
+std::vector<int> FrictionTerm::nodes() const {
+  std::vector<int> all = cells_.nodes;
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+}  // namespace breast

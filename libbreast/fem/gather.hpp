@@ -1,0 +1,16 @@
+// Nodal values of one element or face.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace breast {
+
+/// Columns: the values (3 per node in `nodal`) of N nodes.
+template <int N>
+Eigen::Matrix<double, 3, N> gather(const int* nodes, const Eigen::VectorXd& nodal) {
+  Eigen::Matrix<double, 3, N> out;
+  for (int a = 0; a < N; ++a) out.col(a) = nodal.segment<3>(3L * nodes[a]);
+  return out;
+}
+
+}  // namespace breast

@@ -1,0 +1,193 @@
+#include "mechanics/inverse_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "mechanics/reference_system.hpp"
+#include "solve/equilibrate.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr int max_iterations = 25;
+// One factor serves until GMRES needs more iterations than this, whose back-solves cost as much as a
+// factorisation.
+constexpr int factor_worn = 10, levels_worn = 45;
+constexpr double tolerance = 1e-10, volume_tolerance = 1e-11;
+constexpr double near_tolerance = 1e-8, near_volume_tolerance = 1e-9;
+// A volume error of this size counts as much as the whole load when steps are judged.
+constexpr double typical_strain = 0.05;
+constexpr double largest_growth = 20;  // of the largest det F in a step
+
+}  // namespace
+
+class InverseSolver::System final : public NewtonSystem {
+ public:
+  System(InverseSolver& owner, State& state) : owner_(owner), state_(state) {}
+
+  Balance assess(const NewtonResult& so_far) override;
+  NewtonDirection direction(const Balance& now) override;
+  LineSearchRule rule(const NewtonResult&, const Balance& now,
+                      const NewtonDirection&) const override {
+    LineSearchRule rule;
+    rule.merit = now.merit;
+    return rule;
+  }
+  std::optional<Trial> attempt(double length) override;
+  void accept(Trial trial) override { state_ = std::move(trial.state); }
+
+ private:
+  // How far a state is from equilibrium.
+  struct Distance {
+    double force = 0, volume = 0;  // relative to the load; worst |θ_e|/V_e
+    double merit = 0;
+  };
+  Distance distance(const Forces& forces) const;
+  Balance folded(const std::string& reason) const;
+  bool precondition();
+  bool solve_direction(double accuracy);
+
+  InverseSolver& owner_;
+  State& state_;
+  Forces forces_;
+  ReferenceStep step_;
+};
+
+InverseSolver::System::Distance InverseSolver::System::distance(const Forces& forces) const {
+  const Problem& problem = owner_.problem_;
+  const PressureSpace& pressures = *problem.space().pressures;
+  Distance out;
+  out.force = problem.free_norm(forces) / problem.load_norm();
+  double square = 0;
+  for (long i = 0; i < forces.theta.size(); ++i) {
+    const double error = std::abs(forces.theta[i]) / pressures.volume(int(i / pressures.rows));
+    out.volume = std::max(out.volume, error);
+    square += error * error;
+  }
+  square /= double(std::max<long>(1, forces.theta.size())) * typical_strain * typical_strain;
+  out.merit = std::sqrt(out.force * out.force + square);
+  return out;
+}
+
+Balance InverseSolver::System::folded(const std::string& reason) const {
+  Balance now;
+  now.stop = NewtonStop::folded;
+  now.reason = reason;
+  return now;
+}
+
+Balance InverseSolver::System::assess(const NewtonResult& so_far) {
+  {
+    Timer::Scope phase(owner_.timer_, "assembly");
+    Request request;
+    request.reference = &owner_.tangent_;
+    forces_ = owner_.problem_.evaluate(state_, request);
+  }
+  if (!forces_.valid) {
+    return folded(message("element ", forces_.bad_element, " is folded at the start"));
+  }
+  owner_.min_det_F_ = forces_.min_det_F;
+  const Distance at = distance(forces_);
+  const double bound = std::max(
+      tolerance, rounding_force(owner_.matrix_, state_.x) / owner_.problem_.load_norm());
+  Balance now;
+  now.residual = at.force;
+  now.merit = at.merit;
+  now.converged = at.force <= bound && at.volume <= volume_tolerance;
+  now.nearly = at.force <= near_tolerance && at.volume <= near_volume_tolerance;
+  if (now.converged || now.nearly) {
+    const int element = owner_.problem_.folded_element(state_);
+    if (element >= 0) {
+      return folded(message("element ", element,
+                            " of the body found is turned inside out at a corner or a quadrature "
+                            "point"));
+    }
+  }
+  if (!now.converged && int(so_far.iterations.size()) >= max_iterations) {
+    now.stop = NewtonStop::iteration_limit;
+    now.reason = message("no convergence in ", max_iterations, " iterations: residual ", at.force,
+                         " of the load");
+  }
+  return now;
+}
+
+// Factorises the forward tangent at the state, for GMRES.
+bool InverseSolver::System::precondition() {
+  {
+    Timer::Scope phase(owner_.timer_, "assembly");
+    Forces forces;
+    if (!owner_.problem_.tangent(state_, forces, owner_.matrix_)) return false;
+  }
+  Timer::Scope phase(owner_.timer_, "factorisation");
+  owner_.last_gmres_ = 0;
+  return owner_.solver_
+      .factorise(owner_.matrix_, owner_.problem_.constraints(), !owner_.fail_fast_)
+      .ok;
+}
+
+bool InverseSolver::System::solve_direction(double accuracy) {
+  Timer::Scope phase(owner_.timer_, "solve");
+  const double size = std::cbrt(owner_.problem_.space().pressures->volume(0));
+  step_ = ReferenceSystem(owner_.matrix_, owner_.tangent_, owner_.solver_, size)
+              .solve(-forces_.r, -forces_.theta, accuracy, max_gmres);
+  owner_.last_gmres_ = step_.iterations;
+  return step_.residual < 0.5 && !(owner_.fail_fast_ && step_.iterations == max_gmres);
+}
+
+NewtonDirection InverseSolver::System::direction(const Balance& now) {
+  const bool worn = owner_.last_gmres_ >
+                    (owner_.solver_.kind() == LinearSolver::direct ? factor_worn : levels_worn);
+  if (worn && !precondition()) {
+    return {NewtonStop::singular_inverse, "the forward tangent cannot be factorised"};
+  }
+  const double accuracy = std::clamp(0.1 * now.merit, 1e-6, 1e-3);
+  if (!solve_direction(accuracy) &&
+      (worn || !precondition() || !solve_direction(accuracy))) {
+    return {NewtonStop::singular_inverse, "the inverse problem is singular"};
+  }
+  NewtonDirection direction;
+  direction.linear_iterations = step_.iterations;
+  return direction;
+}
+
+std::optional<Trial> InverseSolver::System::attempt(double length) {
+  Timer::Scope phase(owner_.timer_, "line search");
+  Trial trial;
+  trial.state = {state_.reference + length * step_.x, state_.x, state_.p + length * step_.p};
+  trial.forces = owner_.problem_.forces(trial.state);
+  const double most = largest_growth * std::max(1.0, forces_.max_det_F);
+  if (!trial.forces.valid || !(trial.forces.max_det_F < most)) return {};
+  const Distance there = distance(trial.forces);
+  trial.seen = {there.force, there.merit, 0};
+  return trial;
+}
+
+InverseSolver::InverseSolver(const Problem& problem, LinearSolver kind, bool fail_fast,
+                             Timer& timer)
+    : problem_(problem),
+      fail_fast_(fail_fast),
+      timer_(timer),
+      matrix_(problem.make_matrix()),
+      solver_(problem.space().pattern, kind) {}
+
+NewtonResult InverseSolver::solve(State& state,
+                                  const std::function<void(const NewtonIteration&)>& watch) {
+  System system(*this, state);
+  return newton(system, watch);
+}
+
+bool InverseSolver::stable(const State& state, double augmentation) {
+  Request request;
+  request.matrix = &matrix_;
+  request.augmentation = augmentation;
+  const bool stable = problem_.evaluate(state, request).valid &&
+                      solver_.factorise(matrix_, problem_.constraints(), false).ok &&
+                      solver_.positive_definite();
+  // Without a factor nothing is left to precondition with.
+  if (!stable || augmentation > 0) last_gmres_ = max_gmres;
+  return stable;
+}
+
+}  // namespace breast

@@ -1,0 +1,46 @@
+// Newton's method for the inverse problem: the stress-free shape X and the pressures that put a
+// given shape x in equilibrium. Directions come from GMRES on the exact derivatives by X; a factor
+// of the forward tangent only preconditions, and one serves several steps.
+#pragma once
+
+#include <functional>
+
+#include "core/report.hpp"
+#include "solve/newton.hpp"
+#include "solve/problem.hpp"
+#include "solve/saddle.hpp"
+
+namespace breast {
+
+class InverseSolver {
+ public:
+  /// `fail_fast`: gives up at the first difficulty. All references must outlive this; the problem's
+  /// load may change between solves.
+  InverseSolver(const Problem& problem, LinearSolver kind, bool fail_fast, Timer& timer);
+
+  /// Moves state.reference and state.p; not converged: to the last admissible ones.
+  NewtonResult solve(State& state, const std::function<void(const NewtonIteration&)>& watch);
+  /// Whether the forward tangent at the state is known to be positive definite; `augmentation` is
+  /// κ/μ, 0: what suits the linear solver.
+  bool stable(const State& state, double augmentation);
+
+  const SaddleSolver& solver() const { return solver_; }
+  const SaddleMatrix& matrix() const { return matrix_; }
+  /// Of the last state looked at.
+  double min_det_F() const { return min_det_F_; }
+
+ private:
+  class System;
+  static constexpr int max_gmres = 60;
+
+  const Problem& problem_;
+  bool fail_fast_;
+  Timer& timer_;
+  SaddleMatrix matrix_;
+  SaddleSolver solver_;
+  ReferenceTangent tangent_;
+  double min_det_F_ = 1;
+  int last_gmres_ = max_gmres;  // iterations with the present factor; none yet
+};
+
+}  // namespace breast

@@ -1,0 +1,51 @@
+#include "mesh/nodal_faces.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "mesh/shape.hpp"
+
+namespace breast {
+
+namespace {
+struct QuadPoint {
+  double weight;
+  QuadShape shape;
+};
+/// 3×3 Gauss points: exact areas of flat faces of both orders.
+std::vector<QuadPoint> quad_rule(int order) {
+  const double s = std::sqrt(0.6), w[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9}, at[3] = {-s, 0, s};
+  std::vector<QuadPoint> rule;
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) rule.push_back({w[i] * w[j], quad_shape(order, {at[i], at[j]})});
+  }
+  return rule;
+}
+}  // namespace
+
+NodalFaces nodal_faces(const HexMesh& mesh, const std::vector<Face>& faces,
+                       const Eigen::VectorXd& x) {
+  NodalFaces spread{std::vector<double>(std::size_t(mesh.nodes()), 0),
+                    std::vector<Vec3>(std::size_t(mesh.nodes()), Vec3::Zero())};
+  const std::vector<QuadPoint> rule = quad_rule(mesh.order);
+  for (const Face& face : faces) {
+    const std::vector<int> nodes = face_nodes(mesh, face);
+    for (const QuadPoint& point : rule) {
+      Vec3 a1 = Vec3::Zero(), a2 = Vec3::Zero();
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const Vec3 position = x.segment<3>(3 * nodes[k]);
+        a1 += point.shape.gradients(0, Eigen::Index(k)) * position;
+        a2 += point.shape.gradients(1, Eigen::Index(k)) * position;
+      }
+      const Vec3 dA = point.weight * a1.cross(a2);
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const double share = point.shape.values[Eigen::Index(k)];
+        spread.area[std::size_t(nodes[k])] += share * dA.norm();
+        spread.vector[std::size_t(nodes[k])] += share * dA;
+      }
+    }
+  }
+  return spread;
+}
+
+}  // namespace breast

@@ -1,0 +1,13 @@
+#include "solve/discretisation.hpp"
+
+namespace breast {
+
+SaddleMatrix Discretisation::make_matrix() const {
+  SaddleMatrix matrix{NodeMatrix(pattern), {}, {}, {}, {}, pressures, {}};
+  matrix.divergence.resize(cells, pressures->rows);
+  matrix.kappa = matrix.shear = Eigen::VectorXd::Zero(pressures->elements());
+  matrix.diagonal = Eigen::VectorXd::Zero(pattern->unknowns());
+  return matrix;
+}
+
+}  // namespace breast

@@ -1,0 +1,236 @@
+#include "solve/equilibrate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+
+// A factor is used again once the residual is this small and fell by this factor in the last step.
+constexpr double near_enough = 1e-5, gain_wanted = 0.02;
+// Relative residual of the volume equation in a step. Forces are met exactly whatever it is, and
+// volumes gain five digits a step beside Newton's own.
+constexpr double volume_accuracy = 1e-5;
+constexpr int halvings = 8;
+
+// Increments that carry held components to their targets.
+bool aim(Constraints& constraints, const Eigen::VectorXd* targets, const Eigen::VectorXd& x) {
+  constraints.zero_increments();
+  if (targets == nullptr) return false;
+  double most = 0;
+  for (int node = 0; node < constraints.nodes(); ++node) {
+    const NodeConstraint* held = constraints.at(node);
+    if (held == nullptr) continue;
+    NodeConstraint moved = *held;
+    moved.increment =
+        held->axes.transpose() * (targets->segment<3>(3L * node) - x.segment<3>(3L * node));
+    for (int i = 0; i < 3; ++i) {
+      if (held->held[i]) most = std::max(most, std::abs(moved.increment[i]));
+    }
+    constraints.set(node, moved);
+  }
+  return most > 1e-12 * std::max(1.0, x.lpNorm<Eigen::Infinity>());
+}
+
+// Whether the last factor may serve another step: the step before went the whole way, without a
+// shift, and brought the state so near that a tangent a little out of date still gains decimals.
+bool factor_serves(const NewtonResult& result) {
+  if (result.iterations.empty()) return false;
+  const NewtonIteration& last = result.iterations.back();
+  return last.step_length == 1 && last.shift == 0 && last.residual < near_enough &&
+         last.residual < gain_wanted * last.residual_before;
+}
+
+class EquilibriumSystem final : public TangentSystem {
+ public:
+  EquilibriumSystem(const Problem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
+                    State& state, const NewtonOptions& options, const Eigen::VectorXd* targets)
+      : TangentSystem(problem, solver, matrix, state),
+        options_(options),
+        targets_(targets),
+        moving_(problem.constraints()),
+        timer_(options.timer != nullptr ? *options.timer : unused_) {}
+
+  Balance assess(const NewtonResult& so_far) override;
+  NewtonDirection direction(const Balance& now) override;
+  LineSearchRule rule(const NewtonResult& so_far, const Balance& now,
+                      const NewtonDirection& direction) const override;
+  std::optional<Trial> attempt(double length) override {
+    Timer::Scope phase(timer_, "line search");
+    return TangentSystem::attempt(length);
+  }
+
+ private:
+  Appraisal appraise(const State& state, const Forces& forces) const override;
+  double residual(const Forces& forces) const;
+  bool reached(double residual) const;
+  Balance converged(double residual) const;
+
+  const NewtonOptions& options_;
+  const Eigen::VectorXd* targets_;
+  Constraints moving_;  // with the increments still to go
+  Timer unused_;
+  Timer& timer_;
+  bool away_ = false;    // held components are not at their targets yet
+  bool serves_ = false;  // the last factor serves this step too
+};
+
+double EquilibriumSystem::residual(const Forces& forces) const {
+  return problem_.free_norm(forces) / problem_.load_norm();
+}
+
+bool EquilibriumSystem::reached(double residual) const {
+  const double tolerance =
+      std::max(options_.tolerance, rounding_force(matrix_, state_.x) / problem_.load_norm());
+  return !away_ && residual <= tolerance &&
+         problem_.volume_residual(forces_) <= options_.volume_tolerance;
+}
+
+Balance EquilibriumSystem::converged(double residual) const {
+  Balance balance;
+  balance.residual = balance.merit = residual;
+  const int folded = problem_.folded_element(state_);
+  balance.converged = folded < 0;
+  if (folded >= 0) {
+    balance.stop = NewtonStop::folded;
+    balance.reason = message("element ", folded,
+                             " of the equilibrium found is turned inside out at a corner or a "
+                             "quadrature point");
+  }
+  return balance;
+}
+
+// The last step's trial has the forces already; a tangent is only made for a factorisation.
+Balance EquilibriumSystem::assess(const NewtonResult& so_far) {
+  const int made = int(so_far.iterations.size());
+  away_ = aim(moving_, targets_, state_.x);
+  serves_ = options_.reuse_factor && !away_ && factor_serves(so_far);
+  if (made > 0 && reached(so_far.residual)) return converged(so_far.residual);
+  Balance now;
+  now.residual = so_far.residual;
+  if (!serves_) {
+    Timer::Scope phase(timer_, "assembly");
+    if (!assemble()) {
+      now.stop = NewtonStop::folded;
+      now.reason = message("element ", forces_.bad_element, " is folded at the start");
+      return now;
+    }
+    now.residual = residual(forces_);
+    if (made == 0 && reached(now.residual)) return converged(now.residual);
+  }
+  now.merit = away_ ? std::numeric_limits<double>::infinity() : now.residual;
+  if (made >= options_.max_iterations) {
+    now.stop = NewtonStop::iteration_limit;
+    now.reason = message("no convergence in ", made, " iterations: residual ", now.residual,
+                         " of the load, bound ", options_.tolerance);
+  }
+  return now;
+}
+
+NewtonDirection EquilibriumSystem::direction(const Balance&) {
+  double shift = 0;
+  if (!serves_) {
+    Timer::Scope phase(timer_, "factorisation");
+    const Factorisation factor = factorise(moving_, !options_.fail_fast);
+    shift = factor.shift;
+    if (!factor.ok) {
+      return {NewtonStop::indefinite,
+              "the tangent stiffness is far from positive definite (unstable equilibrium)"};
+    }
+  }
+  Timer::Scope phase(timer_, "solve");
+  NewtonDirection direction = solve(volume_accuracy, options_.fail_fast ? 1 : gmres_restarts);
+  direction.shift = shift;
+  direction.provisional = serves_;
+  if (!step_.solved && options_.fail_fast) {
+    direction.stop = NewtonStop::linear_solver;
+    direction.reason = message(step_.iterations, " iterations did not solve a linear system");
+  }
+  return direction;
+}
+
+LineSearchRule EquilibriumSystem::rule(const NewtonResult&, const Balance& now,
+                                       const NewtonDirection&) const {
+  LineSearchRule rule;
+  rule.merit = now.merit;
+  rule.most_halvings = halvings;
+  rule.flat_suffices = true;
+  return rule;
+}
+
+Appraisal EquilibriumSystem::appraise(const State&, const Forces& forces) const {
+  Eigen::VectorXd gradient = forces.augmented;
+  problem_.constraints().project(gradient);
+  const double relative = residual(forces);
+  return {relative, relative, along(gradient)};
+}
+
+}  // namespace
+
+TangentSystem::TangentSystem(const Problem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
+                             State& state)
+    : problem_(problem), solver_(solver), matrix_(matrix), state_(state) {}
+
+bool TangentSystem::look() {
+  forces_ = problem_.forces(state_, matrix_.kappa.size() > 0 ? &matrix_.kappa : nullptr);
+  return forces_.valid;
+}
+
+bool TangentSystem::assemble() {
+  return problem_.tangent(state_, forces_, matrix_);
+}
+
+Factorisation TangentSystem::factorise(const Constraints& constraints, bool may_shift) {
+  const Factorisation factor = solver_.factorise(matrix_, constraints, may_shift);
+  shift_ = factor.shift;
+  return factor;
+}
+
+NewtonDirection TangentSystem::solve(double volume_accuracy, int restarts) {
+  step_ = solver_.solve(matrix_, forces_.r, forces_.theta, volume_accuracy, restarts);
+  NewtonDirection direction;
+  direction.slope = step_.u.dot(matrix_.stiffness.multiply(step_.u));
+  direction.shift = shift_;
+  direction.linear_iterations = step_.iterations;
+  return direction;
+}
+
+std::optional<Trial> TangentSystem::attempt(double length) {
+  Trial trial;
+  trial.state = {state_.reference, state_.x + length * step_.u,
+                 state_.p + std::min(1.0, length) * step_.p};
+  trial.forces = problem_.forces(trial.state, &matrix_.kappa);
+  const double least = determinant_guard * std::min(1.0, forces_.min_det_F);
+  if (!trial.forces.valid || !(trial.forces.min_det_F > least) || !trial.forces.r.allFinite()) {
+    if (refused_.size() == 0) refused_ = trial.state.x;
+    return {};
+  }
+  trial.seen = appraise(trial.state, trial.forces);
+  return trial;
+}
+
+void TangentSystem::accept(Trial trial) {
+  state_ = std::move(trial.state);
+  forces_ = std::move(trial.forces);
+}
+
+double rounding_force(const SaddleMatrix& matrix, const Eigen::VectorXd& x) {
+  return 8 * std::numeric_limits<double>::epsilon() * matrix.diagonal.cwiseProduct(x).norm();
+}
+
+EquilibriumResult equilibrate(const Problem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
+                              State& state, const NewtonOptions& options,
+                              const Eigen::VectorXd* targets,
+                              const std::function<void(const NewtonIteration&)>& watch) {
+  const int before = solver.factorisations();
+  EquilibriumSystem system(problem, solver, matrix, state, options, targets);
+  EquilibriumResult result{newton(system, watch), system.forces()};
+  result.factorisations = solver.factorisations() - before;
+  return result;
+}
+
+}  // namespace breast

@@ -1,0 +1,84 @@
+// Newton's method for the equilibria of a problem with X given: globalised, with prescribed
+// displacements. Near the end a factor may serve several steps: a tangent a little out of date costs
+// some contraction, a factorisation more.
+#pragma once
+
+#include <functional>
+
+#include "core/report.hpp"
+#include "solve/newton.hpp"
+#include "solve/problem.hpp"
+#include "solve/saddle.hpp"
+
+namespace breast {
+
+/// The smallest det F of a trial is at least this fraction of that at the start of the step.
+inline constexpr double determinant_guard = 0.05;
+
+struct NewtonOptions {
+  int max_iterations = 30;
+  double tolerance = 1e-10;         ///< ‖r on free components‖ / load norm
+  double volume_tolerance = 1e-11;  ///< |θ_e| / V_e
+  /// Near the end one factor serves several steps. Stops just below the tolerance, where Newton's
+  /// last step would go far below: not for the start of a path that magnifies small differences.
+  bool reuse_factor = false;
+  /// Gives up at the first tangent that is not positive definite and at the first linear system
+  /// that 60 iterations do not solve: where somebody else stands by.
+  bool fail_fast = false;
+  Timer* timer = nullptr;  ///< seconds by phase, when wanted
+};
+
+/// A Newton step with X given: tangent, factorisation, direction, trial states. What counts as
+/// balanced is left to whoever derives from it.
+class TangentSystem : public NewtonSystem {
+ public:
+  /// All references must outlive this. `state` is moved.
+  TangentSystem(const Problem& problem, SaddleSolver& solver, SaddleMatrix& matrix, State& state);
+
+  std::optional<Trial> attempt(double length) override;
+  void accept(Trial trial) override;
+  const Forces& forces() const { return forces_; }
+  /// Positions of the first trial that was refused as inadmissible since the last accepted one.
+  const Eigen::VectorXd& refused() const { return refused_; }
+
+ protected:
+  /// How a trial compares with the start of the step.
+  virtual Appraisal appraise(const State& state, const Forces& forces) const = 0;
+  /// Evaluates the forces at the present state; false: inadmissible.
+  bool look();
+  /// Assembles the tangent at the present state, with its forces; false: inadmissible.
+  bool assemble();
+  /// Factorises under `constraints`, with a shift where need be and allowed.
+  Factorisation factorise(const Constraints& constraints, bool may_shift = true);
+  /// Solves for the direction with the present forces and the last factor.
+  NewtonDirection solve(double volume_accuracy, int restarts);
+  double along(const Eigen::VectorXd& gradient) const { return step_.u.dot(gradient); }
+
+  const Problem& problem_;
+  SaddleSolver& solver_;
+  SaddleMatrix& matrix_;
+  State& state_;
+  Forces forces_;
+  SaddleStep step_;
+
+ private:
+  double shift_ = 0;
+  Eigen::VectorXd refused_;
+};
+
+/// Force (µN) that rounding the positions alone can make: no residual gets reliably below it.
+double rounding_force(const SaddleMatrix& matrix, const Eigen::VectorXd& x);
+
+struct EquilibriumResult : NewtonResult {
+  Forces forces;  ///< at the final state (valid when the last state was admissible)
+};
+
+/// Moves `state` to equilibrium. `targets`: positions of held components (3 per node; other entries
+/// ignored); null: held components stay. Not converged: `state` is the last admissible one. A state
+/// with an element that is not positive at a corner is no equilibrium, however small its residual.
+EquilibriumResult equilibrate(const Problem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
+                              State& state, const NewtonOptions& options = {},
+                              const Eigen::VectorXd* targets = nullptr,
+                              const std::function<void(const NewtonIteration&)>& watch = {});
+
+}  // namespace breast

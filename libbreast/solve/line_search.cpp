@@ -1,0 +1,71 @@
+#include "solve/line_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace breast {
+
+namespace {
+
+/// Fraction of the slope along a step that may be left at its end.
+constexpr double slope_kept = 0.8;
+/// Longest multiple of a shifted step.
+constexpr double longest_slip = 64;
+/// Times more that the slope says by how much to shorten, and the least factor it may say.
+constexpr int most_by_slope = 3;
+constexpr double least_factor = 0.01;
+
+/// Along a direction of negative curvature a shifted step is far too short: it is doubled while the
+/// slope stays as steep as promised.
+double go_further(NewtonSystem& system, const NewtonDirection& direction, Trial& trial) {
+  double length = 1;
+  while (trial.seen.along < -slope_kept * direction.slope && length < longest_slip) {
+    std::optional<Trial> further = system.attempt(2 * length);
+    if (!further || further->seen.along > slope_kept * direction.slope) break;
+    length *= 2;
+    trial = std::move(*further);
+  }
+  return length;
+}
+
+bool accepted(const Appraisal& seen, const NewtonDirection& direction, const LineSearchRule& rule) {
+  if (rule.any || seen.merit < rule.merit || seen.residual < rule.tolerance) return true;
+  // Along a step of an indefinite tangent (a node slipping over the plate edge) the imbalance may
+  // have to grow: going down in energy is then enough.
+  if (rule.downhill_suffices) return seen.along <= slope_kept * direction.slope;
+  return rule.flat_suffices && std::abs(seen.along) <= slope_kept * std::abs(direction.slope);
+}
+
+/// The factor on a length at which the slope would be zero if it were linear from the start to the
+/// trial's.
+double flat_factor(const Appraisal& seen, const NewtonDirection& direction) {
+  const double slope = std::abs(direction.slope);
+  if (!(seen.along > 0)) return 0.5;
+  return std::clamp(slope / (slope + seen.along), least_factor, 0.5);
+}
+
+}  // namespace
+
+SearchResult line_search(NewtonSystem& system, const NewtonDirection& direction,
+                         const LineSearchRule& rule) {
+  SearchResult result;
+  // Where the tangent is indefinite the slope is anything but linear.
+  const bool by_slope = rule.kinks && !rule.downhill_suffices;
+  const int most = rule.most_halvings + (by_slope ? most_by_slope : 0);
+  double length = 1, factor = 0.5;
+  for (int i = 0; i <= most; ++i, length *= factor) {
+    factor = 0.5;
+    std::optional<Trial> trial = system.attempt(length);
+    if (!trial) continue;
+    result.any_admissible = true;
+    if (i >= rule.most_halvings) factor = flat_factor(trial->seen, direction);
+    if (!accepted(trial->seen, direction, rule)) continue;
+    if (rule.downhill_suffices && length == 1) length = go_further(system, direction, *trial);
+    result.trial = std::move(trial);
+    result.length = length;
+    return result;
+  }
+  return result;
+}
+
+}  // namespace breast

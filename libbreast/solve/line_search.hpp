@@ -1,0 +1,20 @@
+// How far to go along a Newton direction: one rule for all problems.
+#pragma once
+
+#include <optional>
+
+#include "solve/newton.hpp"
+
+namespace breast {
+
+struct SearchResult {
+  std::optional<Trial> trial;   ///< none: no length was acceptable
+  double length = 0;
+  bool any_admissible = false;  ///< at least one trial was admissible
+};
+
+/// Shortens the direction until a length of it is accepted, and doubles it where the body slips.
+SearchResult line_search(NewtonSystem& system, const NewtonDirection& direction,
+                         const LineSearchRule& rule);
+
+}  // namespace breast

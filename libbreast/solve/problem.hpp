@@ -1,0 +1,59 @@
+// An equilibrium problem: terms plus constraints.
+//
+//     Problem problem = scene.problem(...);       // or add() terms to one
+//     SaddleMatrix matrix = problem.make_matrix();
+//     SaddleSolver solver(problem.space().pattern);
+//     State state{X, x, p};
+//     NewtonResult result = equilibrate(problem, solver, matrix, state);   // solve/equilibrate.hpp
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solve/constraints.hpp"
+#include "solve/discretisation.hpp"
+#include "solve/term.hpp"
+
+namespace breast {
+
+class Problem {
+ public:
+  /// Nothing yet but unknowns, of which `constraints` holds some.
+  Problem(std::shared_ptr<const Discretisation> space, Constraints constraints);
+
+  void add(std::shared_ptr<const Term> term);
+  const std::vector<std::shared_ptr<const Term>>& terms() const { return terms_; }
+  const Discretisation& space() const { return *space_; }
+  const std::shared_ptr<const Discretisation>& shared_space() const { return space_; }
+  const Constraints& constraints() const { return constraints_; }
+  void set_constraints(Constraints constraints) { constraints_ = std::move(constraints); }
+  int nodes() const { return space_->nodes(); }
+  SaddleMatrix make_matrix() const { return space_->make_matrix(); }
+
+  /// One pass over all terms. Not valid: it stops at once, the request's targets are undefined.
+  Forces evaluate(const State& state, const Request& request) const;
+  /// Without a tangent; `kappa` (per element) may be null.
+  Forces forces(const State& state, const Eigen::VectorXd* kappa = nullptr) const;
+  /// Forces and tangent together. False (and forces.valid false) at an inadmissible state.
+  bool tangent(const State& state, Forces& forces, SaddleMatrix& matrix) const;
+
+  /// Norm that the residual is compared with, µN: of the external load, or what stands for it.
+  double load_norm() const { return load_norm_; }
+  void set_load_norm(double norm) { load_norm_ = norm; }
+  /// ‖r‖ over the components that are not held, µN.
+  double free_norm(const Forces& forces) const;
+  /// Worst |θ| of an element over its volume in the imaged shape: zero in a solution, where a
+  /// compressible body still has a volume error.
+  double volume_residual(const Forces& forces) const;
+  /// An element that is not positive in both shapes at its corners and quadrature points; −1: none.
+  /// No state with such an element is an answer.
+  int folded_element(const State& state) const;
+
+ private:
+  std::shared_ptr<const Discretisation> space_;
+  Constraints constraints_;
+  std::vector<std::shared_ptr<const Term>> terms_;
+  double load_norm_ = 1;
+};
+
+}  // namespace breast

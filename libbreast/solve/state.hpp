@@ -1,0 +1,25 @@
+// A configuration of a body and the forces in it: what all solvers exchange.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace breast {
+
+/// Stress-free positions X and deformed positions x (3 per node, mm), pressures p (Pa, rows per
+/// element). Forward problems and contact seek x and p, the inverse problem X and p.
+struct State {
+  Eigen::VectorXd reference, x, p;
+};
+
+/// Energy and its derivatives at a state, summed over terms: r = ∂Π/∂x (µN), θ = −∂Π/∂p (mm³).
+struct Forces {
+  bool valid = false;    ///< false: a folded element or a law out of range; nothing else is set
+  int bad_element = -1;  ///< the first one, when not valid and known
+  double energy = 0;     ///< nJ
+  Eigen::VectorXd r, theta;
+  /// Gradient of the augmented energy, r + κBᵀM⁻¹θ; only when asked for with a κ.
+  Eigen::VectorXd augmented;
+  double min_det_F = 1, max_det_F = 1, max_volume_error = 0;
+};
+
+}  // namespace breast

@@ -1,0 +1,41 @@
+// One contribution to the energy of a body: its solid, its skin, a load, a support, a plate. A
+// problem is a list of them (solve/problem.hpp); what a scene lacks is not in the list and costs
+// nothing.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solve/packed_tangent.hpp"
+#include "solve/reference_tangent.hpp"
+#include "solve/saddle_matrix.hpp"
+#include "solve/state.hpp"
+
+namespace breast {
+
+/// What one pass over the terms fills beside energy, r and θ; null means not wanted.
+struct Request {
+  const Eigen::VectorXd* kappa = nullptr;  ///< fills Forces::augmented
+  SaddleMatrix* matrix = nullptr;          ///< the tangent, assembled
+  PackedTangent* packed = nullptr;         ///< K + κBᵀM⁻¹B, by cells
+  double augmentation = 0;                 ///< κ/μ of the tangent; 0: what suits the linear solver
+  ReferenceTangent* reference = nullptr;
+};
+
+class Term {
+ public:
+  virtual ~Term() = default;
+
+  /// For reports and tests.
+  virtual std::string name() const = 0;
+  /// Adds the energy, r and θ of this term, and what the request names. False at an inadmissible
+  /// state, where the contents of `forces` and of the request's targets are undefined.
+  virtual bool add(const State& state, const Request& request, Forces& forces) const = 0;
+  /// The nodes whose positions it depends on and whose forces it changes, ascending.
+  virtual std::vector<int> nodes() const = 0;
+  /// An element that is not positive in both shapes at its corners and quadrature points; −1: none.
+  /// Terms without elements have none.
+  virtual int folded_element(const State&) const { return -1; }
+};
+
+}  // namespace breast
