@@ -20,12 +20,13 @@ if(CCACHE_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
 endif()
 
-# breast_library(NAME DEPENDS lib... SYSTEM third-party...): target breast_NAME from this folder's .cpp
-# files. Third parties are PRIVATE: no header of ours shows them.
+# breast_library(NAME DEPENDS lib... SYSTEM third-party...): target breast_NAME from the .cpp files of this
+# folder and of the folders in it. Third parties are PRIVATE: no header of ours shows them.
 function(breast_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;SYSTEM" ${ARGN})
   if(NOT ARG_SOURCES)
-    file(GLOB ARG_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+    file(GLOB ARG_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp
+      ${CMAKE_CURRENT_SOURCE_DIR}/*/*.cpp)
   endif()
   add_library(breast_${name} STATIC ${ARG_SOURCES})
   target_include_directories(breast_${name} PUBLIC ${PROJECT_SOURCE_DIR}/libbreast)

@@ -9,7 +9,7 @@
 #include "io/volume_file.hpp"
 #include "segment/measures.hpp"
 #include "segment/overlay.hpp"
-#include "segment/wall_input.hpp"
+#include "segment/wall/wall_input.hpp"
 
 using namespace breast;
 

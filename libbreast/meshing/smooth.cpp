@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "mesh/quality.hpp"
-#include "meshing/corner_energy.hpp"
-#include "meshing/lbfgs.hpp"
+#include "meshing/smoothing/corner_energy.hpp"
+#include "meshing/smoothing/lbfgs.hpp"
 
 namespace breast {
 

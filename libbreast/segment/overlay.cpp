@@ -7,7 +7,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "segment/grid_ops.hpp"
+#include "segment/grid/grid_ops.hpp"
 
 namespace breast {
 

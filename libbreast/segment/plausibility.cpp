@@ -5,8 +5,8 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "segment/filters.hpp"
-#include "segment/skin_patch.hpp"
+#include "segment/grid/filters.hpp"
+#include "segment/tissue/skin_patch.hpp"
 
 namespace breast {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "segment/filters.hpp"
-#include "segment/itk_filters.hpp"
+#include "segment/grid/filters.hpp"
+#include "segment/grid/itk_filters.hpp"
 #include "segment/work.hpp"
 
 namespace breast {

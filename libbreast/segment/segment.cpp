@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "segment/filters.hpp"
-#include "segment/itk_filters.hpp"
+#include "segment/grid/filters.hpp"
+#include "segment/grid/itk_filters.hpp"
 #include "segment/plausibility.hpp"
-#include "segment/skin_thickness.hpp"
-#include "segment/wall_input.hpp"
-#include "segment/wall_uncertainty.hpp"
+#include "segment/tissue/skin_thickness.hpp"
+#include "segment/wall/wall_input.hpp"
+#include "segment/wall/wall_uncertainty.hpp"
 #include "segment/work.hpp"
 
 namespace breast {

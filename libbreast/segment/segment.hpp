@@ -8,15 +8,10 @@
 #include "core/progress.hpp"
 #include "core/report.hpp"
 #include "image/label_volume.hpp"
+#include "segment/tissue/tissue.hpp"
 #include "surface/tri_mesh.hpp"
 
 namespace breast {
-
-/// What tells fibroglandular tissue from fat.
-enum class Interior {
-  threshold,      ///< midway between the brightness of gland and fat
-  region_growing  ///< the paper's 3-D confidence-connected growing of fat; what is left is gland
-};
 
 struct SegmentOptions {
   Side side = Side::left;

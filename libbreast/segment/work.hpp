@@ -2,10 +2,10 @@
 #pragma once
 
 #include "image/label_volume.hpp"
-#include "segment/bias.hpp"
-#include "segment/extent.hpp"
-#include "segment/nipple.hpp"
-#include "segment/tissue.hpp"
+#include "segment/tissue/bias.hpp"
+#include "segment/tissue/nipple.hpp"
+#include "segment/tissue/tissue.hpp"
+#include "segment/wall/extent.hpp"
 #include "surface/tri_mesh.hpp"
 
 namespace breast {

@@ -18,7 +18,7 @@
 #include "evaluation/wall_distance.hpp"
 #include "fixtures/perturbed_scan.hpp"
 #include "io/volume_file.hpp"
-#include "segment/filters.hpp"
+#include "segment/grid/filters.hpp"
 #include "segment/segment.hpp"
 
 namespace breast {

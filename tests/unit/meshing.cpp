@@ -11,8 +11,8 @@
 #include "fixtures/analytic_mesh.hpp"
 #include "mesh/quality.hpp"
 #include "meshing/boundary_surface.hpp"
-#include "meshing/corner_energy.hpp"
 #include "meshing/skin.hpp"
+#include "meshing/smoothing/corner_energy.hpp"
 #include "meshing/tissue.hpp"
 #include "meshing/tumour.hpp"
 

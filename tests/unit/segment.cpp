@@ -9,8 +9,8 @@
 
 #include "core/error.hpp"
 #include "fixtures/synthetic_scan.hpp"
-#include "segment/grid_ops.hpp"
-#include "segment/min_cut.hpp"
+#include "segment/grid/grid_ops.hpp"
+#include "segment/wall/min_cut.hpp"
 
 namespace breast {
 namespace {

@@ -9,14 +9,14 @@
 #include "evaluation/wall_distance.hpp"
 #include "fixtures/perturbed_scan.hpp"
 #include "fixtures/synthetic_scan.hpp"
-#include "segment/body.hpp"
-#include "segment/debris.hpp"
-#include "segment/itk_filters.hpp"
-#include "segment/nipple.hpp"
+#include "segment/body/body.hpp"
+#include "segment/body/debris.hpp"
+#include "segment/grid/itk_filters.hpp"
 #include "segment/plausibility.hpp"
 #include "segment/segment.hpp"
-#include "segment/skin_thickness.hpp"
-#include "segment/tissue.hpp"
+#include "segment/tissue/nipple.hpp"
+#include "segment/tissue/skin_thickness.hpp"
+#include "segment/tissue/tissue.hpp"
 
 namespace breast {
 namespace {

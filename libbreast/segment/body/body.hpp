@@ -1,0 +1,43 @@
+// The body against air, and the frame of the torso: skin depth, midline, cleft.
+#pragma once
+
+#include "core/types.hpp"
+#include "segment/grid/grid_ops.hpp"
+
+namespace breast {
+
+/// Depth (mm along j from the grid's first voxel centre) per column (i,k); NaN where there is none.
+struct HeightField {
+  int nx = 0, nz = 0;
+  std::vector<double> depth;
+  HeightField() = default;
+  HeightField(int x, int z, double value) : nx(x), nz(z), depth(std::size_t(x) * z, value) {}
+  double& at(int i, int k) { return depth[std::size_t(k) * nx + i]; }
+  double at(int i, int k) const { return depth[std::size_t(k) * nx + i]; }
+};
+
+struct Body {
+  Mask mask;             ///< body with lungs and other cavities filled
+  double air_level = 0;  ///< n0: 90th percentile of the air in front of the patient
+  double threshold = 0;  ///< intensity that separates body from air
+  double debris_ml = 0;  ///< taken off the skin: markers and the like
+};
+/// Otsu on log(I + n0), opening, largest component, closing, filling (methods 8b step 1).
+/// Throws Error (input) when there is no contrast or no air in front.
+/// `side` is the breast wanted; it matters where the field of view holds no other.
+Body find_body(const Volume<float>& scan, Side side);
+
+struct Torso {
+  HeightField skin;           ///< first body voxel from the front
+  int midline = 0;            ///< column i of the sternum
+  std::vector<double> cleft;  ///< depth (mm) of the skin over the sternum, per slice
+  bool one_breast = false;    ///< the other is not in the field of view
+};
+/// The midline is the skin's mirror column; where one breast alone is in view (less than 270 mm of
+/// body and no valley between two) it is the deepest column medial of the breast of `side`.
+Torso find_torso(const Mask& body, Side side);
+/// Angle (radians) about the body's long axis by which the grid is turned against the body's mirror
+/// plane; 0 where that explains the skin's asymmetry no better, or one breast alone is in view.
+double body_roll(const Mask& body);
+
+}  // namespace breast

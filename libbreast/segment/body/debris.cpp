@@ -1,0 +1,120 @@
+#include "segment/body/debris.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+#include "core/units.hpp"
+#include "segment/grid/filters.hpp"
+#include "segment/grid/itk_filters.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr double opening = 3.5;  // mm: radius of the disc
+constexpr double standing = 2;   // mm: less is the roundness of the skin itself
+constexpr double spared = 20;    // mm about the most anterior points
+
+/// What the opening takes off each axial slice; `height` is how far it stands out (mm).
+Mask taken_off(const Mask& body, Volume<float>& height) {
+  const Grid& grid = body.grid;
+  Mask residue(grid);
+  const int rx = std::max(1, int(std::lround(opening / grid.spacing[0]))),
+            ry = std::max(1, int(std::lround(opening / grid.spacing[1])));
+  const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * rx + 1, 2 * ry + 1});
+  for (int k = 0; k < grid.size[2]; ++k) {
+    const cv::Mat slice(grid.size[1], grid.size[0], CV_8U,
+                        const_cast<std::uint8_t*>(&body.at(0, 0, k)));
+    cv::Mat opened, distance;
+    cv::morphologyEx(slice, opened, cv::MORPH_OPEN, disc);
+    if (cv::countNonZero(opened) == 0) continue;
+    cv::distanceTransform(opened == 0, distance, cv::DIST_L2, cv::DIST_MASK_5);
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        residue.at(i, j, k) = slice.at<uchar>(j, i) && !opened.at<uchar>(j, i);
+        height.at(i, j, k) = float(distance.at<float>(j, i) * grid.spacing[0]);
+      }
+    }
+  }
+  return residue;
+}
+
+/// Most anterior voxel of a range of columns; i = -1 when it is empty.
+std::array<int, 3> most_anterior(const Mask& body, int first, int last) {
+  const Grid& grid = body.grid;
+  for (int j = 0; j < grid.size[1]; ++j) {
+    for (int k = 0; k < grid.size[2]; ++k) {
+      for (int i = first; i <= last; ++i) {
+        if (body.at(i, j, k)) return {i, j, k};
+      }
+    }
+  }
+  return {-1, 0, 0};
+}
+
+}  // namespace
+
+double remove_debris(Mask& body, int midline) {
+  const Grid& grid = body.grid;
+  Volume<float> height(grid);
+  const Components parts = components(taken_off(body, height));
+  const std::array<std::array<int, 3>, 2> fronts{
+      most_anterior(body, 0, midline), most_anterior(body, midline + 1, grid.size[0] - 1)};
+  std::vector<char> debris(parts.count + 1, 0), nipple(parts.count + 1, 0);
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const std::uint32_t part = parts.label[grid.offset(i, j, k)];
+        if (part == 0) continue;
+        if (height.at(i, j, k) > standing) debris[part] = 1;
+        for (const auto& front : fronts) {
+          const Vec3 away(i - front[0], j - front[1], k - front[2]);
+          if (front[0] >= 0 && grid.spacing.cwiseProduct(away).norm() < spared) nipple[part] = 1;
+        }
+      }
+    }
+  }
+  double taken = 0;
+  for (std::size_t n = 0; n < body.voxels.size(); ++n) {
+    const std::uint32_t part = parts.label[n];
+    if (part == 0 || !debris[part] || nipple[part]) continue;
+    body.voxels[n] = 0;
+    taken += 1;
+  }
+  return taken * grid.voxel_volume() / mm3_per_ml;
+}
+
+void remove_ghosts(Mask& body, const Volume<float>& scan) {
+  constexpr double deepest = 25, neighbourhood = 15, smoothing = 1.5;  // mm
+  constexpr float dim = 0.15f;
+  const Grid& grid = body.grid;
+  Volume<float> tissue(grid);
+  for (std::size_t n = 0; n < tissue.voxels.size(); ++n)
+    tissue.voxels[n] = body.voxels[n] ? scan.voxels[n] : 0;
+  const Volume<float> brightest = box_maximum(gaussian(tissue, smoothing), neighbourhood);
+  Mask ghost(grid);
+  for (std::size_t n = 0; n < ghost.voxels.size(); ++n)
+    ghost.voxels[n] = body.voxels[n] && scan.voxels[n] < dim * brightest.voxels[n];
+  // From the air inwards, a voxel of the axial slice at a time.
+  std::vector<std::size_t> peeled;
+  for (double depth = 0; depth < deepest; depth += grid.spacing[0]) {
+    peeled.clear();
+    for (int k = 0; k < grid.size[2]; ++k) {
+      for (int j = 1; j + 1 < grid.size[1]; ++j) {
+        for (int i = 1; i + 1 < grid.size[0]; ++i) {
+          const std::size_t n = grid.offset(i, j, k);
+          if (!body.voxels[n] || !ghost.voxels[n]) continue;
+          if (!body.at(i - 1, j, k) || !body.at(i + 1, j, k) || !body.at(i, j - 1, k) ||
+              !body.at(i, j + 1, k))
+            peeled.push_back(n);
+        }
+      }
+    }
+    if (peeled.empty()) break;
+    for (const std::size_t n : peeled) body.voxels[n] = 0;
+  }
+}
+
+}  // namespace breast

@@ -1,0 +1,18 @@
+// Things on the skin that are not the breast: markers, creams, folds of a few millimetres.
+#pragma once
+
+#include "segment/grid/grid_ops.hpp"
+
+namespace breast {
+
+/// Takes from the body what an opening by a disc of 3.5 mm in the axial slices takes off and stands
+/// out by more than 2 mm, except near the most anterior point of each half (nipples, which look
+/// alike). Returns the volume taken away, ml. `midline` is the column between the halves.
+double remove_debris(Mask& body, int midline);
+
+/// Takes from the body, from its border inwards by at most 25 mm, what is dimmer than 0.15 of the
+/// brightest tissue within 15 mm: ghosts of the heart beside the body that the threshold let in.
+/// Skin is brighter; dark chest is filled in again afterwards.
+void remove_ghosts(Mask& body, const Volume<float>& scan);
+
+}  // namespace breast

@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "core/error.hpp"
+#include "segment/body/body.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+HeightField first_body_voxel(const Mask& body) {
+  HeightField skin(body.grid.size[0], body.grid.size[2], nan);
+  for (int k = 0; k < skin.nz; ++k) {
+    for (int j = body.grid.size[1] - 1; j >= 0; --j) {
+      for (int i = 0; i < skin.nx; ++i) {
+        if (body.at(i, j, k)) skin.at(i, k) = j * body.grid.spacing[1];
+      }
+    }
+  }
+  return skin;
+}
+
+/// Column about which the skin is most nearly its own mirror image, within 60 mm of the body's
+/// middle; `cost` (mm) is how far the two halves differ there on average.
+int mirror_column(const HeightField& skin, double spacing, double deepest, double& cost) {
+  double sum = 0, count = 0;
+  for (int k = 0; k < skin.nz; ++k) {
+    for (int i = 0; i < skin.nx; ++i) {
+      if (std::isnan(skin.at(i, k))) continue;
+      sum += i;
+      count += 1;
+    }
+  }
+  const double middle = sum / std::max(count, 1.0);
+  const int reach = int(130 / spacing), range = int(60 / spacing);
+  int best = int(middle);
+  cost = std::numeric_limits<double>::infinity();
+  for (int candidate = int(middle) - range; candidate <= int(middle) + range; ++candidate) {
+    double total = 0, pairs = 0;
+    for (int k = 0; k < skin.nz; ++k) {
+      for (int d = 1; d <= reach; ++d) {
+        const int left = candidate - d, right = candidate + d;
+        if (left < 0 || right >= skin.nx) break;
+        const double a = skin.at(left, k), b = skin.at(right, k);
+        total +=
+            std::min(std::abs((std::isnan(a) ? deepest : a) - (std::isnan(b) ? deepest : b)), 50.0);
+        pairs += 1;
+      }
+    }
+    if (pairs < 0.5 * reach * skin.nz) continue;
+    if (total / pairs < cost) {
+      cost = total / pairs;
+      best = candidate;
+    }
+  }
+  return std::clamp(best, 0, skin.nx - 1);
+}
+
+/// The skin as seen on a grid turned by `angle` about the middle of each slice (as rolled()).
+HeightField turned(const HeightField& skin, const Grid& grid, double angle) {
+  HeightField out(skin.nx, skin.nz, nan);
+  const double c = std::cos(angle), s = std::sin(angle), dx = grid.spacing[0];
+  const Vec2 centre(0.5 * (grid.size[0] - 1) * dx, 0.5 * (grid.size[1] - 1) * grid.spacing[1]);
+  const auto turn = [&](int i, double depth) -> Vec2 {
+    const Vec2 p = Vec2(i * dx, depth) - centre;
+    return Vec2(c * p[0] + s * p[1], c * p[1] - s * p[0]) + centre;
+  };
+  for (int k = 0; k < skin.nz; ++k) {
+    for (int i = 0; i + 1 < skin.nx; ++i) {
+      if (std::isnan(skin.at(i, k)) || std::isnan(skin.at(i + 1, k))) continue;
+      Vec2 a = turn(i, skin.at(i, k)), b = turn(i + 1, skin.at(i + 1, k));
+      if (a[0] > b[0]) std::swap(a, b);
+      const int first = std::max(0, int(std::ceil(a[0] / dx))),
+                last = std::min(skin.nx - 1, int(b[0] / dx));
+      for (int n = first; n <= last; ++n) {
+        const double share = b[0] > a[0] ? (n * dx - a[0]) / (b[0] - a[0]) : 0;
+        const double depth = a[1] + share * (b[1] - a[1]);
+        if (!(depth >= out.at(n, k))) out.at(n, k) = depth;
+      }
+    }
+  }
+  return out;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return nan;
+  const auto place = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// Skin over the sternum per slice: deepest of the skin within 15 mm of the midline, median over
+/// neighbouring slices.
+std::vector<double> cleft_depth(const HeightField& skin, int midline, const Grid& grid) {
+  std::vector<double> raw(skin.nz, nan), smooth(skin.nz, nan);
+  const int half = std::max(1, int(15 / grid.spacing[0]));
+  for (int k = 0; k < skin.nz; ++k) {
+    for (int i = std::max(midline - half, 0); i <= std::min(midline + half, skin.nx - 1); ++i) {
+      const double depth = skin.at(i, k);
+      if (!std::isnan(depth) && !(depth <= raw[k])) raw[k] = depth;
+    }
+  }
+  const int window = std::max(1, int(15 / grid.spacing[2]));
+  for (int k = 0; k < skin.nz; ++k) {
+    for (int reach = window; std::isnan(smooth[k]) && reach < 2 * skin.nz; reach *= 2) {
+      std::vector<double> near;
+      for (int c = std::max(k - reach, 0); c <= std::min(k + reach, skin.nz - 1); ++c) {
+        if (!std::isnan(raw[c])) near.push_back(raw[c]);
+      }
+      smooth[k] = median(std::move(near));
+    }
+  }
+  return smooth;
+}
+
+/// Mean depth of the skin per column over the slices (mm); `deepest` where a slice has none.
+std::vector<double> mean_profile(const HeightField& skin, double deepest) {
+  std::vector<double> profile(skin.nx, 0);
+  for (int i = 0; i < skin.nx; ++i) {
+    for (int k = 0; k < skin.nz; ++k) {
+      const double depth = skin.at(i, k);
+      profile[i] += (std::isnan(depth) ? deepest : depth) / skin.nz;
+    }
+  }
+  return profile;
+}
+
+/// No second breast in view: the body is narrower than a chest, and the skin does not come forward
+/// on both sides of its mirror column (a single breast's own axis).
+bool one_breast_in_view(const HeightField& skin, int mirror, double spacing, double deepest) {
+  constexpr double narrowest_chest = 270, valley = 8;  // mm
+  const std::vector<double> profile = mean_profile(skin, deepest);
+  const auto columns =
+      std::count_if(profile.begin(), profile.end(), [&](double p) { return p < deepest; });
+  if (double(columns) * spacing >= narrowest_chest) return false;
+  const auto left = std::min_element(profile.begin(), profile.begin() + mirror + 1);
+  const auto right = std::min_element(profile.begin() + mirror, profile.end());
+  return profile[mirror] - std::max(*left, *right) < valley;
+}
+
+/// Deepest column between the breast's tip and the field of view's medial end.
+int medial_valley(const HeightField& skin, double deepest, Side side) {
+  const std::vector<double> profile = mean_profile(skin, deepest);
+  const auto tip = std::min_element(profile.begin(), profile.end());
+  const bool left = side == Side::left;
+  const auto place = std::max_element(left ? profile.begin() : tip, left ? tip + 1 : profile.end());
+  return int(place - profile.begin());
+}
+
+}  // namespace
+
+Torso find_torso(const Mask& body, Side side) {
+  Torso torso;
+  torso.skin = first_body_voxel(body);
+  double cost = 0;
+  const double spacing = body.grid.spacing[0], deepest = body.grid.size[1] * body.grid.spacing[1];
+  torso.midline = mirror_column(torso.skin, spacing, deepest, cost);
+  torso.one_breast = one_breast_in_view(torso.skin, torso.midline, spacing, deepest);
+  if (torso.one_breast) torso.midline = medial_valley(torso.skin, deepest, side);
+  torso.cleft = cleft_depth(torso.skin, torso.midline, body.grid);
+  if (std::isnan(torso.cleft[0]))
+    throw input_error("no skin over the sternum: is the midline in the scan?");
+  return torso;
+}
+
+double body_roll(const Mask& body) {
+  const HeightField skin = first_body_voxel(body);
+  const double deepest = body.grid.size[1] * body.grid.spacing[1];
+  const auto asymmetry = [&](double degrees) {
+    double cost = 0;
+    const double angle = degrees * std::numbers::pi / 180;
+    mirror_column(turned(skin, body.grid, angle), body.grid.spacing[0], deepest, cost);
+    return cost;
+  };
+  const double straight = asymmetry(0);
+  double mirror_cost = 0;
+  const int mirror = mirror_column(skin, body.grid.spacing[0], deepest, mirror_cost);
+  if (one_breast_in_view(skin, mirror, body.grid.spacing[0], deepest)) return 0;
+  double best = 0, least = straight;
+  const auto try_angle = [&](double degrees) {
+    const double cost = asymmetry(degrees);
+    if (cost < least) least = cost, best = degrees;
+  };
+  for (double degrees = -25; degrees <= 25; degrees += 5) try_angle(degrees);
+  for (const double step : {2.5, 1.25}) {
+    const double centre = best;
+    try_angle(centre - step);
+    try_angle(centre + step);
+  }
+  return least < 0.6 * straight ? best * std::numbers::pi / 180 : 0;
+}
+
+}  // namespace breast

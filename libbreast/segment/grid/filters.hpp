@@ -1,0 +1,13 @@
+// Separable filters in mm, parallel and independent of the number of threads.
+#pragma once
+
+#include "segment/grid/grid_ops.hpp"
+
+namespace breast {
+
+/// Gaussian of standard deviation `sigma` mm along each axis (cut at 3 sigma, border values held).
+Volume<float> gaussian(const Volume<float>& volume, double sigma);
+/// Largest value within +-half mm along each axis.
+Volume<float> box_maximum(const Volume<float>& volume, double half);
+
+}  // namespace breast

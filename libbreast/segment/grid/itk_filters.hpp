@@ -1,0 +1,25 @@
+// The ITK filters segment uses, on our volumes (ITK's headers stay in one file).
+#pragma once
+
+#include "segment/grid/grid_ops.hpp"
+
+namespace breast {
+
+/// 6-connected components of mask != 0, numbered from 1; 0 elsewhere.
+struct Components {
+  std::uint32_t count = 0;
+  std::vector<std::uint32_t> label;  ///< per voxel
+};
+Components components(const Mask& mask);
+/// Voxels of every component, by its number; 0 for number 0.
+std::vector<std::size_t> sizes(const Components& parts);
+/// Largest 6-connected component of mask != 0; all zero when the mask is.
+Mask largest_component(const Mask& mask);
+/// Signed distance (mm) to the boundary of mask != 0: negative inside, positive outside.
+Volume<float> signed_distance(const Mask& mask);
+/// Confidence-connected region growing (mean +- multiplier * sigma, `iterations` re-estimates, seed
+/// neighbourhood of radius `radius` voxels) from seeds; 1 inside the grown region.
+Mask confidence_connected(const Volume<float>& volume, const std::vector<std::array<int, 3>>& seeds,
+                          double multiplier, int radius, int iterations);
+
+}  // namespace breast

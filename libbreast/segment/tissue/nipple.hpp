@@ -1,0 +1,20 @@
+// Where the nipple is.
+#pragma once
+
+#include "segment/grid/grid_ops.hpp"
+
+namespace breast {
+
+struct Nipple {
+  Vec3 tip{0, 0, 0};        ///< patient mm, on the skin
+  Vec3 base{0, 0, 0};       ///< patient mm: where the papilla's axis meets the areola's surface
+  double height = 0;        ///< mm from base to tip; 0 on a smooth dome
+  double from_extreme = 0;  ///< mm between the tip and the most anterior point of the breast
+};
+/// Starts at the most convex skin point (least body within 6 mm, by a Gaussian) within 25 mm of the
+/// most anterior one. About it the skin's height over its tangent plane is compared with a quadric
+/// through the ring 9-25 mm away: what stands out by more than half its maximum is the papilla (or
+/// the apex of a cone), its weighted centre the nipple, to a fraction of a voxel.
+Nipple find_nipple(const Mask& breast, const Mask& body);
+
+}  // namespace breast

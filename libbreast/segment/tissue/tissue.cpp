@@ -1,0 +1,183 @@
+#include "segment/tissue/tissue.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "segment/grid/filters.hpp"
+#include "segment/grid/itk_filters.hpp"
+
+namespace breast {
+
+namespace {
+
+// Vessels, ligaments and noise make specks; gland comes in lobes.
+constexpr double least_lobe = 60;          // mm3
+constexpr double growing_smoothing = 1.0;  // mm: keeps noise from carrying the growth into gland
+
+/// Otsu's threshold of ratios in [0.1, 1.3].
+double otsu(const std::vector<float>& ratios) {
+  constexpr int classes = 120;
+  constexpr double low = 0.1, width = 0.01;
+  std::array<double, classes> count{};
+  double total = 0, sum = 0;
+  for (const float r : ratios) {
+    const int c = int((r - low) / width);
+    if (c < 0 || c >= classes) continue;
+    count[c] += 1;
+    total += 1;
+    sum += c;
+  }
+  double below = 0, below_sum = 0, best = -1, place = 60;
+  for (int c = 0; c + 1 < classes; ++c) {
+    below += count[c];
+    below_sum += c * count[c];
+    if (below == 0 || below == total) continue;
+    const double gap = below_sum / below - (sum - below_sum) / (total - below);
+    const double between = below * (total - below) * gap * gap;
+    if (between > best) {
+      best = between;
+      place = c + 1;
+    }
+  }
+  return low + width * place;
+}
+
+double percentile(std::vector<float> values, double fraction, double fallback) {
+  if (values.empty()) return fallback;
+  const auto place = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// One seed per block of about 20 mm: its interior voxel nearest to the brightness of fat.
+std::vector<std::array<int, 3>> fat_seeds(const Volume<float>& ratio, const Mask& interior) {
+  const Grid& grid = ratio.grid;
+  std::array<int, 3> block{};
+  for (int d = 0; d < 3; ++d) block[d] = std::max(3, int(20 / grid.spacing[d]));
+  std::vector<std::array<int, 3>> seeds;
+  for (int k0 = 0; k0 < grid.size[2]; k0 += block[2]) {
+    for (int j0 = 0; j0 < grid.size[1]; j0 += block[1]) {
+      for (int i0 = 0; i0 < grid.size[0]; i0 += block[0]) {
+        double best = 0.05;
+        std::array<int, 3> seed{-1, 0, 0};
+        for (int k = k0; k < std::min(k0 + block[2], grid.size[2]); ++k) {
+          for (int j = j0; j < std::min(j0 + block[1], grid.size[1]); ++j) {
+            for (int i = i0; i < std::min(i0 + block[0], grid.size[0]); ++i) {
+              const double off = std::abs(ratio.at(i, j, k) - 1);
+              if (!interior.at(i, j, k) || !(off < best)) continue;
+              best = off;
+              seed = {i, j, k};
+            }
+          }
+        }
+        if (seed[0] >= 0) seeds.push_back(seed);
+      }
+    }
+  }
+  return seeds;
+}
+
+/// Fibroglandular voxels of the interior: neither reached by growing the fat nor brighter than it.
+/// All zero without seeds.
+Mask gland_by_growing(const Volume<float>& ratio, const Mask& interior) {
+  Volume<float> inside = gaussian(ratio, growing_smoothing);
+  for (std::size_t n = 0; n < inside.voxels.size(); ++n) {
+    if (!interior.voxels[n]) inside.voxels[n] = -10;
+  }
+  const auto seeds = fat_seeds(ratio, interior);
+  Mask gland(ratio.grid);
+  if (seeds.empty()) return gland;
+  const Mask fat = confidence_connected(inside, seeds, 1.5, 1, 5);
+  for (std::size_t n = 0; n < inside.voxels.size(); ++n) {
+    gland.voxels[n] = interior.voxels[n] && !fat.voxels[n] && ratio.voxels[n] < 1;
+  }
+  return gland;
+}
+
+/// Takes from `dark` its components smaller than the least lobe, and those that lie mostly by an
+/// unsure wall: strands of muscle.
+void remove_specks(Mask& dark, const Mask& by_muscle) {
+  const Components parts = components(dark);
+  const std::vector<std::size_t> count = sizes(parts);
+  std::vector<std::size_t> beside(count.size(), 0);
+  for (std::size_t n = 0; n < dark.voxels.size(); ++n)
+    beside[parts.label[n]] += by_muscle.voxels[n];
+  for (std::size_t n = 0; n < dark.voxels.size(); ++n) {
+    const std::uint32_t part = parts.label[n];
+    const bool small = double(count[part]) * dark.grid.voxel_volume() < least_lobe;
+    if (small || 2 * beside[part] > count[part]) dark.voxels[n] = 0;
+  }
+}
+
+void compare(Fibroglandular& result, const Mask& interior, const Mask& dark,
+             const Mask& by_growing) {
+  double all = 0, grown = 0, by_threshold = 0, both = 0;
+  for (std::size_t n = 0; n < interior.voxels.size(); ++n) {
+    if (!interior.voxels[n]) continue;
+    const bool a = dark.voxels[n] != 0, b = by_growing.voxels[n] != 0;
+    all += 1;
+    grown += b;
+    by_threshold += a;
+    both += a && b;
+  }
+  result.fat_fraction_grown = all > 0 ? 1 - grown / all : 0;
+  result.agreement = grown + by_threshold > 0 ? 2 * both / (grown + by_threshold) : 1;
+}
+
+}  // namespace
+
+Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& interior,
+                                   const Mask& by_muscle, double muscle_ratio, double fat_cv,
+                                   Interior interior_by) {
+  Fibroglandular result;
+  std::vector<float> values;
+  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
+    if (interior.voxels[n]) values.push_back(ratio.voxels[n]);
+  }
+  // Midway between gland and fat (1 by the bias correction). Without gland Otsu would split the fat
+  // in two: gland is never nearly as bright as fat, so the search starts and ends at 0.8.
+  constexpr double brightest_gland = 0.8;
+  const double start = std::clamp(otsu(values), 0.5 * (1 + muscle_ratio) - 0.15, brightest_gland);
+  std::vector<float> dark;
+  for (const float r : values) {
+    if (r < start) dark.push_back(r);
+  }
+  result.gland_ratio =
+      std::clamp(percentile(dark, 0.4, muscle_ratio), 0.5 * muscle_ratio, brightest_gland - 0.05);
+  result.threshold = std::min(0.5 * (1 + result.gland_ratio), brightest_gland);
+  result.fraction = Volume<float>(ratio.grid);
+  Mask lobes(ratio.grid);
+  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
+    lobes.voxels[n] = interior.voxels[n] && ratio.voxels[n] < result.threshold;
+  }
+  remove_specks(lobes, by_muscle);
+  double gland = 0;
+  // Fat scatters about 1: what lies within its scatter is fat, not a few per cent of gland.
+  const double t = result.threshold, bright = std::max(1 - 1.5 * fat_cv, t + 0.02);
+  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
+    if (!interior.voxels[n]) continue;
+    // Half at the threshold, one at gland, zero at fat; a speck stays below half.
+    const double r = ratio.voxels[n];
+    const double fraction = lobes.voxels[n] ? 0.5 + 0.5 * (t - r) / (t - result.gland_ratio)
+                                            : 0.5 * (bright - r) / (bright - t);
+    result.fraction.voxels[n] = float(std::clamp(fraction, 0.0, lobes.voxels[n] ? 1.0 : 0.5));
+    gland += lobes.voxels[n];
+  }
+  result.fat_fraction = values.empty() ? 0 : 1 - gland / double(values.size());
+  const Mask grown = gland_by_growing(ratio, interior);
+  compare(result, interior, lobes, grown);
+  if (interior_by == Interior::region_growing) {
+    if (fat_seeds(ratio, interior).empty()) {
+      throw input_error(
+          "no voxel of the breast is as bright as fat: region growing has nowhere to start; "
+          "use --interior threshold");
+    }
+    for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
+      result.fraction.voxels[n] = grown.voxels[n] ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+}  // namespace breast

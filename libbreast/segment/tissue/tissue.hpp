@@ -1,0 +1,31 @@
+// Fat and fibroglandular tissue inside the breast.
+#pragma once
+
+#include "segment/grid/grid_ops.hpp"
+
+namespace breast {
+
+/// What tells fibroglandular tissue from fat.
+enum class Interior {
+  threshold,      ///< midway between the brightness of gland and fat
+  region_growing  ///< the paper's 3-D confidence-connected growing of fat; what is left is gland
+};
+
+struct Fibroglandular {
+  Volume<float> fraction;   ///< [0,1], 0 outside the interior; 0 or 1 by region growing
+  double threshold = 0;     ///< ratio below which a voxel counts as fibroglandular
+  double gland_ratio = 0;   ///< brightness of gland relative to fat
+  double fat_fraction = 0;  ///< of the interior, by threshold
+  double fat_fraction_grown =
+      0;                 ///< of the interior, by confidence-connected region growing of fat
+  double agreement = 0;  ///< Dice of the fibroglandular voxels of both ways
+};
+/// `interior`: breast beyond the skin and in front of the wall. `ratio` = intensity / bias, 1 in
+/// fat with coefficient of variation `fat_cv`. Dark components below 60 mm3, or
+/// mostly in `by_muscle`, stay fat. Throws Error
+/// (input) when region growing is asked for and finds no fat to start from.
+Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& interior,
+                                   const Mask& by_muscle, double muscle_ratio, double fat_cv,
+                                   Interior interior_by);
+
+}  // namespace breast

@@ -1,0 +1,239 @@
+#include "segment/wall/chest_wall.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "segment/wall/legendre_surface.hpp"
+#include "segment/wall/min_cut.hpp"
+#include "segment/wall/wall_cost.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+double median(std::vector<float> values) {
+  const auto place = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// Brightness of muscle: median ratio 2-8 mm behind the surface.
+double muscle_behind(const Volume<float>& ratio, const WallDomain& domain,
+                     const HeightField& depth) {
+  std::vector<float> values;
+  const double step = ratio.grid.spacing[1];
+  for (int k = 0; k < depth.nz; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      if (std::isnan(depth.at(i, k)) || std::isnan(domain.skin.at(i, k))) continue;
+      const int from = int(std::ceil((depth.at(i, k) + 2) / step)),
+                to = int((depth.at(i, k) + 8) / step);
+      for (int j = from; j <= std::min(to, ratio.grid.size[1] - 1); ++j)
+        values.push_back(ratio.at(i, j, k));
+    }
+  }
+  if (values.empty()) return 0.35;
+  return std::clamp(median(std::move(values)), 0.05, 0.75);
+}
+
+Levels search_levels(const WallDomain& domain, const Grid& grid) {
+  const double nearest = *std::min_element(domain.nearest.begin(), domain.nearest.end());
+  const double deepest =
+      *std::max_element(domain.deepest.depth.begin(), domain.deepest.depth.end());
+  Levels levels;
+  levels.first = std::max(0, int(nearest / grid.spacing[1]));
+  levels.count = std::min(grid.size[1] - 1, int(deepest / grid.spacing[1])) - levels.first + 1;
+  if (levels.count < 3) throw input_error("the scan ends in front of the chest wall");
+  return levels;
+}
+
+/// Cut on every second column; between them linear.
+HeightField cut_surface(const Volume<float>& ratio, const WallDomain& domain,
+                        const HeightField* prior, double muscle) {
+  const Levels levels = search_levels(domain, ratio.grid);
+  const int stride = std::max(1, int(std::lround(3.3 / ratio.grid.spacing[0])));
+  SurfaceProblem problem;
+  problem.nx = (domain.last - domain.first) / stride + 1;
+  problem.nz = ratio.grid.size[2];
+  problem.levels = levels.count;
+  problem.cost.resize(std::size_t(problem.nx) * problem.nz * problem.levels);
+  // Hard limit: a slope of 2 across, 1.25 along the body.
+  problem.max_step_x =
+      std::max(2, int(2.0 * stride * ratio.grid.spacing[0] / ratio.grid.spacing[1]));
+  problem.max_step_z = std::max(2, int(1.25 * ratio.grid.spacing[2] / ratio.grid.spacing[1]));
+#pragma omp parallel for
+  for (int k = 0; k < problem.nz; ++k) {
+    for (int c = 0; c < problem.nx; ++c) {
+      column_cost(ratio, domain, prior, muscle, levels, domain.first + c * stride, k,
+                  &problem.cost[(std::size_t(k) * problem.nx + c) * problem.levels]);
+    }
+  }
+  const std::vector<int> surface = optimal_surface(problem);
+  HeightField depth(ratio.grid.size[0], problem.nz, nan);
+  for (int k = 0; k < problem.nz; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      const double x = double(i - domain.first) / stride;
+      const int a = std::min(int(x), problem.nx - 1), b = std::min(a + 1, problem.nx - 1);
+      const int row = k * problem.nx;
+      const double level = surface[row + a] + (x - a) * (surface[row + b] - surface[row + a]);
+      depth.at(i, k) = (levels.first + level - 0.5) * ratio.grid.spacing[1];
+    }
+  }
+  return depth;
+}
+
+HeightField confidence_of(const Volume<float>& ratio, const WallDomain& domain,
+                          const HeightField& depth, double muscle) {
+  HeightField confidence(depth.nx, depth.nz, 0);
+  const double step = ratio.grid.spacing[1];
+#pragma omp parallel for
+  for (int k = 0; k < depth.nz; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      if (std::isnan(domain.skin.at(i, k))) continue;
+      const Windows windows(column_profile(ratio, i, k), muscle, step);
+      const int j = int(std::lround(depth.at(i, k) / step + 0.5));
+      double value = std::clamp((windows.front(j) - windows.behind(j)) / 0.6, 0.0, 1.0);
+      const double to_limit =
+          std::min(domain.deepest.at(i, k) - depth.at(i, k), depth.at(i, k) - domain.nearest[k]);
+      if (to_limit < 3) value *= 0.3;  // held by the search range, not by the image
+      confidence.at(i, k) = value;
+    }
+  }
+  return confidence;
+}
+
+}  // namespace
+
+WallDomain wall_domain(const Mask& body, const Torso& torso, bool left) {
+  WallDomain domain;
+  const Grid& grid = body.grid;
+  const int across = int(25 / grid.spacing[0]);
+  domain.first = left ? std::max(0, torso.midline - across) : 0;
+  domain.last = left ? grid.size[0] - 1 : std::min(grid.size[0] - 1, torso.midline + across);
+  const double end = (grid.size[1] - 1) * grid.spacing[1];
+  domain.deepest = HeightField(grid.size[0], grid.size[2], 0);
+  for (int k = 0; k < grid.size[2]; ++k) {
+    domain.nearest.push_back(std::max(0.0, torso.cleft[k] - 25));
+    for (int i = 0; i < grid.size[0]; ++i) {
+      // The chest curves back at its sides.
+      const double aside = std::abs(i - torso.midline) * grid.spacing[0];
+      const double depth = 60 + 0.5 * std::clamp(aside - 90, 0.0, 50.0);
+      domain.deepest.at(i, k) = std::min(end, torso.cleft[k] + depth);
+    }
+  }
+  domain.skin = HeightField(grid.size[0], grid.size[2], nan);
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = 0; i < grid.size[0]; ++i) {
+      const int deep = std::min(grid.size[1] - 1, int(domain.deepest.at(i, k) / grid.spacing[1]));
+      int j = deep;
+      while (j >= 0 && body.at(i, j, k)) --j;
+      if (j < deep) domain.skin.at(i, k) = (j + 0.5) * grid.spacing[1];
+    }
+  }
+  // Trim columns without any body (air beside the patient).
+  const auto empty = [&](int i) {
+    for (int k = 0; k < grid.size[2]; ++k) {
+      if (!std::isnan(domain.skin.at(i, k))) return false;
+    }
+    return true;
+  };
+  while (domain.first < domain.last && empty(domain.first)) ++domain.first;
+  while (domain.last > domain.first && empty(domain.last)) --domain.last;
+  if (domain.last - domain.first < 8)
+    throw input_error("no body on the ", left ? "left" : "right", " side");
+  return domain;
+}
+
+ChestWall find_chest_wall(const Volume<float>& ratio, const WallDomain& domain,
+                          const ChestWall* start) {
+  ChestWall wall;
+  wall.muscle_ratio = start ? start->muscle_ratio : 0.35;
+  std::optional<HeightField> prior;
+  if (start) prior = legendre_surface(start->depth, start->confidence, domain);
+  for (int round = 0; round < 3; ++round) {
+    wall.depth = cut_surface(ratio, domain, prior ? &*prior : nullptr, wall.muscle_ratio);
+    wall.muscle_ratio = muscle_behind(ratio, domain, wall.depth);
+    wall.confidence = confidence_of(ratio, domain, wall.depth, wall.muscle_ratio);
+    prior = legendre_surface(wall.depth, wall.confidence, domain);
+  }
+  return wall;
+}
+
+namespace {
+
+/// Weighted 3 x 3 mean of `moved` (weights: confidence), leaving columns of the domain only.
+HeightField smoothed(const HeightField& depth, const HeightField& weight,
+                     const WallDomain& domain) {
+  HeightField out = depth;
+  for (int k = 0; k < depth.nz; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      double sum = 0, total = 0;
+      for (int c = std::max(k - 1, 0); c <= std::min(k + 1, depth.nz - 1); ++c) {
+        for (int a = std::max(i - 1, domain.first); a <= std::min(i + 1, domain.last); ++a) {
+          const double w = (0.05 + weight.at(a, c)) * (a == i ? 2 : 1) * (c == k ? 4 : 1);
+          sum += w * depth.at(a, c);
+          total += w;
+        }
+      }
+      out.at(i, k) = sum / total;
+    }
+  }
+  return out;
+}
+
+HeightField median_filtered(const HeightField& depth, const WallDomain& domain) {
+  HeightField out = depth;
+  for (int k = 0; k < depth.nz; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      std::vector<float> near;
+      for (int c = std::max(k - 1, 0); c <= std::min(k + 1, depth.nz - 1); ++c) {
+        for (int a = std::max(i - 2, domain.first); a <= std::min(i + 2, domain.last); ++a) {
+          near.push_back(float(depth.at(a, c)));
+        }
+      }
+      const double middle = median(std::move(near));
+      if (std::abs(depth.at(i, k) - middle) > 2) out.at(i, k) = middle;
+    }
+  }
+  return out;
+}
+
+/// Nearest bright-to-dark crossing of `level` within `reach` mm; NaN when there is none.
+double nearest_crossing(const std::vector<float>& profile, double step, double from, double level,
+                        double reach) {
+  double best = nan;
+  const int low = std::max(1, int((from - reach) / step)),
+            high = std::min(int(profile.size()) - 1, int((from + reach) / step) + 1);
+  for (int j = low; j <= high; ++j) {
+    const double a = profile[j - 1], b = profile[j];
+    if (!(a >= level && b < level)) continue;
+    const double depth = (j - 1 + (a - level) / (a - b)) * step;
+    if (std::abs(depth - from) > reach) continue;
+    if (std::isnan(best) || std::abs(depth - from) < std::abs(best - from)) best = depth;
+  }
+  return best;
+}
+
+}  // namespace
+
+void snap_chest_wall(ChestWall& wall, const Volume<float>& ratio, const WallDomain& domain) {
+  const double level = 0.5 * (1 + wall.muscle_ratio), step = ratio.grid.spacing[1];
+  HeightField moved = wall.depth;
+#pragma omp parallel for
+  for (int k = 0; k < moved.nz; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      const double crossing =
+          nearest_crossing(column_profile(ratio, i, k), step, wall.depth.at(i, k), level, 3.0);
+      if (std::isnan(crossing)) {
+        wall.confidence.at(i, k) *= 0.5;
+      } else {
+        moved.at(i, k) = crossing;
+      }
+    }
+  }
+  wall.depth = smoothed(median_filtered(moved, domain), wall.confidence, domain);
+}
+
+}  // namespace breast

@@ -1,0 +1,34 @@
+// The chest wall as a height field over (x,z): region-cost minimum cut, then snapping to the
+// half-height crossing (methods 8b steps 3-6).
+#pragma once
+
+#include <optional>
+
+#include "segment/body/body.hpp"
+
+namespace breast {
+
+/// Columns on which the wall is sought, and how deep.
+struct WallDomain {
+  int first = 0, last = 0;      ///< columns i, inclusive
+  std::vector<double> nearest;  ///< mm per slice: no wall in front of this
+  HeightField deepest;          ///< mm per column: none behind this
+  HeightField skin;  ///< mm: skin of the body run that holds the wall; NaN outside the body
+};
+WallDomain wall_domain(const Mask& body, const Torso& torso, bool left);
+
+struct ChestWall {
+  HeightField depth;        ///< mm, on columns of the domain (all i; NaN outside [first,last])
+  HeightField confidence;   ///< [0,1]: fat index in front less that behind over 0.6, clipped
+  HeightField sigma;        ///< mm: standard deviation of the depth (wall_uncertainty.hpp)
+  double muscle_ratio = 0;  ///< brightness of muscle relative to fat
+};
+
+/// `ratio` = intensity / bias. `start` is the surface of an earlier pass, for its muscle ratio and
+/// prior.
+ChestWall find_chest_wall(const Volume<float>& ratio, const WallDomain& domain,
+                          const ChestWall* start);
+/// Moves the wall to the nearest bright-to-dark crossing of (1 + muscle)/2 within 3 mm and smooths.
+void snap_chest_wall(ChestWall& wall, const Volume<float>& ratio, const WallDomain& domain);
+
+}  // namespace breast

@@ -1,0 +1,201 @@
+#include "segment/wall/extent.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+#include "core/error.hpp"
+#include "segment/grid/itk_filters.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double median(std::vector<double> values, double fallback) {
+  if (values.empty()) return fallback;
+  const auto place = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+bool on_side(int i, const Torso& torso, Side side) {
+  return side == Side::left ? i > torso.midline : i < torso.midline;
+}
+
+/// Distance from the wall to the nearest air: the tissue's thickness however the column grazes it.
+double normal_thickness(const Volume<float>& skin_distance, const ChestWall& wall, int i, int k) {
+  const int j = std::clamp(int(std::lround(wall.depth.at(i, k) / skin_distance.grid.spacing[1])), 0,
+                           skin_distance.grid.size[1] - 1);
+  return -skin_distance.at(i, j, k);
+}
+
+/// Opened, its component with the thickest column, holes filled, outline smoothed.
+void tidy(std::vector<std::uint8_t>& columns, const Grid& grid, int thick_i, int thick_k) {
+  const int border = 20, nx = grid.size[0], nz = grid.size[2];
+  const auto disc = [&](double mm) {
+    return cv::getStructuringElement(cv::MORPH_ELLIPSE,
+                                     {2 * int(std::lround(mm / grid.spacing[0])) + 1,
+                                      2 * int(std::lround(mm / grid.spacing[2])) + 1});
+  };
+  const cv::Mat raw(nz, nx, CV_8U, columns.data());
+  cv::Mat map, labels;
+  cv::copyMakeBorder(raw, map, border, border, border, border, cv::BORDER_REPLICATE);
+  cv::morphologyEx(map, map, cv::MORPH_OPEN, disc(6));
+  cv::morphologyEx(map, map, cv::MORPH_CLOSE, disc(10));
+  cv::connectedComponents(map, labels, 4);
+  map = labels == labels.at<int>(thick_k + border, thick_i + border);
+  std::vector<std::vector<cv::Point>> outlines;
+  cv::findContours(map, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  cv::drawContours(map, outlines, -1, 255, cv::FILLED);
+  const cv::Mat inner = map(cv::Rect(border, border, nx, nz));
+  for (int k = 0; k < nz; ++k) {
+    for (int i = 0; i < nx; ++i) columns[std::size_t(k) * nx + i] = inner.at<uchar>(k, i) != 0;
+  }
+}
+
+/// Tissue in front of the chest wall per column, mm: along the column and to the nearest air.
+struct Thickness {
+  HeightField column, normal;
+  double sternal = 8;  ///< median over the sternum
+};
+
+Thickness thickness_before(const ChestWall& wall, const WallDomain& domain, const Torso& torso,
+                           const Volume<float>& skin_distance) {
+  const Grid& grid = skin_distance.grid;
+  Thickness found{HeightField(grid.size[0], grid.size[2], nan),
+                  HeightField(grid.size[0], grid.size[2], nan)};
+  std::vector<double> sternal;
+  const int half = std::max(1, int(8 / grid.spacing[0]));
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      found.column.at(i, k) = wall.depth.at(i, k) - domain.skin.at(i, k);
+      found.normal.at(i, k) = normal_thickness(skin_distance, wall, i, k);
+      if (std::abs(i - torso.midline) > half || std::isnan(found.column.at(i, k))) continue;
+      sternal.push_back(found.column.at(i, k));
+    }
+  }
+  found.sternal = median(sternal, found.sternal);
+  return found;
+}
+
+/// Column (i, k) of the side with the thickest tissue.
+std::array<int, 2> thickest_column(const Thickness& thickness, const WallDomain& domain,
+                                   const Torso& torso, Side side) {
+  std::array<int, 2> place{-1, -1};
+  double thickest = 0;
+  for (int k = 0; k < thickness.normal.nz; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      if (!on_side(i, torso, side) || !(thickness.normal.at(i, k) > thickest)) continue;
+      thickest = thickness.normal.at(i, k);
+      place = {i, k};
+    }
+  }
+  if (place[0] < 0 || !(thickest > thickness.sternal + 3)) {
+    throw input_error("no breast stands out on the ", side_name(side), " side (greatest depth ",
+                      thickest, " mm, sternum ", thickness.sternal, " mm)");
+  }
+  return place;
+}
+
+}  // namespace
+
+BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const Torso& torso,
+                         const Volume<float>& skin_distance, Side side) {
+  const Grid& grid = skin_distance.grid;
+  const int nx = grid.size[0], nz = grid.size[2];
+  const Thickness measured = thickness_before(wall, domain, torso, skin_distance);
+  const HeightField& thickness = measured.column;
+  BreastExtent extent;
+  extent.sternal_thickness = measured.sternal;
+  const auto [thick_i, thick_k] = thickest_column(measured, domain, torso, side);
+  for (const double t : thickness.depth) {
+    if (t > extent.greatest_thickness) extent.greatest_thickness = t;
+  }
+  extent.least_thickness =
+      std::max({extent.sternal_thickness + 5, 0.2 * extent.greatest_thickness, 10.0});
+  extent.columns.assign(std::size_t(nx) * nz, 0);
+  const int step = std::max(1, int(6 / grid.spacing[0]));
+  for (int k = 0; k < nz; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      if (!on_side(i, torso, side) || wall.depth.at(i, k) > domain.deepest.at(i, k) - 3) continue;
+      const int a = std::max(i - step, domain.first), b = std::min(i + step, domain.last);
+      const double slope =
+          std::abs(wall.depth.at(b, k) - wall.depth.at(a, k)) / ((b - a) * grid.spacing[0]);
+      // Where the chest curves away a column grazes it: its thickness counts along the wall's
+      // normal.
+      if (slope > 1.5 || !(thickness.at(i, k) > extent.least_thickness * std::hypot(1, slope)))
+        continue;
+      extent.columns[std::size_t(k) * nx + i] = 1;
+    }
+  }
+  if (!extent.columns[std::size_t(thick_k) * nx + thick_i]) {
+    throw input_error("the chest wall behind the ", side_name(side),
+                      " breast was not found: give --chest-wall");
+  }
+  tidy(extent.columns, grid, thick_i, thick_k);
+  for (int k = 0; k < nz; ++k) {
+    for (int i = 0; i < nx; ++i) {
+      if (!on_side(i, torso, side) || std::isnan(thickness.at(i, k)))
+        extent.columns[std::size_t(k) * nx + i] = 0;
+    }
+  }
+  return extent;
+}
+
+namespace {
+
+/// Columns in which a part hangs over: body in front of at least 4 mm of air in front of the
+/// trunk's skin, and more than a column or two of it (ghosts of the chest's movement are not).
+std::vector<std::uint8_t> overhanging(const Mask& body, const WallDomain& domain,
+                                      const Torso& torso, Side side) {
+  const Grid& grid = body.grid;
+  const int nx = grid.size[0], nz = grid.size[2];
+  constexpr double gap = 4;  // mm
+  std::vector<std::uint8_t> columns(std::size_t(nx) * nz, 0);
+  for (int k = 0; k < nz; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      if (!on_side(i, torso, side)) continue;
+      const double skin = domain.skin.at(i, k), limit = torso.cleft[k] + 20;
+      const double end = std::isnan(skin) ? limit : std::min(skin, limit);
+      int j = std::clamp(int(end / grid.spacing[1]), 0, grid.size[1] - 1);
+      int air = 0;
+      for (; j >= 0 && !body.at(i, j, k); --j) ++air;
+      columns[std::size_t(k) * nx + i] = j >= 0 && air * grid.spacing[1] >= gap;
+    }
+  }
+  const cv::Mat map(nz, nx, CV_8U, columns.data());
+  cv::morphologyEx(map, map, cv::MORPH_OPEN,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE,
+                                             {2 * std::max(1, int(4 / grid.spacing[0])) + 1, 1}));
+  return columns;
+}
+
+}  // namespace
+
+Mask breast_voxels(const Mask& body, const ChestWall& wall, const WallDomain& domain,
+                   const Torso& torso, const BreastExtent& extent, Side side) {
+  const Grid& grid = body.grid;
+  Mask breast(grid);
+  const std::vector<std::uint8_t> overhang = overhanging(body, domain, torso, side);
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      if (!on_side(i, torso, side)) continue;
+      const std::size_t column = std::size_t(k) * grid.size[0] + i;
+      const double skin = domain.skin.at(i, k);
+      for (int j = 0; j < grid.size[1]; ++j) {
+        const double depth = j * grid.spacing[1];
+        if (!body.at(i, j, k) || !(depth < wall.depth.at(i, k))) continue;
+        const bool hangs =
+            overhang[column] && (std::isnan(skin) || depth < skin) && depth < torso.cleft[k] + 20;
+        breast.at(i, j, k) = extent.columns[column] || hangs;
+      }
+    }
+  }
+  return largest_component(breast);
+}
+
+}  // namespace breast

@@ -1,0 +1,24 @@
+// Which part of the body in front of the chest wall is the breast.
+#pragma once
+
+#include "core/types.hpp"
+#include "segment/wall/chest_wall.hpp"
+
+namespace breast {
+
+struct BreastExtent {
+  std::vector<std::uint8_t> columns;  ///< nx*nz: 1 where the breast stands on the chest wall
+  double sternal_thickness = 0;       ///< mm from wall to skin over the sternum
+  double least_thickness = 0;         ///< mm: where the breast ends
+  double greatest_thickness = 0;      ///< mm
+};
+/// `skin_distance`: signed distance to air (mm, negative inside).
+BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const Torso& torso,
+                         const Volume<float>& skin_distance, Side side);
+
+/// Voxels of the breast: in front of the wall on the extent's columns, and parts that hang over
+/// beyond it.
+Mask breast_voxels(const Mask& body, const ChestWall& wall, const WallDomain& domain,
+                   const Torso& torso, const BreastExtent& extent, Side side);
+
+}  // namespace breast

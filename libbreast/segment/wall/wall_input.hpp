@@ -1,0 +1,30 @@
+// A chest wall corrected by hand: from a label map or from clicked points.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "segment/wall/chest_wall.hpp"
+#include "surface/tri_mesh.hpp"
+
+namespace breast {
+
+/// Replaces the wall where the label map (codes as Tissue; muscle = 4) has muscle in the column.
+/// Returns the share of the domain's columns replaced.
+double apply_wall_labels(ChestWall& wall, const WallDomain& domain, const Grid& grid,
+                         const Volume<float>& labels);
+/// Moves the wall through clicked points (patient mm): thin-plate spline of the corrections, held
+/// at zero farther than 50 mm from every point. Throws Error (input) for a point beside the domain.
+void apply_wall_points(ChestWall& wall, const WallDomain& domain, const Grid& grid,
+                       const std::vector<Vec3>& points);
+/// Moves the wall to a surface given by its points (patient mm): the mean point of every cell of
+/// 8 mm counts as a clicked one; points beside the domain are passed over. Throws Error (input)
+/// when none is left.
+void apply_wall_surface(ChestWall& wall, const WallDomain& domain, const Grid& grid,
+                        const std::vector<Vec3>& points);
+
+/// Points of a chest-wall surface; of the data points of a segmentation (scalar "surface") only
+/// those marked chest wall. Throws Error (input), calling it `name`, when none is.
+std::vector<Vec3> wall_surface_points(const TriMesh& surface, const std::string& name);
+
+}  // namespace breast
