@@ -10,8 +10,8 @@
 #include "io/mesh_file.hpp"
 #include "io/picture_file.hpp"
 #include "io/surface_file.hpp"
-#include "mammo/curve_lines.hpp"
-#include "mammo/point_pair.hpp"
+#include "matching/curve_lines.hpp"
+#include "matching/point_pair.hpp"
 
 using namespace breast;
 

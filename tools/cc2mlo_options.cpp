@@ -1,7 +1,7 @@
 #include "cc2mlo_options.hpp"
 
 #include "core/error.hpp"
-#include "mammo/band.hpp"
+#include "matching/band.hpp"
 
 namespace breast {
 

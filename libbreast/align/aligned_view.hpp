@@ -8,7 +8,7 @@
 #include "align/similarity.hpp"
 #include "core/report.hpp"
 #include "dicom/mammogram_scan.hpp"
-#include "mammo/correspondence.hpp"
+#include "matching/correspondence.hpp"
 
 namespace breast {
 

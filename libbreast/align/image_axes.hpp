@@ -4,7 +4,7 @@
 #include <string>
 
 #include "dicom/mammogram_header.hpp"
-#include "mammo/mammogram.hpp"
+#include "projection/mammogram.hpp"
 
 namespace breast {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "align/patient_views.hpp"
-#include "mammo/match_queries.hpp"
+#include "matching/match_queries.hpp"
 
 namespace breast {
 

@@ -7,7 +7,7 @@
 
 #include "align/image_axes.hpp"
 #include "dicom/mammogram_scan.hpp"
-#include "mammo/framing.hpp"
+#include "projection/framing.hpp"
 
 namespace breast {
 

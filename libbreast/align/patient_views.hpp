@@ -8,7 +8,7 @@
 #include "align/aligned_view.hpp"
 #include "core/table.hpp"
 #include "image/colour_picture.hpp"
-#include "mammo/match_queries.hpp"
+#include "matching/match_queries.hpp"
 
 namespace breast {
 

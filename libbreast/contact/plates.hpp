@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/types.hpp"
-#include "mammo/mammogram.hpp"
 #include "mesh/hex_mesh.hpp"
+#include "views/view_pose.hpp"
 
 namespace breast {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "mammo/mammogram.hpp"
 #include "mesh/hex_mesh.hpp"
+#include "projection/mammogram.hpp"
 #include "surface/hermite.hpp"
 #include "surface/tri_mesh.hpp"
 

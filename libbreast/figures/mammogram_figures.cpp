@@ -5,7 +5,7 @@
 
 #include "core/table.hpp"
 #include "figures/parts.hpp"
-#include "mammo/display.hpp"
+#include "projection/display.hpp"
 
 namespace breast {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "mammo/lookup.hpp"
+#include "matching/lookup.hpp"
 
 namespace breast {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "dicom/mammogram_scan.hpp"
-#include "mammo/mammogram.hpp"
+#include "projection/mammogram.hpp"
 
 namespace breast {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "mammo/mammogram.hpp"
+#include "projection/mammogram.hpp"
 
 namespace breast {
 

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/table.hpp"
-#include "mammo/display.hpp"
+#include "projection/display.hpp"
 
 namespace breast {
 

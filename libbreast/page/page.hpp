@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "mammo/lookup.hpp"
-#include "mammo/mammogram.hpp"
+#include "matching/lookup.hpp"
 #include "mesh/hex_mesh.hpp"
+#include "projection/mammogram.hpp"
 
 namespace breast {
 

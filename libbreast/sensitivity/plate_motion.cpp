@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "mammo/mammogram.hpp"
+#include "views/view_pose.hpp"
 
 namespace breast {
 

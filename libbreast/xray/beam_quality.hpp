@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "mammo/attenuation.hpp"
+#include "projection/attenuation.hpp"
 
 namespace breast {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "mammo/mammogram.hpp"
+#include "projection/mammogram.hpp"
 
 namespace breast {
 

@@ -1,7 +1,7 @@
 // Linear attenuation of breast tissues from their elemental composition.
 #pragma once
 
-#include "mammo/attenuation.hpp"
+#include "projection/attenuation.hpp"
 
 namespace breast {
 

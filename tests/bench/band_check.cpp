@@ -17,7 +17,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "io/mesh_file.hpp"
-#include "mammo/band.hpp"
+#include "matching/band.hpp"
 #include "sensitivity/chain.hpp"
 
 namespace {

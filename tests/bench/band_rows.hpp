@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "mammo/band.hpp"
+#include "matching/band.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {

@@ -16,7 +16,7 @@
 #include "core/parallel.hpp"
 #include "fixtures/contact_cases.hpp"
 #include "io/mesh_file.hpp"
-#include "mammo/mammogram.hpp"
+#include "views/view_pose.hpp"
 
 namespace {
 

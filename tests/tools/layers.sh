@@ -4,7 +4,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 
 # folder: folders whose headers it may include (its own is always allowed). No cycles: each line names
-# only folders with a line above or of a lower layer. contact takes the view's pose from mammo.
+# only folders with a line above or of a lower layer.
 rules="
 core:
 dicom: core
@@ -12,12 +12,14 @@ image: core
 surface: core
 material: core
 mesh: surface core
-mammo: mesh image surface core
-align: mammo dicom mesh image surface core
-xray: mammo mesh image surface core
-page: mammo mesh image surface core
+views: core
+projection: views mesh image surface core
+matching: projection views mesh image surface core
+align: matching projection views dicom mesh image surface core
+xray: projection views mesh image surface core
+page: matching projection views mesh image surface core
 cli: core
-io: core dicom image surface mesh mammo
+io: core dicom image surface mesh views projection matching
 segment: image surface core
 fit: surface image core
 meshing: mesh surface image core
@@ -25,12 +27,12 @@ tetrahedra: mesh surface core
 fem: material mesh core
 solve: core
 mechanics: fem material mesh solve surface core
-contact: mammo mechanics fem material mesh solve surface core
+contact: views mechanics fem material mesh solve surface core
 deck: mechanics material mesh solve core
-sensitivity: contact mammo mechanics fem material mesh solve surface core
+sensitivity: contact views mechanics fem material mesh solve surface core
 phantom: mechanics fem material mesh solve surface image core
 calibration: phantom mechanics fem material mesh solve surface image core
-figures: mesh mammo surface image core
+figures: mesh views projection surface image core
 evaluation: mesh surface image core
 "
 

@@ -12,7 +12,7 @@
 #include "fixtures/scratch_folder.hpp"
 #include "io/mammogram_dicom.hpp"
 #include "io/mammogram_file.hpp"
-#include "mammo/display.hpp"
+#include "projection/display.hpp"
 
 using namespace breast;
 namespace fs = std::filesystem;

@@ -14,7 +14,7 @@
 #include "fixtures/scratch_folder.hpp"
 #include "io/mammogram_dicom.hpp"
 #include "io/mammogram_file.hpp"
-#include "mammo/correspondence.hpp"
+#include "matching/correspondence.hpp"
 
 using namespace breast;
 namespace fs = std::filesystem;

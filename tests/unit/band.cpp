@@ -1,6 +1,6 @@
 // The band's linear propagation against re-matched perturbed shapes: derivative, sampling,
 // coverage.
-#include "mammo/band.hpp"
+#include "matching/band.hpp"
 
 #include <gtest/gtest.h>
 

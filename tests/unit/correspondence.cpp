@@ -1,6 +1,6 @@
 // CC to MLO: straight for affine deformations, the material point's image for any, measured as
 // said.
-#include "mammo/correspondence.hpp"
+#include "matching/correspondence.hpp"
 
 #include <gtest/gtest.h>
 

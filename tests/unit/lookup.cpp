@@ -1,5 +1,5 @@
 // The lookup holds what the matcher finds; the page holds the lookup.
-#include "mammo/lookup.hpp"
+#include "matching/lookup.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include "core/parallel.hpp"
 #include "fixtures/analytic_breast.hpp"
 #include "fixtures/squashed.hpp"
-#include "mammo/projection.hpp"
 #include "meshing/body_mesh.hpp"
 #include "page/page.hpp"
+#include "projection/projection.hpp"
 
 using namespace breast;
 using namespace breast::fixtures;

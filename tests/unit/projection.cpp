@@ -1,7 +1,7 @@
 // X-rays through meshes with known chords: blocks exactly, balls to the order of the elements,
 // volumes to the pixel rule; labels through the element map; the same image for any number of
 // threads.
-#include "mammo/projection.hpp"
+#include "projection/projection.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@
 #include "fixtures/block.hpp"
 #include "fixtures/squashed.hpp"
 #include "fixtures/traced.hpp"
-#include "mammo/ray_mesh.hpp"
 #include "meshing/body_mesh.hpp"
+#include "projection/ray_mesh.hpp"
 
 using namespace breast;
 using namespace breast::fixtures;

@@ -11,7 +11,7 @@
 #include "fixtures/scratch_folder.hpp"
 #include "io/mammogram_file.hpp"
 #include "io/surface_file.hpp"
-#include "mammo/display.hpp"
+#include "projection/display.hpp"
 
 using namespace breast;
 

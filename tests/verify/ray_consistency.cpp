@@ -9,10 +9,10 @@
 #include "fixtures/analytic_breast.hpp"
 #include "fixtures/squashed.hpp"
 #include "fixtures/traced.hpp"
-#include "mammo/framing.hpp"
-#include "mammo/projection.hpp"
-#include "mammo/ray_mesh.hpp"
 #include "meshing/body_mesh.hpp"
+#include "projection/framing.hpp"
+#include "projection/projection.hpp"
+#include "projection/ray_mesh.hpp"
 
 using namespace breast;
 using namespace breast::fixtures;

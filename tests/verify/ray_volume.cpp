@@ -8,9 +8,9 @@
 #include "fixtures/block.hpp"
 #include "fixtures/squashed.hpp"
 #include "fixtures/traced.hpp"
-#include "mammo/framing.hpp"
-#include "mammo/ray_mesh.hpp"
 #include "meshing/body_mesh.hpp"
+#include "projection/framing.hpp"
+#include "projection/ray_mesh.hpp"
 
 using namespace breast;
 using namespace breast::fixtures;

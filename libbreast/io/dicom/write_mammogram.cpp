@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "io/dicom/dataset.hpp"
 #include "io/mammogram_dicom.hpp"
-#include "mammo/display.hpp"
+#include "projection/display.hpp"
 
 namespace breast {
 

@@ -10,7 +10,7 @@
 #include "io/mammogram_file.hpp"
 #include "io/picture_file.hpp"
 #include "io/vtk/vtk_messages.hpp"
-#include "mammo/display.hpp"
+#include "projection/display.hpp"
 
 namespace breast {
 

@@ -1,0 +1,91 @@
+// How far the matched curve may be off: uncertainty of parameters and marking, carried to the
+// second image by derivatives of the two compressed shapes.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/table.hpp"
+#include "matching/correspondence.hpp"
+
+namespace breast {
+
+/// Nodal derivative of a shape by one parameter, mm per unit of the parameter.
+using NodalField = std::vector<Vec3>;
+/// By parameter name (HexMesh::derivatives, tool sensitivity).
+using DerivativeFields = std::map<std::string, NodalField>;
+
+/// Standard deviations, in the unit the derivative is by (1 for a relative change, degree, mm).
+struct Prior {
+  std::string parameter;
+  double deviation = 0;
+  std::string unit, source;
+};
+/// What is known without the patient: see the table in band_priors.cpp for values and sources.
+std::vector<Prior> default_priors();
+/// The same with their sources as one paragraph, for help texts.
+std::string default_priors_text();
+/// Columns parameter, standard_deviation; further columns are kept as unit and source when so
+/// named.
+std::vector<Prior> priors_from(const Table& table, const std::string& where);
+
+/// One standard deviation of the curve across itself, by cause, mm.
+struct BandPoint {
+  Vec2 uv;      ///< of the curve, second image
+  Vec2 normal;  ///< unit, across the curve
+  double deviation = 0;
+};
+struct Band {
+  std::vector<BandPoint> points;           ///< one per point of the curve
+  std::map<std::string, double> by_cause;  ///< root mean square over the curve, mm
+  double area_95 = 0;                      ///< mm² of the 95 % band
+};
+inline constexpr double half_width_50 = 0.6744897502, half_width_95 = 1.9599639845;
+
+/// Linear propagation: a parameter moves the point that the column holds at fixed place in the
+/// first image by y' = π[x'_to − (∂x_to/∂ξ)(∂x_from/∂ξ)⁻¹ x'_from] in the second; its part across
+/// the curve counts. Parameters of the breast act on both shapes together; those of a compression
+/// ("thickness", "angle", "standoff") are independent in the two; with "angle" the detector turns
+/// about the middle of the shape. The priors "picking" and "alignment_from" (mm) are errors of the
+/// mark along each axis of the first image, "marking" and "alignment_to" of what is compared with
+/// it in the second.
+class BandModel {
+ public:
+  /// Keeps references. Throws Error (input) for a field that does not have a vector per node.
+  BandModel(const Matcher& matcher, const DerivativeFields& from, const DerivativeFields& to,
+            std::vector<Prior> priors);
+  Band band(const MatchedCurve& curve) const;
+  /// Priors the meshes have no derivative for: not counted.
+  const std::vector<std::string>& without() const { return without_; }
+  std::string what_is_missing() const;  ///< the same as a sentence
+
+ private:
+  struct Cause {
+    std::string name;
+    double deviation = 0;
+    const NodalField *from = nullptr, *to = nullptr;
+    bool turns = false;  ///< the beam turns with the compression
+  };
+  /// What one unit of the cause moves a point against its detector, mm.
+  Vec3 moved(const HexMesh& mesh, const ImageFrame& frame, const Vec3& centre,
+             const NodalField& field, const ColumnPoint& point, const Vec3& at, bool turns) const;
+  /// Shift of a curve point in the second image for one standard deviation of the cause.
+  Vec2 shift(const ColumnPoint& point, const Mat3& carry, const Cause& cause) const;
+
+  const Matcher& matcher_;
+  std::vector<Cause> causes_;
+  std::vector<std::string> without_;
+  Vec3 from_centre_, to_centre_;  ///< of the two shapes, about which a beam turns
+  /// mm along each axis of the first and of the second image, by cause.
+  std::vector<std::pair<std::string, double>> in_first_, in_second_;
+};
+
+/// Signed distance across the curve from its nearest point over that point's deviation: within
+/// ±1.96 for 95 % of truths when the band is right.
+double standardised_distance(const Band& band, const Vec2& uv);
+
+/// Middle of a shape's bounding box (mm), about which beam and detector turn with the angle.
+Vec3 turning_centre(const std::vector<Vec3>& points);
+
+}  // namespace breast

@@ -1,0 +1,23 @@
+// Matched curves as named lines (curve.vtp) and as a table (curve.tsv).
+#pragma once
+
+#include <vector>
+
+#include "core/table.hpp"
+#include "matching/match_queries.hpp"
+#include "surface/tri_mesh.hpp"
+
+namespace breast {
+
+/// Lines named "curve", "arc", "line", "chord", "band 50", "band 95" (both edges; on the second
+/// view's detector), "column in FROM", "column in reference", "column in imaged", "column in TO";
+/// markers "point in FROM", "truth in TO", "nipple in FROM", "nipple in TO", where FROM and TO are
+/// the views, such as CC and MLO. Point data: query (number), depth_mm (columns and curve, else 0),
+/// u_mm, v_mm (image position; of columns, their projection), all in the patient frame.
+PolyLines curve_lines(const Matcher& matcher, const std::vector<MatchResult>& results);
+
+/// One row per query, "-" where there is nothing to say. Columns of the queried point carry the
+/// first view's name (cc_u_mm).
+Table curve_table(const Matcher& matcher, const std::vector<MatchResult>& results);
+
+}  // namespace breast

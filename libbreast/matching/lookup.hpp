@@ -1,0 +1,45 @@
+// The matched curves of a whole image on a grid, for looking up while a pointer moves.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/progress.hpp"
+#include "core/provenance.hpp"
+#include "matching/band.hpp"
+#include "matching/correspondence.hpp"
+
+namespace breast {
+
+enum class LookupStatus : std::uint8_t {
+  air = 0,
+  matched = 1,
+  through_chest_wall = 2,
+  behind_image = 3
+};
+
+/// Node (i,j) of the grid is the point (i,j) · pitch of the first image; its curve has `samples`
+/// points, equally far apart in the column. Arrays run over j, i, sample; 0 in air.
+struct MatchLookup {
+  std::string from_view, to_view;
+  Side side = Side::left;
+  double pitch = 0;  ///< mm
+  int nu = 0, nv = 0, samples = 0;
+  std::vector<std::uint8_t> status;  ///< LookupStatus, per node
+  std::vector<float> depth;          ///< mm of tissue, per node
+  std::vector<float> curve;          ///< u, v in the second image, mm
+  std::vector<float> deviation;  ///< mm, one standard deviation across the curve (0 without band)
+  std::vector<float> across;     ///< unit vector across the curve
+  std::vector<float> imaged;     ///< x, y, z of the column in the MR frame, mm
+  std::vector<std::string> band_without;  ///< priors the deviation does not count
+  History history;
+
+  std::size_t node(int i, int j) const { return std::size_t(j) * std::size_t(nu) + std::size_t(i); }
+};
+
+/// Throws Error (input) for a pitch that is not positive or gives more than a million nodes.
+MatchLookup match_lookup(const Matcher& matcher, const BandModel* band, double pitch,
+                         int samples = 25, Progress& progress = no_progress());
+
+}  // namespace breast

@@ -1,0 +1,80 @@
+// Questions to a Matcher and all that is found for each.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/report.hpp"
+#include "core/table.hpp"
+#include "matching/band.hpp"
+#include "matching/correspondence.hpp"
+
+namespace breast {
+
+/// A point of the first image asked about.
+struct MatchQuery {
+  Vec2 from_uv;
+  std::string landmark;       ///< name when the point is a landmark's projection, else empty
+  std::optional<Vec2> truth;  ///< where it truly lies in the second image, when that is known
+  /// The true nipple in both images: the usual rules are then judged as they would be read there.
+  std::optional<std::pair<Vec2, Vec2>> nipples = std::nullopt;
+};
+
+/// Everything found for one query.
+struct MatchResult {
+  MatchQuery query;
+  MatchedCurve curve;
+  std::vector<std::vector<Vec2>> arc;
+  double nipple_distance = 0;        ///< mm, 0 without a nipple
+  std::optional<double> depth_line;  ///< mm, u of the straight rule in the second image
+  std::optional<Band> band;          ///< when asked for
+  /// mm from the truth; with `query.truth` only, arc and line with a nipple only.
+  double truth_to_curve = 0, truth_to_arc = 0, truth_to_line = 0, truth_to_chord = 0;
+  double truth_standardised = 0;  ///< distance across the curve over the band's deviation
+  /// "matched", "air", "through_chest_wall", "behind_image" (part of the curve).
+  std::string status() const;
+};
+MatchResult match_query(const Matcher& matcher, const MatchQuery& query,
+                        const BandModel* band = nullptr);
+
+/// All of them, on all cores; in order.
+std::vector<MatchResult> match_queries(const Matcher& matcher,
+                                       const std::vector<MatchQuery>& queries,
+                                       const BandModel* band = nullptr);
+
+/// A landmark of the meshes: its projection, with its own place in the second view as truth.
+/// Throws Error (input) listing the landmarks there are.
+MatchQuery landmark_query(const Matcher& matcher, const std::string& name);
+/// N × N points spread over the tissue of the first image, those in air left out.
+std::vector<MatchQuery> grid_queries(const Matcher& matcher, int n);
+/// Rows of a table with columns u_mm, v_mm and perhaps name; with `uv_of_pixel`, x_px and y_px.
+std::vector<MatchQuery> point_queries(
+    const Table& table, const std::string& where,
+    const std::function<Vec2(const Vec2&)>& uv_of_pixel = nullptr);
+/// Rows of a table of true positions: landmark, side and FROM_x_mm, FROM_y_mm, FROM_z_mm, TO_x_mm
+/// ... with the views' names in lower case (cc_x_mm, mlo_x_mm). A landmark "nipple" serves arc and
+/// line. Rows of the other breast are left out, and those whose true position lies behind the first
+/// image's posterior edge, which are counted in `behind`.
+std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table,
+                                      const std::string& where, int& behind);
+
+/// What to doubt: columns through the chest wall, curves behind the image, points in air. Throws
+/// Error (input) when there is nothing to report: no point, or the only one in air.
+std::vector<std::string> match_doubts(const Matcher& matcher,
+                                      const std::vector<MatchResult>& results);
+/// Length, bends and distances of one result: keys from_uv_mm, curve_mm, max_bend_mm,
+/// true_to_curve_mm ...
+void report_match(const MatchResult& result, Report& report);
+/// Mean, 95 % and largest distance of the truth to "curve", "arc", "line", "chord", mm, over the
+/// results that have one: keys truth/points, truth/curve/mean_mm ..., and what part
+/// of them the bands hold: truth/in_band_50_percent, truth/in_band_95_percent. Of two curves or
+/// more also how far they are from straight, in the second image and as stress-free columns:
+/// straightness/bend_mean_mm, straightness/reference_bend_mean_mm ...
+void report_truth(const std::vector<MatchResult>& results, Report& report);
+/// Rows "mean", "p95" and "largest" of the distances to the truth, and below "mean" of in_band_50
+/// and in_band_95 the percentages, at the end of a curve_table.
+void add_truth_summary(const std::vector<MatchResult>& results, Table& table);
+
+}  // namespace breast

@@ -1,0 +1,86 @@
+#include "projection/display.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace breast {
+
+namespace {
+
+// Steeper in the dense tissue than at the skin, as film is.
+constexpr double display_gamma = 2;
+constexpr std::uint16_t unknown_grey = 13000;
+// Where tissue is thinner than between the plates the image may fade towards the skin, and a ray
+// that passes little but skin must not shine: compensation is partial there.
+constexpr double thin_exponent = 0.5;
+
+float at_rank(std::vector<float> values, double rank, float fallback) {
+  if (values.empty()) return fallback;
+  const auto place = values.begin() + std::ptrdiff_t(rank * double(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+// Between the plates the thickness is one number but for the rounded rim of the breast, which is
+// the smaller part of the image.
+double plate_thickness(const Mammogram& image) {
+  std::vector<float> between, all;
+  const int first = int(std::clamp(image.plate_edge_u / image.pixel, 0.0, double(image.width - 1)));
+  for (std::size_t i = 0; i < image.thickness.size(); ++i) {
+    if (!(image.thickness[i] > 0)) continue;
+    all.push_back(image.thickness[i]);
+    if (int(i % image.width) >= first) between.push_back(image.thickness[i]);
+  }
+  return at_rank(between.empty() ? all : between, 0.75, 1);
+}
+
+// A few bright pixels (a tumour, a fold) must not darken the rest.
+double bright_end(const std::vector<float>& shown) {
+  std::vector<float> tissue;
+  for (const float value : shown) {
+    if (value > 0) tissue.push_back(value);
+  }
+  return at_rank(tissue, 0.998, 1);
+}
+
+}  // namespace
+
+std::vector<float> compensated_path(const Mammogram& image) {
+  const double between = plate_thickness(image);
+  std::vector<float> shown(image.path.size(), 0);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (!(image.thickness[i] > 0)) continue;
+    const double ratio = between / image.thickness[i];
+    shown[i] = float(image.path[i] * (ratio < 1 ? ratio : std::pow(ratio, thin_exponent)));
+  }
+  return shown;
+}
+
+HungImage hang(const Mammogram& image) {
+  HungImage hung;
+  hung.width = image.width;
+  hung.height = image.height;
+  const std::vector<float> shown = compensated_path(image);
+  hung.window_high = bright_end(shown);
+  hung.grey.resize(image.path.size());
+  // e_v points away from lateral (CC) and from superior (MLO) on the left side, towards on the
+  // right.
+  const bool left = image.side == Side::left;
+  for (int row = 0; row < image.height; ++row) {
+    const int v = left ? row : image.height - 1 - row;
+    for (int column = 0; column < image.width; ++column) {
+      const int u = left ? column : image.width - 1 - column;
+      const std::size_t from = std::size_t(v) * image.width + u;
+      std::uint16_t& grey = hung.grey[std::size_t(row) * image.width + column];
+      if (image.through_back[from] != 0) {
+        grey = unknown_grey;
+        continue;
+      }
+      const double value = std::clamp(shown[from] / hung.window_high, 0.0, 1.0);
+      grey = std::uint16_t(std::lround(65535 * std::pow(value, display_gamma)));
+    }
+  }
+  return hung;
+}
+
+}  // namespace breast

@@ -1,0 +1,30 @@
+// Where a mammogram lies: pose and extent of the image of a compressed breast.
+#pragma once
+
+#include <string>
+
+#include "mesh/hex_mesh.hpp"
+#include "projection/mammogram.hpp"
+
+namespace breast {
+
+enum class Beam { parallel, cone };
+inline constexpr double source_distance_mm = 650;  ///< source to detector, cone beam
+
+/// Detector pose and image extent. They follow from the mesh and its compression record alone,
+/// never from the pixel size, so that every tool finds the same (u,v). The posterior edge u = 0 is
+/// the most anterior point of the chest-wall and cut surfaces: as in the paper, the image then
+/// shows no column that leaves the mesh through its back. Only when the tumour lies behind that
+/// edge, in a column that does not leave so, is the edge 8 mm behind the tumour. The detector plane
+/// is that of its plate.
+struct ImageFrame {
+  ViewPose pose;
+  std::string view;
+  double width = 0, height = 0;  ///< mm along u and v
+  double plate_edge_u = 0;       ///< mm, where the plates' flats begin
+};
+
+/// Throws Error (input) when the mesh has no compression record or lies wholly behind u = 0.
+ImageFrame image_frame(const HexMesh& compressed, Beam beam = Beam::parallel);
+
+}  // namespace breast

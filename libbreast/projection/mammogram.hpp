@@ -1,0 +1,33 @@
+// A projection image on the detector plane with the pose that made it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/provenance.hpp"
+#include "core/types.hpp"
+#include "views/view_pose.hpp"
+
+namespace breast {
+
+struct Mammogram {
+  ViewPose pose;
+  std::string view;
+  Side side = Side::left;
+  int width = 0, height = 0;  ///< pixels along u and v
+  double pixel = 0.25;        ///< mm
+  double plate_edge_u = 0;    ///< mm, where the plates' flats begin; behind it tissue is thicker
+  std::string energy =
+      "fraction";                ///< what `path` is: "fraction" (mm), "20 keV", a spectrum's name
+  std::vector<float> path;       ///< line integral (or tissue-weighted mm) per pixel, u fastest
+  std::vector<float> thickness;  ///< mm of tissue along each ray
+  std::vector<float> fibroglandular;  ///< mm of fibroglandular tissue along each ray
+  /// 1: the column leaves the mesh through the chest wall or the cut; nothing is known of it and
+  /// the other arrays hold 0.
+  std::vector<std::uint8_t> through_back;
+  History history;
+  std::string content_sha256;
+};
+
+}  // namespace breast

@@ -1,0 +1,16 @@
+// What project-mammogram reports.
+#pragma once
+
+#include "core/report.hpp"
+#include "projection/projection.hpp"
+
+namespace breast {
+
+/// Image, volumes and landmarks; keys of the contract (volumes_ml, thickness_mm, landmarks).
+void write_report(const HexMesh& mesh, const Mammogram& image, const ProjectionReport& projection,
+                  Report& report);
+/// Landmarks behind the image's posterior edge, tissue in voxels without breast label.
+std::vector<std::string> doubts(const HexMesh& mesh, const Mammogram& image,
+                                const ProjectionReport& projection);
+
+}  // namespace breast

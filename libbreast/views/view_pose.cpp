@@ -1,0 +1,39 @@
+#include "views/view_pose.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+Vec2 ViewPose::project(const Vec3& patient) const {
+  const Vec3 d = patient - origin;
+  Vec2 uv(d.dot(e_u), d.dot(e_v));
+  if (source_distance > 0) {
+    const Vec2 foot(0, source_v);
+    const double height = -d.dot(n);  // above the detector
+    uv = foot + (uv - foot) * (source_distance / (source_distance - height));
+  }
+  return uv;
+}
+
+ViewPose view_pose(Side side, double angle_deg) {
+  const double theta = angle_deg * std::numbers::pi / 180.0;
+  ViewPose pose;
+  pose.angle_deg = angle_deg;
+  pose.n = Vec3(lateral_sign(side) * std::sin(theta), 0, -std::cos(theta));
+  pose.e_u = Vec3(0, -1, 0);
+  pose.e_v = pose.n.cross(pose.e_u);
+  return pose;
+}
+
+double view_angle_deg(const std::string& view) {
+  if (view == "CC") return 0;
+  if (view == "MLO") return 45;
+  if (view == "ML") return 90;
+  throw input_error("unknown view '", view, "'; use CC, MLO or ML");
+}
+
+}  // namespace breast

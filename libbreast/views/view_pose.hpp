@@ -1,0 +1,32 @@
+// The pose of a mammographic view: beam direction and image axes in the patient's frame.
+#pragma once
+
+#include <string>
+
+#include "core/types.hpp"
+
+namespace breast {
+
+/// Beam and image axes: n from paddle to detector, e_u = anterior (0,-1,0),
+/// e_v = n × e_u. Parallel projection of patient point x: (u,v) = ((x−origin)·e_u, (x−origin)·e_v).
+/// Cone: the point source stands source_distance above the detector's chest-wall edge at (0,
+/// source_v).
+struct ViewPose {
+  Vec3 n{0, 0, -1}, e_u{0, -1, 0}, e_v{-1, 0, 0};
+  /// mm, LPS, on the detector plane; image (u,v) = (0,0) is pixel (0,0)'s centre.
+  Vec3 origin{0, 0, 0};
+  double angle_deg = 0;
+  double source_distance = 0;  ///< mm from detector to point source; 0 = parallel beam
+  double source_v = 0;         ///< mm
+
+  Vec3 source() const { return origin + source_v * e_v - source_distance * n; }
+  Vec3 on_detector(const Vec2& uv) const { return origin + uv.x() * e_u + uv.y() * e_v; }
+  Vec2 project(const Vec3& patient) const;
+};
+/// n = (s sin θ, 0, −cos θ), s = lateral_sign(side).
+ViewPose view_pose(Side side, double angle_deg);
+/// Default beam angle of "CC" (0), "MLO" (45), "ML" (90) in degrees; throws Error (input)
+/// otherwise.
+double view_angle_deg(const std::string& view);
+
+}  // namespace breast
