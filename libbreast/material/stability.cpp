@@ -42,9 +42,7 @@ double weakest_shear(const Law& law, const Mat3& b) {
 
 namespace {
 
-// Least of e^{b(λ²+2/λ−3)}/λ² over λ, b near 4.4: beyond |c| = 0.929 ab a shear loses its
-// stiffness.
-constexpr double exponential_bound = 0.929;
+constexpr int exponential_steps = 60;  // of Newton's method; a dozen suffice for b near one
 
 Mat3 uniaxial(double stretch) {
   return Vec3(stretch * stretch, 1 / stretch, 1 / stretch).asDiagonal();
@@ -76,6 +74,17 @@ bool convex(const Law& law) {
 
 }  // namespace
 
+// The minimum lies where bλ³ − λ − b = 0, λ > 1; from the right Newton's method falls to it without
+// passing it.
+double exponential_bound(double b) {
+  double stretch = 1 + 1 / b;
+  for (int i = 0; i < exponential_steps; ++i) {
+    const double square = stretch * stretch;
+    stretch -= (b * square * stretch - stretch - b) / (3 * b * square - 1);
+  }
+  return std::exp(b * (stretch * stretch + 2 / stretch - 3)) / (stretch * stretch);
+}
+
 StableRange stable_range(const Law& law, double low, double high) {
   StableRange range;
   range.compression = walk(law, low, range.weakest);
@@ -86,14 +95,14 @@ StableRange stable_range(const Law& law, double low, double high) {
 bool always_elliptic(const Law& law) {
   if (law.kind != LawKind::exponential) return convex(law);
   const double a = law.constants[0], b = law.constants[1], c = law.constants[2];
-  return a > 0 && b > 0 && c > -exponential_bound * a * b;
+  return a > 0 && b > 0 && c > -exponential_bound(b) * a * b;
 }
 
 EllipticityMargin ellipticity_margin(const Law& law) {
   if (!always_elliptic(law)) return {stable_range(law, 0.5, 2).weakest, false};
   const std::vector<double>& k = law.constants;
   if (law.kind == LawKind::exponential) {
-    return {1 - std::max(0.0, -k[2]) / (exponential_bound * k[0] * k[1]), true};
+    return {1 - std::max(0.0, -k[2]) / (exponential_bound(k[1]) * k[0] * k[1]), true};
   }
   if (law.kind == LawKind::polynomial && k[4] > 0) {
     return {1 - k[4] * k[4] / (4 * k[2] * k[3]), true};
@@ -117,11 +126,12 @@ void check_law(const Law& law, const std::string& where) {
   }
   if (law.kind == LawKind::exponential) {
     const double a = law.constants[0], b = law.constants[1], c = law.constants[2];
-    // The weakest plane keeps ab exp(b(I1−3)) + c λ² > 0; the minimum over λ is 0.929 ab.
     if (!(a > 0) || !(b > 0)) throw input_error(where, ": a and b must be positive");
-    if (!(c > -exponential_bound * a * b)) {
-      throw input_error(where, ": c = ", c, " Pa loses ellipticity: must exceed -0.929 ab = ",
-                        -exponential_bound * a * b, " Pa (Veronda-Westmann has c = -ab/2)");
+    const double bound = exponential_bound(b);
+    if (!(c > -bound * a * b)) {
+      throw input_error(where, ": c = ", c, " Pa loses ellipticity: with b = ", b,
+                        " it must exceed -", bound, " ab = ", -bound * a * b,
+                        " Pa (Veronda-Westmann has c = -ab/2)");
     }
     return;
   }

@@ -22,12 +22,17 @@ struct StableRange {
 };
 StableRange stable_range(const Law& law, double low = 0.3, double high = 3.0);
 
+/// Least of e^{b(λ²+2/λ−3)}/λ² over uniaxial stretches λ: the exponential law keeps every shear stiff
+/// while ab e^{b(I1−3)} + cλ² > 0 on the weakest plane, that is while −c < exponential_bound(b) ab.
+/// 0.929 at b = 4.4, 0.743 at b = 1. `b` > 0.
+double exponential_bound(double b);
+
 /// True where a closed condition proves ellipticity at every isochoric stretch: convex and
-/// nondecreasing in both invariants, or exponential with |c| < 0.929 ab.
+/// nondecreasing in both invariants, or exponential with −c < exponential_bound(b) ab.
 bool always_elliptic(const Law& law);
 
 /// How far the constants are from losing ellipticity: 1 where no constant works against it, 0 at
-/// the bound. Exponential: 1 − |c|/(0.929 ab); convex polynomial: 1 − α11²/(4 α20 α02); otherwise
+/// the bound. Exponential: 1 − |c|/(exponential_bound(b) ab); convex polynomial: 1 − α11²/(4 α20 α02); otherwise
 /// the weakest relative shear modulus over stretches 0.5–2.
 struct EllipticityMargin {
   double value = 0;
@@ -37,7 +42,7 @@ EllipticityMargin ellipticity_margin(const Law& law);
 
 /// Throws Error (input), beginning with `where`, unless the law is usable: right number of finite
 /// constants, positive rest modulus, and elliptic: by the closed conditions (polynomial: convex and
-/// nondecreasing; exponential: |c| < 0.929 ab), or else by a scan of stretches 0.5–2.
+/// nondecreasing; exponential: −c < exponential_bound(b) ab), or else by a scan of stretches 0.5–2.
 void check_law(const Law& law, const std::string& where);
 
 }  // namespace breast

@@ -27,7 +27,7 @@ struct MechanicsOptions {
   double bulk_ratio = 0;  ///< K/μ; 0 means exactly incompressible
   Cut cut = Cut::free;
   /// Springs under the chest wall, at rest in the stress-free shape; none: it is fixed.
-  std::optional<SupportStiffness> wall;
+  std::optional<SupportStiffness> wall = std::nullopt;
   SolverOption solver = SolverOption::automatic;
   Estimate estimate = Estimate::none;
 };

@@ -134,13 +134,13 @@ void compare(int n) {
   const HexMesh mesh = fixtures::block(block);
   MechanicsOptions options;
   options.materials = load_materials("seed2008");
-  options.solver = "direct";
+  options.solver = SolverOption::direct;
   const Scene scene(mesh, options);
-  const ForwardProblem problem(scene, flatten(mesh.reference),
-                               scene.gravity_force(Vec3(0, 0, -gravity_mm_s2)));
+  const Problem problem =
+      scene.problem(scene.gravity_force(Vec3(0, 0, -gravity_mm_s2))).problem;
   SaddleMatrix matrix = problem.make_matrix();
-  SaddleForces forces;
-  problem.tangent({flatten(mesh.reference), scene.assembly().rest_pressure()}, forces, matrix);
+  Forces forces;
+  problem.tangent(scene.at_rest(flatten(mesh.reference)), forces, matrix);
   // Held nodes by a large diagonal: a positive definite matrix is all that is wanted.
   for (int node = 0; node < scene.nodes(); ++node) {
     if (scene.walls().at(node) != nullptr) {

@@ -58,7 +58,7 @@ HexMesh body(const Settings& s, int n) {
 }
 
 // Of both equations, in the norm the solver uses: volumes as forces, θκ/h.
-double residual(const SaddleMatrix& matrix, const Constraints& held, const SaddleForces& forces,
+double residual(const SaddleMatrix& matrix, const Constraints& held, const Forces& forces,
                 const SaddleStep& step) {
   const double weigh = matrix.kappa.mean() / std::cbrt(matrix.space->mass[0]);
   const auto size = [&](Eigen::VectorXd force, const Eigen::VectorXd& volume) {
@@ -75,17 +75,18 @@ Row measure(const Settings& s, int n) {
   const HexMesh mesh = body(s, n);
   MechanicsOptions options;
   options.materials = load_materials("seed2008");
-  options.solver = "multigrid";
+  options.solver = SolverOption::multigrid;
   options.element = s.element == "q2p1" ? Element::q2p1 : Element::q1p0;
   const Scene scene(mesh, options);
   const Eigen::VectorXd rest = flatten(mesh.reference.empty() ? mesh.points : mesh.reference);
-  const ForwardProblem problem(scene, rest, scene.gravity_force(Vec3(0, 0, -gravity_mm_s2)));
+  const Problem problem =
+      scene.problem(scene.gravity_force(Vec3(0, 0, -gravity_mm_s2))).problem;
   SaddleMatrix matrix = problem.make_matrix();
-  SaddleForces forces;
-  if (!problem.tangent({rest, scene.assembly().rest_pressure()}, forces, matrix)) {
+  Forces forces;
+  if (!problem.tangent(scene.at_rest(rest), forces, matrix)) {
     throw failed_error("element ", forces.bad_element, " is folded at rest");
   }
-  SaddleSolver solver(problem.pattern(), scene.assembly().solver());
+  SaddleSolver solver(problem.space().pattern, scene.solid().solver());
   const double start = cpu_seconds();
   if (!solver.factorise(matrix, scene.walls(), false).ok) {
     throw failed_error("the stiffness at rest is not positive definite");

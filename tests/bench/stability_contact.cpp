@@ -24,7 +24,7 @@ using namespace breast;
 
 void print(const std::string& name, const std::string& verdict, const fixtures::ContactScene& scene,
            const fixtures::ContactOutcome& end, double seconds) {
-  const CompressionSummary& s = end.summary;
+  const CompressionResult& s = end.summary;
   std::string reason = end.reason;
   for (char& c : reason) c = c == '\t' || c == '\n' ? ' ' : c;
   std::printf(

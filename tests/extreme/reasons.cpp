@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "fixtures/in_place.hpp"
 #include "core/units.hpp"
 #include "fixtures/elastic_scene.hpp"
 #include "fixtures/shapes.hpp"
@@ -17,8 +18,8 @@ MechanicsOptions neo_hookean(double a10) {
 }
 
 double closure(HexMesh mesh, const Vec3& gravity, const MechanicsOptions& options) {
-  EXPECT_TRUE(solve_backward(mesh, gravity, options).converged());
-  EXPECT_TRUE(solve_forward(mesh, gravity, options).converged());
+  EXPECT_TRUE(fixtures::backward_into(mesh, gravity, options).converged());
+  EXPECT_TRUE(fixtures::forward_into(mesh, gravity, options).converged());
   double worst = 0;
   for (int i = 0; i < mesh.nodes(); ++i) {
     worst = std::max(worst, (mesh.points[i] - mesh.imaged[i]).norm());
@@ -34,8 +35,8 @@ TEST(Reason, NoStressFreeBody) {
   double needed = 0;
   for (const double a10 : {10.0, 5.0}) {
     HexMesh mesh = cap;
-    const SolveSummary summary = solve_backward(mesh, prone, neo_hookean(a10));
-    EXPECT_EQ(summary.record.status, "not_converged");
+    const SolveSummary summary = fixtures::backward_into(mesh, prone, neo_hookean(a10));
+    EXPECT_EQ(summary.record.status, SolveStatus::not_converged);
     EXPECT_EQ(summary.reason_id, "no_stress_free_body") << summary.record.reason;
     ASSERT_GT(summary.stiffness_factor_needed, 1);
     reached.push_back(summary.load_reached);
@@ -44,10 +45,10 @@ TEST(Reason, NoStressFreeBody) {
   }
   EXPECT_NEAR(reached[0] / reached[1], 2, 0.25);
   HexMesh mesh = cap;
-  EXPECT_TRUE(solve_backward(mesh, prone, neo_hookean(1.02 * needed)).converged());
+  EXPECT_TRUE(fixtures::backward_into(mesh, prone, neo_hookean(1.02 * needed)).converged());
   EXPECT_LT(closure(cap, prone, neo_hookean(2 * needed)), 1e-7);
   mesh = cap;
-  EXPECT_FALSE(solve_backward(mesh, prone, neo_hookean(0.8 * needed)).converged());
+  EXPECT_FALSE(fixtures::backward_into(mesh, prone, neo_hookean(0.8 * needed)).converged());
 }
 
 // A column stands under its own weight up to (7.837 EI/w)^(1/3) (Greenhill 1881). The straight body
@@ -71,8 +72,8 @@ TEST(Reason, UnstableEquilibrium) {
   const double critical = critical_modulus();
   EXPECT_LT(closure(column(2), down, neo_hookean(2 * critical / 6)), 1e-7);
   HexMesh mesh = column(2);
-  const SolveSummary summary = solve_backward(mesh, down, neo_hookean(0.25 * critical / 6));
-  EXPECT_EQ(summary.record.status, "unstable");
+  const SolveSummary summary = fixtures::backward_into(mesh, down, neo_hookean(0.25 * critical / 6));
+  EXPECT_EQ(summary.record.status, SolveStatus::unstable);
   EXPECT_EQ(summary.reason_id, "unstable_equilibrium");
   EXPECT_FALSE(summary.stable);
   EXPECT_LT(summary.residual, 1e-9);
@@ -88,7 +89,7 @@ TEST(Reason, MultigridSeesTheUnstableEquilibrium) {
     HexMesh mesh = fine;
     MechanicsOptions options = neo_hookean(modulus / 6);
     options.solver = solver;
-    return solve_backward(mesh, down, options);
+    return fixtures::backward_into(mesh, down, options);
   };
   const SolveSummary falls = solved(0.25 * critical_modulus(), "direct");
   ASSERT_EQ(falls.reason_id, "unstable_equilibrium");
@@ -106,16 +107,15 @@ TEST(Reason, MultigridSeesTheUnstableEquilibrium) {
 TEST(Reason, IterationLimitAndFolding) {
   const HexMesh mesh = fixtures::cap({.elements = 4});
   const Scene scene(mesh, neo_hookean(600));
-  const ForwardProblem problem(scene, flatten(mesh.reference), scene.gravity_force(prone));
+  const Problem problem = scene.problem(scene.gravity_force(prone)).problem;
   SaddleMatrix matrix = problem.make_matrix();
-  SaddleSolver solver(problem.pattern());
-  SaddleState state{flatten(mesh.reference), scene.assembly().rest_pressure()};
-  NewtonResult result =
-      newton(problem, solver, matrix, scene.walls(), nullptr, state, {.max_iterations = 2});
+  SaddleSolver solver(problem.space().pattern);
+  State state = scene.at_rest(flatten(mesh.reference));
+  NewtonResult result = equilibrate(problem, solver, matrix, state, {.max_iterations = 2});
   EXPECT_FALSE(result.converged);
   EXPECT_STREQ(stop_name(result.stop), "iteration_limit");
-  state.u.segment<3>(3L * mesh.element(0)[0]).swap(state.u.segment<3>(3L * mesh.element(0)[6]));
-  result = newton(problem, solver, matrix, scene.walls(), nullptr, state);
+  state.x.segment<3>(3L * mesh.element(0)[0]).swap(state.x.segment<3>(3L * mesh.element(0)[6]));
+  result = equilibrate(problem, solver, matrix, state);
   EXPECT_STREQ(stop_name(result.stop), "folded_element");
 }
 
@@ -123,7 +123,7 @@ TEST(Reason, IterationLimitAndFolding) {
 // it carried, and a finite state.
 TEST(Reason, ForwardBeyondWhatTheMeshCarries) {
   HexMesh mesh = fixtures::cap({.elements = 4});
-  const SolveSummary summary = solve_forward(mesh, 3000 * prone, neo_hookean(40));
+  const SolveSummary summary = fixtures::forward_into(mesh, 3000 * prone, neo_hookean(40));
   ASSERT_FALSE(summary.converged());
   EXPECT_TRUE(summary.reason_id == "iteration_limit" || summary.reason_id == "no_admissible_step" ||
               summary.reason_id == "indefinite_tangent")

@@ -114,7 +114,7 @@ TEST_F(CompressTool, AnEarlyStopIsWrittenOnlyWhenEnoughWasReached) {
   EXPECT_EQ(id.find_first_not_of("abcdefghijklmnopqrstuvwxyz_"), std::string::npos) << id;
   EXPECT_NE(report().text("explanation").find("mm"), std::string::npos);
   EXPECT_LT(report().number("load_reached"), 1);
-  EXPECT_EQ(read_mesh(folder_ / "out.vtkhdf").solve->status, "stopped_early");
+  EXPECT_EQ(read_mesh(folder_ / "out.vtkhdf").solve->status, SolveStatus::stopped_early);
 }
 
 TEST_F(CompressTool, RefusesWhatItCannotDo) {

@@ -103,7 +103,7 @@ TEST_F(MechanicsTools, NotConvergedIsExitThree) {
   EXPECT_EQ(report("far.json").text("status"), "not_converged");
   EXPECT_EQ(run("forward reference.vtkhdf far.vtkhdf --keep-unconverged" + load), 3);
   ASSERT_TRUE(exists("far.vtkhdf"));
-  EXPECT_EQ(read_mesh(folder_ / "far.vtkhdf").solve->status, "not_converged");
+  EXPECT_EQ(read_mesh(folder_ / "far.vtkhdf").solve->status, SolveStatus::not_converged);
 }
 
 TEST_F(MechanicsTools, LawsPrintsATable) {

@@ -1,27 +1,24 @@
 // The active set on bodies small enough for an independent answer: a quadratic body between plates.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <cmath>
 #include <random>
 
 #include "contact/active_set.hpp"
 #include "contact/augmented_lagrangian.hpp"
 #include "contact/path.hpp"
-#include "contact/step_search.hpp"
 #include "core/units.hpp"
 #include "fixtures/wide_plates.hpp"
+#include "solve/line_search.hpp"
 
 using namespace breast;
 
 namespace {
 
-/// Linear elastic "body": nodes tied to their rest positions and to each other by a random SPD
-/// matrix.
-class QuadraticBody : public ContactBody {
+/// Nodes tied to their rest positions and to each other by a random positive definite matrix.
+class Springs final : public Term {
  public:
-  QuadraticBody(int nodes, unsigned seed) : nodes_(nodes) {
+  Springs(int nodes, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(-1, 1);
     const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(
@@ -32,56 +29,64 @@ class QuadraticBody : public ContactBody {
       rest.segment<3>(3 * i) =
           Vec3(10 * uniform(random), -30 - 20 * uniform(random), 15 * uniform(random));
     }
+    cells_.nodes_per_cell = nodes;
+    for (int i = 0; i < nodes; ++i) cells_.nodes.push_back(i);
   }
-  int nodes() const override { return nodes_; }
-  void remove_held(Eigen::VectorXd& v) const override { v.head<3>().setZero(); }
-  double load_norm() const override { return 1; }
-  Vec3 weight() const override { return Vec3::Zero(); }
-  bool forces(const BodyState& state, BodyForces& forces) override {
-    forces.residual = stiffness * (state.x - rest);
+  std::string name() const override { return "springs"; }
+  bool add(const State& state, const Request& request, Forces& forces) const override {
+    const Eigen::VectorXd force = stiffness * (state.x - rest);
+    forces.r += force;
+    if (request.kappa != nullptr) forces.augmented += force;
+    forces.energy += 0.5 * force.dot(state.x - rest);
+    forces.min_det_F = forces.max_det_F = 1;
+    if (request.matrix == nullptr) return true;
+    request.matrix->stiffness.add_cells(*scatter, 0, 1, stiffness.data());
+    request.matrix->diagonal += stiffness.diagonal();
+    request.matrix->kappa.setOnes();
     return true;
   }
-  bool assemble(const BodyState&) override {
-    tangent_ = stiffness;
-    return true;
-  }
-  void add_to_tangent(int node, const Mat3& block) override {
-    tangent_.block<3, 3>(3 * node, 3 * node) += block;
-  }
-  BodySolve solve(const std::vector<NormalConstraint>& constraints, const Eigen::VectorXd& residual,
-                  BodyState& increment) override {
-    // Particular increment along the normals, then the rest in their orthogonal complement.
-    const int n = 3 * nodes_;
-    Eigen::VectorXd particular = Eigen::VectorXd::Zero(n);
-    Eigen::MatrixXd held = Eigen::MatrixXd::Zero(n, 3 + int(constraints.size()));
-    held.topLeftCorner(3, 3).setIdentity();
-    for (std::size_t c = 0; c < constraints.size(); ++c) {
-      held.block<3, 1>(3 * constraints[c].node, 3 + int(c)) = constraints[c].normal;
-      particular.segment<3>(3 * constraints[c].node) =
-          constraints[c].increment * constraints[c].normal;
-    }
-    const Eigen::MatrixXd q = held.householderQr().householderQ();
-    const Eigen::MatrixXd z = q.rightCols(n - held.cols());
-    Eigen::MatrixXd reduced = z.transpose() * tangent_ * z;
-    BodySolve result{true, false, 0};
-    for (double shift = 1; Eigen::LLT<Eigen::MatrixXd>(reduced).info() != Eigen::Success;
-         shift *= 4) {
-      reduced.diagonal().array() += shift;
-      result.shifted = true;
-    }
-    const Eigen::VectorXd right = -z.transpose() * (residual + tangent_ * particular);
-    increment.x = particular + z * Eigen::LLT<Eigen::MatrixXd>(reduced).solve(right);
-    increment.p.resize(0);
-    result.slope = increment.x.dot(tangent_ * increment.x);
-    return result;
-  }
+  std::vector<int> nodes() const override { return cells_.nodes; }
 
   Eigen::MatrixXd stiffness;
   Eigen::VectorXd rest;
+  std::shared_ptr<const ScatterMap> scatter;
+  const Cells& cells() const { return cells_; }
 
  private:
-  int nodes_;
-  Eigen::MatrixXd tangent_;
+  Cells cells_;  // one, of all nodes
+};
+
+/// A body of such springs whose node 0 is held; one pressure that nothing feels.
+struct QuadraticBody {
+  QuadraticBody(int nodes, unsigned seed) : springs(std::make_shared<Springs>(nodes, seed)) {
+    auto space = std::make_shared<Discretisation>();
+    space->node_count = nodes;
+    space->cells = springs->cells();
+    auto pattern = std::make_shared<NodePattern>(nodes, space->cells);
+    springs->scatter = std::make_shared<ScatterMap>(*pattern, space->cells);
+    space->pattern = pattern;
+    auto pressures = std::make_shared<PressureSpace>();
+    pressures->rows = 1;
+    pressures->mass = pressures->inverse_mass = {1};
+    pressures->compliance = Eigen::VectorXd::Ones(1);
+    space->pressures = pressures;
+    Constraints held(nodes);
+    held.hold(0);
+    problem = std::make_unique<Problem>(space, held);
+    problem->add(springs);
+    solver = std::make_unique<SaddleSolver>(pattern);
+  }
+  ActiveSet active_set() { return {*problem, *solver, free_nodes()}; }
+  std::vector<int> free_nodes() const {
+    std::vector<int> list;
+    for (int i = 1; i < problem->nodes(); ++i) list.push_back(i);
+    return list;
+  }
+  State start() const { return {springs->rest, springs->rest, Eigen::VectorXd::Zero(1)}; }
+
+  std::shared_ptr<Springs> springs;
+  std::unique_ptr<Problem> problem;
+  std::unique_ptr<SaddleSolver> solver;
 };
 
 PlatePair plates_at(double low, double high, double edge_radius) {
@@ -94,20 +99,13 @@ PlatePair plates_at(double low, double high, double edge_radius) {
   return fixtures::pair_at(plate, low, high);
 }
 
-std::vector<int> free_nodes(int nodes) {
-  std::vector<int> list;
-  for (int i = 1; i < nodes; ++i) list.push_back(i);
-  return list;
-}
-
 /// Largest violation of: gap ≥ 0, force ≥ 0, their product 0 (per touching node), balance
 /// elsewhere.
-double complementarity(QuadraticBody& body, const PlatePair& plates, const BodyState& state) {
-  BodyForces forces;
-  body.forces(state, forces);
+double complementarity(const QuadraticBody& body, const PlatePair& plates, const State& state) {
+  const Forces forces = body.problem->forces(state);
   double worst = 0;
-  for (int node = 1; node < body.nodes(); ++node) {
-    const Vec3 x = state.x.segment<3>(3 * node), r = forces.residual.segment<3>(3 * node);
+  for (int node = 1; node < body.problem->nodes(); ++node) {
+    const Vec3 x = state.x.segment<3>(3 * node), r = forces.r.segment<3>(3 * node);
     const Gap gap = plates.plate(plates.nearer(x)).gap(x);
     const Vec3 normal = gap.gradient;
     const double push = r.dot(normal);
@@ -124,10 +122,10 @@ TEST(ActiveSet, SolvesTheObstacleProblemForManyBodies) {
     for (const double radius : {5.0, 40.0}) {
       QuadraticBody body(24, seed);
       const PlatePair plates = plates_at(-6, 5, radius);
-      ActiveSet contact(body, free_nodes(24));
-      BodyState state{body.rest, {}};
-      const StepResult step = contact.solve(plates, state, 1e-12);
-      ASSERT_EQ(step.outcome, StepOutcome::converged) << "seed " << seed << " radius " << radius;
+      ActiveSet contact = body.active_set();
+      State state = body.start();
+      const ContactStep step = contact.solve(plates, state, 1e-12);
+      ASSERT_TRUE(step.converged) << "seed " << seed << " radius " << radius;
       EXPECT_LT(complementarity(body, plates, state), 1e-7) << "seed " << seed;
       int touching = 0;
       for (const signed char k : contact.touching()) touching += k >= 0;
@@ -139,27 +137,27 @@ TEST(ActiveSet, SolvesTheObstacleProblemForManyBodies) {
 TEST(ActiveSet, CurvatureTermKeepsNewtonQuadratic) {
   QuadraticBody body(24, 3);
   const PlatePair plates = plates_at(-4, 4, 60);
-  ActiveSet contact(body, free_nodes(24));
-  BodyState state{body.rest, {}};
-  const StepResult step = contact.solve(plates, state, 1e-13);
-  ASSERT_EQ(step.outcome, StepOutcome::converged);
-  EXPECT_LE(step.iterations, 9);
+  ActiveSet contact = body.active_set();
+  State state = body.start();
+  const ContactStep step = contact.solve(plates, state, 1e-13);
+  ASSERT_TRUE(step.converged);
+  EXPECT_LE(step.iterations.size(), 9u);
 }
 
 TEST(ActiveSet, NothingTouchesWhenThePlatesAreWide) {
   QuadraticBody body(10, 5);
   const PlatePair plates = plates_at(-100, 100, 15);
-  ActiveSet contact(body, free_nodes(10));
-  BodyState state{body.rest, {}};
-  const StepResult step = contact.solve(plates, state, 1e-10);
-  EXPECT_EQ(step.outcome, StepOutcome::converged);
-  EXPECT_EQ(step.iterations, 0);
+  ActiveSet contact = body.active_set();
+  State state = body.start();
+  const ContactStep step = contact.solve(plates, state, 1e-10);
+  EXPECT_TRUE(step.converged);
+  EXPECT_TRUE(step.iterations.empty());
 }
 
 namespace {
-PathResult close(PlatePair& plates, ContactSolver& contact, BodyState& state,
+PathResult close(PlatePair& plates, ContactSolver& contact, State& state,
                  const CompressionTarget& target, PathOptions options = {}) {
-  const auto area = [&](const BodyState&) {
+  const auto area = [&](const State&) {
     return std::vector<double>(contact.candidates().size(), 25.0);
   };
   return follow_path(contact, plates, state, target, area, options);
@@ -171,8 +169,8 @@ TEST(CompressionPath, EndDoesNotDependOnTheSteps) {
   for (const int k : {0, 1}) {
     QuadraticBody body(24, 7);
     PlatePair plates = plates_at(-20, 20, 15);
-    ActiveSet contact(body, free_nodes(24));
-    BodyState state{body.rest, {}};
+    ActiveSet contact = body.active_set();
+    State state = body.start();
     PathOptions options;
     options.first_step = options.longest_step = k == 0 ? 1.0 : 20.0;
     const PathResult path = close(plates, contact, state, {TargetKind::thickness, 12}, options);
@@ -188,12 +186,12 @@ TEST(CompressionPath, EndDoesNotDependOnTheSteps) {
 TEST(CompressionPath, ReleaseReturnsToTheStart) {
   QuadraticBody body(24, 9);
   PlatePair plates = plates_at(-20, 20, 15);
-  ActiveSet contact(body, free_nodes(24));
-  BodyState state{body.rest, {}};
+  ActiveSet contact = body.active_set();
+  State state = body.start();
   ASSERT_TRUE(close(plates, contact, state, {TargetKind::thickness, 10}).reached);
-  EXPECT_GT((state.x - body.rest).norm(), 1);
+  EXPECT_GT((state.x - body.springs->rest).norm(), 1);
   ASSERT_TRUE(close(plates, contact, state, {TargetKind::thickness, 40}).reached);
-  EXPECT_LT((state.x - body.rest).lpNorm<Eigen::Infinity>(), 1e-8);
+  EXPECT_LT((state.x - body.springs->rest).lpNorm<Eigen::Infinity>(), 1e-8);
 }
 
 TEST(CompressionPath, ForceAndPressureControlHitTheirTarget) {
@@ -201,8 +199,8 @@ TEST(CompressionPath, ForceAndPressureControlHitTheirTarget) {
        {std::pair{TargetKind::force, 0.05}, std::pair{TargetKind::pressure, 0.4}}) {
     QuadraticBody body(24, 11);
     PlatePair plates = plates_at(-20, 20, 15);
-    ActiveSet contact(body, free_nodes(24));
-    BodyState state{body.rest, {}};
+    ActiveSet contact = body.active_set();
+    State state = body.start();
     const PathResult path = close(plates, contact, state, {kind, value});
     ASSERT_TRUE(path.reached);
     const PathPoint& end = path.points.back();
@@ -213,41 +211,52 @@ TEST(CompressionPath, ForceAndPressureControlHitTheirTarget) {
 
 // A penalty that sets in at once, 320 times as stiff as the tangent knows: halves of the step are
 // all too long, the place where the slope vanishes is found at once.
-TEST(StepSearch, ShortensToWhereAKinkedEnergyIsFlat) {
-  QuadraticBody body(4, 13);
-  BodyState increment{Eigen::VectorXd::Ones(body.rest.size()), {}};
-  BodySolve solve;
-  solve.slope = 1;
-  const auto appraise = [&](const BodyState& at, const BodyForces&) -> Appraisal {
-    const double along = 320 * (at.x - body.rest)[0] - 1;
-    return {std::abs(along), std::abs(along), along};
-  };
-  StepRule rule;
+namespace {
+class Kinked final : public NewtonSystem {
+ public:
+  Balance assess(const NewtonResult&) override { return {}; }
+  NewtonDirection direction(const Balance&) override { return {}; }
+  LineSearchRule rule(const NewtonResult&, const Balance&, const NewtonDirection&) const override {
+    return {};
+  }
+  std::optional<Trial> attempt(double length) override {
+    const double along = 320 * length - 1;
+    Trial trial;
+    trial.seen = {std::abs(along), std::abs(along), along};
+    return trial;
+  }
+  void accept(Trial) override {}
+};
+}  // namespace
+
+TEST(LineSearch, ShortensToWhereAKinkedEnergyIsFlat) {
+  Kinked system;
+  NewtonDirection direction;
+  direction.slope = 1;
+  LineSearchRule rule;
   rule.merit = 1;
+  rule.flat_suffices = true;
   for (const bool kinks : {false, true}) {
     rule.kinks = kinks;
-    BodyState state{body.rest, {}};
-    StepResult result;
-    EXPECT_EQ(search_step(body, increment, solve, rule, appraise, state, result), kinks);
-    if (kinks) {
-      EXPECT_NEAR(result.history.at(0).step_length, 1.0 / 320, 1e-4);
-    } else {
-      EXPECT_EQ(result.outcome, StepOutcome::no_descent);
-    }
+    const SearchResult found = line_search(system, direction, rule);
+    EXPECT_EQ(found.trial.has_value(), kinks);
+    EXPECT_TRUE(found.any_admissible);
+    if (!kinks) continue;
+    EXPECT_NEAR(found.length, 1.0 / 320, 1e-4);
   }
 }
 
 // How many updates the multipliers need says nothing of how far the plates may move at once.
 TEST(CompressionPath, CorrectionsDoNotShortenTheSteps) {
   QuadraticBody body(24, 13);
-  BodyState exact{body.rest, {}}, penalised = exact;
+  State exact = body.start(), penalised = exact;
   PathOptions options;
   options.first_step = options.longest_step = 4;
   PlatePair plates = plates_at(-20, 20, 15);
-  ActiveSet active_set(body, free_nodes(24));
+  ActiveSet active_set = body.active_set();
   const PathResult a = close(plates, active_set, exact, {TargetKind::thickness, 12}, options);
   plates = plates_at(-20, 20, 15);
-  AugmentedLagrangian paper(body, free_nodes(24), {10});
+  AugmentedLagrangian paper(*body.problem, *body.solver, body.free_nodes(), {10});
   const PathResult b = close(plates, paper, penalised, {TargetKind::thickness, 12}, options);
   ASSERT_TRUE(a.reached && b.reached);
   int most = 0;

@@ -4,12 +4,12 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "contact/elastic_wall.hpp"
-#include "contact/friction.hpp"
 #include "contact/options.hpp"
+#include "contact/terms/friction.hpp"
 #include "core/error.hpp"
 #include "fixtures/standing_block.hpp"
-#include "mechanics/assembly.hpp"
+#include "mechanics/terms/elastic_support.hpp"
+#include "mesh/nodal.hpp"
 
 using namespace breast;
 
@@ -17,49 +17,34 @@ TEST(Friction, SticksBelowTheBoundAndSlipsOnIt) {
   const Friction friction{0.3, 1e6};
   const Vec3 anchor(1, 2, 3), normal = Vec3(1, 2, -2).normalized();
   const Vec3 along = normal.unitOrthogonal();
-  const FrictionForce sticks = friction.at(anchor + 1e-4 * along + 5 * normal, anchor, normal, 300);
+  const auto at = [&](const Vec3& x, const Vec3& from, double bound) {
+    return friction_force(x, from, normal, bound, friction.stick);
+  };
+  const FrictionForce sticks = at(anchor + 1e-4 * along + 5 * normal, anchor, 300);
   EXPECT_FALSE(sticks.slips);
   EXPECT_LT((sticks.force + 100 * along).norm(), 1e-9);
-  const FrictionForce slips = friction.at(anchor + 1e-2 * along, anchor, normal, friction.bound(1e3));
+  const FrictionForce slips = at(anchor + 1e-2 * along, anchor, friction.bound(1e3));
   EXPECT_TRUE(slips.slips);
   EXPECT_LT((slips.force + 300 * along).norm(), 1e-9);
   // After the slip the anchor lies where the spring holds exactly the bound.
-  const Vec3 slid = friction.slid_anchor(anchor + 1e-2 * along, slips);
-  EXPECT_LT((friction.at(anchor + 1e-2 * along, slid, normal, 300).force - slips.force).norm(),
-            1e-6);
-  EXPECT_EQ(friction.at(anchor + along, anchor, normal, friction.bound(-5)).force, Vec3(0, 0, 0));
+  const Vec3 slid = anchor + 1e-2 * along + slips.force / friction.stick;
+  EXPECT_LT((at(anchor + 1e-2 * along, slid, 300).force - slips.force).norm(), 1e-6);
+  EXPECT_EQ(at(anchor + along, anchor, friction.bound(-5)).force, Vec3(0, 0, 0));
 }
 
-TEST(Friction, StiffnessIsTheDerivativeAtAFixedBound) {
-  const Friction friction{0.4, 2e5};
-  const Vec3 anchor(0, 0, 0), normal = Vec3(0.2, -1, 0.4).normalized();
-  for (const double reach : {1e-4, 0.3}) {
-    const Vec3 x = reach * Vec3(1, 0.5, -0.7);
-    const Mat3 stiffness = friction.at(x, anchor, normal, 1e4).stiffness;
-    const double step = 1e-3 * reach;
-    for (int i = 0; i < 3; ++i) {
-      const Vec3 d = step * Vec3::Unit(i);
-      const Vec3 slope = -(friction.at(x + d, anchor, normal, 1e4).force -
-                           friction.at(x - d, anchor, normal, 1e4).force) /
-                         (2 * step);
-      EXPECT_LT((slope - stiffness.col(i)).norm(), 1e-5 * stiffness.norm()) << reach;
-    }
-  }
-}
-
-TEST(ElasticWall, ForceIsStiffnessTimesAreaTimesMotion) {
+TEST(ElasticSupport, ForceIsStiffnessTimesAreaTimesMotion) {
   const HexMesh mesh = fixtures::standing_block({50, 60, 40}, {2, 2, 2});  // wall y = 0: 2000 mm²
-  const ElasticWall wall(mesh, {0.5, 0.2});
+  const ElasticSupport wall(mesh, mesh.pectoral_faces, {0.5, 0.2});
   const auto pushed = [&](const Vec3& by) {
     std::vector<Vec3> x = mesh.reference;
     for (Vec3& point : x) point += by;
-    return wall.force_on_body(flatten(x));
+    return wall.force_on_body({flatten(mesh.reference), flatten(x), {}});
   };
   // 0.5 kPa/mm · 2000 mm² = 1e6 µN/mm across the wall.
   EXPECT_LT((pushed({0, 2, 0}) - Vec3(0, -2e6, 0)).norm(), 1e-3);
   EXPECT_LT((pushed({1, 0, 3}) - Vec3(-0.4e6, 0, -1.2e6)).norm(), 1e-3);
-  EXPECT_THROW(ElasticWall(mesh, {0, 1}), Error);
-  EXPECT_THROW(ElasticWall(mesh, {1, std::nan("")}), Error);
+  EXPECT_THROW(ElasticSupport(mesh, mesh.pectoral_faces, {0, 1}), Error);
+  EXPECT_THROW(ElasticSupport(mesh, mesh.pectoral_faces, {1, std::nan("")}), Error);
 }
 
 TEST(ContactOptions, WallAndDetectorAreReadOrRefusedInWords) {

@@ -90,9 +90,30 @@ TEST(Stability, RefusesLawsThatLoseEllipticity) {
   EXPECT_THROW(check_law({LawKind::yeoh, {610, -900, 0}}, "fat"), Error);
 }
 
+// The bound on c depends on b: against the least of the function on a fine grid, and against the
+// shears of a uniaxially stretched body.
+TEST(Stability, BoundOfTheExponentialLawDependsOnItsExponent) {
+  for (const double b : {0.05, 0.3, 1.0, 4.4, 30.0}) {
+    double least = 1;
+    for (double stretch = 1; stretch < 40; stretch *= 1.00005) {
+      const double square = stretch * stretch;
+      least = std::min(least, std::exp(b * (square + 2 / stretch - 3)) / square);
+    }
+    EXPECT_NEAR(exponential_bound(b), least, 1e-7) << b;
+  }
+  EXPECT_NEAR(exponential_bound(4.4), 0.929, 5e-4);
+  const double a = 100, b = 1;
+  const Law beyond{LawKind::exponential, {a, b, -0.8 * a * b}};
+  EXPECT_LT(stable_range(beyond, 0.5, 3).weakest, 0.06);  // stiffness is lost on the way
+  EXPECT_LT(stable_range(beyond, 0.5, 3).tension, 2.9);
+  EXPECT_FALSE(always_elliptic(beyond));
+  EXPECT_THROW(check_law(beyond, "skin"), Error);
+  EXPECT_NO_THROW(check_law({LawKind::exponential, {a, b, -0.7 * a * b}}, "skin"));
+}
+
 TEST(Stability, MarginOfTheConstants) {
   const EllipticityMargin skin = ellipticity_margin({LawKind::exponential, {92.39, 4.4, -203.40}});
-  EXPECT_NEAR(skin.value, 1 - 203.40 / (0.929 * 92.39 * 4.4), 1e-12);
+  EXPECT_NEAR(skin.value, 1 - 203.40 / (exponential_bound(4.4) * 92.39 * 4.4), 1e-12);
   EXPECT_TRUE(skin.every_stretch);
   const EllipticityMargin fat =
       ellipticity_margin({LawKind::polynomial, {310, 300, 2250, 3800, 4720}});

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "fixtures/in_place.hpp"
 #include "core/parallel.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/block.hpp"
@@ -20,10 +21,10 @@ namespace {
 struct Small {
   HexMesh mesh;
   std::unique_ptr<Scene> scene;
-  std::unique_ptr<ForwardProblem> problem;
-  SaddleState state;
+  std::unique_ptr<Problem> problem;
+  State state;
 
-  explicit Small(double bulk_ratio, const char* solver = "direct") {
+  explicit Small(double bulk_ratio, SolverOption solver = SolverOption::direct) {
     fixtures::BlockSettings settings;
     settings.elements = {2, 2, 2};
     settings.size = Vec3(20, 20, 20);
@@ -35,10 +36,11 @@ struct Small {
     options.bulk_ratio = bulk_ratio;
     options.solver = solver;
     scene = std::make_unique<Scene>(mesh, options);
-    problem = std::make_unique<ForwardProblem>(*scene, flatten(mesh.reference),
-                                               scene->gravity_force(Vec3(0, 0, -9810)));
-    state = {flatten(mesh.reference), Eigen::VectorXd::Constant(8, 40)};
-    for (long i = 0; i < state.u.size(); ++i) state.u[i] += 0.2 * fixtures::noise(int(i));
+    problem = std::make_unique<Problem>(
+        scene->problem(scene->gravity_force(Vec3(0, 0, -9810))).problem);
+    state = scene->at_rest(flatten(mesh.reference));
+    state.p = Eigen::VectorXd::Constant(8, 40);
+    for (long i = 0; i < state.x.size(); ++i) state.x[i] += 0.2 * fixtures::noise(int(i));
   }
 };
 
@@ -50,17 +52,17 @@ Eigen::MatrixXd dense(const NodeMatrix& matrix) {
 }
 
 // The solver's step satisfies the constrained saddle system, with a rotated prescribed increment.
-void expect_constrained_solution(const char* kind) {
+void expect_constrained_solution(SolverOption kind) {
   for (const double bulk_ratio : {0.0, 300.0}) {
     Small small(bulk_ratio, kind);
     SaddleMatrix matrix = small.problem->make_matrix();
-    SaddleForces forces;
+    Forces forces;
     ASSERT_TRUE(small.problem->tangent(small.state, forces, matrix));
     Constraints held = small.scene->walls();
     const int touched = fixtures::node_at(small.mesh, Vec3(20, 10, 20));
     const Vec3 normal = Vec3(0.3, -0.2, 1).normalized();
     held.hold_normal(touched, normal, -0.15);
-    SaddleSolver solver(small.problem->pattern(), small.scene->assembly().solver());
+    SaddleSolver solver(small.problem->space().pattern, small.scene->solid().solver());
     ASSERT_TRUE(solver.factorise(matrix, held).ok);
     const SaddleStep step = solver.solve(matrix, forces.r, forces.theta, 1e-12);
 
@@ -78,34 +80,34 @@ void expect_constrained_solution(const char* kind) {
 }
 
 TEST(SaddleSolver, SolvesTheConstrainedSystem) {
-  expect_constrained_solution("direct");
+  expect_constrained_solution(SolverOption::direct);
 }
 
 TEST(SaddleSolver, SolvesItByMultigridAsWell) {
-  expect_constrained_solution("multigrid");
+  expect_constrained_solution(SolverOption::multigrid);
 }
 
 // A body at rest under gravity, its tangent assembled for multigrid, and a solver of either kind.
 struct AtRest {
   HexMesh mesh;
   std::unique_ptr<Scene> scene;
-  std::unique_ptr<ForwardProblem> problem;
+  std::unique_ptr<Problem> problem;
   std::unique_ptr<SaddleMatrix> matrix;
-  SaddleForces forces;
+  Forces forces;
   std::unique_ptr<SaddleSolver> solver;
 
   AtRest(HexMesh body, LinearSolver kind) : mesh(std::move(body)) {
     MechanicsOptions options;
     options.materials = load_materials("seed2008");
-    options.solver = "multigrid";
+    options.solver = SolverOption::multigrid;
     if (mesh.reference.empty()) mesh.reference = mesh.points;
     scene = std::make_unique<Scene>(mesh, options);
     const Eigen::VectorXd rest = flatten(mesh.reference);
-    problem =
-        std::make_unique<ForwardProblem>(*scene, rest, scene->gravity_force(Vec3(0, 0, -9810)));
+    problem = std::make_unique<Problem>(
+        scene->problem(scene->gravity_force(Vec3(0, 0, -9810))).problem);
     matrix = std::make_unique<SaddleMatrix>(problem->make_matrix());
-    EXPECT_TRUE(problem->tangent({rest, scene->assembly().rest_pressure()}, forces, *matrix));
-    solver = std::make_unique<SaddleSolver>(problem->pattern(), kind);
+    EXPECT_TRUE(problem->tangent(scene->at_rest(rest), forces, *matrix));
+    solver = std::make_unique<SaddleSolver>(problem->space().pattern, kind);
     EXPECT_TRUE(solver->factorise(*matrix, scene->walls(), false).ok);
   }
 };
@@ -196,10 +198,10 @@ TEST(Multigrid, FindsTheEquilibriumOfTheDirectSolver) {
   HexMesh direct = fixtures::block(settings), cycles = direct;
   MechanicsOptions options;
   options.materials = load_materials("seed2008");
-  options.solver = "direct";
-  ASSERT_TRUE(solve_forward(direct, Vec3(0, 0, -9810), options).converged());
-  options.solver = "multigrid";
-  const SolveSummary summary = solve_forward(cycles, Vec3(0, 0, -9810), options);
+  options.solver = SolverOption::direct;
+  ASSERT_TRUE(fixtures::forward_into(direct, Vec3(0, 0, -9810), options).converged());
+  options.solver = SolverOption::multigrid;
+  const SolveSummary summary = fixtures::forward_into(cycles, Vec3(0, 0, -9810), options);
   ASSERT_TRUE(summary.converged());
   EXPECT_EQ(summary.linear_solver, "multigrid");
   EXPECT_LE(summary.newton_iterations, 10);
@@ -213,11 +215,11 @@ TEST(Multigrid, FindsTheEquilibriumOfTheDirectSolver) {
 TEST(SaddleSolver, IndefiniteMatrixIsShiftedAndSaidToBe) {
   Small small(0);
   SaddleMatrix matrix = small.problem->make_matrix();
-  SaddleForces forces;
+  Forces forces;
   ASSERT_TRUE(small.problem->tangent(small.state, forces, matrix));
   const int node = fixtures::node_at(small.mesh, Vec3(20, 20, 20));
   matrix.stiffness.add_to_node(node, -1e6 * Mat3::Identity());
-  SaddleSolver solver(small.problem->pattern());
+  SaddleSolver solver(small.problem->space().pattern);
   EXPECT_FALSE(solver.factorise(matrix, small.scene->walls(), false).ok);
   matrix = small.problem->make_matrix();
   ASSERT_TRUE(small.problem->tangent(small.state, forces, matrix));
@@ -232,7 +234,7 @@ TEST(SaddleSolver, IndefiniteMatrixIsShiftedAndSaidToBe) {
 TEST(NodeMatrix, IsSymmetricAndMatchesItsBlocks) {
   Small small(0);
   SaddleMatrix matrix = small.problem->make_matrix();
-  SaddleForces forces;
+  Forces forces;
   ASSERT_TRUE(small.problem->tangent(small.state, forces, matrix));
   const Eigen::MatrixXd k = dense(matrix.stiffness);
   EXPECT_LT((k - k.transpose()).norm(), 1e-12 * k.norm());
@@ -245,11 +247,11 @@ TEST(NodeMatrix, IsSymmetricAndMatchesItsBlocks) {
     }
   }
   const double h = 1e-5;  // K without its augmentation is the derivative of the residual
-  Eigen::VectorXd direction(small.state.u.size());
+  Eigen::VectorXd direction(small.state.x.size());
   for (long i = 0; i < direction.size(); ++i) direction[i] = fixtures::noise(int(i) + 77);
-  SaddleState up = small.state, down = small.state;
-  up.u += h * direction;
-  down.u -= h * direction;
+  State up = small.state, down = small.state;
+  up.x += h * direction;
+  down.x -= h * direction;
   const Eigen::VectorXd difference =
       (small.problem->forces(up, nullptr).r - small.problem->forces(down, nullptr).r) / (2 * h);
   EXPECT_LT((difference - matrix.multiply_unaugmented(direction)).norm(), 1e-6 * difference.norm());
@@ -264,12 +266,10 @@ TEST(Cholesky, MatchesADenseSolverOnAnyNumberOfThreads) {
   MechanicsOptions options;
   options.materials = load_materials("seed2008");
   const Scene scene(mesh, options);
-  const ForwardProblem problem(scene, flatten(mesh.reference),
-                               Eigen::VectorXd::Zero(3L * mesh.nodes()));
+  const Problem problem = scene.problem(Eigen::VectorXd::Zero(3L * mesh.nodes())).problem;
   SaddleMatrix matrix = problem.make_matrix();
-  SaddleForces forces;
-  ASSERT_TRUE(
-      problem.tangent({flatten(mesh.reference), scene.assembly().rest_pressure()}, forces, matrix));
+  Forces forces;
+  ASSERT_TRUE(problem.tangent(scene.at_rest(flatten(mesh.reference)), forces, matrix));
   for (int node = 0; node < mesh.nodes(); ++node) {
     matrix.stiffness.add_to_node(node, matrix.diagonal.mean() * Mat3::Identity());
   }
@@ -277,7 +277,7 @@ TEST(Cholesky, MatchesADenseSolverOnAnyNumberOfThreads) {
   for (long i = 0; i < right.size(); ++i) right[i] = fixtures::noise(int(i));
   const Eigen::VectorXd exact = dense(matrix.stiffness).llt().solve(right);
   const int before = threads();
-  Cholesky cholesky(*problem.pattern());
+  Cholesky cholesky(*problem.space().pattern);
   set_threads(1);
   ASSERT_TRUE(cholesky.factorise(matrix.stiffness.values()));
   const Eigen::VectorXd alone = cholesky.solve(right);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "contact/skin_area.hpp"
+#include "mesh/nodal_faces.hpp"
 #include "core/units.hpp"
 #include "fixtures/pressed_block.hpp"
 #include "fixtures/standing_block.hpp"
@@ -99,9 +99,9 @@ TEST(ContactBlock, UniformPressurePassesThroughADistortedMesh) {
       if (high < 1e-9 || low > side - 1e-9) plates.push_back(face);
     }
     const NodalFaces area = nodal_faces(mesh, plates, body.state.x);
-    const std::vector<double> pushed = body.normal_forces(path.final_step.forces);
-    for (std::size_t c = 0; c < pushed.size(); ++c) {
-      const double pressure = pushed[c] / area.area[std::size_t(body.candidates()[c])];
+    const std::vector<NodalContact>& contacts = path.final_step.contacts;
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const double pressure = contacts[c].normal / area.area[std::size_t(body.candidates()[c])];
       EXPECT_NEAR(pressure / exact, 1, 1e-7) << "node " << body.candidates()[c];
     }
   }

@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "fixtures/compress_into.hpp"
 #include "contact/active_set.hpp"
 #include "contact/compression.hpp"
-#include "contact/saddle_body.hpp"
 #include "contact/skin_area.hpp"
 #include "core/units.hpp"
 #include "fixtures/analytic_mesh.hpp"
@@ -55,8 +55,8 @@ class CompressedBreast : public testing::TestWithParam<std::string> {};
 
 TEST_P(CompressedBreast, BalancesDoesNotPenetrateAndKeepsVolume) {
   HexMesh mesh = stress_free_breast();
-  const CompressionSummary summary = compress(mesh, halfway(GetParam()), mechanics());
-  ASSERT_EQ(summary.record.status, "converged") << summary.record.reason;
+  const CompressionResult summary = fixtures::compress_into(mesh, halfway(GetParam()), mechanics());
+  ASSERT_EQ(summary.record.status, SolveStatus::converged) << summary.record.reason;
   EXPECT_NEAR(summary.reduction_percent, 45, 1e-9);
   EXPECT_LT(summary.force_balance, 1e-8);
   EXPECT_LT(summary.max_volume_error, 1e-8);
@@ -115,10 +115,10 @@ TEST(Compression, MirrorImageGivesMirrorImage) {
   right.landmarks.clear();
   CompressionOptions options = halfway("MLO");
   options.target = 35;
-  const CompressionSummary a = compress(left, options, mechanics());
-  const CompressionSummary b = compress(right, options, mechanics());
-  ASSERT_EQ(a.record.status, "converged");
-  ASSERT_EQ(b.record.status, "converged");
+  const CompressionResult a = fixtures::compress_into(left, options, mechanics());
+  const CompressionResult b = fixtures::compress_into(right, options, mechanics());
+  ASSERT_EQ(a.record.status, SolveStatus::converged);
+  ASSERT_EQ(b.record.status, SolveStatus::converged);
   double worst = 0;
   for (int node = 0; node < left.nodes(); ++node) {
     const Vec3& x = left.points[std::size_t(node)];
@@ -132,10 +132,10 @@ TEST(Compression, MirrorImageGivesMirrorImage) {
 TEST(Compression, NumberingDoesNotMatter) {
   HexMesh mesh = stress_free_breast();
   auto [other, nodes] = fixtures::renumbered(mesh);
-  const CompressionSummary a = compress(mesh, halfway("MLO"), mechanics());
-  const CompressionSummary b = compress(other, halfway("MLO"), mechanics());
-  ASSERT_EQ(a.record.status, "converged") << a.record.reason;
-  ASSERT_EQ(b.record.status, "converged") << b.record.reason;
+  const CompressionResult a = fixtures::compress_into(mesh, halfway("MLO"), mechanics());
+  const CompressionResult b = fixtures::compress_into(other, halfway("MLO"), mechanics());
+  ASSERT_EQ(a.record.status, SolveStatus::converged) << a.record.reason;
+  ASSERT_EQ(b.record.status, SolveStatus::converged) << b.record.reason;
   double worst = 0;
   for (int i = 0; i < mesh.nodes(); ++i) {
     worst = std::max(worst, (other.points[i] - mesh.points[nodes[i]]).norm());
@@ -149,19 +149,18 @@ TEST(Compression, ReleaseReturnsToTheStart) {
   HexMesh mesh = stress_free_breast();
   const Scene scene(mesh, mechanics());
   const Eigen::VectorXd reference = flatten(mesh.reference);
-  const ForwardProblem problem(scene, reference, Eigen::VectorXd::Zero(reference.size()));
-  SaddleSolver solver(problem.pattern());
-  SaddleBody body(problem, solver, scene.walls(), Vec3::Zero());
+  const Problem body = scene.problem(Eigen::VectorXd::Zero(reference.size())).problem;
+  SaddleSolver solver(body.space().pattern);
   std::vector<int> free_skin;
   for (const int node : nodes_of(mesh, mesh.skin_faces)) {
     if (scene.walls().at(node) == nullptr) free_skin.push_back(node);
   }
-  ActiveSet contact(body, free_skin);
+  ActiveSet contact(body, solver, free_skin);
   PlatePair plates = place_plates(mesh, mesh.points, view_pose(mesh.side, 0), {});
   const double open = plates.touching_thickness + 1;
   plates.close_to(open);
-  BodyState state{reference, scene.assembly().rest_pressure()};
-  const auto area = [&](const BodyState&) { return std::vector<double>(free_skin.size(), 1.0); };
+  State state = scene.at_rest(reference);
+  const auto area = [&](const State&) { return std::vector<double>(free_skin.size(), 1.0); };
   const double closed = 0.6 * plates.initial_thickness;
   ASSERT_TRUE(
       follow_path(contact, plates, state, {TargetKind::thickness, closed}, area, {}).reached);
@@ -176,15 +175,15 @@ TEST(Compression, BothSolversAndBothStepLengthsAgree) {
   HexMesh exact = stress_free_breast(), paper = exact, steps = exact;
   CompressionOptions options = halfway("CC");
   options.target = 35;
-  const CompressionSummary a = compress(exact, options, mechanics());
+  const CompressionResult a = fixtures::compress_into(exact, options, mechanics());
   options.path.longest_step = 3;
-  const CompressionSummary b = compress(steps, options, mechanics());
+  const CompressionResult b = fixtures::compress_into(steps, options, mechanics());
   options.path.longest_step = 0;
   options.method = ContactMethod::augmented_lagrangian;
-  const CompressionSummary c = compress(paper, options, mechanics());
-  ASSERT_EQ(a.record.status, "converged") << a.record.reason;
-  ASSERT_EQ(b.record.status, "converged") << b.record.reason;
-  ASSERT_EQ(c.record.status, "converged") << c.record.reason;
+  const CompressionResult c = fixtures::compress_into(paper, options, mechanics());
+  ASSERT_EQ(a.record.status, SolveStatus::converged) << a.record.reason;
+  ASSERT_EQ(b.record.status, SolveStatus::converged) << b.record.reason;
+  ASSERT_EQ(c.record.status, SolveStatus::converged) << c.record.reason;
   EXPECT_LT(landmark_distance(exact, steps), 0.1);
   EXPECT_LT(landmark_distance(exact, paper), 0.01);
   EXPECT_NEAR(paper.contact->plates[0].force_N / exact.contact->plates[0].force_N, 1, 0.02);
@@ -198,8 +197,8 @@ TEST(Compression, ForceAndPressureAreReached) {
     CompressionOptions options = halfway("CC");
     options.stop_at = stop;
     options.target = value;
-    const CompressionSummary summary = compress(mesh, options, mechanics());
-    ASSERT_EQ(summary.record.status, "converged") << summary.record.reason;
+    const CompressionResult summary = fixtures::compress_into(mesh, options, mechanics());
+    ASSERT_EQ(summary.record.status, SolveStatus::converged) << summary.record.reason;
     const PlateRecord& paddle = mesh.contact->plates[0];
     // Mean pressure jumps when a node joins: the bracket then closes on the jump.
     const double reached = stop == StopAt::force ? paddle.force_N : paddle.mean_kPa;
@@ -218,8 +217,8 @@ TEST(Compression, FrictionStiffensAndBalances) {
     SCOPED_TRACE(mu);
     options.friction = mu;
     HexMesh mesh = stress_free_breast();
-    const CompressionSummary summary = compress(mesh, options, mechanics());
-    ASSERT_EQ(summary.record.status, "converged") << summary.record.reason;
+    const CompressionResult summary = fixtures::compress_into(mesh, options, mechanics());
+    ASSERT_EQ(summary.record.status, SolveStatus::converged) << summary.record.reason;
     EXPECT_LT(summary.force_balance, 1e-7);
     const double force = mesh.contact->plates[0].force_N;
     EXPECT_GT(force, last);
@@ -238,17 +237,17 @@ TEST(Compression, ElasticWallTendsToTheHeldWall) {
   CompressionOptions options = halfway("MLO");
   options.target = 35;
   HexMesh held = stress_free_breast(), stiff = held, soft = held;
-  const CompressionSummary a = compress(held, options, mechanics());
-  options.wall = WallSprings{1e3, 1e3};
-  const CompressionSummary b = compress(stiff, options, mechanics());
-  options.wall = WallSprings{0.5, 0.5 / 3};
-  const CompressionSummary c = compress(soft, options, mechanics());
-  ASSERT_EQ(a.record.status, "converged") << a.record.reason;
-  ASSERT_EQ(b.record.status, "converged") << b.record.reason;
-  ASSERT_EQ(c.record.status, "converged") << c.record.reason;
+  const CompressionResult a = fixtures::compress_into(held, options, mechanics());
+  options.wall = SupportStiffness{1e3, 1e3};
+  const CompressionResult b = fixtures::compress_into(stiff, options, mechanics());
+  options.wall = SupportStiffness{0.5, 0.5 / 3};
+  const CompressionResult c = fixtures::compress_into(soft, options, mechanics());
+  ASSERT_EQ(a.record.status, SolveStatus::converged) << a.record.reason;
+  ASSERT_EQ(b.record.status, SolveStatus::converged) << b.record.reason;
+  ASSERT_EQ(c.record.status, SolveStatus::converged) << c.record.reason;
   EXPECT_LT(landmark_distance(held, stiff), 0.02);
   EXPECT_NEAR(b.wall_reaction_N.norm() / a.wall_reaction_N.norm(), 1, 0.01);
-  for (const CompressionSummary* s : {&b, &c}) EXPECT_LT(s->force_balance, 1e-7);
+  for (const CompressionResult* s : {&b, &c}) EXPECT_LT(s->force_balance, 1e-7);
   EXPECT_GT(landmark_distance(held, soft), 0.2);
   EXPECT_LT(soft.contact->plates[0].force_N, held.contact->plates[0].force_N);
 }
@@ -257,11 +256,11 @@ TEST(Compression, DetectorThatStaysDragsTheBreastDown) {
   CompressionOptions options = halfway("CC");
   options.target = 30;
   HexMesh lifted = stress_free_breast(), left = lifted;
-  const CompressionSummary a = compress(lifted, options, mechanics());
+  const CompressionResult a = fixtures::compress_into(lifted, options, mechanics());
   options.plates.detector_rise = 0;
-  const CompressionSummary b = compress(left, options, mechanics());
-  ASSERT_EQ(a.record.status, "converged") << a.record.reason;
-  ASSERT_EQ(b.record.status, "converged") << b.record.reason;
+  const CompressionResult b = fixtures::compress_into(left, options, mechanics());
+  ASSERT_EQ(a.record.status, SolveStatus::converged) << a.record.reason;
+  ASSERT_EQ(b.record.status, SolveStatus::converged) << b.record.reason;
   EXPECT_EQ(b.plates.detector.level, b.plates.detector_start);
   // h = −z runs downwards.
   EXPECT_GT(b.plates.detector.level + b.plates.paddle.level,

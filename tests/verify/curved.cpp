@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "fixtures/in_place.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/elastic_scene.hpp"
 
@@ -98,7 +99,7 @@ void invert(const HexMesh& mesh, const Eigen::VectorXd& u, const Eigen::VectorXd
     if (std::binary_search(wall.begin(), wall.end(), i)) continue;
     inverse.reference[i] += 0.2 * (inverse.imaged[i] - mesh.reference[i]);
   }
-  const SolveSummary summary = solve_backward_under(inverse, forces, fixtures::options_of(fat));
+  const SolveSummary summary = fixtures::backward_under_into(inverse, forces, fixtures::options_of(fat));
   out.inverted = summary.load_reached == 1;
   for (int i = 0; i < mesh.nodes(); ++i) {
     out.inversion_mm =
@@ -120,13 +121,13 @@ Solved solve(const Exact& exact, int n, int order, bool with_inverse) {
   }
   mesh.points = mesh.reference = mesh.imaged;
   const Scene scene(mesh, fixtures::options_of(fat, order == 1 ? Element::q1p0 : Element::q2p1));
-  SaddleState state{flatten(mesh.reference), scene.assembly().rest_pressure()};
+  State state = scene.at_rest(flatten(mesh.reference));
   const NewtonResult result = fixtures::solve_held(scene, Eigen::VectorXd::Zero(targets.size()),
                                                    constraints_of(exact, unit), targets, state);
   EXPECT_TRUE(result.converged) << result.reason;
   EXPECT_LE(result.iterations.size(), 9u);
   Solved out;
-  out.error_mm = rms_error(mesh, state.u, exact.motion);
+  out.error_mm = rms_error(mesh, state.x, exact.motion);
   double force = 0;
   for (int i = 0; i < mesh.nodes(); ++i) {
     force += exact.share(unit[i], state.u.segment<3>(3L * i), result.forces.r.segment<3>(3L * i));

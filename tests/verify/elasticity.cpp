@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "fixtures/in_place.hpp"
 #include "fem/stress.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/elastic_scene.hpp"
@@ -53,19 +54,19 @@ TEST(Patch, AffineMotionOnDistortedMesh) {
         if (invariants == Invariants::plain && plain_bulk_stiffness(law) < 0) continue;
         const Scene scene(mesh,
                           options_of(law, order == 1 ? Element::q1p0 : Element::q2p1, invariants));
-        SaddleState state{exact, scene.assembly().rest_pressure()};
-        for (long i = 0; i < exact.size(); ++i) state.u[i] += 0.2 * fixtures::noise(int(i));
+        State state{flatten(mesh.reference), exact, scene.solid().rest_pressure()};
+        for (long i = 0; i < exact.size(); ++i) state.x[i] += 0.2 * fixtures::noise(int(i));
         const double extra = -100;  // a pull, so that the dead tractions are stable
         const bool isochoric = invariants == Invariants::isochoric;
-        const double rest = scene.assembly().rest_pressure()[0];
+        const double rest = scene.solid().rest_pressure()[0];
         const Mat3 stress = stress_of(law, isochoric, f, rest + extra);
         const Eigen::VectorXd load =
             fixtures::exact_load(mesh, [&](const Vec3&) { return stress; });
         const NewtonResult result = fixtures::solve_held(scene, load, scene.walls(), exact, state);
         EXPECT_TRUE(result.converged) << law.describe() << ": " << result.reason;
-        EXPECT_LT((state.u - exact).lpNorm<Eigen::Infinity>(), 1e-8)
+        EXPECT_LT((state.x - exact).lpNorm<Eigen::Infinity>(), 1e-8)
             << law.describe() << " order " << order;
-        for (const double p : scene.assembly().mean_pressure(state.p)) {
+        for (const double p : scene.solid().mean_pressure(state.p)) {
           EXPECT_NEAR(p, rest + extra, 1e-5) << law.describe() << " order " << order;
         }
       }
@@ -130,13 +131,13 @@ FieldError manufactured_error(int n, int order, const Law& law) {
   Eigen::VectorXd targets(3L * mesh.nodes());
   for (int i = 0; i < mesh.nodes(); ++i)
     targets.segment<3>(3L * i) = Manufactured::map(mesh.reference[i]);
-  SaddleState state{flatten(mesh.reference), scene.assembly().rest_pressure()};
+  State state = scene.at_rest(flatten(mesh.reference));
   const Eigen::VectorXd load = fixtures::exact_load(mesh, [&](const Vec3& at) {
     return stress_of(law, true, Manufactured::gradient(at), Manufactured::pressure(at));
   });
   const NewtonResult result = fixtures::solve_held(scene, load, scene.walls(), targets, state);
   EXPECT_TRUE(result.converged) << result.reason;
-  return field_error(mesh, state.u);
+  return field_error(mesh, state.x);
 }
 
 double order_of(double coarse, double fine) {
@@ -165,7 +166,7 @@ TEST(Exact, VolumeOfEveryElement) {
   settings.distortion = 0.15;
   HexMesh mesh = fixtures::block(settings);
   const MechanicsOptions options = options_of(laws()[0], Element::q1p0, Invariants::isochoric);
-  const SolveSummary summary = solve_forward(mesh, Vec3(0, 3000, -9000), options);
+  const SolveSummary summary = fixtures::forward_into(mesh, Vec3(0, 3000, -9000), options);
   ASSERT_TRUE(summary.converged());
   EXPECT_LT(summary.max_volume_error, 1e-10);
   EXPECT_LT(summary.residual, 1e-10);

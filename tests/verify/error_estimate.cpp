@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "fixtures/in_place.hpp"
 #include "core/units.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/shapes.hpp"
@@ -23,7 +24,7 @@ MechanicsOptions options_of(const std::string& materials) {
 
 HexMesh solved(HexMesh mesh, const Vec3& gravity, MechanicsOptions options, SolveSummary& summary) {
   if (mesh.order == 2) options.element = Element::q2p1;
-  summary = solve_forward(mesh, gravity, options);
+  summary = fixtures::forward_into(mesh, gravity, options);
   EXPECT_TRUE(summary.converged()) << summary.record.reason;
   return mesh;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "fixtures/in_place.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "fixtures/shapes.hpp"
@@ -42,7 +43,7 @@ Vec3 corner(int n, const MechanicsOptions& options, int* iterations = nullptr) {
   fixtures::BlockSettings settings;
   settings.elements = {n, n, n};
   HexMesh mesh = fixtures::block(settings);
-  const SolveSummary summary = solve_forward(mesh, Vec3(0, 0, -gravity_mm_s2), options);
+  const SolveSummary summary = fixtures::forward_into(mesh, Vec3(0, 0, -gravity_mm_s2), options);
   EXPECT_TRUE(summary.converged()) << summary.record.reason;
   if (iterations != nullptr) *iterations = summary.newton_iterations;
   const int node = fixtures::node_at(mesh, Vec3(100, 100, 100));
@@ -83,13 +84,13 @@ struct RoundTrip {
 };
 RoundTrip round_trip(HexMesh mesh, const MechanicsOptions& options, const Vec3& gravity = prone) {
   RoundTrip result;
-  SolveSummary summary = solve_backward(mesh, gravity, options);
+  SolveSummary summary = fixtures::backward_into(mesh, gravity, options);
   EXPECT_TRUE(summary.converged()) << summary.record.reason;
   EXPECT_TRUE(summary.stable);
   EXPECT_LT(summary.max_volume_error, options.bulk_ratio > 0 ? 0.1 : 1e-9);
   result.backward = summary.newton_iterations;
   EXPECT_GT(worst_distance(mesh.reference, mesh.imaged), 0.01);  // it did move
-  summary = solve_forward(mesh, gravity, options);
+  summary = fixtures::forward_into(mesh, gravity, options);
   EXPECT_TRUE(summary.converged()) << summary.record.reason;
   result.forward = summary.newton_iterations;
   result.closure = worst_distance(mesh.points, mesh.imaged);
@@ -136,7 +137,7 @@ TEST(RoundTrip, RollerHoldsOnlyTheNormal) {
     MechanicsOptions options = paper_options();
     options.cut = cut;
     HexMesh solved = mesh;
-    ASSERT_TRUE(solve_forward(solved, prone, options).converged());
+    ASSERT_TRUE(fixtures::forward_into(solved, prone, options).converged());
     nipple.push_back((landmark_position(solved, solved.points, *solved.landmark("nipple")) -
                       landmark_position(solved, solved.reference, *solved.landmark("nipple")))
                          .norm());
@@ -147,8 +148,8 @@ TEST(RoundTrip, RollerHoldsOnlyTheNormal) {
 
 TEST(Backward, FixedPointFindsTheSameShape) {
   HexMesh direct = fixtures::cap({.elements = 6}), iterated = direct;
-  ASSERT_TRUE(solve_backward(direct, prone, paper_options()).converged());
-  const SolveSummary summary = solve_backward_fixed_point(iterated, prone, paper_options(), 1e-10);
+  ASSERT_TRUE(fixtures::backward_into(direct, prone, paper_options()).converged());
+  const SolveSummary summary = fixtures::fixed_point_into(iterated, prone, paper_options(), 1e-10);
   ASSERT_TRUE(summary.converged()) << summary.record.reason;
   EXPECT_GE(summary.steps, 5);
   EXPECT_LT(worst_distance(direct.reference, iterated.reference), 1e-8);
@@ -156,7 +157,7 @@ TEST(Backward, FixedPointFindsTheSameShape) {
 
 TEST(Backward, NoGravityMovesNothing) {
   HexMesh mesh = fixtures::cap({.elements = 4});
-  const SolveSummary summary = solve_backward(mesh, Vec3::Zero(), paper_options());
+  const SolveSummary summary = fixtures::backward_into(mesh, Vec3::Zero(), paper_options());
   EXPECT_TRUE(summary.converged());
   EXPECT_LT(worst_distance(mesh.reference, mesh.imaged), 1e-10);
 }
@@ -164,10 +165,10 @@ TEST(Backward, NoGravityMovesNothing) {
 // At rest already: no step, and nothing to doubt.
 TEST(Forward, NoGravityMovesNothing) {
   HexMesh mesh = fixtures::cap({.elements = 4});
-  for (const char* solver : {"direct", "multigrid"}) {
+  for (const SolverOption solver : {SolverOption::direct, SolverOption::multigrid}) {
     MechanicsOptions options = paper_options();
     options.solver = solver;
-    const SolveSummary summary = solve_forward(mesh, Vec3::Zero(), options);
+    const SolveSummary summary = fixtures::forward_into(mesh, Vec3::Zero(), options);
     EXPECT_TRUE(summary.converged());
     EXPECT_TRUE(summary.doubts.empty()) << summary.doubts.front();
     EXPECT_LT(worst_distance(mesh.points, mesh.imaged), 1e-10);
@@ -181,8 +182,8 @@ TEST(Forward, IsFrameIndifferent) {
   for (auto* field : {&turned.imaged, &turned.reference, &turned.points}) {
     for (Vec3& x : *field) x = turn * x;
   }
-  ASSERT_TRUE(solve_forward(mesh, prone, paper_options()).converged());
-  ASSERT_TRUE(solve_forward(turned, turn * prone, paper_options()).converged());
+  ASSERT_TRUE(fixtures::forward_into(mesh, prone, paper_options()).converged());
+  ASSERT_TRUE(fixtures::forward_into(turned, turn * prone, paper_options()).converged());
   for (Vec3& x : mesh.points) x = turn * x;
   EXPECT_LT(worst_distance(mesh.points, turned.points), 1e-9);
 }
@@ -191,9 +192,9 @@ TEST(Forward, DoesNotDependOnTheNumberOfThreads) {
   HexMesh one = fixtures::cap({.elements = 6}), two = one;
   const int before = threads();
   set_threads(1);
-  ASSERT_TRUE(solve_forward(one, prone, paper_options()).converged());
+  ASSERT_TRUE(fixtures::forward_into(one, prone, paper_options()).converged());
   set_threads(2);
-  ASSERT_TRUE(solve_forward(two, prone, paper_options()).converged());
+  ASSERT_TRUE(fixtures::forward_into(two, prone, paper_options()).converged());
   set_threads(before);
   EXPECT_LT(worst_distance(one.points, two.points), 1e-10);
 }

@@ -2,6 +2,7 @@
 // and inverted.
 #include <gtest/gtest.h>
 
+#include "fixtures/in_place.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/elastic_scene.hpp"
 #include "fixtures/exact_states.hpp"
@@ -59,11 +60,11 @@ TEST_P(Homogeneous, ForcesAreThoseOfTheClosedForm) {
       const Eigen::VectorXd forces =
           fixtures::exact_load(mesh_, [&](const Vec3&) { return stress; });
       const Eigen::VectorXd targets = moved(mesh_, exact.f);
-      SaddleState state{flatten(mesh_.reference), scene.assembly().rest_pressure()};
-      const NewtonResult result = fixtures::solve_held(scene, Eigen::VectorXd::Zero(targets.size()),
+      State state = scene.at_rest(flatten(mesh_.reference));
+      const EquilibriumResult result = fixtures::solve_held(scene, Eigen::VectorXd::Zero(targets.size()),
                                                        sides_held(mesh_), targets, state);
       ASSERT_TRUE(result.converged) << exact.name << ", " << law.describe() << result.reason;
-      EXPECT_LT((state.u - targets).lpNorm<Eigen::Infinity>(), 1e-8) << exact.name;
+      EXPECT_LT((state.x - targets).lpNorm<Eigen::Infinity>(), 1e-8) << exact.name;
       EXPECT_LT((result.forces.r - forces).norm(), 1e-8 * forces.norm())
           << exact.name << ", " << law.describe();
     }
@@ -84,7 +85,7 @@ TEST_P(Homogeneous, BackwardFindsTheBlock) {
         mesh.reference[i] += 0.3 * (mesh.imaged[i] - mesh_.reference[i]);
       }
       const SolveSummary summary =
-          solve_backward_under(mesh, forces, fixtures::options_of(law, element_));
+          fixtures::backward_under_into(mesh, forces, fixtures::options_of(law, element_));
       // Dead forces may leave it unstable; the body is found all the same.
       ASSERT_EQ(summary.load_reached, 1)
           << exact.name << ", " << law.describe() << ": " << summary.record.reason;

@@ -1,6 +1,7 @@
 // The phantom's truth obeys the same discrete mechanics as the chain.
 #include <gtest/gtest.h>
 
+#include "fixtures/in_place.hpp"
 #include "core/units.hpp"
 #include "fixtures/small_phantom.hpp"
 #include "mesh/quality.hpp"
@@ -45,7 +46,7 @@ TEST(PhantomPostures, ForwardFromTheStressFreeShapeReturnsTheProneOne) {
   options.materials = solved().materials;
   options.element = Element::q2p1;
   options.cut = Cut::fixed;
-  ASSERT_TRUE(solve_forward(mesh, posture_gravity("prone"), options).converged());
+  ASSERT_TRUE(fixtures::forward_into(mesh, posture_gravity("prone"), options).converged());
   // The stored imaged shape is the prone one to 1e-4 mm, its forces the same to 1e-7.
   EXPECT_LT(largest(mesh.points, prone), 1e-6);
   EXPECT_LT(largest(solved().breast.mesh.imaged, prone), 1e-4);
@@ -58,7 +59,7 @@ TEST(PhantomPostures, BackwardFindsTheStressFreeShape) {
   options.materials = solved().materials;
   options.element = Element::q2p1;
   options.cut = Cut::fixed;
-  ASSERT_TRUE(solve_backward(mesh, posture_gravity("prone"), options).converged());
+  ASSERT_TRUE(fixtures::backward_into(mesh, posture_gravity("prone"), options).converged());
   EXPECT_LT(largest(mesh.reference, truth), 1e-3);
 }
 

@@ -1,6 +1,7 @@
 // Derivatives through backward and forward against central differences of the chain solved again.
 #include <gtest/gtest.h>
 
+#include "fixtures/in_place.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "fixtures/chain_inputs.hpp"
@@ -23,9 +24,9 @@ struct Outcome {
 
 Outcome solve_chain(const ChainInputs& in) {
   Outcome out{in.mesh, {}};
-  EXPECT_TRUE(solve_backward(out.mesh, in.imaged_gravity, in.options).converged());
+  EXPECT_TRUE(fixtures::backward_into(out.mesh, in.imaged_gravity, in.options).converged());
   out.imaged_pressure = out.mesh.pressure;
-  EXPECT_TRUE(solve_forward(out.mesh, in.gravity, in.options).converged());
+  EXPECT_TRUE(fixtures::forward_into(out.mesh, in.gravity, in.options).converged());
   return out;
 }
 

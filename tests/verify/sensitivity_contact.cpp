@@ -6,9 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "fixtures/compress_into.hpp"
+#include "fixtures/in_place.hpp"
 #include "contact/active_set.hpp"
 #include "contact/compression.hpp"
-#include "contact/saddle_body.hpp"
 #include "core/units.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/chain_inputs.hpp"
@@ -68,12 +69,11 @@ Inputs changed(Inputs in, const Parameter& parameter, double by) {
 // The stress-free shape of these inputs between their plates, from a state nearby.
 Outcome press(const Inputs& in, const HexMesh& near) {
   HexMesh mesh = in.mesh;
-  EXPECT_TRUE(solve_backward(mesh, in.imaged_gravity, in.options).converged());
+  EXPECT_TRUE(fixtures::backward_into(mesh, in.imaged_gravity, in.options).converged());
   Scene scene(mesh, in.options);
   const Eigen::VectorXd load = scene.gravity_force(in.gravity);
-  ForwardProblem problem(scene, flatten(mesh.reference), load);
-  SaddleSolver solver(problem.pattern());
-  SaddleBody body(problem, solver, scene.walls(), Vec3::Zero());
+  const Problem body = scene.problem(load).problem;
+  SaddleSolver solver(body.space().pattern);
   std::vector<int> candidates;
   std::vector<signed char> touching;
   for (const int node : nodes_of(near, near.skin_faces)) {
@@ -86,21 +86,21 @@ Outcome press(const Inputs& in, const HexMesh& near) {
   }
   ActiveSetOptions tight;
   tight.gap_tolerance = tight.volume_tolerance = 1e-12;
-  ActiveSet contact(body, candidates, tight);
+  ActiveSet contact(body, solver, candidates, tight);
   ContactMemory memory;
   memory.touching = touching;
+  memory.multipliers.assign(touching.size(), 0);
   contact.restore(memory);
-  BodyState state{flatten(near.points),
-                  Eigen::Map<const Eigen::VectorXd>(near.pressure.data(), near.elements())};
-  const StepResult result = contact.solve(in.plates, state, 1e-11);
-  EXPECT_EQ(result.outcome, StepOutcome::converged) << describe(result.outcome);
+  State state{flatten(mesh.reference), flatten(near.points),
+              Eigen::Map<const Eigen::VectorXd>(near.pressure.data(), near.elements())};
+  const ContactStep result = contact.solve(in.plates, state, 1e-11);
+  EXPECT_TRUE(result.converged) << describe(result.stop);
   EXPECT_EQ(contact.touching(), touching) << "the set of touching nodes changed";
   Outcome out{state.x, 0};
-  const std::vector<double> pushed = contact.normal_forces(in.plates, state, result.forces);
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (touching[c] != 0) continue;
     const Gap gap = in.plates.paddle.gap(state.x.segment<3>(3 * candidates[c]));
-    out.paddle_N += pushed[c] * gap.gradient.dot(in.plates.paddle.normal()) /
+    out.paddle_N += result.contacts[c].normal * gap.gradient.dot(in.plates.paddle.normal()) /
                     micronewton_per_newton;
   }
   return out;
@@ -115,13 +115,13 @@ TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
              posture_gravity("upright")},
             {}};
   HexMesh mesh = in.mesh;
-  ASSERT_TRUE(solve_backward(mesh, in.imaged_gravity, in.options).converged());
+  ASSERT_TRUE(fixtures::backward_into(mesh, in.imaged_gravity, in.options).converged());
   const std::vector<double> imaged_pressure = mesh.pressure;
   CompressionOptions compression;
   compression.view = GetParam();
   compression.angle_deg = view_angle_deg(GetParam());
   compression.target = 35;
-  ASSERT_EQ(compress(mesh, compression, in.options).record.status, "converged");
+  ASSERT_EQ(fixtures::compress_into(mesh, compression, in.options).record.status, SolveStatus::converged);
   in.plates = recorded_plates(mesh);
   in.mesh.contact = mesh.contact;
   const SensitivityChain chain(mesh, imaged_pressure, in.imaged_gravity, in.options);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "fixtures/in_place.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "fixtures/elastic_scene.hpp"
@@ -34,12 +35,12 @@ TEST(Symmetry, RigidMotionMakesNoForce) {
     for (const Law& law : laws()) {
       const Scene scene(mesh,
                         fixtures::options_of(law, mesh.order == 1 ? Element::q1p0 : Element::q2p1));
-      SaddleState state{flatten(mesh.reference), scene.assembly().rest_pressure()};
+      State state = scene.at_rest(flatten(mesh.reference));
       for (int i = 0; i < mesh.nodes(); ++i) {
-        state.u.segment<3>(3L * i) = turn * mesh.reference[i] + Vec3(300, -200, 100);
+        state.x.segment<3>(3L * i) = turn * mesh.reference[i] + Vec3(300, -200, 100);
       }
-      const SaddleForces forces =
-          scene.assembly().evaluate(flatten(mesh.reference), state, AssemblyRequest{});
+      const Forces forces =
+          scene.problem(Eigen::VectorXd::Zero(state.x.size())).problem.forces(state);
       ASSERT_TRUE(forces.valid);
       // Forces of order μ h² = 1e5 µN would come from strains of order one.
       EXPECT_LT(forces.r.lpNorm<Eigen::Infinity>(), 1e-5) << law.describe();
@@ -53,10 +54,10 @@ TEST(Symmetry, NumberingDoesNotMatter) {
   const HexMesh mesh = fixtures::cap({.elements = 6});
   const auto [other, nodes] = fixtures::renumbered(mesh);
   HexMesh a = mesh, b = other;
-  ASSERT_TRUE(solve_backward(a, prone, paper_options()).converged());
-  ASSERT_TRUE(solve_backward(b, prone, paper_options()).converged());
-  ASSERT_TRUE(solve_forward(a, oblique, paper_options()).converged());
-  ASSERT_TRUE(solve_forward(b, oblique, paper_options()).converged());
+  ASSERT_TRUE(fixtures::backward_into(a, prone, paper_options()).converged());
+  ASSERT_TRUE(fixtures::backward_into(b, prone, paper_options()).converged());
+  ASSERT_TRUE(fixtures::forward_into(a, oblique, paper_options()).converged());
+  ASSERT_TRUE(fixtures::forward_into(b, oblique, paper_options()).converged());
   for (int i = 0; i < mesh.nodes(); ++i) {
     EXPECT_LT((b.reference[i] - a.reference[nodes[i]]).norm(), 1e-9);
     EXPECT_LT((b.points[i] - a.points[nodes[i]]).norm(), 1e-9);
@@ -82,8 +83,8 @@ TEST(Symmetry, MirrorImages) {
     }
   }
   HexMesh a = mesh, b = other;
-  ASSERT_TRUE(solve_backward(a, oblique, paper_options()).converged());
-  ASSERT_TRUE(solve_backward(b, mirrored(oblique), paper_options()).converged());
+  ASSERT_TRUE(fixtures::backward_into(a, oblique, paper_options()).converged());
+  ASSERT_TRUE(fixtures::backward_into(b, mirrored(oblique), paper_options()).converged());
   for (int i = 0; i < mesh.nodes(); ++i) {
     EXPECT_LT((b.reference[i] - mirrored(a.reference[i])).norm(), 1e-9);
   }
@@ -92,11 +93,11 @@ TEST(Symmetry, MirrorImages) {
 // Newton counts of a fixed problem: a change of a kernel, a tangent or the line search shows here.
 TEST(Counts, OfABreastUnderGravity) {
   HexMesh mesh = fixtures::cap({.elements = 8});
-  const SolveSummary backward = solve_backward(mesh, prone, paper_options());
+  const SolveSummary backward = fixtures::backward_into(mesh, prone, paper_options());
   ASSERT_TRUE(backward.converged());
   EXPECT_EQ(backward.steps, 1);
   EXPECT_EQ(backward.newton_iterations, 5);
-  const SolveSummary forward = solve_forward(mesh, -prone, paper_options());
+  const SolveSummary forward = fixtures::forward_into(mesh, -prone, paper_options());
   ASSERT_TRUE(forward.converged());
   EXPECT_EQ(forward.steps, 1);
   EXPECT_EQ(forward.newton_iterations, 6);
@@ -111,7 +112,7 @@ Vec3 corner(int n, int order, Invariants invariants) {
   HexMesh mesh = fixtures::block(settings);
   const MechanicsOptions options =
       fixtures::options_of(laws()[0], order == 1 ? Element::q1p0 : Element::q2p1, invariants);
-  const SolveSummary summary = solve_forward(mesh, Vec3(0, 0, -gravity_mm_s2), options);
+  const SolveSummary summary = fixtures::forward_into(mesh, Vec3(0, 0, -gravity_mm_s2), options);
   EXPECT_TRUE(summary.converged()) << summary.record.reason;
   const int node = fixtures::node_at(mesh, settings.size);
   return mesh.points[node] - mesh.reference[node];

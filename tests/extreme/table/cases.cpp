@@ -1,3 +1,4 @@
+#include "fixtures/in_place.hpp"
 #include "extreme/table/cases.hpp"
 
 #include <chrono>
@@ -242,11 +243,11 @@ std::vector<Row> solve(const Problem& problem) {
   HexMesh mesh = problem.mesh;
   std::vector<Row> rows;
   auto start = std::chrono::steady_clock::now();
-  rows.push_back({"backward", solve_backward(mesh, problem.gravity, problem.options)});
+  rows.push_back({"backward", fixtures::backward_into(mesh, problem.gravity, problem.options)});
   rows.back().seconds = since(start);
   if (!rows.back().summary.converged()) return rows;
   start = std::chrono::steady_clock::now();
-  rows.push_back({"forward", solve_forward(mesh, problem.gravity, problem.options)});
+  rows.push_back({"forward", fixtures::forward_into(mesh, problem.gravity, problem.options)});
   rows.back().seconds = since(start);
   for (int i = 0; i < mesh.nodes(); ++i) {
     rows.back().closure_mm =

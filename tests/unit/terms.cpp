@@ -1,0 +1,302 @@
+// Every term against finite differences: forces against energy, tangents against forces. A new term
+// is tested by being added to the list.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+#include "contact/terms/friction.hpp"
+#include "contact/terms/plate.hpp"
+#include "fixtures/block.hpp"
+#include "fixtures/wide_plates.hpp"
+#include "mechanics/scene.hpp"
+#include "mechanics/terms/membrane.hpp"
+#include "mesh/element_order.hpp"
+#include "solve/problem.hpp"
+
+namespace breast {
+namespace {
+
+/// A term at a state, with what it belongs to.
+struct Case {
+  HexMesh mesh;
+  std::unique_ptr<Scene> scene;
+  std::shared_ptr<const Term> term;
+  State state;
+  std::function<Eigen::VectorXd(const Eigen::VectorXd&)> directions;  ///< those that are tested
+  bool energy_sees_reference = true;
+};
+
+struct Named {
+  std::string name;
+  std::function<Case()> make;
+};
+void PrintTo(const Named& named, std::ostream* out) {
+  *out << named.name;
+}
+
+Case body(Element element, double bulk_ratio, Invariants invariants) {
+  fixtures::BlockSettings settings;
+  settings.elements = {2, 2, 2};
+  settings.size = Vec3(20, 20, 20);
+  settings.distortion = 0.2;
+  settings.order = element == Element::q1p0 ? 1 : 2;
+  settings.skin_mm = 1;
+  Case out;
+  out.mesh = fixtures::block(settings);
+  MechanicsOptions options;
+  options.materials = load_materials("seed2008");
+  options.element = element;
+  options.bulk_ratio = bulk_ratio;
+  options.invariants = invariants;
+  options.wall = SupportStiffness{0.5, 0.2};
+  out.scene = std::make_unique<Scene>(out.mesh, options);
+  out.state = out.scene->at_rest(flatten(out.mesh.reference));
+  for (long i = 0; i < out.state.x.size(); ++i) {
+    out.state.x[i] += 0.3 * fixtures::noise(int(i));
+    out.state.reference[i] += 0.1 * fixtures::noise(int(i) + 999);
+  }
+  for (long i = 0; i < out.state.p.size(); ++i) out.state.p[i] += 50 * fixtures::noise(int(i) + 5);
+  return out;
+}
+
+Case term_of_scene(const std::string& name, Element element = Element::q1p0, double bulk_ratio = 0,
+                   Invariants invariants = Invariants::isochoric) {
+  Case out = body(element, bulk_ratio, invariants);
+  const Eigen::VectorXd load = out.scene->gravity_force(Vec3(100, -9000, 400));
+  const LoadedProblem loaded = out.scene->problem(load);
+  for (const auto& term : loaded.problem.terms()) {
+    if (term->name() == name) out.term = term;
+  }
+  return out;
+}
+
+/// The skin nodes at the top of the block, near a paddle whose edge runs through the middle of them.
+std::vector<int> top_nodes(const HexMesh& mesh) {
+  std::vector<int> nodes;
+  for (int n = 0; n < mesh.nodes(); ++n) {
+    if (mesh.reference[std::size_t(n)].z() > 19.9) nodes.push_back(n);
+  }
+  return nodes;
+}
+
+PlatePair plates_at_the_top(double edge_radius) {
+  Plate plate = plate_facing(view_pose(Side::left, 0));
+  plate.edge_start = edge_radius > 0 ? -10 : -100;
+  plate.far_edge = 200;
+  plate.half_width = 200;
+  plate.mid_depth = 0;
+  plate.edge_radius = std::max(1.0, edge_radius);
+  return fixtures::pair_at(plate, -19.8, 60);
+}
+
+Case plate(double penalty) {
+  Case out = body(Element::q1p0, 0, Invariants::isochoric);
+  auto term = std::make_shared<PlateTerm>(top_nodes(out.mesh));
+  term->set_plates(plates_at_the_top(12));
+  term->set_penalty(penalty);
+  for (std::size_t c = 0; c < top_nodes(out.mesh).size(); ++c) {
+    term->entry(c).plate = 0;
+    term->entry(c).multiplier = 1e3 * double(c % 4);
+  }
+  out.term = term;
+  out.energy_sees_reference = false;
+  return out;
+}
+
+// On a flat plate, where its tangent is exact; `stuck` below the bound, else slipping on it.
+Case friction(bool stuck) {
+  Case out = body(Element::q1p0, 0, Invariants::isochoric);
+  auto term = std::make_shared<FrictionTerm>();
+  term->set_plates(plates_at_the_top(0));
+  std::vector<FrictionEntry> entries;
+  for (const int node : top_nodes(out.mesh)) {
+    entries.push_back({node, 0, out.mesh.reference[std::size_t(node)], stuck ? 1e9 : 50, 1e3});
+  }
+  term->set_entries(entries);
+  out.term = term;
+  out.energy_sees_reference = false;
+  return out;
+}
+
+const std::vector<Named>& all_terms() {
+  static const std::vector<Named> list{
+      {"solid", [] { return term_of_scene("solid"); }},
+      {"solid_q2p1", [] { return term_of_scene("solid", Element::q2p1); }},
+      {"solid_compressible", [] { return term_of_scene("solid", Element::q1p0, 30); }},
+      {"solid_plain",
+       [] { return term_of_scene("solid", Element::q1p0, 0, Invariants::plain); }},
+      {"membrane", [] { return term_of_scene("membrane"); }},
+      {"membrane_q2", [] { return term_of_scene("membrane", Element::q2p1); }},
+      {"dead_load", [] { return term_of_scene("dead load"); }},
+      {"elastic_support", [] { return term_of_scene("elastic support"); }},
+      {"plate_multiplier", [] { return plate(0); }},
+      {"plate_penalty", [] { return plate(2e4); }},
+      {"friction_stuck", [] { return friction(true); }},
+      {"friction_slipping", [] { return friction(false); }},
+  };
+  return list;
+}
+
+class EveryTerm : public testing::TestWithParam<Named> {
+ protected:
+  EveryTerm() : at_(GetParam().make()), problem_(at_.scene->solid().space(), free()) {
+    problem_.add(at_.term);
+  }
+  Constraints free() const { return Constraints(at_.mesh.nodes()); }
+
+  Eigen::VectorXd direction(int seed) const {
+    Eigen::VectorXd d(at_.state.x.size());
+    for (long i = 0; i < d.size(); ++i) d[i] = fixtures::noise(int(i) + 1000 * seed);
+    return d;
+  }
+  Forces moved(const Eigen::VectorXd& dx, const Eigen::VectorXd& dX, double dp) const {
+    State state = at_.state;
+    state.x += dx;
+    state.reference += dX;
+    state.p += dp * pressures();
+    return problem_.forces(state);
+  }
+  Eigen::VectorXd pressures() const {
+    Eigen::VectorXd d(at_.state.p.size());
+    for (long i = 0; i < d.size(); ++i) d[i] = fixtures::noise(int(i) + 321);
+    return d;
+  }
+  Eigen::VectorXd none() const { return Eigen::VectorXd::Zero(at_.state.x.size()); }
+
+  static constexpr double h = 1e-5;  // mm
+  Case at_;
+  Problem problem_;
+};
+
+TEST_P(EveryTerm, ForcesAreTheSlopeOfTheEnergy) {
+  ASSERT_NE(at_.term, nullptr);
+  const Forces here = problem_.forces(at_.state);
+  ASSERT_TRUE(here.valid);
+  for (int seed = 1; seed <= 3; ++seed) {
+    const Eigen::VectorXd d = direction(seed);
+    const double slope =
+        (moved(h * d, none(), 0).energy - moved(-h * d, none(), 0).energy) / (2 * h);
+    EXPECT_NEAR(slope, here.r.dot(d), 1e-6 * here.r.norm() * d.norm());
+  }
+  const double dp = 1e-2;
+  const double slope = (moved(none(), none(), dp).energy - moved(none(), none(), -dp).energy) /
+                       (2 * dp);
+  EXPECT_NEAR(slope, -here.theta.dot(pressures()), 1e-6 * (1 + here.theta.norm()));
+}
+
+TEST_P(EveryTerm, TangentIsTheSlopeOfTheForces) {
+  SaddleMatrix matrix = problem_.make_matrix();
+  Forces here;
+  ASSERT_TRUE(problem_.tangent(at_.state, here, matrix));
+  for (int seed = 1; seed <= 3; ++seed) {
+    const Eigen::VectorXd d = direction(seed);
+    const Forces up = moved(h * d, none(), 0), down = moved(-h * d, none(), 0);
+    const Eigen::VectorXd force = (up.r - down.r) / (2 * h), volume = (up.theta - down.theta) / (2 * h);
+    EXPECT_LT((force - matrix.multiply_unaugmented(d)).norm(), 2e-6 * (force.norm() + 1e-3));
+    EXPECT_LT((volume - matrix.divergence.apply(d)).norm(), 1e-6 * (volume.norm() + 1e-6));
+  }
+  const double dp = 1;
+  const Eigen::VectorXd by_pressure =
+      (moved(none(), none(), dp).r - moved(none(), none(), -dp).r) / (2 * dp);
+  EXPECT_LT((by_pressure + matrix.divergence.apply_transpose(pressures())).norm(),
+            1e-8 * (1 + by_pressure.norm()));
+}
+
+TEST_P(EveryTerm, DerivativeByTheReferenceIsExactAndItsTransposeToo) {
+  ReferenceTangent tangent;
+  Request request;
+  request.reference = &tangent;
+  ASSERT_TRUE(problem_.evaluate(at_.state, request).valid);
+  for (int seed = 1; seed <= 3; ++seed) {
+    const Eigen::VectorXd d = direction(seed), w = direction(seed + 7);
+    const Forces up = moved(none(), h * d, 0), down = moved(none(), -h * d, 0);
+    const Eigen::VectorXd force = (up.r - down.r) / (2 * h), volume = (up.theta - down.theta) / (2 * h);
+    EXPECT_LT((force - tangent.apply(d)).norm(), 2e-6 * (force.norm() + 1e-3));
+    EXPECT_LT((volume - tangent.b_x.apply(d)).norm(), 1e-6 * (volume.norm() + 1e-6));
+    EXPECT_NEAR(w.dot(tangent.apply(d)), d.dot(tangent.apply_transpose(w)),
+                1e-9 * w.norm() * (tangent.apply(d).norm() + 1e-9));
+  }
+}
+
+// Packed by cells in single precision: the assembled matrix, its own κ included.
+TEST_P(EveryTerm, PackedTangentIsTheAssembledOne) {
+  SaddleMatrix matrix = problem_.make_matrix();
+  PackedTangent packed;
+  Request request;
+  request.augmentation = 5;
+  request.matrix = &matrix;
+  request.packed = &packed;
+  ASSERT_TRUE(problem_.evaluate(at_.state, request).valid);
+  const Eigen::VectorXd d = direction(4), product = matrix.stiffness.multiply(d);
+  EXPECT_LT((packed.apply(d) - product).norm(), 1e-5 * (product.norm() + 1e-9));
+  const std::vector<Mat3> blocks = packed.diagonal_blocks(3, at_.mesh.nodes());
+  for (int node = 3; node < at_.mesh.nodes(); ++node) {
+    const Mat3 block = matrix.stiffness.block(node, -1);
+    EXPECT_LT((blocks[std::size_t(node - 3)] - block).norm(), 1e-5 * (block.norm() + 1e-9));
+  }
+}
+
+TEST_P(EveryTerm, TouchesOnlyTheNodesItNames) {
+  const std::vector<int> named = at_.term->nodes();
+  EXPECT_TRUE(std::is_sorted(named.begin(), named.end()));
+  const std::set<int> own(named.begin(), named.end());
+  const Forces here = problem_.forces(at_.state);
+  Eigen::VectorXd elsewhere = direction(5);
+  for (const int node : named) elsewhere.segment<3>(3L * node).setZero();
+  for (int node = 0; node < at_.mesh.nodes(); ++node) {
+    if (own.contains(node)) continue;
+    EXPECT_EQ(Vec3(here.r.segment<3>(3L * node)), Vec3(0, 0, 0)) << node;
+  }
+  const Forces there = moved(0.1 * elsewhere, none(), 0);
+  EXPECT_EQ(there.r, here.r);
+}
+
+INSTANTIATE_TEST_SUITE_P(Terms, EveryTerm, testing::ValuesIn(all_terms()),
+                         [](const auto& each) { return each.param.name; });
+
+// On a rounded edge the plate's normal turns with the node, which friction's tangent leaves out.
+TEST(FrictionTerm, TangentIsExactOnlyWhereThePlateIsFlat) {
+  Plate plate = plate_facing(view_pose(Side::left, 0));
+  plate.far_edge = plate.half_width = 200;
+  plate.edge_radius = 10;
+  FrictionTerm term;
+  term.set_plates(fixtures::pair_at(plate, 0, 60));
+  const auto error_at = [&](const Vec3& x) {
+    term.set_entries({{0, 0, x + Vec3(2, 1, 0), 1e9, 100}});
+    Mat3 slope;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 d = 1e-5 * Vec3::Unit(i);
+      slope.col(i) = -(term.at(term.entries()[0], x + d).force -
+                       term.at(term.entries()[0], x - d).force) /
+                     2e-5;
+    }
+    return (slope - term.at(term.entries()[0], x).stiffness).norm() / slope.norm();
+  };
+  EXPECT_LT(error_at(Vec3(0, -50, -0.1)), 1e-8);
+  EXPECT_GT(error_at(Vec3(0, 6, 3)), 0.02);
+}
+
+// What a scene lacks is not in its list.
+TEST(Scene, HasNoTermsForWhatItLacks) {
+  const auto names = [](bool skin, bool wall) {
+    fixtures::BlockSettings settings;
+    if (skin) settings.skin_mm = 1;
+    const HexMesh mesh = fixtures::block(settings);
+    MechanicsOptions options;
+    options.materials = load_materials("seed2008");
+    if (wall) options.wall = SupportStiffness{1, 1};
+    const Scene scene(mesh, options);
+    std::vector<std::string> list;
+    const LoadedProblem loaded = scene.problem(Eigen::VectorXd::Zero(3L * mesh.nodes()));
+    for (const auto& term : loaded.problem.terms()) list.push_back(term->name());
+    return list;
+  };
+  using List = std::vector<std::string>;
+  EXPECT_EQ(names(false, false), (List{"solid", "dead load"}));
+  EXPECT_EQ(names(true, false), (List{"solid", "membrane", "dead load"}));
+  EXPECT_EQ(names(false, true), (List{"solid", "elastic support", "dead load"}));
+}
+
+}  // namespace
+}  // namespace breast
