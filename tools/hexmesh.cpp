@@ -76,7 +76,6 @@ void run_hexmesh(const MeshChoices& choices, Run& run) {
   run.report().set("skin_mm", skin_mm);
   mesh.history = run.history({{choices.geometry, geometry.content_sha256, &geometry.history},
                               {choices.labels, labels.content_sha256, &labels.history}});
-  mesh.wall_seconds = run.seconds();
   write_for_others(choices, mesh, run);
   write_mesh(choices.mesh, mesh);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 
 namespace breast {
@@ -79,8 +80,11 @@ Weights mean_value_weights(const DiscSurface& surface) {
   return w;
 }
 
-/// Places the inner points at the weighted mean of their neighbours.
-void solve(const Weights& weights, const std::vector<int>& unknown_of, int unknowns,
+using Solver = Eigen::SparseLU<Eigen::SparseMatrix<double>>;
+
+/// Places the inner points at the weighted mean of their neighbours. `lu` keeps the order of
+/// elimination from one call to the next.
+void solve(const Weights& weights, const std::vector<int>& unknown_of, int unknowns, Solver& lu,
            std::vector<Vec2>& st) {
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(unknowns, 2);
@@ -100,7 +104,8 @@ void solve(const Weights& weights, const std::vector<int>& unknown_of, int unkno
   }
   Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(matrix);
+  if (lu.rows() == 0) lu.analyzePattern(matrix);
+  lu.factorize(matrix);
   if (lu.info() != Eigen::Success)
     throw failed_error("the map of the skin to a square is singular");
   const Eigen::MatrixX2d answer = lu.solve(right);
@@ -148,7 +153,7 @@ void judge(const DiscSurface& surface, DiscMap& map) {
     if (!(flat > 0)) ++map.flipped;
     ratio.push_back(std::max(1e-12, flat) / std::max(1e-12, solid));
   }
-  for (double& r : ratio) r = std::exp(std::abs(std::log(r * solid_total)));
+  for (double& r : ratio) r = elementary::exp(std::abs(elementary::log(r * solid_total)));
   const auto n = std::ptrdiff_t(0.95 * double(ratio.size()));
   std::nth_element(ratio.begin(), ratio.begin() + n, ratio.end());
   map.area_ratio_p95 = ratio[std::size_t(n)];
@@ -169,9 +174,10 @@ DiscMap map_to_square(const DiscSurface& surface, int max_solves) {
   Weights weights = mean_value_weights(surface);
   double best_stretch = std::numeric_limits<double>::infinity();
   std::vector<double> sigma;
+  Solver lu;
   int solves = 0;
   while (solves < max_solves) {
-    solve(weights, unknown_of, unknowns, st);
+    solve(weights, unknown_of, unknowns, lu, st);
     ++solves;
     const double now = stretch(surface, st, sigma);
     if (!(now < best_stretch)) break;

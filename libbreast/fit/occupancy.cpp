@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "fit/slice_interpolation.hpp"
 
@@ -80,7 +81,8 @@ void smooth_axis(Volume<float>& volume, int axis, double sigma_voxels) {
   std::vector<float> weight(2 * radius + 1);
   double sum = 0;
   for (int o = -radius; o <= radius; ++o)
-    sum += weight[o + radius] = float(std::exp(-0.5 * o * o / (sigma_voxels * sigma_voxels)));
+    sum += weight[o + radius] =
+        float(elementary::exp(-0.5 * o * o / (sigma_voxels * sigma_voxels)));
   for (float& w : weight) w = float(w / sum);
   const auto& size = volume.grid.size;
   const int n = size[axis];

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "fit/closest_point.hpp"
 
@@ -128,8 +129,8 @@ RayEnd walk(const HermiteSheet& skin, const ThicknessMap& map, const Core& core,
     tau[k] = map.at(st);
   }
   const double window = 10;  // mm of arc for the slope
-  const double flat = std::sin(options.slope_degrees * pi / 180);
-  const double steep = std::sin(options.steep_degrees * pi / 180);
+  const double flat = elementary::sin(options.slope_degrees * pi / 180);
+  const double steep = elementary::sin(options.steep_degrees * pi / 180);
   for (int k = 1; k <= steps; ++k) {
     const double radius = limit * k / steps;
     if (!(tau[k] >= options.steep_down_to * t_min)) return {radius, RimEnd::thin_tissue};
@@ -153,7 +154,7 @@ std::vector<T> low_pass(const std::vector<T>& values, double sigma) {
     T sum = 0 * values[0];
     double total = 0;
     for (int o = -reach; o <= reach; ++o) {
-      const double w = std::exp(-0.5 * o * o / (sigma * sigma));
+      const double w = elementary::exp(-0.5 * o * o / (sigma * sigma));
       sum += w * values[(i + o + n) % n];
       total += w;
     }
@@ -250,7 +251,7 @@ double rim_angle(const HermiteSheet& sheet, const std::vector<Vec2>& rim, std::s
   // The rim runs counter-clockwise about the normal: inwards is to its left.
   const Vec3 inwards = at.normal().cross(tangent).normalized();
   const Vec3 cut = (along_cut - along_cut.dot(tangent) * tangent).normalized();
-  return std::acos(std::clamp(inwards.dot(cut), -1.0, 1.0)) * 180 / pi;
+  return elementary::acos(std::clamp(inwards.dot(cut), -1.0, 1.0)) * 180 / pi;
 }
 
 void measure(const HermiteSheet& skin, const HermiteSheet& wall, Rim& rim) {
@@ -276,7 +277,9 @@ void measure(const HermiteSheet& skin, const HermiteSheet& wall, Rim& rim) {
 
 bool within_margin(const Vec2& st, const RimOptions& options) {
   const Vec2 q = (st - Vec2(0.5, 0.5)).cwiseAbs() / (0.5 - options.margin);
-  return std::pow(q.x(), options.margin_order) + std::pow(q.y(), options.margin_order) < 1;
+  return elementary::pow(q.x(), options.margin_order) +
+             elementary::pow(q.y(), options.margin_order) <
+         1;
 }
 
 Vec2 centroid(const std::vector<Vec2>& curve) {
@@ -295,7 +298,7 @@ bool star_shaped(const std::vector<Vec2>& curve, const Vec2& centre) {
   double turn = 0;
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const Vec2 a = curve[i] - centre, b = curve[(i + 1) % curve.size()] - centre;
-    const double angle = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+    const double angle = elementary::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
     if (!(angle > 0)) return false;
     turn += angle;
   }
@@ -330,7 +333,7 @@ RimRays walk_rim(const HermiteSheet& skin, const WallSheet& wall, Side side, con
   rays.least_thickness_mm = std::min(rays.least_thickness_mm, 0.4 * core.thickest);
   for (int i = 0; i < options.rays; ++i) {
     const double angle = 2 * pi * i / options.rays;
-    rays.direction.emplace_back(std::cos(angle), std::sin(angle));
+    rays.direction.emplace_back(elementary::cos(angle), elementary::sin(angle));
     const RayEnd end =
         walk(skin, map, core, rays.direction.back(), rays.least_thickness_mm, options);
     rays.radius.push_back(end.radius);
@@ -348,7 +351,7 @@ Rim lay_rim(const HermiteSheet& skin, const WallSheet& wall, const RimRays& rays
   rim.greatest_thickness_mm = rays.greatest_thickness_mm;
   rim.wider_mm = wider_mm;
   std::vector<double> log_radius;
-  for (const double radius : rays.radius) log_radius.push_back(std::log(radius));
+  for (const double radius : rays.radius) log_radius.push_back(elementary::log(radius));
   log_radius = median_of_five(log_radius);
   // A rim over a dented skin may need more smoothing before a cut can be laid.
   for (const double stronger : {1.0, 2.0, 4.0}) {
@@ -357,7 +360,8 @@ Rim lay_rim(const HermiteSheet& skin, const WallSheet& wall, const RimRays& rays
     rim.skin.clear();
     for (std::size_t i = 0; i < smooth.size(); ++i) {
       const Vec2& way = rays.direction[i];
-      const double radius = std::exp(smooth[i]), limit = margin_radius(rim.centre, way, options);
+      const double radius = elementary::exp(smooth[i]),
+                   limit = margin_radius(rim.centre, way, options);
       const SheetPoint at = skin.evaluate(rim.centre + std::min(radius, limit) * way);
       const double mm_per_radius = (at.x_s * way.x() + at.x_t * way.y()).norm();
       rim.skin.push_back(rim.centre + std::min(radius + wider_mm / mm_per_radius, limit) * way);

@@ -1,14 +1,13 @@
 #include "fit/sheet_fit.hpp"
 
-#include <Eigen/CholmodSupport>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "core/blas.hpp"
 #include "core/error.hpp"
 #include "fit/closest_point.hpp"
 #include "fit/hermite_basis.hpp"
+#include "fit/line_solve.hpp"
 
 namespace breast {
 
@@ -45,6 +44,7 @@ std::vector<std::vector<int>> sort_by_patch(int nu, int nv, const SheetData& dat
   return members;
 }
 
+/// Adds to the lower triangle of `matrix` and to `right`.
 void add_data(int nu, int nv, const SheetData& data, const std::vector<int>& members, double scale,
               PatchMatrix& matrix, PatchVector& right) {
   for (const int k : members) {
@@ -56,8 +56,58 @@ void add_data(int nu, int nv, const SheetData& data, const std::vector<int>& mem
     const Vec3 pull = metric * data.points[k];
     for (int p = 0; p < 16; ++p) {
       right.segment<3>(3 * p) += w.value[p] * pull;
-      for (int q = 0; q < 16; ++q)
+      for (int q = 0; q <= p; ++q)
         matrix.block<3, 3>(3 * p, 3 * q) += w.value[p] * w.value[q] * metric;
+    }
+  }
+}
+
+struct PatchSystem {
+  PatchMatrix matrix;
+  PatchVector right;
+};
+
+std::vector<PatchSystem> patch_systems(int nu, int nv, const SheetData& data, double total,
+                                       double smoothing) {
+  const auto members = sort_by_patch(nu, nv, data);
+  const Eigen::Matrix<double, 16, 16> bend = smoothing * bending(nu, nv);
+  std::vector<PatchSystem> systems(members.size());
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t p = 0; p < members.size(); ++p) {
+    auto& [matrix, right] = systems[p];
+    matrix.setZero();
+    right.setZero();
+    for (int a = 0; a < 16; ++a)
+      for (int b = 0; b < 16; ++b)
+        for (int c = 0; c < 3; ++c) matrix(3 * a + c, 3 * b + c) = bend(a, b);
+    add_data(nu, nv, data, members[p], 1 / total, matrix, right);
+    matrix.triangularView<Eigen::StrictlyUpper>() = matrix.transpose();
+  }
+  return systems;
+}
+
+/// The nodes, of twelve unknowns each, in lines along the shorter side.
+struct NodeLines {
+  int nu, nv;
+  int across() const { return std::min(nu, nv) + 1; }
+  int count() const { return std::max(nu, nv) + 1; }
+  int line(int i, int j) const { return nu <= nv ? j : i; }
+  int within(int i, int j) const { return 12 * (nu <= nv ? i : j); }
+  int first_unknown(int i, int j) const { return 12 * across() * line(i, j) + within(i, j); }
+};
+
+/// Adds a patch whose first node is (i, j).
+void add_patch(const NodeLines& nodes, int i, int j, const PatchSystem& patch, LineMatrix& matrix,
+               Eigen::VectorXd& right) {
+  for (int a = 0; a < 4; ++a) {
+    const int ia = i + (a & 1), ja = j + (a >> 1), line = nodes.line(ia, ja);
+    right.segment<12>(nodes.first_unknown(ia, ja)) += patch.right.segment<12>(12 * a);
+    for (int b = 0; b < 4; ++b) {
+      const int ib = i + (b & 1), jb = j + (b >> 1), other = nodes.line(ib, jb);
+      if (other > line) continue;
+      auto& block = other == line ? matrix.own[line] : matrix.before[line];
+      block.block<12, 12>(nodes.within(ia, ja), nodes.within(ib, jb)) +=
+          patch.matrix.block<12, 12>(12 * a, 12 * b);
     }
   }
 }
@@ -68,56 +118,28 @@ HermiteSheet solve_sheet(int nu, int nv, const SheetData& data, double smoothing
   double total = 0;
   for (const double w : data.weights) total += w;
   if (!(total > 0)) throw failed_error("a sheet has no data to fit");
-  const auto members = sort_by_patch(nu, nv, data);
-  const Eigen::Matrix<double, 16, 16> bend = smoothing * bending(nu, nv);
-  std::vector<PatchMatrix> matrices(members.size());
-  std::vector<PatchVector> rights(members.size());
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t p = 0; p < members.size(); ++p) {
-    PatchMatrix& matrix = matrices[p];
-    matrix.setZero();
-    rights[p].setZero();
-    for (int a = 0; a < 16; ++a)
-      for (int b = 0; b < 16; ++b)
-        for (int c = 0; c < 3; ++c) matrix(3 * a + c, 3 * b + c) = bend(a, b);
-    add_data(nu, nv, data, members[p], 1 / total, matrix, rights[p]);
-  }
-
-  const int nodes = (nu + 1) * (nv + 1), size = 12 * nodes;
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(members.size() * 48 * 25 + std::size_t(size));
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
+  const auto systems = patch_systems(nu, nv, data, total, smoothing);
+  const NodeLines nodes{nu, nv};
+  const int width = 12 * nodes.across();
+  const std::vector<Eigen::MatrixXd> zero(nodes.count(), Eigen::MatrixXd::Zero(width, width));
+  LineMatrix matrix{zero, zero};
+  Eigen::VectorXd answer = Eigen::VectorXd::Zero(width * nodes.count());
   for (int j = 0; j < nv; ++j)
-    for (int i = 0; i < nu; ++i) {
-      const std::size_t p = std::size_t(j) * nu + i;
-      int row[48];
-      for (int a = 0; a < 16; ++a) {
-        const int c = a / 4, node = (j + (c >> 1)) * (nu + 1) + i + (c & 1);
-        for (int k = 0; k < 3; ++k) row[3 * a + k] = 12 * node + 3 * (a % 4) + k;
-      }
-      for (int a = 0; a < 48; ++a) {
-        right[row[a]] += rights[p][a];
-        for (int b = 0; b < 48; ++b)
-          if (row[a] >= row[b]) entries.emplace_back(row[a], row[b], matrices[p](a, b));
-      }
-    }
-  Eigen::SparseMatrix<double> matrix(size, size);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  prepare_blas();
-  Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor;
-  factor.cholmod().print = 0;
-  factor.compute(matrix);
-  if (factor.info() != Eigen::Success)
+    for (int i = 0; i < nu; ++i)
+      add_patch(nodes, i, j, systems[std::size_t(j) * nu + i], matrix, answer);
+  if (!solve_lines(matrix, answer))
     throw failed_error("the sheet's least squares with smoothing ", smoothing, " are singular");
-  const Eigen::VectorXd answer = factor.solve(right);
   if (!answer.allFinite()) throw failed_error("the sheet's least squares have no finite answer");
 
   HermiteSheet sheet;
   sheet.nu = nu;
   sheet.nv = nv;
-  sheet.nodes.resize(nodes);
-  std::vector<Vec3> dofs(4 * std::size_t(nodes));
-  for (std::size_t d = 0; d < dofs.size(); ++d) dofs[d] = answer.segment<3>(Eigen::Index(3 * d));
+  sheet.nodes.resize(std::size_t(nu + 1) * (nv + 1));
+  std::vector<Vec3> dofs;
+  for (int j = 0; j <= nv; ++j)
+    for (int i = 0; i <= nu; ++i)
+      for (int k = 0; k < 4; ++k)
+        dofs.push_back(answer.segment<3>(nodes.first_unknown(i, j) + 3 * k));
   set_sheet_dofs(sheet, dofs);
   return sheet;
 }

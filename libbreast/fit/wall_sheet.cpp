@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "fit/sheet_fit.hpp"
 
@@ -113,7 +114,7 @@ WallSheet fit_wall(const LabelVolume& labels, const BreastRegion& region, int nu
 
   const double length =
       std::sqrt((wall.box.high.x() - wall.box.low.x()) * (wall.box.high.z() - wall.box.low.z()));
-  const double smoothing = std::pow(smoothing_mm / length, 4);
+  const double smoothing = elementary::pow(smoothing_mm / length, 4);
   std::vector<double> distance, cos2, of_foot;
   for (int round = 0; round < 6; ++round) {
     wall.sheet = solve_sheet(nu, nv, found.data, smoothing);

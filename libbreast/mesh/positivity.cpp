@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/elementary.hpp"
 #include "mesh/lattice.hpp"
 
 namespace breast {
@@ -45,7 +46,8 @@ Eigen::MatrixXd bernstein_from_values(int n) {
     const double t = double(row) / (n - 1);
     double binomial = 1;
     for (int column = 0; column < n; ++column) {
-      values(row, column) = binomial * std::pow(t, column) * std::pow(1 - t, n - 1 - column);
+      values(row, column) =
+          binomial * elementary::pow(t, column) * elementary::pow(1 - t, n - 1 - column);
       binomial *= double(n - 1 - column) / (column + 1);
     }
   }
@@ -58,7 +60,7 @@ Eigen::MatrixXd first_half(int n) {
   for (int row = 0; row < n; ++row) {
     double binomial = 1;
     for (int column = 0; column <= row; ++column) {
-      half(row, column) = binomial * std::pow(0.5, row);
+      half(row, column) = binomial * std::ldexp(1.0, -row);
       binomial *= double(row - column) / (column + 1);
     }
   }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 
 namespace breast {
@@ -57,26 +58,28 @@ struct SquarePolar {
 };
 SquarePolar square_polar(int n, double i, double j) {
   constexpr double quarter = std::numbers::pi / 4;
-  const double x = std::tan(quarter * (2 * i / n - 1)), y = std::tan(quarter * (2 * j / n - 1));
+  const double x = elementary::tan(quarter * (2 * i / n - 1)),
+               y = elementary::tan(quarter * (2 * j / n - 1));
   const double radius = std::hypot(x, y), edge = std::max(std::abs(x), std::abs(y));
   if (edge == 0) return {0, 0, quarter};
   double along;  // perimeter coordinate in sides, from the corner i = j = 0
   if (-y >= std::abs(x)) {
-    along = 0.5 + std::atan(x / -y) / quarter / 2;
+    along = 0.5 + elementary::atan(x / -y) / quarter / 2;
   } else if (x >= std::abs(y)) {
-    along = 1.5 + std::atan(y / x) / quarter / 2;
+    along = 1.5 + elementary::atan(y / x) / quarter / 2;
   } else if (y >= std::abs(x)) {
-    along = 2.5 - std::atan(x / y) / quarter / 2;
+    along = 2.5 - elementary::atan(x / y) / quarter / 2;
   } else {
-    along = 3.5 - std::atan(y / -x) / quarter / 2;
+    along = 3.5 - elementary::atan(y / -x) / quarter / 2;
   }
-  return {along / 4 - std::floor(along / 4), std::atan(radius), std::atan(radius / edge)};
+  return {along / 4 - std::floor(along / 4), elementary::atan(radius),
+          elementary::atan(radius / edge)};
 }
 
 // ρ of the top block's edge: its share of the skin's area, less at mid-side than at the corners.
 double edge_rho(const DomeSize& s, double theta_edge) {
   const double share = 0.97 / std::sqrt(1 + 4.0 * (s.l - s.k) / s.n);
-  return share * std::pow(theta_edge / (std::numbers::pi / 4), 0.7);
+  return share * elementary::pow(theta_edge / (std::numbers::pi / 4), 0.7);
 }
 
 HullPlace side_place(const DomeSize& s, const Numbering& number, int p, int row) {
@@ -213,7 +216,9 @@ DomeSize dome_near(int edge) {
     for (int l = std::max(2, int(0.7 * n)); l <= 1.3 * n + 1; ++l) {
       for (int m = 1; m <= n; ++m) {
         DomeSize size{n, l, m, std::clamp(int(std::lround(0.3 * l)), 1, l - 1)};
-        const auto square_log = [](double ratio) { return std::log(ratio) * std::log(ratio); };
+        const auto square_log = [](double ratio) {
+          return elementary::log(ratio) * elementary::log(ratio);
+        };
         const double cost = 4 * square_log(size.elements() / wanted) +
                             square_log(n / (10 * scale)) + square_log(l / (10 * scale)) +
                             square_log(m / (6 * scale));

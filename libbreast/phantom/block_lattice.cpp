@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.hpp"
+
 namespace breast {
 
 BlockLattice::BlockLattice(const MeshParameters& size)
@@ -78,8 +80,8 @@ Vec3 BlockLattice::core_place(int i, int j, int k) const {
 // Equiangular point of the unit sphere for a node of the half cube's surface.
 Vec3 BlockLattice::sphere_place(int i, int j, int k) const {
   constexpr double quarter = std::numbers::pi / 4;
-  return Vec3(std::tan(quarter * (2.0 * i / c_ - 1)), std::tan(quarter * (2.0 * j / c_ - 1)),
-              std::tan(quarter * k / l_))
+  return Vec3(elementary::tan(quarter * (2.0 * i / c_ - 1)),
+              elementary::tan(quarter * (2.0 * j / c_ - 1)), elementary::tan(quarter * k / l_))
       .normalized();
 }
 

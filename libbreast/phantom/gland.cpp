@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
@@ -143,8 +144,8 @@ std::vector<GlandPiece> grow_gland(const BreastShape& shape, const GlandParamete
     const double polar = 1.05 * std::sqrt((lobe + 0.5) / parameters.lobes);
     const double azimuth = golden * lobe + stream.normal(0, 0.2);
     const Vec3 out = shape.radial(azimuth);
-    const Vec3 direction = -std::cos(polar) * shape.axis() + std::sin(polar) * out;
-    const Vec3 sinus = shape.apex() - 9.0 * shape.axis() + 3.0 * std::sin(polar) * out;
+    const Vec3 direction = -elementary::cos(polar) * shape.axis() + elementary::sin(polar) * out;
+    const Vec3 sinus = shape.apex() - 9.0 * shape.axis() + 3.0 * elementary::sin(polar) * out;
     pieces.push_back({shape.apex(), sinus, 1.1, true});
     grower.grow(sinus, direction, 1.25, 0);
   }
@@ -224,7 +225,8 @@ double outlined_volume(const BreastShape& shape) {
 // Shifts the margin of the lobes so that, with the main ducts, the wanted share of the breast's
 // volume lies inside.
 void GlandField::calibrate(const BreastShape& shape, double fraction) {
-  const double cell = std::pow(lattice_.spacing, 3), breast = outlined_volume(shape);
+  const double cell = lattice_.spacing * lattice_.spacing * lattice_.spacing,
+               breast = outlined_volume(shape);
   std::vector<float> inside;
   for (int k = 0; k < lattice_.size[2]; ++k)
     for (int j = 0; j < lattice_.size[1]; ++j)

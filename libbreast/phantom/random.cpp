@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.hpp"
+
 namespace breast {
 
 namespace {
@@ -43,8 +45,8 @@ double uniform(std::uint64_t seed, std::uint64_t index) {
 Vec2 normal_pair(std::uint64_t seed, std::uint64_t index) {
   const double u = 1.0 - uniform(seed, 2 * index);
   const double angle = 2 * std::numbers::pi * uniform(seed, 2 * index + 1);
-  const double radius = std::sqrt(-2 * std::log(u));
-  return {radius * std::cos(angle), radius * std::sin(angle)};
+  const double radius = std::sqrt(-2 * elementary::log(u));
+  return {radius * elementary::cos(angle), radius * elementary::sin(angle)};
 }
 
 double lattice_noise(std::uint64_t seed, const Vec3& point) {

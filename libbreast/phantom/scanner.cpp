@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "phantom/random.hpp"
@@ -63,17 +64,17 @@ Volume<float> coil_sensitivity(const PhantomImage& image, double bias, std::uint
     for (int j = 0; j < grid.size[1]; ++j)
       for (int i = 0; i < grid.size[0]; ++i)
         field.at(i, j, k) =
-            float(std::log(raw_sensitivity(elements, grid.to_patient(Vec3(i, j, k)))));
+            float(elementary::log(raw_sensitivity(elements, grid.to_patient(Vec3(i, j, k)))));
   std::vector<float> breast;
   for (std::size_t n = 0; n < grid.voxels(); ++n)
     if (image.side[n] > 0 && image.tissue[n] == std::uint8_t(Tissue::fat))
       breast.push_back(field.voxels[n]);
   if (breast.empty()) throw input_error("coil sensitivity: the image holds no breast");
   const double spread = percentile(breast, 0.99) - percentile(breast, 0.01);
-  const double power = std::log(bias) / spread, middle = percentile(breast, 0.5);
+  const double power = elementary::log(bias) / spread, middle = percentile(breast, 0.5);
 #pragma omp parallel for schedule(static) num_threads(threads())
   for (std::size_t n = 0; n < grid.voxels(); ++n)
-    field.voxels[n] = float(std::exp(power * (field.voxels[n] - middle)));
+    field.voxels[n] = float(elementary::exp(power * (field.voxels[n] - middle)));
   return field;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "mesh/lattice.hpp"
@@ -130,7 +131,7 @@ void place_landmarks(const PhantomBreast& breast, HexMesh& mesh) {
   const double azimuth = p.tumour_azimuth * std::numbers::pi / 180;
   const Vec3 wanted =
       breast.shape.foot() + p.tumour_level * height * breast.shape.axis() +
-      p.tumour_aside * p.radius * (std::cos(azimuth) * out + std::sin(azimuth) * up);
+      p.tumour_aside * p.radius * (elementary::cos(azimuth) * out + elementary::sin(azimuth) * up);
   const Vec3 tumour = margin_point(breast, wanted);
   add("tumour", Locator(mesh, mesh.reference).nearest(tumour));
   mesh.tumour_node = nearest_node(mesh.reference, tumour);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "phantom/random.hpp"
 
@@ -29,8 +30,8 @@ BreastShape::BreastShape(const PhantomParameters& parameters, const Torso& torso
   const double lateral = lateral_sign(side);
   foot_ = torso_.wall_point(lateral * p_.centre_x, p_.centre_z);
   const double out = p_.axis_lateral * degree, down = p_.axis_inferior * degree;
-  axes_[2] = Vec3(lateral * std::sin(out) * std::cos(down), -std::cos(out) * std::cos(down),
-                  -std::sin(down));
+  axes_[2] = Vec3(lateral * elementary::sin(out) * elementary::cos(down),
+                  -elementary::cos(out) * elementary::cos(down), -elementary::sin(down));
   axes_[0] = (Vec3::UnitX() - axes_[2].x() * axes_[2]).normalized();
   axes_[1] = axes_[2].cross(axes_[0]);
   double inside = 0, outside = p_.height + 40;
@@ -45,32 +46,33 @@ BreastShape::BreastShape(const PhantomParameters& parameters, const Torso& torso
 }
 
 Vec3 BreastShape::radial(double azimuth) const {
-  return std::cos(azimuth) * axes_[0] + std::sin(azimuth) * axes_[1];
+  return elementary::cos(azimuth) * axes_[0] + elementary::sin(azimuth) * axes_[1];
 }
 
 Vec3 BreastShape::cylindrical(const Vec3& x) const {
   const Vec3 d = x - foot_;
   const double a = d.dot(axes_[0]), b = d.dot(axes_[1]);
-  return {std::hypot(a, b), std::atan2(b, a), d.dot(axes_[2])};
+  return {std::hypot(a, b), elementary::atan2(b, a), d.dot(axes_[2])};
 }
 
 double BreastShape::radius(double azimuth) const {
-  const double lateral = lateral_sign(side_) * std::cos(azimuth), up = std::sin(azimuth);
+  const double lateral = lateral_sign(side_) * elementary::cos(azimuth),
+               up = elementary::sin(azimuth);
   const double tail = std::max(0.0, (lateral + up) / std::numbers::sqrt2);
   return p_.radius * (1 + p_.upper_fullness * up + p_.lateral_fullness * lateral +
                       p_.axillary_tail * tail * tail * tail);
 }
 
 double BreastShape::fold(double azimuth) const {
-  return p_.fold * (1 + 0.3 * std::sin(azimuth));
+  return p_.fold * (1 + 0.3 * elementary::sin(azimuth));
 }
 
 // A cylinder up to the shoulder, a superellipsoidal dome above it.
 double BreastShape::body_distance(const Vec3& c) const {
   const double base = radius(c.y()), dome = p_.height - p_.shoulder;
   const double u = c.x() / base, v = std::max(0.0, c.z() - p_.shoulder) / dome;
-  const double pu = std::pow(u, p_.power - 1), pv = std::pow(v, p_.power - 1);
-  const double sum = pu * u + pv * v + 1e-12, f = std::pow(sum, 1 / p_.power);
+  const double pu = elementary::pow(u, p_.power - 1), pv = elementary::pow(v, p_.power - 1);
+  const double sum = pu * u + pv * v + 1e-12, f = elementary::pow(sum, 1 / p_.power);
   const double fu = f / sum * pu / base, fv = f / sum * pv / dome;
   return (f - 1) / std::max(std::hypot(fu, fv), 0.5 / std::max(base, dome));
 }

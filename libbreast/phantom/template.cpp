@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "mesh/lattice.hpp"
@@ -19,10 +20,10 @@ namespace {
 Vec3 stress_free_place(const BlockLattice::Place& place, const BreastShape& shape,
                        const MeridianMap& map) {
   const Vec3 centre = shape.at(0, 0, map.fold_height());
-  const double azimuth = std::atan2(place.ball.y(), place.ball.x());
+  const double azimuth = elementary::atan2(place.ball.y(), place.ball.x());
   const double flat = std::hypot(place.ball.x(), place.ball.y());
   if (place.dome) {
-    const double polar = std::atan2(flat, place.ball.z()) / (0.5 * std::numbers::pi);
+    const double polar = elementary::atan2(flat, place.ball.z()) / (0.5 * std::numbers::pi);
     return centre + place.ball.norm() * (map.skin(polar, azimuth) - centre);
   }
   const Vec3 top =

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "phantom/random.hpp"
 
 namespace breast {
@@ -17,10 +18,10 @@ double smooth_step(double value, double low, double high) {
 double Torso::smooth_distance(const Vec3& x) const {
   const double v = x.y() - centre(x.z());
   const double qx = std::abs(x.x()) / p_.half_width, qy = std::abs(v) / p_.half_depth;
-  const double px = std::pow(qx, p_.power - 1), py = std::pow(qy, p_.power - 1);
+  const double px = elementary::pow(qx, p_.power - 1), py = elementary::pow(qy, p_.power - 1);
   const double sum = px * qx + py * qy;
   if (sum < 1e-6) return -std::min(p_.half_width, p_.half_depth);
-  const double f = std::pow(sum, 1 / p_.power);
+  const double f = elementary::pow(sum, 1 / p_.power);
   const double fx = f / sum * px / p_.half_width, fy = f / sum * py / p_.half_depth;
   const double fz = fy * (p_.tilt + 2 * p_.bend * x.z());
   return (f - 1) / std::sqrt(fx * fx + fy * fy + fz * fz);
@@ -29,7 +30,7 @@ double Torso::smooth_distance(const Vec3& x) const {
 double Torso::wall_distance(const Vec3& x) const {
   const double front = smooth_step(centre(x.z()) - x.y(), 0, 0.6 * p_.half_depth);
   const double across = x.x() / 15;
-  return smooth_distance(x) + p_.sternal_groove * std::exp(-across * across) * front;
+  return smooth_distance(x) + p_.sternal_groove * elementary::exp(-across * across) * front;
 }
 
 double Torso::skin_distance(const Vec3& x) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -85,17 +86,17 @@ double flat_skin_cm2(const Work& work) {
   }
   // Every n-th face stands for n; its neighbourhood is asked of the mask.
   const std::size_t stride = std::max<std::size_t>(1, faces.size() / 1500);
-  double flat = 0;
-#pragma omp parallel for schedule(dynamic) reduction(+ : flat)
+  std::vector<double> flat(faces.size(), 0);
+#pragma omp parallel for schedule(dynamic)
   for (std::size_t n = 0; n < faces.size(); n += stride) {
     const auto patch = skin_faces(work.body.mask, faces[n].centre, 1.3 * radius);
     const TangentFrame frame = tangent_frame(patch, faces[n].centre);
     const Quadric q = quadric_through(patch, frame, 0, radius);
     const double mean = q[3] + q[5], spread = std::hypot(q[3] - q[5], q[4]);
     if (std::abs(mean) + spread < flattest)
-      flat += double(stride) * std::max(0.0, faces[n].area.dot(frame.out));
+      flat[n] = double(stride) * std::max(0.0, faces[n].area.dot(frame.out));
   }
-  return flat / mm2_per_cm2;
+  return std::accumulate(flat.begin(), flat.end(), 0.0) / mm2_per_cm2;
 }
 
 Extents extents_of(const Work& work, const Vec3& nipple, Side side) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/grid/itk_filters.hpp"
 #include "segment/work.hpp"
@@ -122,7 +123,7 @@ Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side) {
   const Volume<float> log_bias = resampled(coarse.bias.log_bias, grid);
   fine.ratio = fine.brightness = fine.scan;
   for (std::size_t n = 0; n < log_bias.voxels.size(); ++n) {
-    fine.brightness.voxels[n] /= std::exp(log_bias.voxels[n]);
+    fine.brightness.voxels[n] /= elementary::exp(log_bias.voxels[n]);
     fine.ratio.voxels[n] = fine.body.mask.voxels[n] ? fine.brightness.voxels[n] : 0;
   }
   // Depths count from the first voxel of each grid.

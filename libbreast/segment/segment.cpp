@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/grid/itk_filters.hpp"
@@ -46,7 +47,7 @@ void correct_bias(Work& work, bool again, const Limit& limit) {
   work.ratio = work.scan;
   for (std::size_t n = 0; n < fine.voxels.size(); ++n) {
     work.ratio.voxels[n] =
-        work.body.mask.voxels[n] ? work.scan.voxels[n] / std::exp(fine.voxels[n]) : 0;
+        work.body.mask.voxels[n] ? work.scan.voxels[n] / elementary::exp(fine.voxels[n]) : 0;
   }
 }
 

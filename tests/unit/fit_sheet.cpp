@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "fit/closest_point.hpp"
 #include "fit/hermite_basis.hpp"
+#include "fit/line_solve.hpp"
 #include "fit/sheet_fit.hpp"
 
 using namespace breast;
@@ -154,4 +155,41 @@ TEST(ClosestPoint, FootIsPerpendicularInside) {
   const SheetFoot foot = closest_from(sheet, at.x + 4 * at.normal(), st + Vec2(0.05, -0.04));
   EXPECT_LT((foot.st - st).norm(), 1e-7);
   EXPECT_NEAR(foot.distance, 4, 1e-9);
+}
+
+TEST(LineSolve, SolvesWhatADenseFactorisationSolves) {
+  constexpr int n = 5, m = 24;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const auto block = [&] {
+    return Eigen::MatrixXd::NullaryExpr(m, m, [&] { return any(random); }).eval();
+  };
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n * m, n * m);
+  LineMatrix lines{std::vector<Eigen::MatrixXd>(n), std::vector<Eigen::MatrixXd>(n)};
+  for (int l = 0; l < n; ++l) {
+    const Eigen::MatrixXd own = block();
+    lines.own[l] = own * own.transpose() + 40 * Eigen::MatrixXd::Identity(m, m);
+    lines.before[l] = block();
+    dense.block(l * m, l * m, m, m) = lines.own[l];
+    if (l > 0) {
+      dense.block(l * m, (l - 1) * m, m, m) = lines.before[l];
+      dense.block((l - 1) * m, l * m, m, m) = lines.before[l].transpose();
+    }
+  }
+  const Eigen::VectorXd exact = Eigen::VectorXd::LinSpaced(n * m, -1, 1);
+  Eigen::VectorXd x = dense * exact;
+  LineMatrix negative = lines;
+  ASSERT_TRUE(solve_lines(lines, x));
+  EXPECT_LT((x - exact).norm(), 1e-12 * exact.norm());
+  negative.own[3](7, 7) = -1;
+  EXPECT_FALSE(solve_lines(negative, x));
+}
+
+TEST(SheetFit, SidesMayDifferEitherWay) {
+  for (const auto& [nu, nv] : {std::pair{2, 6}, std::pair{6, 2}}) {
+    const HermiteSheet exact = random_sheet(nu, nv, 0.5, 5);
+    const HermiteSheet found = solve_sheet(nu, nv, sample(exact, 60), 1e-14);
+    for (const Vec2& st : {Vec2(0.21, 0.4), Vec2(0.68, 0.93)})
+      EXPECT_LT((found.position(st) - exact.position(st)).norm(), 1e-5);
+  }
 }

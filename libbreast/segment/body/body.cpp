@@ -5,6 +5,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "segment/body/debris.hpp"
 #include "segment/grid/itk_filters.hpp"
@@ -241,9 +242,9 @@ Body find_body(const Volume<float>& scan, Side side) {
   const double floor = std::max(body.air_level, 1e-3 * double(*high));
   std::vector<float> logs(scan.voxels.size());
   for (std::size_t n = 0; n < logs.size(); ++n) {
-    logs[n] = std::log(std::max(scan.voxels[n], 0.0f) + float(floor));
+    logs[n] = elementary::log(std::max(scan.voxels[n], 0.0f) + float(floor));
   }
-  const double otsu_level = std::exp(otsu(logs)) - floor;
+  const double otsu_level = elementary::exp(otsu(logs)) - floor;
   const double count = double(std::count_if(scan.voxels.begin(), scan.voxels.end(),
                                             [&](float v) { return v > otsu_level; }));
   const double fraction = count / double(logs.size());

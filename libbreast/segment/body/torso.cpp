@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "segment/body/body.hpp"
 
@@ -64,7 +65,7 @@ int mirror_column(const HeightField& skin, double spacing, double deepest, doubl
 /// The skin as seen on a grid turned by `angle` about the middle of each slice (as rolled()).
 HeightField turned(const HeightField& skin, const Grid& grid, double angle) {
   HeightField out(skin.nx, skin.nz, nan);
-  const double c = std::cos(angle), s = std::sin(angle), dx = grid.spacing[0];
+  const double c = elementary::cos(angle), s = elementary::sin(angle), dx = grid.spacing[0];
   const Vec2 centre(0.5 * (grid.size[0] - 1) * dx, 0.5 * (grid.size[1] - 1) * grid.spacing[1]);
   const auto turn = [&](int i, double depth) -> Vec2 {
     const Vec2 p = Vec2(i * dx, depth) - centre;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/elementary.hpp"
+
 namespace breast {
 
 Volume<float> in_patient_order(const Volume<float>& volume) {
@@ -129,9 +131,9 @@ Volume<float> rolled(const Volume<float>& volume, double angle, float outside) {
   const Vec3 middle = 0.5 * Vec3(grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1);
   const Vec3 centre = grid.to_patient(middle);
   Mat3 turn = Mat3::Identity();
-  turn(0, 0) = turn(1, 1) = std::cos(angle);
-  turn(1, 0) = std::sin(angle);
-  turn(0, 1) = -std::sin(angle);
+  turn(0, 0) = turn(1, 1) = elementary::cos(angle);
+  turn(1, 0) = elementary::sin(angle);
+  turn(0, 1) = -elementary::sin(angle);
   grid.direction = grid.direction * turn;
   grid.origin += centre - grid.to_patient(middle);
   Volume<float> out(grid);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "segment/grid/filters.hpp"
 
@@ -84,7 +85,7 @@ BiasField fat_bias(const Volume<float>& scan, const Mask& allowed,
   for (std::size_t n = 0; n < count; ++n) {
     core.voxels[n] =
         allowed.voxels[n] && -skin_distance.voxels[n] > settings.core && scan.voxels[n] > 0;
-    if (core.voxels[n]) logs.voxels[n] = std::log(scan.voxels[n]);
+    if (core.voxels[n]) logs.voxels[n] = elementary::log(scan.voxels[n]);
   }
   Volume<float> fat(scan.grid);
   {
@@ -112,7 +113,7 @@ BiasField fat_bias(const Volume<float>& scan, const Mask& allowed,
   for (std::size_t n = 0; n < count; ++n) {
     if (!(fat.voxels[n] > 0)) continue;
     before.push_back(scan.voxels[n]);
-    after.push_back(scan.voxels[n] / std::exp(field.log_bias.voxels[n]));
+    after.push_back(scan.voxels[n] / elementary::exp(field.log_bias.voxels[n]));
   }
   std::vector<float> levels;
   for (std::size_t n = 0; n < count; ++n) {
@@ -123,7 +124,7 @@ BiasField fat_bias(const Volume<float>& scan, const Mask& allowed,
     const auto at = [&](double share) {
       return levels[std::size_t(share * double(levels.size() - 1))];
     };
-    field.range = std::exp(at(0.99) - at(0.01));
+    field.range = elementary::exp(at(0.99) - at(0.01));
   }
   field.fat_cv_before = variation(before);
   field.fat_cv_after = variation(after);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 
 namespace breast {
@@ -43,7 +44,7 @@ namespace {
 
 double plate(const Vec2& a, const Vec2& b) {
   const double r2 = (a - b).squaredNorm();
-  return r2 > 0 ? 0.5 * r2 * std::log(r2) : 0;
+  return r2 > 0 ? 0.5 * r2 * elementary::log(r2) : 0;
 }
 
 bool on_wall(const ChestWall& wall, const WallDomain& domain, int i, int k) {

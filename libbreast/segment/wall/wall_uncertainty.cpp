@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/wall/wall_cost.hpp"
 
@@ -27,7 +28,7 @@ double column_sigma(const Volume<float>& ratio, const WallDomain& domain, const 
   double total = 0, square = step * step / 12;
   double moment = 0;
   for (int d = 0; d < levels.count; ++d) {
-    const double weight = std::exp(-(cost[d] - least) / temperature);
+    const double weight = elementary::exp(-(cost[d] - least) / temperature);
     const double away = (levels.first + d - 0.5) * step - depth;
     total += weight;
     moment += weight * away * away;

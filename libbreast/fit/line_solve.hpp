@@ -1,0 +1,21 @@
+// Systems in which a line of unknowns couples to itself and to the lines beside it only.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace breast {
+
+/// A symmetric positive definite matrix of n lines of m unknowns each.
+struct LineMatrix {
+  std::vector<Eigen::MatrixXd> own;  ///< n of m×m, the lower triangle is read
+  std::vector<Eigen::MatrixXd>
+      before;  ///< n of m×m: rows of line l, columns of line l − 1 (0: unused)
+};
+
+/// Solves by Cholesky's method line by line, which overwrites `matrix`. `right` holds n·m values.
+/// False when the matrix is not positive definite. Only Eigen's own kernels are used: a BLAS would
+/// choose others, with other roundings, on another processor.
+bool solve_lines(LineMatrix& matrix, Eigen::VectorXd& right);
+
+}  // namespace breast
