@@ -5,6 +5,7 @@
 #include <mutex>
 #include <new>
 
+#include "core/atomic_file.hpp"
 #include "io/hdf5/document.hpp"
 #include "io/hdf5/handle.hpp"
 #include "io/hdf5/seal.hpp"
@@ -240,7 +241,7 @@ void check_schema(const Source& source, const Document& document, const std::str
 Document load_document(const fs::path& file, const std::string& schema, const std::string& maker) {
   const Source source{file.string(), "; make it with " + maker};
   try {
-    check_seal(file, source.name, source.advice);
+    check_seal(read_text(file), source.name, source.advice);
     const std::lock_guard lock(hdf5_mutex());
     silence_hdf5();
     const Handle h5(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
