@@ -57,7 +57,7 @@ class HostileMesh : public testing::Test {
   static hid_t chunked(hsize_t chunk) {
     const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_chunk(layout, 1, &chunk);
-    H5Pset_deflate(layout, 9);
+    H5Pset_deflate(layout, 1);
     return layout;
   }
   ScratchFolder folder_;
@@ -108,9 +108,9 @@ TEST_F(HostileMesh, LinksAreRefused) {
 
 TEST_F(HostileMesh, InflationHasABudget) {
   const std::string text = after([](hid_t h5) {
-    const hid_t layout = chunked(hsize_t(1) << 20);
-    for (int n = 0; n < 9; ++n) {  // 9 x 128 MB in a file of a megabyte
-      add(h5, ("/breast/zeros" + std::to_string(n)).c_str(), layout, hsize_t(1) << 27);
+    const hid_t layout = chunked(hsize_t(1) << 24);
+    for (const char* path : {"/breast/zeros1", "/breast/zeros2"}) {  // in a file of 6 MB
+      add(h5, path, layout, hsize_t(600) << 20);
     }
     H5Pclose(layout);
   });
@@ -149,7 +149,7 @@ TEST_F(HostileMesh, DamageBehindTheSealIsSurvived) {
   const std::string body = good.substr(0, good.size() - 80);
   std::mt19937 random(20080302);
   int refused = 0;
-  for (int n = 0; n < 300; ++n) {
+  for (int n = 0; n < 150; ++n) {
     std::string bad = body;
     for (int flips = 1 + n % 3; flips > 0; --flips) {
       bad[random() % std::min<std::size_t>(bad.size(), n % 2 ? 6000 : bad.size())] ^=
@@ -158,7 +158,7 @@ TEST_F(HostileMesh, DamageBehindTheSealIsSurvived) {
     write_text(file_, bad);
     refused += complaint([&] { read_mesh(file_); }) != "accepted";
   }
-  EXPECT_GT(refused, 100);
+  EXPECT_GT(refused, 50);
 }
 
 TEST_F(HostileMesh, PlacesOfNoBodyAreRefused) {
@@ -215,8 +215,8 @@ TEST(Locating, CoordinatesThatOverflowAreAnErrorNotAnIndex) {
   HexMesh mesh = samples::full_mesh();
   for (Vec3& point : mesh.points) point *= 1e200;
   const Locator locator(mesh, mesh.points);
-  EXPECT_THROW(locator.nearest(Vec3(0, 0, 0)), Error);
-  EXPECT_THROW(nearest_on_faces(mesh, mesh.points, mesh.skin_faces, Vec3(1, 0, 0)), Error);
+  EXPECT_THROW(locator.nearest(Vec3(-1e203, 0, 0)), Error);
+  EXPECT_THROW(nearest_on_faces(mesh, mesh.points, mesh.skin_faces, Vec3(-1e203, 0, 0)), Error);
 }
 
 TEST(GuardedChild, HandsOverResultsErrorsAndDeaths) {

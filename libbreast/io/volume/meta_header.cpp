@@ -96,7 +96,7 @@ void check_meta(const fs::path& file) {
   const MetaHeader header = header_of(file);
   const std::vector<double> sizes = header_numbers(header.field({"DimSize"}));
   double voxels = sizes.empty() ? 0 : 1;
-  for (const double size : sizes) voxels *= size;
+  for (const double size : sizes) voxels *= size >= 1 ? size : 0;
   check_voxel_count(file.string(), voxels);
   const std::string type = header.field({"ElementType"});
   const double element = voxel_bytes(type);

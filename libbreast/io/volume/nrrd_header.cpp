@@ -146,7 +146,7 @@ void check_orientation(const fs::path& file, const NrrdHeader& header) {
 double announced_bytes(const fs::path& file, const NrrdHeader& header) {
   const std::vector<double> sizes = header_numbers(header.field("sizes"));
   double voxels = sizes.empty() ? 0 : 1;
-  for (const double size : sizes) voxels *= size;
+  for (const double size : sizes) voxels *= size >= 1 ? size : 0;
   check_voxel_count(file.string(), voxels);
   const double bytes = voxel_bytes(header.field("type"));
   if (bytes == 0) {
