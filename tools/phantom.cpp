@@ -24,13 +24,6 @@ struct Choices {
   double bias = 2, noise = 2, coarse = 1;
 };
 
-void check_image_ending(const std::filesystem::path& image) {
-  const std::string name = image.filename().string();
-  for (const char* ending : {".nrrd", ".nii", ".nii.gz", ".mha"})
-    if (name.ends_with(ending)) return;
-  throw input_error(name, ": unknown ending; use .nrrd, .nii, .nii.gz or .mha");
-}
-
 void declare(Tool& tool, Choices& c) {
   tool.describe(
       "Makes a bilateral prone breast MR (T1 without fat suppression, 512x512x60 voxels of "
@@ -41,7 +34,8 @@ void declare(Tool& tool, Choices& c) {
       "27-node "
       "elements on a template that hexmesh does not have, so that the chain can be told its "
       "errors.");
-  tool.output(c.image, "OUT.nrrd", "the scan (.nrrd, .nii, .nii.gz or .mha)");
+  tool.output(c.image, "OUT.nrrd", "the scan (.nrrd, .nii, .nii.gz or .mha)",
+              {".nii", ".nii.gz", ".mha"});
   tool.output_folder(
       c.truth, "--truth", "DIR",
       "write labels, surfaces, meshes and landmarks.tsv (stress-free, prone and supine) there");
@@ -55,7 +49,9 @@ void declare(Tool& tool, Choices& c) {
   tool.text(c.materials, "--materials", "NAME|FILE", "material set of the breasts");
   tool.number(c.coarse, "--coarse", "FACTOR",
               "larger voxels and, from 2 on, a coarser mesh: for tests", 1, 8);
-  tool.check([&c] { check_image_ending(c.image); });
+  tool.check([&c] {
+    if (!c.dicom.empty()) check_dicom_folder(c.dicom);
+  });
   tool.example("phantom paper.nrrd --truth paper-truth", "the default phantom and its truth");
   tool.example("phantom p.nrrd --preset pendulous --seed 7 --bias 5 --dicom p-dicom",
                "a pendulous breast under a strong coil bias, also as DICOM");

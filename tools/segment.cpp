@@ -31,7 +31,10 @@ void declare(Tool& tool, Choices& c) {
       "muscle, the rest of the body other.");
   tool.cite("Pathmanathan et al. 2008, section II-A; Li et al., IEEE TPAMI 28:119 (2006)");
   tool.input(c.scan, "MR", "scan: .nrrd, .nii, .nii.gz, .mha, or a DICOM folder");
-  tool.output(c.labels, "LABELS.vtkhdf", "tissue labels of the chosen breast");
+  tool.output(c.labels, "LABELS.vtkhdf",
+              "tissue labels of the chosen breast; as .nrrd, .nii, .nii.gz or .mha the tissue codes "
+              "alone, for other programs",
+              {".nrrd", ".nii", ".nii.gz", ".mha"});
   tool.choice(c.side, "--side", {"left", "right"}, "the patient's left or right breast")
       .required("--side");
   tool.integer(c.series, "--series", "N", "which series of a DICOM folder (0: the only one)", 0,
@@ -130,7 +133,13 @@ void run_segment(const Choices& c, Run& run) {
   if (!c.overlay.empty()) write_overlay(c.overlay, scan, result.labels);
   if (!c.points.empty()) write_surface(c.points, result.points);
   if (!c.measures.empty()) write_table(c.measures, measures);
-  write_labels(c.labels, result.labels);
+  if (is_volume_name(c.labels)) {
+    Volume<std::uint8_t> codes(result.labels.grid);
+    codes.voxels = result.labels.tissue;
+    write_volume(c.labels, codes);
+  } else {
+    write_labels(c.labels, result.labels);
+  }
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ struct Argument {
   std::string help;
   std::string default_text;  ///< empty: none
   std::vector<std::string> choices;
+  std::vector<std::string> endings;  ///< output: of the names it may have; empty: any
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   int count = 1;  ///< numbers: how many

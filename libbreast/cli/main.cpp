@@ -9,6 +9,7 @@
 #include "cli/tool_impl.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/own_file.hpp"
 #include "core/parallel.hpp"
 
 namespace breast {
@@ -17,7 +18,10 @@ namespace {
 
 std::string one_line(std::string text) {
   std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  // Whatever of a file's content a message quotes: no terminal obeys it.
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
   return text;
 }
 
@@ -79,10 +83,13 @@ void write_report(const std::filesystem::path& file, Run& run, const Outcome& ou
 }
 
 // After a usage error the report is still written, unless its own path may be what was wrong: a
-// report must never replace a file named for another purpose.
+// report must never replace a file named for another purpose, nor one that is no report.
 bool safe_report(const std::filesystem::path& file, const Tokens& tokens) {
   if (file.empty()) return false;
+  if (is_stream(file)) return true;
   std::error_code ignored;
+  if (file.extension() != ".json") return false;
+  if (std::filesystem::exists(file, ignored) && !written_by_us(file)) return false;
   const auto whole = [&](const std::filesystem::path& path) {
     return std::filesystem::weakly_canonical(path, ignored);
   };
@@ -110,7 +117,8 @@ void Tool::Impl::declare_common() {
   };
   add_common(ArgumentKind::output, "--report", "FILE.json",
              "machine-readable report, also of a failure")
-      .store = [this](const std::vector<std::string>& given) { report_file = given.front(); };
+      .endings = {".json"};
+  declaration.common.back().store = [this](const std::vector<std::string>& given) { report_file = given.front(); };
   Argument& count = add_common(ArgumentKind::integer, "--threads", "N", "threads to use");
   count.low = 1;
   count.high = 1024;

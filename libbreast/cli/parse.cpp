@@ -1,17 +1,12 @@
 #include "cli/parse.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "core/error.hpp"
 #include "core/table.hpp"
 
 namespace breast {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -80,15 +75,6 @@ void store(Argument& argument, const std::vector<std::string>& values) {
   argument.store(values);
 }
 
-Argument* find_option(Declaration& tool, const std::string& label) {
-  for (auto* list : {&tool.options, &tool.common}) {
-    for (Argument& argument : *list) {
-      if (argument.label() == label) return &argument;
-    }
-  }
-  return nullptr;
-}
-
 void assign_positionals(Declaration& tool, const std::vector<std::string>& values) {
   auto& wanted = tool.positionals;
   if (values.size() < wanted.size()) {
@@ -106,54 +92,16 @@ void assign_positionals(Declaration& tool, const std::vector<std::string>& value
   }
 }
 
-// Files named on the command line, with what they are for.
-struct NamedPath {
-  const Argument* argument;
-  fs::path path;
-};
-std::vector<NamedPath> named_paths(const Declaration& tool, const Tokens& tokens) {
-  std::vector<NamedPath> list;
-  for (std::size_t i = 0; i < tokens.positionals.size() && !tool.positionals.empty(); ++i) {
-    const Argument& argument = tool.positionals[std::min(i, tool.positionals.size() - 1)];
-    list.push_back({&argument, tokens.positionals[i]});
-  }
-  for (const Tokens::Option& option : tokens.options) {
-    for (const std::string& value : option.values) {
-      const Argument* argument = find_option(const_cast<Declaration&>(tool), option.name);
-      if (argument) list.push_back({argument, value});
+}  // namespace
+
+Argument* find_option(Declaration& tool, const std::string& label) {
+  for (auto* list : {&tool.options, &tool.common}) {
+    for (Argument& argument : *list) {
+      if (argument.label() == label) return &argument;
     }
   }
-  return list;
+  return nullptr;
 }
-
-void check_input(const fs::path& path, const std::string& label) {
-  std::error_code reason;
-  if (!fs::exists(path, reason)) throw input_error(label, ": ", path.string(), " does not exist");
-  if (access(path.c_str(), R_OK) != 0) {
-    throw input_error(label, ": ", path.string(), " cannot be read (no permission)");
-  }
-}
-
-void check_output(const fs::path& path, const std::string& label, bool folder) {
-  std::error_code reason;
-  fs::path bare = path;
-  if (folder && !bare.has_filename()) bare = bare.parent_path();  // "truth/"
-  const fs::path parent = bare.has_parent_path() ? bare.parent_path() : fs::path(".");
-  if (!bare.has_filename()) throw input_error(label, ": ", path.string(), " names no file");
-  if (!fs::is_directory(parent, reason)) {
-    throw input_error(label, ": folder ", parent.string(), " does not exist; make it first");
-  }
-  if (access(parent.c_str(), W_OK | X_OK) != 0) {
-    throw input_error(label, ": folder ", parent.string(), " is not writable");
-  }
-  const bool is_folder = fs::is_directory(bare, reason);
-  if (!folder && is_folder) throw input_error(label, ": ", path.string(), " is a folder");
-  if (folder && !is_folder && fs::exists(bare, reason)) {
-    throw input_error(label, ": ", path.string(), " exists and is not a folder");
-  }
-}
-
-}  // namespace
 
 void assign(Declaration& tool, const Tokens& tokens) {
   for (const Tokens::Option& option : tokens.options) {  // known even when something else is wrong
@@ -185,37 +133,6 @@ void assign(Declaration& tool, const Tokens& tokens) {
   for (const Argument& argument : tool.options) {
     if (argument.required && !argument.given) {
       throw input_error(usage(argument), " is missing; usage: ", synopsis(tool));
-    }
-  }
-}
-
-void check_paths(const Declaration& tool, const Tokens& tokens) {
-  std::vector<std::pair<fs::path, std::string>> inputs, outputs;
-  for (const NamedPath& named : named_paths(tool, tokens)) {
-    const std::string& label = named.argument->label();
-    std::error_code ignored;
-    const fs::path whole = fs::weakly_canonical(named.path, ignored);
-    if (named.argument->kind == ArgumentKind::input) {
-      check_input(named.path, label);
-      inputs.emplace_back(whole, label);
-    }
-    const bool folder = named.argument->kind == ArgumentKind::folder;
-    if (named.argument->kind == ArgumentKind::output || folder) {
-      check_output(named.path, label, folder);
-      for (const auto& [other, other_label] : outputs) {
-        if (other == whole) {
-          throw input_error(label, ": ", named.path.string(), " is also given as ", other_label);
-        }
-      }
-      outputs.emplace_back(whole, label);
-    }
-  }
-  for (const auto& [output, label] : outputs) {
-    for (const auto& [input, input_label] : inputs) {
-      if (input == output) {
-        throw input_error(label, ": ", output.filename().string(), " is also the input ",
-                          input_label, "; name another output");
-      }
     }
   }
 }

@@ -23,12 +23,17 @@ struct Tokens {
 /// Splits the command line by the declared names (CLI11).
 Tokens tokenize(const Declaration& tool, const std::vector<std::string>& arguments);
 
+/// The option or common option of that name; null when nobody declared it.
+Argument* find_option(Declaration& tool, const std::string& label);
+
 /// Checks kinds, ranges, choices and counts and stores the values; throws Error (input) saying what
 /// was given and what is valid.
 void assign(Declaration& tool, const Tokens& tokens);
 
-/// Inputs exist and are readable, output folders exist and are writable, no output is also an
-/// input.
+/// Inputs exist, are files or folders and readable; outputs have an ending of their format and a
+/// folder that is writable, are no input (nor in an input folder, nor a file that any other argument
+/// names) and replace nothing but an older result of ours. Devices, pipes and streams such as
+/// /dev/stdout are outputs of any format. Throws Error (input).
 void check_paths(const Declaration& tool, const Tokens& tokens);
 
 /// "tool arguments" with folders removed from every path, without the common options: what the

@@ -1,5 +1,7 @@
 #include "cli/tool.hpp"
 
+#include <sstream>
+
 #include "cli/tool_impl.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
@@ -12,6 +14,17 @@ std::vector<std::string> split_names(const std::string& names) {
   const std::size_t comma = names.find(',');
   if (comma == std::string::npos) return {names};
   return {names.substr(0, comma), names.substr(comma + 1)};
+}
+
+// "OUT.inp|OUT.feb": .inp and .feb.
+std::vector<std::string> endings_of(const std::string& placeholder) {
+  std::vector<std::string> endings;
+  std::istringstream names(placeholder);
+  for (std::string name; std::getline(names, name, '|');) {
+    const std::size_t dot = name.find('.');
+    if (dot != std::string::npos) endings.push_back(name.substr(dot));
+  }
+  return endings;
 }
 
 Argument option(ArgumentKind kind, const std::string& names, const std::string& placeholder,
@@ -82,8 +95,11 @@ Tool& Tool::word(std::string& value, const std::string& placeholder, const std::
   return *this;
 }
 Tool& Tool::output(std::filesystem::path& value, const std::string& placeholder,
-                   const std::string& help) {
-  impl_->add_positional(positional(ArgumentKind::output, placeholder, help)).store = into(value);
+                   const std::string& help, const std::vector<std::string>& more_endings) {
+  Argument& argument = impl_->add_positional(positional(ArgumentKind::output, placeholder, help));
+  argument.store = into(value);
+  argument.endings = endings_of(placeholder);
+  argument.endings.insert(argument.endings.end(), more_endings.begin(), more_endings.end());
   return *this;
 }
 
@@ -180,7 +196,9 @@ Tool& Tool::input_file(std::filesystem::path& value, const std::string& name,
 }
 Tool& Tool::output_file(std::filesystem::path& value, const std::string& name,
                         const std::string& placeholder, const std::string& help) {
-  impl_->add(option(ArgumentKind::output, name, placeholder, help)).store = into(value);
+  Argument& argument = impl_->add(option(ArgumentKind::output, name, placeholder, help));
+  argument.store = into(value);
+  argument.endings = endings_of(placeholder);
   return *this;
 }
 Tool& Tool::output_folder(std::filesystem::path& value, const std::string& name,

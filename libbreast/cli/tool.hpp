@@ -69,13 +69,15 @@ class Tool {
   Tool& example(const std::string& command, const std::string& explanation);
 
   // Positional arguments, in order of declaration. Inputs must exist; an output's folder must exist
-  // and be writable; both checked before the body runs.
+  // and be writable, its name must have an ending that its placeholder shows ("OUT.inp|OUT.feb") or
+  // `more_endings` lists, and it must replace no input and no file of another program; all checked
+  // before the body runs.
   Tool& input(std::filesystem::path& value, const std::string& placeholder,
               const std::string& help);
   Tool& inputs(std::vector<std::filesystem::path>& values, const std::string& placeholder,
                const std::string& help);  ///< one or more; only as the last positional
   Tool& output(std::filesystem::path& value, const std::string& placeholder,
-               const std::string& help);
+               const std::string& help, const std::vector<std::string>& more_endings = {});
   /// A positional that is not (always) a file: a name, or a choice the tool resolves itself.
   Tool& word(std::string& value, const std::string& placeholder, const std::string& help);
 

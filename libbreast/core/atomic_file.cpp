@@ -5,51 +5,121 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <utility>
 
 #include "core/error.hpp"
+#include "core/own_file.hpp"
 
 namespace breast {
 
 namespace fs = std::filesystem;
 
 namespace {
+
 std::string part_prefix(const fs::path& target) {
   return "." + target.filename().string() + ".part-";
 }
+
+fs::path part_of(const fs::path& target) {
+  return target.parent_path() / (part_prefix(target) + std::to_string(getpid()));
+}
+
+// A descriptor that closes itself; close() tells whether that went well, since a disk's last word
+// may come only then.
+class Descriptor {
+ public:
+  Descriptor(const fs::path& file, int flags) : id_(::open(file.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~Descriptor() {
+    if (id_ >= 0) ::close(id_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  explicit operator bool() const { return id_ >= 0; }
+  int id() const { return id_; }
+  bool close() { return ::close(std::exchange(id_, -1)) == 0; }
+
+ private:
+  int id_;
+};
+
+// All of `bytes`, in as many writes as it takes; returns how many went through, with errno set when
+// that is fewer.
+std::size_t write_all(int descriptor, std::string_view bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t now = ::write(descriptor, bytes.data() + done, bytes.size() - done);
+    if (now < 0 && errno == EINTR) continue;
+    if (now == 0) errno = ENOSPC;
+    if (now <= 0) break;
+    done += std::size_t(now);
+  }
+  return done;
+}
+
+Error cannot_write(const fs::path& target, std::size_t done, std::size_t all) {
+  return failed_error(target.string(), ": cannot be written: ", done, " of ", all, " bytes, then ",
+                      std::strerror(errno));
+}
+
+void write_through(const fs::path& target, std::string_view bytes) {
+  // Appending: what this process printed to the same place stays.
+  Descriptor stream(target, O_WRONLY | O_APPEND | O_NOCTTY);
+  const std::size_t done = stream ? write_all(stream.id(), bytes) : 0;
+  if (!stream || done < bytes.size() || !stream.close()) {
+    throw cannot_write(target, done, bytes.size());
+  }
+}
+
+// So that the rename itself survives a power failure; a file system that cannot do it is no reason
+// to fail.
+void flush_folder(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const Descriptor opened(folder, O_RDONLY | O_DIRECTORY);
+  if (opened) fsync(opened.id());
+}
+
 }  // namespace
 
-AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)) {
-  remove_stale_parts(target_);
-  temporary_ = target_.parent_path() / (part_prefix(target_) + std::to_string(getpid()));
-}
-
-AtomicFile::~AtomicFile() {
-  if (committed_) return;
+bool is_stream(const fs::path& target) {
   std::error_code ignored;
-  fs::remove(temporary_, ignored);
+  const fs::file_status status = fs::status(target, ignored);
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return true;
+  fs::path step = target;  // /dev/stdout -> /proc/self/fd/1 -> the file the shell opened
+  for (int links = 0; links < 8 && !step.empty(); ++links) {
+    const fs::path folder = step.has_parent_path() ? step.parent_path() : fs::path(".");
+    if (fs::weakly_canonical(folder, ignored).string().starts_with("/proc/")) return true;
+    if (!fs::is_symlink(fs::symlink_status(step, ignored))) return false;
+    step = folder / fs::read_symlink(step, ignored);
+  }
+  return false;
 }
 
-void AtomicFile::commit() {
-  const int descriptor = open(temporary_.c_str(), O_RDONLY);
-  if (descriptor < 0 || fsync(descriptor) != 0) {
-    const int reason = errno;
-    if (descriptor >= 0) close(descriptor);
-    throw failed_error(target_.string(), ": cannot be written (", std::strerror(reason), ")");
+void write_bytes(const fs::path& target, std::string_view bytes) {
+  if (is_stream(target)) return write_through(target, bytes);
+  remove_stale_parts(target);
+  const fs::path part = part_of(target);
+  std::error_code ignored;
+  fs::remove(part, ignored);
+  Descriptor file(part, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
+  const bool opened = bool(file);
+  const std::size_t done = opened ? write_all(file.id(), bytes) : 0;
+  const bool whole = opened && done == bytes.size() && fsync(file.id()) == 0 && file.close();
+  if (!whole || std::rename(part.c_str(), target.c_str()) != 0) {
+    const Error error = cannot_write(target, done, bytes.size());
+    if (opened) fs::remove(part, ignored);
+    throw error;
   }
-  close(descriptor);
-  std::error_code reason;
-  fs::rename(temporary_, target_, reason);
-  if (reason) throw failed_error(target_.string(), ": cannot be replaced (", reason.message(), ")");
-  committed_ = true;
+  flush_folder(target);
 }
 
 AtomicFolder::AtomicFolder(const fs::path& target, std::string last)
     : target_(target.has_filename() ? target : target.parent_path()), last_(std::move(last)) {
+  check_replaceable(target_ / last_, target_.string());
   remove_stale_parts(target_);
-  temporary_ = target_.parent_path() / (part_prefix(target_) + std::to_string(getpid()));
+  temporary_ = part_of(target_);
   std::error_code reason;
   fs::create_directories(temporary_, reason);
   if (reason) {
@@ -65,6 +135,9 @@ AtomicFolder::~AtomicFolder() {
 
 void AtomicFolder::commit() {
   try {
+    for (const auto& entry : fs::directory_iterator(temporary_)) {
+      check_replaceable(target_ / entry.path().filename(), target_.string());
+    }
     fs::create_directories(target_);
     fs::remove(target_ / last_);
     for (const auto& entry : fs::directory_iterator(temporary_)) {
@@ -84,31 +157,37 @@ void remove_stale_parts(const fs::path& target) {
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(prefix)) continue;
-    const pid_t owner = static_cast<pid_t>(std::atol(name.c_str() + prefix.size()));
-    if (owner > 0 && owner != getpid() && kill(owner, 0) == 0) continue;
+    std::string owner_text = name.substr(prefix.size());
+    if (owner_text.ends_with("-old")) owner_text.resize(owner_text.size() - 4);  // write_dicom_series
+    const bool number = !owner_text.empty() && owner_text.size() < 10 &&
+                        owner_text.find_first_not_of("0123456789") == std::string::npos;
+    if (!number) continue;  // somebody else's, such as .scan.nrrd.part-notes
+    const pid_t owner = static_cast<pid_t>(std::stol(owner_text));
+    if (owner > 0 && owner != getpid() && (kill(owner, 0) == 0 || errno == EPERM)) continue;
     std::error_code reason;
     fs::remove_all(entry.path(), reason);  // a DICOM folder's part is a folder
   }
 }
 
-void write_text(const fs::path& target, const std::string& text) {
-  AtomicFile file(target);
-  {
-    std::ofstream out(file.temporary(), std::ios::binary);
-    out << text;
-    out.flush();
-    if (!out) throw failed_error(target.string(), ": cannot be written");
+std::string read_text(const fs::path& source, std::uintmax_t most_bytes) {
+  std::error_code reason;
+  const fs::file_status status = fs::status(source, reason);
+  if (fs::is_directory(status)) throw input_error(source.string(), ": is a folder, not a file");
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw input_error(source.string(), ": is a device or pipe; copy what it gives to a file first");
   }
-  file.commit();
-}
-
-std::string read_text(const fs::path& source) {
   std::ifstream in(source, std::ios::binary);
   if (!in) throw input_error(source.string(), ": cannot be opened");
-  std::ostringstream text;
-  text << in.rdbuf();
+  const std::uintmax_t size = fs::file_size(source, reason);
+  if (reason) throw input_error(source.string(), ": cannot be read (", reason.message(), ")");
+  if (size > most_bytes) {
+    throw input_error(source.string(), ": ", size, " bytes, at most ", most_bytes, " are read");
+  }
+  std::string text(std::size_t(size), '\0');
+  in.read(text.data(), std::streamsize(size));
   if (in.bad()) throw input_error(source.string(), ": cannot be read");
-  return text.str();
+  text.resize(std::size_t(in.gcount()));
+  return text;
 }
 
 }  // namespace breast

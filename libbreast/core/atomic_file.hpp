@@ -1,42 +1,42 @@
 // Results appear by write-then-rename: nobody ever sees half a file.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 namespace breast {
 
-/// Write to temporary() (hidden, `.NAME.part-PID`, same folder, same extension kept as suffix in
-/// the name), then commit(). Without commit the temporary is removed.
-class AtomicFile {
- public:
-  explicit AtomicFile(std::filesystem::path target);
-  ~AtomicFile();
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
-
-  const std::filesystem::path& temporary() const { return temporary_; }
-  /// fsync and rename onto the target; throws Error (failed) naming the target.
-  void commit();
-
- private:
-  std::filesystem::path target_;
-  std::filesystem::path temporary_;
-  bool committed_ = false;
-};
+/// The one way out for every file: writes `bytes` beside the target as `.NAME.part-PID`, every write
+/// checked, flushed to the disk, then renamed onto it; whatever fails, the target keeps what it held
+/// and the part is removed. A target that is no regular file (/dev/null, a pipe) or is a stream of
+/// this process (/dev/stdout) is written through instead. Throws Error (failed) naming the target,
+/// the bytes written and the system's reason.
+void write_bytes(const std::filesystem::path& target, std::string_view bytes);
+/// The same, for text.
+inline void write_text(const std::filesystem::path& target, std::string_view text) {
+  write_bytes(target, text);
+}
+/// True when write_bytes would not put a file there but write through: a device, a pipe, or a
+/// stream such as /dev/stdout.
+bool is_stream(const std::filesystem::path& target);
 
 /// A folder of results: files are written into temporary() (hidden, beside the target), commit()
 /// moves them into the target with `last` as the last one, after the target's old `last` is gone.
 /// Readers that ask for `last` never see half a result. Without commit the temporary is removed.
 class AtomicFolder {
  public:
-  /// Makes temporary(); throws Error (input) where that is not possible.
+  /// Makes temporary(); throws Error (input) where that is not possible, or the target holds a
+  /// `last` of another program.
   AtomicFolder(const std::filesystem::path& target, std::string last);
   ~AtomicFolder();
   AtomicFolder(const AtomicFolder&) = delete;
   AtomicFolder& operator=(const AtomicFolder&) = delete;
 
   const std::filesystem::path& temporary() const { return temporary_; }
-  /// Throws Error (failed) naming the target.
+  /// Throws Error (failed) naming the target, or Error (input) when it holds another program's file
+  /// of the same name.
   void commit();
 
  private:
@@ -44,11 +44,11 @@ class AtomicFolder {
   std::string last_;
 };
 
-/// Removes `.NAME.part-PID` files of processes that no longer run.
+/// Removes `.NAME.part-PID` files of processes that no longer run; PID is digits and nothing else.
 void remove_stale_parts(const std::filesystem::path& target);
-/// Writes text atomically.
-void write_text(const std::filesystem::path& target, const std::string& text);
-/// Whole file as text; throws Error (input) naming the file.
-std::string read_text(const std::filesystem::path& source);
+/// Whole file as text; throws Error (input) naming the file, also when it is no regular file (a
+/// device or pipe may never end) or is larger than `most_bytes`.
+std::string read_text(const std::filesystem::path& source,
+                      std::uintmax_t most_bytes = std::uintmax_t(1) << 32);
 
 }  // namespace breast

@@ -14,10 +14,35 @@ using Json = nlohmann::ordered_json;
 struct Report::Impl {
   Json root = Json::object();
 
-  static Json::json_pointer pointer(std::string_view path) {
-    return Json::json_pointer("/" + std::string(path));
+  // Every part of a path is a key as it stands: names of landmarks may hold a '~', which JSON
+  // pointers take for more.
+  static std::vector<std::string> keys(std::string_view path) {
+    std::vector<std::string> list;
+    while (true) {
+      const std::size_t slash = path.find('/');
+      list.emplace_back(path.substr(0, slash));
+      if (slash == std::string_view::npos) return list;
+      path.remove_prefix(slash + 1);
+    }
   }
-  Json& at(std::string_view path) { return root[pointer(path)]; }
+  Json& at(std::string_view path) {
+    Json* entry = &root;
+    for (const std::string& key : keys(path)) {
+      if (!entry->is_object()) *entry = Json::object();
+      entry = &(*entry)[key];
+    }
+    return *entry;
+  }
+  const Json* find(std::string_view path) const {
+    const Json* entry = &root;
+    for (const std::string& key : keys(path)) {
+      if (!entry->is_object()) return nullptr;
+      const auto found = entry->find(key);
+      if (found == entry->end()) return nullptr;
+      entry = &*found;
+    }
+    return entry;
+  }
   static Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 };
 
@@ -60,22 +85,24 @@ void Report::append(std::string_view path, std::string_view value) {
 }
 
 bool Report::contains(std::string_view path) const {
-  return impl_->root.contains(Impl::pointer(path));
+  return impl_->find(path) != nullptr;
 }
 double Report::number(std::string_view path) const {
   if (!contains(path)) throw failed_error("report has no entry '", path, "'");
-  const Json& entry = impl_->root.at(Impl::pointer(path));
+  const Json& entry = *impl_->find(path);
   if (!entry.is_number()) throw failed_error("report entry '", path, "' is not a number");
   return entry.get<double>();
 }
 std::string Report::text(std::string_view path) const {
   if (!contains(path)) throw failed_error("report has no entry '", path, "'");
-  const Json& entry = impl_->root.at(Impl::pointer(path));
-  return entry.is_string() ? entry.get<std::string>() : entry.dump();
+  const Json& entry = *impl_->find(path);
+  return entry.is_string() ? entry.get<std::string>()
+                           : entry.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string Report::json() const {
-  return impl_->root.dump(2) + "\n";
+  // Texts of other programs (DICOM in Latin-1) may be no UTF-8: their odd bytes become U+FFFD.
+  return impl_->root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Report Report::parse(const std::string& json, std::string_view name) {

@@ -63,7 +63,13 @@ Vec3 Table::point(std::size_t row, const std::string& prefix) const {
     const std::string bare = prefix + axis;
     return number(row, has(bare) ? bare : bare + "_mm");
   };
-  return {along("x"), along("y"), along("z")};
+  const Vec3 point(along("x"), along("y"), along("z"));
+  constexpr double farthest_mm = 1e6;
+  if (!(point.cwiseAbs().maxCoeff() <= farthest_mm)) {
+    throw input_error(name, ", row ", row + 1, ": ", point.transpose(), " mm, must be within ",
+                      farthest_mm);
+  }
+  return point;
 }
 
 std::string Table::text() const {

@@ -120,7 +120,7 @@ void write_step(const DeckScene& scene, std::ostream& out) {
 std::string calculix_deck(const DeckScene& scene, const std::string& element) {
   check_element(scene, element);
   std::ostringstream out;
-  out << "** Breast under gravity (" << deck_vector(scene.gravity)
+  out << "** Written by libbreast. Breast under gravity (" << deck_vector(scene.gravity)
       << " mm/s2) as nodal forces. Units mm, g, s: Pa and uN.\n** Positions are the stress-free "
          "shape.\n*NODE, NSET=ALL\n";
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {

@@ -10,6 +10,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/own_file.hpp"
 #include "figures/canvas.hpp"
 #include "figures/canvas_impl.hpp"
 
@@ -83,13 +84,14 @@ void Picture::save(const std::filesystem::path& file) {
   if (pixels->GetNumberOfValues() != vtkIdType(3) * w * h) {
     throw failed_error(file.string(), ": the picture could not be drawn (OpenGL gave no pixels)");
   }
-  AtomicFile target(file);
   vtkNew<vtkPNGWriter> writer;
-  writer->SetFileName(target.temporary().c_str());
+  writer->WriteToMemoryOn();
   writer->SetInputData(averaged(pixels, impl_->width, impl_->height));
   writer->Write();
   if (writer->GetErrorCode() != 0) throw failed_error(file.string(), ": cannot be written");
-  target.commit();
+  vtkUnsignedCharArray* png = writer->GetResult();
+  write_bytes(file, marked_png({reinterpret_cast<const char*>(png->GetPointer(0)),
+                                std::size_t(png->GetNumberOfValues())}));
 }
 
 }  // namespace breast

@@ -25,7 +25,12 @@ void write_volume(const std::filesystem::path& file, const Volume<float>& volume
 void write_volume(const std::filesystem::path& file, const Volume<std::uint8_t>& volume);
 /// 16-bit signed, for simulated MR.
 void write_volume(const std::filesystem::path& file, const Volume<std::int16_t>& volume);
-/// DICOM MR series, one file a slice, into `folder` (created; complete or absent).
+/// True for the endings write_volume knows, in any case.
+bool is_volume_name(const std::filesystem::path& file);
+/// Throws Error (input) when `folder` holds anything but slices write_dicom_series wrote.
+void check_dicom_folder(const std::filesystem::path& folder);
+/// DICOM MR series, one file a slice, into `folder` (created; complete or absent). An older series of
+/// ours is replaced; throws Error (input) as check_dicom_folder.
 void write_dicom_series(const std::filesystem::path& folder, const Volume<std::int16_t>& volume,
                         const std::string& description);
 

@@ -44,6 +44,12 @@ Vec3 nearest_lattice_point(int order, const Vec3* points, const Vec3& point, int
   return start;
 }
 
+// Coordinates whose squares overflow are near to nothing.
+Error no_distance(const Vec3& point) {
+  return input_error("point location: no distance to (", point.transpose(),
+                     ") can be computed: it or the mesh has coordinates that are no mm of a body");
+}
+
 }  // namespace
 
 double Locator::Box::squared_distance(const Vec3& point) const {
@@ -194,6 +200,7 @@ Location Locator::nearest(const Vec3& point) const {
       }
     }
   }
+  if (best.element < 0) throw no_distance(point);
   return best;
 }
 
@@ -224,6 +231,7 @@ Location nearest_on_faces(const HexMesh& mesh, const std::vector<Vec3>& nodal,
     if (squared < best_squared)
       best_squared = squared, best = {face.element, local, std::sqrt(squared)};
   }
+  if (best.element < 0) throw no_distance(point);
   return best;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/own_file.hpp"
 #include "segment/grid/grid_ops.hpp"
 
 namespace breast {
@@ -156,7 +157,7 @@ void write_overlay(const std::filesystem::path& file, const Volume<float>& scan,
   }
   std::vector<uchar> png;
   cv::imencode(".png", page, png);
-  write_text(file, std::string(png.begin(), png.end()));
+  write_bytes(file, marked_png({reinterpret_cast<const char*>(png.data()), png.size()}));
 }
 
 }  // namespace breast

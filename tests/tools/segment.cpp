@@ -102,5 +102,43 @@ TEST_F(SegmentFolder, TheChosenSeriesGivesWhatItsOwnFileGives) {
   EXPECT_EQ(localiser.error_lines(), 1) << localiser.err;
 }
 
+TEST_F(SegmentFolder, ANameOfAnotherFormatGivesThatFormat) {
+  ASSERT_EQ(segment("t1.nrrd", {}).exit_code, 0);
+  const LabelVolume labels = read_labels(folder_ / "out.vtkhdf");
+  for (const char* name : {"labels.nrrd", "labels.nii.gz", "LABELS.MHA"}) {
+    const ToolResult result =
+        run_tool("segment", {"t1.nrrd", name, "--side", "left", "--quiet"}, folder_.path());
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const Volume<float> codes = read_volume(folder_ / name);
+    ASSERT_EQ(codes.grid.size, labels.grid.size);
+    EXPECT_LT((codes.grid.origin - labels.grid.origin).norm(), 1e-3) << name;
+    EXPECT_TRUE(std::equal(codes.voxels.begin(), codes.voxels.end(), labels.tissue.begin())) << name;
+  }
+}
+
+TEST_F(SegmentFolder, InputsAndForeignFilesStay) {
+  const auto refused = [&](const std::string& scan, const std::string& out,
+                           const std::string& report) {
+    const ToolResult result = run_tool(
+        "segment", {scan, out, "--side", "left", "--quiet", "--report", report}, folder_.path());
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_EQ(result.error_lines(), 1) << result.err;
+  };
+  fs::create_directory(folder_ / "patient");
+  const fs::path slice = folder_ / "patient/slice_0001.dcm";
+  fs::copy_file(fs::directory_iterator(folder_ / "exam")->path(), slice);
+  const std::string slice_bytes = read_text(slice), scan_bytes = read_text(folder_ / "t1.nrrd");
+  refused("patient", "patient/slice_0001.dcm", "r.json");
+  refused("patient", "patient/out.nrrd", "r.json");
+  refused("t1.nrrd", "t1.nrrd", "r.json");
+  refused("t1.nrrd", "out.nrrd", "t1.nrrd");
+  refused("t1.nrrd", "notes.txt", "r.json");
+  write_text(folder_ / "theirs.nrrd", "NRRD0004\n# a patient's\n");
+  refused("t1.nrrd", "theirs.nrrd", "r.json");
+  EXPECT_EQ(read_text(slice), slice_bytes);
+  EXPECT_EQ(read_text(folder_ / "t1.nrrd"), scan_bytes);
+  EXPECT_FALSE(fs::exists(folder_ / "notes.txt"));
+}
+
 }  // namespace
 }  // namespace breast

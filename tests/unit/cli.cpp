@@ -118,6 +118,48 @@ TEST(Cli, PathsAreCheckedBeforeAnythingRuns) {
   EXPECT_FALSE(trial.ran);
 }
 
+TEST(Cli, AnEndingThatIsNotTheFormatsIsRefused) {
+  Trial trial;
+  for (const char* name : {"notes.txt", "x.dcm", "README.md", "vtkhdf", ".vtkhdf"}) {
+    EXPECT_EQ(trial.run({trial.mesh(), (trial.folder / name).string()}), 2) << name;
+    EXPECT_NE(trial.err.find(".vtkhdf"), std::string::npos) << trial.err;
+  }
+  EXPECT_EQ(trial.run({trial.mesh(), trial.result(), "--report", (trial.folder / "r.txt").string()}),
+            2);
+  EXPECT_FALSE(trial.ran);
+  EXPECT_EQ(trial.run({trial.mesh(), (trial.folder / "OUT.VTKHDF").string()}), 0);
+}
+
+TEST(Cli, AnotherProgramsFileIsNotReplaced) {
+  Trial trial;
+  write_text(trial.result(), "years of work");
+  EXPECT_EQ(trial.run({trial.mesh(), trial.result()}), 2);
+  EXPECT_NE(trial.err.find("not replaced"), std::string::npos) << trial.err;
+  std::filesystem::remove(trial.result());
+  write_text(trial.report(), "{\"name\": 1}");
+  EXPECT_EQ(trial.run({trial.mesh(), trial.result(), "--report", trial.report()}), 2);
+  EXPECT_EQ(trial.run({trial.mesh(), "--report", trial.report()}), 2);  // usage error
+  EXPECT_EQ(read_text(trial.report()), "{\"name\": 1}");
+  EXPECT_FALSE(trial.ran);
+}
+
+TEST(Cli, AFileNamedByAnyArgumentIsNotAlsoAnOutput) {
+  Trial trial;
+  const std::string table = (trial.folder / "fat.tsv").string();
+  write_text(table, "a\n1\n# rows 1\n");
+  EXPECT_EQ(trial.run({trial.mesh(), trial.result(), "--materials", table, "--table", table}), 2);
+  EXPECT_NE(trial.err.find("--materials"), std::string::npos) << trial.err;
+  EXPECT_EQ(trial.run({trial.folder.path().string(), trial.result()}), 2);  // in an input folder
+  EXPECT_FALSE(trial.ran);
+}
+
+TEST(Cli, DevicesAreNoFilesToReplaceNorToRead) {
+  Trial trial;
+  EXPECT_EQ(trial.run({trial.mesh(), "/dev/null", "--report", "/dev/null", "--table", "/dev/null"}), 0);
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  EXPECT_EQ(trial.run({"/dev/zero", trial.result()}), 2);
+}
+
 TEST(Cli, EveryFailureHasItsExitCodeAndReport) {
   const std::tuple<std::function<void()>, int, std::string> failures[] = {
       {[] { throw input_error("bad\nfile"); }, 2, "bad_input"},

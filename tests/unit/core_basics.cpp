@@ -1,5 +1,9 @@
 // SHA-256 against published vectors; tables, numbers, reports, histories, atomic files.
 #include <gtest/gtest.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,6 +13,7 @@
 #include "core/atomic_file.hpp"
 #include "core/distances.hpp"
 #include "core/error.hpp"
+#include "core/own_file.hpp"
 #include "core/provenance.hpp"
 #include "core/report.hpp"
 #include "core/table.hpp"
@@ -82,9 +87,10 @@ TEST(Tables, CutAtALineEndIsRefused) {
 TEST(AtomicFolders, TheLastFileStandsForTheWhole) {
   ScratchFolder scratch;
   const auto target = scratch.path() / "truth";
-  const auto fill = [](const AtomicFolder& folder, const std::string& what) {
-    write_text(folder.temporary() / "a.txt", what);
-    write_text(folder.temporary() / "last.tsv", what);
+  const std::string ours = "\n# rows 0\n";
+  const auto fill = [&](const AtomicFolder& folder, const std::string& what) {
+    write_text(folder.temporary() / "a.txt", what + ours);
+    write_text(folder.temporary() / "last.tsv", what + ours);
   };
   {
     AtomicFolder folder(target, "last.tsv");
@@ -99,7 +105,7 @@ TEST(AtomicFolders, TheLastFileStandsForTheWhole) {
   write_text(target / "other.txt", "somebody else's");
   {
     AtomicFolder folder(target, "last.tsv");
-    write_text(folder.temporary() / "a.txt", "two");
+    write_text(folder.temporary() / "a.txt", "two" + ours);
     EXPECT_THROW(folder.commit(), Error);  // no last file
   }
   EXPECT_FALSE(std::filesystem::exists(target / "last.tsv"));
@@ -181,21 +187,98 @@ TEST(Names, TissuesSidesPostures) {
   EXPECT_THROW(posture_gravity("sitting"), Error);
 }
 
-TEST(AtomicFiles, NothingIsSeenBeforeCommit) {
-  const ScratchFolder folder;
-  write_text(folder / "result", "old");
-  {
-    const AtomicFile file(folder / "result");
-    std::ofstream(file.temporary()) << "half";
-    EXPECT_EQ(read_text(folder / "result"), "old");
-    EXPECT_TRUE(file.temporary().filename().string().starts_with(".result.part-"));
+TEST(Reports, HoldAnyNameAndAnyBytes) {
+  Report report;
+  report.set("landmarks/a~b/displacement_mm", 1.5);
+  report.set("landmarks//displacement_mm", 2.5);
+  report.set("reason", "Br\xfcste.dcm: no slices");  // Latin-1
+  report.append("warnings", "\xff\xfe");
+  const Report read = Report::parse(report.json(), "report");
+  EXPECT_EQ(read.number("landmarks/a~b/displacement_mm"), 1.5);
+  EXPECT_EQ(read.number("landmarks//displacement_mm"), 2.5);
+  EXPECT_EQ(read.text("reason"), "Br\xef\xbf\xbdste.dcm: no slices");
+  EXPECT_FALSE(read.contains("reason/deeper"));
+}
+
+TEST(AtomicFolders, AnotherProgramsFileStays) {
+  const ScratchFolder scratch;
+  const fs::path target = scratch / "truth";
+  fs::create_directory(target);
+  write_text(target / "last.tsv", "a table of mine\n");
+  EXPECT_THROW(AtomicFolder(target, "last.tsv"), Error);
+  EXPECT_EQ(read_text(target / "last.tsv"), "a table of mine\n");
+}
+
+// In a child that may write files of at most `bytes`; the parent's files stay as they were.
+void write_with_limit(const fs::path& file, const std::string& text, rlim_t bytes,
+                      std::string& error) {
+  int report[2];
+  ASSERT_EQ(pipe(report), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, bytes};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      write_text(file, text);
+    } catch (const Error& thrown) {
+      const std::string what = thrown.what();
+      if (write(report[1], what.data(), what.size()) < 0) _exit(9);
+    }
+    _exit(0);
   }
-  EXPECT_EQ(read_text(folder / "result"), "old");
-  AtomicFile file(folder / "result");
-  std::ofstream(file.temporary()) << "new";
-  file.commit();
-  EXPECT_EQ(read_text(folder / "result"), "new");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+  close(report[1]);
+  char buffer[1000];
+  for (ssize_t n; (n = read(report[0], buffer, sizeof buffer)) > 0;) error.append(buffer, n);
+  close(report[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+}
+
+TEST(AtomicFiles, AFullDiskLeavesTheOldFileAndSaysWhereItStopped) {
+  const ScratchFolder folder;
+  const std::string text(5000, 'x');
+  for (const rlim_t bytes : {0, 1, 4095, 4999, 5000}) {
+    write_text(folder / "result", "old");
+    std::string error;
+    write_with_limit(folder / "result", text, bytes, error);
+    EXPECT_EQ(read_text(folder / "result"), bytes < 5000 ? "old" : text) << bytes;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1) << bytes;
+    const std::string where = std::to_string(bytes) + " of 5000 bytes";
+    EXPECT_EQ(error.find(where) != std::string::npos, bytes < 5000) << error;
+  }
+}
+
+TEST(AtomicFiles, DevicesAndStreamsAreWrittenThrough) {
+  const ScratchFolder folder;
+  write_text("/dev/null", "x");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  fs::create_symlink("/dev/null", folder / "sink");
+  write_text(folder / "sink", "x");
+  EXPECT_TRUE(fs::is_symlink(folder / "sink"));
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const int reader = open((folder / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  write_text(folder / "pipe", "through");
+  char buffer[16] = {};
+  EXPECT_EQ(read(reader, buffer, sizeof buffer), 7);
+  EXPECT_STREQ(buffer, "through");
+  close(reader);
+  EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+  EXPECT_TRUE(is_stream("/dev/stdout"));
+  EXPECT_TRUE(is_stream("/dev/fd/1"));
+  EXPECT_FALSE(is_stream(folder / "absent"));
+  EXPECT_THROW(write_text("/dev/full", "x"), Error);
+}
+
+TEST(AtomicFiles, DevicesAndPipesAreNotRead) {
+  const ScratchFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(read_text(folder / "pipe"), Error);
+  EXPECT_THROW(read_text("/dev/zero"), Error);
+  write_text(folder / "large", std::string(100, 'x'));
+  EXPECT_THROW(read_text(folder / "large", 99), Error);
+  EXPECT_EQ(read_text(folder / "large", 100).size(), 100u);
 }
 
 TEST(AtomicFiles, PartsOfDeadProcessesGo) {
@@ -206,11 +289,33 @@ TEST(AtomicFiles, PartsOfDeadProcessesGo) {
   const fs::path stale = folder / (".result.part-" + std::to_string(dead));
   const fs::path alive = folder / (".result.part-" + std::to_string(getppid()));
   const fs::path other = folder / (".another.part-" + std::to_string(dead));
-  for (const fs::path& file : {stale, alive, other}) std::ofstream(file) << "x";
+  const fs::path notes = folder / ".result.part-notes";  // a user's, by chance
+  for (const fs::path& file : {stale, alive, other, notes}) std::ofstream(file) << "x";
   write_text(folder / "result", "new");
+  EXPECT_TRUE(fs::exists(notes));
   EXPECT_FALSE(fs::exists(stale));
   EXPECT_TRUE(fs::exists(alive));
   EXPECT_TRUE(fs::exists(other));
+}
+
+TEST(OwnFiles, AreKnownByTheirContent) {
+  const ScratchFolder folder;
+  const auto ours = [&](const std::string& content) {
+    write_text(folder / "file", content);
+    return written_by_us(folder / "file");
+  };
+  EXPECT_TRUE(ours(""));
+  EXPECT_TRUE(ours("a\tb\n1\t2\n# rows 1\n"));
+  EXPECT_TRUE(ours("{\n  \"tool\": \"segment\"\n}\n"));
+  EXPECT_TRUE(ours("NRRD0004\n# written by libbreast\n"));
+  EXPECT_TRUE(ours("** Written by libbreast.\n"));
+  EXPECT_FALSE(ours("a\tb\n1\t2\n"));
+  EXPECT_FALSE(ours("{\"name\": \"tool\"}"));
+  EXPECT_FALSE(ours("NRRD0004\n# by another program\n"));
+  EXPECT_FALSE(ours("# Notes on libbreast\n"));
+  EXPECT_FALSE(ours(std::string("\x89PNG\r\n\x1a\n", 8) + std::string(100, '\0')));
+  EXPECT_FALSE(ours(std::string("\x89HDF\r\n\x1a\n", 8) + std::string(100, '\0')));
+  EXPECT_FALSE(written_by_us(folder / "absent"));
 }
 
 TEST(AtomicFiles, UnwritablePlacesFailInOneLine) {

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/guarded_child.hpp"
 #include "io/mammogram_dicom.hpp"
 
 namespace breast {
@@ -37,12 +38,9 @@ std::vector<float> stored_values(const gdcm::Image& image, const std::vector<cha
                     ", 8 or 16 bit grey expected");
 }
 
-}  // namespace
-
-MammogramScan read_mammogram_dicom(const std::filesystem::path& file) {
-  MammogramScan scan;
-  scan.header = read_mammogram_header(file);
-  const std::string where = file.string();
+// The pixels through GDCM, which can abort on what is damaged or unusual: one byte, 1 when bright is
+// low, then the stored values as float.
+std::string decoded(const std::string& where) {
   gdcm::ImageReader reader;
   reader.SetFileName(where.c_str());
   if (!reader.Read()) throw input_error(where, ": its pixels cannot be read");
@@ -58,7 +56,20 @@ MammogramScan read_mammogram_dicom(const std::filesystem::path& file) {
   }
   std::vector<char> bytes(image.GetBufferLength());
   if (!image.GetBuffer(bytes.data())) throw input_error(where, ": its pixels cannot be decoded");
-  scan.grey = stored_values(image, bytes, where);
+  const std::vector<float> grey = stored_values(image, bytes, where);
+  return std::string(1, inverted ? 1 : 0)
+      .append(reinterpret_cast<const char*>(grey.data()), grey.size() * sizeof(float));
+}
+
+}  // namespace
+
+MammogramScan read_mammogram_dicom(const std::filesystem::path& file) {
+  MammogramScan scan;
+  scan.header = read_mammogram_header(file);
+  const std::string where = file.string();
+  const std::string packed = in_guarded_child(where, [&] { return decoded(where); });
+  const bool inverted = packed.at(0) != 0;
+  scan.grey = values_of<float>({packed.begin() + 1, packed.end()});
   const std::size_t pixels = std::size_t(scan.header.columns) * std::size_t(scan.header.rows);
   if (scan.grey.size() != pixels || pixels == 0) {
     throw input_error(where, ": ", scan.grey.size(), " pixel values for ", scan.header.columns,

@@ -1,11 +1,9 @@
-#include <gdcmWriter.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "io/dicom/dataset.hpp"
+#include "dicom/dataset.hpp"
 #include "io/mammogram_dicom.hpp"
 #include "projection/display.hpp"
 
@@ -13,17 +11,8 @@ namespace breast {
 
 namespace {
 
-using gdcm::VR;
-
 constexpr const char* presentation_class = "1.2.840.10008.5.1.4.1.1.1.2";
 constexpr const char* processing_class = "1.2.840.10008.5.1.4.1.1.1.2.1";
-
-/// A UID from text ("2.25." is the branch for such numbers, PS3.5 B.2).
-std::string uid_from(const std::string& text) {
-  Sha256 hash;
-  hash.update(text);
-  return "2.25." + std::to_string(std::stoull(hash.hex().substr(0, 15), nullptr, 16) + 1);
-}
 
 std::string content_of(const Mammogram& image, bool for_processing) {
   Sha256 hash;
@@ -68,27 +57,27 @@ std::vector<std::uint16_t> detector_signal(const Mammogram& image) {
 
 void add_identity(DatasetBuilder& set, const Mammogram& image, bool for_processing) {
   const std::string scan = content_of(image, for_processing);
-  set.text(0x00080005, VR::CS, "ISO_IR 100")
-      .text(0x00080008, VR::CS, for_processing ? "ORIGINAL\\PRIMARY" : "DERIVED\\PRIMARY")
-      .text(0x00080016, VR::UI, for_processing ? processing_class : presentation_class)
-      .text(0x00080018, VR::UI, uid_from(scan + "/image"))
-      .text(0x00080060, VR::CS, "MG")
-      .text(0x00080068, VR::CS, for_processing ? "FOR PROCESSING" : "FOR PRESENTATION")
-      .text(0x00080070, VR::LO, "libbreast (simulated)")
-      .text(0x00081030, VR::LO, "Simulated mammogram")
-      .text(0x00100010, VR::PN, "SIMULATED^MAMMOGRAM")
-      .text(0x00100020, VR::LO, "SIMULATED")
-      .text(0x00100030, VR::DA, "")
-      .text(0x00100040, VR::CS, "F")
-      .text(0x0020000d, VR::UI, uid_from(scan + "/study"))
-      .text(0x0020000e, VR::UI, uid_from(scan + "/series"))
-      .text(0x00200010, VR::SH, "1")
-      .text(0x00200011, VR::IS, "1")
-      .text(0x00200013, VR::IS, "1");
+  set.text(0x00080005, "CS", "ISO_IR 100")
+      .text(0x00080008, "CS", for_processing ? "ORIGINAL\\PRIMARY" : "DERIVED\\PRIMARY")
+      .text(0x00080016, "UI", for_processing ? processing_class : presentation_class)
+      .text(0x00080018, "UI", uid_from(scan + "/image"))
+      .text(0x00080060, "CS", "MG")
+      .text(0x00080068, "CS", for_processing ? "FOR PROCESSING" : "FOR PRESENTATION")
+      .text(0x00080070, "LO", "libbreast (simulated)")
+      .text(0x00081030, "LO", "Simulated mammogram")
+      .text(0x00100010, "PN", "SIMULATED^MAMMOGRAM")
+      .text(0x00100020, "LO", "SIMULATED")
+      .text(0x00100030, "DA", "")
+      .text(0x00100040, "CS", "F")
+      .text(0x0020000d, "UI", uid_from(scan + "/study"))
+      .text(0x0020000e, "UI", uid_from(scan + "/series"))
+      .text(0x00200010, "SH", "1")
+      .text(0x00200011, "IS", "1")
+      .text(0x00200013, "IS", "1");
   for (const std::uint32_t empty : {0x00080020u, 0x00080030u}) {  // study date and time
-    set.text(empty, empty == 0x00080020u ? VR::DA : VR::TM, "");
+    set.text(empty, empty == 0x00080020u ? "DA" : "TM", "");
   }
-  set.text(0x00080050, VR::SH, "").text(0x00080090, VR::PN, "");
+  set.text(0x00080050, "SH", "").text(0x00080090, "PN", "");
 }
 
 void add_positioning(DatasetBuilder& set, const Mammogram& image, const MammogramDicom& about) {
@@ -99,17 +88,15 @@ void add_positioning(DatasetBuilder& set, const Mammogram& image, const Mammogra
     if (image.view == "MLO") return code_item("399368009", "SCT", "medio-lateral oblique");
     return code_item("399260004", "SCT", "medio-lateral");
   };
-  DatasetBuilder view;
-  gdcm::DataSet item = code();
-  view.sequence(0x00540222, {});  // no view modifier
-  item.Replace(view.set().GetDataElement(gdcm::Tag(0x0054, 0x0222)));
-  set.text(0x00200020, VR::CS, letters(way * image.pose.e_u) + "\\" + letters(way * image.pose.e_v))
-      .text(0x00200062, VR::CS, left ? "L" : "R")
-      .text(0x00181508, VR::CS, "MAMMOGRAPHIC")
+  DatasetBuilder item = code();
+  item.sequence(0x00540222, {});  // no view modifier
+  set.text(0x00200020, "CS", letters(way * image.pose.e_u) + "\\" + letters(way * image.pose.e_v))
+      .text(0x00200062, "CS", left ? "L" : "R")
+      .text(0x00181508, "CS", "MAMMOGRAPHIC")
       .number(0x00181510, image.pose.angle_deg)
-      .text(0x00185101, VR::CS, image.view)
-      .text(0x00400318, VR::CS, "BREAST")
-      .text(0x00281300, VR::CS, "NO")
+      .text(0x00185101, "CS", image.view)
+      .text(0x00400318, "CS", "BREAST")
+      .text(0x00281300, "CS", "NO")
       .sequence(0x00540220, {item})
       .sequence(0x00082218, {code_item("76752008", "SCT", "Breast")})
       .sequence(0x00400555, {});
@@ -121,27 +108,30 @@ void add_positioning(DatasetBuilder& set, const Mammogram& image, const Mammogra
 void add_pixels(DatasetBuilder& set, const Mammogram& image, bool for_processing) {
   const std::uint16_t bits = for_processing ? 14 : 16;
   const int highest = (1 << bits) - 1;
+  const std::vector<std::uint16_t> stored =
+      for_processing ? detector_signal(image) : hang(image).grey;
   char spacing[40];
   std::snprintf(spacing, sizeof spacing, "%.8g\\%.8g", image.pixel, image.pixel);
-  set.text(0x00181164, VR::DS, spacing)
-      .text(0x00187004, VR::CS, "DIRECT")
+  set.text(0x00181164, "DS", spacing)
+      .text(0x00187004, "CS", "DIRECT")
       .unsigned_short(0x00280002, 1)
-      .text(0x00280004, VR::CS, for_processing ? "MONOCHROME1" : "MONOCHROME2")
+      .text(0x00280004, "CS", for_processing ? "MONOCHROME1" : "MONOCHROME2")
       .unsigned_short(0x00280010, std::uint16_t(image.height))
       .unsigned_short(0x00280011, std::uint16_t(image.width))
       .unsigned_short(0x00280100, 16)
       .unsigned_short(0x00280101, bits)
       .unsigned_short(0x00280102, std::uint16_t(bits - 1))
       .unsigned_short(0x00280103, 0)
-      .text(0x00280301, VR::CS, "NO")
-      .text(0x00281040, VR::CS, for_processing ? "LIN" : "LOG")
+      .text(0x00280301, "CS", "NO")
+      .text(0x00281040, "CS", for_processing ? "LIN" : "LOG")
       .signed_short(0x00281041, for_processing ? 1 : -1)
       .number(0x00281052, 0)
       .number(0x00281053, 1)
-      .text(0x00281054, VR::LO, "US")
-      .text(0x00282110, VR::CS, "00")
-      .text(0x20500020, VR::CS, for_processing ? "INVERSE" : "IDENTITY")
-      .words(0x7fe00010, for_processing ? detector_signal(image) : hang(image).grey);
+      .text(0x00281054, "LO", "US")
+      .text(0x00282110, "CS", "00")
+      .text(0x20500020, "CS", for_processing ? "INVERSE" : "IDENTITY")
+      .words(0x7fe00010,
+             {reinterpret_cast<const char*>(stored.data()), stored.size() * sizeof stored[0]});
   if (!for_processing) {
     set.number(0x00281050, 0.5 * (highest + 1)).number(0x00281051, highest + 1);
   }
@@ -151,11 +141,11 @@ void add_acquisition(DatasetBuilder& set, const Mammogram& image) {
   const auto colon = image.energy.find(':');
   const std::string beam = image.energy.substr(0, colon);
   if (colon != std::string::npos && (beam == "W/Rh" || beam == "Mo/Mo")) {
-    set.text(0x00180060, VR::DS, image.energy.substr(colon + 1))
-        .text(0x00181191, VR::CS, beam == "W/Rh" ? "TUNGSTEN" : "MOLYBDENUM")
-        .text(0x00187050, VR::CS, beam == "W/Rh" ? "RHODIUM" : "MOLYBDENUM");
+    set.text(0x00180060, "DS", image.energy.substr(colon + 1))
+        .text(0x00181191, "CS", beam == "W/Rh" ? "TUNGSTEN" : "MOLYBDENUM")
+        .text(0x00187050, "CS", beam == "W/Rh" ? "RHODIUM" : "MOLYBDENUM");
   }
-  set.text(0x00204000, VR::LT, "Simulated by libbreast; path is " + image.energy);
+  set.text(0x00204000, "LT", "Simulated by libbreast; path is " + image.energy);
 }
 
 }  // namespace
@@ -175,14 +165,7 @@ void write_mammogram_dicom(const std::filesystem::path& file, const Mammogram& i
   add_positioning(set, image, about);
   add_pixels(set, image, about.for_processing);
   add_acquisition(set, image);
-  AtomicFile target(file);
-  gdcm::Writer writer;
-  writer.GetFile().SetDataSet(set.set());
-  writer.GetFile().GetHeader().SetDataSetTransferSyntax(
-      gdcm::TransferSyntax::ExplicitVRLittleEndian);
-  writer.SetFileName(target.temporary().c_str());
-  if (!writer.Write()) throw failed_error(file.string(), ": DICOM cannot be written");
-  target.commit();
+  write_bytes(file, set.file());
 }
 
 }  // namespace breast

@@ -1,5 +1,7 @@
 #include "io/hdf5/fields.hpp"
 
+#include <algorithm>
+
 namespace breast {
 
 namespace {
@@ -88,6 +90,25 @@ std::vector<Vec3> Fields::vectors(const std::string& path, std::size_t count) {
   return list;
 }
 
+std::vector<Vec3> Fields::places(const std::string& path, std::size_t count) {
+  std::vector<Vec3> list = vectors(path, count);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].cwiseAbs().maxCoeff() <= farthest_mm) continue;
+    throw complain_("dataset ", path, "[", i, "] is ", list[i].transpose(), " mm, must be within ",
+                    farthest_mm);
+  }
+  return list;
+}
+
+void Fields::check_name(const std::string& path, std::size_t index, const std::string& name) const {
+  const bool odd = std::any_of(name.begin(), name.end(), [](unsigned char c) {
+    return c < ' ' || c == 0x7f || c == '/';
+  });
+  if (!name.empty() && !odd) return;
+  throw complain_("dataset ", path, "[", index, "] is ", name.empty() ? "empty" : "no name",
+                  ", must be a name without '/' and control characters");
+}
+
 void Fields::require(const std::string& path, const Shape& shape) {
   find(document_.datasets, path, shape, "dataset");
 }
@@ -147,6 +168,12 @@ Integers Fields::integer_list(const std::string& path, std::size_t count) {
 Vec3 Fields::vector(const std::string& path) {
   const Doubles values = numbers(path, 3);
   return {values[0], values[1], values[2]};
+}
+
+Vec3 Fields::place(const std::string& path) {
+  const Vec3 at = vector(path);
+  if (at.cwiseAbs().maxCoeff() <= farthest_mm) return at;
+  throw complain_("attribute ", path, " is ", at.transpose(), " mm, must be within ", farthest_mm);
 }
 
 }  // namespace breast

@@ -43,6 +43,10 @@ class Fields {
   Doubles doubles(const std::string& path, const Shape& shape);
   Texts texts(const std::string& path, const Shape& shape);
   std::vector<Vec3> vectors(const std::string& path, std::size_t count = any);  ///< (count, 3)
+  /// Vectors that are places in mm: refused by index beyond `farthest_mm`, where squares overflow
+  /// and searches find nothing.
+  std::vector<Vec3> places(const std::string& path, std::size_t count = any);
+  static constexpr double farthest_mm = 1e6;
   /// Integers in [low, high), refused by index and value otherwise.
   std::vector<int> indices(const std::string& path, const Shape& shape, long low, long high);
 
@@ -52,6 +56,9 @@ class Fields {
   const Integers& check_range(const std::string& path, const Shape& shape, std::int64_t low,
                               std::int64_t high);
 
+  /// A name that tables and reports can hold: not empty, no control character, no '/'.
+  void check_name(const std::string& path, std::size_t index, const std::string& name) const;
+
   // Attributes.
   std::string text(const std::string& path);
   double number(const std::string& path);
@@ -59,12 +66,13 @@ class Fields {
   Doubles numbers(const std::string& path, std::size_t count);
   Integers integer_list(const std::string& path, std::size_t count);
   Vec3 vector(const std::string& path);
+  Vec3 place(const std::string& path);  ///< within farthest_mm
 
  private:
   Array& find(std::map<std::string, Array>& list, const std::string& path, const Shape& shape,
               const char* what);
   Document& document_;
-  const Complaint& complain_;
+  const Complaint complain_;
 };
 
 // Setters.

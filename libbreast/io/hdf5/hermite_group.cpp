@@ -90,6 +90,13 @@ void check_sheet(const HermiteSheet& sheet, const std::string& path, const Compl
       throw complain("dataset ", path, "/scale_1 or scale_2 node ", n, " is ",
                      sheet.nodes[n].scale_1, " or ", sheet.nodes[n].scale_2, ", must be positive");
     }
+    const HermiteSheet::Node& node = sheet.nodes[n];
+    for (const Vec3& arm : {node.x, Vec3(node.scale_1 * node.x_1), Vec3(node.scale_2 * node.x_2),
+                            Vec3(node.scale_1 * node.scale_2 * node.x_12)}) {
+      if (arm.cwiseAbs().maxCoeff() <= Fields::farthest_mm) continue;
+      throw complain("dataset ", path, "/x or its scaled derivatives at node ", n, " is ",
+                     arm.transpose(), " mm, must be within ", Fields::farthest_mm);
+    }
   }
 }
 
@@ -163,7 +170,7 @@ BreastGeometry get_hermite(Fields& fields) {
   const Doubles nipple_st = fields.numbers(group + "@nipple_st", 2);
   geometry.centre = {centre[0], centre[1]};
   geometry.nipple_st = {nipple_st[0], nipple_st[1]};
-  geometry.nipple = fields.vector(group + "@nipple");
+  geometry.nipple = fields.place(group + "@nipple");
   geometry.skin_thickness = fields.number(group + "@skin_thickness");
   geometry.fit_mean_mm = fields.number(group + "@fit_mean_mm");
   geometry.fit_p95_mm = fields.number(group + "@fit_p95_mm");

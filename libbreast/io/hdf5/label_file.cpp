@@ -71,8 +71,9 @@ LabelVolume read_labels(const std::filesystem::path& file) {
   labels.chest_wall_confidence = fields.floats("/VTKHDF/PointData/chest_wall_confidence", shape);
   labels.skin_thickness = fields.number("/breast/skin@measured_thickness");
   const Texts names = fields.texts("/breast/landmarks/name", {Fields::any});
-  const std::vector<Vec3> points = fields.vectors("/breast/landmarks/imaged", names.size());
+  const std::vector<Vec3> points = fields.places("/breast/landmarks/imaged", names.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
+    fields.check_name("/breast/landmarks/name", i, names[i]);
     if (!labels.landmarks.emplace(names[i], points[i]).second) {
       throw complain("dataset /breast/landmarks/name[", i, "] repeats '", names[i], "'");
     }

@@ -4,9 +4,13 @@
 #include <cmath>
 #include <mutex>
 #include <new>
+#include <set>
 
+#include "core/atomic_file.hpp"
+#include "core/guarded_child.hpp"
 #include "io/hdf5/document.hpp"
 #include "io/hdf5/handle.hpp"
+#include "io/hdf5/packed.hpp"
 #include "io/hdf5/seal.hpp"
 
 namespace breast {
@@ -53,6 +57,11 @@ std::string stored_text(const char* text, std::size_t size) {
   return out;
 }
 
+// What all values of a file may take in memory, and one chunk of a dataset before it is inflated.
+constexpr std::size_t most_bytes = std::size_t(1) << 30, most_chunk_bytes = std::size_t(1) << 28;
+// Deflate reaches at most 1032:1 (zlib's own statement).
+constexpr std::size_t most_inflation = 1100;
+
 class Loader {
  public:
   Loader(const Source& source, std::size_t file_bytes) : source_(source), file_bytes_(file_bytes) {}
@@ -87,6 +96,9 @@ class Loader {
     if (H5Oget_info_by_name(group, name, &object, H5P_DEFAULT) < 0) {
       throw source_.refuse(child, " cannot be read");
     }
+    if (!visited_.insert(object.addr).second) {
+      throw source_.refuse(child, " is a second link to something that has another name already");
+    }
     if (object.type == H5O_TYPE_GROUP) {
       load_group(file, child, depth + 1);
     } else if (object.type == H5O_TYPE_DATASET) {
@@ -104,8 +116,7 @@ class Loader {
     H5Sget_simple_extent_dims(space, extent.data(), nullptr);
     std::vector<std::size_t> shape(extent.begin(), extent.begin() + rank);
     std::size_t count = 1;
-    // Deflate reaches at most 1032:1 (zlib's own statement).
-    const std::size_t limit = 1100 * file_bytes_;
+    const std::size_t limit = most_inflation * file_bytes_;
     for (const std::size_t n : shape) {
       if (n != 0 && count > limit / n) {
         throw source_.refuse(path, " states more values than a file of ", file_bytes_,
@@ -121,14 +132,65 @@ class Loader {
     if (!dataset) throw source_.refuse("dataset ", path, " cannot be opened");
     const Handle space(H5Dget_space(dataset), H5Sclose);
     const Handle type(H5Dget_type(dataset), H5Tclose);
+    check_storage(dataset, type, path);
     const auto read = [&](hid_t memory, void* data) {
       return H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
     };
-    Array array = read_values(path, shape_of(space, path), type, read);
-    if (array.size() > 0 && H5Dget_storage_size(dataset) == 0) {
+    const std::vector<std::size_t> shape = shape_of(space, path);
+    std::size_t values = 1;
+    for (const std::size_t n : shape) values *= n;
+    const hsize_t stored = H5Dget_storage_size(dataset);
+    if (values > 0 && stored == 0) {
       throw source_.refuse("dataset ", path, " was declared but never written");
     }
+    if (values > most_inflation * std::min<hsize_t>(stored, file_bytes_)) {
+      throw source_.refuse("dataset ", path, " states ", values, " values in ", stored, " bytes");
+    }
+    Array array = read_values(path, shape, type, read);
     document.datasets[path] = std::move(array);
+  }
+
+  // Values lie in this file, in chunks of a size that fits, behind filters every HDF5 has.
+  void check_storage(const Handle& dataset, const Handle& type, const std::string& path) {
+    const Handle layout(H5Dget_create_plist(dataset), H5Pclose);
+    const H5D_layout_t kind = layout ? H5Pget_layout(layout) : H5D_LAYOUT_ERROR;
+    if (kind == H5D_VIRTUAL || (kind == H5D_CONTIGUOUS && H5Pget_external_count(layout) != 0)) {
+      throw source_.refuse("dataset ", path, " keeps its values in another file, which is not read");
+    }
+    if (kind != H5D_COMPACT && kind != H5D_CONTIGUOUS && kind != H5D_CHUNKED) {
+      throw source_.refuse("dataset ", path, " has an unknown layout");
+    }
+    for (int n = 0; n < H5Pget_nfilters(layout); ++n) {
+      unsigned flags = 0, setting = 0;
+      std::size_t settings = 0;
+      const H5Z_filter_t filter =
+          H5Pget_filter2(layout, unsigned(n), &flags, &settings, nullptr, 0, nullptr, &setting);
+      if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE &&
+          filter != H5Z_FILTER_FLETCHER32) {
+        throw source_.refuse("dataset ", path, " is compressed by filter ", filter,
+                             "; deflate, shuffle and fletcher32 are read");
+      }
+    }
+    if (kind != H5D_CHUNKED) return;
+    hsize_t chunk[H5S_MAX_RANK] = {};
+    const int rank = H5Pget_chunk(layout, H5S_MAX_RANK, chunk);
+    std::size_t bytes = type ? H5Tget_size(type) : 0;
+    for (int d = 0; d < rank; ++d) {
+      if (chunk[d] == 0 || bytes > most_chunk_bytes / chunk[d]) {
+        throw source_.refuse("dataset ", path, " has chunks of more than ", most_chunk_bytes,
+                             " bytes");
+      }
+      bytes *= std::size_t(chunk[d]);
+    }
+  }
+
+  // Counts what a dataset or attribute will take against the whole file's budget.
+  void spend(const std::string& path, std::size_t count, std::size_t width) {
+    if (width > 0 && count > (most_bytes - spent_) / width) {
+      throw source_.refuse(path, " and what comes before it need more than ", most_bytes,
+                           " bytes of memory");
+    }
+    spent_ += count * width;
   }
 
   void load_attributes(const Handle& group, const std::string& path) {
@@ -168,6 +230,7 @@ class Loader {
     };
     const H5T_class_t kind = type ? H5Tget_class(type) : H5T_NO_CLASS;
     const std::size_t width = type ? H5Tget_size(type) : 0;
+    spend(path, count, kind == H5T_INTEGER && width > 1 ? sizeof(std::int64_t) : width);
     if (kind == H5T_INTEGER && width == 1 && H5Tget_sign(type) == H5T_SGN_NONE) {
       fill(Bytes(), H5T_NATIVE_UINT8);
     } else if (kind == H5T_INTEGER) {
@@ -220,7 +283,8 @@ class Loader {
   }
 
   const Source& source_;
-  std::size_t file_bytes_;
+  std::size_t file_bytes_, spent_ = 0;
+  std::set<haddr_t> visited_;
 };
 
 void check_schema(const Source& source, const Document& document, const std::string& schema) {
@@ -235,26 +299,42 @@ void check_schema(const Source& source, const Document& document, const std::str
   }
 }
 
+// The part HDF5 does, whose 1.10 parser can crash on damage: in a child process.
+Document parse(const Source& source, std::string& content, const std::string& schema) {
+  silence_hdf5();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  constexpr std::size_t growth = std::size_t(1) << 16;
+  H5Pset_fapl_core(access, growth, false);
+  H5Pset_file_image(access, content.data(), content.size());
+  const Handle h5(H5Fopen("in memory", H5F_ACC_RDONLY, access), H5Fclose);
+  if (!h5) throw source.refuse("HDF5 cannot open it (truncated or damaged)");
+  Loader loader(source, content.size());
+  for (const char* group : {"/VTKHDF", "/breast"}) {
+    if (H5Lexists(h5, group, H5P_DEFAULT) <= 0) {
+      throw source.refuse("group ", group, " is missing: not a file of libbreast");
+    }
+    H5L_info_t link{};
+    if (H5Lget_info(h5, group, &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD) {
+      throw source.refuse(group, " is a link, must be a group");
+    }
+    loader.load_group(h5, group, 0);
+  }
+  check_schema(source, loader.document, schema);
+  return std::move(loader.document);
+}
+
 }  // namespace
 
 Document load_document(const fs::path& file, const std::string& schema, const std::string& maker) {
   const Source source{file.string(), "; make it with " + maker};
   try {
-    check_seal(file, source.name, source.advice);
+    std::string content = read_text(file);
+    check_seal(content, source.name, source.advice);
     const std::lock_guard lock(hdf5_mutex());
-    silence_hdf5();
-    const Handle h5(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-    if (!h5) throw source.refuse("HDF5 cannot open it (truncated or damaged)");
-    Loader loader(source, fs::file_size(file));
-    for (const char* group : {"/VTKHDF", "/breast"}) {
-      if (H5Lexists(h5, group, H5P_DEFAULT) <= 0) {
-        throw source.refuse("group ", group, " is missing: not a file of libbreast");
-      }
-      loader.load_group(h5, group, 0);
-    }
-    check_schema(source, loader.document, schema);
-    check_all_finite(source, loader.document);
-    return std::move(loader.document);
+    Document document = unpacked(in_guarded_child(
+        source.name, [&] { return packed(parse(source, content, schema)); }));
+    check_all_finite(source, document);
+    return document;
   } catch (const std::bad_alloc&) {
     throw source.refuse("states more data than fits in memory");
   }

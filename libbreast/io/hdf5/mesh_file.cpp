@@ -47,7 +47,7 @@ void get_grid(Fields& fields, HexMesh& mesh) {
                               offsets[e + 1] - offsets[e], " nodes, must be ", n);
     }
   }
-  mesh.points = fields.vectors("/VTKHDF/Points");
+  mesh.points = fields.places("/VTKHDF/Points");
   const Integers ids = fields.integers("/VTKHDF/Connectivity", {Fields::any});
   mesh.connectivity.assign(ids.begin(), ids.end());
 }
@@ -69,12 +69,12 @@ void put_point_data(Document& document, const HexMesh& mesh) {
 
 void get_point_data(Fields& fields, HexMesh& mesh) {
   const std::size_t nodes = mesh.points.size();
-  mesh.imaged = fields.vectors(point_data + "imaged", nodes);
+  mesh.imaged = fields.places(point_data + "imaged", nodes);
   if (fields.has(point_data + "contact_pressure")) {
     mesh.contact_pressure = fields.doubles(point_data + "contact_pressure", {nodes});
   }
   if (!fields.has(point_data + "reference")) return;
-  mesh.reference = fields.vectors(point_data + "reference", nodes);
+  mesh.reference = fields.places(point_data + "reference", nodes);
   // Displacement is there for viewing; one that contradicts the two shapes means an edited file.
   constexpr double tolerance_mm = 1e-6;
   const auto displacement = fields.vectors(point_data + "displacement", nodes);

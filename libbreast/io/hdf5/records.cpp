@@ -134,7 +134,7 @@ ContactRecord get_contact(Fields& fields) {
   contact.plates.resize(names.size());
   for (std::size_t p = 0; p < names.size(); ++p) contact.plates[p].name = names[p];
   for (const auto& [name, member] : plate_axes) {
-    const auto list = fields.vectors(plates_group + "/" + name, names.size());
+    const auto list = fields.places(plates_group + "/" + name, names.size());
     for (std::size_t p = 0; p < names.size(); ++p) contact.plates[p].*member = list[p];
   }
   for (const auto& [name, member] : plate_columns) {

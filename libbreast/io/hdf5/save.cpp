@@ -121,7 +121,7 @@ class Saver {
     groups_.insert(path);
   }
   Error refuse(const std::string& path) const {
-    return failed_error(name_, ": ", path, " cannot be written (disk full?)");
+    return failed_error(name_, ": ", path, " cannot be written in memory");
   }
 
   const Handle& file_;
@@ -129,24 +129,32 @@ class Saver {
   std::set<std::string> groups_;
 };
 
+// The file in memory: HDF5 crashes when a disk is full, so that it never sees one.
+std::string hdf5_image(const std::string& name, const Document& document) {
+  const std::lock_guard lock(hdf5_mutex());
+  silence_hdf5();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  constexpr std::size_t growth = std::size_t(1) << 22;
+  constexpr hbool_t on_disk = false;
+  H5Pset_fapl_core(access, growth, on_disk);
+  const Handle h5(H5Fcreate("in memory", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+  if (!h5) throw failed_error(name, ": HDF5 cannot make a file in memory");
+  Saver saver(h5, name);
+  for (const auto& [path, array] : document.attributes) saver.attribute(path, array);
+  for (const auto& [path, array] : document.datasets) saver.dataset(path, array);
+  const ssize_t size = H5Fflush(h5, H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(h5, nullptr, 0);
+  std::string image(std::size_t(std::max<ssize_t>(size, 0)), '\0');
+  if (size <= 0 || H5Fget_file_image(h5, image.data(), image.size()) != size) {
+    throw failed_error(name, ": HDF5 cannot finish the file in memory");
+  }
+  return image;
+}
+
 }  // namespace
 
 void save_document(const std::filesystem::path& file, const Document& document) {
   check_writable(file, document);
-  AtomicFile target(file);
-  {
-    const std::lock_guard lock(hdf5_mutex());
-    silence_hdf5();
-    Handle h5(H5Fcreate(target.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
-              H5Fclose);
-    if (!h5) throw failed_error(file.string(), ": cannot be written");
-    Saver saver(h5, file.string());
-    for (const auto& [path, array] : document.attributes) saver.attribute(path, array);
-    for (const auto& [path, array] : document.datasets) saver.dataset(path, array);
-    if (!h5.close()) throw failed_error(file.string(), ": cannot be written (disk full?)");
-  }
-  seal_file(target.temporary());
-  target.commit();
+  write_bytes(file, sealed(hdf5_image(file.string(), document)));
 }
 
 }  // namespace breast

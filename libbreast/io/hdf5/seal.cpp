@@ -2,11 +2,7 @@
 
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <string>
-#include <string_view>
 
-#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/provenance.hpp"
 
@@ -43,31 +39,23 @@ std::uint64_t stated_end(std::string_view content) {
 
 }  // namespace
 
-void seal_file(const std::filesystem::path& file) {
-  const std::string content = read_text(file);
-  std::ofstream out(file, std::ios::binary | std::ios::app);
-  out << mark << digest(content);
-  out.flush();
-  if (!out) throw failed_error(file.string(), ": cannot be written");
+std::string sealed(std::string content) {
+  const std::string digits = digest(content);
+  return content.append(mark).append(digits);
 }
 
-void check_seal(const std::filesystem::path& file, const std::string& name,
-                const std::string& advice) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) throw input_error(name, ": is a folder");
-  const std::string content = read_text(file);
-  const std::string_view view(content);
+void check_seal(std::string_view view, const std::string& name, const std::string& advice) {
   if (view.substr(0, 8) != signature) {
-    throw input_error(name, ": is not an HDF5 file (", content.size(), " bytes)", advice);
+    throw input_error(name, ": is not an HDF5 file (", view.size(), " bytes)", advice);
   }
   const std::uint64_t end = stated_end(view);
-  if (end > content.size() || content.size() < 96) {
-    throw input_error(name, ": is truncated at byte ", content.size(), " of ", end, advice);
+  if (end > view.size() || view.size() < 96) {
+    throw input_error(name, ": is truncated at byte ", view.size(), " of ", end, advice);
   }
-  if (content.size() == end) return;  // unsealed: written or edited by another program
-  const std::size_t body = content.size() < seal_bytes ? 0 : content.size() - seal_bytes;
+  if (view.size() == end) return;  // unsealed: written or edited by another program
+  const std::size_t body = view.size() < seal_bytes ? 0 : view.size() - seal_bytes;
   if (view.substr(body, mark.size()) != mark) {
-    throw input_error(name, ": is damaged: ", content.size(), " bytes where its header states ",
+    throw input_error(name, ": is damaged: ", view.size(), " bytes where its header states ",
                       end, advice);
   }
   if (view.substr(body + mark.size()) != digest(view.substr(0, body))) {

@@ -6,16 +6,16 @@
 // on damage.
 #pragma once
 
-#include <filesystem>
+#include <string>
+#include <string_view>
 
 namespace breast {
 
-/// Appends the seal to a finished HDF5 file.
-void seal_file(const std::filesystem::path& file);
+/// The bytes of a finished HDF5 file with the seal behind them.
+std::string sealed(std::string content);
 
-/// Throws Error (input) in one line, beginning with `name`, when the file is not HDF5, is
-/// truncated, or disagrees with its seal. `advice` ends the message.
-void check_seal(const std::filesystem::path& file, const std::string& name,
-                const std::string& advice);
+/// Throws Error (input) in one line, beginning with `name`, when a file of these bytes
+/// is not HDF5, is truncated, or disagrees with its seal. `advice` ends the message.
+void check_seal(std::string_view content, const std::string& name, const std::string& advice);
 
 }  // namespace breast

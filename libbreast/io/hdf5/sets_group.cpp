@@ -97,12 +97,13 @@ void put_landmarks(Document& document, const HexMesh& mesh) {
 
 void get_landmarks(Fields& fields, HexMesh& mesh) {
   const Texts names = fields.texts("/breast/landmarks/name", {Fields::any});
-  const auto imaged = fields.vectors("/breast/landmarks/imaged", names.size());
+  const auto imaged = fields.places("/breast/landmarks/imaged", names.size());
   const auto elements =
       fields.indices("/breast/landmarks/element", {names.size()}, 0, mesh.elements());
   const auto local = fields.vectors("/breast/landmarks/local", names.size());
   const Doubles moved = fields.doubles("/breast/landmarks/moved", {names.size()});
   for (std::size_t i = 0; i < names.size(); ++i) {
+    fields.check_name("/breast/landmarks/name", i, names[i]);
     mesh.landmarks.push_back({names[i], imaged[i], elements[i], local[i], moved[i]});
   }
 }

@@ -92,7 +92,7 @@ Grid get_image_grid(Fields& fields) {
     }
     grid.size[d] = int(extent[2 * d + 1]) + 1;
   }
-  grid.origin = fields.vector("/VTKHDF@Origin");
+  grid.origin = fields.place("/VTKHDF@Origin");
   grid.spacing = fields.vector("/VTKHDF@Spacing");
   const Doubles direction = fields.numbers("/VTKHDF@Direction", 9);
   for (int r = 0; r < 3; ++r) {
@@ -110,9 +110,10 @@ void check_grid(const Grid& grid, const Complaint& complain) {
       throw complain("volume has ", grid.size[d], " voxels along axis ", d, ", must be 2 to ",
                      most_voxels_per_axis);
     }
-    if (!(grid.spacing[d] > 0)) {
-      throw complain("attribute /VTKHDF@Spacing[", d, "] is ", grid.spacing[d],
-                     ", must be positive");
+    constexpr double least_mm = 0.01, most_mm = 50;
+    if (!(grid.spacing[d] >= least_mm && grid.spacing[d] <= most_mm)) {
+      throw complain("attribute /VTKHDF@Spacing[", d, "] is ", grid.spacing[d], ", must be ",
+                     least_mm, " to ", most_mm, " mm");
     }
   }
   const double error =

@@ -8,8 +8,10 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/guarded_child.hpp"
 #include "dicom/header.hpp"
 #include "io/volume/dicom.hpp"
+#include "io/volume/header.hpp"
 #include "io/volume/itk_image.hpp"
 
 namespace breast {
@@ -38,9 +40,50 @@ struct Slice {
   double along = 0;  ///< mm along the slice normal
 };
 
+/// Voxel size in the plane, mm; refuses what ITK would take for 1 mm.
+Eigen::Vector2d pixel_spacing(const fs::path& file, const DicomHeader& header) {
+  const auto found = header.find("0028|0030");
+  const auto values =
+      dicom_numbers(found == header.end() ? std::string() : found->second, 2);
+  constexpr double least_mm = 0.01, most_mm = 50;
+  for (std::size_t d = 0; d < values.size(); ++d) {
+    if (values[d] >= least_mm && values[d] <= most_mm) continue;
+    throw input_error(file.string(), ": pixel spacing ", values[d], " mm: must be ", least_mm,
+                      " to ", most_mm, " mm");
+  }
+  if (values.empty()) throw input_error(file.string(), ": states no pixel spacing");
+  return {values[0], values[1]};
+}
+
+/// Grey values of 8 or 16 bits, one a pixel: what else there is makes GDCM abort, or is no MR.
+void check_pixels(const fs::path& file, const DicomHeader& header) {
+  const auto text = [&](const char* key) {
+    const auto found = header.find(key);
+    return found == header.end() ? std::string() : found->second;
+  };
+  const std::string bits = text("0028|0100"), stored = text("0028|0101");
+  const std::string samples = text("0028|0002"), kind = text("0028|0004");
+  if (bits != "8" && bits != "16") {
+    throw input_error(file.string(), ": ", bits.empty() ? "no" : bits,
+                      " bits allocated a pixel: 8 or 16 are read");
+  }
+  const int depth = std::atoi(stored.c_str());
+  if (!stored.empty() && !(depth >= 1 && depth <= std::atoi(bits.c_str()))) {
+    throw input_error(file.string(), ": ", stored, " of ", bits, " bits stored a pixel");
+  }
+  if (!samples.empty() && samples != "1") {
+    throw input_error(file.string(), ": ", samples, " samples a pixel: grey slices are needed");
+  }
+  if (kind != "MONOCHROME2") {
+    throw input_error(file.string(), ": photometric interpretation '", kind,
+                      "': MONOCHROME2 (grey, bright is high) is needed");
+  }
+}
+
 /// Slices sorted along the normal; sets the in-plane directions.
 std::vector<Slice> sorted_slices(const DicomSeries& series, Vec3& row, Vec3& column) {
   std::vector<Slice> slices;
+  Eigen::Vector2d pixel(0, 0);
   for (const fs::path& file : series.files) {
     DicomHeader header;
     read_dicom_header(file, header);
@@ -50,12 +93,24 @@ std::vector<Slice> sorted_slices(const DicomSeries& series, Vec3& row, Vec3& col
       throw input_error(file.string(),
                         ": no image position or orientation: not a slice of a volume");
     }
+    check_pixels(file, header);
+    check_voxel_count(file.string(), std::atof(header["0028|0010"].c_str()) *
+                                         std::atof(header["0028|0011"].c_str()) *
+                                         double(series.files.size()));
+    const Eigen::Vector2d this_pixel = pixel_spacing(file, header);
+    if (slices.empty()) pixel = this_pixel;
+    if (!((this_pixel - pixel).cwiseAbs().maxCoeff() <= 1e-4 * pixel.maxCoeff())) {
+      throw input_error(file.string(), ": pixel spacing ", this_pixel[0], " x ", this_pixel[1],
+                        " mm, the rest of the series has ", pixel[0], " x ", pixel[1], " mm");
+    }
     const Vec3 this_row(axes[0], axes[1], axes[2]), this_column(axes[3], axes[4], axes[5]);
     if (slices.empty()) {
       row = this_row.normalized();
       column = this_column.normalized();
-      if (!(row.cross(column).norm() > 0.99)) {
-        throw input_error(file.string(), ": image axes are not perpendicular");
+      if (!(std::abs(row.dot(column)) <= 1e-3 && std::abs(this_row.norm() - 1) <= 1e-3 &&
+            std::abs(this_column.norm() - 1) <= 1e-3)) {
+        throw input_error(file.string(),
+                          ": image axes are not perpendicular directions of length 1 (bound 1e-3)");
       }
     } else if (!((this_row - row).norm() < 1e-3 && (this_column - column).norm() < 1e-3)) {
       throw input_error(file.string(), ": slice orientation differs from the rest of the series");
@@ -70,24 +125,30 @@ std::vector<Slice> sorted_slices(const DicomSeries& series, Vec3& row, Vec3& col
   return slices;
 }
 
-/// Mean slice spacing (mm); refuses gaps, duplicates and spacing that varies by more than 1 %.
+/// Median slice spacing (mm), which one missing slice does not move; refuses gaps, duplicates and
+/// spacing that varies by more than 1 %.
 double slice_spacing(const fs::path& folder, const std::vector<Slice>& slices) {
-  const double mean = (slices.back().along - slices.front().along) / (slices.size() - 1);
-  if (!(mean > 1e-3)) {
+  std::vector<double> steps;
+  for (std::size_t n = 1; n < slices.size(); ++n) {
+    steps.push_back(slices[n].along - slices[n - 1].along);
+  }
+  std::nth_element(steps.begin(), steps.begin() + long(steps.size() / 2), steps.end());
+  const double usual = steps[steps.size() / 2];
+  if (!(slices.back().along - slices.front().along > 1e-3)) {
     throw input_error(folder.string(),
                       ": all slices lie at one position (several time points?): "
                       "give a folder with one volume");
   }
   for (std::size_t n = 1; n < slices.size(); ++n) {
     const double step = slices[n].along - slices[n - 1].along;
-    if (!(std::abs(step - mean) <= 0.01 * mean)) {
+    if (!(std::abs(step - usual) <= 0.01 * usual)) {
       throw input_error(folder.string(), ": slices ", slices[n - 1].file.filename().string(),
                         " and ", slices[n].file.filename().string(), " are ", step,
-                        " mm apart, the mean is ", mean,
+                        " mm apart, the others ", usual,
                         " mm (bound 1 %): a slice is missing or doubled");
     }
   }
-  return mean;
+  return usual;
 }
 
 }  // namespace
@@ -137,11 +198,15 @@ Volume<float> read_dicom_series(const fs::path& folder, const DicomSeries& serie
 
   std::vector<std::string> names;
   for (const Slice& slice : slices) names.push_back(slice.file.string());
-  auto reader = itk::ImageSeriesReader<itk::Image<float, 3>>::New();
-  reader->SetImageIO(itk::GDCMImageIO::New());
-  reader->SetFileNames(names);
-  reader->Update();
-  Volume<float> volume = from_itk(*reader->GetOutput());
+  const auto read = [&] {
+    auto reader = itk::ImageSeriesReader<itk::Image<float, 3>>::New();
+    reader->SetImageIO(itk::GDCMImageIO::New());
+    reader->SetFileNames(names);
+    reader->Update();
+    return packed_image(*reader->GetOutput());
+  };
+  Volume<float> volume = unpacked_image(
+      in_guarded_child(folder.string(), [&] { return guarded_itk(folder, read); }));
   if (volume.grid.size[2] != static_cast<int>(slices.size())) {
     throw input_error(folder.string(), ": ", slices.size(), " files gave ", volume.grid.size[2],
                       " slices: multi-frame files are not read");

@@ -1,12 +1,16 @@
 #include <itkImageFileReader.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <optional>
 
 #include "core/error.hpp"
+#include "core/guarded_child.hpp"
 #include "core/provenance.hpp"
 #include "core/temporary_folder.hpp"
-#include "io/volume/complete.hpp"
 #include "io/volume/dicom.hpp"
+#include "io/volume/header.hpp"
 #include "io/volume/itk_image.hpp"
 #include "io/volume_file.hpp"
 
@@ -34,21 +38,26 @@ void check_layout(const fs::path& file, const itk::ImageIOBase& io) {
     throw input_error(file.string(), ": ", io.GetNumberOfDimensions(),
                       "-D image: a 3-D volume is needed");
   }
-  constexpr std::size_t limit = std::size_t(1) << 30;
-  if (voxels > limit) {
-    throw input_error(file.string(), ": ", voxels, " voxels, more than ", limit, ": crop the scan");
-  }
+  check_voxel_count(file.string(), double(voxels));
 }
 
-/// The file's name where it stands alone: NIfTI's reader takes the voxels from scan.nii when asked
-/// for scan.nii.gz and both are there.
-fs::path link_alone(const fs::path& file, const TemporaryFolder& folder) {
-  const fs::path link = folder / (file.string().ends_with(".gz") ? "scan.nii.gz" : "scan.nii");
+/// The file's name where it stands alone and with its ending in small letters, or nothing when it may
+/// be opened as it is: NIfTI's reader takes the voxels from scan.nii when asked for scan.nii.gz and
+/// both are there, and others do not know SCAN.MHA.
+std::optional<fs::path> link_alone(const fs::path& file, std::optional<TemporaryFolder>& folder) {
+  std::string name = file.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  const bool nifti = name.ends_with(".nii") || name.ends_with(".nii.gz");
+  if (!nifti && name == file.filename().string()) return std::nullopt;
+  const std::string ending = name.ends_with(".nii.gz") ? ".nii.gz" : name.substr(name.rfind('.'));
+  folder.emplace();
+  const fs::path link = *folder / ("scan" + ending);
   fs::create_symlink(fs::absolute(file), link);
   return link;
 }
 
-Volume<float> read_with(const fs::path& file, const fs::path& opened, itk::ImageIOBase* io) {
+std::string read_with(const fs::path& file, const fs::path& opened, itk::ImageIOBase* io) {
   io->SetFileName(opened.string());
   if (!io->CanReadFile(opened.string().c_str())) {
     throw input_error(file.string(), ": not a readable volume (damaged header or foreign file)");
@@ -59,7 +68,7 @@ Volume<float> read_with(const fs::path& file, const fs::path& opened, itk::Image
   reader->SetImageIO(io);
   reader->SetFileName(opened.string());
   reader->Update();
-  return from_itk(*reader->GetOutput());
+  return packed_image(*reader->GetOutput());
 }
 
 Volume<float> read_single_file(const fs::path& file) {
@@ -68,28 +77,12 @@ Volume<float> read_single_file(const fs::path& file) {
     throw input_error(file.string(), ": unknown ending; volumes are read from ", known_endings,
                       " or a DICOM folder");
   }
-  check_complete(file);
-  if (std::string(io->GetNameOfClass()) == "NiftiImageIO") {
-    const TemporaryFolder folder;
-    return read_with(file, link_alone(file, folder), io);
-  }
-  return read_with(file, file, io);
-}
-
-void check_grid(const fs::path& file, const Grid& grid) {
-  for (int d = 0; d < 3; ++d) {
-    if (!(grid.spacing[d] > 0 && grid.spacing[d] < 1e3)) {
-      throw input_error(file.string(), ": voxel size ", grid.spacing[d], " mm along axis ", d,
-                        ": must be positive and below 1000 mm");
-    }
-    if (!(std::abs(grid.origin[d]) < 1e5)) {
-      throw input_error(file.string(), ": origin ", grid.origin[d], " mm: must be within 1e5 mm");
-    }
-  }
-  if (!(std::abs(grid.direction.determinant()) > 0.1)) {
-    throw input_error(file.string(), ": axis directions are degenerate (determinant ",
-                      grid.direction.determinant(), ")");
-  }
+  check_header(file);
+  std::optional<TemporaryFolder> folder;
+  const fs::path opened = link_alone(file, folder).value_or(file);
+  const auto read = [&] { return read_with(file, opened, io); };
+  return unpacked_image(
+      in_guarded_child(file.string(), [&] { return guarded_itk(file, read); }));
 }
 
 void check_finite(const fs::path& file, const Volume<float>& volume) {
@@ -138,23 +131,16 @@ Volume<float> read_volume(const fs::path& file, int series, VolumeSource* source
   if (series < 0) throw input_error("series ", series, ": must be 1 or more (0 for the only one)");
   std::string description;
   Volume<float> volume;
-  try {
-    const QuietItk quiet;
-    std::error_code none;
-    if (fs::is_directory(file, none)) {
-      volume = read_folder(file, series, description);
-    } else if (!fs::is_regular_file(file, none)) {
-      throw input_error(file.string(), ": no such file");
-    } else {
-      volume = read_single_file(file);
-      description = file.extension().string().substr(1);
-    }
-  } catch (const itk::ExceptionObject& exception) {
-    throw input_error(file.string(), ": cannot be read as a volume: ", one_line(exception));
-  } catch (const std::bad_alloc&) {
-    throw input_error(file.string(), ": the volume its header announces does not fit in memory");
+  std::error_code none;
+  if (fs::is_directory(file, none)) {
+    volume = read_folder(file, series, description);
+  } else if (!fs::is_regular_file(file, none)) {
+    throw input_error(file.string(), ": no such file");
+  } else {
+    volume = read_single_file(file);
+    description = file.extension().string().substr(1);
   }
-  check_grid(file, volume.grid);
+  check_scan_grid(file.string(), volume.grid);
   check_finite(file, volume);
   if (source) *source = {description, content_hash(volume)};
   return volume;

@@ -1,14 +1,12 @@
-#include <itkGDCMImageIO.h>
-#include <itkImageFileWriter.h>
-#include <itkMetaDataObject.h>
 #include <unistd.h>
 
 #include <cstdio>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/own_file.hpp"
 #include "core/provenance.hpp"
-#include "io/volume/itk_image.hpp"
+#include "dicom/dataset.hpp"
 #include "io/volume_file.hpp"
 
 namespace breast {
@@ -17,69 +15,82 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A UID from text: same input, same UID ("2.25." is the branch for such numbers, PS3.5 B.2).
-std::string uid_from(const std::string& text) {
-  Sha256 hash;
-  hash.update(text);
-  return "2.25." + std::to_string(std::stoull(hash.hex().substr(0, 15), nullptr, 16) + 1);
-}
-
 std::string vector_text(const Vec3& a) {
   char text[80];
   std::snprintf(text, sizeof text, "%.10g\\%.10g\\%.10g", a[0], a[1], a[2]);
   return text;
 }
 
-void set_tag(itk::MetaDataDictionary& tags, const char* tag, const std::string& value) {
-  itk::EncapsulateMetaData<std::string>(tags, tag, value);
+void add_identity(DatasetBuilder& set, int k, const std::string& description,
+                  const std::string& scan) {
+  set.text(0x00080005, "CS", "ISO_IR 192")
+      .text(0x00080008, "CS", "DERIVED\\PRIMARY\\OTHER")
+      .text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.4")  // MR Image Storage
+      .text(0x00080018, "UI", uid_from(scan + "/slice/" + std::to_string(k)))
+      .text(0x00080020, "DA", "")
+      .text(0x00080030, "TM", "")
+      .text(0x00080050, "SH", "")
+      .text(0x00080060, "CS", "MR")
+      .text(0x00080070, "LO", std::string(maker_mark) + " (simulated)")
+      .text(0x00080090, "PN", "")
+      .text(0x0008103e, "LO", description)
+      .text(0x00100010, "PN", "SIMULATED")
+      .text(0x00100020, "LO", "SIMULATED")
+      .text(0x00100030, "DA", "")
+      .text(0x00100040, "CS", "F")
+      .text(0x0020000d, "UI", uid_from(scan + "/study"))
+      .text(0x0020000e, "UI", uid_from(scan + "/series"))
+      .text(0x00200010, "SH", "1")
+      .text(0x00200011, "IS", "1")
+      .text(0x00200013, "IS", std::to_string(k + 1))
+      .text(0x00200052, "UI", uid_from(scan + "/frame"))
+      .text(0x00201040, "LO", "");
 }
 
-void write_slice(const fs::path& file, const Volume<std::int16_t>& volume, int k,
-                 const std::string& description, const std::string& scan) {
-  Volume<std::int16_t> slice;
-  slice.grid = volume.grid;
-  slice.grid.size[2] = 1;
-  slice.grid.origin = volume.grid.to_patient(Vec3(0, 0, k));
-  const auto first =
-      volume.voxels.begin() + static_cast<std::ptrdiff_t>(volume.grid.offset(0, 0, k));
-  slice.voxels.assign(first, first + static_cast<std::ptrdiff_t>(slice.grid.voxels()));
-
-  auto io = itk::GDCMImageIO::New();
-  io->KeepOriginalUIDOn();
-  const auto image = to_itk(slice);
-  auto& tags = image->GetMetaDataDictionary();
-  const Mat3& axes = volume.grid.direction;
-  set_tag(tags, "0008|0016", "1.2.840.10008.5.1.4.1.1.4");  // MR Image Storage
-  set_tag(tags, "0008|0018", uid_from(scan + "/slice/" + std::to_string(k)));
-  set_tag(tags, "0008|0060", "MR");
-  set_tag(tags, "0008|103e", description);
-  set_tag(tags, "0010|0010", "SIMULATED");
-  set_tag(tags, "0010|0020", "SIMULATED");
-  set_tag(tags, "0018|0050", message(volume.grid.spacing[2]));
-  set_tag(tags, "0018|0088", message(volume.grid.spacing[2]));
-  set_tag(tags, "0018|5100", "HFP");  // head first, prone
-  set_tag(tags, "0020|000d", uid_from(scan + "/study"));
-  set_tag(tags, "0020|000e", uid_from(scan + "/series"));
-  set_tag(tags, "0020|0052", uid_from(scan + "/frame"));
-  set_tag(tags, "0020|0011", "1");
-  set_tag(tags, "0020|0013", std::to_string(k + 1));
-  set_tag(tags, "0020|0032", vector_text(slice.grid.origin));
-  set_tag(tags, "0020|0037", vector_text(axes.col(0)) + "\\" + vector_text(axes.col(1)));
-  auto writer = itk::ImageFileWriter<itk::Image<std::int16_t, 3>>::New();
-  writer->SetInput(image);
-  writer->SetImageIO(io);
-  writer->SetFileName(file.string());
-  writer->Update();
+void add_geometry(DatasetBuilder& set, const Grid& grid, int k) {
+  const Vec3& spacing = grid.spacing;
+  char pixel[40];
+  std::snprintf(pixel, sizeof pixel, "%.10g\\%.10g", spacing[1], spacing[0]);  // rows, then columns
+  set.text(0x00180020, "CS", "SE")
+      .text(0x00180021, "CS", "NONE")
+      .text(0x00180022, "CS", "")
+      .text(0x00180023, "CS", "3D")
+      .number(0x00180050, spacing[2])
+      .text(0x00180080, "DS", "")
+      .text(0x00180081, "DS", "")
+      .number(0x00180088, spacing[2])
+      .text(0x00180091, "IS", "")
+      .text(0x00185100, "CS", "HFP")  // head first, prone
+      .text(0x00200032, "DS", vector_text(grid.to_patient(Vec3(0, 0, k))))
+      .text(0x00200037, "DS",
+            vector_text(grid.direction.col(0)) + "\\" + vector_text(grid.direction.col(1)))
+      .text(0x00280030, "DS", pixel);
 }
 
-/// Puts a finished folder in the place of an old one made by us (nothing but .dcm files in it).
+std::string slice_bytes(const Volume<std::int16_t>& volume, int k, const std::string& description,
+                        const std::string& scan) {
+  const Grid& grid = volume.grid;
+  const std::size_t pixels = std::size_t(grid.size[0]) * std::size_t(grid.size[1]);
+  const std::int16_t* first = volume.voxels.data() + grid.offset(0, 0, k);
+  DatasetBuilder set;
+  add_identity(set, k, description, scan);
+  add_geometry(set, grid, k);
+  set.unsigned_short(0x00280002, 1)
+      .text(0x00280004, "CS", "MONOCHROME2")
+      .unsigned_short(0x00280010, std::uint16_t(grid.size[1]))
+      .unsigned_short(0x00280011, std::uint16_t(grid.size[0]))
+      .unsigned_short(0x00280100, 16)
+      .unsigned_short(0x00280101, 16)
+      .unsigned_short(0x00280102, 15)
+      .unsigned_short(0x00280103, 1)  // signed
+      .words(0x7fe00010, {reinterpret_cast<const char*>(first), pixels * sizeof *first});
+  return set.file();
+}
+
+/// Puts a finished folder in the place of an older one of ours.
 void replace_folder(const fs::path& finished, const fs::path& target) {
+  check_dicom_folder(target);  // again: minutes may have passed
   if (fs::exists(target)) {
-    for (const auto& entry : fs::directory_iterator(target)) {
-      if (entry.path().extension() == ".dcm") continue;
-      throw input_error(target.string(), ": holds ", entry.path().filename().string(),
-                        ", so it is not replaced: choose another folder");
-    }
     const fs::path old = finished.string() + "-old";
     fs::rename(target, old);
     fs::rename(finished, target);
@@ -91,6 +102,17 @@ void replace_folder(const fs::path& finished, const fs::path& target) {
 
 }  // namespace
 
+void check_dicom_folder(const fs::path& folder) {
+  std::error_code absent;
+  for (const auto& entry : fs::directory_iterator(folder, absent)) {
+    const fs::path& file = entry.path();
+    if (entry.is_regular_file() && file.extension() == ".dcm" && written_by_us(file)) continue;
+    throw input_error(folder.string(), ": holds ", file.filename().string(),
+                      ", which is no simulated slice of libbreast, so it is not replaced: choose "
+                      "another folder");
+  }
+}
+
 void write_dicom_series(const fs::path& folder, const Volume<std::int16_t>& volume,
                         const std::string& description) {
   const fs::path target = folder.has_filename() ? folder : folder.parent_path();
@@ -98,6 +120,11 @@ void write_dicom_series(const fs::path& folder, const Volume<std::int16_t>& volu
     throw failed_error(target.string(), ": ", volume.voxels.size(), " voxels for a grid of ",
                        volume.grid.voxels());
   }
+  if (volume.grid.size[0] > 65535 || volume.grid.size[1] > 65535) {
+    throw input_error(target.string(), ": ", volume.grid.size[0], " x ", volume.grid.size[1],
+                      " pixels, DICOM holds 65535 a side");
+  }
+  check_dicom_folder(target);
   Sha256 hash;
   hash.update(description);
   hash.update(volume.voxels.data(), volume.voxels.size() * sizeof(std::int16_t));
@@ -107,17 +134,13 @@ void write_dicom_series(const fs::path& folder, const Volume<std::int16_t>& volu
                         ("." + target.filename().string() + ".part-" + std::to_string(getpid()));
   std::error_code ignored;
   try {
-    const QuietItk quiet;
     fs::create_directories(part);
     for (int k = 0; k < volume.grid.size[2]; ++k) {
       char name[32];
       std::snprintf(name, sizeof name, "slice_%04d.dcm", k + 1);
-      write_slice(part / name, volume, k, description, scan);
+      write_bytes(part / name, slice_bytes(volume, k, description, scan));
     }
     replace_folder(part, target);
-  } catch (const itk::ExceptionObject& exception) {
-    fs::remove_all(part, ignored);
-    throw failed_error(target.string(), ": DICOM cannot be written: ", one_line(exception));
   } catch (const fs::filesystem_error& exception) {
     fs::remove_all(part, ignored);
     throw failed_error(target.string(), ": DICOM cannot be written: ", exception.code().message());

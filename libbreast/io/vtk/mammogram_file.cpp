@@ -80,9 +80,7 @@ std::string content_of(const Mammogram& image) {
   return hash.hex();
 }
 
-}  // namespace
-
-Mammogram read_mammogram(const std::filesystem::path& file) {
+Mammogram parse_mammogram(const std::filesystem::path& file) {
   const std::string where = file.string();
   const auto data = read_image_data(file);
   vtkFieldData* fields = data->GetFieldData();
@@ -122,6 +120,12 @@ Mammogram read_mammogram(const std::filesystem::path& file) {
   image.history = history_field(fields, where);
   image.content_sha256 = content_of(image);
   return image;
+}
+
+}  // namespace
+
+Mammogram read_mammogram(const std::filesystem::path& file) {
+  return read_guarded(file, [&] { return parse_mammogram(file); });
 }
 
 void write_mammogram(const std::filesystem::path& file, const Mammogram& image) {

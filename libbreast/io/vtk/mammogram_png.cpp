@@ -1,12 +1,14 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cstdint>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/own_file.hpp"
 #include "io/mammogram_file.hpp"
 #include "io/picture_file.hpp"
 #include "io/vtk/vtk_messages.hpp"
@@ -29,16 +31,17 @@ void write_png(const std::filesystem::path& file, const std::vector<T>& values, 
     const auto from = values.begin() + row * row_length;
     std::copy(from, from + row_length, pixels + (height - 1 - row) * row_length);
   }
-  AtomicFile target(file);
   const VtkMessages messages;
   vtkNew<vtkPNGWriter> writer;
-  writer->SetFileName(target.temporary().c_str());
+  writer->WriteToMemoryOn();
   writer->SetInputData(data);
   writer->Write();
   if (messages.error() || writer->GetErrorCode() != 0) {
     throw failed_error(file.string(), ": cannot be written (", messages.first(), ")");
   }
-  target.commit();
+  vtkUnsignedCharArray* png = writer->GetResult();
+  write_bytes(file, marked_png({reinterpret_cast<const char*>(png->GetPointer(0)),
+                                std::size_t(png->GetNumberOfValues())}));
 }
 
 }  // namespace

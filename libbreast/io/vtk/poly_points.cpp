@@ -59,7 +59,14 @@ std::vector<Vec3> vectors_of(vtkDataArray* array, const std::string& where) {
 
 std::vector<Vec3> points_of(vtkPolyData* data, const std::string& where) {
   if (data->GetNumberOfPoints() == 0) return {};
-  return vectors_of(data->GetPoints()->GetData(), where + ": Points");
+  constexpr double farthest_mm = 1e6;  // beyond it squares overflow and searches find nothing
+  std::vector<Vec3> points = vectors_of(data->GetPoints()->GetData(), where + ": Points");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].cwiseAbs().maxCoeff() <= farthest_mm) continue;
+    throw input_error(where, ": point ", i, " is ", points[i].transpose(), " mm, must be within ",
+                      farthest_mm);
+  }
+  return points;
 }
 
 std::map<std::string, std::vector<double>> scalars_of(vtkPolyData* data, const std::string& where) {

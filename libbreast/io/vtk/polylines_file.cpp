@@ -43,9 +43,7 @@ std::vector<std::size_t> markers_first(const PolyLines& lines) {
   return order;
 }
 
-}  // namespace
-
-PolyLines read_polylines(const std::filesystem::path& file) {
+PolyLines parse_polylines(const std::filesystem::path& file) {
   const std::string where = file.string();
   const auto data = read_poly_data(file);
   check_schema(data->GetFieldData(), schema, false, where);
@@ -75,6 +73,12 @@ PolyLines read_polylines(const std::filesystem::path& file) {
   lines.history = history_field(data->GetFieldData(), where);
   lines.content_sha256 = content_of(data);
   return lines;
+}
+
+}  // namespace
+
+PolyLines read_polylines(const std::filesystem::path& file) {
+  return read_guarded(file, [&] { return parse_polylines(file); });
 }
 
 void write_polylines(const std::filesystem::path& file, const PolyLines& lines) {

@@ -42,9 +42,7 @@ std::vector<std::array<int, 3>> triangles_of(vtkPolyData* data, const std::strin
   return triangles;
 }
 
-}  // namespace
-
-TriMesh read_surface(const std::filesystem::path& file) {
+TriMesh parse_surface(const std::filesystem::path& file) {
   const std::string where = file.string();
   const auto data = read_poly_data(file);
   check_schema(data->GetFieldData(), schema, false, where);
@@ -59,6 +57,12 @@ TriMesh read_surface(const std::filesystem::path& file) {
   surface.history = history_field(data->GetFieldData(), where);
   surface.content_sha256 = content_of(data);
   return surface;
+}
+
+}  // namespace
+
+TriMesh read_surface(const std::filesystem::path& file) {
+  return read_guarded(file, [&] { return parse_surface(file); });
 }
 
 void write_surface(const std::filesystem::path& file, const TriMesh& surface) {

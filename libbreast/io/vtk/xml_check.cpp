@@ -5,7 +5,6 @@
 #include <vtkXMLDataParser.h>
 
 #include <algorithm>
-#include <fstream>
 #include <initializer_list>
 #include <string_view>
 
@@ -120,14 +119,10 @@ std::string first_bad(vtkXMLDataElement* element, bool in_field_data) {
 
 }  // namespace
 
-void seal_xml(const fs::path& file) {
-  std::string text = read_text(file);
+std::string sealed_xml(std::string text) {
   text.erase(text.rfind(closing));
   const std::string seal = sha_of(text);
-  std::ofstream out(file, std::ios::binary);
-  out << text << seal_open << seal << seal_close << "\n" << closing << "\n";
-  out.flush();
-  if (!out) throw failed_error(file.string(), ": cannot be written");
+  return text.append(seal_open).append(seal).append(seal_close).append("\n").append(closing) + "\n";
 }
 
 void check_xml(const fs::path& file, const std::string& type) {

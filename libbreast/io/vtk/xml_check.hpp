@@ -10,8 +10,8 @@ namespace breast {
 /// "ImageData"), or has attributes the readers of VTK 9.1 do not survive. Needs VtkMessages alive.
 void check_xml(const std::filesystem::path& file, const std::string& type);
 
-/// Puts a comment with the SHA-256 of all before it into the last lines of a file VTK wrote;
-/// check_xml refuses a file that no longer fits it.
-void seal_xml(const std::filesystem::path& file);
+/// What VTK wrote, with a comment holding the SHA-256 of all before it in its last lines; check_xml
+/// refuses a file that no longer fits it.
+std::string sealed_xml(std::string text);
 
 }  // namespace breast

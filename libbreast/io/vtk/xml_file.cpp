@@ -45,10 +45,9 @@ constexpr int geometry_compression = 5, image_compression = 1;
 
 template <class Writer, class Data>
 void write(const fs::path& file, Data* data, int compression) {
-  AtomicFile target(file);
   const VtkMessages messages;
   vtkNew<Writer> writer;
-  writer->SetFileName(target.temporary().c_str());
+  writer->WriteToOutputStringOn();  // VTK crashes when a disk is full: it never sees one
   writer->SetInputData(data);
   writer->SetDataModeToBinary();
   writer->SetCompressorTypeToZLib();
@@ -57,8 +56,7 @@ void write(const fs::path& file, Data* data, int compression) {
   if (!written || messages.error() || writer->GetErrorCode() != 0) {
     throw failed_error(file.string(), ": cannot be written (", messages.first(), ")");
   }
-  seal_xml(target.temporary());
-  target.commit();
+  write_bytes(file, sealed_xml(writer->GetOutputString()));
 }
 
 }  // namespace

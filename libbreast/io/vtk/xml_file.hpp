@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/guarded_child.hpp"
 #include "core/provenance.hpp"
 #include "core/types.hpp"
 
@@ -23,6 +24,16 @@ namespace breast {
 /// Reads a .vtp / .vti. Throws Error (input) for missing, truncated, foreign or damaged files.
 vtkSmartPointer<vtkPolyData> read_poly_data(const std::filesystem::path& file);
 vtkSmartPointer<vtkImageData> read_image_data(const std::filesystem::path& file);
+/// Does `read`, which opens `file` through VTK, first in a child process: VTK's readers follow damaged
+/// lengths out of their buffers, and what kills the child is one line here instead.
+template <class Read>
+auto read_guarded(const std::filesystem::path& file, const Read& read) {
+  in_guarded_child(file.string(), [&] {
+    read();
+    return std::string();
+  });
+  return read();
+}
 /// Writes atomically, zlib-compressed, inline base64 (a cut file is then never well-formed XML).
 void write_xml(const std::filesystem::path& file, vtkPolyData* data);
 void write_xml(const std::filesystem::path& file, vtkImageData* data);

@@ -1,0 +1,42 @@
+// Building DICOM data sets element by element, and the bytes of a file of one (PS3.5, PS3.10).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace breast {
+
+/// Explicit little endian. `tag` as 0xGGGGEEEE, `vr` the two letters of its type; an element given
+/// again replaces the first.
+class DatasetBuilder {
+ public:
+  /// Padded to even length as its type asks.
+  DatasetBuilder& text(std::uint32_t tag, const char* vr, std::string value);
+  DatasetBuilder& number(std::uint32_t tag, double value);  ///< DS, as many digits as it holds
+  DatasetBuilder& unsigned_short(std::uint32_t tag, std::uint16_t value);
+  DatasetBuilder& signed_short(std::uint32_t tag, std::int16_t value);
+  DatasetBuilder& words(std::uint32_t tag, std::string_view bytes);  ///< OW, 16-bit values
+  DatasetBuilder& sequence(std::uint32_t tag, const std::vector<DatasetBuilder>& items);
+
+  /// The elements in order of tag.
+  std::string bytes() const;
+  /// A whole file: preamble, meta information by the set's SOP class and instance, the set.
+  std::string file() const;
+
+ private:
+  DatasetBuilder& put(std::uint32_t tag, const char* vr, std::string value);
+  std::map<std::uint32_t, std::string> elements_;  ///< each with its head
+  std::string class_uid_, instance_uid_;
+};
+
+/// An item of a code sequence: value, scheme and meaning.
+DatasetBuilder code_item(const std::string& value, const std::string& scheme,
+                         const std::string& meaning);
+
+/// A UID from text: same text, same UID ("2.25." is the branch for such numbers, PS3.5 B.2).
+std::string uid_from(const std::string& text);
+
+}  // namespace breast

@@ -1,0 +1,27 @@
+// A volume as the bytes of a file, format by format; private to io/volume.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "image/volume.hpp"
+
+namespace breast {
+
+/// One voxel's type under the names the formats have for it.
+struct VoxelType {
+  const char* nrrd;
+  const char* meta;
+  int nifti, bits;
+};
+
+/// `voxels`: the values in memory order, little-endian. nifti_bytes throws Error (input) for more than
+/// 32767 voxels along an axis, which the format cannot state.
+std::string nrrd_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels);
+std::string meta_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels);
+std::string nifti_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels);
+
+/// One gzip stream, with the maker's mark as its comment; the same bytes for the same content.
+std::string gzip_bytes(std::string_view content);
+
+}  // namespace breast

@@ -1,0 +1,83 @@
+#include "io/volume/header.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <sstream>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace fs = std::filesystem;
+
+void check_header(const fs::path& file) {
+  std::string name = file.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  if (name.ends_with(".nii") || name.ends_with(".nii.gz")) check_nifti(file);
+  if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) check_nrrd(file);
+  if (name.ends_with(".mha") || name.ends_with(".mhd")) check_meta(file);
+}
+
+void set_axes(Grid& grid, const Mat3& axes) {
+  for (int d = 0; d < 3; ++d) {
+    grid.spacing[d] = axes.col(d).norm();
+    grid.direction.col(d) = axes.col(d) / grid.spacing[d];
+  }
+}
+
+void check_scan_grid(const std::string& name, const Grid& grid) {
+  constexpr double least_mm = 0.01, most_mm = 50, farthest_mm = 1e5, orthonormal = 1e-3;
+  for (int d = 0; d < 3; ++d) {
+    if (!(grid.spacing[d] >= least_mm && grid.spacing[d] <= most_mm)) {
+      throw input_error(name, ": voxel size ", grid.spacing[d], " mm along axis ", d, ": must be ",
+                        least_mm, " to ", most_mm, " mm");
+    }
+    if (!(std::abs(grid.origin[d]) <= farthest_mm)) {
+      throw input_error(name, ": origin ", grid.origin[d], " mm: must be within ", farthest_mm,
+                        " mm");
+    }
+  }
+  const double error =
+      (grid.direction.transpose() * grid.direction - Mat3::Identity()).cwiseAbs().maxCoeff();
+  if (!(error <= orthonormal)) {
+    throw input_error(name, ": axis directions are not orthonormal (off by ", error,
+                      ", must be at most ", orthonormal, "): resample the scan without shear");
+  }
+}
+
+fs::path detached_data(const fs::path& header, const std::string& name) {
+  const fs::path given(name);
+  const bool climbs = std::find(given.begin(), given.end(), "..") != given.end();
+  if (name.empty() || given.is_absolute() || climbs) {
+    throw input_error(header.string(), ": names '", name,
+                      "' for its voxels: must be a file in its own folder");
+  }
+  const fs::path data = header.parent_path() / given;
+  std::error_code reason;
+  if (!fs::is_regular_file(data, reason)) {
+    throw input_error(header.string(), ": its voxels should be in ", name, ", which is no file");
+  }
+  return data;
+}
+
+void check_voxel_count(const std::string& name, double voxels) {
+  if (voxels >= 1 && voxels <= most_voxels) return;
+  throw input_error(name, ": ", voxels, " voxels, must be 1 to ", most_voxels, ": crop the scan");
+}
+
+std::vector<double> header_numbers(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
+  std::istringstream words(text);
+  std::vector<double> values;
+  for (std::string word; words >> word;) {
+    char* end = nullptr;
+    values.push_back(std::strtod(word.c_str(), &end));
+    if (*end != '\0' || !std::isfinite(values.back())) return {};
+  }
+  return values;
+}
+
+}  // namespace breast

@@ -1,0 +1,46 @@
+// What the header of a volume promises, checked before a library sees the file; private to io/volume.
+//
+// ITK's readers fill what is missing with zeros (NIfTI, MetaImage), do not look at the checksum
+// (NRRD), take 1 mm and the patient's axes where the header has neither, and abort on axes that are
+// not orthonormal. A scan of unknown voxel size or orientation must not be guessed: which breast is
+// the left one would be a matter of luck.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "image/volume.hpp"
+
+namespace breast {
+
+/// Most voxels a volume may have: a gigabyte as float.
+inline constexpr double most_voxels = double(std::size_t(1) << 28);
+
+/// Throws Error (input) unless the file holds what its header announces (sizes, checksums), in itself
+/// or in one other file of its own folder, and the header states voxel size and orientation that
+/// check_scan_grid accepts. Goes by the ending, in any case; other endings pass.
+void check_header(const std::filesystem::path& file);
+
+/// Voxel size 0.01 to 50 mm, origin within 1e5 mm, axes orthonormal within 1e-3 (left-handed ones
+/// are allowed); throws Error (input) beginning with `name` otherwise, also for values not finite.
+void check_scan_grid(const std::string& name, const Grid& grid);
+
+/// spacing and direction from three axis vectors, whose lengths are the voxel sizes.
+void set_axes(Grid& grid, const Mat3& axes);
+
+/// The checks of one format each.
+void check_nifti(const std::filesystem::path& file);
+void check_nrrd(const std::filesystem::path& file);
+void check_meta(const std::filesystem::path& file);
+
+/// The file a header names for its voxels: Error (input) unless it is a regular file named relative
+/// to the header's folder and without "..".
+std::filesystem::path detached_data(const std::filesystem::path& header, const std::string& name);
+
+/// Throws Error (input) when there are more than most_voxels, or none.
+void check_voxel_count(const std::string& name, double voxels);
+
+/// The numbers of a text such as "(1,0,0)" or "1 0 0"; empty when something else is in it.
+std::vector<double> header_numbers(std::string text);
+
+}  // namespace breast

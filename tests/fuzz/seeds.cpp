@@ -1,0 +1,71 @@
+// seeds FOLDER: small valid inputs for every fuzz target, made by our own writers.
+#include <filesystem>
+
+#include "core/atomic_file.hpp"
+#include "core/report.hpp"
+#include "core/table.hpp"
+#include "fixtures/samples.hpp"
+#include "io/derivative_file.hpp"
+#include "io/geometry_file.hpp"
+#include "io/hdf5/packed.hpp"
+#include "io/label_file.hpp"
+#include "io/volume_file.hpp"
+
+namespace breast {
+
+// In place of io/hdf5/save.cpp and load.cpp: documents as the targets take them.
+void save_document(const std::filesystem::path& file, const Document& document) {
+  write_bytes(file, packed(document));
+}
+Document load_document(const std::filesystem::path& file, const std::string&, const std::string&) {
+  return unpacked(read_text(file));
+}
+int threads() {
+  return 1;
+}
+
+namespace {
+
+Volume<std::int16_t> volume() {
+  Grid grid;
+  grid.size = {4, 3, 2};
+  Volume<std::int16_t> out(grid);
+  for (std::size_t v = 0; v < out.voxels.size(); ++v) out.voxels[v] = std::int16_t(v);
+  return out;
+}
+
+void write_seeds(const std::filesystem::path& folder) {
+  for (const char* name : {"nrrd", "nifti", "meta", "dicom", "table", "materials", "report", "mesh",
+                           "labels", "geometry", "results"}) {
+    std::filesystem::create_directories(folder / name);
+  }
+  write_volume(folder / "nrrd/seed.nrrd", volume());
+  write_volume(folder / "nifti/seed.nii", volume());
+  write_volume(folder / "nifti/seed.nii.gz", volume());
+  write_volume(folder / "meta/seed.mha", volume());
+  write_dicom_series(folder / "dicom/series", volume(), "T1");
+  std::filesystem::rename(folder / "dicom/series/slice_0001.dcm", folder / "dicom/seed.dcm");
+  std::filesystem::remove_all(folder / "dicom/series");
+  write_table(folder / "table/seed.tsv", {{"name", "x_mm"}, {{"a", "1.5"}, {"b", "2"}}});
+  Report report;
+  report.set("tool", "seeds");
+  report.set("landmarks/nipple/displacement_mm", 1.5);
+  write_text(folder / "report/seed.json", report.json());
+  Derivatives derivatives;
+  const HexMesh mesh = samples::full_mesh();
+  derivatives.position["fat"].assign(mesh.points.size(), Vec3(1, 2, 3));
+  write_mesh(folder / "mesh/seed", mesh, derivatives);
+  write_labels(folder / "labels/seed", samples::labels());
+  write_geometry(folder / "geometry/seed", samples::geometry());
+  write_text(folder / "results/log", "2*Step = 1\n*Time = 1\n*Data = u\n1,0,0,0\n2,0,0,1\n");
+  write_text(folder / "results/frd", "0    1C\n -4  DISP        4    1\n -1         1 0.0 0.0 0.0\n -3\n");
+}
+
+}  // namespace
+}  // namespace breast
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  breast::write_seeds(argv[1]);
+  return 0;
+}

@@ -1,0 +1,118 @@
+// libFuzzer targets for our own checks of every format: anything but an Error (input) is a crash.
+// Compiled once a target, with FUZZ_TARGET its name. Meshes, labels and geometries are fuzzed behind
+// HDF5, which reads in a child process: their inputs are packed documents (io/hdf5/packed.hpp).
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/report.hpp"
+#include "core/table.hpp"
+#include "deck/results.hpp"
+#include "dicom/mammogram_header.hpp"
+#include "io/derivative_file.hpp"
+#include "io/geometry_file.hpp"
+#include "io/hdf5/packed.hpp"
+#include "io/label_file.hpp"
+#include "io/volume/header.hpp"
+#include "material/embedded.hpp"
+#include "material/law.hpp"
+
+namespace breast {
+
+namespace {
+
+std::string input;
+
+// The input as a file of that ending, in memory.
+std::filesystem::path as_file(const std::string& ending) {
+  static const std::string folder = [] {
+    std::string name = "/dev/shm/breast-fuzz-" + std::to_string(getpid());
+    mkdir(name.c_str(), 0700);
+    std::atexit([] {
+      std::filesystem::remove_all("/dev/shm/breast-fuzz-" + std::to_string(getpid()));
+    });
+    return name;
+  }();
+  const std::filesystem::path file = folder + "/input" + ending;
+  std::ofstream(file, std::ios::binary).write(input.data(), std::streamsize(input.size()));
+  return file;
+}
+
+[[maybe_unused]] void nrrd() {
+  check_nrrd(as_file(".nrrd"));
+}
+[[maybe_unused]] void nifti() {
+  check_nifti(as_file(".nii"));
+}
+[[maybe_unused]] void meta() {
+  check_meta(as_file(".mha"));
+}
+[[maybe_unused]] void dicom() {
+  read_mammogram_header(as_file(".dcm"));
+}
+[[maybe_unused]] void table() {
+  const Table read = parse_table(input, "input");
+  for (std::size_t row = 0; row < read.rows.size(); ++row) read.number(row, read.columns.front());
+}
+[[maybe_unused]] void materials() {
+  load_materials(as_file(".tsv").string());
+}
+[[maybe_unused]] void report() {
+  const Report read = Report::parse(input, "input");
+  Report::parse(read.json(), "again");
+}
+[[maybe_unused]] void mesh() {
+  read_derivatives("input", read_mesh("input"));
+}
+[[maybe_unused]] void labels() {
+  read_labels("input");
+}
+[[maybe_unused]] void geometry() {
+  read_geometry("input");
+}
+[[maybe_unused]] void results() {
+  constexpr int nodes = 8;
+  const char* const endings[] = {".frd", ".dat", ".log"};
+  const std::size_t which = input.empty() ? 0 : std::uint8_t(input[0]) % 3;
+  if (!input.empty()) input.erase(0, 1);
+  read_deck_result(as_file(endings[which]), nodes);
+}
+
+}  // namespace
+
+// In place of io/hdf5/load.cpp: the document HDF5 would have handed over.
+Document load_document(const std::filesystem::path&, const std::string&, const std::string&) {
+  try {
+    return unpacked(input);
+  } catch (const Error&) {
+    throw input_error("input is no document");
+  }
+}
+void save_document(const std::filesystem::path&, const Document&) {}
+// In place of the tables compiled into the programs, which are no input.
+const std::vector<EmbeddedTable>& embedded_materials() {
+  static const std::vector<EmbeddedTable> none;
+  return none;
+}
+// In place of core/parallel.cpp, which needs OpenMP.
+int threads() {
+  return 1;
+}
+
+}  // namespace breast
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  breast::input.assign(reinterpret_cast<const char*>(data), size);
+  try {
+    breast::FUZZ_TARGET();
+  } catch (const breast::Error& error) {
+    // A run of another program may be unfinished; nothing here may fail otherwise.
+    if (error.kind() == breast::ErrorKind::failed) std::abort();
+  }
+  return 0;
+}

@@ -1,0 +1,252 @@
+// HDF5 files made to mislead: values elsewhere, links that multiply, storage that inflates, damage
+// that HDF5 itself does not survive. All are one line of Error (input).
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <functional>
+#include <random>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/guarded_child.hpp"
+#include "fixtures/samples.hpp"
+#include "fixtures/scratch_folder.hpp"
+#include "io/derivative_file.hpp"
+#include "io/geometry_file.hpp"
+#include "io/label_file.hpp"
+#include "io/mesh_file.hpp"
+#include "mesh/locate.hpp"
+
+namespace breast {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string complaint(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "accepted";
+}
+
+class HostileMesh : public testing::Test {
+ protected:
+  void SetUp() override { write_mesh(file_, samples::full_mesh()); }
+  /// Edits through HDF5, which drops the seal, then reads.
+  std::string after(const std::function<void(hid_t)>& edit) {
+    const hid_t h5 = H5Fopen(file_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    edit(h5);
+    H5Fclose(h5);
+    return complaint([&] { read_mesh(file_); });
+  }
+  static void add(hid_t h5, const char* path, hid_t layout, hsize_t count, bool write = true) {
+    const hid_t space = H5Screate_simple(1, &count, nullptr);
+    const hid_t set =
+        H5Dcreate2(h5, path, H5T_NATIVE_UINT8, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    const std::vector<unsigned char> zeros(write ? std::size_t(count) : 0);
+    if (write) H5Dwrite(set, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, zeros.data());
+    H5Dclose(set);
+    H5Sclose(space);
+  }
+  static hid_t chunked(hsize_t chunk) {
+    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_chunk(layout, 1, &chunk);
+    H5Pset_deflate(layout, 1);
+    return layout;
+  }
+  ScratchFolder folder_;
+  const fs::path file_ = folder_ / "mesh.vtkhdf";
+};
+
+TEST_F(HostileMesh, ValuesOfAnotherFileAreNotRead) {
+  write_text(folder_ / "secret", std::string(100, 'x'));
+  const std::string text = after([&](hid_t h5) {
+    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_external(layout, (folder_ / "secret").c_str(), 0, 100);
+    add(h5, "/breast/notes", layout, 100, false);
+    H5Pclose(layout);
+  });
+  EXPECT_NE(text.find("another file"), std::string::npos) << text;
+}
+
+TEST_F(HostileMesh, VirtualDatasetsAreNotRead) {
+  const std::string text = after([&](hid_t h5) {
+    const hsize_t count = 10;
+    const hid_t space = H5Screate_simple(1, &count, nullptr);
+    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_virtual(layout, space, (folder_ / "other.h5").c_str(), "/x", space);
+    add(h5, "/breast/notes", layout, count, false);
+    H5Pclose(layout);
+    H5Sclose(space);
+  });
+  EXPECT_NE(text.find("another file"), std::string::npos) << text;
+}
+
+TEST_F(HostileMesh, LinksAreRefused) {
+  const std::string hard = after([](hid_t h5) {
+    H5Lcreate_hard(h5, "/VTKHDF/Points", h5, "/breast/again", H5P_DEFAULT, H5P_DEFAULT);
+  });
+  EXPECT_NE(hard.find("second link"), std::string::npos) << hard;
+  write_mesh(file_, samples::full_mesh());
+  const std::string loop = after([](hid_t h5) {
+    H5Lcreate_hard(h5, "/breast", h5, "/breast/sets/up", H5P_DEFAULT, H5P_DEFAULT);
+  });
+  EXPECT_NE(loop, "accepted");
+  write_mesh(file_, samples::full_mesh());
+  const std::string outside = after([&](hid_t h5) {
+    H5Lmove(h5, "/breast", h5, "/moved", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_soft("/moved", h5, "/breast", H5P_DEFAULT, H5P_DEFAULT);
+  });
+  EXPECT_NE(outside.find("link"), std::string::npos) << outside;
+}
+
+TEST_F(HostileMesh, InflationHasABudget) {
+  const std::string text = after([](hid_t h5) {
+    const hid_t layout = chunked(hsize_t(1) << 24);
+    for (const char* path : {"/breast/zeros1", "/breast/zeros2"}) {  // in a file of 6 MB
+      add(h5, path, layout, hsize_t(600) << 20);
+    }
+    H5Pclose(layout);
+  });
+  EXPECT_NE(text.find("bytes of memory"), std::string::npos) << text;
+}
+
+TEST_F(HostileMesh, AnUnwrittenGiantIsRefused) {
+  const std::string text = after([](hid_t h5) {
+    const hid_t layout = chunked(1000);
+    add(h5, "/breast/giant", layout, 5'000'000, false);
+    H5Pclose(layout);
+  });
+  EXPECT_NE(text, "accepted");
+}
+
+TEST_F(HostileMesh, GiantChunksAreRefused) {
+  const std::string text = after([](hid_t h5) {
+    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    const hsize_t chunk = hsize_t(1) << 31, count = 100, most = H5S_UNLIMITED;
+    H5Pset_chunk(layout, 1, &chunk);
+    H5Pset_deflate(layout, 1);
+    const hid_t space = H5Screate_simple(1, &count, &most);
+    const hid_t set = H5Dcreate2(h5, "/breast/chunk", H5T_NATIVE_UINT8, space, H5P_DEFAULT, layout,
+                                 H5P_DEFAULT);
+    EXPECT_GE(set, 0);
+    H5Dclose(set);
+    H5Sclose(space);
+    H5Pclose(layout);
+  });
+  EXPECT_NE(text.find("chunks"), std::string::npos) << text;
+}
+
+// Without its seal, damage reaches HDF5: whatever that does, one line comes out of it.
+TEST_F(HostileMesh, DamageBehindTheSealIsSurvived) {
+  const std::string good = read_text(file_);
+  const std::string body = good.substr(0, good.size() - 80);
+  std::mt19937 random(20080302);
+  int refused = 0;
+  for (int n = 0; n < 150; ++n) {
+    std::string bad = body;
+    for (int flips = 1 + n % 3; flips > 0; --flips) {
+      bad[random() % std::min<std::size_t>(bad.size(), n % 2 ? 6000 : bad.size())] ^=
+          char(1 << random() % 8);
+    }
+    write_text(file_, bad);
+    refused += complaint([&] { read_mesh(file_); }) != "accepted";
+  }
+  EXPECT_GT(refused, 50);
+}
+
+TEST_F(HostileMesh, PlacesOfNoBodyAreRefused) {
+  for (const char* path : {"/VTKHDF/Points", "/VTKHDF/PointData/imaged",
+                           "/VTKHDF/PointData/reference", "/breast/landmarks/imaged",
+                           "/breast/hermite/skin/x"}) {
+    write_mesh(file_, samples::full_mesh());
+    const std::string text = after([&](hid_t h5) {
+      const hid_t set = H5Dopen2(h5, path, H5P_DEFAULT), space = H5Dget_space(set);
+      std::vector<double> values(std::size_t(H5Sget_simple_extent_npoints(space)));
+      H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+      values[1] = -1e154;
+      H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+      H5Sclose(space);
+      H5Dclose(set);
+    });
+    EXPECT_NE(text.find("-1e+154"), std::string::npos) << path << ": " << text;
+  }
+}
+
+TEST_F(HostileMesh, DerivativesOfAnotherTypeAreRefusedByName) {
+  Derivatives derivatives;
+  const HexMesh mesh = samples::full_mesh();
+  derivatives.position["fat"].assign(mesh.points.size(), Vec3(1, 2, 3));
+  write_mesh(file_, mesh, derivatives);
+  const hid_t h5 = H5Fopen(file_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  H5Ldelete(h5, "/VTKHDF/PointData/derivative_fat", H5P_DEFAULT);
+  const hsize_t shape[2] = {mesh.points.size(), 3};
+  const hid_t space = H5Screate_simple(2, shape, nullptr);
+  const hid_t set = H5Dcreate2(h5, "/VTKHDF/PointData/derivative_fat", H5T_NATIVE_INT, space,
+                               H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const std::vector<int> values(3 * mesh.points.size(), 7);
+  H5Dwrite(set, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  H5Sclose(space);
+  H5Dclose(set);
+  H5Fclose(h5);
+  const std::string text = complaint([&] { read_derivatives(file_, mesh); });
+  EXPECT_NE(text.find("derivative_fat"), std::string::npos) << text;
+  EXPECT_NE(text.find("mesh.vtkhdf"), std::string::npos) << text;
+}
+
+TEST(HostileLabels, NamesThatTablesCannotHoldAreRefused) {
+  const ScratchFolder folder;
+  for (const std::string name : {"", "a/b", "a\tb", "\x1b[31m"}) {
+    LabelVolume labels = samples::labels();
+    labels.landmarks[name] = Vec3(1, 2, 3);
+    write_labels(folder / "labels.vtkhdf", labels);
+    EXPECT_NE(complaint([&] { read_labels(folder / "labels.vtkhdf"); }).find("landmarks/name"),
+              std::string::npos);
+  }
+}
+
+TEST(Locating, CoordinatesThatOverflowAreAnErrorNotAnIndex) {
+  HexMesh mesh = samples::full_mesh();
+  for (Vec3& point : mesh.points) point *= 1e200;
+  const Locator locator(mesh, mesh.points);
+  EXPECT_THROW(locator.nearest(Vec3(-1e203, 0, 0)), Error);
+  EXPECT_THROW(nearest_on_faces(mesh, mesh.points, mesh.skin_faces, Vec3(-1e203, 0, 0)), Error);
+}
+
+TEST(GuardedChild, HandsOverResultsErrorsAndDeaths) {
+  EXPECT_EQ(in_guarded_child("file", [] { return std::string(5'000'000, 'x'); }).size(), 5'000'000u);
+  EXPECT_EQ(in_guarded_child("file", [] { return std::string(); }), "");
+  EXPECT_EQ(complaint([] {
+              in_guarded_child("file", []() -> std::string { throw input_error("file: is bad"); });
+            }),
+            "file: is bad");
+  EXPECT_THROW(
+      in_guarded_child("file", []() -> std::string { throw failed_error("disk: is full"); }), Error);
+  for (const int fault : {SIGSEGV, SIGABRT, SIGFPE, SIGKILL}) {
+    const std::string text = complaint([&] {
+      in_guarded_child("file", [&]() -> std::string {
+        raise(fault);
+        return "";
+      });
+    });
+    EXPECT_NE(text.find("file: damaged"), std::string::npos) << text;
+  }
+  EXPECT_NE(complaint([] {
+              in_guarded_child(
+                  "file",
+                  []() -> std::string {
+                    while (true) pause();
+                  },
+                  0.5);
+            }).find("0.5 s"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace breast

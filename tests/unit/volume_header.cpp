@@ -1,0 +1,302 @@
+// Volumes whose headers leave voxel size or orientation open, contradict themselves or point
+// elsewhere are refused in one line before a library sees them.
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "fixtures/scratch_folder.hpp"
+#include "io/volume_file.hpp"
+
+namespace breast {
+namespace {
+
+namespace fs = std::filesystem;
+
+Volume<std::int16_t> small_volume() {
+  Grid grid;
+  grid.size = {6, 5, 4};
+  grid.spacing = Vec3(0.75, 1.25, 2.5);
+  grid.origin = Vec3(-30.5, 12.25, 40.125);
+  Volume<std::int16_t> volume(grid);
+  for (std::size_t v = 0; v < volume.voxels.size(); ++v) volume.voxels[v] = std::int16_t(v % 97);
+  return volume;
+}
+
+std::string error_of(const fs::path& file) {
+  try {
+    read_volume(file);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2) << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "accepted";
+}
+
+// `text` with the first line that begins with `line` replaced, or taken out when `by` is empty.
+std::string with_line(std::string text, const std::string& line, const std::string& by) {
+  const auto at = text.find("\n" + line) + 1;
+  EXPECT_NE(at, 0u) << line;
+  return text.replace(at, text.find('\n', at) + 1 - at, by.empty() ? "" : by + "\n");
+}
+
+struct Header {
+  const char *name, *line, *by, *says;
+};
+
+class NrrdHeaders : public testing::TestWithParam<Header> {};
+TEST_P(NrrdHeaders, AreRefused) {
+  const ScratchFolder folder;
+  write_volume(folder / "good.nrrd", small_volume());
+  const std::string good = read_text(folder / "good.nrrd");
+  write_text(folder / "bad.nrrd", with_line(good, GetParam().line, GetParam().by));
+  EXPECT_NE(error_of(folder / "bad.nrrd").find(GetParam().says), std::string::npos)
+      << error_of(folder / "bad.nrrd");
+}
+constexpr const char* d = "space directions";
+INSTANTIATE_TEST_SUITE_P(
+    Lines, NrrdHeaders,
+    testing::Values(
+        Header{"no_space", "space:", "", "states no space"},
+        Header{"unknown_space", "space:", "space: scanner-xyz", "scanner-xyz"},
+        Header{"no_directions", d, "", "space directions"},
+        Header{"spacings_only", d, "spacings: 1 1 1", "space directions"},
+        Header{"zero", d, "space directions: (0,0,0) (0,1,0) (0,0,1)", "voxel size 0"},
+        Header{"tiny", d, "space directions: (1e-9,0,0) (0,1,0) (0,0,1)", "voxel size"},
+        Header{"huge", d, "space directions: (1e308,0,0) (0,1,0) (0,0,1)", "voxel size"},
+        Header{"nan", d, "space directions: (nan,0,0) (0,1,0) (0,0,1)", "finite"},
+        Header{"sheared", d, "space directions: (1,0.01,0) (0,1,0) (0,0,1)", "orthonormal"},
+        Header{"far", "space origin", "space origin: (1e300,0,0)", "origin"},
+        Header{"cm", "kinds", "space units: \"cm\" \"cm\" \"cm\"", "cm"},
+        Header{"endless", "sizes", "sizes: 100000 100000 4", "voxels"},
+        Header{"negative", "sizes", "sizes: -6 5 -4", "voxels"},
+        Header{"twice", "kinds", "type: float", "twice"},
+        Header{"device", "kinds", "data file: /dev/zero", "own folder"},
+        Header{"climbing", "kinds", "data file: ../other.raw", "own folder"},
+        Header{"absent", "kinds", "data file: other.raw", "no file"},
+        Header{"list", "kinds", "data file: LIST", "one"},
+        Header{"bzip2", "encoding", "encoding: bzip2", "bzip2"},
+        Header{"colour", "type", "type: block", "block"}),
+    [](const auto& header) { return header.param.name; });
+
+class MetaHeaders : public testing::TestWithParam<Header> {};
+TEST_P(MetaHeaders, AreRefused) {
+  const ScratchFolder folder;
+  write_volume(folder / "good.mha", small_volume());
+  const std::string good = read_text(folder / "good.mha");
+  write_text(folder / "bad.mha", with_line(good, GetParam().line, GetParam().by));
+  EXPECT_NE(error_of(folder / "bad.mha").find(GetParam().says), std::string::npos)
+      << error_of(folder / "bad.mha");
+}
+INSTANTIATE_TEST_SUITE_P(
+    Lines, MetaHeaders,
+    testing::Values(
+        Header{"no_matrix", "TransformMatrix", "", "orientation"},
+        Header{"sheared", "TransformMatrix", "TransformMatrix = 1 0.01 0 0 1 0 0 0 1", "orthonormal"},
+        Header{"nan", "TransformMatrix", "TransformMatrix = nan 0 0 0 1 0 0 0 1", "orientation"},
+        Header{"no_spacing", "ElementSpacing", "", "voxel size"},
+        Header{"zero", "ElementSpacing", "ElementSpacing = 0 1 1", "voxel size"},
+        Header{"negative", "ElementSpacing", "ElementSpacing = 1 -1 1", "voxel size"},
+        Header{"huge", "ElementSpacing", "ElementSpacing = 1 1 1e308", "voxel size"},
+        Header{"device", "ElementDataFile", "ElementDataFile = /dev/zero", "own folder"},
+        Header{"list", "ElementDataFile", "ElementDataFile = LIST", "one"},
+        Header{"endless", "DimSize", "DimSize = 100000 100000 4", "voxels"},
+        Header{"inches", "DimSize", "DistanceUnits = in\nDimSize = 6 5 4", "in"}),
+    [](const auto& header) { return header.param.name; });
+
+// A NIfTI file with bytes of its header replaced.
+class NiftiHeaders : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_volume(folder_ / "good.nii", small_volume());
+    good_ = read_text(folder_ / "good.nii");
+  }
+  template <class T>
+  static void put(std::string& bytes, std::size_t at, T value) {
+    std::memcpy(bytes.data() + at, &value, sizeof value);
+  }
+  std::string refusal(const std::string& bytes) {
+    write_text(folder_ / "bad.nii", bytes);
+    return error_of(folder_ / "bad.nii");
+  }
+  void expect(const char* says, const std::string& bytes) {
+    const std::string text = refusal(bytes);
+    EXPECT_NE(text.find(says), std::string::npos) << text;
+  }
+  ScratchFolder folder_;
+  std::string good_;
+};
+
+TEST_F(NiftiHeaders, WithoutOrientation) {
+  std::string bad = good_;
+  put(bad, 252, std::int16_t(0));
+  EXPECT_EQ(refusal(bad), "accepted");  // sform alone
+  put(bad, 254, std::int16_t(0));
+  expect("left and right", bad);
+  put(bad, 252, std::int16_t(1));
+  EXPECT_EQ(refusal(bad), "accepted");  // qform alone
+}
+
+TEST_F(NiftiHeaders, ThatContradictThemselves) {
+  std::string bad = good_;
+  float x = 0;
+  std::memcpy(&x, bad.data() + 280, sizeof x);
+  put(bad, 280, -x);  // left and right exchanged in sform alone
+  expect("contradict", bad);
+  bad = good_;
+  put(bad, 280, 2 * x);
+  expect("contradict", bad);
+}
+
+TEST_F(NiftiHeaders, WithoutVoxelSize) {
+  for (const float size : {0.0F, -1.0F, 1e-9F, 1e30F, std::numeric_limits<float>::quiet_NaN()}) {
+    std::string bad = good_;
+    put(bad, 80, size);
+    expect("voxel size", bad);
+  }
+}
+
+TEST_F(NiftiHeaders, WithNumbersThatAreNone) {
+  for (const float odd : {1e30F, std::numeric_limits<float>::quiet_NaN(),
+                          std::numeric_limits<float>::infinity()}) {
+    for (std::size_t at = 256; at < 328; at += 4) {
+      std::string bad = good_;
+      put(bad, at, odd);
+      EXPECT_NE(refusal(bad), "accepted") << at;
+    }
+  }
+  std::string bad = good_;
+  put(bad, 70, std::int16_t(128));  // colour
+  expect("data type", bad);
+  bad = good_;
+  put(bad, 108, std::numeric_limits<float>::infinity());
+  expect("begin", bad);
+  bad = good_;
+  put(bad, 344, 'x');
+  expect("no NIfTI header", bad);
+}
+
+TEST(VolumeHeaders, AnUpperCaseEndingIsCheckedAsWell) {
+  const ScratchFolder folder;
+  for (const std::string ending : {"NRRD", "NII", "NII.GZ", "MHA"}) {
+    const fs::path file = folder / ("SCAN." + ending);
+    write_volume(file, small_volume());
+    EXPECT_EQ(error_of(file), "accepted") << ending;
+    fs::resize_file(file, fs::file_size(file) - 3);
+    EXPECT_NE(error_of(file), "accepted") << ending;
+  }
+}
+
+TEST(VolumeHeaders, RasIsTurnedIntoLps) {
+  const ScratchFolder folder;
+  write_volume(folder / "lps.nrrd", small_volume());
+  std::string text = read_text(folder / "lps.nrrd");
+  text = with_line(text, "space:", "space: right-anterior-superior");
+  text = with_line(text, "space directions", "space directions: (-0.75,0,0) (0,-1.25,0) (0,0,2.5)");
+  text = with_line(text, "space origin", "space origin: (30.5,-12.25,40.125)");
+  write_text(folder / "ras.nrrd", text);
+  const Grid lps = read_volume(folder / "lps.nrrd").grid, ras = read_volume(folder / "ras.nrrd").grid;
+  EXPECT_LT((lps.origin - ras.origin).norm(), 1e-9);
+  EXPECT_LT((lps.direction - ras.direction).norm(), 1e-9);
+}
+
+// A stream of zeros a thousand times larger than what the header accounts for.
+TEST(VolumeHeaders, AGzipBombStopsAtWhatTheHeaderAnnounces) {
+  const ScratchFolder folder;
+  write_volume(folder / "good.nii.gz", small_volume());
+  gzFile good = gzopen((folder / "good.nii.gz").c_str(), "rb");
+  std::string header(352, '\0');
+  gzread(good, header.data(), 352);
+  gzclose(good);
+  gzFile bomb = gzopen((folder / "bomb.nii.gz").c_str(), "wb");
+  gzwrite(bomb, header.data(), 352);
+  const std::string zeros(std::size_t(1) << 20, '\0');
+  for (int megabyte = 0; megabyte < 600; ++megabyte) gzwrite(bomb, zeros.data(), unsigned(zeros.size()));
+  gzclose(bomb);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_NE(error_of(folder / "bomb.nii.gz").find("accounts for"), std::string::npos);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(seconds.count(), 0.5);
+}
+
+class DicomHeaders : public testing::Test {
+ protected:
+  void SetUp() override { write_dicom_series(folder_ / "scan", small_volume(), "T1"); }
+  fs::path slice(int n) const { return folder_ / ("scan/slice_000" + std::to_string(n) + ".dcm"); }
+  /// Replaces a text by one of the same length in some slices.
+  void change(const std::string& from, const std::string& to, int first = 1, int last = 4) {
+    ASSERT_EQ(from.size(), to.size());
+    for (int n = first; n <= last; ++n) {
+      std::string bytes = read_text(slice(n));
+      const auto at = bytes.find(from);
+      ASSERT_NE(at, std::string::npos) << from;
+      write_text(slice(n), bytes.replace(at, from.size(), to));
+    }
+  }
+  void expect(const char* says) {
+    const std::string text = error_of(folder_ / "scan");
+    EXPECT_NE(text.find(says), std::string::npos) << text;
+  }
+  ScratchFolder folder_;
+};
+
+TEST_F(DicomHeaders, WithoutPixelSpacing) {
+  change(std::string("\x28\0\x30\0", 4), std::string("\x28\0\x31\0", 4));
+  expect("states no pixel spacing");
+}
+TEST_F(DicomHeaders, WithPixelSpacingZero) {
+  change("1.25\\0.75", "0.00\\0.75");
+  expect("pixel spacing 0");
+}
+TEST_F(DicomHeaders, WithOneSliceOfAnotherSpacing) {
+  change("1.25\\0.75", "1.35\\0.75", 3, 3);
+  expect("slice_0003.dcm");
+}
+TEST_F(DicomHeaders, OfPixelsThatAreNotGreyShorts) {
+  change("MONOCHROME2", "PALETTE COL");
+  expect("PALETTE");
+}
+TEST_F(DicomHeaders, OfTwelveBits) {
+  change(std::string("\x28\0\0\1US\2\0\x10\0", 10), std::string("\x28\0\0\1US\2\0\x0c\0", 10));
+  expect("12 bits");
+}
+TEST_F(DicomHeaders, WithAxesThatAreNot) {
+  change("1\\0\\0\\0\\1\\0", "1\\0\\0\\0\\2\\0");
+  expect("perpendicular");
+}
+TEST_F(DicomHeaders, AMissingSliceIsBetweenTheTwoThatAreNamed) {
+  Volume<std::int16_t> longer = small_volume();
+  longer.grid.size[2] = 9;
+  longer.voxels.resize(longer.grid.voxels(), 1);
+  write_dicom_series(folder_ / "long", longer, "T1");
+  fs::remove(folder_ / "long/slice_0008.dcm");
+  const std::string text = error_of(folder_ / "long");
+  EXPECT_NE(text.find("slice_0007.dcm and slice_0009.dcm"), std::string::npos) << text;
+}
+
+TEST(DicomFolders, APatientsSlicesAreNotReplaced) {
+  const ScratchFolder folder;
+  write_dicom_series(folder / "patient", small_volume(), "T1");
+  for (int n = 1; n <= 4; ++n) {
+    const fs::path file = folder / ("patient/slice_000" + std::to_string(n) + ".dcm");
+    std::string bytes = read_text(file);
+    for (auto at = bytes.find("libbreast"); at != std::string::npos; at = bytes.find("libbreast")) {
+      bytes.replace(at, 9, "hospital1");
+    }
+    write_text(file, bytes);
+  }
+  EXPECT_THROW(check_dicom_folder(folder / "patient"), Error);
+  EXPECT_THROW(write_dicom_series(folder / "patient", small_volume(), "T1"), Error);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "patient"), {}), 4);
+}
+
+}  // namespace
+}  // namespace breast
