@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "projection/ray_mesh.hpp"
 
 namespace breast {
 
@@ -30,19 +29,6 @@ double posterior_edge(const HexMesh& mesh, const Vec3& e_u) {
   return edge;
 }
 
-// mm (negative) by which the posterior edge moves to show a tumour whose column is known.
-double move_for_tumour(const HexMesh& mesh, const ViewPose& pose) {
-  constexpr double margin = 8;
-  const Landmark* tumour = mesh.landmark("tumour");
-  if (tumour == nullptr) return 0;
-  const Vec2 uv = pose.project(landmark_position(mesh, mesh.points, *tumour));
-  if (uv.x() >= 0) return 0;
-  const RayMesh rays(mesh, mesh.points, pose);
-  std::vector<Chord> chords;
-  rays.trace(uv, chords);
-  return rays.leaves_through_back(chords) ? 0 : uv.x() - margin;
-}
-
 }  // namespace
 
 ImageFrame image_frame(const HexMesh& mesh, Beam beam) {
@@ -53,9 +39,7 @@ ImageFrame image_frame(const HexMesh& mesh, Beam beam) {
   frame.view = mesh.contact->view;
   frame.pose = view_pose(mesh.side, mesh.contact->angle_deg);
   ViewPose& pose = frame.pose;
-  double u0 = posterior_edge(mesh, pose.e_u);
-  pose.origin = u0 * pose.e_u;
-  u0 += move_for_tumour(mesh, pose);
+  const double u0 = posterior_edge(mesh, pose.e_u);
   // v of the tissue that can be seen: elements reaching in front of the edge.
   double lower = std::numeric_limits<double>::infinity(), upper = -lower;
   for (int e = 0; e < mesh.elements(); ++e) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -16,6 +17,7 @@
 #include "fixtures/traced.hpp"
 #include "meshing/body_mesh.hpp"
 #include "projection/ray_mesh.hpp"
+#include "projection/report.hpp"
 
 using namespace breast;
 using namespace breast::fixtures;
@@ -246,37 +248,35 @@ TEST(Projection, NoColumnOfTheImageLeavesThroughTheBack) {
   }
 }
 
-TEST(Projection, ATumourBehindTheEdgeIsShownWhenItsColumnIsKnown) {
-  // Sheared so that one side of the chest wall lies far in front of the other.
+TEST(Projection, TheFrameDoesNotDependOnTheTumour) {
+  // Sheared so that one side of the chest wall lies far in front of the other: tissue whose column
+  // leaves through skin only, behind the posterior edge, is a place where a tumour would be missed.
   HexMesh mesh = deformed(breast_mesh(), "CC",
                           [](const Vec3& x) { return Vec3(x.x(), x.y() - 0.6 * x.x(), x.z()); });
-  const ImageFrame narrow = image_frame(mesh);
-  const RayMesh rays(mesh, mesh.points, narrow.pose);
-  int known = -1, unknown = -1;
+  mesh.landmarks.clear();
+  const ImageFrame frame = image_frame(mesh);
+  const RayMesh rays(mesh, mesh.points, frame.pose);
+  int behind = -1;
   std::vector<Chord> chords;
-  const auto middle = [&](int e) { return element_position(mesh, mesh.points, e, Vec3::Zero()); };
   for (int e = 0; e < mesh.elements(); ++e) {
-    const Vec2 uv = narrow.pose.project(middle(e));
+    const Vec2 uv = frame.pose.project(element_position(mesh, mesh.points, e, Vec3::Zero()));
     if (uv.x() > -4) continue;
     rays.trace(uv, chords);
-    (rays.leaves_through_back(chords) ? unknown : known) = e;
+    if (!rays.leaves_through_back(chords)) behind = e;
   }
-  ASSERT_GE(known, 0);
-  ASSERT_GE(unknown, 0);
-  mesh.landmarks = {{"tumour", Vec3::Zero(), unknown, Vec3::Zero(), 0}};
-  EXPECT_EQ(image_frame(mesh).pose.origin, narrow.pose.origin);
-  mesh.landmarks[0].element = known;
+  ASSERT_GE(behind, 0);
+  mesh.landmarks = {{"tumour", Vec3::Zero(), behind, Vec3::Zero(), 0}};
+  const ImageFrame same = image_frame(mesh);
+  EXPECT_EQ(same.pose.origin, frame.pose.origin);
+  EXPECT_EQ(same.width, frame.width);
+  EXPECT_EQ(same.height, frame.height);
+  // Said, not hidden.
   ProjectionReport report;
   const Mammogram image = project_mammogram(mesh, {.pixel = 2}, &report);
-  EXPECT_NEAR(image.pose.project(middle(known)).x(), 8, 1e-9);
-  int blank = 0;
-  for (std::size_t i = 0; i < image.path.size(); ++i) {
-    if (image.through_back[i] == 0) continue;
-    ++blank;
-    EXPECT_EQ(image.thickness[i], 0);
-  }
-  EXPECT_EQ(blank, report.back_columns);
-  EXPECT_GT(blank, 0);
+  const auto said = doubts(mesh, image, report);
+  EXPECT_TRUE(std::any_of(said.begin(), said.end(), [](const std::string& doubt) {
+    return doubt.find("tumour") != std::string::npos;
+  }));
 }
 
 TEST(Projection, LabelsAreFollowedThroughTheDeformation) {
