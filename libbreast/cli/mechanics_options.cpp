@@ -10,6 +10,13 @@
 namespace breast {
 
 namespace {
+
+// Below these a number is far likelier in another unit than meant: a fraction for a percentage (the
+// softest row of the paper's tables is 10 percent), m/s2 or multiples of the earth's gravity for
+// mm/s2 (50 mm/s2, a two-hundredth of the earth's, moves a breast by a tenth of a millimetre).
+constexpr double least_scale_percent = 10;
+constexpr double least_gravity_mm_s2 = 50;
+
 void check_scale(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) {
@@ -18,6 +25,25 @@ void check_scale(const std::string& text) {
   tissue_from_name(text.substr(0, equals));
   const double percent = parse_number(text.substr(equals + 1), "--scale " + text.substr(0, equals));
   if (!(percent > 0)) throw input_error("--scale: '", text, "' must be above 0 percent");
+  if (percent < least_scale_percent) {
+    throw input_error("--scale ", text, ": ", format_number(percent), " percent is below ",
+                      format_number(least_scale_percent), "; did you mean ",
+                      text.substr(0, equals + 1), format_number(100 * percent),
+                      "? (100 leaves the stiffness as it is; a softer tissue needs a set of its "
+                      "own, --materials FILE)");
+  }
+}
+
+void check_gravity(const Vec3& gravity, const std::string& given) {
+  const double size = gravity.norm();
+  if (size == 0 || size >= least_gravity_mm_s2) return;
+  // In m/s2 a body on earth has 9.81, in multiples of the earth's gravity 1.
+  const double factor = size > 2 ? 1000 : gravity_mm_s2;
+  std::string meant;
+  for (int d = 0; d < 3; ++d) meant += (d == 0 ? "" : ",") + format_number(factor * gravity[d]);
+  throw input_error("--gravity ", given, ": ", format_number(size), " mm/s2 is below ",
+                    format_number(least_gravity_mm_s2), "; did you mean ", meant,
+                    "? (mm/s2; the earth's is 9810, 0,0,0 is none)");
 }
 }  // namespace
 
@@ -25,7 +51,7 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices) {
   tool.text(choices.materials, "--materials", "NAME|FILE",
             "name of a material set, or a TSV file of one");
   tool.texts(choices.scale, "--scale", "TISSUE=PERCENT",
-             "stiffness of one tissue in percent of the set's, as fat=150");
+             "stiffness of one tissue in percent of the set's, at least 10, as fat=150");
   tool.choice(choices.element, "--element", {"q1p0", "q2p1"},
               "8 nodes and one pressure, or 27 nodes and four");
   tool.choice(choices.invariants, "--invariants", {"isochoric", "plain"},
@@ -62,7 +88,15 @@ void declare_gravity(Tool& tool, GravityChoices& choices, const std::string& hel
   if (choices.posture == "prone") std::swap(postures[0], postures[1]);
   tool.choice(choices.posture, "--posture", postures, help);
   tool.numbers(choices.gravity, "--gravity", "gx,gy,gz", 3,
-               "gravity in mm/s2, patient axes (left, posterior, superior), instead of --posture");
+               "gravity in mm/s2, patient axes (left, posterior, superior), instead of --posture; "
+               "its size at least 50, or 0 for none");
+  tool.check([&choices] {
+    if (choices.gravity.empty()) return;
+    const Vec3 gravity = choices.vector();
+    std::string given;
+    for (int d = 0; d < 3; ++d) given += (d == 0 ? "" : ",") + format_number(gravity[d]);
+    check_gravity(gravity, given);
+  });
 }
 
 Vec3 parse_gravity(const std::string& text) {
@@ -74,6 +108,7 @@ Vec3 parse_gravity(const std::string& text) {
     if (count < 3) gravity[count] = parse_number(part, "--gravity");
   }
   if (count != 3) throw input_error("--gravity '", text, "': three numbers are needed, mm/s2");
+  check_gravity(gravity, text);
   return gravity;
 }
 

@@ -32,10 +32,12 @@ struct GravityChoices {
   Vec3 vector() const;          ///< mm/s², LPS
 };
 
-/// --posture (the present value first) and --gravity.
+/// --posture (the present value first) and --gravity. A gravity below 50 mm/s² that is not 0 is
+/// refused, asking whether another unit was meant.
 void declare_gravity(Tool& tool, GravityChoices& choices, const std::string& help);
 
-/// "upright", "off" or "gx,gy,gz" in mm/s². Throws Error (input) for anything else.
+/// "upright", "off" or "gx,gy,gz" in mm/s². Throws Error (input) for anything else, and for a size
+/// below 50 mm/s² that is not 0.
 Vec3 parse_gravity(const std::string& text);
 
 }  // namespace breast

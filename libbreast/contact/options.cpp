@@ -49,6 +49,12 @@ int CompressionChoices::targets() const {
 }
 
 CompressionOptions compression_options(const CompressionChoices& c, const Vec3& gravity) {
+  constexpr double least_reduction = 1;  // percent; a smaller number is a fraction, not a percentage
+  if (c.reduction && *c.reduction < least_reduction) {
+    throw input_error("--reduction ", *c.reduction, " percent is below ", least_reduction,
+                      "; did you mean ", 100 * *c.reduction,
+                      "? (for a smaller one give the gap in mm, --thickness)");
+  }
   CompressionOptions options;
   options.view = c.view;
   options.angle_deg = c.angle.value_or(view_angle_deg(c.view));

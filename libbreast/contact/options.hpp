@@ -26,7 +26,8 @@ struct CompressionChoices {
   /// How many of thickness, reduction, force and pressure are given; one must be.
   int targets() const;
 };
-/// `gravity` in mm/s², LPS. Throws Error (input) for a view, wall or detector that is none.
+/// `gravity` in mm/s², LPS. Throws Error (input) for a view, wall or detector that is none, and for a
+/// reduction below 1 percent, which is a fraction by mistake.
 CompressionOptions compression_options(const CompressionChoices& choices, const Vec3& gravity);
 
 }  // namespace breast

@@ -7,10 +7,14 @@ namespace breast {
 
 double parse_skin_thickness(const std::string& text) {
   const double thickness = parse_number(text, "--skin");
-  if (!(thickness >= 0 && thickness <= 10)) {
-    throw input_error("--skin ", text, " mm: must be from 0 (none) to 10, or 'measured'");
+  constexpr double least = 0.1, most = 10;  // mm; skin of the breast is 0.5 to 3 mm thick
+  if (thickness == 0 || (thickness >= least && thickness <= most)) return thickness;
+  std::string meant;
+  for (const double factor : {1000.0, 0.001}) {  // given in metres, in micrometres
+    const double other = factor * thickness;
+    if (other >= least && other <= most) meant = "; did you mean " + format_number(other) + "?";
   }
-  return thickness;
+  throw input_error("--skin ", text, " mm: must be 0 (none), from 0.1 to 10, or 'measured'", meant);
 }
 
 double measured_skin_thickness(const LabelVolume& labels, const BreastGeometry& geometry) {

@@ -91,6 +91,8 @@ TEST(Cli, UsageErrorsAreOneLineAndNothingRuns) {
       {{"--scale", "fat"}, "not TISSUE=PERCENT"},
       {{"--scale", "gland=3"}, "unknown tissue 'gland'"},
       {{"--scale", "fat=-3"}, "above 0"},
+      {{"--scale", "fat=1.5"}, "did you mean fat=150?"},
+      {{"--scale", "tumour=2"}, "did you mean tumour=200?"},
       {{"--threads", "1.5"}, "not a whole number"},
       {{"extra"}, "one argument too many"},
       {{"--table", "/no-such-folder/t.tsv"}, "does not exist"}};
@@ -103,6 +105,42 @@ TEST(Cli, UsageErrorsAreOneLineAndNothingRuns) {
     EXPECT_EQ(std::count(trial.err.begin(), trial.err.end(), '\n'), 1) << trial.err;
     EXPECT_NE(trial.err.find(part), std::string::npos) << trial.err << " lacks " << part;
   }
+}
+
+// A gravity in m/s2 or in multiples of the earth's is refused before anything is solved.
+TEST(Cli, AGravityInAnotherUnitIsAskedAbout) {
+  const auto refusal = [](const std::function<void()>& parse) {
+    try {
+      parse();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code(), 2);
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const auto parsed = [&](const char* text) { return refusal([&] { parse_gravity(text); }); };
+  EXPECT_NE(parsed("0,0,-9.81").find("did you mean 0,0,-9810?"), std::string::npos);
+  EXPECT_NE(parsed("0,1,0").find("did you mean 0,9810,0?"), std::string::npos);
+  for (const char* fine : {"0,0,-9810", "0,0,0", "0,0,-1620", "50,0,0", "off", "upright"}) {
+    EXPECT_EQ(parsed(fine), "accepted") << fine;
+  }
+  ScratchFolder folder;
+  write_text(folder / "mesh.vtkhdf", "mesh");
+  std::filesystem::path in;
+  GravityChoices gravity{"supine", {}};
+  Tool tool("trial", "tries gravity");
+  tool.input(in, "MESH.vtkhdf", "mesh");
+  declare_gravity(tool, gravity, "direction");
+  std::vector<std::string> words = {"trial", (folder / "mesh.vtkhdf").string(), "--gravity",
+                                    "0,0,-9.81"};
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  testing::internal::CaptureStderr();
+  bool ran = false;
+  EXPECT_EQ(tool.main(int(argv.size()), argv.data(), [&](breast::Run&) { ran = true; }), 2);
+  const std::string err = testing::internal::GetCapturedStderr();
+  EXPECT_FALSE(ran);
+  EXPECT_NE(err.find("did you mean 0,0,-9810?"), std::string::npos) << err;
 }
 
 TEST(Cli, PathsAreCheckedBeforeAnythingRuns) {
