@@ -69,11 +69,12 @@ const Landmark& find(const HexMesh& mesh, const std::string& name,
 }
 
 struct Probe {
+  std::string name;  ///< of the landmark in the mesh
   Vec3 position, imaged;
 };
 Probe probe(const HexMesh& mesh, const std::string& name, const std::filesystem::path& file) {
   const Landmark& landmark = find(mesh, name, file);
-  return {landmark_position(mesh, mesh.points, landmark),
+  return {landmark.name, landmark_position(mesh, mesh.points, landmark),
           landmark_position(mesh, mesh.imaged, landmark)};
 }
 
@@ -91,11 +92,12 @@ void report_truth(const Table& table, Report& report) {
   }
 }
 
-void report_landmark(const std::string& name, const Probe& here, Report& report) {
+void report_landmark(const Probe& here, Report& report) {
+  const std::string& name = here.name;
   const Vec3 displacement = here.position - here.imaged;
   report.set("landmarks/" + name + "/imaged", here.imaged);
   report.set("landmarks/" + name + "/position", here.position);
-  report.set("landmarks/" + name + "/displacement_mm", displacement);
+  report.set("landmarks/" + name + "/displacement_from_scan_mm", displacement);
   report.set("landmarks/" + name + "/distance_mm", displacement.norm());
 }
 
@@ -106,7 +108,10 @@ void tell_positions(const Choices& c, const std::vector<HexMesh>& meshes, Run& r
   const bool relative = !c.base.empty();
   const HexMesh base = relative ? read_mesh(c.base) : HexMesh();
   Table table{{"file"}, {}};
-  for (const std::string& name : names) add_columns(table, name, relative);
+  // A landmark is shown by its own name: who asks for the tumour sees when it is an artificial one.
+  for (const std::string& name : names) {
+    add_columns(table, find(meshes.front(), name, c.files.front()).name, relative);
+  }
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     std::vector<std::string> row{c.files[i].filename().string()};
     for (const std::string& name : names) {
@@ -117,7 +122,7 @@ void tell_positions(const Choices& c, const std::vector<HexMesh>& meshes, Run& r
         const Vec3 there = probe(base, name, c.base).position;
         row.push_back(format_fixed((here.position - there).norm(), 4));
       }
-      if (meshes.size() == 1) report_landmark(name, here, run.report());
+      if (meshes.size() == 1) report_landmark(here, run.report());
     }
     table.rows.push_back(std::move(row));
   }

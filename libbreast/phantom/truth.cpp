@@ -74,7 +74,7 @@ void report_breast(const PhantomBreast& breast, const Postures& postures, Report
     const std::string key = side + "landmarks/" + name + "/";
     report.set(key + "imaged", prone);
     report.set(key + "position", supine);
-    report.set(key + "displacement_mm", Vec3(supine - prone));
+    report.set(key + "displacement_from_scan_mm", Vec3(supine - prone));
     report.set(key + "distance_mm", (supine - prone).norm());
   }
 }

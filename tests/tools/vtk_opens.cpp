@@ -54,7 +54,8 @@ TEST(VtkOpens, Meshes) {
     expect_vectors(grid->GetPoints()->GetData(), mesh.points, "points");
     expect_vectors(grid->GetPointData()->GetArray("imaged"), mesh.imaged, "imaged");
     expect_vectors(grid->GetPointData()->GetArray("reference"), mesh.reference, "reference");
-    ASSERT_NE(grid->GetPointData()->GetArray("displacement"), nullptr);
+    ASSERT_NE(grid->GetPointData()->GetArray("displacement_from_stress_free"), nullptr);
+    ASSERT_NE(grid->GetPointData()->GetArray("displacement_from_scan"), nullptr);
     ASSERT_NE(grid->GetPointData()->GetArray("contact_pressure"), nullptr);
     vtkDataArray* tissue = grid->GetCellData()->GetArray("tissue");
     ASSERT_NE(tissue, nullptr);

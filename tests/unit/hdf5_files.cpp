@@ -343,9 +343,16 @@ INSTANTIATE_TEST_SUITE_P(
                  value<float>(d, "/VTKHDF/CellData/fibroglandular_fraction", 2) = 1.5f;
                },
                {"fibroglandular_fraction[2]", "1.5"}},
-        Damage{"displacement",
-               [](Document& d) { value<double>(d, "/VTKHDF/PointData/displacement", 4) += 1e-3; },
-               {"displacement[1]"}},
+        Damage{"displacement_from_stress_free",
+               [](Document& d) {
+                 value<double>(d, "/VTKHDF/PointData/displacement_from_stress_free", 4) += 1e-3;
+               },
+               {"displacement_from_stress_free[1]", "Points - reference"}},
+        Damage{"displacement_from_scan",
+               [](Document& d) {
+                 value<double>(d, "/VTKHDF/PointData/displacement_from_scan", 4) += 1e-3;
+               },
+               {"displacement_from_scan[1]", "Points - imaged"}},
         Damage{"faces_twice",
                [](Document& d) {
                  for (const std::size_t c : {0, 1}) {
@@ -405,6 +412,26 @@ INSTANTIATE_TEST_SUITE_P(
                },
                {"size[2]", "-3"}}),
     [](const auto& damage) { return damage.param.name; });
+
+// Version 0.1 wrote one displacement, from the stress-free shape, without saying from where.
+TEST(MeshFile, TheOldNameOfTheDisplacementIsStillRead) {
+  const ScratchFolder folder;
+  const HexMesh mesh = samples::full_mesh();
+  write_mesh(folder / "new.vtkhdf", mesh);
+  Document document = load_document(folder / "new.vtkhdf", "mesh/1", "hexmesh");
+  const std::string at = "/VTKHDF/PointData/displacement";
+  EXPECT_FALSE(document.datasets.contains(at));
+  document.datasets.erase(at + "_from_scan");
+  auto old = document.datasets.extract(at + "_from_stress_free");
+  ASSERT_FALSE(old.empty());
+  old.key() = at;
+  document.datasets.insert(std::move(old));
+  save_document(folder / "old.vtkhdf", document);
+  EXPECT_EQ(read_mesh(folder / "old.vtkhdf").reference, mesh.reference);
+  value<double>(document, at, 4) += 1e-3;  // still checked
+  save_document(folder / "old.vtkhdf", document);
+  EXPECT_THROW(read_mesh(folder / "old.vtkhdf"), Error);
+}
 
 TEST(HdfFile, ForeignAndTruncatedFilesAreRefused) {
   const ScratchFolder folder;

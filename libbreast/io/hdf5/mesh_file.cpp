@@ -52,15 +52,35 @@ void get_grid(Fields& fields, HexMesh& mesh) {
   mesh.connectivity.assign(ids.begin(), ids.end());
 }
 
+std::vector<Vec3> difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  std::vector<Vec3> difference(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) difference[i] = a[i] - b[i];
+  return difference;
+}
+
+// Displacements are there for viewing; one that contradicts its two shapes means an edited file.
+void check_displacement(Fields& fields, const std::string& name, const std::vector<Vec3>& points,
+                        const std::vector<Vec3>& from, const char* from_name) {
+  constexpr double tolerance_mm = 1e-6;
+  const auto displacement = fields.vectors(point_data + name, points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 expected = points[i] - from[i];
+    if (!((displacement[i] - expected).norm() <= tolerance_mm)) {
+      throw fields.complain()("dataset ", point_data, name, "[", i, "] is ",
+                              displacement[i].transpose(), ", must be Points - ", from_name, " = ",
+                              expected.transpose());
+    }
+  }
+}
+
 void put_point_data(Document& document, const HexMesh& mesh) {
   document.datasets[point_data + "imaged"] = array_of(mesh.imaged);
   if (!mesh.reference.empty()) {
     document.datasets[point_data + "reference"] = array_of(mesh.reference);
-    std::vector<Vec3> displacement(mesh.points.size());
-    for (std::size_t i = 0; i < displacement.size(); ++i) {
-      displacement[i] = mesh.points[i] - mesh.reference[i];
-    }
-    document.datasets[point_data + "displacement"] = array_of(displacement);
+    document.datasets[point_data + "displacement_from_stress_free"] =
+        array_of(difference(mesh.points, mesh.reference));
+    document.datasets[point_data + "displacement_from_scan"] =
+        array_of(difference(mesh.points, mesh.imaged));
   }
   if (!mesh.contact_pressure.empty()) {
     document.datasets[point_data + "contact_pressure"] = array_of(Doubles(mesh.contact_pressure));
@@ -75,17 +95,14 @@ void get_point_data(Fields& fields, HexMesh& mesh) {
   }
   if (!fields.has(point_data + "reference")) return;
   mesh.reference = fields.places(point_data + "reference", nodes);
-  // Displacement is there for viewing; one that contradicts the two shapes means an edited file.
-  constexpr double tolerance_mm = 1e-6;
-  const auto displacement = fields.vectors(point_data + "displacement", nodes);
-  for (std::size_t i = 0; i < nodes; ++i) {
-    const Vec3 expected = mesh.points[i] - mesh.reference[i];
-    if (!((displacement[i] - expected).norm() <= tolerance_mm)) {
-      throw fields.complain()("dataset ", point_data, "displacement[", i, "] is ",
-                              displacement[i].transpose(),
-                              ", must be Points - reference = ", expected.transpose());
-    }
+  if (fields.has(point_data + "displacement_from_scan")) {
+    check_displacement(fields, "displacement_from_scan", mesh.points, mesh.imaged, "imaged");
   }
+  // Files of version 0.1 call the second one plainly "displacement".
+  const bool old = !fields.has(point_data + "displacement_from_stress_free") &&
+                   fields.has(point_data + "displacement");
+  check_displacement(fields, old ? "displacement" : "displacement_from_stress_free", mesh.points,
+                     mesh.reference, "reference");
 }
 
 void put_cell_data(Document& document, const HexMesh& mesh) {
