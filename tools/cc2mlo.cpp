@@ -35,7 +35,7 @@ std::optional<PatientViews> patient_views(const MatchChoices& choices, const Mat
 void report_pair(const MatchChoices& choices, const MatchQuery& query, const Matcher& matcher,
                  Beam beam, Run& run) {
   const Matcher backward(matcher.to(), matcher.from(), beam);
-  const PairPoint pair = locate_pair(matcher, backward, query.from_uv, *query.truth);
+  const PairPoint pair = locate_pair(matcher, backward, query.from_uv, *query.place);
   report_spot(pair, matcher, run.report());
   if (choices.supine.empty()) return;
   const HexMesh supine = read_mesh(choices.supine);
@@ -58,8 +58,15 @@ std::optional<BandModel> band_model(const MatchChoices& choices, const Matcher& 
       choices.priors.empty() ? default_priors()
                              : priors_from(read_table(choices.priors), choices.priors.string());
   if (patient != nullptr) priors = patient->with_alignment(std::move(priors));
-  return std::optional<BandModel>(std::in_place, matcher, derivatives.from, derivatives.to,
-                                  std::move(priors));
+  std::optional<BandModel> band(std::in_place, matcher, derivatives.from, derivatives.to,
+                                std::move(priors));
+  if (band->counts_marks_only()) {
+    throw input_error("--band: ", choices.from.string(), " and ", choices.to.string(),
+                      " share no derivative of their shapes, so that a band would count errors of "
+                      "marking only; give the files that sensitivity makes of both compressions, "
+                      "or leave --band out");
+  }
+  return band;
 }
 
 void run_match(const MatchChoices& choices, Run& run) {

@@ -37,9 +37,16 @@ void run_lookup(const Choices& choices, Run& run) {
                            ? default_priors()
                            : priors_from(read_table(choices.priors), choices.priors.string()));
   MatchLookup lookup;
+  const bool banded = !band.counts_marks_only();
+  if (!banded) {
+    run.warn("no band: " + choices.from.filename().string() + " and " +
+             choices.to.filename().string() +
+             " share no derivative of their shapes; give the files that sensitivity makes of them");
+  }
   {
     Timer::Scope phase(run.timer(), "match");
-    lookup = match_lookup(matcher, &band, choices.pitch, 25, run.progress());
+    lookup =
+        match_lookup(matcher, banded ? &band : nullptr, choices.pitch, 25, run.progress());
   }
   Report& report = run.report();
   report.set("nodes", lookup.status.size());
@@ -47,7 +54,8 @@ void run_lookup(const Choices& choices, Run& run) {
              std::size_t(std::count_if(lookup.status.begin(), lookup.status.end(),
                                        [](std::uint8_t status) { return status != 0; })));
   report.set("samples", lookup.samples);
-  for (const std::string& name : band.without()) report.append("band_without", name);
+  report.set("band", banded);
+  for (const std::string& name : lookup.band_without) report.append("band_without", name);
   lookup.history = run.history({{choices.from, from.content_sha256, &from.history},
                                 {choices.to, to.content_sha256, &to.history}});
   if (!choices.page.empty()) {

@@ -27,8 +27,8 @@ std::vector<MatchQuery> MatchQuestion::queries(const Matcher& matcher, const Pat
   }
   const std::vector<double>& mark = pair.empty() ? point : pair;
   if (mark.empty()) return {landmark_query(matcher, landmark)};
-  MatchQuery query{first({mark[0], mark[1]}), "", std::nullopt};
-  if (mark.size() == 4) query.truth = second({mark[2], mark[3]});
+  MatchQuery query{first({mark[0], mark[1]}), "", std::nullopt, PlaceOrigin::mark};
+  if (mark.size() == 4) query.place = second({mark[2], mark[3]});
   return {query};
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "core/error.hpp"
 
@@ -33,11 +32,13 @@ std::map<int, Curve> curves_of(const PolyLines& lines, const std::string& name) 
 
 // Normal of the plane of all that lies on the MLO detector.
 Vec3 detector_normal(const PolyLines& lines, const std::string& name) {
-  static const std::set<std::string> on_detector = {"curve", "arc", "chord", "truth in MLO",
-                                                    "nipple in MLO"};
+  const auto on_detector = [](const std::string& line) {
+    if (line == "curve" || line == "arc" || line == "chord") return true;
+    return line.ends_with(" in MLO") && !line.starts_with("column");  // markers
+  };
   Curve points;
   for (std::size_t l = 0; l < lines.lines.size() && l < lines.line_names.size(); ++l) {
-    if (!on_detector.contains(lines.line_names[l])) continue;
+    if (!on_detector(lines.line_names[l])) continue;
     for (const int point : lines.lines[l]) points.push_back(lines.points[std::size_t(point)]);
   }
   Vec3 mean = Vec3::Zero();

@@ -1,6 +1,7 @@
 // Mammograms with curves on them: Fig. 6.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "core/table.hpp"
@@ -38,16 +39,35 @@ struct ImageLine {
   std::vector<Vec2> uv;
 };
 
-std::vector<ImageLine> image_lines(const PolyLines& lines, const std::string& name) {
+/// Lines for whose names `wanted` holds.
+std::vector<ImageLine> image_lines(const PolyLines& lines,
+                                   const std::function<bool(const std::string&)>& wanted) {
   std::vector<ImageLine> found;
   const auto &u = lines.point_data.at("u_mm"), &v = lines.point_data.at("v_mm"),
              &query = lines.point_data.at("query");
   for (std::size_t i = 0; i < lines.lines.size() && i < lines.line_names.size(); ++i) {
-    if (lines.line_names[i] != name || lines.lines[i].empty()) continue;
+    if (!wanted(lines.line_names[i]) || lines.lines[i].empty()) continue;
     found.push_back({int(query[lines.lines[i].front()]), {}});
     for (const int p : lines.lines[i]) found.back().uv.emplace_back(u[p], v[p]);
   }
   return found;
+}
+
+std::vector<ImageLine> image_lines(const PolyLines& lines, const std::string& name) {
+  return image_lines(lines, [&](const std::string& line) { return line == name; });
+}
+
+/// The place in MLO that somebody names: the truth, a mark, or the model's own landmark. (Files of
+/// before 0.2 call the model's own place "truth in MLO" too.)
+bool is_place(const std::string& line) {
+  return line.ends_with(" in MLO") &&
+         (line.starts_with("truth") || line.starts_with("mark") || line.starts_with("model's"));
+}
+
+bool of_artificial_tumour(const PolyLines& lines) {
+  return std::any_of(lines.line_names.begin(), lines.line_names.end(), [](const auto& name) {
+    return name.starts_with("model's artificial");
+  });
 }
 
 Colour query_colour(int query, int count) {
@@ -93,7 +113,9 @@ std::string add_curves(Panel& panel, const Mammogram& image, const PolyLines& cu
     for (const auto& p : points) {
       dot(panel, hanging.at(p.uv[0], 3), 1.6, query_colour(p.query, count));
     }
-    return count > 1 ? "points" : "dot: the point; cross: nipple";
+    if (count > 1) return "points";
+    return of_artificial_tumour(curves) ? "dot: the artificial tumour; cross: nipple"
+                                        : "dot: the point; cross: nipple";
   }
   if (count == 1) {
     for (const auto& line : image_lines(curves, "arc")) draw(line, palette::arc, 2.5);
@@ -101,11 +123,13 @@ std::string add_curves(Panel& panel, const Mammogram& image, const PolyLines& cu
   for (const auto& line : image_lines(curves, "curve")) {
     draw(line, count == 1 ? Colour{0.1, 0.9, 0.4} : query_colour(line.query, count), 3);
   }
-  const auto truth = image_lines(curves, "truth in MLO");
-  for (const auto& p : truth) dot(panel, hanging.at(p.uv[0], 3), 1.6, palette::tumour);
+  const auto places = image_lines(curves, is_place);
+  for (const auto& p : places) dot(panel, hanging.at(p.uv[0], 3), 1.6, palette::tumour);
   if (count > 1) return "their curves";
-  return truth.empty() ? "green: its curve; blue: equal nipple distance"
-                       : "green: its curve; blue: equal nipple distance; dot: model's own place";
+  const std::string words = "green: its curve; blue: equal nipple distance";
+  if (places.empty()) return words;
+  if (of_artificial_tumour(curves)) return words + "; dot: the artificial tumour in this model";
+  return words + "; dot: model's own place";
 }
 
 void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {

@@ -59,6 +59,9 @@ class BandModel {
   /// Priors the meshes have no derivative for: not counted.
   const std::vector<std::string>& without() const { return without_; }
   std::string what_is_missing() const;  ///< the same as a sentence
+  /// Nothing but errors of marking and alignment is left of the priors: no derivative of any
+  /// parameter is in both files. Such a band says nothing of the model.
+  bool counts_marks_only() const { return causes_.empty() && !without_.empty(); }
 
  private:
   struct Cause {

@@ -64,7 +64,24 @@ double line_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
   return ((p - a) - (p - a).dot(d) * d).norm();
 }
 
-void measure(MatchedCurve& curve) {
+// Part of the segment from a to b that lies in the image, 0 to 1 (Liang and Barsky's clipping).
+double inside_part(const Vec2& a, const Vec2& b, const ImageFrame& frame) {
+  double enter = 0, leave = 1;
+  const Vec2 size(frame.width, frame.height);
+  for (int k = 0; k < 2; ++k) {
+    const double d = b[k] - a[k];
+    const double low = -a[k], high = size[k] - a[k];
+    if (d == 0) {
+      if (low > 0 || high < 0) return 0;
+      continue;
+    }
+    enter = std::max(enter, std::min(low / d, high / d));
+    leave = std::min(leave, std::max(low / d, high / d));
+  }
+  return std::max(0.0, leave - enter);
+}
+
+void measure(MatchedCurve& curve, const ImageFrame& to) {
   if (curve.points.empty()) return;
   const Vec2 first = curve.points.front().to_uv, last = curve.points.back().to_uv;
   curve.chord = (last - first).norm();
@@ -79,6 +96,7 @@ void measure(MatchedCurve& curve) {
     const double step = (point.to_uv - before).norm();
     curve.length += step;
     if (0.5 * (point.to_uv.x() + before.x()) < 0) curve.behind_image += step;
+    curve.inside_image += step * inside_part(before, point.to_uv, to);
   }
 }
 
@@ -163,7 +181,7 @@ MatchedCurve Matcher::match(const Vec2& from_uv, double tolerance) const {
     }
     tissue += chord.leave - chord.enter;
   }
-  measure(curve);
+  measure(curve, to_frame_);
   return curve;
 }
 

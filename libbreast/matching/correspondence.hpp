@@ -33,6 +33,7 @@ struct MatchedCurve {
   /// before the second view bends and projects it again.
   double reference_deviation = 0;
   double behind_image = 0;  ///< mm of the curve that lie behind the second image's posterior edge
+  double inside_image = 0;  ///< mm of the curve that lie in the second image
   bool in_air() const { return points.empty(); }
 };
 

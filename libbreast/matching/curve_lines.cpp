@@ -1,5 +1,6 @@
 #include "matching/curve_lines.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <functional>
@@ -60,12 +61,25 @@ void add_band(Writer& writer, const std::string& name, int query, const MatchRes
   }
 }
 
+// "truth in MLO", "mark in MLO", "model's tumour in MLO".
+std::string place_name(const MatchQuery& query, const std::string& view) {
+  switch (query.origin) {
+    case PlaceOrigin::truth:
+      return "truth in " + view;
+    case PlaceOrigin::mark:
+      return "mark in " + view;
+    case PlaceOrigin::model:
+      break;
+  }
+  return "model's " + query.landmark + " in " + view;
+}
+
 void add_result(Writer& writer, int query, const MatchResult& result, const Matcher& matcher) {
   const ViewPose &from = matcher.from_frame().pose, &to = matcher.to_frame().pose;
   const std::string &first = matcher.from_frame().view, &second = matcher.to_frame().view;
   const MatchedCurve& curve = result.curve;
   writer.marker("point in " + first, query, from, result.query.from_uv);
-  if (result.query.truth) writer.marker("truth in " + second, query, to, *result.query.truth);
+  if (result.query.place) writer.marker(place_name(result.query, second), query, to, *result.query.place);
   const auto in_to = [](const ColumnPoint& p) { return p.to_uv; };
   const auto in_from = [&](const ColumnPoint&) { return result.query.from_uv; };
   add_column(
@@ -127,20 +141,41 @@ PolyLines curve_lines(const Matcher& matcher, const std::vector<MatchResult>& re
 Table curve_table(const Matcher& matcher, const std::vector<MatchResult>& results) {
   std::string view = matcher.from_frame().view;
   for (char& letter : view) letter = char(std::tolower(static_cast<unsigned char>(letter)));
+  const auto known = std::find_if(results.begin(), results.end(),
+                                  [](const auto& r) { return r.query.place.has_value(); });
+  const std::string whose =
+      place_word(known == results.end() ? PlaceOrigin::model : known->query.origin);
   Table table;
-  table.columns = {"query",          "landmark",          "status",           view + "_u_mm",
-                   view + "_v_mm",   "column_mm",         "curve_mm",         "chord_mm",
-                   "max_bend_mm",    "reference_bend_mm", "behind_image_mm",  "nipple_distance_mm",
-                   "true_u_mm",      "true_v_mm",         "true_to_curve_mm", "true_to_chord_mm",
-                   "true_to_arc_mm", "true_to_line_mm",   "band_95_area_mm2", "true_over_deviation",
-                   "in_band_50",     "in_band_95"};
+  table.columns = {"query",
+                   "landmark",
+                   "status",
+                   view + "_u_mm",
+                   view + "_v_mm",
+                   "column_mm",
+                   "curve_mm",
+                   "chord_mm",
+                   "max_bend_mm",
+                   "reference_bend_mm",
+                   "behind_image_mm",
+                   "nipple_distance_mm",
+                   whose + "_u_mm",
+                   whose + "_v_mm",
+                   whose + "_to_curve_mm",
+                   whose + "_to_chord_mm",
+                   whose + "_to_arc_mm",
+                   whose + "_to_line_mm",
+                   "band_95_area_mm2",
+                   whose + "_over_deviation",
+                   "in_band_50",
+                   "in_band_95",
+                   "inside_image_percent"};
   for (std::size_t q = 0; q < results.size(); ++q) {
     const MatchResult& r = results[q];
-    const bool tissue = !r.curve.in_air(), truth = tissue && r.query.truth.has_value();
+    const bool tissue = !r.curve.in_air(), placed = tissue && r.query.place.has_value();
     const bool nipple = tissue && r.nipple_distance > 0;
     const auto in_band = [&](double width) -> std::string {
-      if (!truth || !r.band) return "-";
-      return std::abs(r.truth_standardised) <= width ? "1" : "0";
+      if (!r.judged() || !r.band) return "-";  // a place of the model itself proves no band
+      return std::abs(r.place_standardised) <= width ? "1" : "0";
     };
     table.rows.push_back({std::to_string(q),
                           r.query.landmark.empty() ? "-" : r.query.landmark,
@@ -154,16 +189,18 @@ Table curve_table(const Matcher& matcher, const std::vector<MatchResult>& result
                           number_or_dash(tissue, r.curve.reference_deviation),
                           number_or_dash(tissue, r.curve.behind_image),
                           number_or_dash(nipple, r.nipple_distance),
-                          number_or_dash(truth, truth ? r.query.truth->x() : 0),
-                          number_or_dash(truth, truth ? r.query.truth->y() : 0),
-                          number_or_dash(truth, r.truth_to_curve),
-                          number_or_dash(truth, r.truth_to_chord),
-                          number_or_dash(truth && nipple, r.truth_to_arc),
-                          number_or_dash(truth && nipple, r.truth_to_line),
+                          number_or_dash(placed, placed ? r.query.place->x() : 0),
+                          number_or_dash(placed, placed ? r.query.place->y() : 0),
+                          number_or_dash(placed, r.place_to_curve),
+                          number_or_dash(placed, r.place_to_chord),
+                          number_or_dash(placed && nipple, r.place_to_arc),
+                          number_or_dash(placed && nipple, r.place_to_line),
                           number_or_dash(r.band.has_value(), r.band ? r.band->area_95 : 0),
-                          number_or_dash(truth && r.band, r.truth_standardised),
+                          number_or_dash(placed && r.band, r.place_standardised),
                           in_band(half_width_50),
-                          in_band(half_width_95)});
+                          in_band(half_width_95),
+                          number_or_dash(r.curve.length > 0,
+                                         100 * r.curve.inside_image / r.curve.length)});
   }
   return table;
 }

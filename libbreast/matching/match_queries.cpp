@@ -10,6 +10,18 @@
 
 namespace breast {
 
+const char* place_word(PlaceOrigin origin) {
+  switch (origin) {
+    case PlaceOrigin::truth:
+      return "true";
+    case PlaceOrigin::mark:
+      return "marked";
+    case PlaceOrigin::model:
+      break;
+  }
+  return "model";
+}
+
 std::string MatchResult::status() const {
   if (curve.in_air()) return "air";
   if (curve.through_back) return "through_chest_wall";
@@ -25,22 +37,22 @@ MatchResult match_query(const Matcher& matcher, const MatchQuery& query, const B
   result.nipple_distance = matcher.nipple_distance(query.from_uv);
   result.depth_line = matcher.nipple_depth_line(query.from_uv);
   if (band != nullptr) result.band = band->band(result.curve);
-  if (!query.truth) return result;
-  const Vec2& truth = *query.truth;
-  result.truth_to_curve = distance_to_curve(result.curve, truth);
-  if (result.band) result.truth_standardised = standardised_distance(*result.band, truth);
+  if (!query.place) return result;
+  const Vec2& place = *query.place;
+  result.place_to_curve = distance_to_curve(result.curve, place);
+  if (result.band) result.place_standardised = standardised_distance(*result.band, place);
   const auto from_nipple = matcher.from_landmark("nipple"),
              to_nipple = matcher.to_landmark("nipple");
   if (from_nipple && to_nipple) {
     const auto [first, second] = query.nipples.value_or(std::pair(*from_nipple, *to_nipple));
-    const Vec2 behind = query.from_uv - first, there = truth - second;
-    result.truth_to_arc = std::abs(there.norm() - behind.norm());
-    result.truth_to_line = std::abs(there.x() - behind.x());
+    const Vec2 behind = query.from_uv - first, there = place - second;
+    result.place_to_arc = std::abs(there.norm() - behind.norm());
+    result.place_to_line = std::abs(there.x() - behind.x());
   }
   MatchedCurve chord;
   chord.points = {result.curve.points.front(), result.curve.points.back()};
   chord.points.back().stretch = chord.points.front().stretch;
-  result.truth_to_chord = distance_to_curve(chord, truth);
+  result.place_to_chord = distance_to_curve(chord, place);
   return result;
 }
 
@@ -56,14 +68,15 @@ std::vector<MatchResult> match_queries(const Matcher& matcher,
 }
 
 MatchQuery landmark_query(const Matcher& matcher, const std::string& name) {
-  const auto uv = matcher.from_landmark(name);
-  if (!uv) {
+  const Landmark* landmark = matcher.from().landmark(name);
+  if (landmark == nullptr) {
     std::string names;
-    for (const Landmark& landmark : matcher.from().landmarks) names += " " + landmark.name;
+    for (const Landmark& known : matcher.from().landmarks) names += " " + known.name;
     throw input_error("the meshes have no landmark \"", name,
                       "\"; they have:", names.empty() ? " none" : names);
   }
-  return {*uv, name, matcher.to_landmark(name)};
+  return {*matcher.from_landmark(name), landmark->name, matcher.to_landmark(name),
+          PlaceOrigin::model};
 }
 
 std::vector<MatchQuery> grid_queries(const Matcher& matcher, int n) {
@@ -82,7 +95,7 @@ std::vector<MatchQuery> grid_queries(const Matcher& matcher, int n) {
     for (int i = 0; i < n; ++i) {
       const Vec2 f((i + 0.5) / n, (j + 0.5) / n);
       const Vec2 uv = low + f.cwiseProduct(high - low);
-      if (matcher.tissue_in_from(uv)) queries.push_back({uv, "", std::nullopt});
+      if (matcher.tissue_in_from(uv)) queries.push_back({uv, "", std::nullopt, {}});
     }
   }
   return queries;
@@ -98,7 +111,7 @@ std::vector<MatchQuery> point_queries(const Table& table, const std::string& whe
     const auto cell = [&](int column) {
       return parse_number(table.rows[r][std::size_t(column)], row);
     };
-    MatchQuery query{{cell(u), cell(v)}, "", std::nullopt};
+    MatchQuery query{{cell(u), cell(v)}, "", std::nullopt, {}};
     if (uv_of_pixel) query.from_uv = uv_of_pixel(query.from_uv);
     if (table.has("name")) query.landmark = table.cell(r, "name");
     queries.push_back(query);
@@ -125,7 +138,7 @@ std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table
       ++behind;
       continue;
     }
-    queries.push_back({uv, name, truth});
+    queries.push_back({uv, name, truth, PlaceOrigin::truth});
   }
   for (MatchQuery& query : queries) query.nipples = nipples;
   if (queries.empty()) {

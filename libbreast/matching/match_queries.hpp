@@ -13,11 +13,18 @@
 
 namespace breast {
 
+/// Who says where a point lies in the second image: the same model's own landmark (which checks the
+/// mapping and nothing else), the user's second mark, or a table of truth.
+enum class PlaceOrigin { model, mark, truth };
+/// "model", "marked" or "true": what keys and columns about such a place begin with.
+const char* place_word(PlaceOrigin origin);
+
 /// A point of the first image asked about.
 struct MatchQuery {
   Vec2 from_uv;
   std::string landmark;       ///< name when the point is a landmark's projection, else empty
-  std::optional<Vec2> truth;  ///< where it truly lies in the second image, when that is known
+  std::optional<Vec2> place;  ///< where it lies in the second image, when somebody says so
+  PlaceOrigin origin = PlaceOrigin::model;
   /// The true nipple in both images: the usual rules are then judged as they would be read there.
   std::optional<std::pair<Vec2, Vec2>> nipples = std::nullopt;
 };
@@ -30,10 +37,15 @@ struct MatchResult {
   double nipple_distance = 0;        ///< mm, 0 without a nipple
   std::optional<double> depth_line;  ///< mm, u of the straight rule in the second image
   std::optional<Band> band;          ///< when asked for
-  /// mm from the truth; with `query.truth` only, arc and line with a nipple only.
-  double truth_to_curve = 0, truth_to_arc = 0, truth_to_line = 0, truth_to_chord = 0;
-  double truth_standardised = 0;  ///< distance across the curve over the band's deviation
-  /// "matched", "air", "through_chest_wall", "behind_image" (part of the curve).
+  /// mm from the place; with `query.place` only, arc and line with a nipple only.
+  double place_to_curve = 0, place_to_arc = 0, place_to_line = 0, place_to_chord = 0;
+  double place_standardised = 0;  ///< distance across the curve over the band's deviation
+  /// A true place is known, and the point is not in air.
+  bool judged() const {
+    return query.place && query.origin == PlaceOrigin::truth && !curve.in_air();
+  }
+  /// "matched" (the whole curve lies in the second image), "air", "through_chest_wall",
+  /// "behind_image" (part of the curve).
   std::string status() const;
 };
 MatchResult match_query(const Matcher& matcher, const MatchQuery& query,
@@ -44,7 +56,7 @@ std::vector<MatchResult> match_queries(const Matcher& matcher,
                                        const std::vector<MatchQuery>& queries,
                                        const BandModel* band = nullptr);
 
-/// A landmark of the meshes: its projection, with its own place in the second view as truth.
+/// A landmark of the meshes: its projection, and the model's own place of it in the second view.
 /// Throws Error (input) listing the landmarks there are.
 MatchQuery landmark_query(const Matcher& matcher, const std::string& name);
 /// N × N points spread over the tissue of the first image, those in air left out.
@@ -60,18 +72,22 @@ std::vector<MatchQuery> point_queries(
 std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table,
                                       const std::string& where, int& behind);
 
-/// What to doubt: columns through the chest wall, curves behind the image, points in air. Throws
+/// What to doubt: columns through the chest wall, how much of the curves lies outside the second
+/// image, points outside the first image or in air. Throws
 /// Error (input) when there is nothing to report: no point, or the only one in air.
 std::vector<std::string> match_doubts(const Matcher& matcher,
                                       const std::vector<MatchResult>& results);
-/// Length, bends and distances of one result: keys from_uv_mm, curve_mm, max_bend_mm,
-/// true_to_curve_mm ...
+/// Length, bends and distances of one result: keys from_uv_mm, curve_mm, inside_image_percent,
+/// max_bend_mm, and by the origin of the place model_uv_mm, model_to_curve_mm ..., marked_... or
+/// true_...
 void report_match(const MatchResult& result, Report& report);
 /// Mean, 95 % and largest distance of the truth to "curve", "arc", "line", "chord", mm, over the
-/// results that have one: keys truth/points, truth/curve/mean_mm ..., and what part
+/// results that have a true place: keys truth/points, truth/curve/mean_mm ..., and what part
 /// of them the bands hold: truth/in_band_50_percent, truth/in_band_95_percent. Of two curves or
 /// more also how far they are from straight, in the second image and as stress-free columns:
-/// straightness/bend_mean_mm, straightness/reference_bend_mean_mm ...
+/// straightness/bend_mean_mm, straightness/reference_bend_mean_mm ... Of every status the number of
+/// queries that have it: statuses/matched, statuses/behind_image ...; inside_image_percent of all
+/// curves together.
 void report_truth(const std::vector<MatchResult>& results, Report& report);
 /// Rows "mean", "p95" and "largest" of the distances to the truth, and below "mean" of in_band_50
 /// and in_band_95 the percentages, at the end of a curve_table.

@@ -8,6 +8,26 @@
 
 namespace breast {
 
+namespace {
+
+/// mm over all curves.
+struct Lengths {
+  double curves = 0, inside = 0;
+  double outside() const { return curves - inside; }
+  double inside_percent() const { return 100 * inside / curves; }
+};
+
+Lengths lengths_of(const std::vector<MatchResult>& results) {
+  Lengths lengths;
+  for (const MatchResult& result : results) {
+    lengths.curves += result.curve.length;
+    lengths.inside += result.curve.inside_image;
+  }
+  return lengths;
+}
+
+}  // namespace
+
 std::vector<std::string> match_doubts(const Matcher& matcher,
                                       const std::vector<MatchResult>& results) {
   if (results.empty()) throw input_error("no point lies on tissue; use a larger --grid");
@@ -29,9 +49,26 @@ std::vector<std::string> match_doubts(const Matcher& matcher,
                      "columns leave the mesh through the chest wall: their curves end there though "
                      "the tissue does not");
   }
-  if (const auto behind = count("behind_image"); behind > 0) {
-    doubts.push_back(std::to_string(behind) + all + "curves lie partly behind the edge of the " +
-                     to.view + " image: the spot may not be in it");
+  const Lengths lengths = lengths_of(results);
+  if (lengths.outside() > 0.01 * lengths.curves) {
+    const auto partly = std::count_if(results.begin(), results.end(), [](const auto& result) {
+      return result.curve.length - result.curve.inside_image > 0.01 * result.curve.length;
+    });
+    doubts.push_back((results.size() == 1 ? std::string() : std::to_string(partly) + all +
+                                                                "curves leave the " + to.view +
+                                                                " image: ") +
+                     format_fixed(lengths.outside(), 1) + " of " + format_fixed(lengths.curves, 1) +
+                     " mm of curve (" +
+                     format_fixed(100 * lengths.outside() / lengths.curves, 0) +
+                     " %) lie outside the " + to.view +
+                     " image, behind its posterior edge: the spot may not be seen there");
+  }
+  const auto behind_first =
+      std::count_if(results.begin(), results.end(),
+                    [](const auto& result) { return result.query.from_uv.x() < 0; });
+  if (behind_first > 0) {
+    doubts.push_back(std::to_string(behind_first) + all + "points lie behind the posterior edge of the " +
+                     from.view + " image: nobody sees them in it");
   }
   if (const auto air = count("air"); air > 0) {
     doubts.push_back(std::to_string(air) + all + "points lie in air");
@@ -52,6 +89,7 @@ void report_match(const MatchResult& result, Report& report) {
   report.set("max_bend_mm", result.curve.max_deviation);
   report.set("reference_bend_mm", result.curve.reference_deviation);
   report.set("behind_image_mm", result.curve.behind_image);
+  report.set("inside_image_mm", result.curve.inside_image);
   if (result.band) {
     report.set("band/area_95_mm2", result.band->area_95);
     for (const auto& [cause, deviation] : result.band->by_cause) {
@@ -59,13 +97,14 @@ void report_match(const MatchResult& result, Report& report) {
     }
   }
   if (result.nipple_distance > 0) report.set("nipple_distance_mm", result.nipple_distance);
-  if (!result.query.truth) return;
-  report.set("true_uv_mm", pair(*result.query.truth));
-  report.set("true_to_curve_mm", result.truth_to_curve);
-  report.set("true_to_chord_mm", result.truth_to_chord);
+  if (!result.query.place) return;
+  const std::string word = place_word(result.query.origin);
+  report.set(word + "_uv_mm", pair(*result.query.place));
+  report.set(word + "_to_curve_mm", result.place_to_curve);
+  report.set(word + "_to_chord_mm", result.place_to_chord);
   if (!result.depth_line) return;
-  report.set("true_to_arc_mm", result.truth_to_arc);
-  report.set("true_to_line_mm", result.truth_to_line);
+  report.set(word + "_to_arc_mm", result.place_to_arc);
+  report.set(word + "_to_line_mm", result.place_to_line);
 }
 
 namespace {
@@ -79,10 +118,10 @@ struct Coverage {
 Coverage coverage_of(const std::vector<MatchResult>& results) {
   Coverage coverage;
   for (const MatchResult& result : results) {
-    if (!result.query.truth || !result.band) continue;
+    if (!result.judged() || !result.band) continue;
     ++coverage.counted;
-    coverage.in_50 += std::abs(result.truth_standardised) <= half_width_50;
-    coverage.in_95 += std::abs(result.truth_standardised) <= half_width_95;
+    coverage.in_50 += std::abs(result.place_standardised) <= half_width_50;
+    coverage.in_95 += std::abs(result.place_standardised) <= half_width_95;
   }
   return coverage;
 }
@@ -95,7 +134,7 @@ struct Summary {
 Summary summary_of(const std::vector<MatchResult>& results, double MatchResult::*distance) {
   std::vector<double> values;
   for (const MatchResult& result : results) {
-    if (result.query.truth && !result.curve.in_air()) values.push_back(result.*distance);
+    if (result.judged()) values.push_back(result.*distance);
   }
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
@@ -132,9 +171,14 @@ bool has_nipple(const std::vector<MatchResult>& results) {
 
 void report_truth(const std::vector<MatchResult>& results, Report& report) {
   report.set("queries", results.size());
-  report.set("matched",
-             std::size_t(std::count_if(results.begin(), results.end(),
-                                       [](const auto& r) { return r.status() == "matched"; })));
+  for (const char* status : {"matched", "behind_image", "through_chest_wall", "air"}) {
+    report.set(std::string("statuses/") + status,
+               std::size_t(std::count_if(results.begin(), results.end(),
+                                         [&](const auto& r) { return r.status() == status; })));
+  }
+  if (const Lengths lengths = lengths_of(results); lengths.curves > 0) {
+    report.set("inside_image_percent", lengths.inside_percent());
+  }
   report_straightness(results, report);
   if (const Coverage coverage = coverage_of(results); coverage.counted > 0) {
     report.set("truth/in_band_50_percent", coverage.percent_50());
@@ -149,11 +193,11 @@ void report_truth(const std::vector<MatchResult>& results, Report& report) {
     report.set(key + "p95_mm", summary.p95);
     report.set(key + "max_mm", summary.largest);
   };
-  summarise("curve", &MatchResult::truth_to_curve);
-  summarise("chord", &MatchResult::truth_to_chord);
+  summarise("curve", &MatchResult::place_to_curve);
+  summarise("chord", &MatchResult::place_to_chord);
   if (!has_nipple(results)) return;
-  summarise("arc", &MatchResult::truth_to_arc);
-  summarise("line", &MatchResult::truth_to_line);
+  summarise("arc", &MatchResult::place_to_arc);
+  summarise("line", &MatchResult::place_to_line);
 }
 
 void add_truth_summary(const std::vector<MatchResult>& results, Table& table) {
@@ -166,11 +210,11 @@ void add_truth_summary(const std::vector<MatchResult>& results, Table& table) {
                                     {"largest", &Summary::largest}}) {
     std::vector<std::string> row(table.columns.size(), "-");
     row[std::size_t(table.column("landmark"))] = name;
-    set(row, "true_to_curve_mm", summary_of(results, &MatchResult::truth_to_curve).*value);
-    set(row, "true_to_chord_mm", summary_of(results, &MatchResult::truth_to_chord).*value);
+    set(row, "true_to_curve_mm", summary_of(results, &MatchResult::place_to_curve).*value);
+    set(row, "true_to_chord_mm", summary_of(results, &MatchResult::place_to_chord).*value);
     if (has_nipple(results)) {
-      set(row, "true_to_arc_mm", summary_of(results, &MatchResult::truth_to_arc).*value);
-      set(row, "true_to_line_mm", summary_of(results, &MatchResult::truth_to_line).*value);
+      set(row, "true_to_arc_mm", summary_of(results, &MatchResult::place_to_arc).*value);
+      set(row, "true_to_line_mm", summary_of(results, &MatchResult::place_to_line).*value);
     }
     if (coverage.counted > 0 && name == std::string("mean")) {
       set(row, "in_band_50", coverage.percent_50());

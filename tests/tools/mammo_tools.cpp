@@ -105,11 +105,18 @@ TEST_F(MammoTools, TheTumourLiesOnItsCurve) {
   ASSERT_EQ(table.rows.size(), 1u);
   EXPECT_EQ(table.rows[0][std::size_t(table.column("status"))], "matched");
   const Report report = Report::parse(read_text(file("curve.json")), "curve.json");
-  EXPECT_LT(report.number("true_to_curve_mm"), 1e-4);
+  // The model's own place is no truth: nothing is called so.
+  EXPECT_LT(report.number("model_to_curve_mm"), 1e-4);
+  EXPECT_FALSE(report.contains("true_to_curve_mm"));
+  EXPECT_FALSE(report.contains("truth/points"));
+  EXPECT_GE(table.column("model_to_curve_mm"), 0);
+  EXPECT_FALSE(table.has("true_to_curve_mm"));
+  EXPECT_NEAR(report.number("inside_image_percent"), 100, 1e-9);
+  EXPECT_EQ(report.number("statuses/matched"), 1);
   EXPECT_LT(report.number("max_bend_mm"), 1e-5);  // both squashes are affine
   const PolyLines lines = read_polylines(file("curve.vtp"));
   for (const char* name : {"curve", "arc", "chord", "column in CC", "column in reference",
-                           "column in MLO", "truth in MLO", "nipple in CC"}) {
+                           "column in MLO", "model's tumour in MLO", "nipple in CC"}) {
     EXPECT_NE(std::find(lines.line_names.begin(), lines.line_names.end(), name),
               lines.line_names.end())
         << name;
@@ -168,7 +175,7 @@ TEST_F(MammoTools, TheOtherWayRoundAndBack) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("mlo_u_mm"), std::string::npos);
   const Report report = Report::parse(read_text(file("back.json")), "back.json");
-  EXPECT_LT(report.number("true_to_curve_mm"), 1e-3);
+  EXPECT_LT(report.number("model_to_curve_mm"), 1e-3);
   EXPECT_LT(report.number("milliseconds_per_curve"), 1000);
 }
 
@@ -183,6 +190,8 @@ TEST_F(MammoTools, TwoMarksGiveThePointInTheBody) {
   const Report report = Report::parse(read_text(file("pair.json")), "pair.json");
   EXPECT_LT(report.number("spot/residual_mm"), 0.02);
   EXPECT_LT(report.number("spot/first_to_second_mm"), 1e-3);
+  EXPECT_LT(report.number("marked_to_curve_mm"), 1e-3);  // a mark is neither truth nor model
+  EXPECT_FALSE(report.contains("true_to_curve_mm"));
   const std::string json = read_text(file("pair.json"));
   for (const char* frame : {"imaged", "reference", "supine", "CC", "MLO"}) {
     EXPECT_NE(json.find('"' + std::string(frame) + '"'), std::string::npos) << frame;
@@ -272,6 +281,52 @@ TEST_F(MammoTools, ADifferenceOfTwoModelsIsATermOfTheBand) {
       run("difference", {"cc.vtkhdf", "plus-MLO.vtkhdf", "minus-CC.vtkhdf", "no.vtkhdf"});
   EXPECT_EQ(views.exit_code, 2);
   EXPECT_EQ(views.error_lines(), 1) << views.err;
+}
+
+TEST_F(MammoTools, ABandWithoutDerivativesIsRefused) {
+  const ToolResult result = run("cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "none.vtp", "--landmark",
+                                           "tumour", "--band", "--table", "none.tsv"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.error_lines(), 1) << result.err;
+  EXPECT_NE(result.err.find("sensitivity"), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(file("none.vtp")) || fs::exists(file("none.tsv")));
+  // The marks alone, asked for by name, are no mistake.
+  write_text(file("marks.tsv"), "parameter\tstandard_deviation\npicking\t1\nmarking\t1\n");
+  EXPECT_EQ(run("cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "marks.vtp", "--landmark", "tumour", "--band",
+                           "--priors", "marks.tsv"})
+                .exit_code,
+            0);
+  // The lookup leaves the band out, and says so.
+  const ToolResult lookup = run("match-lookup", {"cc.vtkhdf", "mlo.vtkhdf", "lookup.h5", "--pitch",
+                                                 "8", "--report", "lookup.json"});
+  ASSERT_EQ(lookup.exit_code, 0) << lookup.err;
+  EXPECT_NE(lookup.err.find("no band"), std::string::npos) << lookup.err;
+  EXPECT_NE(read_text(file("lookup.json")).find("\"band\": false"), std::string::npos);
+}
+
+TEST_F(MammoTools, ACurveThatLeavesTheImageSaysHowMuchOfIt) {
+  // The MLO shape sheared so that the upper half of every column goes back behind the image's edge.
+  HexMesh mlo = read_mesh(file("mlo.vtkhdf"), {.contact = true});
+  HexMesh sheared = fixtures::deformed(mlo, "MLO", [](const Vec3& x) {
+    return Vec3(x.x(), x.y() + 0.9 * x.z(), 0.6 * x.z());
+  });
+  write_mesh(file("sheared.vtkhdf"), sheared);
+  const ToolResult result = run("cc2mlo", {"cc.vtkhdf", "sheared.vtkhdf", "s.vtp", "--grid", "6",
+                                           "--table", "s.tsv", "--report", "s.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Report report = Report::parse(read_text(file("s.json")), "s.json");
+  const double inside = report.number("inside_image_percent");
+  EXPECT_GT(inside, 5);
+  EXPECT_LT(inside, 95);
+  EXPECT_NE(result.err.find("outside the MLO image"), std::string::npos) << result.err;
+  const Table table = read_table(file("s.tsv"));
+  double length = 0, within = 0;
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    const double curve = table.number(r, "curve_mm");
+    length += curve;
+    within += curve * table.number(r, "inside_image_percent") / 100;
+  }
+  EXPECT_NEAR(100 * within / length, inside, 0.01);
 }
 
 TEST_F(MammoTools, AGridGivesOneRowAPoint) {

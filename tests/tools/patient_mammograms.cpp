@@ -12,6 +12,7 @@
 #include "fixtures/chain_files.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
+#include "io/derivative_file.hpp"
 #include "io/mammogram_dicom.hpp"
 #include "io/mammogram_file.hpp"
 #include "matching/correspondence.hpp"
@@ -60,6 +61,12 @@ class PatientMammograms : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = new ScratchFolder;
     fixtures::write_chain(folder_->path());
+    for (const std::string view : {"cc", "mlo"}) {  // a band asks for some derivative of the model
+      const HexMesh mesh = read_mesh(file(view + ".vtkhdf"), {.contact = true});
+      Derivatives derivatives;
+      derivatives.position["fat"].assign(std::size_t(mesh.nodes()), Vec3(0, 0.5, 0));
+      write_mesh(file(view + ".vtkhdf"), mesh, derivatives);
+    }
     for (const std::string view : {"cc", "mlo"}) {
       const ToolResult result =
           run("project-mammogram",

@@ -163,6 +163,30 @@ TEST(Correspondence, AirAndTheBackAreNamed) {
   EXPECT_TRUE(behind.through_back);
 }
 
+TEST(Correspondence, TheCurvesLengthInsideTheImageIsMeasured) {
+  const HexMesh cc = squashed(body(), "CC", 0.5);
+  HexMesh mlo = squashed(body(), "MLO", 0.6);
+  const Matcher whole(cc, mlo);
+  const MatchedCurve all = whole.match(*whole.from_landmark("tumour"));
+  EXPECT_NEAR(all.inside_image, all.length, 1e-9);
+  // Sheared along the column: the curve, straight, crosses the posterior edge.
+  for (Vec3& x : mlo.points) x.y() += 1.5 * x.z();
+  add_contact(mlo, "MLO");
+  const Matcher matcher(cc, mlo);
+  bool crossed = false;
+  for (double u = 2; u < 40; u += 2) {
+    const MatchedCurve curve = matcher.match({u, (*matcher.from_landmark("tumour")).y()});
+    if (curve.in_air()) continue;
+    const double a = curve.points.front().to_uv.x(), b = curve.points.back().to_uv.x();
+    if ((a < 0) == (b < 0)) continue;
+    crossed = true;
+    const double front = std::max(a, b) / std::abs(a - b);  // straight: by its ends
+    EXPECT_NEAR(curve.inside_image / curve.length, front, 1e-6);
+    EXPECT_NEAR(curve.behind_image / curve.length, 1 - front, 0.05);  // to a step
+  }
+  EXPECT_TRUE(crossed);
+}
+
 TEST(Correspondence, RefusesMeshesOfDifferentBodies) {
   const HexMesh cc = squashed(body(), "CC", 0.5), mlo = squashed(body(), "MLO", 0.6);
   HexMesh other = mlo;
