@@ -69,6 +69,11 @@ void run_hexmesh(const MeshChoices& choices, Run& run) {
   if (const auto tumour = choose_tumour(choices, labels, run)) {
     add_tumour(*tumour, mesh);
     run.report().set("tumour", tumour->origin);
+    if (tumour->artificial) {
+      run.warn(
+          "the tumour is artificial: nobody found it in the scan. It is called artificial_tumour; "
+          "give the place of a real one with --tumour x,y,z, or none");
+    }
   }
   const MeshQuality quality = mesh_quality(mesh, mesh.points);
   write_report(mesh, quality, body, tissue, run.report());

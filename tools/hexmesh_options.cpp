@@ -55,13 +55,14 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
                "8-node elements with flat faces, or 27-node ones whose boundary nodes lie on the "
                "sheets and the cut (for --element q2p1)",
                1, 2);
-  tool.text(choices.skin, "--skin", "MM|0|measured", "thickness of the skin in mm");
+  tool.text(choices.skin, "--skin", "MM|0|measured", "thickness of the skin in mm, from 0.1 to 10, or 0 for none");
   tool.choice(choices.skin_as, "--skin-as", {"membrane", "layer"},
               "skin as a membrane on the outer faces or as the outermost layer of elements");
   tool.text(
       choices.tumour, "--tumour", "auto|none|x,y,z[:radius]|FILE",
       "tumour point in patient LPS mm; with a radius, elements inside become tumour; FILE is a "
-      ".tsv with columns x_mm y_mm z_mm [radius_mm], or labels with tumour voxels");
+      ".tsv with columns x_mm y_mm z_mm [radius_mm], or labels with tumour voxels; auto: the one of "
+      "the labels, else an artificial one on the gland's edge, landmark artificial_tumour");
   tool.output_file(choices.surface, "--surface", "OUT.vtp",
                    "the mesh's closed boundary as triangles; scalar part: 0 skin, 1 lateral cut, 2 "
                    "chest wall");

@@ -113,9 +113,10 @@ void draw_matching(Picture& picture, const FigureInput& input) {
   const View side = lateral_view(any.side);
   std::vector<Shape> shapes;
   if (cc != nullptr) {
-    shapes.push_back(
-        {*cc, cc->points, "column in CC", "CC: the pixel's column (green), tumour (yellow)",
-         plate_view(*cc)});
+    const std::string tumour = tumour_words(*cc);
+    shapes.push_back({*cc, cc->points, "column in CC",
+                      "CC: the pixel's column (green)" + (tumour.empty() ? "" : ", " + tumour),
+                      plate_view(*cc)});
   }
   shapes.push_back({any,
                     any.reference.empty() ? any.imaged : any.reference,

@@ -47,13 +47,14 @@ const std::vector<Figure>& figures() {
        "force of both plates on the way to the compressed shape (compressed .vtkhdf)", 1600, 700,
        false, false, draw_force_thickness},
       {"mammogram",
-       "mammograms with axes in mm (one or two .vti), curve, arc and tumour (curve .vtp)", 1600,
+       "mammograms with axes in mm (one or two .vti), maybe curve, arc and tumour (curve .vtp)", 1600,
        1000, false, false, draw_mammogram},
       {"matching",
        "the column in CC, reference and MLO (cc.vtkhdf mlo.vtkhdf, or one of them, curve.vtp)",
        1800, 680, false, false, draw_matching},
       {"summary",
-       "the whole chain (mesh reference supine cc mlo .vtkhdf, cc.vti mlo.vti, curve.vtp)", 2000,
+       "the whole chain (mesh reference supine cc mlo .vtkhdf, cc.vti mlo.vti, maybe curve.vtp)",
+       2000,
        1250, false, false, draw_summary},
   };
   return list;

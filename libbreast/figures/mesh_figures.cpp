@@ -106,7 +106,9 @@ void draw_tissues(Picture& picture, const FigureInput& input) {
   const BodyStyle style{.skin_opacity = 0.28, .inside = true, .gland_opacity = 0.75};
   Panel& left = picture.panel(0, 0, 0.5, 1);
   add_body(left, mesh, mesh.points, style);
-  finish(left, lateral_view(mesh.side), "(a) fibroglandular (dark), tumour (yellow), muscle (red)");
+  const std::string tumour = tumour_words(mesh);
+  finish(left, lateral_view(mesh.side),
+         "(a) fibroglandular (dark), " + (tumour.empty() ? "" : tumour + ", ") + "muscle (red)");
   Panel& right = picture.panel(0.5, 0, 1, 1);
   add_body(right, mesh, mesh.points, style);
   finish(right, anterior_view(),

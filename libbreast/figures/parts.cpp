@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "core/units.hpp"
+#include "mesh/landmark_names.hpp"
 
 namespace breast {
 
@@ -58,6 +59,12 @@ void add_body(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
   const Facets lesion = tissue_facets(mesh, nodal, Tissue::tumour);
   if (!lesion.quads.empty()) panel.surface(lesion, {.colour = palette::tumour});
   add_landmark(panel, mesh, nodal, "tumour", 4, palette::tumour);
+}
+
+std::string tumour_words(const HexMesh& mesh) {
+  const Landmark* landmark = mesh.landmark("tumour");
+  if (landmark == nullptr) return "";
+  return landmark->name == artificial_tumour ? "artificial tumour (yellow)" : "tumour (yellow)";
 }
 
 namespace {

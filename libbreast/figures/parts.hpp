@@ -45,6 +45,8 @@ void add_plates(Panel& panel, const HexMesh& mesh, double opacity);
 /// A landmark of the mesh as a sphere; nothing when it has none of that name.
 void add_landmark(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
                   const std::string& name, double radius, const Colour& colour);
+/// "tumour (yellow)", "artificial tumour (yellow)", or nothing for a mesh without one.
+std::string tumour_words(const HexMesh& mesh);
 /// "MLO (left), 46.2 mm, 91 / 93 N" of a compressed mesh: forces of paddle and detector.
 std::string compression_caption(const HexMesh& mesh);
 

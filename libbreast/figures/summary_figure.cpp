@@ -70,8 +70,10 @@ Vec3 middle_of(const HexMesh& mesh) {
 void draw_summary(Picture& picture, const FigureInput& input) {
   const Chain chain = sort_meshes(input);
   need(chain.imaged && chain.reference && chain.supine && chain.cc && chain.mlo &&
-           input.images.size() >= 2 && input.curves,
-       "summary", "five meshes, two mammograms and the curve");
+           input.images.size() >= 2,
+       "summary", "five meshes and two mammograms");
+  const PolyLines* curves = input.curves ? &*input.curves : nullptr;
+  const std::string tumour = tumour_words(*chain.imaged);
   const View side = lateral_view(chain.imaged->side);
   const double split = 0.54;
   const double aspect = 0.2 * summary_width / ((1 - split) * summary_height);
@@ -80,7 +82,8 @@ void draw_summary(Picture& picture, const FigureInput& input) {
     const HexMesh* mesh;
     std::string caption;
   };
-  const std::vector<Shape> shapes = {{chain.imaged, "(a) as imaged, prone"},
+  const std::vector<Shape> shapes = {
+      {chain.imaged, "(a) as imaged, prone" + (tumour.empty() ? "" : "; " + tumour)},
                                      {chain.reference, "(b) stress-free"},
                                      {chain.supine, "(c) supine"}};
   const BodyStyle style{.skin_opacity = 0.3, .inside = true, .gland_opacity = 0.7};
@@ -97,8 +100,10 @@ void draw_summary(Picture& picture, const FigureInput& input) {
     Panel& panel = picture.panel(0.6 + 0.2 * double(k), split, 0.8 + 0.2 * double(k), 1);
     add_body(panel, *pressed[k].mesh, pressed[k].mesh->points, style);
     add_plates(panel, *pressed[k].mesh, 0.4);
-    for (const auto& line : named_lines(*input.curves, k == 0 ? "column in CC" : "column in MLO")) {
-      panel.tube(line, 1.2, palette::column);
+    if (curves != nullptr) {
+      for (const auto& line : named_lines(*curves, k == 0 ? "column in CC" : "column in MLO")) {
+        panel.tube(line, 1.2, palette::column);
+      }
     }
     const View view = plate_view(*pressed[k].mesh);
     panel.look_along(view.direction, view.up, 0.1);
@@ -108,7 +113,7 @@ void draw_summary(Picture& picture, const FigureInput& input) {
   }
   for (std::size_t k = 0; k < 2; ++k) {
     Panel& panel = picture.panel(0.5 * double(k), 0, 0.5 * double(k + 1), split);
-    add_mammogram(panel, input.images[k], &*input.curves, k == 0 ? "(f) " : "(g) ");
+    add_mammogram(panel, input.images[k], curves, k == 0 ? "(f) " : "(g) ");
   }
 }
 

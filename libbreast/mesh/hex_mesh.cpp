@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "mesh/landmark_names.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {
@@ -20,7 +21,8 @@ constexpr std::array<std::array<int, 5>, 6> quadratic_face_rest = {{{16, 15, 19,
 const Landmark* HexMesh::landmark(std::string_view name) const {
   const auto found = std::find_if(landmarks.begin(), landmarks.end(),
                                   [&](const Landmark& l) { return l.name == name; });
-  return found == landmarks.end() ? nullptr : &*found;
+  if (found != landmarks.end()) return &*found;
+  return name == "tumour" ? landmark(artificial_tumour) : nullptr;
 }
 
 std::vector<int> face_nodes(const HexMesh& mesh, const Face& face) {

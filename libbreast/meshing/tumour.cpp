@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "mesh/landmark_names.hpp"
 #include "mesh/locate.hpp"
 #include "meshing/tissue.hpp"
 
@@ -92,10 +93,10 @@ void check_radius(double radius, const std::string& where) {
 
 std::optional<Tumour> automatic_tumour(const LabelVolume& labels) {
   if (const auto named = labels.landmarks.find("tumour"); named != labels.landmarks.end()) {
-    return Tumour{named->second, 0, "landmark of the labels"};
+    return Tumour{named->second, 0, "landmark of the labels", false};
   }
   const Region marked = region_of(labels, Tissue::tumour);
-  if (marked.voxels > 0) return Tumour{marked.centroid, 0, "centroid of tumour voxels"};
+  if (marked.voxels > 0) return Tumour{marked.centroid, 0, "centroid of tumour voxels", false};
   const Region gland = region_of(labels, Tissue::fibroglandular);
   if (gland.voxels == 0) return std::nullopt;
   const Vec3 upper_outer = Vec3(lateral_sign(labels.side), 0, 1).normalized();
@@ -114,6 +115,7 @@ std::optional<Tumour> automatic_tumour(const LabelVolume& labels) {
   if (!std::isfinite(best_any)) return std::nullopt;
   Tumour& chosen = std::isfinite(best_clear) ? clear : any;
   chosen.origin = "artificial, on the edge of the fibroglandular region";
+  chosen.artificial = true;
   return chosen;
 }
 
@@ -122,14 +124,14 @@ Tumour tumour_of(const LabelVolume& labels, const std::string& name) {
   if (region.voxels == 0) throw input_error("--tumour ", name, ": the labels hold no tumour voxel");
   const double volume = double(region.voxels) * labels.grid.voxel_volume();
   return {region.centroid, std::cbrt(3 * volume / (4 * std::numbers::pi)),
-          "tumour voxels of " + name};
+          "tumour voxels of " + name, false};
 }
 
 Tumour read_tumour(const std::filesystem::path& file) {
   const Table table = read_table(file);
   const std::string name = file.filename().string();
   if (table.rows.empty()) throw input_error("--tumour ", name, ": the table has no row");
-  Tumour tumour{table.point(0, ""), 0, "first row of " + name};
+  Tumour tumour{table.point(0, ""), 0, "first row of " + name, false};
   if (table.has("radius_mm")) {
     tumour.radius = table.number(0, "radius_mm");
     check_radius(tumour.radius, name);
@@ -169,13 +171,18 @@ void add_nipple(HexMesh& mesh) {
 void add_tumour(const Tumour& tumour, HexMesh& mesh, double max_moved) {
   const Locator locator(mesh, mesh.imaged);
   const Location found = locator.nearest(tumour.centre);
+  if (!(found.moved <= max_moved) && tumour.artificial) {
+    throw input_error("the artificial tumour lies ", found.moved, " mm outside the mesh; at most ",
+                      max_moved, ": give a place with --tumour x,y,z or go without (--tumour none)");
+  }
   if (!(found.moved <= max_moved)) {
     throw input_error("tumour at (", tumour.centre.x(), ", ", tumour.centre.y(), ", ",
                       tumour.centre.z(), ") mm lies ", found.moved,
                       " mm outside the mesh; at most ", max_moved,
                       ": check the side and that the point is in patient LPS mm");
   }
-  mesh.landmarks.push_back({"tumour", tumour.centre, found.element, found.local, found.moved});
+  mesh.landmarks.push_back({tumour.artificial ? std::string(artificial_tumour) : "tumour",
+                            tumour.centre, found.element, found.local, found.moved});
   mesh.tumour_node = nearest_node(mesh.imaged, tumour.centre);
   if (!(tumour.radius > 0)) return;
   for (int e = 0; e < mesh.elements(); ++e) {

@@ -14,6 +14,7 @@ struct Tumour {
   Vec3 centre{0, 0, 0};  ///< mm, LPS, MR frame
   double radius = 0;     ///< mm; 0: a point, no element becomes tumour
   std::string origin;    ///< how it was chosen, for the report
+  bool artificial = false;  ///< nobody found it: its landmark is called artificial_tumour
 };
 
 /// The tumour of the labels (landmark "tumour", else centroid of tumour voxels), else an artificial
@@ -37,7 +38,7 @@ Tumour tumour_of(const LabelVolume& labels, const std::string& name);
 /// mesh.geometry.
 void add_nipple(HexMesh& mesh);
 
-/// Landmark tumour and tumour_node; with a radius, elements at least half inside the ball become
+/// Landmark "tumour" (or "artificial_tumour", mesh/landmark_names.hpp) and tumour_node; with a radius, elements at least half inside the ball become
 /// tumour (the element holding the centre always does). Throws Error (input) when the centre lies
 /// more than `max_moved` mm outside the mesh.
 void add_tumour(const Tumour& tumour, HexMesh& mesh, double max_moved = 10);

@@ -76,6 +76,10 @@ TEST_F(HexmeshTool, DefaultIsADomeWithMembraneSkinAndTumour) {
   EXPECT_EQ(mesh.history.size(), 3u);
   ASSERT_NE(mesh.landmark("nipple"), nullptr);
   ASSERT_NE(mesh.landmark("tumour"), nullptr);
+  EXPECT_EQ(mesh.landmark("tumour")->name, "artificial_tumour");
+  EXPECT_NE(result.err.find("artificial"), std::string::npos) << result.err;
+  const ToolResult probe = run_tool("probe", {"mesh.vtkhdf", "--landmarks", "tumour"}, folder_.path());
+  EXPECT_NE(probe.out.find("artificial_tumour_x_mm"), std::string::npos) << probe.out;
   EXPECT_LT(mesh.landmark("nipple")->moved, 0.01);
   const Report report = Report::parse(read_text(folder_ / "r.json"), "r.json");
   EXPECT_EQ(report.number("elements"), 4000);
@@ -194,6 +198,8 @@ TEST_F(HexmeshTool, BadUseIsOneLineAndNoFile) {
                                                   {"--dome", "10,10,0,3"},
                                                   {"--dome", "4,4,2.5,1"},
                                                   {"--skin", "-1"},
+                                                  {"--skin", "0.00145"},
+                                                  {"--skin", "1450"},
                                                   {"--skin", "measured"},
                                                   {"--tumour", "0,0"},
                                                   {"--tumour", "0,-300,0"},

@@ -78,7 +78,10 @@ TEST_F(Render, EveryFigureIsDrawn) {
       {"matching", {"mlo.vtkhdf", "curve.vtp"}},
       {"summary",
        {"mesh.vtkhdf", "reference.vtkhdf", "supine.vtkhdf", "cc.vtkhdf", "mlo.vtkhdf", "cc.vti",
-        "mlo.vti", "curve.vtp"}}};
+        "mlo.vti", "curve.vtp"}},
+      {"summary",  // a case without a tumour has no curve
+       {"mesh.vtkhdf", "reference.vtkhdf", "supine.vtkhdf", "cc.vtkhdf", "mlo.vtkhdf", "cc.vti",
+        "mlo.vti"}}};
   for (const auto& [name, inputs] : figures) {
     std::vector<std::string> arguments = inputs;
     arguments.insert(arguments.end(), {"--figure", name, "-o", name + ".png"});

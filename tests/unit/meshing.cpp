@@ -373,8 +373,22 @@ TEST(Tumour, AutomaticPointLiesOnTheEdgeOfTheGland) {
   for (const HexMesh* mesh : {&coarse, &fine}) {
     const Landmark* landmark = mesh->landmark("tumour");
     ASSERT_NE(landmark, nullptr);
+    EXPECT_EQ(landmark->name, "artificial_tumour");  // nobody found it
     EXPECT_EQ(landmark->moved, 0);
     EXPECT_LT((landmark_position(*mesh, mesh->imaged, *landmark) - tumour->centre).norm(), 1e-9);
+  }
+}
+
+TEST(Tumour, OneOfTheLabelsOrGivenIsNotCalledArtificial) {
+  LabelVolume labels = ball_of_gland(Vec3(0, 45, 0), 22);
+  labels.landmarks["tumour"] = Vec3(3, 45, 2);
+  HexMesh marked = body_mesh(analytic_breast(), {.size = dome_near(8)}), given = marked;
+  add_tumour(*automatic_tumour(labels), marked);
+  add_tumour(parse_tumour("5,45,3"), given);
+  for (const HexMesh* mesh : {&marked, &given}) {
+    ASSERT_NE(mesh->landmark("tumour"), nullptr);
+    EXPECT_EQ(mesh->landmark("tumour")->name, "tumour");
+    EXPECT_EQ(mesh->landmark("artificial_tumour"), nullptr);
   }
 }
 
