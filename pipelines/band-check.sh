@@ -6,6 +6,7 @@
 # scatter of the samples' own figures, and of a single sample the binomial one (Wilson), as if its places were
 # independent.
 set -euo pipefail
+export LC_ALL=C
 printf "rows\tsamples\tfailed\tplaces\tin_50_percent\tin_50_from\tin_50_to\tin_95_percent\tin_95_from\tin_95_to\trms_mm\tband_rms_mm\thalf_50_ratio\thalf_95_ratio\n"
 for file in "$@"; do
   rows() { awk '!/^#/' "$file"; }

@@ -2,6 +2,7 @@
 # The paper's conclusions judged for several models, side by side: judge.sh CONCLUSIONS.tsv NAME=VALUES...
 # VALUES are what conclusions.sh prints. Two columns a model: its value, and whether it lies in the bounds.
 set -euo pipefail
+export LC_ALL=C
 conclusions=$1
 shift
 names=() files=()

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Seconds of the mammogram stages of a finished run, on an otherwise idle machine: mammo-times.sh BIN RUN.
 set -euo pipefail
+export LC_ALL=C
 bin=$1 run=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

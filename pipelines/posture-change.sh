@@ -3,6 +3,7 @@
 # writes NAME-reference.vtkhdf and NAME-supine.vtkhdf with their reports. Where a solve does not converge, the reason
 # stays in NAME.failed: a finding, not an error.
 set -euo pipefail
+export LC_ALL=C
 attempt=$(dirname "$0")/attempt.sh
 mesh=$1 name=$2 backward=$3 forward=$4
 shift 4

@@ -2,6 +2,7 @@
 # Installs the Debian packages named in pipelines/packages.txt that are missing; where it may not
 # install, says which to install and stops.
 set -euo pipefail
+export LC_ALL=C
 list=$(dirname "$0")/packages.txt
 missing=()
 while read -r package _; do

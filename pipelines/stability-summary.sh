@@ -3,6 +3,7 @@
 # A row a direction (compression: one) and outcome: how many cases, the worst of what they say, the seconds of all; the
 # names of those that did not converge, or ended otherwise than their case states.
 set -euo pipefail
+export LC_ALL=C
 printf 'solve\toutcome\tcases\tworst_residual\tleast_det_F\tmost_newton\tseconds\twhich\n'
 # summary NAME OUTCOME RESIDUAL DET_F NEWTON SECONDS SOLVE VERDICT: the columns of these names; SOLVE may be text after "=".
 summary() {

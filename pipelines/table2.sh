@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Table II: the polynomial constants used beside the paper's, Pa: table2.sh PAPER.tsv MATERIALS.tsv
 set -euo pipefail
+export LC_ALL=C
 awk -F'\t' -v OFS='\t' '
   BEGIN { count = split("a10_Pa a01_Pa a20_Pa a02_Pa a11_Pa", names, " ") }
   /^#/ { next }

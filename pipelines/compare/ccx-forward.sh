@@ -5,6 +5,7 @@
 # Writes a deck, runs ccx on it, reads its displacements back. BIN: folder of our programs. KEEP=FOLDER
 # keeps deck, log and result there. Exit codes are those of forward.
 set -euo pipefail
+export LC_ALL=C
 bin=$(realpath "${BIN:-$(dirname "$0")/../../build/release/bin}")
 command -v ccx > /dev/null || { echo "ccx-forward: CalculiX is missing (Debian: calculix-ccx)" >&2; exit 1; }
 [ $# -ge 2 ] || { echo "ccx-forward: usage: ccx-forward.sh REFERENCE DEFORMED [options]" >&2; exit 2; }

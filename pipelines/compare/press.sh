@@ -5,6 +5,7 @@
 # contact: CalculiX presses with two rigid plates, node to surface, PENALTY Pa/mm; prescribed: it is told what the nodes of
 # both faces do (no contact to be found), the easier task. Nodes on the clamped edge are left out, as in bench_pressed_block.
 set -euo pipefail
+export LC_ALL=C
 out=$1 n=$2 ratio=$3 element=$4 gap=$5 mode=$6
 bin=${BIN:-build/release/bin}
 work=${out%.tsv}
