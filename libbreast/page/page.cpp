@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <set>
 #include <span>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "core/table.hpp"
@@ -14,6 +15,24 @@ namespace breast {
 extern const char* const page_html;
 
 namespace {
+
+// A text as a JavaScript string inside an HTML page. Names come from files that anybody may have
+// written: no byte of them may end the string or the script element.
+std::string quoted(const std::string& text) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f || std::string_view("\"\\<>&'/").find(c) != std::string_view::npos) {
+      out += "\\u00";
+      out += digits[byte >> 4];
+      out += digits[byte & 15];
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
 
 std::string base64(std::span<const unsigned char> bytes) {
   constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -52,7 +71,7 @@ std::string image_json(const Mammogram& image) {
                                   8));
     }
   }
-  return "{\"view\":\"" + image.view + "\",\"width\":" + std::to_string(width) +
+  return "{\"view\":" + quoted(image.view) + ",\"width\":" + std::to_string(width) +
          ",\"height\":" + std::to_string(height) +
          ",\"pixel\":" + format_number(image.pixel * skip) +
          ",\"u_mm\":" + format_number(image.pixel * (image.width - 1)) +
@@ -103,8 +122,8 @@ std::string lookup_page(const MatchLookup& lookup, const Mammogram& from, const 
       ",\"status\":" + encoded(lookup.status) + ",\"depth\":" + encoded(lookup.depth) +
       ",\"curve\":" + encoded(lookup.curve) + ",\"deviation\":" + encoded(lookup.deviation) +
       ",\"across\":" + encoded(lookup.across) + ",\"imaged\":" + encoded(lookup.imaged) +
-      ",\"from\":" + image_json(from) + ",\"to\":" + image_json(to) + ",\"band_without\":\"" +
-      without + "\",\"body\":" + body_json(body) + "}";
+      ",\"from\":" + image_json(from) + ",\"to\":" + image_json(to) + ",\"band_without\":" +
+      quoted(without) + ",\"body\":" + body_json(body) + "}";
   std::string page = page_html;
   const std::string mark = "\"DATA\"";
   page.replace(page.find(mark), mark.size(), data);

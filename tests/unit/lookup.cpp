@@ -89,3 +89,21 @@ TEST(Page, IsOneFileWithImagesAndCurves) {
   EXPECT_EQ(end - start, 4 * ((lookup.curve.size() * sizeof(float) + 2) / 3));
   EXPECT_THROW(lookup_page(lookup, mlo, cc, scene.cc), Error);
 }
+
+// Names come from files: none of their bytes may end a string or the script.
+TEST(Page, NamesCannotBecomeCode) {
+  Scene scene;
+  const std::string hostile = "</script><script>alert(\"1\")</script>\\'&\n";
+  MatchLookup lookup = match_lookup(scene.matcher, &scene.band, 8);
+  lookup.band_without = {hostile};
+  lookup.from_view = "CC" + hostile;
+  Mammogram cc = project_mammogram(scene.cc, {.pixel = 2});
+  const Mammogram mlo = project_mammogram(scene.mlo, {.pixel = 2});
+  cc.view = lookup.from_view;
+  const std::string page = lookup_page(lookup, cc, mlo, scene.cc);
+  EXPECT_EQ(page.find("alert(\"1"), std::string::npos);
+  EXPECT_EQ(page.find("</script><script>"), std::string::npos);
+  EXPECT_EQ(page.find("</script>"), page.rfind("</script>"));
+  EXPECT_NE(page.find("\\u003c\\u002fscript\\u003e"), std::string::npos);
+  EXPECT_NE(page.find("Content-Security-Policy"), std::string::npos);
+}
