@@ -1,6 +1,8 @@
 // calibrate: the phantom whose landmarks move as far as wanted.
 #include "calibration/calibrate.hpp"
 
+#include <array>
+
 #include "cli/tool.hpp"
 #include "core/table.hpp"
 
@@ -21,7 +23,8 @@ void declare(Tool& tool, Choices& c) {
       "which nipple and tumour move as far as wanted from the prone to the supine and to the "
       "stress-free shape. Least "
       "squares "
-      "by BOBYQA (NLopt) on a coarse phantom mesh; prints the parameters to put into the preset. "
+      "by BOBYQA (NLopt) on a coarse phantom mesh; prints the parameters to put into the preset, "
+      "with the bounds between which they were sought, and warns of one that lies on a bound. "
       "Motions are what a chain would report: its own are --gain times the phantom's, measured "
       "once.");
   tool.cite("Pathmanathan et al. 2008, Tables III and IV: 8.8 and 3.0 mm, 4.5 and 1.6 mm")
@@ -45,23 +48,25 @@ void run_calibrate(const Choices& c, Run& run) {
   const Calibration found =
       calibrate(c.preset, std::uint64_t(c.seed), side_from_name(c.side), wanted,
                 load_materials(c.materials), {4, 2, 1, 1, 3, 2}, c.evaluations, run.progress());
-  Table table{{"what", "wanted", "found"}, {}};
+  Table table{{"what", "wanted", "found", "lowest", "highest"}, {}};
   const auto row = [&](const std::string& what, double want, double have) {
-    table.rows.push_back({what, format_fixed(want, 3), format_fixed(have, 3)});
+    table.rows.push_back({what, format_fixed(want, 3), format_fixed(have, 3), "-", "-"});
     run.report().set("motion/" + what, have);
   };
   row("nipple_supine_mm", wanted.nipple_supine, found.motion.nipple_supine);
   row("tumour_supine_mm", wanted.tumour_supine, found.motion.tumour_supine);
   row("nipple_stress_free_mm", wanted.nipple_free, found.motion.nipple_free);
   row("tumour_stress_free_mm", wanted.tumour_free, found.motion.tumour_free);
-  const auto parameter = [&](const std::string& what, double value) {
-    table.rows.push_back({what, "-", format_fixed(value, 4)});
-    run.report().set(what, value);
-  };
-  parameter("size", found.size);
-  parameter("tumour_aside", found.tumour_aside);
-  parameter("tumour_level", found.tumour_level);
-  parameter("misfit_mm", found.misfit_mm);
+  const std::array values = {found.size, found.tumour_aside, found.tumour_level};
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const FittedParameter& fitted = fitted_parameters()[k];
+    table.rows.push_back({fitted.name, "-", format_fixed(values[k], 4),
+                          format_number(fitted.low), format_number(fitted.high)});
+    run.report().set(fitted.name, values[k]);
+  }
+  for (const std::string& bound : found.on_bounds()) run.warn(bound);
+  table.rows.push_back({"misfit_mm", "-", format_fixed(found.misfit_mm, 4), "-", "-"});
+  run.report().set("misfit_mm", found.misfit_mm);
   run.report().set("evaluations", found.evaluations);
   run.print(table.text());
 }

@@ -25,6 +25,25 @@ LandmarkMotion landmark_motion(const PhantomParameters& parameters, Side side,
           moved("nipple", mesh.reference), moved("tumour", mesh.reference)};
 }
 
+const std::array<FittedParameter, 3>& fitted_parameters() {
+  static const std::array<FittedParameter, 3> list{
+      {{"size", 0.7, 1.3}, {"tumour_aside", 0.1, 0.75}, {"tumour_level", 0.5, 0.7}}};
+  return list;
+}
+
+std::vector<std::string> Calibration::on_bounds() const {
+  constexpr double near = 2e-3;  // twice what the search resolves
+  const std::array values = {size, tumour_aside, tumour_level};
+  std::vector<std::string> list;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const FittedParameter& p = fitted_parameters()[k];
+    if (values[k] - p.low > near && p.high - values[k] > near) continue;
+    list.push_back(message(p.name, " ", values[k], " lies on its bound (", p.low, " to ", p.high,
+                           "): the best fit may lie beyond it"));
+  }
+  return list;
+}
+
 namespace {
 
 double misfit(const LandmarkMotion& a, const LandmarkMotion& b) {
@@ -65,8 +84,13 @@ Calibration calibrate(const std::string& preset, std::uint64_t seed, Side side,
   };
   nlopt::opt optimiser(nlopt::LN_BOBYQA, 3);
   optimiser.set_min_objective(objective, &at);
-  optimiser.set_lower_bounds({0.7, 0.1, 0.5});
-  optimiser.set_upper_bounds({1.3, 0.75, 0.7});
+  std::vector<double> low, high;
+  for (const FittedParameter& parameter : fitted_parameters()) {
+    low.push_back(parameter.low);
+    high.push_back(parameter.high);
+  }
+  optimiser.set_lower_bounds(low);
+  optimiser.set_upper_bounds(high);
   optimiser.set_initial_step({0.05, 0.1, 0.05});
   optimiser.set_xtol_abs({1e-3, 1e-3, 1e-3});
   optimiser.set_maxeval(max_evaluations);

@@ -1,6 +1,10 @@
 // The size of a phantom's breast and the place of its tumour that give wanted displacements.
 #pragma once
 
+#include <array>
+#include <string>
+#include <vector>
+
 #include "core/progress.hpp"
 #include "material/law.hpp"
 #include "phantom/parameters.hpp"
@@ -12,6 +16,15 @@ struct LandmarkMotion {
   double nipple_supine = 0, tumour_supine = 0, nipple_free = 0, tumour_free = 0;
 };
 
+/// A parameter that is fitted, and between which values.
+struct FittedParameter {
+  std::string name;
+  double low = 0, high = 0;
+};
+/// size (factor on kind_breast's radius, height and shoulder), tumour_aside (BreastParameters) and
+/// tumour_level (0.5 to 0.7: in front of the mammograms' posterior edge).
+const std::array<FittedParameter, 3>& fitted_parameters();
+
 struct Calibration {
   double size = 1;          ///< factor on kind_breast's radius, height and shoulder (resized())
   double tumour_aside = 0;  ///< BreastParameters::tumour_aside
@@ -19,16 +32,19 @@ struct Calibration {
   LandmarkMotion motion;    ///< of the phantom found
   double misfit_mm = 0;     ///< root mean square over the four motions
   int evaluations = 0;
+
+  /// Of the parameters that ended on one of their bounds, "tumour_level 0.5 lies on its bound (0.5
+  /// to 0.7)": the best fit may lie beyond, and the other parameters make up for it.
+  std::vector<std::string> on_bounds() const;
 };
 
 /// How the landmarks of one side move, solved on the phantom's template with `mesh` elements.
 LandmarkMotion landmark_motion(const PhantomParameters& parameters, Side side,
                                const MaterialSet& materials);
 
-/// Least squares of the four motions by NLopt's BOBYQA (Powell 2009) over size (0.7–1.3) and the
-/// tumour's distance from the axis (0.1–0.75) and level (0.5–0.7: in front of the mammograms'
-/// posterior edge), on a mesh of `mesh` elements. Deterministic. Throws
-/// Error (not converged) when a trial breast has no equilibrium.
+/// Least squares of the four motions by NLopt's BOBYQA (Powell 2009) over fitted_parameters(), on a
+/// mesh of `mesh` elements. Deterministic. Throws Error (not converged) when a trial breast has no
+/// equilibrium.
 Calibration calibrate(const std::string& preset, std::uint64_t seed, Side side,
                       const LandmarkMotion& wanted, const MaterialSet& materials,
                       const MeshParameters& mesh, int max_evaluations,

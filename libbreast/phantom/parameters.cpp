@@ -37,7 +37,9 @@ BreastParameters preset_breast(const std::string& name) {
   if (name != "paper") return b;
   // `make -f Makefile.pipeline calibrate`, that is
   //   calibrate --preset paper --gain 1.28,1.39 --evaluations 24
-  // so that the chain as printed (PAPER=1) moves nipple and tumour about as far as the paper's.
+  // so that the chain as printed (PAPER=1) moves nipple and tumour about as far as the paper's. The
+  // level is the lower bound of the search: a tumour closer to the chest wall, out of the mammograms,
+  // would fit better.
   b = resized(b, 0.8938);
   b.tumour_aside = 0.6679, b.tumour_level = 0.5;
   return b;
