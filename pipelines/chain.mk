@@ -2,7 +2,7 @@
 # when its inputs, its program or its settings have changed (pipelines/remember.mk).
 MR_FILES := $(MR) $(if $(wildcard $(MR)/.),$(wildcard $(MR)/*))
 CHAIN_FILES := $(addprefix $(RUN)/,labels.vtkhdf geometry.vtkhdf mesh.vtkhdf reference.vtkhdf \
-  supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti curve.vtp)
+  supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti $(if $(no_tumour),lookup.h5 page.html,curve.vtp))
 MATERIAL_FILE := $(or $(wildcard $(MATERIALS)),$(filter $(RUN)/%,$(MATERIALS)))
 # LEAVE_OUT=no-gland: the set with the fibroglandular law replaced by fat's.
 $(RUN)/fat-only.tsv: $(whole_set)
@@ -13,7 +13,7 @@ $(RUN)/fat-only.tsv: $(whole_set)
 labels_settings := $(SEGMENT) $(MR) --side $(SIDE) $(if $(SERIES),--series $(SERIES)) \
   $(if $(CHEST_WALL),--chest-wall $(CHEST_WALL)) $(SEGMENT_OPTIONS)
 $(RUN)/labels.vtkhdf $(RUN)/points.vtp &: $(MR_FILES) $(CHEST_WALL) $(SEGMENT) $(call changed,labels)
-	@mkdir -p $(RUN)
+	@pipelines/scan-identity.sh record $(RUN) $(SIDE) $(scan)
 	$(SEGMENT) $(MR) $(RUN)/labels.vtkhdf --side $(SIDE) $(if $(SERIES),--series $(SERIES)) \
 	  $(if $(CHEST_WALL),--chest-wall $(CHEST_WALL)) --points $(RUN)/points.vtp $(SEGMENT_OPTIONS) \
 	  --report $(RUN)/labels.json $(share)
@@ -24,8 +24,6 @@ $(RUN)/geometry.vtkhdf: $(RUN)/labels.vtkhdf $(FIT_HERMITE) $(call changed,geome
 	$(FIT_HERMITE) $< $@ $(FIT_OPTIONS) $(common)
 	@$(call record,geometry)
 
-# The phantom's own tumour, unless HEXMESH_OPTIONS names another.
-tumour = $(if $(findstring --tumour,$(HEXMESH_OPTIONS)),,$(addprefix --tumour ,$(TUMOUR)))
 mesh_settings := $(HEXMESH) $(HEXMESH_OPTIONS) $(tumour)
 $(RUN)/mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(wildcard $(TUMOUR)) $(HEXMESH) $(call changed,mesh)
 	$(HEXMESH) $< $(RUN)/labels.vtkhdf $@ $(HEXMESH_OPTIONS) $(tumour) $(common)
@@ -76,10 +74,10 @@ $(RUN)/supine-cut-fixed.vtkhdf: $(RUN)/reference-cut-fixed.vtkhdf $(FORWARD)
 # Tables come from stdout; a rename makes them complete or absent.
 SHOWN := $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf)
 $(RUN)/displacements.tsv: $(SHOWN) $(addprefix $(RUN)/,cc.vtkhdf mlo.vtkhdf) $(PROBE)
-	$(PROBE) $(filter %.vtkhdf,$^) --landmarks tumour,nipple > $@.part
+	$(PROBE) $(filter %.vtkhdf,$^) --landmarks $(landmarks) > $@.part
 	@mv $@.part $@
 $(RUN)/cut.tsv: $(RUN)/supine-cut-fixed.vtkhdf $(RUN)/supine.vtkhdf $(PROBE)
-	$(PROBE) $< --base $(RUN)/supine.vtkhdf --landmarks tumour,nipple > $@.part
+	$(PROBE) $< --base $(RUN)/supine.vtkhdf --landmarks $(landmarks) > $@.part
 	@mv $@.part $@
 
 # Errors against the phantom's truth (stress-free, prone, supine); a real scan has none.
@@ -94,7 +92,8 @@ $(RUN)/truth-cut-fixed.tsv: $(TRUTH) $(RUN)/mesh.vtkhdf $(RUN)/reference-cut-fix
 endif
 
 $(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(RUN)/cut.tsv \
-  $(if $(TRUTH),$(RUN)/truth.tsv $(RUN)/truth-cut-fixed.tsv) $(FIGURES) pipelines/summary.sh pipelines/values.sh
+  $(if $(TRUTH),$(RUN)/truth.tsv $(RUN)/truth-cut-fixed.tsv) $(FIGURES) pipelines/summary.sh pipelines/values.sh \
+  pipelines/warnings.sh pipelines/advice.tsv
 	@pipelines/summary.sh $(RUN) $(if $(TRUTH),$(PHANTOM_MR:.nrrd=.json)) > $@.part
 	@mv $@.part $@
 	@cat $@

@@ -1,13 +1,25 @@
-# A patient is one small case.mk (MR, SIDE, MATERIALS, ...: any setting of pipelines/settings.mk), a cohort a
-# folder of them: COHORT/*.mk or COHORT/*/case.mk. Every case is run; one that fails is recorded with its
-# reason and does not stop the others.
-ifdef COHORT
-COHORT_FILES := $(sort $(wildcard $(COHORT)/*.mk $(COHORT)/*/case.mk))
+# A patient is one small case file (MR, SIDE, MATERIALS, ...: KEY = VALUE a line, read as data by pipelines/case-file.sh), a
+# cohort a folder of them: COHORT/*.case or COHORT/*/case.txt (and, as version 0.1 called them, *.mk and */case.mk). Every case
+# is run; one that fails is recorded with its reason and does not stop the others. When all fail, make fails.
+ifneq ($(COHORT),)
+case_patterns := *.case */case.txt *.mk */case.mk
+COHORT_FILES := $(sort $(wildcard $(addprefix $(COHORT)/,$(case_patterns))))
 ifeq ($(COHORT_FILES),)
-  $(error COHORT=$(COHORT) holds no case: neither *.mk nor */case.mk)
+  $(error COHORT=$(COHORT) holds no case: none of $(case_patterns))
 endif
-cohort_case = $(if $(filter case.mk,$(notdir $1)),$(notdir $(patsubst %/,%,$(dir $1))),$(basename $(notdir $1)))
+# Names of folders and files below COHORT go into recipes: those with blanks come in pieces here, and are refused with the rest.
+strange_cases := $(shell pipelines/cohort.sh strange $(COHORT))
+$(if $(strange_cases),$(error $(strange_cases)))
+cohort_case = $(if $(filter case.mk case.txt,$(notdir $1)),$(notdir $(patsubst %/,%,$(dir $1))),$(basename $(notdir $1)))
 COHORT_CASES := $(foreach f,$(COHORT_FILES),$(call cohort_case,$f))
+ignored := $(foreach c,$(COHORT_CASES),$(if $(word 2,$(filter $c,$(COHORT_CASES))),$(error COHORT=$(COHORT): two case files are called $c: $(strip \
+  $(foreach f,$(COHORT_FILES),$(if $(filter $c,$(call cohort_case,$f)),$f))))))
+# Each must be readable and say whose scan it is: a slip in MR would run the phantom as that patient.
+lines_of = $(shell pipelines/case-file.sh $1 $(case_settings) 2> /dev/null)
+nameless = !case file $1: names neither MR nor PRESET
+case_problem = $(or $(filter !%,$2),$(if $(filter MR=% PRESET=%,$2),,$(nameless)))
+problems := $(strip $(foreach f,$(COHORT_FILES),$(call case_problem,$f,$(call lines_of,$f))))
+$(if $(problems),$(error $(subst $(shell printf '\037'),$(space),$(patsubst !%,%,$(problems)))))
 COHORT_RUNS := $(RUNS)/cohort-$(notdir $(patsubst %/,%,$(abspath $(COHORT))))
 .DEFAULT_GOAL := cohort
 
@@ -27,4 +39,5 @@ $(COHORT_RUNS)/cohort.tsv: $(COHORT_CASES:%=$(COHORT_RUNS)/%.status) pipelines/c
 	@pipelines/cohort.sh table $(COHORT_RUNS) $(COHORT_CASES) > $@.part
 	@mv $@.part $@
 	@cat $@
+	@pipelines/cohort.sh any-done $@
 endif

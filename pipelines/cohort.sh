@@ -1,8 +1,27 @@
 #!/usr/bin/env bash
 # cohort.sh run STATUS LOG COMMAND...  runs a case; STATUS says "done", or "failed" and why
 # cohort.sh table RUNS CASE...         one table of all cases
+# cohort.sh any-done TABLE             fails when no case of it is done
+# cohort.sh strange COHORT             one line naming a case file or folder with characters that make or a shell would read
+#                                      as code; nothing when there is none
 set -euo pipefail
 . "$(dirname "$0")/values.sh"
+if [ "$1" = strange ]; then
+  find -L "$2" -maxdepth 2 \( -name '*.case' -o -name '*.mk' -o -path '*/*/case.txt' \) -print0 |
+    while IFS= read -r -d '' file; do
+      case "$file" in
+        *[[:space:]]* | *[\$\`\;\&\|\<\>\(\)\{\}\[\]\*\?\!\"\'\\^\#=:%~]*)
+          printf 'COHORT: %s: a name with such characters is refused; use letters, digits, points, dashes and underscores' \
+            "$(printf '%s' "${file#"$2"/}" | tr -c '[:alnum:]./_-' '?')"
+          exit 0 ;;
+      esac
+    done
+  exit 0
+fi
+if [ "$1" = any-done ]; then
+  awk -F'\t' '$2 == "done" { found = 1 } END { exit !found }' "$2" || { echo "cohort: every case failed: see $2" >&2; exit 1; }
+  exit 0
+fi
 if [ "$1" = run ]; then
   status=$2 log=$3
   shift 3
@@ -18,7 +37,7 @@ if [ "$1" = run ]; then
 fi
 runs=$2
 shift 2
-printf 'case\tstatus\tvolume_ml\tmin_scaled_jacobian\tsupine_nipple_mm\tsupine_tumour_mm\tcc_thickness_mm\tcc_force_N\tmlo_thickness_mm\tmlo_force_N\tseconds\treason\n'
+printf 'case\tstatus\tvolume_ml\tmin_scaled_jacobian\tsupine_nipple_mm\tsupine_tumour_mm\ttumour\tcc_thickness_mm\tcc_force_N\tmlo_thickness_mm\tmlo_force_N\tseconds\treason\n'
 for case in "$@"; do
   IFS=$'\t' read -r status reason < "$runs/$case.status" || true
   run=$runs/$case
@@ -30,8 +49,8 @@ for case in "$@"; do
   of() { rounded "$3" "$(key "$run/$1.json" "$2")"; }  # STAGE NAME DIGITS
   seconds=0
   for report in "$run"/*.json; do seconds=$(awk -v a="$seconds" -v b="$(number "$report" total)" 'BEGIN { print a + b }'); done
-  printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$case" "$status" "$(of mesh volume_ml 0)" \
-    "$(of mesh min_scaled_jacobian 2)" "$(moved nipple)" "$(moved tumour)" \
+  printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$case" "$status" "$(of mesh volume_ml 0)" \
+    "$(of mesh min_scaled_jacobian 2)" "$(moved nipple)" "$(moved tumour)" "$(tumour_origin "$run/mesh.json")" \
     "$(of cc thickness_mm 1)" "$(of cc force_N 1)" "$(of mlo thickness_mm 1)" "$(of mlo force_N 1)" \
     "$(rounded 0 "$seconds")" "${reason:--}"
 done

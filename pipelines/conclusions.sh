@@ -17,7 +17,7 @@ if [ "$how" = rows ]; then
 else
   slopes=$1 stiff=$2 prefix=
   slope() {
-    awk -F'\t' -v tissue="$2" -v landmark="$3" '$1 == landmark && $2 == tissue { value = sprintf("%.4f", $7) }
+    awk -F'\t' -v tissue="$2" -v landmark="$3" '{ sub(/^artificial_/, "", $1) } $1 == landmark && $2 == tissue { value = sprintf("%.4f", $7) }
       END { print (value == "" ? "-" : value) }' "$slopes"
   }
 fi

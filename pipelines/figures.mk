@@ -1,6 +1,6 @@
 # Pictures in the manner of the paper's Figs 4-7, drawn off-screen.
 FIGURE_NAMES := points geometry mesh tissues cc-compression mlo-compression pressure force-thickness cc-mammogram mlo-mammogram \
-  cc-matching mlo-matching summary
+  $(if $(no_tumour),,cc-matching mlo-matching) summary
 FIGURES := $(FIGURE_NAMES:%=$(RUN)/figures/%.png)
 F := $(RUN)/figures
 render = mkdir -p $(@D) && $(RENDER) $(filter %.vtkhdf %.vtp %.vti,$^) --figure $1 -o $@
@@ -19,12 +19,12 @@ $(F)/pressure.png: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(RENDER)
 	@$(call render,pressure)
 $(F)/force-thickness.png: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(RENDER)
 	@$(call render,force-thickness)
-$(F)/cc-mammogram.png: $(RUN)/cc.vti $(RUN)/curve.vtp $(RENDER)
+$(F)/cc-mammogram.png: $(RUN)/cc.vti $(CURVE) $(RENDER)
 	@$(call render,mammogram)
-$(F)/mlo-mammogram.png: $(RUN)/mlo.vti $(RUN)/curve.vtp $(RENDER)
+$(F)/mlo-mammogram.png: $(RUN)/mlo.vti $(CURVE) $(RENDER)
 	@$(call render,mammogram)
 $(F)/%-matching.png: $(RUN)/%.vtkhdf $(RUN)/curve.vtp $(RENDER)
 	@$(call render,matching)
 $(F)/summary.png: $(RUN)/mesh.vtkhdf $(RUN)/reference.vtkhdf $(RUN)/supine.vtkhdf $(RUN)/cc.vtkhdf \
-  $(RUN)/mlo.vtkhdf $(RUN)/cc.vti $(RUN)/mlo.vti $(RUN)/curve.vtp $(RENDER)
+  $(RUN)/mlo.vtkhdf $(RUN)/cc.vti $(RUN)/mlo.vti $(CURVE) $(RENDER)
 	@$(call render,summary)

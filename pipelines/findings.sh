@@ -18,7 +18,7 @@ row() { # NAME STRESS-FREE SUPINE SLOPES
   local a b
   a=$(moved "$3" nipple) b=$(moved "$3" tumour)
   percent() { awk -v a="$1" -v b="$2" 'BEGIN { if (b > 0) printf "%+.2f", 100 * (a / b - 1); else printf "-" }'; }
-  slope() { awk -F'\t' -v l="$1" '$1 == l && $2 == "fat" { printf "%.3f", $7 }' "$2"; }
+  slope() { awk -F'\t' -v l="$1" '{ sub(/^artificial_/, "", $1) } $1 == l && $2 == "fat" { printf "%.3f", $7 }' "$2"; }
   printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$1" "$(key "$3" elements)" "$(rounded 3 "$(moved "$2" nipple)")" \
     "$(rounded 3 "$(moved "$2" tumour)")" "$(rounded 3 "$a")" "$(rounded 3 "$b")" "$(percent "$a" "$nipple")" \
     "$(percent "$b" "$tumour")" "$(rounded 3 "$(number "$3" error_estimate_mm)")" "$(slope nipple "$4")" "$(slope tumour "$4")"

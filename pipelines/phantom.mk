@@ -7,6 +7,30 @@ ifndef MR
   TRUTH := $(PHANTOM_TRUTH)/landmarks.tsv
   # The paper puts its tumour where it likes, on the gland's margin; ours is the phantom's, whose way is known.
   TUMOUR ?= $(PHANTOM_TRUTH)/tumour-$(SIDE).tsv
+else
+  # A patient's scan gets no tumour that nobody found: TUMOUR=x,y,z names one, TUMOUR=auto makes an artificial one.
+  TUMOUR ?= none
+endif
+# A run belongs to one scan and one side: another is refused before it overwrites anything (pipelines/scan-identity.sh).
+scan := $(if $(TRUTH),phantom:$(PRESET),$(MR))
+ifneq ($(filter-out help setup build check clean calibrate cohort,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
+  mixed_up := $(shell pipelines/scan-identity.sh check $(RUN) $(SIDE) $(scan))
+  $(if $(mixed_up),$(error $(mixed_up)))
+endif
+# The preset `paper` was fitted to the answer of this chain: the rows it was fitted to say so (pipelines/calibration.sh).
+export CALIBRATED := $(if $(TRUTH),$(if $(filter paper,$(PRESET)),$(PHANTOM_MR:.nrrd=.json) $(SIDE)))
+# The tumour as hexmesh is told, unless HEXMESH_OPTIONS names another; no_tumour: none, so that the chain ends with the
+# curves of all CC points and their page instead of one curve.
+tumour = $(if $(findstring --tumour,$(HEXMESH_OPTIONS)),,--tumour $(TUMOUR))
+no_tumour := $(findstring --tumour none,$(HEXMESH_OPTIONS)$(tumour))
+landmarks := $(if $(no_tumour),,tumour$(comma))nipple
+CURVE := $(if $(no_tumour),,$(RUN)/curve.vtp)
+# What asks where the tumour goes.
+need_tumour := tables table3 table4 table5 table6 table7 table8 findings fig7 leaveout wall-sensitivity band
+ifneq ($(no_tumour),)
+ifneq ($(filter $(need_tumour),$(MAKECMDGOALS)),)
+  $(error $(firstword $(filter $(need_tumour),$(MAKECMDGOALS))): needs a tumour to follow. Name its place with TUMOUR=x,y,z (patient LPS, mm), a table or labels; or TUMOUR=auto for an artificial one)
+endif
 endif
 
 phantom_record := $(RUNS)/phantom/.$(PRESET).settings

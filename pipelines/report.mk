@@ -20,7 +20,8 @@ REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/*.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png
 report_settings = $(foreach file,$(REPORT_EXTRAS),$(file) $(shell stat -c %Y $(file)))
 report_record = $(RUN)/report.settings
 $(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(F)/cc-points.png $(F)/mlo-curves.png \
-  $(if $(EXPECTED),$(RUN)/verify.tsv) pipelines/report.sh pipelines/values.sh pipelines/limits.txt $(call changed,report)
+  $(if $(EXPECTED),$(RUN)/verify.tsv) pipelines/report.sh pipelines/values.sh pipelines/limits.txt \
+  pipelines/warnings.sh pipelines/advice.tsv $(call changed,report)
 	pipelines/report.sh $(RUN) $(RUNS) $(BIN) > $@.part
 	@mv $@.part $@
 	@$(call record,report)

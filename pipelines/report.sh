@@ -5,7 +5,8 @@ set -euo pipefail
 run=$1 runs=$2 bin=$3
 here=$(dirname "$0")
 . "$here/values.sh"
-escape() { sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g'; }
+escape() { sed "s/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g; s/\"/\&quot;/g; s/'/\&#39;/g"; }
+escaped() { printf '%s' "$1" | escape; }  # TEXT, of a name that may hold anything
 # A TSV as a table; cells "fails", "differs", "missing" and "failed" stand out.
 table() {
   [ -s "$1" ] || [ -p "$1" ] || return 0
@@ -33,8 +34,8 @@ extra() { # TITLE NOTE FILE...: tables and plots of a slow target, when it was r
   note "$text"
   for file in "$@"; do
     [ -s "$file" ] || continue
-    printf '<h3>%s <small>(%s)</small></h3>\n' "$(basename "${file%.*}")" "$(dated "$file")"
-    case "$file" in *.png) picture "$file" "$(basename "$file")" ;; *) table "$file" ;; esac
+    printf '<h3>%s <small>(%s)</small></h3>\n' "$(escaped "$(basename "${file%.*}")")" "$(dated "$file")"
+    case "$file" in *.png) picture "$file" "$(escaped "$(basename "$file")")" ;; *) table "$file" ;; esac
   done
 }
 
@@ -43,26 +44,44 @@ solved_again() {
   cat "$run"/scaled/*-{reference,supine}.json 2> /dev/null | awk '$1 == "\"cpu_seconds\":" { total += $2 } END { printf "%.0f", total }'
 }
 
+name=$(escaped "$(basename "$run")")
+tumour=$(tumour_origin "$run/mesh.json")
+case "$tumour" in
+  none) tumour_words= ;;
+  artificial) tumour_words=" and the artificial tumour" ;;
+  given) tumour_words=" and the tumour" ;;
+esac
 cat <<HTML
 <!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>libbreast: $(basename "$run")</title>
+<html lang="en"><head><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'">
+<title>libbreast: $name</title>
 <style>
 body { font: 15px/1.45 sans-serif; max-width: 1150px; margin: 2em auto; padding: 0 1em; color: #222 }
 table { border-collapse: collapse; margin: .8em 0; font-size: 13px } th, td { border: 1px solid #ccc; padding: 2px 7px; text-align: left; vertical-align: top }
 th { background: #f2f2f2 } td.n { text-align: right; font-variant-numeric: tabular-nums } td.bad { background: #fbd5d0 }
+.warnings { background: #fff4d6; border: 1px solid #d9b44a; padding: 0 1em } .bad { background: #fbd5d0; padding: .5em }
 figure { margin: 1em 0 } img { max-width: 100% } figcaption { font-size: 13px; color: #555 } pre { font-size: 12px; overflow-x: auto; background: #f7f7f7; padding: .7em }
 @page { size: A4 landscape; margin: 12mm }
 @media print { body { max-width: none; margin: 0; font-size: 11px } table { font-size: 9px } img { max-height: 165mm } figure:first-of-type img { max-height: 140mm } h2 { break-after: avoid } figure, tr { break-inside: avoid } pre { white-space: pre-wrap } }
 </style></head><body>
-<h1>Breast deformation: case $(basename "$run")</h1>
+<h1>Breast deformation: case $name</h1>
 <p>From a prone MR scan to the stress-free, supine and compressed shapes, two simulated mammograms and the CC&rarr;MLO curve,
 after Pathmanathan, Gavaghan, Whiteley, Chapman and Brady, IEEE Trans Biomed Eng 55(10), 2008. Made $(date -u '+%Y-%m-%d %H:%M UTC')
 with $("$bin/probe" --version 2>/dev/null | head -n 1), BLAS $(key "$run/reference.json" blas), $(nproc) cores ($(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)).</p>
 HTML
-picture "$run/figures/summary.png" "The chain: as imaged, stress-free, supine, CC and MLO compression, simulated mammograms and the matched curve."
+"$here/warnings.sh" "$run" | escape | awk -F'\t' '
+  { text = text "<li><b>" $1 "</b>: " $2 ($3 != "-" ? "<br>&rarr; " $3 : "") "</li>\n" }
+  END { if (NR) printf "<div class=warnings><h2>Warnings: %d; read these first</h2>\n<ul>\n%s</ul></div>\n", NR, text
+        else print "<p>No stage warned of anything.</p>" }'
+[ "$tumour" != artificial ] || printf '<p class=bad><b>The tumour of this case is artificial: nobody found it in the scan.</b> Every figure and table below follows that point.</p>\n'
+picture "$run/figures/summary.png" "The chain: as imaged, stress-free, supine, CC and MLO compression, simulated mammograms$([ "$tumour" = none ] || echo ' and the matched curve')."
 
+# Said beside every table of the rows that the preset was fitted to.
+calibrated=
+[ -z "${CALIBRATED:-}" ] || calibrated=$("$here/calibration.sh" note $CALIBRATED | escape)
 section "Landmarks"
 table "$run/displacements.tsv"
+[ -z "$calibrated" ] || note "Supine: $calibrated."
 if [ -s "$run/truth.tsv" ]; then
   note "Errors against the phantom's truth, mm, the mean and the largest over all its landmarks below:"
   table <(awk -F'\t' '/^#/ { next } !n++ || $1 ~ /^(nipple|tumour|mean|largest)$/' "$run/truth.tsv")
@@ -84,26 +103,27 @@ section "Figure 4: from data points to the mesh"
 picture "$run/figures/points.png" "4a. Skin (light) and chest-wall (dark) data points."
 picture "$run/figures/geometry.png" "4b. The fitted cubic-Hermite sheets and the rim where the body ends."
 picture "$run/figures/mesh.png" "4c. The hexahedral mesh from the front, and its back surface (dark)."
-picture "$run/figures/tissues.png" "4d. Fibroglandular elements (dark) and the artificial tumour through the translucent skin."
+picture "$run/figures/tissues.png" "4d. Fibroglandular elements (dark)$tumour_words through the translucent skin."
 section "Figure 5: mammographic compression"
 picture "$run/figures/cc-compression.png" "5a, b. Before and after CC compression, with the plates."
 picture "$run/figures/mlo-compression.png" "5c, d. MLO compression, two views."
 picture "$run/figures/pressure.png" "Contact pressure under paddle and detector; blue: where the flat of the plate begins."
 picture "$run/figures/force-thickness.png" "Force of both plates against thickness."
 section "Figure 6: simulated mammograms"
-picture "$run/figures/cc-mammogram.png" "6a. CC; the dot is the tumour."
-picture "$run/figures/mlo-mammogram.png" "6b. MLO; the computed curve, the place the model gives the tumour (dot) and the arc of equal nipple distance."
+picture "$run/figures/cc-mammogram.png" "6a. CC$([ "$tumour" = none ] || echo "; the dot is${tumour_words# and}")."
+picture "$run/figures/mlo-mammogram.png" "6b. MLO$([ "$tumour" = none ] || echo "; the computed curve, the place the model gives${tumour_words# and} (dot) and the arc of equal nipple distance")."
 picture "$run/figures/cc-points.png" "6c. A selection of CC points."
 picture "$run/figures/mlo-curves.png" "6d. Their curves in MLO."
-section "Figure 7: the column of the tumour's pixel"
+[ "$tumour" = none ] || section "Figure 7: the column of the tumour's pixel"
 picture "$run/figures/cc-matching.png" "7a, b. The column in the CC breast, and the same tissue stress-free."
 picture "$run/figures/mlo-matching.png" "7c. The same tissue stress-free and in the MLO breast."
 
+if [ -s "$run/tables/table2.tsv" ]; then
 section "Table II: constants of law (9)"
 table "$run/tables/table2.tsv"
 for entry in "3:III: fat" "4:IV: fibroglandular tissue" "5:V: skin" "6:VI: one element of tumour"; do
   section "Table ${entry#*:}"
-  note "Prone to supine displacements, mm, when the stiffness of this tissue is scaled; <i>rel</i>: distance from the 100 % row. The paper's figure and the difference stand beside ours; <i>estimate</i>: of the discretisation error at the landmarks."
+  note "Prone to supine displacements, mm, when the stiffness of this tissue is scaled; <i>rel</i>: distance from the 100 % row. The paper's figure and the difference stand beside ours; <i>estimate</i>: of the discretisation error at the landmarks.${calibrated:+ Row of 100 %: $calibrated.}"
   [ ! -s "$run/tables/table${entry%%:*}-as-printed.tsv" ] || printf '<h3>As printed in the paper: cuboid, plain invariants, skin as a layer of elements</h3>\n'
   table "$run/tables/table${entry%%:*}-as-printed.tsv"
   [ ! -s "$run/tables/table${entry%%:*}-as-printed.tsv" ] || printf '<h3>As solved here</h3>\n'
@@ -112,6 +132,7 @@ done
 section "The paper's conclusions, in numbers"
 note "Slopes are d ln u / d ln s between the rows of 90 and 110 %. The paper's text rounds its slope of -0.61 to &ldquo;10 % changes ... approximately 10 %&rdquo;; its own rows say 6 to 7 %."
 table "$run/tables/conclusions.tsv"
+fi
 if [ -s "$run/tables/table7.tsv" ]; then
   section "Table VII, ours: every slope from one solve"
   note "Tangent-linear derivatives of the converged state (<i>tangent</i>) against the rows of Tables III to VI solved again (<i>resolved</i>: three-point derivative in ln s). <i>Step error</i> is what the finite steps of the solved rows cost; the two agree when they differ by no more than twice that. Cost: $(rounded 2 "$(number "$run/base-sensitivity.json" cpu_seconds)") CPU seconds for all, against $(solved_again) for the solves of the tables."
@@ -124,7 +145,7 @@ if [ -s "$run/tables/table8.tsv" ]; then
 fi
 if [ -s "$run/tables/findings.tsv" ]; then
   section "How much of the figures is numerical"
-  note "The default with one choice at a time made as in the paper, and all of them (as printed), against the finest solution (27-node elements): plain instead of isochoric invariants, cuboid instead of dome, skin as a layer of elements instead of a membrane."
+  note "The default with one choice at a time made as in the paper, and all of them (as printed), against the finest solution (27-node elements): plain instead of isochoric invariants, cuboid instead of dome, skin as a layer of elements instead of a membrane.${calibrated:+ Default and as printed: $calibrated.}"
   table "$run/tables/findings.tsv"
 fi
 extra "Leaving parts out" "Change at the landmarks and on the MLO curve against the full model, and the CPU seconds saved; then the least model that stays within the error asked for, and what it gives." "$run/leaveout/table.tsv" "$run/leaveout/recommendation.tsv"
@@ -139,7 +160,8 @@ fi
 
 section "Cost"
 printf '<table><tr><th>stage<th>seconds<th>peak MB</tr>\n'
-for stage in labels geometry mesh reference supine cc mlo cc-mammogram mlo-mammogram curve; do
+for stage in labels geometry mesh reference supine cc mlo cc-mammogram mlo-mammogram curve lookup; do
+  [ -s "$run/$stage.json" ] || continue
   printf '<tr><td>%s<td class=n>%s<td class=n>%s</tr>\n' "$stage" "$(rounded 2 "$(number "$run/$stage.json" total)")" \
     "$(rounded 0 "$(key "$run/$stage.json" peak_mb)")"
 done
@@ -151,7 +173,8 @@ for record in "$run"/.*.settings; do
   case "$record" in *'*'*) continue ;; esac
   stage=$(basename "$record")
   stage=${stage#.}
-  printf '%s: %s\n' "${stage%.settings}" "$(escape < "$record")"
+  # Files by their names, as in the history: a page that is sent says nothing of this machine's folders.
+  printf '%s: %s\n' "$(escaped "${stage%.settings}")" "$(sed 's#[^ ,=:]*/##g' "$record" | escape)"
 done
 printf '</pre>\n'
 section "What is not reproduced, and why"

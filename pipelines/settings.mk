@@ -1,7 +1,14 @@
 # Settings, each to be given on the command line: make -f Makefile.pipeline MATERIALS=wellman
-# A case file gives any of these settings; the command line overrides it.
-ifdef CASE_FILE
-  include $(CASE_FILE)
+# A case file gives them one a line, KEY = VALUE; the command line overrides it. It is data: pipelines/case-file.sh checks
+# every key and value, and nothing in it is executed.
+ifneq ($(CASE_FILE),)
+  blank_byte := $(shell printf '\037')
+  case_lines := $(shell pipelines/case-file.sh '$(CASE_FILE)' $(case_settings))
+  $(if $(filter !%,$(case_lines)),$(error $(subst $(blank_byte),$(space),$(patsubst !%,%,$(filter !%,$(case_lines))))))
+  # KEY=VALUE as an assignment: the value holds no dollar sign and no hash.
+  $(foreach line,$(case_lines),$(eval $(subst $(blank_byte),$(space),$(subst =, := ,$(firstword $(subst =,= ,$(line))))$(patsubst \
+    $(firstword $(subst =,= ,$(line)))%,%,$(line)))))
+  $(foreach v,$(path_settings) $(name_settings),$(call check_setting,$v))
 endif
 
 # ---- the case -----------------------------------------------------------------------------------------
@@ -10,7 +17,10 @@ endif
 PRESET ?= paper
 SIDE ?= left
 ifdef MR
-  CASE ?= $(basename $(basename $(notdir $(patsubst %/,%,$(MR)))))-$(SIDE)
+  # The name of the scan without its ending: pat.001.nrrd is another than pat.002.nrrd, and a folder keeps its dots.
+  scan_endings := .nii.gz .nii .nrrd .nhdr .mha .mhd .vtkhdf
+  scan_name := $(notdir $(patsubst %/,%,$(MR)))
+  CASE ?= $(firstword $(foreach e,$(scan_endings),$(patsubst %$e,%,$(filter %$e,$(scan_name)))) $(scan_name))-$(SIDE)
 else
   CASE ?= $(PRESET)$(if $(filter right,$(SIDE)),-right)
 endif
@@ -43,6 +53,7 @@ else
 endif
 # Parts of the model to do without: no-skin no-gland no-backward no-gravity-in-compression (what each is worth: leaveout).
 LEAVE_OUT ?=
+$(check_values)
 leave_out = $(filter $1,$(LEAVE_OUT))
 ifneq ($(call leave_out,no-skin),)
   override HEXMESH_OPTIONS += --skin 0

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Prints what a finished case says: landmark displacements, errors against the truth when there is one,
-# compressions, the MLO curve, and where the pictures are.
+# Prints what a finished case says: first what its stages warned of, each warning once, with what to do; then landmark
+# displacements, errors against the truth when there is one, compressions, the MLO curve, and where the pictures are.
 set -euo pipefail
 run=$1
 truth_report=${2:-}  # of the phantom, for the truth's own error
@@ -17,8 +17,19 @@ columns() {
 
 echo "== $run"
 echo
+"$(dirname "$0")/warnings.sh" "$run" | awk -F'\t' '
+  { text = text "  " $1 ": " $2 "\n"; if ($3 != "-") text = text "    -> " $3 "\n" }
+  END { if (NR) printf "Warnings: %d; read these first\n%s", NR, text; else print "No stage warned of anything." }'
+echo
+case "$(tumour_origin "$run/mesh.json")" in
+  none) echo "No tumour in this case (TUMOUR=x,y,z follows one)." ;;
+  artificial) echo "THE TUMOUR IS ARTIFICIAL: nobody found it in the scan." ;;
+  given) echo "Tumour: $(key "$run/mesh.json" tumour)." ;;
+esac
+echo
 echo "Landmark displacements (mm)"
 columns "$run/displacements.tsv"
+[ -z "${CALIBRATED:-}" ] || "$(dirname "$0")/calibration.sh" note $CALIBRATED | fold -s -w 118 | sed '1s/^/  supine: /; 2,$s/^/  /'
 echo
 echo "Held instead of free lateral cut, supine (relative: distance to the free one, mm)"
 columns "$run/cut.tsv"
@@ -42,6 +53,10 @@ for view in cc mlo; do
     "$(of $view detector_force_N 1)" "$(of $view pressure_kPa 1)" "$(key "$run/$view.json" status)"
 done
 echo
-echo "CC point to MLO curve: $run/curve.tsv, in ParaView $run/curve.vtp"
+if [ -s "$run/curve.tsv" ]; then
+  echo "CC point to MLO curve: $run/curve.tsv, in ParaView $run/curve.vtp"
+else
+  echo "Every CC point and its MLO curve: $run/page.html (a browser opens it), numbers in $run/lookup.h5"
+fi
 echo "Pictures: $run/figures/"
 for picture in "$run"/figures/*.png; do echo "  $picture"; done

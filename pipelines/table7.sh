@@ -6,6 +6,7 @@
 # from the same formula through 50, 100, 200 (tumour: 100, 200, 500) and the orders of both. vector_difference: of the two
 # derivatives of the landmark's place, per cent of its length. agrees: difference at most twice step_error plus 1e-4.
 set -euo pipefail
+export LC_ALL=C
 base=$1 scaled=$2 slopes=$3 tumour_slopes=$4
 here=$(dirname "$0")
 place() { "$here/landmark.sh" "$1" "$2" "$3" | tr , ' '; }  # REPORT LANDMARK imaged|position
@@ -22,7 +23,7 @@ for tissue in fat fibroglandular skin tumour; do
         report=$scaled/$tissue-$percent-supine.json
         [ -s "$report" ] && place "$report" $landmark position || echo -
       done
-      awk -F'\t' -v t=$tissue -v l=$landmark '$1 == l && $2 == t { print $4, $5, $6, $7 }' "$from"
+      awk -F'\t' -v t=$tissue -v l=$landmark '{ sub(/^artificial_/, "", $1) } $1 == l && $2 == t { print $4, $5, $6, $7 }' "$from"
     } | awk -v OFS='\t' -v tissue=$tissue -v landmark=$landmark '
       NR == 1 { for (i = 1; i <= 4; i++) s[i] = log($i / 100) }
       NR == 2 { for (d = 1; d <= 3; d++) imaged[d] = $d }

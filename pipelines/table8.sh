@@ -17,8 +17,9 @@ for set in "$@"; do
 done
 printf '\n'
 for landmark in nipple tumour; do
-  printf 'supine displacement of the %s, mm\t-\t-\t%s\t\t%s\t' $landmark \
-    "$(cell "$here/paper/table3.tsv" 100 ${landmark}_mm)" "$(moved "$run/supine.vtkhdf" $landmark)"
+  printf 'supine displacement of the %s, mm\t-\t-\t%s\t\t%s\t%s' $landmark \
+    "$(cell "$here/paper/table3.tsv" 100 ${landmark}_mm)" "$(moved "$run/supine.vtkhdf" $landmark)" \
+    "$([ -z "${CALIBRATED:-}" ] || echo 'calibrated to this row')"
   for set in "$@"; do
     [ -f "$run/variants/$set.failed" ] && printf '\t-\t' || printf '\t%s\t' "$(moved "$run/variants/$set-supine.vtkhdf" $landmark)"
   done

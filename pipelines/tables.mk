@@ -22,8 +22,8 @@ define table_target
 table$1: $(foreach m,$(BOTH),$(TABLES)/table$1$(ending_$m).tsv)
 endef
 $(foreach n,$(PAPER_TABLES),$(eval $(call table_target,$n)))
-TABLE_FILES := $(foreach m,$(BOTH),$(foreach n,$(PAPER_TABLES),$(TABLES)/table$n$(ending_$m).tsv)) \
-  $(addprefix $(TABLES)/,table2.tsv conclusions.tsv table7.tsv $(if $(PAPER),,table8.tsv findings.tsv))
+TABLE_FILES := $(if $(no_tumour),,$(foreach m,$(BOTH),$(foreach n,$(PAPER_TABLES),$(TABLES)/table$n$(ending_$m).tsv)) \
+  $(addprefix $(TABLES)/,table2.tsv conclusions.tsv table7.tsv $(if $(PAPER),,table8.tsv findings.tsv)))
 tables: $(TABLE_FILES)
 	@for table in $(TABLES)/conclusions.tsv $(if $(PAPER),,$(TABLES)/table8.tsv $(TABLES)/findings.tsv); do echo; cat $$table; done
 .PHONY: table2 table3 table4 table5 table6 table7 table8 tables

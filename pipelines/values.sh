@@ -1,4 +1,5 @@
 # Values out of what the programs write; the scripts beside this one source it.
+export LC_ALL=C  # decimal points, whatever the user's language
 
 # A top-level key (two spaces of indent) of a report: key FILE NAME. Nothing, and false, without the report.
 key() { [ -s "$1" ] && sed -n "s/^  \"$2\": \"\{0,1\}\(.*[^\",]\)\"\{0,1\},\{0,1\}$/\1/p" "$1" | head -n 1; }
@@ -12,19 +13,25 @@ why() { local sentence; sentence=$(key "$1" explanation); if [ -n "$sentence" ];
 # A number printed with so many digits, "-" where there is none: rounded DIGITS NUMBER
 rounded() { [ -n "$2" ] && printf "%.$1f" "$2" || printf -- '-'; }
 
-# A cell of a table (TSV): cell FILE ROW COLUMN, by the value of the first column and the column's name.
+# A cell of a table (TSV): cell FILE ROW COLUMN, by the value of the first column and the column's name; the tumour's are also
+# found where it is an artificial one.
 cell() {
   awk -F'\t' -v row="$2" -v column="$3" '
     /^#/ { next }
-    !header { header = 1; for (i = 1; i <= NF; i++) if ($i == column) at = i; next }
+    !header { header = 1; for (i = 1; i <= NF; i++) if ($i == column || $i == "artificial_" column) at = i; next }
     at && $1 == row && !found { print $at; found = 1 }' "$1"
 }
 
-# Largest distance (mm) of tumour or nipple between two shapes: apart PROBE FILE BASE
+# Where a mesh's tumour comes from, as hexmesh reports it, in a word: none, artificial or given. tumour_origin MESH_JSON
+tumour_origin() {
+  case "$(key "$1" tumour)" in '') echo none ;; artificial*) echo artificial ;; *) echo given ;; esac
+}
+
+# Largest distance (mm) of a landmark, nipple or tumour, between two shapes: apart PROBE FILE BASE
 apart() {
-  "$1" "$2" --base "$3" --landmarks tumour,nipple --quiet |
-    awk -F'\t' '/^#/ { next } $1 == "file" { for (i = 1; i <= NF; i++) at[$i] = i; next }
-      { a = $at["tumour_relative_mm"]; b = $at["nipple_relative_mm"]; printf "%.4f", (a > b ? a : b) }'
+  "$1" "$2" --base "$3" --quiet |
+    awk -F'\t' '/^#/ { next } $1 == "file" { for (i = 1; i <= NF; i++) if ($i ~ /_relative_mm$/) at[i]; next }
+      { for (i in at) if ($i > most) most = $i; printf "%.4f", most }'
 }
 
 # What two solves one after the other say of the second's shape: its stress-free shape has an error of its own, which

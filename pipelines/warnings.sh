@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# What the stages of a run warned of, each warning once, and what to do about it: warnings.sh RUN
+# A line each, tab-separated: the stages that say it, the warning, the advice (pipelines/advice.tsv: the first pattern that
+# matches; "-" where there is none). In the order of the chain.
+set -euo pipefail
+export LC_ALL=C
+run=$1
+advice=$(dirname "$0")/advice.tsv
+for stage in labels geometry mesh reference supine cc mlo cc-mammogram mlo-mammogram curve lookup; do
+  [ -s "$run/$stage.json" ] || continue
+  # The strings of the top-level list "warnings", two spaces in; JSON's escapes undone.
+  awk -v stage="$stage" '
+    /^  "warnings": \[/ { inside = 1; next }
+    inside && /^  \]/ { exit }
+    inside {
+      sub(/^ *"/, ""); sub(/",?$/, "")
+      gsub(/\\"/, "\""); gsub(/\\[tnr]/, " "); gsub(/\\\\/, "\\")
+      print stage "\t" $0
+    }' "$run/$stage.json"
+done | awk -F'\t' '
+  FNR == 1 { ++file }
+  file == 1 { if ($0 !~ /^#/ && NF >= 2) { pattern[++patterns] = $1; remedy[patterns] = $2 } next }
+  !($2 in stages) { order[++count] = $2; stages[$2] = $1; next }
+  { stages[$2] = stages[$2] ", " $1 }
+  END {
+    for (k = 1; k <= count; ++k) {
+      text = "-"
+      for (p = 1; p <= patterns; ++p) if (order[k] ~ pattern[p]) { text = remedy[p]; break }
+      print stages[order[k]] "\t" order[k] "\t" text
+    }
+  }' "$advice" -

@@ -1,0 +1,179 @@
+#!/usr/bin/env bash
+# What the makefile refuses before anything runs: unknown settings and values, names that a shell or make would read as code,
+# case files with a slip, another patient's scan in a run's folder. Plans only (make -n): no program is needed.
+set -euo pipefail
+unset MAKEFLAGS MFLAGS MAKEOVERRIDES MAKELEVEL  # of a make that runs the tests
+cd "$(dirname "$0")/../.."
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+passed=0
+pass() { passed=$((passed + 1)); echo "ok: $*"; }
+fail() { echo "FAILED: $*"; echo "$passed passed, 1 failed"; exit 1; }
+plan() { make -f Makefile.pipeline -n RUNS="$work/runs" "$@" > "$work/out" 2> "$work/err"; }
+# Refused with a message that holds all of these texts, in one line of make.
+refused() { # WHAT TEXT... -- ARGUMENT...
+  local what=$1 texts=() text
+  shift
+  while [ "$1" != -- ]; do texts+=("$1"); shift; done
+  shift
+  ! plan "$@" || fail "$what is refused"
+  [ "$(grep -c '\*\*\*' "$work/err")" -eq 1 ] || { cat "$work/err"; fail "$what is refused in one line"; }
+  for text in "${texts[@]}"; do grep -qF -- "$text" "$work/err" || { cat "$work/err"; fail "$what: says '$text'"; }; done
+}
+
+refused "an unknown setting" SIDES "did you mean SIDE?" -- SIDES=right
+refused "an unknown part to leave out" no-skn "did you mean no-skin?" -- LEAVE_OUT=no-skn
+refused "an unknown side" "did you mean left?" -- SIDE=lefft
+refused "an unknown material set" "did you mean seed2008?" -- MATERIALS=seed2080
+refused "a reduction that is no number" REDUCTION -- REDUCTION=half
+pass "unknown settings and values are refused by name, with a suggestion"
+
+mkdir -p "$work/runs/paper"
+touch "$work/runs/keep"
+for case in '' . .. a/b; do
+  ! make -f Makefile.pipeline RUNS="$work/runs" CASE="$case" clean > "$work/out" 2>&1 || fail "CASE='$case' clean is refused"
+done
+[ -e "$work/runs/keep" ] || fail "CASE= clean removes no runs"
+pass "CASE must be a plain name: clean cannot remove all runs"
+
+# Nothing of a name is executed, neither by make nor by a shell.
+bait=$work/executed
+refuse_name() { # SETTING NAME
+  ! make -f Makefile.pipeline -n "$1=$2" chain > "$work/out" 2>&1 || fail "$1=$2 is refused"
+  grep -q '\*\*\*' "$work/out" || { cat "$work/out"; fail "$1=$2 is refused by make's line"; }
+}
+worst=('b`touch$${IFS}'"$bait"'`.nrrd' '$(shell touch '"$bait"')' "a;touch $bait" "a b'c\"\$(x);é(=).nrrd")
+for name in "${worst[@]}" "a b.nrrd" "a'b.nrrd" 'a"b.nrrd' 'a(b).nrrd' 'a=b.nrrd' 'a:b.nrrd' 'a%b.nrrd' '-x.nrrd' '${IFS}' 'a|b' 'a&b' \
+  'a>b' 'a*b' 'a[b]' 'a#b' 'a\b'; do
+  refuse_name MR "$name"
+done
+for setting in CHEST_WALL CASE MATERIALS TUMOUR RUNS COHORT CASE_FILE; do
+  for name in "${worst[@]}"; do refuse_name "$setting" "$name"; done
+done
+for setting in MECHANICS HEXMESH_OPTIONS COMPRESS_OPTIONS SEGMENT; do
+  ! plan "$setting=--x \`touch $bait\`" chain || fail "$setting with a command in it is refused"
+done
+[ ! -e "$bait" ] || fail "nothing of a name is executed"
+plan MR="$work/été_+@,.nrrd" chain || grep -q "No rule to make target.*été" "$work/err" || { cat "$work/err"; fail "letters of other languages are fine"; }
+pass "names that are code are refused for every path, and nothing is executed"
+
+touch "$work/scan.nrrd"
+printf '# a patient\nMR = %s\nSIDE = right   # seen from the patient\nREDUCTION=40\n\nHEXMESH_OPTIONS = --elements 8 --order 1\n' \
+  "$work/scan.nrrd" > "$work/patient.case"
+plan CASE_FILE="$work/patient.case" chain || { cat "$work/err"; fail "a case file is read"; }
+grep -q -- "segment $work/scan.nrrd .*--side right" "$work/out" && grep -q -- '--reduction 40' "$work/out" &&
+  grep -q -- '--elements 8 --order 1' "$work/out" || { cat "$work/out"; fail "the settings of a case file count"; }
+plan CASE_FILE="$work/patient.case" REDUCTION=30 chain && grep -q -- '--reduction 30' "$work/out" || fail "the command line overrides a case file"
+case_file() { printf "$1\n" > "$work/bad.case"; }
+case_file "MRI = $work/scan.nrrd"
+refused "a slip in a case file" "MRI is no setting" "did you mean MR?" "line 1" -- CASE_FILE="$work/bad.case" chain
+case_file "MR = $work/scan.nrrd\nSIDE := left"
+refused "make code in a case file" "KEY = VALUE" -- CASE_FILE="$work/bad.case" chain
+for line in 'include other' 'MR = $(shell touch '"$bait"')' 'MR = `touch '"$bait"'`' 'SEGMENT = /bin/sh' "MR = a'b" \
+  'MR = a;touch '"$bait" 'export X = 1' '$(shell touch '"$bait"')' 'SIDE = lefft' 'MR = a b.nrrd'; do
+  printf '%s\n' "$line" > "$work/bad.case"
+  ! plan CASE_FILE="$work/bad.case" chain || fail "case file with '$line' is refused"
+done
+cp "$work/patient.case" "$work/old.mk"
+printf 'ELEMENTS := 6\n' >> "$work/old.mk"
+plan CASE_FILE="$work/old.mk" chain || { cat "$work/err"; fail "a makefile of version 0.1 is still read as data"; }
+grep -q 'warning: .*old.mk' "$work/err" || fail "and warned of"
+[ ! -e "$bait" ] || fail "nothing in a case file is executed"
+pass "case files are data: checked by key and value, never executed"
+
+for pair in "pat.001.nrrd pat.002.nrrd" "1.2.840.113619.2.5 1.2.840.113619.7.9" "x.nii.gz y.nii.gz"; do
+  read -r first second <<< "$pair"
+  one=$(make -f Makefile.pipeline -n MR="$work/$first" --eval='print: ; $(info $(RUN))' print 2> /dev/null)
+  two=$(make -f Makefile.pipeline -n MR="$work/$second" --eval='print: ; $(info $(RUN))' print 2> /dev/null)
+  [ -n "$one" ] && [ "$one" != "$two" ] || fail "$first and $second have folders of their own: $one, $two"
+done
+pass "scans whose names differ have different run folders"
+
+mkdir -p "$work/A/DICOM" "$work/B/DICOM"
+echo slice-a > "$work/A/DICOM/1"; echo slice-b > "$work/B/DICOM/1"
+run=$work/runs/DICOM-left
+pipelines/scan-identity.sh record "$run" left "$work/A/DICOM"
+plan MR="$work/A/DICOM" chain || { cat "$work/err"; fail "the same scan goes on in its run"; }
+touch -d 2001-01-01 "$work/A/DICOM/1"
+plan MR="$work/A/DICOM" chain || fail "a touched scan is still the same"
+refused "another patient's scan of the same name" "another scan" "CASE=" -- MR="$work/B/DICOM" chain
+refused "the phantom in a patient's folder" "another scan" -- CASE=DICOM-left chain
+refused "the other side in the same folder" "left breast" -- MR="$work/A/DICOM" CASE=DICOM-left SIDE=right chain
+! grep -rqF "$work" "$run/.scan" || fail "the record holds no path"
+pass "a run folder remembers its scan and refuses another"
+
+cohort() { rm -rf "$work/cohort"; mkdir -p "$work/cohort/a"; }
+cohort; printf 'MR = x.nrrd\n' > "$work/cohort/a.mk"; printf 'MR = y.nrrd\n' > "$work/cohort/a/case.mk"
+refused "a.mk beside a/case.mk" "two case files are called a" -- COHORT="$work/cohort" cohort
+cohort; printf 'SIDE = left\n' > "$work/cohort/b.case"
+refused "a cohort's case without a scan" "neither MR nor PRESET" -- COHORT="$work/cohort" cohort
+cohort; printf 'MRI = x.nrrd\n' > "$work/cohort/b.case"
+refused "a cohort's case with a slip" "did you mean MR?" -- COHORT="$work/cohort" cohort
+cohort; printf 'MR = x.nrrd\n' > "$work/cohort/a;touch x.case"
+refused "a cohort's case with code in its name" "refused" -- COHORT="$work/cohort" cohort
+cohort; printf 'MR = x.nrrd\n' > "$work/cohort/a/case.txt"; printf 'PRESET = small\n' > "$work/cohort/b.case"
+plan COHORT="$work/cohort" cohort || { cat "$work/err"; fail "a cohort of good cases is planned"; }
+printf 'case\tstatus\na\tfailed\nb\tfailed\n' > "$work/t.tsv"
+! pipelines/cohort.sh any-done "$work/t.tsv" 2> /dev/null || fail "a cohort whose cases all fail fails"
+printf 'case\tstatus\na\tfailed\nb\tdone\n' > "$work/t.tsv"
+pipelines/cohort.sh any-done "$work/t.tsv" || fail "one case done is enough"
+pass "cohorts: names once, a scan in every case, failure when all fail"
+
+# A comma for the decimal point: no number changes.
+run=$work/runs/comma
+mkdir -p "$run"
+printf '{\n  "status": "converged",\n  "thickness_mm": 41.27,\n  "reduction_percent": 15.05,\n  "force_N": 103.6,\n  "detector_force_N": 9.5,\n  "pressure_kPa": 4.25,\n  "warnings": [\n    "plates not balanced: \\"a\\" <b>",\n    "twice"\n  ]\n}\n' > "$run/cc.json"
+sed 's/plates not balanced/thrice/' "$run/cc.json" > "$run/mlo.json"
+printf '{\n  "tumour": "artificial, on the edge"\n}\n' > "$run/mesh.json"
+printf 'file\tartificial_tumour_mm\nsupine.vtkhdf\t3.5\n' > "$run/displacements.tsv"
+printf 'file\tnipple_mm\nsupine.vtkhdf\t3.5\n' > "$run/cut.tsv"
+pipelines/summary.sh "$run" > "$work/plain.txt"
+if locale -a | grep -qi '^de_DE.utf-\?8'; then :; else
+  mkdir -p "$work/locales"
+  export LOCPATH=$work/locales
+  localedef -i de_DE -f UTF-8 "$work/locales/de_DE.UTF-8" 2> /dev/null || true
+fi
+if [ "$(LC_ALL=de_DE.UTF-8 printf '%.1f' 1 2> /dev/null)" = 1,0 ]; then
+  LC_ALL=de_DE.UTF-8 pipelines/summary.sh "$run" > "$work/comma.txt"
+  cmp "$work/plain.txt" "$work/comma.txt" || fail "the summary is the same under a comma locale"
+  LC_ALL=de_DE.UTF-8 make -f Makefile.pipeline -n --eval='print: ; +@printf "%.1f\n" 1.5' print > "$work/out" 2> /dev/null
+  grep -qx '1\.5' "$work/out" || fail "recipes have decimal points under a comma locale"
+  pass "a comma locale changes nothing"
+else
+  echo "skipped: no German locale on this machine (Debian: locales)"
+fi
+
+sed -n 3p "$work/plain.txt" | grep -q '^Warnings: 3; read these first' || { cat "$work/plain.txt"; fail "warnings come first"; }
+[ "$(grep -c 'twice' "$work/plain.txt")" -eq 1 ] && grep -q 'cc, mlo: twice' "$work/plain.txt" || fail "each warning stands once, with its stages"
+grep -A 1 'plates not balanced' "$work/plain.txt" | grep -q -- '-> .*standoff' || fail "and with what to do"
+grep -q 'TUMOUR IS ARTIFICIAL' "$work/plain.txt" && grep -q 'artificial_tumour_mm' "$work/plain.txt" || fail "an artificial tumour is called so"
+pass "the summary begins with every warning, once, and what to do"
+
+hostile=$work/runs/'a<script>alert(1)<'
+mkdir -p "$hostile/leaveout"
+cp "$run"/* "$hostile"
+printf '%s /home/someone/secret/scan.nrrd --side left </script><script>x\n' build/release/bin/segment > "$hostile/.labels.settings"
+printf 'a\tb\n<img src=x>\t1\n' > "$hostile/leaveout/table.tsv"
+pipelines/report.sh "$hostile" "$work/runs" /nonexistent > "$work/report.html" || fail "a report of a case with a hostile name"
+! grep -qi '<script\|<img src=x' "$work/report.html" || fail "no name is markup in the report"
+! grep -q 'secret\|/home' "$work/report.html" || fail "the report names no folder"
+grep -q 'Content-Security-Policy' "$work/report.html" || fail "and allows no script"
+[ "$(grep -n 'Warnings: 3' "$work/report.html" | cut -d: -f1)" -lt "$(grep -n 'Landmarks' "$work/report.html" | head -n 1 | cut -d: -f1)" ] ||
+  fail "the report begins with the warnings"
+pass "the report escapes every name, names no folder, and begins with the warnings"
+
+plan MR="$work/scan.nrrd" chain || fail "a scan is planned"
+grep -q -- '--tumour none' "$work/out" && grep -q 'match-lookup' "$work/out" && ! grep -q 'cc2mlo' "$work/out" ||
+  { cat "$work/out"; fail "a scan has no invented tumour: its chain ends with the page of all points"; }
+plan MR="$work/scan.nrrd" TUMOUR=-5,3.5,-2:4 chain && grep -q -- '--tumour -5,3.5,-2:4' "$work/out" || fail "a given tumour is passed on"
+plan MR="$work/scan.nrrd" TUMOUR=auto chain && grep -q -- '--tumour auto' "$work/out" && grep -q 'cc2mlo' "$work/out" || fail "TUMOUR=auto makes one"
+refused "tables of a case without a tumour" TUMOUR -- MR="$work/scan.nrrd" tables
+pass "no tumour is invented for a scan"
+
+printf 'fibroglandular_nipple\t0.09\nskin_nipple\t-0.003\ntumour_1000\t2.3\n' > "$work/values"
+pipelines/judge.sh pipelines/paper/conclusions.tsv ours="$work/values" > "$work/judged.tsv"
+verdict() { awk -F'\t' -v row="$1" '$1 == row { print $5 }' "$work/judged.tsv"; }
+[ "$(verdict 'slope of nipple displacement, fibroglandular')" = fails ] && [ "$(verdict 'slope of nipple displacement, skin')" = holds ] &&
+  [ "$(verdict 'tumour 10 times as stiff: tumour displacement, % change')" = fails ] || { cat "$work/judged.tsv"; fail "a wrong sign fails"; }
+pass "a conclusion of the wrong sign fails"
+echo "$passed passed, 0 failed"
