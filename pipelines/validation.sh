@@ -3,6 +3,7 @@
 # repository's top), as Markdown.
 #   validation.sh fill PAGE...     writes them anew
 #   validation.sh check PAGE...    fails, naming the table, where page and file differ or a file has no place in a page
+#   validation.sh numbers          fails where a number of docs/numbers.tsv is another in the page than in its source
 #   validation.sh truth TRUTH.tsv  rows of a table of errors against the truth, as the page shows them
 set -euo pipefail
 export LC_ALL=C
@@ -19,6 +20,22 @@ if [ "$what" = truth ]; then
       for (k = 1; k <= count; k++) line = line OFS (at[name[k]] ? sprintf("%.2f", $at[name[k]]) : "-")
       print line }' "$1"
   exit 0
+fi
+if [ "$what" = numbers ]; then
+  number_in() { # FILE-OR-FOLDER PATTERN: the first number that the pattern's group finds
+    grep -rhE -- "$2" "$1" | sed -nE "s#.*$2.*#\\1#p" | sed -n 1p
+  }
+  bad=0
+  while IFS=$'\t' read -r page page_pattern source source_pattern; do
+    case "$page" in '#'* | page) continue ;; esac
+    stated=$(number_in "$page" "$page_pattern") || true
+    decided=$(number_in "$source" "$source_pattern") || true
+    [ -n "$stated" ] && [ "$stated" = "$decided" ] || {
+      echo "$page says '${stated:-nothing}' for $page_pattern; $source has '${decided:-nothing}' for $source_pattern" >&2
+      bad=1
+    }
+  done < docs/numbers.tsv
+  exit $bad
 fi
 # The page with its tables as the files have them.
 filled() {

@@ -48,4 +48,19 @@ touch -d 2000-01-01 "$work/my-forward"  # older than everything: a swap must not
 run FORWARD="$work/my-forward" "$case_dir/supine.vtkhdf" > "$work/log" 2>&1 || fail "the swapped stage runs"
 [ -s "$work/mark" ] || fail "FORWARD= swaps the stage"
 pass "FORWARD= swaps the stage"
+
+# The same image as somebody's scan: nothing is known of a tumour, and none is invented.
+run MR="$work/runs/phantom/small.nrrd" CASE=scan -j2 summary > "$work/log" 2>&1 || { tail -n 20 "$work/log"; fail "a scan without a tumour runs to its page"; }
+scan_dir=$work/runs/scan
+for file in lookup.h5 page.html figures/summary.png figures/cc-mammogram.png; do
+  [ -s "$scan_dir/$file" ] || fail "a scan without a tumour has $file"
+done
+[ ! -e "$scan_dir/curve.vtp" ] && ! grep -qi '"artificial_tumour"\|"tumour"' "$scan_dir/mesh.json" || fail "no tumour is invented for a scan"
+grep -q 'No tumour in this case' "$scan_dir/summary.txt" && grep -q 'page.html' "$scan_dir/summary.txt" || fail "the summary says so"
+run MR="$work/runs/phantom/small.nrrd" CASE=scan -q summary || fail "a second run of it does nothing"
+pass "a scan without a tumour ends with the page of all points"
+run MR="$work/runs/phantom/small.nrrd" CASE=scan TUMOUR=auto chain > "$work/log" 2>&1 || { tail -n 20 "$work/log"; fail "TUMOUR=auto"; }
+grep -q 'model.s artificial_tumour in MLO' "$scan_dir/curve.vtp" && grep -q 'artificial_tumour_' <(run MR="$work/runs/phantom/small.nrrd" \
+  CASE=scan TUMOUR=auto "$scan_dir/displacements.tsv" > /dev/null 2>&1; cat "$scan_dir/displacements.tsv") || fail "an artificial tumour is called so"
+pass "TUMOUR=auto makes a tumour that is called artificial"
 echo "$passed passed, 0 failed"
