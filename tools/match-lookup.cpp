@@ -50,9 +50,19 @@ void run_lookup(const Choices& choices, Run& run) {
   }
   Report& report = run.report();
   report.set("nodes", lookup.status.size());
-  report.set("matched",
-             std::size_t(std::count_if(lookup.status.begin(), lookup.status.end(),
-                                       [](std::uint8_t status) { return status != 0; })));
+  const auto count = [&](auto wanted) {
+    return std::size_t(std::count_if(lookup.status.begin(), lookup.status.end(), wanted));
+  };
+  const std::size_t matched = count([](std::uint8_t status) { return status != 0; });
+  const std::size_t leaving = count([](std::uint8_t status) {
+    return status == std::uint8_t(LookupStatus::behind_image);
+  });
+  report.set("matched", matched);
+  report.set("leaving_image", leaving);
+  if (leaving > 0) {
+    run.warn(message(leaving, " of ", matched, " curves leave the ", lookup.to_view,
+                     " image: part of them lies behind its posterior edge"));
+  }
   report.set("samples", lookup.samples);
   report.set("band", banded);
   for (const std::string& name : lookup.band_without) report.append("band_without", name);

@@ -79,7 +79,9 @@ void add_result(Writer& writer, int query, const MatchResult& result, const Matc
   const std::string &first = matcher.from_frame().view, &second = matcher.to_frame().view;
   const MatchedCurve& curve = result.curve;
   writer.marker("point in " + first, query, from, result.query.from_uv);
-  if (result.query.place) writer.marker(place_name(result.query, second), query, to, *result.query.place);
+  if (result.query.place) {
+    writer.marker(place_name(result.query, second), query, to, *result.query.place);
+  }
   const auto in_to = [](const ColumnPoint& p) { return p.to_uv; };
   const auto in_from = [&](const ColumnPoint&) { return result.query.from_uv; };
   add_column(

@@ -49,26 +49,26 @@ std::vector<std::string> match_doubts(const Matcher& matcher,
                      "columns leave the mesh through the chest wall: their curves end there though "
                      "the tissue does not");
   }
-  const Lengths lengths = lengths_of(results);
-  if (lengths.outside() > 0.01 * lengths.curves) {
-    const auto partly = std::count_if(results.begin(), results.end(), [](const auto& result) {
-      return result.curve.length - result.curve.inside_image > 0.01 * result.curve.length;
-    });
-    doubts.push_back((results.size() == 1 ? std::string() : std::to_string(partly) + all +
-                                                                "curves leave the " + to.view +
-                                                                " image: ") +
-                     format_fixed(lengths.outside(), 1) + " of " + format_fixed(lengths.curves, 1) +
-                     " mm of curve (" +
-                     format_fixed(100 * lengths.outside() / lengths.curves, 0) +
-                     " %) lie outside the " + to.view +
-                     " image, behind its posterior edge: the spot may not be seen there");
+  if (const Lengths lengths = lengths_of(results); lengths.outside() > 0.01 * lengths.curves) {
+    std::string which;
+    if (results.size() > 1) {
+      const auto partly = std::count_if(results.begin(), results.end(), [](const auto& result) {
+        return result.curve.length - result.curve.inside_image > 0.01 * result.curve.length;
+      });
+      which = std::to_string(partly) + all + "curves leave the " + to.view + " image: ";
+    }
+    doubts.push_back(message(which, format_fixed(lengths.outside(), 1), " of ",
+                             format_fixed(lengths.curves, 1), " mm of curve (",
+                             std::lround(100 - lengths.inside_percent()), " %) lie outside the ",
+                             to.view,
+                             " image, behind its posterior edge: the spot may not be seen there"));
   }
   const auto behind_first =
       std::count_if(results.begin(), results.end(),
                     [](const auto& result) { return result.query.from_uv.x() < 0; });
   if (behind_first > 0) {
-    doubts.push_back(std::to_string(behind_first) + all + "points lie behind the posterior edge of the " +
-                     from.view + " image: nobody sees them in it");
+    doubts.push_back(message(behind_first, all, "points lie behind the posterior edge of the ",
+                             from.view, " image: nobody sees them in it"));
   }
   if (const auto air = count("air"); air > 0) {
     doubts.push_back(std::to_string(air) + all + "points lie in air");

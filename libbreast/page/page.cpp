@@ -18,7 +18,7 @@ namespace {
 
 // A text as a JavaScript string inside an HTML page. Names come from files that anybody may have
 // written: no byte of them may end the string or the script element.
-std::string quoted(const std::string& text) {
+std::string script_text(const std::string& text) {
   constexpr const char* digits = "0123456789abcdef";
   std::string out = "\"";
   for (const char c : text) {
@@ -71,7 +71,7 @@ std::string image_json(const Mammogram& image) {
                                   8));
     }
   }
-  return "{\"view\":" + quoted(image.view) + ",\"width\":" + std::to_string(width) +
+  return "{\"view\":" + script_text(image.view) + ",\"width\":" + std::to_string(width) +
          ",\"height\":" + std::to_string(height) +
          ",\"pixel\":" + format_number(image.pixel * skip) +
          ",\"u_mm\":" + format_number(image.pixel * (image.width - 1)) +
@@ -123,7 +123,7 @@ std::string lookup_page(const MatchLookup& lookup, const Mammogram& from, const 
       ",\"curve\":" + encoded(lookup.curve) + ",\"deviation\":" + encoded(lookup.deviation) +
       ",\"across\":" + encoded(lookup.across) + ",\"imaged\":" + encoded(lookup.imaged) +
       ",\"from\":" + image_json(from) + ",\"to\":" + image_json(to) + ",\"band_without\":" +
-      quoted(without) + ",\"body\":" + body_json(body) + "}";
+      script_text(without) + ",\"body\":" + body_json(body) + "}";
   std::string page = page_html;
   const std::string mark = "\"DATA\"";
   page.replace(page.find(mark), mark.size(), data);
