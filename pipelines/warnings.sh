@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # What the stages of a run warned of, each warning once, and what to do about it: warnings.sh RUN
 # A line each, tab-separated: the stages that say it, the warning, the advice (pipelines/advice.tsv: the first pattern that
-# matches; "-" where there is none). In the order of the chain.
+# matches; "-" where there is none). In the order of the chain, those with the same advice together; the advice stands in
+# the last of them only.
 set -euo pipefail
 export LC_ALL=C
 run=$1
@@ -24,8 +25,13 @@ done | awk -F'\t' '
   { stages[$2] = stages[$2] ", " $1 }
   END {
     for (k = 1; k <= count; ++k) {
-      text = "-"
-      for (p = 1; p <= patterns; ++p) if (order[k] ~ pattern[p]) { text = remedy[p]; break }
-      print stages[order[k]] "\t" order[k] "\t" text
+      group[k] = patterns + k  # no advice: a group of its own
+      for (p = 1; p <= patterns; ++p) if (order[k] ~ pattern[p]) { group[k] = p; break }
+      last[group[k]] = k
+    }
+    for (k = 1; k <= count; ++k) {
+      if (shown[group[k]]++) continue
+      for (j = k; j <= count; ++j) if (group[j] == group[k])
+        print stages[order[j]] "\t" order[j] "\t" (j == last[group[k]] && group[k] <= patterns ? remedy[group[k]] : "-")
     }
   }' "$advice" -

@@ -66,7 +66,11 @@ std::vector<std::string> match_doubts(const Matcher& matcher,
   const auto behind_first =
       std::count_if(results.begin(), results.end(),
                     [](const auto& result) { return result.query.from_uv.x() < 0; });
-  if (behind_first > 0) {
+  if (behind_first > 0 && results.size() == 1) {
+    doubts.push_back(message("the point lies ", format_fixed(-results[0].query.from_uv.x(), 1),
+                             " mm behind the posterior edge of the ", from.view,
+                             " image: nobody sees it there"));
+  } else if (behind_first > 0) {
     doubts.push_back(message(behind_first, all, "points lie behind the posterior edge of the ",
                              from.view, " image: nobody sees them in it"));
   }
