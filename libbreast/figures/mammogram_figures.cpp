@@ -128,7 +128,7 @@ std::string add_curves(Panel& panel, const Mammogram& image, const PolyLines& cu
   if (count > 1) return "their curves";
   const std::string words = "green: its curve; blue: equal nipple distance";
   if (places.empty()) return words;
-  if (of_artificial_tumour(curves)) return words + "; dot: the artificial tumour in this model";
+  if (of_artificial_tumour(curves)) return words + "; dot: artificial tumour";
   return words + "; dot: model's own place";
 }
 

@@ -73,7 +73,7 @@ void draw_summary(Picture& picture, const FigureInput& input) {
            input.images.size() >= 2,
        "summary", "five meshes and two mammograms");
   const PolyLines* curves = input.curves ? &*input.curves : nullptr;
-  const std::string tumour = tumour_words(*chain.imaged);
+  const bool artificial = tumour_words(*chain.imaged).starts_with("artificial");
   const View side = lateral_view(chain.imaged->side);
   const double split = 0.54;
   const double aspect = 0.2 * summary_width / ((1 - split) * summary_height);
@@ -83,7 +83,7 @@ void draw_summary(Picture& picture, const FigureInput& input) {
     std::string caption;
   };
   const std::vector<Shape> shapes = {
-      {chain.imaged, "(a) as imaged, prone" + (tumour.empty() ? "" : "; " + tumour)},
+      {chain.imaged, artificial ? "(a) prone, artificial tumour" : "(a) as imaged, prone"},
                                      {chain.reference, "(b) stress-free"},
                                      {chain.supine, "(c) supine"}};
   const BodyStyle style{.skin_opacity = 0.3, .inside = true, .gland_opacity = 0.7};
