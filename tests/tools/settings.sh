@@ -33,6 +33,7 @@ touch "$work/runs/keep"
 for case in '' . .. a/b; do
   ! make -f Makefile.pipeline RUNS="$work/runs" CASE="$case" clean > "$work/out" 2>&1 || fail "CASE='$case' clean is refused"
 done
+! make -f Makefile.pipeline RUNS="$work/runs" RUN="$work/runs/" clean > "$work/out" 2>&1 || fail "clean keeps to the runs' folders"
 [ -e "$work/runs/keep" ] || fail "CASE= clean removes no runs"
 pass "CASE must be a plain name: clean cannot remove all runs"
 
