@@ -3,6 +3,7 @@
 # chromium), without network: points at three places, compares what the page draws with cc2mlo, keeps
 # screenshots in PICTURES. Not part of the tests: the browser is larger than everything else together.
 set -euo pipefail
+export LC_ALL=C
 bin=$(cd "$1" && pwd) run=$(cd "$2" && pwd) pictures=${3:-}
 command -v chromium >/dev/null || { echo "check.sh: install chromium" >&2; exit 2; }
 work=$(mktemp -d)
@@ -11,8 +12,10 @@ cd "$work"
 "$bin/match-lookup" "$run/cc-sensitivity.vtkhdf" "$run/mlo-sensitivity.vtkhdf" lookup.h5 --page page.html --pitch 1 \
   --from-image "$run/cc.vti" --to-image "$run/mlo.vti" --quiet 2>/dev/null
 ! grep -qE '(src|href)=|https?://|fetch\(|XMLHttpRequest' page.html || { echo "the page asks for more files" >&2; exit 1; }
+sandbox=()
+[ "$(id -u)" -ne 0 ] || sandbox=(--no-sandbox)  # as root it refuses to start with it
 browser() {  # every network request would go to a closed port
-  chromium --headless=new --no-sandbox --disable-gpu --user-data-dir="$work/profile" \
+  chromium --headless=new "${sandbox[@]}" --disable-gpu --user-data-dir="$work/profile" \
     --proxy-server=127.0.0.1:9 --window-size=1500,700 --hide-scrollbars --virtual-time-budget=3000 "$@" 2>/dev/null
 }
 status=0

@@ -7,6 +7,7 @@
 # reproduce.sh [all|killed|threads|cohort]...  (all four without arguments; `killed` and `threads` compare with `all`)
 # KEEP=FOLDER keeps the runs there and continues with what it holds.
 set -euo pipefail
+export LC_ALL=C
 cd "$(dirname "$0")/../.."
 if [ -n "${KEEP:-}" ]; then
   mkdir -p "$KEEP"
