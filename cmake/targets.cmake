@@ -15,7 +15,7 @@ add_link_options(-Wl,--as-needed)
 # these folders, which turn a mesh into numbers, use this machine's vector instructions.
 option(BREAST_NATIVE "Use this machine's vector instructions in the mechanics" ON)
 add_compile_options(-ffp-contract=off)
-set(BREAST_NATIVE_FOLDERS material fem solve mechanics contact sensitivity mammo)
+set(BREAST_NATIVE_FOLDERS material fem solve mechanics contact sensitivity projection matching)
 # Eigen's alignment must agree across all files, whatever their vectors.
 add_compile_definitions(EIGEN_MAX_ALIGN_BYTES=64 EIGEN_NO_CPUID EIGEN_DONT_PARALLELIZE)
 find_program(CCACHE_PROGRAM ccache)
