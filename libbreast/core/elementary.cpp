@@ -1,7 +1,9 @@
 #include "core/elementary.hpp"
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace breast::elementary {
@@ -42,16 +44,6 @@ constexpr Extended odd_series(Extended q) {
   }
 }
 
-// 1/first - r/(first + 1) + r^2/(first + 2) ..., log(1 + r)/r for first = 1.
-template <int first, int last>
-constexpr Extended log_series(Extended r) {
-  if constexpr (first == last) {
-    return Extended(1) / last;
-  } else {
-    return Extended(1) / first - r * log_series<first + 1, last>(r);
-  }
-}
-
 // The 128 parts of an octave: 2^(i/128).
 constexpr int parts = 128;
 constexpr auto powers_of_two = [] {
@@ -61,12 +53,20 @@ constexpr auto powers_of_two = [] {
   return table;
 }();
 
-// e^x for |x| < 800.
+// value * 2^n, n between -1100 and 1100.
+double scaled(Extended value, int n) {
+  if (n < -1000 || n > 1000) return std::ldexp(double(value), n);
+  return double(value) * std::bit_cast<double>(std::uint64_t(n + 1023) << 52);
+}
+
+// e^x for |x| < 800. What follows the first power of `rest` is small enough for double.
 double exp_of(Extended x) {
   const int n = nearest(double(x) * (1.4426950408889634 * parts));
   const Extended rest = (x - n * (ln2_high / parts)) - n * (ln2_low / parts);
-  const Extended value = powers_of_two[n & (parts - 1)] * series<1, 6>(rest);
-  return std::ldexp(double(value), n >> 7);
+  const double r = double(rest), q = r * r;
+  const double higher =
+      q * ((1.0 / 2 + r * (1.0 / 6)) + q * ((1.0 / 24 + r * (1.0 / 120)) + q * (1.0 / 720)));
+  return scaled(powers_of_two[n & (parts - 1)] * (1 + (rest + higher)), n >> 7);
 }
 
 // j/256 between sqrt(1/2) and sqrt(2), by j - 181: reciprocal and logarithm.
@@ -83,15 +83,22 @@ constexpr auto log_steps = [] {
   return table;
 }();
 
-// For 0 < x < infinity.
+// For 0 < x < infinity. What follows the second power of r is small enough for double.
 Extended log_of(double x) {
   int exponent = 0;
-  double mantissa = std::frexp(x, &exponent);
+  if (x < 0x1p-1022) x *= 0x1p60, exponent = -60;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  exponent += int(bits >> 52) - 1022;
+  double mantissa = std::bit_cast<double>((bits & 0xfffffffffffffu) | 0x3fe0000000000000u);
   if (mantissa < 0.7071067811865476) mantissa *= 2, --exponent;
   const int j = nearest(mantissa * steps);
   const LogStep& step = log_steps[j - first_step];
   const Extended r = (mantissa - Extended(j) / steps) * step.reciprocal;
-  return exponent * ln2_high + (exponent * ln2_low + (step.log + r * log_series<1, 8>(r)));
+  const double d = double(r), q = d * d;
+  const double higher =
+      d * q *
+      ((1.0 / 3 - d * (1.0 / 4)) + q * ((1.0 / 5 - d * (1.0 / 6)) + q * (1.0 / 7 - d * (1.0 / 8))));
+  return exponent * ln2_high + (exponent * ln2_low + (step.log + (r - (r * r / 2 - higher))));
 }
 
 // Product of (1 - q/(k (k + 1))) ..., k = first, first + 2, ...: sine (from 2) and cosine (from 1).

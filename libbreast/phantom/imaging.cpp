@@ -74,10 +74,9 @@ class Imager {
 
   // Matter of the rigid body; `tissue` gets its label.
   Matter rigid_matter(const Vec3& x, Tissue& tissue) const {
-    const double skin = scene_.torso.skin_distance(x);
+    const auto [wall, skin] = scene_.torso.distances(x);
     tissue = Tissue::air;
     if (skin > 0) return Matter::air;
-    const double wall = scene_.torso.wall_distance(x);
     if (wall > 0) {
       // Within the cut whatever is not in the prone breast is air. The last 3 mm before the cut
       // hardly move: there the rigid skin is as good.
@@ -126,12 +125,8 @@ class Imager {
   void rigid_voxel(const Vec3& centre, bool is_mixed, Tally& tally) const {
     Tissue tissue;
     if (!is_mixed) {
-      if (scene_.torso.skin_distance(centre) > 0) {
-        tally.add(Matter::air, Tissue::air);
-      } else {
-        const Matter matter = rigid_matter(centre, tissue);
-        tally.add(matter, tissue);
-      }
+      const Matter matter = rigid_matter(centre, tissue);
+      tally.add(matter, tissue);
       return;
     }
     subsample(centre, {2, 2, 3}, [&](const Vec3& x) {

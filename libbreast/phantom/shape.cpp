@@ -80,9 +80,9 @@ double BreastShape::body_distance(const Vec3& c) const {
 double BreastShape::skin_distance(const Vec3& x) const {
   const Vec3 c = cylindrical(x);
   double body = body_distance(c);
-  const double raised = smooth_step(torso_.skin_distance(x), 5, 25);
+  const double torso = torso_.skin_distance(x), raised = smooth_step(torso, 5, 25);
   if (raised > 0) body += p_.unevenness * raised * lattice_noise(seed_, x / 38);
-  return filleted_union(body, torso_.skin_distance(x), fold(c.y()));
+  return filleted_union(body, torso, fold(c.y()));
 }
 
 double BreastShape::beyond_fold(const Vec3& x, double part) const {
