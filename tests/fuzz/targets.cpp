@@ -33,9 +33,8 @@ std::filesystem::path as_file(const std::string& ending) {
   static const std::string folder = [] {
     std::string name = "/dev/shm/breast-fuzz-" + std::to_string(getpid());
     mkdir(name.c_str(), 0700);
-    std::atexit([] {
-      std::filesystem::remove_all("/dev/shm/breast-fuzz-" + std::to_string(getpid()));
-    });
+    std::atexit(
+        [] { std::filesystem::remove_all("/dev/shm/breast-fuzz-" + std::to_string(getpid())); });
     return name;
   }();
   const std::filesystem::path file = folder + "/input" + ending;
