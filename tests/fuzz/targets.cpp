@@ -98,6 +98,10 @@ const std::vector<EmbeddedTable>& embedded_materials() {
   static const std::vector<EmbeddedTable> none;
   return none;
 }
+// In place of deck/scene.cpp, which needs the mechanics: only applying a result asks for it.
+std::vector<int> deck_nodes(const HexMesh&) {
+  return {};
+}
 // In place of core/parallel.cpp, which needs OpenMP.
 int threads() {
   return 1;
