@@ -109,10 +109,10 @@ int main(int argc, char** argv) {
   tool.input_file(choices.labels, "--labels", "LABELS.vtkhdf",
                   "tissue of the MR scan (segment); without, one tissue per element");
   tool.output_file(
-      choices.png, "--png", "FILE",
+      choices.png, "--png", "FILE.png",
       "16-bit grey image hung as in the clinic, its grey as if all tissue were as thick as "
       "between the plates");
-  tool.output_file(choices.dicom, "--dicom", "FILE",
+  tool.output_file(choices.dicom, "--dicom", "FILE.dcm",
                    "DICOM mammogram (MG) with view, side, thickness, force and pixel spacing");
   tool.choice(choices.dicom_for, "--dicom-for", {"presentation", "processing"},
               "the picture as displayed, or the detector's signal");

@@ -118,7 +118,9 @@ void Tool::Impl::declare_common() {
   add_common(ArgumentKind::output, "--report", "FILE.json",
              "machine-readable report, also of a failure")
       .endings = {".json"};
-  declaration.common.back().store = [this](const std::vector<std::string>& given) { report_file = given.front(); };
+  declaration.common.back().store = [this](const std::vector<std::string>& given) {
+    report_file = given.front();
+  };
   Argument& count = add_common(ArgumentKind::integer, "--threads", "N", "threads to use");
   count.low = 1;
   count.high = 1024;

@@ -63,7 +63,7 @@ void limit(double seconds) {
   limit_memory();
   for (const int fault : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) signal(fault, SIG_DFL);
   const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (null >= 0) dup2(null, STDERR_FILENO);
+  if (null >= 0) dup2(null, STDERR_FILENO), dup2(null, STDOUT_FILENO);
 }
 
 [[noreturn]] void child(int descriptor, const std::function<std::string()>& work, double seconds) {

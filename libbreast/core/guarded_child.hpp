@@ -6,9 +6,9 @@
 
 namespace breast {
 
-/// Runs `work` in a child process with limits on time and memory, its stderr silenced, and returns the
-/// bytes it returned. An Error or lack of memory in the child is thrown here as Error (input), one
-/// line as the child worded it; a child that dies or takes longer than `seconds` becomes Error (input)
+/// Runs `work` in a child process with limits on time and memory, its stdout and stderr silenced, and
+/// returns the bytes it returned. An Error of the child is thrown here with its words and kind; lack
+/// of memory, a child that dies and one that takes longer than `seconds` become Error (input)
 /// beginning with `name`. Nothing else of what the child does reaches this process.
 std::string in_guarded_child(const std::string& name, const std::function<std::string()>& work,
                              double seconds = 300);

@@ -90,7 +90,8 @@ bool written_by_us(const fs::path& file) {
       front.starts_with("\x1f\x8b") || front.starts_with("ObjectType") ||
       (front.size() > 348 && (front.substr(344, 3) == "n+1" || front.substr(344, 3) == "ni1")) ||
       (front.size() > 132 && front.substr(128, 4) == "DICM") || front.starts_with("**") ||
-      front.starts_with("<?xml") || front.starts_with("<!DOCTYPE") || front.starts_with("<!doctype");
+      front.starts_with("<?xml") || front.starts_with("<!DOCTYPE") ||
+      front.starts_with("<!doctype");
   if (has_place_for_mark) return holds(front, maker_mark);
   return begins_report(front) || closes_table(tail);
 }

@@ -80,7 +80,8 @@ std::string febio_deck(const DeckScene& scene) {
   }
   std::ostringstream out;
   out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<febio_spec version=\"4.0\">\n"
-         "  <!-- Written by libbreast. Breast under gravity from its stress-free shape. Units mm, g, s: Pa and uN. -->\n"
+         "  <!-- Written by libbreast. Breast under gravity from its stress-free shape. "
+         "Units mm, g, s: Pa and uN. -->\n"
          "  <Module type=\"solid\"/>\n  <Control>\n    <analysis>STATIC</analysis>\n"
          "    <time_steps>10</time_steps>\n    <step_size>0.1</step_size>\n"
          "    <time_stepper type=\"default\"><dtmin>1e-4</dtmin><dtmax>0.1</dtmax>"

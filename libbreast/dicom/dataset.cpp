@@ -34,8 +34,8 @@ constexpr std::uint32_t undefined_length = 0xffffffff;
 DatasetBuilder& DatasetBuilder::put(std::uint32_t tag, const char* vr, std::string value) {
   const std::string reserved = is_long(vr) ? std::string(2, '\0') : std::string();
   const int width = is_long(vr) ? 4 : 2;
-  elements_[tag] = tag_bytes(tag) + vr + reserved +
-                   little_endian(std::uint32_t(value.size()), width) + value;
+  elements_[tag] =
+      tag_bytes(tag) + vr + reserved + little_endian(std::uint32_t(value.size()), width) + value;
   return *this;
 }
 
@@ -72,7 +72,8 @@ DatasetBuilder& DatasetBuilder::sequence(std::uint32_t tag,
   const std::string end_length = little_endian(0, 4);
   std::string element = tag_bytes(tag) + "SQ" + std::string(2, '\0') + undefined;
   for (const DatasetBuilder& item : items) {
-    element += tag_bytes(0xfffee000) + undefined + item.bytes() + tag_bytes(0xfffee00d) + end_length;
+    element +=
+        tag_bytes(0xfffee000) + undefined + item.bytes() + tag_bytes(0xfffee00d) + end_length;
   }
   elements_[tag] = element + tag_bytes(0xfffee0dd) + end_length;
   return *this;

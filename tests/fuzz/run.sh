@@ -26,7 +26,7 @@ for target in "$@"; do
   mkdir -p "$build/corpus/$target"
   kept=$root/tests/fuzz/seeds/$target
   [ -d "$kept" ] || kept=
-  "$build/fuzz_$target" -max_total_time=$seconds -timeout=10 -rss_limit_mb=1024 -max_len=65536 -verbosity=0 \
+  "$build/fuzz_$target" -max_total_time=$seconds -timeout=10 -rss_limit_mb=1024 -max_len=131072 -verbosity=0 \
     -print_final_stats=1 -artifact_prefix="$build/crashes/$target-" "$build/corpus/$target" "$build/seeds/$target" \
     $kept > "$build/$target.log" 2>&1 || { status=1; echo "$target: see $build/$target.log"; }
   printf '%s: ' "$target"

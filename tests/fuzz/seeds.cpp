@@ -58,7 +58,8 @@ void write_seeds(const std::filesystem::path& folder) {
   write_labels(folder / "labels/seed", samples::labels());
   write_geometry(folder / "geometry/seed", samples::geometry());
   write_text(folder / "results/log", "2*Step = 1\n*Time = 1\n*Data = u\n1,0,0,0\n2,0,0,1\n");
-  write_text(folder / "results/frd", "0    1C\n -4  DISP        4    1\n -1         1 0.0 0.0 0.0\n -3\n");
+  write_text(folder / "results/frd",
+             "0    1C\n -4  DISP        4    1\n -1         1 0.0 0.0 0.0\n -3\n");
 }
 
 }  // namespace

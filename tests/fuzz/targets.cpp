@@ -33,9 +33,8 @@ std::filesystem::path as_file(const std::string& ending) {
   static const std::string folder = [] {
     std::string name = "/dev/shm/breast-fuzz-" + std::to_string(getpid());
     mkdir(name.c_str(), 0700);
-    std::atexit([] {
-      std::filesystem::remove_all("/dev/shm/breast-fuzz-" + std::to_string(getpid()));
-    });
+    std::atexit(
+        [] { std::filesystem::remove_all("/dev/shm/breast-fuzz-" + std::to_string(getpid())); });
     return name;
   }();
   const std::filesystem::path file = folder + "/input" + ending;
@@ -98,6 +97,10 @@ void save_document(const std::filesystem::path&, const Document&) {}
 const std::vector<EmbeddedTable>& embedded_materials() {
   static const std::vector<EmbeddedTable> none;
   return none;
+}
+// In place of deck/scene.cpp, which needs the mechanics: only applying a result asks for it.
+std::vector<int> deck_nodes(const HexMesh&) {
+  return {};
 }
 // In place of core/parallel.cpp, which needs OpenMP.
 int threads() {

@@ -107,14 +107,20 @@ const Writer writers[] = {
     {"tetrahedra.vtu", [](const fs::path& f) { write_tet_mesh(f, tetrahedron()); }},
     {"image.vti", [](const fs::path& f) { write_mammogram(f, mammogram()); }},
     {"image.png", [](const fs::path& f) { write_mammogram_png(f, mammogram()); }},
-    {"picture.png", [](const fs::path& f) { write_picture_png(f, {20, 10, std::vector<float>(200, 0.5F)}); }},
+    {"picture.png",
+     [](const fs::path& f) {
+       write_picture_png(f, {20, 10, std::vector<float>(200, 0.5F)});
+     }},
     {"image.dcm", [](const fs::path& f) { write_mammogram_dicom(f, mammogram(), {}); }},
     {"scan.nrrd", [](const fs::path& f) { write_volume(f, volume<float>()); }},
     {"scan.nii", [](const fs::path& f) { write_volume(f, volume<std::int16_t>()); }},
     {"scan.nii.gz", [](const fs::path& f) { write_volume(f, volume<std::int16_t>()); }},
     {"scan.mha", [](const fs::path& f) { write_volume(f, volume<std::uint8_t>()); }},
     {"dicom", [](const fs::path& f) { write_dicom_series(f, volume<std::int16_t>(), "T1"); }},
-    {"table.tsv", [](const fs::path& f) { write_table(f, {{"a", "b"}, {{"1", "2"}}}); }},
+    {"table.tsv",
+     [](const fs::path& f) {
+       write_table(f, {{"a", "b"}, {{"1", "2"}}});
+     }},
 };
 
 class FullDisk : public testing::TestWithParam<Writer> {};
@@ -122,7 +128,8 @@ class FullDisk : public testing::TestWithParam<Writer> {};
 std::uintmax_t largest_file(const fs::path& written) {
   if (!fs::is_directory(written)) return fs::file_size(written);
   std::uintmax_t most = 0;
-  for (const auto& entry : fs::directory_iterator(written)) most = std::max(most, entry.file_size());
+  for (const auto& entry : fs::directory_iterator(written))
+    most = std::max(most, entry.file_size());
   return most;
 }
 

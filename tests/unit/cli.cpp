@@ -193,7 +193,8 @@ TEST(Cli, AFileNamedByAnyArgumentIsNotAlsoAnOutput) {
 
 TEST(Cli, DevicesAreNoFilesToReplaceNorToRead) {
   Trial trial;
-  EXPECT_EQ(trial.run({trial.mesh(), "/dev/null", "--report", "/dev/null", "--table", "/dev/null"}), 0);
+  const std::string null = "/dev/null";
+  EXPECT_EQ(trial.run({trial.mesh(), null, "--report", null, "--table", null}), 0);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
   EXPECT_EQ(trial.run({"/dev/zero", trial.result()}), 2);
 }

@@ -133,8 +133,8 @@ TEST_F(HostileMesh, GiantChunksAreRefused) {
     H5Pset_chunk(layout, 1, &chunk);
     H5Pset_deflate(layout, 1);
     const hid_t space = H5Screate_simple(1, &count, &most);
-    const hid_t set = H5Dcreate2(h5, "/breast/chunk", H5T_NATIVE_UINT8, space, H5P_DEFAULT, layout,
-                                 H5P_DEFAULT);
+    const hid_t set =
+        H5Dcreate2(h5, "/breast/chunk", H5T_NATIVE_UINT8, space, H5P_DEFAULT, layout, H5P_DEFAULT);
     EXPECT_GE(set, 0);
     H5Dclose(set);
     H5Sclose(space);
@@ -162,9 +162,9 @@ TEST_F(HostileMesh, DamageBehindTheSealIsSurvived) {
 }
 
 TEST_F(HostileMesh, PlacesOfNoBodyAreRefused) {
-  for (const char* path : {"/VTKHDF/Points", "/VTKHDF/PointData/imaged",
-                           "/VTKHDF/PointData/reference", "/breast/landmarks/imaged",
-                           "/breast/hermite/skin/x"}) {
+  for (const char* path :
+       {"/VTKHDF/Points", "/VTKHDF/PointData/imaged", "/VTKHDF/PointData/reference",
+        "/breast/landmarks/imaged", "/breast/hermite/skin/x"}) {
     write_mesh(file_, samples::full_mesh());
     const std::string text = after([&](hid_t h5) {
       const hid_t set = H5Dopen2(h5, path, H5P_DEFAULT), space = H5Dget_space(set);
@@ -220,14 +220,16 @@ TEST(Locating, CoordinatesThatOverflowAreAnErrorNotAnIndex) {
 }
 
 TEST(GuardedChild, HandsOverResultsErrorsAndDeaths) {
-  EXPECT_EQ(in_guarded_child("file", [] { return std::string(5'000'000, 'x'); }).size(), 5'000'000u);
+  EXPECT_EQ(in_guarded_child("file", [] { return std::string(5'000'000, 'x'); }).size(),
+            5'000'000u);
   EXPECT_EQ(in_guarded_child("file", [] { return std::string(); }), "");
   EXPECT_EQ(complaint([] {
               in_guarded_child("file", []() -> std::string { throw input_error("file: is bad"); });
             }),
             "file: is bad");
   EXPECT_THROW(
-      in_guarded_child("file", []() -> std::string { throw failed_error("disk: is full"); }), Error);
+      in_guarded_child("file", []() -> std::string { throw failed_error("disk: is full"); }),
+      Error);
   for (const int fault : {SIGSEGV, SIGABRT, SIGFPE, SIGKILL}) {
     const std::string text = complaint([&] {
       in_guarded_child("file", [&]() -> std::string {

@@ -100,7 +100,8 @@ INSTANTIATE_TEST_SUITE_P(
     Lines, MetaHeaders,
     testing::Values(
         Header{"no_matrix", "TransformMatrix", "", "orientation"},
-        Header{"sheared", "TransformMatrix", "TransformMatrix = 1 0.01 0 0 1 0 0 0 1", "orthonormal"},
+        Header{"sheared", "TransformMatrix", "TransformMatrix = 1 0.01 0 0 1 0 0 0 1",
+               "orthonormal"},
         Header{"nan", "TransformMatrix", "TransformMatrix = nan 0 0 0 1 0 0 0 1", "orientation"},
         Header{"no_spacing", "ElementSpacing", "", "voxel size"},
         Header{"zero", "ElementSpacing", "ElementSpacing = 0 1 1", "voxel size"},
@@ -165,8 +166,8 @@ TEST_F(NiftiHeaders, WithoutVoxelSize) {
 }
 
 TEST_F(NiftiHeaders, WithNumbersThatAreNone) {
-  for (const float odd : {1e30F, std::numeric_limits<float>::quiet_NaN(),
-                          std::numeric_limits<float>::infinity()}) {
+  for (const float odd :
+       {1e30F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     for (std::size_t at = 256; at < 328; at += 4) {
       std::string bad = good_;
       put(bad, at, odd);
@@ -195,6 +196,26 @@ TEST(VolumeHeaders, AnUpperCaseEndingIsCheckedAsWell) {
   }
 }
 
+TEST(VolumeHeaders, VoxelsInAFileOfTheSameFolderAreRead) {
+  const ScratchFolder folder;
+  const Volume<std::int16_t> volume = small_volume();
+  write_volume(folder / "scan.nrrd", volume);
+  const std::string nrrd = read_text(folder / "scan.nrrd");
+  const auto voxels = nrrd.find("\n\n") + 2;
+  write_text(folder / "voxels.gz", nrrd.substr(voxels));
+  write_text(folder / "scan.nhdr", nrrd.substr(0, voxels - 1) + "data file: voxels.gz\n");
+  write_volume(folder / "scan.mha", volume);
+  const std::string meta = read_text(folder / "scan.mha");
+  const auto data = meta.find("LOCAL\n");
+  write_text(folder / "voxels.raw", meta.substr(data + 6));
+  write_text(folder / "scan.mhd", meta.substr(0, data) + "voxels.raw\n");
+  for (const char* name : {"scan.nhdr", "scan.mhd"}) {
+    ASSERT_EQ(error_of(folder / name), "accepted");
+    const Volume<float> read = read_volume(folder / name);
+    EXPECT_TRUE(std::equal(read.voxels.begin(), read.voxels.end(), volume.voxels.begin())) << name;
+  }
+}
+
 TEST(VolumeHeaders, RasIsTurnedIntoLps) {
   const ScratchFolder folder;
   write_volume(folder / "lps.nrrd", small_volume());
@@ -203,7 +224,8 @@ TEST(VolumeHeaders, RasIsTurnedIntoLps) {
   text = with_line(text, "space directions", "space directions: (-0.75,0,0) (0,-1.25,0) (0,0,2.5)");
   text = with_line(text, "space origin", "space origin: (30.5,-12.25,40.125)");
   write_text(folder / "ras.nrrd", text);
-  const Grid lps = read_volume(folder / "lps.nrrd").grid, ras = read_volume(folder / "ras.nrrd").grid;
+  const Grid lps = read_volume(folder / "lps.nrrd").grid,
+             ras = read_volume(folder / "ras.nrrd").grid;
   EXPECT_LT((lps.origin - ras.origin).norm(), 1e-9);
   EXPECT_LT((lps.direction - ras.direction).norm(), 1e-9);
 }
@@ -219,7 +241,8 @@ TEST(VolumeHeaders, AGzipBombStopsAtWhatTheHeaderAnnounces) {
   gzFile bomb = gzopen((folder / "bomb.nii.gz").c_str(), "wb");
   gzwrite(bomb, header.data(), 352);
   const std::string zeros(std::size_t(1) << 20, '\0');
-  for (int megabyte = 0; megabyte < 600; ++megabyte) gzwrite(bomb, zeros.data(), unsigned(zeros.size()));
+  for (int megabyte = 0; megabyte < 600; ++megabyte)
+    gzwrite(bomb, zeros.data(), unsigned(zeros.size()));
   gzclose(bomb);
   const auto start = std::chrono::steady_clock::now();
   EXPECT_NE(error_of(folder / "bomb.nii.gz").find("accounts for"), std::string::npos);

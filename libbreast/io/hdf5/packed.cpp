@@ -49,16 +49,28 @@ class Unpacker {
     for (std::size_t& extent : out.shape) extent = number();
     const std::size_t kind = number();
     switch (kind) {
-      case 0: out.values = plain<Bytes>(); break;
-      case 1: out.values = plain<Integers>(); break;
-      case 2: out.values = plain<Floats>(); break;
-      case 3: out.values = plain<Doubles>(); break;
+      case 0:
+        out.values = plain<Bytes>();
+        break;
+      case 1:
+        out.values = plain<Integers>();
+        break;
+      case 2:
+        out.values = plain<Floats>();
+        break;
+      case 3:
+        out.values = plain<Doubles>();
+        break;
       default: {
         Texts texts(counted(sizeof(std::uint64_t)));
         for (std::string& one : texts) one = text();
         out.values = std::move(texts);
       }
     }
+    double values = 1;
+    for (const std::size_t extent : out.shape) values *= double(extent);
+    if (values != double(out.size()))
+      throw failed_error("a packed document's shape is not its size");
     return out;
   }
 

@@ -83,8 +83,9 @@ std::string nrrd_bytes(const Grid& grid, const VoxelType& type, std::string_view
   }
   return message("NRRD0004\n# Complete NRRD file format specification at:\n",
                  "# http://teem.sourceforge.net/nrrd/format.html\n# written by ", maker_mark,
-                 "\ntype: ", type.nrrd, "\ndimension: 3\nspace: left-posterior-superior\nsizes: ",
-                 sizes(grid), "\nspace directions:", directions,
+                 "\ntype: ", type.nrrd,
+                 "\ndimension: 3\nspace: left-posterior-superior\nsizes: ", sizes(grid),
+                 "\nspace directions:", directions,
                  "\nkinds: domain domain domain\nendian: little\nencoding: gzip\nspace origin: (",
                  numbers(grid.origin, ","), ")\n\n") +
          gzip_bytes(voxels);
@@ -130,7 +131,7 @@ std::string nifti_bytes(const Grid& grid, const VoxelType& type, std::string_vie
   header.put(76, handed);
   for (std::size_t d = 0; d < 3; ++d) header.put(80 + 4 * d, float(grid.spacing[int(d)]));
   header.put(108, float(offset_of_voxels));
-  header.put(112, 1.0F);  // slope
+  header.put(112, 1.0F);     // slope
   header.put(123, char(2));  // mm
   header.put_text(148, "written by " + std::string(maker_mark));
   header.put(252, scanner);

@@ -85,11 +85,22 @@ class NiftiHeader {
 
 int bits_of(int type) {
   switch (type) {
-    case 2: case 256: return 8;
-    case 4: case 512: return 16;
-    case 8: case 16: case 768: return 32;
-    case 64: case 1024: case 1280: return 64;
-    default: return 0;  // complex, colour, 128 bits
+    case 2:
+    case 256:
+      return 8;
+    case 4:
+    case 512:
+      return 16;
+    case 8:
+    case 16:
+    case 768:
+      return 32;
+    case 64:
+    case 1024:
+    case 1280:
+      return 64;
+    default:
+      return 0;  // complex, colour, 128 bits
   }
 }
 

@@ -58,7 +58,8 @@ NrrdHeader header_of(const fs::path& file) {
       header.data_at = in.tellg();
       break;
     }
-    if (line.size() > longest) throw input_error(file.string(), ": header line ", n + 2, " is endless");
+    if (line.size() > longest)
+      throw input_error(file.string(), ": header line ", n + 2, " is endless");
     const auto colon = line.find(": ");
     const bool pair = line.find(":=") < colon;  // a note of the program that wrote it
     if (line.starts_with('#') || colon == std::string::npos || pair) continue;
@@ -71,16 +72,46 @@ NrrdHeader header_of(const fs::path& file) {
 }
 
 double voxel_bytes(const std::string& type) {
-  static const std::map<std::string, double> known = {
-      {"signed char", 1}, {"int8", 1}, {"int8_t", 1}, {"uchar", 1}, {"unsigned char", 1},
-      {"uint8", 1}, {"uint8_t", 1}, {"short", 2}, {"short int", 2}, {"signed short", 2},
-      {"signed short int", 2}, {"int16", 2}, {"int16_t", 2}, {"ushort", 2}, {"unsigned short", 2},
-      {"unsigned short int", 2}, {"uint16", 2}, {"uint16_t", 2}, {"int", 4}, {"signed int", 4},
-      {"int32", 4}, {"int32_t", 4}, {"uint", 4}, {"unsigned int", 4}, {"uint32", 4},
-      {"uint32_t", 4}, {"longlong", 8}, {"long long", 8}, {"long long int", 8},
-      {"signed long long", 8}, {"signed long long int", 8}, {"int64", 8}, {"int64_t", 8},
-      {"ulonglong", 8}, {"unsigned long long", 8}, {"unsigned long long int", 8}, {"uint64", 8},
-      {"uint64_t", 8}, {"float", 4}, {"double", 8}};
+  static const std::map<std::string, double> known = {{"signed char", 1},
+                                                      {"int8", 1},
+                                                      {"int8_t", 1},
+                                                      {"uchar", 1},
+                                                      {"unsigned char", 1},
+                                                      {"uint8", 1},
+                                                      {"uint8_t", 1},
+                                                      {"short", 2},
+                                                      {"short int", 2},
+                                                      {"signed short", 2},
+                                                      {"signed short int", 2},
+                                                      {"int16", 2},
+                                                      {"int16_t", 2},
+                                                      {"ushort", 2},
+                                                      {"unsigned short", 2},
+                                                      {"unsigned short int", 2},
+                                                      {"uint16", 2},
+                                                      {"uint16_t", 2},
+                                                      {"int", 4},
+                                                      {"signed int", 4},
+                                                      {"int32", 4},
+                                                      {"int32_t", 4},
+                                                      {"uint", 4},
+                                                      {"unsigned int", 4},
+                                                      {"uint32", 4},
+                                                      {"uint32_t", 4},
+                                                      {"longlong", 8},
+                                                      {"long long", 8},
+                                                      {"long long int", 8},
+                                                      {"signed long long", 8},
+                                                      {"signed long long int", 8},
+                                                      {"int64", 8},
+                                                      {"int64_t", 8},
+                                                      {"ulonglong", 8},
+                                                      {"unsigned long long", 8},
+                                                      {"unsigned long long int", 8},
+                                                      {"uint64", 8},
+                                                      {"uint64_t", 8},
+                                                      {"float", 4},
+                                                      {"double", 8}};
   const auto found = known.find(lower_case(type));
   return found == known.end() ? 0 : found->second;
 }
@@ -173,8 +204,7 @@ void check_data(const fs::path& file, const NrrdHeader& header, double needed) {
   const fs::path data = detached.empty() ? file : detached_data(file, detached);
   const std::streamoff start = detached.empty() ? header.data_at : 0;
   constexpr double text_bytes = 32;  // of one number, at most
-  const Content content =
-      content_from(data, start, needed * (text ? text_bytes : 1) + slack_bytes);
+  const Content content = content_from(data, start, needed * (text ? text_bytes : 1) + slack_bytes);
   const bool skips = header.fields.contains("line skip") || header.fields.contains("lineskip");
   if (gzip && !content.compressed && !skips) {
     throw input_error(file.string(), ": its voxels are not the gzip data its header announces");
