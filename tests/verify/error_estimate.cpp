@@ -70,13 +70,13 @@ TEST(ErrorEstimate, MeetsTheDifferenceToQuadraticElements) {
   expect_fair("breast 5, oblique", breast, oblique);
 }
 
-// Under five times its weight the first step leaves a larger residual than it found: the second,
+// Under nearly five times its weight the first step leaves a larger residual than it found: the second,
 // added, made the estimate 1.76 times the error.
 TEST(ErrorEstimate, LeavesOutASecondStepThatDoesNotSettle) {
   HexMesh breast = analytic_breast_mesh(5);
   breast.reference = breast.points;
-  const double ratio = effectivity("breast 5, wellman, supine x5", breast, raise_order(breast),
-                                   5 * supine, options_of("wellman"));
+  const double ratio = effectivity("breast 5, wellman, supine x4.8", breast, raise_order(breast),
+                                   4.8 * supine, options_of("wellman"));
   EXPECT_GT(ratio, 0.5);
   EXPECT_LT(ratio, 1.5);
 }
