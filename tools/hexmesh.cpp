@@ -1,19 +1,17 @@
 // hexmesh: hexahedral mesh of a breast from its Hermite geometry and its labels.
 #include <cmath>
 
+#include "cli/sibling.hpp"
+#include "core/temporary_folder.hpp"
 #include "hexmesh_options.hpp"
 #include "io/geometry_file.hpp"
 #include "io/label_file.hpp"
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
-#include "io/tet_mesh_file.hpp"
 #include "meshing/boundary_surface.hpp"
 #include "meshing/report.hpp"
 #include "meshing/skin.hpp"
 #include "meshing/tumour.hpp"
-#include "tetrahedra/delaunay.hpp"
-#include "tetrahedra/report.hpp"
-#include "tetrahedra/tissue.hpp"
 
 using namespace breast;
 
@@ -33,19 +31,20 @@ std::optional<Tumour> choose_tumour(const MeshChoices& choices, const LabelVolum
   return tumour_of(read_labels(choices.tumour), choices.tumour);
 }
 
-void write_for_others(const MeshChoices& choices, const HexMesh& mesh, Run& run) {
-  if (choices.surface.empty() && choices.tetrahedra.empty()) return;
+void write_boundary(const HexMesh& mesh, const std::filesystem::path& file) {
   TriMesh surface = boundary_surface(mesh);
   surface.history = mesh.history;
-  if (!choices.surface.empty()) write_surface(choices.surface, surface);
-  if (choices.tetrahedra.empty()) return;
+  write_surface(file, surface);
+}
+
+/// By the program tetrahedra, from the mesh under the name it will have.
+void fill_with_tetrahedra(const MeshChoices& choices, const HexMesh& mesh, Run& run) {
   Timer::Scope phase(run.timer(), "tetrahedra");
-  const double volume = mesh_volume(mesh, mesh.points);
-  TetMesh tetrahedra = delaunay_tetrahedra(surface, std::cbrt(volume / mesh.elements()));
-  copy_tissue(mesh, tetrahedra);
-  tetrahedra.history = mesh.history;
-  write_report(tetrahedra, volume, run.report());
-  write_tet_mesh(choices.tetrahedra, tetrahedra);
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / choices.mesh.filename();
+  write_mesh(file, mesh);
+  run.report().copy("tetrahedra",
+                    run_sibling("tetrahedra", {file.string(), choices.tetrahedra.string()}));
 }
 
 void run_hexmesh(const MeshChoices& choices, Run& run) {
@@ -81,7 +80,8 @@ void run_hexmesh(const MeshChoices& choices, Run& run) {
   run.report().set("skin_mm", skin_mm);
   mesh.history = run.history({{choices.geometry, geometry.content_sha256, &geometry.history},
                               {choices.labels, labels.content_sha256, &labels.history}});
-  write_for_others(choices, mesh, run);
+  if (!choices.surface.empty()) write_boundary(mesh, choices.surface);
+  if (!choices.tetrahedra.empty()) fill_with_tetrahedra(choices, mesh, run);
   write_mesh(choices.mesh, mesh);
 }
 

@@ -1,5 +1,6 @@
 #include "hexmesh_options.hpp"
 
+#include "cli/sibling.hpp"
 #include "core/error.hpp"
 #include "meshing/skin.hpp"
 #include "meshing/tumour.hpp"
@@ -27,6 +28,7 @@ void MeshChoices::check() const {
     throw input_error(
         "--tetrahedra goes with --skin-as membrane: its elements are thicker than "
         "a layer of skin");
+  if (!tetrahedra.empty()) require_sibling("tetrahedra", "--tetrahedra");
   if (skin != "measured") parse_skin_thickness(skin);
   mesh_options(1);
   if (tumour != "auto" && tumour != "none" && !std::filesystem::exists(tumour))

@@ -2,6 +2,8 @@
 // the value, the bound and what to try.
 #pragma once
 
+#include <cstddef>
+#include <initializer_list>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -24,12 +26,33 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
+/// Anything that can be streamed, for message(): what is compiled once for a type is not compiled again
+/// for every message.
+class Piece {
+ public:
+  template <class T>
+  Piece(const T& value)
+      : value_(&value), print_([](std::ostream& out, const void* p) {
+          out << *static_cast<const T*>(p);
+        }) {}
+  template <std::size_t N>
+  Piece(const char (&text)[N])
+      : value_(text), print_([](std::ostream& out, const void* p) {
+          out << static_cast<const char*>(p);
+        }) {}
+  void print(std::ostream& out) const { print_(out, value_); }
+
+ private:
+  const void* value_;
+  void (*print_)(std::ostream&, const void*);
+};
+/// The pieces one after the other.
+std::string joined(std::initializer_list<Piece> pieces);
+
 /// Message from streamed pieces: input_error("thickness ", t, " mm: must be positive").
 template <class... Parts>
 std::string message(const Parts&... parts) {
-  std::ostringstream out;
-  (out << ... << parts);
-  return out.str();
+  return joined({Piece(parts)...});
 }
 
 template <class... Parts>

@@ -83,6 +83,11 @@ void Report::append(std::string_view path, std::string_view value) {
   if (!list.is_array()) list = Json::array();
   list.push_back(std::string(value));
 }
+void Report::copy(std::string_view path, const Report& from) {
+  const Json* entry = from.impl_->find(path);
+  if (entry == nullptr) throw failed_error("report has no entry '", path, "'");
+  impl_->at(path) = *entry;
+}
 
 bool Report::contains(std::string_view path) const {
   return impl_->find(path) != nullptr;

@@ -33,6 +33,9 @@ class Report {
   void set(std::string_view path, const Vec3& value);
   /// Appends a string to a list: warnings, things to doubt.
   void append(std::string_view path, std::string_view value);
+  /// Sets what another report has at `path`: a value or all below it. Throws Error (failed) when
+  /// nothing is there.
+  void copy(std::string_view path, const Report& from);
 
   bool contains(std::string_view path) const;
   /// Throws Error (failed) when absent or not a number.

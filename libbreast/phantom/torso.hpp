@@ -14,10 +14,10 @@ class Torso {
   double wall_distance(const Vec3& x) const;
   /// The same to the skin of the chest without breasts; negative inside the body.
   double skin_distance(const Vec3& x) const;
+  /// Both at once, for half the price.
   struct Distances {
-    double wall, skin;
+    double skin, wall;
   };
-  /// Both at the price of one.
   Distances distances(const Vec3& x) const;
   /// Unit outward normal of the level set of wall_distance through x.
   Vec3 wall_normal(const Vec3& x) const;
@@ -29,7 +29,7 @@ class Torso {
  private:
   double smooth_distance(const Vec3& x) const;
   double groove(const Vec3& x) const;
-  double thickness(const Vec3& x) const;
+  double fat_thickness(const Vec3& x) const;
   double centre(double z) const { return p_.half_depth + p_.tilt * z + p_.bend * z * z; }
   double frontness(const Vec3& x) const;
   Matter bone_layer(const Vec3& x, double depth) const;

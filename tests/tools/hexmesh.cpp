@@ -186,6 +186,34 @@ TEST_F(HexmeshTool, CurvedBoundaryAndTetrahedra) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "t.vtu"));
 }
 
+TEST_F(HexmeshTool, TetrahedraInTwoStepsAreTheSame) {
+  ASSERT_EQ(hexmesh({"--elements", "8", "--tetrahedra", "one.vtu"}).exit_code, 0);
+  const Report one = Report::parse(read_text(folder_ / "r.json"), "r.json");
+  const auto tetrahedra = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"mesh.vtkhdf", "two.vtu", "--report", "t.json"});
+    const ToolResult result = run_tool("tetrahedra", arguments, folder_.path());
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return Report::parse(read_text(folder_ / "t.json"), "t.json");
+  };
+  const Report two = tetrahedra({});
+  for (const char* key : {"count", "nodes", "volume_ml", "least_dihedral_deg"})
+    EXPECT_EQ(two.text(std::string("tetrahedra/") + key), one.text(std::string("tetrahedra/") + key));
+  EXPECT_GT(tetrahedra({"--edge", "8"}).number("tetrahedra/count"),
+            2 * two.number("tetrahedra/count"));
+}
+
+TEST_F(HexmeshTool, TetrahedraWithoutTheirProgramAreRefusedAtOnce) {
+  std::filesystem::copy_file(tool_path("hexmesh"), folder_ / "hexmesh");
+  const ToolResult result =
+      run_tool((folder_ / "hexmesh").string(),
+               {"geometry.vtkhdf", "labels.vtkhdf", "mesh.vtkhdf", "--tetrahedra", "t.vtu"},
+               folder_.path());
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.error_lines(), 1) << result.err;
+  EXPECT_NE(result.err.find("--target tetrahedra"), std::string::npos) << result.err;
+  EXPECT_FALSE(written());
+}
+
 TEST_F(HexmeshTool, SameFileFromTwoRuns) {
   ASSERT_EQ(hexmesh({"--elements", "8"}).exit_code, 0);
   const HexMesh first = read_mesh(folder_ / "mesh.vtkhdf");

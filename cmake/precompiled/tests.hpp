@@ -1,0 +1,4 @@
+// What nearly every test reads.
+#include "common.hpp"
+
+#include <gtest/gtest.h>

@@ -1,0 +1,66 @@
+// tetrahedra: the body of a hexahedral mesh in tetrahedra, for other solvers.
+#include "tetrahedra/delaunay.hpp"
+
+#include <cmath>
+
+#include "cli/tool.hpp"
+#include "core/error.hpp"
+#include "io/mesh_file.hpp"
+#include "io/tet_mesh_file.hpp"
+#include "mesh/quality.hpp"
+#include "meshing/boundary_surface.hpp"
+#include "tetrahedra/report.hpp"
+#include "tetrahedra/tissue.hpp"
+
+using namespace breast;
+
+namespace {
+
+struct Choices {
+  std::filesystem::path mesh, tetrahedra;
+  double edge = 0;
+};
+
+void declare(Tool& tool, Choices& c) {
+  tool.describe(
+      "Fills the body of a hexahedral mesh with Delaunay tetrahedra for other solvers: the same "
+      "surface, whose lines between skin, cut and chest wall are kept as edges, tissue from the "
+      "hexahedron that holds the tetrahedron's centroid. hexmesh --tetrahedra does the same in one "
+      "step.");
+  tool.cite("Jamin et al. 2015, CGALmesh, ACM Trans Math Softw 41(4)");
+  tool.input(c.mesh, "MESH.vtkhdf", "hexahedra, at the positions they have there");
+  tool.output(c.tetrahedra, "OUT.vtu",
+              "tetrahedra and the boundary's triangles; tissue per tetrahedron, part per triangle: "
+              "0 skin, 1 lateral cut, 2 chest wall");
+  tool.number(c.edge, "--edge", "MM",
+              "length of the edges; 0: that of a cube of the hexahedra's mean volume", 0, 1000);
+  tool.check([&c] {
+    if (c.tetrahedra.extension() != ".vtu")
+      throw input_error(c.tetrahedra.string(), ": must end in .vtu");
+  });
+  tool.example("tetrahedra mesh.vtkhdf body.vtu", "edges about as long as the hexahedra's");
+  tool.example("tetrahedra cc.vtkhdf compressed.vtu --edge 4", "the compressed body, finer");
+}
+
+void run_tetrahedra(const Choices& c, Run& run) {
+  const HexMesh hexahedra = read_mesh(c.mesh);
+  const double volume = mesh_volume(hexahedra, hexahedra.points);
+  const double edge = c.edge > 0 ? c.edge : std::cbrt(volume / hexahedra.elements());
+  TetMesh mesh = [&] {
+    Timer::Scope phase(run.timer(), "delaunay");
+    return delaunay_tetrahedra(boundary_surface(hexahedra), edge);
+  }();
+  copy_tissue(hexahedra, mesh);
+  mesh.history = run.history({{c.mesh, hexahedra.content_sha256, &hexahedra.history}});
+  write_report(mesh, volume, run.report());
+  write_tet_mesh(c.tetrahedra, mesh);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choices c;
+  Tool tool("tetrahedra", "tetrahedra of a mesh's body, for other solvers");
+  declare(tool, c);
+  return tool.main(argc, argv, [&c](Run& run) { run_tetrahedra(c, run); });
+}
