@@ -49,7 +49,7 @@ class Imager {
   void slice(int k) {
     const int nx = grid_.size[0], ny = grid_.size[1];
     // Matter of the rigid body in three planes of the slice shows where subsamples are needed.
-    std::vector<std::uint8_t> probe(std::size_t(nx) * ny);
+    std::vector<Probe> probe(std::size_t(nx) * ny);
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i) probe[std::size_t(j) * nx + i] = probe_rigid(i, j, k);
     for (int j = 0; j < ny; ++j)
@@ -63,21 +63,32 @@ class Imager {
         if (side > 0) {
           breast_voxel(scene_.breast(side == 1 ? Side::left : Side::right), centre, frame, tally);
         } else {
-          rigid_voxel(centre, mixed(probe, i, j), tally);
+          rigid_voxel(centre, probe[std::size_t(j) * nx + i], mixed(probe, i, j), tally);
         }
         store(grid_.offset(i, j, k), side, tally);
       }
   }
 
  private:
-  static constexpr std::uint8_t mixed_matter = 255;
+  // What the rigid body has at a voxel's centre, and whether it has the same above and below.
+  struct Probe {
+    Matter matter = Matter::air;
+    Tissue tissue = Tissue::air;
+    bool mixed = false;
+    bool differs(const Probe& other) const {
+      return mixed != other.mixed || (!mixed && matter != other.matter);
+    }
+  };
 
   // Matter of the rigid body; `tissue` gets its label.
   Matter rigid_matter(const Vec3& x, Tissue& tissue) const {
-    const double skin = scene_.torso.skin_distance(x);
+    const auto [skin, wall] = scene_.torso.distances(x);
+    return rigid_matter(x, skin, wall, tissue);
+  }
+
+  Matter rigid_matter(const Vec3& x, double skin, double wall, Tissue& tissue) const {
     tissue = Tissue::air;
     if (skin > 0) return Matter::air;
-    const double wall = scene_.torso.wall_distance(x);
     if (wall > 0) {
       // Within the cut whatever is not in the prone breast is air. The last 3 mm before the cut
       // hardly move: there the rigid skin is as good.
@@ -91,23 +102,25 @@ class Imager {
     return scene_.torso.interior(x, -wall);
   }
 
-  std::uint8_t probe_rigid(int i, int j, int k) const {
+  Probe probe_rigid(int i, int j, int k) const {
     const Vec3 centre = grid_.to_patient(Vec3(i, j, k));
-    if (scene_.torso.skin_distance(centre) > 4 * grid_.spacing.z()) return 0;
-    Tissue tissue;
-    const Matter matter = rigid_matter(centre, tissue);
+    const auto [skin, wall] = scene_.torso.distances(centre);
+    Probe probe;
+    if (skin > 4 * grid_.spacing.z()) return probe;
+    probe.matter = rigid_matter(centre, skin, wall, probe.tissue);
     const Vec3 up = grid_.direction.col(2) * (grid_.spacing.z() / 2);
+    Tissue tissue;
     for (double s : {-1.0, 1.0})
-      if (rigid_matter(centre + s * up, tissue) != matter) return mixed_matter;
-    return std::uint8_t(matter);
+      probe.mixed = probe.mixed || rigid_matter(centre + s * up, tissue) != probe.matter;
+    return probe;
   }
 
-  bool mixed(const std::vector<std::uint8_t>& probe, int i, int j) const {
+  bool mixed(const std::vector<Probe>& probe, int i, int j) const {
     const int nx = grid_.size[0], ny = grid_.size[1];
-    const std::uint8_t own = probe[std::size_t(j) * nx + i];
-    if (own == mixed_matter) return true;
+    const Probe& own = probe[std::size_t(j) * nx + i];
+    if (own.mixed) return true;
     const auto differs = [&](int a, int b) {
-      return a >= 0 && b >= 0 && a < nx && b < ny && probe[std::size_t(b) * nx + a] != own;
+      return a >= 0 && b >= 0 && a < nx && b < ny && probe[std::size_t(b) * nx + a].differs(own);
     };
     return differs(i - 1, j) || differs(i + 1, j) || differs(i, j - 1) || differs(i, j + 1);
   }
@@ -123,17 +136,12 @@ class Imager {
         }
   }
 
-  void rigid_voxel(const Vec3& centre, bool is_mixed, Tally& tally) const {
-    Tissue tissue;
+  void rigid_voxel(const Vec3& centre, const Probe& probe, bool is_mixed, Tally& tally) const {
     if (!is_mixed) {
-      if (scene_.torso.skin_distance(centre) > 0) {
-        tally.add(Matter::air, Tissue::air);
-      } else {
-        const Matter matter = rigid_matter(centre, tissue);
-        tally.add(matter, tissue);
-      }
+      tally.add(probe.matter, probe.tissue);
       return;
     }
+    Tissue tissue;
     subsample(centre, {2, 2, 3}, [&](const Vec3& x) {
       const Matter matter = rigid_matter(x, tissue);
       tally.add(matter, tissue);

@@ -27,16 +27,27 @@ double Torso::smooth_distance(const Vec3& x) const {
   return (f - 1) / std::sqrt(fx * fx + fy * fy + fz * fz);
 }
 
-double Torso::wall_distance(const Vec3& x) const {
+double Torso::groove(const Vec3& x) const {
   const double front = smooth_step(centre(x.z()) - x.y(), 0, 0.6 * p_.half_depth);
   const double across = x.x() / 15;
-  return smooth_distance(x) + p_.sternal_groove * elementary::exp(-across * across) * front;
+  return p_.sternal_groove * elementary::exp(-across * across) * front;
+}
+
+double Torso::fat_thickness(const Vec3& x) const {
+  return p_.fat_medial + (p_.fat_lateral - p_.fat_medial) * smooth_step(std::abs(x.x()), 15, 150);
+}
+
+double Torso::wall_distance(const Vec3& x) const {
+  return smooth_distance(x) + groove(x);
 }
 
 double Torso::skin_distance(const Vec3& x) const {
-  const double thickness =
-      p_.fat_medial + (p_.fat_lateral - p_.fat_medial) * smooth_step(std::abs(x.x()), 15, 150);
-  return smooth_distance(x) - thickness;
+  return smooth_distance(x) - fat_thickness(x);
+}
+
+Torso::Distances Torso::distances(const Vec3& x) const {
+  const double smooth = smooth_distance(x);
+  return {smooth - fat_thickness(x), smooth + groove(x)};
 }
 
 Vec3 Torso::wall_normal(const Vec3& x) const {

@@ -14,6 +14,11 @@ class Torso {
   double wall_distance(const Vec3& x) const;
   /// The same to the skin of the chest without breasts; negative inside the body.
   double skin_distance(const Vec3& x) const;
+  /// Both at once, for half the price.
+  struct Distances {
+    double skin, wall;
+  };
+  Distances distances(const Vec3& x) const;
   /// Unit outward normal of the level set of wall_distance through x.
   Vec3 wall_normal(const Vec3& x) const;
   /// Point of the anterior chest wall at (x, z).
@@ -23,6 +28,8 @@ class Torso {
 
  private:
   double smooth_distance(const Vec3& x) const;
+  double groove(const Vec3& x) const;
+  double fat_thickness(const Vec3& x) const;
   double centre(double z) const { return p_.half_depth + p_.tilt * z + p_.bend * z * z; }
   double frontness(const Vec3& x) const;
   Matter bone_layer(const Vec3& x, double depth) const;
