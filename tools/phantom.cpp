@@ -96,15 +96,14 @@ void run_phantom(const Choices& c, Run& run) {
   }();
   Table landmarks;
   double worst = 0;
-  const std::array<SolvedBreast, 2> solved = [&] {
-    Timer::Scope phase(run.timer(), "mechanics");
-    return solve_breasts(scene, materials, run.progress());
-  }();
   for (Side side : {Side::left, Side::right}) {
-    const SolvedBreast& breast = solved[side == Side::left ? 0 : 1];
-    report_breast(scene.breast(side), breast.postures, run.report());
-    add_landmarks(scene.breast(side), breast.postures, landmarks);
-    worst = std::max(worst, breast.error.worst());
+    Timer::Scope phase(run.timer(), "mechanics");
+    PhantomBreast& breast = scene.breast(side);
+    TruthError error;
+    const Postures postures = solve_breast(breast, parameters, materials, error, run.progress());
+    report_breast(breast, postures, run.report());
+    add_landmarks(breast, postures, landmarks);
+    worst = std::max(worst, error.worst());
   }
   run.report().set("error_estimate_mm", worst);
   run.report().set("error_estimate_by",

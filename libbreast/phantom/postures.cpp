@@ -1,7 +1,6 @@
 #include "phantom/postures.hpp"
 
 #include <algorithm>
-#include <exception>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -121,25 +120,6 @@ Postures solve_breast(PhantomBreast& breast, const PhantomParameters& parameters
   const Postures postures = solve_postures(mesh, materials, progress);
   error = compare(mesh, postures, coarse, coarse_postures);
   return postures;
-}
-
-std::array<SolvedBreast, 2> solve_breasts(PhantomScene& scene, const MaterialSet& materials,
-                                          Progress& progress) {
-  std::array<SolvedBreast, 2> solved;
-  std::array<std::exception_ptr, 2> failure;
-  const int at_once = threads() >= 2 && threads() <= 4 ? 2 : 1;
-#pragma omp parallel for num_threads(at_once) schedule(static, 1)
-  for (int s = 0; s < 2; ++s) {
-    try {
-      solved[s].postures = solve_breast(s == 0 ? *scene.left : *scene.right, scene.parameters,
-                                        materials, solved[s].error, progress);
-    } catch (...) {
-      failure[s] = std::current_exception();
-    }
-  }
-  for (const std::exception_ptr& thrown : failure)
-    if (thrown) std::rethrow_exception(thrown);
-  return solved;
 }
 
 }  // namespace breast

@@ -1,8 +1,6 @@
 // The physics of the phantom: from the known stress-free shape to the prone and the supine one.
 #pragma once
 
-#include <array>
-
 #include "mechanics/mechanics.hpp"
 #include "phantom/scene.hpp"
 
@@ -38,15 +36,5 @@ struct TruthError {
 Postures solve_breast(PhantomBreast& breast, const PhantomParameters& parameters,
                       const MaterialSet& materials, TruthError& error,
                       Progress& progress = no_progress());
-
-struct SolvedBreast {
-  Postures postures;
-  TruthError error;
-};
-/// solve_breast() of the left and the right breast, with two to four threads at the same time: two
-/// solves share the cores better than the threads share a solve. Throws what the left breast, else
-/// the right one, threw.
-std::array<SolvedBreast, 2> solve_breasts(PhantomScene& scene, const MaterialSet& materials,
-                                          Progress& progress = no_progress());
 
 }  // namespace breast
