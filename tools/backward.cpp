@@ -22,22 +22,18 @@ struct Choices {
 void declare(Tool& tool, Choices& c) {
   tool.describe(
       "Finds the shape the breast would have without gravity: the one that gravity deforms into "
-      "the "
-      "imaged shape. The equations are those of forward with the reference shape unknown, solved "
-      "by "
-      "Newton's method with exact derivatives.");
+      "the imaged shape. The equations are those of forward with the reference shape unknown, "
+      "solved by Newton's method with exact derivatives.");
   tool.describe(
       "Without an answer the exit code is 3, nothing is written, and reason in the report says "
-      "why: "
-      "no_stress_free_body (the unloaded shapes end before the full load: gravity cannot make the "
-      "imaged shape of these tissues), unstable_equilibrium (a body exists, but would not stay in "
-      "the imaged shape), or where the solution method gave up (iteration_limit, "
+      "why: no_stress_free_body (the unloaded shapes end before the full load: gravity cannot make "
+      "the imaged shape of these tissues), unstable_equilibrium (a body exists, but would not stay "
+      "in the imaged shape), or where the solution method gave up (iteration_limit, "
       "no_admissible_step, folded_element). stiffness_factor_needed is how many times stiffer all "
       "tissues must be for a stable body.");
   tool.describe(
       "Afterwards the forward problem is solved from the shape found; closure_mm in the report is "
-      "the "
-      "largest distance of its nodes from the imaged shape.");
+      "the largest distance of its nodes from the imaged shape.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), equation (6)");
   tool.input(c.mesh, "MESH.vtkhdf", "mesh of the imaged shape (hexmesh)");
   tool.output(c.reference, "REFERENCE.vtkhdf", "the same mesh, stress-free");

@@ -19,14 +19,11 @@ struct Choices {
 void declare(Tool& tool, Choices& c) {
   tool.describe(
       "Finds the size of a phantom's breast and the distance of its tumour from the breast's axis "
-      "for "
-      "which nipple and tumour move as far as wanted from the prone to the supine and to the "
-      "stress-free shape. Least "
-      "squares "
-      "by BOBYQA (NLopt) on a coarse phantom mesh; prints the parameters to put into the preset, "
-      "with the bounds between which they were sought, and warns of one that lies on a bound. "
-      "Motions are what a chain would report: its own are --gain times the phantom's, measured "
-      "once.");
+      "for which nipple and tumour move as far as wanted from the prone to the supine and to the "
+      "stress-free shape. Least squares by BOBYQA (NLopt) on a coarse phantom mesh; prints the "
+      "parameters to put into the preset, with the bounds between which they were sought, and "
+      "warns of one that lies on a bound. Motions are what a chain would report: its own are "
+      "--gain times the phantom's, measured once.");
   tool.cite("Pathmanathan et al. 2008, Tables III and IV: 8.8 and 3.0 mm, 4.5 and 1.6 mm")
       .cite("Powell 2009, The BOBYQA algorithm, DAMTP 2009/NA06; Johnson, NLopt");
   tool.choice(c.preset, "--preset", preset_names(), "kind of breast");

@@ -26,12 +26,11 @@ void declare_images(Tool& tool, MatchChoices& choices) {
   tool.describe(
       "With --cc-image and --mlo-image, the patient's own mammograms, points are pixels of these "
       "(column,row from the centre of the top left one). Each simulated view is laid over its "
-      "image "
-      "by a similarity (rotation, translation, scale) that fits the breast's outline, the nipple "
-      "and the chest-wall edge; what is left is added to the band. View, side and pixel spacing of "
-      "the headers must fit the meshes; thickness and angle are compared (compress --like). The "
-      "picture shows the simulated outline as laid over (magenta), curve and bands (yellow), arc "
-      "(blue) and nipple (cross).");
+      "image by a similarity (rotation, translation, scale) that fits the breast's outline, the "
+      "nipple and the chest-wall edge; what is left is added to the band. View, side and pixel "
+      "spacing of the headers must fit the meshes; thickness and angle are compared (compress "
+      "--like). The picture shows the simulated outline as laid over (magenta), curve and bands "
+      "(yellow), arc (blue) and nipple (cross).");
   tool.input_file(choices.cc_image, "--cc-image", "CC.dcm", "the patient's CC mammogram");
   tool.input_file(choices.mlo_image, "--mlo-image", "MLO.dcm",
                   "the patient's mammogram of the other view");
@@ -92,8 +91,7 @@ void declare_match(Tool& tool, MatchChoices& choices) {
                "a spot marked in both views: its place in the MR scan and supine");
   tool.example(
       "cc2mlo cc.vtkhdf mlo.vtkhdf curve.vtp --cc-image CC.dcm --mlo-image MLO.dcm --point "
-      "812,1303 "
-      "--picture where.png --curve-table where.tsv",
+      "812,1303 --picture where.png --curve-table where.tsv",
       "a pixel of the patient's CC mammogram, and where it may lie in the MLO one");
 }
 

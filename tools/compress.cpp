@@ -26,11 +26,10 @@ void declare(Tool& tool, Choices& c) {
   tool.describe(
       "Loads the stress-free breast with gravity, sets two rigid plates with rounded edges just "
       "touching it, and closes them to a thickness, a reduction, a force or a mean pressure. "
-      "Contact "
-      "is exact: no penalty, no penetration. Unless --detector says otherwise both plates move, "
-      "about the mid-plane of the stress-free breast, so that it is not dragged along the chest "
-      "wall. The stand-off runs from the most anterior chest-wall or cut point to the start of the "
-      "plates' rounded edge; the force depends strongly on it.");
+      "Contact is exact: no penalty, no penetration. Unless --detector says otherwise both plates "
+      "move, about the mid-plane of the stress-free breast, so that it is not dragged along the "
+      "chest wall. The stand-off runs from the most anterior chest-wall or cut point to the start "
+      "of the plates' rounded edge; the force depends strongly on it.");
   tool.describe(
       "A path that stops early ends in a valid equilibrium: with --at-least it is written with "
       "status stopped_early when at least that reduction was reached.");
@@ -45,8 +44,7 @@ void declare(Tool& tool, Choices& c) {
       "identifier (folds_at_plate_edge, folds_on_chest_wall, folds_between_edge_and_wall, "
       "folds_between_plates, folds_behind_plates, shrinks_... with the same endings, "
       "iteration_limit, indefinite_tangent, no_admissible_step, solve_limit, out_of_reach, "
-      "jump_at_target, "
-      "gravity_not_carried, no_equilibrium_at_touch) and explanation a sentence.");
+      "jump_at_target, gravity_not_carried, no_equilibrium_at_touch) and explanation a sentence.");
   tool.cite("Pathmanathan et al. 2008, section II-D, equations (7)-(8)");
   tool.example("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 50",
                "cranio-caudal, half the thickness");

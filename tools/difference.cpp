@@ -43,11 +43,9 @@ int main(int argc, char** argv) {
   Tool tool("difference", "derivative of a shape by what changes the mesh, from two other models");
   tool.describe(
       "sensitivity differentiates by materials, gravity and plates; the chest wall changes the "
-      "mesh "
-      "itself. The chain is run again with the wall moved back and forth (segment "
+      "mesh itself. The chain is run again with the wall moved back and forth (segment "
       "--chest-wall-shift), and every node of STATE, a place of the scan, is followed in both: "
-      "half "
-      "the difference is the derivative, a term of the band of cc2mlo and match-lookup.");
+      "half the difference is the derivative, a term of the band of cc2mlo and match-lookup.");
   tool.input(c.state, "STATE.vtkhdf", "the shape, perhaps with derivatives (sensitivity)");
   tool.input(c.plus, "PLUS.vtkhdf", "the same posture or view, parameter larger by the step");
   tool.input(c.minus, "MINUS.vtkhdf", "the same, smaller by the step");

@@ -53,12 +53,9 @@ void declare_fit_hermite(Tool& tool, FitChoices& choices) {
   tool.describe(
       "Fits two bicubic Hermite sheets, larger than the body, to the skin and to the front of the "
       "chest wall, and finds the rim: the closed curve where the breast ends and a straight cut "
-      "joins "
-      "the sheets. The skin need not be a graph over the chest wall: it is mapped to a square "
-      "first. "
-      "Fitting alternates closest-point projection and linear least squares with smoothing by "
-      "second "
-      "derivatives.");
+      "joins the sheets. The skin need not be a graph over the chest wall: it is mapped to a "
+      "square first. Fitting alternates closest-point projection and linear least squares with "
+      "smoothing by second derivatives.");
   tool.cite("Pathmanathan et al., IEEE Trans Biomed Eng 55(10), 2008, section II-A")
       .cite(
           "Yoshizawa, Belyaev, Seidel, Proc. Shape Modeling International, 2004 (map to the "

@@ -19,11 +19,9 @@ struct Choices {
 void declare(Tool& tool, Choices& c) {
   tool.describe(
       "Finds the equilibrium of the breast under gravity, from its stress-free shape: "
-      "hyperelastic, "
-      "exactly incompressible unless --bulk-ratio is given, the chest wall held. Nodal gravity "
-      "forces "
-      "are those of the imaged shape, so that under the gravity of the scan the imaged shape comes "
-      "back to rounding error.");
+      "hyperelastic, exactly incompressible unless --bulk-ratio is given, the chest wall held. "
+      "Nodal gravity forces are those of the imaged shape, so that under the gravity of the scan "
+      "the imaged shape comes back to rounding error.");
   tool.describe(
       "A solve that stops has exit code 3, writes nothing, and gives its reason in the report: "
       "iteration_limit, no_admissible_step, indefinite_tangent or folded_element.");

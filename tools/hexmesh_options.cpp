@@ -38,11 +38,9 @@ void MeshChoices::check() const {
 void declare_hexmesh(Tool& tool, MeshChoices& choices) {
   tool.describe(
       "Fills the body between the skin and chest-wall sheets with hexahedra: a half O-grid (dome) "
-      "that "
-      "keeps its shape on pendulous breasts, or the warped cuboid of the paper. Nodes slide on the "
-      "sheets while the mesh is untangled and smoothed. Each element takes its tissue from the "
-      "voxels "
-      "in it. A folded mesh is never written.");
+      "that keeps its shape on pendulous breasts, or the warped cuboid of the paper. Nodes slide "
+      "on the sheets while the mesh is untangled and smoothed. Each element takes its tissue from "
+      "the voxels in it. A folded mesh is never written.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), section II-B");
   tool.cite("Garanzha et al. 2021, Foldover-free maps in 50 lines of code, ACM Trans Graph 40(4)");
   tool.input(choices.geometry, "GEOMETRY.vtkhdf", "sheets and rim (fit-hermite)");

@@ -83,8 +83,7 @@ int main(int argc, char** argv) {
   Tool tool("match-lookup", "the curves of every point of a mammogram, to look up and point at");
   tool.describe(
       "What cc2mlo finds for one point, for a grid of points over the first image: status, curve "
-      "in "
-      "the second image with its deviation, and the column in the MR frame, as one HDF5 file. "
+      "in the second image with its deviation, and the column in the MR frame, as one HDF5 file. "
       "--page makes one HTML file that needs no server and no network: pointing at the first image "
       "draws curve and band in the second and the column in the body.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), section IV-A");

@@ -21,10 +21,10 @@ class MechanicsRun {
   const HexMesh& mesh() const { return mesh_; }
   const MechanicsOptions& options() const { return options_; }
 
-  /// The end of all three tools, after the report is filled: tells the summary (`results`: lines of
-  /// the tool's own) and the warnings, writes `output` when the solve converged, when it stopped
-  /// `enough` of the way, or when --keep-unconverged asks for it. Throws Error (not converged)
-  /// otherwise.
+  /// The end of all three tools, after the report is filled: tells the summary (`results`:
+  /// lines of the tool's own) and the warnings, writes `output` when the solve converged,
+  /// when it stopped `enough` of the way, or when --keep-unconverged asks for it. Throws
+  /// Error (not converged) otherwise.
   void finish(const Equilibrium& found, const std::filesystem::path& output, bool enough = false,
               const std::vector<std::string>& results = {});
 

@@ -1,5 +1,5 @@
-// phantom-mesh: one breast of the phantom on a finer mesh of 8-node elements, stress-free, prone,
-// supine.
+// phantom-mesh: one breast of the phantom on a finer mesh of 8-node elements,
+// stress-free, prone, supine.
 #include "cli/tool.hpp"
 #include "core/units.hpp"
 #include "io/mesh_file.hpp"
@@ -20,13 +20,10 @@ struct Choices {
 void declare(Tool& tool, Choices& c) {
   tool.describe(
       "The breast that `phantom` images, with the same shape, gland, materials and landmarks, on "
-      "8-node "
-      "elements of which there are 4280 at level 1, 34240 at level 2 (eight times the chain's "
-      "mesh). "
-      "Solved from stress-free to prone and supine with the lateral cut held, as the phantom is. "
-      "`compress` goes on from the prone mesh; the difference between two levels is the error of "
-      "the "
-      "finer (truth-table).");
+      "8-node elements of which there are 4280 at level 1, 34240 at level 2 (eight times the "
+      "chain's mesh). Solved from stress-free to prone and supine with the lateral cut held, as "
+      "the phantom is. `compress` goes on from the prone mesh; the difference between two levels "
+      "is the error of the finer (truth-table).");
   tool.output(c.mesh, "PRONE.vtkhdf", "the prone mesh with its stress-free reference");
   tool.output_file(c.supine, "--supine", "SUPINE.vtkhdf", "also write the supine shape");
   tool.choice(c.preset, "--preset", preset_names(), "as of phantom");

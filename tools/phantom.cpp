@@ -29,11 +29,9 @@ void declare(Tool& tool, Choices& c) {
       "Makes a bilateral prone breast MR (T1 without fat suppression, 512x512x60 voxels of "
       "0.82x0.82x2.5 mm): breasts with skin, fat, an irregular fibroglandular tree and nipple on a "
       "chest with pectoral muscle, ribs and lung; coil bias, partial volume, Rician noise. The "
-      "breasts "
-      "hang as physics says: their known stress-free shape is solved under prone gravity with "
-      "27-node "
-      "elements on a template that hexmesh does not have, so that the chain can be told its "
-      "errors.");
+      "breasts hang as physics says: their known stress-free shape is solved under prone gravity "
+      "with 27-node elements on a template that hexmesh does not have, so that the chain can be "
+      "told its errors.");
   tool.output(c.image, "OUT.nrrd", "the scan (.nrrd, .nii, .nii.gz or .mha)",
               {".nii", ".nii.gz", ".mha"});
   tool.output_folder(

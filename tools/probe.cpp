@@ -20,12 +20,10 @@ struct Choices {
 void declare(Tool& tool, Choices& c) {
   tool.describe(
           "Prints one row a file, tab-separated, to stdout. For each landmark NAME: NAME_x_mm, "
-          "NAME_y_mm, "
-          "NAME_z_mm, its position (LPS); NAME_mm, the length of its displacement from the imaged "
-          "shape; "
-          "and, with --base, NAME_relative_mm, the distance between its positions in this file and "
-          "in "
-          "the base, which also shows a change of direction that leaves the length alone.")
+          "NAME_y_mm, NAME_z_mm, its position (LPS); NAME_mm, the length of its displacement from "
+          "the imaged shape; and, with --base, NAME_relative_mm, the distance between its "
+          "positions in this file and in the base, which also shows a change of direction that "
+          "leaves the length alone.")
       .cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Tables III to VI");
   tool.inputs(c.files, "FILE.vtkhdf", "meshes written by hexmesh, backward, forward or compress");
   tool.text(c.landmarks, "--landmarks", "NAME,...",

@@ -96,13 +96,12 @@ int main(int argc, char** argv) {
   Tool tool("project-mammogram", "simulated mammogram of a compressed breast");
   tool.describe(
       "Follows an X-ray to every pixel through the compressed mesh. With --labels each point of "
-      "the "
-      "ray is mapped back through its element to the MR scan and takes the tissue of the voxel "
+      "the ray is mapped back through its element to the MR scan and takes the tissue of the voxel "
       "there, so that the image has the detail of the scan; without, each element has one tissue. "
-      "The image ends where columns would leave the mesh through the chest wall. Beams are "
-      "spectra of Boone, Fewell and Jennings (1997) behind 1 mm beryllium and 0.05 mm rhodium or "
-      "0.03 mm molybdenum; tissue is of Hammerstein's composition (1979) with the cross sections "
-      "of xraylib; the detector integrates energy and has no blur.");
+      "The image ends where columns would leave the mesh through the chest wall. Beams are spectra "
+      "of Boone, Fewell and Jennings (1997) behind 1 mm beryllium and 0.05 mm rhodium or 0.03 mm "
+      "molybdenum; tissue is of Hammerstein's composition (1979) with the cross sections of "
+      "xraylib; the detector integrates energy and has no blur.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), section IV-A, Fig. 6");
   tool.input(choices.mesh, "COMPRESSED.vtkhdf", "compressed shape (compress)");
   tool.output(choices.image, "IMAGE.vti", "path, thickness and fibroglandular mm per pixel");

@@ -25,10 +25,8 @@ struct Choices {
 void declare(Tool& tool, Choices& c) {
   tool.describe(
       "Finds the body, the coil's uneven sensitivity, the chest wall (minimum cut), the breast's "
-      "extent "
-      "on it, fat, fibroglandular tissue, skin and nipple. Everything behind the chest wall is "
-      "labelled "
-      "muscle, the rest of the body other.");
+      "extent on it, fat, fibroglandular tissue, skin and nipple. Everything behind the chest wall "
+      "is labelled muscle, the rest of the body other.");
   tool.cite("Pathmanathan et al. 2008, section II-A; Li et al., IEEE TPAMI 28:119 (2006)");
   tool.input(c.scan, "MR", "scan: .nrrd, .nii, .nii.gz, .mha, or a DICOM folder");
   tool.output(c.labels, "LABELS.vtkhdf",

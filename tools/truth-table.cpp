@@ -38,9 +38,9 @@ int main(int argc, char** argv) {
       "Joins the phantom's landmark table with meshes of the same breast at two resolutions "
       "(phantom-mesh, compress): the finer ones give the true places, the distance of a landmark "
       "between the two is stated as the truth's own error. With second order it is about three "
-      "times "
-      "the finer mesh's error; nothing is subtracted. The result is a truth for probe --truth. The "
-      "prone places stay those of the image; their own error is what the finer mesh says of them.");
+      "times the finer mesh's error; nothing is subtracted. The result is a truth for probe "
+      "--truth. The prone places stay those of the image; their own error is what the finer mesh "
+      "says of them.");
   tool.input(landmarks, "LANDMARKS.tsv", "stress-free, prone and supine places (phantom --truth)");
   tool.output(out, "OUT.tsv", "the same, extended");
   tool.inputs(files, "MESH.vtkhdf",

@@ -44,8 +44,8 @@ Vec2 most_anterior(const Points& points, const Place& place) {
   return {u, 0.5 * (low + high)};
 }
 
-// Similarity about a pivot near the breast's middle, so that its four numbers hardly depend on each
-// other.
+// Similarity about a pivot near the breast's middle, so that its four numbers
+// hardly depend on each other.
 struct Pose {
   Vec2 pivot, place;  // simulated mm; image mm
   double rotation = 0, scale = 1;

@@ -42,9 +42,9 @@ struct Calibration {
 LandmarkMotion landmark_motion(const PhantomParameters& parameters, Side side,
                                const MaterialSet& materials);
 
-/// Least squares of the four motions by NLopt's BOBYQA (Powell 2009) over fitted_parameters(), on a
-/// mesh of `mesh` elements. Deterministic. Throws Error (not converged) when a trial breast has no
-/// equilibrium.
+/// Least squares of the four motions by NLopt's BOBYQA (Powell 2009) over fitted_parameters(),
+/// on a mesh of `mesh` elements. Deterministic. Throws Error (not converged) when a trial
+/// breast has no equilibrium.
 Calibration calibrate(const std::string& preset, std::uint64_t seed, Side side,
                       const LandmarkMotion& wanted, const MaterialSet& materials,
                       const MeshParameters& mesh, int max_evaluations,

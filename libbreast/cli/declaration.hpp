@@ -1,5 +1,5 @@
-// What a tool declared about itself: the one source of its help, man page, Markdown page and
-// checks.
+// What a tool declared about itself: the one source of its help, man page,
+// Markdown page and checks.
 #pragma once
 
 #include <functional>

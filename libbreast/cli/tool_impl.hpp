@@ -27,8 +27,8 @@ struct Tool::Impl {
     return declaration.positionals.back();
   }
   void declare_common();
-  /// Answers --help, --version and the hidden --help-man, --help-markdown; true when one was asked
-  /// for.
+  /// Answers --help, --version and the hidden --help-man, --help-markdown;
+  /// true when one was asked for.
   bool answer_questions(const std::vector<std::string>& arguments) const;
 };
 

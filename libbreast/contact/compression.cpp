@@ -185,8 +185,8 @@ void Compression::close_plates(State& state) {
   say_how_it_ended(state);
 }
 
-/// The tangent of the final state with its touching nodes held, the turning of their forces
-/// included.
+/// The tangent of the final state with its touching nodes held, the turning
+/// of their forces included.
 void Compression::check_stability(const State& state, const ContactSolver& contact) {
   Timer::Scope phase(found_.timer, "stability");
   SaddleMatrix matrix = body_.problem.make_matrix();

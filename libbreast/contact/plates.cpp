@@ -126,8 +126,8 @@ Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const View
   plate.far_edge = plate.edge_start + 2 * depth + 20;
   return plate;
 }
-/// Skin behind the footprint may reach further than T0: the thickness at which nothing is
-/// penetrated.
+/// Skin behind the footprint may reach further than T0: the thickness at
+/// which nothing is penetrated.
 double touching_thickness(const HexMesh& mesh, const std::vector<Vec3>& x, PlatePair pair) {
   const std::vector<int> skin = nodes_of(mesh, mesh.skin_faces);
   double thickness = pair.initial_thickness, opening = 1;

@@ -20,9 +20,9 @@ struct Gap {
   Mat3 hessian = Mat3::Zero();  ///< 1/mm
 };
 
-/// One plate: a ball of radius edge_radius swept over a prism with an upright wall behind, before
-/// and beside it. Coordinates: h along the beam, a anterior, v lateral (h, a, v = x·n, x·e_u,
-/// x·e_v).
+/// One plate: a ball of radius edge_radius swept over a prism with an upright wall
+/// behind, before and beside it. Coordinates: h along the beam, a anterior, v lateral (h,
+/// a, v = x·n, x·e_u, x·e_v).
 struct Plate {
   std::string name;  ///< "paddle" or "detector"
   double sign = 1;   ///< +1 when the body lies towards +h (paddle), −1 (detector)
@@ -37,8 +37,8 @@ struct Plate {
 
   /// Signed distance. Inside the plate it is to the flat, from where the plate came.
   Gap gap(const Vec3& x) const;
-  /// How far the plate must draw back along the beam for the point to lie outside, mm; 0 if it
-  /// does.
+  /// How far the plate must draw back along the beam for the point to lie
+  /// outside, mm; 0 if it does.
   double overlap(const Vec3& x) const;
   /// Where the plate has moved along the beam: points fixed to it differ by this, mm.
   Vec3 shift() const { return level * n; }

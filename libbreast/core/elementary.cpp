@@ -33,8 +33,8 @@ constexpr Extended series(Extended x) {
   }
 }
 
-// 1 + q/3 + q^2/5 + ... (sign = 1: atanh(s)/s of q = s^2) or with alternating signs (-1:
-// atan(s)/s).
+// 1 + q/3 + q^2/5 + ... (sign = 1: atanh(s)/s of q = s^2) or with
+// alternating signs (-1: atan(s)/s).
 template <int sign, int term, int last>
 constexpr Extended odd_series(Extended q) {
   if constexpr (term == last) {

@@ -4,8 +4,8 @@
 
 namespace breast {
 
-/// Below this many cells or nodes a loop of a few microseconds is over before a second thread
-/// wakes.
+/// Below this many cells or nodes a loop of a few microseconds is over
+/// before a second thread wakes.
 constexpr int worth_threads = 20000;
 
 /// 0 means all cores. Also tells OpenMP.

@@ -17,6 +17,11 @@ std::string_view tissue_name(Tissue tissue) {
   return code < names.size() ? names[code] : "unknown";
 }
 
+bool is_breast(Tissue tissue) {
+  return tissue == Tissue::fat || tissue == Tissue::fibroglandular || tissue == Tissue::skin ||
+         tissue == Tissue::tumour;
+}
+
 Tissue tissue_from_name(std::string_view name) {
   for (std::size_t code = 0; code < names.size(); ++code) {
     if (names[code] == name) return static_cast<Tissue>(code);

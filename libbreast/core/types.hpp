@@ -27,6 +27,8 @@ inline constexpr int n_tissues = 7;
 std::string_view tissue_name(Tissue tissue);
 /// Inverse of tissue_name; throws Error (input) naming the choices.
 Tissue tissue_from_name(std::string_view name);
+/// True for the tissues that make up a breast: fat, fibroglandular, skin and tumour.
+bool is_breast(Tissue tissue);
 
 enum class Side { left, right };
 std::string_view side_name(Side side);

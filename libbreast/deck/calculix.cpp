@@ -31,9 +31,9 @@ void check_element(const DeckScene& scene, const std::string& element) {
   }
 }
 
-// D2 of a term (J−1)⁴/D2 that is not wanted. Not 0: CalculiX takes 0 as "not given" and chooses a
-// stiff one of its own (6.7e-9 for fat, 8 % too stiff at K/μ = 5), where Abaqus leaves the term
-// out.
+// D2 of a term (J−1)⁴/D2 that is not wanted. Not 0: CalculiX takes 0 as "not given" and
+// chooses a stiff one of its own (6.7e-9 for fat, 8 % too stiff at K/μ = 5), where
+// Abaqus leaves the term out.
 constexpr double no_term = 1e20;
 
 // Order of the constants: Abaqus Analysis User's Guide, *HYPERELASTIC.

@@ -12,9 +12,9 @@ namespace breast {
 /// Only elements of at most 256 bytes are kept.
 using DicomHeader = std::map<std::string, std::string>;
 
-/// Walks through all elements of a DICOM file. Returns false when the file is not DICOM at all;
-/// throws Error (input) when it is but is damaged, truncated, or in a transfer syntax we do not
-/// read.
+/// Walks through all elements of a DICOM file. Returns false when the file is not
+/// DICOM at all; throws Error (input) when it is but is damaged, truncated, or in a
+/// transfer syntax we do not read.
 bool read_dicom_header(const std::filesystem::path& file, DicomHeader& header);
 
 }  // namespace breast

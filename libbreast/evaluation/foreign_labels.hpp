@@ -25,9 +25,9 @@ LabelVolume translate_labels(const Volume<float>& volume, const TissueCodes& cod
 /// is `code`, or any but 0 when `code` is 0.
 void restrict_breast(LabelVolume& labels, const Volume<float>& region, int code);
 
-/// Nipple of a foreign volume: the point of the skin (patient mm) nearest to the centre of the voxels
-/// of `volume` that hold `code` and are breast in `labels`, which lie on the same grid; empty without
-/// any.
+/// Nipple of a foreign volume: the point of the skin (patient mm) nearest to the centre of
+/// the voxels of `volume` that hold `code` and are breast in `labels`, which lie on the
+/// same grid; empty without any.
 std::optional<Vec3> skin_over_code(const Volume<float>& volume, int code,
                                    const LabelVolume& labels);
 

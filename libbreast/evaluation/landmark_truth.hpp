@@ -17,8 +17,8 @@ struct TruePosition {
   std::optional<double> own_error;  ///< mm; of the truth's own discretisation
 };
 
-/// A material point's true positions by posture: "stress_free", "prone", "supine", "cc", "mlo",
-/// "ml".
+/// A material point's true positions by posture: "stress_free", "prone",
+/// "supine", "cc", "mlo", "ml".
 struct TrueLandmark {
   std::string name;
   std::map<std::string, TruePosition> at;

@@ -81,11 +81,6 @@ Overlap body_overlap(const LabelVolume& fine, const LabelVolume& coarse) {
 
 }  // namespace
 
-bool is_breast(Tissue tissue) {
-  return tissue == Tissue::fat || tissue == Tissue::fibroglandular || tissue == Tissue::skin ||
-         tissue == Tissue::tumour;
-}
-
 LabelOverlap compare_labels(const LabelVolume& given, const LabelVolume& truth) {
   const double given_ml = given.grid.voxel_volume() / mm3_per_ml;
   const double truth_ml = truth.grid.voxel_volume() / mm3_per_ml;

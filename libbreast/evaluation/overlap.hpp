@@ -19,9 +19,6 @@ struct LabelOverlap {
   Overlap body;                           ///< everything but air, where both volumes have voxels
 };
 
-/// True for the tissues that make up the breast.
-bool is_breast(Tissue tissue);
-
 /// Truth may lie on another grid: each voxel of the finer grid is compared with the nearest voxel
 /// of the other, and the volumes are those of each volume's own grid, so that truth beyond the
 /// given volume's edge counts against it.

@@ -47,8 +47,8 @@ bool kinematics(const Eigen::Matrix<double, 3, N>& reference,
   return std::isfinite(point.det_f);
 }
 
-// Rows of δE = sym(Mᵀ ∇δ) in Voigt form for M = F (spatial variation) or M = −C (reference
-// variation).
+// Rows of δE = sym(Mᵀ ∇δ) in Voigt form for M = F (spatial variation) or M =
+// −C (reference variation).
 template <int N, class Block>
 void strain_rows(const Mat3& m, const Eigen::Matrix<double, N, 3>& gradient, Block&& rows) {
   for (int b = 0; b < N; ++b) {

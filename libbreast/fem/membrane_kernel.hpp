@@ -41,9 +41,9 @@ struct MembraneOutput {
 template <int N>
 void membrane_kernel(const MembraneInput<N>& in, const HexDemand& demand, MembraneOutput<N>& out);
 
-/// Principal resultants (Pa·mm: force per length of the deformed face) at the centre of the face,
-/// the smaller first; negative presses the skin together. Not-a-number where the law is out of
-/// range.
+/// Principal resultants (Pa·mm: force per length of the deformed face) at the centre
+/// of the face, the smaller first; negative presses the skin together. Not-a-number
+/// where the law is out of range.
 template <int N>
 Vec2 membrane_resultants(const MembraneInput<N>& in);
 

@@ -10,8 +10,8 @@
 
 namespace breast {
 
-/// Pictures are drawn this many times larger and averaged down: smooth edges with translucent
-/// surfaces.
+/// Pictures are drawn this many times larger and averaged down: smooth edges
+/// with translucent surfaces.
 inline constexpr int supersampling = 2;
 
 struct Panel::Impl {

@@ -61,8 +61,8 @@ void lay_border(const DiscSurface& surface, std::vector<Vec2>& st) {
 
 using Weights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// Mean-value weights w_ij = (tan(a/2) + tan(b/2)) / |ij|, a and b the angles at i beside the edge
-/// ij.
+/// Mean-value weights w_ij = (tan(a/2) + tan(b/2)) / |ij|, a and b the
+/// angles at i beside the edge ij.
 Weights mean_value_weights(const DiscSurface& surface) {
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& t : surface.triangles)

@@ -54,8 +54,8 @@ BreastGeometry fit_breast(const LabelVolume& labels, const FitOptions& options, 
 /// Volume (mm^3) inside skin, wall and cut, by the divergence theorem on a polar raster.
 double enclosed_volume(const BreastGeometry& geometry, int rings = 40);
 
-/// Triangles of the body's closed boundary (skin, cut, wall) on the same raster, for pictures and
-/// checks.
+/// Triangles of the body's closed boundary (skin, cut, wall) on the same
+/// raster, for pictures and checks.
 struct BoundaryMesh {
   std::vector<Vec3> points;
   std::vector<std::array<int, 3>> triangles;

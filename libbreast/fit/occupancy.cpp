@@ -125,11 +125,6 @@ Box field_of_view(const Grid& grid) {
   return box;
 }
 
-bool is_breast(Tissue tissue) {
-  return tissue == Tissue::fat || tissue == Tissue::fibroglandular || tissue == Tissue::skin ||
-         tissue == Tissue::tumour;
-}
-
 BreastRegion find_region(const LabelVolume& labels, double margin_mm) {
   BreastVoxels found = collect(labels);
   const std::size_t count = found.coordinate[0].size();

@@ -24,24 +24,21 @@ struct BreastRegion {
   double breast_ml = 0;  ///< volume of the breast's voxels
 };
 
-/// True for the codes that make up the chosen side's breast.
-bool is_breast(Tissue tissue);
-
 /// Throws Error (input) when there is no breast, or the field of view leaves nothing to fit.
 BreastRegion find_region(const LabelVolume& labels, double margin_mm);
 
 /// Largest axis-aligned box inside the (possibly tilted) field of view.
 Box field_of_view(const Grid& grid);
 
-/// Gaussian-smoothed occupancy of some tissues on the voxels around a box, thick slices
-/// interpolated.
+/// Gaussian-smoothed occupancy of some tissues on the voxels around a box,
+/// thick slices interpolated.
 class OccupancyField {
  public:
   /// `smoothing_mm` is the Gaussian's sigma, at least 0.6 voxels along every axis.
   OccupancyField(const LabelVolume& labels, const Box& box, double smoothing_mm,
                  const std::function<bool(Tissue)>& counts);
-  /// Trilinear; values at the border of the field of view are held, but nothing lies in front of
-  /// it.
+  /// Trilinear; values at the border of the field of view are held, but
+  /// nothing lies in front of it.
   double value(const Vec3& p) const;
   Vec3 gradient(const Vec3& p) const;      ///< per mm, central differences of half the smoothing
   double front() const { return front_; }  ///< y of the field of view's anterior end

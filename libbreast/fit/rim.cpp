@@ -98,8 +98,7 @@ double sternal_thickness(const ThicknessMap& map, Side side) {
   return edge[20];
 }
 
-/// How far a ray may go: a rounded square (superellipse), so that the rim has no
-/// corners.
+/// How far a ray may go: a rounded square (superellipse), so that the rim has no corners.
 double margin_radius(const Vec2& centre, const Vec2& direction, const RimOptions& options) {
   double low = 0, high = 1.5;
   for (int k = 0; k < 50; ++k) {
@@ -190,8 +189,8 @@ std::optional<Vec2> hit_wall(const WallSheet& wall, const Vec3& from, const Vec3
   return st;
 }
 
-/// Straight segments of neighbours run the same way round and the strip between them does not turn
-/// over.
+/// Straight segments of neighbours run the same way round and the strip
+/// between them does not turn over.
 bool cut_is_simple(const HermiteSheet& skin, const HermiteSheet& wall, const Rim& rim) {
   const std::size_t n = rim.skin.size();
   Vec3 before = Vec3::Zero();

@@ -1,5 +1,5 @@
-// Where the body ends: a closed curve in each sheet's parameters, and the straight cut between
-// them.
+// Where the body ends: a closed curve in each sheet's parameters, and the
+// straight cut between them.
 #pragma once
 
 #include <vector>
@@ -61,8 +61,8 @@ RimRays walk_rim(const HermiteSheet& skin, const WallSheet& wall, Side side, con
 Rim lay_rim(const HermiteSheet& skin, const WallSheet& wall, const RimRays& rays, double wider_mm,
             const RimOptions& options);
 
-/// True when the polygon's angle about `centre` grows from each point to the next and goes round
-/// once.
+/// True when the polygon's angle about `centre` grows from each point to the
+/// next and goes round once.
 bool star_shaped(const std::vector<Vec2>& curve, const Vec2& centre);
 Vec2 centroid(const std::vector<Vec2>& curve);
 /// True inside a curve that is star-shaped about `centre`.

@@ -50,9 +50,9 @@ struct FitOutcome {
   bool reached = false;  ///< target_rms_mm was met
 };
 
-/// Alternates solve_sheet and project. `acceptable(sheet)` vetoes a sheet (folds): the last
-/// acceptable one is returned and smoothing no longer lowered. Throws Error (not_converged) if none
-/// was.
+/// Alternates solve_sheet and project. `acceptable(sheet)` vetoes a sheet (folds): the
+/// last acceptable one is returned and smoothing no longer lowered. Throws Error
+/// (not_converged) if none was.
 FitOutcome fit_sheet(int nu, int nv, SheetData& data, const FitControl& control,
                      const std::function<bool(const HermiteSheet&)>& acceptable);
 

@@ -10,8 +10,8 @@ namespace breast {
 void write_mesh(const std::filesystem::path& file, const HexMesh& mesh,
                 const Derivatives& derivatives);
 
-/// The arrays of a file of `mesh`; empty when there are none. Throws Error (input) for wrong
-/// shapes.
+/// The arrays of a file of `mesh`; empty when there are none. Throws Error
+/// (input) for wrong shapes.
 Derivatives read_derivatives(const std::filesystem::path& file, const HexMesh& mesh);
 
 }  // namespace breast

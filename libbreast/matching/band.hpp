@@ -26,8 +26,8 @@ struct Prior {
 std::vector<Prior> default_priors();
 /// The same with their sources as one paragraph, for help texts.
 std::string default_priors_text();
-/// Columns parameter, standard_deviation; further columns are kept as unit and source when so
-/// named.
+/// Columns parameter, standard_deviation; further columns are kept as unit
+/// and source when so named.
 std::vector<Prior> priors_from(const Table& table, const std::string& where);
 
 /// One standard deviation of the curve across itself, by cause, mm.

@@ -37,8 +37,8 @@ struct MatchedCurve {
   bool in_air() const { return points.empty(); }
 };
 
-/// Both meshes must be compressions of one mesh (connectivity, imaged shape, side) in different
-/// views.
+/// Both meshes must be compressions of one mesh (connectivity, imaged shape,
+/// side) in different views.
 class Matcher {
  public:
   /// Keeps references. Throws Error (input) naming the first difference.

@@ -77,9 +77,9 @@ std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table
 /// Error (input) when there is nothing to report: no point, or the only one in air.
 std::vector<std::string> match_doubts(const Matcher& matcher,
                                       const std::vector<MatchResult>& results);
-/// Length, bends and distances of one result: keys from_uv_mm, curve_mm, inside_image_percent,
-/// max_bend_mm, and by the origin of the place model_uv_mm, model_to_curve_mm ..., marked_... or
-/// true_...
+/// Length, bends and distances of one result: keys from_uv_mm, curve_mm,
+/// inside_image_percent, max_bend_mm, and by the origin of the place model_uv_mm,
+/// model_to_curve_mm ..., marked_... or true_...
 void report_match(const MatchResult& result, Report& report);
 /// Mean, 95 % and largest distance of the truth to "curve", "arc", "line", "chord", mm, over the
 /// results that have a true place: keys truth/points, truth/curve/mean_mm ..., and what part

@@ -18,8 +18,8 @@ struct PairPoint {
   double residual = 0;         ///< mm between the two, in the MR frame
   double first_to_second = 0;  ///< mm in the second image from its mark to the first mark's curve
   double second_to_first = 0;  ///< mm in the first image from its mark to the second mark's curve
-  /// Middle of the two points in another shape of the mesh (imaged, reference, a supine mesh's
-  /// points).
+  /// Middle of the two points in another shape of the mesh (imaged,
+  /// reference, a supine mesh's points).
   Vec3 position(const HexMesh& mesh, const std::vector<Vec3>& nodal) const;
 };
 

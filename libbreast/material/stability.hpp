@@ -14,8 +14,8 @@ double directional_shear_modulus(const Law& law, const Mat3& b, const Vec3& m, c
 /// Smallest directional shear modulus over all planes (sampled every ~10°), relative to rest.
 double weakest_shear(const Law& law, const Mat3& b);
 
-/// Range of uniaxial stretch around 1, within [low, high], where the weakest shear stays above
-/// zero.
+/// Range of uniaxial stretch around 1, within [low, high], where the
+/// weakest shear stays above zero.
 struct StableRange {
   double compression = 1, tension = 1;  ///< stretches λ
   double weakest = 1;                   ///< smallest relative shear modulus met on the way

@@ -1,6 +1,6 @@
-// Pressures of 8-node elements with one pressure each oscillate from element to element (their
-// inf-sup constant falls with the mesh size, tests/verify/inf_sup.cpp); displacements do not show
-// it.
+// Pressures of 8-node elements with one pressure each oscillate from element to element
+// (their inf-sup constant falls with the mesh size, tests/verify/inf_sup.cpp);
+// displacements do not show it.
 #pragma once
 
 #include <map>

@@ -25,8 +25,8 @@ void write_landmarks(const HexMesh& mesh, const std::vector<Vec3>& points, Repor
   }
 }
 
-// Law, small-strain modulus and gravity number ρgL/μ of every tissue present; L = cube root of the
-// volume.
+// Law, small-strain modulus and gravity number ρgL/μ of every tissue present; L
+// = cube root of the volume.
 void write_materials(const HexMesh& mesh, const MechanicsOptions& options, Report& report) {
   const std::vector<double> volumes = element_volumes(mesh, mesh.imaged);
   std::array<double, n_tissues> volume{};

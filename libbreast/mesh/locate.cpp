@@ -16,8 +16,8 @@ namespace {
 constexpr double local_tolerance = 1e-10;
 constexpr int leaf_size = 4;
 
-// Control points of the quadratic Bézier form along one lattice direction: their hull holds the
-// element.
+// Control points of the quadratic Bézier form along one lattice direction:
+// their hull holds the element.
 void to_bezier(Vec3* points, int stride) {
   for (int a = 0; a < 27; ++a) {
     if ((a / stride) % 3 != 1) continue;

@@ -8,10 +8,10 @@
 
 namespace breast {
 
-/// Scaled Jacobian of a hexahedron from its 8 corners (VTK order), in [-1,1]; 1 is a brick. Minimum
-/// over the corners and the centre of det(edges)/(product of their lengths), as Verdict and VTK
-/// define it (Stimpson et al., The Verdict Library Reference Manual, SAND2007, "hex scaled
-/// Jacobian").
+/// Scaled Jacobian of a hexahedron from its 8 corners (VTK order), in [-1,1]; 1 is a brick.
+/// Minimum over the corners and the centre of det(edges)/(product of their lengths), as
+/// Verdict and VTK define it (Stimpson et al., The Verdict Library Reference Manual,
+/// SAND2007, "hex scaled Jacobian").
 double scaled_jacobian(const Vec3* corners);
 
 /// Of an element and of all, in the given nodal field; order 2: the least at the 27 lattice points,

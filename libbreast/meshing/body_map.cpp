@@ -27,8 +27,8 @@ Vec2 area_centroid(const std::vector<Vec2>& curve) {
   return curve[0] + sum / area;
 }
 
-// The first rim point from which the curve does not run counter-clockwise round the centre; −1:
-// none.
+// The first rim point from which the curve does not run counter-clockwise
+// round the centre; −1: none.
 int star_shaped_at(const std::vector<Vec2>& curve, const Vec2& centre) {
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const Vec2 a = curve[i] - centre, b = curve[(i + 1) % curve.size()] - centre;
@@ -74,8 +74,8 @@ BodyMap::BodyMap(const BreastGeometry& geometry) : geometry_(geometry) {
   choose_start();
 }
 
-// The nipple, when it is nearer to the centre than a third of the way to the rim in every
-// direction.
+// The nipple, when it is nearer to the centre than a third of the way to
+// the rim in every direction.
 void BodyMap::choose_pole() {
   skin_pole_ = geometry_.centre;
   double nearest = (geometry_.rim_skin[0] - geometry_.centre).norm();

@@ -20,8 +20,8 @@ class BodyMap {
   Vec2 wall(double rho, double u) const;  ///< (s,t) on the wall sheet
   /// Point of the cut surface: height 0 on the wall's rim, 1 on the skin's.
   Vec3 cut(double height, double u) const;
-  /// mm³ inside skin, cut and wall (of a fine triangulation); negative when the sheets are inside
-  /// out.
+  /// mm³ inside skin, cut and wall (of a fine triangulation); negative when
+  /// the sheets are inside out.
   double volume() const;
   /// Columns ∂x/∂u and ∂x/∂height of the cut.
   Eigen::Matrix<double, 3, 2> cut_slopes(double height, double u) const;

@@ -1,5 +1,5 @@
-// From a geometry to a hexahedral mesh of its body: template, placement, smoothing, skin layer,
-// checks.
+// From a geometry to a hexahedral mesh of its body: template, placement,
+// smoothing, skin layer, checks.
 #pragma once
 
 #include "meshing/boundary_distance.hpp"

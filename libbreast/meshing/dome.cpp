@@ -50,9 +50,9 @@ struct Numbering {
   int n, l, core_nodes, shell_nodes;
 };
 
-// A point (i,j) of the n × n square in polar form of the equiangular half cube: u round the square,
-// θ from its axis and θe of the square's edge in the same direction (45° at mid-side, 54.7° at
-// corners).
+// A point (i,j) of the n × n square in polar form of the equiangular half cube: u round the
+// square, θ from its axis and θe of the square's edge in the same direction (45° at
+// mid-side, 54.7° at corners).
 struct SquarePolar {
   double u, theta, theta_edge;
 };

@@ -9,10 +9,10 @@
 
 namespace breast {
 
-/// Core of n × n × l elements standing on the chest wall, m layers around its four sides and its
-/// top; the lowest k rows of the sides' outer faces are the cut, the rest of the outer faces is
-/// skin. n²l + m(n²+4nl) elements. m = 0 is the cuboid: the core's own faces are the body's
-/// boundary.
+/// Core of n × n × l elements standing on the chest wall, m layers around its four sides
+/// and its top; the lowest k rows of the sides' outer faces are the cut, the rest of the
+/// outer faces is skin. n²l + m(n²+4nl) elements. m = 0 is the cuboid: the core's own
+/// faces are the body's boundary.
 struct DomeSize {
   int n = 10, l = 10, m = 6, k = 3;
   int elements() const { return n * n * l + m * (n * n + 4 * n * l); }
@@ -24,8 +24,8 @@ DomeSize dome_near(int edge);
 DomeSize dome_of(const std::vector<double>& numbers);
 /// The paper's cuboid of edge³ elements; a quarter of its rows of side faces are the cut.
 DomeSize cuboid_size(int edge);
-/// Throws Error (input) unless n ≥ 2, l ≥ 2, m ≥ 0, 1 ≤ k < l and the size is below 2 million
-/// elements.
+/// Throws Error (input) unless n ≥ 2, l ≥ 2, m ≥ 0, 1 ≤ k < l and the size is
+/// below 2 million elements.
 void check_dome(const DomeSize& size);
 
 /// What a template node rests on.

@@ -95,8 +95,8 @@ class Smoother {
     slopes << point.x_s, point.x_t;
     return slopes;
   }
-  // Inverse of the upper-triangular factor of the slopes = Q R; a rim node moves along its rim
-  // only.
+  // Inverse of the upper-triangular factor of the slopes = Q R; a rim node
+  // moves along its rim only.
   Mat2 tangent_frame(int a) const {
     Vec3 x;
     const Mat32 slopes = chart(a, start_.st[a], x);

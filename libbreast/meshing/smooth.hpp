@@ -6,11 +6,10 @@
 
 namespace breast {
 
-/// E = Σ_corners ((1−θ)|A|²/(3 χ^{2/3}) + θ (det²A + 1)/(2 χ))^p + tether, A = corner edges / h,
-/// χ = ½(det A + √(ε² + det²A)): Garanzha et al., Foldover-free maps in 50 lines of code, ACM TOG
-/// 40(4), 2021. h is the edge of a cube of the mean element volume.
-/// p = 8 measured on four real and phantom breasts: worst scaled Jacobian .57-.73, with p = 4
-/// .43-.70.
+/// E = Σ_corners ((1−θ)|A|²/(3 χ^{2/3}) + θ (det²A + 1)/(2 χ))^p + tether, A = corner edges / h, χ
+/// = ½(det A + √(ε² + det²A)): Garanzha et al., Foldover-free maps in 50 lines of code, ACM TOG
+/// 40(4), 2021. h is the edge of a cube of the mean element volume. p = 8 measured on four real and
+/// phantom breasts: worst scaled Jacobian .57-.73, with p = 4 .43-.70.
 struct SmoothOptions {
   double theta = 0.2;
   int power = 8;
@@ -34,8 +33,8 @@ struct SmoothReport {
   int evaluations = 0;
 };
 
-/// Smallest scaled Jacobian; when an element is folded (between its corners too), a negative
-/// number.
+/// Smallest scaled Jacobian; when an element is folded (between its
+/// corners too), a negative number.
 double worst_shape(const std::vector<int>& connectivity, const std::vector<Vec3>& x);
 
 /// Moves inside nodes in space, skin, wall and cut nodes in their parameters, rim nodes along

@@ -109,11 +109,6 @@ double missed_share(const LabelVolume& labels, const HexMesh& mesh, long long br
 
 }  // namespace
 
-bool is_breast(Tissue tissue) {
-  return tissue == Tissue::fat || tissue == Tissue::fibroglandular || tissue == Tissue::skin ||
-         tissue == Tissue::tumour;
-}
-
 std::array<double, n_tissues> tissue_volumes(const HexMesh& mesh) {
   std::array<double, n_tissues> sums{};
   const std::vector<double> volumes = element_volumes(mesh, mesh.points);

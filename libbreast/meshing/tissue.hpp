@@ -29,7 +29,4 @@ TissueReport assign_tissue(const LabelVolume& labels, HexMesh& mesh);
 /// The tissue volumes of the mesh as it stands (after a tumour was put in).
 std::array<double, n_tissues> tissue_volumes(const HexMesh& mesh);
 
-/// Breast voxel: fat, fibroglandular, skin or tumour.
-bool is_breast(Tissue tissue);
-
 }  // namespace breast

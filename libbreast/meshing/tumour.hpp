@@ -34,8 +34,8 @@ Tumour read_tumour(const std::filesystem::path& file);
 /// volume. Throws Error (input) when they hold none; `name` is used in the error.
 Tumour tumour_of(const LabelVolume& labels, const std::string& name);
 
-/// Landmark nipple: the geometry's nipple, located on the skin faces; node nipple_node. Needs
-/// mesh.geometry.
+/// Landmark nipple: the geometry's nipple, located on the skin faces; node
+/// nipple_node. Needs mesh.geometry.
 void add_nipple(HexMesh& mesh);
 
 /// Landmark "tumour" (or "artificial_tumour", mesh/landmark_names.hpp) and tumour_node; with a radius, elements at least half inside the ball become

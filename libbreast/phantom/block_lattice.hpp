@@ -16,9 +16,9 @@ class BlockLattice {
   /// Counts in elements; `order` 1 or 2.
   BlockLattice(const MeshParameters& size);
 
-  /// Where a node lies. For the slab: `ball` is its place on the slab's top disc of radius 1 (fold)
-  /// or up to 2 (rim), `level` in [0,1] from wall to top. For the dome: its place in the unit half
-  /// ball.
+  /// Where a node lies. For the slab: `ball` is its place on the slab's top disc of
+  /// radius 1 (fold) or up to 2 (rim), `level` in [0,1] from wall to top. For the dome:
+  /// its place in the unit half ball.
   struct Place {
     bool dome = false;
     Vec3 ball{0, 0, 0};

@@ -19,9 +19,9 @@ struct GlandPiece {
 std::vector<GlandPiece> grow_gland(const BreastShape& shape, const GlandParameters& parameters,
                                    std::uint64_t seed);
 
-/// Signed distance to the gland on a 0.8 mm lattice, with an irregular margin; the margin is
-/// shifted so that the gland takes exactly the wanted fraction of the breast above the chest's fat
-/// layer.
+/// Signed distance to the gland on a 0.8 mm lattice, with an irregular margin; the
+/// margin is shifted so that the gland takes exactly the wanted fraction of the breast
+/// above the chest's fat layer.
 class GlandField {
  public:
   GlandField(const BreastShape& shape, const GlandParameters& parameters, std::uint64_t seed);

@@ -217,8 +217,8 @@ PhantomImage image_scene(const PhantomScene& scene, Progress& progress) {
 
 namespace {
 
-// The papilla's tip in the prone image: it stands out of the mesh, turned with the tissue behind
-// it.
+// The papilla's tip in the prone image: it stands out of the mesh, turned
+// with the tissue behind it.
 Vec3 nipple_tip(const PhantomBreast& breast) {
   const HexMesh& mesh = breast.mesh;
   const Vec3 behind = breast.shape.apex() - 6 * breast.shape.axis();

@@ -1,5 +1,5 @@
-// Meridian curves of the stress-free breast: its skin and chest wall in half-planes through the
-// axis.
+// Meridian curves of the stress-free breast: its skin and chest wall in
+// half-planes through the axis.
 #pragma once
 
 #include <array>

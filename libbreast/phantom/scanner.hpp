@@ -5,9 +5,9 @@
 
 namespace breast {
 
-/// Smooth receive sensitivity of a breast coil with elements around both breasts; brightest over
-/// darkest voxel (99th over 1st percentile) within the breasts is `bias`. Median 1 within the
-/// breasts.
+/// Smooth receive sensitivity of a breast coil with elements around both breasts;
+/// brightest over darkest voxel (99th over 1st percentile) within the breasts is `bias`.
+/// Median 1 within the breasts.
 Volume<float> coil_sensitivity(const PhantomImage& image, double bias, std::uint64_t seed);
 
 /// signal × sensitivity × texture with Rician noise of standard deviation noise_percent of the

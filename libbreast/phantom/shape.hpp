@@ -5,8 +5,8 @@
 
 namespace breast {
 
-/// Axes e1 (towards patient left), e2 (superior), e3 (out of the chest) are right-handed on both
-/// sides.
+/// Axes e1 (towards patient left), e2 (superior), e3 (out of the chest) are
+/// right-handed on both sides.
 class BreastShape {
  public:
   BreastShape(const PhantomParameters& parameters, const Torso& torso, Side side);
@@ -18,8 +18,8 @@ class BreastShape {
   const Vec3& apex() const { return apex_; }  ///< the axis meets the skin: base of the nipple
   /// Unit radial direction at azimuth φ about the axis (0 = towards patient left, 90° superior).
   Vec3 radial(double azimuth) const;
-  /// (r, φ, h) of a stress-free point: distance from the axis, azimuth, height above the foot's
-  /// plane.
+  /// (r, φ, h) of a stress-free point: distance from the axis, azimuth,
+  /// height above the foot's plane.
   Vec3 cylindrical(const Vec3& x) const;
   Vec3 at(double r, double azimuth, double h) const {
     return foot_ + r * radial(azimuth) + h * axis();

@@ -13,8 +13,8 @@ double smooth_step(double value, double low, double high) {
   return t * t * (3 - 2 * t);
 }
 
-// (f − 1)/|∇f| of the section's superellipse, f homogeneous of degree one about the section's
-// centre.
+// (f − 1)/|∇f| of the section's superellipse, f homogeneous of degree one
+// about the section's centre.
 double Torso::smooth_distance(const Vec3& x) const {
   const double v = x.y() - centre(x.z());
   const double qx = std::abs(x.x()) / p_.half_width, qy = std::abs(v) / p_.half_depth;

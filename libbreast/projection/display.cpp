@@ -63,8 +63,8 @@ HungImage hang(const Mammogram& image) {
   const std::vector<float> shown = compensated_path(image);
   hung.window_high = bright_end(shown);
   hung.grey.resize(image.path.size());
-  // e_v points away from lateral (CC) and from superior (MLO) on the left side, towards on the
-  // right.
+  // e_v points away from lateral (CC) and from superior (MLO) on the left
+  // side, towards on the right.
   const bool left = image.side == Side::left;
   for (int row = 0; row < image.height; ++row) {
     const int v = left ? row : image.height - 1 - row;

@@ -28,8 +28,8 @@ struct ProjectionReport {
   int back_columns = 0;  ///< pixels whose column leaves through the back: left blank
 };
 
-/// Throws Error (input) for a mesh without compression record or an image beyond 100 million
-/// pixels.
+/// Throws Error (input) for a mesh without compression record or an image
+/// beyond 100 million pixels.
 Mammogram project_mammogram(const HexMesh& compressed, const ProjectionOptions& options,
                             ProjectionReport* report = nullptr, Progress& progress = no_progress());
 

@@ -47,8 +47,8 @@ class RayMesh {
   /// several times faster. Stops at the border of the table of candidates; returns how many rays
   /// were followed (at least one).
   int trace(const Vec2& uv, double step, int count, ChordPacket& chords) const;
-  /// A column that meets the chest wall or the cut surface continues in tissue the mesh does not
-  /// have.
+  /// A column that meets the chest wall or the cut surface continues in
+  /// tissue the mesh does not have.
   bool leaves_through_back(const std::vector<Chord>& chords) const;
 
   int element(int piece) const { return piece / pieces_per_element_; }
@@ -66,10 +66,10 @@ class RayMesh {
   struct Box {
     Vec2 lower = Vec2::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   };
-  /// A piece's corners in detector axes from the foot of the source: x = X e_u + Y e_v + T n. The
-  /// ray to (u,v) is where X − u (1 + T/D) = 0 and Y − v (1 + T/D) = 0, D = source distance (1/D =
-  /// 0 for the parallel beam), both linear in the corners: bilinear faces stay bilinear for either
-  /// beam.
+  /// A piece's corners in detector axes from the foot of the source: x = X e_u + Y e_v + T n.
+  /// The ray to (u,v) is where X − u (1 + T/D) = 0 and Y − v (1 + T/D) = 0, D = source
+  /// distance (1/D = 0 for the parallel beam), both linear in the corners: bilinear faces stay
+  /// bilinear for either beam.
   struct Corners {
     Eigen::Array<double, 8, 1> x, y, t;
   };

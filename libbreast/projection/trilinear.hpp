@@ -1,5 +1,4 @@
-// The map of one 8-node hexahedron as a polynomial: cheap to evaluate and to
-// invert.
+// The map of one 8-node hexahedron as a polynomial: cheap to evaluate and to invert.
 #pragma once
 
 #include <array>
@@ -17,8 +16,8 @@ struct Trilinear {
   static Trilinear through(const std::array<Vec3, 8>& corners);
   Vec3 at(const Vec3& local) const;
   Mat3 jacobian(const Vec3& local) const;  ///< columns ∂x/∂ξ, ∂x/∂η, ∂x/∂ζ
-  /// Newton from `guess` to a residual of `tolerance` mm; false (and `guess` returned) when it
-  /// fails.
+  /// Newton from `guess` to a residual of `tolerance` mm; false (and
+  /// `guess` returned) when it fails.
   bool invert(const Vec3& x, double tolerance, Vec3& local) const;
   double volume() const;  ///< mm³, exact; negative when inside out
 };

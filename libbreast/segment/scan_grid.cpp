@@ -15,8 +15,8 @@ struct Box {
   std::array<int, 3> first{}, last{};  ///< voxels, inclusive
 };
 
-/// Voxels of `scan` over the domain's columns, from in front of the breast to behind the search
-/// range.
+/// Voxels of `scan` over the domain's columns, from in front of the breast
+/// to behind the search range.
 Box side_box(const Work& coarse, const Grid& grid, Side side) {
   const Grid& working = coarse.scan.grid;
   double nearest = 1e9, deepest = 0;

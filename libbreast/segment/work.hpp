@@ -15,7 +15,7 @@ struct Work {
   Volume<float> scan, ratio, skin_distance;
   Volume<float> brightness;  ///< as ratio (scan over bias), also outside the body
   Body body;
-  Torso torso;
+  TorsoFront torso;
   WallDomain domain;
   ChestWall wall;
   BiasField bias;
@@ -29,8 +29,8 @@ struct Work {
 /// the working grid was coarser, the body's border is found again on the finer voxels.
 Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side);
 
-/// Inside of the breast: deeper than `skin_depth` mm, more than `wall_margin` mm in front of the
-/// wall.
+/// Inside of the breast: deeper than `skin_depth` mm, more than
+/// `wall_margin` mm in front of the wall.
 Mask interior_of(const Work& work, double skin_depth, double wall_margin);
 /// Within `reach` mm in front of the wall on columns whose confidence is below a half.
 Mask near_unsure_wall(const Work& work, double reach);

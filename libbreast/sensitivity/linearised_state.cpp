@@ -11,12 +11,12 @@ namespace {
 
 constexpr double solve_tolerance = 1e-10, refined = 1e-6;
 constexpr int refinements = 3, most_gmres = 100, most_settling = 4;
-// How far a file's state may be from the equilibrium these options have: larger means other
-// options.
+// How far a file's state may be from the equilibrium these options have:
+// larger means other options.
 constexpr double far_mm = 1e-4, settled = 1e-8;
-// Between plates rounding may keep a hundred times that residual of the load, which is gravity's
-// and small beside the plates'; a step that moves no node by a nanometre then has nothing left to
-// gain.
+// Between plates rounding may keep a hundred times that residual of the load, which is
+// gravity's and small beside the plates'; a step that moves no node by a nanometre then
+// has nothing left to gain.
 constexpr double rounded = 1e-6, still_mm = 1e-6;
 
 Constraints with_contacts(Constraints held, const std::vector<PlateContact>& contacts) {

@@ -1,5 +1,5 @@
-// The couplings of a discretisation: which nodes meet in a cell (element or face), as solvers see
-// it.
+// The couplings of a discretisation: which nodes meet in a cell (element or
+// face), as solvers see it.
 #pragma once
 
 #include <vector>

@@ -36,8 +36,8 @@ bool accepted(const Appraisal& seen, const NewtonDirection& direction, const Lin
   return rule.flat_suffices && std::abs(seen.along) <= slope_kept * std::abs(direction.slope);
 }
 
-/// The factor on a length at which the slope would be zero if it were linear from the start to the
-/// trial's.
+/// The factor on a length at which the slope would be zero if it were linear from
+/// the start to the trial's.
 double flat_factor(const Appraisal& seen, const NewtonDirection& direction) {
   const double slope = std::abs(direction.slope);
   if (!(seen.along > 0)) return 0.5;

@@ -1,5 +1,5 @@
-// The linear systems of incompressible equilibrium, for whoever builds on them (forward, backward,
-// contact):
+// The linear systems of incompressible equilibrium, for whoever builds on them
+// (forward, backward, contact):
 //
 //     [ K  −Bᵀ ] [ δu ]   [ −r ]        r = ∂Π/∂u, θ = −∂Π/∂p, K = ∂r/∂u, B = ∂θ/∂u,
 //     [ B   cM ] [ δp ] = [ −θ ]        M pressure mass, c = 1/bulk modulus (0: incompressible)

@@ -7,10 +7,9 @@
 
 namespace breast {
 
-/// Beam and image axes: n from paddle to detector, e_u = anterior (0,-1,0),
-/// e_v = n × e_u. Parallel projection of patient point x: (u,v) = ((x−origin)·e_u, (x−origin)·e_v).
-/// Cone: the point source stands source_distance above the detector's chest-wall edge at (0,
-/// source_v).
+/// Beam and image axes: n from paddle to detector, e_u = anterior (0,-1,0), e_v = n × e_u. Parallel
+/// projection of patient point x: (u,v) = ((x−origin)·e_u, (x−origin)·e_v). Cone: the point source
+/// stands source_distance above the detector's chest-wall edge at (0, source_v).
 struct ViewPose {
   Vec3 n{0, 0, -1}, e_u{0, -1, 0}, e_v{-1, 0, 0};
   /// mm, LPS, on the detector plane; image (u,v) = (0,0) is pixel (0,0)'s centre.
@@ -25,8 +24,8 @@ struct ViewPose {
 };
 /// n = (s sin θ, 0, −cos θ), s = lateral_sign(side).
 ViewPose view_pose(Side side, double angle_deg);
-/// Default beam angle of "CC" (0), "MLO" (45), "ML" (90) in degrees; throws Error (input)
-/// otherwise.
+/// Default beam angle of "CC" (0), "MLO" (45), "ML" (90) in degrees;
+/// throws Error (input) otherwise.
 double view_angle_deg(const std::string& view);
 
 }  // namespace breast

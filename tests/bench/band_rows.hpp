@@ -48,8 +48,8 @@ inline std::vector<int> shown_elements(const Matcher& base, const std::array<Hex
   return chosen;
 }
 
-/// sample, place, distance_mm across the curve at its nearest point, deviation_mm of the band
-/// there.
+/// sample, place, distance_mm across the curve at its nearest point,
+/// deviation_mm of the band there.
 inline void print_row(int sample, int place, const Band& band, const Vec2& truth) {
   const BandPoint* nearest = nullptr;
   for (const BandPoint& point : band.points) {

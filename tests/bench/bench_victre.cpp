@@ -1,5 +1,5 @@
-// A mesh against a label volume of the VICTRE sample breast, before or after VICTRE's own
-// compression.
+// A mesh against a label volume of the VICTRE sample breast, before or after
+// VICTRE's own compression.
 //
 //     bench_victre MESH.vtkhdf LABELS.nrrd X Y Z [FRONT]
 //

@@ -1,5 +1,5 @@
-// CalculiX, really run on our decks through pipelines/compare/ccx-forward.sh, finds what forward
-// finds.
+// CalculiX, really run on our decks through pipelines/compare/ccx-forward.sh,
+// finds what forward finds.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

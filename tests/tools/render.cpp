@@ -1,5 +1,5 @@
-// render as a user runs it: every figure, with and without DISPLAY, several at a time, nothing left
-// behind.
+// render as a user runs it: every figure, with and without DISPLAY, several at a
+// time, nothing left behind.
 #include <gtest/gtest.h>
 
 #include <csignal>

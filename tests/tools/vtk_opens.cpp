@@ -118,8 +118,8 @@ TEST(VtkOpens, LabelVolumes) {
     EXPECT_EQ(tissue->GetTuple1(v), labels.tissue[std::size_t(v)]);
     EXPECT_EQ(float(fraction->GetTuple1(v)), labels.fibroglandular_fraction[std::size_t(v)]);
   }
-  // VTK 9.1 keeps the direction it read but forgets to recompute its transform; copying recomputes
-  // it.
+  // VTK 9.1 keeps the direction it read but forgets to recompute its
+  // transform; copying recomputes it.
   vtkNew<vtkMatrix3x3> direction;
   direction->DeepCopy(image->GetDirectionMatrix());
   vtkNew<vtkImageData> placed;

@@ -1,5 +1,5 @@
-// The band's linear propagation against re-matched perturbed shapes: derivative, sampling,
-// coverage.
+// The band's linear propagation against re-matched perturbed shapes:
+// derivative, sampling, coverage.
 #include "matching/band.hpp"
 
 #include <gtest/gtest.h>

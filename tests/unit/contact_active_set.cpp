@@ -99,8 +99,8 @@ PlatePair plates_at(double low, double high, double edge_radius) {
   return fixtures::pair_at(plate, low, high);
 }
 
-/// Largest violation of: gap ≥ 0, force ≥ 0, their product 0 (per touching node), balance
-/// elsewhere.
+/// Largest violation of: gap ≥ 0, force ≥ 0, their product 0 (per touching
+/// node), balance elsewhere.
 double complementarity(const QuadraticBody& body, const PlatePair& plates, const State& state) {
   const Forces forces = body.problem->forces(state);
   double worst = 0;

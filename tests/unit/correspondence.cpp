@@ -1,5 +1,5 @@
-// CC to MLO: straight for affine deformations, the material point's image for any, measured as
-// said.
+// CC to MLO: straight for affine deformations, the material point's image
+// for any, measured as said.
 #include "matching/correspondence.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-// X-rays through meshes with known chords: blocks exactly, balls to the order of the elements,
-// volumes to the pixel rule; labels through the element map; the same image for any number of
-// threads.
+// X-rays through meshes with known chords: blocks exactly, balls to the order of the
+// elements, volumes to the pixel rule; labels through the element map; the same image
+// for any number of threads.
 #include "projection/projection.hpp"
 
 #include <gtest/gtest.h>

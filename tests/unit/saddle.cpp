@@ -125,9 +125,9 @@ int cycles_needed(const HexMesh& mesh) {
   return body.solver->solve(*body.matrix, body.forces.r, body.forces.theta, 1e-5).iterations;
 }
 
-// By less than half in eight times the elements, distorted or not; and no more than a smoother with
-// too low an interval (46 on the dome) or a mass matrix for the pressure (50 on the finer cubes)
-// takes.
+// By less than half in eight times the elements, distorted or not; and no more than a
+// smoother with too low an interval (46 on the dome) or a mass matrix for the pressure (50
+// on the finer cubes) takes.
 TEST(Multigrid, IterationsGrowSlowlyWithTheMesh) {
   for (const double distortion : {0.0, 0.2}) {
     const int coarse = cycles_needed(cube(10, distortion));

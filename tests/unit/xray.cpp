@@ -35,8 +35,8 @@ Mammogram slab(double path) {
 }  // namespace
 
 TEST(Attenuation, AgreesWithMeasurements) {
-  // Johns and Yaffe 1987, means of excised tissue, 1/cm; fat of Hammerstein's composition is
-  // denser.
+  // Johns and Yaffe 1987, means of excised tissue, 1/cm; fat of
+  // Hammerstein's composition is denser.
   struct Row {
     double kev, fat, fibroglandular, carcinoma;
   };

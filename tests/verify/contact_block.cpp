@@ -30,8 +30,8 @@ std::vector<int> top_and_bottom(const HexMesh& mesh, double top) {
   return nodes;
 }
 
-/// Pa between the plates of a homogeneous block of height `ratio`: nominal, force per stress-free
-/// area.
+/// Pa between the plates of a homogeneous block of height `ratio`: nominal,
+/// force per stress-free area.
 double rivlin_pressure(const Law& law, double ratio) {
   const double i1 = ratio * ratio + 2 / ratio, i2 = 2 * ratio + 1 / (ratio * ratio);
   const LawValue w = law.evaluate(i1, i2);

@@ -99,8 +99,8 @@ TEST(Compression, MirrorImageGivesMirrorImage) {
   mirror(right.points);
   mirror(right.imaged);
   mirror(right.reference);
-  // A reflection turns elements inside out: swap their ζ faces, and the local names of boundary
-  // faces.
+  // A reflection turns elements inside out: swap their ζ faces, and the
+  // local names of boundary faces.
   for (int e = 0; e < right.elements(); ++e) {
     for (int a = 0; a < 4; ++a) {
       std::swap(right.connectivity[std::size_t(8 * e + a)],

@@ -259,8 +259,8 @@ Exact tube() {
   return exact;
 }
 
-// A block of thickness 10 bent by end moments into a sector, plane strain; its curved faces are
-// free.
+// A block of thickness 10 bent by end moments into a sector, plane strain;
+// its curved faces are free.
 Exact bending() {
   constexpr double thick = 10, half = 15, width = 10, alpha = 1.0 / 30;
   const double beta = std::sqrt(std::pow(alpha, -4) + thick * thick / (alpha * alpha));

@@ -33,8 +33,8 @@ double plain_bulk_stiffness(const Law& law) {
   return 4 * w.w11 + 16 * w.w12 + 16 * w.w22 + (4 * w.w2 - 2 * w.w1) / 3;
 }
 
-// An affine motion without volume change is reproduced on a distorted mesh by every law and
-// element.
+// An affine motion without volume change is reproduced on a distorted mesh
+// by every law and element.
 TEST(Patch, AffineMotionOnDistortedMesh) {
   Mat3 f;
   f << 1.1, 0.15, -0.05, 0.04, 0.95, 0.1, 0.08, -0.06, 1.02;

@@ -69,8 +69,8 @@ TEST(GravityBlock, ExactlyIncompressible) {
   EXPECT_LE(iterations, 8);
 }
 
-// Law (9) with plain invariants is stiff against volume pointwise and locks: −24.79 against −27.37
-// mm.
+// Law (9) with plain invariants is stiff against volume pointwise and locks:
+// −24.79 against −27.37 mm.
 TEST(GravityBlock, PlainInvariantsLock) {
   MechanicsOptions options = one_law(fat);
   options.invariants = Invariants::plain;

@@ -1,5 +1,5 @@
-// Typed access to a Document: getters that check presence, type and shape, and setters that mirror
-// them.
+// Typed access to a Document: getters that check presence, type and shape, and
+// setters that mirror them.
 #pragma once
 
 #include <array>

@@ -30,9 +30,9 @@ std::string sha_of(std::string_view text) {
   return hash.hex();
 }
 
-// VTK's parser accepts a cut file up to a point and then reads what is not there, and follows
-// damaged compression headers out of its buffers, so frame and seal are checked before VTK sees the
-// file.
+// VTK's parser accepts a cut file up to a point and then reads what is not there, and
+// follows damaged compression headers out of its buffers, so frame and seal are checked
+// before VTK sees the file.
 void check_frame(const fs::path& file, const std::string& type) {
   const std::string text = read_text(file);
   const std::string_view head = std::string_view(text).substr(0, 4096);

@@ -43,8 +43,8 @@ void add_text(vtkFieldData* fields, const std::string& name, const std::string& 
 void add_numbers(vtkFieldData* fields, const std::string& name, const std::vector<double>& values);
 void add_history(vtkFieldData* fields, const History& history);
 
-/// `where` begins the message of the Error (input) thrown when the field is absent or not as
-/// expected.
+/// `where` begins the message of the Error (input) thrown when the field is
+/// absent or not as expected.
 std::string text_field(vtkFieldData* fields, const std::string& name, const std::string& where);
 std::vector<double> number_field(vtkFieldData* fields, const std::string& name, int count,
                                  const std::string& where);

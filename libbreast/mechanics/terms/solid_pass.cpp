@@ -40,8 +40,8 @@ constexpr double condensed_ratio = 1e4;  // of bulk to shear modulus
 // and to help the pressure (1, 3, 10: 19, 16, 30 iterations on the block of 24³).
 constexpr double factor_augmentation = 1e3, cycle_augmentation = 3;
 
-// The present stiffness: trace K = (10/3) μ Σ|∇N|² for a linear solid (the pressure term has no
-// trace).
+// The present stiffness: trace K = (10/3) μ Σ|∇N|² for a linear solid (the
+// pressure term has no trace).
 template <int N, int P>
 double SolidOf<N, P>::shear_of(int e, const HexOutput<N, P>& out) const {
   const double rest = laws_[law_of_[e]].shear_modulus();

@@ -100,7 +100,7 @@ void close_and_fill(Mask& mask) {
 /// Lungs may open to the scan's side where the field of view cuts the body: air with body in front
 /// of it in its column, deeper than `from` mm behind the sternal skin, is body when there is body
 /// (or the cut end of the body) behind it too.
-void fill_chest(Mask& mask, const Torso& torso, double from) {
+void fill_chest(Mask& mask, const TorsoFront& torso, double from) {
   const auto& size = mask.grid.size;
   std::size_t on_last_row = 0;
   for (int k = 0; k < size[2]; ++k) {
@@ -120,11 +120,11 @@ void fill_chest(Mask& mask, const Torso& torso, double from) {
   }
 }
 
-/// The torso widens from the sternum to half its depth: behind `torso_start` mm of the sternal
-/// skin, down to `least_torso`, whatever lies between its sides in this row or one in front is
-/// body. Muscle and lung that the threshold took for air, open to the scan's back or side, come
-/// back.
-void fill_between_sides(Mask& mask, const Torso& torso) {
+/// The torso widens from the sternum to half its depth: behind `torso_start` mm of the
+/// sternal skin, down to `least_torso`, whatever lies between its sides in this row or
+/// one in front is body. Muscle and lung that the threshold took for air, open to the
+/// scan's back or side, come back.
+void fill_between_sides(Mask& mask, const TorsoFront& torso) {
   constexpr double torso_start = 30, least_torso = 90;  // mm; the wall is sought to 85
   const Grid& grid = mask.grid;
   for (int k = 0; k < grid.size[2]; ++k) {
@@ -184,7 +184,7 @@ namespace {
 /// Share of the columns within 100 mm of the midline that are body 20, 40 or 60 mm behind the
 /// sternal skin, whichever are fewest. Less than three quarters means that dim tissue was taken for
 /// air and only a shell of the chest was found.
-double chest_filled(const Mask& mask, const Torso& torso) {
+double chest_filled(const Mask& mask, const TorsoFront& torso) {
   const Grid& grid = mask.grid;
   const int reach = int(100 / grid.spacing[0]);
   double least = 1;
@@ -220,7 +220,7 @@ Found body_above(const Volume<float>& scan, double threshold, double from, Side 
   close_and_fill(mask);
   remove_ghosts(mask, scan);
   mask = largest_component(mask);
-  const Torso torso = find_torso(mask, side);
+  const TorsoFront torso = find_torso(mask, side);
   fill_chest(mask, torso, from);
   found.filled = chest_filled(mask, torso);
   fill_between_sides(mask, torso);

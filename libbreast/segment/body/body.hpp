@@ -27,7 +27,7 @@ struct Body {
 /// `side` is the breast wanted; it matters where the field of view holds no other.
 Body find_body(const Volume<float>& scan, Side side);
 
-struct Torso {
+struct TorsoFront {
   HeightField skin;           ///< first body voxel from the front
   int midline = 0;            ///< column i of the sternum
   std::vector<double> cleft;  ///< depth (mm) of the skin over the sternum, per slice
@@ -35,7 +35,7 @@ struct Torso {
 };
 /// The midline is the skin's mirror column; where one breast alone is in view (less than 270 mm of
 /// body and no valley between two) it is the deepest column medial of the breast of `side`.
-Torso find_torso(const Mask& body, Side side);
+TorsoFront find_torso(const Mask& body, Side side);
 /// Angle (radians) about the body's long axis by which the grid is turned against the body's mirror
 /// plane; 0 where that explains the skin's asymmetry no better, or one breast alone is in view.
 double body_roll(const Mask& body);

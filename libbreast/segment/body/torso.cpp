@@ -155,8 +155,8 @@ int medial_valley(const HeightField& skin, double deepest, Side side) {
 
 }  // namespace
 
-Torso find_torso(const Mask& body, Side side) {
-  Torso torso;
+TorsoFront find_torso(const Mask& body, Side side) {
+  TorsoFront torso;
   torso.skin = first_body_voxel(body);
   double cost = 0;
   const double spacing = body.grid.spacing[0], deepest = body.grid.size[1] * body.grid.spacing[1];

@@ -17,8 +17,8 @@ Volume<float> in_patient_order(const Volume<float>& volume);
 Volume<float> coarsened(const Volume<float>& volume, const std::array<int, 3>& factor);
 /// Grid of coarsened().
 Grid coarsened_grid(const Grid& grid, const std::array<int, 3>& factor);
-/// Trilinear values of `coarse` at the voxels of `fine`, whose axes are parallel; border values
-/// held.
+/// Trilinear values of `coarse` at the voxels of `fine`, whose axes are
+/// parallel; border values held.
 Volume<float> resampled(const Volume<float>& coarse, const Grid& fine);
 
 /// The volume sampled on a grid of the same size turned by `angle` (radians, i towards j) about its

@@ -25,8 +25,8 @@ Volume<float> wide_gaussian(const Volume<float>& volume, double sigma) {
   return resampled(gaussian(coarsened(volume, factor), sigma), volume.grid);
 }
 
-/// Adds to `out` the normalised convolution of value - out with `weight`, in proportion to its
-/// support.
+/// Adds to `out` the normalised convolution of value - out with `weight`, in
+/// proportion to its support.
 void add_smoothed_residual(Volume<float>& out, const Volume<float>& value,
                            const Volume<float>& weight, double sigma, float enough) {
   Volume<float> weighted(value.grid);

@@ -106,7 +106,7 @@ HeightField confidence_of(const Volume<float>& ratio, const WallDomain& domain,
 
 }  // namespace
 
-WallDomain wall_domain(const Mask& body, const Torso& torso, bool left) {
+WallDomain wall_domain(const Mask& body, const TorsoFront& torso, bool left) {
   WallDomain domain;
   const Grid& grid = body.grid;
   const int across = int(25 / grid.spacing[0]);

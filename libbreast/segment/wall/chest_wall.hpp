@@ -15,7 +15,7 @@ struct WallDomain {
   HeightField deepest;          ///< mm per column: none behind this
   HeightField skin;  ///< mm: skin of the body run that holds the wall; NaN outside the body
 };
-WallDomain wall_domain(const Mask& body, const Torso& torso, bool left);
+WallDomain wall_domain(const Mask& body, const TorsoFront& torso, bool left);
 
 struct ChestWall {
   HeightField depth;        ///< mm, on columns of the domain (all i; NaN outside [first,last])
@@ -24,8 +24,8 @@ struct ChestWall {
   double muscle_ratio = 0;  ///< brightness of muscle relative to fat
 };
 
-/// `ratio` = intensity / bias. `start` is the surface of an earlier pass, for its muscle ratio and
-/// prior.
+/// `ratio` = intensity / bias. `start` is the surface of an earlier pass, for
+/// its muscle ratio and prior.
 ChestWall find_chest_wall(const Volume<float>& ratio, const WallDomain& domain,
                           const ChestWall* start);
 /// Moves the wall to the nearest bright-to-dark crossing of (1 + muscle)/2 within 3 mm and smooths.

@@ -22,7 +22,7 @@ double median(std::vector<double> values, double fallback) {
   return *place;
 }
 
-bool on_side(int i, const Torso& torso, Side side) {
+bool on_side(int i, const TorsoFront& torso, Side side) {
   return side == Side::left ? i > torso.midline : i < torso.midline;
 }
 
@@ -63,7 +63,7 @@ struct Thickness {
   double sternal = 8;  ///< median over the sternum
 };
 
-Thickness thickness_before(const ChestWall& wall, const WallDomain& domain, const Torso& torso,
+Thickness thickness_before(const ChestWall& wall, const WallDomain& domain, const TorsoFront& torso,
                            const Volume<float>& skin_distance) {
   const Grid& grid = skin_distance.grid;
   Thickness found{HeightField(grid.size[0], grid.size[2], nan),
@@ -84,7 +84,7 @@ Thickness thickness_before(const ChestWall& wall, const WallDomain& domain, cons
 
 /// Column (i, k) of the side with the thickest tissue.
 std::array<int, 2> thickest_column(const Thickness& thickness, const WallDomain& domain,
-                                   const Torso& torso, Side side) {
+                                   const TorsoFront& torso, Side side) {
   std::array<int, 2> place{-1, -1};
   double thickest = 0;
   for (int k = 0; k < thickness.normal.nz; ++k) {
@@ -103,7 +103,7 @@ std::array<int, 2> thickest_column(const Thickness& thickness, const WallDomain&
 
 }  // namespace
 
-BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const Torso& torso,
+BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const TorsoFront& torso,
                          const Volume<float>& skin_distance, Side side) {
   const Grid& grid = skin_distance.grid;
   const int nx = grid.size[0], nz = grid.size[2];
@@ -125,8 +125,8 @@ BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const 
       const int a = std::max(i - step, domain.first), b = std::min(i + step, domain.last);
       const double slope =
           std::abs(wall.depth.at(b, k) - wall.depth.at(a, k)) / ((b - a) * grid.spacing[0]);
-      // Where the chest curves away a column grazes it: its thickness counts along the wall's
-      // normal.
+      // Where the chest curves away a column grazes it: its thickness
+      // counts along the wall's normal.
       if (slope > 1.5 || !(thickness.at(i, k) > extent.least_thickness * std::hypot(1, slope)))
         continue;
       extent.columns[std::size_t(k) * nx + i] = 1;
@@ -151,7 +151,7 @@ namespace {
 /// Columns in which a part hangs over: body in front of at least 4 mm of air in front of the
 /// trunk's skin, and more than a column or two of it (ghosts of the chest's movement are not).
 std::vector<std::uint8_t> overhanging(const Mask& body, const WallDomain& domain,
-                                      const Torso& torso, Side side) {
+                                      const TorsoFront& torso, Side side) {
   const Grid& grid = body.grid;
   const int nx = grid.size[0], nz = grid.size[2];
   constexpr double gap = 4;  // mm
@@ -177,7 +177,7 @@ std::vector<std::uint8_t> overhanging(const Mask& body, const WallDomain& domain
 }  // namespace
 
 Mask breast_voxels(const Mask& body, const ChestWall& wall, const WallDomain& domain,
-                   const Torso& torso, const BreastExtent& extent, Side side) {
+                   const TorsoFront& torso, const BreastExtent& extent, Side side) {
   const Grid& grid = body.grid;
   Mask breast(grid);
   const std::vector<std::uint8_t> overhang = overhanging(body, domain, torso, side);

@@ -13,12 +13,12 @@ struct BreastExtent {
   double greatest_thickness = 0;      ///< mm
 };
 /// `skin_distance`: signed distance to air (mm, negative inside).
-BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const Torso& torso,
+BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const TorsoFront& torso,
                          const Volume<float>& skin_distance, Side side);
 
 /// Voxels of the breast: in front of the wall on the extent's columns, and parts that hang over
 /// beyond it.
 Mask breast_voxels(const Mask& body, const ChestWall& wall, const WallDomain& domain,
-                   const Torso& torso, const BreastExtent& extent, Side side);
+                   const TorsoFront& torso, const BreastExtent& extent, Side side);
 
 }  // namespace breast

@@ -19,8 +19,8 @@ std::vector<int> optimal_surface(const SurfaceProblem& problem) {
   const auto node = [&](int column, int d) { return column * chain + d - 1; };
   for (int column = 0; column < columns; ++column) {
     const float* cost = &problem.cost[std::size_t(column) * levels];
-    // Costs are shifted to be positive: every chain is cut exactly once, so the shift is a
-    // constant.
+    // Costs are shifted to be positive: every chain is cut exactly once,
+    // so the shift is a constant.
     float least = cost[0];
     for (int d = 1; d < levels; ++d) least = std::min(least, cost[d]);
     for (int d = 0; d < levels; ++d) {

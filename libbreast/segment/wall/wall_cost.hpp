@@ -12,8 +12,8 @@ namespace breast {
 /// Profile of ratio along j for one column, averaged over the 3 x 3 neighbouring columns.
 std::vector<float> column_profile(const Volume<float>& ratio, int i, int k);
 
-/// Running means of the fat index f = clip((r - m)/(1 - m)) 8 mm in front of and 10 mm behind every
-/// voxel.
+/// Running means of the fat index f = clip((r - m)/(1 - m)) 8 mm in front of and
+/// 10 mm behind every voxel.
 struct Windows {
   std::vector<double> sum;  // prefix sums of f
   double spacing;

@@ -14,8 +14,8 @@
 namespace breast {
 
 namespace {
-// Flops of a subtree that is worth a task of its own, and values of L that are worth one in a
-// solve.
+// Flops of a subtree that is worth a task of its own, and values of L that
+// are worth one in a solve.
 constexpr double worth_factor_task = 3e6, worth_solve_task = 2e7;
 }  // namespace
 

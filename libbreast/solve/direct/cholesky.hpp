@@ -1,6 +1,6 @@
-// Multifrontal Cholesky of a symmetric node matrix: one analysis, many factorisations. Fronts are
-// shared among threads by subtree, large ones by tiles; the result is the same for any number of
-// threads.
+// Multifrontal Cholesky of a symmetric node matrix: one analysis, many factorisations.
+// Fronts are shared among threads by subtree, large ones by tiles; the result is the same
+// for any number of threads.
 #pragma once
 
 #include <Eigen/Core>

@@ -17,8 +17,8 @@ BlockMatrix<3, 3> full_matrix(const NodeMatrix& lower) {
   full.column.resize(std::size_t(full.start.back()));
   full.block.resize(full.column.size());
   std::vector<long> next(full.start.begin(), full.start.end() - 1);
-  // Columns ascend, so every row's upper neighbours arrive before its diagonal: rows come out
-  // sorted.
+  // Columns ascend, so every row's upper neighbours arrive before its
+  // diagonal: rows come out sorted.
   for (int column = 0; column < full.rows; ++column) {
     for (int s = -1; s < pattern.rows_count(column); ++s) {
       const int row = s < 0 ? column : pattern.rows_begin(column)[s];

@@ -29,8 +29,8 @@ Corners corners_at_nodes(const Cells& cells, int nodes) {
   return at;
 }
 
-// Inverse diagonal blocks in global axes, nothing along held ones; empty when one is not positive
-// definite.
+// Inverse diagonal blocks in global axes, nothing along held ones; empty when one
+// is not positive definite.
 std::vector<Mat3> flexibilities(const NodeMatrix& imposed, const Constraints& constraints) {
   std::vector<Mat3> out;
   for (int node = 0; node < imposed.pattern().nodes(); ++node) {

@@ -38,8 +38,8 @@ struct Row {
   std::string outcome() const { return summary.converged() ? "converged" : summary.reason_id; }
 };
 
-/// Backward and, from its body, forward under the same gravity. Backward alone when it has no
-/// answer.
+/// Backward and, from its body, forward under the same gravity. Backward
+/// alone when it has no answer.
 std::vector<Row> solve(const Problem& problem);
 
 }  // namespace breast::extreme
