@@ -5,7 +5,7 @@
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "io/mesh_file.hpp"
-#include "mechanics/second_solution.hpp"
+#include "mechanics/estimate/second_solution.hpp"
 #include "mechanics_run.hpp"
 
 using namespace breast;

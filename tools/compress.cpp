@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "dicom/like_mammogram.hpp"
 #include "io/mesh_file.hpp"
-#include "mechanics/second_solution.hpp"
+#include "mechanics/estimate/second_solution.hpp"
 #include "mechanics_run.hpp"
 
 using namespace breast;

@@ -2,7 +2,7 @@
 #include "cli/mechanics_options.hpp"
 #include "cli/tool.hpp"
 #include "io/mesh_file.hpp"
-#include "mechanics/second_solution.hpp"
+#include "mechanics/estimate/second_solution.hpp"
 #include "mechanics_run.hpp"
 
 using namespace breast;

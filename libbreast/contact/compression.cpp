@@ -13,7 +13,7 @@
 #include "contact/skin_area.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "mechanics/error_estimate.hpp"
+#include "mechanics/estimate/error_estimate.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"
 #include "solve/equilibrate.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "contact/terms/friction.hpp"
-#include "mechanics/error_estimate.hpp"
+#include "mechanics/estimate/error_estimate.hpp"
 
 namespace breast {
 

@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 #include "mechanics/chosen_solver.hpp"
-#include "mechanics/error_estimate.hpp"
+#include "mechanics/estimate/error_estimate.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"

@@ -14,8 +14,8 @@ enum class Element { q1p0, q2p1 };
 enum class Invariants { isochoric, plain };
 enum class Cut { free, fixed, roller };
 /// How the discretisation error of 8-node elements is estimated: not at all, by two steps with
-/// 27-node elements and one matrix (mechanics/error_estimate.hpp), or by solving once more with
-/// them (mechanics/second_solution.hpp).
+/// 27-node elements and one matrix (mechanics/estimate/error_estimate.hpp), or by solving once more with
+/// them (mechanics/estimate/second_solution.hpp).
 enum class Estimate { none, step, q2 };
 /// The linear solver; automatic: see mechanics/chosen_solver.hpp.
 enum class SolverOption { automatic, direct, multigrid };

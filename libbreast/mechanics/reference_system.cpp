@@ -1,6 +1,6 @@
 #include "mechanics/reference_system.hpp"
 
-#include "solve/gmres.hpp"
+#include "solve/krylov/gmres.hpp"
 
 namespace breast {
 

@@ -2,8 +2,8 @@
 // K + κBᵀM⁻¹B, PressureSchur for the pressure's Schur complement.
 #include <cmath>
 
-#include "solve/gmres.hpp"
-#include "solve/lanczos.hpp"
+#include "solve/krylov/gmres.hpp"
+#include "solve/krylov/lanczos.hpp"
 #include "solve/saddle.hpp"
 
 namespace breast {

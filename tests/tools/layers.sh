@@ -1,51 +1,48 @@
 #!/bin/sh
-# Checks that no folder of libbreast includes what its layer may not. Prints one line a violation; exit 1 when there is any.
+# Checks that no folder of libbreast includes what its CMakeLists.txt does not name: a folder may include its
+# own headers, those of its DEPENDS, and of theirs. Prints one line a violation; exit 1 when there is any.
 set -eu
 cd "$(dirname "$0")/../.."
 
-# folder: folders whose headers it may include (its own is always allowed). No cycles: each line names
-# only folders with a line above or of a lower layer.
-rules="
-core:
-dicom: core
-image: core
-surface: core
-material: core
-mesh: surface core
-views: core
-projection: views mesh image surface core
-matching: projection views mesh image surface core
-align: matching projection views dicom mesh image surface core
-xray: projection views mesh image surface core
-page: matching projection views mesh image surface core
-cli: core
-io: core dicom image surface mesh views projection matching
-segment: image surface core
-fit: surface image core
-meshing: mesh surface image core
-tetrahedra: mesh surface core
-fem: material mesh core
-solve: core
-mechanics: fem material mesh solve surface core
-contact: views mechanics fem material mesh solve surface core
-deck: mechanics material mesh solve core
-sensitivity: contact views mechanics fem material mesh solve surface core
-phantom: mechanics fem material mesh solve surface image core
-calibration: phantom mechanics fem material mesh solve surface image core
-figures: mesh views projection surface image core
-evaluation: mesh surface image core
-"
+# "folder: folders it DEPENDS on", a line each; io's four libraries are one folder.
+rules=$(for file in libbreast/*/CMakeLists.txt; do
+  folder=$(basename "$(dirname "$file")")
+  depends=$(grep -v '^ *#' "$file" | tr '\n)' '  ' | grep -oE 'DEPENDS( +[a-z_0-9]+)+' | sed 's/DEPENDS//' || true)
+  echo "$folder:" $(echo $depends | tr ' ' '\n' | sed 's/^io_.*/io/' | sort -u | grep -v "^$folder$")
+done)
+
+# All folders that a list of folders leads to.
+closure() {
+  reached=" "
+  while [ $# -gt 0 ]; do
+    case "$reached" in
+      *" $1 "*) shift ;;
+      *)
+        reached="$reached$1 "
+        more=$(printf '%s\n' "$rules" | sed -n "s/^$1: *//p")
+        shift
+        set -- "$@" $more
+        ;;
+    esac
+  done
+  echo "$reached"
+}
 
 bad=0
 for folder in libbreast/*/; do
   name=$(basename "$folder")
   [ -n "$(find "$folder" -name '*.?pp' -print -quit)" ] || continue
-  if ! line=$(printf '%s' "$rules" | grep "^$name:"); then
-    echo "libbreast/$name has no rule in tests/tools/layers.sh"
+  if ! line=$(printf '%s\n' "$rules" | grep "^$name:"); then
+    echo "libbreast/$name has no CMakeLists.txt"
     bad=1
     continue
   fi
-  allowed=" $name ${line#*:} "
+  depends=$(closure ${line#*:})
+  case "$depends" in *" $name "*)
+    echo "libbreast/$name depends on itself: a cycle of DEPENDS"
+    bad=1 ;;
+  esac
+  allowed=" $name $depends "
   # Lines like  path/file.cpp:12:#include "mesh/shape.hpp"
   includes=$(grep -rnE '^ *#include "[^"]+"' --include='*.hpp' --include='*.cpp' "$folder" || true)
   violations=$(printf '%s\n' "$includes" | while IFS= read -r hit; do
@@ -57,6 +54,20 @@ for folder in libbreast/*/; do
     bad=1
   fi
 done
+
+# Rooms stay small: files of a folder itself, its sub-folders counted apart.
+for folder in $(find libbreast -type d); do
+  count=$(find "$folder" -maxdepth 1 -name '*.?pp' | wc -l)
+  if [ "$count" -gt 32 ]; then
+    echo "$folder has $count source files, more than 32"
+    bad=1
+  fi
+done
+long=$(find libbreast tools tests -name '*.?pp' -exec wc -l {} + | awk '$2 != "total" && $1 > 400 { print $2 ": " $1 " lines, more than 400" }')
+if [ -n "$long" ]; then
+  echo "$long"
+  bad=1
+fi
 
 # Third parties stay in .cpp files (Eigen apart) and in the headers those files alone share: the folders
 # io/hdf5, io/volume, io/dicom, io/vtk, and NAME_impl.hpp.

@@ -11,9 +11,7 @@
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/block.hpp"
 #include "mechanics/scene.hpp"
-#include "solve/conjugate_gradients.hpp"
-#include "solve/gmres.hpp"
-#include "solve/lanczos.hpp"
+#include "solve/krylov/lanczos.hpp"
 
 namespace breast {
 namespace {
@@ -36,8 +34,8 @@ struct Small {
     options.bulk_ratio = bulk_ratio;
     options.solver = solver;
     scene = std::make_unique<Scene>(mesh, options);
-    problem = std::make_unique<Problem>(
-        scene->problem(scene->gravity_force(Vec3(0, 0, -9810))).problem);
+    const Eigen::VectorXd load = scene->gravity_force(Vec3(0, 0, -9810));
+    problem = std::make_unique<Problem>(scene->problem(load).problem);
     state = scene->at_rest(flatten(mesh.reference));
     state.p = Eigen::VectorXd::Constant(8, 40);
     for (long i = 0; i < state.x.size(); ++i) state.x[i] += 0.2 * fixtures::noise(int(i));
@@ -293,108 +291,6 @@ TEST(Cholesky, MatchesADenseSolverOnAnyNumberOfThreads) {
   ASSERT_TRUE(cholesky.factorise(matrix.stiffness.values()));
   EXPECT_EQ(cholesky.solve(right), alone);
   set_threads(before);
-}
-
-TEST(Constraints, ProjectAndRotate) {
-  Constraints held(2);
-  held.hold_normal(1, Vec3(0, 0.6, 0.8), 2.0);
-  Eigen::VectorXd v(6);
-  v << 1, 2, 3, 4, 5, 6;
-  Eigen::VectorXd projected = v;
-  held.project(projected);
-  EXPECT_EQ(projected.head<3>(), v.head<3>());
-  EXPECT_NEAR(Vec3(0, 0.6, 0.8).dot(projected.tail<3>()), 0, 1e-14);
-  Eigen::VectorXd turned = v;
-  held.to_axes(turned);
-  held.from_axes(turned);
-  EXPECT_LT((turned - v).norm(), 1e-14);
-  EXPECT_NEAR(held.increments().tail<3>().norm(), 2, 1e-14);
-}
-
-TEST(Gmres, SolvesAnUnsymmetricSystem) {
-  const int n = 40;
-  Eigen::MatrixXd a = 4 * Eigen::MatrixXd::Identity(n, n);
-  Eigen::VectorXd b(n);
-  for (int i = 0; i < n; ++i) {
-    b[i] = fixtures::noise(i);
-    for (int j = 0; j < n; ++j) a(i, j) += 0.3 * fixtures::noise(100 + n * i + j);
-  }
-  const auto apply = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return a * v; };
-  const auto quarter = [](const Eigen::VectorXd& v) -> Eigen::VectorXd { return v / 4; };
-  const GmresResult result = gmres(apply, quarter, b, 1e-12, n);
-  EXPECT_TRUE(result.converged);
-  EXPECT_LT((a * result.x - b).norm(), 1e-11 * b.norm());
-}
-
-Eigen::MatrixXd known_spectrum(const Eigen::VectorXd& eigenvalues) {
-  const Eigen::MatrixXd any = Eigen::MatrixXd::NullaryExpr(
-      eigenvalues.size(), eigenvalues.size(),
-      [](long i, long j) { return fixtures::noise(int(1000 * i + j)); });
-  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(any).householderQ();
-  return q * eigenvalues.asDiagonal() * q.transpose();
-}
-
-TEST(ConjugateGradients, SolveToEitherLimitAndStopWithoutCurvature) {
-  const Eigen::MatrixXd a = known_spectrum(Eigen::VectorXd::LinSpaced(30, 1, 50));
-  const Eigen::VectorXd b = Eigen::VectorXd::Ones(30);
-  const auto apply = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return a * v; };
-  const auto half = [](const Eigen::VectorXd& v) -> Eigen::VectorXd { return v / 2; };
-  const ConjugateGradientResult fine = conjugate_gradients(apply, half, b, {1e-10, 0, 100});
-  EXPECT_TRUE(fine.converged);
-  EXPECT_NEAR(fine.start, std::sqrt(15), 1e-12);
-  EXPECT_LT((a * fine.x - b).norm(), 1e-9 * b.norm());
-  const ConjugateGradientResult rough = conjugate_gradients(apply, half, b, {0, 0.5, 100});
-  EXPECT_TRUE(rough.converged);
-  EXPECT_NEAR(rough.residual, (a * rough.x - b).norm() / std::sqrt(2), 1e-12);
-  EXPECT_LE(rough.residual, 0.5);
-  EXPECT_LT(rough.iterations, fine.iterations);
-  EXPECT_FALSE(conjugate_gradients(apply, half, b, {1e-10, 0, 3}).converged);
-  const auto negative = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return -(a * v); };
-  const ConjugateGradientResult none = conjugate_gradients(negative, half, b, {1e-10, 0, 100});
-  EXPECT_FALSE(none.converged);
-  EXPECT_EQ(none.iterations, 0);
-}
-
-// A dense spectrum with a few eigenvalues above it, and a start that hardly contains their vectors.
-TEST(Lanczos, BoundsTheLargestEigenvalue) {
-  Eigen::VectorXd eigenvalues = Eigen::VectorXd::LinSpaced(200, 0.01, 4);
-  eigenvalues.tail(3) << 5.5, 5.6, 5.7;
-  const Eigen::MatrixXd a = known_spectrum(eigenvalues);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(a);
-  Eigen::VectorXd start = Eigen::VectorXd::Ones(200);
-  start -= 0.95 * eigen.eigenvectors().rightCols(3) *
-           (eigen.eigenvectors().rightCols(3).transpose() * start);
-  const auto apply = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return a * v; };
-  const double bound = largest_eigenvalue(apply, start, 12);
-  EXPECT_GE(bound, 5.7);
-  EXPECT_LE(bound, 1.1 * 5.7);
-  const auto twice = [](const Eigen::VectorXd& v) -> Eigen::VectorXd { return 2 * v; };
-  EXPECT_EQ(largest_eigenvalue(twice, Eigen::VectorXd::Unit(9, 4), 12), 2);
-}
-
-// The sign of the lowest eigenvalue, preconditioned or not, also where it is a thousandth of the
-// others; and no verdict where it is zero.
-TEST(Lanczos, KnowsTheSignOfTheLowestEigenvalue) {
-  Eigen::VectorXd scales = Eigen::VectorXd::LinSpaced(200, 1, 100), start(200);
-  for (int i = 0; i < 200; ++i) start[i] = fixtures::noise(i);
-  const auto verdict = [&](double lowest) {
-    Eigen::VectorXd eigenvalues = Eigen::VectorXd::LinSpaced(200, 0.3, 1.2);
-    eigenvalues[0] = lowest;
-    const Eigen::MatrixXd a =
-        scales.asDiagonal() * known_spectrum(eigenvalues) * scales.asDiagonal();
-    return lowest_eigenvalue([&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return a * v; },
-                             [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
-                               return v.cwiseQuotient(scales.cwiseAbs2());
-                             },
-                             start, 100);
-  };
-  const LowestEigenvalue above = verdict(1e-3), below = verdict(-1e-3), zero = verdict(0);
-  EXPECT_TRUE(above.positive());
-  EXPECT_NEAR(above.value, 1e-3, 1e-6);
-  EXPECT_LT(above.steps, 50);
-  EXPECT_FALSE(below.positive());
-  EXPECT_LT(below.value, 0);
-  EXPECT_FALSE(zero.positive());
 }
 
 }  // namespace

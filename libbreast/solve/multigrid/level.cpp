@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solve/lanczos.hpp"
+#include "solve/krylov/lanczos.hpp"
 #include "solve/multigrid/impl.hpp"
 
 namespace breast {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "solve/conjugate_gradients.hpp"
+#include "solve/krylov/conjugate_gradients.hpp"
 
 namespace breast {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "solve/gmres.hpp"
+#include "solve/krylov/gmres.hpp"
 
 namespace breast {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "mechanics/error_estimate.hpp"
+#include "mechanics/estimate/error_estimate.hpp"
 #include "mechanics/scene.hpp"
 
 namespace breast {

@@ -1,4 +1,4 @@
-#include "mechanics/second_solution.hpp"
+#include "mechanics/estimate/second_solution.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "solve/lanczos.hpp"
+#include "solve/krylov/lanczos.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

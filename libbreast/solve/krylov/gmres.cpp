@@ -1,4 +1,4 @@
-#include "solve/gmres.hpp"
+#include "solve/krylov/gmres.hpp"
 
 #include <cmath>
 #include <vector>

@@ -1,5 +1,5 @@
 // The discretisation error of 8-node elements by solving once more with 27-node elements on the
-// same geometry: dear, but without the iteration cut short of mechanics/error_estimate.hpp.
+// same geometry: dear, but without the iteration cut short of mechanics/estimate/error_estimate.hpp.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-#include "mechanics/richer_problem.hpp"
+#include "mechanics/estimate/richer_problem.hpp"
 
 #include <Eigen/LU>
 

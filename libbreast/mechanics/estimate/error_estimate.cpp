@@ -1,10 +1,10 @@
-#include "mechanics/error_estimate.hpp"
+#include "mechanics/estimate/error_estimate.hpp"
 
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "mechanics/richer_problem.hpp"
-#include "solve/conjugate_gradients.hpp"
+#include "mechanics/estimate/richer_problem.hpp"
+#include "solve/krylov/conjugate_gradients.hpp"
 
 namespace breast {
 

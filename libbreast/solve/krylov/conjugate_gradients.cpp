@@ -1,4 +1,4 @@
-#include "solve/conjugate_gradients.hpp"
+#include "solve/krylov/conjugate_gradients.hpp"
 
 #include <algorithm>
 #include <cmath>
