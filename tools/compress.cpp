@@ -26,8 +26,9 @@ void declare(Tool& tool, Choices& c) {
   tool.describe(
       "Loads the stress-free breast with gravity, sets two rigid plates with rounded edges just "
       "touching it, and closes them to a thickness, a reduction, a force or a mean pressure. "
-      "Contact is exact: no penalty, no penetration. Unless --detector says otherwise both plates "
-      "move, about the mid-plane of the stress-free breast, so that it is not dragged along the "
+      "Contact is exact at the nodes: no penalty, no penetration there; worst_gap_mm in the report "
+      "says how deep faces cut across a rounded edge between them. Unless --detector says otherwise "
+      "both plates move, about the mid-plane of the stress-free breast, so that it is not dragged along the "
       "chest wall. The stand-off runs from the most anterior chest-wall or cut point to the start "
       "of the plates' rounded edge; the force depends strongly on it.");
   tool.describe(
@@ -44,7 +45,7 @@ void declare(Tool& tool, Choices& c) {
       "identifier (folds_at_plate_edge, folds_on_chest_wall, folds_between_edge_and_wall, "
       "folds_between_plates, folds_behind_plates, shrinks_... with the same endings, "
       "iteration_limit, indefinite_tangent, no_admissible_step, solve_limit, out_of_reach, "
-      "jump_at_target, gravity_not_carried, no_equilibrium_at_touch) and explanation a sentence.");
+      "gravity_not_carried, no_equilibrium_at_touch) and explanation a sentence.");
   tool.cite("Pathmanathan et al. 2008, section II-D, equations (7)-(8)");
   tool.example("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 50",
                "cranio-caudal, half the thickness");
@@ -61,7 +62,7 @@ void declare(Tool& tool, Choices& c) {
   tool.choice(c.view, "--view", {"CC", "MLO", "ML"}, "mammographic view").required("--view");
   tool.number(c.angle, "--angle", "DEG", "beam angle; without it CC 0, MLO 45, ML 90", -90, 90);
   tool.number(c.thickness, "--thickness", "MM", "stop at this gap between the flats", 0.1, 1000);
-  tool.number(c.reduction, "--reduction", "PERCENT", "stop at this reduction of the thickness", 0.1,
+  tool.number(c.reduction, "--reduction", "PERCENT", "stop at this reduction of the thickness", 1,
               95);
   tool.number(c.force, "--force", "N", "stop at this paddle force", 1e-6, 1e5);
   tool.number(c.pressure, "--pressure", "KPA", "stop at this paddle force per contact area", 1e-6,

@@ -272,6 +272,15 @@ void Compression::judge_against_practice() {
                  " mm: the breast slips or buckles there"),
          true});
   }
+  if (path.jump) {
+    found_.judgement.push_back(
+        {"jump_at_target",
+         message("jump at target: between plate positions 0.1 micrometre apart the ",
+                 options_.stop_at == StopAt::force ? "paddle force" : "mean pressure", " goes from ",
+                 path.jump->first, " to ", path.jump->second, ", past ", options_.target,
+                 "; the nearer one is the result"),
+         true});
+  }
   if (found_.reduction_percent > 40 && scene_.options().materials.name == "seed2008") {
     found_.judgement.push_back(
         {"law_stiffens",

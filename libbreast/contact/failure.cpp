@@ -45,12 +45,6 @@ StopReason explain_stop(const HexMesh& mesh, const Eigen::VectorXd& good, const 
   if (path.solve_limit) {
     return {"solve_limit", message("the limit of ", path.solves, " plate positions is reached")};
   }
-  if (path.jump) {
-    return {"jump_at_target",
-            message("the force or pressure jumps over the target, from ", path.jump->first, " to ",
-                    path.jump->second, " (N or kPa), between positions less than a tenth of a "
-                    "micrometre apart: the body snaps through")};
-  }
   if (path.last_failure == NewtonStop::none) {
     return {"out_of_reach",
             message("the plates would have to close to ", path.failed_thickness, " mm")};

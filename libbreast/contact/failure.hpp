@@ -13,9 +13,8 @@ namespace breast {
 /// `id` is stable: "folds_at_plate_edge", "folds_on_chest_wall", "folds_between_edge_and_wall",
 /// "folds_behind_plates", "folds_between_plates" (where the worst element of the refused step
 /// lies); "shrinks_..." with the same endings (no element folds, but one shrinks too far at once or
-/// its law overflows); "iteration_limit", "indefinite_tangent", "no_admissible_step"; "solve_limit";
-/// "out_of_reach" (force or pressure, the plates all but closed) and "jump_at_target" (force or
-/// pressure jump over the target).
+/// its law overflows); "iteration_limit", "indefinite_tangent", "no_admissible_step"; "solve_limit" and
+/// "out_of_reach" (force or pressure, the plates all but closed).
 struct StopReason {
   std::string id, sentence;
 };

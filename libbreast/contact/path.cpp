@@ -237,12 +237,12 @@ bool Path::refine_control(Waypoint low, Waypoint high) {
     const bool met =
         std::abs(best.measured - target_.value) <= options_.control_tolerance * target_.value;
     if (met || std::abs(low.thickness - high.thickness) < narrowest_bracket) {
-      // Without the target between two positions that cannot be told apart, the body snaps through
-      // there: the last equilibrium before it is the answer.
+      // Positions that cannot be told apart with the target between them: a node joins, or the body
+      // snaps through. The nearer one is the answer, and said to be off its target.
       if (!met) result_.jump = {low.measured, high.measured};
       before_ = low;
-      here_ = met ? best : low;
-      return met;
+      here_ = best;
+      return true;
     }
     const double t = f_low / (f_low - f_high);
     const double thickness = low.thickness + t * (high.thickness - low.thickness);

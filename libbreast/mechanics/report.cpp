@@ -20,7 +20,7 @@ void write_landmarks(const HexMesh& mesh, const std::vector<Vec3>& points, Repor
     const Vec3 position = landmark_position(mesh, points, landmark);
     report.set(key + "imaged", imaged);
     report.set(key + "position", position);
-    report.set(key + "displacement_mm", Vec3(position - imaged));
+    report.set(key + "displacement_from_scan_mm", Vec3(position - imaged));
     report.set(key + "distance_mm", (position - imaged).norm());
   }
 }

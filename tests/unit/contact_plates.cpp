@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/penetration.hpp"
 #include "contact/plates.hpp"
 #include "core/error.hpp"
 #include "fixtures/standing_block.hpp"
@@ -205,4 +206,54 @@ TEST(Plates, MissingTheBreastIsAnInputError) {
     EXPECT_EQ(error.kind(), ErrorKind::input);
     EXPECT_NE(std::string(error.what()).find("miss the breast"), std::string::npos);
   }
+}
+
+// A face whose corners lie on the rounded edge cuts the corner: nothing at its nodes, the sagitta of
+// the arc in its middle. The cut counts unless it is held.
+TEST(Penetration, IsSeenInsideFacesWhoseNodesTouch) {
+  HexMesh mesh = fixtures::standing_block({20, 20, 20}, {1, 1, 1});
+  const Plate plate = [] {
+    Plate made = plate_facing(view_pose(Side::left, 0));
+    made.level = -20;
+    made.edge_start = -20;
+    made.far_edge = made.half_width = 1e3;
+    made.edge_radius = 30;
+    return made;
+  }();
+  // Two edges of the top face on the arc, whose axis runs across the breast.
+  Eigen::VectorXd x(3L * mesh.nodes());
+  const Vec3 axis = plate.origin() - plate.edge_radius * plate.normal();
+  for (int n = 0; n < mesh.nodes(); ++n) {
+    Vec3 point = mesh.reference[std::size_t(n)];
+    if (point.z() > 19) {
+      const double angle = point.y() < 10 ? 0.2 : 0.9;
+      const Vec3 on_arc = axis + plate.edge_radius * (std::cos(angle) * plate.normal() -
+                                                      std::sin(angle) * plate.anterior);
+      point = Vec3(point.x(), on_arc.y(), on_arc.z());
+    }
+    x.segment<3>(3L * n) = point;
+  }
+  std::vector<Face> top;
+  double at_nodes = 0;
+  for (const Face& face : boundary_faces(mesh)) {
+    bool all = true;
+    for (const int node : face_nodes(mesh, face)) {
+      all = all && mesh.reference[std::size_t(node)].z() > 19;
+    }
+    if (!all) continue;
+    top.push_back(face);
+    for (const int node : face_nodes(mesh, face)) {
+      at_nodes = std::max(at_nodes, std::abs(plate.gap(x.segment<3>(3L * node)).value));
+    }
+  }
+  ASSERT_EQ(top.size(), 1u);
+  EXPECT_LT(at_nodes, 1e-12);
+  const double sagitta = plate.edge_radius * (1 - std::cos(0.35));
+  EXPECT_NEAR(deepest_penetration(mesh, top, x, plate), sagitta, 1e-9);
+
+  Constraints held(mesh.nodes());
+  const std::size_t all = free_boundary_faces(mesh, held).size();
+  EXPECT_EQ(all, mesh.skin_faces.size() + mesh.cut_faces.size() + mesh.pectoral_faces.size());
+  for (const int node : nodes_of(mesh, mesh.pectoral_faces)) held.hold(node);
+  EXPECT_EQ(free_boundary_faces(mesh, held).size(), all - mesh.pectoral_faces.size());
 }

@@ -9,6 +9,7 @@
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/shapes.hpp"
 #include "mechanics/mechanics.hpp"
+#include "mechanics/scene.hpp"
 #include "mesh/element_order.hpp"
 
 using namespace breast;
@@ -68,6 +69,46 @@ TEST(ErrorEstimate, MeetsTheDifferenceToQuadraticElements) {
   expect_fair("cap 8, oblique", fixtures::cap({.elements = 8}), oblique);
   expect_fair("breast 5, supine", breast, supine);
   expect_fair("breast 5, oblique", breast, oblique);
+}
+
+// Compressible tissue and a chest wall on springs are terms like any other.
+TEST(ErrorEstimate, KnowsFiniteBulkModuliAndElasticSupports) {
+  for (const double bulk_ratio : {3.0, 100.0}) {
+    MechanicsOptions options = options_of("seed2008");
+    options.bulk_ratio = bulk_ratio;
+    const HexMesh mesh = fixtures::cap({.elements = 6});
+    const double ratio =
+        effectivity(bulk_ratio < 10 ? "cap 6, K/mu 3" : "cap 6, K/mu 100", mesh,
+                    raise_order(mesh), supine, options);
+    EXPECT_GT(ratio, 0.5) << bulk_ratio;
+    EXPECT_LT(ratio, 1.5) << bulk_ratio;
+  }
+  MechanicsOptions options = options_of("seed2008");
+  options.wall = SupportStiffness{0.5, 0.1};
+  const HexMesh mesh = fixtures::cap({.elements = 6});
+  const double ratio =
+      effectivity("cap 6, wall on springs", mesh, raise_order(mesh), supine, options);
+  EXPECT_GT(ratio, 0.5);
+  EXPECT_LT(ratio, 1.5);
+}
+
+// The residual vanishes under five times this breast's weight, but an element has turned inside out
+// at a corner, where there is no quadrature point to notice: no answer.
+TEST(Forward, AcceptsNoElementThatIsInsideOutAtACorner) {
+  HexMesh breast = analytic_breast_mesh(5);
+  breast.reference = breast.points;
+  const Equilibrium found = solve_forward(breast, 5 * supine, options_of("wellman"));
+  EXPECT_FALSE(found.converged());
+  EXPECT_EQ(found.reason_id, "folded_element");
+  EXPECT_GT(found.load_reached, 0.9);
+  const Scene scene(breast, options_of("wellman"));
+  const Problem problem = scene.problem(scene.gravity_force(supine)).problem;
+  State state{flatten(found.reference), flatten(found.points), scene.solid().rest_pressure()};
+  EXPECT_EQ(problem.folded_element(state), -1);
+  const int corner = breast.element(0)[0], opposite = breast.element(0)[6];
+  const Vec3 across = state.x.segment<3>(3L * opposite) - state.x.segment<3>(3L * corner);
+  state.x.segment<3>(3L * corner) += 0.7 * across;
+  EXPECT_GE(problem.folded_element(state), 0);
 }
 
 // Under nearly five times its weight the first step leaves a larger residual than it found: the second,
