@@ -85,22 +85,22 @@ TEST(Reason, UnstableEquilibrium) {
 // tenth below.
 TEST(Reason, MultigridSeesTheUnstableEquilibrium) {
   const HexMesh fine = column(8);
-  const auto solved = [&](double modulus, const char* solver) {
+  const auto solved = [&](double modulus, SolverOption solver) {
     HexMesh mesh = fine;
     MechanicsOptions options = neo_hookean(modulus / 6);
     options.solver = solver;
     return fixtures::backward_into(mesh, down, options);
   };
-  const SolveSummary falls = solved(0.25 * critical_modulus(), "direct");
+  const SolveSummary falls = solved(0.25 * critical_modulus(), SolverOption::direct);
   ASSERT_EQ(falls.reason_id, "unstable_equilibrium");
   // Found to a tenth, from above.
   const double limit = 0.25 * critical_modulus() * falls.stiffness_factor_needed;
-  EXPECT_EQ(solved(2 * limit, "auto").linear_solver, "multigrid");
-  for (const char* solver : {"auto", "multigrid"}) {
+  EXPECT_EQ(solved(2 * limit, SolverOption::automatic).linear_solver, "multigrid");
+  for (const SolverOption solver : {SolverOption::automatic, SolverOption::multigrid}) {
     const SolveSummary above = solved(1.1 * limit, solver), below = solved(0.8 * limit, solver);
     EXPECT_TRUE(above.converged()) << above.record.reason;
     EXPECT_EQ(below.reason_id, "unstable_equilibrium");
-    EXPECT_EQ(below.linear_solver, std::string(solver) == "auto" ? "direct" : "multigrid");
+    EXPECT_EQ(below.linear_solver, solver == SolverOption::automatic ? "direct" : "multigrid");
   }
 }
 

@@ -14,22 +14,6 @@
 namespace breast {
 namespace {
 
-TEST(Constraints, ProjectAndRotate) {
-  Constraints held(2);
-  held.hold_normal(1, Vec3(0, 0.6, 0.8), 2.0);
-  Eigen::VectorXd v(6);
-  v << 1, 2, 3, 4, 5, 6;
-  Eigen::VectorXd projected = v;
-  held.project(projected);
-  EXPECT_EQ(projected.head<3>(), v.head<3>());
-  EXPECT_NEAR(Vec3(0, 0.6, 0.8).dot(projected.tail<3>()), 0, 1e-14);
-  Eigen::VectorXd turned = v;
-  held.to_axes(turned);
-  held.from_axes(turned);
-  EXPECT_LT((turned - v).norm(), 1e-14);
-  EXPECT_NEAR(held.increments().tail<3>().norm(), 2, 1e-14);
-}
-
 TEST(Gmres, SolvesAnUnsymmetricSystem) {
   const int n = 40;
   Eigen::MatrixXd a = 4 * Eigen::MatrixXd::Identity(n, n);

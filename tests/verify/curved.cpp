@@ -122,7 +122,7 @@ Solved solve(const Exact& exact, int n, int order, bool with_inverse) {
   mesh.points = mesh.reference = mesh.imaged;
   const Scene scene(mesh, fixtures::options_of(fat, order == 1 ? Element::q1p0 : Element::q2p1));
   State state = scene.at_rest(flatten(mesh.reference));
-  const NewtonResult result = fixtures::solve_held(scene, Eigen::VectorXd::Zero(targets.size()),
+  const EquilibriumResult result = fixtures::solve_held(scene, Eigen::VectorXd::Zero(targets.size()),
                                                    constraints_of(exact, unit), targets, state);
   EXPECT_TRUE(result.converged) << result.reason;
   EXPECT_LE(result.iterations.size(), 9u);
@@ -130,10 +130,10 @@ Solved solve(const Exact& exact, int n, int order, bool with_inverse) {
   out.error_mm = rms_error(mesh, state.x, exact.motion);
   double force = 0;
   for (int i = 0; i < mesh.nodes(); ++i) {
-    force += exact.share(unit[i], state.u.segment<3>(3L * i), result.forces.r.segment<3>(3L * i));
+    force += exact.share(unit[i], state.x.segment<3>(3L * i), result.forces.r.segment<3>(3L * i));
   }
   out.force_error = std::abs(force / exact.force - 1);
-  if (with_inverse) invert(mesh, state.u, result.forces.r, out);
+  if (with_inverse) invert(mesh, state.x, result.forces.r, out);
   return out;
 }
 
