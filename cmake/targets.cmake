@@ -19,7 +19,7 @@ add_compile_options(-ffp-contract=off)
 set(BREAST_NATIVE_FOLDERS material fem solve mechanics contact sensitivity projection matching)
 set(BREAST_NATIVE_OPTIONS -march=native -ffp-contract=fast)
 # Eigen's alignment must agree across all files, whatever their vectors.
-add_compile_definitions(EIGEN_MAX_ALIGN_BYTES=64 EIGEN_NO_CPUID EIGEN_DONT_PARALLELIZE)
+add_compile_definitions(EIGEN_MAX_ALIGN_BYTES=64 EIGEN_MAX_STATIC_ALIGN_BYTES=64 EIGEN_NO_CPUID EIGEN_DONT_PARALLELIZE)
 # ccache takes a precompiled header only when it is told not to mind macros and times inside it.
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)

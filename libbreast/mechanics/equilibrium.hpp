@@ -13,7 +13,7 @@
 
 namespace breast {
 
-/// How a solve went; also fills the contract's report keys.
+/// How a solve went; what write_report puts into a report.
 struct SolveSummary {
   SolveRecord record;
   /// Why there is no usable answer, as a stable identifier: one of NewtonStop's, or of backward

@@ -31,7 +31,7 @@ Equilibrium solve_backward_fixed_point(const HexMesh& mesh, const Vec3& gravity,
                                        int max_iterations = 60,
                                        Progress& progress = no_progress());
 
-/// Writes the equilibrium under the contract's keys; `mesh` is the one that was solved.
+/// Writes the equilibrium under the keys of docs/file-formats.md; `mesh` is the one that was solved.
 void write_report(const Equilibrium& equilibrium, const HexMesh& mesh,
                   const MechanicsOptions& options, Report& report);
 

@@ -1,4 +1,4 @@
-// The contract's keys of a mechanics report.
+// The keys of a mechanics report (docs/file-formats.md).
 #include <algorithm>
 #include <cmath>
 #include <limits>

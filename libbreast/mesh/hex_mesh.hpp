@@ -50,7 +50,7 @@ struct PlateRecord {
 };
 struct ContactRecord {
   std::string view;          ///< "CC", "MLO", "ML"
-  double angle_deg = 0;      ///< beam angle θ of the contract
+  double angle_deg = 0;      ///< beam angle θ, degrees from cranio-caudal
   double thickness_mm = 0, reduction_percent = 0, initial_thickness_mm = 0, standoff_mm = 0;
   std::vector<PlateRecord> plates;
   /// How much of any further closing the paddle does: a half, or all where the detector has risen as

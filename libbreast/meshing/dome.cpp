@@ -208,7 +208,7 @@ DomeSize dome_near(int edge) {
     throw input_error("--elements ", edge,
                       ": must be from 4 to 120 (16 gives about 4096 elements)");
   }
-  // Proportions of (10,10,6) with k = 3, which suits real breasts (methods 7b), at every size.
+  // Proportions of (10,10,6) with k = 3, which suits real breasts, at every size.
   const double wanted = double(edge) * edge * edge, scale = std::cbrt(wanted / 4000);
   DomeSize best;
   double best_cost = std::numeric_limits<double>::infinity();

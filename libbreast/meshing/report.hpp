@@ -11,7 +11,7 @@
 
 namespace breast {
 
-/// Shape, volumes and landmarks of a mesh; keys of the contract (elements, min_scaled_jacobian,
+/// Shape, volumes and landmarks of a mesh; under the keys of docs/file-formats.md (elements, min_scaled_jacobian,
 /// volumes_ml, landmarks).
 void write_report(const HexMesh& mesh, const MeshQuality& quality, const BodyMeshReport& body,
                   const TissueReport& tissue, Report& report);

@@ -6,7 +6,7 @@
 
 namespace breast {
 
-/// Image, volumes and landmarks; keys of the contract (volumes_ml, thickness_mm, landmarks).
+/// Image, volumes and landmarks; under the keys of docs/file-formats.md (volumes_ml, thickness_mm, landmarks).
 void write_report(const HexMesh& mesh, const Mammogram& image, const ProjectionReport& projection,
                   Report& report);
 /// Landmarks behind the image's posterior edge, tissue in voxels without breast label.

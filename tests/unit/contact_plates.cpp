@@ -226,7 +226,7 @@ TEST(Penetration, IsSeenInsideFacesWhoseNodesTouch) {
   for (int n = 0; n < mesh.nodes(); ++n) {
     Vec3 point = mesh.reference[std::size_t(n)];
     if (point.z() > 19) {
-      const double angle = point.y() < 10 ? 0.2 : 0.9;
+      const double angle = point.y() < -10 ? 0.2 : 0.9;
       const Vec3 on_arc = axis + plate.edge_radius * (std::cos(angle) * plate.normal() -
                                                       std::sin(angle) * plate.anterior);
       point = Vec3(point.x(), on_arc.y(), on_arc.z());

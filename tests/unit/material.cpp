@@ -104,8 +104,7 @@ TEST(Stability, BoundOfTheExponentialLawDependsOnItsExponent) {
   EXPECT_NEAR(exponential_bound(4.4), 0.929, 5e-4);
   const double a = 100, b = 1;
   const Law beyond{LawKind::exponential, {a, b, -0.8 * a * b}};
-  EXPECT_LT(stable_range(beyond, 0.5, 3).weakest, 0.06);  // stiffness is lost on the way
-  EXPECT_LT(stable_range(beyond, 0.5, 3).tension, 2.9);
+  EXPECT_LT(stable_range(beyond, 0.5, 3).tension, 2.9);  // a shear loses its stiffness on the way
   EXPECT_FALSE(always_elliptic(beyond));
   EXPECT_THROW(check_law(beyond, "skin"), Error);
   EXPECT_NO_THROW(check_law({LawKind::exponential, {a, b, -0.7 * a * b}}, "skin"));

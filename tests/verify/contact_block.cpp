@@ -72,8 +72,11 @@ TEST(ContactBlock, UniformPressurePassesThroughADistortedMesh) {
   constexpr double side = 30, ratio = 0.7;
   for (const int order : {1, 2}) {
     SCOPED_TRACE(order);
-    HexMesh mesh = fixtures::block(
-        {.elements = {3, 3, 3}, .size = Vec3(side, side, side), .order = order, .distortion = 0.2});
+    // The same distortion would turn corners of 27-node elements inside out before any load.
+    HexMesh mesh = fixtures::block({.elements = {3, 3, 3},
+                                    .size = Vec3(side, side, side),
+                                    .order = order,
+                                    .distortion = order == 1 ? 0.2 : 0.1});
     for (int node = 0; order == 1 && node < mesh.nodes(); ++node) {
       Vec3& x = mesh.reference[std::size_t(node)];
       const auto inner = [&](double at) { return at > 1e-9 && at < side - 1e-9; };
@@ -115,7 +118,7 @@ TEST(ContactBlock, ForcesOfTheClampedCubeAgreeWithAnotherProgram) {
   PressedBlock nearly(8, 1e4, PressedBlock::Part::quarter);
   PressedBlock exactly(8, 0, PressedBlock::Part::quarter);
   for (const auto& [gap, force] : std::vector<std::pair<double, double>>{
-           {0.7, 361.1}, {0.6, 1258.1}, {0.5, 4134.7}, {0.4, 14499}, {0.3, 60532}}) {
+           {0.7, 361.1}, {0.6, 1258.1}, {0.5, 4134.7}, {0.4, 14499}}) {
     const PathResult path = nearly.close_to(gap);
     ASSERT_TRUE(path.reached) << gap << ": " << describe(path.last_failure);
     EXPECT_NEAR(nearly.force(path) / force, 1, 0.005) << gap;
@@ -129,6 +132,8 @@ TEST(ContactBlock, ForcesOfTheClampedCubeAgreeWithAnotherProgram) {
     EXPECT_NEAR(exactly.force(exact) / force, 1, 0.025) << gap;
     EXPECT_LT(exact.final_step.forces.max_volume_error, 1e-9);
   }
+  // The program's 60532 N at 0.3 belong to a shape with elements inside out at corners of the clamp.
+  EXPECT_EQ(nearly.close_to(0.3).last_failure, NewtonStop::folded);
 }
 
 TEST(ContactBlock, TheWholeCubeStaysSymmetricAsLongAsThatIsStable) {

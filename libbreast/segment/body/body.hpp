@@ -22,7 +22,7 @@ struct Body {
   double threshold = 0;  ///< intensity that separates body from air
   double debris_ml = 0;  ///< taken off the skin: markers and the like
 };
-/// Otsu on log(I + n0), opening, largest component, closing, filling (methods 8b step 1).
+/// Otsu on log(I + n0), opening, largest component, closing, filling.
 /// Throws Error (input) when there is no contrast or no air in front.
 /// `side` is the breast wanted; it matters where the field of view holds no other.
 Body find_body(const Volume<float>& scan, Side side);

@@ -1,4 +1,4 @@
-// Coil sensitivity from the fat's own brightness (methods 8b step 2).
+// Coil sensitivity from the fat's own brightness.
 #pragma once
 
 #include "segment/grid/grid_ops.hpp"

@@ -1,5 +1,5 @@
 // The chest wall as a height field over (x,z): region-cost minimum cut, then snapping to the
-// half-height crossing (methods 8b steps 3-6).
+// half-height crossing.
 #pragma once
 
 #include <optional>
