@@ -66,7 +66,7 @@ TEST_F(CompressTool, WritesTheContactRecordAndTheContractKeys) {
                           "peak_mb"}) {
     EXPECT_TRUE(r.contains(key)) << key;
   }
-  for (const char* id : {"pressure_against_sensors", "penetration_within", "volume_kept",
+  for (const char* id : {"pressure_against_sensors", "penetration_above", "volume_kept",
                          "plates_balanced", "reduction_within"}) {
     EXPECT_TRUE(r.contains(std::string("judgement/") + id)) << id;
   }

@@ -198,7 +198,7 @@ TEST_F(HexmeshTool, TetrahedraInTwoStepsAreTheSame) {
   const Report two = tetrahedra({});
   for (const char* key : {"count", "nodes", "volume_ml", "least_dihedral_deg"})
     EXPECT_EQ(two.text(std::string("tetrahedra/") + key), one.text(std::string("tetrahedra/") + key));
-  EXPECT_GT(tetrahedra({"--edge", "8"}).number("tetrahedra/count"),
+  EXPECT_GT(tetrahedra({"--edge", "6"}).number("tetrahedra/count"),
             2 * two.number("tetrahedra/count"));
 }
 
