@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "mesh/nodal.hpp"
 #include "mesh/nodal_faces.hpp"
 
 namespace breast {
@@ -29,18 +28,6 @@ std::vector<Face> held_faces(const HexMesh& mesh, const std::vector<int>& plate_
     if (one_plate) held.push_back(face);
   }
   return held;
-}
-
-Eigen::VectorXd raised(const RicherMesh& richer, const Eigen::VectorXd& x) {
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(3L * richer.mesh.nodes());
-  all.head(x.size()) = x;
-  for (std::size_t i = 0; i < richer.between.size(); ++i) {
-    auto to = all.segment<3>(3L * (richer.corners + long(i)));
-    for (const int c : richer.between[i]) {
-      to += x.segment<3>(3L * c) / double(richer.between[i].size());
-    }
-  }
-  return all;
 }
 
 // The mean of the corners a node lies between.
@@ -74,7 +61,7 @@ std::shared_ptr<const Term> raise_friction(const FrictionTerm& coarse, const Hex
     }
   }
   const std::vector<Face> faces = held_faces(richer.mesh, plate_of);
-  const NodalFaces spread = nodal_faces(richer.mesh, faces, raised(richer, x));
+  const NodalFaces spread = nodal_faces(richer.mesh, faces, richer.raise(x));
   for (const int node : nodes_of(richer.mesh, faces)) {
     const CornerFriction here =
         node < richer.corners ? at.at(node)

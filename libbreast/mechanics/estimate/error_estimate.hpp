@@ -39,6 +39,9 @@ struct RicherMesh {
   const HexMesh& mesh;
   int corners;
   const std::vector<std::vector<int>>& between;
+
+  /// A field of the corners (3 per node) with the means of them at the nodes between.
+  Eigen::VectorXd raise(const Eigen::VectorXd& of_corners) const;
 };
 
 /// What plates do to the body at the solution.

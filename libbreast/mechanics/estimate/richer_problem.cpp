@@ -83,14 +83,18 @@ void RicherProblem::hold_touching(const std::vector<TouchingNode>& touching) {
   problem_.set_constraints(std::move(held));
 }
 
-Eigen::VectorXd RicherProblem::raise(const Eigen::VectorXd& corners) const {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(3L * mesh_.nodes());
-  out.head(corners.size()) = corners;
-  for (std::size_t i = 0; i < between_.size(); ++i) {
-    auto node = out.segment<3>(3L * (corners_ + long(i)));
-    for (const int c : between_[i]) node += corners.segment<3>(3L * c) / double(between_[i].size());
+Eigen::VectorXd RicherMesh::raise(const Eigen::VectorXd& of_corners) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(3L * mesh.nodes());
+  out.head(of_corners.size()) = of_corners;
+  for (std::size_t i = 0; i < between.size(); ++i) {
+    auto node = out.segment<3>(3L * (corners + long(i)));
+    for (const int c : between[i]) node += of_corners.segment<3>(3L * c) / double(between[i].size());
   }
   return out;
+}
+
+Eigen::VectorXd RicherProblem::raise(const Eigen::VectorXd& corners) const {
+  return RicherMesh{mesh_, corners_, between_}.raise(corners);
 }
 
 void RicherProblem::linearise() {
