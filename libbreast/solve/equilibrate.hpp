@@ -37,6 +37,7 @@ class TangentSystem : public NewtonSystem {
 
   std::optional<Trial> attempt(double length) override;
   void accept(Trial trial) override;
+  int folded_element() const override { return problem_.folded_element(state_); }
   const Forces& forces() const { return forces_; }
   /// Positions of the first trial that was refused as inadmissible since the last accepted one.
   const Eigen::VectorXd& refused() const { return refused_; }

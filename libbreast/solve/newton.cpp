@@ -30,10 +30,18 @@ NewtonResult newton(NewtonSystem& system,
     result.stop = stop;
     result.reason = reason;
   };
+  const auto settle = [&] {
+    const int folded = system.folded_element();
+    result.converged = folded < 0;
+    if (folded < 0) return;
+    give_up(NewtonStop::folded, message("element ", folded,
+                                        " of the state found is turned inside out at a corner or a "
+                                        "quadrature point"));
+  };
   while (true) {
     const Balance now = system.assess(result);
     result.residual = now.residual;
-    result.converged = now.converged;
+    if (now.converged) settle();
     if (now.stop != NewtonStop::none) give_up(now.stop, now.reason);
     if (now.converged || now.stop != NewtonStop::none) break;
     const NewtonDirection direction = system.direction(now);
@@ -50,8 +58,9 @@ NewtonResult newton(NewtonSystem& system,
       result.residual = record.residual;
       system.accept(std::move(*found.trial));
     } else if (!direction.provisional) {
-      result.converged = now.nearly;
-      if (!now.nearly) {
+      if (now.nearly) {
+        settle();
+      } else {
         give_up(found.any_admissible ? NewtonStop::no_step : NewtonStop::folded,
                 message("no acceptable step along the Newton direction: residual ", now.residual,
                         found.any_admissible ? "" : ", every trial folds an element"));

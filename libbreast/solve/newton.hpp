@@ -104,6 +104,9 @@ class NewtonSystem {
   /// pressures stay as at 1.
   virtual std::optional<Trial> attempt(double length) = 0;
   virtual void accept(Trial trial) = 0;
+  /// An element of the present state that is turned inside out at a corner or a quadrature point;
+  /// −1: none. A state with one is no solution, however small its residual.
+  virtual int folded_element() const { return -1; }
 };
 
 /// Iterates until the system says that it converged or stops.
