@@ -35,9 +35,6 @@ void declare(Tool& tool, Choices& c) {
       "A path that stops early ends in a valid equilibrium: with --at-least it is written with "
       "status stopped_early when at least that reduction was reached.");
   tool.describe(
-      "--wall spring lets the chest-wall faces slide on springs at rest in the stress-free shape, "
-      "under gravity as well as between the plates; backward's own wall is always held.");
-  tool.describe(
       "The report gives force, area and pressure of both plates, judges them against clinical "
       "ranges (judgement: an identifier and a sentence each; doubt_ids: those to read first), and "
       "says when the plates' forces differ by more than weight and a quarter of the smaller one: a "
@@ -97,8 +94,6 @@ void declare(Tool& tool, Choices& c) {
               0.1, 1000);
   tool.choice(c.contact, "--contact", {"active-set", "al"},
               "exact active set, or the paper's augmented Lagrangian");
-  tool.text(c.wall, "--wall", "fixed|spring:KPA_PER_MM[,KPA_PER_MM]",
-            "held as in the paper, or springs across and (without: a third of it) along the wall");
   declare_mechanics(tool, c.mechanics);
   declare_estimate(tool, c.estimate);
   tool.check([&c] {
@@ -107,7 +102,6 @@ void declare(Tool& tool, Choices& c) {
                         c.targets(), " were given");
     }
     parse_gravity(c.gravity);
-    parse_wall(c.wall);
     parse_detector(c.detector);
   });
 }

@@ -49,6 +49,12 @@ void report_fit(Report& report, const FitReport& fit, const BreastGeometry& geom
   report.set("fit/min_area_ratio", fit.min_area_ratio);
   report.set("wall/rms_mm", fit.wall_rms_mm);
   report.set("wall/p95_mm", fit.wall_p95_mm);
+  report.set("thorax/half_width_mm", fit.thorax.half_width_mm);
+  report.set("thorax/half_depth_mm", fit.thorax.half_depth_mm);
+  report.set("thorax/wall_points", fit.thorax.wall_points);
+  report.set("thorax/wall_mean_mm", fit.thorax.wall_mean_mm);
+  report.set("thorax/wall_p95_mm", fit.thorax.wall_p95_mm);
+  report.set("thorax/sheet_max_mm", fit.thorax.sheet_max_mm);
   report.set("wall/coverage_percent", 100 * fit.wall_coverage);
   report_rim(report, fit.rim);
   report.set("landmarks/nipple/imaged", geometry.nipple);

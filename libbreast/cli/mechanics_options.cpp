@@ -58,8 +58,11 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices) {
               "invariants of the isochoric part of C, or plain as printed in the paper");
   tool.number(choices.bulk_ratio, "--bulk-ratio", "K_OVER_MU",
               "bulk over shear modulus; without it, exactly incompressible", 1.0, 1e9);
-  tool.choice(choices.cut, "--cut", {"free", "fixed", "roller"},
-              "what holds the lateral cut surface where the body ends");
+  tool.text(choices.wall, "--wall", "held|slide[:KT]|spring:KN[,KT]",
+            "chest wall held; or sliding on the wall surface against springs of KT kPa/mm along it "
+            "(default 0.01); or on springs of KN across and KT along it (default a third of KN)");
+  tool.text(choices.cut, "--cut", "free|fixed|roller|spring:KC",
+            "what holds the lateral cut surface where the body ends; springs of KC kPa/mm");
   tool.choice(choices.solver, "--solver", {"auto", "direct", "multigrid"},
               "linear solver: a Cholesky factor; multigrid, with a check of stability; or "
               "multigrid where it "

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "contact/active_set_system.hpp"
-#include "contact/plate_constraint.hpp"
 
 namespace breast {
 
@@ -42,12 +41,12 @@ void ActiveSet::set_terms(const PlatePair& plates) {
 }
 
 Constraints ActiveSet::constraints(const State& state) const {
-  Constraints all = problem_.constraints();
+  Constraints all = problem_.constraints_at(state.x);
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     if (memory_.touching[c] < 0) continue;
     const int node = candidates_[c];
     const Gap gap = plates_.plate(memory_.touching[c]).gap(state.x.segment<3>(3L * node));
-    hold_on_plate(all, node, gap.gradient, -gap.value);
+    all.hold_along(node, gap.gradient, -gap.value);
   }
   return all;
 }

@@ -61,8 +61,9 @@ ActiveSet::System::Sweep ActiveSet::System::measure(const State& state,
   Sweep sweep;
   Eigen::VectorXd free = forces.r;
   sweep.gradient = forces.augmented.size() > 0 ? forces.augmented : forces.r;
-  problem_.constraints().project(free);
-  problem_.constraints().project(sweep.gradient);
+  const Constraints held = problem_.constraints_at(state.x);
+  held.project(free);
+  held.project(sweep.gradient);
   double reaction = 0;
   for (std::size_t c = 0; c < owner_.candidates_.size(); ++c) {
     if (owner_.memory_.touching[c] < 0) continue;

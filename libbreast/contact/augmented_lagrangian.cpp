@@ -35,7 +35,7 @@ class AugmentedLagrangian::System final : public TangentSystem {
 
   NewtonDirection direction(const Balance&) override {
     if (!assemble()) return {NewtonStop::folded, describe(NewtonStop::folded)};
-    if (!factorise(problem_.constraints()).ok) {
+    if (!factorise(problem_.constraints_at(state_.x)).ok) {
       return {NewtonStop::indefinite, describe(NewtonStop::indefinite)};
     }
     NewtonDirection direction = solve(contact_volume_accuracy, gmres_restarts);
@@ -64,13 +64,13 @@ class AugmentedLagrangian::System final : public TangentSystem {
       const double force = owner_.plate_->at(c, state.x).force;
       square += force * force;
     }
-    return problem_.free_norm(forces) /
+    return problem_.free_norm(state.x, forces) /
            std::max({std::sqrt(square), problem_.load_norm(), 1e-30});
   }
 
   Appraisal appraise(const State& state, const Forces& forces) const override {
     Eigen::VectorXd gradient = forces.augmented.size() > 0 ? forces.augmented : forces.r;
-    problem_.constraints().project(gradient);
+    problem_.constraints_at(state.x).project(gradient);
     const double there = relative(state, forces);
     return {there, there, along(gradient)};
   }

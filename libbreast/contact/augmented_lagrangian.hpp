@@ -25,7 +25,9 @@ class AugmentedLagrangian : public ContactSolver {
 
   ContactStep solve(const PlatePair& plates, State& state, double tolerance) override;
   const Problem& problem() const override { return problem_; }
-  Constraints constraints(const State&) const override { return problem_.constraints(); }
+  Constraints constraints(const State& state) const override {
+    return problem_.constraints_at(state.x);
+  }
   const std::vector<int>& candidates() const override { return candidates_; }
 
  private:

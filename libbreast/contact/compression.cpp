@@ -26,9 +26,8 @@ namespace {
 /// springs that stand for sticking friction (at 10 kPa and μ = 0.3 they give by about 0.2 mm).
 constexpr double penalty_factor = 10, stick_factor = 100;
 
-/// The scene's options with what compression adds to them.
-MechanicsOptions with_wall(MechanicsOptions mechanics, const CompressionOptions& options) {
-  mechanics.wall = options.wall;
+/// The active set needs a factor.
+MechanicsOptions by_factor(MechanicsOptions mechanics) {
   mechanics.solver = SolverOption::direct;
   return mechanics;
 }
@@ -40,7 +39,7 @@ class Compression {
       : mesh_(mesh),
         options_(options),
         progress_(progress),
-        scene_(mesh, with_wall(mechanics, options)),
+        scene_(mesh, by_factor(mechanics)),
         load_(scene_.gravity_force(options.gravity)),
         body_(scene_.problem(load_)),
         solver_(scene_.solid().space()->pattern) {}
@@ -106,7 +105,7 @@ bool Compression::load_with_gravity(State& state) {
   return true;
 }
 
-/// Skin nodes that nothing holds, chest wall and its springs included.
+/// Skin nodes that nothing holds and that are not on the chest wall.
 std::vector<int> Compression::candidates() const {
   const std::vector<int> wall = nodes_of(mesh_, mesh_.pectoral_faces);
   const std::set<int> on_wall(wall.begin(), wall.end());

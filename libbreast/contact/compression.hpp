@@ -30,7 +30,6 @@ struct CompressionOptions {
   Vec3 gravity{0, 0, -9810};  ///< mm/s², LPS
   ContactMethod method = ContactMethod::active_set;
   double friction = 0;              ///< Coulomb's μ between skin and plates
-  std::optional<SupportStiffness> wall;  ///< an elastic chest wall; none: fixed
   PathOptions path;
 };
 

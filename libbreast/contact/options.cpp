@@ -18,23 +18,6 @@ std::optional<double> number(const std::string& text) {
 }
 }  // namespace
 
-std::optional<SupportStiffness> parse_wall(const std::string& text) {
-  if (text == "fixed") return {};
-  const std::string kind = "spring:";
-  if (text.rfind(kind, 0) == 0) {
-    const std::string rest = text.substr(kind.size());
-    const std::size_t comma = rest.find(',');
-    const std::optional<double> normal = number(rest.substr(0, comma));
-    const std::optional<double> along = comma == std::string::npos
-                                            ? (normal ? std::optional(*normal / 3) : normal)
-                                            : number(rest.substr(comma + 1));
-    if (normal && along && *normal > 0 && *along >= 0) return SupportStiffness{*normal, *along};
-  }
-  throw input_error("--wall ", text,
-                    ": give 'fixed', 'spring:NORMAL' or 'spring:NORMAL,TANGENTIAL' in kPa/mm, the "
-                    "first above 0; for example spring:1");
-}
-
 double parse_detector(const std::string& text) {
   if (text == "raised") return std::numeric_limits<double>::infinity();
   if (text == "fixed") return 0;
@@ -61,7 +44,6 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   options.plates = c.plates;
   options.plates.detector_rise = parse_detector(c.detector);
   options.friction = c.friction;
-  options.wall = parse_wall(c.wall);
   options.gravity = gravity;
   options.path.longest_step = c.plate_step.value_or(0);
   options.path.first_step = c.plate_step.value_or(0);

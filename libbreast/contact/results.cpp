@@ -110,13 +110,13 @@ PlateRecord Recorder::plate(int k) {
   return record;
 }
 
-void record_balance(const Scene& scene, const State& state, const Vec3& plates, const Vec3& weight,
-                    CompressionResult& result) {
+void record_balance(const Scene& scene, const Constraints& held, const State& state,
+                    const Vec3& plates, const Vec3& weight, CompressionResult& result) {
   const Eigen::VectorXd& residual = result.path.final_step.forces.r;
   Eigen::VectorXd free = residual;
-  scene.walls().project(free);
+  held.project(free);
   const Eigen::VectorXd reaction = residual - free;
-  Vec3 wall = scene.support() != nullptr ? scene.support()->force_on_body(state) : Vec3::Zero();
+  Vec3 wall = scene.force_of_springs(state);
   for (Eigen::Index i = 0; i < reaction.size(); i += 3) wall += reaction.segment<3>(i);
   result.wall_reaction_N = wall / micronewton_per_newton;
   result.weight_N = weight.norm() / micronewton_per_newton;
@@ -175,7 +175,8 @@ void record_compression(const Scene& scene, const CompressionOptions& options, c
   result.reduction_percent = record.reduction_percent;
   result.initial_thickness_mm = record.initial_thickness_mm;
   result.contact = std::move(record);
-  record_balance(scene, state, recorder.total(), weight, result);
+  record_balance(scene, solver.problem().constraints_at(state.x), state, recorder.total(), weight,
+                 result);
   result.strains = strain_ranges(mesh, state.x);
   record_profile(mesh, state.x, solver, result);
 }

@@ -92,6 +92,9 @@ void find_doubts(const BreastRegion& region, const BreastGeometry& geometry, Fit
     doubt("the nipple landmark lies ", report.nipple_moved_mm, " mm off the skin sheet");
   if (report.wall_coverage < 0.9)
     doubt("the chest wall is seen behind ", 100 * report.wall_coverage, " % of the breast only");
+  if (report.thorax.wall_p95_mm > 8)
+    doubt("beside the breast the wall surface lies up to ", report.thorax.wall_p95_mm,
+          " mm (95 %) from the labels' chest wall: look at the labels before sliding on it");
   if (report.filled_points > 0)
     doubt("the skin leaves the field of view inside the breast's outline: ", report.filled_points,
           " hole(s) bridged by the smooth sheet");
@@ -203,6 +206,12 @@ void find_rim(Fit& fit) {
   fit.report.rim = rim_of_volume(fit.region.breast_ml, fit.wall, rays, fit.options.rim, geometry);
 }
 
+void find_thorax(Fit& fit) {
+  const Timer::Scope phase(fit.timer, "wall surface");
+  fit.progress.update("wall surface", 0.92, "");
+  fit.geometry.thorax = fit_thorax(fit.labels, fit.geometry, fit.report.thorax);
+}
+
 void judge(Fit& fit) {
   const Timer::Scope phase(fit.timer, "distances");
   fit.progress.update("distances", 0.95, "");
@@ -231,6 +240,7 @@ BreastGeometry fit_breast(const LabelVolume& labels, const FitOptions& options, 
   find_skin_sheet(fit);
   find_wall_sheet(fit);
   find_rim(fit);
+  find_thorax(fit);
   judge(fit);
   return std::move(fit.geometry);
 }

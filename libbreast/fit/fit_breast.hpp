@@ -8,6 +8,7 @@
 #include "core/progress.hpp"
 #include "core/report.hpp"
 #include "fit/rim.hpp"
+#include "fit/thorax_fit.hpp"
 #include "image/label_volume.hpp"
 #include "surface/hermite.hpp"
 
@@ -43,6 +44,7 @@ struct FitReport {
   double nipple_moved_mm = 0;        ///< landmark to skin sheet
   double body_ml = 0, label_ml = 0;  ///< volume inside the sheets and cut; of the breast's voxels
   Rim rim;
+  ThoraxReport thorax;
   std::vector<std::string> doubts;  ///< what a reader of the result should look at
 };
 

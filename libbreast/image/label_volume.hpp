@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct LabelVolume {
   Side side = Side::left;
   std::map<std::string, Vec3> landmarks;        ///< "nipple" (LPS mm), maybe "tumour"
   double skin_thickness = 0;                    ///< mm, 0 when not measured
+  std::optional<double> midline_mm;             ///< x of the body's midline; none: not known
   History history;
   std::string content_sha256;                   ///< filled by the reader
 

@@ -37,6 +37,11 @@ Equilibrium solve_backward_fixed_point(const HexMesh& mesh, const Vec3& gravity,
     }
     state.reference -= miss;
     state.x -= miss;
+    if (loaded.problem.restore(state.reference) >= 0) {
+      found.reason_id = stop_name(NewtonStop::left_surface);
+      found.record.reason = describe(NewtonStop::left_surface);
+      break;
+    }
   }
   if (!found.converged() && found.record.reason.empty()) {
     found.reason_id = stop_name(NewtonStop::iteration_limit);

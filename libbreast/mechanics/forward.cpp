@@ -35,7 +35,7 @@ class ForwardSolve {
   }
   EquilibriumResult attempt(Workspace& work, State& state);
   EquilibriumResult follow(Workspace& work, const Eigen::VectorXd& load, State& state);
-  void check_stability(Workspace& work);
+  void check_stability(Workspace& work, const State& state);
   void estimate(Workspace& work, const State& state, const Vec3& gravity);
 
   const HexMesh& mesh_;
@@ -90,10 +90,10 @@ EquilibriumResult ForwardSolve::follow(Workspace& work, const Eigen::VectorXd& l
 
 // Whether the equilibrium found is known to be stable, from the last tangent. Where the start was
 // the equilibrium there is no factor of it yet.
-void ForwardSolve::check_stability(Workspace& work) {
+void ForwardSolve::check_stability(Workspace& work, const State& state) {
   Timer::Scope phase(found_.timer, "stability");
   if (work.solver.factorisations() == 0) {
-    work.solver.factorise(work.matrix, scene_.walls(), false);
+    work.solver.factorise(work.matrix, work.loaded.problem.constraints_at(state.x), false);
   }
   found_.stable = work.solver.positive_definite();
   if (found_.stable) return;
@@ -125,7 +125,7 @@ Equilibrium ForwardSolve::run(const Vec3& gravity) {
     result = follow(work, load, state);
     if (result.converged) found_.record.status = SolveStatus::converged;
     note_solver(work.solver, work.matrix, found_);
-    if (result.converged) check_stability(work);
+    if (result.converged) check_stability(work, state);
     if (found_.converged()) estimate(work, state, gravity);
   }
   if (fail_fast_ && !found_.converged()) return found_;

@@ -46,6 +46,7 @@ class InverseSolver::System final : public NewtonSystem {
     double merit = 0;
   };
   Distance distance(const Forces& forces) const;
+  NewtonStop refusal() const override { return refusal_; }
   bool precondition();
   bool solve_direction(double accuracy);
 
@@ -53,13 +54,14 @@ class InverseSolver::System final : public NewtonSystem {
   State& state_;
   Forces forces_;
   ReferenceStep step_;
+  NewtonStop refusal_ = NewtonStop::folded;
 };
 
 InverseSolver::System::Distance InverseSolver::System::distance(const Forces& forces) const {
   const Problem& problem = owner_.problem_;
   const PressureSpace& pressures = *problem.space().pressures;
   Distance out;
-  out.force = problem.free_norm(forces) / problem.load_norm();
+  out.force = problem.free_norm(state_.x, forces) / problem.load_norm();
   double square = 0;
   for (long i = 0; i < forces.theta.size(); ++i) {
     const double error = std::abs(forces.theta[i]) / pressures.volume(int(i / pressures.rows));
@@ -110,14 +112,16 @@ bool InverseSolver::System::precondition() {
   Timer::Scope phase(owner_.timer_, "factorisation");
   owner_.last_gmres_ = 0;
   return owner_.solver_
-      .factorise(owner_.matrix_, owner_.problem_.constraints(), !owner_.fail_fast_)
+      .factorise(owner_.matrix_, owner_.problem_.constraints_at(state_.x), !owner_.fail_fast_)
       .ok;
 }
 
 bool InverseSolver::System::solve_direction(double accuracy) {
   Timer::Scope phase(owner_.timer_, "solve");
   const double size = std::cbrt(owner_.problem_.space().pressures->volume(0));
-  step_ = ReferenceSystem(owner_.matrix_, owner_.tangent_, owner_.solver_, size)
+  // The stress-free shape slides on the wall where it is, not where the imaged one is.
+  const Constraints moved = owner_.problem_.constraints_at(state_.reference);
+  step_ = ReferenceSystem(owner_.matrix_, owner_.tangent_, owner_.solver_, moved, size)
               .solve(-forces_.r, -forces_.theta, accuracy, max_gmres);
   owner_.last_gmres_ = step_.iterations;
   return step_.residual < 0.5 && !(owner_.fail_fast_ && step_.iterations == max_gmres);
@@ -143,6 +147,11 @@ std::optional<Trial> InverseSolver::System::attempt(double length) {
   Timer::Scope phase(owner_.timer_, "line search");
   Trial trial;
   trial.state = {state_.reference + length * step_.x, state_.x, state_.p + length * step_.p};
+  if (owner_.problem_.restore(trial.state.reference) >= 0) {
+    refusal_ = NewtonStop::left_surface;
+    return {};
+  }
+  refusal_ = NewtonStop::folded;
   trial.forces = owner_.problem_.forces(trial.state);
   const double most = largest_growth * std::max(1.0, forces_.max_det_F);
   if (!trial.forces.valid || !(trial.forces.max_det_F < most)) return {};
@@ -170,7 +179,7 @@ bool InverseSolver::stable(const State& state, double augmentation) {
   request.matrix = &matrix_;
   request.augmentation = augmentation;
   const bool stable = problem_.evaluate(state, request).valid &&
-                      solver_.factorise(matrix_, problem_.constraints(), false).ok &&
+                      solver_.factorise(matrix_, problem_.constraints_at(state.x), false).ok &&
                       solver_.positive_definite();
   // Without a factor nothing is left to precondition with.
   if (!stable || augmentation > 0) last_gmres_ = max_gmres;

@@ -24,8 +24,8 @@ Value pick(const std::string& name, const char* option,
 MechanicsOptions mechanics_options(const std::string& materials,
                                    const std::vector<std::string>& scale,
                                    const std::string& element, const std::string& invariants,
-                                   std::optional<double> bulk_ratio, const std::string& cut,
-                                   const std::string& solver) {
+                                   std::optional<double> bulk_ratio, const std::string& wall,
+                                   const std::string& cut, const std::string& solver) {
   MechanicsOptions options;
   options.materials = load_materials(materials);
   scale_materials(options.materials, scale);
@@ -35,8 +35,8 @@ MechanicsOptions mechanics_options(const std::string& materials,
       pick<Invariants>(invariants, "--invariants",
                        {{"isochoric", Invariants::isochoric}, {"plain", Invariants::plain}});
   options.bulk_ratio = bulk_ratio.value_or(0);
-  options.cut = pick<Cut>(cut, "--cut",
-                          {{"free", Cut::free}, {"fixed", Cut::fixed}, {"roller", Cut::roller}});
+  options.wall = parse_wall(wall);
+  options.cut = parse_cut(cut);
   options.solver = pick<SolverOption>(solver, "--solver",
                                       {{"auto", SolverOption::automatic},
                                        {"direct", SolverOption::direct},
@@ -50,10 +50,6 @@ const char* element_name(Element element) {
 
 const char* invariants_name(Invariants invariants) {
   return invariants == Invariants::isochoric ? "isochoric" : "plain";
-}
-
-const char* cut_name(Cut cut) {
-  return cut == Cut::free ? "free" : cut == Cut::fixed ? "fixed" : "roller";
 }
 
 Estimate estimate_from_name(const std::string& name) {

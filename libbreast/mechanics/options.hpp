@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "material/law.hpp"
-#include "mechanics/terms/elastic_support.hpp"
+#include "mechanics/wall_option.hpp"
 
 namespace breast {
 
 enum class Element { q1p0, q2p1 };
 enum class Invariants { isochoric, plain };
-enum class Cut { free, fixed, roller };
 /// How the discretisation error of 8-node elements is estimated: not at all, by two steps with
 /// 27-node elements and one matrix (mechanics/estimate/error_estimate.hpp), or by solving once more with
 /// them (mechanics/estimate/second_solution.hpp).
@@ -25,34 +24,32 @@ struct MechanicsOptions {
   Element element = Element::q1p0;
   Invariants invariants = Invariants::isochoric;
   double bulk_ratio = 0;  ///< K/μ; 0 means exactly incompressible
-  Cut cut = Cut::free;
-  /// Springs under the chest wall, at rest in the stress-free shape; none: it is fixed.
-  std::optional<SupportStiffness> wall = std::nullopt;
+  WallOption wall;  ///< springs are at rest in the stress-free shape
+  CutOption cut;
   SolverOption solver = SolverOption::automatic;
   Estimate estimate = Estimate::none;
 };
 
 /// Names are those of the MECHANICS options: materials (set or file), "TISSUE=PERCENT" scales,
-/// "q1p0" | "q2p1", "isochoric" | "plain", bulk ratio K/μ (none: incompressible), "free" | "fixed"
-/// | "roller", "auto" | "direct" | "multigrid". Throws Error (input) for any other.
+/// "q1p0" | "q2p1", "isochoric" | "plain", bulk ratio K/μ (none: incompressible), wall and cut as
+/// parse_wall and parse_cut read them, "auto" | "direct" | "multigrid". Throws Error (input) for any other.
 MechanicsOptions mechanics_options(const std::string& materials,
                                    const std::vector<std::string>& scale,
                                    const std::string& element, const std::string& invariants,
-                                   std::optional<double> bulk_ratio, const std::string& cut,
-                                   const std::string& solver);
+                                   std::optional<double> bulk_ratio, const std::string& wall,
+                                   const std::string& cut, const std::string& solver);
 
 /// The same from a command line's choices: a struct with members of these names, which belongs to a
 /// layer this one does not include.
 template <class Choices>
 MechanicsOptions mechanics_options(const Choices& c) {
-  return mechanics_options(c.materials, c.scale, c.element, c.invariants, c.bulk_ratio, c.cut,
-                           c.solver);
+  return mechanics_options(c.materials, c.scale, c.element, c.invariants, c.bulk_ratio, c.wall,
+                           c.cut, c.solver);
 }
 
 /// "none" | "step" | "q2". Throws Error (input) for any other.
 Estimate estimate_from_name(const std::string& name);
 const char* element_name(Element element);
 const char* invariants_name(Invariants invariants);
-const char* cut_name(Cut cut);
 
 }  // namespace breast

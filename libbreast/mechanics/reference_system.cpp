@@ -5,22 +5,26 @@
 namespace breast {
 
 ReferenceSystem::ReferenceSystem(const SaddleMatrix& matrix, const ReferenceTangent& tangent,
-                                 const SaddleSolver& solver, double size)
+                                 const SaddleSolver& solver, const Constraints& moved, double size)
     : matrix_(matrix),
       tangent_(tangent),
       solver_(solver),
+      moved_(moved),
       weigh_(matrix.kappa.mean() / (100 * size)) {}
 
 // On (w, q) with w = −δX: [−K_X −Bᵀ; −B_X cM], or [−K_Xᵀ B_Xᵀ; B cM] for the transpose; both are
-// near [K −Bᵀ; B cM].
+// near [K −Bᵀ; B cM]. Rows are those of forces at x, columns those of moves of X: what is held
+// differs between them where nodes slide.
 Eigen::VectorXd ReferenceSystem::apply(bool transposed, const Eigen::VectorXd& z) const {
   const PressureSpace& space = *matrix_.space;
   const long m = long(space.rows) * space.elements(), n = z.size() - m;
-  const Eigen::VectorXd w = z.head(n), q = z.tail(m);
+  Eigen::VectorXd w = z.head(n);
+  const Eigen::VectorXd q = z.tail(m);
+  if (!transposed) moved_.project(w);
   Eigen::VectorXd top =
       transposed ? Eigen::VectorXd(tangent_.b_x.apply_transpose(q) - tangent_.apply_transpose(w))
                  : Eigen::VectorXd(-tangent_.apply(w) - tangent_.b.apply_transpose(q));
-  solver_.constraints().project(top);
+  (transposed ? moved_ : solver_.constraints()).project(top);
   Eigen::VectorXd bottom = space.multiply(q, space.compliance);
   if (transposed) {
     bottom += tangent_.b.apply(w);
@@ -48,12 +52,14 @@ ReferenceStep ReferenceSystem::run(bool transposed, const Eigen::VectorXd& f,
                                    const Eigen::VectorXd& v, double tolerance,
                                    int max_iterations) const {
   Eigen::VectorXd free = f, right(f.size() + v.size());
-  solver_.constraints().project(free);
+  (transposed ? moved_ : solver_.constraints()).project(free);
   right << free, weigh_ * v;
   const GmresResult solved = gmres([&](const Eigen::VectorXd& z) { return apply(transposed, z); },
                                    [&](const Eigen::VectorXd& y) { return precondition(y); }, right,
                                    tolerance, max_iterations);
-  return {-solved.x.head(f.size()), solved.x.tail(v.size()), solved.iterations,
+  Eigen::VectorXd w = solved.x.head(f.size());
+  if (!transposed) moved_.project(w);
+  return {-w, solved.x.tail(v.size()), solved.iterations,
           solved.x.allFinite() ? solved.residual : std::numeric_limits<double>::quiet_NaN()};
 }
 

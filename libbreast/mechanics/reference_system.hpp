@@ -23,10 +23,11 @@ struct ReferenceStep {
 class ReferenceSystem {
  public:
   /// `solver` holds the factor of `matrix` under its constraints, which may be of a state near that
-  /// of `tangent`: it only preconditions. All must outlive this. `size` is a typical element edge
+  /// of `tangent`: it only preconditions. `moved` are the constraints of δX, those of the solver but
+  /// where nodes slide on a surface: they follow its normals at X. All must outlive this. `size` is a typical element edge
   /// (mm): it makes forces of volumes, so that one norm measures both.
   ReferenceSystem(const SaddleMatrix& matrix, const ReferenceTangent& tangent,
-                  const SaddleSolver& solver, double size);
+                  const SaddleSolver& solver, const Constraints& moved, double size);
 
   /// Held components of f are ignored, of δX zero.
   ReferenceStep solve(const Eigen::VectorXd& f, const Eigen::VectorXd& v, double tolerance,
@@ -44,6 +45,7 @@ class ReferenceSystem {
   const SaddleMatrix& matrix_;
   const ReferenceTangent& tangent_;
   const SaddleSolver& solver_;
+  const Constraints& moved_;
   double weigh_;
 };
 

@@ -118,7 +118,8 @@ void write_report(const Equilibrium& summary, const HexMesh& mesh, const Mechani
   report.set("element", element_name(options.element));
   report.set("invariants", invariants_name(options.invariants));
   if (options.bulk_ratio > 0) report.set("bulk_ratio", options.bulk_ratio);
-  report.set("cut", cut_name(options.cut));
+  report.set("wall", describe(options.wall));
+  report.set("cut", describe(options.cut));
   report.set("blas", blas_name());
   const std::vector<Vec3>& points = summary.points.empty() ? mesh.points : summary.points;
   const MeshQuality quality = mesh_quality(mesh, points);

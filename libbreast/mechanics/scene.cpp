@@ -6,6 +6,8 @@
 
 #include "core/error.hpp"
 #include "mechanics/terms/membrane.hpp"
+#include "mesh/nodal.hpp"
+#include "surface/thorax.hpp"
 
 namespace breast {
 
@@ -27,6 +29,16 @@ std::vector<std::pair<int, Vec3>> cut_normals(const HexMesh& mesh) {
   return normals;
 }
 
+std::shared_ptr<const LevelSurface> wall_surface(const HexMesh& mesh, const WallOption& wall) {
+  if (wall.surface) return wall.surface;
+  if (!mesh.geometry || !mesh.geometry->thorax) {
+    throw input_error(
+        "--wall slide: the mesh holds no wall surface to slide on; make geometry and mesh again "
+        "with fit-hermite and hexmesh, or use --wall held");
+  }
+  return std::make_shared<ThoraxSurface>(*mesh.geometry->thorax);
+}
+
 void check(const HexMesh& mesh) {
   if (mesh.elements() == 0) throw input_error("mesh: no elements");
   if (mesh.pectoral_faces.empty()) {
@@ -42,12 +54,12 @@ void check(const HexMesh& mesh) {
 
 Constraints wall_constraints(const HexMesh& mesh, const MechanicsOptions& options) {
   Constraints walls(mesh.nodes());
-  if (options.cut == Cut::fixed) {
+  if (options.cut.kind == Cut::fixed) {
     for (const int node : nodes_of(mesh, mesh.cut_faces)) walls.hold(node);
-  } else if (options.cut == Cut::roller) {
+  } else if (options.cut.kind == Cut::roller) {
     for (const auto& [node, normal] : cut_normals(mesh)) walls.hold_normal(node, normal);
   }
-  if (options.wall) return walls;
+  if (options.wall.kind != WallKind::held) return walls;
   for (const int node : nodes_of(mesh, mesh.pectoral_faces)) walls.hold(node);
   return walls;
 }
@@ -67,8 +79,27 @@ Scene::Scene(const HexMesh& mesh, const MechanicsOptions& options, TangentStorag
   if (mesh.skin_model == SkinModel::membrane && !mesh.skin_faces.empty()) {
     membrane_ = make_membrane(mesh, options, *solid_->space());
   }
-  if (options.wall) {
-    support_ = std::make_shared<ElasticSupport>(mesh, mesh.pectoral_faces, *options.wall);
+  add_wall();
+}
+
+// Along a surface that is held exactly springs need no direction: their normal part is carried by
+// the surface.
+void Scene::add_wall() {
+  const auto springs = [&](const std::vector<Face>& faces, const SupportStiffness& stiffness) {
+    if (faces.empty()) return;
+    springs_.push_back(std::make_shared<ElasticSupport>(mesh_, faces, stiffness));
+  };
+  const WallOption& wall = options_.wall;
+  if (wall.kind == WallKind::spring) springs(mesh_.pectoral_faces, wall.stiffness);
+  if (wall.kind == WallKind::slide) {
+    sliding_ = std::make_shared<SlidingNodes>(wall_surface(mesh_, wall),
+                                              nodes_of(mesh_, mesh_.pectoral_faces),
+                                              flatten(mesh_.imaged));
+    const double along = wall.stiffness.tangential;
+    if (along > 0) springs(mesh_.pectoral_faces, {along, along});
+  }
+  if (options_.cut.kind == Cut::spring) {
+    springs(mesh_.cut_faces, {options_.cut.stiffness, options_.cut.stiffness});
   }
 }
 
@@ -77,6 +108,7 @@ long Scene::unknowns() const {
   for (int node = 0; node < nodes(); ++node) {
     for (int i = 0; i < 3; ++i) held += walls_.held(node, i) ? 1 : 0;
   }
+  if (sliding_) held += long(sliding_->nodes().size());
   return 3L * nodes() - held + solid_->rest_pressure().size();
 }
 
@@ -108,10 +140,17 @@ LoadedProblem Scene::problem(const Eigen::VectorXd& force) const {
                        stiffness_force()};
   loaded.problem.add(solid_);
   if (membrane_) loaded.problem.add(membrane_);
-  if (support_) loaded.problem.add(support_);
+  for (const auto& springs : springs_) loaded.problem.add(springs);
+  loaded.problem.set_sliding(sliding_);
   loaded.problem.add(loaded.load);
   loaded.set_load(force);
   return loaded;
+}
+
+Vec3 Scene::force_of_springs(const State& state) const {
+  Vec3 sum = Vec3::Zero();
+  for (const auto& springs : springs_) sum += springs->force_on_body(state);
+  return sum;
 }
 
 Eigen::VectorXd Scene::gravity_force(const Vec3& gravity) const {

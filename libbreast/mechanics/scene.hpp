@@ -1,5 +1,6 @@
 // A scene: one breast, its laws, what holds it and what loads it, as terms and constraints. What is
-// absent costs nothing: without skin there is no membrane, without springs no support.
+// absent costs nothing: without skin there is no membrane, without springs no support, on a held
+// wall nothing slides.
 //
 //     Scene scene(mesh, options);
 //     LoadedProblem loaded = scene.problem(scene.gravity_force(g));
@@ -18,8 +19,8 @@
 
 namespace breast {
 
-/// Chest wall (pectoral faces) and cut as the options hold them: the wall fixed unless it rests on
-/// springs; the cut free, fixed, or rolling on its mean normal of the imaged shape.
+/// What the options hold wherever the body is: all of the chest wall (pectoral faces) unless it
+/// slides or rests on springs; the cut fixed, or rolling on its mean normal of the imaged shape.
 Constraints wall_constraints(const HexMesh& mesh, const MechanicsOptions& options);
 
 /// A problem and the load in it, which may change.
@@ -42,9 +43,12 @@ class Scene {
   const HexMesh& mesh() const { return mesh_; }
   const MechanicsOptions& options() const { return options_; }
   const Solid& solid() const { return *solid_; }
-  /// Null without springs under the chest wall.
-  const ElasticSupport* support() const { return support_.get(); }
+  /// Force of all springs on the body, µN.
+  Vec3 force_of_springs(const State& state) const;
+  /// What is held wherever the body is.
   const Constraints& walls() const { return walls_; }
+  /// The chest wall's nodes where they slide; null: they do not.
+  const SlidingNodes* sliding() const { return sliding_.get(); }
   int nodes() const { return solid_->space()->nodes(); }
   long unknowns() const;  ///< displacements not held, and pressures
   /// Mean edge of an element of the imaged shape, mm, and the largest shear modulus at rest, Pa.
@@ -64,12 +68,14 @@ class Scene {
 
  private:
   double volume() const;
+  void add_wall();
 
   const HexMesh& mesh_;
   MechanicsOptions options_;
   std::shared_ptr<const Solid> solid_;
   std::shared_ptr<const Term> membrane_;
-  std::shared_ptr<const ElasticSupport> support_;
+  std::vector<std::shared_ptr<const ElasticSupport>> springs_;
+  std::shared_ptr<const SlidingNodes> sliding_;
   Constraints walls_;
 };
 

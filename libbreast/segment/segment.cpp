@@ -238,6 +238,8 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
                                    near_unsure_wall(work, 8), work.wall.muscle_ratio,
                                    result.bias_cv_after, options.interior);
   result.labels = labels_of(work, options.side);
+  result.labels.midline_mm =
+      work.scan.grid.to_patient(Vec3(work.torso.midline, 0, 0.5 * work.scan.grid.size[2]))[0];
   const Nipple nipple = find_nipple(work.breast, work.body.mask);
   result.labels.landmarks["nipple"] = nipple.tip;
   result.nipple_base = nipple.base;

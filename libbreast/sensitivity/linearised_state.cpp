@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "solve/newton.hpp"
 
 namespace breast {
 
@@ -20,7 +21,7 @@ constexpr double far_mm = 1e-4, settled = 1e-8;
 constexpr double rounded = 1e-6, still_mm = 1e-6;
 
 Constraints with_contacts(Constraints held, const std::vector<PlateContact>& contacts) {
-  for (const PlateContact& contact : contacts) held.hold_normal(contact.node, contact.normal());
+  for (const PlateContact& contact : contacts) held.hold_along(contact.node, contact.normal());
   return held;
 }
 
@@ -32,7 +33,8 @@ LinearisedState::LinearisedState(const Scene& scene, LoadedState state, std::vec
       problem_(scene.problem(scene.gravity_force(state.gravity)).problem),
       state_(std::move(state)),
       contacts_(std::move(contacts)),
-      held_(with_contacts(scene.walls(), contacts_)),
+      held_(problem_.nodes()),
+      moved_(problem_.nodes()),
       matrix_(problem_.make_matrix()),
       solver_(problem_.space().pattern) {
   settle(what);
@@ -60,8 +62,13 @@ void LinearisedState::settle(const std::string& what) {
       std::max(scene_.gravity_force(state_.gravity).norm(), scene_.stiffness_force());
   double moved = 0, last = far_mm;
   for (int i = 0;; ++i) {
+    if (problem_.restore(state_.state.x) >= 0) {
+      throw input_error(what, ": ", describe(NewtonStop::left_surface));
+    }
     const Forces forces = assemble();
     if (!forces.valid) throw input_error(what, ": element ", forces.bad_element, " is folded");
+    held_ = with_contacts(problem_.constraints_at(state_.state.x), contacts_);
+    moved_ = with_contacts(problem_.constraints_at(state_.state.reference), contacts_);
     Eigen::VectorXd free = forces.r;
     held_.project(free);
     residual_ = free.norm() / load;
@@ -144,13 +151,13 @@ Direction LinearisedState::checked(const ReferenceStep& step) const {
 
 Direction LinearisedState::solve_reference(const Imbalance& right) const {
   const double size = std::cbrt(scene_.solid().space()->pressures->volume(0));
-  return checked(ReferenceSystem(matrix_, reference_tangent_, solver_, size)
+  return checked(ReferenceSystem(matrix_, reference_tangent_, solver_, moved_, size)
                      .solve(right.force, right.volume, solve_tolerance, most_gmres));
 }
 
 Direction LinearisedState::solve_reference_transposed(const Imbalance& right) const {
   const double size = std::cbrt(scene_.solid().space()->pressures->volume(0));
-  return checked(ReferenceSystem(matrix_, reference_tangent_, solver_, size)
+  return checked(ReferenceSystem(matrix_, reference_tangent_, solver_, moved_, size)
                      .solve_transposed(right.force, right.volume, solve_tolerance, most_gmres));
 }
 

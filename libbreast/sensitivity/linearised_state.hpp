@@ -61,7 +61,7 @@ class LinearisedState {
   Problem problem_;
   LoadedState state_;
   std::vector<PlateContact> contacts_;
-  Constraints held_;
+  Constraints held_, moved_;  // of x, and of the stress-free shape
   SaddleMatrix matrix_;
   ReferenceTangent reference_tangent_;
   SaddleSolver solver_;

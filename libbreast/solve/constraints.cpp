@@ -18,6 +18,37 @@ void Constraints::hold_normal(int node, const Vec3& normal, double increment) {
   set(node, constraint);
 }
 
+void Constraints::hold_along(int node, const Vec3& normal, double increment) {
+  const NodeConstraint* before = at(node);
+  if (before == nullptr) {
+    hold_normal(node, normal, increment);
+    return;
+  }
+  NodeConstraint both = *before;
+  Vec3 rest = normal;
+  for (int i = 0; i < 3; ++i) {
+    if (before->held[i]) rest -= rest.dot(before->axes.col(i)) * before->axes.col(i);
+  }
+  const double part = rest.norm();
+  if (!(part > 1e-6)) return;
+  // The first free axis turns to what is left of the normal, the other follows.
+  int first = 0;
+  while (before->held[first]) ++first;
+  const int second = (first + 1) % 3, third = (first + 2) % 3;
+  both.axes.col(first) = rest / part;
+  if (before->held[second] != before->held[third]) {
+    const int kept = before->held[second] ? second : third,
+              free = before->held[second] ? third : second;
+    both.axes.col(free) = both.axes.col(first).cross(both.axes.col(kept));
+  } else if (!before->held[second]) {
+    both.axes.col(second) = both.axes.col(first).unitOrthogonal();
+    both.axes.col(third) = both.axes.col(first).cross(both.axes.col(second));
+  }
+  both.held[first] = true;
+  both.increment[first] = increment / part;
+  set(node, both);
+}
+
 void Constraints::set(int node, const NodeConstraint& constraint) {
   if (index_[node] < 0) {
     index_[node] = int(list_.size());

@@ -25,6 +25,9 @@ class Constraints {
   void hold(int node, const Vec3& increment = Vec3::Zero());
   /// Only the component along a unit `normal`; the node slides in the plane.
   void hold_normal(int node, const Vec3& normal, double increment = 0);
+  /// The component along a unit `normal` besides what is held of the node already (a symmetry plane,
+  /// a wall to slide on). Where that leaves the normal no freedom nothing changes.
+  void hold_along(int node, const Vec3& normal, double increment = 0);
   void set(int node, const NodeConstraint& constraint);
   void release(int node);
 

@@ -19,7 +19,6 @@ constexpr int halvings = 8;
 
 // Increments that carry held components to their targets.
 bool aim(Constraints& constraints, const Eigen::VectorXd* targets, const Eigen::VectorXd& x) {
-  constraints.zero_increments();
   if (targets == nullptr) return false;
   double most = 0;
   for (int node = 0; node < constraints.nodes(); ++node) {
@@ -52,7 +51,7 @@ class EquilibriumSystem final : public TangentSystem {
       : TangentSystem(problem, solver, matrix, state),
         options_(options),
         targets_(targets),
-        moving_(problem.constraints()),
+        moving_(problem.nodes()),
         timer_(options.timer != nullptr ? *options.timer : unused_) {}
 
   Balance assess(const NewtonResult& so_far) override;
@@ -66,7 +65,7 @@ class EquilibriumSystem final : public TangentSystem {
 
  private:
   Appraisal appraise(const State& state, const Forces& forces) const override;
-  double residual(const Forces& forces) const;
+  double residual(const Eigen::VectorXd& x, const Forces& forces) const;
   bool reached(double residual) const;
 
   const NewtonOptions& options_;
@@ -78,8 +77,8 @@ class EquilibriumSystem final : public TangentSystem {
   bool serves_ = false;  // the last factor serves this step too
 };
 
-double EquilibriumSystem::residual(const Forces& forces) const {
-  return problem_.free_norm(forces) / problem_.load_norm();
+double EquilibriumSystem::residual(const Eigen::VectorXd& x, const Forces& forces) const {
+  return problem_.free_norm(x, forces) / problem_.load_norm();
 }
 
 bool EquilibriumSystem::reached(double residual) const {
@@ -92,6 +91,14 @@ bool EquilibriumSystem::reached(double residual) const {
 // The last step's trial has the forces already; a tangent is only made for a factorisation.
 Balance EquilibriumSystem::assess(const NewtonResult& so_far) {
   const int made = int(so_far.iterations.size());
+  if (made == 0 && problem_.restore(state_.x) >= 0) {
+    Balance lost;
+    lost.stop = NewtonStop::left_surface;
+    lost.reason = describe(lost.stop);
+    return lost;
+  }
+  moving_ = problem_.constraints_at(state_.x);
+  moving_.zero_increments();
   away_ = aim(moving_, targets_, state_.x);
   serves_ = options_.reuse_factor && !away_ && factor_serves(so_far);
   Balance now;
@@ -105,7 +112,7 @@ Balance EquilibriumSystem::assess(const NewtonResult& so_far) {
       now.reason = message("element ", forces_.bad_element, " is folded at the start");
       return now;
     }
-    now.residual = residual(forces_);
+    now.residual = residual(state_.x, forces_);
     now.converged = made == 0 && reached(now.residual);
     if (now.converged) return now;
   }
@@ -149,10 +156,10 @@ LineSearchRule EquilibriumSystem::rule(const NewtonResult&, const Balance& now,
   return rule;
 }
 
-Appraisal EquilibriumSystem::appraise(const State&, const Forces& forces) const {
+Appraisal EquilibriumSystem::appraise(const State& state, const Forces& forces) const {
   Eigen::VectorXd gradient = forces.augmented;
-  problem_.constraints().project(gradient);
-  const double relative = residual(forces);
+  problem_.constraints_at(state.x).project(gradient);
+  const double relative = residual(state.x, forces);
   return {relative, relative, along(gradient)};
 }
 
@@ -163,6 +170,10 @@ TangentSystem::TangentSystem(const Problem& problem, SaddleSolver& solver, Saddl
     : problem_(problem), solver_(solver), matrix_(matrix), state_(state) {}
 
 bool TangentSystem::look() {
+  if (problem_.restore(state_.x) >= 0) {
+    forces_.valid = false;
+    return false;
+  }
   forces_ = problem_.forces(state_, matrix_.kappa.size() > 0 ? &matrix_.kappa : nullptr);
   return forces_.valid;
 }
@@ -178,7 +189,11 @@ Factorisation TangentSystem::factorise(const Constraints& constraints, bool may_
 }
 
 NewtonDirection TangentSystem::solve(double volume_accuracy, int restarts) {
-  step_ = solver_.solve(matrix_, forces_.r, forces_.theta, volume_accuracy, restarts);
+  Eigen::VectorXd r = forces_.r;
+  // A factor of an earlier state holds sliding nodes along the normals of that state: the wall's
+  // force, which has turned since, must not count as a force along the wall.
+  if (problem_.sliding() != nullptr) problem_.constraints_at(state_.x).project(r);
+  step_ = solver_.solve(matrix_, r, forces_.theta, volume_accuracy, restarts);
   NewtonDirection direction;
   direction.slope = step_.u.dot(matrix_.stiffness.multiply(step_.u));
   direction.shift = shift_;
@@ -190,9 +205,14 @@ std::optional<Trial> TangentSystem::attempt(double length) {
   Trial trial;
   trial.state = {state_.reference, state_.x + length * step_.u,
                  state_.p + std::min(1.0, length) * step_.p};
+  if (problem_.restore(trial.state.x) >= 0) {
+    refusal_ = NewtonStop::left_surface;
+    return {};
+  }
   trial.forces = problem_.forces(trial.state, &matrix_.kappa);
   const double least = determinant_guard * std::min(1.0, forces_.min_det_F);
   if (!trial.forces.valid || !(trial.forces.min_det_F > least) || !trial.forces.r.allFinite()) {
+    refusal_ = NewtonStop::folded;
     if (refused_.size() == 0) refused_ = trial.state.x;
     return {};
   }

@@ -37,6 +37,7 @@ class TangentSystem : public NewtonSystem {
 
   std::optional<Trial> attempt(double length) override;
   void accept(Trial trial) override;
+  NewtonStop refusal() const override { return refusal_; }
   int folded_element() const override { return problem_.folded_element(state_); }
   const Forces& forces() const { return forces_; }
   /// Positions of the first trial that was refused as inadmissible since the last accepted one.
@@ -45,7 +46,7 @@ class TangentSystem : public NewtonSystem {
  protected:
   /// How a trial compares with the start of the step.
   virtual Appraisal appraise(const State& state, const Forces& forces) const = 0;
-  /// Evaluates the forces at the present state; false: inadmissible.
+  /// Puts sliding nodes on their surface and evaluates the forces; false: inadmissible.
   bool look();
   /// Assembles the tangent at the present state, with its forces; false: inadmissible.
   bool assemble();
@@ -64,6 +65,7 @@ class TangentSystem : public NewtonSystem {
 
  private:
   double shift_ = 0;
+  NewtonStop refusal_ = NewtonStop::folded;
   Eigen::VectorXd refused_;
 };
 

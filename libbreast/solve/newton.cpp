@@ -61,9 +61,10 @@ NewtonResult newton(NewtonSystem& system,
       if (now.nearly) {
         settle();
       } else {
-        give_up(found.any_admissible ? NewtonStop::no_step : NewtonStop::folded,
-                message("no acceptable step along the Newton direction: residual ", now.residual,
-                        found.any_admissible ? "" : ", every trial folds an element"));
+        const NewtonStop why = found.any_admissible ? NewtonStop::no_step : system.refusal();
+        give_up(why, message("no acceptable step along the Newton direction: residual ",
+                             now.residual, found.any_admissible ? "" : ", for every trial ",
+                             found.any_admissible ? "" : describe(why)));
       }
       break;
     }
@@ -83,6 +84,8 @@ const char* stop_name(NewtonStop stop) {
       return "indefinite_tangent";
     case NewtonStop::no_step:
       return "no_admissible_step";
+    case NewtonStop::left_surface:
+      return "left_wall_surface";
     case NewtonStop::linear_solver:
       return "linear_solver";
     case NewtonStop::singular_inverse:
@@ -103,6 +106,8 @@ const char* describe(NewtonStop stop) {
       return "the tangent matrix cannot be factorised";
     case NewtonStop::no_step:
       return "no step reduces the residual";
+    case NewtonStop::left_surface:
+      return "a node slides beyond the end of the wall surface";
     case NewtonStop::linear_solver:
       return "a linear system is not solved";
     case NewtonStop::singular_inverse:

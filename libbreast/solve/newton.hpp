@@ -18,11 +18,12 @@ enum class NewtonStop {
   iteration_limit,
   indefinite,        ///< the tangent is far from positive definite
   no_step,           ///< no length along the direction is acceptable
+  left_surface,      ///< a node leaves the surface it slides on
   linear_solver,     ///< a linear system was not solved
   singular_inverse,  ///< the linearised inverse problem is singular
 };
 /// Stable identifier: "", "folded_element", "iteration_limit", "indefinite_tangent",
-/// "no_admissible_step", "linear_solver", "singular_inverse".
+/// "no_admissible_step", "left_wall_surface", "linear_solver", "singular_inverse".
 const char* stop_name(NewtonStop stop);
 /// In words, for reports.
 const char* describe(NewtonStop stop);
@@ -104,6 +105,8 @@ class NewtonSystem {
   /// pressures stay as at 1.
   virtual std::optional<Trial> attempt(double length) = 0;
   virtual void accept(Trial trial) = 0;
+  /// Why the last attempt was inadmissible.
+  virtual NewtonStop refusal() const { return NewtonStop::folded; }
   /// An element of the present state that is turned inside out at a corner or a quadrature point;
   /// −1: none. A state with one is no solution, however small its residual.
   virtual int folded_element() const { return -1; }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.hpp"
+
 namespace breast {
 
 namespace {
@@ -48,6 +50,7 @@ Forces Problem::evaluate(const State& state, const Request& request) const {
   for (const auto& term : terms_) {
     if (!term->add(state, request, forces)) return forces;
   }
+  if (sliding_ && !sliding_->add_curvature(state, request, forces)) return forces;
   if (request.matrix != nullptr) bound_diagonal(*request.matrix);
   forces.valid = true;
   return forces;
@@ -66,9 +69,15 @@ bool Problem::tangent(const State& state, Forces& forces, SaddleMatrix& matrix) 
   return forces.valid;
 }
 
-double Problem::free_norm(const Forces& forces) const {
+Constraints Problem::constraints_at(const Eigen::VectorXd& x) const {
+  Constraints all = constraints_;
+  if (sliding_ && !sliding_->hold(x, all)) throw failed_error("a node lies beyond the wall surface");
+  return all;
+}
+
+double Problem::free_norm(const Eigen::VectorXd& x, const Forces& forces) const {
   Eigen::VectorXd free = forces.r;
-  constraints_.project(free);
+  constraints_at(x).project(free);
   return free.norm();
 }
 

@@ -12,6 +12,7 @@
 
 #include "solve/constraints.hpp"
 #include "solve/discretisation.hpp"
+#include "solve/sliding_nodes.hpp"
 #include "solve/term.hpp"
 
 namespace breast {
@@ -25,8 +26,16 @@ class Problem {
   const std::vector<std::shared_ptr<const Term>>& terms() const { return terms_; }
   const Discretisation& space() const { return *space_; }
   const std::shared_ptr<const Discretisation>& shared_space() const { return space_; }
+  /// What is held wherever the body is.
   const Constraints& constraints() const { return constraints_; }
   void set_constraints(Constraints constraints) { constraints_ = std::move(constraints); }
+  /// Nodes that slide on a surface; null: none.
+  void set_sliding(std::shared_ptr<const SlidingNodes> sliding) { sliding_ = std::move(sliding); }
+  const SlidingNodes* sliding() const { return sliding_.get(); }
+  /// All constraints of an increment at positions x: what is held, and the normals of sliding nodes.
+  Constraints constraints_at(const Eigen::VectorXd& x) const;
+  /// Puts sliding nodes back on their surface. −1, or a node that has left it.
+  int restore(Eigen::VectorXd& x) const { return sliding_ ? sliding_->restore(x) : -1; }
   int nodes() const { return space_->nodes(); }
   SaddleMatrix make_matrix() const { return space_->make_matrix(); }
 
@@ -40,8 +49,8 @@ class Problem {
   /// Norm that the residual is compared with, µN: of the external load, or what stands for it.
   double load_norm() const { return load_norm_; }
   void set_load_norm(double norm) { load_norm_ = norm; }
-  /// ‖r‖ over the components that are not held, µN.
-  double free_norm(const Forces& forces) const;
+  /// ‖r‖ over the components that are not held at the positions x, µN.
+  double free_norm(const Eigen::VectorXd& x, const Forces& forces) const;
   /// Worst |θ| of an element over its volume in the imaged shape: zero in a solution, where a
   /// compressible body still has a volume error.
   double volume_residual(const Forces& forces) const;
@@ -52,6 +61,7 @@ class Problem {
  private:
   std::shared_ptr<const Discretisation> space_;
   Constraints constraints_;
+  std::shared_ptr<const SlidingNodes> sliding_;
   std::vector<std::shared_ptr<const Term>> terms_;
   double load_norm_ = 1;
 };

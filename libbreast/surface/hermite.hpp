@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/provenance.hpp"
 #include "core/types.hpp"
+#include "surface/thorax.hpp"
 
 namespace breast {
 
@@ -46,6 +48,8 @@ struct BreastGeometry {
   Side side = Side::left;
   HermiteSheet skin;
   HermiteSheet wall;
+  /// The wall and the thorax around it, to slide on; files of earlier versions have none.
+  std::optional<ThoraxSurface> thorax;
   /// Closed curves, same number of points (≥ 32, first not repeated), counter-clockwise in (s,t).
   std::vector<Vec2> rim_skin, rim_wall;
   std::vector<RimEnd> rim_end;

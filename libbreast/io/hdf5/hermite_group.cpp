@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "io/hdf5/thorax_group.hpp"
+
 namespace breast {
 
 namespace {
@@ -140,6 +142,7 @@ void check_geometry(const BreastGeometry& geometry, const Complaint& complain) {
 void put_hermite(Document& document, const BreastGeometry& geometry) {
   put_sheet(document, group + "/skin", geometry.skin);
   put_sheet(document, group + "/wall", geometry.wall);
+  if (geometry.thorax) put_thorax(document, *geometry.thorax);
   document.datasets[group + "/rim/skin"] = rim_array(geometry.rim_skin);
   document.datasets[group + "/rim/wall"] = rim_array(geometry.rim_wall);
   Bytes ends;
@@ -160,6 +163,7 @@ BreastGeometry get_hermite(Fields& fields) {
   BreastGeometry geometry;
   geometry.skin = get_sheet(fields, group + "/skin");
   geometry.wall = get_sheet(fields, group + "/wall");
+  if (has_thorax(fields)) geometry.thorax = get_thorax(fields);
   geometry.rim_skin = get_rim(fields, group + "/rim/skin", Fields::any);
   const std::size_t n = geometry.rim_skin.size();
   geometry.rim_wall = get_rim(fields, group + "/rim/wall", n);

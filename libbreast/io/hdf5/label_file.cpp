@@ -46,6 +46,10 @@ void check_labels(const LabelVolume& labels, const Complaint& complain) {
                  labels.grid, complain);
   check_fraction(labels.chest_wall_confidence, "/VTKHDF/PointData/chest_wall_confidence",
                  labels.grid, complain);
+  if (labels.midline_mm && !(std::abs(*labels.midline_mm) <= Fields::farthest_mm)) {
+    throw complain("attribute /breast@midline is ", *labels.midline_mm, " mm, must be within ",
+                   Fields::farthest_mm);
+  }
   if (!(labels.skin_thickness >= 0)) {
     throw complain("attribute /breast/skin@measured_thickness is ", labels.skin_thickness,
                    ", must be 0 or more");
@@ -70,6 +74,7 @@ LabelVolume read_labels(const std::filesystem::path& file) {
       fields.floats("/VTKHDF/PointData/fibroglandular_fraction", shape);
   labels.chest_wall_confidence = fields.floats("/VTKHDF/PointData/chest_wall_confidence", shape);
   labels.skin_thickness = fields.number("/breast/skin@measured_thickness");
+  if (fields.has_attribute("/breast@midline")) labels.midline_mm = fields.number("/breast@midline");
   const Texts names = fields.texts("/breast/landmarks/name", {Fields::any});
   const std::vector<Vec3> points = fields.places("/breast/landmarks/imaged", names.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -99,6 +104,7 @@ void write_labels(const std::filesystem::path& file, const LabelVolume& labels) 
   sets["/VTKHDF/PointData/chest_wall_confidence"] =
       reshaped(array_of(std::move(whole.chest_wall_confidence)), shape);
   document.attributes["/breast/skin@measured_thickness"] = array_of(whole.skin_thickness);
+  if (whole.midline_mm) document.attributes["/breast@midline"] = array_of(*whole.midline_mm);
   Texts names;
   std::vector<Vec3> points;
   for (const auto& [name, point] : whole.landmarks) {

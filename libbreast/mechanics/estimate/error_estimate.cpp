@@ -29,7 +29,7 @@ bool prepare_coarse(const Scene& scene, const State& state, const Vec3& gravity,
   request.matrix = &matrix;
   request.augmentation = RicherProblem::augmentation;
   if (!coarse.evaluate(state, request).valid) return false;
-  Constraints held = scene.walls();
+  Constraints held = coarse.constraints_at(state.x);
   for (const TouchingNode& t : contact.touching) {
     if (held.at(t.node) == nullptr) held.hold_normal(t.node, t.normal);
   }
@@ -57,7 +57,7 @@ ErrorEstimate estimate_error(const Scene& scene, const State& state, const Vec3&
     estimate.iterations += solved.iterations;
     if (!solved.converged || (estimate.steps > 0 && solved.start >= first_residual)) break;
     step = solved.x;
-    correction += step;
+    correction = problem.moved() + step;
     // The second step to the accuracy of the first.
     if (estimate.steps == 0) {
       first_residual = solved.start;

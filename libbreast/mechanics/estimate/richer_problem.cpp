@@ -53,10 +53,14 @@ RicherProblem::RicherProblem(const Scene& coarse, const State& state, const Vec3
       between_(nodes_between(mesh_, corners_)),
       scene_(mesh_, richer_options(coarse.options()), TangentStorage::packed),
       problem_(scene_.problem(scene_.gravity_force(gravity)).problem),
-      state_{raise(state.reference), raise(state.x), smooth_pressure(coarse, state)} {
+      state_{raise(state.reference), raise(state.x), smooth_pressure(coarse, state)},
+      held_(mesh_.nodes()) {
   if (contact.raise_friction) {
     problem_.add(contact.raise_friction({mesh_, corners_, between_}));
   }
+  start_ = state_.x;
+  valid_ = problem_.restore(state_.reference) < 0 && problem_.restore(state_.x) < 0;
+  if (!valid_) return;
   hold_touching(contact.touching);
   linearise();
 }
@@ -81,6 +85,7 @@ void RicherProblem::hold_touching(const std::vector<TouchingNode>& touching) {
     if (all && held.at(node) == nullptr) held.hold_normal(node, normal.normalized());
   }
   problem_.set_constraints(std::move(held));
+  held_ = problem_.constraints_at(state_.x);
 }
 
 Eigen::VectorXd RicherMesh::raise(const Eigen::VectorXd& of_corners) const {
@@ -104,7 +109,7 @@ void RicherProblem::linearise() {
   valid_ = problem_.evaluate(state_, request).valid;
   if (!valid_) return;
   right_ = -problem_.forces(state_, &tangent_.kappa).augmented;
-  problem_.constraints().project(right_);
+  held_.project(right_);
   blocks_ = tangent_.diagonal_blocks(corners_, mesh_.nodes());
   for (Mat3& block : blocks_) block = block.inverse().eval();
 }
@@ -114,19 +119,21 @@ void RicherProblem::linearise() {
 bool RicherProblem::move(const Eigen::VectorXd& v) {
   const PressureSpace& pressures = *problem_.space().pressures;
   state_.x += v;
+  valid_ = problem_.restore(state_.x) < 0;
+  if (!valid_) return false;
   const Forces forces = problem_.forces(state_, &tangent_.kappa);
   valid_ = forces.valid;
   if (!valid_) return false;
   const double left_over = 1 - tangent_.kappa[0] * pressures.compliance[0];
   state_.p -= pressures.divide(forces.theta, tangent_.kappa);
   right_ = -(forces.augmented + left_over * (forces.augmented - forces.r));
-  problem_.constraints().project(right_);
+  held_.project(right_);
   return true;
 }
 
 Eigen::VectorXd RicherProblem::apply(const Eigen::VectorXd& v) const {
   Eigen::VectorXd out = tangent_.apply(v);
-  problem_.constraints().project(out);
+  held_.project(out);
   return out;
 }
 
@@ -142,7 +149,7 @@ Eigen::VectorXd RicherProblem::precondition(const Eigen::VectorXd& r,
     const long at = 3L * (corners_ + long(i));
     z.segment<3>(at) += blocks_[i] * r.segment<3>(at);
   }
-  problem_.constraints().project(z);
+  held_.project(z);
   return z;
 }
 

@@ -32,6 +32,9 @@ class RicherProblem {
   /// Moves the state by v, the pressures by what the volumes then ask for; the right-hand side is
   /// that of the new state, the matrix stays. False: an element folds.
   bool move(const Eigen::VectorXd& v);
+  /// How far the state is from the 8-node solution, mm: moves so far, and what puts new nodes on the
+  /// surface they slide on.
+  Eigen::VectorXd moved() const { return state_.x - start_; }
 
  private:
   Eigen::VectorXd raise(const Eigen::VectorXd& corners) const;
@@ -44,6 +47,8 @@ class RicherProblem {
   Scene scene_;
   Problem problem_;
   State state_;  // 4 pressures an element
+  Eigen::VectorXd start_;  // positions between those of the corners
+  Constraints held_;       // at the state linearised about
   PackedTangent tangent_;
   std::vector<Mat3> blocks_;  // inverse, of nodes between corners
   Eigen::VectorXd right_;

@@ -1,0 +1,30 @@
+// An elliptic cylinder through chest-wall data: the shape of the thorax where nothing was seen.
+#pragma once
+
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace breast {
+
+/// Centre and half axes (mm) at the height z0; the centre's y goes with z by `slope`.
+struct EllipticCylinder {
+  double centre_x = 0, centre_y = 0, z0 = 0, slope = 0;
+  double half_width = 0, half_depth = 0;
+
+  /// Distance from the axis to the surface, mm, at an angle from the front (radians).
+  double radius(double angle) const;
+};
+
+/// Where a parameter is expected, and how sharply: its standard deviation.
+struct Expected {
+  double value = 0, sigma = 1;
+};
+
+/// Robust least squares (Cauchy weights) of distances, with expectations that decide what an arc of
+/// data leaves open: half axes 135 ± 15 and 95 ± 15 mm, slope 0 ± 0.3. `weights` one a point.
+EllipticCylinder fit_elliptic_cylinder(const std::vector<Vec3>& points,
+                                       const std::vector<double>& weights,
+                                       const Expected& centre_x);
+
+}  // namespace breast

@@ -1,0 +1,24 @@
+// The chest wall and the rib cage around it, as the surface a breast slides on.
+#pragma once
+
+#include "fit/wall_sheet.hpp"
+#include "image/label_volume.hpp"
+#include "surface/hermite.hpp"
+
+namespace breast {
+
+struct ThoraxReport {
+  double half_width_mm = 0, half_depth_mm = 0;  ///< of the ellipse it goes over to away from data
+  std::size_t wall_points = 0;                  ///< wall data beside the breast
+  double wall_mean_mm = 0, wall_p95_mm = 0;     ///< their distances to the surface
+  double sheet_max_mm = 0;  ///< largest distance of the wall sheet within the rim
+};
+
+/// A surface that is the wall sheet within the rim (to a fraction of a millimetre), follows the
+/// labels' chest wall beside the breast, outliers weighted down, and goes over to an elliptic
+/// cylinder along the same data beyond. It reaches `reach` (150 mm) further than the breast.
+/// The centre of the ellipse lies near `midline` (x, mm) when the labels know it.
+ThoraxSurface fit_thorax(const LabelVolume& labels, const BreastGeometry& geometry,
+                         ThoraxReport& report);
+
+}  // namespace breast

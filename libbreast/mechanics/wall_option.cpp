@@ -1,0 +1,100 @@
+#include "mechanics/wall_option.hpp"
+
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/report.hpp"
+
+namespace breast {
+
+namespace {
+
+/// The whole text as one finite number.
+std::optional<double> number(const std::string& text) {
+  std::istringstream in(text);
+  double value = 0;
+  if (!(in >> value) || !in.eof() || !std::isfinite(value)) return {};
+  return value;
+}
+
+/// The numbers after "KIND:"; nothing when the text is of another kind or holds something else.
+std::optional<std::vector<double>> numbers_after(const std::string& kind,
+                                                 const std::string& text) {
+  if (text.rfind(kind + ":", 0) != 0) return {};
+  std::vector<double> list;
+  std::size_t at = kind.size() + 1;
+  while (true) {
+    const std::size_t comma = text.find(',', at);
+    const std::optional<double> value = number(text.substr(at, comma - at));
+    if (!value) return {};
+    list.push_back(*value);
+    if (comma == std::string::npos) return list;
+    at = comma + 1;
+  }
+}
+
+std::string formatted(double value) {
+  return message(value);
+}
+
+}  // namespace
+
+WallOption parse_wall(const std::string& text) {
+  if (text == "held" || text == "fixed") return {};
+  if (text == "slide") return {WallKind::slide, SupportStiffness{0, usual_sliding_stiffness}};
+  if (const auto slide = numbers_after("slide", text); slide && slide->size() == 1) {
+    if ((*slide)[0] >= 0) return {WallKind::slide, SupportStiffness{0, (*slide)[0]}};
+  }
+  if (const auto spring = numbers_after("spring", text); spring && spring->size() <= 2) {
+    const double normal = (*spring)[0];
+    const double along = spring->size() == 2 ? (*spring)[1] : normal / 3;
+    if (normal > 0 && along >= 0) return {WallKind::spring, SupportStiffness{normal, along}};
+  }
+  throw input_error("--wall ", text,
+                    ": give 'held', 'slide', 'slide:TANGENTIAL' or 'spring:NORMAL,TANGENTIAL' in "
+                    "kPa/mm, not negative, a spring's first number above 0; for example slide:0.01");
+}
+
+CutOption parse_cut(const std::string& text) {
+  if (text == "free") return {};
+  if (text == "fixed") return Cut::fixed;
+  if (text == "roller") return Cut::roller;
+  if (const auto spring = numbers_after("spring", text); spring && spring->size() == 1) {
+    if ((*spring)[0] > 0) return {Cut::spring, (*spring)[0]};
+  }
+  throw input_error("--cut ", text,
+                    ": give 'free', 'fixed', 'roller' or 'spring:STIFFNESS' in kPa/mm above 0; for "
+                    "example spring:0.01");
+}
+
+std::string describe(const WallOption& wall) {
+  switch (wall.kind) {
+    case WallKind::held:
+      return "held";
+    case WallKind::slide:
+      return "slide:" + formatted(wall.stiffness.tangential);
+    case WallKind::spring:
+      return "spring:" + formatted(wall.stiffness.normal) + "," +
+             formatted(wall.stiffness.tangential);
+  }
+  return "";
+}
+
+std::string describe(const CutOption& cut) {
+  switch (cut.kind) {
+    case Cut::free:
+      return "free";
+    case Cut::fixed:
+      return "fixed";
+    case Cut::roller:
+      return "roller";
+    case Cut::spring:
+      return "spring:" + formatted(cut.stiffness);
+  }
+  return "";
+}
+
+}  // namespace breast

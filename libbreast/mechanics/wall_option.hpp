@@ -1,0 +1,58 @@
+// What holds a breast at its back: the chest wall, and the cut through the surrounding tissue.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "mechanics/terms/elastic_support.hpp"
+#include "surface/level_surface.hpp"
+
+namespace breast {
+
+enum class WallKind {
+  held,    ///< all nodes of the chest wall stay in place
+  slide,   ///< they stay on the wall surface and move along it against springs
+  spring,  ///< springs across and along the wall
+};
+
+struct WallOption {
+  WallKind kind = WallKind::held;
+  SupportStiffness stiffness = {};  ///< slide: `tangential` alone counts
+  /// The surface to slide on; null: that of the mesh's geometry.
+  std::shared_ptr<const LevelSurface> surface = nullptr;
+
+  WallOption() = default;
+  WallOption(WallKind how, const SupportStiffness& springs) : kind(how), stiffness(springs) {}
+  WallOption(const SupportStiffness& springs) : WallOption(WallKind::spring, springs) {}
+};
+
+enum class Cut {
+  free,
+  fixed,
+  roller,  ///< slides on its mean plane
+  spring,  ///< springs in all directions
+};
+
+struct CutOption {
+  Cut kind = Cut::free;
+  double stiffness = 0;  ///< kPa/mm; spring only
+
+  CutOption(Cut how = Cut::free, double springs = 0) : kind(how), stiffness(springs) {}
+};
+
+/// Resistance to sliding when none is given, kPa/mm.
+inline constexpr double usual_sliding_stiffness = 0.01;
+
+/// "held" ("fixed" of earlier versions), "slide", "slide:TANGENTIAL", "spring:NORMAL" or
+/// "spring:NORMAL,TANGENTIAL", kPa/mm. A spring without the second number has a third of the first
+/// along the wall, as a thin layer of incompressible elastic tissue whose sides are free (E/h
+/// across, G/h = E/3h along). Throws Error (input) for anything else.
+WallOption parse_wall(const std::string& text);
+/// "free", "fixed", "roller" or "spring:STIFFNESS" in kPa/mm. Throws Error (input) otherwise.
+CutOption parse_cut(const std::string& text);
+
+/// As on a command line.
+std::string describe(const WallOption& wall);
+std::string describe(const CutOption& cut);
+
+}  // namespace breast

@@ -1,0 +1,45 @@
+// Nodes that slide on a smooth surface: an exact bilateral constraint, φ(x) = c. Every node keeps
+// its own level c, that of its place in the imaged shape, so that a mesh whose nodes lie a little
+// off the surface is held without a jump.
+//
+// Newton's method sees the constraint in three places: the increment is held along the normal at
+// the present x; the force λ∇φ of the surface turns as the node slides, which adds −λ∇²φ to the
+// tangent; and every trial is put back on its level.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solve/constraints.hpp"
+#include "solve/term.hpp"
+#include "surface/level_surface.hpp"
+
+namespace breast {
+
+class SlidingNodes {
+ public:
+  /// `nodes` ascending; `imaged` (3 a node, mm) gives the levels. Throws Error (input) for a node
+  /// where the surface is not known.
+  SlidingNodes(std::shared_ptr<const LevelSurface> surface, std::vector<int> nodes,
+               const Eigen::VectorXd& imaged);
+
+  const std::vector<int>& nodes() const { return cells_.nodes; }
+  /// Adds to `all` that no node leaves its level to first order at x. False where a node is beyond
+  /// the surface.
+  bool hold(const Eigen::VectorXd& x, Constraints& all) const;
+  /// Puts the nodes back on their levels along the gradient; −1, or a node that has left the part
+  /// of space where the surface is known.
+  int restore(Eigen::VectorXd& x) const;
+  /// Adds the turning of the surface's force to the tangents that are wanted; `forces.r` is complete
+  /// but for that force. False where a node is beyond the surface.
+  bool add_curvature(const State& state, const Request& request, const Forces& forces) const;
+  /// Farthest distance of a node from its level, mm, to first order; infinite beyond the surface.
+  double worst_distance(const Eigen::VectorXd& x) const;
+
+ private:
+  std::shared_ptr<const LevelSurface> surface_;
+  Cells cells_;  // one node each
+  std::vector<double> levels_;
+};
+
+}  // namespace breast
