@@ -17,12 +17,13 @@ constexpr double near_enough = 1e-5, gain_wanted = 0.02;
 constexpr double volume_accuracy = 1e-5;
 constexpr int halvings = 8;
 
-// Increments that carry held components to their targets.
-bool aim(Constraints& constraints, const Eigen::VectorXd* targets, const Eigen::VectorXd& x) {
+// Increments that carry what `fixed` holds to its targets, within all `constraints`.
+bool aim(const Constraints& fixed, const Eigen::VectorXd* targets, const Eigen::VectorXd& x,
+         Constraints& constraints) {
   if (targets == nullptr) return false;
   double most = 0;
   for (int node = 0; node < constraints.nodes(); ++node) {
-    const NodeConstraint* held = constraints.at(node);
+    const NodeConstraint* held = fixed.at(node);
     if (held == nullptr) continue;
     NodeConstraint moved = *held;
     moved.increment =
@@ -99,7 +100,7 @@ Balance EquilibriumSystem::assess(const NewtonResult& so_far) {
   }
   moving_ = problem_.constraints_at(state_.x);
   moving_.zero_increments();
-  away_ = aim(moving_, targets_, state_.x);
+  away_ = aim(problem_.constraints(), targets_, state_.x, moving_);
   serves_ = options_.reuse_factor && !away_ && factor_serves(so_far);
   Balance now;
   now.residual = so_far.residual;
