@@ -59,10 +59,24 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices) {
   tool.number(choices.bulk_ratio, "--bulk-ratio", "K_OVER_MU",
               "bulk over shear modulus; without it, exactly incompressible", 1.0, 1e9);
   tool.text(choices.wall, "--wall", "held|slide[:KT]|spring:KN[,KT]",
-            "chest wall held; or sliding on the wall surface against springs of KT kPa/mm along it "
-            "(default 0.01); or on springs of KN across and KT along it (default a third of KN)");
+            "the chest wall: held; or the breast slides on it against springs of KT kPa/mm (0.01 "
+            "where no number is given); or on springs of KN across and KT along it (a third of KN); "
+            "without this option as the material set says, or held");
   tool.text(choices.cut, "--cut", "free|fixed|roller|spring:KC",
-            "what holds the lateral cut surface where the body ends; springs of KC kPa/mm");
+            "what holds the lateral cut surface where the body ends, springs of KC kPa/mm; without "
+            "this option as the material set says, or free");
+  tool.number(choices.skin_compression, "--skin-compression", "PERCENT",
+              "part of the skin's law that resists compression; the rest wrinkles (default: as the "
+              "material set says, or 100)",
+              0.1, 100);
+  tool.number(choices.skin_smoothing, "--skin-smoothing", "WIDTH",
+              "half the width of the transition to wrinkling, in squared stretches (default: as the "
+              "material set says, or 0.02)",
+              1e-4, 0.5);
+  tool.number(choices.skin_prestretch, "--skin-prestretch", "PERCENT",
+              "stretch of the skin in the stress-free shape of the body (default: as the material "
+              "set says, or 0)",
+              0, 50);
   tool.choice(choices.solver, "--solver", {"auto", "direct", "multigrid"},
               "linear solver: a Cholesky factor; multigrid, with a check of stability; or "
               "multigrid where it "

@@ -15,8 +15,8 @@ struct MechanicsChoices {
   std::string element = "q1p0";          ///< q1p0 | q2p1
   std::string invariants = "isochoric";  ///< isochoric | plain
   std::optional<double> bulk_ratio;      ///< K/μ; none: exactly incompressible
-  std::string wall = "held";             ///< as parse_wall reads it
-  std::string cut = "free";              ///< as parse_cut reads it
+  std::string wall, cut;                 ///< empty: as the material set says
+  std::optional<double> skin_compression, skin_smoothing, skin_prestretch;
   std::string solver = "auto";           ///< auto | direct
   bool keep_unconverged = false;         ///< write the file even so, its status saying so
 };

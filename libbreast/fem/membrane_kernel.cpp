@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "fem/plane_stress.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {
@@ -40,32 +41,20 @@ struct SurfaceStress {
   SurfaceTangent tangent, reference_tangent;
 };
 
-// f(I, d) = W(I + 1/d, d + I/d) and its derivatives.
-struct PlaneStress {
-  double f, fi, fd, fii, fid, fdd;
-};
-
-PlaneStress plane_stress(const LawValue& w, double i, double d) {
-  const double down = -1 / (d * d), up = 1 - i / (d * d);  // ∂I1/∂d, ∂I2/∂d
-  PlaneStress out;
-  out.f = w.w;
-  out.fi = w.w1 + w.w2 / d;
-  out.fd = w.w1 * down + w.w2 * up;
-  out.fii = w.w11 + 2 * w.w12 / d + w.w22 / (d * d);
-  out.fid = w.w11 * down + w.w12 * (up + down / d) + w.w22 * up / d - w.w2 / (d * d);
-  out.fdd = w.w11 * down * down + 2 * w.w12 * down * up + w.w22 * up * up + 2 * w.w1 / (d * d * d) +
-            2 * w.w2 * i / (d * d * d);
-  return out;
-}
-
-bool surface_stress(const Law& law, const Mat2& reference, const Mat2& deformed,
-                    SurfaceStress& out) {
+bool surface_stress(const Law& law, const SkinBehaviour& skin, const Mat2& body,
+                    const Mat2& deformed, SurfaceStress& out) {
+  // The skin itself, unstretched, is smaller than the body's shape it is stretched on.
+  const double shrink = 1 / ((1 + skin.prestretch) * (1 + skin.prestretch));
+  const Mat2 reference = shrink * body;
   const double det_reference = reference.determinant(), det_deformed = deformed.determinant();
   if (!(det_reference > 0) || !(det_deformed > 0)) return false;
   const Mat2 up = reference.inverse(), current = deformed.inverse();
   const double d = det_deformed / det_reference, i = (up * deformed).trace();
-  if (!law.in_range(i + 1 / d)) return false;
-  const PlaneStress f = plane_stress(law.evaluate(i + 1 / d, d + i / d), i, d);
+  PlaneStress f;
+  if (!(skin.kept < 1 ? tension_field(law, skin.kept, skin.smoothing, i, d, f)
+                      : plane_stress(law, i, d, f))) {
+    return false;
+  }
   const Surface a_up = to_surface(up), a_now = to_surface(current);
   const Surface back = to_surface(up * deformed * up);  // −∂I/∂A
   out.energy = f.f;
@@ -79,7 +68,7 @@ bool surface_stress(const Law& law, const Mat2& reference, const Mat2& deformed,
   const Surface on_up = -2 * (f.fii * back + d * f.fid * a_up);
   const Surface on_now = -2 * d * (f.fid * back + (f.fd + d * f.fdd) * a_up);
   out.reference_tangent =
-      2 * (a_up * on_up.transpose() + a_now * on_now.transpose() - 2 * f.fi * self_product(up));
+      2 * shrink * (a_up * on_up.transpose() + a_now * on_now.transpose() - 2 * f.fi * self_product(up));
   return std::isfinite(out.energy);
 }
 
@@ -134,7 +123,7 @@ void membrane_kernel(const MembraneInput<N>& in, const HexDemand& demand, Membra
     const Eigen::Matrix<double, 2, N>& g = rule.gradients[q];
     const Eigen::Matrix<double, 3, 2> t_ref = in.reference * g.transpose();
     const Eigen::Matrix<double, 3, 2> t_def = in.deformed * g.transpose();
-    if (!surface_stress(*in.law, t_ref.transpose() * t_ref, t_def.transpose() * t_def, stress))
+    if (!surface_stress(*in.law, in.skin, t_ref.transpose() * t_ref, t_def.transpose() * t_def, stress))
       return;
     const double w = in.volume[q];
     Mat2 s;
@@ -167,7 +156,7 @@ Vec2 membrane_resultants(const MembraneInput<N>& in) {
                                     t_def = in.deformed * g.transpose();
   const Mat2 reference = t_ref.transpose() * t_ref, deformed = t_def.transpose() * t_def;
   SurfaceStress stress;
-  if (!surface_stress(*in.law, reference, deformed, stress)) return Vec2::Constant(std::nan(""));
+  if (!surface_stress(*in.law, in.skin, reference, deformed, stress)) return Vec2::Constant(std::nan(""));
   Mat2 s;
   s << stress.s[0], stress.s[2], stress.s[2], stress.s[1];
   // Skin volume per parametric area over the deformed area turns S into force per length; the

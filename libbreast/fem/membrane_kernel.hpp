@@ -27,6 +27,7 @@ struct MembraneInput {
   /// Skin volume at each Gauss point, mm³: t √det a_imaged times the rule's weight, kept for good.
   Eigen::Matrix<double, QuadRule<N>::points, 1> volume;
   const Law* law = nullptr;
+  SkinBehaviour skin;
 };
 
 template <int N>

@@ -26,7 +26,7 @@ struct FigureInput {
   std::optional<PolyLines> curves;  ///< of cc2mlo
 };
 
-/// "points", "geometry", "mesh", "tissues", "compression", "pressure",
+/// "points", "geometry", "mesh", "tissues", "outlines", "compression", "pressure",
 /// "force-thickness", "mammogram", "matching", "summary".
 const std::vector<std::string>& figure_names();
 /// One line for the help: what the figure shows and needs.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,11 +42,27 @@ std::string_view law_kind_name(LawKind kind);
 /// Names of Law::constants in order: {"a10", "a01", ...}.
 std::vector<std::string_view> law_constant_names(LawKind kind);
 
-/// Law and density per tissue.
+/// How thin skin behaves beside its law: it wrinkles rather than resist compression, and is
+/// stretched on the body even at rest. Defaults: the law alone, as in the paper.
+struct SkinBehaviour {
+  double kept = 1;        ///< fraction of the law that remains in compression; 1: all of it
+  double smoothing = 0.02;  ///< half the width of the transition, in squared stretches
+  double prestretch = 0;  ///< stretch of the skin in the stress-free shape of the body, minus 1
+};
+/// Throws Error (input) for a fraction kept outside 0.001 to 1, a smoothing outside 1e-4 to 0.5, a
+/// pre-stretch outside 0 to 0.5, or less of it than the transition is wide where less than the
+/// whole law is kept: skin at rest would then lie within the transition.
+void check_skin(const SkinBehaviour& skin, const std::string& where);
+
+/// Law and density per tissue, and what goes with them.
 struct MaterialSet {
   std::string name;
   std::array<Law, n_tissues> laws;
   std::array<double, n_tissues> density;  ///< g/mm^3
+  SkinBehaviour skin;
+  /// Resistance of the chest wall to sliding and of the cut, kPa/mm, for which the set was found;
+  /// none: the wall is held, the cut free.
+  std::optional<double> wall_support, cut_support;
   const Law& law(Tissue t) const { return laws[static_cast<std::size_t>(t)]; }
 };
 

@@ -1,4 +1,5 @@
 // Material sets: the embedded tables of pipelines/materials, or a file of the same columns.
+#include <cmath>
 #include <filesystem>
 
 #include "core/error.hpp"
@@ -27,17 +28,45 @@ Law read_law(const Table& table, std::size_t row, const std::string& where) {
   return law;
 }
 
+std::optional<double> optional_number(const Table& table, std::size_t row,
+                                      const std::string& column) {
+  if (!table.has(column) || table.cell(row, column) == "-") return {};
+  return table.number(row, column);
+}
+
+void read_skin(const Table& table, std::size_t row, const std::string& where, SkinBehaviour& skin) {
+  skin.kept = optional_number(table, row, "compression_percent").value_or(100) / 100;
+  skin.smoothing = optional_number(table, row, "smoothing").value_or(skin.smoothing);
+  skin.prestretch = optional_number(table, row, "prestretch_percent").value_or(0) / 100;
+  check_skin(skin, where);
+}
+
+/// Rows "wall" and "cut" with the law "support".
+bool read_support(const Table& table, std::size_t row, const std::string& name, MaterialSet& set) {
+  if (table.cell(row, "law") != "support") return false;
+  const std::string where = table.cell(row, "tissue");
+  const double stiffness = table.number(row, "support_kPa_per_mm");
+  if ((where != "wall" && where != "cut") || !(stiffness >= 0 && stiffness <= 1e6)) {
+    throw input_error("materials ", name, ", support of ", where, ": ", stiffness,
+                      " kPa/mm; 'wall' and 'cut' take 0 to 1e6");
+  }
+  (where == "wall" ? set.wall_support : set.cut_support) = stiffness;
+  return true;
+}
+
 MaterialSet read_set(const Table& table, const std::string& name) {
   MaterialSet set;
   set.name = name;
   std::array<bool, n_tissues> given{};
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (read_support(table, row, name, set)) continue;
     const std::string tissue_text = table.cell(row, "tissue");
     const auto tissue = static_cast<std::size_t>(tissue_from_name(tissue_text));
     const std::string where = "materials " + name + ", tissue " + tissue_text;
     if (given[tissue]) throw input_error(where, ": appears twice");
     given[tissue] = true;
     set.laws[tissue] = read_law(table, row, where);
+    if (Tissue(tissue) == Tissue::skin) read_skin(table, row, where, set.skin);
     const double density = table.number(row, "density_g_per_mm3");
     if (!(density >= 0) || density > 0.1) {
       throw input_error(where, ": density ", density, " g/mm^3 must lie in 0 to 0.1 (water 0.001)");
@@ -83,6 +112,24 @@ std::vector<std::string> material_set_names() {
   std::vector<std::string> names;
   for (const EmbeddedTable& table : embedded_materials()) names.emplace_back(table.name);
   return names;
+}
+
+void check_skin(const SkinBehaviour& skin, const std::string& where) {
+  const auto check = [&](double value, double low, double high, const char* what) {
+    if (!(value >= low && value <= high)) {
+      throw input_error(where, ": ", what, " ", value, " must lie in ", low, " to ", high);
+    }
+  };
+  check(skin.kept, 0.001, 1, "fraction of the skin's law kept in compression");
+  check(skin.smoothing, 1e-4, 0.5, "smoothing of the skin's tension field");
+  check(skin.prestretch, 0, 0.5, "pre-stretch of the skin");
+  const double stretched = (1 + skin.prestretch) * (1 + skin.prestretch) - 1;
+  if (skin.kept < 1 && !(stretched >= skin.smoothing)) {
+    throw input_error(where, ": a pre-stretch of ", 100 * skin.prestretch,
+                      " % leaves skin at rest within the transition of its tension field; give at "
+                      "least ",
+                      100 * (std::sqrt(1 + skin.smoothing) - 1), " %, or less smoothing");
+  }
 }
 
 void scale_materials(MaterialSet& set, const std::vector<std::string>& settings) {

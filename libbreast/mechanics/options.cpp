@@ -21,23 +21,33 @@ Value pick(const std::string& name, const char* option,
 
 }  // namespace
 
-MechanicsOptions mechanics_options(const std::string& materials,
-                                   const std::vector<std::string>& scale,
-                                   const std::string& element, const std::string& invariants,
-                                   std::optional<double> bulk_ratio, const std::string& wall,
-                                   const std::string& cut, const std::string& solver) {
+MechanicsOptions mechanics_options(const MechanicsTexts& texts) {
   MechanicsOptions options;
-  options.materials = load_materials(materials);
-  scale_materials(options.materials, scale);
-  options.element =
-      pick<Element>(element, "--element", {{"q1p0", Element::q1p0}, {"q2p1", Element::q2p1}});
+  MaterialSet& materials = options.materials;
+  materials = load_materials(texts.materials);
+  scale_materials(materials, texts.scale);
+  SkinBehaviour& skin = materials.skin;
+  if (texts.skin_compression) skin.kept = *texts.skin_compression / 100;
+  if (texts.skin_smoothing) skin.smoothing = *texts.skin_smoothing;
+  if (texts.skin_prestretch) skin.prestretch = *texts.skin_prestretch / 100;
+  check_skin(skin, "skin");
+  options.element = pick<Element>(texts.element, "--element",
+                                  {{"q1p0", Element::q1p0}, {"q2p1", Element::q2p1}});
   options.invariants =
-      pick<Invariants>(invariants, "--invariants",
+      pick<Invariants>(texts.invariants, "--invariants",
                        {{"isochoric", Invariants::isochoric}, {"plain", Invariants::plain}});
-  options.bulk_ratio = bulk_ratio.value_or(0);
-  options.wall = parse_wall(wall);
-  options.cut = parse_cut(cut);
-  options.solver = pick<SolverOption>(solver, "--solver",
+  options.bulk_ratio = texts.bulk_ratio.value_or(0);
+  if (!texts.wall.empty()) {
+    options.wall = parse_wall(texts.wall);
+  } else if (materials.wall_support) {
+    options.wall = WallOption(WallKind::slide, {0, *materials.wall_support});
+  }
+  if (!texts.cut.empty()) {
+    options.cut = parse_cut(texts.cut);
+  } else if (materials.cut_support) {
+    options.cut = CutOption(Cut::spring, *materials.cut_support);
+  }
+  options.solver = pick<SolverOption>(texts.solver, "--solver",
                                       {{"auto", SolverOption::automatic},
                                        {"direct", SolverOption::direct},
                                        {"multigrid", SolverOption::multigrid}});

@@ -24,27 +24,35 @@ struct MechanicsOptions {
   Element element = Element::q1p0;
   Invariants invariants = Invariants::isochoric;
   double bulk_ratio = 0;  ///< K/μ; 0 means exactly incompressible
-  WallOption wall;  ///< springs are at rest in the stress-free shape
-  CutOption cut;
+  WallOption wall = {};  ///< springs are at rest in the stress-free shape
+  CutOption cut = {};
   SolverOption solver = SolverOption::automatic;
   Estimate estimate = Estimate::none;
+};
+
+/// The MECHANICS options as texts. Empty: what the material set says of wall, cut and skin.
+struct MechanicsTexts {
+  std::string materials = "seed2008";  ///< set or file
+  std::vector<std::string> scale;      ///< "TISSUE=PERCENT"
+  std::string element = "q1p0", invariants = "isochoric";
+  std::optional<double> bulk_ratio;
+  std::string wall, cut, solver = "auto";
+  std::optional<double> skin_compression, skin_smoothing, skin_prestretch;  ///< per cent, -, per cent
 };
 
 /// Names are those of the MECHANICS options: materials (set or file), "TISSUE=PERCENT" scales,
 /// "q1p0" | "q2p1", "isochoric" | "plain", bulk ratio K/μ (none: incompressible), wall and cut as
 /// parse_wall and parse_cut read them, "auto" | "direct" | "multigrid". Throws Error (input) for any other.
-MechanicsOptions mechanics_options(const std::string& materials,
-                                   const std::vector<std::string>& scale,
-                                   const std::string& element, const std::string& invariants,
-                                   std::optional<double> bulk_ratio, const std::string& wall,
-                                   const std::string& cut, const std::string& solver);
+MechanicsOptions mechanics_options(const MechanicsTexts& texts);
 
 /// The same from a command line's choices: a struct with members of these names, which belongs to a
 /// layer this one does not include.
 template <class Choices>
 MechanicsOptions mechanics_options(const Choices& c) {
-  return mechanics_options(c.materials, c.scale, c.element, c.invariants, c.bulk_ratio, c.wall,
-                           c.cut, c.solver);
+  return mechanics_options(MechanicsTexts{c.materials, c.scale, c.element, c.invariants,
+                                          c.bulk_ratio, c.wall, c.cut, c.solver,
+                                          c.skin_compression, c.skin_smoothing,
+                                          c.skin_prestretch});
 }
 
 /// "none" | "step" | "q2". Throws Error (input) for any other.

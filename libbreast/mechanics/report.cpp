@@ -119,6 +119,8 @@ void write_report(const Equilibrium& summary, const HexMesh& mesh, const Mechani
   report.set("invariants", invariants_name(options.invariants));
   if (options.bulk_ratio > 0) report.set("bulk_ratio", options.bulk_ratio);
   report.set("wall", describe(options.wall));
+  report.set("skin_law/compression_percent", 100 * options.materials.skin.kept);
+  report.set("skin_law/prestretch_percent", 100 * options.materials.skin.prestretch);
   report.set("cut", describe(options.cut));
   report.set("blas", blas_name());
   const std::vector<Vec3>& points = summary.points.empty() ? mesh.points : summary.points;

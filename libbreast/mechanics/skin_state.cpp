@@ -42,6 +42,7 @@ SkinState state_of(const HexMesh& mesh, const MaterialSet& materials,
     in.deformed = gather<N>(nodes, deformed);
     in.volume = mesh.skin_thickness[f] * areas<N>(gather<N>(nodes, mesh.imaged));
     in.law = &materials.law(Tissue::skin);
+    in.skin = materials.skin;
     const double area = areas<N>(in.deformed).sum();
     const double resultant = membrane_resultants<N>(in)[0];  // Pa·mm
     const double beneath = materials.law(mesh.tissue[mesh.skin_faces[f].element]).shear_modulus();

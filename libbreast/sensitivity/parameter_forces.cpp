@@ -8,6 +8,7 @@
 #include "fem/gather.hpp"
 #include "fem/hex_kernel.hpp"
 #include "fem/membrane_kernel.hpp"
+#include "fem/plane_stress.hpp"
 #include "fem/stress.hpp"
 #include "material/law_slope.hpp"
 
@@ -87,7 +88,8 @@ Eigen::MatrixXd element_forces(const Scene& scene, const LoadedState& state, int
 }
 
 // Forces of one skin face, 3F × columns. The kernel is linear in the weights of its Gauss points:
-// they carry the slopes.
+// they carry the slopes. Of a tension field the part kept in compression and the relaxed one
+// evaluate the law at different stretches.
 template <int F>
 Eigen::MatrixXd face_forces(const Scene& scene, const LoadedState& state, std::size_t face,
                             const std::vector<int>& nodes, const std::vector<Column>& columns) {
@@ -98,33 +100,41 @@ Eigen::MatrixXd face_forces(const Scene& scene, const LoadedState& state, std::s
   in.deformed = gather<F>(nodes.data(), state.state.x);
   Eigen::Matrix<double, 3, F> imaged;
   for (int a = 0; a < F; ++a) imaged.col(a) = mesh.imaged[std::size_t(nodes[std::size_t(a)])];
-  std::array<double, QuadRule<F>::points> volume, i1, i2;
+  const SkinBehaviour& skin = scene.options().materials.skin;
+  const double stretched = (1 + skin.prestretch) * (1 + skin.prestretch);
+  std::array<double, QuadRule<F>::points> volume;
+  std::array<Invariants12, QuadRule<F>::points> whole, relaxed;
   const auto metric = [&](const Eigen::Matrix<double, 3, F>& x, int q) {
     const Eigen::Matrix<double, 3, 2> t = x * rule.gradients[q].transpose();
     return Eigen::Matrix2d(t.transpose() * t);
   };
   for (int q = 0; q < QuadRule<F>::points; ++q) {
     const Eigen::Matrix2d before = metric(in.reference, q), after = metric(in.deformed, q);
-    const double i = (before.inverse() * after).trace();
-    const double d = after.determinant() / before.determinant();
-    i1[q] = i + 1 / d;
-    i2[q] = d + i / d;
+    const double i = stretched * (before.inverse() * after).trace();
+    const double d = stretched * stretched * after.determinant() / before.determinant();
+    whole[q] = {i + 1 / d, d + i / d};
+    if (skin.kept < 1) relaxed[q] = effective_invariants(skin.smoothing, i, d);
     volume[q] =
         mesh.skin_thickness[face] * rule.weight[q] * std::sqrt(metric(imaged, q).determinant());
   }
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * F, long(columns.size()));
   MembraneOutput<F> result;
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    for (const Law* unit : {&unit_i1, &unit_i2}) {
-      in.law = unit;
-      for (int q = 0; q < QuadRule<F>::points; ++q) {
-        const LawSlope slope = columns[k].slope(i1[q], i2[q]);
-        in.volume[q] = volume[q] * (unit == &unit_i1 ? slope.w1 : slope.w2);
+  const auto add = [&](double fraction, const SkinBehaviour& behaviour, const auto& invariants) {
+    in.skin = behaviour;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      for (const Law* unit : {&unit_i1, &unit_i2}) {
+        in.law = unit;
+        for (int q = 0; q < QuadRule<F>::points; ++q) {
+          const LawSlope slope = columns[k].slope(invariants[q].i1, invariants[q].i2);
+          in.volume[q] = fraction * volume[q] * (unit == &unit_i1 ? slope.w1 : slope.w2);
+        }
+        membrane_kernel<F>(in, {}, result);
+        out.col(long(k)) += Eigen::Map<const Eigen::VectorXd>(result.residual.data(), 3 * F);
       }
-      membrane_kernel<F>(in, {}, result);
-      out.col(long(k)) += Eigen::Map<const Eigen::VectorXd>(result.residual.data(), 3 * F);
     }
-  }
+  };
+  add(skin.kept, {1, skin.smoothing, skin.prestretch}, whole);
+  if (skin.kept < 1) add(1 - skin.kept, {0, skin.smoothing, skin.prestretch}, relaxed);
   return out;
 }
 

@@ -41,7 +41,7 @@ const std::vector<std::string> phases{"ordering", "assembly", "factorisation", "
 
 MechanicsOptions one_law(const Settings& s) {
   MechanicsOptions options =
-      mechanics_options("seed2008", {}, s.element, "isochoric", {}, "free", s.solver);
+      mechanics_options({.element = s.element, .solver = s.solver});
   Law law = options.materials.law(Tissue::fat);
   if (s.law == "mr") law = {LawKind::mooney_rivlin, {310, 300}};
   for (Law& each : options.materials.laws) each = law;

@@ -48,15 +48,31 @@ TEST(ElasticSupport, ForceIsStiffnessTimesAreaTimesMotion) {
 }
 
 TEST(ContactOptions, WallAndDetectorAreReadOrRefusedInWords) {
-  EXPECT_FALSE(parse_wall("fixed"));
-  EXPECT_NEAR(parse_wall("spring:3")->tangential, 1, 1e-15);
-  EXPECT_EQ(parse_wall("spring:3,0")->tangential, 0);
+  EXPECT_EQ(parse_wall("held").kind, WallKind::held);
+  EXPECT_EQ(parse_wall("fixed").kind, WallKind::held);
+  EXPECT_EQ(parse_wall("slide").stiffness.tangential, usual_sliding_stiffness);
+  EXPECT_EQ(parse_wall("slide:0").kind, WallKind::slide);
+  EXPECT_EQ(parse_wall("slide:0.02").stiffness.tangential, 0.02);
+  EXPECT_NEAR(parse_wall("spring:3").stiffness.tangential, 1, 1e-15);
+  EXPECT_EQ(parse_wall("spring:3,0").stiffness.tangential, 0);
+  EXPECT_EQ(parse_cut("roller").kind, Cut::roller);
+  EXPECT_EQ(parse_cut("spring:0.005").stiffness, 0.005);
+  for (const char* text : {"held", "slide:0.02", "spring:3,0.5"}) {
+    EXPECT_EQ(describe(parse_wall(text)), text);
+  }
+  for (const char* text : {"free", "fixed", "roller", "spring:0.005"}) {
+    EXPECT_EQ(describe(parse_cut(text)), text);
+  }
   EXPECT_TRUE(std::isinf(parse_detector("raised")));
   EXPECT_EQ(parse_detector("fixed"), 0);
   EXPECT_EQ(parse_detector("12.5"), 12.5);
   for (const char* bad : {"", "spring", "spring:", "spring:0", "spring:-1", "spring:1,-1",
-                          "spring:1,", "spring:nan", "spring:1;2", "free"}) {
+                          "spring:1,", "spring:nan", "spring:1;2", "spring:1,2,3", "free", "slide:", "slide:-1",
+                          "slide:1,1"}) {
     EXPECT_THROW(parse_wall(bad), Error) << bad;
+  }
+  for (const char* bad : {"", "held", "spring", "spring:0", "spring:-1", "spring:1,1"}) {
+    EXPECT_THROW(parse_cut(bad), Error) << bad;
   }
   for (const char* bad : {"", "-1", "nan", "inf", "up", "3mm"}) {
     EXPECT_THROW(parse_detector(bad), Error) << bad;

@@ -158,8 +158,11 @@ MembraneInput<N> curved_face(const Law& law) {
 }
 
 template <int N>
-void check_face(const Law& law) {
+void check_face(const Law& law, const SkinBehaviour& skin = {}, const Vec2& stretch = Vec2(1, 1)) {
   MembraneInput<N> in = curved_face<N>(law);
+  in.skin = skin;
+  in.deformed.row(0) *= stretch.x();
+  in.deformed.row(1) *= stretch.y();
   MembraneOutput<N> base, up, down;
   membrane_kernel<N>(in, {true, true}, base);
   ASSERT_TRUE(base.valid);
@@ -192,6 +195,48 @@ TEST(MembraneKernel, DerivativesOfEveryLaw) {
   for (const Law& law : laws()) {
     check_face<4>(law);
     check_face<9>(law);
+  }
+}
+
+// Pressed, sheared and pulled skin: all branches of the tension field, and its transitions.
+TEST(MembraneKernel, DerivativesOfATensionField) {
+  for (const Law& law : laws()) {
+    for (const double across : {0.7, 0.9, 0.95, 0.97, 1.05}) {
+      for (const double along : {0.8, 0.96, 1.0, 1.1}) {
+        check_face<4>(law, {0.05, 0.02, 0.03}, Vec2(along, across));
+        check_face<9>(law, {0.05, 0.02, 0.03}, Vec2(along, across));
+      }
+    }
+  }
+}
+
+// Skin pressed in one direction and pulled in the other carries the force of uniaxial tension.
+TEST(MembraneKernel, WrinkledSkinIsInUniaxialTension) {
+  const double stretch = 1.2, kept = 0.01;
+  for (const Law& law : laws()) {
+    MembraneInput<4> in = fixtures::pulled_skin(law, stretch, 2);
+    in.skin = {kept, 0.02, 0};
+    in.deformed.row(1) *= 0.8;
+    MembraneOutput<4> out;
+    membrane_kernel<4>(in, {}, out);
+    ASSERT_TRUE(out.valid);
+    const double force = 2 * fixtures::uniaxial_pull(law, stretch);
+    EXPECT_NEAR(out.residual(0, 1) + out.residual(0, 2), force, 2 * kept * std::abs(force));
+  }
+}
+
+// The skin's own shape at rest is the body's, smaller by the pre-stretch.
+TEST(MembraneKernel, PreStretchedSkinPullsAtRest) {
+  const double prestretch = 0.2;
+  for (const Law& law : laws()) {
+    MembraneInput<4> in = fixtures::pulled_skin(law, 1, 2), same = in;
+    in.skin.prestretch = prestretch;
+    same.reference /= 1 + prestretch;
+    MembraneOutput<4> out, expected;
+    membrane_kernel<4>(in, {}, out);
+    membrane_kernel<4>(same, {}, expected);
+    EXPECT_GT(out.residual(0, 1), 0);
+    EXPECT_LT((out.residual - expected.residual).norm(), 1e-12 * out.residual.norm());
   }
 }
 

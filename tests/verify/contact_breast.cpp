@@ -274,10 +274,11 @@ TEST(Compression, ElasticWallTendsToTheHeldWall) {
   options.target = 35;
   HexMesh held = stress_free_breast(), stiff = held, soft = held;
   const CompressionResult a = fixtures::compress_into(held, options, mechanics());
-  options.wall = SupportStiffness{1e3, 1e3};
-  const CompressionResult b = fixtures::compress_into(stiff, options, mechanics());
-  options.wall = SupportStiffness{0.5, 0.5 / 3};
-  const CompressionResult c = fixtures::compress_into(soft, options, mechanics());
+  MechanicsOptions elastic = mechanics();
+  elastic.wall = SupportStiffness{1e3, 1e3};
+  const CompressionResult b = fixtures::compress_into(stiff, options, elastic);
+  elastic.wall = SupportStiffness{0.5, 0.5 / 3};
+  const CompressionResult c = fixtures::compress_into(soft, options, elastic);
   ASSERT_EQ(a.record.status, SolveStatus::converged) << a.record.reason;
   ASSERT_EQ(b.record.status, SolveStatus::converged) << b.record.reason;
   ASSERT_EQ(c.record.status, SolveStatus::converged) << c.record.reason;
@@ -312,12 +313,12 @@ TEST(Compression, ErrorIsEstimatedWithFrictionAndWithSprings) {
     mesh.reference = mesh.points;
     CompressionOptions options = halfway("CC");
     options.target = 20;
+    MechanicsOptions with_estimate = mechanics();
     if (rubs) {
       options.friction = 0.3;
     } else {
-      options.wall = SupportStiffness{1, 1.0 / 3};
+      with_estimate.wall = SupportStiffness{1, 1.0 / 3};
     }
-    MechanicsOptions with_estimate = mechanics();
     with_estimate.estimate = Estimate::step;
     CompressionResult found = compress(mesh, options, with_estimate);
     ASSERT_TRUE(found.converged()) << found.record.reason;
@@ -326,7 +327,7 @@ TEST(Compression, ErrorIsEstimatedWithFrictionAndWithSprings) {
     options.stop_at = StopAt::thickness;
     options.target = found.thickness_mm;
     found.error_estimate_mm = -1;
-    estimate_by_second_solution(mesh, mechanics(), found,
+    estimate_by_second_solution(mesh, with_estimate, found,
                                 [&](const HexMesh& richer, const MechanicsOptions& same) {
                                   return compress(richer, options, same);
                                 });

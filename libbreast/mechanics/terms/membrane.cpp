@@ -33,6 +33,7 @@ class MembraneOf final : public Term {
   void add_results(const Results& results, const Request& request, Forces& forces) const;
 
   Law law_;
+  SkinBehaviour skin_;
   Cells cells_;
   std::shared_ptr<const ScatterMap> scatter_;
   std::vector<Volumes, Eigen::aligned_allocator<Volumes>> volume_;  // of skin, per Gauss point
@@ -47,7 +48,7 @@ struct MembraneOf<F>::Results {
 template <int F>
 MembraneOf<F>::MembraneOf(const HexMesh& mesh, const MechanicsOptions& options,
                           const Discretisation& space)
-    : law_(options.materials.law(Tissue::skin)) {
+    : law_(options.materials.law(Tissue::skin)), skin_(options.materials.skin) {
   const QuadRule<F>& rule = QuadRule<F>::get();
   const Eigen::VectorXd imaged = flatten(mesh.imaged);
   cells_.nodes_per_cell = F;
@@ -75,6 +76,7 @@ bool MembraneOf<F>::face(int f, const State& state, const Request& request,
   in.deformed = gather<F>(cells_.cell(f), state.x);
   in.volume = volume_[f];
   in.law = &law_;
+  in.skin = skin_;
   membrane_kernel<F>(in, {!results.matrices.empty(), request.reference != nullptr}, out);
   if (!out.valid) return false;
   results.energies[f] = out.energy;
