@@ -16,6 +16,9 @@ constexpr double near_enough = 1e-5, gain_wanted = 0.02;
 // volumes gain five digits a step beside Newton's own.
 constexpr double volume_accuracy = 1e-5;
 constexpr int halvings = 8;
+// Sliding nodes farther from their wall after a step than this (mm) take the body with them, to this
+// accuracy of the volumes.
+constexpr double worth_following = 0.05, following_accuracy = 1e-2;
 
 // Increments that carry what `fixed` holds to its targets, within all `constraints`.
 bool aim(const Constraints& fixed, const Eigen::VectorXd* targets, const Eigen::VectorXd& x,
@@ -202,11 +205,32 @@ NewtonDirection TangentSystem::solve(double volume_accuracy, int restarts) {
   return direction;
 }
 
+// A step along the tangents of a curved wall ends off the wall by its square over the radius, which
+// is millimetres where the breast slides by centimetres. Putting only the wall's nodes back would
+// strain their elements; so the body follows them, its volumes kept, in the norm of the tangent: a
+// second-order correction (Nocedal and Wright, Numerical Optimization, section 15.6). False: a node
+// has left the surface.
+bool TangentSystem::follow_surface(double length, State& trial) const {
+  const SlidingNodes* sliding = problem_.sliding();
+  if (sliding == nullptr) return true;
+  const Eigen::VectorXd back = sliding->way_back(trial.x, solver_.constraints());
+  if (back.size() == 0) return false;
+  if (back.lpNorm<Eigen::Infinity>() > worth_following) {
+    const Forces there = problem_.forces(trial);
+    const double left = 1 - std::min(1.0, length);
+    const Eigen::VectorXd theta =
+        there.valid ? Eigen::VectorXd(there.theta - left * forces_.theta)
+                    : Eigen::VectorXd::Zero(forces_.theta.size());
+    trial.x += solver_.correction(matrix_, back, theta, following_accuracy);
+  }
+  return problem_.restore(trial.x) < 0;
+}
+
 std::optional<Trial> TangentSystem::attempt(double length) {
   Trial trial;
   trial.state = {state_.reference, state_.x + length * step_.u,
                  state_.p + std::min(1.0, length) * step_.p};
-  if (problem_.restore(trial.state.x) >= 0) {
+  if (!follow_surface(length, trial.state)) {
     refusal_ = NewtonStop::left_surface;
     return {};
   }

@@ -64,6 +64,8 @@ class TangentSystem : public NewtonSystem {
   SaddleStep step_;
 
  private:
+  bool follow_surface(double length, State& trial) const;
+
   double shift_ = 0;
   NewtonStop refusal_ = NewtonStop::folded;
   Eigen::VectorXd refused_;

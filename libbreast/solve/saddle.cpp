@@ -106,14 +106,26 @@ Eigen::VectorXd SaddleSolver::schur_solve(const SaddleMatrix& matrix,
 
 SaddleStep SaddleSolver::solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
                                const Eigen::VectorXd& theta, double tolerance, int restarts) const {
+  Eigen::VectorXd imposed;
+  if (constraints_.any_increment()) imposed = constraints_.increments();
+  return solve_imposed(matrix, r, theta, imposed, tolerance, restarts);
+}
+
+Eigen::VectorXd SaddleSolver::correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
+                                         const Eigen::VectorXd& theta, double tolerance) const {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(imposed.size());
+  return solve_imposed(matrix, none, theta, imposed, tolerance, gmres_restarts).u;
+}
+
+// `imposed` may be empty: nothing held moves.
+SaddleStep SaddleSolver::solve_imposed(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
+                                       const Eigen::VectorXd& theta,
+                                       const Eigen::VectorXd& imposed, double tolerance,
+                                       int restarts) const {
   const PressureSpace& space = *matrix.space;
   const ElementRows& b = matrix.divergence;
   Eigen::VectorXd right = -r - b.apply_transpose(space.divide(theta, matrix.kappa));
-  Eigen::VectorXd imposed;
-  if (constraints_.any_increment()) {
-    imposed = constraints_.increments();
-    right -= matrix.stiffness.multiply(imposed);
-  }
+  if (imposed.size() > 0) right -= matrix.stiffness.multiply(imposed);
   return cholesky_ != nullptr ? solve_by_factor(matrix, right, imposed, theta, tolerance)
                               : solve_by_cycles(matrix, right, imposed, theta, tolerance, restarts);
 }

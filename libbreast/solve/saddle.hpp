@@ -66,6 +66,10 @@ class SaddleSolver {
   SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
                    const Eigen::VectorXd& theta, double tolerance = 1e-6,
                    int restarts = gmres_restarts) const;
+  /// The change of positions, smallest in the norm of K, that moves held components by `imposed`
+  /// (3 a node, in the span of what is held) and changes the volumes by −theta.
+  Eigen::VectorXd correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
+                             const Eigen::VectorXd& theta, double tolerance) const;
 
   /// Whether the matrix of the last factorise is positive definite. A factor knows; with multigrid
   /// the lowest eigenvalue of cycle times matrix by Lanczos, and false also where that is too near
@@ -90,6 +94,9 @@ class SaddleSolver {
 
  private:
   void impose(const SaddleMatrix& matrix);
+  SaddleStep solve_imposed(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
+                           const Eigen::VectorXd& theta, const Eigen::VectorXd& imposed,
+                           double tolerance, int restarts) const;
   SaddleStep solve_by_factor(const SaddleMatrix& matrix, const Eigen::VectorXd& right,
                              const Eigen::VectorXd& imposed, const Eigen::VectorXd& theta,
                              double tolerance) const;

@@ -57,6 +57,30 @@ int SlidingNodes::restore(Eigen::VectorXd& x) const {
   return -1;
 }
 
+Eigen::VectorXd SlidingNodes::way_back(const Eigen::VectorXd& x, const Constraints& held) const {
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size()), off = gradient;
+  for (int i = 0; i < cells_.count(); ++i) {
+    const long at = 3L * cells_.nodes[std::size_t(i)];
+    const std::optional<Level> level = surface_->at(x.segment<3>(at));
+    if (!level) return {};
+    gradient.segment<3>(at) = level->gradient;
+    off[at] = level->value - levels_[std::size_t(i)];
+  }
+  Eigen::VectorXd across = gradient, moves = Eigen::VectorXd::Zero(x.size());
+  held.project(across);
+  across = gradient - across;
+  for (const int node : cells_.nodes) {
+    const long at = 3L * node;
+    const Vec3 direction = across.segment<3>(at);
+    const double rate = direction.dot(gradient.segment<3>(at));
+    // A surface that has turned by more than 60 degrees says nothing to first order.
+    if (rate > 0.25 * gradient.segment<3>(at).squaredNorm()) {
+      moves.segment<3>(at) = -off[at] / rate * direction;
+    }
+  }
+  return moves;
+}
+
 bool SlidingNodes::add_curvature(const State& state, const Request& request,
                                  const Forces& forces) const {
   PackedCells* packed = request.packed != nullptr ? &request.packed->next(cells_) : nullptr;

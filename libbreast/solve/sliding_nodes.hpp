@@ -30,6 +30,9 @@ class SlidingNodes {
   /// Puts the nodes back on their levels along the gradient; −1, or a node that has left the part
   /// of space where the surface is known.
   int restore(Eigen::VectorXd& x) const;
+  /// The moves (3 a node, mm) within what `held` holds that put the nodes on their levels, to first
+  /// order; empty where a node is beyond the surface.
+  Eigen::VectorXd way_back(const Eigen::VectorXd& x, const Constraints& held) const;
   /// Adds the turning of the surface's force to the tangents that are wanted; `forces.r` is complete
   /// but for that force. False where a node is beyond the surface.
   bool add_curvature(const State& state, const Request& request, const Forces& forces) const;
