@@ -86,21 +86,19 @@ Scene::Scene(const HexMesh& mesh, const MechanicsOptions& options, TangentStorag
 // the surface.
 void Scene::add_wall() {
   const auto springs = [&](const std::vector<Face>& faces, const SupportStiffness& stiffness) {
-    if (faces.empty()) return;
-    springs_.push_back(std::make_shared<ElasticSupport>(mesh_, faces, stiffness));
+    return faces.empty() ? nullptr : std::make_shared<ElasticSupport>(mesh_, faces, stiffness);
   };
   const WallOption& wall = options_.wall;
-  if (wall.kind == WallKind::spring) springs(mesh_.pectoral_faces, wall.stiffness);
+  if (wall.kind == WallKind::spring) wall_springs_ = springs(mesh_.pectoral_faces, wall.stiffness);
   if (wall.kind == WallKind::slide) {
     sliding_ = std::make_shared<SlidingNodes>(wall_surface(mesh_, wall),
                                               nodes_of(mesh_, mesh_.pectoral_faces),
                                               flatten(mesh_.imaged));
     const double along = wall.stiffness.tangential;
-    if (along > 0) springs(mesh_.pectoral_faces, {along, along});
+    if (along > 0) wall_springs_ = springs(mesh_.pectoral_faces, {along, along});
   }
-  if (options_.cut.kind == Cut::spring) {
-    springs(mesh_.cut_faces, {options_.cut.stiffness, options_.cut.stiffness});
-  }
+  const double at_cut = options_.cut.stiffness;
+  if (options_.cut.kind == Cut::spring) cut_springs_ = springs(mesh_.cut_faces, {at_cut, at_cut});
 }
 
 long Scene::unknowns() const {
@@ -140,7 +138,8 @@ LoadedProblem Scene::problem(const Eigen::VectorXd& force) const {
                        stiffness_force()};
   loaded.problem.add(solid_);
   if (membrane_) loaded.problem.add(membrane_);
-  for (const auto& springs : springs_) loaded.problem.add(springs);
+  if (wall_springs_) loaded.problem.add(wall_springs_);
+  if (cut_springs_) loaded.problem.add(cut_springs_);
   loaded.problem.set_sliding(sliding_);
   loaded.problem.add(loaded.load);
   loaded.set_load(force);
@@ -149,7 +148,9 @@ LoadedProblem Scene::problem(const Eigen::VectorXd& force) const {
 
 Vec3 Scene::force_of_springs(const State& state) const {
   Vec3 sum = Vec3::Zero();
-  for (const auto& springs : springs_) sum += springs->force_on_body(state);
+  for (const auto& springs : {wall_springs_, cut_springs_}) {
+    if (springs) sum += springs->force_on_body(state);
+  }
   return sum;
 }
 

@@ -43,6 +43,9 @@ class Scene {
   const HexMesh& mesh() const { return mesh_; }
   const MechanicsOptions& options() const { return options_; }
   const Solid& solid() const { return *solid_; }
+  /// Springs at the chest wall and at the cut; null where there are none.
+  const ElasticSupport* wall_springs() const { return wall_springs_.get(); }
+  const ElasticSupport* cut_springs() const { return cut_springs_.get(); }
   /// Force of all springs on the body, µN.
   Vec3 force_of_springs(const State& state) const;
   /// What is held wherever the body is.
@@ -74,7 +77,7 @@ class Scene {
   MechanicsOptions options_;
   std::shared_ptr<const Solid> solid_;
   std::shared_ptr<const Term> membrane_;
-  std::vector<std::shared_ptr<const ElasticSupport>> springs_;
+  std::shared_ptr<const ElasticSupport> wall_springs_, cut_springs_;
   std::shared_ptr<const SlidingNodes> sliding_;
   Constraints walls_;
 };

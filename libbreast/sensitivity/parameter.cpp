@@ -60,7 +60,8 @@ std::string Parameter::per() const {
 }
 
 bool Parameter::relative() const {
-  return kind <= ParameterKind::tissue_density || kind == ParameterKind::skin_thickness;
+  return kind <= ParameterKind::tissue_density || kind == ParameterKind::skin_thickness ||
+         kind == ParameterKind::wall_support || kind == ParameterKind::cut_support;
 }
 
 bool Parameter::of_plates() const {
@@ -85,6 +86,10 @@ std::vector<Parameter> all_parameters(const HexMesh& state, const MechanicsOptio
   if (state.skin_model == SkinModel::membrane) {
     all.push_back({"skin_thickness", ParameterKind::skin_thickness, Tissue::skin});
   }
+  if (options.wall.kind != WallKind::held && options.wall.stiffness.tangential > 0) {
+    all.push_back({"wall", ParameterKind::wall_support});
+  }
+  if (options.cut.kind == Cut::spring) all.push_back({"cut", ParameterKind::cut_support});
   add_gravity(state.gravity, "gravity_", ParameterKind::gravity, all);
   add_gravity(imaged_gravity, "imaged_gravity_", ParameterKind::imaged_gravity, all);
   if (state.contact) {

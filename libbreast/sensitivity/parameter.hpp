@@ -17,6 +17,8 @@ enum class ParameterKind {
   gravity,         ///< of the state, turned towards an axis, degrees
   imaged_gravity,  ///< of the scan, likewise
   skin_thickness,  ///< of a membrane, relative
+  wall_support,    ///< stiffness of the springs along or under the chest wall, relative
+  cut_support,     ///< of those at the cut, relative
   thickness,       ///< between the plates, mm; they close on their mid-plane
   standoff,        ///< both plates' edges moved away from the chest wall, mm
   angle,           ///< of the beam, plates turned about their anterior mid-line, degrees

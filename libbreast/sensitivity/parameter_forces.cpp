@@ -251,7 +251,11 @@ ParameterForces parameter_forces(const Scene& scene, const LoadedState& state, P
   add_compliance(scene, state, parameters, out.volume);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Parameter& parameter = parameters[i];
-    if (parameter.kind == ParameterKind::density) {
+    if (parameter.kind == ParameterKind::wall_support) {
+      out.force.col(long(i)) += scene.wall_springs()->forces(state.state);
+    } else if (parameter.kind == ParameterKind::cut_support) {
+      out.force.col(long(i)) += scene.cut_springs()->forces(state.state);
+    } else if (parameter.kind == ParameterKind::density) {
       out.force.col(long(i)) -= scene.gravity_force(state.gravity);
     } else if (parameter.kind == ParameterKind::tissue_density) {
       const Eigen::VectorXd mass = scene.mesh().order == 1

@@ -6,6 +6,7 @@
 #include "core/units.hpp"
 #include "fixtures/chain_inputs.hpp"
 #include "fixtures/shapes.hpp"
+#include "fixtures/sliding_cap.hpp"
 #include "mesh/element_order.hpp"
 #include "sensitivity/chain.hpp"
 
@@ -90,21 +91,6 @@ TEST(Sensitivity, WithPlainInvariantsABulkModulusAndARollingCut) {
   expect_all_match(in, "fat,fibroglandular,fat.a10,fat.a11,skin.b,density,gravity_x");
 }
 
-// Nothing but ratios of stress and weight decides an equilibrium.
-TEST(Sensitivity, StiffnessOfAllTissuesUndoesDensity) {
-  const ChainInputs in = cap_inputs();
-  const Outcome base = solve_chain(in);
-  const SensitivityChain chain(base.mesh, base.imaged_pressure, in.imaged_gravity, in.options);
-  const auto all = all_parameters(base.mesh, in.options, in.imaged_gravity);
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(3L * base.mesh.nodes());
-  double largest = 0;
-  for (const Response& r : chain.tangent(pick_parameters(all, "fat,fibroglandular,skin,density"))) {
-    sum += flatten(r.position);
-    largest = std::max(largest, flatten(r.position).norm());
-  }
-  EXPECT_LT(sum.norm(), 1e-7 * largest);
-}
-
 void expect_adjoint_matches(const ChainInputs& in, bool elements_add_up) {
   const Outcome base = solve_chain(in);
   const SensitivityChain chain(base.mesh, base.imaged_pressure, in.imaged_gravity, in.options);
@@ -128,6 +114,32 @@ void expect_adjoint_matches(const ChainInputs& in, bool elements_add_up) {
       EXPECT_NEAR(elements, tissues, 1e-7 * std::abs(tissues));
     }
   }
+}
+
+// A breast that slides, in skin that wrinkles: all that such a chain depends on.
+TEST(Sensitivity, OnAWallToSlideOn) {
+  ChainInputs in = cap_inputs();
+  in.mesh = fixtures::cap_on_sphere(4);
+  in.options.wall = fixtures::slide(fixtures::sphere(), 0.02);
+  in.options.cut = CutOption(Cut::spring, 0.01);
+  in.options.materials.skin = {0.05, 0.02, 0.03};
+  expect_all_match(in, "fat,skin,skin.a,skin.b,density,skin_thickness,wall,cut,gravity_x");
+  expect_adjoint_matches(in, true);
+}
+
+// Nothing but ratios of stress and weight decides an equilibrium.
+TEST(Sensitivity, StiffnessOfAllTissuesUndoesDensity) {
+  const ChainInputs in = cap_inputs();
+  const Outcome base = solve_chain(in);
+  const SensitivityChain chain(base.mesh, base.imaged_pressure, in.imaged_gravity, in.options);
+  const auto all = all_parameters(base.mesh, in.options, in.imaged_gravity);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(3L * base.mesh.nodes());
+  double largest = 0;
+  for (const Response& r : chain.tangent(pick_parameters(all, "fat,fibroglandular,skin,density"))) {
+    sum += flatten(r.position);
+    largest = std::max(largest, flatten(r.position).norm());
+  }
+  EXPECT_LT(sum.norm(), 1e-7 * largest);
 }
 
 TEST(Sensitivity, AdjointGivesWhatTheTangentGives) {

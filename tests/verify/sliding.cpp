@@ -10,20 +10,17 @@
 #include "core/units.hpp"
 #include "fixtures/elastic_scene.hpp"
 #include "fixtures/in_place.hpp"
-#include "fixtures/level_surfaces.hpp"
-#include "fixtures/shapes.hpp"
+#include "fixtures/sliding_cap.hpp"
 #include "mesh/nodal.hpp"
 
 namespace breast {
 namespace {
 
-const Vec3 prone(0, -gravity_mm_s2, 0), supine(0, gravity_mm_s2, 0);
+using fixtures::cap_on_sphere;
+using fixtures::slide;
+using fixtures::sphere;
 
-WallOption slide(std::shared_ptr<const LevelSurface> surface, double tangential) {
-  WallOption wall(WallKind::slide, {0, tangential});
-  wall.surface = std::move(surface);
-  return wall;
-}
+const Vec3 prone(0, -gravity_mm_s2, 0), supine(0, gravity_mm_s2, 0);
 
 MechanicsOptions soft(double percent, WallOption wall) {
   MechanicsOptions options;
@@ -32,23 +29,6 @@ MechanicsOptions soft(double percent, WallOption wall) {
                                                              message("fibroglandular=", percent)});
   options.wall = std::move(wall);
   return options;
-}
-
-/// The cap of other tests with its base on a sphere of 120 mm: y = 0 at the middle.
-HexMesh cap_on_sphere(int elements = 6) {
-  HexMesh mesh = fixtures::cap({.elements = elements, .with_cut = true});
-  for (Vec3& p : mesh.imaged) {
-    p.y() += 120 - std::sqrt(120.0 * 120 - p.x() * p.x() - p.z() * p.z());
-  }
-  mesh.points = mesh.reference = mesh.imaged;
-  for (Landmark& landmark : mesh.landmarks) {
-    landmark.imaged = element_position(mesh, mesh.imaged, landmark.element, landmark.local);
-  }
-  return mesh;
-}
-
-std::shared_ptr<fixtures::Sphere> sphere() {
-  return std::make_shared<fixtures::Sphere>(Vec3(0, 120, 0), 120);
 }
 
 double worst_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {

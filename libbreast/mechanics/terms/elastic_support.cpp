@@ -51,6 +51,15 @@ bool ElasticSupport::add(const State& state, const Request& request, Forces& for
   return true;
 }
 
+Eigen::VectorXd ElasticSupport::forces(const State& state) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(state.x.size());
+  for (int i = 0; i < cells_.count(); ++i) {
+    out.segment<3>(3L * cells_.nodes[std::size_t(i)]) =
+        stiffness_[std::size_t(i)] * stretch(state, i);
+  }
+  return out;
+}
+
 Vec3 ElasticSupport::force_on_body(const State& state) const {
   Vec3 sum = Vec3::Zero();
   for (int i = 0; i < cells_.count(); ++i) sum -= stiffness_[std::size_t(i)] * stretch(state, i);

@@ -24,6 +24,8 @@ class ElasticSupport final : public Term {
   std::string name() const override { return "elastic support"; }
   bool add(const State& state, const Request& request, Forces& forces) const override;
   std::vector<int> nodes() const override { return cells_.nodes; }
+  /// Its part of r (µN, 3 a node).
+  Eigen::VectorXd forces(const State& state) const;
   /// Force of the support on the body, µN.
   Vec3 force_on_body(const State& state) const;
 
