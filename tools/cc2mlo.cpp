@@ -27,7 +27,7 @@ std::optional<PatientViews> patient_views(const MatchChoices& choices, const Mat
   };
   PatientImage cc = image(choices.cc_image, choices.cc_nipple),
                mlo = image(choices.mlo_image, choices.mlo_nipple);
-  const bool from_cc = matcher.from_frame().view == "CC";
+  const bool from_cc = matcher.from_frame().view == View::cc;
   return PatientViews(from_cc ? std::move(cc) : std::move(mlo),
                       from_cc ? std::move(mlo) : std::move(cc), matcher);
 }

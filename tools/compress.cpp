@@ -109,7 +109,7 @@ void declare(Tool& tool, Choices& c) {
 // Fills what was not given from the mammogram to imitate.
 void take_from_mammogram(Choices& c, Side side, Report& report) {
   if (c.like.empty()) return;
-  const LikeMammogram like = like_mammogram(c.like, c.view, side);
+  const LikeMammogram like = like_mammogram(c.like, view_named(c.view), side);
   if (!c.angle) c.angle = like.angle_deg;
   if (like.force_N) report.set("like/force_N", *like.force_N);
   if (like.thickness_mm) report.set("like/thickness_mm", *like.thickness_mm);

@@ -60,7 +60,7 @@ void run_lookup(const Choices& choices, Run& run) {
   report.set("matched", matched);
   report.set("leaving_image", leaving);
   if (leaving > 0) {
-    run.warn(message(leaving, " of ", matched, " curves leave the ", lookup.to_view,
+    run.warn(message(leaving, " of ", matched, " curves leave the ", view_name(lookup.to_view),
                      " image: part of them lies behind its posterior edge"));
   }
   report.set("samples", lookup.samples);

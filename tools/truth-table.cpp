@@ -57,7 +57,8 @@ int main(int argc, char** argv) {
       fewest = std::min(fewest, mesh.elements());
       if (!mesh.contact) continue;
       run.report().set(
-          mesh.contact->view + (mesh.elements() == fewest ? "/coarse" : "/fine") + "/thickness_mm",
+          view_name(mesh.contact->view) + (mesh.elements() == fewest ? "/coarse" : "/fine") +
+              "/thickness_mm",
           mesh.contact->thickness_mm);
     }
     run.report().set("elements", most);

@@ -38,7 +38,8 @@ void require_view(const MammogramHeader& header, const HexMesh& compressed,
                       " breast, the meshes are of the ", side_name(compressed.side));
   }
   if (header.view != compressed.contact->view) {
-    throw input_error(where, ": shows ", header.view, ", the mesh ", compressed.contact->view);
+    throw input_error(where, ": shows ", view_name(header.view), ", the mesh ",
+                      view_name(compressed.contact->view));
   }
 }
 
@@ -61,7 +62,7 @@ AlignedView::AlignedView(MammogramScan scan, const Matcher& matcher, MatchEnd en
 }
 
 void AlignedView::report(Report& report) const {
-  const std::string key = "aligned/" + compression_.view + "/";
+  const std::string key = "aligned/" + view_name(compression_.view) + "/";
   const Similarity& map = alignment_.map;
   report.set(key + "scale", map.scale);
   report.set(key + "rotation_deg", map.rotation_deg);

@@ -1,6 +1,5 @@
 #include "align/patient_views.hpp"
 
-#include <cctype>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -102,8 +101,7 @@ std::vector<std::string> PatientViews::doubts() const {
 
 Table curve_points_table(const Matcher& matcher, const std::vector<MatchResult>& results,
                          const PatientViews* views) {
-  std::string view = matcher.to_frame().view;
-  for (char& letter : view) letter = char(std::tolower(static_cast<unsigned char>(letter)));
+  const std::string view = view_column(matcher.to_frame().view);
   Table table;
   table.columns = {"query", "stretch", "depth_mm", view + "_u_mm", view + "_v_mm", "deviation_mm"};
   if (views != nullptr) {

@@ -22,7 +22,7 @@ enum class StopAt { thickness, reduction, force, pressure };
 enum class ContactMethod { active_set, augmented_lagrangian };
 
 struct CompressionOptions {
-  std::string view = "CC";
+  View view = View::cc;
   double angle_deg = 0;  ///< beam angle θ
   StopAt stop_at = StopAt::reduction;
   double target = 50;  ///< mm, %, N or kPa

@@ -72,7 +72,7 @@ void judge_plate(const PlateRecord& plate, std::vector<Judgement>& list) {
 
 /// Sensors under the plate read far less on the breast itself than force over area says.
 Judgement against_sensors(const ContactRecord& contact) {
-  const bool cc = contact.view == "CC";
+  const bool cc = contact.view == View::cc;
   return {"pressure_against_sensors",
           message("sensors under a rigid paddle read ", cc ? 2.3 : 0.5, " kPa on the breast in ",
                   cc ? "CC" : "MLO", ", where only ", cc ? 22 : 14,

@@ -39,8 +39,8 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
                       "? (for a smaller one give the gap in mm, --thickness)");
   }
   CompressionOptions options;
-  options.view = c.view;
-  options.angle_deg = c.angle.value_or(view_angle_deg(c.view));
+  options.view = view_named(c.view);
+  options.angle_deg = c.angle.value_or(view_angle_deg(options.view));
   options.plates = c.plates;
   options.plates.detector_rise = parse_detector(c.detector);
   options.friction = c.friction;

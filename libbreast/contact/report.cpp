@@ -21,7 +21,7 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
   report.set("edge_at_mm", -contact.plates[1].origin.y());
   report.set("middle_at_mm", summary.plates.middle());
   report.set("edge_radius_mm", contact.plates[0].edge_radius);
-  report.set("view", contact.view);
+  report.set("view", view_name(contact.view));
   report.set("angle_deg", contact.angle_deg);
   double worst = 0;
   for (std::size_t k = 0; k < contact.plates.size(); ++k) {

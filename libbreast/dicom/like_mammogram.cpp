@@ -4,15 +4,15 @@
 
 namespace breast {
 
-LikeMammogram like_mammogram(const std::filesystem::path& file, const std::string& view,
-                             Side side) {
+LikeMammogram like_mammogram(const std::filesystem::path& file, View view, Side side) {
   const MammogramHeader header = read_mammogram_header(file);
   if (header.side != side) {
     throw input_error(file.string(), ": a mammogram of the ", side_name(header.side),
                       " breast, the mesh is of the ", side_name(side));
   }
   if (header.view != view) {
-    throw input_error(file.string(), ": shows ", header.view, ", --view is ", view);
+    throw input_error(file.string(), ": shows ", view_name(header.view), ", --view is ",
+                      view_name(view));
   }
   if (!header.thickness_mm && !header.force_N) {
     throw input_error(file.string(),

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
 
 #include "dicom/mammogram_header.hpp"
 
@@ -16,6 +15,6 @@ struct LikeMammogram {
 };
 /// Throws Error (input) when the mammogram is of the other breast or another view, or when it tells
 /// neither thickness nor force.
-LikeMammogram like_mammogram(const std::filesystem::path& file, const std::string& view, Side side);
+LikeMammogram like_mammogram(const std::filesystem::path& file, View view, Side side);
 
 }  // namespace breast

@@ -66,10 +66,10 @@ MammogramHeader read_mammogram_header(const std::filesystem::path& file) {
   const std::string modality = fields.text("0008|0060");
   if (modality != "MG") throw fields.missing("modality", modality, "MG (mammogram)");
   MammogramHeader header;
-  header.view = fields.text("0018|5101");
-  if (header.view != "CC" && header.view != "MLO" && header.view != "ML") {
-    throw fields.missing("view position", header.view, "CC, MLO or ML");
-  }
+  const std::string position = fields.text("0018|5101");
+  const std::optional<View> view = view_from_name(position);
+  if (!view) throw fields.missing("view position", position, "CC, MLO or ML");
+  header.view = *view;
   std::string side = fields.text("0020|0062");
   if (side.empty()) side = fields.text("0020|0060");
   if (side != "L" && side != "R") throw fields.missing("image laterality", side, "L or R");

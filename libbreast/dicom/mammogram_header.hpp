@@ -3,14 +3,14 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
 
 #include "core/types.hpp"
+#include "views/view.hpp"
 
 namespace breast {
 
 struct MammogramHeader {
-  std::string view;  ///< "CC", "MLO", "ML"
+  View view = View::cc;
   Side side = Side::left;
   std::optional<double> angle_deg;     ///< of the beam from the vertical, 0-90
   std::optional<double> thickness_mm;  ///< between the plates

@@ -1,7 +1,6 @@
 #include "evaluation/landmark_truth.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -47,8 +46,8 @@ std::vector<TrueLandmark> true_landmarks(const Table& table, Side side, const st
     }
   };
   std::vector<std::string> postures{"stress_free", "prone", "supine"};
-  for (const char* view : {"cc", "mlo", "ml"})
-    if (table.has(view + std::string("_x_mm"))) postures.push_back(view);
+  for (const View view : {View::cc, View::mlo, View::ml})
+    if (table.has(view_column(view) + "_x_mm")) postures.push_back(view_column(view));
   std::vector<TrueLandmark> list;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     if (side_of(table.cell(row, "side")) != side) continue;
@@ -66,11 +65,7 @@ std::vector<TrueLandmark> true_landmarks(const Table& table, Side side, const st
 }
 
 std::string posture_of(const HexMesh& mesh) {
-  if (mesh.contact) {
-    std::string view = mesh.contact->view;
-    for (char& c : view) c = char(std::tolower(c));
-    return view;
-  }
+  if (mesh.contact) return view_column(mesh.contact->view);
   if (mesh.reference.empty()) return "prone";
   if (mesh.gravity.norm() == 0) return "stress_free";
   const Vec3 along = mesh.gravity.normalized();

@@ -9,8 +9,11 @@ namespace breast {
 
 namespace {
 
-std::string view_of(const HexMesh& mesh) {
-  return mesh.contact ? mesh.contact->view : "";
+std::optional<View> view_of(const HexMesh& mesh) {
+  return mesh.contact ? std::optional(mesh.contact->view) : std::nullopt;
+}
+std::string view_word(const HexMesh& mesh) {
+  return mesh.contact ? view_name(mesh.contact->view) : "uncompressed";
 }
 
 // Where the other model puts the base's nodes.
@@ -18,7 +21,7 @@ std::vector<Vec3> followed(const HexMesh& base, const HexMesh& other, double bou
                            double& outside) {
   if (base.side != other.side || view_of(base) != view_of(other)) {
     throw input_error("the shapes differ in side or view: ", side_name(base.side), " ",
-                      view_of(base), " and ", side_name(other.side), " ", view_of(other));
+                      view_word(base), " and ", side_name(other.side), " ", view_word(other));
   }
   const Locator locator(other, other.imaged);
   std::vector<Vec3> places;

@@ -15,7 +15,7 @@ namespace {
 // The first mesh compressed in CC, or in another view; null when there is none.
 const HexMesh* compressed(const FigureInput& input, bool cc) {
   for (const auto& named : input.meshes) {
-    if (named.mesh.contact && (named.mesh.contact->view == "CC") == cc) return &named.mesh;
+    if (named.mesh.contact && (named.mesh.contact->view == View::cc) == cc) return &named.mesh;
   }
   return nullptr;
 }
@@ -38,7 +38,7 @@ HexMesh before_compression(const HexMesh& mesh) {
 
 struct Sight {
   Panel& panel;
-  View view;
+  Camera view;
   std::string caption;
 };
 
@@ -60,7 +60,7 @@ void finish(const std::vector<Sight>& sights) {
 void compression_row(Picture& picture, const HexMesh& mesh, double bottom, double top,
                      char letter) {
   const auto name = [&](int k) { return "(" + std::string(1, char(letter + k)) + ") "; };
-  const View view = plate_view(mesh);
+  const Camera view = plate_view(mesh);
   const HexMesh before = before_compression(mesh);
   Panel& left = picture.panel(0, bottom, 1.0 / 3, top);
   add_body(left, before, before.points, {});
@@ -108,9 +108,9 @@ void draw_matching(Picture& picture, const FigureInput& input) {
     const HexMesh& mesh;
     const std::vector<Vec3>& points;
     std::string line, caption;
-    View view;
+    Camera view;
   };
-  const View side = lateral_view(any.side);
+  const Camera side = lateral_view(any.side);
   std::vector<Shape> shapes;
   if (cc != nullptr) {
     const std::string tumour = tumour_words(*cc);
@@ -125,7 +125,7 @@ void draw_matching(Picture& picture, const FigureInput& input) {
                     {side.direction + Vec3(0, 0.35, -0.22), side.up}});
   if (mlo != nullptr) {
     shapes.push_back({*mlo, mlo->points, "column in MLO",
-                      "the same tissue in " + mlo->contact->view, plate_view(*mlo)});
+                      "the same tissue in " + view_name(mlo->contact->view), plate_view(*mlo)});
   }
   const double width = 1.0 / double(shapes.size());
   std::vector<Sight> sights;

@@ -35,7 +35,7 @@ void add_paths(Panel& panel, const std::vector<const HexMesh*>& meshes, const Ax
     chart.curve(path_of(contact, contact.path_force_N), colour, 3, false);
     chart.curve(path_of(contact, contact.path_detector_N), colour, 2, true);
     const std::string view =
-        contact.view + ", reduction " + format_fixed(contact.reduction_percent, 0) + " %, ";
+        view_name(contact.view) + ", reduction " + format_fixed(contact.reduction_percent, 0) + " %, ";
     chart.legend(view + "paddle " + format_fixed(contact.plates[0].force_N, 0) + " N", colour,
                  false);
     if (!contact.path_detector_N.empty()) {

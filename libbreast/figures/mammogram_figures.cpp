@@ -105,7 +105,7 @@ std::string add_curves(Panel& panel, const Mammogram& image, const PolyLines& cu
     for (const Vec2& uv : line.uv) path.push_back(hanging.at(uv));
     panel.stroke(path, colour, width);
   };
-  const bool cc = image.view == "CC";
+  const bool cc = image.view == View::cc;
   for (const auto& nipple : image_lines(curves, cc ? "nipple in CC" : "nipple in MLO")) {
     cross(panel, hanging.at(nipple.uv[0]), 2.5);
   }
@@ -168,11 +168,11 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
     panel.text({chest, low.y() + 14}, "even grey: behind the mesh", letters - 2, {0.85, 0.85, 0.85},
                hanging.left() ? Align::left : Align::right);
   }
-  const std::string top = image.view == "CC" ? "lateral" : "superior";
-  const std::string bottom = image.view == "CC" ? "medial" : "inferior";
+  const std::string top = image.view == View::cc ? "lateral" : "superior";
+  const std::string bottom = image.view == View::cc ? "medial" : "inferior";
   const double inset = hanging.left() ? high.x() - 10 : low.x() + 10;
   const Align inner = hanging.left() ? Align::right : Align::left;
-  const std::string marker = (hanging.left() ? "L " : "R ") + image.view;
+  const std::string marker = (hanging.left() ? "L " : "R ") + view_name(image.view);
   panel.text({inset, high.y() - 18}, marker, 22, white, inner);
   panel.text({inset, high.y() - 42}, top, letters, white, inner);
   panel.text({inset, low.y() + 14}, bottom, letters, white, inner);
@@ -185,7 +185,7 @@ void add_mammogram(Panel& panel, const Mammogram& image, const PolyLines* curves
   const HungImage hung = hang(image);
   const Hanging hanging(image);
   panel.image(hung.grey, hung.width, hung.height, image.pixel);
-  std::string words = letter + image.view;
+  std::string words = letter + view_name(image.view);
   if (curves != nullptr) words += "; " + add_curves(panel, image, *curves, hanging);
   // Room for axes (70 and 100 pixels beside and below) and caption.
   const Vec2 free = panel.size() - Vec2(100, 110);

@@ -37,7 +37,7 @@ Side side_of(const TriMesh& points) {
   return sum >= 0 ? Side::left : Side::right;
 }
 
-void finish(Panel& panel, const View& view, const std::string& caption) {
+void finish(Panel& panel, const Camera& view, const std::string& caption) {
   panel.look_along(view.direction, view.up);
   panel.caption(caption);
   panel.scale_bar();
@@ -95,7 +95,7 @@ void draw_mesh(Picture& picture, const FigureInput& input) {
              " nodes (" + mesh.template_name + ")");
   Panel& right = picture.panel(0.5, 0, 1, 1);
   add_body(right, mesh, mesh.points, {.edges = true});
-  const View front = oblique_view(mesh.side);
+  const Camera front = oblique_view(mesh.side);
   finish(right, {Vec3(front.direction.x(), -front.direction.y(), front.direction.z()), front.up},
          "(b) from behind: chest wall (dark) and cut surface");
 }

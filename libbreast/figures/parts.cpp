@@ -11,19 +11,19 @@
 
 namespace breast {
 
-View lateral_view(Side side) {
+Camera lateral_view(Side side) {
   return {Vec3(-lateral_sign(side), 0, 0), Vec3(0, 0, 1)};
 }
 
-View anterior_view() {
+Camera anterior_view() {
   return {Vec3(0, 1, 0), Vec3(0, 0, 1)};
 }
 
-View oblique_view(Side side) {
+Camera oblique_view(Side side) {
   return {Vec3(-0.75 * lateral_sign(side), 0.75, -0.35), Vec3(0, 0, 1)};
 }
 
-View plate_view(const HexMesh& mesh) {
+Camera plate_view(const HexMesh& mesh) {
   const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg);
   // Along the plates' edge, a little from the front and above, so that the plates show their faces;
   // from the patient's outer side, which in CC is where the technician stands.
@@ -100,7 +100,7 @@ void add_plates(Panel& panel, const HexMesh& mesh, double opacity) {
 
 std::string compression_caption(const HexMesh& mesh) {
   const ContactRecord& contact = *mesh.contact;
-  std::string words = contact.view + " (" + std::string(side_name(mesh.side)) + "), " +
+  std::string words = view_name(contact.view) + " (" + std::string(side_name(mesh.side)) + "), " +
                       format_fixed(contact.thickness_mm, 1) + " mm";
   const PlateRecord &paddle = contact.plates[0], &detector = contact.plates[1];
   if (paddle.force_N > 0 || detector.force_N > 0) {

@@ -22,14 +22,14 @@ inline constexpr Colour ink{0, 0, 0};
 namespace breast {
 
 /// Direction of view and what is up, in the patient frame.
-struct View {
+struct Camera {
   Vec3 direction, up;
 };
-View lateral_view(Side side);  ///< from the body's outer side
-View anterior_view();          ///< from the front
-View oblique_view(Side side);  ///< from front, lateral and above
+Camera lateral_view(Side side);  ///< from the body's outer side
+Camera anterior_view();          ///< from the front
+Camera oblique_view(Side side);  ///< from front, lateral and above
 /// Along the plates' edges of a compression, paddle on top: shows both plates edge-on.
-View plate_view(const HexMesh& mesh);
+Camera plate_view(const HexMesh& mesh);
 
 struct BodyStyle {
   double skin_opacity = 1;

@@ -39,7 +39,7 @@ void add_side(Panel& panel, const HexMesh& mesh, const PlateRecord& plate, doubl
   panel.surface(face_facets(mesh, mesh.points, mesh.pectoral_faces), {.colour = palette::muscle});
   add_edge_line(panel, mesh, plate);
   panel.look_along(plate.normal, plate.anterior, 0.14);
-  panel.caption(letter + plate.name + ", " + mesh.contact->view + ": " +
+  panel.caption(letter + plate.name + ", " + view_name(mesh.contact->view) + ": " +
                 format_fixed(plate.force_N, 0) + " N on " + format_fixed(plate.area_cm2, 0) +
                 " cm2, mean " + format_fixed(plate.mean_kPa, 1) + " kPa, peak " +
                 format_fixed(plate.peak_kPa, 0) + " kPa");

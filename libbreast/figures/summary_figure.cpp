@@ -23,7 +23,7 @@ Chain sort_meshes(const FigureInput& input) {
   for (const auto& named : input.meshes) {
     const HexMesh& mesh = named.mesh;
     if (mesh.contact) {
-      (mesh.contact->view == "CC" ? chain.cc : chain.mlo) = &mesh;
+      (mesh.contact->view == View::cc ? chain.cc : chain.mlo) = &mesh;
     } else if (mesh.reference.empty()) {
       chain.imaged = &mesh;
     } else if (mesh.gravity.norm() == 0) {
@@ -46,7 +46,7 @@ double extent(const std::vector<Vec3>& points, const Vec3& along) {
 }
 
 // Height of the view that shows all shapes at one scale in panels of the given width over height.
-double common_height(const Chain& chain, const View& view, double aspect) {
+double common_height(const Chain& chain, const Camera& view, double aspect) {
   const Vec3 across = view.direction.cross(view.up).normalized();
   double height = 1;
   for (const HexMesh* mesh : {chain.imaged, chain.reference, chain.supine}) {
@@ -74,7 +74,7 @@ void draw_summary(Picture& picture, const FigureInput& input) {
        "summary", "five meshes and two mammograms");
   const PolyLines* curves = input.curves ? &*input.curves : nullptr;
   const bool artificial = tumour_words(*chain.imaged).starts_with("artificial");
-  const View side = lateral_view(chain.imaged->side);
+  const Camera side = lateral_view(chain.imaged->side);
   const double split = 0.54;
   const double aspect = 0.2 * summary_width / ((1 - split) * summary_height);
   const double height = common_height(chain, side, aspect);
@@ -105,7 +105,7 @@ void draw_summary(Picture& picture, const FigureInput& input) {
         panel.tube(line, 1.2, palette::column);
       }
     }
-    const View view = plate_view(*pressed[k].mesh);
+    const Camera view = plate_view(*pressed[k].mesh);
     panel.look_along(view.direction, view.up, 0.1);
     panel.caption(pressed[k].caption + compression_caption(*pressed[k].mesh));
     panel.scale_bar();

@@ -73,13 +73,13 @@ BandModel::BandModel(const Matcher& matcher, const DerivativeFields& from,
   for (const Prior& prior : priors) {
     if (prior.parameter == "picking" || prior.parameter == "alignment_from") {
       in_first_.emplace_back(
-          prior.parameter == "picking" ? "picking" : "alignment in " + matcher.from_frame().view,
+          prior.parameter == "picking" ? "picking" : "alignment in " + view_name(matcher.from_frame().view),
           prior.deviation);
       continue;
     }
     if (prior.parameter == "marking" || prior.parameter == "alignment_to") {
       in_second_.emplace_back(
-          prior.parameter == "marking" ? "marking" : "alignment in " + matcher.to_frame().view,
+          prior.parameter == "marking" ? "marking" : "alignment in " + view_name(matcher.to_frame().view),
           prior.deviation);
       continue;
     }
@@ -89,9 +89,9 @@ BandModel::BandModel(const Matcher& matcher, const DerivativeFields& from,
       without_.push_back(prior.parameter);
     } else if (std::find(per_view.begin(), per_view.end(), prior.parameter) != per_view.end()) {
       const bool turns = prior.parameter == "angle";
-      causes_.push_back({prior.parameter + " in " + matcher.from_frame().view, prior.deviation,
+      causes_.push_back({prior.parameter + " in " + view_name(matcher.from_frame().view), prior.deviation,
                          first, nullptr, turns});
-      causes_.push_back({prior.parameter + " in " + matcher.to_frame().view, prior.deviation,
+      causes_.push_back({prior.parameter + " in " + view_name(matcher.to_frame().view), prior.deviation,
                          nullptr, second, turns});
     } else {
       causes_.push_back({prior.parameter, prior.deviation, first, second});

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t fewest_points = 64;
 
 std::string view_of(const HexMesh& mesh) {
-  return mesh.contact ? mesh.contact->view : "no compression";
+  return mesh.contact ? view_name(mesh.contact->view) : "no compression";
 }
 
 void check_same_body(const HexMesh& from, const HexMesh& to) {

@@ -1,7 +1,6 @@
 #include "matching/curve_lines.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <functional>
 
@@ -76,7 +75,8 @@ std::string place_name(const MatchQuery& query, const std::string& view) {
 
 void add_result(Writer& writer, int query, const MatchResult& result, const Matcher& matcher) {
   const ViewPose &from = matcher.from_frame().pose, &to = matcher.to_frame().pose;
-  const std::string &first = matcher.from_frame().view, &second = matcher.to_frame().view;
+  const std::string first = view_name(matcher.from_frame().view),
+                    second = view_name(matcher.to_frame().view);
   const MatchedCurve& curve = result.curve;
   writer.marker("point in " + first, query, from, result.query.from_uv);
   if (result.query.place) {
@@ -132,7 +132,7 @@ std::string number_or_dash(bool known, double value) {
 PolyLines curve_lines(const Matcher& matcher, const std::vector<MatchResult>& results) {
   Writer writer;
   const auto nipple = [&](const ImageFrame& frame, const std::optional<Vec2>& at) {
-    if (at) writer.marker("nipple in " + frame.view, -1, frame.pose, *at);
+    if (at) writer.marker("nipple in " + view_name(frame.view), -1, frame.pose, *at);
   };
   nipple(matcher.from_frame(), matcher.from_landmark("nipple"));
   nipple(matcher.to_frame(), matcher.to_landmark("nipple"));
@@ -141,8 +141,7 @@ PolyLines curve_lines(const Matcher& matcher, const std::vector<MatchResult>& re
 }
 
 Table curve_table(const Matcher& matcher, const std::vector<MatchResult>& results) {
-  std::string view = matcher.from_frame().view;
-  for (char& letter : view) letter = char(std::tolower(static_cast<unsigned char>(letter)));
+  const std::string view = view_column(matcher.from_frame().view);
   const auto known = std::find_if(results.begin(), results.end(),
                                   [](const auto& r) { return r.query.place.has_value(); });
   const std::string whose =

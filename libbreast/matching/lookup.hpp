@@ -22,7 +22,7 @@ enum class LookupStatus : std::uint8_t {
 /// Node (i,j) of the grid is the point (i,j) · pitch of the first image; its curve has `samples`
 /// points, equally far apart in the column. Arrays run over j, i, sample; 0 in air.
 struct MatchLookup {
-  std::string from_view, to_view;
+  View from_view = View::cc, to_view = View::mlo;
   Side side = Side::left;
   double pitch = 0;  ///< mm
   int nu = 0, nv = 0, samples = 0;

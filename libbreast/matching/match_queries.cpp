@@ -1,7 +1,6 @@
 #include "matching/match_queries.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -122,9 +121,7 @@ std::vector<MatchQuery> point_queries(const Table& table, const std::string& whe
 std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table,
                                       const std::string& where, int& behind) {
   const auto place = [&](std::size_t row, const ImageFrame& frame) {
-    std::string view = frame.view;
-    for (char& letter : view) letter = char(std::tolower(static_cast<unsigned char>(letter)));
-    return frame.pose.project(table.point(row, view + "_"));
+    return frame.pose.project(table.point(row, view_column(frame.view) + "_"));
   };
   std::vector<MatchQuery> queries;
   std::optional<std::pair<Vec2, Vec2>> nipples;

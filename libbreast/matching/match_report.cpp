@@ -34,7 +34,7 @@ std::vector<std::string> match_doubts(const Matcher& matcher,
   const ImageFrame &from = matcher.from_frame(), &to = matcher.to_frame();
   if (results.size() == 1 && results[0].curve.in_air()) {
     const Vec2& uv = results[0].query.from_uv;
-    throw input_error(from.view, " point (", format_fixed(uv.x(), 2), ", ", format_fixed(uv.y(), 2),
+    throw input_error(view_name(from.view), " point (", format_fixed(uv.x(), 2), ", ", format_fixed(uv.y(), 2),
                       ") mm lies in air; the image spans 0-", format_fixed(from.width, 1), " x 0-",
                       format_fixed(from.height, 1), " mm");
   }
@@ -55,12 +55,12 @@ std::vector<std::string> match_doubts(const Matcher& matcher,
       const auto partly = std::count_if(results.begin(), results.end(), [](const auto& result) {
         return result.curve.length - result.curve.inside_image > 0.01 * result.curve.length;
       });
-      which = std::to_string(partly) + all + "curves leave the " + to.view + " image: ";
+      which = std::to_string(partly) + all + "curves leave the " + view_name(to.view) + " image: ";
     }
     doubts.push_back(message(which, format_fixed(lengths.outside(), 1), " of ",
                              format_fixed(lengths.curves, 1), " mm of curve (",
                              std::lround(100 - lengths.inside_percent()), " %) lie outside the ",
-                             to.view,
+                             view_name(to.view),
                              " image, behind its posterior edge: the spot may not be seen there"));
   }
   const auto behind_first =
@@ -68,11 +68,11 @@ std::vector<std::string> match_doubts(const Matcher& matcher,
                     [](const auto& result) { return result.query.from_uv.x() < 0; });
   if (behind_first > 0 && results.size() == 1) {
     doubts.push_back(message("the point lies ", format_fixed(-results[0].query.from_uv.x(), 1),
-                             " mm behind the posterior edge of the ", from.view,
+                             " mm behind the posterior edge of the ", view_name(from.view),
                              " image: nobody sees it there"));
   } else if (behind_first > 0) {
     doubts.push_back(message(behind_first, all, "points lie behind the posterior edge of the ",
-                             from.view, " image: nobody sees them in it"));
+                             view_name(from.view), " image: nobody sees them in it"));
   }
   if (const auto air = count("air"); air > 0) {
     doubts.push_back(std::to_string(air) + all + "points lie in air");

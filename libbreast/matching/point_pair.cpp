@@ -33,7 +33,7 @@ MatchedCurve column(const Matcher& matcher, const Vec2& mark) {
   MatchedCurve curve = matcher.match(mark, tolerance);
   if (curve.in_air()) {
     throw input_error("the mark (", format_fixed(mark.x(), 2), ", ", format_fixed(mark.y(), 2),
-                      ") mm in ", matcher.from_frame().view, " lies in air");
+                      ") mm in ", view_name(matcher.from_frame().view), " lies in air");
   }
   return curve;
 }
@@ -78,8 +78,8 @@ void report_spot(const PairPoint& pair, const Matcher& forward, Report& report) 
   report.set("spot/second_to_first_mm", pair.second_to_first);
   report.set("spot/imaged", pair.position(from, from.imaged));
   if (!from.reference.empty()) report.set("spot/reference", pair.position(from, from.reference));
-  report.set("spot/" + forward.from_frame().view, pair.position(from, from.points));
-  report.set("spot/" + forward.to_frame().view, pair.position(to, to.points));
+  report.set("spot/" + view_name(forward.from_frame().view), pair.position(from, from.points));
+  report.set("spot/" + view_name(forward.to_frame().view), pair.position(to, to.points));
 }
 
 }  // namespace breast

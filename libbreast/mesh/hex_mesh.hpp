@@ -11,6 +11,7 @@
 #include "core/provenance.hpp"
 #include "core/types.hpp"
 #include "surface/hermite.hpp"
+#include "views/view.hpp"
 
 namespace breast {
 
@@ -49,7 +50,7 @@ struct PlateRecord {
   double worst_gap_mm = 0;
 };
 struct ContactRecord {
-  std::string view;          ///< "CC", "MLO", "ML"
+  View view = View::cc;
   double angle_deg = 0;      ///< beam angle θ, degrees from cranio-caudal
   double thickness_mm = 0, reduction_percent = 0, initial_thickness_mm = 0, standoff_mm = 0;
   std::vector<PlateRecord> plates;

@@ -71,7 +71,7 @@ std::string image_json(const Mammogram& image) {
                                   8));
     }
   }
-  return "{\"view\":" + script_text(image.view) + ",\"width\":" + std::to_string(width) +
+  return "{\"view\":" + script_text(view_name(image.view)) + ",\"width\":" + std::to_string(width) +
          ",\"height\":" + std::to_string(height) +
          ",\"pixel\":" + format_number(image.pixel * skip) +
          ",\"u_mm\":" + format_number(image.pixel * (image.width - 1)) +
@@ -100,10 +100,10 @@ std::string body_json(const HexMesh& mesh) {
   return encoded(ends);
 }
 
-void check_view(const Mammogram& image, const std::string& view, Side side) {
+void check_view(const Mammogram& image, View view, Side side) {
   if (image.view == view && image.side == side) return;
-  throw input_error("the image shows ", image.view, " of the ", side_name(image.side),
-                    " breast, the compression ", view, " of the ", side_name(side));
+  throw input_error("the image shows ", view_name(image.view), " of the ", side_name(image.side),
+                    " breast, the compression ", view_name(view), " of the ", side_name(side));
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // Where a mammogram lies: pose and extent of the image of a compressed breast.
 #pragma once
 
-#include <string>
-
 #include "mesh/hex_mesh.hpp"
 #include "projection/mammogram.hpp"
 
@@ -19,7 +17,7 @@ inline constexpr double source_distance_mm = 650;  ///< source to detector, cone
 /// The detector plane is that of its plate.
 struct ImageFrame {
   ViewPose pose;
-  std::string view;
+  View view = View::cc;
   double width = 0, height = 0;  ///< mm along u and v
   double plate_edge_u = 0;       ///< mm, where the plates' flats begin
 };

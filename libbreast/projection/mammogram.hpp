@@ -7,13 +7,14 @@
 
 #include "core/provenance.hpp"
 #include "core/types.hpp"
+#include "views/view.hpp"
 #include "views/view_pose.hpp"
 
 namespace breast {
 
 struct Mammogram {
   ViewPose pose;
-  std::string view;
+  View view = View::cc;
   Side side = Side::left;
   int width = 0, height = 0;  ///< pixels along u and v
   double pixel = 0.25;        ///< mm

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
-
 namespace breast {
 
 Vec2 ViewPose::project(const Vec3& patient) const {
@@ -27,13 +25,6 @@ ViewPose view_pose(Side side, double angle_deg) {
   pose.e_u = Vec3(0, -1, 0);
   pose.e_v = pose.n.cross(pose.e_u);
   return pose;
-}
-
-double view_angle_deg(const std::string& view) {
-  if (view == "CC") return 0;
-  if (view == "MLO") return 45;
-  if (view == "ML") return 90;
-  throw input_error("unknown view '", view, "'; use CC, MLO or ML");
 }
 
 }  // namespace breast

@@ -1,8 +1,6 @@
 // The pose of a mammographic view: beam direction and image axes in the patient's frame.
 #pragma once
 
-#include <string>
-
 #include "core/types.hpp"
 
 namespace breast {
@@ -24,8 +22,5 @@ struct ViewPose {
 };
 /// n = (s sin θ, 0, −cos θ), s = lateral_sign(side).
 ViewPose view_pose(Side side, double angle_deg);
-/// Default beam angle of "CC" (0), "MLO" (45), "ML" (90) in degrees;
-/// throws Error (input) otherwise.
-double view_angle_deg(const std::string& view);
 
 }  // namespace breast

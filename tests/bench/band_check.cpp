@@ -49,7 +49,7 @@ Draw draw(int sample, double spread) {
   return drawn;
 }
 
-constexpr std::array view_names = {"CC", "MLO"};
+constexpr std::array both_views = {View::cc, View::mlo};
 
 // The chain with these parameters. Relative deviations are of the logarithm.
 struct Chain {
@@ -74,7 +74,7 @@ Chain solve(HexMesh mesh, const Draw& drawn, const std::array<double, 2>& thickn
   chain.reference = mesh;
   for (std::size_t v = 0; v < 2; ++v) {
     CompressionOptions options;
-    options.view = view_names[v];
+    options.view = both_views[v];
     options.angle_deg = view_angle_deg(options.view) + drawn.angle[v];
     // Clear of the wall: 3 deviations nearer the coarse mesh folds behind the plates.
     options.plates.standoff = 35 + drawn.standoff[v];

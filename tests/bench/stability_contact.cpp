@@ -62,7 +62,7 @@ bool run_table(const std::string& only) {
 void run_file(const std::string& file) {
   const HexMesh mesh = read_mesh(file, {.reference = true});
   const std::string stem = std::filesystem::path(file).parent_path().filename().string();
-  for (const char* view : {"CC", "MLO"}) {
+  for (const View view : {View::cc, View::mlo}) {
     for (const double percent : {50.0, 70.0}) {
       fixtures::ContactScene scene;
       scene.mesh = mesh;
@@ -70,7 +70,7 @@ void run_file(const std::string& file) {
       scene.options.view = view;
       scene.options.angle_deg = view_angle_deg(view);
       scene.options.target = percent;
-      run({.name = message(stem, " ", view, " ", percent, " %"), .change = {}}, scene);
+      run({.name = message(stem, " ", view_name(view), " ", percent, " %"), .change = {}}, scene);
     }
   }
 }

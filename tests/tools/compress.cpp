@@ -74,7 +74,7 @@ TEST_F(CompressTool, WritesTheContactRecordAndTheContractKeys) {
   EXPECT_LT(r.number("worst_nodal_gap_mm"), 0.01);
   EXPECT_GT(r.number("worst_gap_mm"), r.number("worst_nodal_gap_mm"));  // between the nodes
   const HexMesh mesh = read_mesh(folder_ / "out.vtkhdf", {.contact = true});
-  EXPECT_EQ(mesh.contact->view, "CC");
+  EXPECT_EQ(mesh.contact->view, View::cc);
   EXPECT_NEAR(mesh.contact->plates[0].force_N, r.number("force_N"), 1e-9);
   EXPECT_EQ(mesh.history.back().tool, "compress");
   EXPECT_EQ(mesh.contact_pressure.size(), mesh.points.size());

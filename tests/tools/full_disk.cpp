@@ -38,7 +38,7 @@ struct Writer {
 Mammogram mammogram() {
   Mammogram image;
   image.pose = view_pose(Side::left, 0);
-  image.view = "CC";
+  image.view = View::cc;
   image.energy = "W/Rh:28";
   image.width = 40;
   image.height = 30;
@@ -75,8 +75,8 @@ TriMesh surface() {
 
 MatchLookup lookup() {
   MatchLookup out;
-  out.from_view = "CC";
-  out.to_view = "MLO";
+  out.from_view = View::cc;
+  out.to_view = View::mlo;
   out.pitch = 5;
   out.nu = out.nv = 4;
   out.samples = 3;

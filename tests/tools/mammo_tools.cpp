@@ -49,7 +49,7 @@ TEST_F(MammoTools, ProjectionWritesImagePictureAndReport) {
   EXPECT_TRUE(result.out.empty());
   EXPECT_EQ(result.err.find("history"), std::string::npos) << result.err;  // the right labels
   const Mammogram image = read_mammogram(file("cc.vti"));
-  EXPECT_EQ(image.view, "CC");
+  EXPECT_EQ(image.view, View::cc);
   EXPECT_EQ(image.history.back().tool, "project-mammogram");
   EXPECT_TRUE(fs::exists(file("cc.png")));
   const Report report = Report::parse(read_text(file("cc.json")), "cc.json");
@@ -259,16 +259,17 @@ TEST_F(MammoTools, TablesOfPointsAndOfTruth) {
 
 TEST_F(MammoTools, ADifferenceOfTwoModelsIsATermOfTheBand) {
   const HexMesh body = read_mesh(file("reference.vtkhdf"), {.reference = true});
-  for (const std::string view : {"CC", "MLO"}) {
+  for (const View view : {View::cc, View::mlo}) {
+    const std::string name = view_name(view);
     for (const double step : {1.0, -1.0}) {  // half a millimetre anterior, in MLO only
       HexMesh moved = fixtures::squashed(body, view, 0.6);
-      for (Vec3& x : moved.points) x.y() -= view == "MLO" ? 0.5 * step : 0;
-      write_mesh(file((step > 0 ? "plus-" : "minus-") + view + ".vtkhdf"), moved);
+      for (Vec3& x : moved.points) x.y() -= view == View::mlo ? 0.5 * step : 0;
+      write_mesh(file((step > 0 ? "plus-" : "minus-") + name + ".vtkhdf"), moved);
     }
-    const std::string state = view == "CC" ? "cc.vtkhdf" : "mlo.vtkhdf";
+    const std::string state = view == View::cc ? "cc.vtkhdf" : "mlo.vtkhdf";
     const ToolResult result =
-        run("difference", {state, "plus-" + view + ".vtkhdf", "minus-" + view + ".vtkhdf",
-                           view + "-band.vtkhdf", "--report", "difference.json"});
+        run("difference", {state, "plus-" + name + ".vtkhdf", "minus-" + name + ".vtkhdf",
+                           name + "-band.vtkhdf", "--report", "difference.json"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_LT(Report::parse(read_text(file("difference.json")), "d").number("outside_mm"), 1e-6);
   }
@@ -307,7 +308,7 @@ TEST_F(MammoTools, ABandWithoutDerivativesIsRefused) {
 TEST_F(MammoTools, ACurveThatLeavesTheImageSaysHowMuchOfIt) {
   // The MLO shape sheared so that the upper half of every column goes back behind the image's edge.
   HexMesh mlo = read_mesh(file("mlo.vtkhdf"), {.contact = true});
-  HexMesh sheared = fixtures::deformed(mlo, "MLO", [](const Vec3& x) {
+  HexMesh sheared = fixtures::deformed(mlo, View::mlo, [](const Vec3& x) {
     return Vec3(x.x(), x.y() + 0.9 * x.z(), 0.6 * x.z());
   });
   write_mesh(file("sheared.vtkhdf"), sheared);

@@ -141,12 +141,12 @@ TEST_F(MammogramDicomFile, ATissueFractionImageHasNoDetectorSignal) {
 
 TEST_F(MammogramDicomFile, CompressionLikeAMammogram) {
   const Side side = read_mesh(file("reference.vtkhdf")).side;
-  const LikeMammogram like = like_mammogram(file("mlo.dcm"), "MLO", side);
+  const LikeMammogram like = like_mammogram(file("mlo.dcm"), View::mlo, side);
   EXPECT_NEAR(*like.angle_deg, 45, 1e-9);
   EXPECT_NEAR(*like.thickness_mm, read_mesh(file("mlo.vtkhdf")).contact->thickness_mm, 1e-6);
-  EXPECT_THROW(like_mammogram(file("mlo.dcm"), "CC", side), Error);
+  EXPECT_THROW(like_mammogram(file("mlo.dcm"), View::cc, side), Error);
   EXPECT_THROW(
-      like_mammogram(file("mlo.dcm"), "MLO", side == Side::left ? Side::right : Side::left), Error);
+      like_mammogram(file("mlo.dcm"), View::mlo, side == Side::left ? Side::right : Side::left), Error);
   // The tool: a header that does not fit is one line and exit 2, before anything is solved.
   for (const std::vector<std::string>& fit :
        {std::vector<std::string>{"--view", "CC", "--like", "mlo.dcm"},

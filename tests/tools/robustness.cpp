@@ -64,7 +64,7 @@ std::vector<Reading> built() {
 Mammogram mammogram() {
   Mammogram image;
   image.pose = view_pose(Side::left, 0);
-  image.view = "CC";
+  image.view = View::cc;
   image.width = 12;
   image.height = 10;
   image.path.resize(120);
@@ -87,7 +87,7 @@ PolyLines curve() {
 void write_samples(const ScratchFolder& folder) {
   write_mesh(folder / "mesh.vtkhdf", samples::full_mesh());
   HexMesh cc = samples::full_mesh();
-  cc.contact->view = "CC";
+  cc.contact->view = View::cc;
   cc.contact->angle_deg = 0;
   write_mesh(folder / "cc.vtkhdf", cc);
   write_geometry(folder / "geometry.vtkhdf", samples::geometry());

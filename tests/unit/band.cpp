@@ -35,7 +35,7 @@ const HexMesh& body() {
 
 // A compression with three parameters, zero at the expected state: a stiffness that bends both
 // shapes, and the thickness of each.
-HexMesh shape(const char* view, double stiffness, double thickness) {
+HexMesh shape(View view, double stiffness, double thickness) {
   const double lambda = 0.6 + thickness / 90;
   HexMesh mesh = squashed(body(), view, lambda);
   for (Vec3& x : mesh.points) {
@@ -46,7 +46,7 @@ HexMesh shape(const char* view, double stiffness, double thickness) {
   return mesh;
 }
 
-NodalField difference(const char* view, double stiffness, double thickness) {
+NodalField difference(View view, double stiffness, double thickness) {
   const HexMesh plus = shape(view, stiffness, thickness),
                 minus = shape(view, -stiffness, -thickness);
   NodalField field(plus.points.size());
@@ -57,11 +57,11 @@ NodalField difference(const char* view, double stiffness, double thickness) {
 }
 
 struct Scene {
-  HexMesh cc = shape("CC", 0, 0), mlo = shape("MLO", 0, 0);
+  HexMesh cc = shape(View::cc, 0, 0), mlo = shape(View::mlo, 0, 0);
   Matcher matcher{cc, mlo};
-  DerivativeFields from{{"fat", difference("CC", 1e-4, 0)},
-                        {"thickness", difference("CC", 0, 1e-4)}},
-      to{{"fat", difference("MLO", 1e-4, 0)}, {"thickness", difference("MLO", 0, 1e-4)}};
+  DerivativeFields from{{"fat", difference(View::cc, 1e-4, 0)},
+                        {"thickness", difference(View::cc, 0, 1e-4)}},
+      to{{"fat", difference(View::mlo, 1e-4, 0)}, {"thickness", difference(View::mlo, 0, 1e-4)}};
 };
 
 // Where the curve of the same detector position lies for other parameters, in the base image frame.
@@ -102,9 +102,9 @@ TEST(Band, LinearPropagationIsTheDerivativeOfTheCurve) {
     const char *parameter, *cause;
     HexMesh cc, mlo;
   };
-  const Case cases[] = {{"fat", "fat", shape("CC", step, 0), shape("MLO", step, 0)},
-                        {"thickness", "thickness in CC", shape("CC", 0, step), scene.mlo},
-                        {"thickness", "thickness in MLO", scene.cc, shape("MLO", 0, step)}};
+  const Case cases[] = {{"fat", "fat", shape(View::cc, step, 0), shape(View::mlo, step, 0)},
+                        {"thickness", "thickness in CC", shape(View::cc, 0, step), scene.mlo},
+                        {"thickness", "thickness in MLO", scene.cc, shape(View::mlo, 0, step)}};
   for (const Case& c : cases) {
     DerivativeFields from = scene.from, to = scene.to;
     NodalField zero(scene.cc.points.size(), Vec3::Zero());
@@ -180,8 +180,8 @@ TEST(Band, CoversSampledCurvesAsOftenAsItSays) {
   int inside_95 = 0, inside_50 = 0, counted = 0;
   for (int sample = 0; sample < 250; ++sample) {
     const double fat = 0.3 * normal(stream);
-    const HexMesh cc = shape("CC", fat, 2 * normal(stream)),
-                  mlo = shape("MLO", fat, 2 * normal(stream));
+    const HexMesh cc = shape(View::cc, fat, 2 * normal(stream)),
+                  mlo = shape(View::mlo, fat, 2 * normal(stream));
     const Vec2 marked = mark + 0.7 * Vec2(normal(stream), normal(stream));
     const MatchedCurve sampled = rematched(scene, cc, mlo, marked);
     const BandPoint& point = band.points[band.points.size() / 2];

@@ -13,7 +13,7 @@ namespace {
 /// A CC compression nobody would object to.
 ContactRecord ordinary() {
   ContactRecord contact;
-  contact.view = "CC";
+  contact.view = View::cc;
   contact.thickness_mm = 45;
   contact.reduction_percent = 48;
   for (const char* name : {"paddle", "detector"}) {

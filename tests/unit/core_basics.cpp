@@ -20,6 +20,7 @@
 #include "core/types.hpp"
 #include "core/units.hpp"
 #include "fixtures/scratch_folder.hpp"
+#include "views/view.hpp"
 
 namespace breast {
 namespace {
@@ -185,6 +186,23 @@ TEST(Names, TissuesSidesPostures) {
   EXPECT_THROW(side_from_name("both"), Error);
   EXPECT_EQ(posture_gravity("supine"), Vec3(0, 9810, 0));
   EXPECT_THROW(posture_gravity("sitting"), Error);
+}
+
+TEST(Names, Views) {
+  for (const View view : {View::cc, View::mlo, View::ml}) {
+    EXPECT_EQ(view_named(view_name(view)), view);
+  }
+  EXPECT_EQ(view_name(View::mlo), "MLO");
+  EXPECT_EQ(view_column(View::mlo), "mlo");
+  EXPECT_EQ(view_angle_deg(View::ml), 90);
+  EXPECT_FALSE(view_from_name("cc"));
+  try {
+    view_named("LM");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "unknown view 'LM'; use CC, MLO or ML");
+    EXPECT_EQ(error.exit_code(), 2);
+  }
 }
 
 TEST(Reports, HoldAnyNameAndAnyBytes) {

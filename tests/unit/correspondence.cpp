@@ -36,7 +36,7 @@ const HexMesh& body() {
 }
 
 // Squash with bending: x and y shears that depend on the other coordinates keep the volume.
-HexMesh bent(const std::string& view) {
+HexMesh bent(View view) {
   const HexMesh flat = squashed(body(), view, 0.6);
   HexMesh mesh = flat;
   for (Vec3& x : mesh.points) {
@@ -50,7 +50,7 @@ HexMesh bent(const std::string& view) {
 }  // namespace
 
 TEST(Correspondence, AnAffineDeformationGivesAStraightCurve) {
-  const HexMesh cc = squashed(body(), "CC", 0.5), mlo = squashed(body(), "MLO", 0.6);
+  const HexMesh cc = squashed(body(), View::cc, 0.5), mlo = squashed(body(), View::mlo, 0.6);
   const Matcher matcher(cc, mlo);
   const MatchedCurve curve = matcher.match(*matcher.from_landmark("tumour"));
   ASSERT_FALSE(curve.in_air());
@@ -64,7 +64,7 @@ TEST(Correspondence, AnAffineDeformationGivesAStraightCurve) {
 }
 
 TEST(Correspondence, EveryPointIsTheSameMaterialInEveryShape) {
-  const HexMesh cc = bent("CC"), mlo = bent("MLO");
+  const HexMesh cc = bent(View::cc), mlo = bent(View::mlo);
   const Matcher matcher(cc, mlo);
   const MatchedCurve curve = matcher.match(*matcher.from_landmark("tumour"));
   const Locator in_cc(cc, cc.points), in_mlo(mlo, mlo.points), in_imaged(cc, cc.imaged);
@@ -83,7 +83,7 @@ TEST(Correspondence, EveryPointIsTheSameMaterialInEveryShape) {
 }
 
 TEST(Correspondence, DepthRunsThroughTheColumnOnce) {
-  const HexMesh cc = bent("CC"), mlo = bent("MLO");
+  const HexMesh cc = bent(View::cc), mlo = bent(View::mlo);
   const Matcher matcher(cc, mlo);
   const MatchedCurve curve = matcher.match(*matcher.from_landmark("tumour"));
   EXPECT_NEAR(curve.points.front().depth, 0, 1e-9);
@@ -98,7 +98,7 @@ TEST(Correspondence, DepthRunsThroughTheColumnOnce) {
 }
 
 TEST(Correspondence, TheCurveIsSampledToItsTolerance) {
-  const HexMesh cc = bent("CC"), mlo = bent("MLO");
+  const HexMesh cc = bent(View::cc), mlo = bent(View::mlo);
   const Matcher matcher(cc, mlo);
   const Vec2 at = *matcher.from_landmark("tumour") + Vec2(4, 7);
   const MatchedCurve coarse = matcher.match(at, 0.05), fine = matcher.match(at, 0.001);
@@ -112,7 +112,7 @@ TEST(Correspondence, TheCurveIsSampledToItsTolerance) {
 
 // Without compression the column is what the CC map's inverse makes of a straight line.
 TEST(Correspondence, TheStressFreeColumnsBendIsThatOfTheInverseMap) {
-  const HexMesh straight = squashed(body(), "CC", 0.5), mlo = bent("MLO"), cc = bent("CC");
+  const HexMesh straight = squashed(body(), View::cc, 0.5), mlo = bent(View::mlo), cc = bent(View::cc);
   const Matcher affine(straight, mlo), curved(cc, mlo);
   const MatchedCurve line = affine.match(*affine.from_landmark("tumour"));
   EXPECT_LT(line.reference_deviation, 1e-6);
@@ -134,7 +134,7 @@ TEST(Correspondence, TheStressFreeColumnsBendIsThatOfTheInverseMap) {
 }
 
 TEST(Correspondence, TheArcKeepsTheDistanceFromTheNipple) {
-  const HexMesh cc = bent("CC"), mlo = bent("MLO");
+  const HexMesh cc = bent(View::cc), mlo = bent(View::mlo);
   const Matcher matcher(cc, mlo);
   const Vec2 tumour = *matcher.from_landmark("tumour");
   const double radius = matcher.nipple_distance(tumour);
@@ -153,7 +153,7 @@ TEST(Correspondence, TheArcKeepsTheDistanceFromTheNipple) {
 }
 
 TEST(Correspondence, AirAndTheBackAreNamed) {
-  const HexMesh cc = squashed(body(), "CC", 0.5), mlo = squashed(body(), "MLO", 0.6);
+  const HexMesh cc = squashed(body(), View::cc, 0.5), mlo = squashed(body(), View::mlo, 0.6);
   const Matcher matcher(cc, mlo);
   const MatchedCurve air = matcher.match({matcher.from_frame().width - 1, 1});
   EXPECT_TRUE(air.in_air());
@@ -164,14 +164,14 @@ TEST(Correspondence, AirAndTheBackAreNamed) {
 }
 
 TEST(Correspondence, TheCurvesLengthInsideTheImageIsMeasured) {
-  const HexMesh cc = squashed(body(), "CC", 0.5);
-  HexMesh mlo = squashed(body(), "MLO", 0.6);
+  const HexMesh cc = squashed(body(), View::cc, 0.5);
+  HexMesh mlo = squashed(body(), View::mlo, 0.6);
   const Matcher whole(cc, mlo);
   const MatchedCurve all = whole.match(*whole.from_landmark("tumour"));
   EXPECT_NEAR(all.inside_image, all.length, 1e-9);
   // Sheared along the column: the curve, straight, crosses the posterior edge.
   for (Vec3& x : mlo.points) x.y() += 1.5 * x.z();
-  add_contact(mlo, "MLO");
+  add_contact(mlo, View::mlo);
   const Matcher matcher(cc, mlo);
   bool crossed = false;
   for (double u = 2; u < 40; u += 2) {
@@ -188,7 +188,7 @@ TEST(Correspondence, TheCurvesLengthInsideTheImageIsMeasured) {
 }
 
 TEST(Correspondence, RefusesMeshesOfDifferentBodies) {
-  const HexMesh cc = squashed(body(), "CC", 0.5), mlo = squashed(body(), "MLO", 0.6);
+  const HexMesh cc = squashed(body(), View::cc, 0.5), mlo = squashed(body(), View::mlo, 0.6);
   HexMesh other = mlo;
   other.imaged[17].x() += 0.1;
   EXPECT_THROW(Matcher(cc, other), Error);

@@ -258,7 +258,7 @@ HexMesh compressed(int n, const Vec3& by) {
   mesh.reference = mesh.imaged;
   for (Vec3& x : mesh.points) x += by;
   mesh.contact = ContactRecord{};
-  mesh.contact->view = "CC";
+  mesh.contact->view = View::cc;
   mesh.contact->thickness_mm = 40;
   return mesh;
 }

@@ -205,12 +205,12 @@ TEST(RayMesh, BallChordsApproachTheSphere) {
 
 TEST(Projection, ThicknessTimesAreaIsTheVolume) {
   HexMesh mesh = ball(8, 50, 1);
-  add_contact(mesh, "CC");
+  add_contact(mesh, View::cc);
   ProjectionReport report;
   project_mammogram(mesh, {.pixel = 0.5}, &report);
   EXPECT_NEAR(report.imaged_volume / report.mesh_volume, 1, 1e-4);
   // A breast: with what lies behind the posterior edge, the whole is the whole.
-  const HexMesh cc = squashed(breast_mesh(), "CC", 0.6);
+  const HexMesh cc = squashed(breast_mesh(), View::cc, 0.6);
   const ImageFrame frame = image_frame(cc);
   const RayMesh rays(cc, cc.points, frame.pose);
   double sum = 0;
@@ -222,7 +222,7 @@ TEST(Projection, ThicknessTimesAreaIsTheVolume) {
 
 TEST(Projection, ConeMagnifiesByDistance) {
   HexMesh mesh = facing_block();
-  add_contact(mesh, "CC");
+  add_contact(mesh, View::cc);
   const ImageFrame frame = image_frame(mesh, Beam::cone);
   // The anterior upper edge lies 40 mm above the detector.
   const Vec2 edge = frame.pose.project(Vec3(40, -60, 40));
@@ -238,20 +238,20 @@ TEST(Projection, ConeMagnifiesByDistance) {
 }
 
 TEST(Projection, NoColumnOfTheImageLeavesThroughTheBack) {
-  for (const char* view : {"CC", "MLO", "ML"}) {
+  for (const View view : {View::cc, View::mlo, View::ml}) {
     const HexMesh mesh = squashed(breast_mesh(), view, 0.6);
     ProjectionReport report;
     const Mammogram image = project_mammogram(mesh, {.pixel = 1}, &report);
-    EXPECT_EQ(report.back_columns, 0) << view;
-    EXPECT_EQ(image.thickness[std::size_t(image.width) - 1], 0) << view;  // air in front
-    EXPECT_GT(*std::max_element(image.thickness.begin(), image.thickness.end()), 20) << view;
+    EXPECT_EQ(report.back_columns, 0) << view_name(view);
+    EXPECT_EQ(image.thickness[std::size_t(image.width) - 1], 0) << view_name(view);  // air in front
+    EXPECT_GT(*std::max_element(image.thickness.begin(), image.thickness.end()), 20) << view_name(view);
   }
 }
 
 TEST(Projection, TheFrameDoesNotDependOnTheTumour) {
   // Sheared so that one side of the chest wall lies far in front of the other: tissue whose column
   // leaves through skin only, behind the posterior edge, is a place where a tumour would be missed.
-  HexMesh mesh = deformed(breast_mesh(), "CC",
+  HexMesh mesh = deformed(breast_mesh(), View::cc,
                           [](const Vec3& x) { return Vec3(x.x(), x.y() - 0.6 * x.x(), x.z()); });
   mesh.landmarks.clear();
   const ImageFrame frame = image_frame(mesh);
@@ -286,7 +286,7 @@ TEST(Projection, LabelsAreFollowedThroughTheDeformation) {
   const LabelVolume labels = labels_around(breast_mesh(), [&](const Vec3& x) {
     return (x - centre).norm() < radius ? Tissue::fibroglandular : Tissue::fat;
   });
-  const HexMesh mesh = squashed(breast_mesh(), "CC", lambda);
+  const HexMesh mesh = squashed(breast_mesh(), View::cc, lambda);
   ProjectionReport report;
   const Mammogram image = project_mammogram(mesh, {.pixel = 0.5, .labels = &labels}, &report);
   const double exact = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
@@ -311,7 +311,7 @@ TEST(Projection, ElementModeSumsTissue) {
     const Vec3 middle = element_position(mesh, mesh.imaged, e, Vec3::Zero());
     if (middle.z() < 40.0 / 3) mesh.tissue[e] = Tissue::fibroglandular;  // the lowest third
   }
-  add_contact(mesh, "CC");
+  add_contact(mesh, View::cc);
   const Mammogram image = project_mammogram(mesh, {.pixel = 2});
   const std::size_t middle = std::size_t(image.height / 2) * image.width + 10;
   EXPECT_NEAR(image.thickness[middle], 40, 1e-5);
@@ -320,7 +320,7 @@ TEST(Projection, ElementModeSumsTissue) {
 }
 
 TEST(Projection, TheSameForAnyNumberOfThreads) {
-  const HexMesh mesh = squashed(breast_mesh(), "MLO", 0.6);
+  const HexMesh mesh = squashed(breast_mesh(), View::mlo, 0.6);
   const LabelVolume labels = labels_around(breast_mesh(), [](const Vec3& x) {
     return std::sin(x.x() / 5) + std::sin(x.z() / 7) > 0.3 ? Tissue::fibroglandular : Tissue::fat;
   });
@@ -339,7 +339,7 @@ TEST(Projection, TheSameForAnyNumberOfThreads) {
 TEST(Projection, RefusesWhatItCannotImage) {
   HexMesh mesh = facing_block();
   EXPECT_THROW(project_mammogram(mesh, {}), Error);  // no compression record
-  add_contact(mesh, "CC");
+  add_contact(mesh, View::cc);
   EXPECT_THROW(project_mammogram(mesh, {.pixel = 1e-4}), Error);
   EXPECT_THROW(project_mammogram(mesh, {.pixel = std::nan("")}), Error);
 }

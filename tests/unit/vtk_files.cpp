@@ -47,7 +47,7 @@ Mammogram some_mammogram(Side side = Side::right) {
   Mammogram image;
   image.pose = view_pose(side, 45);
   image.pose.origin = Vec3(1, 2, 3);
-  image.view = "MLO";
+  image.view = View::mlo;
   image.side = side;
   image.width = 5;
   image.height = 3;
@@ -175,10 +175,28 @@ TEST(MammogramFile, RoundTripIsExact) {
   EXPECT_EQ(back.pose.e_v, image.pose.e_v);
   EXPECT_EQ(back.pose.origin, image.pose.origin);
   EXPECT_EQ(back.pixel, image.pixel);
-  EXPECT_EQ(back.view, "MLO");
+  EXPECT_EQ(back.view, View::mlo);
   EXPECT_EQ(back.side, Side::right);
   EXPECT_EQ(back.width, 5);
   EXPECT_EQ(back.height, 3);
+}
+
+TEST(MammogramFile, AnUnknownViewIsRefusedByName) {
+  const ScratchFolder folder;
+  write_mammogram(folder / "m.vti", some_mammogram());
+  std::string text = read_text(folder / "m.vti");
+  text = text.substr(0, text.find("<!-- sha256")) + "</VTKFile>\n";  // as another program writes it
+  const auto at = text.find("Name=\"view\""), end = text.find("</Array>", at);
+  ASSERT_LT(at, end);
+  text.replace(at, end - at, "Name=\"view\" NumberOfTuples=\"1\" format=\"ascii\">76 77 0 ");
+  write_text(folder / "m.vti", text);
+  try {
+    read_mammogram(folder / "m.vti");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("view 'LM'"), std::string::npos) << error.what();
+    EXPECT_EQ(error.exit_code(), 2);
+  }
 }
 
 TEST(MammogramFile, HungWithChestWallOutsideAndLateralOnTop) {

@@ -33,7 +33,7 @@ MechanicsOptions mechanics() {
   return options;
 }
 
-CompressionOptions halfway(const std::string& view) {
+CompressionOptions halfway(View view) {
   CompressionOptions options;
   options.view = view;
   options.angle_deg = view_angle_deg(view);
@@ -53,7 +53,7 @@ double landmark_distance(const HexMesh& a, const HexMesh& b) {
 
 }  // namespace
 
-class CompressedBreast : public testing::TestWithParam<std::string> {};
+class CompressedBreast : public testing::TestWithParam<View> {};
 
 TEST_P(CompressedBreast, BalancesDoesNotPenetrateAndKeepsVolume) {
   HexMesh mesh = stress_free_breast();
@@ -91,7 +91,7 @@ TEST_P(CompressedBreast, BalancesDoesNotPenetrateAndKeepsVolume) {
   EXPECT_GE(force.back(), 0.95 * most);
 }
 
-INSTANTIATE_TEST_SUITE_P(Views, CompressedBreast, testing::Values("CC", "MLO"));
+INSTANTIATE_TEST_SUITE_P(Views, CompressedBreast, testing::Values(View::cc, View::mlo));
 
 TEST(Compression, MirrorImageGivesMirrorImage) {
   HexMesh left = stress_free_breast();
@@ -117,7 +117,7 @@ TEST(Compression, MirrorImageGivesMirrorImage) {
     }
   }
   right.landmarks.clear();
-  CompressionOptions options = halfway("MLO");
+  CompressionOptions options = halfway(View::mlo);
   options.target = 35;
   const CompressionResult a = fixtures::compress_into(left, options, mechanics());
   const CompressionResult b = fixtures::compress_into(right, options, mechanics());
@@ -136,8 +136,8 @@ TEST(Compression, MirrorImageGivesMirrorImage) {
 TEST(Compression, NumberingDoesNotMatter) {
   HexMesh mesh = stress_free_breast();
   auto [other, nodes] = fixtures::renumbered(mesh);
-  const CompressionResult a = fixtures::compress_into(mesh, halfway("MLO"), mechanics());
-  const CompressionResult b = fixtures::compress_into(other, halfway("MLO"), mechanics());
+  const CompressionResult a = fixtures::compress_into(mesh, halfway(View::mlo), mechanics());
+  const CompressionResult b = fixtures::compress_into(other, halfway(View::mlo), mechanics());
   ASSERT_EQ(a.record.status, SolveStatus::converged) << a.record.reason;
   ASSERT_EQ(b.record.status, SolveStatus::converged) << b.record.reason;
   double worst = 0;
@@ -177,7 +177,7 @@ TEST(Compression, ReleaseReturnsToTheStart) {
 
 TEST(Compression, BothSolversAndBothStepLengthsAgree) {
   HexMesh exact = stress_free_breast(), paper = exact, steps = exact;
-  CompressionOptions options = halfway("CC");
+  CompressionOptions options = halfway(View::cc);
   options.target = 35;
   const CompressionResult a = fixtures::compress_into(exact, options, mechanics());
   options.path.longest_step = 3;
@@ -198,7 +198,7 @@ TEST(Compression, ForceAndPressureAreReached) {
   for (const auto& [stop, value] :
        {std::pair{StopAt::force, 30.0}, std::pair{StopAt::pressure, 6.0}}) {
     HexMesh mesh = stress_free_breast();
-    CompressionOptions options = halfway("CC");
+    CompressionOptions options = halfway(View::cc);
     options.stop_at = stop;
     options.target = value;
     const CompressionResult summary = fixtures::compress_into(mesh, options, mechanics());
@@ -244,7 +244,7 @@ void expect_coulomb(const CompressionResult& summary, double mu) {
 // Between frictionless and stuck: friction never exceeds μ times the normal force, opposes the
 // slip, balances with everything else, and needs more paddle force.
 TEST(Compression, FrictionStiffensAndBalances) {
-  CompressionOptions options = halfway("CC");
+  CompressionOptions options = halfway(View::cc);
   options.target = 30;
   double last = 0;
   std::vector<Vec3> smooth;
@@ -270,7 +270,7 @@ TEST(Compression, FrictionStiffensAndBalances) {
 
 // A stiff wall is the held wall; a soft one takes force off the paddle and lets the breast move.
 TEST(Compression, ElasticWallTendsToTheHeldWall) {
-  CompressionOptions options = halfway("MLO");
+  CompressionOptions options = halfway(View::mlo);
   options.target = 35;
   HexMesh held = stress_free_breast(), stiff = held, soft = held;
   const CompressionResult a = fixtures::compress_into(held, options, mechanics());
@@ -290,7 +290,7 @@ TEST(Compression, ElasticWallTendsToTheHeldWall) {
 }
 
 TEST(Compression, DetectorThatStaysDragsTheBreastDown) {
-  CompressionOptions options = halfway("CC");
+  CompressionOptions options = halfway(View::cc);
   options.target = 30;
   HexMesh lifted = stress_free_breast(), left = lifted;
   const CompressionResult a = fixtures::compress_into(lifted, options, mechanics());
@@ -311,7 +311,7 @@ TEST(Compression, ErrorIsEstimatedWithFrictionAndWithSprings) {
     SCOPED_TRACE(rubs);
     HexMesh mesh = analytic_breast_mesh(5);
     mesh.reference = mesh.points;
-    CompressionOptions options = halfway("CC");
+    CompressionOptions options = halfway(View::cc);
     options.target = 20;
     MechanicsOptions with_estimate = mechanics();
     if (rubs) {

@@ -32,7 +32,7 @@ class Moved : public testing::TestWithParam<std::tuple<int, Beam>> {};
 // Turned by an angle that is no view's and carried away, body and machine together.
 TEST_P(Moved, BodyAndMachineTogetherGiveTheSameImage) {
   const auto [order, beam] = GetParam();
-  HexMesh mesh = squashed(body(order), "MLO", 0.6);
+  HexMesh mesh = squashed(body(order), View::mlo, 0.6);
   const ViewPose pose = image_frame(mesh, beam).pose;
   const RayMesh rays(mesh, mesh.points, pose);
   const Eigen::Matrix3d turn =
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Consistency, Moved,
 // An image is constant within a pixel: its distance to the rays between the centres, averaged over
 // the image, falls with the pixel. (Of pixels' means over the body's rim it cannot fall faster.)
 TEST(Consistency, ImageConvergesWithThePixel) {
-  const HexMesh mesh = squashed(body(1), "CC", 0.6);
+  const HexMesh mesh = squashed(body(1), View::cc, 0.6);
   std::vector<double> error;
   for (const double pixel : {2.0, 1.0, 0.5}) {
     const Mammogram image = project_mammogram(mesh, {.pixel = pixel});

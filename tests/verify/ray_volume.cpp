@@ -17,7 +17,7 @@ using namespace breast::fixtures;
 
 namespace {
 
-HexMesh compressed_breast(const char* view) {
+HexMesh compressed_breast(View view) {
   return squashed(body_mesh(analytic_breast(), {.size = dome_near(10)}), view, 0.6);
 }
 
@@ -48,7 +48,7 @@ double measured_volume(const RayMesh& rays, const ViewPose& pose, double pixel) 
 }  // namespace
 
 TEST(RayVolume, ChordsOfABreastAddUpToItsVolume) {
-  const HexMesh mesh = compressed_breast("MLO");
+  const HexMesh mesh = compressed_breast(View::mlo);
   for (const Beam beam : {Beam::parallel, Beam::cone}) {
     const ViewPose pose = image_frame(mesh, beam).pose;
     const RayMesh rays(mesh, mesh.points, pose);
@@ -64,7 +64,7 @@ TEST(RayVolume, PointSourceChordsOfABlockAreExact) {
   settings.elements = {4, 5, 3};
   settings.size = {60, 80, 40};
   HexMesh mesh = block(settings);
-  add_contact(mesh, "CC");
+  add_contact(mesh, View::cc);
   ViewPose pose = view_pose(Side::left, 20);
   pose.origin = Vec3(10, 40, -30);
   pose.source_distance = 650;

@@ -109,7 +109,7 @@ Outcome press(const Inputs& in, const HexMesh& near) {
 
 /// A view, and how far the detector rises, mm.
 struct Machine {
-  std::string view;
+  View view;
   double detector_rise;
 };
 
@@ -159,9 +159,9 @@ TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
 constexpr double raised = std::numeric_limits<double>::infinity();
 INSTANTIATE_TEST_SUITE_P(
     Machines, CompressedSensitivity,
-    testing::Values(Machine{"CC", raised}, Machine{"MLO", raised}, Machine{"CC", 0.0}),
+    testing::Values(Machine{View::cc, raised}, Machine{View::mlo, raised}, Machine{View::cc, 0.0}),
     [](const auto& test) {
-      return test.param.view + (std::isinf(test.param.detector_rise) ? "" : "_detector_fixed");
+      return view_name(test.param.view) + (std::isinf(test.param.detector_rise) ? "" : "_detector_fixed");
     });
 
 }  // namespace

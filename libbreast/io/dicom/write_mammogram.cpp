@@ -16,7 +16,7 @@ constexpr const char* processing_class = "1.2.840.10008.5.1.4.1.1.1.2.1";
 
 std::string content_of(const Mammogram& image, bool for_processing) {
   Sha256 hash;
-  hash.update(image.view + std::string(side_name(image.side)) + image.energy);
+  hash.update(view_name(image.view) + std::string(side_name(image.side)) + image.energy);
   hash.update(image.path.data(), image.path.size() * sizeof(float));
   hash.update(&image.pixel, sizeof image.pixel);
   hash.update(for_processing ? "processing" : "presentation");
@@ -80,21 +80,28 @@ void add_identity(DatasetBuilder& set, const Mammogram& image, bool for_processi
   set.text(0x00080050, "SH", "").text(0x00080090, "PN", "");
 }
 
+DatasetBuilder view_code(View view) {
+  switch (view) {
+    case View::cc:
+      return code_item("399162004", "SCT", "cranio-caudal");
+    case View::mlo:
+      return code_item("399368009", "SCT", "medio-lateral oblique");
+    case View::ml:
+      break;
+  }
+  return code_item("399260004", "SCT", "medio-lateral");
+}
+
 void add_positioning(DatasetBuilder& set, const Mammogram& image, const MammogramDicom& about) {
   const bool left = image.side == Side::left;
   const double way = left ? 1 : -1;  // of u and v along rows and columns
-  const auto code = [&]() {
-    if (image.view == "CC") return code_item("399162004", "SCT", "cranio-caudal");
-    if (image.view == "MLO") return code_item("399368009", "SCT", "medio-lateral oblique");
-    return code_item("399260004", "SCT", "medio-lateral");
-  };
-  DatasetBuilder item = code();
+  DatasetBuilder item = view_code(image.view);
   item.sequence(0x00540222, {});  // no view modifier
   set.text(0x00200020, "CS", letters(way * image.pose.e_u) + "\\" + letters(way * image.pose.e_v))
       .text(0x00200062, "CS", left ? "L" : "R")
       .text(0x00181508, "CS", "MAMMOGRAPHIC")
       .number(0x00181510, image.pose.angle_deg)
-      .text(0x00185101, "CS", image.view)
+      .text(0x00185101, "CS", view_name(image.view))
       .text(0x00400318, "CS", "BREAST")
       .text(0x00281300, "CS", "NO")
       .sequence(0x00540220, {item})

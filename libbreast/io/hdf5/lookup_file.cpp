@@ -7,8 +7,8 @@ namespace breast {
 void write_lookup(const std::filesystem::path& file, const MatchLookup& lookup) {
   Document document;
   put_header(document, {"lookup/1", lookup.side, lookup.history});
-  document.attributes["/breast/lookup@from_view"] = array_of(lookup.from_view);
-  document.attributes["/breast/lookup@to_view"] = array_of(lookup.to_view);
+  document.attributes["/breast/lookup@from_view"] = array_of(view_name(lookup.from_view));
+  document.attributes["/breast/lookup@to_view"] = array_of(view_name(lookup.to_view));
   document.attributes["/breast/lookup@pitch_mm"] = array_of(lookup.pitch);
   const auto nv = std::size_t(lookup.nv), nu = std::size_t(lookup.nu),
              samples = std::size_t(lookup.samples);

@@ -98,7 +98,7 @@ SolveRecord get_solve(Fields& fields) {
 }
 
 void put_contact(Document& document, const ContactRecord& contact) {
-  document.attributes[contact_group + "@view"] = array_of(contact.view);
+  document.attributes[contact_group + "@view"] = array_of(view_name(contact.view));
   for (const auto& [name, member] : contact_numbers) {
     document.attributes[contact_group + "@" + name] = array_of(contact.*member);
   }
@@ -118,7 +118,10 @@ void put_contact(Document& document, const ContactRecord& contact) {
 
 ContactRecord get_contact(Fields& fields) {
   ContactRecord contact;
-  contact.view = fields.text(contact_group + "@view");
+  const std::string view = fields.text(contact_group + "@view");
+  const std::optional<View> known = view_from_name(view);
+  if (!known) throw fields.complain()(contact_group, "@view '", view, "' is unknown: CC, MLO or ML");
+  contact.view = *known;
   for (const auto& [name, member] : contact_numbers) {
     contact.*member = fields.number(contact_group + "@" + name);
   }

@@ -72,7 +72,7 @@ std::string content_of(const Mammogram& image) {
                             image.plate_edge_u,  image.pose.angle_deg, image.pose.source_distance,
                             image.pose.source_v};
   hash.update(numbers, sizeof numbers);
-  hash.update(image.view + "/" + std::string(side_name(image.side)) + "/" + image.energy);
+  hash.update(view_name(image.view) + "/" + std::string(side_name(image.side)) + "/" + image.energy);
   for (const auto* array : {&image.path, &image.thickness, &image.fibroglandular}) {
     hash.update(array->data(), array->size() * sizeof(float));
   }
@@ -108,7 +108,10 @@ Mammogram parse_mammogram(const std::filesystem::path& file) {
   image.pose.source_distance = number_field(fields, "source_distance", 1, where)[0];
   image.pose.source_v = number_field(fields, "source_v", 1, where)[0];
   image.plate_edge_u = number_field(fields, "plate_edge_u", 1, where)[0];
-  image.view = text_field(fields, "view", where);
+  const std::string view = text_field(fields, "view", where);
+  const std::optional<View> known = view_from_name(view);
+  if (!known) throw input_error(where, ": FieldData view '", view, "' is unknown: CC, MLO or ML");
+  image.view = *known;
   image.side = side_from_name(text_field(fields, "side", where));
   image.energy = text_field(fields, "energy", where);
   image.path = image_array(data, "path", where);
@@ -148,7 +151,7 @@ void write_mammogram(const std::filesystem::path& file, const Mammogram& image) 
   add_numbers(fields, "angle", {image.pose.angle_deg});
   add_numbers(fields, "source_distance", {image.pose.source_distance});
   add_numbers(fields, "source_v", {image.pose.source_v});
-  add_text(fields, "view", image.view);
+  add_text(fields, "view", view_name(image.view));
   add_text(fields, "side", std::string(side_name(image.side)));
   add_text(fields, "energy", image.energy);
   add_history(fields, image.history);
