@@ -4,7 +4,7 @@
 ACCURACY_LADDER ?= $(addprefix q1p0-dome-,4 6 8 10 12) q2p1-dome-8 q1p0-dome-16 q2p1-dome-10 q1p0-dome-20 q2p1-dome-12 \
   q2p1-dome-16
 ifneq ($(strip $(ACCURACY)),)
-accuracy_settings = $(ACCURACY) $(ACCURACY_LADDER) $(MATERIALS) $(CUT)
+accuracy_settings = $(ACCURACY) $(ACCURACY_LADDER) $(MATERIALS) $(SUPPORT)
 accuracy_record = $(RUN)/.accuracy.settings
 ifneq ($(planning),)
 # A plan solves nothing: it shows the mesh chosen last, or the default where none was chosen yet.

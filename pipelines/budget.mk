@@ -44,25 +44,25 @@ $(BUDGET)/cut/mesh.vtkhdf: $(RUN)/mesh.vtkhdf
 	@mkdir -p $(@D)
 	cp $< $@
 
-# $(call budget_rules,ROW,CUT): the stages after the mesh; a row is solved anew when any of its settings changes.
+# $(call budget_rules,ROW,SUPPORT): the stages after the mesh; a row is solved anew when any of its settings changes.
 define budget_rules
 budget-$1_settings = $(BACKWARD) $(FORWARD) $(COMPRESS) $(PRONE) $(COMPRESS_OPTIONS) $(AT_LEAST) $(MECHANICS) $2
 $(if $(filter backward,$1),,$(BUDGET)/$1/reference.done: $(BUDGET)/$1/mesh.vtkhdf $(BACKWARD) $(MATERIAL_FILE) \
   pipelines/attempt.sh $$(call changed,budget-$1)
-	pipelines/attempt.sh $$(basename $$@) $(BACKWARD) $$< $(PRONE) $(MECHANICS) --cut $2 $$(share)
+	pipelines/attempt.sh $$(basename $$@) $(BACKWARD) $$< $(PRONE) $(MECHANICS) $2 $$(share)
 	@$$(call record,budget-$1)
 	@touch $$@)
 $(BUDGET)/$1/supine.done: $(BUDGET)/$1/reference.done $(FORWARD) pipelines/attempt.sh
-	pipelines/attempt.sh $$(basename $$@) $(FORWARD) $$(<:.done=.vtkhdf) --posture supine $(MECHANICS) --cut $2 $$(share)
+	pipelines/attempt.sh $$(basename $$@) $(FORWARD) $$(<:.done=.vtkhdf) --posture supine $(MECHANICS) $2 $$(share)
 	@touch $$@
 $(BUDGET)/$1/cc.done $(BUDGET)/$1/mlo.done: $(BUDGET)/$1/%.done: $(BUDGET)/$1/reference.done \
   $(TRUTH_TABLE) $(COMPRESS) pipelines/attempt.sh
 	pipelines/attempt.sh $$(basename $$@) $(COMPRESS) $$(<:.done=.vtkhdf) --view $$(call upper,$$*) \
-	  $$(call same_plates,$(TRUTH_AT)-fine-$$*.json) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) --cut $2 $$(share)
+	  $$(call same_plates,$(TRUTH_AT)-fine-$$*.json) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) $2 $$(share)
 	@touch $$@
 endef
-$(foreach row,$(filter-out cut compression,$(BUDGET_ROWS)),$(eval $(call budget_rules,$(row),$(CUT))))
-$(eval $(call budget_rules,cut,fixed))
+$(foreach row,$(filter-out cut compression,$(BUDGET_ROWS)),$(eval $(call budget_rules,$(row),$(SUPPORT))))
+$(eval $(call budget_rules,cut,$(addprefix --wall ,$(WALL)) --cut fixed))
 
 # $(call budget_follow,TRUE): the chain's mesh deformed as the true body.
 budget_follow = $(call bench,follow_shape) && $(BIN)/follow_shape $(RUN)/mesh.vtkhdf $1 $(basename $@).vtkhdf > $(basename $@)-outside.tsv

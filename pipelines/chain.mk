@@ -29,23 +29,23 @@ $(RUN)/mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(wildcard $(TUM
 	$(HEXMESH) $< $(RUN)/labels.vtkhdf $@ $(HEXMESH_OPTIONS) $(tumour) $(common)
 	@$(call record,mesh)
 
-reference_settings := $(BACKWARD) $(PRONE) $(MECHANICS) --cut $(CUT)
+reference_settings := $(BACKWARD) $(PRONE) $(MECHANICS) $(SUPPORT)
 $(RUN)/reference.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD) $(MATERIAL_FILE) $(call changed,reference)
-	$(BACKWARD) $< $@ $(PRONE) $(MECHANICS) --cut $(CUT) $(common)
+	$(BACKWARD) $< $@ $(PRONE) $(MECHANICS) $(SUPPORT) $(common)
 	@$(call record,reference)
 
-supine_settings := $(FORWARD) $(MECHANICS) --cut $(CUT)
+supine_settings := $(FORWARD) $(MECHANICS) $(SUPPORT)
 $(RUN)/supine.vtkhdf: $(RUN)/reference.vtkhdf $(FORWARD) $(MATERIAL_FILE) $(call changed,supine)
-	$(FORWARD) $< $@ --posture supine $(MECHANICS) --cut $(CUT) $(common)
+	$(FORWARD) $< $@ --posture supine $(MECHANICS) $(SUPPORT) $(common)
 	@$(call record,supine)
 
 # The two views: compress, then project. The mammogram's report must not overwrite the compression's.
 define view_rules
 $1_settings := $(COMPRESS) --reduction $(REDUCTION) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) \
-  $(MECHANICS) --cut $(CUT)
+  $(MECHANICS) $(SUPPORT)
 $(RUN)/$1.vtkhdf: $(RUN)/reference.vtkhdf $(COMPRESS) $(MATERIAL_FILE) $$(call changed,$1)
 	$(COMPRESS) $$< $$@ --view $2 --reduction $(REDUCTION) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) \
-	  $(MECHANICS) --cut $(CUT) $$(common)
+	  $(MECHANICS) $(SUPPORT) $$(common)
 	@$$(call record,$1)
 
 $1-mammogram_settings := $(PROJECT) $(PROJECT_OPTIONS)

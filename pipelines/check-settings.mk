@@ -7,7 +7,7 @@ hash := \#
 
 # What a case file may set: pipelines/case-file.sh reads these lists here.
 path_settings := MR CHEST_WALL MATERIALS
-name_settings := SIDE SERIES CASE PRESET CUT ELEMENT PAPER REDUCTION AT_LEAST ELEMENTS TUMOUR ACCURACY LEAVEOUT_MM POINTS
+name_settings := SIDE SERIES CASE PRESET WALL CUT ELEMENT PAPER REDUCTION AT_LEAST ELEMENTS TUMOUR ACCURACY LEAVEOUT_MM POINTS
 text_settings := LEAVE_OUT PRONE MECHANICS SEGMENT_OPTIONS FIT_OPTIONS HEXMESH_OPTIONS COMPRESS_OPTIONS PROJECT_OPTIONS \
   PHANTOM_OPTIONS
 case_settings := $(path_settings) $(name_settings) $(text_settings)
@@ -16,7 +16,8 @@ programs := SEGMENT FIT_HERMITE HEXMESH BACKWARD FORWARD COMPRESS PROJECT CC2MLO
   CALIBRATE PROBE RENDER SENSITIVITY DIFFERENCE MATCH_LOOKUP EXPORT_DECK CHROMIUM
 known_settings := $(case_settings) $(programs) CASE_FILE COHORT RUNS RUN EXPECTED PRESET_BUILD ACCURACY_LADDER COST_POINTS \
   COST_FINEST FINDINGS_FINEST BUDGET_FINER BAND_SAMPLES BAND_DRAWS BAND_PLACES STABILITY_LIMIT COMPARE_ELEMENTS \
-  COMPARE_SCENES COMPARE_PRESSED SCALES SCALES_tumour LEAVEOUT_VARIANTS WALL_VARIANTS share
+  COMPARE_SCENES COMPARE_PRESSED SCALES SCALES_tumour LEAVEOUT_VARIANTS WALL_VARIANTS POPULATION POPULATION_SCANS \
+  POPULATION_TOOL share
 
 # Characters that are code to a shell or to make. In options blanks, colons, equals signs, % and ~ are no harm.
 shell_characters := $$ ` ; & | < > ( ) { } [ ] * ? ! " ' \ ^ $(hash)
@@ -27,10 +28,12 @@ refuse_strange = $(if $(call strange,$1,$2),$(error $1: the character $(firstwor
 refuse_blanks = $(if $(word 2,$(value $1)),$(error $1: blanks may not stand in it; give a name without them, or a link of such a \
   name (ln -s)))
 refuse_dash = $(if $(filter -%,$(firstword $(value $1))),$(error $1: may not begin with a dash; write ./$(firstword $(value $1))))
-# A tumour at x,y,z:radius has a colon.
+# A tumour at x,y,z:radius has a colon, and so have springs.
 allowed_TUMOUR := :
+allowed_WALL := :
+allowed_CUT := :
 words_settings := $(text_settings) $(programs) share SCALES SCALES_tumour ACCURACY_LADDER COST_POINTS LEAVEOUT_VARIANTS \
-  WALL_VARIANTS COMPARE_SCENES COMPARE_PRESSED EXPECTED
+  WALL_VARIANTS COMPARE_SCENES COMPARE_PRESSED EXPECTED POPULATION POPULATION_SCANS POPULATION_TOOL
 check_words = $(call refuse_strange,$1,$(shell_characters))
 check_name = $(call refuse_blanks,$1)$(call refuse_strange,$1,$(filter-out $(allowed_$1),$(name_characters)))$(if \
   $(filter TUMOUR,$1),,$(call refuse_dash,$1))
@@ -56,7 +59,8 @@ plain_number = $(if $(filter-out .,$(call without_digits,$($1))),$(error $1: '$(
 define check_values
 $(call among,SIDE,left right)
 $(call among,PRESET,paper flat small large pendulous)
-$(call among,CUT,free fixed roller)
+$(call among,WALL,held slide $(filter slide:% spring:%,$(WALL)))
+$(call among,CUT,free fixed roller $(filter spring:%,$(CUT)))
 $(call among,ELEMENT,q1p0 q2p1)
 $(call among,PAPER,1)
 $(call among,LEAVE_OUT,no-skin no-gland no-backward no-gravity-in-compression)

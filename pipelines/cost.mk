@@ -26,11 +26,11 @@ $(foreach m,$(sort $(foreach p,$(cost_points),$(call cost_part,$p,2)-$(call cost
   $(call cost_mesh_rules,$(COST)/mesh-$m.vtkhdf,$(call cost_part,$m,1),$(call cost_part,$m,2))))
 
 define cost_rules
-cost-$1_settings = $(BACKWARD) $(FORWARD) $(MATERIALS) $(CUT)
+cost-$1_settings = $(BACKWARD) $(FORWARD) $(MATERIALS) $(SUPPORT)
 cost-$1_record = $(COST)/$1.settings
 $(COST)/$1.done: $(call cost_mesh,$1) $(BACKWARD) $(FORWARD) $(MATERIAL_FILE) pipelines/posture-change.sh \
   $$(call changed,cost-$1)
-	pipelines/posture-change.sh $$< $(COST)/$1 "$(BACKWARD)" "$(FORWARD)" --materials $(MATERIALS) --cut $(CUT) \
+	pipelines/posture-change.sh $$< $(COST)/$1 "$(BACKWARD)" "$(FORWARD)" --materials $(MATERIALS) $(SUPPORT) \
 	  --element $(call cost_part,$1,1) $(addprefix --solver ,$(call cost_part,$1,4)) $$(share)
 	@$$(call record,cost-$1)
 	@touch $$@

@@ -1,5 +1,5 @@
 # Pictures in the manner of the paper's Figs 4-7, drawn off-screen.
-FIGURE_NAMES := points geometry mesh tissues cc-compression mlo-compression pressure force-thickness cc-mammogram mlo-mammogram \
+FIGURE_NAMES := points geometry mesh tissues outlines cc-compression mlo-compression pressure force-thickness cc-mammogram mlo-mammogram \
   $(if $(no_tumour),,cc-matching mlo-matching) summary
 FIGURES := $(FIGURE_NAMES:%=$(RUN)/figures/%.png)
 F := $(RUN)/figures
@@ -13,6 +13,8 @@ $(F)/mesh.png: $(RUN)/mesh.vtkhdf $(RENDER)
 	@$(call render,mesh)
 $(F)/tissues.png: $(RUN)/mesh.vtkhdf $(RENDER)
 	@$(call render,tissues)
+$(F)/outlines.png: $(RUN)/supine.vtkhdf $(RENDER)
+	@$(call render,outlines)
 $(F)/%-compression.png: $(RUN)/%.vtkhdf $(RENDER)
 	@$(call render,compression)
 $(F)/pressure.png: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(RENDER)

@@ -3,7 +3,7 @@
 SENSITIVITY ?= $(BIN)/sensitivity
 BAND_STATES := cc mlo truth-cc truth-mlo
 $(BAND_STATES:%=$(RUN)/%-sensitivity.vtkhdf): $(RUN)/%-sensitivity.vtkhdf: $(RUN)/%.vtkhdf $(RUN)/reference.vtkhdf $(SENSITIVITY)
-	$(SENSITIVITY) $(RUN)/reference.vtkhdf $< $@ $(PRONE) $(MECHANICS) --cut $(CUT) \
+	$(SENSITIVITY) $(RUN)/reference.vtkhdf $< $@ $(PRONE) $(MECHANICS) $(SUPPORT) \
 	  --table $(basename $@).tsv $(common)
 
 # matching.tsv: the chain from the MR; matching-true-mesh.tsv: the true body on as many elements as the chain's.

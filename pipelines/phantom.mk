@@ -13,7 +13,7 @@ else
 endif
 # A run belongs to one scan and one side: another is refused before it overwrites anything (pipelines/scan-identity.sh).
 scan := $(if $(TRUTH),phantom:$(PRESET),$(MR))
-ifneq ($(filter-out help setup build check clean calibrate cohort,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
+ifneq ($(filter-out help setup build check clean calibrate cohort population,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
   mixed_up := $(shell pipelines/scan-identity.sh check $(RUN) $(SIDE) $(scan))
   $(if $(mixed_up),$(error $(mixed_up)))
 endif
@@ -66,7 +66,7 @@ $(TRUTH_AT)-fine-$1.vtkhdf: $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-coarse-$1.vtkhdf
 # The chain between plates as far apart and at the same place as the truth's.
 $(RUN)/truth-$1.vtkhdf: $(RUN)/reference.vtkhdf $(TRUTH_TABLE) $(COMPRESS)
 	$(COMPRESS) $$< $$@ --view $2 $$(call same_plates,$(TRUTH_AT)-fine-$1.json) \
-	  --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) --cut $(CUT) $$(common)
+	  --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) $(SUPPORT) $$(common)
 endef
 $(eval $(call truth_view,cc,CC))
 $(eval $(call truth_view,mlo,MLO))

@@ -35,7 +35,10 @@ AT_LEAST ?= $(if $(PAPER),30,40)
 ELEMENTS ?= 16
 # Element of the mechanics, q1p0 or q2p1; empty: the programs' default. ACCURACY=MM chooses both.
 ELEMENT ?=
-CUT ?= free
+# What holds the breast at its back; empty: what the material set was found with, or a held wall and a free cut.
+WALL ?=
+CUT ?=
+SUPPORT = $(addprefix --wall ,$(WALL)) $(addprefix --cut ,$(CUT))
 # What the imaged shape hangs under; --gravity 0,0,0 takes it as stress-free.
 PRONE ?= --posture prone
 # As printed in the paper: cuboid, skin as a layer of elements, plain invariants, free cut.

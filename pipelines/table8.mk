@@ -34,11 +34,11 @@ $(VARIANTS)/.$1.values: $(VARIANTS)/$1-slopes.tsv $(VARIANTS)/$1-tumour.tsv pipe
 	@mv $$@.part $$@
 endef
 define table8_tumour_rules
-variant-$1-tumour-$2_settings = $(BACKWARD) $(FORWARD) $(call set_mechanics_tumour,$1,$2) --cut $(CUT)
+variant-$1-tumour-$2_settings = $(BACKWARD) $(FORWARD) $(call set_mechanics_tumour,$1,$2) $(SUPPORT)
 $(VARIANTS)/$1-tumour-$2.done: $(own_folder)/tumour-mesh.vtkhdf $(VARIANTS)/$1.done $$(call changed,variant-$1-tumour-$2)
 	if [ -f $(VARIANTS)/$1.failed ]; then cp $(VARIANTS)/$1.failed $(VARIANTS)/$1-tumour-$2.failed; \
 	else pipelines/posture-change.sh $$< $(VARIANTS)/$1-tumour-$2 "$(BACKWARD)" "$(FORWARD)" \
-	  $(call set_mechanics_tumour,$1,$2) --cut $(CUT) $$(share); fi
+	  $(call set_mechanics_tumour,$1,$2) $(SUPPORT) $$(share); fi
 	@$$(call record,variant-$1-tumour-$2)
 	@touch $$@
 endef

@@ -58,10 +58,10 @@ endef
 # stiffness scaled. A material that has no stress-free body leaves a mark NAME.failed and a row of dashes, not a stop.
 define scaled_rules
 scaled-$1-$2-$3_record = $1/.$2-$3.settings
-scaled-$1-$2-$3_settings = $(BACKWARD) $(FORWARD) $5 --cut $(CUT)
+scaled-$1-$2-$3_settings = $(BACKWARD) $(FORWARD) $5 $(SUPPORT)
 $1/$2-$3.done: $4 $6 $(BACKWARD) $(FORWARD) $(MATERIAL_FILE) pipelines/posture-change.sh $$(call changed,scaled-$1-$2-$3)
 	@mkdir -p $$(@D)
-	pipelines/posture-change.sh $4 $1/$2-$3 "$(BACKWARD)" "$(FORWARD)" $5 --scale $2=$3 --cut $(CUT) $$(share)
+	pipelines/posture-change.sh $4 $1/$2-$3 "$(BACKWARD)" "$(FORWARD)" $5 --scale $2=$3 $(SUPPORT) $$(share)
 	@$$(call record,scaled-$1-$2-$3)
 	@touch $$@
 endef

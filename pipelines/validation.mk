@@ -21,13 +21,13 @@ $(VALIDATION)/$1-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(wild
 	@mkdir -p $$(@D)
 	$(HEXMESH) $$< $(RUN)/labels.vtkhdf $$@ --elements $1 $(tumour) $$(common)
 	@$$(call record,convergence-mesh-$1)
-convergence-$1_settings = $(BACKWARD) $(COMPRESS) $(MECHANICS) $(COMPRESS_OPTIONS) $(REDUCTION) $(AT_LEAST) $(CUT)
+convergence-$1_settings = $(BACKWARD) $(COMPRESS) $(MECHANICS) $(COMPRESS_OPTIONS) $(REDUCTION) $(AT_LEAST) $(SUPPORT)
 convergence-$1_record = $(VALIDATION)/.$1.settings
 $(VALIDATION)/$1.done: $(VALIDATION)/$1-mesh.vtkhdf $(BACKWARD) $(COMPRESS) $(MATERIAL_FILE) pipelines/attempt.sh \
   $$(call changed,convergence-$1)
-	pipelines/attempt.sh $(VALIDATION)/$1-reference $(BACKWARD) $$< $(PRONE) $(MECHANICS) --cut $(CUT) $$(share)
+	pipelines/attempt.sh $(VALIDATION)/$1-reference $(BACKWARD) $$< $(PRONE) $(MECHANICS) $(SUPPORT) $$(share)
 	for view in CC MLO; do pipelines/attempt.sh $(VALIDATION)/$1-$$$$view $(COMPRESS) $(VALIDATION)/$1-reference.vtkhdf \
-	  --view $$$$view --reduction $(REDUCTION) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) --cut $(CUT) $$(share); done
+	  --view $$$$view --reduction $(REDUCTION) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) $(SUPPORT) $$(share); done
 	@$$(call record,convergence-$1)
 	@touch $$@
 endef

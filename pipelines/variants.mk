@@ -15,10 +15,10 @@ endef
 
 # $(call variant_rules,NAME,MESH,MECHANICS[,MATERIAL FILE])
 define variant_rules
-variant-$1_settings = $(BACKWARD) $(FORWARD) $3 --cut $(CUT)
+variant-$1_settings = $(BACKWARD) $(FORWARD) $3 $(SUPPORT)
 $(VARIANTS)/$1.done: $2 $4 $(BACKWARD) $(FORWARD) pipelines/posture-change.sh $$(call changed,variant-$1)
 	@mkdir -p $$(@D)
-	pipelines/posture-change.sh $2 $(VARIANTS)/$1 "$(BACKWARD)" "$(FORWARD)" $3 --cut $(CUT) $$(share)
+	pipelines/posture-change.sh $2 $(VARIANTS)/$1 "$(BACKWARD)" "$(FORWARD)" $3 $(SUPPORT) $$(share)
 	@$$(call record,variant-$1)
 	@touch $$@
 $(call slopes_rules,$(VARIANTS)/$1,$(VARIANTS)/$1.done,$(VARIANTS)/$1-reference.vtkhdf,$(VARIANTS)/$1-supine.vtkhdf,$3,fat$(comma)fibroglandular$(comma)skin)
@@ -28,7 +28,7 @@ endef
 define slopes_rules
 $1-slopes.tsv: $2 $(SENSITIVITY)
 	@mkdir -p $$(@D)
-	if [ -f $1.failed ]; then : > $$@; else $(SENSITIVITY) $3 $4 $1-sensitivity.vtkhdf $(PRONE) $5 --cut $(CUT) \
+	if [ -f $1.failed ]; then : > $$@; else $(SENSITIVITY) $3 $4 $1-sensitivity.vtkhdf $(PRONE) $5 $(SUPPORT) \
 	  --parameters $6 --table $$@ --report $1-sensitivity.json $$(share); fi
 endef
 comma := ,

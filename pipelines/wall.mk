@@ -1,25 +1,25 @@
 # What the chest wall's own uncertainty does to the result: the whole chain with the wall moved everywhere by
 # one standard deviation, backwards and forwards, same tumour, and how far the predictions move. A coherent
 # shift is the worst the band allows: real errors change sign from place to place.
-WALL := $(RUN)/wall
+WALL_SHIFTS := $(RUN)/wall
 WALL_VARIANTS := back front
 wall_back := 1
 wall_front := -1
 
-wall-sensitivity: $(WALL)/table.tsv
+wall-sensitivity: $(WALL_SHIFTS)/table.tsv
 .PHONY: wall-sensitivity
 
 define wall_rules
-$(WALL)/$1/curve.tsv: $(RUN)/curve.tsv $(SEGMENT)
+$(WALL_SHIFTS)/$1/curve.tsv: $(RUN)/curve.tsv $(SEGMENT)
 	@mkdir -p $$(@D)
-	+$$(MAKE) -f Makefile.pipeline RUN=$(WALL)/$1 MR=$(MR) \
+	+$$(MAKE) -f Makefile.pipeline RUN=$(WALL_SHIFTS)/$1 MR=$(MR) \
 	  SEGMENT_OPTIONS='$(SEGMENT_OPTIONS) --chest-wall-shift $(wall_$1)' \
 	  HEXMESH_OPTIONS="$(HEXMESH_OPTIONS) --tumour $$$$(pipelines/landmark.sh $(RUN)/mesh.json tumour)" chain
 	@touch $$@
 endef
 $(foreach v,$(WALL_VARIANTS),$(eval $(call wall_rules,$v)))
 
-$(WALL)/table.tsv: $(WALL_VARIANTS:%=$(WALL)/%/curve.tsv) $(RUN)/supine.vtkhdf \
+$(WALL_SHIFTS)/table.tsv: $(WALL_VARIANTS:%=$(WALL_SHIFTS)/%/curve.tsv) $(RUN)/supine.vtkhdf \
   pipelines/wall-sensitivity.sh pipelines/landmark.sh pipelines/values.sh
 	pipelines/wall-sensitivity.sh $(RUN) $(WALL_VARIANTS) > $@.part
 	@mv $@.part $@
@@ -28,8 +28,8 @@ $(WALL)/table.tsv: $(WALL_VARIANTS:%=$(WALL)/%/curve.tsv) $(RUN)/supine.vtkhdf \
 # Derivatives by stiffness, plates and chest wall in one file a view, and the band they give the tumour's curve.
 DIFFERENCE ?= $(BIN)/difference
 $(RUN)/cc-band.vtkhdf $(RUN)/mlo-band.vtkhdf: $(RUN)/%-band.vtkhdf: $(RUN)/%-sensitivity.vtkhdf \
-  $(WALL_VARIANTS:%=$(WALL)/%/curve.tsv) $(DIFFERENCE)
-	$(DIFFERENCE) $< $(WALL)/back/$*.vtkhdf $(WALL)/front/$*.vtkhdf $@ --parameter chest_wall $(common)
+  $(WALL_VARIANTS:%=$(WALL_SHIFTS)/%/curve.tsv) $(DIFFERENCE)
+	$(DIFFERENCE) $< $(WALL_SHIFTS)/back/$*.vtkhdf $(WALL_SHIFTS)/front/$*.vtkhdf $@ --parameter chest_wall $(common)
 $(RUN)/band.tsv: $(RUN)/cc-band.vtkhdf $(RUN)/mlo-band.vtkhdf $(CC2MLO)
 	$(CC2MLO) $(wordlist 1,2,$^) $(RUN)/band.vtp --landmark tumour --band --table $@ --curve-table $(RUN)/band-curve.tsv \
 	  $(common)

@@ -99,7 +99,9 @@ void add_legend(Panel& panel, const std::vector<Shape>& shapes) {
       if (k == 0) continue;
       const Vec3 moved = landmark_position(*shapes[k].mesh, *shapes[k].points, landmark) -
                          landmark_position(*shapes[0].mesh, *shapes[0].points, landmark);
-      words += ", " + landmark.name + " moved " + format_fixed(moved.norm(), 0) + " mm";
+      std::string name = landmark.name;
+      std::replace(name.begin(), name.end(), '_', ' ');
+      words += ", " + name + " moved " + format_fixed(moved.norm(), 0) + " mm";
     }
     const Colour& colour = colours[k % colours.size()];
     panel.line({left, y + 6}, {left + 26, y + 6}, colour, 4);
@@ -141,7 +143,7 @@ void draw_outlines(Picture& picture, const FigureInput& input) {
   for (double offset = -120; offset <= 120; offset += 20) offsets.push_back(offset);
   add_wall(body, first, height, offsets);
   for (const Landmark& landmark : first.landmarks) add_track(body, shapes, landmark);
-  const View view = oblique_view(first.side);
+  const Camera view = oblique_view(first.side);
   body.look_along(view.direction, view.up, 0.12);
   body.caption("(b) skin and landmarks on the wall surface (lines every 20 mm)");
   body.scale_bar();

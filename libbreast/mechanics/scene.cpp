@@ -29,13 +29,10 @@ std::vector<std::pair<int, Vec3>> cut_normals(const HexMesh& mesh) {
   return normals;
 }
 
+// Null where neither says one.
 std::shared_ptr<const LevelSurface> wall_surface(const HexMesh& mesh, const WallOption& wall) {
   if (wall.surface) return wall.surface;
-  if (!mesh.geometry || !mesh.geometry->thorax) {
-    throw input_error(
-        "--wall slide: the mesh holds no wall surface to slide on; make geometry and mesh again "
-        "with fit-hermite and hexmesh, or use --wall held");
-  }
+  if (!mesh.geometry || !mesh.geometry->thorax) return nullptr;
   return std::make_shared<ThoraxSurface>(*mesh.geometry->thorax);
 }
 
@@ -85,14 +82,24 @@ Scene::Scene(const HexMesh& mesh, const MechanicsOptions& options, TangentStorag
 // Along a surface that is held exactly springs need no direction: their normal part is carried by
 // the surface.
 void Scene::add_wall() {
-  const auto springs = [&](const std::vector<Face>& faces, const SupportStiffness& stiffness) {
-    return faces.empty() ? nullptr : std::make_shared<ElasticSupport>(mesh_, faces, stiffness);
+  const auto springs = [&](const std::vector<Face>& faces, const SupportStiffness& stiffness,
+                           std::shared_ptr<const LevelSurface> surface = nullptr) {
+    return faces.empty() ? nullptr
+                         : std::make_shared<ElasticSupport>(mesh_, faces, stiffness,
+                                                            std::move(surface));
   };
   const WallOption& wall = options_.wall;
-  if (wall.kind == WallKind::spring) wall_springs_ = springs(mesh_.pectoral_faces, wall.stiffness);
+  const std::shared_ptr<const LevelSurface> surface = wall_surface(mesh_, wall);
+  if (wall.kind == WallKind::spring) {
+    wall_springs_ = springs(mesh_.pectoral_faces, wall.stiffness, surface);
+  }
   if (wall.kind == WallKind::slide) {
-    sliding_ = std::make_shared<SlidingNodes>(wall_surface(mesh_, wall),
-                                              nodes_of(mesh_, mesh_.pectoral_faces),
+    if (!surface) {
+      throw input_error(
+          "--wall slide: the mesh holds no wall surface to slide on; make geometry and mesh again "
+          "with fit-hermite and hexmesh, or use --wall held");
+    }
+    sliding_ = std::make_shared<SlidingNodes>(surface, nodes_of(mesh_, mesh_.pectoral_faces),
                                               flatten(mesh_.imaged));
     const double along = wall.stiffness.tangential;
     if (along > 0) wall_springs_ = springs(mesh_.pectoral_faces, {along, along});

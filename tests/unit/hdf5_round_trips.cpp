@@ -58,6 +58,17 @@ void expect_same(const BreastGeometry& a, const BreastGeometry& b) {
   EXPECT_EQ(a.fit_mean_mm, b.fit_mean_mm);
   EXPECT_EQ(a.fit_p95_mm, b.fit_p95_mm);
   EXPECT_EQ(a.fit_max_mm, b.fit_max_mm);
+  ASSERT_EQ(a.thorax.has_value(), b.thorax.has_value());
+  if (!a.thorax) return;
+  EXPECT_EQ(a.thorax->origin, b.thorax->origin);
+  EXPECT_EQ(a.thorax->slope, b.thorax->slope);
+  EXPECT_EQ(a.thorax->angle_low, b.thorax->angle_low);
+  EXPECT_EQ(a.thorax->angle_high, b.thorax->angle_high);
+  EXPECT_EQ(a.thorax->height_low, b.thorax->height_low);
+  EXPECT_EQ(a.thorax->height_high, b.thorax->height_high);
+  EXPECT_EQ(a.thorax->angles, b.thorax->angles);
+  EXPECT_EQ(a.thorax->heights, b.thorax->heights);
+  EXPECT_EQ(a.thorax->coefficients, b.thorax->coefficients);
 }
 
 std::vector<int> flat(const std::vector<Face>& faces) {

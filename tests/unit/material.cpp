@@ -137,6 +137,8 @@ TEST(Materials, EmbeddedSetsLoadAndScale) {
     scale_materials(set, {"fat=50"});
     EXPECT_NEAR(set.law(Tissue::fat).shear_modulus(), before / 2, 1e-9 * before);
   }
+  EXPECT_EQ(load_materials("seed2008").skin.kept, 1);
+  EXPECT_FALSE(load_materials("seed2008").wall_support);
   MaterialSet set = load_materials("seed2008");
   for (const char* bad : {"fat", "fat=", "fat=-5", "fat=0", "fat=x", "bone=50", "=50"}) {
     EXPECT_THROW(scale_materials(set, {bad}), Error) << bad;

@@ -8,6 +8,7 @@
 #include "contact/terms/friction.hpp"
 #include "contact/terms/plate.hpp"
 #include "fixtures/block.hpp"
+#include "fixtures/level_surfaces.hpp"
 #include "fixtures/wide_plates.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/terms/membrane.hpp"
@@ -35,7 +36,7 @@ void PrintTo(const Named& named, std::ostream* out) {
   *out << named.name;
 }
 
-Case body(Element element, double bulk_ratio, Invariants invariants) {
+Case body(Element element, double bulk_ratio, Invariants invariants, bool curved) {
   fixtures::BlockSettings settings;
   settings.elements = {2, 2, 2};
   settings.size = Vec3(20, 20, 20);
@@ -50,6 +51,11 @@ Case body(Element element, double bulk_ratio, Invariants invariants) {
   options.bulk_ratio = bulk_ratio;
   options.invariants = invariants;
   options.wall = SupportStiffness{0.5, 0.2};
+  if (curved) {
+    // The wall x = 0 as a sphere, and skin that wrinkles.
+    options.wall.surface = std::make_shared<fixtures::Sphere>(Vec3(-60, 10, 10), 60);
+    options.materials.skin = {0.05, 0.02, 0.03};
+  }
   out.scene = std::make_unique<Scene>(out.mesh, options);
   out.state = out.scene->at_rest(flatten(out.mesh.reference));
   for (long i = 0; i < out.state.x.size(); ++i) {
@@ -61,8 +67,8 @@ Case body(Element element, double bulk_ratio, Invariants invariants) {
 }
 
 Case term_of_scene(const std::string& name, Element element = Element::q1p0, double bulk_ratio = 0,
-                   Invariants invariants = Invariants::isochoric) {
-  Case out = body(element, bulk_ratio, invariants);
+                   Invariants invariants = Invariants::isochoric, bool curved = false) {
+  Case out = body(element, bulk_ratio, invariants, curved);
   const Eigen::VectorXd load = out.scene->gravity_force(Vec3(100, -9000, 400));
   const LoadedProblem loaded = out.scene->problem(load);
   for (const auto& term : loaded.problem.terms()) {
@@ -91,7 +97,7 @@ PlatePair plates_at_the_top(double edge_radius) {
 }
 
 Case plate(double penalty) {
-  Case out = body(Element::q1p0, 0, Invariants::isochoric);
+  Case out = body(Element::q1p0, 0, Invariants::isochoric, false);
   auto term = std::make_shared<PlateTerm>(top_nodes(out.mesh));
   term->set_plates(plates_at_the_top(12));
   term->set_penalty(penalty);
@@ -106,7 +112,7 @@ Case plate(double penalty) {
 
 // On a flat plate, where its tangent is exact; `stuck` below the bound, else slipping on it.
 Case friction(bool stuck) {
-  Case out = body(Element::q1p0, 0, Invariants::isochoric);
+  Case out = body(Element::q1p0, 0, Invariants::isochoric, false);
   auto term = std::make_shared<FrictionTerm>();
   term->set_plates(plates_at_the_top(0));
   std::vector<FrictionEntry> entries;
@@ -128,6 +134,10 @@ const std::vector<Named>& all_terms() {
        [] { return term_of_scene("solid", Element::q1p0, 0, Invariants::plain); }},
       {"membrane", [] { return term_of_scene("membrane"); }},
       {"membrane_q2", [] { return term_of_scene("membrane", Element::q2p1); }},
+      {"membrane_wrinkling",
+       [] { return term_of_scene("membrane", Element::q1p0, 0, Invariants::isochoric, true); }},
+      {"elastic_support_curved",
+       [] { return term_of_scene("elastic support", Element::q1p0, 0, Invariants::isochoric, true); }},
       {"dead_load", [] { return term_of_scene("dead load"); }},
       {"elastic_support", [] { return term_of_scene("elastic support"); }},
       {"plate_multiplier", [] { return plate(0); }},

@@ -183,6 +183,28 @@ TEST(Sliding, StiffSupportEqualsAHeldWall) {
   EXPECT_LT(worst_distance(slid.points, held.points), 0.01);
 }
 
+// Springs across the same surface: the stiffer, the nearer to sliding on it exactly.
+TEST(Sliding, StiffSpringsAcrossTheSurfaceTendToSliding) {
+  HexMesh exact = cap_on_sphere();
+  ASSERT_TRUE(fixtures::forward_into(exact, supine, soft(20, slide(sphere(), 0.02))).converged());
+  double last = 1e9;
+  for (const double across : {1.0, 10.0, 100.0}) {
+    HexMesh springs = cap_on_sphere();
+    MechanicsOptions options = soft(20, WallOption(SupportStiffness{across, 0.02}));
+    options.wall.surface = sphere();
+    ASSERT_TRUE(fixtures::backward_into(springs, prone, options).converged());
+    HexMesh again = springs;
+    ASSERT_TRUE(fixtures::forward_into(again, prone, options).converged());
+    EXPECT_LT(worst_distance(again.points, springs.imaged), 1e-8);
+    springs.reference = springs.imaged;
+    ASSERT_TRUE(fixtures::forward_into(springs, supine, options).converged());
+    const double apart = worst_distance(springs.points, exact.points);
+    EXPECT_LT(apart, 0.2 * last);
+    last = apart;
+  }
+  EXPECT_LT(last, 0.02);
+}
+
 TEST(Sliding, RoundTripClosesAndSlidesFar) {
   for (const double percent : {100.0, 20.0, 10.0}) {
     HexMesh mesh = cap_on_sphere();

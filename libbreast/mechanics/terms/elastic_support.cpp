@@ -8,26 +8,56 @@
 namespace breast {
 
 ElasticSupport::ElasticSupport(const HexMesh& mesh, const std::vector<Face>& faces,
-                               const SupportStiffness& stiffness) {
+                               const SupportStiffness& stiffness,
+                               std::shared_ptr<const LevelSurface> surface)
+    : surface_(std::move(surface)) {
   if (!(stiffness.normal > 0 && stiffness.tangential >= 0)) {
-    throw input_error("chest wall springs of ", stiffness.normal, " and ", stiffness.tangential,
+    throw input_error("springs of ", stiffness.normal, " and ", stiffness.tangential,
                       " kPa/mm: the first must be above 0, the second 0 or more");
   }
   const NodalFaces spread = nodal_faces(mesh, faces, flatten(mesh.imaged));
   cells_.nodes_per_cell = 1;
   cells_.nodes = nodes_of(mesh, faces);
-  for (const int node : cells_.nodes) {
-    const double area = spread.area[std::size_t(node)] * pascal_per_kilopascal;
-    const Vec3 n = spread.vector[std::size_t(node)].normalized();
-    const Mat3 across = n * n.transpose();
-    stiffness_.push_back(area * (stiffness.normal * across +
-                                 stiffness.tangential * (Mat3::Identity() - across)));
+  for (int i = 0; i < cells_.count(); ++i) {
+    const auto node = std::size_t(cells_.nodes[std::size_t(i)]);
+    const double area = spread.area[node] * pascal_per_kilopascal;
+    normals_.push_back(spread.vector[node].normalized());
+    const std::optional<Level> at = level(i, mesh.imaged[node]);
+    if (!at) {
+      throw input_error("mesh: wall node ", node, " at ", mesh.imaged[node].transpose(),
+                        " mm lies where the wall surface is not known; fit it again with "
+                        "fit-hermite");
+    }
+    along_.push_back(area * stiffness.tangential);
+    across_.push_back(area * (stiffness.normal - stiffness.tangential) /
+                      at->gradient.squaredNorm());
   }
 }
 
-Vec3 ElasticSupport::stretch(const State& state, int spring) const {
-  const long at = 3L * cells_.nodes[std::size_t(spring)];
-  return state.x.segment<3>(at) - state.reference.segment<3>(at);
+std::optional<Level> ElasticSupport::level(int i, const Vec3& x) const {
+  if (surface_) return surface_->at(x);
+  const Vec3& normal = normals_[std::size_t(i)];
+  return Level{normal.dot(x), normal, Mat3::Zero()};
+}
+
+std::optional<ElasticSupport::Spring> ElasticSupport::spring(const State& state, int i) const {
+  const long at = 3L * cells_.nodes[std::size_t(i)];
+  const double along = along_[std::size_t(i)], across = across_[std::size_t(i)];
+  const Vec3 x = state.x.segment<3>(at), rest = state.reference.segment<3>(at), moved = x - rest;
+  Spring out;
+  out.energy = 0.5 * along * moved.squaredNorm();
+  out.force = along * moved;
+  out.tangent = along * Mat3::Identity();
+  out.by_reference = -out.tangent;
+  if (across == 0) return out;
+  const std::optional<Level> here = level(i, x), there = level(i, rest);
+  if (!here || !there) return {};
+  const double lifted = here->value - there->value;
+  out.energy += 0.5 * across * lifted * lifted;
+  out.force += across * lifted * here->gradient;
+  out.tangent += across * (here->gradient * here->gradient.transpose() + lifted * here->hessian);
+  out.by_reference -= across * here->gradient * there->gradient.transpose();
+  return out;
 }
 
 bool ElasticSupport::add(const State& state, const Request& request, Forces& forces) const {
@@ -36,17 +66,17 @@ bool ElasticSupport::add(const State& state, const Request& request, Forces& for
   PackedCells* packed = request.packed != nullptr ? &request.packed->next(cells_) : nullptr;
   for (int i = 0; i < cells_.count(); ++i) {
     const int node = cells_.nodes[std::size_t(i)];
-    const Mat3& stiffness = stiffness_[std::size_t(i)];
-    const Vec3 moved = stretch(state, i), force = stiffness * moved;
-    forces.r.segment<3>(3L * node) += force;
-    if (request.kappa != nullptr) forces.augmented.segment<3>(3L * node) += force;
-    forces.energy += 0.5 * moved.dot(force);
+    const std::optional<Spring> now = spring(state, i);
+    if (!now) return false;
+    forces.r.segment<3>(3L * node) += now->force;
+    if (request.kappa != nullptr) forces.augmented.segment<3>(3L * node) += now->force;
+    forces.energy += now->energy;
     if (request.matrix != nullptr) {
-      request.matrix->stiffness.add_to_node(node, stiffness);
-      request.matrix->diagonal.segment<3>(3L * node) += stiffness.diagonal();
+      request.matrix->stiffness.add_to_node(node, now->tangent);
+      request.matrix->diagonal.segment<3>(3L * node) += now->tangent.diagonal().cwiseAbs();
     }
-    if (packed != nullptr) packed->set(i, stiffness.data());
-    if (reference != nullptr) Eigen::Map<Mat3>(reference->at(i)) = -stiffness;
+    if (packed != nullptr) packed->set(i, now->tangent.data());
+    if (reference != nullptr) Eigen::Map<Mat3>(reference->at(i)) = now->by_reference;
   }
   return true;
 }
@@ -54,15 +84,18 @@ bool ElasticSupport::add(const State& state, const Request& request, Forces& for
 Eigen::VectorXd ElasticSupport::forces(const State& state) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(state.x.size());
   for (int i = 0; i < cells_.count(); ++i) {
-    out.segment<3>(3L * cells_.nodes[std::size_t(i)]) =
-        stiffness_[std::size_t(i)] * stretch(state, i);
+    if (const auto now = spring(state, i)) {
+      out.segment<3>(3L * cells_.nodes[std::size_t(i)]) = now->force;
+    }
   }
   return out;
 }
 
 Vec3 ElasticSupport::force_on_body(const State& state) const {
   Vec3 sum = Vec3::Zero();
-  for (int i = 0; i < cells_.count(); ++i) sum -= stiffness_[std::size_t(i)] * stretch(state, i);
+  for (int i = 0; i < cells_.count(); ++i) {
+    if (const auto now = spring(state, i)) sum -= now->force;
+  }
   return sum;
 }
 

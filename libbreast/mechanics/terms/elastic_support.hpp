@@ -1,4 +1,10 @@
-// Springs under a set of faces as a term, at rest in the stress-free shape: an elastic chest wall.
+// Springs under a set of faces as a term, at rest in the stress-free shape X: an elastic chest wall
+// or cut. Per area of the imaged faces the energy is
+//
+//     ½ k_t |x − X|² + ½ (k_n − k_t) (φ(x) − φ(X))² / |∇φ|²
+//
+// with φ a level function of the wall surface, its gradient taken in the imaged shape: k_n across the
+// wall and k_t along it, on a plane and on a curved wall alike.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,6 +12,7 @@
 
 #include "mesh/hex_mesh.hpp"
 #include "solve/term.hpp"
+#include "surface/level_surface.hpp"
 
 namespace breast {
 
@@ -16,10 +23,12 @@ struct SupportStiffness {
 
 class ElasticSupport final : public Term {
  public:
-  /// Springs at the nodes of `faces`, each with its share of the imaged area and the mean normal
-  /// there. Throws Error (input) unless normal > 0 and tangential ≥ 0.
+  /// Springs at the nodes of `faces`, each with its share of the imaged area. Without a surface
+  /// every node has a plane of its own, with the mean normal of the imaged faces there. Throws Error
+  /// (input) unless normal > 0 and tangential ≥ 0, and for a node beyond the surface.
   ElasticSupport(const HexMesh& mesh, const std::vector<Face>& faces,
-                 const SupportStiffness& stiffness);
+                 const SupportStiffness& stiffness,
+                 std::shared_ptr<const LevelSurface> surface = nullptr);
 
   std::string name() const override { return "elastic support"; }
   bool add(const State& state, const Request& request, Forces& forces) const override;
@@ -30,10 +39,20 @@ class ElasticSupport final : public Term {
   Vec3 force_on_body(const State& state) const;
 
  private:
-  Vec3 stretch(const State& state, int spring) const;
+  /// Force on the body, and what changes it.
+  struct Spring {
+    double energy = 0;
+    Vec3 force{0, 0, 0};                                        ///< ∂U/∂x
+    Mat3 tangent = Mat3::Zero(), by_reference = Mat3::Zero();  ///< ∂²U/∂x², ∂²U/∂x∂X
+  };
+  /// Nothing where a place is beyond the surface.
+  std::optional<Spring> spring(const State& state, int i) const;
+  std::optional<Level> level(int i, const Vec3& x) const;
 
-  Cells cells_;                  // one node each
-  std::vector<Mat3> stiffness_;  // µN/mm
+  Cells cells_;  // one node each
+  std::shared_ptr<const LevelSurface> surface_;
+  std::vector<double> along_, across_;  // µN/mm: k_t A, (k_n − k_t) A / |∇φ|²
+  std::vector<Vec3> normals_;           // without a surface
 };
 
 }  // namespace breast

@@ -1,0 +1,126 @@
+#include "evaluation/posture_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "mesh/shape.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr double bounds[] = {0, 20, 40, std::numeric_limits<double>::infinity()};
+
+/// One element: its volume in the scan, and its centre in both postures.
+struct Sample {
+  double volume = 0, moved = 0, before = 0, after = 0;
+};
+
+double hexahedron_volume(const HexMesh& mesh, int e) {
+  const HexShape centre = hex_shape(mesh.order, Vec3::Zero());
+  Mat3 jacobian = Mat3::Zero();
+  for (int a = 0; a < mesh.nodes_per_element(); ++a) {
+    jacobian += mesh.imaged[std::size_t(mesh.element(e)[a])] * centre.gradients.col(a).transpose();
+  }
+  return 8 * jacobian.determinant();
+}
+
+std::vector<Sample> samples_of(const HexMesh& mesh, const ThoraxSurface& surface, double muscle_mm) {
+  std::vector<Sample> samples;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const Vec3 from = element_position(mesh, mesh.imaged, e, Vec3::Zero());
+    const Vec3 to = element_position(mesh, mesh.points, e, Vec3::Zero());
+    samples.push_back({hexahedron_volume(mesh, e), (to - from).norm(),
+                      wall_surface_distance(surface, from) + muscle_mm,
+                      wall_surface_distance(surface, to) + muscle_mm});
+  }
+  return samples;
+}
+
+double mean(const std::vector<Sample>& samples, double Sample::*value) {
+  double sum = 0, total = 0;
+  for (const Sample& sample : samples) {
+    sum += sample.volume * sample.*value;
+    total += sample.volume;
+  }
+  return total > 0 ? sum / total : 0;
+}
+
+double median_ratio(const std::vector<Sample>& samples) {
+  std::vector<std::pair<double, double>> ratios;
+  double total = 0;
+  for (const Sample& sample : samples) {
+    if (!(sample.before > 0)) continue;
+    ratios.emplace_back(sample.after / sample.before, sample.volume);
+    total += sample.volume;
+  }
+  std::sort(ratios.begin(), ratios.end());
+  double sum = 0;
+  for (const auto& [ratio, volume] : ratios) {
+    sum += volume;
+    if (2 * sum >= total) return ratio;
+  }
+  return 0;
+}
+
+}  // namespace
+
+double wall_surface_distance(const ThoraxSurface& surface, const Vec3& x) {
+  constexpr int rounds = 25;
+  constexpr double along = 0.6;  // of the way along the surface, which is curved
+  const std::optional<Level> at = surface.at(x);
+  if (!at) throw failed_error("a place at ", x.transpose(), " mm lies beyond the wall surface");
+  Vec3 foot = x, best = x - at->value / at->gradient.squaredNorm() * at->gradient;
+  for (int i = 0; i < rounds; ++i) {
+    const std::optional<Level> level = surface.at(foot);
+    if (!level) break;
+    foot -= level->value / level->gradient.squaredNorm() * level->gradient;
+    best = foot;
+    const Vec3 normal = level->gradient.normalized(), away = x - foot;
+    foot += along * (away - away.dot(normal) * normal);
+  }
+  return std::copysign((x - best).norm(), at->value);
+}
+
+PostureMotion posture_motion(const HexMesh& mesh, double muscle_mm) {
+  if (!mesh.geometry || !mesh.geometry->thorax) {
+    throw input_error("mesh: it holds no wall surface to measure distances from; make geometry and "
+                      "mesh again with fit-hermite and hexmesh");
+  }
+  const Landmark* nipple = mesh.landmark("nipple");
+  if (nipple == nullptr) throw input_error("mesh: it has no landmark 'nipple'");
+  PostureMotion motion;
+  const Vec3 moved = landmark_position(mesh, mesh.points, *nipple) -
+                     landmark_position(mesh, mesh.imaged, *nipple);
+  motion.nipple_lateral = mesh.side == Side::left ? moved.x() : -moved.x();
+  motion.nipple_posterior = moved.y();
+  motion.nipple_caudal = -moved.z();
+  motion.nipple_moved = moved.norm();
+  const std::vector<Sample> samples = samples_of(mesh, *mesh.geometry->thorax, muscle_mm);
+  motion.ribs_before = mean(samples, &Sample::before);
+  motion.ribs_after = mean(samples, &Sample::after);
+  motion.ratio = median_ratio(samples);
+  double total = 0;
+  for (const Sample& sample : samples) total += sample.volume;
+  for (std::size_t k = 0; k + 1 < std::size(bounds); ++k) {
+    std::vector<Sample> within;
+    double volume = 0;
+    for (const Sample& sample : samples) {
+      if (!(sample.before >= bounds[k] && sample.before < bounds[k + 1])) continue;
+      within.push_back(sample);
+      volume += sample.volume;
+    }
+    motion.bins.push_back({bounds[k], bounds[k + 1], volume / total, mean(within, &Sample::moved),
+                           mean(within, &Sample::after) - mean(within, &Sample::before)});
+  }
+  std::vector<Sample> near;
+  for (const Sample& sample : samples) {
+    if (sample.before - muscle_mm < 20) near.push_back(sample);
+  }
+  motion.nearest_moved = mean(near, &Sample::moved);
+  return motion;
+}
+
+}  // namespace breast

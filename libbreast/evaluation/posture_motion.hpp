@@ -1,0 +1,38 @@
+// How tissue moves from the scanned to another posture, in the quantities measured on women: along
+// the body's axes, and towards the ribs by depth.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+/// Tissue between two distances from the rib cage in the scan, mm.
+struct DepthBin {
+  double low = 0, high = 0;
+  double fraction = 0;  ///< of the breast's volume
+  double moved = 0;     ///< mean distance moved, mm
+  double change = 0;    ///< mean change of the distance to the ribs, mm
+};
+
+struct PostureMotion {
+  /// Of the nipple, mm: away from the midline, backwards, and towards the feet.
+  double nipple_lateral = 0, nipple_posterior = 0, nipple_caudal = 0, nipple_moved = 0;
+  double ribs_before = 0, ribs_after = 0;  ///< mean distance of tissue from the ribs, mm
+  double ratio = 0;                        ///< median of after over before
+  std::vector<DepthBin> bins;              ///< 0 to 20, 20 to 40, above 40 mm
+  double nearest_moved = 0;                ///< mean motion of tissue within 20 mm of the wall
+};
+
+/// From mesh.imaged to mesh.points, elements weighted by their volume in the scan. Ribs lie
+/// `muscle_mm` behind the mesh's wall surface. Throws Error (input) without a wall surface or a
+/// nipple.
+PostureMotion posture_motion(const HexMesh& mesh, double muscle_mm);
+
+/// Distance (mm) of a place from the surface, negative inside; the closest point is found by
+/// alternating moves onto the surface and along it.
+double wall_surface_distance(const ThoraxSurface& surface, const Vec3& x);
+
+}  // namespace breast

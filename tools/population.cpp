@@ -1,0 +1,135 @@
+// population: how breasts move between postures, beside what is known of women.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "cli/tool.hpp"
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "evaluation/posture_motion.hpp"
+#include "io/mesh_file.hpp"
+
+using namespace breast;
+
+namespace {
+
+constexpr int decimals = 1;
+
+struct Choices {
+  std::vector<std::filesystem::path> meshes;
+  std::filesystem::path table, women, summary;
+  double muscle = 8;
+};
+
+using Quantities = std::vector<std::pair<std::string, double>>;
+
+Quantities quantities_of(const PostureMotion& m) {
+  Quantities list{{"nipple_moved_mm", m.nipple_moved},
+                  {"nipple_lateral_mm", m.nipple_lateral},
+                  {"nipple_posterior_mm", m.nipple_posterior},
+                  {"nipple_caudal_mm", m.nipple_caudal},
+                  {"ribs_before_mm", m.ribs_before},
+                  {"ribs_after_mm", m.ribs_after},
+                  {"ribs_change_mm", m.ribs_after - m.ribs_before}};
+  const char* names[] = {"0_20", "20_40", "above_40"};
+  for (std::size_t k = 0; k < m.bins.size(); ++k) {
+    const std::string name = names[k];
+    list.emplace_back("moved_" + name + "_mm", m.bins[k].moved);
+    list.emplace_back("change_" + name + "_mm", m.bins[k].change);
+  }
+  list.emplace_back("moved_near_wall_mm", m.nearest_moved);
+  return list;
+}
+
+/// Mean, standard deviation and range of every quantity; with women's values beside ours.
+Table summary_of(const std::vector<Quantities>& cases, const Choices& c) {
+  std::map<std::string, std::size_t> women_row;
+  Table women;
+  if (!c.women.empty()) {
+    women = read_table(c.women);
+    for (std::size_t r = 0; r < women.rows.size(); ++r) women_row[women.cell(r, "quantity")] = r;
+  }
+  Table table{{"quantity", "mean", "sd", "lowest", "highest", "women_mean", "women_sd",
+               "within_one_sd"},
+              {}};
+  for (std::size_t q = 0; q < cases.front().size(); ++q) {
+    double sum = 0, square = 0, low = cases[0][q].second, high = low;
+    for (const Quantities& one : cases) {
+      const double value = one[q].second;
+      sum += value, square += value * value;
+      low = std::min(low, value), high = std::max(high, value);
+    }
+    const double n = double(cases.size()), mean = sum / n;
+    const double sd = n > 1 ? std::sqrt(std::max(0.0, (square - n * mean * mean) / (n - 1))) : 0;
+    const std::string name = cases.front()[q].first;
+    std::vector<std::string> row{name, format_fixed(mean, decimals), format_fixed(sd, decimals),
+                                 format_fixed(low, decimals), format_fixed(high, decimals)};
+    const auto known = women_row.find(name);
+    if (known == women_row.end()) {
+      row.insert(row.end(), {"-", "-", "-"});
+    } else {
+      const double centre = women.number(known->second, "mean"),
+                   spread = women.number(known->second, "sd");
+      row.insert(row.end(), {format_number(centre), format_number(spread),
+                             std::abs(mean - centre) <= spread ? "yes" : "no"});
+    }
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+void run_population(const Choices& c, Run& run) {
+  std::vector<Quantities> cases;
+  Table table{{"case", "side"}, {}};
+  for (const std::filesystem::path& file : c.meshes) {
+    const HexMesh mesh = read_mesh(file, {.reference = true, .geometry = true});
+    try {
+      cases.push_back(quantities_of(posture_motion(mesh, c.muscle)));
+    } catch (const Error& error) {
+      throw Error(error.kind(), file.string() + ": " + error.what());
+    }
+    std::vector<std::string> row{file.parent_path().filename().empty()
+                                     ? file.stem().string()
+                                     : file.parent_path().filename().string(),
+                                 side_name(mesh.side)};
+    for (const auto& [name, value] : cases.back()) {
+      if (table.rows.empty()) table.columns.push_back(name);
+      row.push_back(format_fixed(value, decimals));
+    }
+    table.rows.push_back(row);
+  }
+  const Table summary = summary_of(cases, c);
+  for (std::size_t r = 0; r < summary.rows.size(); ++r) {
+    run.report().set("population/" + summary.rows[r][0] + "/mean", summary.number(r, "mean"));
+    run.report().set("population/" + summary.rows[r][0] + "/sd", summary.number(r, "sd"));
+  }
+  run.report().set("cases", cases.size());
+  run.report().set("muscle_mm", c.muscle);
+  if (!c.summary.empty()) write_table(c.summary, summary);
+  if (c.table.empty()) {
+    run.print(table.text());
+  } else {
+    write_table(c.table, table);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choices c;
+  Tool tool("population", "how breasts move between postures, beside what is known of women");
+  tool.describe(
+      "For every deformed mesh, the motion from the scan: of the nipple along the body's axes, and "
+      "of the tissue by its distance from the rib cage in the scan, weighted by volume. Ribs are "
+      "taken to lie behind the wall surface by the thickness of the muscle. A row a breast; "
+      "--summary gives mean, standard deviation and range, beside --women's.");
+  tool.inputs(c.meshes, "FILE.vtkhdf", "deformed meshes (forward), of meshes with a wall surface");
+  tool.output_file(c.table, "--table", "OUT.tsv", "a row a breast; without it to stdout");
+  tool.output_file(c.summary, "--summary", "OUT.tsv", "means over the breasts");
+  tool.input_file(c.women, "--women", "TABLE.tsv", "columns quantity, mean, sd of living women");
+  tool.number(c.muscle, "--muscle", "MM", "thickness of the muscle in front of the ribs", 0, 50);
+  tool.example("population runs/*/supine.vtkhdf --women pipelines/invivo/women.tsv "
+               "--summary motion.tsv",
+               "prone to supine of all runs");
+  return tool.main(argc, argv, [&c](Run& run) { run_population(c, run); });
+}
