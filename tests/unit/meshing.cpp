@@ -236,6 +236,22 @@ TEST(Tissue, FractionsOfABallAddUpToItsVolume) {
   }
 }
 
+/// Ducts too thin to fill a third of any element still count with their volume.
+TEST(Tissue, ThinDuctsKeepTheirVolume) {
+  LabelVolume labels = ball_of_gland(Vec3(0, 45, 0), 30);
+  for (int k = 0; k < 170; ++k) {
+    for (int j = 0; j < 150; ++j) {
+      for (int i = 0; i < 170; ++i) {
+        if (i % 11 < 2) continue;
+        labels.fibroglandular_fraction[labels.grid.offset(i, j, k)] = 0;
+      }
+    }
+  }
+  HexMesh mesh = body_mesh(analytic_breast(), {.size = dome_near(8)});
+  const TissueReport report = assign_tissue(labels, mesh);
+  EXPECT_NEAR(report.volume[int(Tissue::fibroglandular)] / report.fibroglandular_volume, 1, 0.1);
+}
+
 TEST(Tissue, WrongSideOrFrameIsRefused) {
   HexMesh mesh = body_mesh(analytic_breast(), {.size = dome_near(8)});
   LabelVolume labels = ball_of_gland(Vec3(0, 45, 0), 20);
