@@ -2,12 +2,14 @@
 #include <cmath>
 
 #include "cli/sibling.hpp"
+#include "core/error.hpp"
 #include "core/temporary_folder.hpp"
 #include "hexmesh_options.hpp"
 #include "io/geometry_file.hpp"
 #include "io/label_file.hpp"
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
+#include "meshing/agreement.hpp"
 #include "meshing/boundary_surface.hpp"
 #include "meshing/report.hpp"
 #include "meshing/skin.hpp"
@@ -18,17 +20,35 @@ using namespace breast;
 namespace {
 
 std::optional<Tumour> choose_tumour(const MeshChoices& choices, const LabelVolume& labels,
-                                    Run& run) {
+                                    const HexMesh& mesh, Run& run) {
   if (choices.tumour == "none") return std::nullopt;
   if (choices.tumour == "auto") {
-    std::optional<Tumour> found = automatic_tumour(labels);
-    if (!found) run.warn("no fibroglandular tissue in the labels: no artificial tumour was placed");
+    std::optional<Tumour> found = automatic_tumour(labels, mesh);
+    if (!found) {
+      run.warn(
+          "no edge of fibroglandular tissue inside the mesh: no artificial tumour was placed; give "
+          "a place with --tumour x,y,z");
+    }
     return found;
   }
   if (!std::filesystem::exists(choices.tumour)) return parse_tumour(choices.tumour);
   if (std::filesystem::path(choices.tumour).extension() == ".tsv")
     return read_tumour(choices.tumour);
   return tumour_of(read_labels(choices.tumour), choices.tumour);
+}
+
+/// Refuses a geometry that is not the labels' body, unless the user accepts it.
+void judge_agreement(const MeshChoices& choices, const BodyMeshReport& body,
+                     const TissueReport& tissue, Run& run) {
+  if (const auto coarse = too_coarse(body)) run.warn(*coarse);
+  const auto wrong = mismatch(body, tissue);
+  if (!wrong) return;
+  if (!choices.accept_mismatch) {
+    throw input_error(*wrong,
+                      ": look at fit-hermite's report and the labels' extent, give the labels the "
+                      "geometry was fitted to, or mesh it all the same with --accept-mismatch");
+  }
+  run.warn(*wrong);
 }
 
 void write_boundary(const HexMesh& mesh, const std::filesystem::path& file) {
@@ -63,9 +83,10 @@ void run_hexmesh(const MeshChoices& choices, Run& run) {
     Timer::Scope phase(run.timer(), "tissue");
     tissue = assign_tissue(labels, mesh);
   }
+  judge_agreement(choices, body, tissue, run);
   if (choices.skin_as == "membrane") set_membrane_skin(skin_mm, mesh);
   add_nipple(mesh);
-  if (const auto tumour = choose_tumour(choices, labels, run)) {
+  if (const auto tumour = choose_tumour(choices, labels, mesh, run)) {
     add_tumour(*tumour, mesh);
     run.report().set("tumour", tumour->origin);
     if (tumour->artificial) {

@@ -62,7 +62,11 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
       choices.tumour, "--tumour", "auto|none|x,y,z[:radius]|FILE",
       "tumour point in patient LPS mm; with a radius, elements inside become tumour; FILE is a "
       ".tsv with columns x_mm y_mm z_mm [radius_mm], or labels with tumour voxels; auto: the one of "
-      "the labels, else an artificial one on the gland's edge, landmark artificial_tumour");
+      "the labels, else an artificial one on the gland's edge inside the mesh, landmark "
+      "artificial_tumour");
+  tool.flag(choices.accept_mismatch, "--accept-mismatch",
+            "mesh a geometry that is not the body of the labels: more than 2 % off in volume, or "
+            "more than 5 % of the labels' breast outside it. Refused without this");
   tool.output_file(choices.surface, "--surface", "OUT.vtp",
                    "the mesh's closed boundary as triangles; scalar part: 0 skin, 1 lateral cut, 2 "
                    "chest wall");

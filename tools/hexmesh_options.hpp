@@ -14,6 +14,7 @@ struct MeshChoices {
   std::filesystem::path geometry, labels, mesh, surface, tetrahedra;
   std::string shape = "dome", skin = "1.45", skin_as = "membrane", tumour = "auto";
   int elements = 16, order = 1;
+  bool accept_mismatch = false;
   std::vector<double> dome;  ///< n, l, m, k; empty: about `elements`^3
 
   BodyMeshOptions mesh_options(double skin_mm) const;

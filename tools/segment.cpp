@@ -17,7 +17,7 @@ namespace {
 
 struct Choices {
   std::filesystem::path scan, labels, wall, points, overlay, measures;
-  std::string side, interior = "threshold";
+  std::string side, interior = "threshold", contrast = "auto";
   int series = 0;
   double wall_shift = 0;
 };
@@ -45,6 +45,10 @@ void declare(Tool& tool, Choices& c) {
               "what decides between fat and fibroglandular tissue: threshold: midway between their "
               "brightness (closer to known truth); region-growing: the paper's 3-D "
               "confidence-connected growing of fat. The report compares both");
+  tool.choice(c.contrast, "--contrast", {"auto", "fat-bright"},
+              "auto: a scan in which fat is not the bright tissue (fat saturation, T2, subtraction) "
+              "is refused on the evidence of skin, fat, muscle and what lies below the skin; "
+              "fat-bright: you answer for it, and that evidence is a warning");
   tool.output_file(c.points, "--points", "OUT.vtp", "skin and chest-wall data points");
   tool.output_file(c.overlay, "--overlay", "OUT.png",
                    "slices with contours, to judge the result by");
@@ -112,6 +116,7 @@ void run_segment(const Choices& c, Run& run) {
   options.side = side_from_name(c.side);
   options.wall_shift = c.wall_shift;
   if (c.interior == "region-growing") options.interior = Interior::region_growing;
+  if (c.contrast == "fat-bright") options.contrast = Contrast::fat_bright;
   VolumeSource source;
   const Volume<float> scan = [&] {
     const Timer::Scope phase(run.timer(), "read");

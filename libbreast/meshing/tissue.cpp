@@ -82,7 +82,7 @@ double volume_preserving_threshold(const HexMesh& mesh, const std::vector<double
     sum += volumes[e];
     threshold = fraction[e];
   }
-  return std::clamp(threshold, 0.3, 0.7);
+  return std::clamp(threshold, 0.1, 0.7);
 }
 
 // Share of the breast's voxels that lie outside the mesh, from every eighth voxel or so.

@@ -20,7 +20,7 @@ struct TissueReport {
 /// Fills tissue and fibroglandular_fraction from 3³ samples per element, weighted by their volumes,
 /// at the imaged positions; samples outside the breast count for nothing, an element without any
 /// breast sample is fat. The elements with the largest fractions are fibroglandular, as many as
-/// give the volume of the fractions' sum, with the threshold kept within 0.3 to 0.7 (one half would
+/// give the volume of the fractions' sum, with the threshold kept within 0.1 to 0.7 (one half would
 /// lose thin ducts: their fractions add up and no element reaches a half). An element half tumour
 /// is tumour; elements that are skin already (layer) stay skin. Throws Error (input) when the
 /// labels hold no breast, are of the other side, or do not overlap the mesh.

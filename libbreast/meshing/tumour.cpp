@@ -15,7 +15,8 @@ namespace breast {
 
 namespace {
 
-constexpr double clearance_mm = 8;
+constexpr double clearance_mm = 8;                            // to what is no breast in the labels
+constexpr double mesh_clearance_mm = 5, least_clearance_mm = 2;  // to the boundary of the mesh
 
 struct Region {
   long long voxels = 0;
@@ -70,6 +71,18 @@ bool is_clear(const LabelVolume& labels, int i, int j, int k) {
   return true;
 }
 
+// The point and 26 others at this distance round it lie inside the mesh.
+bool is_inside(const Locator& mesh, const Vec3& at, double clearance) {
+  int hint = -1;
+  for (int d = 0; d < 27; ++d) {
+    const Vec3 way(d % 3 - 1, (d / 3) % 3 - 1, d / 9 - 1);
+    const auto found = mesh.find(d == 13 ? at : Vec3(at + clearance * way.normalized()), hint);
+    if (!found) return false;
+    hint = found->element;
+  }
+  return true;
+}
+
 // Has a fat neighbour: the point half-way to it is on the edge.
 std::optional<Vec3> edge_point(const LabelVolume& labels, int i, int j, int k) {
   constexpr std::array<std::array<int, 3>, 6> steps = {
@@ -82,6 +95,13 @@ std::optional<Vec3> edge_point(const LabelVolume& labels, int i, int j, int k) {
   return std::nullopt;
 }
 
+// A place for an artificial tumour.
+struct Candidate {
+  double distance;  // mm2 to where one is wanted
+  Vec3 at;
+  bool clear;  // of what is no breast in the labels
+};
+
 void check_radius(double radius, const std::string& where) {
   if (!(radius > 0 && radius <= 50)) {
     throw input_error("--tumour ", where, ": radius ", radius,
@@ -91,7 +111,7 @@ void check_radius(double radius, const std::string& where) {
 
 }  // namespace
 
-std::optional<Tumour> automatic_tumour(const LabelVolume& labels) {
+std::optional<Tumour> automatic_tumour(const LabelVolume& labels, const HexMesh& mesh) {
   if (const auto named = labels.landmarks.find("tumour"); named != labels.landmarks.end()) {
     return Tumour{named->second, 0, "landmark of the labels", false};
   }
@@ -101,22 +121,24 @@ std::optional<Tumour> automatic_tumour(const LabelVolume& labels) {
   if (gland.voxels == 0) return std::nullopt;
   const Vec3 upper_outer = Vec3(lateral_sign(labels.side), 0, 1).normalized();
   const Vec3 target = gland.centroid + 0.7 * gland.rms_radius * upper_outer;
-  Tumour clear, any;
-  double best_clear = std::numeric_limits<double>::infinity(), best_any = best_clear;
+  std::vector<Candidate> candidates;
   for_voxels(labels, Tissue::fibroglandular, [&](int i, int j, int k) {
-    const std::optional<Vec3> edge = edge_point(labels, i, j, k);
-    if (!edge) return;
-    const double distance = (*edge - target).squaredNorm();
-    if (distance < best_any) best_any = distance, any.centre = *edge;
-    if (distance < best_clear && is_clear(labels, i, j, k)) {
-      best_clear = distance, clear.centre = *edge;
-    }
+    if (const auto edge = edge_point(labels, i, j, k))
+      candidates.push_back({(*edge - target).squaredNorm(), *edge, is_clear(labels, i, j, k)});
   });
-  if (!std::isfinite(best_any)) return std::nullopt;
-  Tumour& chosen = std::isfinite(best_clear) ? clear : any;
-  chosen.origin = "artificial, on the edge of the fibroglandular region";
-  chosen.artificial = true;
-  return chosen;
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+  const Locator locator(mesh, mesh.imaged);
+  const auto first = [&](bool clear, double clearance) {
+    return std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+      return (c.clear || !clear) && is_inside(locator, c.at, clearance);
+    });
+  };
+  auto chosen = first(true, mesh_clearance_mm);
+  if (chosen == candidates.end()) chosen = first(false, mesh_clearance_mm);
+  if (chosen == candidates.end()) chosen = first(false, least_clearance_mm);
+  if (chosen == candidates.end()) return std::nullopt;
+  return Tumour{chosen->at, 0, "artificial, on the edge of the fibroglandular region", true};
 }
 
 Tumour tumour_of(const LabelVolume& labels, const std::string& name) {
@@ -171,10 +193,6 @@ void add_nipple(HexMesh& mesh) {
 void add_tumour(const Tumour& tumour, HexMesh& mesh, double max_moved) {
   const Locator locator(mesh, mesh.imaged);
   const Location found = locator.nearest(tumour.centre);
-  if (!(found.moved <= max_moved) && tumour.artificial) {
-    throw input_error("the artificial tumour lies ", found.moved, " mm outside the mesh; at most ",
-                      max_moved, ": give a place with --tumour x,y,z or go without (--tumour none)");
-  }
   if (!(found.moved <= max_moved)) {
     throw input_error("tumour at (", tumour.centre.x(), ", ", tumour.centre.y(), ", ",
                       tumour.centre.z(), ") mm lies ", found.moved,

@@ -18,11 +18,12 @@ struct Tumour {
 };
 
 /// The tumour of the labels (landmark "tumour", else centroid of tumour voxels), else an artificial
-/// one: the point on the edge of the fibroglandular region, at least 8 mm from skin and chest wall
-/// where there is one, nearest to the region's upper outer part (centroid + 0.7 rms radius
-/// laterally and superiorly). Depends on the voxels only, so it is the same imaged point for every
-/// mesh. Nothing when the labels hold no fibroglandular tissue.
-std::optional<Tumour> automatic_tumour(const LabelVolume& labels);
+/// one on the edge of the fibroglandular region and inside the mesh, nearest to the region's upper
+/// outer part (centroid + 0.7 rms radius laterally and superiorly): at least 8 mm from skin and
+/// chest wall of the labels and 5 mm from the boundary of the mesh; where no place is, 5 or 2 mm
+/// from that boundary alone. The mesh only passes over places outside it, so that meshes of one
+/// geometry share the imaged point. Nothing when no edge of fibroglandular tissue lies inside.
+std::optional<Tumour> automatic_tumour(const LabelVolume& labels, const HexMesh& mesh);
 
 /// Parses "x,y,z" or "x,y,z:radius" (mm). Throws Error (input).
 Tumour parse_tumour(const std::string& text);

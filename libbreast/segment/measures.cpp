@@ -23,7 +23,7 @@ std::vector<Quantity> measures_of(const Segmentation& result) {
   }
   add("breast_ml", "breast_ml", fat + gland + skin);
   add("fibroglandular_by_fraction_ml", "fibroglandular_by_fraction_ml", by_fraction);
-  add("density_percent", "density_percent", 100 * gland / (gland + fat));
+  add("density_percent", "density_percent", 100 * by_fraction / (gland + fat));
   add("fat_fraction", "fat_fraction", result.fat_fraction);
   add("fat_fraction_region_growing", "fat_fraction_region_growing", result.fat_fraction_grown);
   add("fibroglandular_agreement", "fibroglandular_agreement", result.fibroglandular_agreement);
@@ -38,7 +38,9 @@ std::vector<Quantity> measures_of(const Segmentation& result) {
   add("debris_removed_ml", "debris_removed_ml", result.debris_ml);
   add("cut_by_view_cm2", "cut_by_view_cm2", result.cut_by_view_cm2);
   add("flat_skin_cm2", "flat_skin_cm2", result.flat_skin_cm2);
-  add("subcutaneous_brightness", "subcutaneous_brightness", result.subcutaneous_brightness);
+  add("subcutaneous_brightness", "subcutaneous_brightness", result.contrast.subcutaneous);
+  add("skin_to_subcutis", "skin_to_subcutis", result.contrast.skin_to_subcutis);
+  add("saturation_evidence", "saturation_evidence", saturation_evidence(result.contrast));
   add("fat_cv_before", "bias/fat_cv_before", result.bias_cv_before);
   add("fat_cv_after", "bias/fat_cv_after", result.bias_cv_after);
   add("bias_range_factor", "bias/range_factor", result.bias_range);

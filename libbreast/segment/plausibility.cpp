@@ -6,49 +6,9 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "segment/grid/filters.hpp"
 #include "segment/tissue/skin_patch.hpp"
 
 namespace breast {
-
-double subcutaneous_brightness(const Work& work) {
-  const Grid& grid = work.scan.grid;
-  Volume<float> tissue(grid);
-  const auto at_depth = [&](std::size_t n, double from, double to) {
-    const double depth = -work.skin_distance.voxels[n];
-    return depth > from && depth < to;
-  };
-  // In front of the sternum's skin there is breast and nothing else.
-  for (int k = 0; k < grid.size[2]; ++k) {
-    for (int j = 0; j < grid.size[1] && j * grid.spacing[1] < work.torso.cleft[k]; ++j) {
-      for (int i = 0; i < grid.size[0]; ++i) {
-        const std::size_t n = grid.offset(i, j, k);
-        if (at_depth(n, 3, 1e9)) tissue.voxels[n] = work.scan.voxels[n];
-      }
-    }
-  }
-  const Volume<float> brightest = box_maximum(gaussian(tissue, 1.5), 25);
-  std::vector<float> shares;
-  for (std::size_t n = 0; n < tissue.voxels.size(); ++n) {
-    if (tissue.voxels[n] > 0 && at_depth(n, 4, 8))
-      shares.push_back(tissue.voxels[n] / brightest.voxels[n]);
-  }
-  if (shares.empty()) return 1;
-  const auto middle = shares.begin() + std::ptrdiff_t(shares.size() / 2);
-  std::nth_element(shares.begin(), middle, shares.end());
-  return *middle;
-}
-
-void refuse_saturated_fat(const Work& work) {
-  constexpr double least = 1.0 / 3;
-  const double brightness = subcutaneous_brightness(work);
-  if (!(brightness > least)) {
-    throw input_error("the fat beneath the breast's skin has ", std::lround(100 * brightness),
-                      " % of the brightness of the tissue around it (at least ",
-                      std::lround(100 * least),
-                      " % expected): fat is saturated; give the T1 series without fat saturation");
-  }
-}
 
 double cut_by_view_cm2(const Mask& breast) {
   const Grid& grid = breast.grid;

@@ -6,6 +6,8 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "segment/body/side.hpp"
+#include "segment/contrast.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/grid/itk_filters.hpp"
 #include "segment/plausibility.hpp"
@@ -26,7 +28,7 @@ constexpr double wall_clearance = 2;  // mm in front of the wall used for the la
 /// Bias on a grid halved in plane, and the ratio on the working grid. `limit` gives the depth (mm)
 /// per column up to which there may be fat.
 template <class Limit>
-void correct_bias(Work& work, bool again, const Limit& limit) {
+void correct_bias(Work& work, bool again, const BiasSettings& settings, const Limit& limit) {
   const std::array<int, 3> half{2, 2, 1};
   const Volume<float> coarse = coarsened(work.scan, half);
   Volume<float> distance = resampled(work.skin_distance, coarse.grid);
@@ -42,7 +44,7 @@ void correct_bias(Work& work, bool again, const Limit& limit) {
     }
   }
   const Volume<float> previous = work.bias.log_bias;
-  work.bias = fat_bias(coarse, allowed, distance, BiasSettings{}, again ? &previous : nullptr);
+  work.bias = fat_bias(coarse, allowed, distance, settings, again ? &previous : nullptr);
   const Volume<float> fine = resampled(work.bias.log_bias, work.scan.grid);
   work.ratio = work.scan;
   for (std::size_t n = 0; n < fine.voxels.size(); ++n) {
@@ -79,7 +81,7 @@ void find_wall(Work& work, const SegmentOptions& options, Progress& progress, Ti
     progress.update("chest wall", 0.2 + 0.25 * pass, pass ? "second pass" : "first pass");
     {
       const Timer::Scope phase(timer, "bias");
-      correct_bias(work, pass > 0, [&](int i, int k) {
+      correct_bias(work, pass > 0, {}, [&](int i, int k) {
         const double sternal = work.torso.cleft[k] + depth_limit;
         if (pass == 0 || std::isnan(work.wall.depth.at(i, k))) return sternal;
         return work.wall.depth.at(i, k) - wall_clearance;
@@ -181,9 +183,25 @@ void doubt_extent(Segmentation& result, const Extents& found) {
     result.doubts.push_back(std::move(doubt));
 }
 
+/// Depth (mm) to which skin darkens what lies below it: its own and that of voxels shared with it,
+/// usually 3 mm.
+double darkened_by_skin(const Work& work) {
+  const Vec3& spacing = work.scan.grid.spacing;
+  return work.skin > 0 ? std::min(3.0, work.skin + 0.75 * (spacing[0] + spacing[1])) : 3.0;
+}
+
+/// A contrast in which fat is not the bright tissue: refused, or reported where the user answers
+/// for it.
+void judge_contrast(Segmentation& result, const SegmentOptions& options) {
+  const std::string refusal = refusal_of(result.contrast);
+  if (refusal.empty()) return;
+  if (options.contrast == Contrast::automatic) throw input_error(refusal);
+  result.doubts.push_back("taken as told: " + refusal);
+}
+
 /// Where a wall is held by the limits of the search alone, or what lies behind is as bright as fat
 /// (muscle has 0.2 to 0.4 of it in T1).
-void refuse_without_contrast(const Segmentation& result) {
+void refuse_without_wall(const Segmentation& result) {
   constexpr double least_confidence = 0.15, brightest_muscle = 0.6;
   if (result.wall_confidence_mean >= least_confidence && result.muscle_ratio < brightest_muscle)
     return;
@@ -213,19 +231,22 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
     work.torso = find_torso(work.body.mask, options.side);
     work.skin_distance = signed_distance(work.body.mask);
     work.domain = wall_domain(work.body.mask, work.torso, options.side == Side::left);
-    result.subcutaneous_brightness = subcutaneous_brightness(work);
-    refuse_saturated_fat(work);
+    refuse_other_side(work.torso, work.scan.grid, options.side);
+    result.contrast = contrast_below_skin(work);
   }
   find_wall(work, options, progress, timer);
   {
     const Timer::Scope phase(timer, "bias");
-    correct_bias(work, true, [&](int i, int k) {
+    correct_bias(work, true, {.refined = true}, [&](int i, int k) {
       return std::isnan(work.wall.depth.at(i, k)) ? work.torso.cleft[k] + 10
                                                   : work.wall.depth.at(i, k) - wall_clearance;
     });
     result.bias_cv_before = work.bias.fat_cv_before;
     result.bias_cv_after = work.bias.fat_cv_after;
     result.bias_range = work.bias.range;
+    result.contrast.fat_cv = work.bias.fat_cv_after;
+    result.contrast.muscle_ratio = work.wall.muscle_ratio;
+    judge_contrast(result, options);
   }
   const Timer::Scope phase(timer, "tissue");
   progress.update("tissue", 0.8, "");
@@ -234,9 +255,9 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   work.breast =
       breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent, options.side);
   work.skin = skin_thickness(work.brightness, work.breast, work.skin_distance);
-  work.gland = find_fibroglandular(work.ratio, interior_of(work, 3, work.scan.grid.spacing[1]),
-                                   near_unsure_wall(work, 8), work.wall.muscle_ratio,
-                                   result.bias_cv_after, options.interior);
+  const Mask interior = interior_of(work, darkened_by_skin(work), work.scan.grid.spacing[1]);
+  work.gland = find_fibroglandular(work.ratio, interior, near_unsure_wall(work, 8),
+                                   work.wall.muscle_ratio, result.bias_cv_after, options.interior);
   result.labels = labels_of(work, options.side);
   result.labels.midline_mm =
       work.scan.grid.to_patient(Vec3(work.torso.midline, 0, 0.5 * work.scan.grid.size[2]))[0];
@@ -252,7 +273,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   summarise(result, work);
   find_doubts(result, work);
   doubt_extent(result, extents_of(work, nipple.tip, options.side));
-  if (!options.wall_labels && options.wall_points.empty()) refuse_without_contrast(result);
+  if (!options.wall_labels && options.wall_points.empty()) refuse_without_wall(result);
   return result;
 }
 

@@ -8,10 +8,17 @@
 #include "core/progress.hpp"
 #include "core/report.hpp"
 #include "image/label_volume.hpp"
+#include "segment/contrast.hpp"
 #include "segment/tissue/tissue.hpp"
 #include "surface/tri_mesh.hpp"
 
 namespace breast {
+
+/// Which tissue is bright.
+enum class Contrast {
+  automatic,  ///< refused when the image speaks against bright fat
+  fat_bright  ///< the user answers for it; what speaks against it is a warning
+};
 
 struct SegmentOptions {
   Side side = Side::left;
@@ -22,6 +29,7 @@ struct SegmentOptions {
   /// Moves the wall by this many of its own standard deviations, backwards when positive.
   double wall_shift = 0;
   Interior interior = Interior::threshold;
+  Contrast contrast = Contrast::automatic;
 };
 
 struct Segmentation {
@@ -41,7 +49,7 @@ struct Segmentation {
   double papilla_height = 0;  ///< mm; 0 on a smooth dome
   double cut_by_view_cm2 = 0, flat_skin_cm2 = 0;  ///< of the breast (plausibility.hpp)
   double front_left_out_percent = 0, lateral_border_mm = 0, nipple_depth_mm = 0;  ///< Extents
-  double subcutaneous_brightness = 0;
+  FatContrast contrast;
   double roll_degrees = 0;          ///< by which the labels' grid is turned against the scan's
   double wall_shift = 0;            ///< standard deviations the wall was moved by
   double debris_ml = 0;             ///< taken off the skin

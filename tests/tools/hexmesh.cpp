@@ -52,10 +52,11 @@ class HexmeshTool : public testing::Test {
     labels.history.push_back({"segment", "0", "analytic", {}});
     return labels;
   }
+  /// The labels are a box, not the geometry's body.
   ToolResult hexmesh(std::vector<std::string> options) {
-    std::vector<std::string> arguments = {"geometry.vtkhdf", "labels.vtkhdf", "mesh.vtkhdf",
-                                          "--quiet",         "--threads",     "1",
-                                          "--report",        "r.json"};
+    std::vector<std::string> arguments = {"geometry.vtkhdf", "labels.vtkhdf",    "mesh.vtkhdf",
+                                          "--quiet",         "--threads",        "1",
+                                          "--report",        "r.json",           "--accept-mismatch"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     return run_tool("hexmesh", arguments, folder_.path());
   }
@@ -86,6 +87,18 @@ TEST_F(HexmeshTool, DefaultIsADomeWithMembraneSkinAndTumour) {
   EXPECT_GT(report.number("min_scaled_jacobian"), 0.6);
   EXPECT_NEAR(report.number("volumes_ml/fibroglandular"), 44.6, 5);
   EXPECT_NEAR(report.number("sheet_volume_error_percent"), 0, 0.5);
+}
+
+TEST_F(HexmeshTool, AGeometryOfAnotherBodyIsRefusedUnlessAccepted) {
+  const ToolResult refused = run_tool(
+      "hexmesh", {"geometry.vtkhdf", "labels.vtkhdf", "mesh.vtkhdf", "--quiet"}, folder_.path());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.error_lines(), 1) << refused.err;
+  EXPECT_NE(refused.err.find("is not the body of the labels"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("--accept-mismatch"), std::string::npos) << refused.err;
+  EXPECT_FALSE(written());
+  ASSERT_EQ(hexmesh({"--elements", "8"}).exit_code, 0);
+  EXPECT_NE(read_text(folder_ / "r.json").find("is not the body of the labels"), std::string::npos);
 }
 
 TEST_F(HexmeshTool, CuboidWithLayerHasThePapersCounts) {

@@ -9,7 +9,9 @@
 #include "core/parallel.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/boundary_sets.hpp"
+#include "mesh/locate.hpp"
 #include "mesh/quality.hpp"
+#include "meshing/agreement.hpp"
 #include "meshing/skin.hpp"
 #include "meshing/smoothing/corner_energy.hpp"
 #include "meshing/tissue.hpp"
@@ -234,6 +236,22 @@ TEST(Tissue, FractionsOfABallAddUpToItsVolume) {
   }
 }
 
+/// Ducts too thin to fill a third of any element still count with their volume.
+TEST(Tissue, ThinDuctsKeepTheirVolume) {
+  LabelVolume labels = ball_of_gland(Vec3(0, 45, 0), 30);
+  for (int k = 0; k < 170; ++k) {
+    for (int j = 0; j < 150; ++j) {
+      for (int i = 0; i < 170; ++i) {
+        if (i % 11 < 2) continue;
+        labels.fibroglandular_fraction[labels.grid.offset(i, j, k)] = 0;
+      }
+    }
+  }
+  HexMesh mesh = body_mesh(analytic_breast(), {.size = dome_near(8)});
+  const TissueReport report = assign_tissue(labels, mesh);
+  EXPECT_NEAR(report.volume[int(Tissue::fibroglandular)] / report.fibroglandular_volume, 1, 0.1);
+}
+
 TEST(Tissue, WrongSideOrFrameIsRefused) {
   HexMesh mesh = body_mesh(analytic_breast(), {.size = dome_near(8)});
   LabelVolume labels = ball_of_gland(Vec3(0, 45, 0), 20);
@@ -247,13 +265,14 @@ TEST(Tissue, WrongSideOrFrameIsRefused) {
 TEST(Tumour, AutomaticPointLiesOnTheEdgeOfTheGland) {
   const Vec3 centre(0, 45, 0);
   const LabelVolume labels = ball_of_gland(centre, 22);
-  const auto tumour = automatic_tumour(labels);
+  HexMesh coarse = body_mesh(analytic_breast(), {.size = dome_near(8)});
+  HexMesh fine = body_mesh(analytic_breast(), {.size = dome_near(14)});
+  const auto tumour = automatic_tumour(labels, fine);
   ASSERT_TRUE(tumour);
   EXPECT_NEAR((tumour->centre - centre).norm(), 22, 1.2);
   EXPECT_GT(tumour->centre.x(), 10);  // left breast: lateral is +x
   EXPECT_GT(tumour->centre.z(), 10);
-  HexMesh coarse = body_mesh(analytic_breast(), {.size = dome_near(8)});
-  HexMesh fine = body_mesh(analytic_breast(), {.size = dome_near(14)});
+  EXPECT_EQ(automatic_tumour(labels, coarse)->centre, tumour->centre);
   add_tumour(*tumour, coarse);
   add_tumour(*tumour, fine);
   for (const HexMesh* mesh : {&coarse, &fine}) {
@@ -265,11 +284,52 @@ TEST(Tumour, AutomaticPointLiesOnTheEdgeOfTheGland) {
   }
 }
 
+/// Labels may call more tissue breast than the mesh holds, the gland's upper outer part included.
+TEST(Tumour, AutomaticPointLiesInsideTheMeshWhateverTheLabels) {
+  HexMesh mesh = body_mesh(analytic_breast(), {.size = dome_near(8)});
+  const Locator locator(mesh, mesh.imaged);
+  for (const Vec3& centre : {Vec3(45, 60, 45), Vec3(0, 80, 70), Vec3(60, 80, 0)}) {
+    const auto tumour = automatic_tumour(ball_of_gland(centre, 25), mesh);
+    ASSERT_TRUE(tumour) << centre.transpose();
+    EXPECT_TRUE(locator.find(tumour->centre));
+    for (int d = 0; d < 3; ++d) {
+      for (const double step : {-2.0, 2.0})
+        EXPECT_TRUE(locator.find(tumour->centre + step * Vec3::Unit(d))) << centre.transpose();
+    }
+    HexMesh with = mesh;
+    EXPECT_NO_THROW(add_tumour(*tumour, with));
+    EXPECT_EQ(with.landmarks.back().moved, 0);
+  }
+  EXPECT_FALSE(automatic_tumour(ball_of_gland(Vec3(75, 0, 75), 6), mesh)) << "all of it outside";
+}
+
+TEST(Agreement, AnotherBodyIsAMismatchAndFlatFacesAreNot) {
+  BodyMeshReport body;
+  body.body_volume = 500e3;
+  body.mesh_volume = 498e3;
+  TissueReport tissue;
+  tissue.segmented_volume = 503e3;
+  tissue.missed_fraction = 0.03;
+  EXPECT_FALSE(mismatch(body, tissue));
+  EXPECT_FALSE(too_coarse(body));
+  body.mesh_volume = 450e3;  // a tenth cut off by flat faces, and as much of the voxels missed
+  tissue.missed_fraction = 0.13;
+  EXPECT_FALSE(mismatch(body, tissue));
+  ASSERT_TRUE(too_coarse(body));
+  EXPECT_NE(too_coarse(body)->find("10.0 %"), std::string::npos) << *too_coarse(body);
+  tissue.missed_fraction = 0.16;
+  EXPECT_TRUE(mismatch(body, tissue));
+  tissue.missed_fraction = 0.13;
+  tissue.segmented_volume = 560e3;
+  ASSERT_TRUE(mismatch(body, tissue));
+  EXPECT_NE(mismatch(body, tissue)->find("560 ml"), std::string::npos) << *mismatch(body, tissue);
+}
+
 TEST(Tumour, OneOfTheLabelsOrGivenIsNotCalledArtificial) {
   LabelVolume labels = ball_of_gland(Vec3(0, 45, 0), 22);
   labels.landmarks["tumour"] = Vec3(3, 45, 2);
   HexMesh marked = body_mesh(analytic_breast(), {.size = dome_near(8)}), given = marked;
-  add_tumour(*automatic_tumour(labels), marked);
+  add_tumour(*automatic_tumour(labels, marked), marked);
   add_tumour(parse_tumour("5,45,3"), given);
   for (const HexMesh* mesh : {&marked, &given}) {
     ASSERT_NE(mesh->landmark("tumour"), nullptr);

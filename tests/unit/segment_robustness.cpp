@@ -11,6 +11,7 @@
 #include "fixtures/synthetic_scan.hpp"
 #include "segment/body/body.hpp"
 #include "segment/body/debris.hpp"
+#include "segment/contrast.hpp"
 #include "segment/grid/itk_filters.hpp"
 #include "segment/plausibility.hpp"
 #include "segment/segment.hpp"
@@ -171,6 +172,79 @@ TEST(SegmentRobustness, SaturatedFatIsRefusedWithTheReason) {
   EXPECT_NE(reason.find("saturated"), std::string::npos) << reason;
 }
 
+/// As in a scan seen: fat varies, saturated unevenly, and is darker than skin and gland; muscle has
+/// 0.59 of it, and beneath the skin there is still half of the brightness around.
+Volume<float> unevenly_saturated() {
+  const SyntheticScan& truth = patient().truth;
+  return truth.image_of([&](const Vec3& p) {
+    const double signal = truth.signal(p);
+    const double fat = 0.4 + 0.04 * (std::sin(p[0] / 3) + std::sin(p[1] / 4) + std::sin(p[2] / 5));
+    if (signal == 0) return 0.0;
+    if (truth.in_skin(p, 4)) return 1.8 * 0.4;
+    return signal == 1 ? fat : signal == 0.6 ? 0.7 : signal == 0.35 ? 0.59 * 0.4 : 0.03;
+  });
+}
+
+TEST(SegmentRobustness, UnevenlySaturatedFatIsRefusedUnlessToldOtherwise) {
+  const Volume<float> scan = unevenly_saturated();
+  const std::string reason = refusal(scan);
+  EXPECT_NE(reason.find("fat is saturated"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("--contrast fat-bright"), std::string::npos) << reason;
+  SegmentOptions told;
+  told.contrast = Contrast::fat_bright;
+  const Segmentation result = run(scan, told);
+  EXPECT_GT(saturation_evidence(result.contrast), most_evidence);
+  EXPECT_TRUE(std::any_of(result.doubts.begin(), result.doubts.end(), [](const std::string& doubt) {
+    return doubt.find("taken as told: fat is saturated") == 0;
+  }));
+  EXPECT_EQ(run(patient().scan, told).labels.tissue, patient().base.labels.tissue);
+}
+
+TEST(Contrast, OneOddityIsNoSaturationTwoAre) {
+  // In a real fat-saturated scan; the farthest of scans with bright fat, phantoms included.
+  const FatContrast saturated{1.7, 0.55, 0.10, 0.59}, bright{1.14, 0.54, 0.086, 0.45};
+  EXPECT_NE(refusal_of(saturated), "");
+  EXPECT_EQ(refusal_of(bright), "");
+  for (int odd = 0; odd < 3; ++odd) {
+    FatContrast one = bright, all_but_one = saturated;
+    double FatContrast::* const member[] = {&FatContrast::skin_to_subcutis, &FatContrast::fat_cv,
+                                            &FatContrast::muscle_ratio};
+    one.*member[odd] = 3 * saturated.*member[odd];
+    all_but_one.*member[odd] = bright.*member[odd];
+    EXPECT_EQ(refusal_of(one), "") << odd;
+    EXPECT_NE(refusal_of(all_but_one), "") << odd;
+  }
+  FatContrast dark = bright;
+  dark.subcutaneous = 0.33;
+  EXPECT_NE(refusal_of(dark), "") << "fat darker than a third of what surrounds it";
+}
+
+TEST(SegmentRobustness, TheOtherBreastAloneInViewIsRefused) {
+  for (const bool left : {true, false}) {
+    const Volume<float> alone = testing::one_breast(patient().scan, left);
+    SegmentOptions other;
+    other.side = left ? Side::right : Side::left;
+    try {
+      run(alone, other);
+      ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code(), 2);
+      const std::string reason = error.what();
+      EXPECT_NE(reason.find(left ? "is the left one" : "is the right one"), std::string::npos)
+          << reason;
+    }
+  }
+}
+
+TEST(SegmentRobustness, AFieldOfViewThatEndsAtTheTipIsRefused) {
+  const Volume<float>& scan = patient().scan;
+  const auto& size = scan.grid.size;
+  const int tip = int(std::lround(scan.grid.to_index(patient().truth.nipple(1))[0]));
+  const std::string reason =
+      refusal(testing::cropped(scan, {0, 0, 0}, {tip - 4, size[1] - 1, size[2] - 1}));
+  EXPECT_NE(reason.find("ends at the tip of the left breast"), std::string::npos) << reason;
+}
+
 /// The same patient with another brightness (of fat) of muscle and lung.
 Volume<float> with_chest(double brightness) {
   const SyntheticScan& truth = patient().truth;
@@ -197,6 +271,32 @@ TEST(SegmentRobustness, NoMuscleBehindTheWallIsRefusedOrDoubted) {
   };
   EXPECT_EQ(lung_doubts(run(with_chest(0.08))), 1);
   EXPECT_EQ(lung_doubts(patient().base), 0);
+}
+
+/// Gland as strands three voxels wide, half as thick as they are apart: most voxels of it are shared
+/// with fat. Its fractions add up to its volume however bright it is.
+TEST(SegmentRobustness, StrandsOfGlandKeepTheirVolume) {
+  const SyntheticScan& truth = patient().truth;
+  const auto in_strand = [&](const Vec3& p) {
+    return truth.in_gland(p) && std::hypot(std::remainder(p[0], 12), std::remainder(p[1], 12)) < 3.4;
+  };
+  double volume = 0;  // mm3 on the left
+  for (double x = 0.5; x < 150; ++x) {
+    for (double y = -99.5; y < 60; ++y) {
+      for (double z = -73.5; z < 75; ++z) volume += in_strand(Vec3(x, y, z));
+    }
+  }
+  for (const double brightness : {0.35, 0.55, 0.7}) {
+    const LabelVolume labels = run(truth.image_of([&](const Vec3& p) {
+      const double signal = truth.signal(p);
+      if (signal != 0.6) return signal;
+      return in_strand(p) ? brightness : 1.0;
+    })).labels;
+    double found = 0;
+    for (const float fraction : labels.fibroglandular_fraction)
+      found += fraction * labels.grid.voxel_volume();
+    EXPECT_NEAR(found / volume, 1, 0.06) << "gland " << brightness << " as bright as fat";
+  }
 }
 
 TEST(SegmentRobustness, EmptyVolumeIsRefused) {

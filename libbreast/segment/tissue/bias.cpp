@@ -12,9 +12,11 @@ namespace breast {
 namespace {
 
 constexpr float seed_drop = 0.35f;  // seeds: log intensity this close to the local maximum
-// Fat: residual log intensity. The weight falls to zero on the dark side, where voxels shared with
-// gland would pull the field down, take in darker ones and so eat into the gland pass by pass.
-constexpr float fat_low = -0.22f, fat_sure = -0.08f, fat_high = 0.35f;
+// Fat: residual log intensity, in units of fat's own scatter. The weight falls to zero on the dark
+// side, where voxels shared with gland would pull the field down, take in darker ones and so eat
+// into the gland pass by pass.
+constexpr float fat_low = -2.2f, fat_sure = -0.8f, fat_high = 0.35f;
+constexpr float least_scatter = 0.045f, most_scatter = 0.10f;
 constexpr float far_below = -1e4f;
 
 /// Gaussian of a width far above the voxel size, on a grid as coarse as that width allows.
@@ -60,9 +62,23 @@ Volume<float> smooth_inside(const Volume<float>& value, const Volume<float>& wei
   return out;
 }
 
-float fat_weight(float residual) {
-  if (!(residual > fat_low && residual < fat_high)) return 0;
-  return std::min(1.0f, (residual - fat_low) / (fat_sure - fat_low));
+/// Scatter of fat's log intensity, from what is brighter than the field: there is no gland there.
+float scatter_of(const Volume<float>& logs, const Volume<float>& field,
+                 const Volume<float>& weight) {
+  double sum = 0, square = 0;
+  for (std::size_t n = 0; n < logs.voxels.size(); ++n) {
+    const double residual = logs.voxels[n] - field.voxels[n];
+    if (!(weight.voxels[n] > 0 && residual > 0 && residual < fat_high)) continue;
+    sum += weight.voxels[n];
+    square += weight.voxels[n] * residual * residual;
+  }
+  if (!(sum > 0)) return most_scatter;
+  return std::clamp(float(std::sqrt(square / sum)), least_scatter, most_scatter);
+}
+
+float fat_weight(float residual, float scatter) {
+  if (!(residual > fat_low * scatter && residual < fat_high)) return 0;
+  return std::min(1.0f, (residual - fat_low * scatter) / ((fat_sure - fat_low) * scatter));
 }
 
 double variation(const std::vector<double>& values) {
@@ -103,9 +119,11 @@ BiasField fat_bias(const Volume<float>& scan, const Mask& allowed,
   BiasField field;
   for (int pass = 0; pass < 4; ++pass) {
     field.log_bias = smooth_inside(logs, fat, settings.sigma);
+    const float scatter = settings.refined && pass > 0 ? scatter_of(logs, field.log_bias, fat)
+                                                       : most_scatter;
     for (std::size_t n = 0; n < count; ++n) {
       const float residual = logs.voxels[n] - field.log_bias.voxels[n];
-      fat.voxels[n] = core.voxels[n] ? fat_weight(residual) : 0;
+      fat.voxels[n] = core.voxels[n] ? fat_weight(residual, scatter) : 0;
     }
   }
   field.log_bias = smooth_inside(logs, fat, settings.sigma);

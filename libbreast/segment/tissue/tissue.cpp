@@ -95,9 +95,9 @@ Mask gland_by_growing(const Volume<float>& ratio, const Mask& interior) {
   return gland;
 }
 
-/// Takes from `dark` its components smaller than the least lobe, and those that lie mostly by an
+/// Takes from `dark` its components smaller than `least` (mm3), and those that lie mostly by an
 /// unsure wall: strands of muscle.
-void remove_specks(Mask& dark, const Mask& by_muscle) {
+void remove_parts(Mask& dark, double least, const Mask& by_muscle) {
   const Components parts = components(dark);
   const std::vector<std::size_t> count = sizes(parts);
   std::vector<std::size_t> beside(count.size(), 0);
@@ -105,8 +105,93 @@ void remove_specks(Mask& dark, const Mask& by_muscle) {
     beside[parts.label[n]] += by_muscle.voxels[n];
   for (std::size_t n = 0; n < dark.voxels.size(); ++n) {
     const std::uint32_t part = parts.label[n];
-    const bool small = double(count[part]) * dark.grid.voxel_volume() < least_lobe;
+    const bool small = double(count[part]) * dark.grid.voxel_volume() < least;
     if (small || 2 * beside[part] > count[part]) dark.voxels[n] = 0;
+  }
+}
+
+/// Median of the voxels darker than `start` all of whose neighbours are so too: gland without fat in
+/// it. Where there are few, the darker end of all dark ones, which fat brightens.
+double brightness_of_gland(const Volume<float>& ratio, const Mask& interior, double start,
+                           double fallback) {
+  constexpr double enough = 300;  // mm3
+  const Grid& grid = ratio.grid;
+  const auto is_dark = [&](int i, int j, int k) {
+    return grid.contains(i, j, k) && interior.at(i, j, k) && ratio.at(i, j, k) < start;
+  };
+  std::vector<float> dark, core;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        if (!is_dark(i, j, k)) continue;
+        dark.push_back(ratio.at(i, j, k));
+        if (is_dark(i - 1, j, k) && is_dark(i + 1, j, k) && is_dark(i, j - 1, k) &&
+            is_dark(i, j + 1, k) && is_dark(i, j, k - 1) && is_dark(i, j, k + 1))
+          core.push_back(dark.back());
+      }
+    }
+  }
+  if (double(core.size()) * grid.voxel_volume() > enough)
+    return percentile(std::move(core), 0.5, fallback);
+  return percentile(std::move(dark), 0.15, fallback);
+}
+
+/// Voxels of `mask` and those within about 1.5 mm of it, in `interior`.
+Mask with_surroundings(const Mask& mask, const Mask& interior) {
+  Volume<float> found(mask.grid);
+  for (std::size_t n = 0; n < mask.voxels.size(); ++n) found.voxels[n] = mask.voxels[n];
+  const double reach = std::max(1.5, 1.01 * mask.grid.spacing.minCoeff());
+  const Volume<float> wider = box_maximum(found, reach);
+  Mask out(mask.grid);
+  for (std::size_t n = 0; n < mask.voxels.size(); ++n)
+    out.voxels[n] = interior.voxels[n] && wider.voxels[n] > 0;
+  return out;
+}
+
+/// Added to every share before it is clipped to [0,1] so that the clipped ones keep the sum.
+double shift_keeping_sum(const std::vector<float>& shares) {
+  double wanted = 0;
+  for (const float share : shares) wanted += share;
+  double low = -1, high = 1;
+  for (int n = 0; n < 40; ++n) {
+    const double middle = 0.5 * (low + high);
+    double sum = 0;
+    for (const float share : shares) sum += std::clamp(share + middle, 0.0, 1.0);
+    (sum < wanted ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// Voxels darker than fat's scatter reaches and than a third of gland in fat would make them, in
+/// parts too large for noise, and what surrounds them: there is gland nowhere else.
+Mask where_gland_is(const Volume<float>& ratio, const Mask& interior, const Mask& by_muscle,
+                    double gland_ratio, double fat_cv) {
+  constexpr double least_part = 12;  // mm3
+  const double limit = 1 - std::max(3.5 * fat_cv, (1 - gland_ratio) / 3);
+  Mask dark(ratio.grid);
+  for (std::size_t n = 0; n < ratio.voxels.size(); ++n)
+    dark.voxels[n] = interior.voxels[n] && ratio.voxels[n] < limit;
+  remove_parts(dark, std::max(least_part, 3 * ratio.grid.voxel_volume()), by_muscle);
+  return with_surroundings(dark, interior);
+}
+
+/// Fills the fractions: there, a voxel's brightness says its mixture. Clipping alone would lose what
+/// scatters beyond pure gland and add what scatters beyond pure fat.
+void fill_fractions(Fibroglandular& result, const Volume<float>& ratio, const Mask& there,
+                    double fat_cv) {
+  const double contrast = 1 - result.gland_ratio;
+  const double beyond = 3 * fat_cv / contrast;  // of gland or fat: other tissue, not scatter
+  const auto share_of = [&](std::size_t n) {
+    return float(std::clamp((1 - ratio.voxels[n]) / contrast, -beyond, 1 + beyond));
+  };
+  std::vector<float> shares;
+  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
+    if (there.voxels[n]) shares.push_back(share_of(n));
+  }
+  const double shift = shift_keeping_sum(shares);
+  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
+    if (there.voxels[n])
+      result.fraction.voxels[n] = float(std::clamp(share_of(n) + shift, 0.0, 1.0));
   }
 }
 
@@ -136,34 +221,22 @@ Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& inter
     if (interior.voxels[n]) values.push_back(ratio.voxels[n]);
   }
   // Midway between gland and fat (1 by the bias correction). Without gland Otsu would split the fat
-  // in two: gland is never nearly as bright as fat, so the search starts and ends at 0.8.
-  constexpr double brightest_gland = 0.8;
+  // in two: gland is darker than fat's scatter reaches, and the search starts and ends there.
+  const double brightest_gland = std::clamp(1 - 3 * fat_cv, 0.8, 0.87);
   const double start = std::clamp(otsu(values), 0.5 * (1 + muscle_ratio) - 0.15, brightest_gland);
-  std::vector<float> dark;
-  for (const float r : values) {
-    if (r < start) dark.push_back(r);
-  }
-  result.gland_ratio =
-      std::clamp(percentile(dark, 0.4, muscle_ratio), 0.5 * muscle_ratio, brightest_gland - 0.05);
+  result.gland_ratio = std::clamp(brightness_of_gland(ratio, interior, start, muscle_ratio),
+                                  0.5 * muscle_ratio, brightest_gland - 0.05);
   result.threshold = std::min(0.5 * (1 + result.gland_ratio), brightest_gland);
   result.fraction = Volume<float>(ratio.grid);
   Mask lobes(ratio.grid);
   for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
     lobes.voxels[n] = interior.voxels[n] && ratio.voxels[n] < result.threshold;
   }
-  remove_specks(lobes, by_muscle);
+  fill_fractions(result, ratio,
+                 where_gland_is(ratio, interior, by_muscle, result.gland_ratio, fat_cv), fat_cv);
+  remove_parts(lobes, least_lobe, by_muscle);
   double gland = 0;
-  // Fat scatters about 1: what lies within its scatter is fat, not a few per cent of gland.
-  const double t = result.threshold, bright = std::max(1 - 1.5 * fat_cv, t + 0.02);
-  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
-    if (!interior.voxels[n]) continue;
-    // Half at the threshold, one at gland, zero at fat; a speck stays below half.
-    const double r = ratio.voxels[n];
-    const double fraction = lobes.voxels[n] ? 0.5 + 0.5 * (t - r) / (t - result.gland_ratio)
-                                            : 0.5 * (bright - r) / (bright - t);
-    result.fraction.voxels[n] = float(std::clamp(fraction, 0.0, lobes.voxels[n] ? 1.0 : 0.5));
-    gland += lobes.voxels[n];
-  }
+  for (const std::uint8_t lobe : lobes.voxels) gland += lobe;
   result.fat_fraction = values.empty() ? 0 : 1 - gland / double(values.size());
   const Mask grown = gland_by_growing(ratio, interior);
   compare(result, interior, lobes, grown);
@@ -176,7 +249,9 @@ Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& inter
     for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
       result.fraction.voxels[n] = grown.voxels[n] ? 1 : 0;
     }
+    lobes = grown;
   }
+  result.lobes = std::move(lobes);
   return result;
 }
 

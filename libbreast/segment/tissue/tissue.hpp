@@ -13,6 +13,7 @@ enum class Interior {
 
 struct Fibroglandular {
   Volume<float> fraction;   ///< [0,1], 0 outside the interior; 0 or 1 by region growing
+  Mask lobes;               ///< voxels labelled fibroglandular
   double threshold = 0;     ///< ratio below which a voxel counts as fibroglandular
   double gland_ratio = 0;   ///< brightness of gland relative to fat
   double fat_fraction = 0;  ///< of the interior, by threshold
@@ -21,9 +22,11 @@ struct Fibroglandular {
   double agreement = 0;  ///< Dice of the fibroglandular voxels of both ways
 };
 /// `interior`: breast beyond the skin and in front of the wall. `ratio` = intensity / bias, 1 in
-/// fat with coefficient of variation `fat_cv`. Dark components below 60 mm3, or
-/// mostly in `by_muscle`, stay fat. Throws Error
-/// (input) when region growing is asked for and finds no fat to start from.
+/// fat with coefficient of variation `fat_cv`. Dark components below 60 mm3, or mostly in
+/// `by_muscle`, stay fat in the labels. A fraction is the mixture of gland and fat that has the
+/// voxel's brightness; the fractions in and next to dark components add up to what the brightness
+/// says there, limits at 0 and 1 notwithstanding, and elsewhere to what goes beyond fat's own
+/// scatter. Throws Error (input) when region growing is asked for and finds no fat to start from.
 Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& interior,
                                    const Mask& by_muscle, double muscle_ratio, double fat_cv,
                                    Interior interior_by);

@@ -1,0 +1,34 @@
+// Whether fat is the bright tissue, as in T1 without fat saturation.
+#pragma once
+
+#include <string>
+
+namespace breast {
+
+struct Work;
+
+/// What differs between scans in which fat is bright and those in which it is saturated.
+struct FatContrast {
+  /// 90th percentile, over the breast's skin, of its brightness relative to the subcutaneous tissue
+  /// nearby: skin is darker than fat, and brighter than saturated fat.
+  double skin_to_subcutis = 0;
+  /// Median, over the tissue 4-8 mm below the skin, of its brightness relative to the brightest
+  /// within 25 mm.
+  double subcutaneous = 1;
+  double fat_cv = 0;        ///< coefficient of variation of fat after the bias correction
+  double muscle_ratio = 0;  ///< brightness behind the chest wall relative to fat
+};
+
+/// The first two of them, from the scan and the body alone.
+FatContrast contrast_below_skin(const Work& work);
+
+/// How much speaks for saturated fat: each of the four counts from 0 where scans with bright fat
+/// end to 1 where a saturated one was seen, and a little beyond. More than `most_evidence` is
+/// refused: at least two of them, or subcutaneous tissue darker than a third.
+double saturation_evidence(const FatContrast& contrast);
+constexpr double most_evidence = 1.5;
+
+/// Why a scan is refused for its contrast: one sentence; empty when fat is bright.
+std::string refusal_of(const FatContrast& contrast);
+
+}  // namespace breast
