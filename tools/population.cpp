@@ -88,10 +88,9 @@ void run_population(const Choices& c, Run& run) {
     } catch (const Error& error) {
       throw Error(error.kind(), file.string() + ": " + error.what());
     }
-    std::vector<std::string> row{file.parent_path().filename().empty()
-                                     ? file.stem().string()
-                                     : file.parent_path().filename().string(),
-                                 side_name(mesh.side)};
+    const std::string folder = file.parent_path().filename().string();
+    std::vector<std::string> row{folder.empty() ? file.stem().string() : folder,
+                                 std::string(side_name(mesh.side))};
     for (const auto& [name, value] : cases.back()) {
       if (table.rows.empty()) table.columns.push_back(name);
       row.push_back(format_fixed(value, decimals));

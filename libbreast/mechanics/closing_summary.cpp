@@ -83,7 +83,7 @@ std::string accuracy(const Report& report, const Timer& timer) {
 
 std::vector<std::string> closing_summary(const Report& report, const Timer& timer,
                                          const std::vector<std::string>& results) {
-  std::vector<std::string> lines{solved(report)};
+  std::vector<std::string> lines{solved(report), "model: " + report.text("model")};
   add_laws(report, lines);
   lines.push_back(convergence(report));
   lines.insert(lines.end(), results.begin(), results.end());

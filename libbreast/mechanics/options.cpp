@@ -1,5 +1,6 @@
 #include "mechanics/options.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "core/error.hpp"
@@ -52,6 +53,40 @@ MechanicsOptions mechanics_options(const MechanicsTexts& texts) {
                                        {"direct", SolverOption::direct},
                                        {"multigrid", SolverOption::multigrid}});
   return options;
+}
+
+namespace {
+
+std::string describe_support(const WallOption& wall) {
+  const std::string along = message(wall.stiffness.tangential);
+  switch (wall.kind) {
+    case WallKind::held:
+      return "the breast is held everywhere on the chest wall, where a living breast slides";
+    case WallKind::slide:
+      return "the breast slides on the chest wall against " + along + " kPa per mm";
+    case WallKind::spring:
+      return message("the breast rests on springs at the chest wall, ", wall.stiffness.normal,
+                     " kPa per mm across it and ", along, " along it");
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string describe_model(const MechanicsOptions& options) {
+  const MaterialSet& set = options.materials;
+  std::string sentence = describe_support(options.wall);
+  sentence += message("; at rest fat has a shear modulus of ",
+                      std::round(set.law(Tissue::fat).shear_modulus()), " Pa (materials ", set.name,
+                      ")");
+  if (set.skin.kept < 1) {
+    sentence += message("; skin wrinkles where it is pressed together, ", 100 * set.skin.kept,
+                        " % of its stiffness remaining");
+  }
+  if (set.skin.prestretch > 0) {
+    sentence += message("; skin is stretched by ", 100 * set.skin.prestretch, " % at rest");
+  }
+  return sentence;
 }
 
 const char* element_name(Element element) {

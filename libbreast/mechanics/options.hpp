@@ -33,11 +33,11 @@ struct MechanicsOptions {
 /// The MECHANICS options as texts. Empty: what the material set says of wall, cut and skin.
 struct MechanicsTexts {
   std::string materials = "seed2008";  ///< set or file
-  std::vector<std::string> scale;      ///< "TISSUE=PERCENT"
+  std::vector<std::string> scale = {};  ///< "TISSUE=PERCENT"
   std::string element = "q1p0", invariants = "isochoric";
-  std::optional<double> bulk_ratio;
-  std::string wall, cut, solver = "auto";
-  std::optional<double> skin_compression, skin_smoothing, skin_prestretch;  ///< per cent, -, per cent
+  std::optional<double> bulk_ratio = {};
+  std::string wall = {}, cut = {}, solver = "auto";
+  std::optional<double> skin_compression = {}, skin_smoothing = {}, skin_prestretch = {};  ///< per cent, -, per cent
 };
 
 /// Names are those of the MECHANICS options: materials (set or file), "TISSUE=PERCENT" scales,
@@ -54,6 +54,9 @@ MechanicsOptions mechanics_options(const Choices& c) {
                                           c.skin_compression, c.skin_smoothing,
                                           c.skin_prestretch});
 }
+
+/// Which model of a breast this is, in one sentence: what holds it, how soft it is, what its skin does.
+std::string describe_model(const MechanicsOptions& options);
 
 /// "none" | "step" | "q2". Throws Error (input) for any other.
 Estimate estimate_from_name(const std::string& name);

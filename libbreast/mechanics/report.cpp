@@ -118,6 +118,7 @@ void write_report(const Equilibrium& summary, const HexMesh& mesh, const Mechani
   report.set("element", element_name(options.element));
   report.set("invariants", invariants_name(options.invariants));
   if (options.bulk_ratio > 0) report.set("bulk_ratio", options.bulk_ratio);
+  report.set("model", describe_model(options));
   report.set("wall", describe(options.wall));
   report.set("skin_law/compression_percent", 100 * options.materials.skin.kept);
   report.set("skin_law/prestretch_percent", 100 * options.materials.skin.prestretch);
