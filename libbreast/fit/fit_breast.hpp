@@ -8,7 +8,7 @@
 #include "core/progress.hpp"
 #include "core/report.hpp"
 #include "fit/rim.hpp"
-#include "fit/thorax_fit.hpp"
+#include "fit/wall/thorax_fit.hpp"
 #include "image/label_volume.hpp"
 #include "surface/hermite.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/types.hpp"
-#include "fit/wall_sheet.hpp"
+#include "fit/wall/wall_sheet.hpp"
 #include "surface/hermite.hpp"
 
 namespace breast {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fit/ellipse_fit.hpp"
+#include "fit/wall/ellipse_fit.hpp"
 #include "fit/fit_breast.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/label_breast.hpp"

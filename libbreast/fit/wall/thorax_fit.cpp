@@ -1,4 +1,4 @@
-#include "fit/thorax_fit.hpp"
+#include "fit/wall/thorax_fit.hpp"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "core/distances.hpp"
 #include "core/error.hpp"
-#include "fit/ellipse_fit.hpp"
+#include "fit/wall/ellipse_fit.hpp"
 
 namespace breast {
 

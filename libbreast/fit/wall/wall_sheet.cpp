@@ -1,4 +1,4 @@
-#include "fit/wall_sheet.hpp"
+#include "fit/wall/wall_sheet.hpp"
 
 #include <algorithm>
 #include <cmath>

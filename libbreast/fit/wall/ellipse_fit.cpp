@@ -1,4 +1,4 @@
-#include "fit/ellipse_fit.hpp"
+#include "fit/wall/ellipse_fit.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

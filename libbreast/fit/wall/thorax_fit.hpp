@@ -1,7 +1,7 @@
 // The chest wall and the rib cage around it, as the surface a breast slides on.
 #pragma once
 
-#include "fit/wall_sheet.hpp"
+#include "fit/wall/wall_sheet.hpp"
 #include "image/label_volume.hpp"
 #include "surface/hermite.hpp"
 
