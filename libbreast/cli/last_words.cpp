@@ -10,7 +10,7 @@
 #include <new>
 
 #include "cli/library_words.hpp"
-#include "core/leftovers.hpp"
+#include "core/temporary_folder.hpp"
 
 namespace breast {
 

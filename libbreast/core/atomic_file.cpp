@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/leftovers.hpp"
 #include "core/own_file.hpp"
+#include "core/temporary_folder.hpp"
 
 namespace breast {
 
