@@ -118,9 +118,10 @@ function(breast_bench name)
 endfunction()
 
 # breast_test(LABEL SOURCE DEPENDS lib...): GoogleTest program LABEL_SOURCE; every TEST becomes a CTest
-# with that label (unit, verify, extreme, tools).
+# with that label (unit, verify, extreme, tools). WHOLE: the program is one CTest, its tests share what is dear
+# to prepare.
 function(breast_test label source)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "DEPENDS;SYSTEM" ${ARGN})
+  cmake_parse_arguments(ARG "WHOLE" "TIMEOUT" "DEPENDS;SYSTEM" ${ARGN})
   breast_leave_out_without_its_libraries("Test ${label}/${source}")
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
@@ -136,6 +137,11 @@ function(breast_test label source)
   breast_use_precompiled(${target} tests)
   breast_compile_quickly(${target})
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  if(ARG_WHOLE)
+    add_test(NAME ${target} COMMAND ${target})
+    set_tests_properties(${target} PROPERTIES LABELS ${label} TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT GOMP_SPINCOUNT=1000)
+    return()
+  endif()
   gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST
     # Without the setting a tool that a test runs inside itself would start the test program anew, which
     # then ends with exit 0 and nothing tested.

@@ -17,7 +17,7 @@ programs := SEGMENT FIT_HERMITE HEXMESH BACKWARD FORWARD COMPRESS PROJECT CC2MLO
 known_settings := $(case_settings) $(programs) CASE_FILE COHORT RUNS RUN EXPECTED PRESET_BUILD ACCURACY_LADDER COST_POINTS \
   COST_FINEST FINDINGS_FINEST BUDGET_FINER BAND_SAMPLES BAND_DRAWS BAND_PLACES STABILITY_LIMIT COMPARE_ELEMENTS \
   COMPARE_SCENES COMPARE_PRESSED SCALES SCALES_tumour LEAVEOUT_VARIANTS WALL_VARIANTS POPULATION POPULATION_SCANS \
-  POPULATION_TOOL share
+  POPULATION_TOOL MINUTES FUZZ_MINUTES FUZZ_INPUTS FAULT_ALLOCATIONS share
 
 # Characters that are code to a shell or to make. In options blanks, colons, equals signs, % and ~ are no harm.
 shell_characters := $$ ` ; & | < > ( ) { } [ ] * ? ! " ' \ ^ $(hash)
@@ -47,7 +47,7 @@ ifneq ($(unknown),)
   $(error $(firstword $(unknown)): no such setting$(if $(bad_name),,$(shell pipelines/suggest.sh $(firstword $(unknown)) \
     $(known_settings))); `make -f Makefile.pipeline help` lists them)
 endif
-$(foreach v,$(filter-out share CHROMIUM,$(known_settings)),$(call check_setting,$v))
+$(foreach v,$(filter-out share $(if $(findstring command,$(origin CHROMIUM)),,CHROMIUM),$(known_settings)),$(call check_setting,$v))
 
 # $(call among,SETTING,CHOICES): every word of it is one of them.
 among = $(foreach w,$(filter-out $2,$($1)),$(error $1: '$w' is none of $2$(shell pipelines/suggest.sh $w $2)))

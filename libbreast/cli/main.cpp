@@ -4,7 +4,10 @@
 #include <cstdlib>
 #include <new>
 
+#include "cli/last_words.hpp"
+#include "cli/library_words.hpp"
 #include "cli/parse.hpp"
+#include "cli/preflight.hpp"
 #include "cli/progress_sink.hpp"
 #include "cli/tool_impl.hpp"
 #include "core/atomic_file.hpp"
@@ -15,6 +18,9 @@
 namespace breast {
 
 namespace {
+
+// Before main(): a tool's own options may be what does not fit in memory.
+[[maybe_unused]] const bool prepared = has_preflight() && have_last_words();
 
 std::string one_line(std::string text) {
   std::replace_if(
@@ -157,7 +163,7 @@ int Tool::main(int argc, char** argv, const std::function<void(Run&)>& body) {
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   Declaration& declaration = impl_->declaration;
   const auto complain = [&](const Outcome& outcome) {
-    std::fprintf(stderr, "%s: %s\n", declaration.name.c_str(), outcome.reason.c_str());
+    dprintf(message_descriptor(), "%s: %s\n", declaration.name.c_str(), outcome.reason.c_str());
     return outcome.exit_code;
   };
   bool answered = false;
@@ -177,6 +183,7 @@ int Tool::main(int argc, char** argv, const std::function<void(Run&)>& body) {
   if (outcome.exit_code == 0) {
     apply_threads(impl_->threads);
     if (threads() > 1) sleep_when_waiting(argv);
+    const LibraryWords kept_to_themselves;
     outcome = guarded([&] {
       body(run);
       write_stdout(run.printed());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cli/library_words.hpp"
 #include "core/table.hpp"
 
 namespace breast {
@@ -17,12 +18,12 @@ constexpr double redraw_interval_s = 0.1;
 
 std::size_t terminal_width() {
   winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80;
+  return ioctl(message_descriptor(), TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80;
 }
 }  // namespace
 
 StderrProgress::StderrProgress(std::string tool, bool quiet)
-    : tool_(std::move(tool)), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+    : tool_(std::move(tool)), quiet_(quiet), terminal_(isatty(message_descriptor()) != 0) {}
 
 double StderrProgress::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -43,7 +44,7 @@ void StderrProgress::update(std::string_view stage, double fraction, std::string
     std::string line = tool_ + ": " + std::string(stage);
     if (fraction >= 0) line += " " + format_fixed(100 * std::min(fraction, 1.0), 0) + " %";
     if (!detail.empty()) line += ", " + std::string(detail);
-    std::fprintf(stderr, "%s\n", line.c_str());
+    dprintf(message_descriptor(), "%s\n", line.c_str());
   }
   stage_ = stage;
   last_line_ = now;
@@ -58,12 +59,12 @@ void StderrProgress::draw_bar(std::string_view stage, double fraction, std::stri
   }
   line += detail;
   line.resize(std::min(line.size(), terminal_width() - 1));
-  std::fprintf(stderr, "\r\033[K%s", line.c_str());
+  dprintf(message_descriptor(), "\r\033[K%s", line.c_str());
   bar_shown_ = true;
 }
 
 void StderrProgress::clear_bar() {
-  if (bar_shown_) std::fputs("\r\033[K", stderr);
+  if (bar_shown_) dprintf(message_descriptor(), "\r\033[K");
   bar_shown_ = false;
 }
 
@@ -78,7 +79,7 @@ void StderrProgress::note(std::string_view text) {
 
 void StderrProgress::show_notes() {
   for (const std::string& text : held_)
-    std::fprintf(stderr, "%s: %s\n", tool_.c_str(), text.c_str());
+    dprintf(message_descriptor(), "%s: %s\n", tool_.c_str(), text.c_str());
   held_.clear();
 }
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/own_file.hpp"
+#include "core/temporary_folder.hpp"
 
 namespace breast {
 
@@ -73,6 +75,15 @@ void write_through(const fs::path& target, std::string_view bytes) {
   }
 }
 
+// A file system that took every byte and kept fewer (errno is then EIO).
+bool holds_all(int descriptor, std::size_t bytes) {
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0) return false;
+  const bool all = std::size_t(status.st_size) == bytes;
+  if (!all) errno = EIO;
+  return all;
+}
+
 // So that the rename itself survives a power failure; a file system that cannot do it is no reason
 // to fail.
 void flush_folder(const fs::path& file) {
@@ -106,7 +117,8 @@ void write_bytes(const fs::path& target, std::string_view bytes) {
   Descriptor file(part, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
   const bool opened = bool(file);
   const std::size_t done = opened ? write_all(file.id(), bytes) : 0;
-  const bool whole = opened && done == bytes.size() && fsync(file.id()) == 0 && file.close();
+  const bool whole = opened && done == bytes.size() && fsync(file.id()) == 0 &&
+                     holds_all(file.id(), bytes.size()) && file.close();
   if (!whole || std::rename(part.c_str(), target.c_str()) != 0) {
     const Error error = cannot_write(target, done, bytes.size());
     if (opened) fs::remove(part, ignored);
@@ -126,11 +138,13 @@ AtomicFolder::AtomicFolder(const fs::path& target, std::string last)
     throw input_error(target_.string(), ": this folder cannot be made (", reason.message(),
                       "); choose another place");
   }
+  note_leftover(temporary_.c_str());
 }
 
 AtomicFolder::~AtomicFolder() {
   std::error_code ignored;
   fs::remove_all(temporary_, ignored);
+  forget_leftover(temporary_.c_str());
 }
 
 void AtomicFolder::commit() {

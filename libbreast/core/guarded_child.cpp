@@ -39,9 +39,9 @@ void send(int descriptor, char answer, std::string_view bytes) {
 }
 
 // Address space beyond what the parent has; a sanitizer reserves far more by itself.
-void limit_memory() {
+void limit_memory([[maybe_unused]] double memory_mb) {
 #if !defined(__SANITIZE_ADDRESS__)
-  constexpr rlim_t more = rlim_t(3) << 30;
+  const rlim_t more = rlim_t(memory_mb) << 20;
   std::ifstream statm("/proc/self/statm");
   rlim_t pages = 0;
   rlimit space{};
@@ -53,21 +53,22 @@ void limit_memory() {
 #endif
 }
 
-void limit(double seconds) {
+void limit(double seconds, double memory_mb) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // no child outlives a killed tool
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
   const auto cpu = rlim_t(seconds) + 1;
   const rlimit time{cpu, cpu};
   setrlimit(RLIMIT_CPU, &time);
-  limit_memory();
+  limit_memory(memory_mb);
   for (const int fault : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) signal(fault, SIG_DFL);
   const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (null >= 0) dup2(null, STDERR_FILENO), dup2(null, STDOUT_FILENO);
 }
 
-[[noreturn]] void child(int descriptor, const std::function<std::string()>& work, double seconds) {
-  limit(seconds);
+[[noreturn]] void child(int descriptor, const std::function<std::string()>& work, double seconds,
+                        double memory_mb) {
+  limit(seconds, memory_mb);
   try {
     send(descriptor, result, work());
   } catch (const Error& error) {
@@ -105,7 +106,7 @@ bool receive(int descriptor, double seconds, std::string& answer) {
 }  // namespace
 
 std::string in_guarded_child(const std::string& name, const std::function<std::string()>& work,
-                             double seconds) {
+                             double seconds, double memory_mb) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) {
     throw failed_error(name, ": no pipe to a reading process (", std::strerror(errno), ")");
@@ -117,7 +118,7 @@ std::string in_guarded_child(const std::string& name, const std::function<std::s
     close(ends[1]);
     throw failed_error(name, ": no process to read it (", std::strerror(reason), ")");
   }
-  if (process == 0) child(ends[1], work, seconds);
+  if (process == 0) child(ends[1], work, seconds, memory_mb);
   close(ends[1]);
   std::string answer;
   const auto end = [&](bool late) {

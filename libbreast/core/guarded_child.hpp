@@ -10,7 +10,8 @@ namespace breast {
 /// returns the bytes it returned. An Error of the child is thrown here with its words and kind; lack
 /// of memory, a child that dies and one that takes longer than `seconds` become Error (input)
 /// beginning with `name`. Nothing else of what the child does reaches this process.
+/// The child may use `memory_mb` beyond what this process has.
 std::string in_guarded_child(const std::string& name, const std::function<std::string()>& work,
-                             double seconds = 300);
+                             double seconds = 300, double memory_mb = 3072);
 
 }  // namespace breast

@@ -1,6 +1,7 @@
 #include "page/page.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <set>
 #include <span>
@@ -16,20 +17,47 @@ extern const char* const page_html;
 
 namespace {
 
-// A text as a JavaScript string inside an HTML page. Names come from files that anybody may have
-// written: no byte of them may end the string or the script element.
-std::string script_text(const std::string& text) {
+// Length of the UTF-8 character at the front, with its code; 0 for bytes that are none.
+std::size_t front_character(std::string_view text, std::uint32_t& code) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) >> 5 == 6 ? 2 : byte(0) >> 4 == 14 ? 3 : byte(0) >> 3 == 30 ? 4 : 0;
+  if (length == 0 || length > text.size()) return 0;
+  constexpr unsigned char bits[] = {0x7f, 0x7f, 0x1f, 0x0f, 0x07};
+  code = byte(0) & bits[length];
+  for (std::size_t k = 1; k < length; ++k) {
+    if (byte(k) >> 6 != 2) return 0;
+    code = code << 6 | (byte(k) & 0x3f);
+  }
+  return code < 0x110000 ? length : 0;
+}
+
+std::string escaped(std::uint32_t unit) {
   constexpr const char* digits = "0123456789abcdef";
+  std::string out = "\\u";
+  for (int shift = 12; shift >= 0; shift -= 4) out += digits[unit >> shift & 15];
+  return out;
+}
+
+// A text as a JavaScript string inside an HTML page. Names come from files that anybody may have
+// written: only letters, digits and the plainest signs stand as they are, so that no byte can end the
+// string, the line or the script element.
+std::string script_text(const std::string& text) {
   std::string out = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f || std::string_view("\"\\<>&'/").find(c) != std::string_view::npos) {
-      out += "\\u00";
-      out += digits[byte >> 4];
-      out += digits[byte & 15];
-    } else {
+  for (std::string_view rest = text; !rest.empty();) {
+    constexpr std::uint32_t replacement = 0xfffd, first_pair = 0x10000;
+    std::uint32_t code = 0;
+    const std::size_t length = front_character(rest, code);
+    const char c = rest[0];
+    if (length == 0) {
+      out += escaped(replacement);
+    } else if (code >= first_pair) {
+      out += escaped(0xd800 + ((code - first_pair) >> 10)) + escaped(0xdc00 + ((code - first_pair) & 0x3ff));
+    } else if (code < 0x80 && (std::isalnum(static_cast<unsigned char>(c)) || std::string_view(" -_.,:+()").find(c) != std::string_view::npos)) {
       out += c;
+    } else {
+      out += escaped(code);
     }
+    rest.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return out + '"';
 }

@@ -33,7 +33,7 @@ struct Located {
 
 Located locate(double s, int patches) {
   const double scaled = std::clamp(s, 0.0, 1.0) * patches;
-  const int patch = std::min(int(scaled), patches - 1);
+  const int patch = scaled > 0 ? std::min(int(scaled), patches - 1) : 0;  // also where s is not a number
   return {patch, scaled - patch};
 }
 

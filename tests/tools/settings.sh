@@ -26,6 +26,7 @@ refused "an unknown part to leave out" no-skn "did you mean no-skin?" -- LEAVE_O
 refused "an unknown side" "did you mean left?" -- SIDE=lefft
 refused "an unknown material set" "did you mean seed2008?" -- MATERIALS=seed2080
 refused "a reduction that is no number" REDUCTION -- REDUCTION=half
+plan fuzz MINUTES=1 && plan release-check FUZZ_MINUTES=1 FUZZ_INPUTS=1 FAULT_ALLOCATIONS=1 || { cat "$work/err"; fail "settings of fuzz are known"; }
 pass "unknown settings and values are refused by name, with a suggestion"
 
 mkdir -p "$work/runs/paper"
@@ -50,6 +51,11 @@ for name in "${worst[@]}" "a b.nrrd" "a'b.nrrd" 'a"b.nrrd' 'a(b).nrrd' 'a=b.nrrd
 done
 for setting in CHEST_WALL CASE MATERIALS TUMOUR RUNS COHORT CASE_FILE; do
   for name in "${worst[@]}"; do refuse_name "$setting" "$name"; done
+done
+all_settings=$(make -f Makefile.pipeline -n --eval='print: ; $(info $(known_settings))' print 2> /dev/null | head -n 1)
+[ "$(wc -w <<< "$all_settings")" -gt 50 ] || fail "the makefile lists its settings"
+for setting in $all_settings; do
+  [ "$setting" = share ] || refuse_name "$setting" "a b'c\"\$(touch $bait)\`touch $bait\`;é(=).nrrd"
 done
 for setting in MECHANICS HEXMESH_OPTIONS COMPRESS_OPTIONS SEGMENT; do
   ! plan "$setting=--x \`touch $bait\`" chain || fail "$setting with a command in it is refused"

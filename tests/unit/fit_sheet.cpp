@@ -50,6 +50,14 @@ SheetData sample(const HermiteSheet& sheet, int n) {
 
 }  // namespace
 
+TEST(HermiteSheet, ParametersThatAreNoNumbersGiveNoPlaceAndReadNoMemory) {
+  const HermiteSheet sheet = random_sheet(3, 2, 0.5, 1);
+  const double none = std::nan(""), far = 1e300;
+  EXPECT_FALSE(sheet.position(Vec2(none, 0.5)).allFinite());
+  EXPECT_FALSE(sheet.position(Vec2(0.5, none)).allFinite());
+  EXPECT_EQ(sheet.position(Vec2(far, -far)), sheet.position(Vec2(1, 0)));
+}
+
 TEST(SheetBasis, DerivativesAgreeWithDifferences) {
   const HermiteSheet sheet = random_sheet(4, 3, 2, 1);
   const double h = 1e-5;

@@ -93,15 +93,31 @@ TEST(Page, IsOneFileWithImagesAndCurves) {
 // Names come from files: none of their bytes may end a string or the script.
 TEST(Page, NamesCannotBecomeCode) {
   Scene scene;
-  const std::string hostile = "</script><script>alert(\"1\")</script>\\'&\n";
-  MatchLookup lookup = match_lookup(scene.matcher, &scene.band, 8);
-  lookup.band_without = {hostile};
-  const Mammogram cc = project_mammogram(scene.cc, {.pixel = 2});
+  const Mammogram simulated = project_mammogram(scene.cc, {.pixel = 2});
   const Mammogram mlo = project_mammogram(scene.mlo, {.pixel = 2});
-  const std::string page = lookup_page(lookup, cc, mlo, scene.cc);
-  EXPECT_EQ(page.find("alert(\"1"), std::string::npos);
-  EXPECT_EQ(page.find("</script><script>"), std::string::npos);
-  EXPECT_EQ(page.find("</script>"), page.rfind("</script>"));
-  EXPECT_NE(page.find("\\u003c\\u002fscript\\u003e"), std::string::npos);
-  EXPECT_NE(page.find("Content-Security-Policy"), std::string::npos);
+  const MatchLookup whole = match_lookup(scene.matcher, &scene.band, 8);
+  const std::size_t scripts = [&] {
+    const std::string page = lookup_page(whole, simulated, mlo, scene.cc);
+    return page.find("</script>");
+  }();
+  ASSERT_NE(scripts, std::string::npos);
+  for (const std::string hostile :
+       {"</script><script>alert(\"1\")</script>\\'&\n", "<!--<script>", "]]>", "\xe2\x80\xa8 and \xe2\x80\xa9", "\x01\x7f\r",
+        "\xff\xfe no UTF-8 \xc3", "${x}`x`$(x)", "{{x}}", "\"};x();//", "\xf0\x9f\x98\x80"}) {
+    MatchLookup lookup = whole;
+    lookup.band_without = {hostile};
+    const std::string page = lookup_page(lookup, simulated, mlo, scene.cc);
+    EXPECT_EQ(page.find(hostile), std::string::npos) << hostile;
+    EXPECT_EQ(page.find("</script>"), page.rfind("</script>")) << hostile;
+    for (const char c : page) {
+      const auto byte = static_cast<unsigned char>(c);
+      ASSERT_TRUE((byte >= ' ' && byte < 0x7f) || c == '\n' || byte >= 0x80) << int(byte);
+    }
+    for (const char* raw : {"\xe2\x80\xa8", "\xff", "\xf0\x9f"}) EXPECT_EQ(page.find(raw), std::string::npos) << raw;
+    EXPECT_NE(page.find("Content-Security-Policy"), std::string::npos);
+  }
+  MatchLookup lookup = whole;
+  lookup.band_without = {"CC</script>\xc3\xa9\xf0\x9f\x98\x80\xff"};
+  EXPECT_NE(lookup_page(lookup, simulated, mlo, scene.cc).find("CC\\u003c\\u002fscript\\u003e\\u00e9\\ud83d\\ude00\\ufffd"),
+            std::string::npos);
 }

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/error.hpp"
+#include "core/report.hpp"
 #include "fixtures/synthetic_scan.hpp"
 #include "segment/grid/grid_ops.hpp"
 #include "segment/wall/min_cut.hpp"
@@ -137,6 +138,15 @@ TEST(Segment, AxesInAnyOrderGiveTheSameBreast) {
   EXPECT_EQ(back.voxels, scan.voxels);
 }
 
+// Patient y of the labels' chest wall.
+double wall_at(const LabelVolume& labels, double x, double z) {
+  const Vec3 index = labels.grid.to_index(Vec3(x, labels.grid.origin[1], z));
+  const int i = int(std::lround(index[0])), k = int(std::lround(index[2]));
+  int j = 0;
+  while (j < labels.grid.size[1] && labels.at(i, j, k) != Tissue::muscle) ++j;
+  return labels.grid.to_patient(Vec3(i, j - 0.5, k))[1];
+}
+
 TEST(Segment, ClickedPointsMoveTheWallThere) {
   const SyntheticScan truth;
   const Volume<float> scan = truth.image();
@@ -144,17 +154,28 @@ TEST(Segment, ClickedPointsMoveTheWallThere) {
   const Vec3 click(75, truth.wall(75, 0) - 9, 0);
   options.wall_points = {click};
   const LabelVolume labels = run(scan, options).labels;
-  const auto wall_near = [&](double x, double z) {
-    const Vec3 index = labels.grid.to_index(Vec3(x, click[1], z));
-    const int i = int(std::lround(index[0])), k = int(std::lround(index[2]));
-    int j = 0;
-    while (j < labels.grid.size[1] && labels.at(i, j, k) != Tissue::muscle) ++j;
-    return labels.grid.to_patient(Vec3(i, j - 0.5, k))[1];
-  };
-  EXPECT_NEAR(wall_near(75, 0), click[1], 2);
-  EXPECT_NEAR(wall_near(20, 0), truth.wall(20, 0), 2) << "far from the click nothing moves";
+  EXPECT_NEAR(wall_at(labels, 75, 0), click[1], 2);
+  EXPECT_NEAR(wall_at(labels, 20, 0), truth.wall(20, 0), 2) << "far from the click nothing moves";
   options.wall_points = {Vec3(75, 0, 500)};
   EXPECT_THROW(run(scan, options), Error);
+}
+
+// Thousands of points are a surface in a table: their number does not make the system larger.
+TEST(Segment, AnyNumberOfClickedPointsIsTaken) {
+  const SyntheticScan truth;
+  const Volume<float> scan = truth.image();
+  SegmentOptions options;
+  const double moved = 6;
+  for (double z = -40; z <= 40; z += 1) {
+    for (double x = 40; x <= 110; x += 0.5) {
+      options.wall_points.emplace_back(x, truth.wall(x, z) - moved, z);
+    }
+  }
+  ASSERT_GT(options.wall_points.size(), 10000u);
+  const double start = cpu_seconds();
+  const LabelVolume labels = run(scan, options).labels;
+  EXPECT_LT(cpu_seconds() - start, 20);  // a dense system of so many takes an hour
+  for (const double x : {60, 75, 90}) EXPECT_NEAR(wall_at(labels, x, 0), truth.wall(x, 0) - moved, 2) << x;
 }
 
 TEST(Segment, ASurfaceReplacesTheWallAndMayReachBeyondIt) {

@@ -47,6 +47,32 @@ double plate(const Vec2& a, const Vec2& b) {
   return r2 > 0 ? 0.5 * r2 * elementary::log(r2) : 0;
 }
 
+struct Correction {
+  Vec2 site;  ///< mm across and along the wall
+  double depth;  ///< mm, what the wall has to move there
+};
+
+// A surface, or a table as dense as one, has more points than a dense system can take: the mean of every cell of 8 mm
+// stands for those in it, far below what a thin-plate spline between breast and ribs can resolve.
+std::vector<Correction> thinned(const std::vector<Correction>& all) {
+  constexpr std::size_t most = 400;
+  if (all.size() <= most) return all;
+  constexpr double cell = 8;  // mm
+  std::map<std::array<int, 2>, std::pair<Correction, int>> cells;
+  for (const Correction& one : all) {
+    const std::array<int, 2> place{int(std::floor(one.site[0] / cell)), int(std::floor(one.site[1] / cell))};
+    auto& [sum, count] = cells.try_emplace(place, Correction{Vec2::Zero(), 0}, 0).first->second;
+    sum.site += one.site;
+    sum.depth += one.depth;
+    ++count;
+  }
+  std::vector<Correction> means;
+  for (const auto& [place, entry] : cells) {
+    means.push_back({entry.first.site / entry.second, entry.first.depth / entry.second});
+  }
+  return means;
+}
+
 bool on_wall(const ChestWall& wall, const WallDomain& domain, int i, int k) {
   return i >= domain.first && i <= domain.last && k >= 0 && k < wall.depth.nz &&
          std::isfinite(wall.depth.at(i, k));
@@ -56,8 +82,7 @@ bool on_wall(const ChestWall& wall, const WallDomain& domain, int i, int k) {
 
 void apply_wall_points(ChestWall& wall, const WallDomain& domain, const Grid& grid,
                        const std::vector<Vec3>& points) {
-  std::vector<Vec2> sites;
-  std::vector<double> corrections;
+  std::vector<Correction> given;
   for (const Vec3& point : points) {
     const Vec3 index = grid.to_index(point);
     const int i = int(std::lround(index[0])), k = int(std::lround(index[2]));
@@ -65,8 +90,14 @@ void apply_wall_points(ChestWall& wall, const WallDomain& domain, const Grid& gr
       throw input_error("chest-wall point (", point.transpose(),
                         ") mm lies beside the searched chest wall");
     }
-    sites.emplace_back(index[0] * grid.spacing[0], index[2] * grid.spacing[2]);
-    corrections.push_back(index[1] * grid.spacing[1] - wall.depth.at(i, k));
+    given.push_back({Vec2(index[0] * grid.spacing[0], index[2] * grid.spacing[2]),
+                     index[1] * grid.spacing[1] - wall.depth.at(i, k)});
+  }
+  std::vector<Vec2> sites;
+  std::vector<double> corrections;
+  for (const Correction& one : thinned(given)) {
+    sites.push_back(one.site);
+    corrections.push_back(one.depth);
   }
   const std::size_t clicked = sites.size();
   if (clicked == 0) return;

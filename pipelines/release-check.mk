@@ -1,0 +1,29 @@
+# Before a release: what takes hours. Every program under failing writes and allocations, full disks, damaged files of every
+# format in our own checks (FUZZ_MINUTES in all) and in whole programs under sanitizers (FUZZ_INPUTS a format).
+FUZZ_MINUTES ?= 240
+FUZZ_INPUTS ?= 2000
+FAULT_ALLOCATIONS ?= 200
+SANITIZED := build/asan
+# Programs that read the formats of tests/fuzz/whole-tools.py.
+readers := probe evaluate laws export-deck match-lookup segment hexmesh cc2mlo truth-table
+
+.PHONY: release-check faults full-disk whole-tools
+release-check: check faults full-disk whole-tools
+	tests/fuzz/run.sh $(FUZZ_MINUTES)
+
+faults:
+	cmake --build $(BUILD) -j $$(nproc) --target programs tetrahedra tools_faults
+	BREAST_FAULT_ALLOCATIONS=$(FAULT_ALLOCATIONS) OPENBLAS_THREAD_TIMEOUT=4 $(BUILD)/tests/tools_faults
+
+full-disk:
+	cmake --build $(BUILD) -j $$(nproc) --target programs tools_full_disk tools_killed_writer
+	$(BUILD)/tests/tools_full_disk
+	$(BUILD)/tests/tools_killed_writer
+
+whole-tools:
+	cmake --build $(BUILD) -j $$(nproc) --target programs fault_inputs
+	cmake --preset asan > /dev/null
+	cmake --build $(SANITIZED) -j $$(nproc) --target $(readers)
+	rm -rf build/whole-tools
+	$(BUILD)/tests/fault_inputs build/whole-tools
+	tests/fuzz/whole-tools.py $(SANITIZED)/bin build/whole-tools $(FUZZ_INPUTS)

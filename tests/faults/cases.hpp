@@ -1,0 +1,133 @@
+// One small run of every tool, with every kind of file it writes, for fault injection.
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "fixtures/analytic_mesh.hpp"
+#include "fixtures/chain_files.hpp"
+#include "fixtures/run_tool.hpp"
+#include "fixtures/shapes.hpp"
+#include "fixtures/synthetic_scan.hpp"
+#include "io/volume_file.hpp"
+
+namespace breast::faults {
+
+struct Case {
+  const char* name;
+  const char* line;  ///< the tool and its arguments; outputs are called out.*, or lie in a folder out
+  int stride = 1;  ///< the short test lets only every so many output calls fail; 0: it leaves the case out
+};
+
+inline const std::vector<Case>& cases() {
+  static const std::vector<Case> list = {
+      {"segment", "segment scan.nrrd out.vtkhdf --side left --points out.vtp --overlay out.png "
+                  "--measures out.tsv", 9},
+      {"segment_as_nifti", "segment scan.nrrd out.nii.gz --side right", 8},
+      {"segment_dicom", "segment series out.nrrd --side right", 8},
+      {"fit_hermite", "fit-hermite scan_labels.vtkhdf out.vtkhdf --elements 3x3", 16},
+      {"hexmesh", "hexmesh geometry.vtkhdf labels.vtkhdf out.vtkhdf --elements 4 --surface out.vtp"},
+      {"backward", "backward cap.vtkhdf out.vtkhdf"},
+      {"forward", "forward cap_reference.vtkhdf out.vtkhdf"},
+      {"sensitivity", "sensitivity cap_reference.vtkhdf cap_supine.vtkhdf out.vtkhdf --table out.tsv"},
+      {"difference", "difference supine.vtkhdf supine.vtkhdf supine.vtkhdf out.vtkhdf"},
+      {"compress", "compress pressed.vtkhdf out.vtkhdf --view CC --reduction 5"},
+      {"project", "project-mammogram cc.vtkhdf out.vti --labels labels.vtkhdf --png out.png --dicom "
+                  "out.dcm --pixel 4", 3},
+      {"cc2mlo", "cc2mlo cc.vtkhdf mlo.vtkhdf out.vtp --landmark tumour --table out.tsv"},
+      {"cc2mlo_images", "cc2mlo cc.vtkhdf mlo.vtkhdf out.vtp --point 20,37 --cc-image cc.dcm --mlo-image "
+                        "mlo.dcm --picture out.png --curve-table out.tsv", 5},
+      {"match_lookup", "match-lookup cc.vtkhdf mlo.vtkhdf out.h5 --pitch 20 --page out.html --from-image "
+                       "cc.vti --to-image mlo.vti", 3},
+      {"export_inp", "export-deck cap_reference.vtkhdf out.inp --without-skin"},
+      {"export_feb", "export-deck cap_reference.vtkhdf out.feb --without-skin"},
+      {"tetrahedra", "tetrahedra mesh.vtkhdf out.vtu"},
+      {"probe", "probe cc.vtkhdf supine.vtkhdf --base mesh.vtkhdf"},
+      {"evaluate", "evaluate labels.vtkhdf labels.vtkhdf", 4},
+      {"evaluate_nrrd", "evaluate labels.vtkhdf labels.nrrd", 4},
+      {"laws", "laws seed2008"},
+      {"render_mammogram", "render cc.vti mlo.vti curve.vtp --figure mammogram -o out.png", 12},
+      {"render_mesh", "render mesh.vtkhdf --figure mesh -o out.png", 0},
+      {"truth_table", "truth-table landmarks.tsv out.tsv cc.vtkhdf fine_cc.vtkhdf"},
+      {"phantom_mesh", "phantom-mesh out.vtkhdf --preset small --level 1", 0},
+      {"phantom", "phantom out.nrrd --preset small --coarse 8 --truth out --dicom out-series", 0},
+      {"calibrate", "calibrate --preset small --evaluations 4", 0},
+  };
+  return list;
+}
+
+/// Writes what the cases read.
+inline void write_inputs(const std::filesystem::path& folder) {
+  fixtures::write_chain(folder, 4);
+  write_mesh(folder / "fine_cc.vtkhdf",
+             fixtures::squashed(fixtures::landmarked_breast(5), "CC", 0.6));
+  const LabelVolume labels = fixtures::analytic_labels();
+  Volume<std::uint8_t> codes(labels.grid);
+  codes.voxels = labels.tissue;
+  write_volume(folder / "labels.nrrd", codes);
+  HexMesh cap = fixtures::cap({.elements = 3});
+  cap.reference.clear();
+  write_mesh(folder / "cap.vtkhdf", cap);
+  HexMesh pressed = analytic_breast_mesh(4);
+  pressed.reference = pressed.points;
+  pressed.history.push_back({"backward", "0", "analytic", {}});
+  write_mesh(folder / "pressed.vtkhdf", pressed);
+  const Volume<float> scan = testing::SyntheticScan::coarse().image();
+  write_volume(folder / "scan.nrrd", scan);
+  Volume<std::int16_t> rounded(scan.grid);
+  std::copy(scan.voxels.begin(), scan.voxels.end(), rounded.voxels.begin());
+  write_dicom_series(folder / "series", rounded, "T1");
+  write_text(folder / "landmarks.tsv",
+             "landmark\tside\tstress_free_x_mm\tstress_free_y_mm\tstress_free_z_mm\tprone_x_mm\tprone_y_mm\t"
+             "prone_z_mm\tsupine_x_mm\tsupine_y_mm\tsupine_z_mm\nnipple\tleft\t0\t0\t0\t0\t0\t0\t0\t0\t0\n"
+             "tumour\tleft\t14\t30\t12\t14\t30\t12\t14\t30\t12\n# rows 2\n");
+  for (const char* line : {
+           "backward cap.vtkhdf cap_reference.vtkhdf",
+           "forward cap_reference.vtkhdf cap_supine.vtkhdf",
+           "project-mammogram cc.vtkhdf cc.vti --pixel 2 --dicom cc.dcm",
+           "project-mammogram mlo.vtkhdf mlo.vti --pixel 2 --dicom mlo.dcm",
+           "cc2mlo cc.vtkhdf mlo.vtkhdf curve.vtp --landmark tumour",
+           "segment scan.nrrd scan_labels.vtkhdf --side left --points skin.vtp",
+       }) {
+    const ToolResult made = run_line(std::string(line) + " --threads 1 --quiet", folder);
+    if (made.exit_code != 0) throw failed_error(line, ": ", made.err);
+  }
+}
+
+/// Small files of other formats, beside those of write_inputs, for tests/fuzz/whole-tools.py.
+inline void write_more_inputs(const std::filesystem::path& folder) {
+  Grid grid;
+  grid.size = {6, 5, 4};
+  grid.spacing = Vec3(30, 30, 40);
+  grid.origin = Vec3(-80, -10, -70);
+  Volume<std::uint8_t> tiny(grid);
+  for (std::size_t v = 0; v < tiny.voxels.size(); ++v) tiny.voxels[v] = std::uint8_t(v % 6);
+  for (const char* name : {"tiny.nrrd", "tiny.nii", "tiny.nii.gz", "tiny.mha"}) write_volume(folder / name, tiny);
+  Volume<std::int16_t> slices(grid);
+  std::copy(tiny.voxels.begin(), tiny.voxels.end(), slices.voxels.begin());
+  write_dicom_series(folder / "tiny_series", slices, "T1");
+  write_text(folder / "patient.case", "# a patient\nMR = scan.nrrd\nSIDE = right\nREDUCTION = 40\n"
+                                      "HEXMESH_OPTIONS = --elements 8 --skin 1.5\nLEAVE_OUT = no-skin\n");
+  const HexMesh deck = read_mesh(folder / "cap_reference.vtkhdf");
+  std::string frd = "    1C\n    1PSTEP                         1           1           1\n  100CL  101 1.000000000\n -4  DISP        4    1\n";
+  std::string dat = "\n displacements (vx,vy,vz) for set NALL and time  0.1000000E+01\n\n";
+  std::string log = "*Step = 1\n*Time = 1\n*Data = u\n";
+  for (int n = 1; n <= deck.nodes(); ++n) {
+    char line[128];
+    std::snprintf(line, sizeof line, " -1%10d%12.5E%12.5E%12.5E\n", n, 0.001 * n, 0.0, -0.5);
+    frd += line;
+    std::snprintf(line, sizeof line, "%10d  %13.6E  %13.6E  %13.6E\n", n, 0.001 * n, 0.0, -0.5);
+    dat += line;
+    std::snprintf(line, sizeof line, "%d,%g,%g,%g\n", n, 0.001 * n, 0.0, -0.5);
+    log += line;
+  }
+  write_text(folder / "result.frd", frd + " -3\n");
+  write_text(folder / "result.dat", dat);
+  write_text(folder / "result.log", log);
+}
+
+}  // namespace breast::faults

@@ -1,0 +1,231 @@
+// Every tool under failing writes and failing allocations: exit 1, 2 or 3 with one line, or exit 0 with the
+// right files; no part of a file, no hidden file, nothing left in the temporary folder, no hang.
+//
+//   faults                                  output calls and a few allocations of the quick tools
+//   BREAST_FAULT_ALLOCATIONS=200 faults     as many allocations a tool, every output call in both ways, all tools
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <set>
+
+#include "core/atomic_file.hpp"
+#include "core/report.hpp"
+#include "core/table.hpp"
+#include "faults/cases.hpp"
+#include "fixtures/scratch_folder.hpp"
+
+namespace breast::faults {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int few_allocations = 2;
+
+int allocations_wanted() {
+  const char* text = std::getenv("BREAST_FAULT_ALLOCATIONS");
+  return text == nullptr ? few_allocations : std::atoi(text);
+}
+bool full() {
+  return allocations_wanted() > few_allocations;
+}
+
+using Files = std::map<std::string, std::string>;  ///< path in the folder -> content
+
+Files files_in(const fs::path& folder) {
+  Files list;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) {
+      list[fs::relative(entry.path(), folder).string()] = read_text(entry.path());
+    }
+  }
+  return list;
+}
+
+std::string without_seconds(const fs::path& file) {
+  Table table = read_table(file);
+  for (auto& row : table.rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      if (table.columns[c] == "seconds") row[c].clear();
+    }
+  }
+  return table.text();
+}
+
+// Meshes and reports state how long they took; what else is in them must be equal.
+bool equal_but_for_time(const fs::path& file, const fs::path& reference) {
+  const std::string ending = file.extension().string();
+  if (read_text(file) == read_text(reference)) return true;
+  if (ending == ".json") return Report::parse(read_text(file), "report").contains("tool");
+  if (ending == ".tsv") return without_seconds(file) == without_seconds(reference);
+  if (ending != ".vtkhdf") return false;
+  return read_mesh(file).content_sha256 == read_mesh(reference).content_sha256;
+}
+
+class Faults : public ::testing::TestWithParam<Case> {
+ protected:
+  static void SetUpTestSuite() {
+    setenv("GOMP_SPINCOUNT", "1000", 0);  // or every tool starts itself anew
+    inputs_ = new ScratchFolder;
+    write_inputs(inputs_->path());
+  }
+  static void TearDownTestSuite() { delete inputs_; }
+
+  void SetUp() override {
+    if (GetParam().stride == 0 && !full()) GTEST_SKIP() << "only with BREAST_FAULT_ALLOCATIONS";
+    if (!fs::exists(tool_path(tool()))) GTEST_SKIP() << tool() << " is not built";
+    for (const auto& entry : fs::directory_iterator(inputs_->path())) {
+      fs::create_symlink(entry.path(), work_ / entry.path().filename().string());
+    }
+    for (const auto& entry : fs::directory_iterator(work_.path())) {
+      given_.insert(entry.path().filename().string());
+    }
+    setenv("TMPDIR", temporary_.path().c_str(), 1);
+    const ToolResult whole = run("", 0, "");
+    ASSERT_EQ(whole.exit_code, 0) << whole.err;
+    reference_out_ = whole.out;
+    move_outputs(reference_.path());
+  }
+  void TearDown() override { unsetenv("TMPDIR"); }
+
+  static bool heavy() { return GetParam().stride > 5; }
+  static std::string tool() {
+    const std::string line = GetParam().line;
+    return line.substr(0, line.find(' '));
+  }
+  // The case with the `nth` call of that kind failing; nothing fails when `kind` is empty.
+  ToolResult run(const std::string& kind, long nth, const std::string& reason) {
+    fs::remove(mark());
+    if (!kind.empty()) {
+      setenv("BREAST_FAULT", (tool() + ":" + kind + ":" + std::to_string(nth) + reason).c_str(), 1);
+      setenv("BREAST_FAULT_MARK", mark().c_str(), 1);
+      setenv("LD_PRELOAD", BREAST_SHIM, 1);
+    }
+    const ToolResult result =
+        run_line(std::string(GetParam().line) + " --report out.json --threads 1 --quiet", work_.path());
+    for (const char* name : {"BREAST_FAULT", "BREAST_FAULT_MARK", "LD_PRELOAD"}) unsetenv(name);
+    return result;
+  }
+  fs::path mark() const { return marks_ / "mark"; }
+  std::string marked() const { return fs::exists(mark()) ? read_text(mark()) : ""; }
+
+  std::vector<fs::path> outputs() const {
+    std::vector<fs::path> list;
+    for (const auto& entry : fs::directory_iterator(work_.path())) {
+      if (!given_.contains(entry.path().filename().string())) list.push_back(entry.path());
+    }
+    return list;
+  }
+  void move_outputs(const fs::path& to) {
+    for (const fs::path& file : outputs()) fs::rename(file, to / file.filename());
+  }
+
+  // What is wrong with a run, and the outputs and temporary files it left; empty when nothing is.
+  std::string complaint(const ToolResult& result) {
+    std::string wrong;
+    const auto add = [&](const std::string& text) { wrong += (wrong.empty() ? "" : "; ") + text; };
+    if (result.exit_code < 0 || result.exit_code > 3) add("exit " + std::to_string(result.exit_code));
+    if (result.exit_code > 0 && result.error_lines() != 1) {
+      add(std::to_string(result.error_lines()) + " lines on stderr: '" + result.err.substr(0, 400) + "'");
+    }
+    if (result.exit_code == 0 && result.out != reference_out_) add("exit 0 with another stdout");
+    std::set<std::string> found;
+    for (const fs::path& output : outputs()) {
+      for (const fs::path& file : files_of(output)) {
+        const fs::path name = fs::relative(file, work_.path());
+        found.insert(name.string());
+        if (!fs::exists(reference_.path() / name)) {
+          add("left " + name.string());
+        } else {
+          try {
+            if (!equal_but_for_time(file, reference_.path() / name)) add("wrong " + name.string());
+          } catch (const std::exception& error) {
+            add("unreadable " + name.string() + " (" + error.what() + ")");
+          }
+        }
+      }
+    }
+    if (result.exit_code == 0) {
+      for (const auto& [name, content] : files_in(reference_.path())) {
+        if (!found.contains(name)) add("exit 0 without " + name);
+      }
+    }
+    for (const auto& entry : fs::directory_iterator(temporary_.path())) {
+      add("left in the temporary folder: " + entry.path().filename().string());
+    }
+    return wrong;
+  }
+  static std::vector<fs::path> files_of(const fs::path& output) {
+    if (!fs::is_directory(output)) return {output};
+    std::vector<fs::path> list;
+    for (const auto& entry : fs::recursive_directory_iterator(output)) {
+      if (!entry.is_directory()) list.push_back(entry.path());
+    }
+    return list;
+  }
+  long every_call(const std::string& kind, const std::string& reason, long stride);
+  void clear() {
+    for (const fs::path& file : outputs()) fs::remove_all(file);
+    for (const auto& entry : fs::directory_iterator(temporary_.path())) fs::remove_all(entry.path());
+  }
+
+  static inline ScratchFolder* inputs_ = nullptr;
+  ScratchFolder work_, reference_, temporary_, marks_;
+  std::set<std::string> given_;
+  std::string reference_out_;
+};
+
+// Lets one call after the other fail until none is left; returns how many that were.
+long Faults::every_call(const std::string& kind, const std::string& reason, long stride) {
+  constexpr long most = 5000;
+  for (long n = 1, tried = 0; n <= most; n += stride, ++tried) {
+    const ToolResult result = run(kind, n, reason);
+    const std::string failed = marked();
+    EXPECT_EQ(complaint(result), "") << kind << " " << n << reason << ", " << failed.substr(0, failed.find('\n'));
+    clear();
+    if (failed.find("failed") == std::string::npos) return tried;
+  }
+  ADD_FAILURE() << "more than " << most << " calls";
+  return most;
+}
+
+TEST_P(Faults, EveryOutputCallFailsOnce) {
+  const long tried = every_call("output", ":28+", full() ? 1 : GetParam().stride);  // ENOSPC, from there on
+  const long again = full() ? every_call("output", ":5", 1) : 0;                    // EIO, this once
+  std::printf("%s: %ld failing output calls\n", GetParam().name, tried + again);
+  EXPECT_GT(tried, 0);
+}
+
+TEST_P(Faults, LostBytesAreMissed) {
+  if (heavy() && !full()) GTEST_SKIP() << "only with BREAST_FAULT_ALLOCATIONS";
+  std::printf("%s: %ld lost writes\n", GetParam().name, every_call("loss", "", full() ? 1 : GetParam().stride));
+}
+
+TEST_P(Faults, SampledAllocationsFail) {
+  run("allocation", 0, "");
+  clear();
+  const std::string counted = marked();
+  const std::size_t at = counted.find("counted ");
+  ASSERT_NE(at, std::string::npos);
+  const long all = std::stol(counted.substr(at + 8));
+  std::mt19937 random(1);
+  int lines = 0, unharmed = 0;
+  const int wanted = heavy() && !full() ? 1 : allocations_wanted();
+  for (int k = 0; k < wanted; ++k) {
+    const long n = std::uniform_int_distribution<long>(1, all)(random);
+    const ToolResult result = run("allocation", n, "");
+    const std::string wrong = complaint(result);
+    EXPECT_EQ(wrong, "") << "allocation " << n << " of " << all << ", " << result.err;
+    (result.exit_code == 0 ? unharmed : lines) += 1;
+    clear();
+  }
+  std::printf("%s: %ld allocations, %d sampled: %d end in one line, %d did no harm\n", GetParam().name, all,
+              lines + unharmed, lines, unharmed);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tools, Faults, ::testing::ValuesIn(cases()),
+                         [](const auto& tool) { return std::string(tool.param.name); });
+
+}  // namespace
+}  // namespace breast::faults

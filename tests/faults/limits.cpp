@@ -1,0 +1,74 @@
+// Small limits on stack, memory, files and their size (ulimit -s, -v, -n, -f): a tool does its work or says one line, soon.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "faults/cases.hpp"
+#include "fixtures/scratch_folder.hpp"
+
+namespace breast::faults {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr rlim_t kb = 1024, mb = 1024 * kb;
+constexpr unsigned hang_s = 60;
+
+struct Limit {
+  const char* name;
+  __rlimit_resource resource;
+  rlim_t value;
+};
+const Limit limits[] = {
+    {"stack_128_kB", RLIMIT_STACK, 128 * kb}, {"stack_1_MB", RLIMIT_STACK, mb},
+    {"memory_50_MB", RLIMIT_AS, 50 * mb},     {"memory_150_MB", RLIMIT_AS, 150 * mb},
+    {"memory_400_MB", RLIMIT_AS, 400 * mb},   {"memory_1000_MB", RLIMIT_AS, 1000 * mb},
+    {"files_4", RLIMIT_NOFILE, 4},            {"files_6", RLIMIT_NOFILE, 6},
+    {"files_10", RLIMIT_NOFILE, 10},          {"file_of_4_kB", RLIMIT_FSIZE, 4 * kb},
+    {"file_of_20_kB", RLIMIT_FSIZE, 20 * kb},
+};
+
+class Limits : public ::testing::TestWithParam<Limit> {
+ protected:
+  static void SetUpTestSuite() {
+    inputs_ = new ScratchFolder;
+    write_inputs(inputs_->path());
+  }
+  static void TearDownTestSuite() { delete inputs_; }
+  static inline ScratchFolder* inputs_ = nullptr;
+};
+
+TEST_P(Limits, EndInOneLine) {
+  for (const Case& c : cases()) {
+    std::istringstream in(c.line);
+    std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
+    const std::string tool = words.front();
+    if (c.stride == 0 || c.stride > 5 || !fs::exists(tool_path(tool))) continue;
+    const ScratchFolder folder;
+    for (std::string& word : words) {
+      if (fs::exists(inputs_->path() / word)) word = (inputs_->path() / word).string();
+    }
+    words.erase(words.begin());
+    words.insert(words.end(), {"--threads", "1", "--quiet"});
+    const ToolResult result = run_tool(tool, words, folder.path(), [] {
+      const rlimit limit{GetParam().value, GetParam().value};
+      setrlimit(GetParam().resource, &limit);
+      alarm(hang_s);
+    });
+    // 127: the loader cannot map the program's libraries, and says so in one line.
+    EXPECT_TRUE((result.exit_code >= 0 && result.exit_code <= 3) || result.exit_code == 127)
+        << c.name << ": exit " << result.exit_code << " " << result.err;
+    EXPECT_EQ(result.error_lines(), result.exit_code == 0 ? 0 : 1) << c.name << ": " << result.err;
+    if (result.exit_code != 0) {
+      for (const auto& entry : fs::directory_iterator(folder.path())) {
+        EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << c.name << ": " << entry.path();
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Limits, ::testing::ValuesIn(limits),
+                         [](const auto& limit) { return std::string(limit.param.name); });
+
+}  // namespace
+}  // namespace breast::faults

@@ -1,0 +1,236 @@
+// Preloaded into a tool by tests/tools/faults.cpp: lets one system call that puts something out, or one
+// allocation, fail. Environment:
+//   BREAST_FAULT       PROGRAM:KIND:N[:ERRNO[+]]  the N-th (from 1) call of that kind in PROGRAM fails with ERRNO;
+//                      with "+" every later one, too. KIND is output, allocation, or loss (the bytes written to a file are
+//                      lost without a word); N = 0 only counts.
+//   BREAST_FAULT_MARK  file: gets one line "failed CALL" a failure, and at the end "counted N"
+// A program that takes longer than two minutes hangs, and ends by SIGALRM. Counted from main() on, in the program and the processes it forks together. Standard error works always.
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <malloc.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <atomic>
+
+extern "C" {
+void* __libc_malloc(size_t);
+void* __libc_calloc(size_t, size_t);
+void* __libc_realloc(void*, size_t);
+void* __libc_memalign(size_t, size_t);
+}
+
+namespace {
+
+enum Kind { nothing, output, allocation, loss };
+
+struct Plan {
+  Kind kind = nothing;
+  long nth = 0;
+  int reason = ENOSPC;
+  bool onwards = false;
+  char mark[4096] = "";
+  pid_t owner = 0;
+  std::atomic<long>* counter = nullptr;  ///< shared with forked processes
+};
+Plan plan;
+
+void mark(const char* text) {
+  const int file = int(syscall(SYS_openat, AT_FDCWD, plan.mark, O_WRONLY | O_CREAT | O_APPEND, 0600));
+  if (file < 0) return;
+  syscall(SYS_write, file, text, strlen(text));
+  syscall(SYS_close, file);
+}
+
+bool fails(Kind kind, const char* call) {
+  if (plan.kind != kind || plan.counter == nullptr) return false;
+  const long now = ++*plan.counter;
+  if (plan.nth == 0 || now < plan.nth || (now > plan.nth && !plan.onwards)) return false;
+  if (now == plan.nth) {
+    char line[64];
+    snprintf(line, sizeof line, "failed %s\n", call);
+    mark(line);
+  }
+  errno = plan.reason;
+  return true;
+}
+
+// What a disk or a reader can refuse; not the connection to an X server.
+bool counts(int descriptor) {
+  struct stat status;
+  if (descriptor == STDERR_FILENO || syscall(SYS_fstat, descriptor, &status) != 0) return false;
+  return S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode);
+}
+bool is_file(int descriptor) {
+  struct stat status;
+  return descriptor > STDERR_FILENO && syscall(SYS_fstat, descriptor, &status) == 0 && S_ISREG(status.st_mode);
+}
+bool puts_out(int flags) {
+  return (flags & O_CREAT) != 0;
+}
+
+template <class F>
+F next(const char* name, F) {
+  return reinterpret_cast<F>(dlsym(RTLD_NEXT, name));
+}
+#define NEXT(f) static const auto real = next(#f, &f)
+
+void read_plan() {
+  const char* text = getenv("BREAST_FAULT");
+  const char* file = getenv("BREAST_FAULT_MARK");
+  if (text == nullptr || file == nullptr) return;
+  char program[256], kind[16];
+  int reason = ENOSPC;
+  char plus = 0;
+  if (sscanf(text, "%255[^:]:%15[^:]:%ld:%d%c", program, kind, &plan.nth, &reason, &plus) < 3) return;
+  if (strcmp(program, program_invocation_short_name) != 0) return;
+  snprintf(plan.mark, sizeof plan.mark, "%s", file);
+  const Kind wanted = strcmp(kind, "allocation") == 0 ? allocation : strcmp(kind, "loss") == 0 ? loss : output;
+  plan.reason = wanted == allocation ? ENOMEM : reason;
+  plan.onwards = plus == '+';
+  plan.owner = getpid();
+  void* shared = mmap(nullptr, sizeof *plan.counter, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (shared == MAP_FAILED) return;
+  plan.counter = new (shared) std::atomic<long>(0);
+  plan.kind = wanted;
+  constexpr unsigned hang_s = 120;
+  alarm(hang_s);
+}
+
+using Main = int (*)(int, char**, char**);
+Main real_main;
+
+int armed_main(int argc, char** argv, char** environment) {
+  read_plan();
+  const int code = real_main(argc, argv, environment);
+  if (plan.kind != nothing && getpid() == plan.owner) {
+    char line[64];
+    const long counted = *plan.counter;
+    plan.kind = nothing;
+    snprintf(line, sizeof line, "counted %ld\n", counted);
+    mark(line);
+  }
+  return code;
+}
+
+}  // namespace
+
+extern "C" {
+
+int __libc_start_main(Main main, int argc, char** argv, Main init, void (*fini)(), void (*rtld_fini)(), void* stack_end) {
+  using Start = int (*)(Main, int, char**, Main, void (*)(), void (*)(), void*);
+  real_main = main;
+  const Start start = reinterpret_cast<Start>(dlsym(RTLD_NEXT, "__libc_start_main"));
+  return start(armed_main, argc, argv, init, fini, rtld_fini, stack_end);
+}
+
+ssize_t write(int descriptor, const void* bytes, size_t size) {
+  if (counts(descriptor) && fails(output, "write")) return -1;
+  if (plan.kind == loss && is_file(descriptor) && fails(loss, "write")) return ssize_t(size);
+  return syscall(SYS_write, descriptor, bytes, size);
+}
+ssize_t writev(int descriptor, const iovec* pieces, int count) {
+  if (counts(descriptor) && fails(output, "writev")) return -1;
+  return syscall(SYS_writev, descriptor, pieces, count);
+}
+ssize_t pwrite(int descriptor, const void* bytes, size_t size, off_t at) {
+  if (counts(descriptor) && fails(output, "pwrite")) return -1;
+  return syscall(SYS_pwrite64, descriptor, bytes, size, at);
+}
+ssize_t pwrite64(int descriptor, const void* bytes, size_t size, off64_t at) {
+  if (counts(descriptor) && fails(output, "pwrite")) return -1;
+  return syscall(SYS_pwrite64, descriptor, bytes, size, at);
+}
+size_t fwrite(const void* bytes, size_t size, size_t count, FILE* stream) {
+  NEXT(fwrite);
+  if (stream != stderr && fails(output, "fwrite")) return 0;
+  return real(bytes, size, count, stream);
+}
+int fflush(FILE* stream) {
+  NEXT(fflush);
+  if (stream == stdout && fails(output, "fflush")) return EOF;
+  return real(stream);
+}
+int fsync(int descriptor) {
+  if (fails(output, "fsync")) return -1;
+  return int(syscall(SYS_fsync, descriptor));
+}
+int fdatasync(int descriptor) {
+  if (fails(output, "fdatasync")) return -1;
+  return int(syscall(SYS_fdatasync, descriptor));
+}
+int rename(const char* from, const char* to) {
+  if (fails(output, "rename")) return -1;
+  return int(syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to));
+}
+int mkdir(const char* name, mode_t mode) {
+  if (fails(output, "mkdir")) return -1;
+  return int(syscall(SYS_mkdirat, AT_FDCWD, name, mode));
+}
+char* mkdtemp(char* name) {
+  NEXT(mkdtemp);
+  return fails(output, "mkdtemp") ? nullptr : real(name);
+}
+int close(int descriptor) {
+  const int flags = plan.kind == output ? int(syscall(SYS_fcntl, descriptor, F_GETFL)) : 0;
+  const bool written = flags > 0 && (flags & O_ACCMODE) != O_RDONLY && counts(descriptor);
+  const int code = int(syscall(SYS_close, descriptor));
+  return written && fails(output, "close") ? -1 : code;
+}
+int open(const char* name, int flags, ...) {
+  va_list rest;
+  va_start(rest, flags);
+  const mode_t mode = puts_out(flags) ? va_arg(rest, mode_t) : 0;
+  va_end(rest);
+  if (puts_out(flags) && fails(output, "open")) return -1;
+  return int(syscall(SYS_openat, AT_FDCWD, name, flags, mode));
+}
+int open64(const char* name, int flags, ...) {
+  va_list rest;
+  va_start(rest, flags);
+  const mode_t mode = puts_out(flags) ? va_arg(rest, mode_t) : 0;
+  va_end(rest);
+  if (puts_out(flags) && fails(output, "open")) return -1;
+  return int(syscall(SYS_openat, AT_FDCWD, name, flags, mode));
+}
+FILE* fopen(const char* name, const char* mode) {
+  NEXT(fopen);
+  return mode[0] != 'r' && fails(output, "fopen") ? nullptr : real(name, mode);
+}
+FILE* fopen64(const char* name, const char* mode) {
+  NEXT(fopen64);
+  return mode[0] != 'r' && fails(output, "fopen") ? nullptr : real(name, mode);
+}
+
+void* malloc(size_t size) {
+  return fails(allocation, "malloc") ? nullptr : __libc_malloc(size);
+}
+void* calloc(size_t count, size_t size) {
+  return fails(allocation, "calloc") ? nullptr : __libc_calloc(count, size);
+}
+void* realloc(void* old, size_t size) {
+  return size > 0 && fails(allocation, "realloc") ? nullptr : __libc_realloc(old, size);
+}
+void* aligned_alloc(size_t alignment, size_t size) {
+  return fails(allocation, "aligned_alloc") ? nullptr : __libc_memalign(alignment, size);
+}
+void* memalign(size_t alignment, size_t size) {
+  return fails(allocation, "memalign") ? nullptr : __libc_memalign(alignment, size);
+}
+int posix_memalign(void** place, size_t alignment, size_t size) {
+  if (fails(allocation, "posix_memalign")) return ENOMEM;
+  void* found = __libc_memalign(alignment, size);
+  if (found == nullptr) return ENOMEM;
+  *place = found;
+  return 0;
+}
+
+}
