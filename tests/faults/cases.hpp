@@ -64,7 +64,7 @@ inline const std::vector<Case>& cases() {
 inline void write_inputs(const std::filesystem::path& folder) {
   fixtures::write_chain(folder, 4);
   write_mesh(folder / "fine_cc.vtkhdf",
-             fixtures::squashed(fixtures::landmarked_breast(5), "CC", 0.6));
+             fixtures::squashed(fixtures::landmarked_breast(5), View::cc, 0.6));
   const LabelVolume labels = fixtures::analytic_labels();
   Volume<std::uint8_t> codes(labels.grid);
   codes.voxels = labels.tissue;
