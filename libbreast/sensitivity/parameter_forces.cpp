@@ -96,8 +96,7 @@ Eigen::MatrixXd face_forces(const Scene& scene, const LoadedState& state, std::s
   MembraneInput<F> in;
   in.reference = gather<F>(nodes.data(), state.state.reference);
   in.deformed = gather<F>(nodes.data(), state.state.x);
-  Eigen::Matrix<double, 3, F> imaged;
-  for (int a = 0; a < F; ++a) imaged.col(a) = mesh.imaged[std::size_t(nodes[std::size_t(a)])];
+  const Eigen::Matrix<double, 3, F> imaged = gather<F>(nodes.data(), mesh.imaged);
   std::array<double, QuadRule<F>::points> volume, i1, i2;
   const auto metric = [&](const Eigen::Matrix<double, 3, F>& x, int q) {
     const Eigen::Matrix<double, 3, 2> t = x * rule.gradients[q].transpose();
@@ -182,8 +181,7 @@ Eigen::VectorXd tissue_mass(const Scene& scene, Tissue tissue) {
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(mesh.nodes());
   for (int e = 0; e < mesh.elements(); ++e) {
     if (mesh.tissue[std::size_t(e)] != tissue) continue;
-    Eigen::Matrix<double, 3, N> x;
-    for (int a = 0; a < N; ++a) x.col(a) = mesh.imaged[std::size_t(mesh.element(e)[a])];
+    const Eigen::Matrix<double, 3, N> x = gather<N>(mesh.element(e), mesh.imaged);
     for (int q = 0; q < HexRule<N>::points; ++q) {
       const Mat3 jacobian = x * rule.gradients[q].transpose();
       const double here = density * rule.weight[q] * jacobian.determinant();
