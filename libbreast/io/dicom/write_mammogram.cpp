@@ -159,7 +159,7 @@ void add_acquisition(DatasetBuilder& set, const Mammogram& image) {
 
 void write_mammogram_dicom(const std::filesystem::path& file, const Mammogram& image,
                            const MammogramDicom& about) {
-  if (about.for_processing && image.energy == "fraction") {
+  if (about.for_processing && image.shows_fraction()) {
     throw input_error(
         "a tissue-fraction image has no detector signal: give --energy as keV or a beam");
   }
