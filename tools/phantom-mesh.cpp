@@ -66,7 +66,7 @@ void run_phantom_mesh(const Choices& c, Run& run) {
   write_mesh(c.mesh, mesh);
   if (c.supine.empty()) return;
   mesh.points = postures.supine;
-  mesh.gravity = posture_gravity("supine");
+  mesh.gravity = posture_gravity(Posture::supine);
   mesh.solve = postures.supine_solve.record;
   write_mesh(c.supine, mesh);
 }

@@ -96,7 +96,7 @@ void declare_estimate(Tool& tool, std::string& estimate) {
 }
 
 Vec3 GravityChoices::vector() const {
-  if (gravity.empty()) return posture_gravity(posture);
+  if (gravity.empty()) return posture_gravity(posture_from_name(posture));
   return {gravity[0], gravity[1], gravity[2]};
 }
 
@@ -117,7 +117,7 @@ void declare_gravity(Tool& tool, GravityChoices& choices, const std::string& hel
 }
 
 Vec3 parse_gravity(const std::string& text) {
-  if (text.find(',') == std::string::npos) return posture_gravity(text);
+  if (text.find(',') == std::string::npos) return posture_gravity(posture_from_name(text));
   Vec3 gravity = Vec3::Zero();
   std::istringstream parts(text);
   int count = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/gauss.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {
@@ -12,15 +13,8 @@ namespace breast {
 namespace {
 
 std::vector<HexShape> gauss_shapes(int order) {
-  const double s = order == 1 ? 1 / std::sqrt(3.0) : std::sqrt(0.6);
-  const std::vector<double> at =
-      order == 1 ? std::vector<double>{-s, s} : std::vector<double>{-s, 0, s};
   std::vector<HexShape> shapes;
-  for (const double z : at) {
-    for (const double y : at) {
-      for (const double x : at) shapes.push_back(hex_shape(order, {x, y, z}));
-    }
-  }
+  for (const auto& point : gauss_cube(order + 1)) shapes.push_back(hex_shape(order, point.at));
   return shapes;
 }
 

@@ -1,15 +1,36 @@
 #include "core/units.hpp"
 
+#include <array>
+
 #include "core/error.hpp"
 
 namespace breast {
 
-Vec3 posture_gravity(std::string_view posture) {
-  if (posture == "prone") return {0, -gravity_mm_s2, 0};
-  if (posture == "supine") return {0, gravity_mm_s2, 0};
-  if (posture == "upright") return {0, 0, -gravity_mm_s2};
-  if (posture == "off") return Vec3::Zero();
-  throw input_error("unknown posture '", posture, "'; use prone, supine, upright or off");
+namespace {
+constexpr std::array<std::string_view, 4> names = {"prone", "supine", "upright", "off"};
+}
+
+std::string_view posture_name(Posture posture) { return names.at(static_cast<std::size_t>(posture)); }
+
+Posture posture_from_name(std::string_view name) {
+  for (std::size_t code = 0; code < names.size(); ++code) {
+    if (names[code] == name) return static_cast<Posture>(code);
+  }
+  throw input_error("unknown posture '", name, "'; use prone, supine, upright or off");
+}
+
+Vec3 posture_gravity(Posture posture) {
+  switch (posture) {
+    case Posture::prone:
+      return {0, -gravity_mm_s2, 0};
+    case Posture::supine:
+      return {0, gravity_mm_s2, 0};
+    case Posture::upright:
+      return {0, 0, -gravity_mm_s2};
+    case Posture::weightless:
+      break;
+  }
+  return Vec3::Zero();
 }
 
 }  // namespace breast

@@ -2,6 +2,7 @@
 // x to the patient's left, y posterior, z superior.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 #include "core/types.hpp"
@@ -15,7 +16,13 @@ inline constexpr double pascal_per_kilopascal = 1.0e3;
 inline constexpr double mm3_per_ml = 1.0e3;
 inline constexpr double mm2_per_cm2 = 1.0e2;
 
-/// Gravity (mm/s^2, LPS) for "prone", "supine", "upright" or "off"; throws Error (input) otherwise.
-Vec3 posture_gravity(std::string_view posture);
+/// How the patient lies or stands; `weightless`: no gravity at all.
+enum class Posture : std::uint8_t { prone, supine, upright, weightless };
+/// "prone", "supine", "upright" or "off".
+std::string_view posture_name(Posture posture);
+/// Inverse of posture_name; throws Error (input) naming the choices.
+Posture posture_from_name(std::string_view name);
+/// mm/s², LPS.
+Vec3 posture_gravity(Posture posture);
 
 }  // namespace breast

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fem/stress.hpp"
+#include "mesh/gauss.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {
@@ -12,15 +13,6 @@ namespace breast {
 namespace {
 
 constexpr int first[6] = {0, 1, 2, 0, 1, 0}, second[6] = {0, 1, 2, 1, 2, 2};
-
-// Gauss–Legendre points on [-1,1].
-struct LineRule {
-  std::vector<double> at, weight;
-};
-LineRule line_rule(int points) {
-  if (points == 2) return {{-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)}, {1, 1}};
-  return {{-std::sqrt(0.6), 0, std::sqrt(0.6)}, {5.0 / 9, 8.0 / 9, 5.0 / 9}};
-}
 
 // Kinematics at one Gauss point. Gradients are N × 3, with respect to X.
 template <int N>
@@ -85,12 +77,10 @@ template <int N>
 const HexRule<N>& HexRule<N>::get() {
   static const HexRule rule = [] {
     HexRule made;
-    const LineRule line = line_rule(N == 8 ? 2 : 3);
-    const int n = int(line.at.size());
+    const std::vector<GaussCubePoint> gauss = gauss_cube(N == 8 ? 2 : 3);
     for (int q = 0; q < points; ++q) {
-      const int i = q % n, j = q / n % n, k = q / (n * n);
-      made.local[q] = Vec3(line.at[i], line.at[j], line.at[k]);
-      made.weight[q] = line.weight[i] * line.weight[j] * line.weight[k];
+      made.local[q] = gauss[q].at;
+      made.weight[q] = gauss[q].weight;
       const HexShape shape = hex_shape(N == 8 ? 1 : 2, made.local[q]);
       made.values[q] = shape.values;
       made.gradients[q] = shape.gradients;

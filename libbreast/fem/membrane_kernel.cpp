@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fem/plane_stress.hpp"
+#include "mesh/gauss.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {
@@ -93,15 +94,10 @@ template <int N>
 const QuadRule<N>& QuadRule<N>::get() {
   static const QuadRule rule = [] {
     QuadRule made;
-    const int n = N == 4 ? 2 : 3;
-    const double far = N == 4 ? 1 / std::sqrt(3.0) : std::sqrt(0.6);
-    const std::vector<double> at =
-        N == 4 ? std::vector<double>{-far, far} : std::vector<double>{-far, 0, far};
-    const std::vector<double> weight =
-        N == 4 ? std::vector<double>{1, 1} : std::vector<double>{5.0 / 9, 8.0 / 9, 5.0 / 9};
+    const std::vector<GaussSquarePoint> gauss = gauss_square(N == 4 ? 2 : 3);
     for (int q = 0; q < points; ++q) {
-      const QuadShape shape = quad_shape(N == 4 ? 1 : 2, Vec2(at[q % n], at[q / n]));
-      made.weight[q] = weight[q % n] * weight[q / n];
+      const QuadShape shape = quad_shape(N == 4 ? 1 : 2, gauss[q].at);
+      made.weight[q] = gauss[q].weight;
       made.values[q] = shape.values;
       made.gradients[q] = shape.gradients;
     }

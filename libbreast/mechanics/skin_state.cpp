@@ -5,18 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "fem/gather.hpp"
 #include "fem/membrane_kernel.hpp"
 
 namespace breast {
 
 namespace {
-
-template <int N>
-Eigen::Matrix<double, 3, N> gather(const std::vector<int>& nodes, const std::vector<Vec3>& nodal) {
-  Eigen::Matrix<double, 3, N> x;
-  for (int a = 0; a < N; ++a) x.col(a) = nodal[nodes[a]];
-  return x;
-}
 
 // Area elements √det a at the rule's points, times its weights.
 template <int N>
@@ -38,9 +32,9 @@ SkinState state_of(const HexMesh& mesh, const MaterialSet& materials,
   for (std::size_t f = 0; f < mesh.skin_faces.size(); ++f) {
     const std::vector<int> nodes = face_nodes(mesh, mesh.skin_faces[f]);
     MembraneInput<N> in;
-    in.reference = gather<N>(nodes, reference);
-    in.deformed = gather<N>(nodes, deformed);
-    in.volume = mesh.skin_thickness[f] * areas<N>(gather<N>(nodes, mesh.imaged));
+    in.reference = gather<N>(nodes.data(), reference);
+    in.deformed = gather<N>(nodes.data(), deformed);
+    in.volume = mesh.skin_thickness[f] * areas<N>(gather<N>(nodes.data(), mesh.imaged));
     in.law = &materials.law(Tissue::skin);
     in.skin = materials.skin;
     const double area = areas<N>(in.deformed).sum();

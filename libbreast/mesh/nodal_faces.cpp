@@ -1,8 +1,8 @@
 #include "mesh/nodal_faces.hpp"
 
 #include <Eigen/Geometry>
-#include <cmath>
 
+#include "mesh/gauss.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {
@@ -14,11 +14,8 @@ struct QuadPoint {
 };
 /// 3×3 Gauss points: exact areas of flat faces of both orders.
 std::vector<QuadPoint> quad_rule(int order) {
-  const double s = std::sqrt(0.6), w[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9}, at[3] = {-s, 0, s};
   std::vector<QuadPoint> rule;
-  for (int j = 0; j < 3; ++j) {
-    for (int i = 0; i < 3; ++i) rule.push_back({w[i] * w[j], quad_shape(order, {at[i], at[j]})});
-  }
+  for (const auto& [at, weight] : gauss_square(3)) rule.push_back({weight, quad_shape(order, at)});
   return rule;
 }
 }  // namespace

@@ -13,7 +13,7 @@ namespace breast {
 namespace {
 
 // Solves and leaves the mesh in that shape.
-SolveSummary take_posture(HexMesh& mesh, const char* posture, const MaterialSet& materials,
+SolveSummary take_posture(HexMesh& mesh, Posture posture, const MaterialSet& materials,
                           Progress& progress) {
   MechanicsOptions options;
   options.materials = materials;
@@ -21,8 +21,8 @@ SolveSummary take_posture(HexMesh& mesh, const char* posture, const MaterialSet&
   options.cut = Cut::fixed;
   Equilibrium found = solve_forward(mesh, posture_gravity(posture), options, progress);
   if (!found.converged()) {
-    throw not_converged_error("phantom, ", side_name(mesh.side), " breast, ", posture, ": ",
-                              found.record.reason);
+    throw not_converged_error("phantom, ", side_name(mesh.side), " breast, ",
+                              posture_name(posture), ": ", found.record.reason);
   }
   store(found, mesh);
   return found;
@@ -40,7 +40,7 @@ Postures solve_postures(HexMesh& mesh, const MaterialSet& materials, Progress& p
   constexpr double agreement = 1e-4;  // mm
   Postures out;
   for (int pass = 0; pass < 6; ++pass) {
-    out.prone = take_posture(mesh, "prone", materials, progress);
+    out.prone = take_posture(mesh, Posture::prone, materials, progress);
     out.imaged_gap = largest_distance(mesh.points, mesh.imaged);
     if (out.imaged_gap < agreement) break;
     mesh.imaged = mesh.points;
@@ -48,7 +48,7 @@ Postures solve_postures(HexMesh& mesh, const MaterialSet& materials, Progress& p
   for (Landmark& landmark : mesh.landmarks)
     landmark.imaged = landmark_position(mesh, mesh.imaged, landmark);
   HexMesh supine = mesh;
-  out.supine_solve = take_posture(supine, "supine", materials, progress);
+  out.supine_solve = take_posture(supine, Posture::supine, materials, progress);
   out.supine = std::move(supine.points);
   return out;
 }

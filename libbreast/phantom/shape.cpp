@@ -7,6 +7,7 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "phantom/normal.hpp"
 #include "phantom/random.hpp"
 
 namespace breast {
@@ -112,13 +113,7 @@ double BreastShape::skin_thickness(const Vec3& x) const {
 }
 
 Vec3 BreastShape::skin_normal(const Vec3& x) const {
-  constexpr double h = 0.05;
-  Vec3 gradient;
-  for (int a = 0; a < 3; ++a) {
-    const Vec3 step = h * Vec3::Unit(a);
-    gradient[a] = skin_distance(x + step) - skin_distance(x - step);
-  }
-  return gradient.normalized();
+  return level_set_normal([this](const Vec3& at) { return skin_distance(at); }, x);
 }
 
 }  // namespace breast

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/elementary.hpp"
+#include "phantom/normal.hpp"
 #include "phantom/random.hpp"
 
 namespace breast {
@@ -51,13 +52,7 @@ Torso::Distances Torso::distances(const Vec3& x) const {
 }
 
 Vec3 Torso::wall_normal(const Vec3& x) const {
-  constexpr double h = 0.05;
-  Vec3 gradient;
-  for (int a = 0; a < 3; ++a) {
-    const Vec3 step = h * Vec3::Unit(a);
-    gradient[a] = wall_distance(x + step) - wall_distance(x - step);
-  }
-  return gradient.normalized();
+  return level_set_normal([this](const Vec3& at) { return wall_distance(at); }, x);
 }
 
 Vec3 Torso::wall_point(double x, double z) const {

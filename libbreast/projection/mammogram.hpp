@@ -27,6 +27,8 @@ struct Mammogram {
   /// 1: the column leaves the mesh through the chest wall or the cut; nothing is known of it and
   /// the other arrays hold 0.
   std::vector<std::uint8_t> through_back;
+  /// `path` is mm of tissue, not attenuation: no signal of a detector follows from it.
+  bool shows_fraction() const { return energy == "fraction"; }
   History history;
   std::string content_sha256;
 };

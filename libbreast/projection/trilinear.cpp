@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "mesh/gauss.hpp"
+
 namespace breast {
 
 namespace {
@@ -61,11 +63,11 @@ bool Trilinear::invert(const Vec3& x, double tolerance, Vec3& local) const {
 
 double Trilinear::volume() const {
   // det J is at most quadratic in each coordinate: two Gauss points a direction are exact.
-  const double g = 1 / std::sqrt(3.0);
+  const std::vector<double> at = gauss_line(2).at;
   double sum = 0;
-  for (const double x : {-g, g}) {
-    for (const double y : {-g, g}) {
-      for (const double z : {-g, g}) sum += jacobian({x, y, z}).determinant();
+  for (const double x : at) {
+    for (const double y : at) {
+      for (const double z : at) sum += jacobian({x, y, z}).determinant();
     }
   }
   return sum;

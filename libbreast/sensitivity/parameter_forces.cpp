@@ -98,8 +98,7 @@ Eigen::MatrixXd face_forces(const Scene& scene, const LoadedState& state, std::s
   MembraneInput<F> in;
   in.reference = gather<F>(nodes.data(), state.state.reference);
   in.deformed = gather<F>(nodes.data(), state.state.x);
-  Eigen::Matrix<double, 3, F> imaged;
-  for (int a = 0; a < F; ++a) imaged.col(a) = mesh.imaged[std::size_t(nodes[std::size_t(a)])];
+  const Eigen::Matrix<double, 3, F> imaged = gather<F>(nodes.data(), mesh.imaged);
   const SkinBehaviour& skin = scene.options().materials.skin;
   const double stretched = (1 + skin.prestretch) * (1 + skin.prestretch);
   std::array<double, QuadRule<F>::points> volume;
@@ -192,8 +191,7 @@ Eigen::VectorXd tissue_mass(const Scene& scene, Tissue tissue) {
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(mesh.nodes());
   for (int e = 0; e < mesh.elements(); ++e) {
     if (mesh.tissue[std::size_t(e)] != tissue) continue;
-    Eigen::Matrix<double, 3, N> x;
-    for (int a = 0; a < N; ++a) x.col(a) = mesh.imaged[std::size_t(mesh.element(e)[a])];
+    const Eigen::Matrix<double, 3, N> x = gather<N>(mesh.element(e), mesh.imaged);
     for (int q = 0; q < HexRule<N>::points; ++q) {
       const Mat3 jacobian = x * rule.gradients[q].transpose();
       const double here = density * rule.weight[q] * jacobian.determinant();

@@ -2,6 +2,7 @@
 // face), as solvers see it.
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 namespace breast {
@@ -12,6 +13,14 @@ struct Cells {
   std::vector<int> nodes;  ///< nodes_per_cell per cell
   int count() const { return nodes_per_cell == 0 ? 0 : int(nodes.size()) / nodes_per_cell; }
   const int* cell(int c) const { return nodes.data() + std::size_t(c) * nodes_per_cell; }
+  /// The values (3 per node in `nodal`) of a cell's nodes, under each other.
+  Eigen::VectorXd gather(int c, const Eigen::VectorXd& nodal) const {
+    Eigen::VectorXd local(3L * nodes_per_cell);
+    for (int a = 0; a < nodes_per_cell; ++a) {
+      local.segment<3>(3L * a) = nodal.segment<3>(3L * cell(c)[a]);
+    }
+    return local;
+  }
 };
 
 }  // namespace breast

@@ -14,8 +14,7 @@ void add_products(const CellMatrices& part, const Eigen::VectorXd& v, bool trans
   Eigen::MatrixXd products(n, cells.count());
 #pragma omp parallel for num_threads(threads()) schedule(static)
   for (int c = 0; c < cells.count(); ++c) {
-    Eigen::VectorXd local(n);
-    for (int a = 0; a < n / 3; ++a) local.segment<3>(3L * a) = v.segment<3>(3L * cells.cell(c)[a]);
+    const Eigen::VectorXd local = cells.gather(c, v);
     const Eigen::Map<const Eigen::MatrixXd> matrix(part.at(c), n, n);
     if (transposed) {
       products.col(c).noalias() = matrix.transpose() * local;

@@ -6,18 +6,6 @@
 
 namespace breast {
 
-namespace {
-
-// The values of a cell's nodes.
-Eigen::VectorXd gather(const Cells& cells, int e, const Eigen::VectorXd& u) {
-  const int n = cells.nodes_per_cell;
-  Eigen::VectorXd local(3L * n);
-  for (int a = 0; a < n; ++a) local.segment<3>(3L * a) = u.segment<3>(3L * cells.cell(e)[a]);
-  return local;
-}
-
-}  // namespace
-
 void ElementRows::resize(const Cells& over, int rows_per_element) {
   cells = &over;
   rows = rows_per_element;
@@ -37,7 +25,7 @@ Eigen::VectorXd ElementRows::apply(const Eigen::VectorXd& u) const {
   Eigen::VectorXd out(long(rows) * cells->count());
 #pragma omp parallel for num_threads(threads()) schedule(static) if (cells->count() > worth_threads)
   for (int e = 0; e < cells->count(); ++e) {
-    out.segment(long(e) * rows, rows).noalias() = at(e) * gather(*cells, e, u);
+    out.segment(long(e) * rows, rows).noalias() = at(e) * cells->gather(e, u);
   }
   return out;
 }

@@ -69,7 +69,7 @@ Chain solve(HexMesh mesh, const Draw& drawn, const std::array<double, 2>& thickn
                               percent("fibroglandular", drawn.fibroglandular)});
   for (double& density : materials.density) density *= std::exp(drawn.density);
   for (double& mm : mesh.skin_thickness) mm *= std::exp(drawn.skin_thickness);
-  const SolveSummary backward = fixtures::backward_into(mesh, posture_gravity("prone"), chain.mechanics);
+  const SolveSummary backward = fixtures::backward_into(mesh, posture_gravity(Posture::prone), chain.mechanics);
   if (!backward.converged()) throw not_converged_error("backward: ", backward.record.reason);
   chain.reference = mesh;
   for (std::size_t v = 0; v < 2; ++v) {
@@ -88,10 +88,10 @@ Chain solve(HexMesh mesh, const Draw& drawn, const std::array<double, 2>& thickn
 }
 
 DerivativeFields derivatives(const Chain& chain, const HexMesh& view) {
-  const SensitivityChain sensitivity(view, chain.reference.pressure, posture_gravity("prone"),
+  const SensitivityChain sensitivity(view, chain.reference.pressure, posture_gravity(Posture::prone),
                                      chain.mechanics);
   DerivativeFields fields;
-  const auto all = all_parameters(view, chain.mechanics, posture_gravity("prone"));
+  const auto all = all_parameters(view, chain.mechanics, posture_gravity(Posture::prone));
   for (const Response& response :
        sensitivity.tangent(pick_parameters(all,
                                            "fat,fibroglandular,skin,skin_thickness,density,"

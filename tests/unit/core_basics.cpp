@@ -184,8 +184,12 @@ TEST(Names, TissuesSidesPostures) {
   }
   EXPECT_THROW(tissue_from_name("gland"), Error);
   EXPECT_THROW(side_from_name("both"), Error);
-  EXPECT_EQ(posture_gravity("supine"), Vec3(0, 9810, 0));
-  EXPECT_THROW(posture_gravity("sitting"), Error);
+  EXPECT_EQ(posture_gravity(Posture::supine), Vec3(0, 9810, 0));
+  for (const Posture posture :
+       {Posture::prone, Posture::supine, Posture::upright, Posture::weightless}) {
+    EXPECT_EQ(posture_from_name(posture_name(posture)), posture);
+  }
+  EXPECT_THROW(posture_from_name("sitting"), Error);
 }
 
 TEST(Names, Views) {

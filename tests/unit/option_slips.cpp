@@ -25,7 +25,7 @@ TEST(OptionSlips, AReductionAsAFraction) {
   const auto reduced = [](double percent) {
     CompressionChoices choices;
     choices.reduction = percent;
-    return refusal([&] { compression_options(choices, posture_gravity("upright")); });
+    return refusal([&] { compression_options(choices, posture_gravity(Posture::upright)); });
   };
   EXPECT_NE(reduced(0.5).find("did you mean 50?"), std::string::npos) << reduced(0.5);
   EXPECT_EQ(reduced(1), "accepted");

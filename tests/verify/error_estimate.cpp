@@ -52,7 +52,7 @@ double effectivity(const char* name, const HexMesh& mesh, const HexMesh& truth_m
   return ratio;
 }
 
-const Vec3 supine = posture_gravity("supine"), oblique(6000, 3000, -5000);
+const Vec3 supine = posture_gravity(Posture::supine), oblique(6000, 3000, -5000);
 
 TEST(ErrorEstimate, MeetsTheDifferenceToQuadraticElements) {
   const MechanicsOptions options = options_of("seed2008");

@@ -46,7 +46,7 @@ TEST(PhantomPostures, ForwardFromTheStressFreeShapeReturnsTheProneOne) {
   options.materials = solved().materials;
   options.element = Element::q2p1;
   options.cut = Cut::fixed;
-  ASSERT_TRUE(fixtures::forward_into(mesh, posture_gravity("prone"), options).converged());
+  ASSERT_TRUE(fixtures::forward_into(mesh, posture_gravity(Posture::prone), options).converged());
   // The stored imaged shape is the prone one to 1e-4 mm, its forces the same to 1e-7.
   EXPECT_LT(largest(mesh.points, prone), 1e-6);
   EXPECT_LT(largest(solved().breast.mesh.imaged, prone), 1e-4);
@@ -59,7 +59,7 @@ TEST(PhantomPostures, BackwardFindsTheStressFreeShape) {
   options.materials = solved().materials;
   options.element = Element::q2p1;
   options.cut = Cut::fixed;
-  ASSERT_TRUE(fixtures::backward_into(mesh, posture_gravity("prone"), options).converged());
+  ASSERT_TRUE(fixtures::backward_into(mesh, posture_gravity(Posture::prone), options).converged());
   EXPECT_LT(largest(mesh.reference, truth), 1e-3);
 }
 

@@ -57,8 +57,8 @@ void expect_matches(const ChainInputs& in, const Response& response) {
 ChainInputs cap_inputs(const fixtures::CapSettings& settings = {.elements = 4}) {
   return {fixtures::cap(settings),
           {.materials = load_materials("seed2008")},
-          posture_gravity("prone"),
-          posture_gravity("supine")};
+          posture_gravity(Posture::prone),
+          posture_gravity(Posture::supine)};
 }
 
 void expect_all_match(const ChainInputs& in, const std::string& list) {

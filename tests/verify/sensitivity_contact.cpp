@@ -118,8 +118,8 @@ class CompressedSensitivity : public testing::TestWithParam<Machine> {};
 TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
   Inputs in{{analytic_breast_mesh(5),
              {.materials = load_materials("seed2008")},
-             posture_gravity("prone"),
-             posture_gravity("upright")},
+             posture_gravity(Posture::prone),
+             posture_gravity(Posture::upright)},
             {},
             0.5};
   HexMesh mesh = in.mesh;

@@ -3,7 +3,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "dicom/dataset.hpp"
+#include "dicom/simulated_study.hpp"
 #include "io/mammogram_dicom.hpp"
 #include "projection/display.hpp"
 
@@ -61,23 +61,9 @@ void add_identity(DatasetBuilder& set, const Mammogram& image, bool for_processi
       .text(0x00080008, "CS", for_processing ? "ORIGINAL\\PRIMARY" : "DERIVED\\PRIMARY")
       .text(0x00080016, "UI", for_processing ? processing_class : presentation_class)
       .text(0x00080018, "UI", uid_from(scan + "/image"))
-      .text(0x00080060, "CS", "MG")
       .text(0x00080068, "CS", for_processing ? "FOR PROCESSING" : "FOR PRESENTATION")
-      .text(0x00080070, "LO", "libbreast (simulated)")
-      .text(0x00081030, "LO", "Simulated mammogram")
-      .text(0x00100010, "PN", "SIMULATED^MAMMOGRAM")
-      .text(0x00100020, "LO", "SIMULATED")
-      .text(0x00100030, "DA", "")
-      .text(0x00100040, "CS", "F")
-      .text(0x0020000d, "UI", uid_from(scan + "/study"))
-      .text(0x0020000e, "UI", uid_from(scan + "/series"))
-      .text(0x00200010, "SH", "1")
-      .text(0x00200011, "IS", "1")
-      .text(0x00200013, "IS", "1");
-  for (const std::uint32_t empty : {0x00080020u, 0x00080030u}) {  // study date and time
-    set.text(empty, empty == 0x00080020u ? "DA" : "TM", "");
-  }
-  set.text(0x00080050, "SH", "").text(0x00080090, "PN", "");
+      .text(0x00081030, "LO", "Simulated mammogram");
+  add_study(set, {"MG", "SIMULATED^MAMMOGRAM", scan});
 }
 
 DatasetBuilder view_code(View view) {
@@ -159,7 +145,7 @@ void add_acquisition(DatasetBuilder& set, const Mammogram& image) {
 
 void write_mammogram_dicom(const std::filesystem::path& file, const Mammogram& image,
                            const MammogramDicom& about) {
-  if (about.for_processing && image.energy == "fraction") {
+  if (about.for_processing && image.shows_fraction()) {
     throw input_error(
         "a tissue-fraction image has no detector signal: give --energy as keV or a beam");
   }

@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "core/own_file.hpp"
 #include "core/provenance.hpp"
-#include "dicom/dataset.hpp"
+#include "dicom/simulated_study.hpp"
 #include "io/volume_file.hpp"
 
 namespace breast {
@@ -27,24 +27,10 @@ void add_identity(DatasetBuilder& set, int k, const std::string& description,
       .text(0x00080008, "CS", "DERIVED\\PRIMARY\\OTHER")
       .text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.4")  // MR Image Storage
       .text(0x00080018, "UI", uid_from(scan + "/slice/" + std::to_string(k)))
-      .text(0x00080020, "DA", "")
-      .text(0x00080030, "TM", "")
-      .text(0x00080050, "SH", "")
-      .text(0x00080060, "CS", "MR")
-      .text(0x00080070, "LO", std::string(maker_mark) + " (simulated)")
-      .text(0x00080090, "PN", "")
       .text(0x0008103e, "LO", description)
-      .text(0x00100010, "PN", "SIMULATED")
-      .text(0x00100020, "LO", "SIMULATED")
-      .text(0x00100030, "DA", "")
-      .text(0x00100040, "CS", "F")
-      .text(0x0020000d, "UI", uid_from(scan + "/study"))
-      .text(0x0020000e, "UI", uid_from(scan + "/series"))
-      .text(0x00200010, "SH", "1")
-      .text(0x00200011, "IS", "1")
-      .text(0x00200013, "IS", std::to_string(k + 1))
       .text(0x00200052, "UI", uid_from(scan + "/frame"))
       .text(0x00201040, "LO", "");
+  add_study(set, {"MR", "SIMULATED", scan, k + 1});
 }
 
 void add_geometry(DatasetBuilder& set, const Grid& grid, int k) {

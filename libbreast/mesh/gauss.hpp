@@ -1,0 +1,29 @@
+// Gauss–Legendre points and weights on [-1,1], and their products on the square and the cube.
+#pragma once
+
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace breast {
+
+/// Ascending; exact for polynomials of degree 2n − 1. n = 2 or 3.
+struct GaussLine {
+  std::vector<double> at, weight;
+};
+GaussLine gauss_line(int n);
+
+/// n² and n³ points, the first coordinate fastest.
+struct GaussSquarePoint {
+  Vec2 at;
+  double weight;
+};
+std::vector<GaussSquarePoint> gauss_square(int n);
+
+struct GaussCubePoint {
+  Vec3 at;
+  double weight;
+};
+std::vector<GaussCubePoint> gauss_cube(int n);
+
+}  // namespace breast

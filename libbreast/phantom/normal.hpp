@@ -1,0 +1,20 @@
+// Normals of surfaces that are level sets of a distance.
+#pragma once
+
+#include "core/types.hpp"
+
+namespace breast {
+
+/// Unit gradient of `distance` (mm, of a point) at x, by central differences of 0.05 mm.
+template <class Distance>
+Vec3 level_set_normal(const Distance& distance, const Vec3& x) {
+  constexpr double h = 0.05;
+  Vec3 gradient;
+  for (int a = 0; a < 3; ++a) {
+    const Vec3 step = h * Vec3::Unit(a);
+    gradient[a] = distance(x + step) - distance(x - step);
+  }
+  return gradient.normalized();
+}
+
+}  // namespace breast
