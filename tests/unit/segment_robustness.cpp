@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "evaluation/overlap.hpp"
@@ -14,6 +15,7 @@
 #include "segment/contrast.hpp"
 #include "segment/grid/itk_filters.hpp"
 #include "segment/plausibility.hpp"
+#include "segment/quality.hpp"
 #include "segment/segment.hpp"
 #include "segment/tissue/nipple.hpp"
 #include "segment/tissue/skin_thickness.hpp"
@@ -243,6 +245,51 @@ TEST(SegmentRobustness, AFieldOfViewThatEndsAtTheTipIsRefused) {
   const std::string reason =
       refusal(testing::cropped(scan, {0, 0, 0}, {tip - 4, size[1] - 1, size[2] - 1}));
   EXPECT_NE(reason.find("ends at the tip of the left breast"), std::string::npos) << reason;
+}
+
+TEST(SegmentRobustness, AnArmBesideTheBodyIsLeftOutAndSaid) {
+  Volume<float> scan = patient().scan;
+  const Grid& grid = scan.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const Vec3 p = grid.to_patient(Vec3(i, j, k));
+        if (std::hypot(p[0], p[1] + 70) < 22) scan.at(i, j, k) += 400;  // between the breasts
+      }
+    }
+  }
+  const auto said = [](const Segmentation& result) {
+    return std::count_if(result.doubts.begin(), result.doubts.end(), [](const std::string& doubt) {
+      return doubt.find("apart from the torso") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(said(patient().base), 0);
+  const Segmentation with_arm = run(scan);
+  EXPECT_EQ(said(with_arm), 1);
+  EXPECT_NEAR(with_arm.beside_ml, 0.001 * std::numbers::pi * 22 * 22 * 38 * 4, 25);
+  expect_same(with_arm, 0.97, 0.7, 4);
+}
+
+TEST(Quality, FallsBelowOneHalfWhereAReaderHasToLook) {
+  const auto score = [](const Segmentation& result, const std::string& stage) {
+    for (const StageQuality& quality : quality_of(result)) {
+      if (quality.stage == stage) return quality.score;
+    }
+    ADD_FAILURE() << stage;
+    return 0.0;
+  };
+  const Segmentation& base = patient().base;
+  for (const char* stage : {"contrast", "wall", "extent", "tissue"})
+    EXPECT_GT(score(base, stage), 0.7) << stage;
+  Segmentation worse = base;
+  worse.wall_confident_percent = 75;
+  worse.front_left_out_percent = 13;
+  worse.fibroglandular_agreement = 0.4;
+  worse.bias_cv_after = 0.09;
+  for (const char* stage : {"contrast", "wall", "extent", "tissue"})
+    EXPECT_LT(score(worse, stage), least_quality) << stage;
+  worse.wall_confident_percent = std::nan("");
+  EXPECT_EQ(score(worse, "wall"), 0);
 }
 
 /// The same patient with another brightness (of fat) of muscle and lung.
