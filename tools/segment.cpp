@@ -9,6 +9,7 @@
 #include "io/volume_file.hpp"
 #include "segment/measures.hpp"
 #include "segment/overlay.hpp"
+#include "segment/quality.hpp"
 #include "segment/wall/wall_input.hpp"
 
 using namespace breast;
@@ -126,6 +127,11 @@ void run_segment(const Choices& c, Run& run) {
   if (!c.wall.empty()) inputs.push_back(read_wall(c.wall, options));
   Segmentation result = segment_breast(scan, options, run.progress(), run.timer());
   for (const std::string& doubt : result.doubts) run.warn(doubt);
+  for (const StageQuality& quality : quality_of(result)) {
+    if (quality.score >= least_quality) continue;
+    run.warn(message("quality of ", quality.stage, " ", format_fixed(quality.score, 2), " (",
+                     quality.worst, "; at least ", least_quality, " expected): look at --overlay"));
+  }
   result.labels.history = run.history(inputs);
   Table measures{{"quantity", "value"}, {}};
   tell(measures_of(result), measures, run.report());

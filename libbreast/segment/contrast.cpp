@@ -74,9 +74,12 @@ FatContrast contrast_below_skin(const Work& work) {
 
 double saturation_evidence(const FatContrast& contrast) {
   // Muscle, noise and bright skin each have other causes and never refuse a scan alone; fat darker
-  // than a third of what surrounds it has none.
-  return grade(contrast.skin_to_subcutis, 1.14, 1.7, 1.2) +
-         grade(contrast.fat_cv, 0.086, 0.10, 1.2) + grade(contrast.muscle_ratio, 0.45, 0.59, 1.2) +
+  // than a third of what surrounds it has none. Behind a wall sought in saturated fat there may be
+  // lung. A ratio of 0 has not been measured.
+  const double muscle = contrast.muscle_ratio;
+  const double dark_muscle = muscle > 0 ? grade(muscle, 0.15, 0.08, 1) : 0;
+  return grade(contrast.skin_to_subcutis, 1.14, 1.7, 1) + grade(contrast.fat_cv, 0.086, 0.10, 1) +
+         std::max(grade(muscle, 0.45, 0.59, 1), dark_muscle) +
          grade(contrast.subcutaneous, 0.5, 0.39, 2);
 }
 
@@ -90,7 +93,7 @@ std::string refusal_of(const FatContrast& contrast) {
       " % of the brightness around it (usually above 50), the skin ",
       std::lround(100 * contrast.skin_to_subcutis),
       " % of its own (below 114), what lies behind the chest wall ",
-      std::lround(100 * contrast.muscle_ratio), " % (below 45), and it varies by ",
+      std::lround(100 * contrast.muscle_ratio), " % (15 to 45), and it varies by ",
       format_fixed(100 * contrast.fat_cv, 1), " % (below 8.6): evidence ",
       format_fixed(evidence, 1), ", at most ", most_evidence,
       " accepted. Give the T1 series without fat saturation, or --contrast fat-bright "

@@ -23,10 +23,10 @@ struct FatContrast {
 FatContrast contrast_below_skin(const Work& work);
 
 /// How much speaks for saturated fat: each of the four counts from 0 where scans with bright fat
-/// end to 1 where a saturated one was seen, and a little beyond. More than `most_evidence` is
+/// end to 1 where a saturated one was seen. More than `most_evidence` is
 /// refused: at least two of them, or subcutaneous tissue darker than a third.
 double saturation_evidence(const FatContrast& contrast);
-constexpr double most_evidence = 1.5;
+constexpr double most_evidence = 1.3;
 
 /// Why a scan is refused for its contrast: one sentence; empty when fat is bright.
 std::string refusal_of(const FatContrast& contrast);

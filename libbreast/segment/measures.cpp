@@ -1,6 +1,7 @@
 #include "segment/measures.hpp"
 
 #include "core/units.hpp"
+#include "segment/quality.hpp"
 
 namespace breast {
 
@@ -36,6 +37,8 @@ std::vector<Quantity> measures_of(const Segmentation& result) {
   add("papilla_height_mm", "papilla_height_mm", result.papilla_height);
   add("skin_thickness_mm", "skin_thickness_mm", labels.skin_thickness);
   add("debris_removed_ml", "debris_removed_ml", result.debris_ml);
+  add("beside_torso_ml", "beside_torso_ml", result.beside_ml);
+  add("compact_fibroglandular_mm", "compact_fibroglandular_mm", result.compact_dark_mm);
   add("cut_by_view_cm2", "cut_by_view_cm2", result.cut_by_view_cm2);
   add("flat_skin_cm2", "flat_skin_cm2", result.flat_skin_cm2);
   add("subcutaneous_brightness", "subcutaneous_brightness", result.contrast.subcutaneous);
@@ -56,6 +59,8 @@ std::vector<Quantity> measures_of(const Segmentation& result) {
   add("front_left_out_percent", "extent/front_left_out_percent", result.front_left_out_percent);
   add("lateral_border_mm", "extent/lateral_border_mm", result.lateral_border_mm);
   add("nipple_depth_mm", "extent/nipple_depth_mm", result.nipple_depth_mm);
+  for (const StageQuality& quality : quality_of(result))
+    add("quality_" + quality.stage, "quality/" + quality.stage, quality.score);
   add("roll_degrees", "roll_degrees", result.roll_degrees);
   add("midline_mm", "midline_mm", result.midline_mm);
   return all;

@@ -163,6 +163,17 @@ void find_doubts(Segmentation& result, const Work& work) {
         "medial of it, at x = ",
         std::lround(result.midline_mm), " mm: look at the sternal border"));
   }
+  if (result.beside_ml > 150) {
+    result.doubts.push_back(message(std::lround(result.beside_ml),
+                                    " ml of tissue lie apart from the torso, arms or what wrapped "
+                                    "round the field of view: left out; look at --overlay"));
+  }
+  if (result.compact_dark_mm > 20) {
+    result.doubts.push_back(
+        message("a ball of ", std::lround(result.compact_dark_mm),
+                " mm radius fits into what is labelled fibroglandular: an implant, a cyst or a very "
+                "dense breast; implants are not modelled"));
+  }
   if (result.flat_skin_cm2 > 6) {
     result.doubts.push_back(
         message(std::lround(result.flat_skin_cm2),
@@ -228,6 +239,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
     work.body = find_body(work.scan, options.side);
     result.roll_degrees = stand_upright(work, own, options.side) * 180 / std::numbers::pi;
     result.debris_ml = work.body.debris_ml;
+    result.beside_ml = work.body.beside_ml;
     work.torso = find_torso(work.body.mask, options.side);
     work.skin_distance = signed_distance(work.body.mask);
     work.domain = wall_domain(work.body.mask, work.torso, options.side == Side::left);
@@ -258,6 +270,9 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   const Mask interior = interior_of(work, darkened_by_skin(work), work.scan.grid.spacing[1]);
   work.gland = find_fibroglandular(work.ratio, interior, near_unsure_wall(work, 8),
                                    work.wall.muscle_ratio, result.bias_cv_after, options.interior);
+  const Volume<float> inside_gland = signed_distance(work.gland.lobes);
+  result.compact_dark_mm =
+      std::max(0.0f, -*std::min_element(inside_gland.voxels.begin(), inside_gland.voxels.end()));
   result.labels = labels_of(work, options.side);
   result.labels.midline_mm =
       work.scan.grid.to_patient(Vec3(work.torso.midline, 0, 0.5 * work.scan.grid.size[2]))[0];

@@ -53,6 +53,8 @@ struct Segmentation {
   double roll_degrees = 0;          ///< by which the labels' grid is turned against the scan's
   double wall_shift = 0;            ///< standard deviations the wall was moved by
   double debris_ml = 0;             ///< taken off the skin
+  double beside_ml = 0;             ///< tissue apart from the torso
+  double compact_dark_mm = 0;       ///< radius of the largest ball within fibroglandular tissue
   std::vector<std::string> doubts;  ///< what a reader should look at
 };
 

@@ -3,6 +3,9 @@
 //
 //     bench_segment_robustness MR left|right [CASE]      all cases, or the one of that name
 //
+// failed: breast Dice below 0.93, wall 2 mm or nipple 10 mm away. flagged: refused, a warning, or a
+// stage's quality below one half. Scans finer than a millimetre are halved in plane first.
+//
 // Prints one row per perturbation: the result compared with that of the unchanged scan. Where the
 // scan is sampled again so are, in the same way, the labels and the fibroglandular fractions (that
 // is, the brightness) of the unchanged one: "of_labels" is what the new voxels could hold,
@@ -19,6 +22,8 @@
 #include "fixtures/perturbed_scan.hpp"
 #include "io/volume_file.hpp"
 #include "segment/grid/filters.hpp"
+#include "segment/grid/grid_ops.hpp"
+#include "segment/quality.hpp"
 #include "segment/segment.hpp"
 
 namespace breast {
@@ -81,19 +86,28 @@ void print_row(const std::string& name, const Timed& found, const Segmentation& 
       (result.labels.landmarks.at("nipple") - base.labels.landmarks.at("nipple")).norm();
   std::string doubts;
   for (const std::string& doubt : result.doubts) doubts += "; " + doubt;
-  std::printf("%s\t%.1f\t%.4f\t%.4f\t%s\t%.2f\t%.2f\t%.2f\t%.3f\t%s\n", name.c_str(), found.seconds,
+  double least = 1;
+  std::string scores;
+  for (const StageQuality& quality : quality_of(result)) {
+    least = std::min(least, quality.score);
+    scores += message(quality.stage, " ", std::lround(100 * quality.score), " ");
+  }
+  const bool failed = overlap.breast.dice < 0.93 || wall.distance.mean_mm > 2 || nipple > 10;
+  const bool flagged = !result.doubts.empty() || least < least_quality;
+  std::printf("%s\t%.1f\t%.4f\t%.4f\t%s\t%.2f\t%.2f\t%.2f\t%.3f\t%d\t%d\t%s\t%s\n", name.c_str(), found.seconds,
               overlap.breast.dice, overlap.tissue[int(Tissue::fibroglandular)].dice, most.c_str(),
-              wall.distance.mean_mm, wall.distance.p95_mm, nipple, result.bias_cv_after,
-              doubts.empty() ? "" : doubts.c_str() + 2);
+              wall.distance.mean_mm, wall.distance.p95_mm, nipple, result.bias_cv_after, int(failed), int(flagged),
+              scores.c_str(), doubts.empty() ? "" : doubts.c_str() + 2);
   std::fflush(stdout);
 }
 
 int run(const std::string& file, Side side, const std::string& only) {
-  const Volume<float> scan = read_volume(file);
+  Volume<float> scan = in_patient_order(read_volume(file));
+  if (scan.grid.spacing[0] < 1 && scan.grid.spacing[1] < 1) scan = coarsened(scan, {2, 2, 1});
   std::printf(
       "case\tseconds\tbreast_dice\tfibroglandular_dice\tof_labels\tof_fractions\twall_mean_"
       "mm\twall_p95_mm\t"
-      "nipple_mm\tfat_cv\tmessages\n");
+      "nipple_mm\tfat_cv\tfailed\tflagged\tquality\tmessages\n");
   const Timed base = timed(scan, side);
   print_row("unchanged", base, base.result, "\t");
   auto cases =
@@ -108,7 +122,7 @@ int run(const std::string& file, Side side, const std::string& only) {
                                    : std::string("\t");
       print_row(perturbation.name, found, base.result, most);
     } catch (const Error& error) {
-      std::printf("%s\t\t\t\t\t\t\t\t\t\trefused: %s\n", perturbation.name.c_str(), error.what());
+      std::printf("%s\t\t\t\t\t\t\t\t\t\t0\t1\t\trefused: %s\n", perturbation.name.c_str(), error.what());
     }
   }
   return 0;

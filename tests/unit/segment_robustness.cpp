@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "evaluation/overlap.hpp"
@@ -10,14 +11,11 @@
 #include "fixtures/perturbed_scan.hpp"
 #include "fixtures/synthetic_scan.hpp"
 #include "segment/body/body.hpp"
-#include "segment/body/debris.hpp"
 #include "segment/contrast.hpp"
 #include "segment/grid/itk_filters.hpp"
 #include "segment/plausibility.hpp"
+#include "segment/quality.hpp"
 #include "segment/segment.hpp"
-#include "segment/tissue/nipple.hpp"
-#include "segment/tissue/skin_thickness.hpp"
-#include "segment/tissue/tissue.hpp"
 
 namespace breast {
 namespace {
@@ -245,6 +243,51 @@ TEST(SegmentRobustness, AFieldOfViewThatEndsAtTheTipIsRefused) {
   EXPECT_NE(reason.find("ends at the tip of the left breast"), std::string::npos) << reason;
 }
 
+TEST(SegmentRobustness, AnArmBesideTheBodyIsLeftOutAndSaid) {
+  Volume<float> scan = patient().scan;
+  const Grid& grid = scan.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const Vec3 p = grid.to_patient(Vec3(i, j, k));
+        if (std::hypot(p[0], p[1] + 70) < 22) scan.at(i, j, k) += 400;  // between the breasts
+      }
+    }
+  }
+  const auto said = [](const Segmentation& result) {
+    return std::count_if(result.doubts.begin(), result.doubts.end(), [](const std::string& doubt) {
+      return doubt.find("apart from the torso") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(said(patient().base), 0);
+  const Segmentation with_arm = run(scan);
+  EXPECT_EQ(said(with_arm), 1);
+  EXPECT_NEAR(with_arm.beside_ml, 0.001 * std::numbers::pi * 22 * 22 * 38 * 4, 25);
+  expect_same(with_arm, 0.97, 0.7, 4);
+}
+
+TEST(Quality, FallsBelowOneHalfWhereAReaderHasToLook) {
+  const auto score = [](const Segmentation& result, const std::string& stage) {
+    for (const StageQuality& quality : quality_of(result)) {
+      if (quality.stage == stage) return quality.score;
+    }
+    ADD_FAILURE() << stage;
+    return 0.0;
+  };
+  const Segmentation& base = patient().base;
+  for (const char* stage : {"contrast", "wall", "extent", "tissue"})
+    EXPECT_GT(score(base, stage), 0.7) << stage;
+  Segmentation worse = base;
+  worse.wall_confident_percent = 75;
+  worse.front_left_out_percent = 13;
+  worse.fibroglandular_agreement = 0.4;
+  worse.bias_cv_after = 0.09;
+  for (const char* stage : {"contrast", "wall", "extent", "tissue"})
+    EXPECT_LT(score(worse, stage), least_quality) << stage;
+  worse.wall_confident_percent = std::nan("");
+  EXPECT_EQ(score(worse, "wall"), 0);
+}
+
 /// The same patient with another brightness (of fat) of muscle and lung.
 Volume<float> with_chest(double brightness) {
   const SyntheticScan& truth = patient().truth;
@@ -326,126 +369,6 @@ TEST(SegmentRobustness, ShiftMovesTheWallByItsSigma) {
   const WallDistance wall = compare_walls(moved.labels, patient().base.labels);
   EXPECT_NEAR(wall.bias_mm, moved.wall_sigma_mean, 0.5 * moved.wall_sigma_mean + 0.3);
   EXPECT_GT(wall.bias_mm, 0.3);
-}
-
-/// A solid ball with a small cylinder (papilla) or crumb on it.
-Mask ball(const Grid& grid, const Vec3& centre, double radius) {
-  Mask mask(grid);
-  for (int k = 0; k < grid.size[2]; ++k) {
-    for (int j = 0; j < grid.size[1]; ++j) {
-      for (int i = 0; i < grid.size[0]; ++i)
-        mask.at(i, j, k) = (grid.to_patient(Vec3(i, j, k)) - centre).norm() < radius;
-    }
-  }
-  return mask;
-}
-
-Grid fine_grid() {
-  Grid grid;
-  grid.size = {120, 70, 40};
-  grid.spacing = Vec3(1, 1, 2.5);
-  grid.origin = Vec3(-59.5, -49.5, -48.75);
-  return grid;
-}
-
-void add_ball(Mask& mask, const Vec3& centre, double radius) {
-  const Mask more = ball(mask.grid, centre, radius);
-  for (std::size_t n = 0; n < mask.voxels.size(); ++n) mask.voxels[n] |= more.voxels[n];
-}
-
-TEST(Nipple, PapillaAwayFromTheMostAnteriorPoint) {
-  const Grid grid = fine_grid();
-  const double radius = 42, tilt = 0.3;
-  Mask body = ball(grid, Vec3::Zero(), radius);
-  const Vec3 axis(std::sin(tilt), -std::cos(tilt), 0), tip = (radius + 5) * axis;
-  for (double h = 0; h <= 1; h += 0.25) add_ball(body, (radius - 4 + 4 * h) * axis, 5);
-  const Nipple nipple = find_nipple(body, body);
-  EXPECT_LT((nipple.tip - tip).norm(), 1.5);
-  EXPECT_NEAR(nipple.height, 5, 1.5);
-  EXPECT_LT((nipple.base - radius * axis).norm(), 1.5);
-}
-
-TEST(Nipple, SmoothDomeHasItAtTheFront) {
-  const Mask body = ball(fine_grid(), Vec3::Zero(), 42);
-  const Nipple nipple = find_nipple(body, body);
-  EXPECT_LT((nipple.tip - Vec3(0, -42, 0)).norm(), 6);
-  EXPECT_LT(nipple.height, 1.5);
-}
-
-TEST(Debris, CrumbsGoAndNipplesStay) {
-  const Grid grid = fine_grid();
-  Mask body = ball(grid, Vec3::Zero(), 40);
-  const Mask clean = body;
-  add_ball(body, Vec3(41, -5, 1.25), 2.6);  // a marker on the flank
-  Mask with_papilla = body;
-  add_ball(with_papilla, Vec3(0, -40, 1.25), 3.2);
-  EXPECT_GT(remove_debris(body, 119), 0);
-  double left = 0;
-  for (std::size_t n = 0; n < body.voxels.size(); ++n) left += body.voxels[n] != clean.voxels[n];
-  EXPECT_LT(left, 12) << "voxels still beyond the ball";
-  const Mask before = with_papilla;
-  remove_debris(with_papilla, 119);
-  EXPECT_EQ(with_papilla.at(60, 7, 20), before.at(60, 7, 20));
-  EXPECT_EQ(before.at(60, 7, 20), 1);
-}
-
-/// A ball of fat in a layer of skin, as a scanner sees it: every voxel the mean of its parts.
-Volume<float> skinned_ball(double radius, double thickness, double skin_to_fat) {
-  Volume<float> image(fine_grid());
-  const Vec3& spacing = image.grid.spacing;
-  for (int k = 0; k < image.grid.size[2]; ++k) {
-    for (int j = 0; j < image.grid.size[1]; ++j) {
-      for (int i = 0; i < image.grid.size[0]; ++i) {
-        const Vec3 centre = image.grid.to_patient(Vec3(i, j, k));
-        const double off = centre.norm() - radius;
-        const int parts = off > -thickness - 2 && off < 2 ? 5 : 1;
-        double sum = 0;
-        for (int n = 0; n < parts * parts * parts; ++n) {
-          const Vec3 at(n % parts, n / parts % parts, n / parts / parts);
-          const Vec3 part = (at + Vec3::Constant(0.5)) / parts - Vec3::Constant(0.5);
-          const double depth = radius - (centre + spacing.cwiseProduct(part)).norm();
-          sum += depth < 0 ? 0 : depth < thickness ? skin_to_fat : 1;
-        }
-        image.at(i, j, k) = float(sum / (parts * parts * parts));
-      }
-    }
-  }
-  return image;
-}
-
-/// From half a voxel to three: the layer's thickness, and none where there is none.
-TEST(Skin, ThicknessOfKnownLayers) {
-  const double radius = 35;
-  const Mask body = ball(fine_grid(), Vec3::Zero(), radius);
-  const Volume<float> distance = signed_distance(body);
-  for (const double thickness : {0.5, 0.8, 1.5, 3.0}) {
-    const Volume<float> image = skinned_ball(radius, thickness, 0.5);
-    EXPECT_NEAR(skin_thickness(image, body, distance), thickness, 0.15);
-  }
-  EXPECT_LT(skin_thickness(skinned_ball(radius, 0, 0.5), body, distance), 0.15);
-  for (const double skin : {0.4, 0.6}) {
-    const Volume<float> image = skinned_ball(radius, 1.5, skin);
-    EXPECT_NEAR(skin_thickness(image, body, distance), 1.5, 0.25) << "not as bright as assumed";
-  }
-}
-
-TEST(Skin, WithoutFatBehindItIsNotMeasured) {
-  const Mask body = ball(fine_grid(), Vec3::Zero(), 35);
-  Volume<float> dark = skinned_ball(35, 1.5, 0.5);
-  for (float& v : dark.voxels) v *= 0.5f;
-  EXPECT_EQ(skin_thickness(dark, body, signed_distance(body)), 0);
-}
-
-TEST(Debris, DimGhostBesideTheBodyGoes) {
-  const Grid grid = fine_grid();
-  const Mask clean = ball(grid, Vec3::Zero(), 30);
-  Mask body = clean;
-  add_ball(body, Vec3(34, 0, 0), 10);  // too thick for an opening
-  Volume<float> scan(grid);
-  for (std::size_t n = 0; n < scan.voxels.size(); ++n)
-    scan.voxels[n] = clean.voxels[n] ? 1000.f : body.voxels[n] ? 80.f : 5.f;
-  remove_ghosts(body, scan);
-  EXPECT_EQ(body.voxels, clean.voxels);
 }
 
 }  // namespace

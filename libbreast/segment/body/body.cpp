@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "segment/body/debris.hpp"
 #include "segment/grid/itk_filters.hpp"
 
@@ -205,8 +207,17 @@ double chest_filled(const Mask& mask, const TorsoFront& torso) {
 
 struct Found {
   Mask mask;
-  double debris_ml = 0, filled = 0;  ///< filled as chest_filled()
+  double debris_ml = 0, beside_ml = 0;
+  double filled = 0;  ///< as chest_filled()
 };
+
+/// The largest part that hangs together apart from the body, ml.
+double second_component_ml(const Mask& mask) {
+  std::vector<std::size_t> count = sizes(components(mask));
+  if (count.size() < 3) return 0;  // number 0 is no component
+  std::nth_element(count.begin(), count.begin() + 1, count.end(), std::greater<>());
+  return double(count[1]) * mask.grid.voxel_volume() / mm3_per_ml;
+}
 
 /// Mask of what is brighter than the threshold: opened, filled, its border at half height, debris
 /// off. `from` as in fill_chest().
@@ -216,6 +227,7 @@ Found body_above(const Volume<float>& scan, double threshold, double from, Side 
   mask = Mask(scan.grid);
   for (std::size_t n = 0; n < mask.voxels.size(); ++n) mask.voxels[n] = scan.voxels[n] > threshold;
   open_slices(mask);
+  found.beside_ml = second_component_ml(mask);
   mask = largest_component(mask);
   close_and_fill(mask);
   remove_ghosts(mask, scan);
@@ -268,6 +280,7 @@ Body find_body(const Volume<float>& scan, Side side) {
     body.threshold = attempt.level;
     body.mask = std::move(found.mask);
     body.debris_ml = found.debris_ml;
+    body.beside_ml = found.beside_ml;
     if (most_filled > 0.75) break;
   }
   return body;

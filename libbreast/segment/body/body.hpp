@@ -21,6 +21,7 @@ struct Body {
   double air_level = 0;  ///< n0: 90th percentile of the air in front of the patient
   double threshold = 0;  ///< intensity that separates body from air
   double debris_ml = 0;  ///< taken off the skin: markers and the like
+  double beside_ml = 0;  ///< tissue apart from the torso, left out: arms and the like
 };
 /// Otsu on log(I + n0), opening, largest component, closing, filling.
 /// Throws Error (input) when there is no contrast or no air in front.
