@@ -1,0 +1,109 @@
+// A breast on a wall to slide on, through the programs: what a material set says, what options say,
+// and what is refused.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/atomic_file.hpp"
+#include "core/report.hpp"
+#include "core/table.hpp"
+#include "fixtures/analytic_mesh.hpp"
+#include "fixtures/run_tool.hpp"
+#include "fixtures/scratch_folder.hpp"
+#include "fixtures/shapes.hpp"
+#include "io/mesh_file.hpp"
+
+namespace breast {
+namespace {
+
+class SlidingTools : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_mesh(folder_ / "mesh.vtkhdf", analytic_breast_mesh(5));
+    std::ofstream(folder_ / "soft.tsv")
+        << "tissue\tlaw\tdensity_g_per_mm3\ta10_Pa\ta01_Pa\ta20_Pa\ta02_Pa\ta11_Pa\ta_Pa\tb\tc_Pa"
+           "\tcompression_percent\tprestretch_percent\tsupport_kPa_per_mm\n"
+           "fat\tpolynomial\t0.001\t62\t60\t450\t760\t944\t-\t-\t-\t-\t-\t-\n"
+           "fibroglandular\tpolynomial\t0.001\t66\t56\t898\t1544\t1890\t-\t-\t-\t-\t-\t-\n"
+           "skin\texponential\t0.001\t-\t-\t-\t-\t-\t92.39\t4.4\t-203.40\t5\t3\t-\n"
+           "wall\tsupport\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t0.02\n"
+           "cut\tsupport\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t0.01\n";
+  }
+  int run(const std::string& line) {
+    said_ = run_line(line, folder_.path());
+    return said_.exit_code;
+  }
+  Report report(const std::string& name) const {
+    return Report::parse(read_text(folder_ / name), name);
+  }
+
+  ScratchFolder folder_;
+  ToolResult said_;
+};
+
+TEST_F(SlidingTools, WholeChainWithWhatTheMaterialSetSays) {
+  const std::string soft = " --materials soft.tsv";
+  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --report b.json" + soft), 0) << said_.err;
+  const Report backward = report("b.json");
+  EXPECT_EQ(backward.text("wall"), "slide:0.02");
+  EXPECT_EQ(backward.text("cut"), "spring:0.01");
+  EXPECT_NE(backward.text("model").find("slides on the chest wall"), std::string::npos);
+  EXPECT_LT(backward.number("closure_mm"), 1e-8);
+  EXPECT_LE(backward.number("newton_iterations"), 15);
+  ASSERT_EQ(run("forward reference.vtkhdf supine.vtkhdf --report s.json" + soft), 0) << said_.err;
+  const HexMesh supine = read_mesh(folder_ / "supine.vtkhdf", {.reference = true, .geometry = true});
+  double slid = 0, off = 0;
+  for (const int node : nodes_of(supine, supine.pectoral_faces)) {
+    const auto before = supine.geometry->thorax->at(supine.imaged[std::size_t(node)]),
+               after = supine.geometry->thorax->at(supine.points[std::size_t(node)]);
+    ASSERT_TRUE(before && after);
+    off = std::max(off, std::abs(after->value - before->value));
+    slid = std::max(slid, (supine.points[std::size_t(node)] - supine.imaged[std::size_t(node)]).norm());
+  }
+  EXPECT_GT(slid, 2);
+  EXPECT_LT(off, 1e-9);
+  ASSERT_EQ(run("sensitivity reference.vtkhdf supine.vtkhdf d.vtkhdf --table d.tsv" + soft), 0)
+      << said_.err;
+  const Table table = read_table(folder_ / "d.tsv");
+  int supports = 0;
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    const std::string& parameter = table.cell(r, "parameter");
+    supports += parameter == "wall" || parameter == "cut";
+  }
+  EXPECT_GE(supports, 2);
+  ASSERT_EQ(run("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 20 --report c.json" + soft),
+            0)
+      << said_.err;
+  EXPECT_LT(report("c.json").number("force_balance"), 1e-6);
+  ASSERT_EQ(run("population supine.vtkhdf --table motion.tsv --summary mean.tsv"), 0) << said_.err;
+  EXPECT_NEAR(read_table(folder_ / "motion.tsv").number(0, "nipple_moved_mm"),
+              report("s.json").number("landmarks/nipple/distance_mm"), 0.06);
+}
+
+TEST_F(SlidingTools, OptionsWinOverTheSet) {
+  ASSERT_EQ(run("backward mesh.vtkhdf r.vtkhdf --materials soft.tsv --wall held --cut free "
+                "--skin-compression 100 --skin-prestretch 0 --report b.json"),
+            0)
+      << said_.err;
+  EXPECT_EQ(report("b.json").text("wall"), "held");
+  EXPECT_EQ(report("b.json").text("cut"), "free");
+  EXPECT_EQ(report("b.json").number("skin_law/compression_percent"), 100);
+}
+
+TEST_F(SlidingTools, RefusalsNameTheRemedy) {
+  write_mesh(folder_ / "flat.vtkhdf", fixtures::cap({.elements = 4}));
+  EXPECT_EQ(run("backward flat.vtkhdf r.vtkhdf --wall slide"), 2);
+  EXPECT_NE(said_.err.find("fit-hermite"), std::string::npos) << said_.err;
+  EXPECT_EQ(run("backward mesh.vtkhdf r.vtkhdf --wall slide:-1"), 2);
+  EXPECT_EQ(run("backward mesh.vtkhdf r.vtkhdf --cut loose"), 2);
+  EXPECT_EQ(run("backward mesh.vtkhdf r.vtkhdf --skin-compression 5"), 2);
+  EXPECT_NE(said_.err.find("pre-stretch"), std::string::npos) << said_.err;
+  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf"), 0) << said_.err;
+  EXPECT_EQ(run("export-deck reference.vtkhdf o.inp --wall slide --bulk-ratio 100 --without-skin"), 2);
+  EXPECT_NE(said_.err.find("--wall held"), std::string::npos) << said_.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "r.vtkhdf"));
+}
+
+}  // namespace
+}  // namespace breast
