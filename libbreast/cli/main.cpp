@@ -71,14 +71,29 @@ void write_stdout(const std::string& text) {
   }
 }
 
-void write_report(const std::filesystem::path& file, Run& run, const Outcome& outcome) {
+// A report may be sent to somebody: it names files, not the folders they lie in.
+std::string without_folders(std::string text, const Tokens& tokens) {
+  std::vector<std::string> given = tokens.positionals;
+  for (const Tokens::Option& option : tokens.options) {
+    given.insert(given.end(), option.values.begin(), option.values.end());
+  }
+  for (const std::string& value : given) {
+    const std::size_t slash = value.find_last_of('/');
+    if (slash == std::string::npos || slash == 0) continue;
+    const std::string folder = value.substr(0, slash + 1);
+    for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) text.erase(at, folder.size());
+  }
+  return text;
+}
+
+void write_report(const std::filesystem::path& file, Run& run, const Outcome& outcome, const Tokens& tokens) {
   Report& report = run.report();
   if (outcome.exit_code != 0) {
     // A solve that did not converge has typed its reason already.
     const bool typed = outcome.exit_code == 3 && report.contains("explanation");
     if (!typed) {
       report.set("status", outcome.status);
-      report.set("reason", outcome.reason);
+      report.set("reason", without_folders(outcome.reason, tokens));
     }
   }
   run.timer().write(report);
@@ -192,7 +207,7 @@ int Tool::main(int argc, char** argv, const std::function<void(Run&)>& body) {
   progress.finish(outcome.exit_code == 0);
   if (outcome.exit_code != 0) complain(outcome);
   const Outcome reported = guarded([&] {
-    write_report(report_possible ? impl_->report_file : std::filesystem::path(), run, outcome);
+    write_report(report_possible ? impl_->report_file : std::filesystem::path(), run, outcome, tokens);
   });
   if (outcome.exit_code == 0 && reported.exit_code != 0) return complain(reported);
   return outcome.exit_code;

@@ -225,6 +225,15 @@ TEST(Cli, EveryFailureHasItsExitCodeAndReport) {
   }
 }
 
+TEST(Cli, AReportNamesFilesWithoutTheirFolders) {
+  Trial trial;
+  const std::filesystem::path mesh = trial.mesh();
+  trial.body = [&mesh](breast::Run&) { throw input_error(mesh.string(), ": is damaged"); };
+  EXPECT_EQ(trial.run({mesh.string(), trial.result(), "--report", trial.report()}), 2);
+  EXPECT_EQ(trial.err, "trial: " + mesh.string() + ": is damaged\n");
+  EXPECT_EQ(Report::parse(read_text(trial.report()), "report").text("reason"), mesh.filename().string() + ": is damaged");
+}
+
 TEST(Cli, SuccessReportsAndPrints) {
   Trial trial;
   trial.body = [](breast::Run& run) {

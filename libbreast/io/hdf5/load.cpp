@@ -300,7 +300,8 @@ void check_schema(const Source& source, const Document& document, const std::str
 }
 
 // The part HDF5 does, whose 1.10 parser can crash on damage: in a child process.
-Document parse(const Source& source, std::string& content, const std::string& schema) {
+Document parse(const Source& source, std::string& content,
+               const std::set<std::string>& groups = {"/VTKHDF", "/breast"}) {
   silence_hdf5();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr std::size_t growth = std::size_t(1) << 16;
@@ -309,17 +310,16 @@ Document parse(const Source& source, std::string& content, const std::string& sc
   const Handle h5(H5Fopen("in memory", H5F_ACC_RDONLY, access), H5Fclose);
   if (!h5) throw source.refuse("HDF5 cannot open it (truncated or damaged)");
   Loader loader(source, content.size());
-  for (const char* group : {"/VTKHDF", "/breast"}) {
-    if (H5Lexists(h5, group, H5P_DEFAULT) <= 0) {
+  for (const std::string& group : groups) {
+    if (H5Lexists(h5, group.c_str(), H5P_DEFAULT) <= 0) {
       throw source.refuse("group ", group, " is missing: not a file of libbreast");
     }
     H5L_info_t link{};
-    if (H5Lget_info(h5, group, &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD) {
+    if (H5Lget_info(h5, group.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD) {
       throw source.refuse(group, " is a link, must be a group");
     }
     loader.load_group(h5, group, 0);
   }
-  check_schema(source, loader.document, schema);
   return std::move(loader.document);
 }
 
@@ -331,13 +331,30 @@ Document load_document(const fs::path& file, const std::string& schema, const st
     std::string content = read_text(file);
     check_seal(content, source.name, source.advice);
     const std::lock_guard lock(hdf5_mutex());
-    Document document = unpacked(in_guarded_child(
-        source.name, [&] { return packed(parse(source, content, schema)); }));
+    Document document = unpacked(in_guarded_child(source.name, [&] {
+      const Document parsed = parse(source, content);
+      check_schema(source, parsed, schema);
+      return packed(parsed);
+    }));
     check_all_finite(source, document);
     return document;
   } catch (const std::bad_alloc&) {
     throw source.refuse("states more data than fits in memory");
   }
+}
+
+bool reads_back(const std::string& name, std::string& image, const Document& document) {
+  std::set<std::string> groups;
+  for (const auto& [path, array] : document.datasets) groups.insert(path.substr(0, path.find_first_of("/@", 1)));
+  for (const auto& [path, array] : document.attributes) groups.insert(path.substr(0, path.find_first_of("/@", 1)));
+  const Document found = parse({name, ""}, image, groups);
+  const auto equal = [](const auto& a, const auto& b) {
+    return a.first == b.first && a.second.shape == b.second.shape && a.second.values == b.second.values;
+  };
+  const auto same = [&](const auto& a, const auto& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), equal);
+  };
+  return same(found.datasets, document.datasets) && same(found.attributes, document.attributes);
 }
 
 void check_writable(const fs::path& file, const Document& document) {

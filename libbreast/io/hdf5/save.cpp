@@ -6,6 +6,8 @@
 #include <set>
 
 #include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/guarded_child.hpp"
 #include "io/hdf5/document.hpp"
 #include "io/hdf5/handle.hpp"
 #include "io/hdf5/seal.hpp"
@@ -13,6 +15,8 @@
 namespace breast {
 
 void check_writable(const std::filesystem::path& file, const Document& document);
+/// True when the bytes of an HDF5 file hold that document and nothing else; may throw as load_document does.
+bool reads_back(const std::string& name, std::string& image, const Document& document);
 
 namespace {
 
@@ -131,7 +135,6 @@ class Saver {
 
 // The file in memory: HDF5 crashes when a disk is full, so that it never sees one.
 std::string hdf5_image(const std::string& name, const Document& document) {
-  const std::lock_guard lock(hdf5_mutex());
   silence_hdf5();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr std::size_t growth = std::size_t(1) << 22;
@@ -152,9 +155,27 @@ std::string hdf5_image(const std::string& name, const Document& document) {
 
 }  // namespace
 
+// HDF5 without memory leaves datasets out without a word, crashes, or prints when the program ends: so a child process
+// makes the bytes, and reads them back.
 void save_document(const std::filesystem::path& file, const Document& document) {
   check_writable(file, document);
-  write_bytes(file, sealed(hdf5_image(file.string(), document)));
+  const std::lock_guard lock(hdf5_mutex());
+  const std::string name = file.string();
+  const auto work = [&] {
+    std::string image = hdf5_image(name, document);
+    if (!reads_back(name, image, document)) {
+      throw failed_error(name, ": cannot be written: HDF5 does not read back what it was given");
+    }
+    return image;
+  };
+  std::string image;
+  try {
+    image = in_guarded_child(name, work);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::failed) throw;
+    throw failed_error(name, ": cannot be written: HDF5 crashed or ran out of memory");
+  }
+  write_bytes(file, sealed(std::move(image)));
 }
 
 }  // namespace breast
