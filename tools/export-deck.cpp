@@ -101,7 +101,7 @@ void read_back(const Choices& c, HexMesh mesh, Run& run) {
   apply_displacement(mesh, result.displacement);
   mesh.gravity = c.gravity.vector();
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
-  mesh.solve = SolveRecord{SolveStatus::converged, "solved by another program", {}};
+  mesh.solve = SolveRecord{SolveStatus::converged, "solved by another program", "", {}};
   if (result.reaction) write_balance(scene_of(c, mesh, run), *result.reaction, run.report());
   if (!c.base.empty()) {
     const NodeDifference difference = node_difference(mesh, read_mesh(c.base));

@@ -26,6 +26,12 @@ MechanicsRun::MechanicsRun(Run& run, const MechanicsChoices& choices, const std:
       mesh_(std::move(mesh)),
       sha_(mesh_.content_sha256) {
   if (options_.element == Element::q2p1) mesh_ = raise_order(mesh_);
+  const std::string support = support_options(options_);
+  if (mesh_.solve && !mesh_.solve->support.empty() && mesh_.solve->support != support) {
+    run_.warn(message(input_.filename().string(), " was solved with ", mesh_.solve->support,
+                      ", this run has ", support,
+                      ": the shape of the scan is no equilibrium of it; give both the same options"));
+  }
 }
 
 void MechanicsRun::finish(const Equilibrium& found, const std::filesystem::path& output,
@@ -35,6 +41,7 @@ void MechanicsRun::finish(const Equilibrium& found, const std::filesystem::path&
   if (found.converged() || enough || keep_unconverged_) {
     const History before = mesh_.history;
     store(found, mesh_);
+    mesh_.solve->support = support_options(options_);
     mesh_.history = run_.history({{input_, sha_, &before}});
     mesh_.wall_seconds = run_.seconds();
     write_mesh(output, mesh_);

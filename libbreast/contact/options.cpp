@@ -1,27 +1,16 @@
 #include "contact/options.hpp"
 
-#include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "core/error.hpp"
+#include "core/table.hpp"
 
 namespace breast {
-
-namespace {
-/// The whole text as one finite number.
-std::optional<double> number(const std::string& text) {
-  std::istringstream in(text);
-  double value = 0;
-  if (!(in >> value) || !in.eof() || !std::isfinite(value)) return {};
-  return value;
-}
-}  // namespace
 
 double parse_detector(const std::string& text) {
   if (text == "raised") return std::numeric_limits<double>::infinity();
   if (text == "fixed") return 0;
-  const std::optional<double> rise = number(text);
+  const std::optional<double> rise = number_in(text);
   if (rise && *rise >= 0) return *rise;
   throw input_error("--detector ", text, ": give 'raised', 'fixed' or a rise in mm, 0 or more");
 }

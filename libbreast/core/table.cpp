@@ -134,13 +134,19 @@ std::string format_fixed(double value, int decimals) {
   return buffer;
 }
 
-double parse_number(const std::string& text, const std::string& where) {
+std::optional<double> number_in(const std::string& text) {
   double value = 0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end.ec != std::errc() || end.ptr != text.data() + text.size() || !(value - value == 0)) {
-    throw input_error(where, ": '", text, "' is not a finite number");
+    return {};
   }
   return value;
+}
+
+double parse_number(const std::string& text, const std::string& where) {
+  const std::optional<double> value = number_in(text);
+  if (!value) throw input_error(where, ": '", text, "' is not a finite number");
+  return *value;
 }
 
 }  // namespace breast

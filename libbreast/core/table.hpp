@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,9 @@ Table parse_table(const std::string& text, const std::string& name);
 void write_table(const std::filesystem::path& file, const Table& table);
 /// Shortest text that reads back to the same double.
 std::string format_number(double value);
-/// Strict: the whole text must be one finite number; throws Error (input) beginning with `where`.
+/// The whole text as one finite number; nothing for any other text.
+std::optional<double> number_in(const std::string& text);
+/// The same; throws Error (input) beginning with `where`.
 double parse_number(const std::string& text, const std::string& where);
 /// Fixed decimals for people.
 std::string format_fixed(double value, int decimals);

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "mesh/shape.hpp"
+#include "mesh/quality.hpp"
 
 namespace breast {
 
@@ -18,21 +18,13 @@ struct Sample {
   double volume = 0, moved = 0, before = 0, after = 0;
 };
 
-double hexahedron_volume(const HexMesh& mesh, int e) {
-  const HexShape centre = hex_shape(mesh.order, Vec3::Zero());
-  Mat3 jacobian = Mat3::Zero();
-  for (int a = 0; a < mesh.nodes_per_element(); ++a) {
-    jacobian += mesh.imaged[std::size_t(mesh.element(e)[a])] * centre.gradients.col(a).transpose();
-  }
-  return 8 * jacobian.determinant();
-}
-
 std::vector<Sample> samples_of(const HexMesh& mesh, const ThoraxSurface& surface, double muscle_mm) {
+  const std::vector<double> volumes = element_volumes(mesh, mesh.imaged);
   std::vector<Sample> samples;
   for (int e = 0; e < mesh.elements(); ++e) {
     const Vec3 from = element_position(mesh, mesh.imaged, e, Vec3::Zero());
     const Vec3 to = element_position(mesh, mesh.points, e, Vec3::Zero());
-    samples.push_back({hexahedron_volume(mesh, e), (to - from).norm(),
+    samples.push_back({volumes[std::size_t(e)], (to - from).norm(),
                       wall_surface_distance(surface, from) + muscle_mm,
                       wall_surface_distance(surface, to) + muscle_mm});
   }

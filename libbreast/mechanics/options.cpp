@@ -73,6 +73,10 @@ std::string describe_support(const WallOption& wall) {
 
 }  // namespace
 
+std::string support_options(const MechanicsOptions& options) {
+  return "--wall " + describe(options.wall) + " --cut " + describe(options.cut);
+}
+
 std::string describe_model(const MechanicsOptions& options) {
   const MaterialSet& set = options.materials;
   std::string sentence = describe_support(options.wall);

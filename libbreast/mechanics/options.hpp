@@ -58,6 +58,9 @@ MechanicsOptions mechanics_options(const Choices& c) {
 /// Which model of a breast this is, in one sentence: what holds it, how soft it is, what its skin does.
 std::string describe_model(const MechanicsOptions& options);
 
+/// What holds the breast, as on a command line: "--wall held --cut free".
+std::string support_options(const MechanicsOptions& options);
+
 /// "none" | "step" | "q2". Throws Error (input) for any other.
 Estimate estimate_from_name(const std::string& name);
 const char* element_name(Element element);

@@ -1,24 +1,14 @@
 #include "mechanics/wall_option.hpp"
 
-#include <cmath>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/report.hpp"
+#include "core/table.hpp"
 
 namespace breast {
 
 namespace {
-
-/// The whole text as one finite number.
-std::optional<double> number(const std::string& text) {
-  std::istringstream in(text);
-  double value = 0;
-  if (!(in >> value) || !in.eof() || !std::isfinite(value)) return {};
-  return value;
-}
 
 /// The numbers after "KIND:"; nothing when the text is of another kind or holds something else.
 std::optional<std::vector<double>> numbers_after(const std::string& kind,
@@ -28,7 +18,7 @@ std::optional<std::vector<double>> numbers_after(const std::string& kind,
   std::size_t at = kind.size() + 1;
   while (true) {
     const std::size_t comma = text.find(',', at);
-    const std::optional<double> value = number(text.substr(at, comma - at));
+    const std::optional<double> value = number_in(text.substr(at, comma - at));
     if (!value) return {};
     list.push_back(*value);
     if (comma == std::string::npos) return list;

@@ -78,6 +78,8 @@ std::optional<SolveStatus> status_from_name(const std::string& name);
 struct SolveRecord {
   SolveStatus status = SolveStatus::not_converged;
   std::string reason;  ///< empty when converged
+  /// What held the breast, as options: "--wall slide:0.01 --cut free"; empty in files of before.
+  std::string support = {};
   std::vector<IterationRecord> iterations;
 };
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "mesh/gauss.hpp"
 #include "mesh/lattice.hpp"
 #include "mesh/positivity.hpp"
 
@@ -30,19 +31,8 @@ struct LocalPoint {
 };
 
 std::vector<LocalPoint> gauss_points(int order) {
-  const std::vector<double> at = order == 1
-                                     ? std::vector<double>{-std::sqrt(1.0 / 3), std::sqrt(1.0 / 3)}
-                                     : std::vector<double>{-std::sqrt(0.6), 0, std::sqrt(0.6)};
-  const std::vector<double> weight =
-      order == 1 ? std::vector<double>{1, 1} : std::vector<double>{5.0 / 9, 8.0 / 9, 5.0 / 9};
   std::vector<LocalPoint> points;
-  for (std::size_t k = 0; k < at.size(); ++k) {
-    for (std::size_t j = 0; j < at.size(); ++j) {
-      for (std::size_t i = 0; i < at.size(); ++i) {
-        points.push_back({{at[i], at[j], at[k]}, weight[i] * weight[j] * weight[k]});
-      }
-    }
-  }
+  for (const GaussCubePoint& point : gauss_cube(order + 1)) points.push_back({point.at, point.weight});
   return points;
 }
 

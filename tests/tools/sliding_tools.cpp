@@ -81,6 +81,17 @@ TEST_F(SlidingTools, WholeChainWithWhatTheMaterialSetSays) {
               report("s.json").number("landmarks/nipple/distance_mm"), 0.06);
 }
 
+TEST_F(SlidingTools, AnotherSupportThanTheStressFreeShapeHadIsAWarning) {
+  ASSERT_EQ(run("backward mesh.vtkhdf r.vtkhdf --wall slide:0.02"), 0) << said_.err;
+  ASSERT_EQ(run("forward r.vtkhdf s.vtkhdf --wall slide:0.02"), 0) << said_.err;
+  EXPECT_EQ(said_.err.find("was solved with"), std::string::npos) << said_.err;
+  ASSERT_EQ(run("forward r.vtkhdf s.vtkhdf"), 0) << said_.err;
+  EXPECT_NE(said_.err.find("r.vtkhdf was solved with --wall slide:0.02 --cut free, this run has "
+                           "--wall held"),
+            std::string::npos)
+      << said_.err;
+}
+
 TEST_F(SlidingTools, OptionsWinOverTheSet) {
   ASSERT_EQ(run("backward mesh.vtkhdf r.vtkhdf --materials soft.tsv --wall held --cut free "
                 "--skin-compression 100 --skin-prestretch 0 --report b.json"),

@@ -60,6 +60,9 @@ constexpr ContactNumber contact_numbers[] = {
 void put_solve(Document& document, const SolveRecord& solve) {
   document.attributes[solve_group + "@status"] = array_of(std::string(status_name(solve.status)));
   document.attributes[solve_group + "@reason"] = array_of(solve.reason);
+  if (!solve.support.empty()) {
+    document.attributes[solve_group + "@support"] = array_of(solve.support);
+  }
   Integers steps, iterations;
   for (const IterationRecord& row : solve.iterations) {
     steps.push_back(row.step);
@@ -82,6 +85,9 @@ SolveRecord get_solve(Fields& fields) {
   }
   solve.status = *known;
   solve.reason = fields.text(solve_group + "@reason");
+  if (fields.has_attribute(solve_group + "@support")) {
+    solve.support = fields.text(solve_group + "@support");
+  }
   const auto steps = fields.indices(solve_group + "/step", {Fields::any}, -int_limit, int_limit);
   const auto iterations =
       fields.indices(solve_group + "/iteration", {steps.size()}, -int_limit, int_limit);
