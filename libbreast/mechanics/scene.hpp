@@ -50,8 +50,6 @@ class Scene {
   Vec3 force_of_springs(const State& state) const;
   /// What is held wherever the body is.
   const Constraints& walls() const { return walls_; }
-  /// The chest wall's nodes where they slide; null: they do not.
-  const SlidingNodes* sliding() const { return sliding_.get(); }
   int nodes() const { return solid_->space()->nodes(); }
   long unknowns() const;  ///< displacements not held, and pressures
   /// Mean edge of an element of the imaged shape, mm, and the largest shear modulus at rest, Pa.

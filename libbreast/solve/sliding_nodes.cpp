@@ -1,6 +1,5 @@
 #include "solve/sliding_nodes.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -96,18 +95,6 @@ bool SlidingNodes::add_curvature(const State& state, const Request& request,
     if (packed != nullptr) packed->set(i, block.data());
   }
   return true;
-}
-
-double SlidingNodes::worst_distance(const Eigen::VectorXd& x) const {
-  double worst = 0;
-  for (int i = 0; i < cells_.count(); ++i) {
-    const std::optional<Level> level =
-        surface_->at(x.segment<3>(3L * cells_.nodes[std::size_t(i)]));
-    if (!level) return std::numeric_limits<double>::infinity();
-    worst = std::max(worst, std::abs(level->value - levels_[std::size_t(i)]) /
-                                level->gradient.norm());
-  }
-  return worst;
 }
 
 }  // namespace breast

@@ -36,8 +36,6 @@ class SlidingNodes {
   /// Adds the turning of the surface's force to the tangents that are wanted; `forces.r` is complete
   /// but for that force. False where a node is beyond the surface.
   bool add_curvature(const State& state, const Request& request, const Forces& forces) const;
-  /// Farthest distance of a node from its level, mm, to first order; infinite beyond the surface.
-  double worst_distance(const Eigen::VectorXd& x) const;
 
  private:
   std::shared_ptr<const LevelSurface> surface_;
