@@ -12,7 +12,7 @@ of_phantom() { # JSON SIDE LANDMARK KEY
     inside && $1 == name { found = 1 }
     inside && found && $1 == key { gsub(/[^-+0-9.eE]/, "", $2); print $2; exit }' "$1"
 }
-preset_of() { sed -n 's/^ *"preset": "\(.*\)",\{0,1\}$/\1/p' "$1" | head -n 1; }
+preset_of() { sed -n 's/^ *"preset": "\(.*\)",\{0,1\}$/\1/p' "$1" | sed -n 1p; }
 if [ "$1" = note ]; then
   [ -s "$2" ] && [ "$(preset_of "$2")" = paper ] || exit 0
   printf 'calibrated to this row: size and tumour of the preset "paper" were fitted so that this chain moves nipple and tumour as the paper'"'"'s does (8.8 and 3.0 mm supine); the phantom'"'"'s own truth moves %s and %s mm\n' \

@@ -67,7 +67,7 @@ figure { margin: 1em 0 } img { max-width: 100% } figcaption { font-size: 13px; c
 <h1>Breast deformation: case $name</h1>
 <p>From a prone MR scan to the stress-free, supine and compressed shapes, two simulated mammograms and the CC&rarr;MLO curve,
 after Pathmanathan, Gavaghan, Whiteley, Chapman and Brady, IEEE Trans Biomed Eng 55(10), 2008. Made $(date -u '+%Y-%m-%d %H:%M UTC')
-with $("$bin/probe" --version 2>/dev/null | head -n 1), BLAS $(key "$run/reference.json" blas), $(nproc) cores ($(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)).</p>
+with $("$bin/probe" --version 2>/dev/null | sed -n 1p), BLAS $(key "$run/reference.json" blas), $(nproc) cores ($(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)).</p>
 HTML
 "$here/warnings.sh" "$run" | escape | awk -F'\t' '
   { text = text "<li><b>" $1 "</b>: " $2 ($3 != "-" ? "<br>&rarr; " $3 : "") "</li>\n" }

@@ -2,10 +2,10 @@
 export LC_ALL=C  # decimal points, whatever the user's language
 
 # A top-level key (two spaces of indent) of a report: key FILE NAME. Nothing, and false, without the report.
-key() { [ -s "$1" ] && sed -n "s/^  \"$2\": \"\{0,1\}\(.*[^\",]\)\"\{0,1\},\{0,1\}$/\1/p" "$1" | head -n 1; }
+key() { [ -s "$1" ] && sed -n "s/^  \"$2\": \"\{0,1\}\(.*[^\",]\)\"\{0,1\},\{0,1\}$/\1/p" "$1" | sed -n 1p; }
 
 # The first number of that name in a report, at any depth: number FILE NAME. Nothing without the report.
-number() { [ ! -s "$1" ] || sed -n "s/^ *\"$2\": \([-+0-9.e]*\),\{0,1\}$/\1/p" "$1" | head -n 1; }
+number() { [ ! -s "$1" ] || sed -n "s/^ *\"$2\": \([-+0-9.e]*\),\{0,1\}$/\1/p" "$1" | sed -n 1p; }
 
 # Why a solve ended without a result: its report's sentence, or its typed reason where it has none. why FILE
 why() { local sentence; sentence=$(key "$1" explanation); if [ -n "$sentence" ]; then echo "$sentence"; else key "$1" reason; fi; }

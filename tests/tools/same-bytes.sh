@@ -22,7 +22,7 @@ check_programs() {
     found=$(objdump -d --no-show-raw-insn "$programs/$name" | grep -m1 -P '\t(v[a-z0-9]+ .*%[xyz]mm|vzero)' || true)
     [ -z "$found" ] || fail "$name holds an instruction that not every processor has: $found"
     # hexmesh calls some for the tetrahedra it can write besides, on which its mesh does not depend.
-    found=$(nm -D --undefined-only "$programs/$name" | grep -wE "($chosen)f?(@.*)?" | head -n 1 || true)
+    found=$(nm -D --undefined-only "$programs/$name" | grep -wE "($chosen)f?(@.*)?" | sed -n 1p || true)
     [ "$name" != hexmesh ] || found=
     [ -z "$found" ] || fail "$name calls a function that is chosen by the processor: $found"
     found=$(objdump -p "$programs/$name" | grep -m1 -E 'NEEDED.*(blas|lapack|cholmod)' || true)

@@ -52,7 +52,7 @@ done
 for setting in CHEST_WALL CASE MATERIALS TUMOUR RUNS COHORT CASE_FILE; do
   for name in "${worst[@]}"; do refuse_name "$setting" "$name"; done
 done
-all_settings=$(make -f Makefile.pipeline -n --eval='print: ; $(info $(known_settings))' print 2> /dev/null | head -n 1)
+all_settings=$(make -f Makefile.pipeline -n --eval='print: ; $(info $(known_settings))' print 2> /dev/null | sed -n 1p)
 [ "$(wc -w <<< "$all_settings")" -gt 50 ] || fail "the makefile lists its settings"
 for setting in $all_settings; do
   [ "$setting" = share ] || refuse_name "$setting" "a b'c\"\$(touch $bait)\`touch $bait\`;é(=).nrrd"
@@ -165,7 +165,7 @@ pipelines/report.sh "$hostile" "$work/runs" /nonexistent > "$work/report.html" |
 ! grep -qi '<script\|<img src=x' "$work/report.html" || fail "no name is markup in the report"
 ! grep -q 'secret\|/home' "$work/report.html" || fail "the report names no folder"
 grep -q 'Content-Security-Policy' "$work/report.html" || fail "and allows no script"
-[ "$(grep -n 'Warnings: 3' "$work/report.html" | cut -d: -f1)" -lt "$(grep -n 'Landmarks' "$work/report.html" | head -n 1 | cut -d: -f1)" ] ||
+[ "$(grep -n 'Warnings: 3' "$work/report.html" | cut -d: -f1)" -lt "$(grep -n 'Landmarks' "$work/report.html" | sed -n 1p | cut -d: -f1)" ] ||
   fail "the report begins with the warnings"
 pass "the report escapes every name, names no folder, and begins with the warnings"
 
