@@ -13,7 +13,7 @@ namespace {
 
 struct Choices {
   std::filesystem::path mesh, supine;
-  std::string preset = "paper", side = "left", materials = "seed2008";
+  std::string preset = "paper", side = "left", materials;
   int seed = 1, level = 2;
 };
 
@@ -37,8 +37,8 @@ void declare(Tool& tool, Choices& c) {
 
 void run_phantom_mesh(const Choices& c, Run& run) {
   PhantomParameters parameters = phantom_preset(c.preset, std::uint64_t(c.seed));
-  parameters.materials = c.materials;
-  const MaterialSet materials = load_materials(c.materials);
+  if (!c.materials.empty()) parameters.body.materials = c.materials;
+  const MaterialSet materials = body_materials(parameters.body);
   const Side side = side_from_name(c.side);
   const Torso torso(parameters.torso, mix(parameters.seed, 301));
   run.progress().update("shape", -1, "the phantom's own mesh, for its landmarks");
@@ -63,6 +63,7 @@ void run_phantom_mesh(const Choices& c, Run& run) {
   report.set("error_estimate_mm", error.worst());
   report.set("error_estimate_by", "largest landmark distance to a mesh of half the resolution");
   mesh.history = run.history({});
+  mesh.reference = postures.stress_free;
   write_mesh(c.mesh, mesh);
   if (c.supine.empty()) return;
   mesh.points = postures.supine;

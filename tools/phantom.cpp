@@ -1,6 +1,7 @@
 // phantom: a prone breast MR scan whose stress-free, prone and supine truth is known.
 #include "phantom/parameters.hpp"
 
+#include <map>
 #include <optional>
 
 #include "cli/tool.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 struct Choices {
   std::filesystem::path image, truth, dicom;
-  std::string preset = "paper", materials = "seed2008";
+  std::string preset = "average", materials;
   int seed = 1;
   double bias = 2, noise = 2, coarse = 1;
 };
@@ -31,7 +32,9 @@ void declare(Tool& tool, Choices& c) {
       "chest with pectoral muscle, ribs and lung; coil bias, partial volume, Rician noise. The "
       "breasts hang as physics says: their known stress-free shape is solved under prone gravity "
       "with 27-node elements on a template that hexmesh does not have, so that the chain can be "
-      "told its errors.");
+      "told its errors. Breasts of the presets average, slim, broad and heavy are shaped as they hang "
+      "and slide on their rib cage, with supports and stiffness that differ from the set's; the "
+      "other presets are shaped stress-free and held at the wall.");
   tool.output(c.image, "OUT.nrrd", "the scan (.nrrd, .nii, .nii.gz or .mha)",
               {".nii", ".nii.gz", ".mha"});
   tool.output_folder(
@@ -44,13 +47,14 @@ void declare(Tool& tool, Choices& c) {
   tool.number(c.bias, "--bias", "FACTOR", "coil sensitivity: brightest over darkest breast fat", 1,
               20);
   tool.number(c.noise, "--noise", "%", "noise in per cent of the fat signal", 0, 100);
-  tool.text(c.materials, "--materials", "NAME|FILE", "material set of the breasts");
+  tool.text(c.materials, "--materials", "NAME|FILE",
+            "material set of the breasts; without it the preset's");
   tool.number(c.coarse, "--coarse", "FACTOR",
               "larger voxels and, from 2 on, a coarser mesh: for tests", 1, 8);
   tool.check([&c] {
     if (!c.dicom.empty()) check_dicom_folder(c.dicom);
   });
-  tool.example("phantom paper.nrrd --truth paper-truth", "the default phantom and its truth");
+  tool.example("phantom paper.nrrd --truth paper-truth", "a breast of average size and its truth");
   tool.example("phantom p.nrrd --preset pendulous --seed 7 --bias 5 --dicom p-dicom",
                "a pendulous breast under a strong coil bias, also as DICOM");
 }
@@ -60,20 +64,21 @@ PhantomParameters parameters_of(const Choices& c) {
   p.mri.bias = c.bias;
   p.mri.noise_percent = c.noise;
   p.mri.voxel_factor = c.coarse;
-  p.materials = c.materials;
-  if (c.coarse >= 2) p.mesh = {4, 2, 1, 1, 3, 2};
+  if (!c.materials.empty()) p.body.materials = c.materials;
+  if (c.coarse >= 2) p.mesh = coarse_mesh(p);
   return p;
 }
 
 void write_truth_side(const std::filesystem::path& folder, PhantomBreast& breast,
-                      const PhantomScene& scene, const PhantomImage& image, Run& run) {
+                      const Postures& postures, const PhantomScene& scene, const PhantomImage& image, Run& run) {
   const std::string side(side_name(breast.mesh.side));
   LabelVolume labels = true_labels(scene, image, breast.mesh.side);
   labels.history = breast.mesh.history = run.history({});
   report_volumes(labels, "volumes_ml/" + side, run.report());
   write_labels(folder / ("labels-" + side + ".vtkhdf"), labels);
-  write_mesh(folder / (side + ".vtkhdf"), breast.mesh);
-  const HexMesh& mesh = breast.mesh;
+  HexMesh mesh = breast.mesh;
+  mesh.reference = postures.stress_free;
+  write_mesh(folder / (side + ".vtkhdf"), mesh);
   write_surface(folder / ("skin-" + side + ".vtp"),
                 boundary_surface(mesh, mesh.points, mesh.skin_faces));
   write_surface(folder / ("wall-" + side + ".vtp"),
@@ -82,7 +87,7 @@ void write_truth_side(const std::filesystem::path& folder, PhantomBreast& breast
 
 void run_phantom(const Choices& c, Run& run) {
   const PhantomParameters parameters = parameters_of(c);
-  const MaterialSet materials = load_materials(parameters.materials);
+  const MaterialSet materials = body_materials(parameters.body);
   // Made before minutes are spent on what goes into it.
   std::optional<AtomicFolder> folder;
   if (!c.truth.empty()) folder.emplace(c.truth, "landmarks.tsv");
@@ -94,6 +99,7 @@ void run_phantom(const Choices& c, Run& run) {
   }();
   Table landmarks;
   double worst = 0;
+  std::map<Side, Postures> solved;
   for (Side side : {Side::left, Side::right}) {
     Timer::Scope phase(run.timer(), "mechanics");
     PhantomBreast& breast = scene.breast(side);
@@ -102,6 +108,7 @@ void run_phantom(const Choices& c, Run& run) {
     report_breast(breast, postures, run.report());
     add_landmarks(breast, postures, landmarks);
     worst = std::max(worst, error.worst());
+    solved[side] = postures;
   }
   run.report().set("error_estimate_mm", worst);
   run.report().set("error_estimate_by",
@@ -115,7 +122,7 @@ void run_phantom(const Choices& c, Run& run) {
   if (!c.truth.empty()) {
     const std::filesystem::path& truth = folder->temporary();
     for (Side side : {Side::left, Side::right})
-      write_truth_side(truth, scene.breast(side), scene, image, run);
+      write_truth_side(truth, scene.breast(side), solved.at(side), scene, image, run);
     write_table(truth / "landmarks.tsv", landmarks);
     for (Side side : {Side::left, Side::right})
       write_table(truth / ("tumour-" + std::string(side_name(side)) + ".tsv"),

@@ -41,6 +41,8 @@ LawKind law_kind_from_name(std::string_view name);
 std::string_view law_kind_name(LawKind kind);
 /// Names of Law::constants in order: {"a10", "a01", ...}.
 std::vector<std::string_view> law_constant_names(LawKind kind);
+/// Column of a constant in tables: its name with the unit, as in "a10_Pa"; b has no unit.
+std::string law_constant_column(std::string_view constant);
 
 /// How thin skin behaves beside its law: it wrinkles rather than resist compression, and is
 /// stretched on the body even at rest. Defaults: the law alone, as in the paper.
@@ -54,6 +56,14 @@ struct SkinBehaviour {
 /// whole law is kept: skin at rest would then lie within the transition.
 void check_skin(const SkinBehaviour& skin, const std::string& where);
 
+/// What is left open by the data a set was found from: covariance of the natural logarithms of
+/// "low_order" (the constants of polynomial laws that are linear in the invariants), "quadratic" (the
+/// others), "skin", "wall" and "cut". Empty for published sets.
+struct SoftnessUncertainty {
+  std::vector<std::string> parameters;
+  Eigen::MatrixXd covariance;  ///< parameters²
+};
+
 /// Law and density per tissue, and what goes with them.
 struct MaterialSet {
   std::string name;
@@ -63,6 +73,7 @@ struct MaterialSet {
   /// Resistance of the chest wall to sliding and of the cut, kPa/mm, for which the set was found;
   /// none: the wall is held, the cut free.
   std::optional<double> wall_support, cut_support;
+  SoftnessUncertainty uncertainty;
   const Law& law(Tissue t) const { return laws[static_cast<std::size_t>(t)]; }
 };
 

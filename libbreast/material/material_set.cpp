@@ -11,18 +11,17 @@
 
 namespace breast {
 
-namespace {
-
-// Column of a constant: its name with the unit, as in "a10_Pa"; b has no unit.
-std::string column_of(std::string_view constant) {
+std::string law_constant_column(std::string_view constant) {
   return constant == "b" ? "b" : std::string(constant) + "_Pa";
 }
+
+namespace {
 
 Law read_law(const Table& table, std::size_t row, const std::string& where) {
   Law law;
   law.kind = law_kind_from_name(table.cell(row, "law"));
   for (const std::string_view constant : law_constant_names(law.kind)) {
-    law.constants.push_back(table.number(row, column_of(constant)));
+    law.constants.push_back(table.number(row, law_constant_column(constant)));
   }
   check_law(law, where);
   return law;
@@ -54,12 +53,42 @@ bool read_support(const Table& table, std::size_t row, const std::string& name, 
   return true;
 }
 
+/// Rows with the law "uncertainty": one a parameter, with its correlations to all of them.
+SoftnessUncertainty read_uncertainty(const Table& table, const std::string& name) {
+  SoftnessUncertainty known;
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (table.cell(row, "law") != "uncertainty") continue;
+    known.parameters.push_back(table.cell(row, "tissue"));
+    rows.push_back(row);
+  }
+  const Eigen::Index n = Eigen::Index(rows.size());
+  known.covariance.resize(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double sd = table.number(rows[std::size_t(i)], "ln_sd");
+    if (!(sd >= 0 && sd <= 10)) {
+      throw input_error("materials ", name, ", uncertainty of ", known.parameters[std::size_t(i)],
+                        ": ln_sd ", sd, " must lie in 0 to 10");
+    }
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const std::string column = "correlation_" + known.parameters[std::size_t(j)];
+      const double r = table.number(rows[std::size_t(i)], column);
+      if (!(std::abs(r) <= 1)) {
+        throw input_error("materials ", name, ", uncertainty of ", known.parameters[std::size_t(i)],
+                          ": ", column, " ", r, " must lie in -1 to 1");
+      }
+      known.covariance(i, j) = sd * table.number(rows[std::size_t(j)], "ln_sd") * r;
+    }
+  }
+  return known;
+}
+
 MaterialSet read_set(const Table& table, const std::string& name) {
   MaterialSet set;
   set.name = name;
   std::array<bool, n_tissues> given{};
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    if (read_support(table, row, name, set)) continue;
+    if (read_support(table, row, name, set) || table.cell(row, "law") == "uncertainty") continue;
     const std::string tissue_text = table.cell(row, "tissue");
     const auto tissue = static_cast<std::size_t>(tissue_from_name(tissue_text));
     const std::string where = "materials " + name + ", tissue " + tissue_text;
@@ -73,6 +102,7 @@ MaterialSet read_set(const Table& table, const std::string& name) {
     }
     set.density[tissue] = density;
   }
+  set.uncertainty = read_uncertainty(table, name);
   const auto fill = [&](Tissue to, Tissue from) {
     const auto t = static_cast<std::size_t>(to), f = static_cast<std::size_t>(from);
     if (given[t]) return;

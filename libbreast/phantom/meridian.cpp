@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
@@ -16,7 +17,6 @@ namespace {
 
 constexpr int n_azimuth = 64, n_inner = 48, n_outer = 12;
 constexpr int n_points = n_inner + n_outer + 1;
-constexpr double rim_margin = 2;  // mm beyond the end of the fold
 
 using Field = std::function<double(const Vec2&)>;
 using Curve = std::vector<Vec2>;
@@ -90,6 +90,13 @@ struct Plane {
   Curve skin, wall;
 };
 
+// From the end of the fold to the cut, mm.
+double rim_width(const BreastShape& shape, double azimuth) {
+  const BreastParameters& p = shape.parameters();
+  const double towards_side = 0.5 * (1 + lateral_sign(shape.side()) * elementary::cos(azimuth));
+  return p.rim + p.flank * towards_side * towards_side;
+}
+
 Plane meridian_plane(const BreastShape& shape, double azimuth) {
   const auto point = [&](const Vec2& p) { return shape.at(p.x(), azimuth, p.y()); };
   const Field skin = [&](const Vec2& p) { return shape.skin_distance(point(p)); };
@@ -99,8 +106,9 @@ Plane meridian_plane(const BreastShape& shape, double azimuth) {
     return p.x() > 10 ? shape.beyond_fold(point(p), 0.0) : -1.0;
   });
   const Vec2 fold = dome.back();
+  const double width = rim_width(shape, azimuth);
   const Curve skirt = follow(
-      skin, fold, [&](const Vec2& p) { return shape.beyond_fold(point(p), 1.0) - rim_margin; });
+      skin, fold, [&](const Vec2& p) { return shape.beyond_fold(point(p), 1.0) - width; });
   // Feet of fold and rim: straight down to the wall, square to it.
   const Vec2 fold_foot = onto(wall, fold), rim_foot = onto(wall, skirt.back());
   const Curve inner =

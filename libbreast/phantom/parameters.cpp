@@ -6,7 +6,8 @@
 namespace breast {
 
 const std::vector<std::string>& preset_names() {
-  static const std::vector<std::string> names{"paper", "flat", "small", "large", "pendulous"};
+  static const std::vector<std::string> names{"average", "slim",  "broad", "heavy",    "paper",
+                                              "flat",    "small", "large", "pendulous"};
   return names;
 }
 
@@ -22,14 +23,34 @@ BreastParameters kind_breast(const std::string& name) {
   } else if (name == "flat") {
     b.radius = 46, b.height = 47, b.shoulder = 12, b.fold = 12;
     b.nipple_radius = 4, b.nipple_height = 4;
+  } else if (preset_slides(name)) {
+    // As they hang in the scan.
+    b.axis_lateral = 4, b.axis_inferior = 2, b.power = 2.1, b.fold = 18, b.flank = 10;
+    if (name == "average") {
+      b.centre_x = 78, b.radius = 47, b.height = 90, b.shoulder = 40;
+    } else if (name == "slim") {
+      b.centre_x = 68, b.radius = 38, b.height = 66, b.shoulder = 26, b.fold = 14;
+      b.nipple_radius = 4;
+    } else if (name == "broad") {
+      b.centre_x = 84, b.radius = 58, b.height = 108, b.shoulder = 52;
+    } else {
+      b.centre_x = 92, b.radius = 66, b.height = 124, b.shoulder = 62, b.fold = 22;
+    }
   } else if (name == "paper") {
     // The paper's tumour moves a third as far as the nipple. Only a place low and medial does so
     // and still lies far enough in front of the chest wall to be seen in both mammograms.
     b.tumour_azimuth = 240;
   } else {
-    throw input_error("preset '", name, "' is unknown: choose paper, flat, small, large or pendulous");
+    std::string choices;
+    for (const std::string& preset : preset_names())
+      choices += (choices.empty() ? "" : ", ") + preset;
+    throw input_error("preset '", name, "' is unknown: choose one of ", choices);
   }
   return b;
+}
+
+bool preset_slides(const std::string& name) {
+  return name == "average" || name == "slim" || name == "broad" || name == "heavy";
 }
 
 BreastParameters preset_breast(const std::string& name) {
@@ -61,6 +82,37 @@ void individualise(BreastParameters& b, RandomStream& stream) {
   b.axis_inferior += stream.uniform(-2, 2);
 }
 
+// Rib cages of different shape, and bodies that differ from the calibrated set by what women's do:
+// the chain, which knows neither, is to be told what that costs.
+void put_on_ribs(PhantomParameters& p) {
+  p.torso.sternal_groove = 2;
+  p.torso.tilt = 0.22, p.torso.bend = 3e-4;
+  p.body.materials = "invivo";
+  p.body.slides = true;
+  p.mesh.skirt = 4;
+  if (p.preset == "average") {
+    p.torso.half_width = 158, p.torso.half_depth = 114, p.torso.power = 2.0;
+    p.gland.fraction = 0.15;
+    p.body.scale = {"fat=95", "fibroglandular=110"};
+    p.body.wall_percent = 120, p.body.cut_percent = 85;
+  } else if (p.preset == "slim") {
+    p.torso.half_width = 142, p.torso.half_depth = 100, p.torso.power = 2.1;
+    p.gland.fraction = 0.28;
+    p.body.scale = {"fat=105", "fibroglandular=100"};
+    p.body.wall_percent = 80, p.body.cut_percent = 115;
+  } else if (p.preset == "broad") {
+    p.torso.half_width = 172, p.torso.half_depth = 124, p.torso.power = 2.05, p.torso.tilt = 0.18;
+    p.gland.fraction = 0.09;
+    p.body.scale = {"fat=105", "fibroglandular=120"};
+    p.body.wall_percent = 85, p.body.cut_percent = 100;
+  } else {
+    p.torso.half_width = 196, p.torso.half_depth = 136, p.torso.power = 2.0, p.torso.tilt = 0.26;
+    p.gland.fraction = 0.06;
+    p.body.scale = {"fat=95", "fibroglandular=90"};
+    p.body.wall_percent = 110, p.body.cut_percent = 110;
+  }
+}
+
 }  // namespace
 
 PhantomParameters phantom_preset(const std::string& name, std::uint64_t seed) {
@@ -76,10 +128,28 @@ PhantomParameters phantom_preset(const std::string& name, std::uint64_t seed,
   if (name == "small") p.gland.fraction = 0.26;
   if (name == "large") p.gland.fraction = 0.09, p.torso.half_width = 178, p.torso.half_depth = 108;
   if (name == "pendulous") p.gland.fraction = 0.10;
+  if (preset_slides(name)) put_on_ribs(p);
   RandomStream stream(mix(seed, 11));
   individualise(p.left, stream);
   individualise(p.right, stream);
   return p;
+}
+
+MaterialSet body_materials(const BodyParameters& body) {
+  MaterialSet set = load_materials(body.materials);
+  scale_materials(set, body.scale);
+  if (!body.slides) return set;
+  if (!set.wall_support || !set.cut_support) {
+    throw input_error("materials '", body.materials, "': they hold no support of wall and cut, which a "
+                      "breast that slides needs (as invivo has), or choose a preset that is held");
+  }
+  *set.wall_support *= body.wall_percent / 100;
+  *set.cut_support *= body.cut_percent / 100;
+  return set;
+}
+
+MeshParameters coarse_mesh(const PhantomParameters& p) {
+  return p.body.slides ? MeshParameters{4, 2, 2, 1, 3, 2} : MeshParameters{4, 2, 1, 1, 3, 2};
 }
 
 namespace {
@@ -96,6 +166,8 @@ void write_breast(const std::string& at, const BreastParameters& b, Report& repo
   report.set(at + "lateral_fullness", b.lateral_fullness);
   report.set(at + "axillary_tail", b.axillary_tail);
   report.set(at + "fold_mm", b.fold);
+  report.set(at + "rim_mm", b.rim);
+  report.set(at + "flank_mm", b.flank);
   report.set(at + "unevenness_mm", b.unevenness);
   report.set(at + "nipple_radius_mm", b.nipple_radius);
   report.set(at + "nipple_height_mm", b.nipple_height);
@@ -109,7 +181,15 @@ void write_parameters(const PhantomParameters& p, Report& report) {
   report.set("parameters/preset", p.preset);
   report.set("parameters/seed", static_cast<long long>(p.seed));
   report.set("parameters/skin_mm", p.skin);
-  report.set("parameters/materials", p.materials);
+  report.set("parameters/materials", p.body.materials);
+  std::string scales;
+  for (const std::string& scale : p.body.scale) scales += (scales.empty() ? "" : " ") + scale;
+  report.set("parameters/scale_percent", scales);
+  report.set("parameters/slides", p.body.slides);
+  if (p.body.slides) {
+    report.set("parameters/wall_percent", p.body.wall_percent);
+    report.set("parameters/cut_percent", p.body.cut_percent);
+  }
   write_breast("parameters/left/", p.left, report);
   write_breast("parameters/right/", p.right, report);
   report.set("parameters/gland/fraction", p.gland.fraction);

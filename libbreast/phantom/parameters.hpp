@@ -7,6 +7,7 @@
 
 #include "core/report.hpp"
 #include "core/types.hpp"
+#include "material/law.hpp"
 
 namespace breast {
 
@@ -33,6 +34,8 @@ struct BreastParameters {
   double upper_fullness = 0.06, lateral_fullness = 0.04,
          axillary_tail = 0.08;  ///< relative to radius
   double fold = 22;             ///< fillet between breast and chest, larger above than below
+  double rim = 2;  ///< mm from the end of the fold to the cut, at the midline
+  double flank = 0;  ///< mm by which the cut lies farther from the fold at the side
   double unevenness = 1.0;      ///< amplitude of the skin's slow undulation
   double nipple_radius = 5.5, nipple_height = 5;
   double tumour_level = 0.55;  ///< the tumour's place along the axis, of the height
@@ -63,6 +66,17 @@ struct MeshParameters {
   int order = 2;
 };
 
+/// What holds the breasts, and how soft they are. Breasts on a held wall are shaped stress-free and
+/// hang from there. A breast that slides is shaped as it hangs in the scan, because the chest beside
+/// it, which the phantom does not move, would tear off otherwise: its stress-free shape is what the
+/// solver finds.
+struct BodyParameters {
+  std::string materials = "seed2008";
+  std::vector<std::string> scale = {};  ///< TISSUE=PERCENT of the set
+  bool slides = false;
+  double wall_percent = 100, cut_percent = 100;  ///< of the set's supports, where the breast slides
+};
+
 struct PhantomParameters {
   std::string preset = "paper";
   std::uint64_t seed = 1;
@@ -72,12 +86,15 @@ struct PhantomParameters {
   MriParameters mri;
   MeshParameters mesh;
   double skin = 1.5;  ///< mm
-  std::string materials = "seed2008";
+  BodyParameters body;
   const BreastParameters& side(Side s) const { return s == Side::left ? left : right; }
 };
 
-/// "paper", "flat", "small", "large" and "pendulous": what the functions below take.
+/// "average", "slim", "broad" and "heavy" slide on rib cages that fall away at the sides; "paper",
+/// "flat", "small", "large" and "pendulous" are held at theirs.
 const std::vector<std::string>& preset_names();
+/// Whether the breasts of a preset slide on their wall.
+bool preset_slides(const std::string& name);
 /// The phantom of a preset; the seed also varies left against right by a few per cent, as in every
 /// woman. Throws Error (input) on another name or an unusable value.
 PhantomParameters phantom_preset(const std::string& name, std::uint64_t seed);
@@ -91,6 +108,11 @@ BreastParameters preset_breast(const std::string& name);
 BreastParameters kind_breast(const std::string& name);
 /// `breast` as a whole `size` times as large: radius, height and shoulder.
 BreastParameters resized(BreastParameters breast, double size);
+/// The material set of a body, scaled; with supports of wall and cut where it slides. Throws Error
+/// (input) for a set that is unknown, and for one without supports where the body slides.
+MaterialSet body_materials(const BodyParameters& body);
+/// Fewer elements, for tests.
+MeshParameters coarse_mesh(const PhantomParameters& parameters);
 /// Writes every parameter under "parameters/".
 void write_parameters(const PhantomParameters& parameters, Report& report);
 

@@ -7,23 +7,29 @@
 #include "core/units.hpp"
 #include "mesh/locate.hpp"
 #include "mesh/quality.hpp"
+#include "phantom/rib_surface.hpp"
 
 namespace breast {
 
 namespace {
+
+Element element_of(const HexMesh& mesh) { return mesh.order == 2 ? Element::q2p1 : Element::q1p0; }
+
+void must_converge(const Equilibrium& found, const HexMesh& mesh, std::string_view what) {
+  if (found.converged()) return;
+  throw not_converged_error("phantom, ", side_name(mesh.side), " breast, ", what, ": ",
+                            found.record.reason);
+}
 
 // Solves and leaves the mesh in that shape.
 SolveSummary take_posture(HexMesh& mesh, Posture posture, const MaterialSet& materials,
                           Progress& progress) {
   MechanicsOptions options;
   options.materials = materials;
-  options.element = mesh.order == 2 ? Element::q2p1 : Element::q1p0;
+  options.element = element_of(mesh);
   options.cut = Cut::fixed;
   Equilibrium found = solve_forward(mesh, posture_gravity(posture), options, progress);
-  if (!found.converged()) {
-    throw not_converged_error("phantom, ", side_name(mesh.side), " breast, ",
-                              posture_name(posture), ": ", found.record.reason);
-  }
+  must_converge(found, mesh, posture_name(posture));
   store(found, mesh);
   return found;
 }
@@ -50,6 +56,32 @@ Postures solve_postures(HexMesh& mesh, const MaterialSet& materials, Progress& p
   HexMesh supine = mesh;
   out.supine_solve = take_posture(supine, Posture::supine, materials, progress);
   out.supine = std::move(supine.points);
+  out.stress_free = mesh.reference;
+  return out;
+}
+
+Postures solve_sliding_postures(const HexMesh& imaged, const MaterialSet& materials,
+                                std::shared_ptr<const LevelSurface> surface, Progress& progress) {
+  MechanicsOptions options;
+  options.materials = materials;
+  options.element = element_of(imaged);
+  options.wall = WallOption(WallKind::slide, {0, *materials.wall_support});
+  options.wall.surface = std::move(surface);
+  options.cut = CutOption(Cut::spring, *materials.cut_support);
+  Postures out;
+  HexMesh mesh = imaged;
+  const Equilibrium prone =
+      solve_backward(mesh, posture_gravity(Posture::prone), options, progress);
+  must_converge(prone, mesh, "stress-free");
+  store(prone, mesh);
+  out.prone = prone;
+  out.stress_free = mesh.reference;
+  const Equilibrium supine =
+      solve_forward(mesh, posture_gravity(Posture::supine), options, progress);
+  must_converge(supine, mesh, "supine");
+  store(supine, mesh);
+  out.supine_solve = supine;
+  out.supine = std::move(mesh.points);
   return out;
 }
 
@@ -106,6 +138,13 @@ TruthError compare(const HexMesh& fine, const Postures& fine_postures, const Hex
 Postures solve_breast(PhantomBreast& breast, const PhantomParameters& parameters,
                       const MaterialSet& materials, TruthError& error, Progress& progress) {
   HexMesh coarse = half_resolution(breast, parameters);
+  if (parameters.body.slides) {
+    const auto ribs = std::make_shared<RibSurface>(parameters.torso);
+    const Postures guess = solve_sliding_postures(coarse, materials, ribs, progress);
+    const Postures postures = solve_sliding_postures(breast.mesh, materials, ribs, progress);
+    error = compare(breast.mesh, postures, coarse, guess);
+    return postures;
+  }
   const Postures coarse_postures = solve_postures(coarse, materials, progress);
   // The coarse displacement is a guess of the imaged shape that saves a solve on the fine mesh.
   HexMesh& mesh = breast.mesh;

@@ -8,7 +8,7 @@ namespace breast {
 
 /// Equilibria of one breast. The mesh given to solve_postures becomes prone: imaged = points.
 struct Postures {
-  std::vector<Vec3> supine;  ///< nodal positions
+  std::vector<Vec3> stress_free, supine;  ///< nodal positions
   SolveSummary prone, supine_solve;
   double imaged_gap = 0;  ///< mm between `imaged` as loaded and `points` as solved
 };
@@ -19,6 +19,12 @@ struct Postures {
 /// (not converged) naming the side and the posture.
 Postures solve_postures(HexMesh& mesh, const MaterialSet& materials,
                         Progress& progress = no_progress());
+
+/// The same of a breast that is shaped as it hangs and slides on `surface`: prone is mesh.imaged, and
+/// stress-free what the backward solve finds. The materials hold the supports of wall and cut.
+Postures solve_sliding_postures(const HexMesh& mesh, const MaterialSet& materials,
+                                std::shared_ptr<const LevelSurface> surface,
+                                Progress& progress = no_progress());
 
 /// Gives `to` the landmarks of `from`: the same points of the stress-free body. Both meshes need
 /// `reference`. The nipple is sought on the skin.
@@ -32,7 +38,7 @@ struct TruthError {
   double worst() const { return prone_mm > supine_mm ? prone_mm : supine_mm; }
 };
 
-/// Solves the breast on a mesh of half the resolution, from there on its own mesh, and compares.
+/// Solves the breast, held or sliding, on a mesh of half the resolution and on its own, and compares.
 Postures solve_breast(PhantomBreast& breast, const PhantomParameters& parameters,
                       const MaterialSet& materials, TruthError& error,
                       Progress& progress = no_progress());

@@ -40,7 +40,7 @@ void add_landmarks(const PhantomBreast& breast, const Postures& postures, Table&
   const HexMesh& mesh = breast.mesh;
   for (const Landmark& landmark : mesh.landmarks) {
     std::vector<std::string> row = {landmark.name, std::string(side_name(mesh.side))};
-    for (const auto* nodal : {&mesh.reference, &mesh.points, &postures.supine}) {
+    for (const auto* nodal : {&postures.stress_free, &mesh.points, &postures.supine}) {
       const Vec3 x = landmark_position(mesh, *nodal, landmark);
       for (int a = 0; a < 3; ++a) row.push_back(format_fixed(x[a], 6));
     }

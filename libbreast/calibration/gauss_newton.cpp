@@ -1,0 +1,90 @@
+#include "calibration/gauss_newton.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+class Iteration {
+ public:
+  Iteration(const Residuals& residuals, VectorXd start, const GaussNewtonOptions& options)
+      : residuals_(residuals), options_(options) {
+    best_.x = std::move(start);
+    const std::optional<VectorXd> first = at(best_.x);
+    if (!first) throw not_converged_error("least squares: the model has no answer at the start");
+    best_.residuals = *first;
+    best_.jacobian = differences();
+  }
+
+  LeastSquares run() {
+    for (int i = 0; i < options_.max_iterations && !best_.converged; ++i) step();
+    best_.jacobian = differences();
+    best_.covariance = (best_.jacobian.transpose() * best_.jacobian)
+                           .ldlt()
+                           .solve(MatrixXd::Identity(best_.x.size(), best_.x.size()));
+    return best_;
+  }
+
+ private:
+  std::optional<VectorXd> at(const VectorXd& x) {
+    ++best_.evaluations;
+    return residuals_(x);
+  }
+
+  // Forward quotients, backward ones where the model has no answer ahead.
+  MatrixXd differences() {
+    MatrixXd jacobian(best_.residuals.size(), best_.x.size());
+    for (Eigen::Index k = 0; k < best_.x.size(); ++k) {
+      std::optional<VectorXd> moved;
+      double h = options_.difference;
+      for (const double sign : {1.0, -1.0}) {
+        VectorXd x = best_.x;
+        x[k] += h = sign * options_.difference;
+        if ((moved = at(x))) break;
+      }
+      if (!moved) throw not_converged_error("least squares: no answer on either side of parameter ", k + 1);
+      jacobian.col(k) = (*moved - best_.residuals) / h;
+    }
+    return jacobian;
+  }
+
+  void step() {
+    const MatrixXd& j = best_.jacobian;
+    VectorXd d = -(j.transpose() * j).ldlt().solve(j.transpose() * best_.residuals);
+    d *= std::min(1.0, options_.largest_step / d.cwiseAbs().maxCoeff());
+    for (int halvings = 0; halvings < 5; ++halvings, d *= 0.5) {
+      const std::optional<VectorXd> found = at(best_.x + d);
+      if (!found) continue;
+      const VectorXd surprise = *found - best_.residuals - best_.jacobian * d;
+      best_.jacobian += surprise * d.transpose() / d.squaredNorm();  // Broyden's update
+      if (found->squaredNorm() < best_.residuals.squaredNorm()) {
+        best_.x += d;
+        best_.residuals = *found;
+        best_.converged = d.cwiseAbs().maxCoeff() < options_.tolerance;
+        return;
+      }
+    }
+    best_.converged = d.cwiseAbs().maxCoeff() < options_.tolerance;
+    if (!best_.converged) best_.jacobian = differences();
+  }
+
+  const Residuals& residuals_;
+  GaussNewtonOptions options_;
+  LeastSquares best_;
+};
+
+}  // namespace
+
+LeastSquares gauss_newton(const Residuals& residuals, VectorXd start,
+                          const GaussNewtonOptions& options) {
+  return Iteration(residuals, std::move(start), options).run();
+}
+
+}  // namespace breast

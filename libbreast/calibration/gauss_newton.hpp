@@ -1,0 +1,37 @@
+// Weighted nonlinear least squares of few parameters whose residuals cost minutes.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace breast {
+
+/// Residuals at a point, already divided by their standard deviations; nothing where the model has
+/// no answer, such as a body without equilibrium.
+using Residuals = std::function<std::optional<Eigen::VectorXd>(const Eigen::VectorXd&)>;
+
+struct GaussNewtonOptions {
+  double difference = 0.15;  ///< step of the difference quotients
+  double largest_step = 0.7;  ///< of any parameter in one iteration
+  double tolerance = 0.02;    ///< largest change of a parameter at the end
+  int max_iterations = 12;
+};
+
+struct LeastSquares {
+  Eigen::VectorXd x, residuals;
+  Eigen::MatrixXd jacobian;    ///< at x
+  Eigen::MatrixXd covariance;  ///< (JᵀJ)⁻¹
+  int evaluations = 0;
+  bool converged = false;
+};
+
+/// Gauss and Newton's iteration with the Jacobian by difference quotients at the start and at the end
+/// and Broyden's updates between; steps are halved until the sum of squares falls. Residuals must
+/// contain a prior of every parameter the data may leave open. Throws Error (not converged) when the
+/// model has no answer at the start.
+LeastSquares gauss_newton(const Residuals& residuals, Eigen::VectorXd start,
+                          const GaussNewtonOptions& options = {});
+
+}  // namespace breast

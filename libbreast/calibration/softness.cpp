@@ -1,0 +1,145 @@
+#include "calibration/softness.hpp"
+
+#include <cmath>
+
+#include "contact/compression.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "evaluation/posture_motion.hpp"
+#include "mechanics/mechanics.hpp"
+
+namespace breast {
+
+const std::array<const char*, 5>& Softness::names() {
+  static constexpr std::array<const char*, 5> list{"low_order", "quadratic", "skin", "wall", "cut"};
+  return list;
+}
+
+Eigen::VectorXd Softness::logarithms() const {
+  Eigen::VectorXd x(5);
+  x << std::log(low_order), std::log(quadratic), std::log(skin), std::log(wall), std::log(cut);
+  return x;
+}
+
+Softness Softness::from_logarithms(const Eigen::VectorXd& x) {
+  return {std::exp(x[0]), std::exp(x[1]), std::exp(x[2]), std::exp(x[3]), std::exp(x[4])};
+}
+
+MaterialSet softened(const MaterialSet& base, const Softness& s) {
+  MaterialSet set = base;
+  for (const Tissue tissue :
+       {Tissue::fat, Tissue::fibroglandular, Tissue::tumour, Tissue::muscle, Tissue::other}) {
+    Law& law = set.laws[std::size_t(tissue)];
+    if (law.kind != LawKind::polynomial) {
+      throw input_error("materials ", base.name, ", tissue ", tissue_name(tissue),
+                        ": a polynomial law is needed, with linear and quadratic terms");
+    }
+    for (std::size_t k = 0; k < law.constants.size(); ++k)
+      law.constants[k] *= k < 2 ? s.low_order : s.quadratic;
+  }
+  Law& skin = set.laws[std::size_t(Tissue::skin)];
+  skin = skin.scaled(s.skin);
+  set.wall_support = s.wall;
+  set.cut_support = s.cut;
+  return set;
+}
+
+namespace {
+
+MechanicsOptions options_with(const MaterialSet& materials) {
+  MechanicsOptions options;
+  options.materials = materials;
+  options.wall = WallOption(WallKind::slide, {0, *materials.wall_support});
+  options.cut = CutOption(Cut::spring, *materials.cut_support);
+  return options;
+}
+
+// Leaves the mesh with its stress-free shape; false where there is none.
+bool unload(HexMesh& mesh, const MechanicsOptions& options) {
+  const Equilibrium found = solve_backward(mesh, posture_gravity(Posture::prone), options);
+  if (found.converged()) store(found, mesh);
+  return found.converged();
+}
+
+std::optional<PostureMotion> motion_of(HexMesh mesh, const MechanicsOptions& options,
+                                       double muscle_mm) {
+  if (!unload(mesh, options)) return {};
+  const Equilibrium supine = solve_forward(mesh, posture_gravity(Posture::supine), options);
+  if (!supine.converged()) return {};
+  store(supine, mesh);
+  return posture_motion(mesh, muscle_mm);
+}
+
+std::optional<double> pressure_on(HexMesh mesh, const MechanicsOptions& options,
+                                  const SoftnessData& data) {
+  if (!unload(mesh, options)) return {};
+  CompressionOptions press;
+  press.target = data.reduction;
+  press.plates.standoff = data.standoff;
+  const CompressionResult found = compress(mesh, press, options);
+  if (!found.converged()) return {};
+  return found.contact->plates[0].mean_kPa;
+}
+
+// Means of lateral, posterior and rib motion over the cohort, and the pressure.
+std::optional<std::vector<double>> model(const MaterialSet& materials, const SoftnessData& data) {
+  const MechanicsOptions options = options_with(materials);
+  std::vector<double> sum(3, 0.0);
+  for (const HexMesh& mesh : data.cohort) {
+    const std::optional<PostureMotion> motion = motion_of(mesh, options, data.muscle_mm);
+    if (!motion) return {};
+    sum[0] += motion->nipple_lateral;
+    sum[1] += motion->nipple_posterior;
+    sum[2] += motion->ribs_after - motion->ribs_before;
+  }
+  for (double& value : sum) value /= double(data.cohort.size());
+  const std::optional<double> pressure = pressure_on(data.pressed, options, data);
+  if (!pressure) return {};
+  sum.push_back(*pressure);
+  return sum;
+}
+
+std::vector<Observed> weighted(const SoftnessData& data) {
+  const double spread = std::sqrt(1.0 / data.women + 1.0 / double(data.cohort.size()));
+  std::vector<Observed> wanted{data.lateral, data.posterior, data.ribs_change};
+  for (Observed& one : wanted) one.sd *= spread;
+  wanted.push_back(data.pressure);
+  return wanted;
+}
+
+}  // namespace
+
+SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& data,
+                                 Progress& progress) {
+  if (data.cohort.empty()) throw input_error("calibration: the cohort is empty");
+  SoftnessFound out;
+  out.wanted = weighted(data);
+  const Eigen::VectorXd expected = data.expected.logarithms();
+  int evaluations = 0;
+  const Residuals residuals = [&](const Eigen::VectorXd& x) -> std::optional<Eigen::VectorXd> {
+    const Softness s = Softness::from_logarithms(x);
+    const std::optional<std::vector<double>> values = model(softened(base, s), data);
+    std::string said = message("low order ", s.low_order, ", quadratic ", s.quadratic, ", skin ",
+                               s.skin, ", wall ", s.wall, ", cut ", s.cut, ":");
+    if (!values) said += " no equilibrium";
+    Eigen::VectorXd r(Eigen::Index(out.wanted.size()) + x.size());
+    for (std::size_t k = 0; values && k < out.wanted.size(); ++k) {
+      r[Eigen::Index(k)] = ((*values)[k] - out.wanted[k].mean) / out.wanted[k].sd;
+      said += message(" ", out.wanted[k].quantity, " ", (*values)[k]);
+    }
+    progress.update("calibrate", -1, message(++evaluations, ". ", said));
+    if (!values) return {};
+    r.tail(x.size()) = (x - expected) / data.expected_ln_sd;
+    return r;
+  };
+  out.fit = gauss_newton(residuals, expected);
+  out.softness = Softness::from_logarithms(out.fit.x);
+  for (std::size_t k = 0; k < out.wanted.size(); ++k)
+    out.found.push_back(out.wanted[k].mean + out.fit.residuals[Eigen::Index(k)] * out.wanted[k].sd);
+  out.materials = softened(base, out.softness);
+  for (const char* name : Softness::names()) out.materials.uncertainty.parameters.push_back(name);
+  out.materials.uncertainty.covariance = out.fit.covariance;
+  return out;
+}
+
+}  // namespace breast

@@ -1,0 +1,65 @@
+// How soft breasts are and what holds them, such that a cohort moves as women's breasts do.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "calibration/gauss_newton.hpp"
+#include "core/progress.hpp"
+#include "material/law.hpp"
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+/// What is sought, as factors on a set and supports in kPa/mm.
+struct Softness {
+  double low_order = 0.01;  ///< on the constants of polynomial laws that are linear in I1 and I2
+  double quadratic = 0.03;  ///< on the others
+  double skin = 1;          ///< on the law of skin
+  double wall = 0.01, cut = 0.01;
+
+  static const std::array<const char*, 5>& names();
+  Eigen::VectorXd logarithms() const;
+  static Softness from_logarithms(const Eigen::VectorXd& x);
+};
+
+/// `base` so softened, with these supports. Throws Error (input) when fat or fibroglandular tissue has
+/// no polynomial law of equation (9).
+MaterialSet softened(const MaterialSet& base, const Softness& softness);
+
+/// A mean over women, mm or kPa, and its standard deviation over them.
+struct Observed {
+  std::string quantity;
+  double mean = 0, sd = 0;
+};
+
+/// Motion from prone to supine of the calibration's cohort against women's, and the mean pressure
+/// of the paddle on one breast.
+struct SoftnessData {
+  std::vector<HexMesh> cohort;  ///< imaged prone, with wall surfaces
+  HexMesh pressed;
+  double muscle_mm = 8;
+  Observed lateral, posterior, ribs_change;  ///< of `women` women
+  int women = 63;
+  Observed pressure{"pressure_kPa", 10, 2.5};  ///< at `reduction` per cent, plates `standoff` mm away
+  double reduction = 50, standoff = 5;
+  Softness expected;             ///< of the prior
+  double expected_ln_sd = 1.1;   ///< a factor of three either way
+};
+
+struct SoftnessFound {
+  Softness softness;
+  LeastSquares fit;
+  std::vector<Observed> wanted;    ///< with the standard deviation each was weighted by
+  std::vector<double> found;       ///< means of the cohort and the pressure
+  MaterialSet materials;           ///< with the uncertainty
+};
+
+/// Least squares in the logarithms of Softness. A mean over n breasts is weighted by the standard
+/// error of its difference from the women's, sd √(1/women + 1/n). Throws Error (not converged) when
+/// the expected softness gives no equilibrium.
+SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& data,
+                                 Progress& progress = no_progress());
+
+}  // namespace breast

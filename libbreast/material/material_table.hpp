@@ -1,0 +1,13 @@
+// A material set as a table that load_materials reads back.
+#pragma once
+
+#include "core/table.hpp"
+#include "material/law.hpp"
+
+namespace breast {
+
+/// A row for each of fat, fibroglandular, muscle, tumour and skin, for the supports of wall and cut
+/// where the set has them, and for what is known of its uncertainty. Numbers read back exactly.
+Table material_table(const MaterialSet& set);
+
+}  // namespace breast

@@ -1,0 +1,22 @@
+// The phantom's rib cage as a smooth surface that its breasts slide on: the torso's superelliptic
+// sections without the groove over the sternum.
+#pragma once
+
+#include "phantom/parameters.hpp"
+#include "surface/level_surface.hpp"
+
+namespace breast {
+
+/// φ = (f − 1) half_depth with f² the superellipse of TorsoParameters: its gradient is 1 at the front.
+/// Twice continuously differentiable for powers of 2 and above; unknown near the centre of a section.
+class RibSurface final : public LevelSurface {
+ public:
+  /// Throws Error (input) for a power below 2.
+  explicit RibSurface(const TorsoParameters& torso);
+  std::optional<Level> at(const Vec3& x) const override;
+
+ private:
+  TorsoParameters torso_;
+};
+
+}  // namespace breast
