@@ -13,11 +13,11 @@ text_settings := LEAVE_OUT PRONE MECHANICS SEGMENT_OPTIONS FIT_OPTIONS HEXMESH_O
 case_settings := $(path_settings) $(name_settings) $(text_settings)
 # The rest is for the command line only.
 programs := SEGMENT FIT_HERMITE HEXMESH BACKWARD FORWARD COMPRESS PROJECT CC2MLO PHANTOM PHANTOM_MESH TRUTH_TABLE_TOOL \
-  CALIBRATE PROBE RENDER SENSITIVITY DIFFERENCE MATCH_LOOKUP EXPORT_DECK CHROMIUM
+  CALIBRATE CALIBRATE_SOFTNESS PROBE RENDER SENSITIVITY DIFFERENCE MATCH_LOOKUP EXPORT_DECK CHROMIUM
 known_settings := $(case_settings) $(programs) CASE_FILE COHORT RUNS RUN EXPECTED PRESET_BUILD ACCURACY_LADDER COST_POINTS \
   COST_FINEST FINDINGS_FINEST BUDGET_FINER BAND_SAMPLES BAND_DRAWS BAND_PLACES STABILITY_LIMIT COMPARE_ELEMENTS \
-  COMPARE_SCENES COMPARE_PRESSED SCALES SCALES_tumour LEAVEOUT_VARIANTS WALL_VARIANTS POPULATION POPULATION_SCANS \
-  POPULATION_TOOL MINUTES FUZZ_MINUTES FUZZ_INPUTS FAULT_ALLOCATIONS share
+  COMPARE_SCENES COMPARE_PRESSED SCALES SCALES_tumour LEAVEOUT_VARIANTS WALL_VARIANTS POPULATION_SCANS \
+  POPULATION_TOOL POPULATION_ELEMENTS POPULATION_MATERIALS MINUTES FUZZ_MINUTES FUZZ_INPUTS FAULT_ALLOCATIONS share
 
 # Characters that are code to a shell or to make. In options blanks, colons, equals signs, % and ~ are no harm.
 shell_characters := $$ ` ; & | < > ( ) { } [ ] * ? ! " ' \ ^ $(hash)
@@ -33,7 +33,7 @@ allowed_TUMOUR := :
 allowed_WALL := :
 allowed_CUT := :
 words_settings := $(text_settings) $(programs) share SCALES SCALES_tumour ACCURACY_LADDER COST_POINTS LEAVEOUT_VARIANTS \
-  WALL_VARIANTS COMPARE_SCENES COMPARE_PRESSED EXPECTED POPULATION POPULATION_SCANS POPULATION_TOOL
+  WALL_VARIANTS COMPARE_SCENES COMPARE_PRESSED EXPECTED POPULATION_SCANS POPULATION_TOOL
 check_words = $(call refuse_strange,$1,$(shell_characters))
 check_name = $(call refuse_blanks,$1)$(call refuse_strange,$1,$(filter-out $(allowed_$1),$(name_characters)))$(if \
   $(filter TUMOUR,$1),,$(call refuse_dash,$1))
@@ -58,7 +58,7 @@ plain_number = $(if $(filter-out .,$(call without_digits,$($1))),$(error $1: '$(
 # Called when all settings have their values; paths and option texts are looked at by the programs.
 define check_values
 $(call among,SIDE,left right)
-$(call among,PRESET,paper flat small large pendulous)
+$(call among,PRESET,$(sliding_presets) paper flat small large pendulous)
 $(call among,WALL,held slide $(filter slide:% spring:%,$(WALL)))
 $(call among,CUT,free fixed roller $(filter spring:%,$(CUT)))
 $(call among,ELEMENT,q1p0 q2p1)

@@ -1,23 +1,47 @@
-# Breasts beside women's: each case of POPULATION (PRESET-SIDE) and both sides of every scan in POPULATION_SCANS from the scan to
-# supine with the model POPULATION_MATERIALS, and a table of how tissue moves beside pipelines/invivo/women.tsv.
-POPULATION ?= $(foreach p,paper flat small large pendulous,$p-left $p-right)
+# Breasts beside women's: the cohort of pipelines/invivo/cohort.tsv from the scan to supine, and a table of how tissue moves
+# beside pipelines/invivo/women.tsv. Cases of scans take part when POPULATION_SCANS names the scan's file.
+#   make population                                the table, and the figure of motion against depth
+#   make calibrate-invivo                          pipelines/materials/invivo.tsv from the calibration half of the cohort
 POPULATION_SCANS ?=
+# 936 elements a breast; 16 gives 4000.
+POPULATION_ELEMENTS ?= 10
+POPULATION_MATERIALS ?= invivo
 POPULATION_RUNS := $(RUNS)/population
 POPULATION_TOOL ?= $(BIN)/population
-population_side = $(lastword $(subst -, ,$1))
-population_scan = $(basename $(basename $(notdir $1)))
-POPULATION_CASES := $(POPULATION) $(foreach s,$(POPULATION_SCANS),$(foreach d,left right,$(call population_scan,$s)-$d))
-population_make = $(MAKE) -f Makefile.pipeline RUNS=$(POPULATION_RUNS)
+CALIBRATE_SOFTNESS ?= $(BIN)/calibrate-softness
+cohort_file := pipelines/invivo/cohort.tsv
+ifneq ($(filter population calibrate-invivo,$(MAKECMDGOALS)),)
+# CASE,PRESET,SCAN,SIDE,USE of every row.
+cohort_rows := $(shell grep -v '^\#' $(cohort_file) | sed 1d | tr '\t' ',')
+cohort_scan = $(firstword $(foreach s,$(POPULATION_SCANS),$(if $(filter $1,$(firstword $(foreach e,$(scan_endings),$(patsubst %$e,%,$(filter %$e,$(notdir $s))))) $(notdir $s)),$s)))
+cohort_field = $(word $1,$(subst $(comma), ,$2))
+define cohort_case
+ifneq ($(if $(filter -,$3),phantom,$(call cohort_scan,$3)),)
+population_$5 += $1
+$(POPULATION_RUNS)/$1/mesh.vtkhdf $(POPULATION_RUNS)/$1/supine.vtkhdf: FORCE
+	@+$(MAKE) -f Makefile.pipeline RUNS=$(POPULATION_RUNS) CASE=$1 SIDE=$4 $(if $(filter -,$3),PRESET=$2,MR=$(call cohort_scan,$3)) \
+	  ELEMENTS=$(POPULATION_ELEMENTS) MATERIALS=$(POPULATION_MATERIALS) TUMOUR=none $$@
+endif
+endef
+$(foreach row,$(cohort_rows),$(eval $(call cohort_case,$(call cohort_field,1,$(row)),$(call cohort_field,2,$(row)),$(call cohort_field,3,$(row)),$(call cohort_field,4,$(row)),$(call cohort_field,5,$(row)))))
+endif
+# One phantom serves both its sides: cases run one after the other.
+ifneq ($(filter population calibrate-invivo,$(MAKECMDGOALS)),)
+.NOTPARALLEL:
+endif
 
-$(foreach c,$(POPULATION),$(eval $(POPULATION_RUNS)/$c/supine.vtkhdf: FORCE ; \
-  @+$$(population_make) CASE=$c PRESET=$(firstword $(subst -, ,$c)) SIDE=$(call population_side,$c) $$@))
-$(foreach s,$(POPULATION_SCANS),$(foreach d,left right,$(eval $(POPULATION_RUNS)/$(call population_scan,$s)-$d/supine.vtkhdf: FORCE ; \
-  @+$$(population_make) CASE=$(call population_scan,$s)-$d MR=$s SIDE=$d $$@)))
+population_compare = $(POPULATION_TOOL) $(patsubst %,$(POPULATION_RUNS)/%/supine.vtkhdf,$1) --women pipelines/invivo/women.tsv \
+  --table $(POPULATION_RUNS)/$2-motion.tsv --summary $(POPULATION_RUNS)/$2.tsv --report $(POPULATION_RUNS)/$2.json
+population: $(patsubst %,$(POPULATION_RUNS)/%/supine.vtkhdf,$(population_calibration) $(population_judging)) $(POPULATION_TOOL)
+	$(call population_compare,$(population_calibration) $(population_judging),cohort)
+	$(call population_compare,$(population_judging),judging)
+	@cat $(POPULATION_RUNS)/judging.tsv
 
-population_files := $(POPULATION_CASES:%=$(POPULATION_RUNS)/%/supine.vtkhdf)
-$(POPULATION_RUNS)/motion.tsv $(POPULATION_RUNS)/population.tsv &: $(population_files) $(POPULATION_TOOL) pipelines/invivo/women.tsv
-	$(POPULATION_TOOL) $(population_files) --women pipelines/invivo/women.tsv --table $(POPULATION_RUNS)/motion.tsv \
-	  --summary $(POPULATION_RUNS)/population.tsv --report $(POPULATION_RUNS)/population.json
-population: $(POPULATION_RUNS)/population.tsv
-	@cat $<
-.PHONY: population
+# The breast that is pressed is the phantom large, as held in the paper's mode.
+pressed := $(POPULATION_RUNS)/large-left/mesh.vtkhdf
+$(pressed): FORCE
+	@+$(MAKE) -f Makefile.pipeline RUNS=$(POPULATION_RUNS) CASE=large-left SIDE=left PRESET=large ELEMENTS=$(POPULATION_ELEMENTS) TUMOUR=none $@
+calibrate-invivo: $(patsubst %,$(POPULATION_RUNS)/%/mesh.vtkhdf,$(population_calibration)) $(pressed) $(CALIBRATE_SOFTNESS)
+	$(CALIBRATE_SOFTNESS) $(patsubst %,$(POPULATION_RUNS)/%/mesh.vtkhdf,$(population_calibration)) --pressed $(pressed) \
+	  --women pipelines/invivo/women.tsv --set pipelines/materials/invivo.tsv --report $(POPULATION_RUNS)/calibration.json $(share)
+.PHONY: population calibrate-invivo

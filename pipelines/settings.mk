@@ -14,11 +14,14 @@ endif
 # ---- the case -----------------------------------------------------------------------------------------
 # MR: scan file or DICOM folder; empty runs the phantom PRESET. SIDE: left or right. SERIES: of a DICOM
 # folder with several. CHEST_WALL: corrected label map or clicked points. CASE: name of the run's folder.
-PRESET ?= paper
+# Breasts of these presets slide on their rib cage; the others are held, as in the paper, whose tables and figures are theirs.
+sliding_presets := average slim broad heavy
+paper_goals := $(filter tables table% fig% findings calibrate validation,$(MAKECMDGOALS))
+PRESET ?= $(if $(PAPER)$(paper_goals),paper,average)
 SIDE ?= left
+scan_endings := .nii.gz .nii .nrrd .nhdr .mha .mhd .vtkhdf
 ifdef MR
   # The name of the scan without its ending: pat.001.nrrd is another than pat.002.nrrd, and a folder keeps its dots.
-  scan_endings := .nii.gz .nii .nrrd .nhdr .mha .mhd .vtkhdf
   scan_name := $(notdir $(patsubst %/,%,$(MR)))
   CASE ?= $(firstword $(foreach e,$(scan_endings),$(patsubst %$e,%,$(filter %$e,$(scan_name)))) $(scan_name))-$(SIDE)
 else
@@ -28,7 +31,8 @@ RUNS ?= runs
 RUN := $(RUNS)/$(CASE)$(if $(PAPER),-as-printed)
 
 # ---- choices ------------------------------------------------------------------------------------------
-MATERIALS ?= seed2008
+# A living breast slides on its wall and is soft; the paper's is held and has its Table II.
+MATERIALS ?= $(if $(PAPER),seed2008,$(if $(MR)$(filter $(sliding_presets),$(PRESET)),invivo,seed2008))
 REDUCTION ?= 50
 # As printed, elements on the edge of the cuboid fold early (docs/validation.md, 3).
 AT_LEAST ?= $(if $(PAPER),30,40)

@@ -14,8 +14,8 @@ struct Choices {
   std::filesystem::path set, women, pressed;
   std::vector<std::filesystem::path> cohort;
   std::string from = "seed2008";
-  std::vector<double> expected{1, 3, 100, 0.01, 0.01}, pressure{10, 2.5};
-  double ln_sd = 1.1, muscle = 8, reduction = 50, standoff = 5, kept = 5, smoothing = 0.02, prestretch = 3;
+  std::vector<double> expected{3, 30, 100, 0.01, 0.01}, pressure{10, 2.5};
+  double ln_sd = 1.1, muscle = 8, reduction = 50, standoff = 5, edge = 5, kept = 5, smoothing = 0.02, prestretch = 3;
 };
 
 void declare(Tool& tool, Choices& c) {
@@ -42,6 +42,7 @@ void declare(Tool& tool, Choices& c) {
   tool.numbers(c.pressure, "--pressure", "MEAN,SD", 2, "of the paddle, kPa");
   tool.number(c.reduction, "--reduction", "PERCENT", "at this reduction of the thickness", 1, 95);
   tool.number(c.standoff, "--standoff", "MM", "and this stand-off of the plates", 0, 500);
+  tool.number(c.edge, "--edge-radius", "MM", "of the plates' rounded edges", 1, 100);
   tool.number(c.muscle, "--muscle", "MM", "thickness of the muscle in front of the ribs", 0, 50);
   tool.number(c.kept, "--skin-compression", "PERCENT", "of the skin's law that is kept in compression", 0.1, 100);
   tool.number(c.smoothing, "--skin-smoothing", "WIDTH", "of its transition, squared stretches", 1e-4, 0.5);
@@ -98,7 +99,8 @@ void run_calibration(const Choices& c, Run& run) {
   data.posterior = observed(women, "nipple_posterior_mm");
   data.ribs_change = observed(women, "ribs_change_mm");
   data.pressure.mean = c.pressure[0], data.pressure.sd = c.pressure[1];
-  data.reduction = c.reduction, data.standoff = c.standoff, data.muscle_mm = c.muscle;
+  data.reduction = c.reduction, data.standoff = c.standoff, data.edge_radius = c.edge;
+  data.muscle_mm = c.muscle;
   data.expected = {c.expected[0] / 100, c.expected[1] / 100, c.expected[2] / 100, c.expected[3],
                    c.expected[4]};
   data.expected_ln_sd = c.ln_sd;

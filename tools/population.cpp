@@ -28,6 +28,10 @@ Quantities quantities_of(const PostureMotion& m) {
                   {"nipple_lateral_mm", m.nipple_lateral},
                   {"nipple_posterior_mm", m.nipple_posterior},
                   {"nipple_caudal_mm", m.nipple_caudal},
+                  {"nipples_apart_before_mm", m.nipples_apart_before},
+                  {"nipples_apart_after_mm", m.nipples_apart_after},
+                  {"before_notch_before_mm", m.before_notch_before},
+                  {"before_notch_after_mm", m.before_notch_after},
                   {"ribs_before_mm", m.ribs_before},
                   {"ribs_after_mm", m.ribs_after},
                   {"ribs_change_mm", m.ribs_after - m.ribs_before}};

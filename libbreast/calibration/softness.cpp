@@ -76,6 +76,7 @@ std::optional<double> pressure_on(HexMesh mesh, const MechanicsOptions& options,
   CompressionOptions press;
   press.target = data.reduction;
   press.plates.standoff = data.standoff;
+  press.plates.edge_radius = data.edge_radius;
   const CompressionResult found = compress(mesh, press, options);
   if (!found.converged()) return {};
   return found.contact->plates[0].mean_kPa;

@@ -14,8 +14,8 @@ namespace breast {
 
 /// What is sought, as factors on a set and supports in kPa/mm.
 struct Softness {
-  double low_order = 0.01;  ///< on the constants of polynomial laws that are linear in I1 and I2
-  double quadratic = 0.03;  ///< on the others
+  double low_order = 0.03;  ///< on the constants of polynomial laws that are linear in I1 and I2
+  double quadratic = 0.3;  ///< on the others
   double skin = 1;          ///< on the law of skin
   double wall = 0.01, cut = 0.01;
 
@@ -43,7 +43,7 @@ struct SoftnessData {
   Observed lateral, posterior, ribs_change;  ///< of `women` women
   int women = 63;
   Observed pressure{"pressure_kPa", 10, 2.5};  ///< at `reduction` per cent, plates `standoff` mm away
-  double reduction = 50, standoff = 5;
+  double reduction = 50, standoff = 5, edge_radius = 5;
   Softness expected;             ///< of the prior
   double expected_ln_sd = 1.1;   ///< a factor of three either way
 };

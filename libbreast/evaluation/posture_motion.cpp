@@ -31,6 +31,18 @@ std::vector<Sample> samples_of(const HexMesh& mesh, const ThoraxSurface& surface
   return samples;
 }
 
+// The nipple in the body's frame, as it is measured in women.
+void place_nipple(const ThoraxSurface& surface, const Vec3& before, const Vec3& after,
+                  PostureMotion& motion) {
+  const double notch_z = std::clamp(before.z() + notch_height_mm, surface.origin.z() + surface.height_low,
+                                    surface.origin.z() + surface.height_high);
+  const double notch_y = surface.point(0, notch_z - surface.origin.z()).y();
+  motion.nipples_apart_before = 2 * std::abs(before.x() - surface.origin.x());
+  motion.nipples_apart_after = 2 * std::abs(after.x() - surface.origin.x());
+  motion.before_notch_before = notch_y - before.y();
+  motion.before_notch_after = notch_y - after.y();
+}
+
 double mean(const std::vector<Sample>& samples, double Sample::*value) {
   double sum = 0, total = 0;
   for (const Sample& sample : samples) {
@@ -84,8 +96,9 @@ PostureMotion posture_motion(const HexMesh& mesh, double muscle_mm) {
   const Landmark* nipple = mesh.landmark("nipple");
   if (nipple == nullptr) throw input_error("mesh: it has no landmark 'nipple'");
   PostureMotion motion;
-  const Vec3 moved = landmark_position(mesh, mesh.points, *nipple) -
-                     landmark_position(mesh, mesh.imaged, *nipple);
+  const Vec3 before = landmark_position(mesh, mesh.imaged, *nipple),
+             after = landmark_position(mesh, mesh.points, *nipple), moved = after - before;
+  place_nipple(*mesh.geometry->thorax, before, after, motion);
   motion.nipple_lateral = mesh.side == Side::left ? moved.x() : -moved.x();
   motion.nipple_posterior = moved.y();
   motion.nipple_caudal = -moved.z();

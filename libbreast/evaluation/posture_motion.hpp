@@ -20,11 +20,19 @@ struct DepthBin {
 struct PostureMotion {
   /// Of the nipple, mm: away from the midline, backwards, and towards the feet.
   double nipple_lateral = 0, nipple_posterior = 0, nipple_caudal = 0, nipple_moved = 0;
+  /// Twice the nipple's distance from the midline, which is that of the wall surface's axis, mm.
+  double nipples_apart_before = 0, nipples_apart_after = 0;
+  /// How far the nipple lies in front of the sternal notch, mm: of the wall surface on the midline,
+  /// notch_height_mm above the nipple as imaged.
+  double before_notch_before = 0, before_notch_after = 0;
   double ribs_before = 0, ribs_after = 0;  ///< mean distance of tissue from the ribs, mm
   double ratio = 0;                        ///< median of after over before
   std::vector<DepthBin> bins;              ///< 0 to 20, 20 to 40, above 40 mm
   double nearest_moved = 0;                ///< mean motion of tissue within 20 mm of the wall
 };
+
+/// From nipple to sternal notch along the body in the scan: scans of breasts end below the notch.
+inline constexpr double notch_height_mm = 140;
 
 /// From mesh.imaged to mesh.points, elements weighted by their volume in the scan. Ribs lie
 /// `muscle_mm` behind the mesh's wall surface. Throws Error (input) without a wall surface or a

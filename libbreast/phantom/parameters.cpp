@@ -25,16 +25,16 @@ BreastParameters kind_breast(const std::string& name) {
     b.nipple_radius = 4, b.nipple_height = 4;
   } else if (preset_slides(name)) {
     // As they hang in the scan.
-    b.axis_lateral = 4, b.axis_inferior = 2, b.power = 2.1, b.fold = 18, b.flank = 10;
+    b.axis_lateral = 4, b.axis_inferior = 2, b.power = 2.1, b.fold = 15, b.flank = 4;
     if (name == "average") {
-      b.centre_x = 78, b.radius = 47, b.height = 90, b.shoulder = 40;
+      b.centre_x = 77, b.radius = 47, b.height = 90, b.shoulder = 40;
     } else if (name == "slim") {
-      b.centre_x = 68, b.radius = 38, b.height = 66, b.shoulder = 26, b.fold = 14;
+      b.centre_x = 68, b.radius = 38, b.height = 66, b.shoulder = 26, b.fold = 12;
       b.nipple_radius = 4;
     } else if (name == "broad") {
-      b.centre_x = 84, b.radius = 58, b.height = 108, b.shoulder = 52;
+      b.centre_x = 83, b.radius = 57, b.height = 108, b.shoulder = 52;
     } else {
-      b.centre_x = 92, b.radius = 66, b.height = 124, b.shoulder = 62, b.fold = 22;
+      b.centre_x = 90, b.radius = 65, b.height = 126, b.shoulder = 64, b.fold = 16;
     }
   } else if (name == "paper") {
     // The paper's tumour moves a third as far as the nipple. Only a place low and medial does so
@@ -82,7 +82,7 @@ void individualise(BreastParameters& b, RandomStream& stream) {
   b.axis_inferior += stream.uniform(-2, 2);
 }
 
-// Rib cages of different shape, and bodies that differ from the calibrated set by what women's do:
+// Rib cages of different shape, 24 to 31 cm broad and 20 to 27 deep, and bodies that differ from the calibrated set by what women's do:
 // the chain, which knows neither, is to be told what that costs.
 void put_on_ribs(PhantomParameters& p) {
   p.torso.sternal_groove = 2;
@@ -91,22 +91,22 @@ void put_on_ribs(PhantomParameters& p) {
   p.body.slides = true;
   p.mesh.skirt = 4;
   if (p.preset == "average") {
-    p.torso.half_width = 158, p.torso.half_depth = 114, p.torso.power = 2.0;
+    p.torso.half_width = 132, p.torso.half_depth = 112, p.torso.power = 2.0;
     p.gland.fraction = 0.15;
     p.body.scale = {"fat=95", "fibroglandular=110"};
     p.body.wall_percent = 120, p.body.cut_percent = 85;
   } else if (p.preset == "slim") {
-    p.torso.half_width = 142, p.torso.half_depth = 100, p.torso.power = 2.1;
+    p.torso.half_width = 122, p.torso.half_depth = 102, p.torso.power = 2.0;
     p.gland.fraction = 0.28;
     p.body.scale = {"fat=105", "fibroglandular=100"};
     p.body.wall_percent = 80, p.body.cut_percent = 115;
   } else if (p.preset == "broad") {
-    p.torso.half_width = 172, p.torso.half_depth = 124, p.torso.power = 2.05, p.torso.tilt = 0.18;
+    p.torso.half_width = 142, p.torso.half_depth = 124, p.torso.power = 2.0, p.torso.fat_lateral = 26, p.torso.tilt = 0.18;
     p.gland.fraction = 0.09;
     p.body.scale = {"fat=105", "fibroglandular=120"};
     p.body.wall_percent = 85, p.body.cut_percent = 100;
   } else {
-    p.torso.half_width = 196, p.torso.half_depth = 136, p.torso.power = 2.0, p.torso.tilt = 0.26;
+    p.torso.half_width = 154, p.torso.half_depth = 136, p.torso.power = 2.0, p.torso.fat_lateral = 32, p.torso.tilt = 0.26;
     p.gland.fraction = 0.06;
     p.body.scale = {"fat=95", "fibroglandular=90"};
     p.body.wall_percent = 110, p.body.cut_percent = 110;
