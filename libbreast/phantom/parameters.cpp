@@ -82,7 +82,7 @@ void individualise(BreastParameters& b, RandomStream& stream) {
   b.axis_inferior += stream.uniform(-2, 2);
 }
 
-// Rib cages of different shape, 24 to 31 cm broad and 20 to 27 deep, and bodies that differ from the calibrated set by what women's do:
+// Rib cages of different shape, 26 to 37 cm broad and 20 to 28 deep, and bodies that differ from the calibrated set by what women's do:
 // the chain, which knows neither, is to be told what that costs.
 void put_on_ribs(PhantomParameters& p) {
   p.torso.sternal_groove = 2;
@@ -91,22 +91,22 @@ void put_on_ribs(PhantomParameters& p) {
   p.body.slides = true;
   p.mesh.skirt = 4;
   if (p.preset == "average") {
-    p.torso.half_width = 132, p.torso.half_depth = 112, p.torso.power = 2.0;
+    p.torso.half_width = 142, p.torso.half_depth = 110, p.torso.power = 2.0;
     p.gland.fraction = 0.15;
     p.body.scale = {"fat=95", "fibroglandular=110"};
     p.body.wall_percent = 120, p.body.cut_percent = 85;
   } else if (p.preset == "slim") {
-    p.torso.half_width = 122, p.torso.half_depth = 102, p.torso.power = 2.0;
+    p.torso.half_width = 130, p.torso.half_depth = 100, p.torso.power = 2.0;
     p.gland.fraction = 0.28;
     p.body.scale = {"fat=105", "fibroglandular=100"};
     p.body.wall_percent = 80, p.body.cut_percent = 115;
   } else if (p.preset == "broad") {
-    p.torso.half_width = 142, p.torso.half_depth = 124, p.torso.power = 2.0, p.torso.fat_lateral = 26, p.torso.tilt = 0.18;
+    p.torso.half_width = 154, p.torso.half_depth = 122, p.torso.power = 2.0, p.torso.fat_lateral = 26, p.torso.tilt = 0.18;
     p.gland.fraction = 0.09;
     p.body.scale = {"fat=105", "fibroglandular=120"};
     p.body.wall_percent = 85, p.body.cut_percent = 100;
   } else {
-    p.torso.half_width = 154, p.torso.half_depth = 136, p.torso.power = 2.0, p.torso.fat_lateral = 32, p.torso.tilt = 0.26;
+    p.torso.half_width = 186, p.torso.half_depth = 138, p.torso.power = 2.0, p.torso.fat_lateral = 26, p.torso.tilt = 0.26;
     p.gland.fraction = 0.06;
     p.body.scale = {"fat=95", "fibroglandular=90"};
     p.body.wall_percent = 110, p.body.cut_percent = 110;
