@@ -43,5 +43,10 @@ $(pressed): FORCE
 	@+$(MAKE) -f Makefile.pipeline RUNS=$(POPULATION_RUNS) CASE=large-left SIDE=left PRESET=large ELEMENTS=$(POPULATION_ELEMENTS) TUMOUR=none $@
 calibrate-invivo: $(patsubst %,$(POPULATION_RUNS)/%/mesh.vtkhdf,$(population_calibration)) $(pressed) $(CALIBRATE_SOFTNESS)
 	$(CALIBRATE_SOFTNESS) $(patsubst %,$(POPULATION_RUNS)/%/mesh.vtkhdf,$(population_calibration)) --pressed $(pressed) \
-	  --women pipelines/invivo/women.tsv --set pipelines/materials/invivo.tsv --report $(POPULATION_RUNS)/calibration.json $(share)
+	  --women pipelines/invivo/women.tsv --set $(POPULATION_RUNS)/invivo.tsv --report $(POPULATION_RUNS)/calibration.json $(share)
+	@{ echo '# Calibrated to the motion of living women (pipelines/invivo/women.tsv) and a paddle pressure of 10 kPa by'; \
+	  echo '# make calibrate-invivo on: $(population_calibration). Table II of Pathmanathan et al. 2008, scaled.'; \
+	  cat $(POPULATION_RUNS)/invivo.tsv; } > pipelines/materials/invivo.tsv.part
+	@mv pipelines/materials/invivo.tsv.part pipelines/materials/invivo.tsv
+	@cat pipelines/materials/invivo.tsv
 .PHONY: population calibrate-invivo

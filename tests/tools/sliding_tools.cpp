@@ -81,6 +81,23 @@ TEST_F(SlidingTools, WholeChainWithWhatTheMaterialSetSays) {
               report("s.json").number("landmarks/nipple/distance_mm"), 0.06);
 }
 
+TEST_F(SlidingTools, ACalibratedSetIsReadByTheOtherTools) {
+  write_text(folder_ / "women.tsv",
+             "quantity\tmean\tsd\nnipple_lateral_mm\t6\t3\nnipple_posterior_mm\t5\t3\n"
+             "ribs_change_mm\t-1\t1\n");
+  const std::string line = "calibrate-softness mesh.vtkhdf --pressed mesh.vtkhdf --women women.tsv "
+                           "--set set.tsv --expected 20,50,100,0.05,0.05 --reduction 10 ";
+  ASSERT_EQ(run(line + "--expected-ln-sd 0.2 --report k.json"), 0) << said_.err;
+  EXPECT_GT(report("k.json").number("softness/wall"), 0.01);
+  EXPECT_LT(report("k.json").number("softness/wall_ln_sd"), 0.2);
+  EXPECT_EQ(run("backward mesh.vtkhdf r.vtkhdf --materials set.tsv"), 0) << said_.err;
+  EXPECT_EQ(run(line + "--from victre"), 2);
+  EXPECT_NE(said_.err.find("polynomial"), std::string::npos) << said_.err;
+  write_text(folder_ / "women.tsv", "quantity\tmean\tsd\nnipple_lateral_mm\t6\t3\n");
+  EXPECT_EQ(run(line), 2);
+  EXPECT_NE(said_.err.find("nipple_posterior_mm"), std::string::npos) << said_.err;
+}
+
 TEST_F(SlidingTools, AnotherSupportThanTheStressFreeShapeHadIsAWarning) {
   ASSERT_EQ(run("backward mesh.vtkhdf r.vtkhdf --wall slide:0.02"), 0) << said_.err;
   ASSERT_EQ(run("forward r.vtkhdf s.vtkhdf --wall slide:0.02"), 0) << said_.err;

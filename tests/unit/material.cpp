@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/table.hpp"
+#include "core/temporary_folder.hpp"
 #include "material/law.hpp"
+#include "material/material_table.hpp"
 #include "material/stability.hpp"
 
 namespace breast {
@@ -144,6 +147,40 @@ TEST(Materials, EmbeddedSetsLoadAndScale) {
     EXPECT_THROW(scale_materials(set, {bad}), Error) << bad;
   }
   EXPECT_THROW(load_materials("no-such-set"), Error);
+}
+
+TEST(MaterialTable, ReadsBackAsWritten) {
+  for (const std::string& name : material_set_names()) {
+    MaterialSet set = load_materials(name);
+    set.wall_support = 0.1 / 3, set.cut_support = 0.02;
+    set.uncertainty.parameters = {"low_order", "wall"};
+    set.uncertainty.covariance.resize(2, 2);
+    set.uncertainty.covariance << 0.25, -0.03, -0.03, 0.04;
+    const TemporaryFolder folder;
+    write_table(folder.path() / "set.tsv", material_table(set));
+    const MaterialSet back = load_materials((folder.path() / "set.tsv").string());
+    for (const Tissue tissue : {Tissue::fat, Tissue::fibroglandular, Tissue::skin, Tissue::tumour}) {
+      EXPECT_EQ(back.law(tissue).kind, set.law(tissue).kind) << name;
+      EXPECT_EQ(back.law(tissue).constants, set.law(tissue).constants) << name;
+    }
+    EXPECT_EQ(back.density, set.density) << name;
+    EXPECT_NEAR(back.skin.kept, set.skin.kept, 1e-15);
+    EXPECT_EQ(back.wall_support, set.wall_support);
+    EXPECT_EQ(back.cut_support, set.cut_support);
+    EXPECT_EQ(back.uncertainty.parameters, set.uncertainty.parameters);
+    EXPECT_LT((back.uncertainty.covariance - set.uncertainty.covariance).norm(), 1e-15);
+  }
+}
+
+TEST(MaterialTable, ImpossibleUncertaintyIsRefused) {
+  MaterialSet set = load_materials("seed2008");
+  set.uncertainty.parameters = {"skin"};
+  set.uncertainty.covariance = Eigen::MatrixXd::Constant(1, 1, 0.01);
+  Table table = material_table(set);
+  table.rows.back()[std::size_t(table.column("correlation_skin"))] = "1.5";
+  const TemporaryFolder folder;
+  write_table(folder.path() / "set.tsv", table);
+  EXPECT_THROW(load_materials((folder.path() / "set.tsv").string()), Error);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "fixtures/small_phantom.hpp"
 #include "mesh/quality.hpp"
 #include "phantom/random.hpp"
+#include "phantom/rib_surface.hpp"
 #include "phantom/scanner.hpp"
 
 using namespace breast;
@@ -49,10 +50,10 @@ TEST(PhantomRandom, NormalNumbersHaveUnitVarianceAndNoCorrelation) {
 }
 
 TEST(PhantomTemplate, EveryPresetGivesRoundElementsOnSkinAndWall) {
-  for (const char* preset : {"paper", "flat", "small", "large", "pendulous"}) {
+  for (const std::string& preset : preset_names()) {
     for (Side side : {Side::left, Side::right}) {
       PhantomParameters p = phantom_preset(preset, 3);
-      p.mesh = {4, 2, 1, 1, 3, 2};
+      p.mesh = coarse_mesh(p);
       const Torso torso(p.torso, 1);
       const BreastShape shape(p, torso, side);
       const MeridianMap map(shape);
@@ -68,6 +69,44 @@ TEST(PhantomTemplate, EveryPresetGivesRoundElementsOnSkinAndWall) {
                 boundary_faces(mesh).size());
     }
   }
+}
+
+TEST(RibSurface, DerivativesAreThoseOfTheValueAndItIsTheTorsosWall) {
+  for (const double power : {2.0, 2.4}) {
+    TorsoParameters torso;
+    torso.power = power, torso.sternal_groove = 0;
+    const RibSurface ribs(torso);
+    const Torso body(torso, 1);
+    for (const Vec3& x : {Vec3(70, 8, 10), Vec3(-120, 40, -60), Vec3(20, -50, 70)}) {
+      const auto here = ribs.at(x);
+      ASSERT_TRUE(here);
+      constexpr double h = 1e-4;
+      for (int a = 0; a < 3; ++a) {
+        const auto up = ribs.at(x + h * Vec3::Unit(a)), down = ribs.at(x - h * Vec3::Unit(a));
+        EXPECT_NEAR((up->value - down->value) / (2 * h), here->gradient[a], 1e-7);
+        EXPECT_LT(((up->gradient - down->gradient) / (2 * h) - here->hessian.col(a)).norm(), 1e-7);
+      }
+    }
+    const Vec3 foot = body.wall_point(60, 20);
+    EXPECT_NEAR(ribs.at(foot)->value, 0, 1e-9);
+    EXPECT_FALSE(ribs.at(Vec3(0, torso.half_depth, 0)));
+  }
+  TorsoParameters sharp;
+  sharp.power = 1.8;
+  EXPECT_THROW(RibSurface{sharp}, Error);
+}
+
+TEST(BodyMaterials, ASlidingBreastNeedsSupportsAndTheyAreScaled) {
+  BodyParameters body;
+  body.materials = "invivo", body.slides = true, body.wall_percent = 120, body.cut_percent = 50;
+  body.scale = {"fat=90"};
+  const MaterialSet set = body_materials(body), plain = load_materials("invivo");
+  EXPECT_NEAR(*set.wall_support, 1.2 * *plain.wall_support, 1e-15);
+  EXPECT_NEAR(*set.cut_support, 0.5 * *plain.cut_support, 1e-15);
+  EXPECT_NEAR(set.law(Tissue::fat).shear_modulus(), 0.9 * plain.law(Tissue::fat).shear_modulus(),
+              1e-9);
+  body.materials = "seed2008";
+  EXPECT_THROW(body_materials(body), Error);
 }
 
 TEST(PhantomTemplate, RefinementKeepsTheVolume) {

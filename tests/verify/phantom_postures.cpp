@@ -6,6 +6,7 @@
 #include "fixtures/small_phantom.hpp"
 #include "mesh/quality.hpp"
 #include "phantom/postures.hpp"
+#include "phantom/rib_surface.hpp"
 
 using namespace breast;
 
@@ -61,6 +62,46 @@ TEST(PhantomPostures, BackwardFindsTheStressFreeShape) {
   options.cut = Cut::fixed;
   ASSERT_TRUE(fixtures::backward_into(mesh, posture_gravity(Posture::prone), options).converged());
   EXPECT_LT(largest(mesh.reference, truth), 1e-3);
+}
+
+// The truth of a breast that slides: the body found is in balance in the shape of the scan, its wall
+// nodes stay on the rib cage, and it moves as breasts do.
+TEST(SlidingPhantom, HangsAsShapedAndSlidesOnItsRibs) {
+  PhantomParameters parameters = phantom_preset("slim", 1);
+  parameters.mesh = coarse_mesh(parameters);
+  const MaterialSet materials = body_materials(parameters.body);
+  const Torso torso(parameters.torso, 1);
+  PhantomBreast breast(parameters, torso, Side::left);
+  TruthError error;
+  const Postures postures = solve_breast(breast, parameters, materials, error);
+  EXPECT_LT(error.worst(), 2.5);
+  EXPECT_EQ(error.prone_mm, 0);
+
+  HexMesh mesh = breast.mesh;
+  EXPECT_EQ(largest(mesh.points, mesh.imaged), 0);
+  mesh.reference = postures.stress_free;
+  mesh.points = mesh.reference;
+  MechanicsOptions options;
+  options.materials = materials;
+  options.element = Element::q2p1;
+  options.wall = WallOption(WallKind::slide, {0, *materials.wall_support});
+  options.wall.surface = std::make_shared<RibSurface>(parameters.torso);
+  options.cut = CutOption(Cut::spring, *materials.cut_support);
+  ASSERT_TRUE(fixtures::forward_into(mesh, posture_gravity(Posture::prone), options).converged());
+  EXPECT_LT(largest(mesh.points, mesh.imaged), 1e-7);
+
+  const RibSurface ribs(parameters.torso);
+  double slid = 0;
+  for (const int node : nodes_of(mesh, mesh.pectoral_faces)) {
+    const Vec3 &from = mesh.imaged[std::size_t(node)], &to = postures.supine[std::size_t(node)];
+    EXPECT_NEAR(ribs.at(to)->value, ribs.at(from)->value, 1e-9);
+    slid = std::max(slid, (to - from).norm());
+  }
+  EXPECT_GT(slid, 10);
+  const Vec3 nipple = postures.supine[std::size_t(mesh.nipple_node)] -
+                      mesh.imaged[std::size_t(mesh.nipple_node)];
+  EXPECT_GT(nipple.x(), 10);
+  EXPECT_GT(nipple.y(), 10);
 }
 
 TEST(PhantomPostures, AnotherMeshOfTheBodyCarriesTheSameLandmarks) {
