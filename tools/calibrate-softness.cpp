@@ -78,7 +78,7 @@ void report_found(const SoftnessFound& found, Run& run) {
     run.report().set("data/" + wanted.quantity + "/wanted", wanted.mean);
     run.report().set("data/" + wanted.quantity + "/sd", wanted.sd);
   }
-  const Eigen::VectorXd x = found.fit.x;
+  const Eigen::VectorXd x = found.softness.logarithms();
   for (std::size_t k = 0; k < Softness::names().size(); ++k) {
     const std::string name = Softness::names()[k];
     const double value = std::exp(x[Eigen::Index(k)]),

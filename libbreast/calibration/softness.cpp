@@ -100,6 +100,29 @@ std::optional<std::vector<double>> model(const MaterialSet& materials, const Sof
   return sum;
 }
 
+// To three digits: the data do not know more, and a set is read by people.
+double rounded(double value) {
+  if (value == 0) return 0;
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
+  return std::round(value / unit) * unit;
+}
+
+Softness rounded(const Softness& s) {
+  return {rounded(s.low_order), rounded(s.quadratic), rounded(s.skin), rounded(s.wall),
+          rounded(s.cut)};
+}
+
+Eigen::MatrixXd rounded(const Eigen::MatrixXd& covariance) {
+  const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt().unaryExpr([](double x) { return rounded(x); });
+  Eigen::MatrixXd out(covariance.rows(), covariance.cols());
+  for (Eigen::Index i = 0; i < out.rows(); ++i)
+    for (Eigen::Index j = 0; j < out.cols(); ++j) {
+      const double r = covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
+      out(i, j) = sd[i] * sd[j] * (i == j ? 1 : std::round(1000 * r) / 1000);
+    }
+  return out;
+}
+
 std::vector<Observed> weighted(const SoftnessData& data) {
   const double spread = std::sqrt(1.0 / data.women + 1.0 / double(data.cohort.size()));
   std::vector<Observed> wanted{data.lateral, data.posterior, data.ribs_change};
@@ -134,12 +157,12 @@ SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& da
     return r;
   };
   out.fit = gauss_newton(residuals, expected);
-  out.softness = Softness::from_logarithms(out.fit.x);
+  out.softness = rounded(Softness::from_logarithms(out.fit.x));
   for (std::size_t k = 0; k < out.wanted.size(); ++k)
     out.found.push_back(out.wanted[k].mean + out.fit.residuals[Eigen::Index(k)] * out.wanted[k].sd);
   out.materials = softened(base, out.softness);
   for (const char* name : Softness::names()) out.materials.uncertainty.parameters.push_back(name);
-  out.materials.uncertainty.covariance = out.fit.covariance;
+  out.materials.uncertainty.covariance = rounded(out.fit.covariance);
   return out;
 }
 

@@ -37,7 +37,7 @@ void add_uncertainty(const SoftnessUncertainty& known, std::vector<Row>& rows) {
     for (std::size_t j = 0; j < known.parameters.size(); ++j) {
       const double scale = sd * std::sqrt(known.covariance(j, j));
       row["correlation_" + known.parameters[j]] =
-          format_number(scale > 0 ? known.covariance(i, j) / scale : double(i == j));
+          format_number(scale > 0 ? std::clamp(known.covariance(i, j) / scale, -1.0, 1.0) : double(i == j));
     }
     rows.push_back(row);
   }
