@@ -13,7 +13,7 @@ namespace breast {
 
 namespace {
 
-constexpr std::array per_view = {"thickness", "angle", "standoff"};
+constexpr std::array per_view = {"thickness", "angle", "standoff", "detector"};
 
 const NodalField* field_of(const DerivativeFields& fields, const std::string& name, int nodes) {
   const auto found = fields.find(name);
@@ -71,6 +71,15 @@ BandModel::BandModel(const Matcher& matcher, const DerivativeFields& from,
       to_centre_(turning_centre(matcher.to().points)) {
   const int nodes = matcher.from().nodes();
   for (const Prior& prior : priors) {
+    if (prior.parameter == "repositioning") {
+      in_first_.emplace_back("repositioning in " + view_name(matcher.from_frame().view), prior.deviation);
+      in_second_.emplace_back("repositioning in " + view_name(matcher.to_frame().view), prior.deviation);
+      continue;
+    }
+    if (prior.parameter == "chain") {
+      in_second_.emplace_back(prior.parameter, prior.deviation);
+      continue;
+    }
     if (prior.parameter == "picking" || prior.parameter == "alignment_from") {
       in_first_.emplace_back(
           prior.parameter == "picking" ? "picking" : "alignment in " + view_name(matcher.from_frame().view),

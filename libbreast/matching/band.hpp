@@ -46,8 +46,9 @@ inline constexpr double half_width_50 = 0.6744897502, half_width_95 = 1.95996398
 /// Linear propagation: a parameter moves the point that the column holds at fixed place in the
 /// first image by y' = π[x'_to − (∂x_to/∂ξ)(∂x_from/∂ξ)⁻¹ x'_from] in the second; its part across
 /// the curve counts. Parameters of the breast act on both shapes together; those of a compression
-/// ("thickness", "angle", "standoff") are independent in the two; with "angle" the detector turns
-/// about the middle of the shape. The priors "picking" and "alignment_from" (mm) are errors of the
+/// ("thickness", "angle", "standoff", "detector") are independent in the two; with "angle" the
+/// detector turns about the middle of the shape. "repositioning" (mm) shifts the breast in each image,
+/// "chain" is what the chain itself errs by in the second. The priors "picking" and "alignment_from" (mm) are errors of the
 /// mark along each axis of the first image, "marking" and "alignment_to" of what is compared with
 /// it in the second.
 class BandModel {
@@ -59,7 +60,7 @@ class BandModel {
   /// Priors the meshes have no derivative for: not counted.
   const std::vector<std::string>& without() const { return without_; }
   std::string what_is_missing() const;  ///< the same as a sentence
-  /// Nothing but errors of marking and alignment is left of the priors: no derivative of any
+  /// Nothing but errors of images and marks is left of the priors: no derivative of any
   /// parameter is in both files. Such a band says nothing of the model.
   bool counts_marks_only() const { return causes_.empty() && !without_.empty(); }
 

@@ -13,6 +13,8 @@ std::vector<Prior> default_priors() {
       {"fibroglandular", 0.7, "relative", moduli},
       {"tumour", 0.7, "relative", moduli},
       {"skin", 0.7, "relative", moduli},
+      {"wall", 0.7, "relative", "assumed, as of stiffness: resistance to sliding on the chest wall"},
+      {"cut", 0.7, "relative", "the same, of the tissue beside the breast"},
       {"skin_thickness", 0.2, "relative",
        "0.5-2.0 mm, mean 1.45: Huang et al., Med Phys 35:1199, 2008"},
       {"density", 0.03, "relative", "fat 0.93 to gland 1.04 g/cm3: Hammerstein 1979"},
@@ -21,6 +23,13 @@ std::vector<Prior> default_priors() {
        "39:263, 2012"},
       {"angle", 3.0, "degree", "assumed: the patient's turn against the C-arm"},
       {"standoff", 5.0, "mm", "assumed: plate edge to chest wall, not recorded by any machine"},
+      {"detector", 10.0, "mm", "assumed: height of the detector against the inframammary fold"},
+      {"repositioning", 3.0, "mm",
+       "outlines of the same view on another date, after a similarity fit, 2-7 mm rms apart: four "
+       "pairs of public mammograms; a part of it each image"},
+      {"chain", 2.0, "mm",
+       "errors of segmentation, mesh and tissue: what the phantom's true places showed beyond the "
+       "band without it (docs/validation.md)"},
       {"chest_wall", 1.0, "sigma",
        "of the wall's own deviation (segment), everywhere to one side: the worst it allows"},
       {"picking", 1.0, "mm", "assumed: marking the centre of a lesion"},

@@ -56,7 +56,10 @@ bool is_main(const Parameter& parameter) {
 
 std::string Parameter::per() const {
   if (relative()) return "1";
-  return kind == ParameterKind::thickness || kind == ParameterKind::standoff ? "mm" : "degree";
+  return kind == ParameterKind::thickness || kind == ParameterKind::standoff ||
+                 kind == ParameterKind::detector
+             ? "mm"
+             : "degree";
 }
 
 bool Parameter::relative() const {
@@ -95,6 +98,7 @@ std::vector<Parameter> all_parameters(const HexMesh& state, const MechanicsOptio
   if (state.contact) {
     all.push_back({"thickness", ParameterKind::thickness});
     all.push_back({"standoff", ParameterKind::standoff});
+    all.push_back({"detector", ParameterKind::detector});
     all.push_back({"angle", ParameterKind::angle});
   }
   return all;

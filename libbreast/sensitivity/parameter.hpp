@@ -21,6 +21,7 @@ enum class ParameterKind {
   cut_support,     ///< of those at the cut, relative
   thickness,       ///< between the plates, mm; they close on their mid-plane
   standoff,        ///< both plates' edges moved away from the chest wall, mm
+  detector,        ///< height of both plates, raised along the beam, mm
   angle,           ///< of the beam, plates turned about their anterior mid-line, degrees
 };
 

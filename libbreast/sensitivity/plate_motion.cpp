@@ -70,6 +70,8 @@ GapSlope gap_slope(const PlatePair& plates, const PlateContact& contact, const V
     velocity = -(contact.plate == 0 ? paddle : 1 - paddle) * plate.sign * plate.n;
   } else if (parameter.kind == ParameterKind::standoff) {
     velocity = plate.anterior;
+  } else if (parameter.kind == ParameterKind::detector) {
+    velocity = -plate.n;
   } else if (parameter.kind == ParameterKind::angle) {
     // dn/dθ of n = (s sin θ, 0, −cos θ) is ω × n with ω = s e_u.
     turn = lateral_sign(side) * std::numbers::pi / 180 * plate.anterior;

@@ -31,7 +31,7 @@ struct GapSlope {
   Vec3 gradient{0, 0, 0};
 };
 /// Plates move as rigid bodies: closing by their shares of the thickness (a half each, or the paddle
-/// alone where the detector has risen as far as it may), both along the anterior axis, or about
+/// alone where the detector has risen as far as it may), both along the anterior axis, both against the beam, or about
 /// their common anterior mid-line.
 GapSlope gap_slope(const PlatePair& plates, const PlateContact& contact, const Vec3& x,
                    const Parameter& parameter, Side side);

@@ -110,6 +110,10 @@ void run(const std::string& file, int first, int count, double spread) {
   const DerivativeFields from = derivatives(base, base.views[0]),
                          to = derivatives(base, base.views[1]);
   std::vector<Prior> priors = default_priors();
+  // The truth here is the chain's own body, lies in the image as the chain's does, on the same detector.
+  std::erase_if(priors, [](const Prior& p) {
+    return p.parameter == "chain" || p.parameter == "repositioning" || p.parameter == "detector";
+  });
   for (Prior& p : priors) p.deviation *= spread;
   const BandModel band(matcher, from, to, priors);
   const std::vector<int> chosen = shown_elements(matcher, base.views, 24);

@@ -35,7 +35,8 @@ Body read_body(const std::string& cc, const std::string& mlo) {
 }
 
 bool of_one_view(const std::string& parameter) {
-  return parameter == "thickness" || parameter == "angle" || parameter == "standoff";
+  return parameter == "thickness" || parameter == "angle" || parameter == "standoff" ||
+         parameter == "detector";
 }
 
 // Nodes of both views with drawn parameters, and by how much each detector turned.
@@ -77,11 +78,16 @@ void run(const std::array<std::string, 4>& files, int first, int count, std::siz
     const Moved moved = draw(truth, sample, spread);
     std::mt19937 stream{unsigned(100000 + sample)};
     std::normal_distribution<double> normal(0, 1);
+    // The breast lies otherwise in both mammograms than in the chain's images.
+    const double lies = prior("repositioning", spread);
+    const std::array<Vec2, 2> shifted{lies * Vec2(normal(stream), normal(stream)),
+                                      lies * Vec2(normal(stream), normal(stream))};
     for (const int e : chosen) {
       const auto place = [&](std::size_t v) {
         const HexMesh& mesh = truth.views[v];
-        return seen(element_position(mesh, moved.points[v], e, Vec3::Zero()), centre[v], *frames[v],
-                    mesh.side, moved.turned[v]);
+        const Vec2 at = seen(element_position(mesh, moved.points[v], e, Vec3::Zero()), centre[v],
+                             *frames[v], mesh.side, moved.turned[v]);
+        return Vec2(at + shifted[v]);
       };
       const Vec2 error(normal(stream), normal(stream));
       const MatchedCurve curve = matcher.match(place(0) + prior("picking", spread) * error);

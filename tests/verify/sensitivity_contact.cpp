@@ -58,6 +58,10 @@ Inputs changed(Inputs in, const Parameter& parameter, double by) {
       in.plates.paddle.edge_start += by;
       in.plates.detector.edge_start += by;
       break;
+    case ParameterKind::detector:
+      in.plates.paddle.level -= by;
+      in.plates.detector.level -= by;
+      break;
     case ParameterKind::angle:
       in.plates = turned(in.plates, in.mesh.side, in.mesh.contact->angle_deg, by);
       break;
@@ -138,7 +142,7 @@ TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
   EXPECT_GE(chain.contacts(), 10u);
   const auto picked =
       pick_parameters(all_parameters(mesh, in.options, in.imaged_gravity),
-                      "fat,skin,density,gravity_x,imaged_gravity_z,thickness,standoff,angle");
+                      "fat,skin,density,gravity_x,imaged_gravity_z,thickness,standoff,detector,angle");
   const std::vector<Response> responses = chain.tangent(picked);
   const Landmark& landmark = mesh.landmarks.back();
   const LandmarkGradient adjoint = chain.adjoint(landmark, picked);
