@@ -14,9 +14,11 @@ endif
 # ---- the case -----------------------------------------------------------------------------------------
 # MR: scan file or DICOM folder; empty runs the phantom PRESET. SIDE: left or right. SERIES: of a DICOM
 # folder with several. CHEST_WALL: corrected label map or clicked points. CASE: name of the run's folder.
-# Breasts of these presets slide on their rib cage; the others are held, as in the paper, whose tables and figures are theirs.
+# Breasts of these presets slide on their rib cage; the others are held, as in the paper, whose tables, figures and studies are
+# theirs: these targets take the phantom `paper` unless told otherwise.
 sliding_presets := average slim broad heavy
-paper_goals := $(filter tables table% fig% findings calibrate validation,$(MAKECMDGOALS))
+paper_goals := $(filter all tables table% fig4 fig5 fig6 fig7 findings verify report validation calibrate truth matching band \
+  band-check band-truth budget leaveout wall-sensitivity cost compare stability%,$(MAKECMDGOALS))
 PRESET ?= $(if $(PAPER)$(paper_goals),paper,average)
 SIDE ?= left
 scan_endings := .nii.gz .nii .nrrd .nhdr .mha .mhd .vtkhdf
@@ -56,7 +58,8 @@ ifdef PAPER
 else
   HEXMESH_OPTIONS ?= --elements $(ELEMENTS)
   MECHANICS ?= --materials $(MATERIALS) $(addprefix --element ,$(ELEMENT))
-  COMPRESS_OPTIONS ?=
+  # Soft tissue that slides lies limp between plates that stand far in front of the chest wall.
+  COMPRESS_OPTIONS ?= $(if $(filter invivo,$(MATERIALS)),--standoff 5 --edge-radius 5)
 endif
 # Parts of the model to do without: no-skin no-gland no-backward no-gravity-in-compression (what each is worth: leaveout).
 LEAVE_OUT ?=

@@ -1,9 +1,12 @@
 #include "calibration/softness.hpp"
 
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "contact/compression.hpp"
 #include "core/error.hpp"
+#include "core/table.hpp"
 #include "core/units.hpp"
 #include "evaluation/posture_motion.hpp"
 #include "mechanics/mechanics.hpp"
@@ -100,11 +103,11 @@ std::optional<std::vector<double>> model(const MaterialSet& materials, const Sof
   return sum;
 }
 
-// To three digits: the data do not know more, and a set is read by people.
-double rounded(double value) {
-  if (value == 0) return 0;
-  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
-  return std::round(value / unit) * unit;
+// The data do not know more, and a set is read by people.
+double rounded(double value, int digits = 3) {
+  std::ostringstream text;
+  text << std::setprecision(digits) << value;
+  return parse_number(text.str(), "calibration");
 }
 
 Softness rounded(const Softness& s) {
@@ -161,6 +164,8 @@ SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& da
   for (std::size_t k = 0; k < out.wanted.size(); ++k)
     out.found.push_back(out.wanted[k].mean + out.fit.residuals[Eigen::Index(k)] * out.wanted[k].sd);
   out.materials = softened(base, out.softness);
+  for (Law& law : out.materials.laws)
+    for (double& constant : law.constants) constant = rounded(constant, 5);
   for (const char* name : Softness::names()) out.materials.uncertainty.parameters.push_back(name);
   out.materials.uncertainty.covariance = rounded(out.fit.covariance);
   return out;
