@@ -92,7 +92,7 @@ $(RUN)/truth-cut-fixed.tsv: $(TRUTH) $(RUN)/mesh.vtkhdf $(RUN)/reference-cut-fix
 endif
 
 $(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(RUN)/cut.tsv \
-  $(if $(TRUTH),$(RUN)/truth.tsv $(RUN)/truth-cut-fixed.tsv) $(FIGURES) pipelines/summary.sh pipelines/values.sh \
+  $(if $(TRUTH),$(RUN)/truth.tsv $(if $(filter $(sliding_presets),$(PRESET)),,$(RUN)/truth-cut-fixed.tsv)) $(FIGURES) pipelines/summary.sh pipelines/values.sh \
   pipelines/warnings.sh pipelines/advice.tsv
 	@pipelines/summary.sh $(RUN) $(if $(TRUTH),$(PHANTOM_MR:.nrrd=.json)) > $@.part
 	@mv $@.part $@

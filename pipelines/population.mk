@@ -35,6 +35,7 @@ population_compare = $(POPULATION_TOOL) $(patsubst %,$(POPULATION_RUNS)/%/supine
 population: $(patsubst %,$(POPULATION_RUNS)/%/supine.vtkhdf,$(population_calibration) $(population_judging)) $(POPULATION_TOOL)
 	$(call population_compare,$(population_calibration) $(population_judging),cohort)
 	$(call population_compare,$(population_judging),judging)
+	gnuplot -e "table='$(POPULATION_RUNS)/judging.tsv'; picture='$(POPULATION_RUNS)/motion.png'" pipelines/population.gp
 	@cat $(POPULATION_RUNS)/judging.tsv
 
 # The breast that is pressed is the phantom large, as held in the paper's mode.

@@ -31,16 +31,18 @@ echo "Landmark displacements (mm)"
 columns "$run/displacements.tsv"
 [ -z "${CALIBRATED:-}" ] || "$(dirname "$0")/calibration.sh" note $CALIBRATED | fold -s -w 118 | sed '1s/^/  supine: /; 2,$s/^/  /'
 echo
-echo "Held instead of free lateral cut, supine (relative: distance to the free one, mm)"
+echo "With the lateral cut held instead, supine (relative: distance to the case as solved, mm)"
 columns "$run/cut.tsv"
 if [ -s "$run/truth.tsv" ]; then
   bound=$(key "$truth_report" error_estimate_mm) || true
   echo
   echo "Error against the phantom's truth (mm). The truth's own error is $(rounded 3 "$bound") mm; smaller errors are not"
-  echo "claimed. The truth holds the lateral cut; points are the phantom's, found in the chain's mesh."
+  echo "claimed. Points are the phantom's, found in the chain's mesh."
   columns "$run/truth.tsv"
+fi
+if [ -s "$run/truth-cut-fixed.tsv" ]; then
   echo
-  echo "The same with the cut held in the chain too (mean and largest)"
+  echo "The same with the cut held in the chain, as it is in the truth (mean and largest)"
   sed -n '1p;/^mean/p;/^largest/p' "$run/truth-cut-fixed.tsv" > "$run/.truth-cut-fixed.part"
   columns "$run/.truth-cut-fixed.part"
   rm -f "$run/.truth-cut-fixed.part"
