@@ -22,6 +22,20 @@ Segmentation run(const Volume<float>& scan) {
   return segment_breast(scan, {}, no_progress(), timer);
 }
 
+/// Highest voxel labelled breast, patient z (mm).
+double cranial_end(const LabelVolume& labels) {
+  double end = -1e9;
+  for (int k = 0; k < labels.grid.size[2]; ++k) {
+    for (int j = 0; j < labels.grid.size[1]; ++j) {
+      for (int i = 0; i < labels.grid.size[0]; ++i) {
+        if (is_breast(Tissue(labels.tissue[labels.grid.offset(i, j, k)])))
+          end = std::max(end, labels.grid.to_patient(Vec3(i, j, k))[2]);
+      }
+    }
+  }
+  return end;
+}
+
 /// Mean and largest distance (mm) along the columns from the truth to the first muscle, of columns
 /// between 70 and 120 mm left of the midline, clear of the neck, and above `from`.
 std::array<double, 2> wall_error(const LabelVolume& labels, const SyntheticScan& truth,
@@ -53,6 +67,16 @@ TEST(Neck, ChestWallAboveTheSternalNotch) {
   const auto [mean, most] = wall_error(result.labels, truth, 60);
   EXPECT_LT(mean, 1.5);
   EXPECT_LT(most, 6);
+}
+
+/// Covered 24 mm thick up to the clavicle, where a breast elsewhere ends at 16 mm.
+TEST(Neck, BreastEndsBelowAThickUpperChest) {
+  ScanWithNeck truth;
+  truth.cover = 24;
+  const Segmentation result = run(truth.image());
+  EXPECT_GT(cranial_end(result.labels), SyntheticScan::radius - 15);
+  EXPECT_LT(cranial_end(result.labels), SyntheticScan::radius + 22);
+  EXPECT_LT(wall_error(result.labels, truth, 60)[0], 2);
 }
 
 }  // namespace
