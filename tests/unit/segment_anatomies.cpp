@@ -22,6 +22,12 @@ Segmentation run(const Volume<float>& scan) {
   return segment_breast(scan, {}, no_progress(), timer);
 }
 
+bool doubted(const Segmentation& result, const std::string& words) {
+  return std::any_of(result.doubts.begin(), result.doubts.end(), [&](const std::string& doubt) {
+    return doubt.find(words) != std::string::npos;
+  });
+}
+
 /// Highest voxel labelled breast, patient z (mm).
 double cranial_end(const LabelVolume& labels) {
   double end = -1e9;
@@ -77,6 +83,79 @@ TEST(Neck, BreastEndsBelowAThickUpperChest) {
   EXPECT_GT(cranial_end(result.labels), SyntheticScan::radius - 15);
   EXPECT_LT(cranial_end(result.labels), SyntheticScan::radius + 22);
   EXPECT_LT(wall_error(result.labels, truth, 60)[0], 2);
+}
+
+struct Judged {
+  double dice = 0;  ///< of the breast, with that of the unchanged scan
+  bool flagged = false;
+  std::string refusal;
+};
+
+Judged judged(const Volume<float>& scan, const Segmentation& base) {
+  Judged found;
+  try {
+    const Segmentation result = run(scan);
+    found.dice = compare_labels(result.labels, base.labels).breast.dice;
+    found.flagged = !result.doubts.empty();
+    for (const StageQuality& quality : quality_of(result))
+      found.flagged |= quality.score < least_quality;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2) << error.what();
+    found.refusal = error.what();
+    EXPECT_EQ(found.refusal.find('\n'), std::string::npos);
+  }
+  return found;
+}
+
+void expect_right_or_said(const Volume<float>& scan, const Segmentation& base,
+                          const std::string& what) {
+  const Judged found = judged(scan, base);
+  EXPECT_TRUE(found.dice > 0.93 || found.flagged || !found.refusal.empty())
+      << what << ": breast Dice " << found.dice << " and nothing said";
+}
+
+/// A bag of silicone or salt water, 40 mm across and 28 deep to either side, 10 mm before the wall.
+TEST(Implant, IsSaidWhateverItsBrightness) {
+  SyntheticScan truth;
+  truth.gland_scale = 0.25;
+  EXPECT_FALSE(doubted(run(truth.image()), "implant"));
+  const Vec3 centre(truth.half_width, truth.wall(truth.half_width, 0) - 38, 0);
+  for (const double brightness : {0.06, 0.2, 0.45}) {
+    const Volume<float> scan = truth.image_of([&](const Vec3& p) {
+      const Vec3 d = p - centre;
+      const bool inside = std::hypot(d[0] / 40, d[1] / 28, d[2] / 40) < 1;
+      return inside ? brightness : truth.signal(p);
+    });
+    EXPECT_TRUE(doubted(run(scan), "an implant")) << brightness << " of the brightness of fat";
+  }
+}
+
+/// An arm of fat about muscle: clear of the breast it is left out, touching it is left out or said.
+TEST(Arm, IsLeftOutOrSaid) {
+  const SyntheticScan truth;
+  const Segmentation base = run(truth.image());
+  struct Arm {
+    double x, y, radius;
+  };
+  for (const Arm& arm : {Arm{128, 0, 24}, Arm{128, -25, 30}, Arm{135, -60, 20}, Arm{0, -20, 25}}) {
+    const auto scan = truth.image_of([&](const Vec3& p) {
+      const double signal = truth.signal(p), off = std::hypot(p[0] - arm.x, p[1] - arm.y);
+      return signal > 0 || off > arm.radius ? signal : off > arm.radius - 8 ? 1.0 : 0.35;
+    });
+    expect_right_or_said(scan, base, message("arm at ", arm.x, ", ", arm.y));
+  }
+}
+
+/// A bridge of skin folds between the breasts closes a handle round the cleft: the body's surface
+/// is no longer a disc.
+TEST(Handle, BreastsThatTouchAreRightOrSaid) {
+  const SyntheticScan truth;
+  const Segmentation base = run(truth.image());
+  const auto scan = truth.image_of([&](const Vec3& p) {
+    const bool bridge = std::abs(p[0]) < 40 && std::hypot(p[1] + 20, p[2]) < 12;
+    return bridge && truth.signal(p) == 0 ? 1.0 : truth.signal(p);
+  });
+  expect_right_or_said(scan, base, "bridge between the breasts");
 }
 
 }  // namespace
