@@ -31,7 +31,8 @@ Body find_body(const Volume<float>& scan, Side side);
 struct TorsoFront {
   HeightField skin;           ///< first body voxel from the front
   int midline = 0;            ///< column i of the sternum
-  std::vector<double> cleft;  ///< depth (mm) of the skin over the sternum, per slice
+  std::vector<double> cleft;  ///< depth (mm) of the skin over the sternum, per slice; above its
+                              ///< notch that of the chest, not of the neck
   bool one_breast = false;    ///< the other is not in the field of view
 };
 /// The midline is the skin's mirror column; where one breast alone is in view (less than 270 mm of

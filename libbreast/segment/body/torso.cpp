@@ -119,6 +119,18 @@ std::vector<double> cleft_depth(const HeightField& skin, int midline, const Grid
   return smooth;
 }
 
+/// Above the sternal notch the skin of the midline falls back to the neck, while the chest beside it
+/// does not: nowhere is the sternum taken for deeper than a slope of 0.7 (35 degrees) leads to from
+/// any slice. What is sought relative to it (chest wall, tissue in front of it) would otherwise be
+/// sought behind the chest.
+void bridge_notch(std::vector<double>& cleft, double spacing) {
+  constexpr double steepest = 0.7;
+  for (std::size_t k = 1; k < cleft.size(); ++k)
+    cleft[k] = std::min(cleft[k], cleft[k - 1] + steepest * spacing);
+  for (std::size_t k = cleft.size() - 1; k > 0; --k)
+    cleft[k - 1] = std::min(cleft[k - 1], cleft[k] + steepest * spacing);
+}
+
 /// Mean depth of the skin per column over the slices (mm); `deepest` where a slice has none.
 std::vector<double> mean_profile(const HeightField& skin, double deepest) {
   std::vector<double> profile(skin.nx, 0);
@@ -166,6 +178,7 @@ TorsoFront find_torso(const Mask& body, Side side) {
   torso.cleft = cleft_depth(torso.skin, torso.midline, body.grid);
   if (std::isnan(torso.cleft[0]))
     throw input_error("no skin over the sternum: is the midline in the scan?");
+  bridge_notch(torso.cleft, body.grid.spacing[2]);
   return torso;
 }
 

@@ -101,6 +101,41 @@ std::array<int, 2> thickest_column(const Thickness& thickness, const WallDomain&
   return place;
 }
 
+/// Thickness of a column's neighbourhood (6 mm across and along); NaN without any.
+double mean_thickness(const HeightField& thickness, const Grid& grid, int i, int k) {
+  const int across = std::max(1, int(6 / grid.spacing[0])), along = int(6 / grid.spacing[2]);
+  double sum = 0, count = 0;
+  for (int c = std::max(k - along, 0); c <= std::min(k + along, grid.size[2] - 1); ++c) {
+    for (int a = std::max(i - across, 0); a <= std::min(i + across, grid.size[0] - 1); ++a) {
+      if (std::isnan(thickness.at(a, c))) continue;
+      sum += thickness.at(a, c);
+      count += 1;
+    }
+  }
+  return count > 0 ? sum / count : nan;
+}
+
+/// Up to the clavicle the chest may be covered more thickly than where a breast ends below and
+/// beside. Cranial of the thickest column a breast ends, as its fitted rim does, where tissue below
+/// half of its greatest thickness thins by less than 15 degrees, when it runs on so for `reach`.
+void end_cranially(std::vector<std::uint8_t>& columns, const HeightField& thickness,
+                   const Grid& grid, double greatest, int thick_k) {
+  constexpr double slope = 0.268, reach = 30;  // tan 15 degrees; mm
+  const int nx = grid.size[0], nz = grid.size[2], ahead = int(std::ceil(reach / grid.spacing[2]));
+  for (int i = 0; i < nx; ++i) {
+    for (int k = thick_k + 1; k + ahead < nz; ++k) {
+      const double here = mean_thickness(thickness, grid, i, k);
+      if (!columns[std::size_t(k) * nx + i] || !columns[std::size_t(k + ahead) * nx + i] ||
+          !(here < 0.5 * greatest) ||
+          !(here - mean_thickness(thickness, grid, i, k + ahead) <
+            slope * ahead * grid.spacing[2]))
+        continue;
+      for (int c = k; c < nz; ++c) columns[std::size_t(c) * nx + i] = 0;
+      break;
+    }
+  }
+}
+
 }  // namespace
 
 BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const TorsoFront& torso,
@@ -136,6 +171,7 @@ BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const 
     throw input_error("the chest wall behind the ", side_name(side),
                       " breast was not found: give --chest-wall");
   }
+  end_cranially(extent.columns, thickness, grid, measured.normal.at(thick_i, thick_k), thick_k);
   tidy(extent.columns, grid, thick_i, thick_k);
   for (int k = 0; k < nz; ++k) {
     for (int i = 0; i < nx; ++i) {
