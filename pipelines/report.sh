@@ -67,7 +67,7 @@ figure { margin: 1em 0 } img { max-width: 100% } figcaption { font-size: 13px; c
 <h1>Breast deformation: case $name</h1>
 <p>From a prone MR scan to the stress-free, supine and compressed shapes, two simulated mammograms and the CC&rarr;MLO curve,
 after Pathmanathan, Gavaghan, Whiteley, Chapman and Brady, IEEE Trans Biomed Eng 55(10), 2008. Made $(date -u '+%Y-%m-%d %H:%M UTC')
-with $("$bin/probe" --version 2>/dev/null | sed -n 1p), BLAS $(key "$run/reference.json" blas), $(nproc) cores ($(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)).</p>
+with $("$bin/probe" --version 2>/dev/null | sed -n 1p), BLAS $(key "$run/reference.json" blas | escape), $(nproc) cores ($(sed -n '/^model name[^:]*: /{s///p;q}' /proc/cpuinfo | escape)).</p>
 HTML
 "$here/warnings.sh" "$run" | escape | awk -F'\t' '
   { text = text "<li><b>" $1 "</b>: " $2 ($3 != "-" ? "<br>&rarr; " $3 : "") "</li>\n" }
@@ -92,8 +92,8 @@ for view in cc mlo; do
   printf '<tr><td>%s' "${view^^}"
   for name in status thickness_mm reduction_percent force_N detector_force_N pressure_kPa area_cm2 newton_iterations error_estimate_mm; do
     value=$(key "$run/$view.json" $name)
-    case "$value" in *[0-9].*) value=$(printf '%.4g' "$value") ;; esac
-    printf '<td>%s' "${value:--}"
+    case "$value" in *[!-+.0-9e]*) ;; *[0-9].*) value=$(printf '%.4g' "$value") ;; esac
+    printf '<td>%s' "$(escaped "${value:--}")"
   done
   printf '</tr>\n'
 done

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -75,13 +76,21 @@ void write_through(const fs::path& target, std::string_view bytes) {
   }
 }
 
-// A file system that took every byte and kept fewer (errno is then EIO).
-bool holds_all(int descriptor, std::size_t bytes) {
+// Reads the file back: a file system may take every byte and keep fewer, or others (errno is then EIO).
+bool holds(int descriptor, std::string_view bytes) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0) return false;
-  const bool all = std::size_t(status.st_size) == bytes;
-  if (!all) errno = EIO;
-  return all;
+  bool same = std::size_t(status.st_size) == bytes.size();
+  std::string piece(std::min(bytes.size(), std::size_t(1) << 20), '\0');
+  for (std::size_t at = 0; same && at < bytes.size();) {
+    const ssize_t now = ::pread(descriptor, piece.data(), piece.size(), off_t(at));
+    if (now < 0 && errno == EINTR) continue;
+    if (now < 0) return false;
+    same = now > 0 && bytes.substr(at, std::size_t(now)) == std::string_view(piece).substr(0, std::size_t(now));
+    at += std::size_t(now);
+  }
+  if (!same) errno = EIO;
+  return same;
 }
 
 // So that the rename itself survives a power failure; a file system that cannot do it is no reason
@@ -114,11 +123,11 @@ void write_bytes(const fs::path& target, std::string_view bytes) {
   const fs::path part = part_of(target);
   std::error_code ignored;
   fs::remove(part, ignored);
-  Descriptor file(part, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
+  Descriptor file(part, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW);
   const bool opened = bool(file);
   const std::size_t done = opened ? write_all(file.id(), bytes) : 0;
   const bool whole = opened && done == bytes.size() && fsync(file.id()) == 0 &&
-                     holds_all(file.id(), bytes.size()) && file.close();
+                     holds(file.id(), bytes) && file.close();
   if (!whole || std::rename(part.c_str(), target.c_str()) != 0) {
     const Error error = cannot_write(target, done, bytes.size());
     if (opened) fs::remove(part, ignored);

@@ -9,7 +9,7 @@
 namespace breast {
 
 /// The one way out for every file: writes `bytes` beside the target as `.NAME.part-PID`, every write
-/// checked, flushed to the disk, then renamed onto it; whatever fails, the target keeps what it held
+/// checked, flushed to the disk, read back and compared, then renamed onto it; whatever fails, the target keeps what it held
 /// and the part is removed. A target that is no regular file (/dev/null, a pipe) or is a stream of
 /// this process (/dev/stdout) is written through instead. Throws Error (failed) naming the target,
 /// the bytes written and the system's reason.

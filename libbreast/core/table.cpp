@@ -33,8 +33,26 @@ void refuse_non_finite(const std::string& cell, const std::string& where) {
 }
 std::string join_tabs(const std::vector<std::string>& cells) {
   std::string line;
-  for (const std::string& cell : cells) line += (line.empty() ? "" : "\t") + cell;
+  for (std::size_t c = 0; c < cells.size(); ++c) line += (c == 0 ? "" : "\t") + cells[c];
   return line + "\n";
+}
+// What is read from `text` must be the table: a tab or line break in a name, or a name that begins with '#', would
+// otherwise move or drop cells without a word.
+void check_reads_back(const Table& table, const std::string& text) {
+  std::string reason = "its rows or columns change";
+  try {
+    const Table read = parse_table(text, table.name);
+    if (read.columns == table.columns && read.rows == table.rows) return;
+    const auto [ours, theirs] =
+        std::mismatch(table.rows.begin(), table.rows.end(), read.rows.begin(), read.rows.end());
+    if (ours != table.rows.end() && !ours->empty()) {
+      reason = message("row ", ours - table.rows.begin() + 1, ", '", ours->front(), "', reads back as another");
+    }
+  } catch (const Error& error) {
+    reason = error.what();
+  }
+  throw failed_error(table.name, ": cannot be written as tab-separated text (", reason,
+                     "): names in a table must not hold tabs or line breaks, nor begin a row with #");
 }
 }  // namespace
 
@@ -75,6 +93,7 @@ Vec3 Table::point(std::size_t row, const std::string& prefix) const {
 std::string Table::text() const {
   std::string out = join_tabs(columns);
   for (const auto& row : rows) out += join_tabs(row);
+  check_reads_back(*this, out);
   return out;
 }
 

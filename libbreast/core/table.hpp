@@ -25,7 +25,7 @@ struct Table {
   double number(std::size_t row, const std::string& column) const;
   /// The numbers of the columns PREFIXx_mm, PREFIXy_mm and PREFIXz_mm (or without _mm), mm.
   Vec3 point(std::size_t row, const std::string& prefix) const;
-  std::string text() const;
+  std::string text() const;  ///< throws Error (failed) naming the row that would read back as another
   std::string closed_text() const;  ///< text() and the line "# rows N", as in every file we write
 };
 /// Lines starting with '#' are comments; "# rows N" closes a table of ours and N is checked, so

@@ -50,6 +50,7 @@ inline const std::vector<Case>& cases() {
       {"evaluate", "evaluate labels.vtkhdf labels.vtkhdf", 4},
       {"evaluate_nrrd", "evaluate labels.vtkhdf labels.nrrd", 4},
       {"laws", "laws seed2008"},
+      {"population", "population supine.vtkhdf --table out.tsv --summary out.mean.tsv"},
       {"render_mammogram", "render cc.vti mlo.vti curve.vtp --figure mammogram -o out.png", 12},
       {"render_mesh", "render mesh.vtkhdf --figure mesh -o out.png", 0},
       {"truth_table", "truth-table landmarks.tsv out.tsv cc.vtkhdf fine_cc.vtkhdf"},
@@ -58,6 +59,12 @@ inline const std::vector<Case>& cases() {
       {"calibrate", "calibrate --preset small --evaluations 4", 0},
   };
   return list;
+}
+
+/// The words of a line, the tool's name first.
+inline std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream in(line);
+  return {std::istream_iterator<std::string>(in), {}};
 }
 
 /// Writes what the cases read.
@@ -107,6 +114,10 @@ inline void write_more_inputs(const std::filesystem::path& folder) {
   Volume<std::uint8_t> tiny(grid);
   for (std::size_t v = 0; v < tiny.voxels.size(); ++v) tiny.voxels[v] = std::uint8_t(v % 6);
   for (const char* name : {"tiny.nrrd", "tiny.nii", "tiny.nii.gz", "tiny.mha"}) write_volume(folder / name, tiny);
+  LabelVolume labels;
+  labels.grid = grid;
+  labels.tissue = tiny.voxels;
+  write_labels(folder / "tiny_labels.vtkhdf", labels);
   Volume<std::int16_t> slices(grid);
   std::copy(tiny.voxels.begin(), tiny.voxels.end(), slices.voxels.begin());
   write_dicom_series(folder / "tiny_series", slices, "T1");

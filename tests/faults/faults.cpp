@@ -4,16 +4,17 @@
 //   faults                                  output calls and a few allocations of the quick tools
 //   BREAST_FAULT_ALLOCATIONS=200 faults     as many allocations a tool, every output call in both ways, all tools
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include <cstdlib>
-#include <map>
+#include <functional>
 #include <random>
 #include <set>
 
 #include "core/atomic_file.hpp"
-#include "core/report.hpp"
-#include "core/table.hpp"
 #include "faults/cases.hpp"
+#include "faults/outputs.hpp"
 #include "fixtures/scratch_folder.hpp"
 
 namespace breast::faults {
@@ -29,38 +30,6 @@ int allocations_wanted() {
 }
 bool full() {
   return allocations_wanted() > few_allocations;
-}
-
-using Files = std::map<std::string, std::string>;  ///< path in the folder -> content
-
-Files files_in(const fs::path& folder) {
-  Files list;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) {
-      list[fs::relative(entry.path(), folder).string()] = read_text(entry.path());
-    }
-  }
-  return list;
-}
-
-std::string without_seconds(const fs::path& file) {
-  Table table = read_table(file);
-  for (auto& row : table.rows) {
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      if (table.columns[c] == "seconds") row[c].clear();
-    }
-  }
-  return table.text();
-}
-
-// Meshes and reports state how long they took; what else is in them must be equal.
-bool equal_but_for_time(const fs::path& file, const fs::path& reference) {
-  const std::string ending = file.extension().string();
-  if (read_text(file) == read_text(reference)) return true;
-  if (ending == ".json") return Report::parse(read_text(file), "report").contains("tool");
-  if (ending == ".tsv") return without_seconds(file) == without_seconds(reference);
-  if (ending != ".vtkhdf") return false;
-  return read_mesh(file).content_sha256 == read_mesh(reference).content_sha256;
 }
 
 class Faults : public ::testing::TestWithParam<Case> {
@@ -95,15 +64,17 @@ class Faults : public ::testing::TestWithParam<Case> {
     return line.substr(0, line.find(' '));
   }
   // The case with the `nth` call of that kind failing; nothing fails when `kind` is empty.
-  ToolResult run(const std::string& kind, long nth, const std::string& reason) {
+  ToolResult run(const std::string& kind, long nth, const std::string& reason,
+                 const std::function<void()>& before = [] {}) {
     fs::remove(mark());
     if (!kind.empty()) {
       setenv("BREAST_FAULT", (tool() + ":" + kind + ":" + std::to_string(nth) + reason).c_str(), 1);
       setenv("BREAST_FAULT_MARK", mark().c_str(), 1);
       setenv("LD_PRELOAD", BREAST_SHIM, 1);
     }
-    const ToolResult result =
-        run_line(std::string(GetParam().line) + " --report out.json --threads 1 --quiet", work_.path());
+    std::vector<std::string> words = words_of(std::string(GetParam().line) + " --report out.json --threads 1 --quiet");
+    words.erase(words.begin());
+    const ToolResult result = run_tool(tool(), words, work_.path(), before);
     for (const char* name : {"BREAST_FAULT", "BREAST_FAULT_MARK", "LD_PRELOAD"}) unsetenv(name);
     return result;
   }
@@ -200,6 +171,38 @@ TEST_P(Faults, EveryOutputCallFailsOnce) {
 TEST_P(Faults, LostBytesAreMissed) {
   if (heavy() && !full()) GTEST_SKIP() << "only with BREAST_FAULT_ALLOCATIONS";
   std::printf("%s: %ld lost writes\n", GetParam().name, every_call("loss", "", full() ? 1 : GetParam().stride));
+}
+
+TEST_P(Faults, DamagedBytesAreNoticed) {
+  if (heavy() && !full()) GTEST_SKIP() << "only with BREAST_FAULT_ALLOCATIONS";
+  std::printf("%s: %ld damaged writes\n", GetParam().name, every_call("damage", "", full() ? 1 : GetParam().stride));
+}
+
+// No file may be longer than so many bytes, as on a disk that is full there: 64 lengths from 0 to that of the largest output.
+// What the tool says comes through a pipe, which has no such limit.
+TEST_P(Faults, DiskFullAtAnyByte) {
+  std::uintmax_t largest = 0;
+  for (const auto& [name, content] : files_in(reference_.path())) largest = std::max<std::uintmax_t>(largest, content.size());
+  const int counts = full() ? 64 : heavy() ? 1 : 3;
+  for (int n = 0; n < counts; ++n) {
+    const rlim_t bytes = largest * rlim_t(n) / rlim_t(counts);
+    int said[2];
+    ASSERT_EQ(pipe2(said, O_CLOEXEC | O_NONBLOCK), 0);
+    ToolResult result = run("", 0, "", [&] {
+      dup2(said[1], STDERR_FILENO);
+      signal(SIGXFSZ, SIG_IGN);
+      const rlimit limit{bytes, bytes};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    });
+    char text[4096];
+    const ssize_t size = read(said[0], text, sizeof text);
+    result.err.assign(text, std::size_t(std::max<ssize_t>(size, 0)));
+    close(said[0]);
+    close(said[1]);
+    EXPECT_EQ(complaint(result), "") << bytes << " of " << largest;
+    clear();
+  }
+  std::printf("%s: full at %d sizes below %ju bytes\n", GetParam().name, counts, largest);
 }
 
 TEST_P(Faults, SampledAllocationsFail) {

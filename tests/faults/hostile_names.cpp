@@ -32,8 +32,7 @@ class HostileNames : public ::testing::TestWithParam<Case> {
   fs::path renamed(const std::string& name) const { return folder_ / (hostile + name); }
   // Words of the case's line; those that name a file of it, with its hostile name and its folder.
   std::vector<std::string> arguments() const {
-    std::istringstream in(GetParam().line);
-    std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
+    std::vector<std::string> words = words_of(GetParam().line);
     for (std::size_t w = 1; w < words.size(); ++w) {
       const bool output = words[w].starts_with("out.") || words[w].starts_with("out-") || words[w] == "out";
       if (output || fs::exists(inputs_->path() / words[w])) words[w] = renamed(words[w]).string();

@@ -3,6 +3,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cstdlib>
+#include <set>
+
 #include "faults/cases.hpp"
 #include "fixtures/scratch_folder.hpp"
 
@@ -12,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr rlim_t kb = 1024, mb = 1024 * kb;
-constexpr unsigned hang_s = 60;
+constexpr unsigned hang_s = 300;
 
 struct Limit {
   const char* name;
@@ -38,12 +41,16 @@ class Limits : public ::testing::TestWithParam<Limit> {
   static inline ScratchFolder* inputs_ = nullptr;
 };
 
+// Every tool; those that take minutes as a whole only with BREAST_FAULT_ALLOCATIONS.
 TEST_P(Limits, EndInOneLine) {
+  const bool full = std::getenv("BREAST_FAULT_ALLOCATIONS") != nullptr;
+  std::set<std::string> tried;
   for (const Case& c : cases()) {
-    std::istringstream in(c.line);
-    std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
+    std::vector<std::string> words = words_of(c.line);
     const std::string tool = words.front();
-    if (c.stride == 0 || c.stride > 5 || !fs::exists(tool_path(tool))) continue;
+    const bool long_one = c.stride == 0 || (c.stride > 5 && tried.contains(tool));
+    if ((long_one && !full) || !fs::exists(tool_path(tool))) continue;
+    tried.insert(tool);
     const ScratchFolder folder;
     for (std::string& word : words) {
       if (fs::exists(inputs_->path() / word)) word = (inputs_->path() / word).string();

@@ -1,10 +1,10 @@
 // Preloaded into a tool by tests/tools/faults.cpp: lets one system call that puts something out, or one
 // allocation, fail. Environment:
 //   BREAST_FAULT       PROGRAM:KIND:N[:ERRNO[+]]  the N-th (from 1) call of that kind in PROGRAM fails with ERRNO;
-//                      with "+" every later one, too. KIND is output, allocation, or loss (the bytes written to a file are
-//                      lost without a word); N = 0 only counts.
+//                      with "+" every later one, too. KIND is output, allocation, loss (the bytes written to a file are
+//                      lost without a word) or damage (one of them arrives as another); N = 0 only counts.
 //   BREAST_FAULT_MARK  file: gets one line "failed CALL" a failure, and at the end "counted N"
-// A program that takes longer than two minutes hangs, and ends by SIGALRM. Counted from main() on, in the program and the processes it forks together. Standard error works always.
+// A program that takes longer than ten minutes hangs, and ends by SIGALRM. Counted from main() on, in the program and the processes it forks together. Standard error works always.
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -30,7 +30,7 @@ void* __libc_memalign(size_t, size_t);
 
 namespace {
 
-enum Kind { nothing, output, allocation, loss };
+enum Kind { nothing, output, allocation, loss, damage };
 
 struct Plan {
   Kind kind = nothing;
@@ -93,7 +93,8 @@ void read_plan() {
   if (sscanf(text, "%255[^:]:%15[^:]:%ld:%d%c", program, kind, &plan.nth, &reason, &plus) < 3) return;
   if (strcmp(program, program_invocation_short_name) != 0) return;
   snprintf(plan.mark, sizeof plan.mark, "%s", file);
-  const Kind wanted = strcmp(kind, "allocation") == 0 ? allocation : strcmp(kind, "loss") == 0 ? loss : output;
+  const auto named = [&](const char* name) { return strcmp(kind, name) == 0; };
+  const Kind wanted = named("allocation") ? allocation : named("loss") ? loss : named("damage") ? damage : output;
   plan.reason = wanted == allocation ? ENOMEM : reason;
   plan.onwards = plus == '+';
   plan.owner = getpid();
@@ -101,7 +102,7 @@ void read_plan() {
   if (shared == MAP_FAILED) return;
   plan.counter = new (shared) std::atomic<long>(0);
   plan.kind = wanted;
-  constexpr unsigned hang_s = 120;
+  constexpr unsigned hang_s = 600;  // of the clock, and the machine may be busy
   alarm(hang_s);
 }
 
@@ -135,6 +136,13 @@ int __libc_start_main(Main main, int argc, char** argv, Main init, void (*fini)(
 ssize_t write(int descriptor, const void* bytes, size_t size) {
   if (counts(descriptor) && fails(output, "write")) return -1;
   if (plan.kind == loss && is_file(descriptor) && fails(loss, "write")) return ssize_t(size);
+  if (plan.kind == damage && size > 0 && is_file(descriptor) && fails(damage, "write")) {
+    // Half of them and one more, so that the rest follows in order.
+    const size_t half = size / 2;
+    const char other = char(static_cast<const char*>(bytes)[half] ^ 1);
+    if (half > 0 && syscall(SYS_write, descriptor, bytes, half) != ssize_t(half)) return -1;
+    return syscall(SYS_write, descriptor, &other, size_t(1)) == 1 ? ssize_t(half + 1) : -1;
+  }
   return syscall(SYS_write, descriptor, bytes, size);
 }
 ssize_t writev(int descriptor, const iovec* pieces, int count) {

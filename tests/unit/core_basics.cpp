@@ -85,6 +85,27 @@ TEST(Tables, CutAtALineEndIsRefused) {
   }
 }
 
+TEST(Tables, WhatWouldReadBackOtherwiseIsNotWritten) {
+  const auto reason = [](const Table& table) {
+    try {
+      table.text();
+      return std::string();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::failed);
+      return std::string(error.what());
+    }
+  };
+  const std::vector<std::string> header{"name", "x_mm"};
+  EXPECT_EQ(reason({header, {{"", "1"}, {"b", ""}}}), "");  // an empty name keeps its column
+  EXPECT_NE(reason({header, {{"a", "1"}, {"b\tc", "2"}}}), "");
+  EXPECT_NE(reason({header, {{"a\nb", "1"}}}), "");
+  EXPECT_NE(reason({header, {{"a", "1\r"}}}), "");
+  EXPECT_NE(reason({header, {{"a", "nan"}}}), "");
+  EXPECT_NE(reason({header, {{"a", "1", "2"}}}), "");
+  EXPECT_NE(reason({header, {{"a", "1"}, {"# rows 1", "2"}}}), "");
+  EXPECT_NE(reason({header, {{"#1", "2"}}}).find("row 1, '#1'"), std::string::npos);
+}
+
 TEST(AtomicFolders, TheLastFileStandsForTheWhole) {
   ScratchFolder scratch;
   const auto target = scratch.path() / "truth";
@@ -176,6 +197,13 @@ TEST(Reports, NestOrderAndNull) {
   EXPECT_THROW(back.number("absent"), Error);
   EXPECT_THROW(Report::parse("{\"status\": ", "r.json"), Error);
   EXPECT_THROW(Report::parse("[1]", "r.json"), Error);
+}
+
+TEST(Reports, DeepNestingIsRefused) {
+  constexpr int deep = 100000;
+  const std::string lists = std::string(deep, '[') + std::string(deep, ']');
+  EXPECT_THROW(Report::parse("{\"a\": " + lists + "}", "r.json"), Error);
+  EXPECT_EQ(Report::parse("{\"a\": [[[1]]]}", "r.json").text("a"), "[[[1]]]");
 }
 
 TEST(Names, TissuesSidesPostures) {
