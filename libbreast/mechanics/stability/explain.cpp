@@ -25,7 +25,7 @@ void note_instability(const Instability& instability, SolveSummary& summary) {
 
 void find_remedy(const HexMesh& mesh, const MechanicsOptions& options, const Stands& stands,
                  SolveSummary& summary) {
-  if (mesh.nodes() > most_nodes_for_remedy) return;
+  if (!options.seek_remedy || mesh.nodes() > most_nodes_for_remedy) return;
   summary.remedy = smallest_remedy(mesh, options, stands, summary.stiffness_factor_needed);
   if (summary.remedy) {
     summary.record.reason +=

@@ -14,7 +14,7 @@ void note_instability(const Instability& instability, SolveSummary& summary);
 
 /// Finds the smallest change that gives a stable answer and adds it to the reason; also whether skin
 /// that wrinkles would do where compressed skin buckles. Solves some twenty times: meshes of more
-/// than `most_nodes_for_remedy` nodes are left without.
+/// than `most_nodes_for_remedy` nodes, and options that do not ask for it, are left without.
 inline constexpr int most_nodes_for_remedy = 30000;
 void find_remedy(const HexMesh& mesh, const MechanicsOptions& options, const Stands& stands,
                  SolveSummary& summary);
