@@ -30,7 +30,8 @@ void declare(Tool& tool, Choices& c) {
       "the imaged shape of these tissues), unstable_equilibrium (a body exists, but would not stay "
       "in the imaged shape), or where the solution method gave up (iteration_limit, "
       "no_admissible_step, folded_element). stiffness_factor_needed is how many times stiffer all "
-      "tissues must be for a stable body.");
+      "tissues must be for a stable body; stability/change and stability/factor are the smallest "
+      "change of tissue, skin, wall or cut alone that gives one, confirmed by solving again.");
   tool.describe(
       "Afterwards the forward problem is solved from the shape found; closure_mm in the report is "
       "the largest distance of its nodes from the imaged shape.");

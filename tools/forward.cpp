@@ -24,7 +24,11 @@ void declare(Tool& tool, Choices& c) {
       "the imaged shape comes back to rounding error.");
   tool.describe(
       "A solve that stops has exit code 3, writes nothing, and gives its reason in the report: "
-      "iteration_limit, no_admissible_step, indefinite_tangent or folded_element.");
+      "unstable_equilibrium (the shape found is in balance, but the breast would not stay in it), "
+      "iteration_limit, no_admissible_step, indefinite_tangent, left_wall_surface or folded_element. "
+      "stability/change and stability/factor are the smallest change of tissue, skin, wall or cut "
+      "alone that gives a stable answer from the same stress-free shape, confirmed by solving "
+      "again.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), equation (5)");
   tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
   tool.output(c.deformed, "DEFORMED.vtkhdf", "the same mesh under gravity");

@@ -54,6 +54,7 @@ MechanicsOptions options_with(const MaterialSet& materials) {
   options.materials = materials;
   options.wall = WallOption(WallKind::slide, {0, *materials.wall_support});
   options.cut = CutOption(Cut::spring, *materials.cut_support);
+  options.seek_remedy = false;  // the search meets sets without a stable answer, and goes on
   return options;
 }
 

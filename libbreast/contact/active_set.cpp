@@ -60,7 +60,7 @@ ContactStep ActiveSet::solve(const PlatePair& plates, State& state, double toler
   ContactStep step;
   System system(*this, state, tolerance);
   if (!system.begin()) {
-    step.stop = NewtonStop::folded;
+    step.stop = system.refusal();
     step.failed_trial = state.x;
     return step;
   }

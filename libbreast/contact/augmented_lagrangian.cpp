@@ -23,7 +23,7 @@ class AugmentedLagrangian::System final : public TangentSystem {
 
   Balance assess(const NewtonResult& so_far) override {
     Balance now;
-    now.residual = now.merit = relative(state_, forces_);
+    now.residual = now.merit = relative(state_, forces_, problem_.constraints_at(state_.x));
     now.converged = now.residual <= tolerance_ &&
                     problem_.volume_residual(forces_) <= volume_tolerance;
     if (!now.converged && int(so_far.iterations.size()) >= owner_.options_.most_iterations) {
@@ -58,20 +58,21 @@ class AugmentedLagrangian::System final : public TangentSystem {
 
  private:
   /// Unbalanced force over that of the plates.
-  double relative(const State& state, const Forces& forces) const {
+  double relative(const State& state, const Forces& forces, const Constraints& held) const {
     double square = 0;
     for (std::size_t c = 0; c < owner_.candidates_.size(); ++c) {
       const double force = owner_.plate_->at(c, state.x).force;
       square += force * force;
     }
-    return problem_.free_norm(state.x, forces) /
+    return Problem::free_norm(held, forces) /
            std::max({std::sqrt(square), problem_.load_norm(), 1e-30});
   }
 
   Appraisal appraise(const State& state, const Forces& forces) const override {
     Eigen::VectorXd gradient = forces.augmented.size() > 0 ? forces.augmented : forces.r;
-    problem_.constraints_at(state.x).project(gradient);
-    const double there = relative(state, forces);
+    const Constraints held = problem_.constraints_at(state.x);
+    held.project(gradient);
+    const double there = relative(state, forces, held);
     return {there, there, along(gradient)};
   }
 
@@ -108,7 +109,7 @@ bool AugmentedLagrangian::equilibrate(State& state, double tolerance, ContactSte
   set_terms();
   System system(*this, state, tolerance);
   if (!system.begin()) {
-    step.stop = NewtonStop::folded;
+    step.stop = system.refusal();
     step.failed_trial = state.x;
     return false;
   }

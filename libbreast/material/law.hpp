@@ -51,9 +51,9 @@ struct SkinBehaviour {
   double smoothing = 0.02;  ///< half the width of the transition, in squared stretches
   double prestretch = 0;  ///< stretch of the skin in the stress-free shape of the body, minus 1
 };
-/// Throws Error (input) for a fraction kept outside 0.001 to 1, a smoothing outside 1e-4 to 0.5, a
-/// pre-stretch outside 0 to 0.5, or less of it than the transition is wide where less than the
-/// whole law is kept: skin at rest would then lie within the transition.
+/// Throws Error (input) unless the fraction kept is 0.001 to 1, the smoothing 1e-4 to 0.5 and the
+/// pre-stretch 0 to 0.5. Skin of which less than the whole law is kept in compression must also be
+/// stretched enough at rest to lie beyond the transition: (1 + pre-stretch)² at least 1 + smoothing.
 void check_skin(const SkinBehaviour& skin, const std::string& where);
 
 /// What is left open by the data a set was found from: covariance of the natural logarithms of

@@ -9,12 +9,11 @@
 #include "mechanics/inverse_system.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/solution.hpp"
+#include "mechanics/stability/explain.hpp"
 
 namespace breast {
 
 namespace {
-
-constexpr double nearly_incompressible = 100;  // κ/μ
 
 class BackwardSolve {
  public:
@@ -30,6 +29,8 @@ class BackwardSolve {
   /// Nodal forces (µN); `start` is the first guess, and where held nodes stay.
   Equilibrium run(const Eigen::VectorXd& load, const Eigen::VectorXd& start);
   Equilibrium run(const Vec3& gravity);
+  /// Whether a body is found at once that stays in the imaged shape.
+  bool stands(const Vec3& gravity) { return stands_under(scene_.gravity_force(gravity)); }
 
  private:
   double clock() const {
@@ -42,6 +43,7 @@ class BackwardSolve {
   /// From `state` to the full load, in parts when need be; the fraction reached.
   double follow(const Eigen::VectorXd& load, State& state);
   bool stays(const State& state);
+  bool stands_under(const Eigen::VectorXd& load);
   void judge_end(const State& state, double reached);
   double stable_part(const Eigen::VectorXd& load, double reached, bool stable);
   void find_needed_stiffness(const Eigen::VectorXd& load);
@@ -96,6 +98,12 @@ bool BackwardSolve::stays(const State& state) {
          inverse_.stable(state, nearly_incompressible);
 }
 
+bool BackwardSolve::stands_under(const Eigen::VectorXd& load) {
+  loaded_.set_load(load);
+  State trial = guess(imaged_);
+  return solve(trial).converged && stays(trial);
+}
+
 // Newton's direction always lowers the residual unless ∂R/∂X is singular: where the path of
 // solutions stops for want of a step or of a direction, it ends. Short of any load it may be that
 // steps were too long.
@@ -117,13 +125,14 @@ void BackwardSolve::judge_end(const State& state, double reached) {
     }
   } else if (!found_.stable) {
     record.status = SolveStatus::unstable;
-    found_.reason_id = "unstable_equilibrium";
+    found_.reason_id = unstable_equilibrium;
     record.reason =
         "unstable equilibrium: the body found is in balance in the imaged shape but would not stay "
         "in it";
   } else {
     record.status = SolveStatus::converged;
   }
+  if (!found_.stable && !fail_fast_) note_instability(inverse_.instability(state), found_);
 }
 
 // Stiffnesses times s under the full load are the same problem as part 1/s of the load: the largest
@@ -133,9 +142,7 @@ double BackwardSolve::stable_part(const Eigen::VectorXd& load, double reached, b
   double low = 0, high = reached;
   for (int i = 0; i < 7 && high > 1.1 * low; ++i) {
     const double part = low > 0 ? std::sqrt(low * high) : 0.4 * high;
-    loaded_.set_load(part * load);
-    State trial = guess(imaged_);
-    (solve(trial).converged && stays(trial) ? low : high) = part;
+    (stands_under(part * load) ? low : high) = part;
   }
   return low;
 }
@@ -147,7 +154,7 @@ void BackwardSolve::find_needed_stiffness(const Eigen::VectorXd& load) {
   static_cast<SolveSummary&>(found_) = std::move(summary);
   if (!(part > 0)) return;
   found_.stiffness_factor_needed = 1 / part;
-  found_.record.reason += message("; stiffnesses ", std::ceil(100 / part) / 100,
+  found_.record.reason += message("; stiffnesses and supports all ", std::ceil(100 / part) / 100,
                                   " times as large would give a stable body");
 }
 
@@ -171,7 +178,12 @@ Equilibrium BackwardSolve::run(const Vec3& gravity) {
   const double reached = follow(load, state);
   judge_end(state, reached);
   if (fail_fast_ && !found_.converged()) return found_;
-  if (!found_.converged()) find_needed_stiffness(load);
+  if (!found_.converged()) {
+    find_needed_stiffness(load);
+    find_remedy(scene_.mesh(), scene_.options(), [&](const MechanicsOptions& changed) {
+      return BackwardSolve(scene_.mesh(), changed, false, no_progress()).stands(gravity);
+    }, found_);
+  }
   return finish(state);
 }
 

@@ -9,6 +9,7 @@
 #include "core/report.hpp"
 #include "mechanics/pressure_filter.hpp"
 #include "mechanics/skin_state.hpp"
+#include "mechanics/stability/remedy.hpp"
 #include "mesh/hex_mesh.hpp"
 
 namespace breast {
@@ -18,13 +19,19 @@ struct SolveSummary {
   SolveRecord record;
   /// Why there is no usable answer, as a stable identifier: one of NewtonStop's, or of backward
   /// "no_stress_free_body" (the solutions end before the full load: no body that gravity deforms
-  /// into the imaged shape was found to exist) and "unstable_equilibrium" (one exists, but would
-  /// not stay in that shape), or of compress (contact/failure.hpp). Empty when converged.
+  /// into the imaged shape was found to exist), of backward and forward "unstable_equilibrium" (the
+  /// shape is in balance but would not stay), or of compress (contact/failure.hpp). Empty when
+  /// converged.
   std::string reason_id;
   double load_reached = 1;  ///< fraction of the load up to which solutions were found
   /// Backward, unstable or without a body: stiffnesses times this would give a stable answer (upper
   /// bound, to 10 %); 0 when not known.
   double stiffness_factor_needed = 0;
+  /// Backward and forward without a stable answer: the smallest change found that gives one.
+  std::optional<Remedy> remedy;
+  /// Of an unstable equilibrium: the skin's share, 0 to 1, of what lowers the energy along the
+  /// lowest mode of the tangent.
+  std::optional<double> skin_share;
   int newton_iterations = 0, factorisations = 0, steps = 0;
   int linear_iterations = 0;  ///< of all Newton steps: see SaddleStep, ReferenceStep
   double residual = 0;        ///< relative to the load

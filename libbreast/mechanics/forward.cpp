@@ -1,4 +1,5 @@
 #include <chrono>
+#include <memory>
 
 #include "core/error.hpp"
 #include "mechanics/chosen_solver.hpp"
@@ -6,6 +7,7 @@
 #include "mechanics/mechanics.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"
+#include "mechanics/stability/explain.hpp"
 #include "solve/equilibrate.hpp"
 
 namespace breast {
@@ -21,6 +23,8 @@ class ForwardSolve {
       : mesh_(mesh), scene_(mesh, options), fail_fast_(fail_fast), progress_(progress) {}
 
   Equilibrium run(const Vec3& gravity);
+  /// Whether a stable equilibrium is found at once.
+  bool stands(const Vec3& gravity);
 
  private:
   // What a solve holds beside its state; freed before results are gathered.
@@ -35,7 +39,9 @@ class ForwardSolve {
   }
   EquilibriumResult attempt(Workspace& work, State& state);
   EquilibriumResult follow(Workspace& work, const Eigen::VectorXd& load, State& state);
-  void check_stability(Workspace& work, const State& state);
+  std::unique_ptr<Workspace> workspace(const Eigen::VectorXd& load);
+  bool stays(Workspace& work, const State& state);
+  void judge(Workspace& work, const State& state);
   void estimate(Workspace& work, const State& state, const Vec3& gravity);
 
   const HexMesh& mesh_;
@@ -88,21 +94,38 @@ EquilibriumResult ForwardSolve::follow(Workspace& work, const Eigen::VectorXd& l
   return result;
 }
 
-// Whether the equilibrium found is known to be stable, from the last tangent. Where the start was
-// the equilibrium there is no factor of it yet.
-void ForwardSolve::check_stability(Workspace& work, const State& state) {
+// Whether the equilibrium found is known to be stable. The last factor tells, of a state next to it;
+// where that was shifted or there is none yet, a factor of the state itself does. The augmentation
+// that suits a multigrid need not hold what incompressibility holds.
+bool ForwardSolve::stays(Workspace& work, const State& state) {
   Timer::Scope phase(found_.timer, "stability");
-  if (work.solver.factorisations() == 0) {
-    work.solver.factorise(work.matrix, work.loaded.problem.constraints_at(state.x), false);
+  if (work.solver.factorisations() > 0 && work.solver.positive_definite()) return true;
+  Request request;
+  request.matrix = &work.matrix;
+  const auto definite = [&](double augmentation) {
+    request.augmentation = augmentation;
+    const Problem& problem = work.loaded.problem;
+    return problem.evaluate(state, request).valid &&
+           work.solver.factorise(work.matrix, problem.constraints_at(state.x), false).ok &&
+           work.solver.positive_definite();
+  };
+  return definite(0) || (!fail_fast_ && work.solver.kind() == LinearSolver::multigrid &&
+                         definite(nearly_incompressible));
+}
+
+// An unstable equilibrium is no answer.
+void ForwardSolve::judge(Workspace& work, const State& state) {
+  found_.stable = stays(work, state);
+  if (found_.stable) {
+    found_.record.status = SolveStatus::converged;
+    return;
   }
-  found_.stable = work.solver.positive_definite();
-  if (found_.stable) return;
-  if (fail_fast_) {
-    found_.record.status = SolveStatus::not_converged;
-    found_.record.reason = "the equilibrium found is not known to be stable";
-  } else {
-    found_.doubts.push_back(unknown_stability);
-  }
+  found_.record.status = SolveStatus::unstable;
+  found_.reason_id = unstable_equilibrium;
+  found_.record.reason =
+      "unstable equilibrium: the shape found is in balance but the breast would not stay in it";
+  if (fail_fast_) return;
+  note_instability(find_instability(work.loaded.problem, state, work.matrix, work.solver), found_);
 }
 
 void ForwardSolve::estimate(Workspace& work, const State& state, const Vec3& gravity) {
@@ -113,22 +136,34 @@ void ForwardSolve::estimate(Workspace& work, const State& state, const Vec3& gra
                 found_);
 }
 
+std::unique_ptr<ForwardSolve::Workspace> ForwardSolve::workspace(const Eigen::VectorXd& load) {
+  Timer::Scope phase(found_.timer, "ordering");
+  return std::unique_ptr<Workspace>(
+      new Workspace{scene_.problem(load), scene_.solid().space()->make_matrix(),
+                    SaddleSolver(scene_.solid().space()->pattern, scene_.solid().solver())});
+}
+
+bool ForwardSolve::stands(const Vec3& gravity) {
+  const auto work = workspace(scene_.gravity_force(gravity));
+  State state = scene_.at_rest(flatten(mesh_.reference));
+  return attempt(*work, state).converged && stays(*work, state);
+}
+
 Equilibrium ForwardSolve::run(const Vec3& gravity) {
   const Eigen::VectorXd load = scene_.gravity_force(gravity);
   State state = scene_.at_rest(flatten(mesh_.reference));
-  EquilibriumResult result;
-  {
-    Workspace work{scene_.problem(load), scene_.solid().space()->make_matrix(), [&] {
-                     Timer::Scope phase(found_.timer, "ordering");
-                     return SaddleSolver(scene_.solid().space()->pattern, scene_.solid().solver());
-                   }()};
-    result = follow(work, load, state);
-    if (result.converged) found_.record.status = SolveStatus::converged;
-    note_solver(work.solver, work.matrix, found_);
-    if (result.converged) check_stability(work, state);
-    if (found_.converged()) estimate(work, state, gravity);
-  }
+  auto work = workspace(load);
+  const EquilibriumResult result = follow(*work, load, state);
+  note_solver(work->solver, work->matrix, found_);
+  if (result.converged) judge(*work, state);
+  if (found_.converged()) estimate(*work, state, gravity);
+  work.reset();
   if (fail_fast_ && !found_.converged()) return found_;
+  if (!found_.converged()) {
+    find_remedy(mesh_, scene_.options(), [&](const MechanicsOptions& changed) {
+      return ForwardSolve(mesh_, changed, false, no_progress()).stands(gravity);
+    }, found_);
+  }
   if (result.indefinite > 0) {
     found_.doubts.push_back(message("the tangent was indefinite in ", result.indefinite,
                                     " iterations: the breast may buckle"));

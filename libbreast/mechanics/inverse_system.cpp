@@ -186,4 +186,9 @@ bool InverseSolver::stable(const State& state, double augmentation) {
   return stable;
 }
 
+Instability InverseSolver::instability(const State& state) {
+  last_gmres_ = max_gmres;
+  return find_instability(problem_, state, matrix_, solver_);
+}
+
 }  // namespace breast

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/report.hpp"
+#include "mechanics/stability/instability.hpp"
 #include "solve/newton.hpp"
 #include "solve/problem.hpp"
 #include "solve/saddle.hpp"
@@ -23,6 +24,9 @@ class InverseSolver {
   /// Whether the forward tangent at the state is known to be positive definite; `augmentation` is
   /// κ/μ, 0: what suits the linear solver.
   bool stable(const State& state, double augmentation);
+
+  /// What gives way in the forward tangent at the state.
+  Instability instability(const State& state);
 
   const SaddleSolver& solver() const { return solver_; }
   const SaddleMatrix& matrix() const { return matrix_; }

@@ -28,6 +28,9 @@ struct MechanicsOptions {
   CutOption cut = {};
   SolverOption solver = SolverOption::automatic;
   Estimate estimate = Estimate::none;
+  /// Without a stable answer the smallest change that gives one is sought, by some twenty solves: not
+  /// for searches that expect failures.
+  bool seek_remedy = true;
 };
 
 /// The MECHANICS options as texts. Empty: what the material set says of wall, cut and skin.

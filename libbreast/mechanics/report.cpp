@@ -69,6 +69,16 @@ void write_field_checks(const SolveSummary& summary, Report& report) {
   report.set("skin/longest_wrinkle_mm", skin.longest_wrinkle_mm);
 }
 
+// Of a solve without a stable answer: what carries the instability and what would mend it.
+void write_stability(const SolveSummary& summary, Report& report) {
+  if (summary.skin_share) report.set("stability/skin_share_percent", 100 * *summary.skin_share);
+  if (!summary.remedy) return;
+  const Remedy& remedy = *summary.remedy;
+  report.set("stability/change", changed_name(remedy.what));
+  if (remedy.factor > 0) report.set("stability/factor", remedy.factor);
+  if (remedy.support > 0) report.set("stability/support_kPa_per_mm", remedy.support);
+}
+
 }  // namespace
 
 void write_report(const Equilibrium& summary, const HexMesh& mesh, const MechanicsOptions& options,
@@ -82,6 +92,7 @@ void write_report(const Equilibrium& summary, const HexMesh& mesh, const Mechani
   if (summary.stiffness_factor_needed > 0) {
     report.set("stiffness_factor_needed", summary.stiffness_factor_needed);
   }
+  write_stability(summary, report);
   report.set("elements", mesh.elements());
   report.set("unknowns", summary.unknowns);
   report.set("newton_iterations", summary.newton_iterations);

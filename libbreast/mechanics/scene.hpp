@@ -19,7 +19,7 @@
 
 namespace breast {
 
-/// What the options hold wherever the body is: all of the chest wall (pectoral faces) unless it
+/// The constraints of the options that do not depend on where the body is: all of the chest wall (pectoral faces) unless it
 /// slides or rests on springs; the cut fixed, or rolling on its mean normal of the imaged shape.
 Constraints wall_constraints(const HexMesh& mesh, const MechanicsOptions& options);
 
@@ -48,7 +48,7 @@ class Scene {
   const ElasticSupport* cut_springs() const { return cut_springs_.get(); }
   /// Force of all springs on the body, µN.
   Vec3 force_of_springs(const State& state) const;
-  /// What is held wherever the body is.
+  /// The constraints that do not depend on where the body is.
   const Constraints& walls() const { return walls_; }
   int nodes() const { return solid_->space()->nodes(); }
   long unknowns() const;  ///< displacements not held, and pressures

@@ -10,6 +10,11 @@
 
 namespace breast {
 
+/// The reason_id of a shape that is in balance but would not stay.
+inline constexpr const char* unstable_equilibrium = "unstable_equilibrium";
+/// κ/μ that holds volumes nearly as incompressibility does, for judging stability with a multigrid.
+inline constexpr double nearly_incompressible = 100;
+
 /// What a solve says of an end whose tangent is not known to be positive definite.
 inline constexpr const char* unknown_stability =
     "the last tangent is not known to be positive definite: the equilibrium may be unstable";

@@ -69,7 +69,9 @@ class EquilibriumSystem final : public TangentSystem {
 
  private:
   Appraisal appraise(const State& state, const Forces& forces) const override;
-  double residual(const Eigen::VectorXd& x, const Forces& forces) const;
+  double residual(const Constraints& held, const Forces& forces) const {
+    return Problem::free_norm(held, forces) / problem_.load_norm();
+  }
   bool reached(double residual) const;
 
   const NewtonOptions& options_;
@@ -81,10 +83,6 @@ class EquilibriumSystem final : public TangentSystem {
   bool serves_ = false;  // the last factor serves this step too
 };
 
-double EquilibriumSystem::residual(const Eigen::VectorXd& x, const Forces& forces) const {
-  return problem_.free_norm(x, forces) / problem_.load_norm();
-}
-
 bool EquilibriumSystem::reached(double residual) const {
   const double tolerance =
       std::max(options_.tolerance, rounding_force(matrix_, state_.x) / problem_.load_norm());
@@ -95,9 +93,9 @@ bool EquilibriumSystem::reached(double residual) const {
 // The last step's trial has the forces already; a tangent is only made for a factorisation.
 Balance EquilibriumSystem::assess(const NewtonResult& so_far) {
   const int made = int(so_far.iterations.size());
-  if (made == 0 && problem_.restore(state_.x) >= 0) {
+  if (made == 0 && !put_on_surface()) {
     Balance lost;
-    lost.stop = NewtonStop::left_surface;
+    lost.stop = refusal();
     lost.reason = describe(lost.stop);
     return lost;
   }
@@ -116,7 +114,7 @@ Balance EquilibriumSystem::assess(const NewtonResult& so_far) {
       now.reason = message("element ", forces_.bad_element, " is folded at the start");
       return now;
     }
-    now.residual = residual(state_.x, forces_);
+    now.residual = residual(moving_, forces_);
     now.converged = made == 0 && reached(now.residual);
     if (now.converged) return now;
   }
@@ -161,9 +159,10 @@ LineSearchRule EquilibriumSystem::rule(const NewtonResult&, const Balance& now,
 }
 
 Appraisal EquilibriumSystem::appraise(const State& state, const Forces& forces) const {
+  const Constraints held = problem_.constraints_at(state.x);
   Eigen::VectorXd gradient = forces.augmented;
-  problem_.constraints_at(state.x).project(gradient);
-  const double relative = residual(state.x, forces);
+  held.project(gradient);
+  const double relative = residual(held, forces);
   return {relative, relative, along(gradient)};
 }
 
@@ -173,11 +172,16 @@ TangentSystem::TangentSystem(const Problem& problem, SaddleSolver& solver, Saddl
                              State& state)
     : problem_(problem), solver_(solver), matrix_(matrix), state_(state) {}
 
+bool TangentSystem::put_on_surface() {
+  if (problem_.restore(state_.x) < 0) return true;
+  forces_.valid = false;
+  refusal_ = NewtonStop::left_surface;
+  return false;
+}
+
 bool TangentSystem::look() {
-  if (problem_.restore(state_.x) >= 0) {
-    forces_.valid = false;
-    return false;
-  }
+  if (!put_on_surface()) return false;
+  refusal_ = NewtonStop::folded;
   forces_ = problem_.forces(state_, matrix_.kappa.size() > 0 ? &matrix_.kappa : nullptr);
   return forces_.valid;
 }

@@ -37,6 +37,7 @@ class TangentSystem : public NewtonSystem {
 
   std::optional<Trial> attempt(double length) override;
   void accept(Trial trial) override;
+  /// Why the last attempt or look was inadmissible.
   NewtonStop refusal() const override { return refusal_; }
   int folded_element() const override { return problem_.folded_element(state_); }
   const Forces& forces() const { return forces_; }
@@ -46,7 +47,10 @@ class TangentSystem : public NewtonSystem {
  protected:
   /// How a trial compares with the start of the step.
   virtual Appraisal appraise(const State& state, const Forces& forces) const = 0;
-  /// Puts sliding nodes on their surface and evaluates the forces; false: inadmissible.
+  /// Puts sliding nodes on their surface; false: a node lies beyond it.
+  bool put_on_surface();
+  /// Puts sliding nodes on their surface and evaluates the forces; false: inadmissible, for the
+  /// reason that `refusal` then gives.
   bool look();
   /// Assembles the tangent at the present state, with its forces; false: inadmissible.
   bool assemble();

@@ -75,9 +75,9 @@ Constraints Problem::constraints_at(const Eigen::VectorXd& x) const {
   return all;
 }
 
-double Problem::free_norm(const Eigen::VectorXd& x, const Forces& forces) const {
+double Problem::free_norm(const Constraints& held, const Forces& forces) {
   Eigen::VectorXd free = forces.r;
-  constraints_at(x).project(free);
+  held.project(free);
   return free.norm();
 }
 

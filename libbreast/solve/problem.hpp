@@ -26,7 +26,7 @@ class Problem {
   const std::vector<std::shared_ptr<const Term>>& terms() const { return terms_; }
   const Discretisation& space() const { return *space_; }
   const std::shared_ptr<const Discretisation>& shared_space() const { return space_; }
-  /// What is held wherever the body is.
+  /// The constraints that do not depend on where the body is.
   const Constraints& constraints() const { return constraints_; }
   void set_constraints(Constraints constraints) { constraints_ = std::move(constraints); }
   /// Nodes that slide on a surface; null: none.
@@ -50,7 +50,11 @@ class Problem {
   double load_norm() const { return load_norm_; }
   void set_load_norm(double norm) { load_norm_ = norm; }
   /// ‖r‖ over the components that are not held at the positions x, µN.
-  double free_norm(const Eigen::VectorXd& x, const Forces& forces) const;
+  double free_norm(const Eigen::VectorXd& x, const Forces& forces) const {
+    return free_norm(constraints_at(x), forces);
+  }
+  /// The same where the constraints at the positions are known.
+  static double free_norm(const Constraints& held, const Forces& forces);
   /// Worst |θ| of an element over its volume in the imaged shape: zero in a solution, where a
   /// compressible body still has a volume error.
   double volume_residual(const Forces& forces) const;

@@ -15,6 +15,16 @@ constexpr int most_corrections = 12;
 constexpr double on_level = 1e-11, acceptable = 1e-8;
 }  // namespace
 
+Level level_at_wall_node(const LevelSurface& surface, int node, const Vec3& place) {
+  const std::optional<Level> level = surface.at(place);
+  if (!level) {
+    throw input_error("mesh: wall node ", node, " at ", place.transpose(),
+                      " mm lies where the wall surface is not known; fit it again with "
+                      "fit-hermite, or hold the wall");
+  }
+  return *level;
+}
+
 SlidingNodes::SlidingNodes(std::shared_ptr<const LevelSurface> surface, std::vector<int> nodes,
                            const Eigen::VectorXd& imaged)
     : surface_(std::move(surface)) {
@@ -22,13 +32,7 @@ SlidingNodes::SlidingNodes(std::shared_ptr<const LevelSurface> surface, std::vec
   cells_.nodes = std::move(nodes);
   for (const int node : cells_.nodes) {
     const Vec3 place = imaged.segment<3>(3L * node);
-    const std::optional<Level> level = surface_->at(place);
-    if (!level) {
-      throw input_error("mesh: wall node ", node, " at ", place.transpose(),
-                        " mm lies where the wall surface is not known; fit it again with "
-                        "fit-hermite, or hold the wall");
-    }
-    levels_.push_back(level->value);
+    levels_.push_back(level_at_wall_node(*surface_, node, place).value);
   }
 }
 

@@ -16,6 +16,10 @@
 
 namespace breast {
 
+/// The level of a wall node of the imaged shape, at `place` (mm). Throws Error (input) where the
+/// surface is not known there.
+Level level_at_wall_node(const LevelSurface& surface, int node, const Vec3& place);
+
 class SlidingNodes {
  public:
   /// `nodes` ascending; `imaged` (3 a node, mm) gives the levels. Throws Error (input) for a node

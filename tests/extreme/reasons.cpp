@@ -80,6 +80,22 @@ TEST(Reason, UnstableEquilibrium) {
   EXPECT_NEAR(summary.stiffness_factor_needed, 4, 1.3);  // two elements across are too stiff
 }
 
+// Forward of the straight column finds it standing straight, where it would not stay.
+TEST(Reason, ForwardRefusesAnUnstableEquilibrium) {
+  const double critical = critical_modulus();
+  HexMesh mesh = column(2);
+  EXPECT_TRUE(fixtures::forward_into(mesh, down, neo_hookean(2 * critical / 6)).converged());
+  mesh = column(2);
+  const SolveSummary summary = fixtures::forward_into(mesh, down, neo_hookean(0.5 * critical / 6));
+  EXPECT_EQ(summary.record.status, SolveStatus::unstable);
+  EXPECT_EQ(summary.reason_id, "unstable_equilibrium") << summary.record.reason;
+  EXPECT_FALSE(summary.stable);
+  ASSERT_TRUE(summary.remedy);
+  EXPECT_EQ(summary.remedy->what, Changed::tissue);
+  EXPECT_NEAR(summary.remedy->factor, 2, 0.7);
+  EXPECT_FALSE(summary.skin_share.value_or(0) > 0);
+}
+
 // The same with a mesh that multigrid is chosen for: it keeps what stands well, and leaves what
 // falls or hardly stands to a factor. By itself it knows a tenth above the limit of the mesh from a
 // tenth below.

@@ -8,6 +8,7 @@
 #include "contact/augmented_lagrangian.hpp"
 #include "contact/path.hpp"
 #include "core/units.hpp"
+#include "fixtures/level_surfaces.hpp"
 #include "fixtures/wide_plates.hpp"
 #include "solve/line_search.hpp"
 
@@ -163,6 +164,24 @@ PathResult close(PlatePair& plates, ContactSolver& contact, State& state,
   return follow_path(contact, plates, state, target, area, options);
 }
 }  // namespace
+
+// A plate step that begins with a node beyond the wall surface says so, and not that elements fold.
+TEST(ContactMethods, NameANodeBeyondTheWallSurface) {
+  QuadraticBody body(24, 3);
+  auto wall = std::make_shared<fixtures::Sphere>(Vec3(0, 120, 0), 120);
+  wall->reach = 200;
+  body.problem->set_sliding(
+      std::make_shared<SlidingNodes>(wall, std::vector<int>{1, 2}, body.springs->rest));
+  State state = body.start();
+  state.x.segment<3>(6) = Vec3(400, -40, 0);
+  const PlatePair plates = plates_at(-6, 5, 5);
+  ActiveSet active_set = body.active_set();
+  AugmentedLagrangian lagrangian(*body.problem, *body.solver, body.free_nodes(), {});
+  for (ContactSolver* method : std::initializer_list<ContactSolver*>{&active_set, &lagrangian}) {
+    State trial = state;
+    EXPECT_STREQ(stop_name(method->solve(plates, trial, 1e-10).stop), "left_wall_surface");
+  }
+}
 
 TEST(CompressionPath, EndDoesNotDependOnTheSteps) {
   Eigen::VectorXd end[2];

@@ -10,6 +10,7 @@
 #include "solve/krylov/conjugate_gradients.hpp"
 #include "solve/krylov/gmres.hpp"
 #include "solve/krylov/lanczos.hpp"
+#include "solve/krylov/lowest_mode.hpp"
 
 namespace breast {
 namespace {
@@ -98,6 +99,30 @@ TEST(Lanczos, KnowsTheSignOfTheLowestEigenvalue) {
   EXPECT_FALSE(below.positive());
   EXPECT_LT(below.value, 0);
   EXPECT_FALSE(zero.positive());
+}
+
+// Of a map with two negative eigenvalues, with weights and with no more than a rough inverse of it.
+TEST(LowestMode, IsThatOfTheDenseSolver) {
+  const int n = 60;
+  Eigen::VectorXd eigenvalues = Eigen::VectorXd::LinSpaced(n, 1, 80), weight(n), start(n);
+  eigenvalues[0] = -0.3;
+  eigenvalues[1] = -0.1;
+  const Eigen::MatrixXd a = known_spectrum(eigenvalues);
+  for (int i = 0; i < n; ++i) {
+    weight[i] = 2 + fixtures::noise(7 + i);
+    start[i] = fixtures::noise(500 + i);
+  }
+  const Eigen::MatrixXd shifted = a + 2 * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::LLT<Eigen::MatrixXd> factor(shifted);
+  const LowestMode found = lowest_mode(
+      [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return a * v; },
+      [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return factor.solve(v); }, weight, start,
+      1e-12, 100);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(
+      a, Eigen::MatrixXd(weight.asDiagonal()));
+  EXPECT_NEAR(found.value, dense.eigenvalues()[0], 1e-9);
+  EXPECT_NEAR(std::abs(found.mode.dot(weight.cwiseProduct(dense.eigenvectors().col(0)))), 1, 1e-6);
+  EXPECT_LT(found.steps, 40);
 }
 
 }  // namespace

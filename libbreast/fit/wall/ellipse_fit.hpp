@@ -22,7 +22,8 @@ struct Expected {
 };
 
 /// Robust least squares (Cauchy weights) of distances, with expectations that decide what an arc of
-/// data leaves open: half axes 135 ± 15 and 95 ± 15 mm, slope 0 ± 0.3. `weights` one a point.
+/// data leaves open: half axes 135 ± 15 and 95 ± 15 mm, slope 0 ± 0.3. `weights` holds one
+/// weight for each point.
 EllipticCylinder fit_elliptic_cylinder(const std::vector<Vec3>& points,
                                        const std::vector<double>& weights,
                                        const Expected& centre_x);

@@ -4,6 +4,7 @@
 #include "core/units.hpp"
 #include "mesh/nodal.hpp"
 #include "mesh/nodal_faces.hpp"
+#include "solve/sliding_nodes.hpp"
 
 namespace breast {
 
@@ -22,15 +23,11 @@ ElasticSupport::ElasticSupport(const HexMesh& mesh, const std::vector<Face>& fac
     const auto node = std::size_t(cells_.nodes[std::size_t(i)]);
     const double area = spread.area[node] * pascal_per_kilopascal;
     normals_.push_back(spread.vector[node].normalized());
-    const std::optional<Level> at = level(i, mesh.imaged[node]);
-    if (!at) {
-      throw input_error("mesh: wall node ", node, " at ", mesh.imaged[node].transpose(),
-                        " mm lies where the wall surface is not known; fit it again with "
-                        "fit-hermite");
-    }
+    const Vec3& imaged = mesh.imaged[node];
+    const Level at = surface_ ? level_at_wall_node(*surface_, int(node), imaged) : *level(i, imaged);
     along_.push_back(area * stiffness.tangential);
     across_.push_back(area * (stiffness.normal - stiffness.tangential) /
-                      at->gradient.squaredNorm());
+                      at.gradient.squaredNorm());
   }
 }
 

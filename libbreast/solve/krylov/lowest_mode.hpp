@@ -1,0 +1,24 @@
+// The lowest mode of a symmetric map and its eigenvalue, positive or not: the way in which a body in
+// unstable equilibrium moves off.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solve/krylov/gmres.hpp"
+
+namespace breast {
+
+struct LowestMode {
+  Eigen::VectorXd mode;  ///< vᵀ diag(weight) v = 1
+  double value = 0;      ///< vᵀ a v; the lowest eigenvalue is not above it
+  int steps = 0;
+};
+
+/// Of a v = value · diag(weight) v, by conjugate gradients of the Rayleigh quotient (Knyazev 2001,
+/// LOBPCG with one vector), from `start` (not zero), until a step changes the value by less than
+/// `tolerance` of itself or after `most` steps. `p` is symmetric and positive definite and near a⁻¹
+/// of a shifted a; a maps the free part into itself and `p` does; weights are positive.
+LowestMode lowest_mode(const LinearMap& a, const LinearMap& p, const Eigen::VectorXd& weight,
+                       const Eigen::VectorXd& start, double tolerance, int most);
+
+}  // namespace breast
