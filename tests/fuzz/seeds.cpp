@@ -34,9 +34,57 @@ Volume<std::int16_t> volume() {
   return out;
 }
 
+// Small ones: most of what a larger one holds is only hashed.
+LabelVolume labels() {
+  LabelVolume out = samples::labels();
+  out.grid.size = {3, 2, 2};
+  const std::size_t voxels = out.grid.voxels();
+  out.tissue.resize(voxels);
+  out.fibroglandular_fraction.resize(voxels);
+  out.chest_wall_confidence.resize(voxels);
+  return out;
+}
+
+BreastGeometry geometry() {
+  BreastGeometry out = samples::geometry();
+  out.skin = samples::sheet(2, 2, 70);
+  out.wall = samples::sheet(1, 1, 8);
+  const std::size_t rim = out.rim_end.size() / 5;
+  for (auto* line : {&out.rim_skin, &out.rim_wall}) {
+    for (std::size_t i = 0; i < rim; ++i) (*line)[i] = (*line)[5 * i];
+    line->resize(rim);
+  }
+  out.rim_end.resize(rim);
+  return out;
+}
+
+constexpr const char* poly_data = R"(<?xml version="1.0"?>
+<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt32" compressor="vtkZLibDataCompressor">
+  <PolyData>
+    <FieldData>
+      <Array type="String" Name="schema" NumberOfTuples="1" format="ascii">
+        99 117 114 118 101 47 49 0
+      </Array>
+      <DataArray type="Float64" Name="pitch" NumberOfComponents="3" NumberOfTuples="1" format="ascii">1 2 3</DataArray>
+    </FieldData>
+    <Piece NumberOfPoints="2" NumberOfVerts="0" NumberOfLines="1" NumberOfStrips="0" NumberOfPolys="0">
+      <PointData>
+        <DataArray type="Float32" Name="band" format="binary">AQAAAACAAAAIAAAACwAAAA==eJxjYEAAAAAIAAE=</DataArray>
+      </PointData>
+      <Points><DataArray type="Float64" NumberOfComponents="3" format="appended" offset="0"/></Points>
+      <Lines>
+        <DataArray type="Int64" Name="connectivity" format="ascii">0 1</DataArray>
+        <DataArray type="Int64" Name="offsets" format="ascii">2</DataArray>
+      </Lines>
+    </Piece>
+  </PolyData>
+  <AppendedData encoding="raw">_00000000</AppendedData>
+</VTKFile>
+)";
+
 void write_seeds(const std::filesystem::path& folder) {
   for (const char* name : {"nrrd", "nifti", "meta", "dicom", "table", "materials", "report", "mesh",
-                           "labels", "geometry", "results"}) {
+                           "labels", "geometry", "results", "vtk"}) {
     std::filesystem::create_directories(folder / name);
   }
   write_volume(folder / "nrrd/seed.nrrd", volume());
@@ -55,8 +103,9 @@ void write_seeds(const std::filesystem::path& folder) {
   const HexMesh mesh = samples::full_mesh();
   derivatives.position["fat"].assign(mesh.points.size(), Vec3(1, 2, 3));
   write_mesh(folder / "mesh/seed", mesh, derivatives);
-  write_labels(folder / "labels/seed", samples::labels());
-  write_geometry(folder / "geometry/seed", samples::geometry());
+  write_labels(folder / "labels/seed", labels());
+  write_geometry(folder / "geometry/seed", geometry());
+  write_text(folder / "vtk/poly", poly_data);
   write_text(folder / "results/log", "2*Step = 1\n*Time = 1\n*Data = u\n1,0,0,0\n2,0,0,1\n");
   write_text(folder / "results/frd",
              "0    1C\n -4  DISP        4    1\n -1         1 0.0 0.0 0.0\n -3\n");

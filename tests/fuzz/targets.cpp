@@ -19,6 +19,10 @@
 #include "io/hdf5/packed.hpp"
 #include "io/label_file.hpp"
 #include "io/volume/header.hpp"
+#ifdef FUZZ_VTK
+#include "io/vtk/vtk_messages.hpp"
+#include "io/vtk/xml_check.hpp"
+#endif
 #include "material/embedded.hpp"
 #include "material/law.hpp"
 
@@ -74,6 +78,12 @@ std::filesystem::path as_file(const std::string& ending) {
 [[maybe_unused]] void geometry() {
   read_geometry("input");
 }
+#ifdef FUZZ_VTK
+void vtk() {
+  const VtkMessages messages;
+  check_xml(as_file(".vtp"), "PolyData");
+}
+#endif
 [[maybe_unused]] void results() {
   constexpr int nodes = 8;
   const char* const endings[] = {".frd", ".dat", ".log"};
