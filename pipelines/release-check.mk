@@ -1,5 +1,6 @@
-# Before a release: what takes hours. Every program under failing writes and allocations, full disks, damaged files of every
-# format in our own checks (FUZZ_MINUTES in all) and in whole programs under sanitizers (FUZZ_INPUTS a format).
+# Before a release: what takes hours. Every program under failing writes and allocations, small limits, full disks, damaged files
+# of every format in our own checks (100000 inputs a format, and FUZZ_MINUTES more in all) and in whole programs under
+# sanitizers (FUZZ_INPUTS a format).
 FUZZ_MINUTES ?= 240
 FUZZ_INPUTS ?= 2000
 FAULT_ALLOCATIONS ?= 200
@@ -9,11 +10,13 @@ readers := probe evaluate laws export-deck match-lookup segment hexmesh cc2mlo t
 
 .PHONY: release-check faults full-disk whole-tools
 release-check: check faults full-disk whole-tools
+	tests/fuzz/run.sh inputs=100000
 	tests/fuzz/run.sh $(FUZZ_MINUTES)
 
 faults:
-	cmake --build $(BUILD) -j $$(nproc) --target programs tetrahedra tools_faults
+	cmake --build $(BUILD) -j $$(nproc) --target programs tetrahedra tools_faults tools_limits
 	BREAST_FAULT_ALLOCATIONS=$(FAULT_ALLOCATIONS) OPENBLAS_THREAD_TIMEOUT=4 $(BUILD)/tests/tools_faults
+	BREAST_FAULT_ALLOCATIONS=$(FAULT_ALLOCATIONS) OPENBLAS_THREAD_TIMEOUT=4 $(BUILD)/tests/tools_limits
 
 full-disk:
 	cmake --build $(BUILD) -j $$(nproc) --target programs tools_full_disk tools_killed_writer

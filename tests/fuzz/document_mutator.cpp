@@ -36,7 +36,7 @@ void odd_value(std::vector<T>& list, Random& random) {
                      std::numeric_limits<T>::max(), std::numeric_limits<T>::denorm_min(), T(1e6) + 1, -value, value * T(1.5)};
     value = odd[below(random, std::size(odd))];
   } else {
-    const T odd[] = {0, T(-1), 1, 2, std::numeric_limits<T>::max(), std::numeric_limits<T>::min(), T(value + 1), T(value - 1)};
+    const T odd[] = {0, T(-1), 1, 2, std::numeric_limits<T>::max(), std::numeric_limits<T>::min(), T(value ^ 1), T(value / 2)};
     value = odd[below(random, std::size(odd))];
   }
 }

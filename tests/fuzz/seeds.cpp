@@ -34,7 +34,7 @@ Volume<std::int16_t> volume() {
   return out;
 }
 
-// Small ones: most of what a larger one holds is only hashed.
+// A small one: most of what a larger one holds is only hashed.
 LabelVolume labels() {
   LabelVolume out = samples::labels();
   out.grid.size = {3, 2, 2};
@@ -42,19 +42,6 @@ LabelVolume labels() {
   out.tissue.resize(voxels);
   out.fibroglandular_fraction.resize(voxels);
   out.chest_wall_confidence.resize(voxels);
-  return out;
-}
-
-BreastGeometry geometry() {
-  BreastGeometry out = samples::geometry();
-  out.skin = samples::sheet(2, 2, 70);
-  out.wall = samples::sheet(1, 1, 8);
-  const std::size_t rim = out.rim_end.size() / 5;
-  for (auto* line : {&out.rim_skin, &out.rim_wall}) {
-    for (std::size_t i = 0; i < rim; ++i) (*line)[i] = (*line)[5 * i];
-    line->resize(rim);
-  }
-  out.rim_end.resize(rim);
   return out;
 }
 
@@ -104,7 +91,7 @@ void write_seeds(const std::filesystem::path& folder) {
   derivatives.position["fat"].assign(mesh.points.size(), Vec3(1, 2, 3));
   write_mesh(folder / "mesh/seed", mesh, derivatives);
   write_labels(folder / "labels/seed", labels());
-  write_geometry(folder / "geometry/seed", geometry());
+  write_geometry(folder / "geometry/seed", samples::geometry());
   write_text(folder / "vtk/poly", poly_data);
   write_text(folder / "results/log", "2*Step = 1\n*Time = 1\n*Data = u\n1,0,0,0\n2,0,0,1\n");
   write_text(folder / "results/frd",
