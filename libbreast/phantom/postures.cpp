@@ -7,7 +7,7 @@
 #include "core/units.hpp"
 #include "mesh/locate.hpp"
 #include "mesh/quality.hpp"
-#include "phantom/rib_surface.hpp"
+#include "phantom/chest/rib_surface.hpp"
 
 namespace breast {
 

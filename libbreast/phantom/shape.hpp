@@ -1,7 +1,7 @@
 // The stress-free breast: where it stands on the chest wall and where its skin is.
 #pragma once
 
-#include "phantom/torso.hpp"
+#include "phantom/chest/torso.hpp"
 
 namespace breast {
 

@@ -9,7 +9,7 @@
 #include "fixtures/small_phantom.hpp"
 #include "mesh/quality.hpp"
 #include "phantom/random.hpp"
-#include "phantom/rib_surface.hpp"
+#include "phantom/chest/rib_surface.hpp"
 #include "phantom/scanner.hpp"
 
 using namespace breast;

@@ -6,7 +6,7 @@
 #include "fixtures/small_phantom.hpp"
 #include "mesh/quality.hpp"
 #include "phantom/postures.hpp"
-#include "phantom/rib_surface.hpp"
+#include "phantom/chest/rib_surface.hpp"
 
 using namespace breast;
 

@@ -1,4 +1,4 @@
-#include "phantom/rib_surface.hpp"
+#include "phantom/chest/rib_surface.hpp"
 
 #include <cmath>
 

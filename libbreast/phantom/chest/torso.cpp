@@ -1,4 +1,4 @@
-#include "phantom/torso.hpp"
+#include "phantom/chest/torso.hpp"
 
 #include <algorithm>
 #include <cmath>
