@@ -24,12 +24,15 @@ std::vector<std::string> split_tabs(const std::string& line) {
     start = tab + 1;
   }
 }
-// Whatever the column, also one that is not used: a table of ours has no such cell.
-void refuse_non_finite(const std::string& cell, const std::string& where) {
+bool is_non_finite(const std::string& cell) {
   double value = 0;
   const auto end = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   const bool number = end.ec == std::errc() && end.ptr == cell.data() + cell.size();
-  if (number && !std::isfinite(value)) throw input_error(where, ": '", cell, "' is not finite");
+  return number && !std::isfinite(value);
+}
+// Whatever the column, also one that is not used: a table of ours has no such cell.
+void refuse_non_finite(const std::string& cell, const std::string& where) {
+  if (is_non_finite(cell)) throw input_error(where, ": '", cell, "' is not finite");
 }
 std::string join_tabs(const std::vector<std::string>& cells) {
   std::string line;
@@ -91,9 +94,13 @@ Vec3 Table::point(std::size_t row, const std::string& prefix) const {
 }
 
 std::string Table::text() const {
+  Table written = *this;
+  for (auto& row : written.rows)
+    for (std::string& cell : row)
+      if (is_non_finite(cell)) cell = "-";
   std::string out = join_tabs(columns);
-  for (const auto& row : rows) out += join_tabs(row);
-  check_reads_back(*this, out);
+  for (const auto& row : written.rows) out += join_tabs(row);
+  check_reads_back(written, out);
   return out;
 }
 

@@ -132,7 +132,7 @@ TEST(Stability, MarginOfTheConstants) {
 
 TEST(Materials, EmbeddedSetsLoadAndScale) {
   EXPECT_EQ(material_set_names(),
-            (std::vector<std::string>{"mira2018", "seed2008", "victre", "wellman"}));
+            (std::vector<std::string>{"invivo", "mira2018", "seed2008", "victre", "wellman"}));
   for (const std::string& name : material_set_names()) {
     MaterialSet set = load_materials(name);
     for (const Law& law : set.laws) EXPECT_GT(law.shear_modulus(), 0) << name;

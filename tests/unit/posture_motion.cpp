@@ -56,9 +56,11 @@ TEST(PostureMotion, TurningAboutTheWallKeepsTheDistances) {
   const PostureMotion motion = posture_motion(mesh, 5);
   EXPECT_NEAR(motion.ribs_after, motion.ribs_before, 1e-6);
   EXPECT_NEAR(motion.ratio, 1, 1e-6);
-  const double x = mesh.imaged.front().x(), moved = mesh.points.front().x();
-  EXPECT_NEAR(motion.nipples_apart_before, 2 * std::abs(x), 1);
-  EXPECT_NEAR(motion.nipples_apart_after, 2 * std::abs(moved), 1);
+  const Landmark& nipple = *mesh.landmark("nipple");
+  EXPECT_NEAR(motion.nipples_apart_before,
+              2 * std::abs(landmark_position(mesh, mesh.imaged, nipple).x()), 1e-9);
+  EXPECT_NEAR(motion.nipples_apart_after,
+              2 * std::abs(landmark_position(mesh, mesh.points, nipple).x()), 1e-9);
   EXPECT_NEAR(motion.before_notch_before - motion.before_notch_after, motion.nipple_posterior, 1e-9);
   EXPECT_GT(motion.nipple_lateral, 30) << "to the left, away from the midline";
   EXPECT_NEAR(motion.nipple_caudal, 0, 1e-9);
