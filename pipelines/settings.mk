@@ -34,7 +34,10 @@ RUN := $(RUNS)/$(CASE)$(if $(PAPER),-as-printed)
 
 # ---- choices ------------------------------------------------------------------------------------------
 # A living breast slides on its wall and is soft; the paper's is held and has its Table II.
-MATERIALS ?= $(if $(PAPER),seed2008,$(if $(MR)$(filter $(sliding_presets),$(PRESET)),invivo,seed2008))
+# (Decided here, because a phantom's MR is set later.)
+ifeq ($(origin MATERIALS),undefined)
+  MATERIALS := $(if $(PAPER),seed2008,$(if $(MR)$(filter $(sliding_presets),$(PRESET)),invivo,seed2008))
+endif
 REDUCTION ?= 50
 # As printed, elements on the edge of the cuboid fold early (docs/validation.md, 3).
 AT_LEAST ?= $(if $(PAPER),30,40)
