@@ -1,5 +1,5 @@
-# Breasts beside women's: the cohort of pipelines/invivo/cohort.tsv from the scan to supine, and a table of how tissue moves
-# beside pipelines/invivo/women.tsv. Cases of scans take part when POPULATION_SCANS names the scan's file.
+# Every breast of pipelines/invivo/cohort.tsv is solved from the scan to the supine shape, and a table compares the motion of its
+# tissue with that of living women (pipelines/invivo/women.tsv). Cases of scans take part when POPULATION_SCANS names the scan's file.
 #   make population                                the table, and the figure of motion against depth
 #   make calibrate-invivo                          pipelines/materials/invivo.tsv from the calibration half of the cohort
 POPULATION_SCANS ?=
@@ -13,7 +13,7 @@ cohort_file := pipelines/invivo/cohort.tsv
 ifneq ($(filter population calibrate-invivo,$(MAKECMDGOALS)),)
 # CASE,PRESET,SCAN,SIDE,USE of every row.
 cohort_rows := $(shell grep -v '^\#' $(cohort_file) | sed 1d | tr '\t' ',')
-cohort_scan = $(firstword $(foreach s,$(POPULATION_SCANS),$(if $(filter $1,$(firstword $(foreach e,$(scan_endings),$(patsubst %$e,%,$(filter %$e,$(notdir $s))))) $(notdir $s)),$s)))
+cohort_scan = $(firstword $(foreach s,$(POPULATION_SCANS),$(if $(filter $1,$(call without_ending,$(notdir $s))),$s)))
 cohort_field = $(word $1,$(subst $(comma), ,$2))
 define cohort_case
 ifneq ($(if $(filter -,$3),phantom,$(call cohort_scan,$3)),)

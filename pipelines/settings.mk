@@ -22,10 +22,11 @@ paper_goals := $(filter all tables table% fig4 fig5 fig6 fig7 findings verify re
 PRESET ?= $(if $(PAPER)$(paper_goals),paper,average)
 SIDE ?= left
 scan_endings := .nii.gz .nii .nrrd .nhdr .mha .mhd .vtkhdf
+# The name of a scan without its ending: pat.001.nrrd is another than pat.002.nrrd, and a folder keeps its dots.
+without_ending = $(firstword $(foreach e,$(scan_endings),$(patsubst %$e,%,$(filter %$e,$1))) $1)
 ifdef MR
-  # The name of the scan without its ending: pat.001.nrrd is another than pat.002.nrrd, and a folder keeps its dots.
   scan_name := $(notdir $(patsubst %/,%,$(MR)))
-  CASE ?= $(firstword $(foreach e,$(scan_endings),$(patsubst %$e,%,$(filter %$e,$(scan_name)))) $(scan_name))-$(SIDE)
+  CASE ?= $(call without_ending,$(scan_name))-$(SIDE)
 else
   CASE ?= $(PRESET)$(if $(filter right,$(SIDE)),-right)
 endif

@@ -10,6 +10,7 @@
 #include "core/units.hpp"
 #include "evaluation/posture_motion.hpp"
 #include "mechanics/mechanics.hpp"
+#include "mechanics/set_supports.hpp"
 
 namespace breast {
 
@@ -52,8 +53,7 @@ namespace {
 MechanicsOptions options_with(const MaterialSet& materials) {
   MechanicsOptions options;
   options.materials = materials;
-  options.wall = WallOption(WallKind::slide, {0, *materials.wall_support});
-  options.cut = CutOption(Cut::spring, *materials.cut_support);
+  take_supports_of_set(options);
   options.seek_remedy = false;  // the search meets sets without a stable answer, and goes on
   return options;
 }

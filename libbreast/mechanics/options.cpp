@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "mechanics/set_supports.hpp"
 
 namespace breast {
 
@@ -38,16 +39,9 @@ MechanicsOptions mechanics_options(const MechanicsTexts& texts) {
       pick<Invariants>(texts.invariants, "--invariants",
                        {{"isochoric", Invariants::isochoric}, {"plain", Invariants::plain}});
   options.bulk_ratio = texts.bulk_ratio.value_or(0);
-  if (!texts.wall.empty()) {
-    options.wall = parse_wall(texts.wall);
-  } else if (materials.wall_support) {
-    options.wall = WallOption(WallKind::slide, {0, *materials.wall_support});
-  }
-  if (!texts.cut.empty()) {
-    options.cut = parse_cut(texts.cut);
-  } else if (materials.cut_support) {
-    options.cut = CutOption(Cut::spring, *materials.cut_support);
-  }
+  take_supports_of_set(options);
+  if (!texts.wall.empty()) options.wall = parse_wall(texts.wall);
+  if (!texts.cut.empty()) options.cut = parse_cut(texts.cut);
   options.solver = pick<SolverOption>(texts.solver, "--solver",
                                       {{"auto", SolverOption::automatic},
                                        {"direct", SolverOption::direct},

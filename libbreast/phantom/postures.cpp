@@ -6,6 +6,7 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "mesh/locate.hpp"
+#include "mechanics/set_supports.hpp"
 #include "mesh/quality.hpp"
 #include "phantom/chest/rib_surface.hpp"
 
@@ -65,9 +66,8 @@ Postures solve_sliding_postures(const HexMesh& imaged, const MaterialSet& materi
   MechanicsOptions options;
   options.materials = materials;
   options.element = element_of(imaged);
-  options.wall = WallOption(WallKind::slide, {0, *materials.wall_support});
+  take_supports_of_set(options);
   options.wall.surface = std::move(surface);
-  options.cut = CutOption(Cut::spring, *materials.cut_support);
   Postures out;
   HexMesh mesh = imaged;
   const Equilibrium prone =

@@ -6,6 +6,7 @@
 
 #include "core/units.hpp"
 #include "fem/stress.hpp"
+#include "fixtures/map_gradient.hpp"
 #include "fixtures/elastic_scene.hpp"
 #include "fixtures/in_place.hpp"
 #include "fixtures/renumbered.hpp"
@@ -26,15 +27,7 @@ struct Drawn {
     const double c = std::cos(turn), s = std::sin(turn);
     return {c * at.x() - s * at.y(), s * at.x() + c * at.y(), at.z()};
   }
-  static Mat3 gradient(const Vec3& at) {
-    Mat3 f;
-    for (int k = 0; k < 3; ++k) {
-      const double h = 1e-3;
-      const Vec3 e = h * Vec3::Unit(k);
-      f.col(k) = (8 * (map(at + e) - map(at - e)) - (map(at + 2 * e) - map(at - 2 * e))) / (12 * h);
-    }
-    return f;
-  }
+  static Mat3 gradient(const Vec3& at) { return fixtures::map_gradient(map, at); }
   static double pressure(const Vec3& at) { return 600 + 200 * std::cos(3 * at.z() / length); }
 };
 

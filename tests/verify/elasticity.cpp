@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "fixtures/map_gradient.hpp"
 #include "fixtures/in_place.hpp"
 #include "fem/stress.hpp"
 #include "fixtures/block.hpp"
@@ -85,15 +86,7 @@ struct Manufactured {
     x.z() += a * std::sin(k * x.x() + 0.1) * std::sin(k * x.y());
     return x;
   }
-  static Mat3 gradient(const Vec3& at) {
-    Mat3 f;
-    for (int k = 0; k < 3; ++k) {
-      const double h = 1e-3;
-      const Vec3 e = h * Vec3::Unit(k);
-      f.col(k) = (8 * (map(at + e) - map(at - e)) - (map(at + 2 * e) - map(at - 2 * e))) / (12 * h);
-    }
-    return f;
-  }
+  static Mat3 gradient(const Vec3& at) { return fixtures::map_gradient(map, at); }
   static double pressure(const Vec3& at) {
     return 400 * std::cos(2 * at.x() / side) * at.z() / side;
   }

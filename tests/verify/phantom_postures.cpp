@@ -4,6 +4,7 @@
 #include "fixtures/in_place.hpp"
 #include "core/units.hpp"
 #include "fixtures/small_phantom.hpp"
+#include "mechanics/set_supports.hpp"
 #include "mesh/quality.hpp"
 #include "phantom/postures.hpp"
 #include "phantom/chest/rib_surface.hpp"
@@ -84,9 +85,8 @@ TEST(SlidingPhantom, HangsAsShapedAndSlidesOnItsRibs) {
   MechanicsOptions options;
   options.materials = materials;
   options.element = Element::q2p1;
-  options.wall = WallOption(WallKind::slide, {0, *materials.wall_support});
+  take_supports_of_set(options);
   options.wall.surface = std::make_shared<RibSurface>(parameters.torso);
-  options.cut = CutOption(Cut::spring, *materials.cut_support);
   ASSERT_TRUE(fixtures::forward_into(mesh, posture_gravity(Posture::prone), options).converged());
   EXPECT_LT(largest(mesh.points, mesh.imaged), 1e-7);
 
