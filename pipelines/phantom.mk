@@ -73,7 +73,8 @@ $(eval $(call truth_view,mlo,MLO))
 $(TRUTH_TABLE): $(PHANTOM_TRUTH)/landmarks.tsv $(TRUTH_MESHES) $(TRUTH_TABLE_TOOL)
 	$(TRUTH_TABLE_TOOL) $< $@ $(TRUTH_MESHES) $(common)
 same_plates = --thickness $$(. pipelines/values.sh; key $1 thickness_mm) \
-  --edge-at $$(. pipelines/values.sh; key $1 edge_at_mm) --middle-at $$(. pipelines/values.sh; key $1 middle_at_mm)
+  --edge-at $$(. pipelines/values.sh; key $1 edge_at_mm) --middle-at $$(. pipelines/values.sh; key $1 middle_at_mm) \
+  --turn $$(. pipelines/values.sh; key $1 turn_deg)
 $(RUN)/truth-compressed.tsv: $(TRUTH_TABLE) $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf \
   truth-cc.vtkhdf truth-mlo.vtkhdf) $(PROBE)
 	$(PROBE) $(filter %.vtkhdf,$^) --truth $< > $@.part

@@ -63,7 +63,7 @@ else
   HEXMESH_OPTIONS ?= --elements $(ELEMENTS)
   MECHANICS ?= --materials $(MATERIALS) $(addprefix --element ,$(ELEMENT))
   # Soft tissue that slides lies limp between plates that stand far in front of the chest wall.
-  COMPRESS_OPTIONS ?= $(if $(filter invivo,$(MATERIALS)),--standoff 5 --edge-radius 5)
+  COMPRESS_OPTIONS ?= $(if $(filter invivo,$(MATERIALS)),--image-edge auto)
 endif
 # Parts of the model to do without: no-skin no-gland no-backward no-gravity-in-compression (what each is worth: leaveout).
 LEAVE_OUT ?=

@@ -26,9 +26,11 @@ void declare(Tool& tool, Choices& c) {
   tool.describe(
       "Loads the stress-free breast with gravity, sets two rigid plates with rounded edges just "
       "touching it, and closes them to a thickness, a reduction, a force or a mean pressure. "
-      "Contact is exact at the nodes: no penalty, no penetration there; worst_gap_mm in the report "
-      "says how deep faces cut across a rounded edge between them. Unless --detector says otherwise "
-      "both plates move, about the mid-plane of the stress-free breast, so that it is not dragged along the "
+      "With --image-edge the plates stand as in the clinic: their edge near the chest wall and along "
+      "it, faces kept out of them to 0.05 mm, friction holding the breast, which a hand lifts until they "
+      "grip. Otherwise contact is exact at the nodes: no penalty, no penetration there; worst_gap_mm in "
+      "the report says how deep faces cut across a rounded edge between them. Unless --detector says "
+      "otherwise both plates move, about the mid-plane of the stress-free breast, so that it is not dragged along the "
       "chest wall. The stand-off runs from the most anterior chest-wall or cut point to the start "
       "of the plates' rounded edge; the force depends strongly on it.");
   tool.describe(
@@ -50,6 +52,8 @@ void declare(Tool& tool, Choices& c) {
       "compress reference.vtkhdf cc.vtkhdf --view CC --pressure 10 --wall spring:1,0.1 "
       "--friction 0.3",
       "to a mean pressure of 10 kPa, on a yielding chest wall, with friction");
+  tool.example("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 50 --image-edge auto",
+               "with the plates where a mammograph has them");
   tool.example("compress reference.vtkhdf mlo.vtkhdf --view MLO --angle 50 --force 100",
                "mediolateral oblique at 50 degrees until the paddle presses with 100 N");
   tool.example("compress reference.vtkhdf mlo.vtkhdf --view MLO --like MG.dcm",
@@ -74,21 +78,44 @@ void declare(Tool& tool, Choices& c) {
       "from the most anterior chest-wall or cut point to the plate's rounded edge (default: "
       "a third of the breast's depth in front of that point, at most 25)",
       0, 500);
-  tool.number(c.plates.edge_at, "--edge-at", "MM",
-              "anterior coordinate (-y) of the rounded edge's start, instead of --standoff", -1e4,
-              1e4);
+  tool.text(
+      c.image_edge, "--image-edge", "auto|MM",
+      "places the plates as in the clinic: from the most anterior point of the chest wall behind "
+      "the breast to the edge of the image, where the rounded edge starts; auto is 5 for CC and "
+      "0 for MLO and ML. --turn, --edge-radius, --contact-points, --friction and --positioning "
+      "then have the defaults that belong to it");
+  tool.text(
+      c.turn, "--turn", "auto|DEG",
+      "turns the plates' edge towards the breast's side about the patient's long axis; auto lays "
+      "it along the chest wall behind the breast (default: auto with --image-edge, otherwise 0)");
+  tool.choice(
+      c.contact_points, "--contact-points", {"surface", "nodes"},
+      "keeps faces out of the plates (to 0.05 mm), or nodes, exactly (default: surface with "
+      "--image-edge, otherwise nodes)");
+  tool.choice(
+      c.positioning, "--positioning", {"lifted", "hanging"},
+      "a hand carries the breast's weight until the plates grip it, or the plates close on it "
+      "as it hangs (default: lifted with --image-edge, otherwise hanging)");
+  tool.number(
+      c.plates.edge_at, "--edge-at", "MM",
+      "coordinate of the rounded edge's start along the plates' depth, instead of measuring it from the wall",
+      -1e4, 1e4);
   tool.number(c.plates.middle_at, "--middle-at", "MM",
               "coordinate along the beam of the plane about which the plates close", -1e4, 1e4);
-  tool.number(c.plates.edge_radius, "--edge-radius", "MM",
-              "of the plates' rounded edges (at least 1)", 0, 100);
+  tool.number(
+      c.edge_radius, "--edge-radius", "MM",
+      "of the plates' rounded edges, at least 1 (default: 3 with --image-edge, otherwise 15)", 0,
+      100);
   tool.number(c.plates.tilt_deg, "--tilt", "DEG",
               "paddle about the lateral axis; positive narrows the gap at the nipple", -20, 20);
   tool.text(c.gravity, "--gravity", "upright|off|gx,gy,gz", "gravity during compression, mm/s2");
   tool.text(
       c.detector, "--detector", "raised|fixed|MM",
       "lifts the breast to its mid-plane, not at all, or by so much; the paddle does the rest");
-  tool.number(c.friction, "--friction", "MU", "Coulomb's coefficient between skin and plates", 0,
-              2);
+  tool.number(c.friction, "--friction", "MU",
+              "Coulomb's coefficient between skin and plates (default: 0.3 with --image-edge, "
+              "otherwise 0)",
+              0, 2);
   tool.number(c.plate_step, "--plate-step", "MM",
               "longest step of the plates on the way (default: 0.095 of the initial thickness)",
               0.1, 1000);
@@ -103,6 +130,8 @@ void declare(Tool& tool, Choices& c) {
     }
     parse_gravity(c.gravity);
     parse_detector(c.detector);
+    if (!c.turn.empty()) parse_turn(c.turn);
+    if (!c.image_edge.empty()) parse_image_edge(c.image_edge, view_named(c.view));
   });
 }
 
@@ -129,10 +158,10 @@ void run_compress(Choices c, Run& run) {
     CompressionOptions same_gap = options;
     same_gap.stop_at = StopAt::thickness;
     same_gap.target = found.thickness_mm;
-    estimate_by_second_solution(
-        mesh, mechanics.options(), found, [&](const HexMesh& richer, const MechanicsOptions& same) {
-          return compress(richer, same_gap, same, run.progress());
-        });
+    estimate_by_second_solution(mesh, mechanics.options(), found,
+                                [&](const HexMesh& richer, const MechanicsOptions& same) {
+                                  return compress(richer, same_gap, same, run.progress());
+                                });
   }
   write_report(found, mesh, mechanics.options(), run.report());
   const bool enough = found.record.status == SolveStatus::stopped_early && c.at_least &&

@@ -35,7 +35,7 @@ void declare(Tool& tool, Choices& c) {
       "densities, 'all' is all. Derivatives are mm per unit relative change (d x / d ln m), per "
       "degree or per mm. The touching nodes of a compression stay the same ones: where that set is "
       "about to change, derivatives are one-sided. Thickness, place and pose of the plates are "
-      "held but for the parameter that moves them. Frictionless contact and a fixed wall only.");
+      "held but for the parameter that moves them. Friction holds what it holds: its bounds and the nodes that slip stay.");
   tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
   tool.input(c.state, "STATE.vtkhdf", "what forward or compress made of it");
   tool.output(c.out, "OUT.vtkhdf",

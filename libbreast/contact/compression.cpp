@@ -1,16 +1,20 @@
 #include "contact/compression.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <set>
 
-#include "contact/active_set.hpp"
-#include "contact/augmented_lagrangian.hpp"
+#include "contact/estimate_plates.hpp"
 #include "contact/failure.hpp"
-#include "contact/raise_friction.hpp"
+#include "contact/penetration.hpp"
 #include "contact/results.hpp"
 #include "contact/skin_area.hpp"
+#include "contact/solvers/active_set.hpp"
+#include "contact/solvers/augmented_lagrangian.hpp"
+#include "contact/solvers/surface_contact.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "mechanics/estimate/error_estimate.hpp"
@@ -26,7 +30,11 @@ namespace {
 /// springs that stand for sticking friction (at 10 kPa and μ = 0.3 they give by about 0.2 mm).
 constexpr double penalty_factor = 10, stick_factor = 100;
 
-/// The active set needs a factor.
+/// A lifted breast has its whole weight again at this reduction, and the first of it at this fraction
+/// of that. Where a force or a pressure ends the path its reduction is not known beforehand.
+constexpr double weight_is_whole = 0.25, weight_is_whole_in_control = 0.1, weight_begins = 0.2;
+
+/// The contact solver needs a factor.
 MechanicsOptions by_factor(MechanicsOptions mechanics) {
   mechanics.solver = SolverOption::direct;
   return mechanics;
@@ -49,10 +57,14 @@ class Compression {
  private:
   bool load_with_gravity(State& state);
   std::vector<int> candidates() const;
+  Friction friction_of_plates() const {
+    return {options_.friction, stick_factor * scene_.stiffest() * scene_.element_size()};
+  }
   std::unique_ptr<ActiveSet> active_set();
   std::unique_ptr<ContactSolver> augmented_lagrangian();
   CompressionTarget target() const;
-  void place(const State& state);
+  void place(State& state);
+  PathOptions path_options();
   void close_plates(State& state);
   void record_path();
   void check_stability(const State& state, const ContactSolver& contact);
@@ -73,6 +85,7 @@ class Compression {
   Eigen::VectorXd load_;
   LoadedProblem body_;
   SaddleSolver solver_;
+  const SurfaceContact* surface_ = nullptr;  // where faces touch: the solver
   CompressionResult found_;
 };
 
@@ -85,12 +98,11 @@ bool Compression::load_with_gravity(State& state) {
     body_.set_load(path.next() * load_);
     State trial = state;
     ++found_.steps;
-    const EquilibriumResult result =
-        equilibrate(body_.problem, solver_, matrix, trial, {}, nullptr,
-                    [&](const NewtonIteration& iteration) {
-                      record_iteration(found_, found_.steps, iteration, clock());
-                      progress_.update("gravity", -1, message("residual ", iteration.residual));
-                    });
+    const EquilibriumResult result = equilibrate(
+        body_.problem, solver_, matrix, trial, {}, nullptr, [&](const NewtonIteration& iteration) {
+          record_iteration(found_, found_.steps, iteration, clock());
+          progress_.update("gravity", -1, message("residual ", iteration.residual));
+        });
     if (result.converged) {
       state = std::move(trial);
       path.succeed();
@@ -118,7 +130,7 @@ std::vector<int> Compression::candidates() const {
 
 std::unique_ptr<ActiveSet> Compression::active_set() {
   ActiveSetOptions exact;
-  exact.friction = {options_.friction, stick_factor * scene_.stiffest() * scene_.element_size()};
+  exact.friction = friction_of_plates();
   if (exact.friction.present()) exact.max_iterations *= 2;  // bounds are followed linearly
   return std::make_unique<ActiveSet>(body_.problem, solver_, candidates(), exact);
 }
@@ -144,10 +156,34 @@ CompressionTarget Compression::target() const {
   return {};
 }
 
+/// Where the breast is lifted its weight comes back while the plates grip it.
+PathOptions Compression::path_options() {
+  PathOptions path = options_.path;
+  if (options_.positioning == Positioning::hanging) return path;
+  const double initial = found_.plates.initial_thickness;
+  const CompressionTarget end = target();
+  const double whole = end.kind == TargetKind::thickness
+                           ? std::min(weight_is_whole, 0.5 * (1 - end.value / initial))
+                           : weight_is_whole_in_control;
+  path.prepare = [this, initial, whole](double thickness) {
+    const double reduction = 1 - thickness / initial;
+    const double begun = weight_begins * whole;
+    body_.set_load(std::clamp((reduction - begun) / (whole - begun), 0.0, 1.0) * load_);
+  };
+  return path;
+}
+
 void Compression::close_plates(State& state) {
   std::shared_ptr<FrictionTerm> friction;
   std::unique_ptr<ContactSolver> contact;
-  if (options_.method == ContactMethod::active_set) {
+  if (options_.method == ContactMethod::surface) {
+    SurfaceContactOptions stiff;
+    stiff.friction = friction_of_plates();
+    auto faces = std::make_unique<SurfaceContact>(mesh_, touchable_faces(mesh_), body_.problem,
+                                                  solver_, stiff);
+    surface_ = faces.get();
+    contact = std::move(faces);
+  } else if (options_.method == ContactMethod::active_set) {
     auto exact = active_set();
     friction = exact->friction();
     contact = std::move(exact);
@@ -163,7 +199,7 @@ void Compression::close_plates(State& state) {
   {
     Timer::Scope phase(found_.timer, "contact");
     found_.path =
-        follow_path(*contact, found_.plates, state, target(), area, options_.path, progress_);
+        follow_path(*contact, found_.plates, state, target(), area, path_options(), progress_);
   }
   record_path();
   if (found_.path.points.empty()) {
@@ -176,7 +212,7 @@ void Compression::close_plates(State& state) {
   {
     Timer::Scope phase(found_.timer, "results");
     found_.min_det_F = found_.path.final_step.forces.min_det_F;
-    record_compression(scene_, options_, state, *contact, body_.load->total(), found_);
+    record_compression(scene_, options_, state, *contact, surface_, body_.load->total(), found_);
     conclude(found_, scene_, state, options_.gravity);
   }
   check_stability(state, *contact);
@@ -201,19 +237,9 @@ void Compression::estimate(const State& state, const ContactSolver& contact,
                            const std::shared_ptr<FrictionTerm>& friction) {
   if (mesh_.order == 1 && !mesh_.landmarks.empty()) {
     Timer::Scope phase(found_.timer, "error estimate");
-    ContactEstimate plates;
-    for (std::size_t c = 0; c < contact.candidates().size(); ++c) {
-      const int node = contact.candidates()[c], plate = contact.touching()[c];
-      if (plate < 0) continue;
-      const Gap gap = found_.plates.plate(plate).gap(state.x.segment<3>(3L * node));
-      plates.touching.push_back({node, plate, gap.gradient});
-    }
-    if (friction) {
-      plates.friction = friction;
-      plates.raise_friction = [&](const RicherMesh& richer) {
-        return raise_friction(*friction, mesh_, state.x, richer);
-      };
-    }
+    const ContactEstimate plates =
+        surface_ != nullptr ? estimate_of_faces(*surface_, state)
+                            : estimate_of_nodes(contact, found_.plates, friction, mesh_, state);
     SaddleMatrix matrix = body_.problem.make_matrix();
     note_estimate(estimate_error(scene_, state, options_.gravity, matrix, solver_, plates),
                   ", nodes on the plates held along their normals", found_);
@@ -260,9 +286,8 @@ double Compression::load_reached() const {
 void Compression::judge_against_practice() {
   const PathResult& path = found_.path;
   found_.judgement = judge_compression(
-      *found_.contact,
-      {view_pose(mesh_.side, options_.angle_deg).n, body_.load->total() / micronewton_per_newton,
-       found_.wall_reaction_N, found_.max_volume_error, found_.places});
+      *found_.contact, {found_.pose.n, body_.load->total() / micronewton_per_newton,
+                        found_.wall_reaction_N, found_.max_volume_error, found_.places});
   if (path.first_indefinite_thickness) {
     found_.judgement.push_back(
         {"slips_or_buckles",
@@ -275,9 +300,9 @@ void Compression::judge_against_practice() {
     found_.judgement.push_back(
         {"jump_at_target",
          message("jump at target: between plate positions 0.1 micrometre apart the ",
-                 options_.stop_at == StopAt::force ? "paddle force" : "mean pressure", " goes from ",
-                 path.jump->first, " to ", path.jump->second, ", past ", options_.target,
-                 "; the nearer one is the result"),
+                 options_.stop_at == StopAt::force ? "paddle force" : "mean pressure",
+                 " goes from ", path.jump->first, " to ", path.jump->second, ", past ",
+                 options_.target, "; the nearer one is the result"),
          true});
   }
   if (found_.reduction_percent > 40 && scene_.options().materials.name == "seed2008") {
@@ -290,12 +315,21 @@ void Compression::judge_against_practice() {
   }
 }
 
-void Compression::place(const State& state) {
-  found_.plates = place_plates(mesh_, unflatten(state.x),
-                               view_pose(mesh_.side, options_.angle_deg), options_.plates);
+/// Places the plates about the upright breast. One that is lifted takes on its stress-free shape,
+/// and there the plates begin.
+void Compression::place(State& state) {
+  const std::vector<Vec3> upright = unflatten(state.x);
+  const double turn = options_.plates.turn_deg.value_or(wall_turn_deg(mesh_, upright));
+  found_.pose = view_pose(mesh_.side, options_.angle_deg, turn);
+  found_.plates = place_plates(mesh_, upright, found_.pose, options_.plates);
+  if (options_.positioning == Positioning::lifted) {
+    state = scene_.at_rest(flatten(mesh_.reference));
+    found_.plates = start_from(found_.plates, mesh_, mesh_.reference, found_.pose, options_.plates);
+  }
   const double initial = found_.plates.initial_thickness;
-  progress_.note(message("T0 ", initial, " mm, stand-off ", found_.plates.standoff,
-                         " mm, edge radius ", found_.plates.paddle.edge_radius, " mm"));
+  progress_.note(message("T0 ", initial, " mm, plates' edge ", found_.plates.standoff,
+                         " mm in front of the wall and turned by ", turn, " degrees, edge radius ",
+                         found_.plates.paddle.edge_radius, " mm"));
   if (options_.stop_at == StopAt::thickness && !(options_.target < initial)) {
     throw input_error("thickness ", options_.target, " mm: the breast is only ", initial,
                       " mm thick between the plates; give less");
@@ -331,7 +365,7 @@ void check(const HexMesh& mesh, const CompressionOptions& options,
   }
   if (options.friction > 0 && options.method == ContactMethod::augmented_lagrangian) {
     throw input_error("friction ", options.friction,
-                      " with the augmented Lagrangian: only the active set has friction");
+                      " with the augmented Lagrangian: it has none; leave --contact al out");
   }
 }
 

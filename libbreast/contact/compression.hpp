@@ -19,7 +19,11 @@
 namespace breast {
 
 enum class StopAt { thickness, reduction, force, pressure };
-enum class ContactMethod { active_set, augmented_lagrangian };
+/// Faces kept out of the plates; nodes, exactly; or nodes by the paper's augmented Lagrangian.
+enum class ContactMethod { surface, active_set, augmented_lagrangian };
+/// How the breast comes between the plates: as it hangs, or lifted by a hand that carries its weight
+/// until the plates grip it.
+enum class Positioning { hanging, lifted };
 
 struct CompressionOptions {
   View view = View::cc;
@@ -29,6 +33,7 @@ struct CompressionOptions {
   PlateOptions plates;
   Vec3 gravity{0, 0, -9810};  ///< mm/s², LPS
   ContactMethod method = ContactMethod::active_set;
+  Positioning positioning = Positioning::hanging;
   double friction = 0;              ///< Coulomb's μ between skin and plates
   PathOptions path;
 };
@@ -36,6 +41,7 @@ struct CompressionOptions {
 /// A compressed breast.
 struct CompressionResult : Equilibrium {
   PlatePair plates;
+  ViewPose pose;
   PathResult path;
   double thickness_mm = 0, reduction_percent = 0, initial_thickness_mm = 0;
   /// |plates + weight + chest wall + cut| over the larger of paddle force and weight.

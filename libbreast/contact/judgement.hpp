@@ -21,6 +21,9 @@ struct PressedPlace {
   Vec3 peak_at{0, 0, 0};        ///< of the highest pressure, mm
   double peak_to_wall_mm = -1;  ///< to the nearest chest-wall or cut node; negative: no contact
   double edge_part = 0;         ///< of the force along the plate's normal, on its rounded edge
+  /// The force along the plate's normal behind the edge of the image, in the 20 mm in front of it and
+  /// beyond, N.
+  double behind_edge_N = 0, first_20mm_N = 0, beyond_20mm_N = 0;
 };
 
 /// What is judged besides the contact record.

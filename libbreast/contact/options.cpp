@@ -1,11 +1,22 @@
 #include "contact/options.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "core/error.hpp"
 #include "core/table.hpp"
 
 namespace breast {
+
+namespace {
+/// Of the plates' rounded edges, mm: without and with plates placed by the edge of the image.
+constexpr double edge_radius = 15, image_edge_radius = 3;
+/// Coulomb's coefficient of skin on a plate where none is given, beside plates placed by the edge of
+/// the image. Without any a breast that slides on its ribs is squeezed out from between the plates.
+constexpr double image_edge_friction = 0.3;
+/// From the chest wall to the edge of the image, mm: in the oblique view muscle is seen.
+constexpr double edge_cc = 5, edge_oblique = 0;
+}  // namespace
 
 double parse_detector(const std::string& text) {
   if (text == "raised") return std::numeric_limits<double>::infinity();
@@ -15,13 +26,30 @@ double parse_detector(const std::string& text) {
   throw input_error("--detector ", text, ": give 'raised', 'fixed' or a rise in mm, 0 or more");
 }
 
+double parse_image_edge(const std::string& text, View view) {
+  constexpr double least = -50, most = 500;
+  if (text == "auto") return view == View::cc ? edge_cc : edge_oblique;
+  const std::optional<double> edge = number_in(text);
+  if (edge && *edge >= least && *edge <= most) return *edge;
+  throw input_error("--image-edge ", text, ": give 'auto' or mm from ", least, " to ", most);
+}
+
+std::optional<double> parse_turn(const std::string& text) {
+  constexpr double most = 90;
+  if (text == "auto") return std::nullopt;
+  const std::optional<double> turn = number_in(text);
+  if (turn && std::abs(*turn) <= most) return turn;
+  throw input_error("--turn ", text, ": give 'auto' or degrees from ", -most, " to ", most);
+}
+
 int CompressionChoices::targets() const {
   return int(thickness.has_value()) + int(reduction.has_value()) + int(force.has_value()) +
          int(pressure.has_value());
 }
 
 CompressionOptions compression_options(const CompressionChoices& c, const Vec3& gravity) {
-  constexpr double least_reduction = 1;  // percent; a smaller number is a fraction, not a percentage
+  constexpr double least_reduction =
+      1;  // percent; a smaller number is a fraction, not a percentage
   if (c.reduction && *c.reduction < least_reduction) {
     throw input_error("--reduction ", *c.reduction, " percent is below ", least_reduction,
                       "; did you mean ", 100 * *c.reduction,
@@ -32,12 +60,32 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   options.angle_deg = c.angle.value_or(view_angle_deg(options.view));
   options.plates = c.plates;
   options.plates.detector_rise = parse_detector(c.detector);
-  options.friction = c.friction;
   options.gravity = gravity;
   options.path.longest_step = c.plate_step.value_or(0);
   options.path.first_step = c.plate_step.value_or(0);
-  options.method =
-      c.contact == "al" ? ContactMethod::augmented_lagrangian : ContactMethod::active_set;
+  const bool clinical = !c.image_edge.empty();
+  if (clinical) options.plates.image_edge = parse_image_edge(c.image_edge, options.view);
+  if (clinical && c.plates.standoff) {
+    throw input_error("--image-edge with --standoff: both place the plates' edge; give one");
+  }
+  options.plates.edge_radius = c.edge_radius.value_or(clinical ? image_edge_radius : edge_radius);
+  options.plates.turn_deg = parse_turn(!c.turn.empty() ? c.turn : clinical ? "auto" : "0");
+  const bool plain = !clinical || c.contact == "al";
+  const std::string points = !c.contact_points.empty() ? c.contact_points
+                             : plain                   ? "nodes"
+                                                       : "surface";
+  if (points == "surface" && c.contact == "al") {
+    throw input_error(
+        "--contact-points surface with --contact al: the augmented Lagrangian touches "
+        "nodes");
+  }
+  options.method = points == "surface" ? ContactMethod::surface
+                   : c.contact == "al" ? ContactMethod::augmented_lagrangian
+                                       : ContactMethod::active_set;
+  const bool frictional = clinical && options.method == ContactMethod::surface;
+  options.friction = c.friction.value_or(frictional ? image_edge_friction : 0);
+  const bool lifted = c.positioning.empty() ? clinical : c.positioning == "lifted";
+  options.positioning = lifted ? Positioning::lifted : Positioning::hanging;
   const auto stop = [&](const std::optional<double>& value, StopAt at) {
     if (!value) return;
     options.stop_at = at;

@@ -89,7 +89,8 @@ PathPoint Path::force_point(const State& state, const ContactStep& step,
     if (contact.plate < 0) continue;
     const Vec3 x = state.x.segment<3>(3L * solver_.candidates()[c]);
     const Plate& plate = plates_.plate(contact.plate);
-    const double along = contact.normal * plate.gap(x).gradient.dot(plate.normal());
+    const double along =
+        (contact.normal * plate.gap(x).gradient + contact.tangential).dot(plate.normal());
     (contact.plate == 0 ? point.paddle_N : point.detector_N) += along / micronewton_per_newton;
     if (contact.plate == 0 && contact.normal > 0) paddle_area += area[c];
   }
@@ -122,6 +123,7 @@ void Path::tell(const PathPoint& point) const {
 bool Path::attempt(const State& guess, const ContactMemory& memory, double thickness,
                    double tolerance, Waypoint& reached) {
   plates_.close_to(thickness);
+  if (options_.prepare) options_.prepare(thickness);
   State state = guess;
   solver_.restore(memory);
   ContactStep step = solver_.solve(plates_, state, tolerance);

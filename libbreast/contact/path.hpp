@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contact/plates.hpp"
-#include "contact/solver.hpp"
+#include "contact/solvers/solver.hpp"
 #include "core/progress.hpp"
 
 namespace breast {
@@ -30,6 +30,8 @@ struct PathOptions {
   double tolerance = 1e-9;
   double control_tolerance = 1e-4;  ///< relative, of force and pressure control
   int most_solves = 400;
+  /// Called before each position is solved, with its thickness (mm), for what else depends on it.
+  std::function<void(double)> prepare;
 };
 
 /// A converged state of the path.

@@ -40,6 +40,12 @@ std::vector<Face> free_boundary_faces(const HexMesh& mesh, const Constraints& he
   return free;
 }
 
+std::vector<Face> touchable_faces(const HexMesh& mesh) {
+  std::vector<Face> faces = mesh.skin_faces;
+  faces.insert(faces.end(), mesh.cut_faces.begin(), mesh.cut_faces.end());
+  return faces;
+}
+
 double deepest_penetration(const HexMesh& mesh, const std::vector<Face>& faces,
                            const Eigen::VectorXd& x, const Plate& plate) {
   const std::vector<QuadShape> shapes = sample_shapes(mesh.order);

@@ -13,6 +13,9 @@ namespace breast {
 /// Boundary faces (skin, cut, chest wall) with a node that can move.
 std::vector<Face> free_boundary_faces(const HexMesh& mesh, const Constraints& held);
 
+/// Boundary faces that plates may touch: skin and cut.
+std::vector<Face> touchable_faces(const HexMesh& mesh);
+
 /// Deepest penetration of the faces into the plate in shape `x` (3 per node), mm, at 5×5 points of
 /// every face, its corners included; 0 where nothing enters.
 double deepest_penetration(const HexMesh& mesh, const std::vector<Face>& faces,

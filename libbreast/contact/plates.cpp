@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "mesh/nodal.hpp"
+#include "mesh/nodal_faces.hpp"
 #include "mesh/plate_edge.hpp"
 
 namespace breast {
@@ -59,10 +61,12 @@ Extent footprint_extent(const HexMesh& mesh, const std::vector<Vec3>& x, const P
   return extent;
 }
 
-/// Most anterior pectoral or cut point within the plate's width.
-double most_anterior_wall(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate) {
+/// Most anterior pectoral point, or point of the cut, within the plate's width.
+double most_anterior_wall(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate,
+                          bool with_cut) {
   double wall = -infinity;
   for (const auto* faces : {&mesh.pectoral_faces, &mesh.cut_faces}) {
+    if (!with_cut && faces == &mesh.cut_faces) continue;
     for (const int node : nodes_of(mesh, *faces)) {
       const double v = x[node].dot(plate.lateral);
       if (std::abs(v - plate.lateral_centre) <= plate.half_width) {
@@ -105,13 +109,14 @@ Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const View
   if (across.empty()) throw input_error("the mesh has no skin faces: plates have nothing to press");
   plate.lateral_centre = across.middle();
   plate.half_width = options.width > 0 ? 0.5 * options.width : 0.75 * across.size();
-  wall_point = most_anterior_wall(mesh, x, plate);
+  wall_point = most_anterior_wall(mesh, x, plate, !options.image_edge);
   if (!std::isfinite(wall_point)) {
     throw input_error("no pectoral or cut point lies within the plates' width of ",
                       2 * plate.half_width, " mm");
   }
   const double automatic = std::min(most_standoff, standoff_part * (along.high - wall_point));
-  plate.edge_start = options.edge_at.value_or(wall_point + options.standoff.value_or(automatic));
+  plate.edge_start = options.edge_at.value_or(
+      wall_point + options.image_edge.value_or(options.standoff.value_or(automatic)));
   const double depth = along.high - plate.edge_start;
   if (!(depth >= least_depth)) {
     throw input_error(
@@ -260,6 +265,25 @@ PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const Vi
   pair.touching_thickness = touching_thickness(mesh, x, pair);
   pair.close_to(pair.touching_thickness);
   return pair;
+}
+
+PlatePair start_from(const PlatePair& placed, const HexMesh& mesh, const std::vector<Vec3>& x,
+                     const ViewPose& pose, PlateOptions options) {
+  options.edge_at = placed.paddle.edge_start;
+  PlatePair pair = place_plates(mesh, x, pose, options);
+  pair.wall_point = placed.wall_point;
+  pair.standoff = placed.standoff;
+  return pair;
+}
+
+double wall_turn_deg(const HexMesh& mesh, const std::vector<Vec3>& x) {
+  constexpr double most = 45;
+  Vec3 outward = Vec3::Zero();  // of the body: towards the ribs
+  for (const Vec3& part : nodal_faces(mesh, mesh.pectoral_faces, flatten(x)).vector)
+    outward += part;
+  if (!(outward.head<2>().norm() > 0)) return 0;
+  const double turn = std::atan2(-lateral_sign(mesh.side) * outward.x(), outward.y());
+  return std::clamp(turn * 180 / std::numbers::pi, -most, most);
 }
 
 }  // namespace breast

@@ -20,6 +20,12 @@ struct Gap {
   Mat3 hessian = Mat3::Zero();  ///< 1/mm
 };
 
+/// How a gap and its gradient change at a fixed point while a plate moves, per unit of what moves it.
+struct GapSlope {
+  double value = 0;
+  Vec3 gradient{0, 0, 0};
+};
+
 /// One plate: a ball of radius edge_radius swept over a prism with an upright wall
 /// behind, before and beside it. Coordinates: h along the beam, a anterior, v lateral (h,
 /// a, v = x·n, x·e_u, x·e_v).
@@ -65,6 +71,12 @@ struct PlateOptions {
   std::optional<double> edge_at;
   /// Where the plane lies, along the beam, about which they close; for the same purpose.
   std::optional<double> middle_at;
+  /// From the most anterior pectoral point to the edge of the image, where the rounded edge starts;
+  /// instead of standoff, which counts points of the cut as well.
+  std::optional<double> image_edge;
+  /// By which the edge is turned towards the breast's side about the patient's long axis; without it
+  /// until it lies along the wall behind the breast.
+  std::optional<double> turn_deg = 0;
   double edge_radius = 15;
   double tilt_deg = 0;  ///< paddle about the lateral axis; positive narrows the gap anteriorly
   double width = 0;     ///< lateral size of the flats, 0: half as wide again as the body
@@ -99,6 +111,10 @@ struct PlatePair {
 /// `plate` as the paddle and its mirror image as the detector; their levels are left to the caller.
 PlatePair paddle_and_detector(const Plate& plate);
 
+/// The turn that lays the plates' edge along the chest wall behind the breast, degrees: that of the
+/// mean normal of the wall in the shape `x`, at most 45 to either side.
+double wall_turn_deg(const HexMesh& mesh, const std::vector<Vec3>& x);
+
 /// Places the plates about the shape `x` (node positions of the gravity-loaded body, mm, LPS). They
 /// close on the mid-plane of mesh.reference within the same footprint: upright the breast hangs
 /// below it, and plates that met where it hangs would drag it down the held chest wall (on the two
@@ -106,5 +122,8 @@ PlatePair paddle_and_detector(const Plate& plate);
 /// Throws Error (input) when the plates miss the breast.
 PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
                        const PlateOptions& options);
+/// `placed` with the same edge, but beginning about another shape of the body.
+PlatePair start_from(const PlatePair& placed, const HexMesh& mesh, const std::vector<Vec3>& x,
+                     const ViewPose& pose, PlateOptions options);
 
 }  // namespace breast

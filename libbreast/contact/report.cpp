@@ -18,7 +18,13 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
   report.set("initial_thickness_mm", contact.initial_thickness_mm);
   report.set("reduction_percent", contact.reduction_percent);
   report.set("standoff_mm", contact.standoff_mm);
-  report.set("edge_at_mm", -contact.plates[1].origin.y());
+  const PlateRecord& detector = contact.plates[1];
+  report.set("edge_at_mm", detector.origin.dot(detector.anterior));
+  report.set("turn_deg", contact.turn_deg);
+  report.set("contact_points", contact.surface_stiffness > 0 ? "surface" : "nodes");
+  if (contact.surface_stiffness > 0) {
+    report.set("surface_stiffness_Pa_per_mm", contact.surface_stiffness);
+  }
   report.set("middle_at_mm", summary.plates.middle());
   report.set("edge_radius_mm", contact.plates[0].edge_radius);
   report.set("view", view_name(contact.view));
@@ -34,6 +40,9 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
       report.set(key + "edge_force_percent", 100 * place.edge_part);
     }
     report.set(key + "force_N", plate.force_N);
+    report.set(key + "force_behind_edge_N", place.behind_edge_N);
+    report.set(key + "force_first_20mm_N", place.first_20mm_N);
+    report.set(key + "force_beyond_20mm_N", place.beyond_20mm_N);
     report.set(key + "area_cm2", plate.area_cm2);
     report.set(key + "mean_pressure_kPa", plate.mean_kPa);
     report.set(key + "peak_pressure_kPa", plate.peak_kPa);

@@ -9,12 +9,15 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "mesh/nodal.hpp"
+#include "mesh/nodal_faces.hpp"
 
 namespace breast {
 
 namespace {
 
 constexpr int profile_points = 10;
+/// Depth of the zone next to the plates' edge whose force is told apart, mm.
+constexpr double first_zone_mm = 20;
 
 /// Distance of a point to the nearest node of chest wall and cut, mm.
 double distance_to_wall(const HexMesh& mesh, const Eigen::VectorXd& x, const Vec3& at) {
@@ -41,73 +44,73 @@ PlateRecord pose_of(const HexMesh& mesh, const Plate& plate, const std::vector<F
   return record;
 }
 
-/// Writes the record of one compression, plate by plate.
-class Recorder {
- public:
-  Recorder(const Scene& scene, const State& state, const ContactSolver& solver,
-           CompressionResult& result)
-      : mesh_(scene.mesh()),
-        x_(state.x),
-        solver_(solver),
-        result_(result),
-        area_(skin_area_per_node(mesh_, state.x)),
-        faces_(free_boundary_faces(mesh_, scene.walls())) {}
+/// What touches, as points: those of the faces, or the nodes with the area of skin around them.
+std::vector<PressedPoint> pressed_points(const HexMesh& mesh, const PlatePair& plates,
+                                         const Eigen::VectorXd& x, const ContactSolver& solver,
+                                         const ContactStep& step) {
+  if (!step.pressed.empty()) return step.pressed;
+  const std::vector<double> area = skin_area_per_node(mesh, x);
+  std::vector<PressedPoint> points;
+  for (std::size_t c = 0; c < step.contacts.size(); ++c) {
+    const NodalContact& contact = step.contacts[c];
+    if (contact.plate < 0 || !(contact.normal > 0)) continue;
+    const int node = solver.candidates()[c];
+    const Vec3 at = x.segment<3>(3L * node);
+    const Gap gap = plates.plate(contact.plate).gap(at);
+    points.push_back({contact.plate, at, contact.normal * gap.gradient + contact.tangential,
+                      area[std::size_t(node)], std::max(0.0, -gap.value)});
+  }
+  return points;
+}
 
-  /// Force, area and pressures of plate k; adds its nodes to the contact pressures (kPa).
-  PlateRecord plate(int k);
-  const Vec3& total() const { return total_; }
-
- private:
-  void add_node(std::size_t candidate, const Plate& plate, PlateRecord& record);
-
-  const HexMesh& mesh_;
-  const Eigen::VectorXd& x_;
-  const ContactSolver& solver_;
-  CompressionResult& result_;
-  std::vector<double> area_;
-  std::vector<Face> faces_;
-  Vec3 total_{0, 0, 0}, force_{0, 0, 0};  // µN, of both plates and of this one
-  double area_mm2_ = 0, on_edge_ = 0;
-  Vec3 peak_at_{0, 0, 0};
-};
-
-void Recorder::add_node(std::size_t c, const Plate& plate, PlateRecord& record) {
-  const NodalContact& contact = result_.path.final_step.contacts[c];
-  const int node = solver_.candidates()[c];
-  const Vec3 x = x_.segment<3>(3L * node);
-  const Vec3 force = contact.normal * plate.gap(x).gradient + contact.friction;
-  force_ += force;
-  if (x.dot(plate.anterior) < plate.edge_start) on_edge_ += force.dot(record.normal);
-  area_mm2_ += area_[std::size_t(node)];
-  const double pressure = contact.normal / area_[std::size_t(node)] / pascal_per_kilopascal;
-  result_.contact_pressure[std::size_t(node)] = pressure;
-  if (pressure > record.peak_kPa) {
+/// Pressure at the nodes, kPa: a node's force over the area of the faces that may touch around it. That
+/// of all nodes under pressure is the contact area: single points of a face between nodes at rest on
+/// a plate are off it by nanometres or not.
+void record_pressure(const HexMesh& mesh, const Eigen::VectorXd& x, const ContactSolver& solver,
+                     CompressionResult& result) {
+  const ContactStep& step = result.path.final_step;
+  const std::vector<double> area = step.pressed.empty()
+                                       ? skin_area_per_node(mesh, x)
+                                       : nodal_faces(mesh, touchable_faces(mesh), x).area;
+  for (std::size_t c = 0; c < step.contacts.size(); ++c) {
+    const NodalContact& contact = step.contacts[c];
+    if (contact.plate < 0 || !(contact.normal > 0)) continue;
+    const int node = solver.candidates()[c];
+    const double pressure = contact.normal / area[std::size_t(node)] / pascal_per_kilopascal;
+    result.contact_pressure[std::size_t(node)] = pressure;
+    PlateRecord& record = result.contact->plates[std::size_t(contact.plate)];
+    record.area_cm2 += area[std::size_t(node)] / mm2_per_cm2;
+    if (!(pressure > record.peak_kPa)) continue;
+    const Vec3 at = x.segment<3>(3L * node);
     record.peak_kPa = pressure;
-    peak_at_ = x;
+    result.places[std::size_t(contact.plate)].peak_at = at;
+    result.places[std::size_t(contact.plate)].peak_to_wall_mm = distance_to_wall(mesh, x, at);
+  }
+  for (PlateRecord& record : result.contact->plates) {
+    if (!(record.area_cm2 > 0)) continue;
+    record.mean_kPa = record.force_N * micronewton_per_newton / (record.area_cm2 * mm2_per_cm2) /
+                      pascal_per_kilopascal;
   }
 }
 
-PlateRecord Recorder::plate(int k) {
-  const Plate& plate = result_.plates.plate(k);
-  PlateRecord record = pose_of(mesh_, plate, faces_, x_);
-  force_.setZero();
-  area_mm2_ = on_edge_ = 0;
-  const std::vector<NodalContact>& contacts = result_.path.final_step.contacts;
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (contacts[c].plate == k && contacts[c].normal > 0) add_node(c, plate, record);
+/// Force, area and mean pressure of a plate, and where along its depth the force acts. Returns the
+/// force on the body, µN.
+Vec3 record_plate(const std::vector<PressedPoint>& points, int k, const Plate& plate,
+                  PlateRecord& record, PressedPlace& place) {
+  Vec3 force = Vec3::Zero();
+  for (const PressedPoint& point : points) {
+    if (point.plate != k) continue;
+    force += point.force;
+    const double along = point.force.dot(record.normal) / micronewton_per_newton;
+    const double in_front = point.at.dot(plate.anterior) - plate.edge_start;
+    (in_front < 0               ? place.behind_edge_N
+     : in_front < first_zone_mm ? place.first_20mm_N
+                                : place.beyond_20mm_N) += along;
   }
-  total_ += force_;
-  const double pressing = force_.dot(record.normal);
+  const double pressing = force.dot(record.normal);
   record.force_N = pressing / micronewton_per_newton;
-  record.area_cm2 = area_mm2_ / mm2_per_cm2;
-  PressedPlace& place = result_.places[std::size_t(k)];
-  if (area_mm2_ > 0) {
-    place.peak_at = peak_at_;
-    place.peak_to_wall_mm = distance_to_wall(mesh_, x_, peak_at_);
-    place.edge_part = on_edge_ / pressing;
-    record.mean_kPa = pressing / area_mm2_ / pascal_per_kilopascal;
-  }
-  return record;
+  if (pressing > 0) place.edge_part = place.behind_edge_N / record.force_N;
+  return force;
 }
 
 void record_balance(const Scene& scene, const Constraints& held, const State& state,
@@ -137,16 +140,19 @@ void record_profile(const HexMesh& mesh, const Eigen::VectorXd& x, const Contact
   for (int i = 0; i <= profile_points; ++i) {
     const double depth = (front - paddle.edge_start) * i / profile_points * 0.999;
     result.profile_depth_mm.push_back(depth);
-    result.profile_thickness_mm.push_back(
-        thickness_at(mesh, x, paddle, paddle.edge_start + depth));
+    result.profile_thickness_mm.push_back(thickness_at(mesh, x, paddle, paddle.edge_start + depth));
   }
 }
 
-ContactRecord record_of(const CompressionOptions& options, const CompressionResult& result) {
+ContactRecord record_of(const CompressionOptions& options, const CompressionResult& result,
+                        double stiffness) {
   const PlatePair& plates = result.plates;
   ContactRecord record;
   record.view = options.view;
   record.angle_deg = options.angle_deg;
+  record.turn_deg = result.pose.turn_deg;
+  record.surface_stiffness = stiffness;
+  record.ends_image = options.plates.image_edge.has_value();
   record.thickness_mm = plates.thickness();
   record.initial_thickness_mm = plates.initial_thickness;
   record.reduction_percent = 100 * (1 - plates.thickness() / plates.initial_thickness);
@@ -163,20 +169,34 @@ ContactRecord record_of(const CompressionOptions& options, const CompressionResu
 }  // namespace
 
 void record_compression(const Scene& scene, const CompressionOptions& options, const State& state,
-                        const ContactSolver& solver, const Vec3& weight,
-                        CompressionResult& result) {
+                        const ContactSolver& solver, const SurfaceContact* surface,
+                        const Vec3& weight, CompressionResult& result) {
+  const double surface_stiffness = surface != nullptr ? surface->pressure().stiffness() : 0;
+  const FrictionTerm* friction = surface != nullptr ? surface->friction().get() : nullptr;
   const HexMesh& mesh = scene.mesh();
   result.contact_pressure.assign(std::size_t(mesh.nodes()), 0);
   result.places.assign(2, {});
-  ContactRecord record = record_of(options, result);
-  Recorder recorder(scene, state, solver, result);
-  for (int k = 0; k < 2; ++k) record.plates.push_back(recorder.plate(k));
+  ContactRecord record = record_of(options, result, surface_stiffness);
+  const std::vector<PressedPoint> points =
+      pressed_points(mesh, result.plates, state.x, solver, result.path.final_step);
+  const std::vector<Face> faces = free_boundary_faces(mesh, scene.walls());
+  Vec3 total = Vec3::Zero();  // of both plates on the body, µN
+  if (friction != nullptr) {
+    for (const FrictionEntry& held : friction->entries()) {
+      record.friction.push_back({held.node, held.plate, held.anchor, held.bound, held.stick});
+    }
+  }
+  for (int k = 0; k < 2; ++k) {
+    const Plate& plate = result.plates.plate(k);
+    record.plates.push_back(pose_of(mesh, plate, faces, state.x));
+    total += record_plate(points, k, plate, record.plates.back(), result.places[std::size_t(k)]);
+  }
   result.thickness_mm = record.thickness_mm;
   result.reduction_percent = record.reduction_percent;
   result.initial_thickness_mm = record.initial_thickness_mm;
   result.contact = std::move(record);
-  record_balance(scene, solver.problem().constraints_at(state.x), state, recorder.total(), weight,
-                 result);
+  record_pressure(mesh, state.x, solver, result);
+  record_balance(scene, solver.problem().constraints_at(state.x), state, total, weight, result);
   result.strains = strain_ranges(mesh, state.x);
   record_profile(mesh, state.x, solver, result);
 }

@@ -71,7 +71,7 @@ void compression_row(Picture& picture, const HexMesh& mesh, double bottom, doubl
   Panel& right = picture.panel(2.0 / 3, bottom, 1, top);
   add_body(right, mesh, mesh.points, {.edges = true});
   add_plates(right, mesh, 0.25);
-  const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg);
+  const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg, mesh.contact->turn_deg);
   finish({{left, view, name(0) + "stress-free, plates touching"},
           {middle, view, name(1) + compression_caption(mesh)},
           {right,

@@ -24,7 +24,7 @@ Camera oblique_view(Side side) {
 }
 
 Camera plate_view(const HexMesh& mesh) {
-  const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg);
+  const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg, mesh.contact->turn_deg);
   // Along the plates' edge, a little from the front and above, so that the plates show their faces;
   // from the patient's outer side, which in CC is where the technician stands.
   Vec3 along = pose.e_v;

@@ -72,8 +72,10 @@ BandModel::BandModel(const Matcher& matcher, const DerivativeFields& from,
   const int nodes = matcher.from().nodes();
   for (const Prior& prior : priors) {
     if (prior.parameter == "repositioning") {
-      in_first_.emplace_back("repositioning in " + view_name(matcher.from_frame().view), prior.deviation);
-      in_second_.emplace_back("repositioning in " + view_name(matcher.to_frame().view), prior.deviation);
+      in_first_.emplace_back("repositioning in " + view_name(matcher.from_frame().view),
+                             prior.deviation);
+      in_second_.emplace_back("repositioning in " + view_name(matcher.to_frame().view),
+                              prior.deviation);
       continue;
     }
     if (prior.parameter == "chain") {
@@ -81,15 +83,17 @@ BandModel::BandModel(const Matcher& matcher, const DerivativeFields& from,
       continue;
     }
     if (prior.parameter == "picking" || prior.parameter == "alignment_from") {
-      in_first_.emplace_back(
-          prior.parameter == "picking" ? "picking" : "alignment in " + view_name(matcher.from_frame().view),
-          prior.deviation);
+      in_first_.emplace_back(prior.parameter == "picking"
+                                 ? "picking"
+                                 : "alignment in " + view_name(matcher.from_frame().view),
+                             prior.deviation);
       continue;
     }
     if (prior.parameter == "marking" || prior.parameter == "alignment_to") {
-      in_second_.emplace_back(
-          prior.parameter == "marking" ? "marking" : "alignment in " + view_name(matcher.to_frame().view),
-          prior.deviation);
+      in_second_.emplace_back(prior.parameter == "marking"
+                                  ? "marking"
+                                  : "alignment in " + view_name(matcher.to_frame().view),
+                              prior.deviation);
       continue;
     }
     const NodalField *first = field_of(from, prior.parameter, nodes),
@@ -98,10 +102,10 @@ BandModel::BandModel(const Matcher& matcher, const DerivativeFields& from,
       without_.push_back(prior.parameter);
     } else if (std::find(per_view.begin(), per_view.end(), prior.parameter) != per_view.end()) {
       const bool turns = prior.parameter == "angle";
-      causes_.push_back({prior.parameter + " in " + view_name(matcher.from_frame().view), prior.deviation,
-                         first, nullptr, turns});
-      causes_.push_back({prior.parameter + " in " + view_name(matcher.to_frame().view), prior.deviation,
-                         nullptr, second, turns});
+      causes_.push_back({prior.parameter + " in " + view_name(matcher.from_frame().view),
+                         prior.deviation, first, nullptr, turns});
+      causes_.push_back({prior.parameter + " in " + view_name(matcher.to_frame().view),
+                         prior.deviation, nullptr, second, turns});
     } else {
       causes_.push_back({prior.parameter, prior.deviation, first, second});
     }
@@ -121,9 +125,9 @@ Vec3 BandModel::moved(const HexMesh& mesh, const ImageFrame& frame, const Vec3& 
   if (turns) {
     constexpr double step = 0.5;  // degrees
     const double angle = frame.pose.angle_deg;
-    const Vec3 axis_slope =
-        (view_pose(mesh.side, angle + step).e_v - view_pose(mesh.side, angle - step).e_v) /
-        (2 * step);
+    const Vec3 axis_slope = (view_pose(mesh.side, angle + step, frame.pose.turn_deg).e_v -
+                             view_pose(mesh.side, angle - step, frame.pose.turn_deg).e_v) /
+                            (2 * step);
     moved += (at - centre).dot(axis_slope) * frame.pose.e_v;
   }
   return moved;

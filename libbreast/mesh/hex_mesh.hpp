@@ -49,11 +49,25 @@ struct PlateRecord {
   /// How deep the body enters the plate, mm, over sampled points of every free boundary face.
   double worst_gap_mm = 0;
 };
+/// A node that friction of a plate holds in the compressed state.
+struct FrictionRecord {
+  int node = 0, plate = 0;
+  Vec3 anchor{0, 0, 0};  ///< mm
+  double bound = 0;      ///< the most it is held with, µN
+  double stick = 0;      ///< stiffness of the hold, µN/mm
+};
 struct ContactRecord {
   View view = View::cc;
   double angle_deg = 0;      ///< beam angle θ, degrees from cranio-caudal
+  /// By which the plates' edge is turned towards the breast's side about the patient's long axis.
+  double turn_deg = 0;
+  /// Whether the image ends at the plates' edge, as in the clinic, or at the chest wall.
+  bool ends_image = false;
+  /// Of the plates against faces, Pa/mm; 0: nodes touch, exactly.
+  double surface_stiffness = 0;
   double thickness_mm = 0, reduction_percent = 0, initial_thickness_mm = 0, standoff_mm = 0;
   std::vector<PlateRecord> plates;
+  std::vector<FrictionRecord> friction;  ///< where faces touch with friction
   /// How much of any further closing the paddle does: a half, or all where the detector has risen as
   /// far as it may.
   double paddle_share = 0.5;

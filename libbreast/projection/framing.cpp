@@ -21,6 +21,7 @@ double detector_height(const HexMesh& mesh, const Vec3& n) {
 }
 
 double posterior_edge(const HexMesh& mesh, const Vec3& e_u) {
+  if (mesh.contact->ends_image) return mesh.contact->plates.back().origin.dot(e_u);
   double edge = std::numeric_limits<double>::infinity();
   for (const Vec3& x : mesh.points) edge = std::min(edge, x.dot(e_u));
   for (const auto* set : {&mesh.pectoral_faces, &mesh.cut_faces}) {
@@ -37,7 +38,7 @@ ImageFrame image_frame(const HexMesh& mesh, Beam beam) {
   }
   ImageFrame frame;
   frame.view = mesh.contact->view;
-  frame.pose = view_pose(mesh.side, mesh.contact->angle_deg);
+  frame.pose = view_pose(mesh.side, mesh.contact->angle_deg, mesh.contact->turn_deg);
   ViewPose& pose = frame.pose;
   const double u0 = posterior_edge(mesh, pose.e_u);
   // v of the tissue that can be seen: elements reaching in front of the edge.

@@ -1,8 +1,12 @@
 #include "sensitivity/chain.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
+#include "contact/penetration.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "mesh/shape.hpp"
@@ -45,7 +49,7 @@ LoadedState deformed_state(const Scene& scene) {
 }
 
 std::vector<PlateContact> contacts_of(const HexMesh& mesh, const PlatePair& plates) {
-  if (!mesh.contact) return {};
+  if (!mesh.contact || mesh.contact->surface_stiffness > 0) return {};
   std::vector<PlateContact> contacts = recorded_contacts(mesh, plates);
   for (const PlateContact& contact : contacts) {
     if (!(std::abs(contact.gap.value) <= 1e-5)) {
@@ -57,6 +61,44 @@ std::vector<PlateContact> contacts_of(const HexMesh& mesh, const PlatePair& plat
   return contacts;
 }
 
+// The plates' pressure on faces at the state of the file; null where nodes touch.
+std::shared_ptr<SurfacePressure> recorded_pressure(const Scene& scene, const PlatePair& plates) {
+  const HexMesh& mesh = scene.mesh();
+  if (!mesh.contact || !(mesh.contact->surface_stiffness > 0)) return nullptr;
+  auto pressure =
+      std::make_shared<SurfacePressure>(mesh, touchable_faces(mesh), *scene.solid().space());
+  pressure->set_plates(plates);
+  pressure->set_stiffness(mesh.contact->surface_stiffness);
+  pressure->set_turning_depth(std::numeric_limits<double>::infinity());
+  pressure->choose_points(flatten(mesh.points));
+  return pressure;
+}
+
+// The friction recorded in the file; null: none.
+std::shared_ptr<FrictionTerm> recorded_friction(const HexMesh& mesh, const PlatePair& plates) {
+  if (!mesh.contact || mesh.contact->friction.empty()) return nullptr;
+  std::vector<FrictionEntry> entries;
+  for (const FrictionRecord& held : mesh.contact->friction) {
+    if (held.node >= mesh.nodes()) {
+      throw input_error("contact record: friction at node ", held.node, ", but the mesh has ",
+                        mesh.nodes());
+    }
+    entries.push_back({held.node, held.plate, held.anchor, held.bound, held.stick});
+  }
+  auto friction = std::make_shared<FrictionTerm>();
+  friction->set_plates(plates);
+  friction->set_entries(std::move(entries));
+  return friction;
+}
+
+std::vector<std::shared_ptr<const Term>> present(
+    std::initializer_list<std::shared_ptr<const Term>> terms) {
+  std::vector<std::shared_ptr<const Term>> list;
+  std::copy_if(terms.begin(), terms.end(), std::back_inserter(list),
+               [](const auto& term) { return term != nullptr; });
+  return list;
+}
+
 }  // namespace
 
 SensitivityChain::SensitivityChain(const HexMesh& state, const std::vector<double>& imaged_pressure,
@@ -64,10 +106,12 @@ SensitivityChain::SensitivityChain(const HexMesh& state, const std::vector<doubl
     : mesh_(state),
       scene_(state, options),
       plates_(state.contact ? recorded_plates(state) : PlatePair{}),
-      imaged_(scene_, imaged_state(scene_, imaged_pressure, imaged_gravity), {},
+      pressure_(recorded_pressure(scene_, plates_)),
+      imaged_(scene_, imaged_state(scene_, imaged_pressure, imaged_gravity), {}, {},
               "the imaged shape"),
-      deformed_(scene_, deformed_state(scene_), contacts_of(state, plates_), "the deformed shape") {
-}
+      friction_(recorded_friction(state, plates_)),
+      deformed_(scene_, deformed_state(scene_), contacts_of(state, plates_),
+                present({pressure_, friction_}), "the deformed shape") {}
 
 // −∂R/∂m of both states, and the movement the plates impose.
 struct SensitivityChain::Rights {
@@ -88,6 +132,14 @@ SensitivityChain::Rights SensitivityChain::rights(const std::vector<Parameter>& 
       out.deformed.force.col(long(i)).segment<3>(at) -= contact.force * slope.gradient;
       out.imposed.col(long(i)).segment<3>(at) = -slope.value * contact.normal();
     }
+    if (pressure_) {
+      out.deformed.force.col(long(i)) -= pressure_->change_of_forces(
+          deformed_.state().state.x, -1, nullptr, slope_of(parameters[i]));
+    }
+    if (friction_) {
+      out.deformed.force.col(long(i)) -= friction_->change_of_forces(
+          deformed_.state().state.x, -1, velocity_of(parameters[i]));
+    }
   }
   out.imaged.force *= -1;
   out.imaged.volume *= -1;
@@ -96,11 +148,30 @@ SensitivityChain::Rights SensitivityChain::rights(const std::vector<Parameter>& 
   return out;
 }
 
+std::function<GapSlope(int, const Gap&, const Vec3&)> SensitivityChain::slope_of(
+    const Parameter& parameter) const {
+  return [this, &parameter](int plate, const Gap& gap, const Vec3& at) {
+    return gap_slope(plates_, {0, plate, gap, 0}, at, parameter, mesh_.side);
+  };
+}
+
+std::function<Vec3(int, const Vec3&)> SensitivityChain::velocity_of(
+    const Parameter& parameter) const {
+  return [this, &parameter](int plate, const Vec3& at) {
+    return plate_velocity(plates_, plate, at, parameter, mesh_.side);
+  };
+}
+
 // Change of the force along the paddle's normal, N. A node's force is λ∇g: `along` is δλ ∇g, the
 // rest is ∇g turning as node and plate move.
 double SensitivityChain::paddle_force(const Parameter& parameter, const Imbalance& along,
                                       const Direction& moved) const {
   Vec3 sum = Vec3::Zero();
+  if (pressure_) {
+    const Eigen::VectorXd change = pressure_->change_of_forces(deformed_.state().state.x, 0,
+                                                               &moved.u, slope_of(parameter));
+    for (Eigen::Index i = 0; i < change.size(); i += 3) sum += change.segment<3>(i);
+  }
   for (const PlateContact& contact : deformed_.contacts()) {
     if (contact.plate != 0) continue;
     const long at = 3L * contact.node;
@@ -136,7 +207,7 @@ std::vector<Response> SensitivityChain::tangent(const std::vector<Parameter>& pa
     const Direction solved = deformed_.solve(all, &imposed);
     response.position = unflatten(solved.u);
     response.reference = unflatten(reference);
-    if (contacts() > 0) {
+    if (pressed()) {
       Imbalance along = deformed_.apply(solved);
       along.force -= all.force;
       response.paddle_force_N = paddle_force(parameters[i], along, solved);

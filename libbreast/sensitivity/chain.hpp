@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "contact/terms/friction.hpp"
+#include "contact/terms/surface_pressure.hpp"
 #include "sensitivity/linearised_state.hpp"
 
 namespace breast {
@@ -44,18 +46,28 @@ class SensitivityChain {
 
   const LinearisedState& imaged() const { return imaged_; }
   const LinearisedState& deformed() const { return deformed_; }
+  /// Nodes that plates hold.
   std::size_t contacts() const { return deformed_.contacts().size(); }
+  /// Whether plates touch the deformed state.
+  bool pressed() const { return pressure_ != nullptr || !deformed_.contacts().empty(); }
 
  private:
   struct Rights;
   Rights rights(const std::vector<Parameter>& parameters) const;
+  /// How the gaps of the plates change with a parameter, which must outlive the answer.
+  std::function<GapSlope(int, const Gap&, const Vec3&)> slope_of(const Parameter& parameter) const;
+  /// How points fixed to the plates move with a parameter, which must outlive the answer.
+  std::function<Vec3(int, const Vec3&)> velocity_of(const Parameter& parameter) const;
   double paddle_force(const Parameter& parameter, const Imbalance& along,
                       const Direction& moved) const;
 
   const HexMesh& mesh_;
   Scene scene_;
   PlatePair plates_;
-  LinearisedState imaged_, deformed_;
+  std::shared_ptr<SurfacePressure> pressure_;  // where plates press on faces
+  LinearisedState imaged_;
+  std::shared_ptr<FrictionTerm> friction_;
+  LinearisedState deformed_;
 };
 
 /// d ln|u| of a landmark's displacement from its imaged place, per unit of the parameter whose

@@ -27,8 +27,10 @@ Constraints with_contacts(Constraints held, const std::vector<PlateContact>& con
 
 }  // namespace
 
-LinearisedState::LinearisedState(const Scene& scene, LoadedState state, std::vector<PlateContact> contacts,
-                         const std::string& what)
+LinearisedState::LinearisedState(const Scene& scene, LoadedState state,
+                                 std::vector<PlateContact> contacts,
+                                 const std::vector<std::shared_ptr<const Term>>& plates,
+                                 const std::string& what)
     : scene_(scene),
       problem_(scene.problem(scene.gravity_force(state.gravity)).problem),
       state_(std::move(state)),
@@ -37,6 +39,7 @@ LinearisedState::LinearisedState(const Scene& scene, LoadedState state, std::vec
       moved_(problem_.nodes()),
       matrix_(problem_.make_matrix()),
       solver_(problem_.space().pattern) {
+  for (const auto& term : plates) problem_.add(term);
   settle(what);
 }
 

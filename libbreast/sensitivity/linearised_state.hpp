@@ -24,11 +24,14 @@ struct Imbalance {
 
 class LinearisedState {
  public:
-  /// `what` names the state in messages. Pressures of 27-node elements, which files do not hold in
+  /// `contacts` are held along their normals; `plates`: their terms where they press on
+  /// faces. `what` names the
+  /// state in messages. Pressures of 27-node elements, which files do not hold in
   /// full, are recovered. Throws Error (input) when the state is no equilibrium under these
   /// options, and Error (failed) when it is an unstable one.
   LinearisedState(const Scene& scene, LoadedState state, std::vector<PlateContact> contacts,
-              const std::string& what);
+                  const std::vector<std::shared_ptr<const Term>>& plates,
+                  const std::string& what);
 
   const LoadedState& state() const { return state_; }
   const std::vector<PlateContact>& contacts() const { return contacts_; }

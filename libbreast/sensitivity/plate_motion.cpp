@@ -36,7 +36,7 @@ PlatePair recorded_plates(const HexMesh& mesh) {
   if (!mesh.contact || mesh.contact->plates.size() != 2) {
     throw input_error("the state has no record of two plates; make it with compress");
   }
-  const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg);
+  const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg, mesh.contact->turn_deg);
   PlatePair plates;
   plates.paddle = recorded_plate(mesh.contact->plates[0], pose, 1);
   plates.detector = recorded_plate(mesh.contact->plates[1], pose, -1);
@@ -59,27 +59,42 @@ std::vector<PlateContact> recorded_contacts(const HexMesh& mesh, const PlatePair
   return contacts;
 }
 
+namespace {
+// About the common anterior mid-line of the plates: dn/dθ of n = (s sin θ, 0, −cos θ) is ω × n with
+// ω = s e_u.
+Vec3 plate_turn(const PlatePair& plates, const Parameter& parameter, Side side) {
+  if (parameter.kind != ParameterKind::angle) return Vec3::Zero();
+  return lateral_sign(side) * std::numbers::pi / 180 * plates.paddle.anterior;
+}
+}  // namespace
+
+Vec3 plate_velocity(const PlatePair& plates, int k, const Vec3& x, const Parameter& parameter,
+                    Side side) {
+  const Plate& plate = plates.plate(k);
+  switch (parameter.kind) {
+    case ParameterKind::thickness: {
+      const double paddle = plates.paddle_share();
+      return -(k == 0 ? paddle : 1 - paddle) * plate.sign * plate.n;
+    }
+    case ParameterKind::standoff:
+      return plate.anterior;
+    case ParameterKind::detector:
+      return -plate.n;
+    case ParameterKind::angle: {
+      const Vec3 centre = 0.5 * (plates.paddle.origin() + plates.detector.origin());
+      return plate_turn(plates, parameter, side).cross(x - centre);
+    }
+    default:
+      return Vec3::Zero();
+  }
+}
+
 // A plate moving with velocity v at a point and turning with ω: the gap seen from a fixed point
 // changes by −∇g·v, its gradient by ω × ∇g − ∇²g v.
 GapSlope gap_slope(const PlatePair& plates, const PlateContact& contact, const Vec3& x,
                    const Parameter& parameter, Side side) {
-  const Plate& plate = plates.plate(contact.plate);
-  Vec3 velocity = Vec3::Zero(), turn = Vec3::Zero();
-  if (parameter.kind == ParameterKind::thickness) {
-    const double paddle = plates.paddle_share();
-    velocity = -(contact.plate == 0 ? paddle : 1 - paddle) * plate.sign * plate.n;
-  } else if (parameter.kind == ParameterKind::standoff) {
-    velocity = plate.anterior;
-  } else if (parameter.kind == ParameterKind::detector) {
-    velocity = -plate.n;
-  } else if (parameter.kind == ParameterKind::angle) {
-    // dn/dθ of n = (s sin θ, 0, −cos θ) is ω × n with ω = s e_u.
-    turn = lateral_sign(side) * std::numbers::pi / 180 * plate.anterior;
-    const Vec3 centre = 0.5 * (plates.paddle.origin() + plates.detector.origin());
-    velocity = turn.cross(x - centre);
-  } else {
-    return {};
-  }
+  const Vec3 velocity = plate_velocity(plates, contact.plate, x, parameter, side);
+  const Vec3 turn = plate_turn(plates, parameter, side);
   return {-contact.gap.gradient.dot(velocity),
           turn.cross(contact.gap.gradient) - contact.gap.hessian * velocity};
 }

@@ -25,12 +25,11 @@ struct PlateContact {
 /// Skin nodes that carry contact pressure, each with the plate it rests on.
 std::vector<PlateContact> recorded_contacts(const HexMesh& mesh, const PlatePair& plates);
 
-/// What a parameter does to one contact at a fixed point: ∂g/∂m and ∂∇g/∂m.
-struct GapSlope {
-  double value = 0;
-  Vec3 gradient{0, 0, 0};
-};
-/// Plates move as rigid bodies: closing by their shares of the thickness (a half each, or the paddle
+/// Velocity of a point fixed to a plate, mm per unit of the parameter; zero for parameters that move no
+/// plate.
+Vec3 plate_velocity(const PlatePair& plates, int plate, const Vec3& x, const Parameter& parameter,
+                    Side side);
+/// What a parameter does to one contact at a fixed point: ∂g/∂m and ∂∇g/∂m. Plates move as rigid bodies: closing by their shares of the thickness (a half each, or the paddle
 /// alone where the detector has risen as far as it may), both along the anterior axis, both against the beam, or about
 /// their common anterior mid-line.
 GapSlope gap_slope(const PlatePair& plates, const PlateContact& contact, const Vec3& x,

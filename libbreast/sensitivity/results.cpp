@@ -31,7 +31,7 @@ SensitivityResults tangent_results(const SensitivityChain& chain,
               landmark_position(mesh, response.position, landmark), response.seconds, out.table,
               report);
     }
-    if (chain.contacts() > 0 && response.parameter.kind != ParameterKind::angle) {
+    if (chain.pressed() && response.parameter.kind != ParameterKind::angle) {
       report.set("sensitivity/paddle/" + response.parameter.name + "/force_N",
                  response.paddle_force_N);
     }

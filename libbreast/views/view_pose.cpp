@@ -17,12 +17,15 @@ Vec2 ViewPose::project(const Vec3& patient) const {
   return uv;
 }
 
-ViewPose view_pose(Side side, double angle_deg) {
+ViewPose view_pose(Side side, double angle_deg, double turn_deg) {
   const double theta = angle_deg * std::numbers::pi / 180.0;
   ViewPose pose;
   pose.angle_deg = angle_deg;
-  pose.n = Vec3(lateral_sign(side) * std::sin(theta), 0, -std::cos(theta));
-  pose.e_u = Vec3(0, -1, 0);
+  pose.turn_deg = turn_deg;
+  const double turn = lateral_sign(side) * turn_deg * std::numbers::pi / 180.0;
+  const Eigen::AngleAxisd turned(turn, Vec3::UnitZ());
+  pose.n = turned * Vec3(lateral_sign(side) * std::sin(theta), 0, -std::cos(theta));
+  pose.e_u = turned * Vec3(0, -1, 0);
   pose.e_v = pose.n.cross(pose.e_u);
   return pose;
 }

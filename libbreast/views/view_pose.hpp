@@ -12,7 +12,7 @@ struct ViewPose {
   Vec3 n{0, 0, -1}, e_u{0, -1, 0}, e_v{-1, 0, 0};
   /// mm, LPS, on the detector plane; image (u,v) = (0,0) is pixel (0,0)'s centre.
   Vec3 origin{0, 0, 0};
-  double angle_deg = 0;
+  double angle_deg = 0, turn_deg = 0;
   double source_distance = 0;  ///< mm from detector to point source; 0 = parallel beam
   double source_v = 0;         ///< mm
 
@@ -20,7 +20,8 @@ struct ViewPose {
   Vec3 on_detector(const Vec2& uv) const { return origin + uv.x() * e_u + uv.y() * e_v; }
   Vec2 project(const Vec3& patient) const;
 };
-/// n = (s sin θ, 0, −cos θ), s = lateral_sign(side).
-ViewPose view_pose(Side side, double angle_deg);
+/// n = (s sin θ, 0, −cos θ), s = lateral_sign(side), e_u = (0, −1, 0); both then turned about the
+/// patient's long axis by `turn_deg`, so that e_u points to (s sin ψ, −cos ψ, 0).
+ViewPose view_pose(Side side, double angle_deg, double turn_deg = 0);
 
 }  // namespace breast

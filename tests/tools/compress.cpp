@@ -81,6 +81,35 @@ TEST_F(CompressTool, WritesTheContactRecordAndTheContractKeys) {
 }
 
 // The estimate against what 27-node elements on the same mesh really differ by.
+TEST_F(CompressTool, PlacesThePlatesByTheEdgeOfTheImage) {
+  const ToolResult good = compress({"CC", "--reduction", "25", "--image-edge", "8", "--turn", "5"});
+  ASSERT_EQ(good.exit_code, 0) << good.err;
+  const Report r = report();
+  EXPECT_EQ(r.text("contact_points"), "surface");
+  EXPECT_EQ(r.number("edge_radius_mm"), 3);
+  EXPECT_EQ(r.number("turn_deg"), 5);
+  EXPECT_LE(r.number("worst_gap_mm"), 0.05);
+  EXPECT_LT(r.number("force_balance"), 1e-6);
+  EXPECT_NEAR(r.number("plates/paddle/force_behind_edge_N") +
+                  r.number("plates/paddle/force_first_20mm_N") +
+                  r.number("plates/paddle/force_beyond_20mm_N"),
+              r.number("force_N"), 1e-9 * r.number("force_N"));
+  const HexMesh mesh = read_mesh(folder_ / "out.vtkhdf");
+  ASSERT_TRUE(mesh.contact);
+  EXPECT_EQ(mesh.contact->turn_deg, 5);
+  EXPECT_TRUE(mesh.contact->ends_image);
+  EXPECT_GT(mesh.contact->surface_stiffness, 0);
+  EXPECT_FALSE(mesh.contact->friction.empty());
+}
+
+TEST_F(CompressTool, RefusesTwoPlacesForTheEdge) {
+  const ToolResult result =
+      compress({"CC", "--reduction", "25", "--image-edge", "auto", "--standoff", "5"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("--image-edge"), std::string::npos) << result.err;
+  EXPECT_FALSE(wrote());
+}
+
 TEST_F(CompressTool, EstimatesItsDiscretisationError) {
   ASSERT_EQ(compress({"CC", "--reduction", "25"}).exit_code, 0);
   const double estimate = report().number("error_estimate_mm");

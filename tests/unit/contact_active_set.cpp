@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "contact/active_set.hpp"
-#include "contact/augmented_lagrangian.hpp"
+#include "contact/solvers/active_set.hpp"
+#include "contact/solvers/augmented_lagrangian.hpp"
 #include "contact/path.hpp"
 #include "core/units.hpp"
 #include "fixtures/level_surfaces.hpp"

@@ -1,8 +1,11 @@
 // Plates as rounded bodies: distance and derivatives, placement, T0.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "contact/penetration.hpp"
 #include "contact/plates.hpp"
@@ -131,6 +134,51 @@ TEST(Plates, StandoffFollowsTheDepthUpToALimit) {
     EXPECT_NEAR(plates.standoff, standoff, 1e-12);
     EXPECT_NEAR(plates.paddle.edge_start, standoff, 1e-12);
   }
+}
+
+// The block turned about the patient's long axis, as ribs are that fall away towards the side.
+TEST(Plates, TheEdgeOfTheImageLiesAlongTheWall) {
+  for (const Side side : {Side::left, Side::right}) {
+    SCOPED_TRACE(side_name(side));
+    HexMesh mesh = fixtures::standing_block({50, 60, 40}, {5, 6, 4});
+    mesh.side = side;
+    const double angle = 20, turn = lateral_sign(side) * angle * std::numbers::pi / 180;
+    const Eigen::AngleAxisd turned(turn, Vec3::UnitZ());
+    for (Vec3& x : mesh.points) x = turned * x;
+    mesh.reference = mesh.imaged = mesh.points;
+    EXPECT_NEAR(wall_turn_deg(mesh, mesh.points), angle, 1e-9);
+    const ViewPose pose = view_pose(side, 45, angle);
+    EXPECT_LT((pose.e_u - turned * Vec3(0, -1, 0)).norm(), 1e-12);
+    EXPECT_NEAR(pose.n.dot(pose.e_u), 0, 1e-12);
+    EXPECT_NEAR(pose.n.z(), view_pose(side, 45).n.z(), 1e-12);
+    PlateOptions options;
+    options.image_edge = 5;
+    const PlatePair plates = place_plates(mesh, mesh.points, pose, options);
+    EXPECT_NEAR(plates.paddle.edge_start, 5, 1e-9);
+    EXPECT_NEAR(plates.standoff, 5, 1e-9);
+  }
+}
+
+// Points of the cut are tissue: an edge of the image is measured from the chest wall alone.
+TEST(Plates, TheEdgeOfTheImageDoesNotSeeTheCut) {
+  HexMesh mesh = fixtures::standing_block({50, 60, 40}, {5, 6, 4});
+  const auto in_front = [&](const Face& face) {
+    const std::vector<int> nodes = face_nodes(mesh, face);
+    return std::all_of(nodes.begin(), nodes.end(), [&](int n) {
+      return mesh.points[std::size_t(n)].z() > 39.9 && mesh.points[std::size_t(n)].y() > -20.1;
+    });
+  };
+  for (const Face& face : mesh.skin_faces) {
+    if (in_front(face)) mesh.cut_faces.push_back(face);
+  }
+  std::erase_if(mesh.skin_faces, in_front);
+  ASSERT_FALSE(mesh.cut_faces.empty());
+  PlateOptions by_wall, by_both;
+  by_wall.image_edge = 5;
+  by_both.standoff = 5;
+  const ViewPose pose = view_pose(Side::left, 0);
+  EXPECT_NEAR(place_plates(mesh, mesh.points, pose, by_wall).paddle.edge_start, 5, 1e-9);
+  EXPECT_NEAR(place_plates(mesh, mesh.points, pose, by_both).paddle.edge_start, 25, 1e-9);
 }
 
 TEST(Plates, EdgeMayBeGivenByItsPlace) {

@@ -2,11 +2,13 @@
 // is tested by being added to the list.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <set>
 
 #include "contact/terms/friction.hpp"
 #include "contact/terms/plate.hpp"
+#include "contact/terms/surface_pressure.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/level_surfaces.hpp"
 #include "fixtures/wide_plates.hpp"
@@ -125,6 +127,28 @@ Case friction(bool stuck) {
   return out;
 }
 
+// Faces that a plate's rounded edge crosses. `richer`: of 27-node elements.
+Case faces(bool richer) {
+  Case out = body(richer ? Element::q2p1 : Element::q1p0, 0, Invariants::isochoric, false);
+  const std::vector<int> list = top_nodes(out.mesh);
+  const std::set<int> top(list.begin(), list.end());
+  std::vector<Face> pressed;
+  for (const Face& face : out.mesh.skin_faces) {
+    const std::vector<int> nodes = face_nodes(out.mesh, face);
+    if (std::all_of(nodes.begin(), nodes.end(), [&](int n) { return top.contains(n); })) {
+      pressed.push_back(face);
+    }
+  }
+  auto term = std::make_shared<SurfacePressure>(out.mesh, pressed, *out.scene->solid().space());
+  term->set_plates(plates_at_the_top(3));
+  term->set_stiffness(1e4);
+  term->set_turning_depth(1e9);
+  term->choose_points(out.state.x);
+  out.term = term;
+  out.energy_sees_reference = false;
+  return out;
+}
+
 const std::vector<Named>& all_terms() {
   static const std::vector<Named> list{
       {"solid", [] { return term_of_scene("solid"); }},
@@ -142,6 +166,8 @@ const std::vector<Named>& all_terms() {
       {"elastic_support", [] { return term_of_scene("elastic support"); }},
       {"plate_multiplier", [] { return plate(0); }},
       {"plate_penalty", [] { return plate(2e4); }},
+      {"plates_on_faces", [] { return faces(false); }},
+      {"plates_on_faces_q2", [] { return faces(true); }},
       {"friction_stuck", [] { return friction(true); }},
       {"friction_slipping", [] { return friction(false); }},
   };

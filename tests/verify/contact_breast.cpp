@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "fixtures/compress_into.hpp"
-#include "contact/active_set.hpp"
+#include "contact/solvers/active_set.hpp"
 #include "contact/compression.hpp"
 #include "contact/skin_area.hpp"
 #include "core/units.hpp"
@@ -228,7 +228,7 @@ void expect_coulomb(const CompressionResult& summary, double mu) {
   int slipping = 0, sticking = 0;
   for (const NodalContact& contact : summary.path.final_step.contacts) {
     if (contact.plate < 0) continue;
-    const double held = contact.friction.norm(), bound = mu * contact.normal;
+    const double held = contact.tangential.norm(), bound = mu * contact.normal;
     EXPECT_LE(held, bound * (1 + 1e-3) + 1);
     if (mu == 0) {
       EXPECT_EQ(held, 0);

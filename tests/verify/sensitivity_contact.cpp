@@ -8,9 +8,13 @@
 
 #include "fixtures/compress_into.hpp"
 #include "fixtures/in_place.hpp"
-#include "contact/active_set.hpp"
+#include "contact/solvers/active_set.hpp"
 #include "contact/compression.hpp"
+#include "contact/penetration.hpp"
+#include "contact/terms/friction.hpp"
+#include "contact/terms/surface_pressure.hpp"
 #include "core/units.hpp"
+#include "solve/equilibrate.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/chain_inputs.hpp"
 #include "sensitivity/chain.hpp"
@@ -159,6 +163,95 @@ TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
     EXPECT_NEAR(responses[i].paddle_force_N, force, 1e-5 * std::abs(force) + 1e-6);
   }
 }
+
+// The same with the points of the faces and the slip of friction as they are: what holds a node moves
+// with its plate.
+Outcome press_faces(const Inputs& in, const HexMesh& near, const Parameter& parameter, double by) {
+  HexMesh mesh = in.mesh;
+  EXPECT_TRUE(fixtures::backward_into(mesh, in.imaged_gravity, in.options).converged());
+  Scene scene(mesh, in.options);
+  Problem body = scene.problem(scene.gravity_force(in.gravity)).problem;
+  const PlatePair before = recorded_plates(near);
+  auto pressure = std::make_shared<SurfacePressure>(near, touchable_faces(near), body.space());
+  pressure->set_plates(before);
+  pressure->choose_points(flatten(near.points));
+  pressure->set_plates(in.plates);
+  pressure->set_stiffness(near.contact->surface_stiffness);
+  pressure->set_turning_depth(std::numeric_limits<double>::infinity());
+  body.add(pressure);
+  auto friction = std::make_shared<FrictionTerm>();
+  std::vector<FrictionEntry> entries;
+  for (const FrictionRecord& held : near.contact->friction) {
+    const Vec3 moved = by * plate_velocity(before, held.plate, near.points[std::size_t(held.node)],
+                                           parameter, near.side);
+    entries.push_back({held.node, held.plate, held.anchor + moved, held.bound, held.stick});
+  }
+  friction->set_plates(in.plates);
+  friction->set_entries(entries);
+  body.add(friction);
+  SaddleSolver solver(body.space().pattern);
+  SaddleMatrix matrix = body.make_matrix();
+  State state{flatten(mesh.reference), flatten(near.points),
+              Eigen::Map<const Eigen::VectorXd>(near.pressure.data(), near.elements())};
+  NewtonOptions tight;
+  tight.tolerance = 1e-9;  // of the weight, which is small beside the plates' forces
+  EXPECT_TRUE(equilibrate(body, solver, matrix, state, tight).converged);
+  Outcome out{state.x, 0};
+  const Eigen::VectorXd force = pressure->plate_forces(state.x, 0);
+  for (Eigen::Index i = 0; i < force.size(); i += 3) {
+    out.paddle_N += force.segment<3>(i).dot(in.plates.paddle.normal()) / micronewton_per_newton;
+  }
+  return out;
+}
+
+class PressedFacesSensitivity : public testing::TestWithParam<double> {};
+
+TEST_P(PressedFacesSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
+  Inputs in{{analytic_breast_mesh(5),
+             {.materials = load_materials("seed2008")},
+             posture_gravity(Posture::prone),
+             posture_gravity(Posture::upright)},
+            {},
+            0.5};
+  HexMesh mesh = in.mesh;
+  ASSERT_TRUE(fixtures::backward_into(mesh, in.imaged_gravity, in.options).converged());
+  const std::vector<double> imaged_pressure = mesh.pressure;
+  CompressionOptions compression;
+  compression.method = ContactMethod::surface;
+  compression.positioning = Positioning::lifted;
+  compression.plates.image_edge = 10;
+  compression.plates.edge_radius = 3;
+  compression.plates.turn_deg = 5;
+  compression.friction = GetParam();
+  compression.target = 25;
+  ASSERT_TRUE(fixtures::compress_into(mesh, compression, in.options).converged());
+  in.plates = recorded_plates(mesh);
+  in.mesh.contact = mesh.contact;
+  EXPECT_EQ(mesh.contact->friction.empty(), GetParam() == 0);
+  const SensitivityChain chain(mesh, imaged_pressure, in.imaged_gravity, in.options);
+  EXPECT_TRUE(chain.pressed());
+  const auto picked = pick_parameters(all_parameters(mesh, in.options, in.imaged_gravity),
+                                      "fat,gravity_x,thickness,standoff,detector");
+  const std::vector<Response> responses = chain.tangent(picked);
+  const Landmark& landmark = mesh.landmarks.back();
+  const LandmarkGradient adjoint = chain.adjoint(landmark, picked);
+  constexpr double small = 2e-5;  // the depth in the plates is a hundredth of a millimetre
+  for (std::size_t i = 0; i < picked.size(); ++i) {
+    SCOPED_TRACE(picked[i].name);
+    const Outcome more = press_faces(changed(in, picked[i], small), mesh, picked[i], small);
+    const Outcome less = press_faces(changed(in, picked[i], -small), mesh, picked[i], -small);
+    const Eigen::VectorXd x = (more.x - less.x) / (2 * small);
+    EXPECT_LT((x - flatten(responses[i].position)).norm(), 1e-3 * x.norm());
+    const Vec3 at = landmark_position(mesh, responses[i].position, landmark);
+    EXPECT_LT((adjoint.by_parameter[i] - at).norm(), 1e-5 * at.norm() + 1e-9);
+    if (GetParam() > 0) continue;  // the paddle's force has a part of friction
+    const double force = (more.paddle_N - less.paddle_N) / (2 * small);
+    EXPECT_NEAR(responses[i].paddle_force_N, force, 1e-3 * std::abs(force) + 1e-5);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Skin, PressedFacesSensitivity, testing::Values(0.0, 0.3),
+                         [](const auto& test) { return test.param > 0 ? "rough" : "smooth"; });
 
 constexpr double raised = std::numeric_limits<double>::infinity();
 INSTANTIATE_TEST_SUITE_P(

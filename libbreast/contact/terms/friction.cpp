@@ -41,6 +41,18 @@ FrictionForce FrictionTerm::at(const FrictionEntry& entry, const Eigen::VectorXd
   return friction_force(point, entry.anchor, normal, entry.bound, entry.stick);
 }
 
+Eigen::VectorXd FrictionTerm::change_of_forces(
+    const Eigen::VectorXd& x, int plate,
+    const std::function<Vec3(int plate, const Vec3& x)>& velocity) const {
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(x.size());
+  for (const FrictionEntry& entry : entries_) {
+    if (plate >= 0 && entry.plate != plate) continue;
+    const Vec3 place = x.segment<3>(3L * entry.node);
+    change.segment<3>(3L * entry.node) += at(entry, x).stiffness * velocity(entry.plate, place);
+  }
+  return change;
+}
+
 bool FrictionTerm::add(const State& state, const Request& request, Forces& forces) const {
   PackedCells* packed = request.packed != nullptr ? &request.packed->next(cells_) : nullptr;
   for (std::size_t i = 0; i < entries_.size(); ++i) {

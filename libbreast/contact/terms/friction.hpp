@@ -5,6 +5,7 @@
 // the gradient of a convex energy; Coulomb's bound is followed from outside.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "contact/plates.hpp"
@@ -52,6 +53,12 @@ class FrictionTerm final : public Term {
   const std::vector<FrictionEntry>& entries() const { return entries_; }
   const PlatePair& plates() const { return plates_; }
   FrictionForce at(const FrictionEntry& entry, const Eigen::VectorXd& x) const;
+
+  /// Change of the forces on the nodes (µN, 3 a node) while the plates move, what holds the nodes moving
+  /// with them by velocity(plate, x), mm per unit; bounds and slipping nodes stay.
+  Eigen::VectorXd change_of_forces(
+      const Eigen::VectorXd& x, int plate,
+      const std::function<Vec3(int plate, const Vec3& x)>& velocity) const;
 
   std::string name() const override { return "friction"; }
   bool add(const State& state, const Request& request, Forces& forces) const override;

@@ -8,7 +8,8 @@ namespace {
 
 constexpr long int_limit = std::numeric_limits<int>::max();
 const std::string solve_group = "/breast/solve", contact_group = "/breast/contact",
-                  plates_group = "/breast/contact/plates";
+                  plates_group = "/breast/contact/plates",
+                  friction_group = "/breast/contact/friction";
 
 // One column of a table of records.
 template <class Record, class Member>
@@ -109,6 +110,9 @@ void put_contact(Document& document, const ContactRecord& contact) {
     document.attributes[contact_group + "@" + name] = array_of(contact.*member);
   }
   document.attributes[contact_group + "@paddle_share"] = array_of(contact.paddle_share);
+  document.attributes[contact_group + "@turn_deg"] = array_of(contact.turn_deg);
+  document.attributes[contact_group + "@ends_image"] = array_of(contact.ends_image ? 1.0 : 0.0);
+  document.attributes[contact_group + "@surface_stiffness"] = array_of(contact.surface_stiffness);
   auto& sets = document.datasets;
   sets[plates_group + "/name"] = array_of(column(contact.plates, &PlateRecord::name));
   for (const auto& [name, member] : plate_axes) {
@@ -117,10 +121,37 @@ void put_contact(Document& document, const ContactRecord& contact) {
   for (const auto& [name, member] : plate_columns) {
     sets[plates_group + "/" + name] = array_of(column(contact.plates, member));
   }
+  if (!contact.friction.empty()) {
+    Integers nodes, plates;
+    for (const FrictionRecord& held : contact.friction) {
+      nodes.push_back(held.node);
+      plates.push_back(held.plate);
+    }
+    sets[friction_group + "/node"] = array_of(std::move(nodes));
+    sets[friction_group + "/plate"] = array_of(std::move(plates));
+    sets[friction_group + "/anchor"] = array_of(column(contact.friction, &FrictionRecord::anchor));
+    sets[friction_group + "/bound"] = array_of(column(contact.friction, &FrictionRecord::bound));
+    sets[friction_group + "/stick"] = array_of(column(contact.friction, &FrictionRecord::stick));
+  }
   sets[contact_group + "/path_thickness_mm"] = array_of(Doubles(contact.path_thickness_mm));
   sets[contact_group + "/path_force_N"] = array_of(Doubles(contact.path_force_N));
   sets[contact_group + "/path_detector_N"] = array_of(Doubles(contact.path_detector_N));
 }
+
+namespace {
+std::vector<FrictionRecord> get_friction(Fields& fields) {
+  const auto nodes = fields.indices(friction_group + "/node", {Fields::any}, 0, int_limit);
+  const auto plates = fields.indices(friction_group + "/plate", {nodes.size()}, 0, 2);
+  const auto anchors = fields.places(friction_group + "/anchor", nodes.size());
+  const Doubles bounds = fields.doubles(friction_group + "/bound", {nodes.size()});
+  const Doubles sticks = fields.doubles(friction_group + "/stick", {nodes.size()});
+  std::vector<FrictionRecord> list;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    list.push_back({int(nodes[i]), int(plates[i]), anchors[i], bounds[i], sticks[i]});
+  }
+  return list;
+}
+}  // namespace
 
 ContactRecord get_contact(Fields& fields) {
   ContactRecord contact;
@@ -139,6 +170,20 @@ ContactRecord get_contact(Fields& fields) {
                               ": must lie within 0 and 1");
     }
   }
+  // Plates of earlier versions were not turned and touched nodes.
+  if (fields.has_attribute(contact_group + "@turn_deg")) {
+    contact.turn_deg = fields.number(contact_group + "@turn_deg");
+  }
+  if (fields.has_attribute(contact_group + "@ends_image")) {
+    contact.ends_image = fields.number(contact_group + "@ends_image") != 0;
+  }
+  if (fields.has_attribute(contact_group + "@surface_stiffness")) {
+    contact.surface_stiffness = fields.number(contact_group + "@surface_stiffness");
+    if (!(contact.surface_stiffness >= 0)) {
+      throw fields.complain()(contact_group, "@surface_stiffness ", contact.surface_stiffness,
+                              " Pa/mm: must be 0 or more");
+    }
+  }
   const Texts names = fields.texts(plates_group + "/name", {Fields::any});
   contact.plates.resize(names.size());
   for (std::size_t p = 0; p < names.size(); ++p) contact.plates[p].name = names[p];
@@ -150,6 +195,7 @@ ContactRecord get_contact(Fields& fields) {
     const Doubles list = fields.doubles(plates_group + "/" + name, {names.size()});
     for (std::size_t p = 0; p < names.size(); ++p) contact.plates[p].*member = list[p];
   }
+  if (fields.has(friction_group + "/node")) contact.friction = get_friction(fields);
   contact.path_thickness_mm = fields.doubles(contact_group + "/path_thickness_mm", {Fields::any});
   contact.path_force_N =
       fields.doubles(contact_group + "/path_force_N", {contact.path_thickness_mm.size()});

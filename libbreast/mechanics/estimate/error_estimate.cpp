@@ -24,7 +24,7 @@ constexpr int steps = 2;
 bool prepare_coarse(const Scene& scene, const State& state, const Vec3& gravity,
                     const ContactEstimate& contact, SaddleMatrix& matrix, SaddleSolver& solver) {
   Problem coarse = scene.problem(scene.gravity_force(gravity)).problem;
-  if (contact.friction) coarse.add(contact.friction);
+  if (contact.plates) coarse.add(contact.plates);
   Request request;
   request.matrix = &matrix;
   request.augmentation = RicherProblem::augmentation;

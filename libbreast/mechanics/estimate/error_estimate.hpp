@@ -47,8 +47,9 @@ struct RicherMesh {
 /// What plates do to the body at the solution.
 struct ContactEstimate {
   std::vector<TouchingNode> touching;
-  std::shared_ptr<const Term> friction;  ///< on the 8-node mesh; null: none
-  std::function<std::shared_ptr<const Term>(const RicherMesh&)> raise_friction;
+  /// Friction of the plates, or their pressure on faces, on the 8-node mesh; null: none.
+  std::shared_ptr<const Term> plates;
+  std::function<std::shared_ptr<const Term>(const RicherMesh&)> raise_plates;
 };
 
 /// `state` is an equilibrium of `scene` under `gravity` (mm/s²) and the plates; `matrix` and

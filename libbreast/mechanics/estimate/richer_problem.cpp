@@ -55,8 +55,8 @@ RicherProblem::RicherProblem(const Scene& coarse, const State& state, const Vec3
       problem_(scene_.problem(scene_.gravity_force(gravity)).problem),
       state_{raise(state.reference), raise(state.x), smooth_pressure(coarse, state)},
       held_(mesh_.nodes()) {
-  if (contact.raise_friction) {
-    problem_.add(contact.raise_friction({mesh_, corners_, between_}));
+  if (contact.raise_plates) {
+    problem_.add(contact.raise_plates({mesh_, corners_, between_}));
   }
   start_ = state_.x;
   valid_ = problem_.restore(state_.reference) < 0 && problem_.restore(state_.x) < 0;

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "contact/active_set.hpp"
+#include "contact/solvers/active_set.hpp"
 #include "solve/equilibrate.hpp"
 
 namespace breast {

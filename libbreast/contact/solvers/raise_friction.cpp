@@ -1,4 +1,4 @@
-#include "contact/raise_friction.hpp"
+#include "contact/solvers/raise_friction.hpp"
 
 #include <map>
 

@@ -1,8 +1,8 @@
-#include "contact/active_set.hpp"
+#include "contact/solvers/active_set.hpp"
 
 #include <algorithm>
 
-#include "contact/active_set_system.hpp"
+#include "contact/solvers/active_set_system.hpp"
 
 namespace breast {
 

@@ -1,4 +1,4 @@
-#include "contact/active_set_system.hpp"
+#include "contact/solvers/active_set_system.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -262,10 +262,10 @@ std::vector<NodalContact> ActiveSet::System::finish() {
     contacts[c].plate = k;
     contacts[c].normal = pressed(c, state_, forces_);
     if (!rubs()) continue;
-    contacts[c].friction =
+    contacts[c].tangential =
         owner_.friction_->at(owner_.friction_->entries()[entry++], state_.x).force;
     owner_.memory_.anchors[c] = node_vector(state_.x, owner_.candidates_[c]) +
-                                contacts[c].friction / owner_.options_.friction.stick -
+                                contacts[c].tangential / owner_.options_.friction.stick -
                                 owner_.plates_.plate(k).shift();
   }
   return contacts;

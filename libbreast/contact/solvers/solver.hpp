@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/plates.hpp"
+#include "contact/pressed_point.hpp"
 #include "solve/newton.hpp"
 #include "solve/problem.hpp"
 
@@ -17,8 +18,10 @@ inline constexpr double contact_volume_accuracy = 1e-4;
 /// The forces of the plates on one candidate.
 struct NodalContact {
   int plate = -1;       ///< 0 paddle, 1 detector; −1: touches neither
-  double normal = 0;    ///< along the plate's normal, µN
-  Vec3 friction{0, 0, 0};  ///< at right angles to it, µN
+  double normal = 0;         ///< along the plate's normal there, µN
+  /// At right angles to it, µN: friction, and of a face on a rounded edge what the pressure beside
+  /// the node adds.
+  Vec3 tangential{0, 0, 0};
 };
 
 struct ContactStep : NewtonResult {
@@ -28,6 +31,7 @@ struct ContactStep : NewtonResult {
   bool hurried = false;          ///< given up at its bad beginning
   double worst_penetration = 0;  ///< mm, over all candidates
   std::vector<NodalContact> contacts;  ///< per candidate, when converged
+  std::vector<PressedPoint> pressed;   ///< when converged, of faces; empty where nodes touch
   Eigen::VectorXd failed_trial;        ///< positions of the first refused trial of a failed step
 };
 

@@ -1,4 +1,4 @@
-#include "contact/augmented_lagrangian.hpp"
+#include "contact/solvers/augmented_lagrangian.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "contact/solver.hpp"
+#include "contact/solvers/solver.hpp"
 #include "contact/terms/plate.hpp"
 #include "solve/saddle.hpp"
 

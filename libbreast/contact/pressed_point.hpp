@@ -1,0 +1,16 @@
+// Where a plate presses: a node, or a quadrature point of a face.
+#pragma once
+
+#include "core/types.hpp"
+
+namespace breast {
+
+struct PressedPoint {
+  int plate = 0;        ///< 0 paddle, 1 detector
+  Vec3 at{0, 0, 0};     ///< mm
+  Vec3 force{0, 0, 0};  ///< on the body, µN
+  double area = 0;      ///< of the deformed boundary that belongs to it, mm²
+  double depth = 0;     ///< in the plate, mm
+};
+
+}  // namespace breast

@@ -1,0 +1,285 @@
+#include "contact/solvers/surface_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solve/equilibrate.hpp"
+
+namespace breast {
+
+namespace {
+/// Factor on the stiffness of plates that are entered too deeply, and how often at most.
+constexpr double stiffer = 4;
+constexpr int most_stiffenings = 12;
+/// Residual of the states between.
+constexpr double between_tolerance = 1e-3;
+/// The tangent has the turning of all forces from this residual on; before, that of points as deep
+/// as allowed, times a little.
+constexpr double near_residual = 0.03, turning_depth = 1.2;
+/// Times that points are chosen anew for a tight solution.
+constexpr int most_choices = 4;
+/// Times that the bounds of friction follow the normal forces of a tight solution, and how near is
+/// near enough.
+constexpr int most_bounds = 12;
+constexpr double bounds_tolerance = 1e-3;
+/// Iterations granted for each with an indefinite tangent: itself and one to settle.
+constexpr int slip_allowance = 2;
+/// A solve that may fail fast is given up when the first step has to be shorter than this, or when
+/// after so many iterations the imbalance is still this fraction of the first.
+constexpr double fast_first_step = 0.1, fast_reduction = 0.7;
+constexpr int fast_iterations = 12;
+}  // namespace
+
+/// An equilibrium with the plates as stiff as they are.
+class SurfaceContact::System final : public TangentSystem {
+ public:
+  System(SurfaceContact& owner, State& state, double tolerance, double depth)
+      : TangentSystem(owner.problem_, owner.solver_, owner.matrix_, state),
+        owner_(owner),
+        tolerance_(tolerance),
+        depth_(depth) {}
+
+  bool begin() { return look(); }
+  bool hurried() const { return hurried_; }
+
+  Balance assess(const NewtonResult& so_far) override;
+  NewtonDirection direction(const Balance& now) override;
+  LineSearchRule rule(const NewtonResult&, const Balance& now,
+                      const NewtonDirection& direction) const override;
+
+ private:
+  Appraisal appraise(const State& state, const Forces& forces) const override;
+  bool begins_badly(const NewtonResult& so_far, double residual) const;
+  /// Unbalanced force over that of the plates.
+  double relative(const Forces& forces, const Constraints& held) const {
+    return Problem::free_norm(held, forces) / scale_;
+  }
+
+  SurfaceContact& owner_;
+  double tolerance_, depth_, first_ = 0, scale_ = 1;
+  bool hurried_ = false;
+  bool simplified_ = false;  // the tangent lacks the turning of the forces
+};
+
+Balance SurfaceContact::System::assess(const NewtonResult& so_far) {
+  const SurfacePressure& plates = *owner_.pressure_;
+  scale_ = std::max({plates.plate_forces(state_.x, 0).norm(),
+                     plates.plate_forces(state_.x, 1).norm(), problem_.load_norm(), 1e-30});
+  Balance now;
+  now.residual = now.merit = relative(forces_, problem_.constraints_at(state_.x));
+  const SurfaceContactOptions& options = owner_.options_;
+  now.converged = now.residual <= tolerance_ && problem_.volume_residual(forces_) <=
+                                                    std::max(tolerance_, options.volume_tolerance);
+  if (now.converged) return now;
+  const int made = int(so_far.iterations.size());
+  if (made == 1) first_ = now.residual;
+  hurried_ = owner_.fail_fast_ && begins_badly(so_far, now.residual);
+  const int allowed = std::min(options.max_iterations + slip_allowance * so_far.indefinite,
+                               options.most_iterations);
+  if (made >= allowed || hurried_) {
+    now.stop = NewtonStop::iteration_limit;
+    now.reason = describe(now.stop);
+  }
+  return now;
+}
+
+/// Positions too far from the last one show it in the first iterations.
+bool SurfaceContact::System::begins_badly(const NewtonResult& so_far, double residual) const {
+  const int made = int(so_far.iterations.size());
+  if (made == 1) return so_far.iterations.back().step_length < fast_first_step;
+  return made == fast_iterations && residual > fast_reduction * first_;
+}
+
+// Where a face rolls over an edge the turning of the plates' forces may make the tangent indefinite.
+// Without it the tangent leads downhill just as well, and no shift is needed.
+NewtonDirection SurfaceContact::System::direction(const Balance& now) {
+  const NewtonDirection none{NewtonStop::indefinite, describe(NewtonStop::indefinite)};
+  const double depth = now.residual < near_residual ? std::numeric_limits<double>::infinity()
+                                                    : turning_depth * depth_;
+  owner_.pressure_->set_turning_depth(depth);
+  if (!assemble()) return {NewtonStop::folded, describe(NewtonStop::folded)};
+  const Constraints held = problem_.constraints_at(state_.x);
+  simplified_ = !factorise(held, false).ok;
+  if (simplified_) {
+    owner_.pressure_->set_turning_depth(0);
+    if (!assemble() || !factorise(held).ok) return none;
+  }
+  NewtonDirection direction = solve(contact_volume_accuracy, gmres_restarts);
+  if (!step_.u.allFinite() || !step_.p.allFinite()) return none;
+  return direction;
+}
+
+LineSearchRule SurfaceContact::System::rule(const NewtonResult&, const Balance& now,
+                                            const NewtonDirection& direction) const {
+  LineSearchRule rule;
+  rule.merit = now.merit;
+  rule.tolerance = tolerance_;
+  rule.flat_suffices = true;
+  rule.downhill_suffices = direction.shift > 0 || simplified_;
+  rule.kinks = true;
+  return rule;
+}
+
+Appraisal SurfaceContact::System::appraise(const State& state, const Forces& forces) const {
+  Eigen::VectorXd gradient = forces.augmented.size() > 0 ? forces.augmented : forces.r;
+  const Constraints held = problem_.constraints_at(state.x);
+  held.project(gradient);
+  const double there = relative(forces, held);
+  return {there, there, along(gradient)};
+}
+
+SurfaceContact::SurfaceContact(const HexMesh& mesh, const std::vector<Face>& faces,
+                               const Problem& body, SaddleSolver& solver,
+                               SurfaceContactOptions options)
+    : problem_(body),
+      solver_(solver),
+      matrix_(body.make_matrix()),
+      options_(options),
+      pressure_(std::make_shared<SurfacePressure>(mesh, faces, body.space())),
+      candidates_(pressure_->nodes()) {
+  memory_.touching.assign(candidates_.size(), -1);
+  memory_.penalty = options.stiffness;
+  problem_.add(pressure_);
+  if (!options.friction.present()) return;
+  memory_.anchors.assign(candidates_.size(), Vec3::Zero());
+  memory_.bounds.assign(candidates_.size(), 0);
+  friction_ = std::make_shared<FrictionTerm>();
+  problem_.add(friction_);
+}
+
+bool SurfaceContact::equilibrate(State& state, double tolerance, double depth, ContactStep& step) {
+  pressure_->set_stiffness(memory_.penalty);
+  System system(*this, state, tolerance, depth);
+  if (!system.begin()) {
+    step.stop = system.refusal();
+    step.failed_trial = state.x;
+    return false;
+  }
+  NewtonResult part = newton(system);
+  step.iterations.insert(step.iterations.end(), part.iterations.begin(), part.iterations.end());
+  step.indefinite += part.indefinite;
+  step.residual = part.residual;
+  step.stop = part.stop;
+  step.reason = part.reason;
+  step.forces = system.forces();
+  step.hurried = system.hurried();
+  if (!part.converged && step.failed_trial.size() == 0) step.failed_trial = system.refused();
+  return part.converged;
+}
+
+/// Raises the stiffness until no point lies too deep.
+bool SurfaceContact::stiffen(State& state, double allowed, ContactStep& step) {
+  const std::size_t before = step.iterations.size();
+  for (int k = 0; k < most_stiffenings && pressure_->deepest(state.x) > allowed; ++k) {
+    memory_.penalty *= stiffer;
+    if (!equilibrate(state, between_tolerance, allowed, step)) return false;
+  }
+  step.corrections += int(step.iterations.size() - before);
+  return true;
+}
+
+// A tight state has the points that it would choose itself, so that whoever reads it from a file finds
+// the same forces.
+ContactStep SurfaceContact::solve(const PlatePair& plates, State& state, double tolerance) {
+  pressure_->set_plates(plates);
+  set_friction();
+  ContactStep step;
+  pressure_->choose_points(state.x);
+  const bool on_the_way = tolerance > options_.way_tolerance;
+  const double allowed = on_the_way ? options_.way_depth : options_.depth;
+  if (!equilibrate(state, std::max(tolerance, between_tolerance), allowed, step)) return step;
+  if (!stiffen(state, allowed, step)) return step;
+  for (int k = 0; k < most_choices; ++k) {
+    if (!equilibrate(state, tolerance, allowed, step)) return step;
+    if (!on_the_way && !follow_friction(state, tolerance, allowed, step)) return step;
+    if (on_the_way || !pressure_->choose_points(state.x)) break;
+  }
+  finish(state, step);
+  return step;
+}
+
+/// The nodes that the plates held at the last solve, with the normal forces of then.
+void SurfaceContact::set_friction() {
+  if (friction_ == nullptr) return;
+  std::vector<FrictionEntry> held;
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    const int k = memory_.touching[c];
+    if (k < 0 || !(memory_.bounds[c] > 0)) continue;
+    held.push_back({candidates_[c], k, memory_.anchors[c] + pressure_->plates().plate(k).shift(),
+                    memory_.bounds[c], options_.friction.stick});
+  }
+  friction_->set_plates(pressure_->plates());
+  friction_->set_entries(std::move(held));
+}
+
+/// On the way the bounds of friction are those of the position before. Of a state to be reported they
+/// are its own.
+bool SurfaceContact::follow_friction(State& state, double tolerance, double depth,
+                                     ContactStep& step) {
+  if (friction_ == nullptr) return true;
+  for (int k = 0; k < most_bounds; ++k) {
+    double lag = 0, size = 0;
+    const std::vector<NodalContact> contacts = nodal_contacts(state.x);
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const double wanted = memory_.touching[c] == contacts[c].plate && contacts[c].plate >= 0
+                                ? options_.friction.bound(contacts[c].normal)
+                                : 0;
+      lag = std::hypot(lag, wanted - memory_.bounds[c]);
+      size = std::hypot(size, wanted);
+      memory_.bounds[c] = wanted;
+    }
+    if (lag <= bounds_tolerance * size) return true;
+    set_friction();
+    if (!equilibrate(state, tolerance, depth, step)) return false;
+  }
+  return true;
+}
+
+/// Anchors slide after their nodes; a node that has just been touched is held where it is.
+void SurfaceContact::move_anchors(const State& state, ContactStep& step) {
+  std::vector<Vec3> force(candidates_.size(), Vec3::Zero());
+  std::size_t entry = 0;
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    if (entry < friction_->entries().size() && friction_->entries()[entry].node == candidates_[c]) {
+      force[c] = friction_->at(friction_->entries()[entry++], state.x).force;
+    }
+    const int k = step.contacts[c].plate;
+    memory_.bounds[c] = 0;
+    if (k < 0) continue;
+    step.contacts[c].tangential += force[c];
+    step.pressed.push_back({k, state.x.segment<3>(3L * candidates_[c]), force[c], 0, 0});
+    memory_.bounds[c] = options_.friction.bound(step.contacts[c].normal);
+    memory_.anchors[c] = state.x.segment<3>(3L * candidates_[c]) +
+                         force[c] / options_.friction.stick - pressure_->plates().plate(k).shift();
+  }
+}
+
+std::vector<NodalContact> SurfaceContact::nodal_contacts(const Eigen::VectorXd& x) const {
+  std::vector<NodalContact> contacts(candidates_.size());
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::VectorXd force = pressure_->plate_forces(x, k);
+    for (std::size_t c = 0; c < candidates_.size(); ++c) {
+      const Vec3 own = force.segment<3>(3L * candidates_[c]);
+      if (own.isZero(0)) continue;
+      const Vec3 normal =
+          pressure_->plates().plate(k).gap(x.segment<3>(3L * candidates_[c])).gradient;
+      contacts[c] = {k, own.dot(normal), own - own.dot(normal) * normal};
+    }
+  }
+  return contacts;
+}
+
+void SurfaceContact::finish(const State& state, ContactStep& step) {
+  step.converged = true;
+  step.failed_trial.resize(0);
+  step.pressed = pressure_->pressed(state.x);
+  step.worst_penetration = pressure_->deepest(state.x);
+  step.contacts = nodal_contacts(state.x);
+  if (friction_ != nullptr) move_anchors(state, step);
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    memory_.touching[c] = static_cast<signed char>(step.contacts[c].plate);
+  }
+}
+
+}  // namespace breast

@@ -1,0 +1,64 @@
+// Contact of faces with the plates: equilibria under a pressure that grows steeply with depth. On the
+// way to the target the plates may be entered by as much as `way_depth`; a state to be reported is
+// solved with ever stiffer plates until no point of a face lies deeper than `depth`.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "contact/solvers/solver.hpp"
+#include "contact/terms/friction.hpp"
+#include "contact/terms/surface_pressure.hpp"
+#include "solve/saddle.hpp"
+
+namespace breast {
+
+struct SurfaceContactOptions {
+  double stiffness = 3e4;       ///< Pa/mm, to start with
+  double way_depth = 1;         ///< mm
+  double depth = 0.045;         ///< mm
+  double way_tolerance = 1e-6;  ///< solves less tight than this are on the way
+  double volume_tolerance = 1e-9;
+  Friction friction;
+  int max_iterations = 100;   ///< without an indefinite tangent
+  int most_iterations = 250;  ///< with one
+};
+
+class SurfaceContact : public ContactSolver {
+ public:
+  /// `body`: everything but the plates. `faces` may touch. `solver` must outlive this.
+  SurfaceContact(const HexMesh& mesh, const std::vector<Face>& faces, const Problem& body,
+                 SaddleSolver& solver, SurfaceContactOptions options = {});
+
+  ContactStep solve(const PlatePair& plates, State& state, double tolerance) override;
+  const Problem& problem() const override { return problem_; }
+  Constraints constraints(const State& state) const override {
+    return problem_.constraints_at(state.x);
+  }
+  const std::vector<int>& candidates() const override { return candidates_; }
+  /// The plates' pressure, as of the last solve.
+  const SurfacePressure& pressure() const { return *pressure_; }
+  std::shared_ptr<const SurfacePressure> shared_pressure() const { return pressure_; }
+  /// The friction of the last solve; null: none.
+  const std::shared_ptr<FrictionTerm>& friction() const { return friction_; }
+
+ private:
+  class System;
+  bool equilibrate(State& state, double tolerance, double depth, ContactStep& step);
+  bool stiffen(State& state, double allowed, ContactStep& step);
+  void finish(const State& state, ContactStep& step);
+  std::vector<NodalContact> nodal_contacts(const Eigen::VectorXd& x) const;
+  void set_friction();
+  bool follow_friction(State& state, double tolerance, double depth, ContactStep& step);
+  void move_anchors(const State& state, ContactStep& step);
+
+  Problem problem_;
+  SaddleSolver& solver_;
+  SaddleMatrix matrix_;
+  SurfaceContactOptions options_;
+  std::shared_ptr<SurfacePressure> pressure_;
+  std::shared_ptr<FrictionTerm> friction_;  // null: none
+  std::vector<int> candidates_;
+};
+
+}  // namespace breast

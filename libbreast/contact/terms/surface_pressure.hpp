@@ -1,0 +1,83 @@
+// The plates' pressure on the faces of a body as a term. It grows steeply with the depth of a point
+// in the plate and is integrated over every face, with many points where the plate is rounded: a
+// condition at the nodes alone lets faces cut across an edge between them, and a node with a whole
+// force on it slips off an edge that a face rolls over.
+//
+// Per area of the imaged faces the energy is ψ(s) with s = −gap, and ψ' is the pressure: ρ s²/(2δ) to
+// a depth of δ, ρ (s − δ/2) beyond, so that the tangent is continuous. ρ stands for rigid plates:
+// whoever solves raises it until no point lies deeper than allowed.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "contact/plates.hpp"
+#include "contact/pressed_point.hpp"
+#include "mesh/hex_mesh.hpp"
+#include "mesh/shape.hpp"
+#include "solve/discretisation.hpp"
+#include "solve/term.hpp"
+
+namespace breast {
+
+class SurfacePressure final : public Term {
+ public:
+  /// `space` is that of the solid beneath.
+  SurfacePressure(const HexMesh& mesh, const std::vector<Face>& faces, const Discretisation& space);
+  ~SurfacePressure() override;
+  SurfacePressure(const SurfacePressure&) = delete;
+  SurfacePressure& operator=(const SurfacePressure&) = delete;
+
+  void set_plates(const PlatePair& plates) { plates_ = plates; }
+  const PlatePair& plates() const { return plates_; }
+  /// ρ, Pa/mm.
+  void set_stiffness(double stiffness) { stiffness_ = stiffness; }
+  double stiffness() const { return stiffness_; }
+  /// Chooses the points of every face for plates and positions near these: until the next call the
+  /// forces are a smooth function of the positions. True: others than before.
+  bool choose_points(const Eigen::VectorXd& x);
+  /// How the forces turn on a rounded edge enters the tangent as if no point lay deeper than this,
+  /// mm: far from a solution the depth says nothing of the force there.
+  void set_turning_depth(double depth) { turning_depth_ = depth; }
+
+  std::string name() const override { return "plates on faces"; }
+  bool add(const State& state, const Request& request, Forces& forces) const override;
+  std::vector<int> nodes() const override;
+
+  /// Forces of one plate on the nodes (µN, 3 a node).
+  Eigen::VectorXd plate_forces(const Eigen::VectorXd& x, int plate) const;
+  /// Change of the forces of one plate (−1: of both) on the nodes while the plates move, µN per unit:
+  /// `slope` says how; `moved` (3 a node) is how the body moves, null: not at all.
+  Eigen::VectorXd change_of_forces(
+      const Eigen::VectorXd& x, int plate, const Eigen::VectorXd* moved,
+      const std::function<GapSlope(int plate, const Gap&, const Vec3&)>& slope) const;
+  /// All points under pressure, face by face.
+  std::vector<PressedPoint> pressed(const Eigen::VectorXd& x) const;
+  /// The greatest depth of any of its points in a plate, mm; 0 where nothing is touched.
+  double deepest(const Eigen::VectorXd& x) const;
+
+ private:
+  struct Rule;
+  struct FaceResult;
+  struct Touch;
+  template <typename Visit>
+  void visit(int face, const Eigen::VectorXd& x, Visit&& each) const;
+  int rule_for(int face, const Eigen::VectorXd& x) const;
+  FaceResult face_result(int face, const Eigen::VectorXd& x, bool tangent) const;
+  void add_results(const std::vector<FaceResult>& results, const Request& request,
+                   Forces& forces) const;
+
+  PlatePair plates_;
+  double stiffness_ = 1e6, turning_depth_ = 0;
+  int order_ = 1;
+  Cells cells_;
+  std::shared_ptr<const ScatterMap> scatter_;
+  std::vector<Vec3> imaged_;            // positions of all nodes, for the areas
+  std::vector<Rule> rules_;             // coarse to fine
+  std::vector<QuadShape> nodal_shape_;  // at the nodes of a face
+  std::vector<double> nodal_area_;      // ∫ N dA of the nodes of every face, imaged, mm²
+  std::vector<int> chosen_;             // per face, its rule
+};
+
+}  // namespace breast
