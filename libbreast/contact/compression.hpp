@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/coverage.hpp"
 #include "contact/deformation.hpp"
 #include "contact/judgement.hpp"
 #include "contact/path.hpp"
@@ -48,6 +49,7 @@ struct CompressionResult : Equilibrium {
   double force_balance = 0;
   Vec3 wall_reaction_N{0, 0, 0};  ///< of chest wall and held cut on the body
   double weight_N = 0;
+  Coverage coverage;  ///< by the image, whose edge is that of the plates
   std::map<Tissue, StrainRange> strains;
   std::vector<double> profile_depth_mm, profile_thickness_mm;  ///< from the plate edge forwards
   std::vector<PressedPlace> places;                            ///< per plate of the contact record

@@ -58,6 +58,16 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
   report.set("force_balance", summary.force_balance);
   report.set("wall_reaction_N", summary.wall_reaction_N);
   report.set("weight_N", summary.weight_N);
+  report.set("thrust_into_wall_N", summary.wall_reaction_N.dot(summary.plates.paddle.anterior));
+  report.set("coverage/volume_percent", summary.coverage.volume);
+  if (summary.coverage.fibroglandular) {
+    report.set("coverage/fibroglandular_percent", *summary.coverage.fibroglandular);
+  }
+  for (const Landmark& landmark : mesh.landmarks) {
+    const Vec3 at = landmark_position(mesh, summary.points, landmark);
+    report.set("coverage/" + landmark.name + "_in_front_mm",
+               at.dot(summary.plates.paddle.anterior) - summary.plates.paddle.edge_start);
+  }
   for (const auto& [tissue, range] : summary.strains) {
     const std::string key = "strain/" + std::string(tissue_name(tissue)) + "/";
     report.set(key + "min_stretch", range.min_stretch);

@@ -16,7 +16,7 @@ namespace breast {
 struct SurfaceContactOptions {
   double stiffness = 3e4;       ///< Pa/mm, to start with
   double way_depth = 1;         ///< mm
-  double depth = 0.045;         ///< mm
+  double depth = 0.035;         ///< mm
   double way_tolerance = 1e-6;  ///< solves less tight than this are on the way
   double volume_tolerance = 1e-9;
   Friction friction;

@@ -1,0 +1,58 @@
+#include "contact/coverage.hpp"
+
+#include <Eigen/LU>
+
+#include "mesh/gauss.hpp"
+#include "mesh/shape.hpp"
+
+namespace breast {
+
+namespace {
+
+double percent(double part, double whole) {
+  return 100 * part / whole;
+}
+
+/// Of an element that is fat or fibroglandular, the fraction that is fibroglandular.
+double gland_of(const HexMesh& mesh, int element) {
+  const auto e = static_cast<std::size_t>(element);
+  if (!mesh.fibroglandular_fraction.empty()) return double(mesh.fibroglandular_fraction[e]);
+  return mesh.tissue[e] == Tissue::fibroglandular ? 1 : 0;
+}
+
+}  // namespace
+
+Coverage coverage(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& plate) {
+  struct Point {
+    HexShape shape;
+    double weight;
+  };
+  std::vector<Point> points;
+  for (const auto& [at, weight] : gauss_cube(2))
+    points.push_back({hex_shape(mesh.order, at), weight});
+  double all = 0, seen = 0, gland = 0, gland_seen = 0;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const double glandular = gland_of(mesh, e);
+    for (const Point& point : points) {
+      Vec3 place = Vec3::Zero();
+      Mat3 jacobian = Mat3::Zero();
+      for (int a = 0; a < mesh.nodes_per_element(); ++a) {
+        const Vec3 node = x.segment<3>(3L * mesh.element(e)[a]);
+        place += point.shape.values[a] * node;
+        jacobian += node * point.shape.gradients.col(a).transpose();
+      }
+      const double volume = point.weight * jacobian.determinant();
+      all += volume;
+      gland += glandular * volume;
+      if (!(place.dot(plate.anterior) >= plate.edge_start)) continue;
+      seen += volume;
+      gland_seen += glandular * volume;
+    }
+  }
+  Coverage out;
+  if (all > 0) out.volume = percent(seen, all);
+  if (gland > 0) out.fibroglandular = percent(gland_seen, gland);
+  return out;
+}
+
+}  // namespace breast

@@ -1,0 +1,37 @@
+// How much of a breast lies in front of the edge of the image.
+#include "contact/coverage.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fixtures/standing_block.hpp"
+#include "mesh/nodal.hpp"
+
+namespace breast {
+namespace {
+
+// 60 deep in six layers: an edge between layers leaves exact fractions.
+TEST(Coverage, IsTheVolumeInFrontOfTheEdge) {
+  HexMesh mesh = fixtures::standing_block({50, 60, 40}, {5, 6, 4});
+  Plate plate = plate_facing(view_pose(Side::left, 0));
+  const auto of_edge = [&](double edge) {
+    plate.edge_start = edge;
+    return coverage(mesh, flatten(mesh.points), plate);
+  };
+  EXPECT_NEAR(of_edge(20).volume, 100 * 40.0 / 60, 1e-9);
+  EXPECT_FALSE(of_edge(20).fibroglandular);
+  EXPECT_NEAR(of_edge(-5).volume, 100, 1e-9);
+  EXPECT_NEAR(of_edge(65).volume, 0, 1e-12);
+  // Gland in the foremost layer only: all of it in front of an edge at 20, and half by fractions.
+  for (int e = 0; e < mesh.elements(); ++e) {
+    double front = 0;
+    for (int a = 0; a < 8; ++a) front += -mesh.points[std::size_t(mesh.element(e)[a])].y() / 8;
+    if (front > 50) mesh.tissue[std::size_t(e)] = Tissue::fibroglandular;
+  }
+  EXPECT_NEAR(of_edge(20).fibroglandular.value(), 100, 1e-9);
+  EXPECT_NEAR(of_edge(60).fibroglandular.value(), 0, 1e-9);
+  mesh.fibroglandular_fraction.assign(std::size_t(mesh.elements()), 0.25F);
+  EXPECT_NEAR(of_edge(20).fibroglandular.value(), 100 * 40.0 / 60, 1e-9);
+}
+
+}  // namespace
+}  // namespace breast
