@@ -6,6 +6,7 @@
 #include "mesh/nodal_faces.hpp"
 #include "core/units.hpp"
 #include "fixtures/pressed_block.hpp"
+#include "fixtures/rivlin_pressure.hpp"
 #include "fixtures/standing_block.hpp"
 
 using namespace breast;
@@ -30,14 +31,6 @@ std::vector<int> top_and_bottom(const HexMesh& mesh, double top) {
   return nodes;
 }
 
-/// Pa between the plates of a homogeneous block of height `ratio`: nominal,
-/// force per stress-free area.
-double rivlin_pressure(const Law& law, double ratio) {
-  const double i1 = ratio * ratio + 2 / ratio, i2 = 2 * ratio + 1 / (ratio * ratio);
-  const LawValue w = law.evaluate(i1, i2);
-  return -2 * (ratio - 1 / (ratio * ratio)) * (w.w1 + w.w2 / ratio);
-}
-
 }  // namespace
 
 TEST(ContactBlock, RivlinCompressionBetweenFrictionlessPlates) {
@@ -59,7 +52,7 @@ TEST(ContactBlock, RivlinCompressionBetweenFrictionlessPlates) {
       worst = std::max(worst, (Vec3(body.state.x.segment<3>(3 * node)) - exact).norm());
     }
     EXPECT_LT(worst, 1e-7);
-    const double exact = rivlin_pressure(seed2008().materials.law(tissue), ratio) * size.x() *
+    const double exact = fixtures::rivlin_pressure(seed2008().materials.law(tissue), ratio) * size.x() *
                          size.y() / micronewton_per_newton;
     EXPECT_NEAR(path.points.back().paddle_N / exact, 1, 1e-8);
     EXPECT_NEAR(path.points.back().detector_N / exact, 1, 1e-8);
@@ -91,7 +84,7 @@ TEST(ContactBlock, UniformPressurePassesThroughADistortedMesh) {
     const PathResult path = body.close_to(ratio * side);
     ASSERT_TRUE(path.reached) << describe(path.last_failure);
     // Force per present area.
-    const double exact = rivlin_pressure(options.materials.law(Tissue::fat), ratio) * ratio;
+    const double exact = fixtures::rivlin_pressure(options.materials.law(Tissue::fat), ratio) * ratio;
     std::vector<Face> plates;
     for (const Face& face : mesh.skin_faces) {
       double low = side, high = 0;

@@ -9,6 +9,7 @@
 #include "core/units.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/pressed_body.hpp"
+#include "fixtures/rivlin_pressure.hpp"
 #include "fixtures/standing_block.hpp"
 #include "fixtures/wide_plates.hpp"
 #include "mesh/nodal_faces.hpp"
@@ -59,12 +60,6 @@ class PressedFaces {
   std::unique_ptr<SurfaceContact> contact_;
 };
 
-double rivlin_pressure(const Law& law, double ratio) {
-  const double i1 = ratio * ratio + 2 / ratio, i2 = 2 * ratio + 1 / (ratio * ratio);
-  const LawValue w = law.evaluate(i1, i2);
-  return -2 * (ratio - 1 / (ratio * ratio)) * (w.w1 + w.w2 / ratio);
-}
-
 }  // namespace
 
 TEST(ContactFaces, UniformPressurePassesThroughADistortedMesh) {
@@ -114,7 +109,7 @@ TEST(ContactFaces, UniformPressurePassesThroughADistortedMesh) {
     }
     const double now = (high - low) / side;
     EXPECT_NEAR(now, ratio, 0.1 / side);  // what the plates give
-    const double exact = rivlin_pressure(options.materials.law(Tissue::fat), now) * now;
+    const double exact = fixtures::rivlin_pressure(options.materials.law(Tissue::fat), now) * now;
     EXPECT_NEAR(mean / exact, 1, 1e-6);
     EXPECT_LE(path.final_step.worst_penetration, 0.05);
   }

@@ -113,12 +113,8 @@ bool AugmentedLagrangian::equilibrate(State& state, double tolerance, ContactSte
     step.failed_trial = state.x;
     return false;
   }
-  NewtonResult part = newton(system);
-  step.iterations.insert(step.iterations.end(), part.iterations.begin(), part.iterations.end());
-  step.indefinite += part.indefinite;
-  step.residual = part.residual;
-  step.stop = part.stop;
-  step.reason = part.reason;
+  const NewtonResult part = newton(system);
+  step.append(part);
   step.forces = system.forces();
   if (!part.converged && step.failed_trial.size() == 0) step.failed_trial = system.refused();
   return part.converged;

@@ -33,6 +33,15 @@ struct ContactStep : NewtonResult {
   std::vector<NodalContact> contacts;  ///< per candidate, when converged
   std::vector<PressedPoint> pressed;   ///< when converged, of faces; empty where nodes touch
   Eigen::VectorXd failed_trial;        ///< positions of the first refused trial of a failed step
+
+  /// Appends the iterations of one of several solves; how that one ended is how the step stands.
+  void append(const NewtonResult& part) {
+    iterations.insert(iterations.end(), part.iterations.begin(), part.iterations.end());
+    indefinite += part.indefinite;
+    residual = part.residual;
+    stop = part.stop;
+    reason = part.reason;
+  }
 };
 
 /// What a method carries from one plate position to the next, per candidate.
