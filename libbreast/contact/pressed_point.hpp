@@ -9,8 +9,6 @@ struct PressedPoint {
   int plate = 0;        ///< 0 paddle, 1 detector
   Vec3 at{0, 0, 0};     ///< mm
   Vec3 force{0, 0, 0};  ///< on the body, µN
-  double area = 0;      ///< of the deformed boundary that belongs to it, mm²
-  double depth = 0;     ///< in the plate, mm
 };
 
 }  // namespace breast

@@ -44,21 +44,17 @@ PlateRecord pose_of(const HexMesh& mesh, const Plate& plate, const std::vector<F
   return record;
 }
 
-/// What touches, as points: those of the faces, or the nodes with the area of skin around them.
-std::vector<PressedPoint> pressed_points(const HexMesh& mesh, const PlatePair& plates,
-                                         const Eigen::VectorXd& x, const ContactSolver& solver,
-                                         const ContactStep& step) {
+/// Where the plates press: points of faces, or nodes.
+std::vector<PressedPoint> pressed_points(const PlatePair& plates, const Eigen::VectorXd& x,
+                                         const ContactSolver& solver, const ContactStep& step) {
   if (!step.pressed.empty()) return step.pressed;
-  const std::vector<double> area = skin_area_per_node(mesh, x);
   std::vector<PressedPoint> points;
   for (std::size_t c = 0; c < step.contacts.size(); ++c) {
     const NodalContact& contact = step.contacts[c];
     if (contact.plate < 0 || !(contact.normal > 0)) continue;
-    const int node = solver.candidates()[c];
-    const Vec3 at = x.segment<3>(3L * node);
-    const Gap gap = plates.plate(contact.plate).gap(at);
-    points.push_back({contact.plate, at, contact.normal * gap.gradient + contact.tangential,
-                      area[std::size_t(node)], std::max(0.0, -gap.value)});
+    const Vec3 at = x.segment<3>(3L * solver.candidates()[c]);
+    const Vec3 normal = plates.plate(contact.plate).gap(at).gradient;
+    points.push_back({contact.plate, at, contact.normal * normal + contact.tangential});
   }
   return points;
 }
@@ -178,7 +174,7 @@ void record_compression(const Scene& scene, const CompressionOptions& options, c
   result.places.assign(2, {});
   ContactRecord record = record_of(options, result, surface_stiffness);
   const std::vector<PressedPoint> points =
-      pressed_points(mesh, result.plates, state.x, solver, result.path.final_step);
+      pressed_points(result.plates, state.x, solver, result.path.final_step);
   const std::vector<Face> faces = free_boundary_faces(mesh, scene.walls());
   Vec3 total = Vec3::Zero();  // of both plates on the body, µN
   if (friction != nullptr) {

@@ -244,7 +244,7 @@ void SurfaceContact::move_anchors(const State& state, ContactStep& step) {
     memory_.bounds[c] = 0;
     if (k < 0) continue;
     step.contacts[c].tangential += force[c];
-    step.pressed.push_back({k, state.x.segment<3>(3L * candidates_[c]), force[c], 0, 0});
+    step.pressed.push_back({k, state.x.segment<3>(3L * candidates_[c]), force[c]});
     memory_.bounds[c] = options_.friction.bound(step.contacts[c].normal);
     memory_.anchors[c] = state.x.segment<3>(3L * candidates_[c]) +
                          force[c] / options_.friction.stick - pressure_->plates().plate(k).shift();

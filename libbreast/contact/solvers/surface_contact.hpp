@@ -38,7 +38,6 @@ class SurfaceContact : public ContactSolver {
   const std::vector<int>& candidates() const override { return candidates_; }
   /// The plates' pressure, as of the last solve.
   const SurfacePressure& pressure() const { return *pressure_; }
-  std::shared_ptr<const SurfacePressure> shared_pressure() const { return pressure_; }
   /// The friction of the last solve; null: none.
   const std::shared_ptr<FrictionTerm>& friction() const { return friction_; }
 

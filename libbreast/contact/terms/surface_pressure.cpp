@@ -293,18 +293,10 @@ Eigen::VectorXd SurfacePressure::change_of_forces(
 
 std::vector<PressedPoint> SurfacePressure::pressed(const Eigen::VectorXd& x) const {
   std::vector<PressedPoint> points;
-  const int n = cells_.nodes_per_cell;
   for (int f = 0; f < cells_.count(); ++f) {
-    const int* nodes = cells_.cell(f);
     visit(f, x, [&](const Touch& touch) {
-      const auto scale = [&](const auto& position) {
-        return area_scale(nodes, n, touch.shape, position);
-      };
-      const double stretch = scale([&](int node) { return Vec3(x.segment<3>(3L * node)); }) /
-                             scale([&](int node) { return imaged_[std::size_t(node)]; });
       const double pressure = pressure_at(-touch.gap.value, stiffness_).value;
-      points.push_back({touch.plate, touch.at, touch.area * pressure * touch.gap.gradient,
-                        stretch * touch.area, -touch.gap.value});
+      points.push_back({touch.plate, touch.at, touch.area * pressure * touch.gap.gradient});
     });
   }
   return points;
