@@ -30,6 +30,16 @@ struct Inputs : fixtures::ChainInputs {
   double paddle_share = 0.5;  ///< of a change of thickness
 };
 
+// Imaged prone, pressed upright; without plates yet.
+Inputs upright_breast() {
+  return {{analytic_breast_mesh(5),
+           {.materials = load_materials("seed2008")},
+           posture_gravity(Posture::prone),
+           posture_gravity(Posture::upright)},
+          {},
+          0.5};
+}
+
 struct Outcome {
   Eigen::VectorXd x;
   double paddle_N = 0;
@@ -124,12 +134,7 @@ struct Machine {
 class CompressedSensitivity : public testing::TestWithParam<Machine> {};
 
 TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
-  Inputs in{{analytic_breast_mesh(5),
-             {.materials = load_materials("seed2008")},
-             posture_gravity(Posture::prone),
-             posture_gravity(Posture::upright)},
-            {},
-            0.5};
+  Inputs in = upright_breast();
   HexMesh mesh = in.mesh;
   ASSERT_TRUE(fixtures::backward_into(mesh, in.imaged_gravity, in.options).converged());
   const std::vector<double> imaged_pressure = mesh.pressure;
@@ -207,12 +212,7 @@ Outcome press_faces(const Inputs& in, const HexMesh& near, const Parameter& para
 class PressedFacesSensitivity : public testing::TestWithParam<double> {};
 
 TEST_P(PressedFacesSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
-  Inputs in{{analytic_breast_mesh(5),
-             {.materials = load_materials("seed2008")},
-             posture_gravity(Posture::prone),
-             posture_gravity(Posture::upright)},
-            {},
-            0.5};
+  Inputs in = upright_breast();
   HexMesh mesh = in.mesh;
   ASSERT_TRUE(fixtures::backward_into(mesh, in.imaged_gravity, in.options).converged());
   const std::vector<double> imaged_pressure = mesh.pressure;
