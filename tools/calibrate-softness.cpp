@@ -1,8 +1,10 @@
 // calibrate-softness: the material set with which a cohort moves as women's breasts do.
 #include "calibration/softness.hpp"
 #include "cli/tool.hpp"
+#include "contact/options.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/units.hpp"
 #include "io/mesh_file.hpp"
 #include "material/material_table.hpp"
 
@@ -14,8 +16,18 @@ struct Choices {
   std::filesystem::path set, women, pressed;
   std::vector<std::filesystem::path> cohort;
   std::string from = "seed2008";
-  std::vector<double> expected{3, 30, 100, 0.01, 0.01}, pressure{10, 2.5};
-  double ln_sd = 1.1, muscle = 8, reduction = 50, standoff = 5, edge = 5, kept = 5, smoothing = 0.02, prestretch = 3;
+  SoftnessData data;  // with its defaults
+  std::vector<double> expected, pressure;
+  double kept = 5, smoothing = 0.02, prestretch = 3;
+  CompressionChoices press;
+
+  Choices() {
+    const Softness& s = data.expected;
+    expected = {100 * s.low_order, 100 * s.quadratic, 100 * s.skin, s.wall, s.cut};
+    pressure = {data.pressure.mean, data.pressure.sd};
+    press.reduction = 50;
+    press.image_edge = "auto";
+  }
 };
 
 void declare(Tool& tool, Choices& c) {
@@ -38,17 +50,24 @@ void declare(Tool& tool, Choices& c) {
   tool.text(c.from, "--from", "NAME|FILE", "set whose constants are scaled");
   tool.numbers(c.expected, "--expected", "LOW,QUADRATIC,SKIN,WALL,CUT", 5,
                "middle of the prior: three times per cent, then kPa/mm twice");
-  tool.number(c.ln_sd, "--expected-ln-sd", "LN", "its standard deviation, of the logarithm", 0.01, 10);
+  tool.number(c.data.expected_ln_sd, "--expected-ln-sd", "LN",
+              "its standard deviation, of the logarithm", 0.01, 10);
   tool.numbers(c.pressure, "--pressure", "MEAN,SD", 2, "of the paddle, kPa");
-  tool.number(c.reduction, "--reduction", "PERCENT", "at this reduction of the thickness", 1, 95);
-  tool.number(c.standoff, "--standoff", "MM", "and this stand-off of the plates", 0, 500);
-  tool.number(c.edge, "--edge-radius", "MM", "of the plates' rounded edges", 1, 100);
-  tool.number(c.muscle, "--muscle", "MM", "thickness of the muscle in front of the ribs", 0, 50);
-  tool.number(c.kept, "--skin-compression", "PERCENT", "of the skin's law that is kept in compression", 0.1, 100);
-  tool.number(c.smoothing, "--skin-smoothing", "WIDTH", "of its transition, squared stretches", 1e-4, 0.5);
+  tool.number(c.press.reduction, "--reduction", "PERCENT", "at this reduction of the thickness", 1,
+              95);
+  tool.text(c.press.image_edge, "--image-edge", "auto|MM",
+            "and with plates that stand as in the clinic, as compress places them by this option");
+  tool.number(c.data.muscle_mm, "--muscle", "MM", "thickness of the muscle in front of the ribs", 0,
+              50);
+  tool.number(c.kept, "--skin-compression", "PERCENT",
+              "of the skin's law that is kept in compression", 0.1, 100);
+  tool.number(c.smoothing, "--skin-smoothing", "WIDTH", "of its transition, squared stretches",
+              1e-4, 0.5);
   tool.number(c.prestretch, "--skin-prestretch", "PERCENT", "stretch of the skin at rest", 0, 50);
-  tool.example("calibrate-softness --women women.tsv --pressed large.vtkhdf --set invivo.tsv a.vtkhdf b.vtkhdf",
-               "from two breasts, and the pressure on a third");
+  tool.check([&c] { compression_options(c.press, posture_gravity(Posture::upright)); });
+  tool.example(
+      "calibrate-softness --women women.tsv --pressed large.vtkhdf --set invivo.tsv a.vtkhdf b.vtkhdf",
+      "from two breasts, and the pressure on a third");
 }
 
 Observed observed(const Table& women, const std::string& quantity) {
@@ -62,7 +81,8 @@ Observed observed(const Table& women, const std::string& quantity) {
 HexMesh prone_mesh(const std::filesystem::path& file) {
   HexMesh mesh = read_mesh(file, {.geometry = true});
   if (!mesh.geometry || !mesh.geometry->thorax) {
-    throw input_error(file.string(), ": it holds no wall surface to slide on; make geometry and mesh "
+    throw input_error(file.string(),
+                      ": it holds no wall surface to slide on; make geometry and mesh "
                       "again with fit-hermite and hexmesh");
   }
   return mesh;
@@ -83,7 +103,8 @@ void report_found(const SoftnessFound& found, Run& run) {
     const std::string name = Softness::names()[k];
     const double value = std::exp(x[Eigen::Index(k)]),
                  sd = std::sqrt(found.fit.covariance(Eigen::Index(k), Eigen::Index(k)));
-    table.rows.push_back({name, format_number(value), "-", format_fixed(sd, 2) + " of the logarithm"});
+    table.rows.push_back(
+        {name, format_number(value), "-", format_fixed(sd, 2) + " of the logarithm"});
     run.report().set("softness/" + name, value);
     run.report().set("softness/" + name + "_ln_sd", sd);
   }
@@ -94,16 +115,14 @@ void report_found(const SoftnessFound& found, Run& run) {
 
 void run_calibration(const Choices& c, Run& run) {
   const Table women = read_table(c.women);
-  SoftnessData data;
+  SoftnessData data = c.data;
   data.lateral = observed(women, "nipple_lateral_mm");
   data.posterior = observed(women, "nipple_posterior_mm");
   data.ribs_change = observed(women, "ribs_change_mm");
   data.pressure.mean = c.pressure[0], data.pressure.sd = c.pressure[1];
-  data.reduction = c.reduction, data.standoff = c.standoff, data.edge_radius = c.edge;
-  data.muscle_mm = c.muscle;
+  data.press = compression_options(c.press, posture_gravity(Posture::upright));
   data.expected = {c.expected[0] / 100, c.expected[1] / 100, c.expected[2] / 100, c.expected[3],
                    c.expected[4]};
-  data.expected_ln_sd = c.ln_sd;
   for (const std::filesystem::path& file : c.cohort) data.cohort.push_back(prone_mesh(file));
   data.pressed = prone_mesh(c.pressed);
   MaterialSet base = load_materials(c.from);

@@ -44,7 +44,7 @@ void declare(Tool& tool, Choices& c) {
       "identifier (folds_at_plate_edge, folds_on_chest_wall, folds_between_edge_and_wall, "
       "folds_between_plates, folds_behind_plates, shrinks_... with the same endings, "
       "iteration_limit, indefinite_tangent, no_admissible_step, solve_limit, out_of_reach, "
-      "gravity_not_carried, no_equilibrium_at_touch) and explanation a sentence.");
+      "gravity_not_carried, pull_not_carried, no_equilibrium_at_touch, ends_before_grip) and explanation a sentence.");
   tool.cite("Pathmanathan et al. 2008, section II-D, equations (7)-(8)");
   tool.example("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 50",
                "cranio-caudal, half the thickness");
@@ -96,6 +96,11 @@ void declare(Tool& tool, Choices& c) {
       c.positioning, "--positioning", {"lifted", "hanging"},
       "a hand carries the breast's weight until the plates grip it, or the plates close on it "
       "as it hangs (default: lifted with --image-edge, otherwise hanging)");
+  tool.number(
+      c.pull, "--pull", "N",
+      "pulls the lifted breast forwards with this force, which fades while the plates grip it "
+      "(default: 0)",
+      0, 500);
   tool.number(
       c.plates.edge_at, "--edge-at", "MM",
       "coordinate of the rounded edge's start along the plates' depth, instead of measuring it from the wall",
@@ -153,6 +158,9 @@ void run_compress(Choices c, Run& run) {
   const HexMesh& mesh = mechanics.mesh();
   take_from_mammogram(c, mesh.side, run.report());
   const CompressionOptions options = compression_options(c, parse_gravity(c.gravity));
+  if (c.plates.standoff) {
+    run.progress().note("--standoff will go in a later version: --image-edge places the plates' edge");
+  }
   CompressionResult found = compress(mesh, options, mechanics.options(), run.progress());
   if (mechanics.options().estimate == Estimate::q2 && found.contact) {
     CompressionOptions same_gap = options;

@@ -4,7 +4,6 @@
 #include <iomanip>
 #include <sstream>
 
-#include "contact/compression.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "core/units.hpp"
@@ -77,11 +76,7 @@ std::optional<PostureMotion> motion_of(HexMesh mesh, const MechanicsOptions& opt
 std::optional<double> pressure_on(HexMesh mesh, const MechanicsOptions& options,
                                   const SoftnessData& data) {
   if (!unload(mesh, options)) return {};
-  CompressionOptions press;
-  press.target = data.reduction;
-  press.plates.standoff = data.standoff;
-  press.plates.edge_radius = data.edge_radius;
-  const CompressionResult found = compress(mesh, press, options);
+  const CompressionResult found = compress(mesh, data.press, options);
   if (!found.converged()) return {};
   return found.contact->plates[0].mean_kPa;
 }
@@ -117,7 +112,8 @@ Softness rounded(const Softness& s) {
 }
 
 Eigen::MatrixXd rounded(const Eigen::MatrixXd& covariance) {
-  const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt().unaryExpr([](double x) { return rounded(x); });
+  const Eigen::VectorXd sd =
+      covariance.diagonal().cwiseSqrt().unaryExpr([](double x) { return rounded(x); });
   Eigen::MatrixXd out(covariance.rows(), covariance.cols());
   for (Eigen::Index i = 0; i < out.rows(); ++i)
     for (Eigen::Index j = 0; j < out.cols(); ++j) {

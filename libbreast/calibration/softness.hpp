@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibration/gauss_newton.hpp"
+#include "contact/compression.hpp"
 #include "core/progress.hpp"
 #include "material/law.hpp"
 #include "mesh/hex_mesh.hpp"
@@ -15,7 +16,7 @@ namespace breast {
 /// What is sought, as factors on a set and supports in kPa/mm.
 struct Softness {
   double low_order = 0.03;  ///< on the constants of polynomial laws that are linear in I1 and I2
-  double quadratic = 0.3;  ///< on the others
+  double quadratic = 0.3;   ///< on the others
   double skin = 1;          ///< on the law of skin
   double wall = 0.01, cut = 0.01;
 
@@ -42,18 +43,18 @@ struct SoftnessData {
   double muscle_mm = 8;
   Observed lateral, posterior, ribs_change;  ///< of `women` women
   int women = 63;
-  Observed pressure{"pressure_kPa", 10, 2.5};  ///< at `reduction` per cent, plates `standoff` mm away
-  double reduction = 50, standoff = 5, edge_radius = 5;
-  Softness expected;             ///< of the prior
-  double expected_ln_sd = 1.1;   ///< a factor of three either way
+  Observed pressure{"pressure_kPa", 10, 2.5};  ///< of the paddle on `pressed`
+  CompressionOptions press;                    ///< how `pressed` is compressed
+  Softness expected;                           ///< of the prior
+  double expected_ln_sd = 1.1;                 ///< a factor of three either way
 };
 
 struct SoftnessFound {
   Softness softness;
   LeastSquares fit;
-  std::vector<Observed> wanted;    ///< with the standard deviation each was weighted by
-  std::vector<double> found;       ///< means of the cohort and the pressure
-  MaterialSet materials;           ///< with the uncertainty
+  std::vector<Observed> wanted;  ///< with the standard deviation each was weighted by
+  std::vector<double> found;     ///< means of the cohort and the pressure
+  MaterialSet materials;         ///< with the uncertainty
 };
 
 /// Least squares in the logarithms of Softness. A mean over n breasts is weighted by the standard

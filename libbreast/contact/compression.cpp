@@ -4,16 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <set>
 
 #include "contact/estimate_plates.hpp"
 #include "contact/failure.hpp"
-#include "contact/penetration.hpp"
 #include "contact/results.hpp"
 #include "contact/skin_area.hpp"
-#include "contact/solvers/active_set.hpp"
-#include "contact/solvers/augmented_lagrangian.hpp"
-#include "contact/solvers/surface_contact.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "mechanics/estimate/error_estimate.hpp"
@@ -24,14 +19,6 @@
 namespace breast {
 
 namespace {
-
-/// In units of shear modulus times element size: the penalty of the augmented Lagrangian, and the
-/// springs that stand for sticking friction (at 10 kPa and μ = 0.3 they give by about 0.2 mm).
-constexpr double penalty_factor = 10, stick_factor = 100;
-
-/// A lifted breast has its whole weight again at this reduction, and the first of it at this fraction
-/// of that. Where a force or a pressure ends the path its reduction is not known beforehand.
-constexpr double weight_is_whole = 0.25, weight_is_whole_in_control = 0.1, weight_begins = 0.2;
 
 /// The contact solver needs a factor.
 MechanicsOptions by_factor(MechanicsOptions mechanics) {
@@ -54,21 +41,19 @@ class Compression {
   CompressionResult run();
 
  private:
-  bool load_with_gravity(State& state);
-  std::vector<int> candidates() const;
-  Friction friction_of_plates() const {
-    return {options_.friction, stick_factor * scene_.stiffest() * scene_.element_size()};
-  }
-  std::unique_ptr<ActiveSet> active_set();
-  std::unique_ptr<ContactSolver> augmented_lagrangian();
+  bool load_with(const Eigen::VectorXd& load, const char* name, State& state);
   CompressionTarget target() const;
-  void place(State& state);
+  void place(const State& upright);
+  bool lift(State& state);
+  Grip grip() const;
   PathOptions path_options();
+  bool has_let_go();
   void close_plates(State& state);
   void record_path();
   void check_stability(const State& state, const ContactSolver& contact);
-  void estimate(const State& state, const ContactSolver& contact,
-                const std::shared_ptr<FrictionTerm>& friction);
+  void estimate(const State& state, const ChosenContact& contact);
+  void note_stage(const char* name, const State& state);
+  void say_where_plates_stand() const;
   void say_how_it_ended(const State& state);
   double load_reached() const;
   void judge_against_practice();
@@ -81,63 +66,39 @@ class Compression {
   Progress& progress_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   Scene scene_;
-  Eigen::VectorXd load_;
+  Eigen::VectorXd load_, pull_;  // weight; what a hand adds to it before it lets go
   LoadedProblem body_;
   SaddleSolver solver_;
-  const SurfaceContact* surface_ = nullptr;  // where faces touch: the solver
+  Eigen::VectorXd upright_;  // the breast as it hangs before it is lifted
   CompressionResult found_;
 };
 
-/// Gravity alone, in load steps when one does not converge.
-bool Compression::load_with_gravity(State& state) {
-  Timer::Scope phase(found_.timer, "gravity");
+/// Loads the body alone, in steps when one does not converge. `name` is that of the load.
+bool Compression::load_with(const Eigen::VectorXd& load, const char* name, State& state) {
+  Timer::Scope phase(found_.timer, name);
   SaddleMatrix matrix = body_.problem.make_matrix();
   LoadPath path;
   while (!path.finished()) {
-    body_.set_load(path.next() * load_);
+    body_.set_load(path.next() * load);
     State trial = state;
     ++found_.steps;
     const EquilibriumResult result = equilibrate(
         body_.problem, solver_, matrix, trial, {}, nullptr, [&](const NewtonIteration& iteration) {
           record_iteration(found_, found_.steps, iteration, clock());
-          progress_.update("gravity", -1, message("residual ", iteration.residual));
+          progress_.update(name, -1, message("residual ", iteration.residual));
         });
     if (result.converged) {
       state = std::move(trial);
       path.succeed();
     } else if (!path.fail()) {
-      found_.reason_id = "gravity_not_carried";
+      found_.reason_id = std::string(name) + "_not_carried";
       found_.load_reached = path.done;
-      found_.record.reason = message("gravity before compression stopped at ", 100 * path.done,
+      found_.record.reason = message(name, " before compression stopped at ", 100 * path.done,
                                      " % of the load: ", result.reason);
       return false;
     }
   }
   return true;
-}
-
-/// Skin nodes that nothing holds and that are not on the chest wall.
-std::vector<int> Compression::candidates() const {
-  const std::vector<int> wall = nodes_of(mesh_, mesh_.pectoral_faces);
-  const std::set<int> on_wall(wall.begin(), wall.end());
-  std::vector<int> list;
-  for (const int node : nodes_of(mesh_, mesh_.skin_faces)) {
-    if (scene_.walls().at(node) == nullptr && !on_wall.contains(node)) list.push_back(node);
-  }
-  return list;
-}
-
-std::unique_ptr<ActiveSet> Compression::active_set() {
-  ActiveSetOptions exact;
-  exact.friction = friction_of_plates();
-  if (exact.friction.present()) exact.max_iterations *= 2;  // bounds are followed linearly
-  return std::make_unique<ActiveSet>(body_.problem, solver_, candidates(), exact);
-}
-
-std::unique_ptr<ContactSolver> Compression::augmented_lagrangian() {
-  AugmentedLagrangianOptions al;
-  al.penalty = penalty_factor * scene_.stiffest() * scene_.element_size();
-  return std::make_unique<AugmentedLagrangian>(body_.problem, solver_, candidates(), al);
 }
 
 CompressionTarget Compression::target() const {
@@ -155,50 +116,55 @@ CompressionTarget Compression::target() const {
   return {};
 }
 
+/// When the hand lets go of a lifted breast.
+Grip Compression::grip() const {
+  const CompressionTarget end = target();
+  if (end.kind != TargetKind::thickness) return grip_before_any_force();
+  return grip_before(1 - end.value / found_.plates.initial_thickness);
+}
+
 /// Where the breast is lifted its weight comes back while the plates grip it.
 PathOptions Compression::path_options() {
   PathOptions path = options_.path;
   if (options_.positioning == Positioning::hanging) return path;
-  const double initial = found_.plates.initial_thickness;
-  const CompressionTarget end = target();
-  const double whole = end.kind == TargetKind::thickness
-                           ? std::min(weight_is_whole, 0.5 * (1 - end.value / initial))
-                           : weight_is_whole_in_control;
-  path.prepare = [this, initial, whole](double thickness) {
-    const double reduction = 1 - thickness / initial;
-    const double begun = weight_begins * whole;
-    body_.set_load(std::clamp((reduction - begun) / (whole - begun), 0.0, 1.0) * load_);
+  path.prepare = [this, grip = grip()](double thickness) {
+    const double reduction = 1 - thickness / found_.plates.initial_thickness;
+    body_.set_load(grip.weight.at(reduction) * load_ + (1 - grip.pull.at(reduction)) * pull_);
   };
   return path;
 }
 
+/// Whether nothing but the plates holds the breast at the end of the path; says so when a hand still
+/// does, for then it is no compression.
+bool Compression::has_let_go() {
+  if (options_.positioning == Positioning::hanging) return true;
+  const double reduction = 1 - found_.path.thickness / found_.plates.initial_thickness;
+  const Grip hand = grip();
+  const double weight = hand.weight.at(reduction), pull = hand.pull.at(reduction);
+  if (weight == 1 && (pull == 1 || !(options_.pull_N > 0))) return true;
+  found_.reason_id = "ends_before_grip";
+  found_.load_reached = weight;
+  found_.record.reason = message(
+      "the path ends at a reduction of ", 100 * reduction, " %, where a hand still carries ",
+      100 * (1 - weight), " % of the breast's weight and pulls with ", (1 - pull) * options_.pull_N,
+      " N; it lets go from ", 100 * hand.weight.ends,
+      " % on: choose a larger target, a smaller --pull, or --positioning hanging");
+  return false;
+}
+
 void Compression::close_plates(State& state) {
-  std::shared_ptr<FrictionTerm> friction;
-  std::unique_ptr<ContactSolver> contact;
-  if (options_.method == ContactMethod::surface) {
-    SurfaceContactOptions stiff;
-    stiff.friction = friction_of_plates();
-    auto faces = std::make_unique<SurfaceContact>(mesh_, touchable_faces(mesh_), body_.problem,
-                                                  solver_, stiff);
-    surface_ = faces.get();
-    contact = std::move(faces);
-  } else if (options_.method == ContactMethod::active_set) {
-    auto exact = active_set();
-    friction = exact->friction();
-    contact = std::move(exact);
-  } else {
-    contact = augmented_lagrangian();
-  }
+  const ChosenContact contact =
+      make_contact_solver(options_.method, options_.friction, scene_, body_.problem, solver_);
   const auto area = [&](const State& s) {
     const std::vector<double> all = skin_area_per_node(mesh_, s.x);
     std::vector<double> own;
-    for (const int node : contact->candidates()) own.push_back(all[std::size_t(node)]);
+    for (const int node : contact.solver->candidates()) own.push_back(all[std::size_t(node)]);
     return own;
   };
   {
     Timer::Scope phase(found_.timer, "contact");
-    found_.path =
-        follow_path(*contact, found_.plates, state, target(), area, path_options(), progress_);
+    found_.path = follow_path(*contact.solver, found_.plates, state, target(), area, path_options(),
+                              progress_);
   }
   record_path();
   if (found_.path.points.empty()) {
@@ -208,14 +174,17 @@ void Compression::close_plates(State& state) {
                                    describe(found_.path.last_failure));
     return;
   }
+  if (!has_let_go()) return;
   {
     Timer::Scope phase(found_.timer, "results");
     found_.min_det_F = found_.path.final_step.forces.min_det_F;
-    record_compression(scene_, options_, state, *contact, surface_, body_.load->total(), found_);
+    record_compression(scene_, options_, state, *contact.solver, contact.surface,
+                       body_.load->total(), found_);
     conclude(found_, scene_, state, options_.gravity);
+    note_stage("compressed", state);
   }
-  check_stability(state, *contact);
-  if (scene_.options().estimate == Estimate::step) estimate(state, *contact, friction);
+  check_stability(state, *contact.solver);
+  if (scene_.options().estimate == Estimate::step) estimate(state, contact);
   say_how_it_ended(state);
 }
 
@@ -232,13 +201,13 @@ void Compression::check_stability(const State& state, const ContactSolver& conta
 }
 
 /// Discretisation error of the final state, the touching set held.
-void Compression::estimate(const State& state, const ContactSolver& contact,
-                           const std::shared_ptr<FrictionTerm>& friction) {
+void Compression::estimate(const State& state, const ChosenContact& contact) {
   if (mesh_.order == 1 && !mesh_.landmarks.empty()) {
     Timer::Scope phase(found_.timer, "error estimate");
     const ContactEstimate plates =
-        surface_ != nullptr ? estimate_of_faces(*surface_, state)
-                            : estimate_of_nodes(contact, found_.plates, friction, mesh_, state);
+        contact.surface != nullptr
+            ? estimate_of_faces(*contact.surface, state)
+            : estimate_of_nodes(*contact.solver, found_.plates, contact.friction, mesh_, state);
     SaddleMatrix matrix = body_.problem.make_matrix();
     note_estimate(estimate_error(scene_, state, options_.gravity, matrix, solver_, plates),
                   ", nodes on the plates held along their normals", found_);
@@ -283,26 +252,12 @@ double Compression::load_reached() const {
 
 /// The result against clinical ranges, then how it was found.
 void Compression::judge_against_practice() {
-  const PathResult& path = found_.path;
   found_.judgement = judge_compression(
-      *found_.contact, {found_.pose.n, body_.load->total() / micronewton_per_newton,
-                        found_.wall_reaction_N, found_.max_volume_error, found_.places});
-  if (path.first_indefinite_thickness) {
-    found_.judgement.push_back(
-        {"slips_or_buckles",
-         message("the tangent was indefinite in ", path.indefinite,
-                 " iterations, first at thickness ", *path.first_indefinite_thickness,
-                 " mm: the breast slips or buckles there"),
-         true});
-  }
-  if (path.jump) {
-    found_.judgement.push_back(
-        {"jump_at_target",
-         message("jump at target: between plate positions 0.1 micrometre apart the ",
-                 options_.stop_at == StopAt::force ? "paddle force" : "mean pressure",
-                 " goes from ", path.jump->first, " to ", path.jump->second, ", past ",
-                 options_.target, "; the nearer one is the result"),
-         true});
+      *found_.contact,
+      {found_.pose.n, body_.load->total() / micronewton_per_newton, found_.wall_reaction_N,
+       found_.max_volume_error, found_.places, found_.self_contact});
+  for (Judgement& line : judge_path(found_.path, target(), found_.stable)) {
+    found_.judgement.push_back(std::move(line));
   }
   if (found_.reduction_percent > 40 && scene_.options().materials.name == "seed2008") {
     found_.judgement.push_back(
@@ -314,21 +269,40 @@ void Compression::judge_against_practice() {
   }
 }
 
-/// Places the plates about the upright breast. One that is lifted takes on its stress-free shape,
-/// and there the plates begin.
-void Compression::place(State& state) {
-  const std::vector<Vec3> upright = unflatten(state.x);
-  const double turn = options_.plates.turn_deg.value_or(wall_turn_deg(mesh_, upright));
+/// Places the plates about the upright breast.
+void Compression::place(const State& upright) {
+  const std::vector<Vec3> points = unflatten(upright.x);
+  const double turn = options_.plates.turn_deg.value_or(wall_turn_deg(mesh_, points));
   found_.pose = view_pose(mesh_.side, options_.angle_deg, turn);
-  found_.plates = place_plates(mesh_, upright, found_.pose, options_.plates);
-  if (options_.positioning == Positioning::lifted) {
-    state = scene_.at_rest(flatten(mesh_.reference));
-    found_.plates = start_from(found_.plates, mesh_, mesh_.reference, found_.pose, options_.plates);
-  }
+  found_.plates = place_plates(mesh_, points, found_.pose, options_.plates);
+  upright_ = upright.x;
+  note_stage("upright", upright);
+}
+
+void Compression::note_stage(const char* name, const State& state) {
+  found_.stages.push_back(positioning_stage(name, mesh_, upright_, state.x, found_.plates.paddle));
+}
+
+/// A lifted breast takes on its stress-free shape, there the plates begin, and the hand pulls it
+/// forwards. False when it cannot be pulled so.
+bool Compression::lift(State& state) {
+  if (options_.positioning == Positioning::hanging) return true;
+  state = scene_.at_rest(flatten(mesh_.reference));
+  note_stage("lifted", state);
+  found_.plates = start_from(found_.plates, mesh_, mesh_.reference, found_.pose, options_.plates);
+  pull_ = Eigen::VectorXd::Zero(state.x.size());
+  if (!(options_.pull_N > 0)) return true;
+  pull_ = pull_forwards(mesh_, mesh_.reference, found_.plates.paddle, options_.pull_N);
+  if (!load_with(pull_, "pull", state)) return false;
+  note_stage("pulled", state);
+  return true;
+}
+
+void Compression::say_where_plates_stand() const {
   const double initial = found_.plates.initial_thickness;
   progress_.note(message("T0 ", initial, " mm, plates' edge ", found_.plates.standoff,
-                         " mm in front of the wall and turned by ", turn, " degrees, edge radius ",
-                         found_.plates.paddle.edge_radius, " mm"));
+                         " mm in front of the wall and turned by ", found_.pose.turn_deg,
+                         " degrees, edge radius ", found_.plates.paddle.edge_radius, " mm"));
   if (options_.stop_at == StopAt::thickness && !(options_.target < initial)) {
     throw input_error("thickness ", options_.target, " mm: the breast is only ", initial,
                       " mm thick between the plates; give less");
@@ -337,9 +311,12 @@ void Compression::place(State& state) {
 
 CompressionResult Compression::run() {
   State state = scene_.at_rest(flatten(mesh_.reference));
-  if (load_with_gravity(state)) {
+  if (load_with(load_, "gravity", state)) {
     place(state);
-    close_plates(state);
+    if (lift(state)) {
+      say_where_plates_stand();
+      close_plates(state);
+    }
   }
   found_.factorisations = solver_.factorisations();
   return std::move(found_);
@@ -358,6 +335,15 @@ void check(const HexMesh& mesh, const CompressionOptions& options,
   }
   if (options.stop_at == StopAt::reduction && !(options.target < 100)) {
     throw input_error("reduction ", options.target, " %: must be below 100");
+  }
+  if (!(options.pull_N >= 0 && options.pull_N <= 500)) {
+    throw input_error("pull ", options.pull_N, " N: must lie within 0 and 500");
+  }
+  if (options.pull_N > 0 && options.positioning == Positioning::hanging) {
+    throw input_error(
+        "pull ", options.pull_N,
+        " N of a breast that hangs: it takes a hand that lifts it; give --positioning "
+        "lifted");
   }
   if (!(options.friction >= 0 && options.friction <= 2)) {
     throw input_error("friction ", options.friction, ": must lie within 0 and 2");

@@ -12,6 +12,9 @@
 #include "contact/judgement.hpp"
 #include "contact/path.hpp"
 #include "contact/plates.hpp"
+#include "contact/positioning.hpp"
+#include "contact/self_contact.hpp"
+#include "contact/solvers/make_solver.hpp"
 #include "core/progress.hpp"
 #include "core/report.hpp"
 #include "mechanics/equilibrium.hpp"
@@ -20,11 +23,6 @@
 namespace breast {
 
 enum class StopAt { thickness, reduction, force, pressure };
-/// Faces kept out of the plates; nodes, exactly; or nodes by the paper's augmented Lagrangian.
-enum class ContactMethod { surface, active_set, augmented_lagrangian };
-/// How the breast comes between the plates: as it hangs, or lifted by a hand that carries its weight
-/// until the plates grip it.
-enum class Positioning { hanging, lifted };
 
 struct CompressionOptions {
   View view = View::cc;
@@ -35,7 +33,8 @@ struct CompressionOptions {
   Vec3 gravity{0, 0, -9810};  ///< mm/s², LPS
   ContactMethod method = ContactMethod::active_set;
   Positioning positioning = Positioning::hanging;
-  double friction = 0;              ///< Coulomb's μ between skin and plates
+  double pull_N = 0;    ///< with which the hand that lifts the breast pulls it forwards
+  double friction = 0;  ///< Coulomb's μ between skin and plates
   PathOptions path;
 };
 
@@ -50,6 +49,8 @@ struct CompressionResult : Equilibrium {
   Vec3 wall_reaction_N{0, 0, 0};  ///< of chest wall and held cut on the body
   double weight_N = 0;
   Coverage coverage;  ///< by the image, whose edge is that of the plates
+  std::vector<PositioningStage> stages;
+  SelfContact self_contact;
   std::map<Tissue, StrainRange> strains;
   std::vector<double> profile_depth_mm, profile_thickness_mm;  ///< from the plate edge forwards
   std::vector<PressedPlace> places;                            ///< per plate of the contact record

@@ -30,6 +30,10 @@ constexpr double wall_part = 0.25, wall_least_N = 10;
 /// More than this part of the force on the rounded edge: the flat hardly does the compressing.
 constexpr double most_on_edge = 0.5;
 constexpr double deepest_penetration_mm = 0.05, largest_volume_error = 1e-6;
+/// Of faces that touch others, and of skin in the chest wall: less than the mesh resolves.
+constexpr double largest_self_contact_cm2 = 0.5, deepest_in_thorax_mm = 1;
+/// Of the bounds of friction, relative: beyond this their error is seen in the forces.
+constexpr double largest_friction_lag = 0.02;
 
 double shown(double value) {
   return std::abs(value) >= 10 ? std::round(value) : std::round(10 * value) / 10;
@@ -71,13 +75,15 @@ void judge_plate(const PlateRecord& plate, std::vector<Judgement>& list) {
 }
 
 /// Sensors under the plate read far less on the breast itself than force over area says.
-Judgement against_sensors(const ContactRecord& contact) {
+Judgement against_sensors(const ContactRecord& contact, const PressedState& state) {
+  const double on_edge = state.places.empty() ? 0 : state.places.front().edge_part;
   const bool cc = contact.view == View::cc;
   return {"pressure_against_sensors",
           message("sensors under a rigid paddle read ", cc ? 2.3 : 0.5, " kPa on the breast in ",
                   cc ? "CC" : "MLO", ", where only ", cc ? 22 : 14,
                   " % of the force acts (10.1177/0284185120976925): here the mean is ",
-                  shown(contact.plates.front().mean_kPa), " kPa"),
+                  shown(contact.plates.front().mean_kPa), " kPa with ", shown(100 * (1 - on_edge)),
+                  " % of the force on it, for the model has no stiff tissue behind the edge"),
           false};
 }
 
@@ -99,14 +105,37 @@ Judgement judge_volume(double error) {
           !good};
 }
 
+/// Nothing keeps the breast out of itself and of the chest wall beside its base.
+void judge_self_contact(const SelfContact& self, std::vector<Judgement>& list) {
+  if (self.itself_cm2 > largest_self_contact_cm2) {
+    list.push_back({"touches_itself",
+                    message("the breast touches itself over ", shown(self.itself_cm2),
+                            " cm2, which the model lets pass: the shape is wrong there"),
+                    true});
+  }
+  if (self.into_thorax_mm > deepest_in_thorax_mm) {
+    list.push_back({"touches_thorax",
+                    message("skin lies ", shown(self.into_thorax_mm),
+                            " mm deep in the chest wall, which the model lets pass: the shape is "
+                            "wrong there"),
+                    true});
+  }
+}
+
+/// The option that says how far the plates stand from the wall.
+std::string placing_option(const ContactRecord& contact) {
+  return contact.ends_image ? "--image-edge" : "--standoff";
+}
+
 /// A thickness between flats means little where the flats carry little of the force.
-Judgement judge_edge(const PlateRecord& plate, const PressedPlace& where) {
+Judgement judge_edge(const PlateRecord& plate, const PressedPlace& where,
+                     const std::string& placing) {
   const bool much = !(where.edge_part <= most_on_edge);
   return {
       plate.name + (much ? "_presses_with_its_edge" : "_presses_with_its_flat"),
       message("the rounded edge carries ", shown(100 * where.edge_part), " % of the ", plate.name,
               "'s force",
-              much ? ": the flat reaches too little of the breast; try a smaller --standoff" : ""),
+              much ? ": the flat reaches too little of the breast; try a smaller " + placing : ""),
       much};
 }
 
@@ -137,7 +166,8 @@ Judgement judge_balance(const ContactRecord& contact, const PressedState& state)
     sentence += message("; its highest pressure, ", shown(contact.plates[k].peak_kPa),
                         " kPa, is at ", place(state.places[k]));
   }
-  return {"plates_unbalanced", sentence + "; try a larger --standoff or --edge-radius", true};
+  return {"plates_unbalanced",
+          sentence + "; try a larger " + placing_option(contact) + " or --edge-radius", true};
 }
 
 }  // namespace
@@ -145,16 +175,47 @@ Judgement judge_balance(const ContactRecord& contact, const PressedState& state)
 std::vector<Judgement> judge_compression(const ContactRecord& contact, const PressedState& state) {
   std::vector<Judgement> list;
   for (const PlateRecord& plate : contact.plates) judge_plate(plate, list);
-  list.push_back(against_sensors(contact));
+  list.push_back(against_sensors(contact, state));
   list.push_back(judge(area_range, contact.plates.front().area_cm2));
   list.push_back(judge(thickness_range, contact.thickness_mm));
   list.push_back(judge(reduction_range, contact.reduction_percent));
   list.push_back(judge_penetration(contact));
   list.push_back(judge_volume(state.max_volume_error));
   for (std::size_t k = 0; k < contact.plates.size() && k < state.places.size(); ++k) {
-    list.push_back(judge_edge(contact.plates[k], state.places[k]));
+    list.push_back(judge_edge(contact.plates[k], state.places[k], placing_option(contact)));
   }
   list.push_back(judge_balance(contact, state));
+  judge_self_contact(state.self, list);
+  return list;
+}
+
+std::vector<Judgement> judge_path(const PathResult& path, const CompressionTarget& target,
+                                  bool stable) {
+  std::vector<Judgement> list;
+  if (path.first_indefinite_thickness) {
+    list.push_back({"slips_or_buckles",
+                    message("the tangent was indefinite in ", path.indefinite,
+                            " iterations, first at thickness ", *path.first_indefinite_thickness,
+                            " mm: the breast slips or buckles there",
+                            stable ? "; where it ends it is stable" : ""),
+                    !stable});
+  }
+  if (path.jump) {
+    list.push_back({"jump_at_target",
+                    message("jump at target: between plate positions 0.1 micrometre apart the ",
+                            target.kind == TargetKind::force ? "paddle force" : "mean pressure",
+                            " goes from ", path.jump->first, " to ", path.jump->second, ", past ",
+                            target.value, "; the nearer one is the result"),
+                    true});
+  }
+  const double lag = path.final_step.friction_lag;
+  if (lag > largest_friction_lag) {
+    list.push_back({"friction_lags",
+                    message("friction's bounds differ by ", shown(100 * lag),
+                            " % from its coefficient times the pressure: forces near the plates' "
+                            "edge are as uncertain"),
+                    true});
+  }
   return list;
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "contact/path.hpp"
+#include "contact/self_contact.hpp"
 #include "core/types.hpp"
 #include "mesh/hex_mesh.hpp"
 
@@ -33,11 +35,16 @@ struct PressedState {
   Vec3 weight_N{0, 0, 0}, wall_reaction_N{0, 0, 0};
   double max_volume_error = 0;
   std::vector<PressedPlace> places;  ///< per plate of the record
+  SelfContact self;
 };
 
 /// Force and mean pressure of both plates, contact area, thickness, reduction, penetration and
 /// volume against the ranges of practice; how much the rounded edge presses; last the balance of
 /// the plates.
 std::vector<Judgement> judge_compression(const ContactRecord& contact, const PressedState& state);
+/// What happened on the way of the plates: an indefinite tangent (a doubt unless the end is `stable`), a
+/// jump over the target, bounds of friction that do not follow the pressure.
+std::vector<Judgement> judge_path(const PathResult& path, const CompressionTarget& target,
+                                  bool stable);
 
 }  // namespace breast

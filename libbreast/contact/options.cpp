@@ -86,6 +86,7 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   options.friction = c.friction.value_or(frictional ? image_edge_friction : 0);
   const bool lifted = c.positioning.empty() ? clinical : c.positioning == "lifted";
   options.positioning = lifted ? Positioning::lifted : Positioning::hanging;
+  options.pull_N = c.pull.value_or(0);
   const auto stop = [&](const std::optional<double>& value, StopAt at) {
     if (!value) return;
     options.stop_at = at;

@@ -23,7 +23,7 @@ struct CompressionChoices {
   std::string view = "CC", contact = "active-set", detector = "raised", image_edge, turn;
   std::string contact_points, positioning;  ///< empty: as plates, see compression_options
   std::optional<double> angle, thickness, reduction, force, pressure, plate_step;
-  std::optional<double> friction, edge_radius;
+  std::optional<double> friction, edge_radius, pull;
   PlateOptions plates;
   /// How many of thickness, reduction, force and pressure are given; one must be.
   int targets() const;

@@ -49,8 +49,8 @@ class Path {
  private:
   bool march();
   bool refine_control(Waypoint low, Waypoint high);
-  bool attempt(const State& guess, const ContactMemory& memory, double thickness,
-               double tolerance, Waypoint& reached);
+  bool attempt(const State& guess, const ContactMemory& memory, double thickness, double tolerance,
+               Waypoint& reached);
   bool finish();
   bool step_back();
   bool be_patient();
@@ -77,8 +77,7 @@ class Path {
   std::deque<Waypoint> trail_;           ///< the last ones before before_
 };
 
-PathPoint Path::force_point(const State& state, const ContactStep& step,
-                            double thickness) const {
+PathPoint Path::force_point(const State& state, const ContactStep& step, double thickness) const {
   PathPoint point;
   point.thickness = thickness;
   point.iterations = int(step.iterations.size());

@@ -44,7 +44,7 @@ struct PathPoint {
 struct PathResult {
   bool reached = false;
   NewtonStop last_failure = NewtonStop::none;  ///< why the path stopped early
-  bool solve_limit = false;      ///< stopped because of PathOptions::most_solves
+  bool solve_limit = false;                    ///< stopped because of PathOptions::most_solves
   /// Force or pressure control: the path jumps over its target. What the quantity is on the two
   /// sides of the jump, N or kPa.
   std::optional<std::pair<double, double>> jump;
@@ -54,7 +54,7 @@ struct PathResult {
   ContactStep final_step;
   std::vector<PathPoint> points;
   std::vector<NewtonIteration> newton;  ///< all iterations in order
-  std::vector<int> newton_step;      ///< the step each belongs to
+  std::vector<int> newton_step;         ///< the step each belongs to
   int solves = 0, failures = 0, iterations = 0, indefinite = 0;
   std::optional<double> first_indefinite_thickness;  ///< mm; none: never
 };

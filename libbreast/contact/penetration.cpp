@@ -14,8 +14,8 @@ std::vector<QuadShape> sample_shapes(int order) {
   std::vector<QuadShape> shapes;
   for (int j = 0; j < points_an_edge; ++j) {
     for (int i = 0; i < points_an_edge; ++i) {
-      shapes.push_back(quad_shape(order, {2.0 * i / (points_an_edge - 1) - 1,
-                                          2.0 * j / (points_an_edge - 1) - 1}));
+      shapes.push_back(quad_shape(
+          order, {2.0 * i / (points_an_edge - 1) - 1, 2.0 * j / (points_an_edge - 1) - 1}));
     }
   }
   return shapes;

@@ -254,6 +254,7 @@ PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const Vi
     throw input_error("the plates' footprint contains no skin; try a smaller --standoff");
   }
   pair.initial_thickness = extent.size();
+  pair.underside = extent.high;
   // A detector that does not lift the breast all the way stands under it where it hangs.
   const Extent unloaded = footprint_extent(mesh, mesh.reference, plate);
   const bool lifts = std::isinf(options.detector_rise) && !unloaded.empty();
@@ -273,6 +274,7 @@ PlatePair start_from(const PlatePair& placed, const HexMesh& mesh, const std::ve
   PlatePair pair = place_plates(mesh, x, pose, options);
   pair.wall_point = placed.wall_point;
   pair.standoff = placed.standoff;
+  pair.underside = placed.underside;
   return pair;
 }
 

@@ -90,6 +90,7 @@ struct PlatePair {
   Plate paddle, detector;
   double initial_thickness = 0;   ///< T0: extent along n within the footprint of the body
   double touching_thickness = 0;  ///< T where the first skin node touches; ≥ T0 beside a wide base
+  double underside = 0;           ///< h of the lower end of the body as it hangs over the detector
   double wall_point = 0;          ///< a of the most anterior pectoral or cut point
   double standoff = 0;
   double paddle_start = 0, detector_start = 0;                     ///< levels at T0

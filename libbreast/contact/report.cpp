@@ -26,6 +26,7 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
     report.set("surface_stiffness_Pa_per_mm", contact.surface_stiffness);
   }
   report.set("middle_at_mm", summary.plates.middle());
+  report.set("detector_raised_mm", summary.plates.underside - summary.plates.detector.level);
   report.set("edge_radius_mm", contact.plates[0].edge_radius);
   report.set("view", view_name(contact.view));
   report.set("angle_deg", contact.angle_deg);
@@ -59,9 +60,21 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
   report.set("wall_reaction_N", summary.wall_reaction_N);
   report.set("weight_N", summary.weight_N);
   report.set("thrust_into_wall_N", summary.wall_reaction_N.dot(summary.plates.paddle.anterior));
+  report.set("touches_itself_cm2", summary.self_contact.itself_cm2);
+  report.set("into_thorax_mm", summary.self_contact.into_thorax_mm);
   report.set("coverage/volume_percent", summary.coverage.volume);
+  report.set("coverage/projected_cm2", summary.coverage.projected_cm2);
+  if (summary.coverage.projected_cm2 > 0) {
+    report.set("coverage/contact_percent_of_projected",
+               100 * contact.plates[0].area_cm2 / summary.coverage.projected_cm2);
+  }
   if (summary.coverage.fibroglandular) {
     report.set("coverage/fibroglandular_percent", *summary.coverage.fibroglandular);
+  }
+  for (const PositioningStage& stage : summary.stages) {
+    const std::string key = "stages/" + stage.name + "/";
+    report.set(key + "volume_in_front_percent", stage.volume_in_front_percent);
+    report.set(key + "past_edge_mm", stage.past_edge_mm);
   }
   for (const Landmark& landmark : mesh.landmarks) {
     const Vec3 at = landmark_position(mesh, summary.points, landmark);

@@ -120,3 +120,35 @@ TEST(Judgement, AnEdgeThatCarriesMostOfTheForceIsDoubted) {
   }
   EXPECT_EQ(ids, Ids{"detector_presses_with_its_edge"});
 }
+
+TEST(Judgement, ABreastThatTouchesItselfOrTheThoraxIsDoubted) {
+  const ContactRecord contact = ordinary();
+  PressedState state = state_of(contact);
+  state.self = {0.2, 0.5};
+  const auto doubted = [&](const std::string& id) {
+    const std::vector<Judgement> all = judge_compression(contact, state);
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Judgement& j) { return j.doubtful && j.id == id; });
+  };
+  EXPECT_FALSE(doubted("touches_itself"));
+  EXPECT_FALSE(doubted("touches_thorax"));
+  state.self = {2, 3};
+  EXPECT_TRUE(doubted("touches_itself"));
+  EXPECT_TRUE(doubted("touches_thorax"));
+}
+
+TEST(Judgement, AnIndefiniteWayToAStableEndIsNoDoubt) {
+  PathResult path;
+  const CompressionTarget target{TargetKind::force, 100};
+  EXPECT_TRUE(judge_path(path, target, true).empty());
+  path.first_indefinite_thickness = 60;
+  path.indefinite = 3;
+  ASSERT_EQ(judge_path(path, target, true).size(), 1u);
+  EXPECT_FALSE(judge_path(path, target, true)[0].doubtful);
+  EXPECT_TRUE(judge_path(path, target, false)[0].doubtful);
+  path.final_step.friction_lag = 0.1;
+  path.jump = {{90, 110}};
+  Ids ids;
+  for (const Judgement& j : judge_path(path, target, true)) ids.push_back(j.id);
+  EXPECT_EQ(ids, (Ids{"slips_or_buckles", "jump_at_target", "friction_lags"}));
+}

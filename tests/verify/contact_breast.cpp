@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fixtures/compress_into.hpp"
-#include "contact/solvers/active_set.hpp"
 #include "contact/compression.hpp"
 #include "contact/skin_area.hpp"
+#include "contact/solvers/active_set.hpp"
 #include "core/units.hpp"
 #include "fixtures/analytic_mesh.hpp"
+#include "fixtures/compress_into.hpp"
 #include "fixtures/renumbered.hpp"
 #include "mechanics/estimate/second_solution.hpp"
 #include "mechanics/scene.hpp"
@@ -302,6 +302,45 @@ TEST(Compression, DetectorThatStaysDragsTheBreastDown) {
   // h = −z runs downwards.
   EXPECT_GT(b.plates.detector.level + b.plates.paddle.level,
             a.plates.detector.level + a.plates.paddle.level + 1);
+}
+
+/// Plates as in the clinic, about the analytic breast.
+CompressionOptions clinical(StopAt stop, double target) {
+  CompressionOptions options;
+  options.stop_at = stop;
+  options.target = target;
+  options.plates.image_edge = 10;
+  options.plates.edge_radius = 3;
+  options.method = ContactMethod::surface;
+  options.positioning = Positioning::lifted;
+  options.friction = 0.3;
+  return options;
+}
+
+// A hand that pulled until the plates gripped leaves more tissue in front of their edge; at the end
+// nothing but weight, plates and wall is in balance.
+TEST(Compression, APulledBreastEndsFurtherForward) {
+  HexMesh lifted = stress_free_breast(), pulled = lifted;
+  CompressionOptions options = clinical(StopAt::reduction, 30);
+  const CompressionResult a = fixtures::compress_into(lifted, options, mechanics());
+  options.pull_N = 20;
+  const CompressionResult b = fixtures::compress_into(pulled, options, mechanics());
+  ASSERT_EQ(a.record.status, SolveStatus::converged) << a.record.reason;
+  ASSERT_EQ(b.record.status, SolveStatus::converged) << b.record.reason;
+  ASSERT_EQ(a.stages.size(), 3u);
+  ASSERT_EQ(b.stages.size(), 4u);
+  EXPECT_GT(b.stages[2].past_edge_mm, a.stages[1].past_edge_mm);
+  EXPECT_GT(b.stages.back().past_edge_mm, a.stages.back().past_edge_mm);
+  EXPECT_LT(b.force_balance, 1e-7);
+  EXPECT_NEAR(a.weight_N, b.weight_N, 1e-9);
+}
+
+// A target that the plates reach while a hand still carries the breast is no compression.
+TEST(Compression, ATargetBeforeTheGripIsRefusedWithItsReason) {
+  HexMesh mesh = stress_free_breast();
+  const CompressionResult found = compress(mesh, clinical(StopAt::force, 0.05), mechanics());
+  EXPECT_EQ(found.record.status, SolveStatus::not_converged);
+  EXPECT_EQ(found.reason_id, "ends_before_grip");
 }
 
 // Friction and springs take part in the error estimate: against a second solution with 27-node

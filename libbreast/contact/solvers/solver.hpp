@@ -29,6 +29,9 @@ struct ContactStep : NewtonResult {
   /// Of the iterations, those after a first equilibrium, which say nothing of the plates' step.
   int corrections = 0;
   bool hurried = false;          ///< given up at its bad beginning
+  /// Of a state to be reported: by how much the bounds of friction differ from those of its own
+  /// normal forces, relative.
+  double friction_lag = 0;
   double worst_penetration = 0;  ///< mm, over all candidates
   std::vector<NodalContact> contacts;  ///< per candidate, when converged
   std::vector<PressedPoint> pressed;   ///< when converged, of faces; empty where nodes touch

@@ -210,7 +210,7 @@ void SurfaceContact::set_friction() {
 }
 
 /// On the way the bounds of friction are those of the position before. Of a state to be reported they
-/// are its own.
+/// are its own, as nearly as some rounds can make them.
 bool SurfaceContact::follow_friction(State& state, double tolerance, double depth,
                                      ContactStep& step) {
   if (friction_ == nullptr) return true;
@@ -225,7 +225,8 @@ bool SurfaceContact::follow_friction(State& state, double tolerance, double dept
       size = std::hypot(size, wanted);
       memory_.bounds[c] = wanted;
     }
-    if (lag <= bounds_tolerance * size) return true;
+    step.friction_lag = size > 0 ? lag / size : 0;
+    if (step.friction_lag <= bounds_tolerance) return true;
     set_friction();
     if (!equilibrate(state, tolerance, depth, step)) return false;
   }

@@ -1,0 +1,82 @@
+#include "contact/positioning.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/coverage.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "mesh/nodal.hpp"
+#include "mesh/nodal_faces.hpp"
+
+namespace breast {
+
+namespace {
+
+/// The plates bear the weight from this reduction on; where a force ends the path, from an earlier
+/// one. The hand begins to let go of it at this fraction of that.
+constexpr double bears_weight = 0.25, bears_weight_before_any_force = 0.1, begins_part = 0.2;
+/// On a path to a small reduction, that fraction of it.
+constexpr double latest_part = 0.5;
+/// Friction holds the breast against the pull between these fractions of the reduction.
+constexpr double pull_begins_part = 0.6, pull_ends_part = 0.9;
+/// The traction of the hand rises over this depth from the edge, mm.
+constexpr double pull_ramp_mm = 20;
+/// Tissue nearer to the edge than this is at the edge, mm.
+constexpr double at_edge_mm = 10;
+
+Release release_by(double reduction) {
+  return {begins_part * reduction, reduction};
+}
+
+}  // namespace
+
+double Release::at(double reduction) const {
+  return std::clamp((reduction - begins) / (ends - begins), 0.0, 1.0);
+}
+
+Grip grip_before(double reduction) {
+  return {release_by(std::min(bears_weight, latest_part * reduction)),
+          {pull_begins_part * reduction, pull_ends_part * reduction}};
+}
+
+Grip grip_before_any_force() {
+  const Release early = release_by(bears_weight_before_any_force);
+  return {early, early};
+}
+
+Eigen::VectorXd pull_forwards(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate,
+                              double newton) {
+  const std::vector<double> area = nodal_faces(mesh, mesh.skin_faces, flatten(x)).area;
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(3L * mesh.nodes());
+  double total = 0;
+  for (int node = 0; node < mesh.nodes(); ++node) {
+    const auto i = std::size_t(node);
+    const double in_front = x[i].dot(plate.anterior) - plate.edge_start;
+    const double share = area[i] * std::clamp(in_front / pull_ramp_mm, 0.0, 1.0);
+    force.segment<3>(3L * node) = share * plate.anterior;
+    total += share;
+  }
+  if (!(total > 0)) {
+    throw input_error("no skin lies in front of the plates' edge to be pulled forwards");
+  }
+  return newton * micronewton_per_newton / total * force;
+}
+
+PositioningStage positioning_stage(std::string name, const HexMesh& mesh,
+                                   const Eigen::VectorXd& upright, const Eigen::VectorXd& x,
+                                   const Plate& plate) {
+  PositioningStage stage{std::move(name), coverage(mesh, x, plate).volume, 0};
+  double moved = 0;
+  int at_edge = 0;
+  for (int node = 0; node < mesh.nodes(); ++node) {
+    const Vec3 before = upright.segment<3>(3L * node), now = x.segment<3>(3L * node);
+    if (std::abs(before.dot(plate.anterior) - plate.edge_start) > at_edge_mm) continue;
+    moved += (now - before).dot(plate.anterior);
+    ++at_edge;
+  }
+  if (at_edge > 0) stage.past_edge_mm = moved / at_edge;
+  return stage;
+}
+
+}  // namespace breast
