@@ -82,8 +82,8 @@ void declare(Tool& tool, Choices& c) {
       c.image_edge, "--image-edge", "auto|MM",
       "places the plates as in the clinic: from the most anterior point of the chest wall behind "
       "the breast to the edge of the image, where the rounded edge starts; auto is 5 for CC and "
-      "0 for MLO and ML. --turn, --edge-radius, --contact-points, --friction and --positioning "
-      "then have the defaults that belong to it");
+      "0 for MLO and ML. --turn, --edge-radius, --contact-points, --friction, --positioning and "
+      "--pull then have the defaults that belong to it");
   tool.text(
       c.turn, "--turn", "auto|DEG",
       "turns the plates' edge towards the breast's side about the patient's long axis; auto lays "

@@ -14,6 +14,8 @@ constexpr double edge_radius = 15, image_edge_radius = 3;
 /// Coulomb's coefficient of skin on a plate where none is given, beside plates placed by the edge of
 /// the image. Without any a breast that slides on its ribs is squeezed out from between the plates.
 constexpr double image_edge_friction = 0.3;
+/// With which a hand pulls such a breast forwards until friction holds it, N.
+constexpr double image_edge_pull = 30;
 /// From the chest wall to the edge of the image, mm: in the oblique view muscle is seen.
 constexpr double edge_cc = 5, edge_oblique = 0;
 }  // namespace
@@ -86,7 +88,8 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   options.friction = c.friction.value_or(frictional ? image_edge_friction : 0);
   const bool lifted = c.positioning.empty() ? clinical : c.positioning == "lifted";
   options.positioning = lifted ? Positioning::lifted : Positioning::hanging;
-  options.pull_N = c.pull.value_or(0);
+  const bool held = frictional && lifted && options.friction > 0;
+  options.pull_N = c.pull.value_or(held ? image_edge_pull : 0);
   const auto stop = [&](const std::optional<double>& value, StopAt at) {
     if (!value) return;
     options.stop_at = at;

@@ -29,7 +29,8 @@ struct CompressionChoices {
   int targets() const;
 };
 /// `gravity` in mm/s², LPS. Plates placed by the edge of the image stand as in the clinic: turned along
-/// the wall, with an edge of 3 mm, pressing on faces with a friction of 0.3, the breast lifted; unless something else is
+/// the wall, with an edge of 3 mm, pressing on faces with a friction of 0.3, the breast lifted and pulled forwards by 30 N;
+/// unless something else is
 /// asked for. Throws Error (input) for a view or detector that is none, and for a
 /// reduction below 1 percent, which is a fraction by mistake.
 CompressionOptions compression_options(const CompressionChoices& choices, const Vec3& gravity);

@@ -35,6 +35,7 @@ TEST(ContactOptions, AnImageEdgeBringsTheClinicsPlates) {
   EXPECT_FALSE(cc.plates.turn_deg);
   EXPECT_EQ(cc.plates.image_edge, 5);
   EXPECT_EQ(cc.friction, 0.3);
+  EXPECT_EQ(cc.pull_N, 30);
   choices.view = "MLO";
   EXPECT_EQ(options_of(choices).plates.image_edge, 0);
 }
@@ -55,6 +56,8 @@ TEST(ContactOptions, WhatIsGivenWins) {
   EXPECT_EQ(options.plates.turn_deg, -10);
   EXPECT_EQ(options.plates.image_edge, 7.5);
   EXPECT_EQ(options.friction, 0);
+  // Nothing would hold a breast that was pulled.
+  EXPECT_EQ(options.pull_N, 0);
 }
 
 TEST(ContactOptions, ContradictionsAndOtherTextAreRefused) {
