@@ -19,10 +19,10 @@ constexpr double between_tolerance = 1e-3;
 constexpr double near_residual = 0.03, turning_depth = 1.2;
 /// Times that points are chosen anew for a tight solution.
 constexpr int most_choices = 4;
-/// Times that the bounds of friction follow the normal forces of a tight solution, and how near is
-/// near enough.
+/// Times that the bounds of friction follow the normal forces of a solution, and how near is
+/// near enough; and on the way, where bounds of the position before make the end depend on the steps.
 constexpr int most_bounds = 12;
-constexpr double bounds_tolerance = 1e-3;
+constexpr double bounds_tolerance = 1e-3, way_bounds_tolerance = 0.05;
 /// Iterations granted for each with an indefinite tangent: itself and one to settle.
 constexpr int slip_allowance = 2;
 /// A solve that may fail fast is given up when the first step has to be shorter than this, or when
@@ -188,7 +188,7 @@ ContactStep SurfaceContact::solve(const PlatePair& plates, State& state, double 
   if (!stiffen(state, allowed, step)) return step;
   for (int k = 0; k < most_choices; ++k) {
     if (!equilibrate(state, tolerance, allowed, step)) return step;
-    if (!on_the_way && !follow_friction(state, tolerance, allowed, step)) return step;
+    if (!follow_friction(state, tolerance, allowed, step)) return step;
     if (on_the_way || !pressure_->choose_points(state.x)) break;
   }
   finish(state, step);
@@ -209,11 +209,12 @@ void SurfaceContact::set_friction() {
   friction_->set_entries(std::move(held));
 }
 
-/// On the way the bounds of friction are those of the position before. Of a state to be reported they
-/// are its own, as nearly as some rounds can make them.
+/// The bounds of friction follow the state's own normal forces, as nearly as some rounds can make them.
 bool SurfaceContact::follow_friction(State& state, double tolerance, double depth,
                                      ContactStep& step) {
   if (friction_ == nullptr) return true;
+  const double enough =
+      tolerance > options_.way_tolerance ? way_bounds_tolerance : bounds_tolerance;
   for (int k = 0; k < most_bounds; ++k) {
     double lag = 0, size = 0;
     const std::vector<NodalContact> contacts = nodal_contacts(state.x);
@@ -226,7 +227,7 @@ bool SurfaceContact::follow_friction(State& state, double tolerance, double dept
       memory_.bounds[c] = wanted;
     }
     step.friction_lag = size > 0 ? lag / size : 0;
-    if (step.friction_lag <= bounds_tolerance) return true;
+    if (step.friction_lag <= enough) return true;
     set_friction();
     if (!equilibrate(state, tolerance, depth, step)) return false;
   }
