@@ -54,6 +54,11 @@ for view in cc mlo; do
     "$(of $view thickness_mm 1)" "$(of $view reduction_percent 1)" "$(of $view force_N 1)" \
     "$(of $view detector_force_N 1)" "$(of $view pressure_kPa 1)" "$(key "$run/$view.json" status)"
 done
+cc_line=$(number "$run/cc.json" nipple_in_front_mm) mlo_line=$(number "$run/mlo.json" nipple_in_front_mm)
+if [ -n "$cc_line" ] && [ -n "$mlo_line" ]; then
+  awk -v cc="$cc_line" -v mlo="$mlo_line" 'BEGIN { printf "  nipple line: CC %.0f mm, MLO %.0f mm to the image edge; they differ by %.0f mm (clinics accept 10)\n",
+    cc, mlo, cc > mlo ? cc - mlo : mlo - cc }'
+fi
 echo
 if [ -s "$run/curve.tsv" ]; then
   echo "CC point to MLO curve: $run/curve.tsv, in ParaView $run/curve.vtp"
