@@ -3,15 +3,11 @@
 
 #include <memory>
 
-#include "contact/solvers/surface_contact.hpp"
+#include "contact/solvers/solver.hpp"
+#include "contact/terms/friction.hpp"
 #include "mechanics/estimate/error_estimate.hpp"
 
 namespace breast {
-
-/// Plates that press on faces: on the mesh of 27-node elements their forces are those on its faces where
-/// they lie now, and nodes under pressure are held along their normals. Both arguments must outlive
-/// the answer.
-ContactEstimate estimate_of_faces(const SurfaceContact& contact, const State& state);
 
 /// Plates that hold nodes along their normals; `friction` may be null. `mesh` and `state` must outlive
 /// the answer.

@@ -67,12 +67,14 @@ std::string cost(const Report& report, const Timer& timer) {
 }
 
 std::string accuracy(const Report& report, const Timer& timer) {
-  std::string line =
-      report.contains("error_estimate_how")
-          ? message("discretisation error at the landmarks about ",
-                    brief(report, "error_estimate_mm"), " mm (", report.text("error_estimate_how"),
-                    "), found in ", brief(timer.seconds("error estimate")), " s")
-          : "discretisation error not estimated";
+  std::string line = "discretisation error not estimated";
+  if (report.text("error_estimate_mm") != "null") {
+    line = message("discretisation error at the landmarks about ",
+                   brief(report, "error_estimate_mm"), " mm (", report.text("error_estimate_how"),
+                   "), found in ", brief(timer.seconds("error estimate")), " s");
+  } else if (report.contains("error_estimate_how")) {
+    line += ": " + report.text("error_estimate_how");
+  }
   if (report.contains("closure_mm")) {
     line += "; forward returns to the scan within " + brief(report, "closure_mm") + " mm";
   }

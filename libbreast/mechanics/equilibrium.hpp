@@ -46,7 +46,7 @@ struct SolveSummary {
   /// Estimated discretisation error at the landmarks (largest, and by name: exact minus computed),
   /// mm; negative when not estimated.
   double error_estimate_mm = -1;
-  std::string error_estimate_how;
+  std::string error_estimate_how;  ///< or why there is none
   std::map<std::string, Vec3> landmark_error_mm;
   std::map<Tissue, PressureQuality> pressure_quality;  ///< 8-node elements, by tissue
   SkinState skin;                              ///< wrinkling; see mechanics/skin_state.hpp

@@ -119,8 +119,10 @@ void write_report(const Equilibrium& summary, const HexMesh& mesh, const Mechani
   report.set("error_estimate_mm", summary.error_estimate_mm >= 0
                                       ? summary.error_estimate_mm
                                       : std::numeric_limits<double>::quiet_NaN());  // null
-  if (summary.error_estimate_mm >= 0) {
+  if (!summary.error_estimate_how.empty()) {
     report.set("error_estimate_how", summary.error_estimate_how);
+  }
+  if (summary.error_estimate_mm >= 0) {
     for (const auto& [name, error] : summary.landmark_error_mm) {
       report.set("landmarks/" + name + "/error_estimate_mm", error.norm());
     }
