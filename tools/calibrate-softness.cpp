@@ -98,10 +98,9 @@ void report_found(const SoftnessFound& found, Run& run) {
     run.report().set("data/" + wanted.quantity + "/wanted", wanted.mean);
     run.report().set("data/" + wanted.quantity + "/sd", wanted.sd);
   }
-  const Eigen::VectorXd x = found.softness.logarithms();
   for (std::size_t k = 0; k < Softness::names().size(); ++k) {
     const std::string name = Softness::names()[k];
-    const double value = std::exp(x[Eigen::Index(k)]),
+    const double value = found.softness.values()[k],
                  sd = std::sqrt(found.fit.covariance(Eigen::Index(k), Eigen::Index(k)));
     table.rows.push_back(
         {name, format_number(value), "-", format_fixed(sd, 2) + " of the logarithm"});

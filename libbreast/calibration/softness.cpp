@@ -19,9 +19,8 @@ const std::array<const char*, 5>& Softness::names() {
 }
 
 Eigen::VectorXd Softness::logarithms() const {
-  Eigen::VectorXd x(5);
-  x << std::log(low_order), std::log(quadratic), std::log(skin), std::log(wall), std::log(cut);
-  return x;
+  const std::array<double, 5> all = values();
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), 5).array().log();
 }
 
 Softness Softness::from_logarithms(const Eigen::VectorXd& x) {

@@ -21,6 +21,7 @@ struct Softness {
   double wall = 0.01, cut = 0.01;
 
   static const std::array<const char*, 5>& names();
+  std::array<double, 5> values() const { return {low_order, quadratic, skin, wall, cut}; }
   Eigen::VectorXd logarithms() const;
   static Softness from_logarithms(const Eigen::VectorXd& x);
 };
