@@ -4,7 +4,7 @@
 VALIDATION := $(RUN)/validation
 VALIDATION_EDGES ?= 8 10 12 16 20
 TABLES_OF_PAGE := docs/tables
-PAGES_WITH_TABLES := docs/validation.md docs/softness.md
+PAGES_WITH_TABLES := docs/validation.md docs/softness.md docs/architecture.md
 
 validation: $(addprefix $(TABLES_OF_PAGE)/,compression-convergence.tsv calibration.tsv truth.tsv)
 	pipelines/validation.sh fill $(PAGES_WITH_TABLES)
