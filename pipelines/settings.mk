@@ -40,7 +40,7 @@ ifeq ($(origin MATERIALS),undefined)
   MATERIALS := $(if $(PAPER),seed2008,$(if $(MR)$(filter $(sliding_presets),$(PRESET)),invivo,seed2008))
 endif
 REDUCTION ?= 50
-# As printed, elements on the edge of the cuboid fold early (docs/validation.md, 3).
+# As printed, elements on the edge of the cuboid fold early (docs/validation/contact.md).
 AT_LEAST ?= $(if $(PAPER),30,40)
 ELEMENTS ?= 16
 # Element of the mechanics, q1p0 or q2p1; empty: the programs' default. ACCURACY=MM chooses both.

@@ -1,10 +1,10 @@
-# Tables of docs/validation.md that runs can make, so that none of them goes stale by hand: each is a file in docs/tables, which
+# Tables of the validation pages that runs can make, so that none of them goes stale by hand: each is a file in docs/tables, which
 # `make validation` writes from the case's runs and copies into the page between its markers. tests/tools/validation.sh (part of
 # `check`) holds page and files equal.
 VALIDATION := $(RUN)/validation
 VALIDATION_EDGES ?= 8 10 12 16 20
 TABLES_OF_PAGE := docs/tables
-PAGES_WITH_TABLES := docs/validation.md docs/softness.md docs/architecture.md
+PAGES_WITH_TABLES := docs/architecture.md docs/validation.md $(wildcard docs/validation/*.md)
 
 validation: $(addprefix $(TABLES_OF_PAGE)/,compression-convergence.tsv calibration.tsv truth.tsv)
 	pipelines/validation.sh fill $(PAGES_WITH_TABLES)

@@ -170,6 +170,7 @@ bool SurfaceContact::stiffen(State& state, double allowed, ContactStep& step) {
   for (int k = 0; k < most_stiffenings && pressure_->deepest(state.x) > allowed; ++k) {
     memory_.penalty *= stiffer;
     if (!equilibrate(state, between_tolerance, allowed, step)) return false;
+    if (!follow_friction(state, between_tolerance, allowed, step)) return false;
   }
   step.corrections += int(step.iterations.size() - before);
   return true;
