@@ -219,16 +219,17 @@ bool SurfaceContact::follow_friction(State& state, double tolerance, double dept
   for (int k = 0; k < most_bounds; ++k) {
     double lag = 0, size = 0;
     const std::vector<NodalContact> contacts = nodal_contacts(state.x);
+    std::vector<double> bounds(contacts.size(), 0);
     for (std::size_t c = 0; c < contacts.size(); ++c) {
-      const double wanted = memory_.touching[c] == contacts[c].plate && contacts[c].plate >= 0
-                                ? options_.friction.bound(contacts[c].normal)
-                                : 0;
-      lag = std::hypot(lag, wanted - memory_.bounds[c]);
-      size = std::hypot(size, wanted);
-      memory_.bounds[c] = wanted;
+      if (contacts[c].plate >= 0 && memory_.touching[c] == contacts[c].plate) {
+        bounds[c] = options_.friction.bound(contacts[c].normal);
+      }
+      lag = std::hypot(lag, bounds[c] - memory_.bounds[c]);
+      size = std::hypot(size, bounds[c]);
     }
     step.friction_lag = size > 0 ? lag / size : 0;
     if (step.friction_lag <= enough) return true;
+    memory_.bounds = std::move(bounds);
     set_friction();
     if (!equilibrate(state, tolerance, depth, step)) return false;
   }
