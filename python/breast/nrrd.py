@@ -1,0 +1,106 @@
+"""NRRD volumes (teem.sourceforge.net/nrrd/format.html), attached or detached; raw, gzip and text."""
+from __future__ import annotations
+
+import re
+import zlib
+from pathlib import Path
+
+import numpy as np
+
+from .errors import BreastError
+from .inflate import inflated
+from .volume import Volume, checked_size, exact_bytes, made_volume
+
+_TYPES = {"i1": "signed char,int8,int8_t", "u1": "uchar,unsigned char,uint8,uint8_t",
+          "i2": "short,short int,signed short,signed short int,int16,int16_t",
+          "u2": "ushort,unsigned short,unsigned short int,uint16,uint16_t", "i4": "int,signed int,int32,int32_t",
+          "u4": "uint,unsigned int,uint32,uint32_t",
+          "i8": "longlong,long long,long long int,signed long long,signed long long int,int64,int64_t",
+          "u8": "ulonglong,unsigned long long,unsigned long long int,uint64,uint64_t", "f4": "float", "f8": "double"}
+_CODE_OF = {name: code for code, names in _TYPES.items() for name in names.split(",")}
+_TO_LPS = {"left-posterior-superior": (1, 1, 1), "lps": (1, 1, 1), "right-anterior-superior": (-1, -1, 1), "ras": (-1, -1, 1)}
+
+
+def read_nrrd(file: Path) -> Volume:
+    """A volume from .nrrd or .nhdr. Raises BreastError when size, voxel size or orientation are unknown or contradictory."""
+    content = file.read_bytes()
+    fields, data_at = _header(file, content)
+    size = [int(n) for n in fields.get("sizes", "").split() if n.isdigit()]
+    count = checked_size(file, size)
+    code = _CODE_OF.get(fields.get("type", "").lower())
+    if code is None:
+        raise BreastError(f"type '{fields.get('type', '')}': grey values of 8 to 64 bits are read", file)
+    endian = fields.get("endian", "little").lower()
+    if endian not in ("little", "big"):
+        raise BreastError(f"endian '{endian}': must be little or big", file)
+    axes, origin = _placed(file, fields)
+    stored = _data(file, fields, content[data_at:])
+    dtype = np.dtype(("<" if endian == "little" else ">") + code)
+    encoding = fields.get("encoding", "").lower()
+    try:
+        if encoding in ("text", "txt", "ascii"):
+            voxels = np.array(stored.split(), np.float64)
+        else:
+            raw = inflated(file, stored, count * dtype.itemsize) if encoding in ("gzip", "gz") else stored
+            voxels = np.frombuffer(exact_bytes(file, raw, count * dtype.itemsize), dtype)
+    except ValueError:
+        raise BreastError("its voxels are no numbers", file) from None
+    if encoding not in ("raw", "gzip", "gz", "text", "txt", "ascii"):
+        raise BreastError(f"encoding '{encoding}': raw, gzip and text are read", file)
+    if len(voxels) != count:
+        raise BreastError(f"{len(voxels)} voxels, the header announces {count}", file)
+    return made_volume(file, size, axes, origin, voxels)
+
+
+def _header(file: Path, content: bytes) -> tuple[dict[str, str], int]:
+    ends = [at for at in (content.find(b"\n\n"), content.find(b"\r\n\r\n")) if at >= 0]
+    if not content.startswith(b"NRRD"):
+        raise BreastError("no NRRD header", file)
+    end = min(ends, default=len(content))
+    data_at = end + (4 if content[end : end + 1] == b"\r" else 2)
+    fields: dict[str, str] = {}
+    for line in content[:end].decode("latin-1").splitlines()[1:]:
+        name, colon, value = line.partition(": ")
+        if line.startswith("#") or not colon or ":=" in name:
+            continue
+        if name.strip().lower() in fields:
+            raise BreastError(f"header states '{name}' twice", file)
+        fields[name.strip().lower()] = value.strip()
+    return fields, data_at
+
+
+def _placed(file: Path, fields: dict[str, str]) -> tuple[np.ndarray, np.ndarray]:
+    space = fields.get("space", "").lower()
+    if space not in _TO_LPS:
+        said = f"space '{space}'" if space else "states no space, so left and right are unknown"
+        raise BreastError(f"{said}: left-posterior-superior or right-anterior-superior are read", file)
+    if any(unit != '"mm"' for unit in fields.get("space units", "").split()):
+        raise BreastError(f"space units {fields['space units']}: must be mm", file)
+    vectors = [_vector(file, v) for v in re.findall(r"\([^)]*\)", fields.get("space directions", ""))]
+    if len(vectors) != 3:
+        raise BreastError(f"{len(vectors)} space directions: voxel size and orientation need three", file)
+    to_lps = np.array(_TO_LPS[space], float)
+    origin = _vector(file, fields.get("space origin", "(0,0,0)"))
+    return np.stack(vectors, -1) * to_lps[:, None], origin * to_lps
+
+
+def _vector(file: Path, text: str) -> np.ndarray:
+    try:
+        vector = np.array([float(n) for n in text.strip("()").split(",")])
+    except ValueError:
+        vector = np.zeros(0)
+    if vector.shape != (3,) or not np.isfinite(vector).all():
+        raise BreastError(f"'{text}' must be three finite numbers", file)
+    return vector
+
+
+def _data(file: Path, fields: dict[str, str], attached: bytes) -> bytes:
+    name = fields.get("data file", fields.get("datafile"))
+    if name is None:
+        return attached
+    if name.startswith("LIST") or "%" in name or Path(name).is_absolute() or ".." in Path(name).parts:
+        raise BreastError(f"names '{name}' for its voxels: must be one file in its own folder", file)
+    data = file.parent / name
+    if not data.is_file():
+        raise BreastError(f"its voxels should be in {name}, which is no file", file)
+    return data.read_bytes()
