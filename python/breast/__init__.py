@@ -13,6 +13,7 @@ patient LPS: x to the patient's left, y to the back, z to the head. docs/python.
 from .curves import Line
 from .element_map import ElementMap, Located
 from .errors import BreastError
+from .field import Field
 from .geometry import Geometry, Sheet
 from .grid import Grid
 from .history import Command, Input
@@ -20,14 +21,17 @@ from .labels import Labels
 from .load import load, load_scan
 from .lookup import Lookup
 from .mammogram import Mammogram
+from .markups import Markup
 from .records import Contact, Friction, Plate, Solve
 from .reports import read_report
 from .run import Run
+from .segmentation import Segmentation
 from .state import TISSUES, Landmark, State
 from .tables import read_table
 from .transport import Transported
 from .volume import Volume
+from .xml_mesh import XmlMesh
 
-__all__ = ["BreastError", "Command", "Contact", "ElementMap", "Friction", "Geometry", "Grid", "Input", "Labels", "Landmark",
-           "Line", "Located", "Lookup", "Mammogram", "Plate", "Run", "Sheet", "Solve", "State", "TISSUES", "Transported",
-           "Volume", "load", "load_scan", "read_report", "read_table"]
+__all__ = ["BreastError", "Command", "Contact", "ElementMap", "Field", "Friction", "Geometry", "Grid", "Input", "Labels", "Landmark",
+           "Line", "Located", "Lookup", "Mammogram", "Markup", "Plate", "Run", "Segmentation", "Sheet", "Solve", "State", "TISSUES", "Transported",
+           "Volume", "XmlMesh", "load", "load_scan", "read_report", "read_table"]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .vtk_xml import VtkXml
+from .vtk_xml import VtkXml, cells_of
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ def read_curves(file: str | os.PathLike[str]) -> dict[str, list[Line]]:
         raise xml.refuse(f"has schema {schema or 'none'}, must be 'curves/1'")
     points = xml.group("Points").get("Points")
     data = {name: a for name, a in xml.group("PointData").items() if isinstance(a, np.ndarray)}
-    cells = [line for kind in ("Verts", "Lines") for line in _cells(xml, kind)]
+    cells = [line for kind in ("Verts", "Lines") for line in cells_of(xml, kind)]
     names = xml.group("CellData").get("name", [str(n) for n in range(len(cells))])
     if not isinstance(points, np.ndarray) or len(names) != len(cells):
         raise xml.refuse(f"has {len(names)} names for {len(cells)} lines")
@@ -50,13 +50,3 @@ def read_curves(file: str | os.PathLike[str]) -> dict[str, list[Line]]:
         image = uv[ids] if not name.endswith((" reference", " imaged")) else np.full((len(ids), 2), np.nan)
         lines.setdefault(str(name), []).append(Line(points[ids], image, own))
     return lines
-
-
-def _cells(xml: VtkXml, kind: str) -> list[np.ndarray]:
-    group = xml.group(kind)
-    ids, ends = group.get("connectivity"), group.get("offsets")
-    if not isinstance(ids, np.ndarray) or not isinstance(ends, np.ndarray) or len(ends) == 0:
-        return []
-    if len(ids) and ids.min() < 0 or (np.diff(ends) <= 0).any() or ends[-1] != len(ids):
-        raise xml.refuse(f"{kind} are damaged")
-    return np.split(ids, ends[:-1])

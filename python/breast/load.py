@@ -12,17 +12,28 @@ from .hdf5 import SCHEMAS, file_schema
 from .labels import read_labels
 from .lookup import read_lookup
 from .mammogram import read_mammogram
+from .markups import read_markups
 from .meta_image import read_meta_image
 from .nifti import read_nifti
 from .nrrd import read_nrrd
 from .reports import read_report
 from .state_file import read_state
 from .tables import read_table
+from .volume import Volume
+from .vtk_xml import VtkXml
+from .xml_mesh import read_xml_mesh
 
 _BY_SCHEMA: dict[str, Callable[[Path], Any]] = {"mesh/1": read_state, "labels/1": read_labels, "geometry/1": read_geometry,
                                                 "lookup/1": read_lookup}
+
+
+def _read_vtp(path: Path) -> Any:
+    curves = VtkXml(path, "PolyData").fields().get("schema") == ["curves/1"]
+    return read_curves(path) if curves else read_xml_mesh(path)
+
+
 _BY_ENDING: dict[str, Callable[[Path], Any]] = {
-    ".vti": read_mammogram, ".vtp": read_curves, ".tsv": read_table, ".json": read_report, ".nrrd": read_nrrd,
+    ".vti": read_mammogram, ".vtp": _read_vtp, ".vtu": read_xml_mesh, ".tsv": read_table, ".json": read_report, ".mrk.json": read_markups, ".nrrd": read_nrrd,
     ".nhdr": read_nrrd, ".nii": read_nifti, ".nii.gz": read_nifti, ".mha": read_meta_image, ".mhd": read_meta_image}
 SCAN_ENDINGS = (".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd")
 
@@ -32,8 +43,9 @@ def load(path: str | os.PathLike[str]) -> Any:
 
     Returns:
         a folder: Run. A file by its ending: .vtkhdf and .h5, by their schema, State, Labels, Geometry or Lookup; .vti
-        Mammogram; .vtp (of cc2mlo) lines by name; .tsv a table; .json a report; .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd a
-        scan (Volume).
+        Mammogram; .vtp of cc2mlo lines by name, another .vtp and .vtu XmlMesh; .tsv a table; .json a report; .nrrd, .nhdr,
+        .nii, .nii.gz, .mha, .mhd a scan (Volume). Of 3D Slicer: .seg.nrrd Segmentation, vectors in .nrrd Field, .mrk.json
+        Markup by name.
 
     Raises:
         BreastError: nothing there, an unknown ending or schema, or a file that the programs would refuse.
@@ -62,4 +74,7 @@ def load_scan(path: str | os.PathLike[str]) -> Any:
     path = Path(path)
     if path.is_dir() or not path.name.lower().endswith(SCAN_ENDINGS):
         raise BreastError("is no scan that is read here", path, "save it as .nrrd, .nii.gz or .mha (3D Slicer does)")
-    return load(path)
+    volume = load(path)
+    if not isinstance(volume, Volume):
+        raise BreastError("is a segmentation or a field, not a scan", path)
+    return volume

@@ -102,3 +102,13 @@ class VtkXml:
             out.append(block)
             at += compressed
         return b"".join(out)
+
+def cells_of(xml: VtkXml, kind: str) -> list[np.ndarray]:
+    """Point numbers of each cell of Verts, Lines, Polys or Cells."""
+    group = xml.group(kind)
+    ids, ends = group.get("connectivity"), group.get("offsets")
+    if not isinstance(ids, np.ndarray) or not isinstance(ends, np.ndarray) or len(ends) == 0:
+        return []
+    if len(ids) and ids.min() < 0 or (np.diff(ends) <= 0).any() or ends[-1] != len(ids):
+        raise xml.refuse(f"{kind} are damaged")
+    return np.split(ids, ends[:-1])
