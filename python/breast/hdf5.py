@@ -3,13 +3,16 @@ from __future__ import annotations
 
 import io
 import os
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
 
 from .document import Document
 from .errors import BreastError
+from .guarded import guarded
 from .seal import check_seal
 
 _MOST_BYTES = 1 << 30
@@ -24,37 +27,50 @@ SCHEMAS = tuple(_MAKERS)
 
 
 def file_schema(file: str | os.PathLike[str]) -> str:
-    """Schema of a file, read without its arrays; empty when it states none. Raises BreastError when HDF5 cannot open it."""
-    path = _existing(file)
-    try:
-        with h5py.File(path, "r") as h5:
-            schema = h5["breast"].attrs.get("schema", b"") if "breast" in h5 else b""
-    except (OSError, RuntimeError, KeyError) as error:
-        raise BreastError("HDF5 cannot open it (truncated or damaged)", path, "make it again") from error
-    return schema.decode("utf-8", "replace") if isinstance(schema, bytes) else str(schema)
+    """Schema of a file, read without its arrays; empty when it states none. Raises BreastError when it is damaged."""
+    def stated(h5: h5py.File) -> str:
+        schema = h5["breast"].attrs.get("schema", b"") if "breast" in h5 else b""
+        return schema.decode("utf-8", "replace") if isinstance(schema, bytes) else str(schema)
+
+    return _with_file(_existing(file), "make it again", stated)
 
 
 def read_document(file: str | os.PathLike[str], schema: str) -> Document:
     """Everything under /breast and /VTKHDF of a file of this schema.
 
-    The seal is checked before HDF5 sees the file. Raises BreastError, one line naming file and dataset, for a file that is
-    missing, truncated, altered since it was written, not HDF5 or of another schema, or that holds a link, data in another
-    file, more than 1 GB, or a value that is not finite.
+    The seal is checked before HDF5 sees the file; one without a seal (edited with h5py) is parsed in a child process, since
+    HDF5 can crash on damaged bytes. Raises BreastError, one line naming file and dataset, for a file that is missing,
+    truncated, altered since it was written, not HDF5 or of another schema, or that holds a link, data in another file, more
+    than 1 GB, or a value that is not finite.
     """
     path = _existing(file)
     advice = f"make it with {_MAKERS[schema]}"
+
+    def parsed(h5: h5py.File) -> Document:
+        loader = _Loader(Document(path, {}, {}, advice), path.stat().st_size)
+        loader.check_schema(h5, schema)
+        for group in ("/breast", "/VTKHDF"):
+            if h5.get(group, getlink=True) is not None:
+                loader.load_group(h5, group, 0)
+        return loader.document
+
+    return _with_file(path, advice, parsed)
+
+
+def _with_file(path: Path, advice: str, use: Callable[[h5py.File], Any]) -> Any:
+    """What `use` makes of the opened file; whatever HDF5 raises on damage becomes a BreastError."""
     content = path.read_bytes()
-    check_seal(path, content, advice)
-    loader = _Loader(Document(path, {}, {}, advice), len(content))
-    try:
-        with h5py.File(io.BytesIO(content), "r") as h5:
-            loader.check_schema(h5, schema)
-            for group in ("/breast", "/VTKHDF"):
-                if h5.get(group, getlink=True) is not None:
-                    loader.load_group(h5, group, 0)
-    except (OSError, RuntimeError, KeyError, ValueError) as error:
-        raise BreastError(f"HDF5 cannot read it ({_first_line(error)})", path, advice) from error
-    return loader.document
+
+    def work() -> Any:
+        try:
+            with h5py.File(io.BytesIO(content), "r") as h5:
+                return use(h5)
+        except BreastError:
+            raise
+        except Exception as error:  # h5py has no class of its own for damage
+            raise BreastError(f"HDF5 cannot read it ({_first_line(error)})", path, advice) from error
+
+    return work() if check_seal(path, content, advice) else guarded(path, advice, work)
 
 
 def _first_line(error: Exception) -> str:

@@ -86,6 +86,9 @@ def read_mammogram(file: str | os.PathLike[str]) -> Mammogram:
         images[name] = array.reshape(size)
     if not images:
         raise xml.refuse("holds no image")
+    pixel = float(numbers("pixel", 1)[0])
+    if not pixel > 0:
+        raise xml.refuse(f"field pixel is {pixel} mm, must be positive")
     axes = {name: numbers(name, 3) for name in ("origin", "e_u", "e_v", "n")}
     return Mammogram(xml.file, images, text("view", ("CC", "MLO", "ML")), text("side", ("left", "right")),
-                     float(numbers("pixel", 1)[0]), **axes, source_distance_mm=float(numbers("source_distance", 1)[0]))
+                     pixel, **axes, source_distance_mm=float(numbers("source_distance", 1)[0]))

@@ -49,7 +49,8 @@ def read_nifti(file: Path) -> Volume:
     slope, intercept = float(header["slope"]), float(header["intercept"])
     if slope != 0 and (slope != 1 or intercept != 0):
         voxels = (voxels * slope + intercept).astype(np.float32)
-    axes, origin = _placed(file, header)
+    with np.errstate(all="ignore"):  # what is not finite is refused by name
+        axes, origin = _placed(file, header)
     return made_volume(file, extents[:3], axes, origin, voxels)
 
 

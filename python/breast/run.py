@@ -54,6 +54,9 @@ class Files(Mapping[str, Any]):
     def __len__(self) -> int:
         return sum(1 for _ in self)
 
+    def get(self, name: str, default: Any = None) -> Any:
+        return self[name] if name in self else default
+
     def __contains__(self, name: object) -> bool:
         return name in list(self)
 

@@ -19,10 +19,10 @@ def _stated_end(content: bytes) -> int:
     return int.from_bytes(content[at : at + 8], "little")
 
 
-def check_seal(file: Path, content: bytes, advice: str) -> None:
+def check_seal(file: Path, content: bytes, advice: str) -> bool:
     """Raises BreastError when `content` is no HDF5 file, is cut off, or disagrees with the digest at its end.
 
-    A file without a seal (written or edited by another program) passes.
+    Returns whether the bytes are vouched for: a file without a seal (written or edited by another program) passes unsealed.
     """
     if content[:8] != b"\x89HDF\r\n\x1a\n":
         raise BreastError(f"is not an HDF5 file ({len(content)} bytes)", file, advice)
@@ -30,9 +30,10 @@ def check_seal(file: Path, content: bytes, advice: str) -> None:
     if end > len(content):
         raise BreastError(f"is truncated at byte {len(content)} of {end}", file, advice)
     if end == len(content):
-        return
+        return False
     body = len(content) - _SEAL_BYTES
     if content[body : body + len(_MARK)] != _MARK:
         raise BreastError(f"is damaged: {len(content)} bytes where its header states {end}", file, advice)
     if content[body + len(_MARK) :] != hashlib.sha256(content[:body]).hexdigest().encode():
         raise BreastError("is damaged: its bytes disagree with the digest at its end", file, advice)
+    return True

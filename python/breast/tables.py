@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from pathlib import Path
 from typing import Any
 
@@ -78,6 +79,6 @@ def _typed(path: Path, name: str, cells: list[str]) -> np.ndarray:
     for row, (cell, number) in enumerate(zip(cells, numbers), 1):
         if cell != "-" and not math.isfinite(number):
             raise BreastError(f"row {row}, {name}: '{cell}' is not finite", path)
-    if cells and all(cell.lstrip("-").isdigit() for cell in cells):
+    if cells and all(re.fullmatch(r"-?[0-9]{1,18}", cell) for cell in cells):
         return np.array([int(cell) for cell in cells], dtype=np.int64)
     return np.array(numbers, dtype=np.float64)

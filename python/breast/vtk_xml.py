@@ -72,7 +72,7 @@ class VtkXml:
             array = np.frombuffer(values, dtype="<" + _TYPES[kind])
             components = int(element.get("NumberOfComponents", "1"))
             array = array.reshape(-1, components) if components > 1 else array
-        except (ValueError, zlib.error) as error:
+        except (ValueError, IndexError, OverflowError, zlib.error) as error:
             raise self.refuse(f"array {name} is damaged ({error})") from None
         if array.dtype.kind == "f" and not np.isfinite(array).all():
             raise self.refuse(f"array {name} holds a value that is not finite")
