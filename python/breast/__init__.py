@@ -32,6 +32,8 @@ from .transport import Transported
 from .volume import Volume
 from .xml_mesh import XmlMesh
 
-__all__ = ["BreastError", "Command", "Contact", "ElementMap", "Field", "Friction", "Geometry", "Grid", "Input", "Labels", "Landmark",
-           "Line", "Located", "Lookup", "Mammogram", "Markup", "Plate", "Run", "Segmentation", "Sheet", "Solve", "State", "TISSUES", "Transported",
-           "Volume", "XmlMesh", "load", "load_scan", "read_report", "read_table"]
+__all__ = [
+    "BreastError", "Command", "Contact", "ElementMap", "Field", "Friction", "Geometry", "Grid", "Input", "Labels",
+    "Landmark", "Line", "Located", "Lookup", "Mammogram", "Markup", "Plate", "Run", "Segmentation", "Sheet",
+    "Solve", "State", "TISSUES", "Transported", "Volume", "XmlMesh", "load", "load_scan", "read_report",
+    "read_table"]

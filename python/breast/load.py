@@ -33,8 +33,9 @@ def _read_vtp(path: Path) -> Any:
 
 
 _BY_ENDING: dict[str, Callable[[Path], Any]] = {
-    ".vti": read_mammogram, ".vtp": _read_vtp, ".vtu": read_xml_mesh, ".tsv": read_table, ".json": read_report, ".mrk.json": read_markups, ".nrrd": read_nrrd,
-    ".nhdr": read_nrrd, ".nii": read_nifti, ".nii.gz": read_nifti, ".mha": read_meta_image, ".mhd": read_meta_image}
+    ".vti": read_mammogram, ".vtp": _read_vtp, ".vtu": read_xml_mesh, ".tsv": read_table, ".json": read_report,
+    ".mrk.json": read_markups, ".nrrd": read_nrrd, ".nhdr": read_nrrd, ".nii": read_nifti, ".nii.gz": read_nifti,
+    ".mha": read_meta_image, ".mhd": read_meta_image}
 SCAN_ENDINGS = (".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd")
 
 

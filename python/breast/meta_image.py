@@ -7,7 +7,7 @@ import numpy as np
 
 from .errors import BreastError
 from .inflate import inflated
-from .volume import Volume, checked_size, exact_bytes, made_volume
+from .volume import Volume, checked_size, detached_data, exact_bytes, made_volume
 
 _TYPES = {"MET_CHAR": "i1", "MET_UCHAR": "u1", "MET_SHORT": "i2", "MET_USHORT": "u2", "MET_INT": "i4", "MET_UINT": "u4",
           "MET_LONG": "i4", "MET_ULONG": "u4", "MET_LONG_LONG": "i8", "MET_ULONG_LONG": "u8", "MET_FLOAT": "f4",
@@ -27,7 +27,8 @@ def read_meta_image(file: Path) -> Volume:
     dtype = np.dtype((">" if big else "<") + code)
     if _field(fields, "BinaryData").lower() == "false":
         raise BreastError("keeps its voxels as text, which is not read", file, "save it as binary data")
-    stored = _data(file, _field(fields, "ElementDataFile"), content[data_at:])
+    name = _field(fields, "ElementDataFile")
+    stored = content[data_at:] if name.lower() == "local" else detached_data(file, name)
     needed = count * dtype.itemsize
     if _field(fields, "CompressedData").lower() == "true":
         stored = inflated(file, stored, needed)
@@ -74,14 +75,3 @@ def _placed(file: Path, fields: dict[str, str]) -> tuple[np.ndarray, np.ndarray]
     stated = any(name in fields for name in ("Offset", "Position", "Origin"))
     origin = _numbers(file, fields, 3, "Offset", "Position", "Origin") if stated else np.zeros(3)
     return rows.T * spacing, origin
-
-
-def _data(file: Path, name: str, attached: bytes) -> bytes:
-    if name.lower() == "local":
-        return attached
-    if name.startswith("LIST") or "%" in name or not name or Path(name).is_absolute() or ".." in Path(name).parts:
-        raise BreastError(f"names '{name}' for its voxels: must be one file in its own folder", file)
-    data = file.parent / name
-    if not data.is_file():
-        raise BreastError(f"its voxels should be in {name}, which is no file", file)
-    return data.read_bytes()

@@ -10,7 +10,7 @@ from .errors import BreastError
 from .field import Field
 from .inflate import inflated
 from .segmentation import Segmentation, made_segmentation
-from .volume import Volume, checked_size, exact_bytes, made_volume
+from .volume import Volume, checked_size, detached_data, exact_bytes, made_volume
 
 _TYPES = {"i1": "signed char,int8,int8_t", "u1": "uchar,unsigned char,uint8,uint8_t",
           "i2": "short,short int,signed short,signed short int,int16,int16_t",
@@ -65,7 +65,8 @@ def _voxels(file: Path, fields: dict[str, str], attached: bytes, count: int) -> 
     endian, encoding = fields.get("endian", "little").lower(), fields.get("encoding", "").lower()
     if endian not in ("little", "big") or encoding not in ("raw", "gzip", "gz", "text", "txt", "ascii"):
         raise BreastError(f"endian '{endian}', encoding '{encoding}': little or big, and raw, gzip or text are read", file)
-    stored = _data(file, fields, attached)
+    name = fields.get("data file", fields.get("datafile"))
+    stored = attached if name is None else detached_data(file, name)
     dtype = np.dtype(("<" if endian == "little" else ">") + code)
     if encoding not in ("raw", "gzip", "gz"):
         try:
@@ -125,15 +126,3 @@ def _vector(file: Path, text: str) -> np.ndarray:
     if vector.shape != (3,) or not np.isfinite(vector).all():
         raise BreastError(f"'{text}' must be three finite numbers", file)
     return vector
-
-
-def _data(file: Path, fields: dict[str, str], attached: bytes) -> bytes:
-    name = fields.get("data file", fields.get("datafile"))
-    if name is None:
-        return attached
-    if name.startswith("LIST") or "%" in name or Path(name).is_absolute() or ".." in Path(name).parts:
-        raise BreastError(f"names '{name}' for its voxels: must be one file in its own folder", file)
-    data = file.parent / name
-    if not data.is_file():
-        raise BreastError(f"its voxels should be in {name}, which is no file", file)
-    return data.read_bytes()

@@ -92,3 +92,13 @@ def exact_bytes(file: Path, content: bytes, needed: int) -> bytes:
     if len(content) < needed:
         raise BreastError(f"truncated: {len(content)} bytes of voxels, the header announces {needed}", file)
     return content[:needed]
+
+
+def detached_data(file: Path, name: str) -> bytes:
+    """Content of the file that a header names for its voxels; only one in the header's own folder is read."""
+    if not name or name.startswith("LIST") or "%" in name or Path(name).is_absolute() or ".." in Path(name).parts:
+        raise BreastError(f"names '{name}' for its voxels: must be one file in its own folder", file)
+    data = file.parent / name
+    if not data.is_file():
+        raise BreastError(f"its voxels should be in {name}, which is no file", file)
+    return data.read_bytes()
