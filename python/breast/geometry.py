@@ -1,0 +1,131 @@
+"""The skin and chest-wall sheets: the file geometry.vtkhdf."""
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .document import Document
+from .errors import BreastError
+from .hdf5 import read_document
+from .history import Command, read_history, read_side
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A cubic-Hermite sheet of nu x nv patches.
+
+    Attributes:
+        x, x_1, x_2, x_12: (nv + 1, nu + 1, 3) node positions (LPS mm), first and mixed derivatives.
+        scale_1, scale_2: (nv + 1, nu + 1) scale factors; scale_1 * x_1 is the derivative in patch coordinates.
+    """
+
+    x: np.ndarray
+    x_1: np.ndarray
+    x_2: np.ndarray
+    x_12: np.ndarray
+    scale_1: np.ndarray
+    scale_2: np.ndarray
+
+    def points(self, st: ArrayLike) -> np.ndarray:
+        """Places (n, 3), LPS mm, of parameters (s, t) (n, 2) in [0, 1]². Raises BreastError outside."""
+        st = np.asarray(st, float)
+        if st.ndim != 2 or st.shape[1] != 2 or not ((st >= 0) & (st <= 1)).all():
+            raise BreastError("parameters of a sheet must be (n, 2) numbers from 0 to 1")
+        nv, nu = self.x.shape[0] - 1, self.x.shape[1] - 1
+        u, v = np.minimum((st * [nu, nv]).astype(int), [nu - 1, nv - 1]).T
+        xi, eta = st[:, 0] * nu - u, st[:, 1] * nv - v
+        result = np.zeros((len(st), 3))
+        for i, j in np.ndindex(2, 2):
+            value_u, slope_u = _hermite(i, xi)
+            value_v, slope_v = _hermite(j, eta)
+            at = (v + j, u + i)
+            s1, s2 = self.scale_1[at], self.scale_2[at]
+            for weight, node in ((value_u * value_v, self.x), (slope_u * s1 * value_v, self.x_1),
+                                 (value_u * slope_v * s2, self.x_2), (slope_u * s1 * slope_v * s2, self.x_12)):
+                result += weight[:, None] * node[at]
+        return result
+
+
+def _hermite(end: int, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """H0 and H1 of the node at t = 0 or 1."""
+    if end == 0:
+        return 1 - 3 * t**2 + 2 * t**3, t * (t - 1) ** 2
+    return t**2 * (3 - 2 * t), t**2 * (t - 1)
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """The fitted body of a breast.
+
+    Attributes:
+        file: where it was read from.
+        skin, wall: the two sheets, larger than the body.
+        rim_skin, rim_wall: (n, 2) the closed curve in each sheet's (s, t) where the body ends, first point not repeated.
+        rim_end: (n) why it ends there: 0 thin tissue, 1 slope, 2 margin.
+        nipple: (3) LPS mm.
+        skin_thickness_mm: 0 unknown.
+        fit_mm: distance of the fitted data: mean, p95, max.
+        points: (P, 3) vertices of the closed boundary, LPS mm.
+        quads: (Q, 4) its faces; at the two poles the last vertex is repeated.
+        part: (Q) 0 skin, 1 chest wall, 2 cut.
+        side: 'left' or 'right'.
+        history: every command that led to the file.
+    """
+
+    file: Path
+    skin: Sheet
+    wall: Sheet
+    rim_skin: np.ndarray
+    rim_wall: np.ndarray
+    rim_end: np.ndarray
+    nipple: np.ndarray
+    skin_thickness_mm: float
+    fit_mm: dict[str, float]
+    points: np.ndarray
+    quads: np.ndarray
+    part: np.ndarray
+    side: str
+    history: tuple[Command, ...]
+
+
+def read_geometry(file: str | os.PathLike[str]) -> Geometry:
+    """A geometry (schema geometry/1). Raises BreastError, one line, for whatever the programs refuse."""
+    doc = read_document(file, "geometry/1")
+    side, group = read_side(doc), "/breast/hermite"
+    rim = doc.numbers(f"{group}/rim/skin", (None, 2))
+    rim_wall = doc.numbers(f"{group}/rim/wall", rim.shape)
+    if len(rim) < 32 or min(rim.min(), rim_wall.min()) < 0 or max(rim.max(), rim_wall.max()) > 1:
+        raise doc.refuse("the rim must have 32 points or more, with parameters from 0 to 1")
+    points = doc.places("/VTKHDF/Points")
+    quads = _quads(doc, len(points))
+    fit = {name: doc.number(f"{group}@fit_{name}_mm") for name in ("mean", "p95", "max")}
+    return Geometry(doc.file, _sheet(doc, "skin"), _sheet(doc, "wall"), rim, rim_wall,
+                    doc.codes(f"{group}/rim/end", (len(rim),), 3), doc.place(f"{group}@nipple"),
+                    doc.number(f"{group}@skin_thickness"), fit, points, quads,
+                    doc.codes("/VTKHDF/CellData/part", (len(quads),), 3), side, read_history(doc))
+
+
+def _sheet(doc: Document, name: str) -> Sheet:
+    group = f"/breast/hermite/{name}"
+    nu, nv = doc.integer_list(f"{group}@patches", 2)
+    shape = (nv + 1, nu + 1)
+    vectors = [doc.numbers(f"{group}/{v}", (*shape, 3)) for v in ("x", "x_1", "x_2", "x_12")]
+    return Sheet(*vectors, *(doc.numbers(f"{group}/{s}", shape) for s in ("scale_1", "scale_2")))
+
+
+def _quads(doc: Document, points: int) -> np.ndarray:
+    doc.text("/VTKHDF@Type", ("UnstructuredGrid",))
+    ids = doc.integers("/VTKHDF/Connectivity", (None,), 0, points)
+    offsets = doc.integers("/VTKHDF/Offsets", (None,), 0, len(ids) + 1)
+    corners = np.diff(offsets)
+    if len(offsets) < 2 or offsets[0] != 0 or offsets[-1] != len(ids) or not np.isin(corners, (3, 4)).all():
+        raise doc.refuse("dataset /VTKHDF/Offsets must give each face 3 or 4 points")
+    column = np.minimum(np.arange(4), corners[:, None] - 1)
+    return ids[offsets[:-1, None] + column]

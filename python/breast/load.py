@@ -1,0 +1,81 @@
+"""Loading whatever a path holds."""
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any, Callable
+
+from .curves import read_curves
+from .errors import BreastError
+from .geometry import read_geometry
+from .hdf5 import SCHEMAS, file_schema
+from .labels import read_labels
+from .lookup import read_lookup
+from .mammogram import read_mammogram
+from .markups import read_markups
+from .meta_image import read_meta_image
+from .nifti import read_nifti
+from .nrrd import read_nrrd
+from .reports import read_report
+from .state_file import read_state
+from .tables import read_table
+from .volume import Volume
+from .vtk_xml import VtkXml
+from .xml_mesh import read_xml_mesh
+
+_BY_SCHEMA: dict[str, Callable[[Path], Any]] = {"mesh/1": read_state, "labels/1": read_labels, "geometry/1": read_geometry,
+                                                "lookup/1": read_lookup}
+
+
+def _read_vtp(path: Path) -> Any:
+    curves = VtkXml(path, "PolyData").fields().get("schema") == ["curves/1"]
+    return read_curves(path) if curves else read_xml_mesh(path)
+
+
+_BY_ENDING: dict[str, Callable[[Path], Any]] = {
+    ".vti": read_mammogram, ".vtp": _read_vtp, ".vtu": read_xml_mesh, ".tsv": read_table, ".json": read_report,
+    ".mrk.json": read_markups, ".nrrd": read_nrrd, ".nhdr": read_nrrd, ".nii": read_nifti, ".nii.gz": read_nifti,
+    ".mha": read_meta_image, ".mhd": read_meta_image}
+SCAN_ENDINGS = (".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd")
+
+
+def load(path: str | os.PathLike[str]) -> Any:
+    """A run folder, or one file.
+
+    Returns:
+        a folder: Run. A file by its ending: .vtkhdf and .h5, by their schema, State, Labels, Geometry or Lookup; .vti
+        Mammogram; .vtp of cc2mlo lines by name, another .vtp and .vtu XmlMesh; .tsv a table; .json a report; .nrrd, .nhdr,
+        .nii, .nii.gz, .mha, .mhd a scan (Volume). Of 3D Slicer: .seg.nrrd Segmentation, vectors in .nrrd Field, .mrk.json
+        Markup by name.
+
+    Raises:
+        BreastError: nothing there, an unknown ending or schema, or a file that the programs would refuse.
+    """
+    from .run import Run
+    path = Path(path)
+    if path.is_dir():
+        return Run(path)
+    if not path.exists():
+        raise BreastError("is neither a file nor a folder", path, "give a run folder (runs/CASE) or one of its files")
+    name = path.name.lower()
+    if name.endswith((".vtkhdf", ".h5")):
+        schema = file_schema(path)
+        if schema not in _BY_SCHEMA:
+            said = f"has schema '{schema}'" if schema else "states no schema: not a file of libbreast"
+            raise BreastError(f"{said}; read are {', '.join(SCHEMAS)}", path)
+        return _BY_SCHEMA[schema](path)
+    for ending in sorted(_BY_ENDING, key=len, reverse=True):
+        if name.endswith(ending):
+            return _BY_ENDING[ending](path)
+    raise BreastError(f"has an unknown ending; read are .vtkhdf .h5 {' '.join(_BY_ENDING)}", path)
+
+
+def load_scan(path: str | os.PathLike[str]) -> Any:
+    """A scan (Volume) from .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd. DICOM folders are not read."""
+    path = Path(path)
+    if path.is_dir() or not path.name.lower().endswith(SCAN_ENDINGS):
+        raise BreastError("is no scan that is read here", path, "save it as .nrrd, .nii.gz or .mha (3D Slicer does)")
+    volume = load(path)
+    if not isinstance(volume, Volume):
+        raise BreastError("is a segmentation or a field, not a scan", path)
+    return volume

@@ -1,0 +1,70 @@
+"""The curves of a grid of points of one view in another: the file lookup.h5."""
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .hdf5 import read_document
+from .history import Command, read_history, read_side
+
+STATUS = ("air", "matched", "leaves through the chest wall", "part of the curve behind the image")
+"""What the codes 0 to 3 of a lookup's status mean."""
+
+
+@dataclass(frozen=True)
+class Lookup:
+    """Node (i, j) of the grid is the point (i, j) * pitch_mm of the first image. Arrays begin with (nv, nu).
+
+    Attributes:
+        file: where it was read from.
+        from_view, to_view: CC, MLO or ML.
+        pitch_mm: distance of the grid's points.
+        status: codes, see STATUS.
+        depth_mm: tissue along the column.
+        curve_mm: (nv, nu, samples, 2) u, v in the second image, equally far apart in the column.
+        deviation_mm: (nv, nu, samples) one standard deviation across the curve.
+        across: (nv, nu, samples, 2) unit vector across it.
+        imaged_mm: (nv, nu, samples, 3) the column in the scan, LPS mm.
+        band_without: parameters that the deviation does not count.
+        side: 'left' or 'right'.
+        history: every command that led to the file.
+    """
+
+    file: Path
+    from_view: str
+    to_view: str
+    pitch_mm: float
+    status: np.ndarray
+    depth_mm: np.ndarray
+    curve_mm: np.ndarray
+    deviation_mm: np.ndarray
+    across: np.ndarray
+    imaged_mm: np.ndarray
+    band_without: list[str]
+    side: str
+    history: tuple[Command, ...]
+
+    def node(self, u_mm: float, v_mm: float) -> tuple[int, int]:
+        """Index (j, i) into the arrays of the node nearest to a point of the first image, within its grid."""
+        j, i = (int(np.clip(round(at / self.pitch_mm), 0, n - 1)) for at, n in zip((v_mm, u_mm), self.status.shape))
+        return j, i
+
+
+def read_lookup(file: str | os.PathLike[str]) -> Lookup:
+    """A lookup (schema lookup/1). Raises BreastError, one line, when it is not what docs/file-formats.md says."""
+    doc = read_document(file, "lookup/1")
+    group = "/breast/lookup"
+    views = ("CC", "MLO", "ML")
+    pitch = doc.number(f"{group}@pitch_mm")
+    if not pitch > 0:
+        raise doc.refuse(f"attribute {group}@pitch_mm is {pitch}, must be positive")
+    status = doc.codes(f"{group}/status", (None, None), len(STATUS))
+    curve = doc.numbers(f"{group}/curve_mm", (*status.shape, None, 2))
+    along = curve.shape[:3]
+    return Lookup(doc.file, doc.text(f"{group}@from_view", views), doc.text(f"{group}@to_view", views), pitch, status,
+                  doc.numbers(f"{group}/depth_mm", status.shape), curve, doc.numbers(f"{group}/deviation_mm", along),
+                  doc.numbers(f"{group}/across", (*along, 2)), doc.numbers(f"{group}/imaged_mm", (*along, 3)),
+                  doc.texts(f"{group}/band_without", (None,)), read_side(doc), read_history(doc))

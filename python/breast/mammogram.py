@@ -1,0 +1,94 @@
+"""Simulated mammograms: the files cc.vti and mlo.vti."""
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .errors import BreastError
+from .vtk_xml import VtkXml
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+
+@dataclass(frozen=True)
+class Mammogram:
+    """An image with its pose. Pixel [j, i] is centred on (u, v) = (i, j) * pixel_mm.
+
+    Attributes:
+        file: where it was read from.
+        images: (nv, nu) arrays by name: path (line integral), thickness and fibroglandular (mm), through_back.
+        view: CC, MLO or ML.
+        side: 'left' or 'right'.
+        pixel_mm: distance of pixels.
+        origin: (3) centre of pixel (0, 0), LPS mm.
+        e_u, e_v: (3) unit image axes, LPS; e_u away from the chest wall.
+        n: (3) unit direction of the beam, paddle to detector, LPS.
+        source_distance_mm: from the detector; 0 for parallel rays.
+    """
+
+    file: Path
+    images: dict[str, np.ndarray]
+    view: str
+    side: str
+    pixel_mm: float
+    origin: np.ndarray
+    e_u: np.ndarray
+    e_v: np.ndarray
+    n: np.ndarray
+    source_distance_mm: float
+
+    def project(self, points: ArrayLike) -> np.ndarray:
+        """Where points (n, 3) of the compressed shape, LPS mm, appear: (u, v) (n, 2) mm. Parallel rays only."""
+        if self.source_distance_mm > 0:
+            raise BreastError("was made with a cone of rays, and points are projected for parallel rays only", self.file)
+        return (np.asarray(points, float) - self.origin) @ np.stack([self.e_u, self.e_v], -1)
+
+    def extent_mm(self) -> tuple[float, float, float, float]:
+        """Left, right, bottom and top edge in (u, v) for matplotlib's imshow(..., origin='lower')."""
+        nv, nu = next(iter(self.images.values())).shape
+        half = 0.5 * self.pixel_mm
+        return -half, nu * self.pixel_mm - half, -half, nv * self.pixel_mm - half
+
+
+def read_mammogram(file: str | os.PathLike[str]) -> Mammogram:
+    """A mammogram. Raises BreastError for a damaged file or one of another schema."""
+    xml = VtkXml(Path(file), "ImageData")
+    fields = xml.fields()
+    if fields.get("schema") != ["mammogram/1"]:
+        raise xml.refuse(f"has schema {fields.get('schema') or 'none'}, must be 'mammogram/1'")
+
+    def numbers(name: str, count: int) -> np.ndarray:
+        values = np.ravel(fields.get(name, []))
+        if values.dtype.kind != "f" or len(values) != count:
+            raise xml.refuse(f"field {name} must hold {count} numbers")
+        return values
+
+    def text(name: str, allowed: tuple[str, ...]) -> str:
+        value = fields.get(name)
+        if not isinstance(value, list) or len(value) != 1 or value[0] not in allowed:
+            raise xml.refuse(f"field {name} is {value}, must be {' or '.join(allowed)}")
+        return value[0]
+
+    try:
+        extent = [int(n) for n in xml.data.get("WholeExtent", "").split()]
+        size = (extent[3] + 1, extent[1] + 1)
+    except (ValueError, IndexError):
+        raise xml.refuse("states no WholeExtent") from None
+    images = {}
+    for name, array in xml.group("PointData").items():
+        if not isinstance(array, np.ndarray) or array.size != size[0] * size[1]:
+            raise xml.refuse(f"array {name} does not fit {size[1]} x {size[0]} pixels")
+        images[name] = array.reshape(size)
+    if not images:
+        raise xml.refuse("holds no image")
+    pixel = float(numbers("pixel", 1)[0])
+    if not pixel > 0:
+        raise xml.refuse(f"field pixel is {pixel} mm, must be positive")
+    axes = {name: numbers(name, 3) for name in ("origin", "e_u", "e_v", "n")}
+    return Mammogram(xml.file, images, text("view", ("CC", "MLO", "ML")), text("side", ("left", "right")),
+                     pixel, **axes, source_distance_mm=float(numbers("source_distance", 1)[0]))

@@ -1,0 +1,54 @@
+"""Points of 3D Slicer (.mrk.json)."""
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .errors import BreastError
+from .reports import read_report
+
+
+@dataclass(frozen=True)
+class Markup:
+    """A list of points, a line or a curve.
+
+    Attributes:
+        kind: Fiducial, Line, Curve, ...
+        labels: (n) names of the points.
+        points: (n, 3) LPS mm, whatever the file's own coordinate system.
+    """
+
+    kind: str
+    labels: list[str]
+    points: np.ndarray
+
+    def point(self, label: str) -> np.ndarray:
+        """The point (3), LPS mm, of a label. Raises BreastError naming those there are."""
+        if label not in self.labels:
+            raise BreastError(f"no point '{label}'; there are: {', '.join(self.labels)}")
+        return self.points[self.labels.index(label)]
+
+
+def read_markups(file: str | os.PathLike[str]) -> dict[str, Markup]:
+    """Markups by name. Raises BreastError when the file is none, or a place is undefined or not finite."""
+    path = Path(file)
+    markups: dict[str, Markup] = {}
+    try:
+        for n, stated in enumerate(read_report(path)["markups"]):
+            system, units = stated.get("coordinateSystem", "LPS"), stated.get("coordinateUnits", "mm")
+            if system not in ("LPS", "RAS") or units != "mm":
+                raise BreastError(f"markup {n} is in {system} and {units}; LPS or RAS and mm are read", path)
+            given = [p for p in stated["controlPoints"] if p.get("positionStatus", "defined") == "defined"]
+            points = np.array([p["position"] for p in given], float).reshape(len(given), 3)
+            if not np.isfinite(points).all() or (len(points) and np.abs(points).max() > 1e6):
+                raise BreastError(f"markup {n} has a point that is no place within 1000000 mm", path)
+            name = str(stated.get("name", n))
+            name = name if name not in markups else f"{name} {n}"
+            markups[name] = Markup(str(stated["type"]), [str(p.get("label", "")) for p in given],
+                                   points * ([-1, -1, 1] if system == "RAS" else [1, 1, 1]))
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise BreastError(f"is no list of markups of 3D Slicer ({error!r})", path) from None
+    return markups

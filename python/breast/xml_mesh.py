@@ -1,0 +1,69 @@
+"""Surfaces and meshes in VTK XML (.vtp, .vtu), for whatever reads no VTKHDF."""
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .vtk_xml import VtkXml, cells_of
+
+_KINDS = {"Verts": {1: 1}, "Lines": {2: 3}, "Polys": {3: 5, 4: 9}}
+"""VTK's cell type by number of points; 2 (vertices), 4 (polyline) and 7 (polygon) for other numbers."""
+_OTHERWISE = {"Verts": 2, "Lines": 4, "Polys": 7}
+
+
+@dataclass(frozen=True)
+class XmlMesh:
+    """Points and cells as VTK has them.
+
+    Attributes:
+        file: where it was read from.
+        points: (P, 3) LPS mm.
+        cells: (n, k) point numbers by VTK's cell type: 5 triangles, 9 quads, 10 tetrahedra, 12 and 29 hexahedra; those of a
+            type with different numbers of points (polylines) are a list of arrays.
+        types: (C) VTK's cell type of every cell, in the order of cell_arrays.
+        point_arrays, cell_arrays: arrays by name with P and C rows; texts are lists.
+        fields: everything else the file says, by name (schema, SPACE, history, ...).
+    """
+
+    file: Path
+    points: np.ndarray
+    cells: dict[int, np.ndarray | list[np.ndarray]]
+    types: np.ndarray
+    point_arrays: dict[str, np.ndarray | list[str]]
+    cell_arrays: dict[str, np.ndarray | list[str]]
+    fields: dict[str, np.ndarray | list[str]]
+
+
+def read_xml_mesh(file: str | os.PathLike[str]) -> XmlMesh:
+    """A .vtp or .vtu of the toolkit. Raises BreastError for a damaged file, and for one whose SPACE is not LPS."""
+    path = Path(file)
+    surface = path.name.lower().endswith(".vtp")
+    xml = VtkXml(path, "PolyData" if surface else "UnstructuredGrid")
+    fields = xml.fields()
+    if fields.get("SPACE", ["LPS"]) != ["LPS"]:
+        raise xml.refuse(f"is in {fields['SPACE']}, must be in LPS")
+    points = xml.group("Points").get("Points")
+    if not isinstance(points, np.ndarray) or points.ndim != 2:
+        raise xml.refuse("has no points")
+    if surface:
+        parts = {kind: cells_of(xml, kind) for kind in _KINDS}
+        cells = [cell for part in parts.values() for cell in part]
+        types = np.array([_KINDS[kind].get(len(cell), _OTHERWISE[kind]) for kind, part in parts.items() for cell in part])
+    else:
+        cells, types = cells_of(xml, "Cells"), np.asarray(xml.group("Cells").get("types", []))
+    arrays = xml.group("PointData"), xml.group("CellData")
+    fits = all(len(a) == n for group, n in zip(arrays, (len(points), len(cells))) for a in group.values())
+    if len(types) != len(cells) or not fits or any(cell.max() >= len(points) for cell in cells):
+        raise xml.refuse("its cells or arrays do not fit its points")
+    return XmlMesh(path, points, _by_type(cells, types), types.astype(np.int64), *arrays, fields)
+
+
+def _by_type(cells: list[np.ndarray], types: np.ndarray) -> dict[int, np.ndarray | list[np.ndarray]]:
+    found: dict[int, np.ndarray | list[np.ndarray]] = {}
+    for kind in np.unique(types):
+        own = [cells[c] for c in np.flatnonzero(types == kind)]
+        found[int(kind)] = np.stack(own) if len({len(cell) for cell in own}) == 1 else own
+    return found

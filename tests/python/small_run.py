@@ -1,0 +1,80 @@
+"""A small run made by the programs once for all tests: the kept scan through the whole chain, five seconds."""
+import functools
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+
+programs: pathlib.Path = pathlib.Path("build/release/bin")  # run_tests.py says which
+source = pathlib.Path(__file__).resolve().parent.parent.parent
+
+_STAGES = """\
+segment small-scan.nrrd labels.vtkhdf --side left --points points.vtp --report labels.json
+fit-hermite labels.vtkhdf geometry.vtkhdf --report geometry.json
+hexmesh geometry.vtkhdf labels.vtkhdf mesh.vtkhdf --elements 6 --report mesh.json
+backward mesh.vtkhdf reference.vtkhdf --report reference.json
+forward reference.vtkhdf supine.vtkhdf --report supine.json
+compress reference.vtkhdf cc.vtkhdf --view CC --reduction 30 --at-least 20 --report cc.json
+compress reference.vtkhdf mlo.vtkhdf --view MLO --reduction 30 --at-least 20 --report mlo.json
+project-mammogram cc.vtkhdf cc.vti --labels labels.vtkhdf --png cc.png --pixel 1 --report cc-mammogram.json
+project-mammogram mlo.vtkhdf mlo.vti --labels labels.vtkhdf --png mlo.png --pixel 1 --report mlo-mammogram.json
+cc2mlo cc.vtkhdf mlo.vtkhdf curve.vtp --landmark tumour --table curve.tsv --report curve.json
+match-lookup cc.vtkhdf mlo.vtkhdf lookup.h5 --pitch 5"""
+
+
+def tool(line: str, folder: pathlib.Path) -> str:
+    """stdout of "program arguments", run in the folder."""
+    name, *arguments = line.split()
+    done = subprocess.run([programs / name, *arguments, "--quiet"], cwd=folder, capture_output=True, text=True)
+    if done.returncode != 0:
+        raise AssertionError(f"{line}: exit {done.returncode}: {done.stderr}")
+    return done.stdout
+
+
+@functools.lru_cache(maxsize=None)
+def _work() -> pathlib.Path:
+    return pathlib.Path(tempfile.mkdtemp(prefix="breast-python-"))
+
+
+@functools.lru_cache(maxsize=None)
+def folder() -> pathlib.Path:
+    """The run's folder; nothing in it may be changed."""
+    run = _work() / "runs" / "average"
+    run.mkdir(parents=True)
+    shutil.copy(source / "testdata" / "small-scan.nrrd", run)
+    for line in _STAGES.splitlines():
+        tool(line, run)
+    table = tool("probe mesh.vtkhdf reference.vtkhdf supine.vtkhdf cc.vtkhdf mlo.vtkhdf", run)
+    (run / "displacements.tsv").write_text(table)
+    return run
+
+
+@functools.lru_cache(maxsize=None)
+def quadratic() -> pathlib.Path:
+    """A folder with a mesh of 27-node elements of the same body, stress-free and supine."""
+    run = _work() / "quadratic"
+    run.mkdir()
+    first = folder()
+    tool(f"hexmesh {first}/geometry.vtkhdf {first}/labels.vtkhdf mesh.vtkhdf --elements 5 --order 2", run)
+    tool("backward mesh.vtkhdf reference.vtkhdf --element q2p1", run)
+    tool("forward reference.vtkhdf supine.vtkhdf --element q2p1", run)
+    return run
+
+
+def scratch(name: str) -> pathlib.Path:
+    """An empty folder of one test."""
+    made = _work() / "scratch" / name
+    shutil.rmtree(made, ignore_errors=True)
+    made.mkdir(parents=True)
+    return made
+
+
+def remove() -> None:
+    """Removes everything; KEEP=1 in the environment leaves it and says where."""
+    if not _work.cache_info().currsize:
+        return
+    if os.environ.get("KEEP"):
+        print(f"kept: {_work()}")
+    else:
+        shutil.rmtree(_work())
