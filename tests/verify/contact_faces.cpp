@@ -141,6 +141,33 @@ TEST(ContactFaces, NoPointOfAFaceEntersARoundedEdge) {
   EXPECT_GT(deepest_penetration(mesh, free, nodes.state.x, nodes.plates.paddle), 0.2);
 }
 
+// Points are close at every edge of a plate: here the lateral ones, past which the flanks of the body
+// stand up.
+TEST(ContactFaces, DepthIsSeenAtLateralEdges) {
+  const Vec3 size(90, 120, 120);
+  HexMesh mesh = fixtures::standing_block(size, {3, 4, 4});
+  Plate plate = plate_facing(view_pose(Side::left, 0));
+  plate.edge_start = -500;
+  plate.far_edge = 500;
+  for (const Vec3& x : mesh.points) {
+    plate.lateral_centre += x.dot(plate.lateral) / double(mesh.points.size());
+  }
+  plate.half_width = 27.5;
+  plate.edge_radius = 3;
+  std::vector<Vec3> bent = mesh.points;
+  for (Vec3& x : bent) {
+    if (std::abs(x.dot(plate.lateral) - plate.lateral_centre) > 30) x.z() += 12;
+  }
+  const PlatePair plates = fixtures::pair_at(plate, -size.z(), 0);
+  SurfacePressure pressure(mesh, touchable_faces(mesh), Discretisation{});
+  pressure.set_plates(plates);
+  const Eigen::VectorXd x = flatten(bent);
+  pressure.choose_points(x);
+  const double deepest = deepest_penetration(mesh, touchable_faces(mesh), x, plates.paddle);
+  EXPECT_GT(deepest, 1);
+  EXPECT_GT(pressure.deepest(x), 0.98 * deepest);
+}
+
 // What friction holds spreads less under the plates; no node is held with more than its bound.
 TEST(ContactFaces, FrictionHoldsWithinItsBound) {
   constexpr double side = 30, friction = 0.1;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -121,17 +122,32 @@ bool SurfacePressure::choose_points(const Eigen::VectorXd& x) {
 }
 
 int SurfacePressure::rule_for(int face, const Eigen::VectorXd& x) const {
-  const Plate& plate = plates_.paddle;  // the detector's edge is under the paddle's
+  const Plate& plate = plates_.paddle;  // the detector's edges are under the paddle's
   const int* nodes = cells_.cell(face);
-  double low = std::numeric_limits<double>::infinity(), high = -low, longest = 0;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  // Outwards from each of the plate's four edges.
+  std::array<double, 4> low, high;
+  low.fill(infinity);
+  high.fill(-infinity);
+  double longest = 0;
   for (int a = 0; a < 4; ++a) {
     const Vec3 here = x.segment<3>(3L * nodes[a]), next = x.segment<3>(3L * nodes[(a + 1) % 4]);
-    const double behind = plate.edge_start - here.dot(plate.anterior);
-    low = std::min(low, behind);
-    high = std::max(high, behind);
+    const double along = here.dot(plate.anterior);
+    const double across = here.dot(plate.lateral) - plate.lateral_centre;
+    const double beyond[] = {plate.edge_start - along, along - plate.far_edge,
+                             across - plate.half_width, -across - plate.half_width};
+    for (std::size_t k = 0; k < 4; ++k) {
+      low[k] = std::min(low[k], beyond[k]);
+      high[k] = std::max(high[k], beyond[k]);
+    }
     longest = std::max(longest, (next - here).norm());
   }
-  if (!(high > -edge_margin && low < plate.edge_radius + edge_margin)) return 0;
+  bool near_an_edge = false;
+  for (std::size_t k = 0; k < 4; ++k) {
+    near_an_edge =
+        near_an_edge || (high[k] > -edge_margin && low[k] < plate.edge_radius + edge_margin);
+  }
+  if (!near_an_edge) return 0;
   int rule = 1;
   while (rule + 1 < int(rules_.size()) &&
          rules_[std::size_t(rule)].cells * 2 * fine_spacing < longest) {
