@@ -163,9 +163,8 @@ TEST(ContactFaces, DepthIsSeenAtLateralEdges) {
   pressure.set_plates(plates);
   const Eigen::VectorXd x = flatten(bent);
   pressure.choose_points(x);
-  const double deepest = deepest_penetration(mesh, touchable_faces(mesh), x, plates.paddle);
-  EXPECT_GT(deepest, 1);
-  EXPECT_GT(pressure.deepest(x), 0.98 * deepest);
+  // The flanks rise by 12 in 30 mm from a line 12.5 mm inside the edge.
+  EXPECT_GT(pressure.deepest(x), 0.97 * 12.5 * 12 / 30);
 }
 
 // What friction holds spreads less under the plates; no node is held with more than its bound.
