@@ -55,7 +55,11 @@ std::vector<SceneItem> write_state_files(const fs::path& folder, const RunState&
   write_surface(folder / skin, surface);
   Markups points{"landmarks, " + state.title, false, colour_of(state.name), {}};
   for (const Landmark& landmark : mesh.landmarks) {
-    points.points.push_back({landmark.name, landmark_position(mesh, mesh.points, landmark)});
+    // Where nothing was moved, the scan's own point: given back, it makes the same mesh.
+    const bool exact = state.name == "prone" && landmark.moved == 0;
+    points.points.push_back(
+        {landmark.name,
+         exact ? landmark.imaged : landmark_position(mesh, mesh.points, landmark)});
   }
   write_markups(folder / landmarks, points);
   const auto colour = colour_of(state.name);

@@ -238,7 +238,7 @@ LabelVolume translate_labels(const Volume<float>& volume, const TissueCodes& cod
   return labels;
 }
 
-LabelVolume labels_of(const Segmentation& segmentation, const TissueCodes& codes,
+LabelVolume labels_of(const SegmentedVolume& segmentation, const TissueCodes& codes,
                       const std::optional<Side>& side, const std::string& name) {
   const auto& segments = segmentation.segments;
   LabelVolume labels = translate_labels(segmentation.values, codes_of(segments, codes, name), name);

@@ -20,7 +20,7 @@ struct Segment {
 };
 
 /// A segmentation as read: one value a voxel, and what the values are.
-struct Segmentation {
+struct SegmentedVolume {
   Volume<float> values;
   std::vector<Segment> segments;
   std::string content_sha256;  ///< of grid and voxels
@@ -58,7 +58,7 @@ LabelVolume translate_labels(const Volume<float>& volume, const TissueCodes& cod
 /// Labels of a segmentation: tissue by codes_of, gland's fraction 1 or 0, no confidence of the chest wall; side,
 /// nipple, skin thickness and midline from the tags where they are. `side` (may be empty) overrides the tag; throws
 /// Error (input) when neither is there.
-LabelVolume labels_of(const Segmentation& segmentation, const TissueCodes& codes,
+LabelVolume labels_of(const SegmentedVolume& segmentation, const TissueCodes& codes,
                       const std::optional<Side>& side, const std::string& name);
 
 /// `edited` on the grid of `native` (nearest voxel; air beyond), with what only native labels hold: the fraction of

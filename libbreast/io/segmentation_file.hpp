@@ -12,7 +12,7 @@ bool is_segmentation_name(const std::filesystem::path& file);
 
 /// Throws Error (input) as read_volume, for a header without segments, and for segments in several layers (they
 /// overlap): then a voxel has more than one.
-Segmentation read_segmentation(const std::filesystem::path& file);
+SegmentedVolume read_segmentation(const std::filesystem::path& file);
 
 /// Those tissues that occur, with names, colours and tags (segments_of); atomically, LPS.
 void write_segmentation(const std::filesystem::path& file, const LabelVolume& labels);

@@ -98,7 +98,7 @@ bool is_segmentation_name(const fs::path& file) {
   return name.ends_with(".seg.nrrd") || name.ends_with(".seg.nhdr");
 }
 
-Segmentation read_segmentation(const fs::path& file) {
+SegmentedVolume read_segmentation(const fs::path& file) {
   const NrrdNotes notes = nrrd_notes(file);
   if (notes.dimension > 3) {
     throw input_error(
@@ -107,7 +107,7 @@ Segmentation read_segmentation(const fs::path& file) {
         "segments overwrite each other (Segment Editor, Masking, Modify other "
         "segments: Overwrite all), or export a label map");
   }
-  Segmentation segmentation;
+  SegmentedVolume segmentation;
   segmentation.segments = segments_in(file, notes);
   if (segmentation.segments.empty()) {
     throw input_error(file.string(),
