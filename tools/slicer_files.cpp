@@ -58,8 +58,7 @@ std::vector<SceneItem> write_state_files(const fs::path& folder, const RunState&
     // Where nothing was moved, the scan's own point: given back, it makes the same mesh.
     const bool exact = state.name == "prone" && landmark.moved == 0;
     points.points.push_back(
-        {landmark.name,
-         exact ? landmark.imaged : landmark_position(mesh, mesh.points, landmark)});
+        {landmark.name, exact ? landmark.imaged : landmark_position(mesh, mesh.points, landmark)});
   }
   write_markups(folder / landmarks, points);
   const auto colour = colour_of(state.name);

@@ -16,7 +16,7 @@ struct SceneItem {
   bool visible = false;
   std::array<double, 3> colour{0.7, 0.7, 0.7};
   double opacity = 1;
-  std::string description;
+  std::string description = {};
 };
 
 /// XML of MRML 4.4 and later: a node, its display and its storage an item. The first volume is the background of all
