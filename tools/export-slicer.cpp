@@ -11,8 +11,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Choices {
-  fs::path run, scan;
-  std::string folder;
+  fs::path scan;
+  std::string run, folder;
   int series = 0;
   bool no_fields = false;
   std::optional<double> spacing;
@@ -22,6 +22,12 @@ struct Choices {
     if (fs::weakly_canonical(folder, ignored) == fs::weakly_canonical(run, ignored)) {
       throw input_error("DIR: ", folder, " is the run itself; name another folder, such as ",
                         folder, "/slicer");
+    }
+    fs::path bare = folder;
+    if (!bare.has_filename()) bare = bare.parent_path();  // "scene/"
+    if (bare.has_parent_path() && !fs::is_directory(bare.parent_path())) {
+      throw input_error("DIR: folder ", bare.parent_path().string(),
+                        " does not exist; make it first");
     }
     if (fs::exists(folder) && !fs::is_directory(folder)) {
       throw input_error("DIR: ", folder, " exists and is not a folder");
@@ -45,9 +51,9 @@ void declare(Tool& tool, Choices& c) {
           "apart (2 body, 1 border, 0 continued). Its error against the element map is measured at "
           "1000 random points of the body, and printed.")
       .cite("3D Slicer documentation, developer guide: segmentations, markups, transforms");
-  tool.input(
-      c.run, "RUN",
-      "folder of a run: labels, mesh and what there is of reference, supine, cc, mlo, curve");
+  // No input as others are: reports and the scene may lie in it, as the pipeline has them.
+  tool.word(c.run, "RUN",
+            "folder of a run: labels, mesh and what there is of reference, supine, cc, mlo, curve");
   tool.word(c.folder, "DIR",
             "folder to fill; it may exist, files of other programs in it are kept");
   tool.input_file(
