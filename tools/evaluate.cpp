@@ -9,9 +9,10 @@
 #include "evaluation/label_surface.hpp"
 #include "evaluation/quantities.hpp"
 #include "evaluation/surface_distance.hpp"
-#include "io/label_file.hpp"
+#include "io/segmentation_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
+#include "label_input.hpp"
 
 using namespace breast;
 
@@ -24,7 +25,7 @@ bool is_surface(const std::filesystem::path& file) {
 /// `volume` (may be null) receives a foreign volume as it is.
 LabelVolume read_any_labels(const std::filesystem::path& file, const TissueCodes& codes,
                             Volume<float>* volume) {
-  if (file.extension() == ".vtkhdf") return read_labels(file);
+  if (file.extension() == ".vtkhdf" || is_segmentation_name(file)) return read_tissues(file, codes);
   const Volume<float> foreign = read_volume(file);
   if (volume != nullptr) *volume = foreign;
   return translate_labels(foreign, codes, file.string());
@@ -55,10 +56,11 @@ int main(int argc, char** argv) {
           "between the nipples. Two surfaces or point sets (.vtp), or a label volume and a "
           "surface: distances. Prints a table of quantity and value to stdout.")
       .cite("Dice 1945, Ecology 26(3):297-302");
-  tool.input(given_file, "GIVEN", "label volume (.vtkhdf, .nrrd, .nii, .mha) or surface (.vtp)");
+  tool.input(given_file, "GIVEN",
+             "label volume (.vtkhdf, .seg.nrrd, .nrrd, .nii, .mha) or surface (.vtp)");
   tool.input(truth_file, "TRUTH", "the same, taken as true");
-  tool.texts(code_texts, "--code", "NUMBER=TISSUE",
-             "meaning of a foreign code in a volume not of ours");
+  tool.texts(code_texts, "--code", "NUMBER=TISSUE|NAME=TISSUE",
+             "meaning of a foreign code, or of a segment of that name, in a volume not of ours");
   tool.input_file(region_file, "--region", "FILE",
                   "volume outside which the truth's breast is ignored");
   tool.integer(region_code, "--region-code", "CODE", "value of the region; 0 takes any but 0", 0,

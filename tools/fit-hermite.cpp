@@ -2,7 +2,6 @@
 #include "core/error.hpp"
 #include "fit_hermite_options.hpp"
 #include "io/geometry_file.hpp"
-#include "io/label_file.hpp"
 
 namespace {
 
@@ -64,15 +63,16 @@ void report_fit(Report& report, const FitReport& fit, const BreastGeometry& geom
 }
 
 void run_fit(const FitChoices& choices, Run& run) {
-  const LabelVolume labels = [&] {
+  const LabelInput input = [&] {
     const Timer::Scope phase(run.timer(), "read");
-    return read_labels(choices.labels);
+    return read_label_input(choices.labels, choices.foreign);
   }();
+  const LabelVolume& labels = input.labels;
   FitReport fit;
   BreastGeometry geometry = fit_breast(labels, choices.options(), fit, run.timer(), run.progress());
   report_fit(run.report(), fit, geometry);
   for (const std::string& doubt : fit.doubts) run.warn(doubt);
-  geometry.history = run.history({{choices.labels, labels.content_sha256, &labels.history}});
+  geometry.history = run.history(inputs_of(choices.labels, choices.foreign, input));
   const Timer::Scope phase(run.timer(), "write");
   write_geometry(choices.geometry, geometry);
   run.progress().note(message("skin to sheet: mean ", fit.skin_to_sheet.mean_mm, ", 95 % ",

@@ -60,7 +60,9 @@ void declare_fit_hermite(Tool& tool, FitChoices& choices) {
       .cite(
           "Yoshizawa, Belyaev, Seidel, Proc. Shape Modeling International, 2004 (map to the "
           "square)");
-  tool.input(choices.labels, "LABELS.vtkhdf", "labels of one breast (segment)");
+  tool.input(choices.labels, "LABELS.vtkhdf",
+             "labels of one breast (segment), a segmentation of 3D Slicer (.seg.nrrd) or a "
+             "label volume (.nrrd, .nii, .mha)");
   tool.output(choices.geometry, "GEOMETRY.vtkhdf", "two sheets and the rim");
   tool.text(choices.elements, "--elements", "AxB|auto",
             "patches of each sheet along x and z; auto: 10x10, and of the skin up to 15x15 where "
@@ -70,11 +72,17 @@ void declare_fit_hermite(Tool& tool, FitChoices& choices) {
             "until the rms distance is 0.3 mm");
   tool.number(choices.max_error, "--max-error", "MM",
               "refine the skin sheet until no point of the skin is farther from it", 0.05, 100);
+  declare_label_choices(tool, choices.foreign);
   tool.example("fit-hermite labels.vtkhdf geometry.vtkhdf",
                "10 x 10 patches or a few more, automatic smoothing");
   tool.example("fit-hermite labels.vtkhdf geometry.vtkhdf --max-error 1",
                "as many patches as it takes to stay within 1 mm");
-  tool.check([&choices] { choices.options(); });
+  tool.example("fit-hermite edited.seg.nrrd geometry.vtkhdf --native labels.vtkhdf",
+               "labels corrected in 3D Slicer");
+  tool.check([&choices] {
+    choices.options();
+    parse_tissue_codes(choices.foreign.codes);
+  });
 }
 
 }  // namespace breast

@@ -7,6 +7,7 @@
 
 #include "cli/tool.hpp"
 #include "fit/fit_breast.hpp"
+#include "label_input.hpp"
 
 namespace breast {
 
@@ -14,6 +15,7 @@ struct FitChoices {
   std::filesystem::path labels, geometry;
   std::string elements = "auto", smoothing = "auto";
   std::optional<double> max_error;  ///< mm
+  LabelChoices foreign;
 
   /// Throws Error (input) for texts that are not to be read.
   FitOptions options() const;

@@ -1,12 +1,14 @@
 // hexmesh: hexahedral mesh of a breast from its Hermite geometry and its labels.
+#include <algorithm>
 #include <cmath>
 
 #include "cli/sibling.hpp"
 #include "core/error.hpp"
+#include "core/table.hpp"
 #include "core/temporary_folder.hpp"
 #include "hexmesh_options.hpp"
 #include "io/geometry_file.hpp"
-#include "io/label_file.hpp"
+#include "io/markups_file.hpp"
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
 #include "meshing/agreement.hpp"
@@ -34,7 +36,38 @@ std::optional<Tumour> choose_tumour(const MeshChoices& choices, const LabelVolum
   if (!std::filesystem::exists(choices.tumour)) return parse_tumour(choices.tumour);
   if (std::filesystem::path(choices.tumour).extension() == ".tsv")
     return read_tumour(choices.tumour);
-  return tumour_of(read_labels(choices.tumour), choices.tumour);
+  if (is_markups_name(choices.tumour)) {
+    const MarkupPoint point =
+        point_named(read_markups(choices.tumour), "tumour", "--tumour " + choices.tumour);
+    return Tumour{point.at, 0, "point of 3D Slicer", false};
+  }
+  return tumour_of(read_tissues(choices.tumour, {}), choices.tumour);
+}
+
+std::vector<MarkupPoint> named_points(const std::filesystem::path& file) {
+  if (is_markups_name(file)) return read_markups(file);
+  const Table table = read_table(file);
+  std::vector<MarkupPoint> points;
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    points.push_back({table.cell(row, "name"), table.point(row, "")});
+  return points;
+}
+
+/// The user's points as landmarks; those the mesh has of its own (nipple, tumour) keep their place.
+void add_points(const std::vector<MarkupPoint>& points, const std::string& name, HexMesh& mesh) {
+  for (const MarkupPoint& point : points) {
+    if (point.label.empty() || point.label.find('/') != std::string::npos) {
+      throw input_error("--landmarks ", name, ": a point at (", point.at.transpose(),
+                        ") mm has no name, or one with a slash: give it a label");
+    }
+    const bool known = std::any_of(mesh.landmarks.begin(), mesh.landmarks.end(),
+                                   [&](const Landmark& l) { return l.name == point.label; });
+    if (known) {
+      throw input_error("--landmarks ", name, ": a landmark '", point.label,
+                        "' is there already: name it otherwise");
+    }
+    add_landmark(point.label, point.at, mesh);
+  }
 }
 
 /// Refuses a geometry that is not the labels' body, unless the user accepts it.
@@ -69,7 +102,10 @@ void fill_with_tetrahedra(const MeshChoices& choices, const HexMesh& mesh, Run& 
 
 void run_hexmesh(const MeshChoices& choices, Run& run) {
   const BreastGeometry geometry = read_geometry(choices.geometry);
-  const LabelVolume labels = read_labels(choices.labels);
+  const LabelInput input = read_label_input(choices.labels, choices.foreign);
+  const LabelVolume& labels = input.labels;
+  std::vector<MarkupPoint> points;
+  if (!choices.landmarks.empty()) points = named_points(choices.landmarks);
   const double skin_mm = choices.skin == "measured" ? measured_skin_thickness(labels, geometry)
                                                     : parse_skin_thickness(choices.skin);
   BodyMeshReport body;
@@ -95,12 +131,15 @@ void run_hexmesh(const MeshChoices& choices, Run& run) {
           "give the place of a real one with --tumour x,y,z, or none");
     }
   }
+  add_points(points, choices.landmarks.filename().string(), mesh);
   const MeshQuality quality = mesh_quality(mesh, mesh.points);
   write_report(mesh, quality, body, tissue, run.report());
   for (const std::string& doubt : doubts(quality)) run.warn(doubt);
   run.report().set("skin_mm", skin_mm);
-  mesh.history = run.history({{choices.geometry, geometry.content_sha256, &geometry.history},
-                              {choices.labels, labels.content_sha256, &labels.history}});
+  std::vector<Run::Input> inputs{{choices.geometry, geometry.content_sha256, &geometry.history}};
+  for (const Run::Input& one : inputs_of(choices.labels, choices.foreign, input))
+    inputs.push_back(one);
+  mesh.history = run.history(inputs);
   if (!choices.surface.empty()) write_boundary(mesh, choices.surface);
   if (!choices.tetrahedra.empty()) fill_with_tetrahedra(choices, mesh, run);
   write_mesh(choices.mesh, mesh);

@@ -20,6 +20,7 @@ BodyMeshOptions MeshChoices::mesh_options(double skin_mm) const {
 }
 
 void MeshChoices::check() const {
+  parse_tissue_codes(foreign.codes);
   if (!dome.empty() && shape == "cuboid")
     throw input_error("--dome goes with --template dome only");
   if (!tetrahedra.empty() && tetrahedra.extension() != ".vtu")
@@ -44,7 +45,10 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), section II-B");
   tool.cite("Garanzha et al. 2021, Foldover-free maps in 50 lines of code, ACM Trans Graph 40(4)");
   tool.input(choices.geometry, "GEOMETRY.vtkhdf", "sheets and rim (fit-hermite)");
-  tool.input(choices.labels, "LABELS.vtkhdf", "tissue per voxel (segment)");
+  tool.input(
+      choices.labels, "LABELS.vtkhdf",
+      "tissue per voxel (segment), a segmentation of 3D Slicer (.seg.nrrd) or a label volume "
+      "(.nrrd, .nii, .mha)");
   tool.output(choices.mesh, "MESH.vtkhdf", "mesh of the imaged shape");
   tool.choice(choices.shape, "--template", {"dome", "cuboid"}, "arrangement of the elements");
   tool.integer(choices.elements, "--elements", "N",
@@ -55,15 +59,22 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
                "8-node elements with flat faces, or 27-node ones whose boundary nodes lie on the "
                "sheets and the cut (for --element q2p1)",
                1, 2);
-  tool.text(choices.skin, "--skin", "MM|0|measured", "thickness of the skin in mm, from 0.1 to 10, or 0 for none");
+  tool.text(choices.skin, "--skin", "MM|0|measured",
+            "thickness of the skin in mm, from 0.1 to 10, or 0 for none");
   tool.choice(choices.skin_as, "--skin-as", {"membrane", "layer"},
               "skin as a membrane on the outer faces or as the outermost layer of elements");
   tool.text(
       choices.tumour, "--tumour", "auto|none|x,y,z[:radius]|FILE",
       "tumour point in patient LPS mm; with a radius, elements inside become tumour; FILE is a "
-      ".tsv with columns x_mm y_mm z_mm [radius_mm], or labels with tumour voxels; auto: the one of "
+      ".tsv with columns x_mm y_mm z_mm [radius_mm], points of 3D Slicer (.mrk.json: the one labelled tumour, or the "
+      "only one), or labels with tumour voxels; auto: the one of "
       "the labels, else an artificial one on the gland's edge inside the mesh, landmark "
       "artificial_tumour");
+  tool.input_file(
+      choices.landmarks, "--landmarks", "FILE",
+      "points to follow through all shapes: of 3D Slicer (.mrk.json, LPS or RAS) under their labels, or a .tsv "
+      "with columns name x_mm y_mm z_mm (LPS); at most 10 mm outside the mesh");
+  declare_label_choices(tool, choices.foreign);
   tool.flag(choices.accept_mismatch, "--accept-mismatch",
             "mesh a geometry that is not the body of the labels: more than 2 % off in volume, or "
             "more than 5 % of the labels' breast outside it. Refused without this");

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "cli/tool.hpp"
+#include "label_input.hpp"
 #include "meshing/body_mesh.hpp"
 
 namespace breast {
 
 struct MeshChoices {
-  std::filesystem::path geometry, labels, mesh, surface, tetrahedra;
+  std::filesystem::path geometry, labels, mesh, surface, tetrahedra, landmarks;
+  LabelChoices foreign;
   std::string shape = "dome", skin = "1.45", skin_as = "membrane", tumour = "auto";
   int elements = 16, order = 1;
   bool accept_mismatch = false;

@@ -3,10 +3,10 @@
 
 #include "cli/tool.hpp"
 #include "core/error.hpp"
-#include "io/label_file.hpp"
 #include "io/mammogram_dicom.hpp"
 #include "io/mammogram_file.hpp"
 #include "io/mesh_file.hpp"
+#include "label_input.hpp"
 #include "projection/projection.hpp"
 #include "projection/report.hpp"
 #include "xray/beam_quality.hpp"
@@ -23,6 +23,7 @@ struct Choices {
   std::string geometry = "parallel", energy = "fraction", dicom_for = "presentation";
   Exposure exposure;
   int seed = 1;
+  LabelChoices foreign;
 };
 
 // Another scan's labels would be sampled without complaint, so their content must be among the
@@ -61,12 +62,13 @@ void run_projection(const Choices& choices, Run& run) {
   options.pixel = choices.pixel;
   options.beam = choices.geometry == "cone" ? Beam::cone : Beam::parallel;
   options.energy = parse_energy(choices.energy);
-  LabelVolume labels;
+  LabelInput labels;
   if (!choices.labels.empty()) {
-    labels = read_labels(choices.labels);
-    check_lineage(mesh, labels, choices.labels.filename().string(), run);
-    options.labels = &labels;
-    inputs.push_back({choices.labels, labels.content_sha256, &labels.history});
+    labels = read_label_input(choices.labels, choices.foreign);
+    check_lineage(mesh, labels.labels, choices.labels.filename().string(), run);
+    options.labels = &labels.labels;
+    for (const Run::Input& one : inputs_of(choices.labels, choices.foreign, labels))
+      inputs.push_back(one);
   }
   ProjectionReport projection;
   Mammogram image;
@@ -105,8 +107,11 @@ int main(int argc, char** argv) {
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), section IV-A, Fig. 6");
   tool.input(choices.mesh, "COMPRESSED.vtkhdf", "compressed shape (compress)");
   tool.output(choices.image, "IMAGE.vti", "path, thickness and fibroglandular mm per pixel");
-  tool.input_file(choices.labels, "--labels", "LABELS.vtkhdf",
-                  "tissue of the MR scan (segment); without, one tissue per element");
+  tool.input_file(
+      choices.labels, "--labels", "LABELS.vtkhdf",
+      "tissue of the MR scan (segment; also .seg.nrrd of 3D Slicer and other label volumes); without, one "
+      "tissue per element");
+  declare_label_choices(tool, choices.foreign);
   tool.output_file(
       choices.png, "--png", "FILE.png",
       "16-bit grey image hung as in the clinic, its grey as if all tissue were as thick as "
@@ -133,6 +138,7 @@ int main(int argc, char** argv) {
   tool.check([&] {
     choices.exposure.seed = std::uint64_t(choices.seed);
     parse_energy(choices.energy);
+    parse_tissue_codes(choices.foreign.codes);
   });
   tool.example("project-mammogram cc.vtkhdf cc.vti --labels labels.vtkhdf --png cc.png",
                "craniocaudal image with the detail of the scan");

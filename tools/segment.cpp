@@ -1,12 +1,18 @@
 // segment: labels of one breast from a prone T1 MR scan.
 #include "segment/segment.hpp"
 
+#include <algorithm>
+#include <optional>
+
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "io/label_file.hpp"
+#include "io/markups_file.hpp"
+#include "io/segmentation_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
+#include "label_input.hpp"
 #include "segment/measures.hpp"
 #include "segment/overlay.hpp"
 #include "segment/quality.hpp"
@@ -21,6 +27,7 @@ struct Choices {
   std::string side, interior = "threshold", contrast = "auto";
   int series = 0;
   double wall_shift = 0;
+  std::vector<std::string> codes;
 };
 
 void declare(Tool& tool, Choices& c) {
@@ -30,26 +37,31 @@ void declare(Tool& tool, Choices& c) {
       "is labelled muscle, the rest of the body other.");
   tool.cite("Pathmanathan et al. 2008, section II-A; Li et al., IEEE TPAMI 28:119 (2006)");
   tool.input(c.scan, "MR", "scan: .nrrd, .nii, .nii.gz, .mha, or a DICOM folder");
-  tool.output(c.labels, "LABELS.vtkhdf",
-              "tissue labels of the chosen breast; as .nrrd, .nii, .nii.gz or .mha the tissue codes "
-              "alone, for other programs",
-              {".nrrd", ".nii", ".nii.gz", ".mha"});
+  tool.output(
+      c.labels, "LABELS.vtkhdf",
+      "tissue labels of the chosen breast; as .nrrd, .nii, .nii.gz or .mha the tissue codes "
+      "alone, for other programs",
+      {".nrrd", ".nii", ".nii.gz", ".mha"});
   tool.choice(c.side, "--side", {"left", "right"}, "the patient's left or right breast")
       .required("--side");
   tool.integer(c.series, "--series", "N", "which series of a DICOM folder (0: the only one)", 0,
                10000);
   tool.input_file(
       c.wall, "--chest-wall", "FILE|POINTS",
-      "corrected chest wall: label map (code 4 behind the wall), surface (.vtp; of a file by "
-      "--points its chest wall), or table of clicked points x_mm y_mm z_mm (.tsv)");
+      "corrected chest wall: segmentation of 3D Slicer (.seg.nrrd, segment 'Chest wall'), label map (code 4 "
+      "behind the wall), surface (.vtp; of a file by --points its chest wall), or clicked points: of 3D Slicer "
+      "(.mrk.json) or a table x_mm y_mm z_mm (.tsv)");
+  tool.texts(c.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE",
+             "what a value or a segment of --chest-wall is, such as wall=3 or 'Pectoralis=wall'");
   tool.choice(c.interior, "--interior", {"threshold", "region-growing"},
               "what decides between fat and fibroglandular tissue: threshold: midway between their "
               "brightness (closer to known truth); region-growing: the paper's 3-D "
               "confidence-connected growing of fat. The report compares both");
-  tool.choice(c.contrast, "--contrast", {"auto", "fat-bright"},
-              "auto: a scan in which fat is not the bright tissue (fat saturation, T2, subtraction) "
-              "is refused on the evidence of skin, fat, muscle and what lies below the skin; "
-              "fat-bright: you answer for it, and that evidence is a warning");
+  tool.choice(
+      c.contrast, "--contrast", {"auto", "fat-bright"},
+      "auto: a scan in which fat is not the bright tissue (fat saturation, T2, subtraction) "
+      "is refused on the evidence of skin, fat, muscle and what lies below the skin; "
+      "fat-bright: you answer for it, and that evidence is a warning");
   tool.output_file(c.points, "--points", "OUT.vtp", "skin and chest-wall data points");
   tool.output_file(c.overlay, "--overlay", "OUT.png",
                    "slices with contours, to judge the result by");
@@ -59,43 +71,62 @@ void declare(Tool& tool, Choices& c) {
       "move the chest wall by this many of its own standard deviations (--points: sigma_mm), "
       "backwards when positive: what its uncertainty does to the result",
       -3, 3);
+  tool.check([&c] {
+    parse_tissue_codes(c.codes);
+    if (!c.codes.empty() && c.wall.empty()) throw input_error("--code goes with --chest-wall only");
+  });
   tool.example("segment scan.nrrd labels.vtkhdf --side left --overlay look.png",
                "the left breast, with a picture");
   tool.example("segment dicom/ labels.vtkhdf --side right --series 2 --chest-wall clicked.tsv",
                "second series of a folder, chest wall corrected by clicked points");
 }
 
-/// Clicked points: a table with columns x_mm y_mm z_mm (or x y z), patient LPS.
+/// Clicked points: of 3D Slicer, or a table with columns x_mm y_mm z_mm (or x y z), patient LPS.
 std::vector<Vec3> read_points(const std::filesystem::path& file) {
-  const Table table = read_table(file);
   std::vector<Vec3> points;
+  if (is_markups_name(file)) {
+    for (const MarkupPoint& point : read_markups(file)) points.push_back(point.at);
+    return points;
+  }
+  const Table table = read_table(file);
   for (std::size_t row = 0; row < table.rows.size(); ++row) points.push_back(table.point(row, ""));
   if (points.empty()) throw input_error(file.string(), ": no points");
   return points;
 }
 
-bool is_table(const std::filesystem::path& file) {
+bool holds_points(const std::filesystem::path& file) {
   const std::string ending = file.extension().string();
-  return ending == ".tsv" || ending == ".txt";
+  return ending == ".tsv" || ending == ".txt" || is_markups_name(file);
 }
 
-Volume<float> read_wall_labels(const std::filesystem::path& file, std::string& sha256) {
-  if (file.extension() != ".vtkhdf") {
-    VolumeSource source;
-    Volume<float> volume = read_volume(file, 0, &source);
-    sha256 = source.content_sha256;
-    return volume;
+/// Muscle is the wall; a map without any is refused before the scan is looked at.
+Volume<float> read_wall_labels(const std::filesystem::path& file, const TissueCodes& codes,
+                               std::string& sha256) {
+  LabelVolume labels;
+  if (codes.empty() && file.extension() != ".vtkhdf" && !is_segmentation_name(file)) {
+    // Only the wall's code counts: a map may hold others of its own.
+    TissueCodes wall;
+    wall.values[int(Tissue::muscle)] = Tissue::muscle;
+    labels = read_tissues(file, wall, &sha256);
+  } else {
+    labels = read_tissues(file, codes, &sha256);
   }
-  const LabelVolume labels = read_labels(file);
-  sha256 = labels.content_sha256;
   Volume<float> volume(labels.grid);
   volume.voxels.assign(labels.tissue.begin(), labels.tissue.end());
+  if (std::find(volume.voxels.begin(), volume.voxels.end(), float(Tissue::muscle)) ==
+      volume.voxels.end()) {
+    throw input_error(
+        "--chest-wall ", file.string(),
+        ": no voxel is chest wall (code 4, or a segment 'Chest wall'): say which value "
+        "is with --code wall=NUMBER");
+  }
   return volume;
 }
 
 /// Puts the corrected chest wall into the options.
-Run::Input read_wall(const std::filesystem::path& file, SegmentOptions& options) {
-  if (is_table(file)) {
+Run::Input read_wall(const std::filesystem::path& file, const TissueCodes& codes,
+                     SegmentOptions& options) {
+  if (holds_points(file)) {
     options.wall_points = read_points(file);
     Sha256 hash;
     for (const Vec3& point : options.wall_points) hash.update(point.data(), 3 * sizeof(double));
@@ -108,7 +139,7 @@ Run::Input read_wall(const std::filesystem::path& file, SegmentOptions& options)
     return {file, surface.content_sha256, nullptr};
   }
   std::string sha256;
-  options.wall_labels = read_wall_labels(file, sha256);
+  options.wall_labels = read_wall_labels(file, codes, sha256);
   return {file, sha256, nullptr};
 }
 
@@ -118,13 +149,15 @@ void run_segment(const Choices& c, Run& run) {
   options.wall_shift = c.wall_shift;
   if (c.interior == "region-growing") options.interior = Interior::region_growing;
   if (c.contrast == "fat-bright") options.contrast = Contrast::fat_bright;
+  std::optional<Run::Input> wall;  // before the scan: what is wrong with it is said at once
+  if (!c.wall.empty()) wall = read_wall(c.wall, parse_tissue_codes(c.codes), options);
   VolumeSource source;
   const Volume<float> scan = [&] {
     const Timer::Scope phase(run.timer(), "read");
     return read_volume(c.scan, c.series, &source);
   }();
   std::vector<Run::Input> inputs{{c.scan, source.content_sha256, nullptr}};
-  if (!c.wall.empty()) inputs.push_back(read_wall(c.wall, options));
+  if (wall) inputs.push_back(*wall);
   Segmentation result = segment_breast(scan, options, run.progress(), run.timer());
   for (const std::string& doubt : result.doubts) run.warn(doubt);
   for (const StageQuality& quality : quality_of(result)) {

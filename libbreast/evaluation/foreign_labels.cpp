@@ -5,49 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.hpp"
-#include "core/table.hpp"
-#include "evaluation/overlap.hpp"
-
 namespace breast {
-
-namespace {
-
-std::uint8_t translate(float value, const TissueCodes& codes, const std::string& name) {
-  if (codes.empty()) {
-    if (value >= 0 && value < n_tissues && value == std::floor(value)) return std::uint8_t(value);
-    throw input_error(name, ": holds ", value, ", which is no tissue code 0 to ", n_tissues - 1,
-                      "; translate it with --code");
-  }
-  const auto found = value == std::floor(value) ? codes.find(int(value)) : codes.end();
-  if (found != codes.end()) return std::uint8_t(found->second);
-  return std::uint8_t(value == 0 ? Tissue::air : Tissue::other);
-}
-
-}  // namespace
-
-TissueCodes parse_tissue_codes(const std::vector<std::string>& texts) {
-  TissueCodes codes;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos) {
-      throw input_error("--code: '", text, "' is not NUMBER=TISSUE; for example 29=fibroglandular");
-    }
-    const double code = parse_number(text.substr(0, equals), "--code");
-    if (!(code >= 0 && code <= 65535)) throw input_error("--code: ", code, " must be 0 to 65535");
-    codes[int(code)] = tissue_from_name(text.substr(equals + 1));
-  }
-  return codes;
-}
-
-LabelVolume translate_labels(const Volume<float>& volume, const TissueCodes& codes,
-                             const std::string& name) {
-  LabelVolume labels;
-  labels.grid = volume.grid;
-  labels.tissue.reserve(volume.voxels.size());
-  for (const float value : volume.voxels) labels.tissue.push_back(translate(value, codes, name));
-  return labels;
-}
 
 void restrict_breast(LabelVolume& labels, const Volume<float>& region, int code) {
   const Grid& grid = labels.grid;

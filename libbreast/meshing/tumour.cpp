@@ -190,17 +190,20 @@ void add_nipple(HexMesh& mesh) {
   mesh.nipple_node = nearest_node(mesh.imaged, at);
 }
 
-void add_tumour(const Tumour& tumour, HexMesh& mesh, double max_moved) {
-  const Locator locator(mesh, mesh.imaged);
-  const Location found = locator.nearest(tumour.centre);
+void add_landmark(const std::string& name, const Vec3& at, HexMesh& mesh, double max_moved) {
+  const Location found = Locator(mesh, mesh.imaged).nearest(at);
   if (!(found.moved <= max_moved)) {
-    throw input_error("tumour at (", tumour.centre.x(), ", ", tumour.centre.y(), ", ",
-                      tumour.centre.z(), ") mm lies ", found.moved,
+    throw input_error(name, " at (", at.x(), ", ", at.y(), ", ", at.z(), ") mm lies ", found.moved,
                       " mm outside the mesh; at most ", max_moved,
                       ": check the side and that the point is in patient LPS mm");
   }
-  mesh.landmarks.push_back({tumour.artificial ? std::string(artificial_tumour) : "tumour",
-                            tumour.centre, found.element, found.local, found.moved});
+  mesh.landmarks.push_back({name, at, found.element, found.local, found.moved});
+}
+
+void add_tumour(const Tumour& tumour, HexMesh& mesh, double max_moved) {
+  const Locator locator(mesh, mesh.imaged);
+  const std::string name = tumour.artificial ? std::string(artificial_tumour) : "tumour";
+  add_landmark(name, tumour.centre, mesh, max_moved);
   mesh.tumour_node = nearest_node(mesh.imaged, tumour.centre);
   if (!(tumour.radius > 0)) return;
   for (int e = 0; e < mesh.elements(); ++e) {
@@ -209,7 +212,7 @@ void add_tumour(const Tumour& tumour, HexMesh& mesh, double max_moved) {
       const Vec3 local = Vec3(s % 3 - 1, (s / 3) % 3 - 1, s / 9 - 1) * (2.0 / 3);
       inside += (locator.position(e, local) - tumour.centre).norm() < tumour.radius;
     }
-    if (inside >= 14 || e == found.element) mesh.tissue[e] = Tissue::tumour;
+    if (inside >= 14 || e == mesh.landmarks.back().element) mesh.tissue[e] = Tissue::tumour;
   }
 }
 

@@ -39,6 +39,10 @@ Tumour tumour_of(const LabelVolume& labels, const std::string& name);
 /// nipple_node. Needs mesh.geometry.
 void add_nipple(HexMesh& mesh);
 
+/// A landmark at the material point nearest to `at` (mm, LPS, imaged shape). Throws Error (input) when it lies more than
+/// `max_moved` mm outside the mesh.
+void add_landmark(const std::string& name, const Vec3& at, HexMesh& mesh, double max_moved = 10);
+
 /// Landmark "tumour" (or "artificial_tumour", mesh/landmark_names.hpp) and tumour_node; with a radius, elements at least half inside the ball become
 /// tumour (the element holding the centre always does). Throws Error (input) when the centre lies
 /// more than `max_moved` mm outside the mesh.

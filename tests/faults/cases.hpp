@@ -45,6 +45,7 @@ inline const std::vector<Case>& cases() {
                        "cc.vti --to-image mlo.vti", 3},
       {"export_inp", "export-deck cap_reference.vtkhdf out.inp --without-skin"},
       {"export_feb", "export-deck cap_reference.vtkhdf out.feb --without-skin"},
+      {"export_slicer", "export-slicer . out --spacing 12", 60},
       {"tetrahedra", "tetrahedra mesh.vtkhdf out.vtu"},
       {"probe", "probe cc.vtkhdf supine.vtkhdf --base mesh.vtkhdf"},
       {"evaluate", "evaluate labels.vtkhdf labels.vtkhdf", 4},

@@ -77,17 +77,26 @@ std::string gzip_bytes(std::string_view content) {
 }
 
 std::string nrrd_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels) {
-  std::string directions;
+  return nrrd_bytes(grid, type, voxels, {}, 1);
+}
+
+std::string nrrd_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels,
+                       const std::vector<std::pair<std::string, std::string>>& notes,
+                       int components) {
+  const bool vectors = components > 1;
+  std::string directions, lines;
+  for (const auto& [key, value] : notes) lines += key + ":=" + value + "\n";
   for (int d = 0; d < 3; ++d) {
     directions += " (" + numbers(grid.direction.col(d) * grid.spacing[d], ",") + ")";
   }
   return message("NRRD0004\n# Complete NRRD file format specification at:\n",
                  "# http://teem.sourceforge.net/nrrd/format.html\n# written by ", maker_mark,
                  "\ntype: ", type.nrrd,
-                 "\ndimension: 3\nspace: left-posterior-superior\nsizes: ", sizes(grid),
-                 "\nspace directions:", directions,
-                 "\nkinds: domain domain domain\nendian: little\nencoding: gzip\nspace origin: (",
-                 numbers(grid.origin, ","), ")\n\n") +
+                 "\ndimension: ", vectors ? 4 : 3, "\nspace: left-posterior-superior\nsizes: ",
+                 vectors ? message(components, " ") : "", sizes(grid), "\nspace directions:",
+                 vectors ? " none" : "", directions, "\nkinds: ", vectors ? "vector " : "",
+                 "domain domain domain\nendian: little\nencoding: gzip\nspace origin: (",
+                 numbers(grid.origin, ","), ")\n", lines, "\n") +
          gzip_bytes(voxels);
 }
 

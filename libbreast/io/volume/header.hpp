@@ -7,6 +7,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "image/volume.hpp"
@@ -32,6 +33,13 @@ void set_axes(Grid& grid, const Mat3& axes);
 void check_nifti(const std::filesystem::path& file);
 void check_nrrd(const std::filesystem::path& file);
 void check_meta(const std::filesystem::path& file);
+
+/// What the program that wrote a NRRD file noted in its header ("key:=value").
+struct NrrdNotes {
+  int dimension = 0;
+  std::map<std::string, std::string> values;
+};
+NrrdNotes nrrd_notes(const std::filesystem::path& file);
 
 /// The file a header names for its voxels: Error (input) unless it is a regular file named relative
 /// to the header's folder and without "..".

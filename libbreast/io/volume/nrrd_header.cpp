@@ -31,6 +31,7 @@ std::string trimmed(const std::string& text) {
 
 struct NrrdHeader {
   std::map<std::string, std::string> fields;  ///< by lower-case name
+  std::map<std::string, std::string> notes;   ///< "key:=value", of the program that wrote the file
   std::streamoff data_at = 0;                 ///< byte behind the header
   bool ended = false;                         ///< by an empty line
 
@@ -60,9 +61,10 @@ NrrdHeader header_of(const fs::path& file) {
     }
     if (line.size() > longest)
       throw input_error(file.string(), ": header line ", n + 2, " is endless");
-    const auto colon = line.find(": ");
-    const bool pair = line.find(":=") < colon;  // a note of the program that wrote it
-    if (line.starts_with('#') || colon == std::string::npos || pair) continue;
+    const auto colon = line.find(": "), note = line.find(":=");
+    if (line.starts_with('#')) continue;
+    if (note < colon) header.notes[line.substr(0, note)] = line.substr(note + 2);
+    if (colon == std::string::npos || note < colon) continue;
     const std::string name = lower_case(trimmed(line.substr(0, colon)));
     if (!header.fields.emplace(name, trimmed(line.substr(colon + 1))).second) {
       throw input_error(file.string(), ": header states '", name, "' twice");
@@ -216,6 +218,12 @@ void check_data(const fs::path& file, const NrrdHeader& header, double needed) {
 }
 
 }  // namespace
+
+NrrdNotes nrrd_notes(const fs::path& file) {
+  const NrrdHeader header = header_of(file);
+  const std::vector<double> dimension = header_numbers(header.field("dimension"));
+  return {dimension.size() == 1 ? int(dimension.front()) : 0, header.notes};
+}
 
 void check_nrrd(const fs::path& file) {
   const NrrdHeader header = header_of(file);

@@ -21,6 +21,10 @@ void add_text(vtkFieldData* fields, const std::string& name, const std::string& 
   fields->AddArray(array);
 }
 
+void add_space(vtkFieldData* fields) {
+  add_text(fields, "SPACE", "LPS");
+}
+
 void add_numbers(vtkFieldData* fields, const std::string& name, const std::vector<double>& values) {
   vtkNew<vtkDoubleArray> array;
   array->SetName(name.c_str());

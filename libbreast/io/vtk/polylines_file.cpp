@@ -106,6 +106,7 @@ void write_polylines(const std::filesystem::path& file, const PolyLines& lines) 
   }
   add_text(data->GetFieldData(), "schema", schema);
   add_text(data->GetFieldData(), "units", "mm");
+  add_space(data->GetFieldData());
   add_history(data->GetFieldData(), lines.history);
   write_xml(file, data);
 }

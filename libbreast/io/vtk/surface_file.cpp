@@ -89,6 +89,7 @@ void write_surface(const std::filesystem::path& file, const TriMesh& surface) {
   }
   add_text(data->GetFieldData(), "schema", schema);
   add_text(data->GetFieldData(), "units", "mm");
+  add_space(data->GetFieldData());
   add_history(data->GetFieldData(), surface.history);
   write_xml(file, data);
 }

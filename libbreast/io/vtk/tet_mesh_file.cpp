@@ -35,6 +35,7 @@ void write_tet_mesh(const std::filesystem::path& file, const TetMesh& mesh) {
   grid->GetCellData()->AddArray(part);
   add_text(grid->GetFieldData(), "schema", "tetrahedra/1");
   add_text(grid->GetFieldData(), "units", "mm");
+  add_space(grid->GetFieldData());
   add_history(grid->GetFieldData(), mesh.history);
   write_xml(file, grid);
 }

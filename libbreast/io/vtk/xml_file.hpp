@@ -40,6 +40,8 @@ void write_xml(const std::filesystem::path& file, vtkImageData* data);
 void write_xml(const std::filesystem::path& file, vtkUnstructuredGrid* data);
 
 void add_text(vtkFieldData* fields, const std::string& name, const std::string& text);
+/// "SPACE" = "LPS", by which 3D Slicer knows the coordinate system of a mesh file.
+void add_space(vtkFieldData* fields);
 void add_numbers(vtkFieldData* fields, const std::string& name, const std::vector<double>& values);
 void add_history(vtkFieldData* fields, const History& history);
 

@@ -1,0 +1,20 @@
+// Vector fields as .nrrd, as ITK and 3D Slicer read displacement fields.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "image/volume.hpp"
+
+namespace breast {
+
+/// Three float32 a grid point (mm, LPS), kinds "vector domain domain domain"; `notes` as "key:=value" lines. Atomically;
+/// throws Error (failed) when vectors and grid differ in number.
+void write_field(const std::filesystem::path& file, const Grid& grid,
+                 const std::vector<std::array<float, 3>>& vectors,
+                 const std::vector<std::pair<std::string, std::string>>& notes);
+
+}  // namespace breast

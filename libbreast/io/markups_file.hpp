@@ -1,0 +1,42 @@
+// Points and curves of 3D Slicer (.mrk.json, Markups schema 1.0).
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace breast {
+
+struct MarkupPoint {
+  std::string label;
+  Vec3 at{0, 0, 0};  ///< mm, LPS
+};
+
+/// A point list, or a curve through its points.
+struct Markups {
+  std::string name;
+  bool curve = false;
+  std::array<double, 3> colour{1, 0.5, 0.5};
+  std::vector<MarkupPoint> points;
+};
+
+/// True for .mrk.json, in any case.
+bool is_markups_name(const std::filesystem::path& file);
+
+/// Every point of every list of the file that has a place, in LPS whichever of LPS and RAS the file states (without a
+/// statement LPS, as the schema says). Throws Error (input) for another format, coordinates that are not three finite
+/// mm, and a file without points.
+std::vector<MarkupPoint> read_markups(const std::filesystem::path& file);
+
+/// LPS, locked; atomically.
+void write_markups(const std::filesystem::path& file, const Markups& markups);
+
+/// The point labelled `label` (in any case), or the only one. Throws Error (input) beginning with `name` and listing
+/// the labels there are otherwise.
+MarkupPoint point_named(const std::vector<MarkupPoint>& points, const std::string& label,
+                        const std::string& name);
+
+}  // namespace breast

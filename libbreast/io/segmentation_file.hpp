@@ -1,0 +1,20 @@
+// Segmentations of 3D Slicer (.seg.nrrd): a label volume whose header says what its values are.
+#pragma once
+
+#include <filesystem>
+
+#include "image/segments.hpp"
+
+namespace breast {
+
+/// True for .seg.nrrd and .seg.nhdr, in any case.
+bool is_segmentation_name(const std::filesystem::path& file);
+
+/// Throws Error (input) as read_volume, for a header without segments, and for segments in several layers (they
+/// overlap): then a voxel has more than one.
+SegmentedVolume read_segmentation(const std::filesystem::path& file);
+
+/// Those tissues that occur, with names, colours and tags (segments_of); atomically, LPS.
+void write_segmentation(const std::filesystem::path& file, const LabelVolume& labels);
+
+}  // namespace breast

@@ -1,0 +1,32 @@
+// How far a displacement field is from the element map it samples.
+#pragma once
+
+#include "slicer/field.hpp"
+
+namespace breast {
+
+struct FieldCheck {
+  int points = 0;                  ///< random points of the body, evenly spread over its volume
+  double mean_mm = 0, max_mm = 0;  ///< field, interpolated trilinearly, against the element map
+  double beyond_percent = 0;       ///< of the points, farther than `accuracy_mm` from it
+  double smallest_det = 0;  ///< of ∂(p + u)/∂p over the body's grid cells: above 0, nothing folds
+  double outside_into_body_percent =
+      0;  ///< of grid points outside the first shape, taken into the second
+};
+
+/// What a field is expected to keep, mm.
+inline constexpr double accuracy_mm = 0.05;
+
+/// `count` points drawn from a fixed seed. `from` and `to` as given to displacement_field.
+FieldCheck check_field(const DisplacementField& field, const HexMesh& mesh,
+                       const std::vector<Vec3>& from, const std::vector<Vec3>& to,
+                       int count = 1000);
+
+/// Mean and largest distance, mm, of `count` random points of the body to themselves after field and inverse.
+struct RoundTrip {
+  double mean_mm = 0, max_mm = 0;
+};
+RoundTrip check_round_trip(const DisplacementField& field, const DisplacementField& inverse,
+                           const HexMesh& mesh, const std::vector<Vec3>& from, int count = 1000);
+
+}  // namespace breast

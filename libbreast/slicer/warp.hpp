@@ -1,0 +1,15 @@
+// A scan seen in another shape of the breast.
+#pragma once
+
+#include "slicer/field.hpp"
+
+namespace breast {
+
+/// `scan` at p + u(p) for every point p of the field's grid that lies in the body (trilinear), `air` outside it. The
+/// field leads from the shape to be shown to the scan.
+Volume<float> warped(const Volume<float>& scan, const DisplacementField& field, float air = 0);
+
+/// 0 continued, 1 border, 2 body (FieldPart).
+Volume<std::uint8_t> part_volume(const DisplacementField& field);
+
+}  // namespace breast

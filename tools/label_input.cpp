@@ -1,0 +1,118 @@
+#include "label_input.hpp"
+
+#include <optional>
+
+#include "core/error.hpp"
+#include "io/label_file.hpp"
+#include "io/segmentation_file.hpp"
+#include "io/volume_file.hpp"
+
+namespace breast {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_native(const fs::path& file) {
+  return file.extension() == ".vtkhdf";
+}
+
+std::optional<Side> side_of(const LabelChoices& choices) {
+  return choices.side.empty() ? std::nullopt : std::optional(side_from_name(choices.side));
+}
+
+// A volume of codes, without names: its side has to be said.
+LabelVolume coded_labels(const fs::path& file, const LabelChoices& choices) {
+  const auto side = side_of(choices);
+  if (!side && choices.native.empty()) {
+    throw input_error(file.string(),
+                      ": does not say which breast it is: give --side left or right");
+  }
+  std::string sha256;
+  LabelVolume labels = read_tissues(file, parse_tissue_codes(choices.codes), &sha256);
+  labels.content_sha256 = sha256;
+  if (side) labels.side = *side;
+  for (const std::uint8_t tissue : labels.tissue)
+    labels.fibroglandular_fraction.push_back(Tissue(tissue) == Tissue::fibroglandular ? 1.0F
+                                                                                      : 0.0F);
+  return labels;
+}
+
+LabelVolume foreign_labels(const fs::path& file, const LabelChoices& choices) {
+  if (!is_segmentation_name(file)) return coded_labels(file, choices);
+  // With native labels they say which breast it is.
+  auto side = side_of(choices);
+  if (!side && !choices.native.empty()) side = Side::left;
+  return labels_of(read_segmentation(file), parse_tissue_codes(choices.codes), side, file.string());
+}
+
+}  // namespace
+
+void declare_label_choices(Tool& tool, LabelChoices& choices) {
+  tool.texts(
+      choices.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE",
+      "what a value or a segment of foreign labels is: 3=skin or wall=3, 'Pectoralis=wall'; tissues "
+      "are air, fat, fibroglandular, skin, muscle (or wall), tumour, other");
+  tool.choice(choices.side, "--side", {"left", "right"},
+              "which breast foreign labels show; segmentations of export-slicer say it themselves");
+  tool.input_file(
+      choices.native, "--native", "LABELS.vtkhdf",
+      "the labels a foreign map was corrected from: what it cannot hold (gland's fraction where the tissue "
+      "is the same, confidence of the chest wall, nipple, skin, midline) is taken from there, and "
+      "its grid");
+}
+
+LabelVolume read_tissues(const fs::path& file, const TissueCodes& codes, std::string* sha256) {
+  if (is_native(file)) {
+    LabelVolume labels = read_labels(file);
+    if (sha256 != nullptr) *sha256 = labels.content_sha256;
+    return labels;
+  }
+  if (is_segmentation_name(file)) {
+    const SegmentedVolume segmentation = read_segmentation(file);
+    if (sha256 != nullptr) *sha256 = segmentation.content_sha256;
+    return translate_labels(segmentation.values,
+                            codes_of(segmentation.segments, codes, file.string()), file.string());
+  }
+  VolumeSource source;
+  const Volume<float> volume = read_volume(file, 0, &source);
+  if (sha256 != nullptr) *sha256 = source.content_sha256;
+  return translate_labels(volume, codes, file.string());
+}
+
+LabelInput read_label_input(const fs::path& file, const LabelChoices& choices) {
+  LabelInput input;
+  if (is_native(file)) {
+    if (!choices.codes.empty() || !choices.side.empty() || !choices.native.empty()) {
+      throw input_error(file.string(),
+                        ": is a label file of ours, which needs no --code, --side or --native");
+    }
+    input.labels = read_labels(file);
+    return input;
+  }
+  input.labels = foreign_labels(file, choices);
+  if (choices.native.empty()) return input;
+  const LabelVolume native = read_labels(choices.native);
+  if (!choices.side.empty() && side_from_name(choices.side) != native.side) {
+    throw input_error("--side ", choices.side, ": ", choices.native.string(), " is of the ",
+                      side_name(native.side), " breast");
+  }
+  const std::string sha256 = input.labels.content_sha256;
+  input.labels = completed_labels(input.labels, native, file.string());
+  input.native_history = native.history;
+  input.native_sha256 = native.content_sha256;
+  input.labels.content_sha256 = sha256;
+  input.labels.history.clear();
+  return input;
+}
+
+std::vector<Run::Input> inputs_of(const fs::path& file, const LabelChoices& choices,
+                                  const LabelInput& input) {
+  std::vector<Run::Input> list{{file, input.labels.content_sha256, &input.labels.history}};
+  if (!choices.native.empty()) {
+    list.push_back({choices.native, input.native_sha256, &input.native_history});
+  }
+  return list;
+}
+
+}  // namespace breast

@@ -1,0 +1,95 @@
+#include "slicer_run.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "io/label_file.hpp"
+#include "io/mesh_file.hpp"
+#include "io/surface_file.hpp"
+#include "io/volume_file.hpp"
+
+namespace breast {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Kind {
+  const char *file, *name, *title;
+};
+constexpr std::array<Kind, 5> kinds = {{{"mesh", "prone", "prone, as scanned"},
+                                        {"reference", "stress-free", "stress-free"},
+                                        {"supine", "supine", "supine"},
+                                        {"cc", "cc", "compressed, CC"},
+                                        {"mlo", "mlo", "compressed, MLO"}}};
+
+void check_same_mesh(const RunState& state, const RunState& prone) {
+  const HexMesh &mesh = state.mesh, &first = prone.mesh;
+  constexpr double rounding_mm = 1e-9;
+  const bool same =
+      mesh.connectivity == first.connectivity && mesh.imaged.size() == first.imaged.size() &&
+      std::equal(mesh.imaged.begin(), mesh.imaged.end(), first.imaged.begin(),
+                 [&](const Vec3& a, const Vec3& b) { return (a - b).norm() < rounding_mm; });
+  if (!same) {
+    throw input_error(state.file.string(), ": is of another mesh than ", prone.file.string(),
+                      ": run the stages after hexmesh again");
+  }
+}
+
+void check_lineage(const SlicerRun& run, const fs::path& scan, const std::string& sha256) {
+  std::string named;
+  for (const HistoryEntry& entry : run.labels.history) {
+    if (entry.tool != "segment") continue;
+    for (const InputRecord& input : entry.inputs) {
+      if (input.sha256 == sha256) return;
+      named += (named.empty() ? "" : ", ") + input.name;
+    }
+  }
+  if (named.empty()) return;  // labels of another program
+  throw input_error(scan.string(), ": is not the scan these labels were made from (", named,
+                    "): give that one");
+}
+
+void read_scan(const fs::path& file, int series, SlicerRun& result) {
+  VolumeSource source;
+  result.scan = read_volume(file, series, &source);
+  check_lineage(result, file, source.content_sha256);
+  result.inputs.push_back({file, source.content_sha256, nullptr});
+}
+
+}  // namespace
+
+SlicerRun read_run(const fs::path& folder, const fs::path& scan, int series, Run& run) {
+  if (!fs::is_directory(folder)) {
+    throw input_error(folder.string(), ": is no folder of a run (labels.vtkhdf, mesh.vtkhdf ...)");
+  }
+  for (const char* needed : {"labels.vtkhdf", "mesh.vtkhdf"}) {
+    if (!fs::is_regular_file(folder / needed)) {
+      throw input_error(
+          folder.string(), ": has no ", needed,
+          ", which every run has: name the folder that the pipeline filled (runs/CASE)");
+    }
+  }
+  SlicerRun result;
+  const fs::path labels = folder / "labels.vtkhdf";
+  result.labels = read_labels(labels);
+  result.inputs.push_back({labels, result.labels.content_sha256, &result.labels.history});
+  for (const Kind& kind : kinds) {
+    const fs::path file = folder / (std::string(kind.file) + ".vtkhdf");
+    if (!fs::is_regular_file(file)) continue;
+    run.progress().update("reading", -1, file.filename().string());
+    result.states.push_back({kind.name, kind.title, file, read_mesh(file)});
+    check_same_mesh(result.states.back(), result.states.front());
+  }
+  if (const fs::path curve = folder / "curve.vtp"; fs::is_regular_file(curve)) {
+    result.curve = read_polylines(curve);
+    result.inputs.push_back({curve, result.curve->content_sha256, &result.curve->history});
+  }
+  if (!scan.empty()) read_scan(scan, series, result);
+  for (const RunState& state : result.states) {
+    result.inputs.push_back({state.file, state.mesh.content_sha256, &state.mesh.history});
+  }
+  return result;
+}
+
+}  // namespace breast
