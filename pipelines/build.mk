@@ -20,7 +20,7 @@ planning := $(findstring n,$(letters))$(findstring q,$(letters))
 ifdef INSTALLED
 else ifneq ($(planning),)
 -include $(wildcard $(ROOT)build/built-$(PRESET_BUILD).mk)
-else ifneq ($(filter-out help setup clean where package,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
+else ifneq ($(filter-out help setup clean where settings package,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
 include $(ROOT)build/built-$(PRESET_BUILD).mk
 endif
 

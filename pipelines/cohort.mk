@@ -20,7 +20,7 @@ nameless = !case file $1: names neither MR nor PRESET
 case_problem = $(or $(filter !%,$2),$(if $(filter MR=% PRESET=%,$2),,$(nameless)))
 problems := $(strip $(foreach f,$(COHORT_FILES),$(call case_problem,$f,$(call lines_of,$f))))
 $(if $(problems),$(error $(subst $(shell printf '\037'),$(space),$(patsubst !%,%,$(problems)))))
-COHORT_RUNS := $(RUNS)/cohort-$(notdir $(patsubst %/,%,$(abspath $(COHORT))))
+COHORT_RUNS := $(RUNS)/cohort-$(notdir $(patsubst %/,%,$(if $(filter . .. %/. %/..,$(COHORT)),$(abspath $(COHORT)),$(COHORT))))
 .DEFAULT_GOAL := cohort
 
 cohort: $(COHORT_RUNS)/cohort.tsv
