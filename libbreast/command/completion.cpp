@@ -1,6 +1,6 @@
 #include "command/completion.hpp"
 
-#include <algorithm>
+#include <cctype>
 #include <sstream>
 
 #include "cli/declaration.hpp"
@@ -65,7 +65,8 @@ std::vector<std::string> completions(const Installation& installation,
   Options options = read_options(options_of(installation, command), words[before]);
   if (options.wants_value) return options.choices;
   if (words.back().starts_with("-")) return options.names;
-  if (!is_pipeline_command(command)) return {};
+  // A setting begins with a capital; anything else is a file.
+  if (!is_pipeline_command(command) || !std::isupper((unsigned char)(words.back() + " ")[0])) return {};
   std::vector<std::string> settings = pipeline_settings(installation);
   for (std::string& setting : settings) setting += "=";
   return settings;

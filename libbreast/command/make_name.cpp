@@ -60,11 +60,12 @@ void link_files(const fs::path& folder, const fs::path& links) {
   std::set<std::string> kept;
   std::size_t number = 0;
   for (const fs::path& file : files) {
-    const std::string name = file.filename().string();
+    const std::string own = file.filename().string();
     ++number;
-    kept.insert(plain_for_make(name) ? name
-                                     : "file-" + std::to_string(number) + "-" + plain_name(name));
-    link_to(file, links / *kept.rbegin());
+    const std::string name =
+        plain_for_make(own) ? own : "file-" + std::to_string(number) + "-" + plain_name(own);
+    kept.insert(name);
+    link_to(file, links / name);
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(links)) {
     if (kept.count(entry.path().filename().string()) == 0) fs::remove(entry.path());
