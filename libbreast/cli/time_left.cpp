@@ -34,7 +34,8 @@ std::optional<double> TimeLeft::update(std::string_view stage, double fraction, 
   }
   const Sample begin = samples_.front();
   const double elapsed = now - begin.time;
-  if (elapsed < least_time_s || fraction - begin.fraction < least_progress) return {};
+  if (elapsed < least_time_s || fraction - begin.fraction < least_progress || fraction == 1)
+    return {};
   const double middle = begin.time + 0.5 * elapsed;
   const auto later = std::find_if(samples_.rbegin(), samples_.rend(),
                                   [&](const Sample& s) { return s.time <= middle; });
@@ -46,12 +47,10 @@ std::optional<double> TimeLeft::update(std::string_view stage, double fraction, 
 }
 
 std::string time_left_text(double seconds) {
-  const double rounded = seconds < 20   ? std::ceil(seconds)
-                         : seconds < 90 ? 5 * std::ceil(seconds / 5)
-                                        : 0;
-  if (rounded > 0) return "about " + format_fixed(rounded, 0) + " s left";
-  if (seconds <= 0) return "about 0 s left";
-  return "about " + format_fixed(std::ceil(seconds / 60), 0) + " min left";
+  if (seconds > 90) return "about " + format_fixed(std::ceil(seconds / 60), 0) + " min left";
+  return "about " +
+         format_fixed(seconds < 20 ? std::ceil(seconds) : 5 * std::ceil(seconds / 5), 0) +
+         " s left";
 }
 
 }  // namespace breast

@@ -12,7 +12,7 @@ namespace breast {
 class TimeLeft {
  public:
   /// What is left of `stage` in seconds, `fraction` of it being done at the time `now` (seconds of any clock that does not go back).
-  /// Nothing while too little is known (less than 2 s or 2 % of progress), for a fraction below 0 or not finite, and for a stage
+  /// Nothing while too little is known (less than 2 s or 2 % of progress), for a fraction that is below 0, 1 or not finite, and for a stage
   /// that takes less than 10 s in all. Another stage begins anew, unless its fraction goes on from where the last one ended: then both
   /// are parts of one whole.
   std::optional<double> update(std::string_view stage, double fraction, double now);
