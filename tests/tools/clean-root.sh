@@ -33,7 +33,7 @@ for device in null urandom; do
   [ -e "$root/dev/$device" ] || touch "$root/dev/$device"
   mount --bind "/dev/$device" "$root/dev/$device"
 done
-echo "ok: an empty Debian 12, $(du -sm "$root" | cut -f1) MB, $(($(seconds) - start)) s"
+echo "ok: an empty Debian 12, $(du -smx "$root" | cut -f1) MB, $(($(seconds) - start)) s"
 
 start=$(seconds)
 cp "$package" "$root/root/"
@@ -41,7 +41,7 @@ inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root L
 inside apt-get update -q > "$work/apt.log" 2>&1 || { tail -n 20 "$work/apt.log"; fail "apt-get update"; }
 inside sh -c 'cd /root && apt-get install -y --no-install-recommends ./'"$(basename "$package")" >> "$work/apt.log" 2>&1 ||
   { tail -n 20 "$work/apt.log"; fail "apt-get install"; }
-echo "ok: apt-get install ./$(basename "$package"), $(inside dpkg-query -f '${Package}\n' -W | wc -l) packages, $(du -sm "$root" | cut -f1) MB, $(($(seconds) - start)) s"
+echo "ok: apt-get install ./$(basename "$package"), $(inside dpkg-query -f '${Package}\n' -W | wc -l) packages, $(du -smx "$root" | cut -f1) MB, $(($(seconds) - start)) s"
 
 # An ordinary user, in a folder whose name has a blank.
 inside useradd -m -s /bin/sh user
