@@ -40,6 +40,7 @@ refused() { # TEXT COMMAND...: exit 2, one line, nothing on stdout
   grep -qF -- "$text" "$work/err" || { cat "$work/err"; fail "$* says '$text'"; }
 }
 said "breast (libbreast) " breast --version
+grep -q "^version: $(sed 's/.* //' "$work/out")\$" "$prefix/share/doc/libbreast/CITATION.cff" || fail "CITATION.cff names this version"
 said "segment " breast list
 [ "$(wc -l < "$work/out")" -eq "$(ls "$prefix/libexec/breast" | wc -l)" ] || fail "breast list names what is installed"
 ! grep -qE '^[a-z0-9-]+ *$' "$work/out" || { cat "$work/out"; fail "every tool has its summary"; }
