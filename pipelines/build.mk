@@ -10,7 +10,7 @@ SOURCES :=
 of_the_source_tree := $(filter $(source_goals),$(MAKECMDGOALS))
 $(if $(of_the_source_tree),$(error $(firstword $(of_the_source_tree)): needs the source tree of libbreast, which is not installed))
 else
-SOURCES := $(shell find $(addprefix $(ROOT),libbreast tools cmake pipelines/materials) -type f -not -name '.*') \
+SOURCES := $(shell find $(addprefix $(ROOT),libbreast tools cmake) $(PIPELINES)/materials -type f -not -name '.*') \
   $(ROOT)CMakeLists.txt $(ROOT)CMakePresets.json
 endif
 

@@ -22,6 +22,8 @@ done
 [ "$(ls "$prefix/bin")" = breast ] || fail "only breast lands in bin: the tools' names collide with nobody"
 gzip -dc "$prefix/share/man/man1/breast-forward.1.gz" | grep -q '^breast\\-forward \\- ' || fail "manual pages call a tool as it is called"
 [ "$(ls "$prefix"/share/man/man1/breast-*.gz | wc -l)" -ge "$(ls "$prefix/libexec/breast" | wc -l)" ] || fail "every tool has its manual page"
+# From another folder a script of the pipeline is found by $(PIPELINES) alone.
+! grep -nE "([[:space:]@\"']|[$][(])pipelines/" "$prefix"/share/breast/pipelines/*.mk | grep -v ':[0-9]*:#' || fail "a rule names pipelines/ instead of \$(PIPELINES)/"
 pass "programs, pipeline, materials, manual pages, completion and documents are installed"
 
 mkdir "$work/my cases"
