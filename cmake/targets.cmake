@@ -101,6 +101,8 @@ function(breast_tool name)
   target_link_libraries(${name} PRIVATE breast_cli ${ARG_DEPENDS} ${ARG_SYSTEM})
   breast_use_precompiled(${name} common)
   breast_compile_quickly(${name})
+  # All libraries are where the loader looks: what is installed is what was built.
+  set_target_properties(${name} PROPERTIES SKIP_BUILD_RPATH ON)
   set_property(GLOBAL APPEND PROPERTY BREAST_TOOLS ${name})
 endfunction()
 

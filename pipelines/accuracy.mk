@@ -10,9 +10,9 @@ ifneq ($(planning),)
 # A plan solves nothing: it shows the mesh chosen last, or the default where none was chosen yet.
 -include $(wildcard $(RUN)/accuracy.mk)
 else
-$(RUN)/accuracy.mk: $(RUN)/labels.vtkhdf $(RUN)/geometry.vtkhdf pipelines/accuracy.sh pipelines/values.sh \
+$(RUN)/accuracy.mk: $(RUN)/labels.vtkhdf $(RUN)/geometry.vtkhdf $(PIPELINES)/accuracy.sh $(PIPELINES)/values.sh \
   $(PROBE) $(HEXMESH) $(BACKWARD) $(FORWARD) $(call changed,accuracy)
-	+pipelines/accuracy.sh $(RUN) $(ACCURACY) $(PROBE) "$(ACCURACY_LADDER)" $(MAKE) -f Makefile.pipeline ACCURACY=
+	+$(PIPELINES)/accuracy.sh $(RUN) $(ACCURACY) $(PROBE) "$(ACCURACY_LADDER)" $(MAKE) -f $(PIPELINE) ACCURACY=
 	@$(call record,accuracy)
 include $(RUN)/accuracy.mk
 endif

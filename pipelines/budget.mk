@@ -49,16 +49,16 @@ $(BUDGET)/cut/mesh.vtkhdf: $(RUN)/mesh.vtkhdf
 define budget_rules
 budget-$1_settings = $(BACKWARD) $(FORWARD) $(COMPRESS) $(PRONE) $(COMPRESS_OPTIONS) $(AT_LEAST) $(MECHANICS) $2
 $(if $(filter backward,$1),,$(BUDGET)/$1/reference.done: $(BUDGET)/$1/mesh.vtkhdf $(BACKWARD) $(MATERIAL_FILE) \
-  pipelines/attempt.sh $$(call changed,budget-$1)
-	pipelines/attempt.sh $$(basename $$@) $(BACKWARD) $$< $(PRONE) $(MECHANICS) $2 $$(share)
+  $(PIPELINES)/attempt.sh $$(call changed,budget-$1)
+	$(PIPELINES)/attempt.sh $$(basename $$@) $(BACKWARD) $$< $(PRONE) $(MECHANICS) $2 $$(share)
 	@$$(call record,budget-$1)
 	@touch $$@)
-$(BUDGET)/$1/supine.done: $(BUDGET)/$1/reference.done $(FORWARD) pipelines/attempt.sh
-	pipelines/attempt.sh $$(basename $$@) $(FORWARD) $$(<:.done=.vtkhdf) --posture supine $(MECHANICS) $2 $$(share)
+$(BUDGET)/$1/supine.done: $(BUDGET)/$1/reference.done $(FORWARD) $(PIPELINES)/attempt.sh
+	$(PIPELINES)/attempt.sh $$(basename $$@) $(FORWARD) $$(<:.done=.vtkhdf) --posture supine $(MECHANICS) $2 $$(share)
 	@touch $$@
 $(BUDGET)/$1/cc.done $(BUDGET)/$1/mlo.done: $(BUDGET)/$1/%.done: $(BUDGET)/$1/reference.done \
-  $(TRUTH_TABLE) $(COMPRESS) pipelines/attempt.sh
-	pipelines/attempt.sh $$(basename $$@) $(COMPRESS) $$(<:.done=.vtkhdf) --view $$(call upper,$$*) \
+  $(TRUTH_TABLE) $(COMPRESS) $(PIPELINES)/attempt.sh
+	$(PIPELINES)/attempt.sh $$(basename $$@) $(COMPRESS) $$(<:.done=.vtkhdf) --view $$(call upper,$$*) \
 	  $$(call same_plates,$(TRUTH_AT)-fine-$$*.json) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) $2 $$(share)
 	@touch $$@
 endef
@@ -96,9 +96,9 @@ $(BUDGET)/chain/landmarks.tsv: $(RUN)/reference.vtkhdf $(RUN)/supine.vtkhdf $(TR
 
 $(BUDGET)/budget.tsv: $(foreach row,chain $(BUDGET_ROWS),$(BUDGET)/$(row)/curves.tsv) \
   $(foreach row,chain $(filter-out compression,$(BUDGET_ROWS)),$(BUDGET)/$(row)/landmarks.tsv) \
-  $(RUN)/cc.vti $(RUN)/mlo.vti pipelines/budget.sh pipelines/values.sh
-	pipelines/budget.sh $(RUN) $(BUDGET_ROWS) > $@.part
+  $(RUN)/cc.vti $(RUN)/mlo.vti $(PIPELINES)/budget.sh $(PIPELINES)/values.sh
+	$(PIPELINES)/budget.sh $(RUN) $(BUDGET_ROWS) > $@.part
 	@mv $@.part $@
-$(BUDGET)/budget.png: $(BUDGET)/budget.tsv pipelines/budget.gp
-	gnuplot -e "table='$<'; picture='$@.part'" pipelines/budget.gp
+$(BUDGET)/budget.png: $(BUDGET)/budget.tsv $(PIPELINES)/budget.gp
+	gnuplot -e "table='$<'; picture='$@.part'" $(PIPELINES)/budget.gp
 	@mv $@.part $@

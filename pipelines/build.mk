@@ -1,26 +1,37 @@
 # Set-up and build, done before make looks at the stages: make remakes an included file first and then
 # starts again, so that the programs' own times decide which stages are out of date. (As ordinary
 # prerequisites, programs that a build leaves untouched would look older than the build.)
-SOURCES := $(shell find libbreast tools cmake pipelines/materials -type f -not -name '.*') \
-  CMakeLists.txt CMakePresets.json
+# An installation (pipelines/installed.mk) has its programs: nothing is set up or built. What it cannot make are targets that
+# build programs, or read or write the source tree.
+source_goals := check fuzz release-check faults full-disk whole-tools clean-root setup build package validation validation-page \
+  stability% compare calibrate-invivo budget band-check band-truth matching page-check
+ifdef INSTALLED
+SOURCES :=
+of_the_source_tree := $(filter $(source_goals),$(MAKECMDGOALS))
+$(if $(of_the_source_tree),$(error $(firstword $(of_the_source_tree)): needs the source tree of libbreast, which is not installed))
+else
+SOURCES := $(shell find $(addprefix $(ROOT),libbreast tools cmake) $(PIPELINES)/materials -type f -not -name '.*') \
+  $(ROOT)CMakeLists.txt $(ROOT)CMakePresets.json
+endif
 
 # `make -n` and `make -q` only plan: they take the programs as they are, where make would build an included file first.
 letters := $(filter-out -%,$(firstword $(MAKEFLAGS)))
 planning := $(findstring n,$(letters))$(findstring q,$(letters))
-ifneq ($(planning),)
--include $(wildcard build/built-$(PRESET_BUILD).mk)
-else ifneq ($(filter-out help setup clean,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
-include build/built-$(PRESET_BUILD).mk
+ifdef INSTALLED
+else ifneq ($(planning),)
+-include $(wildcard $(ROOT)build/built-$(PRESET_BUILD).mk)
+else ifneq ($(filter-out help setup clean where settings package,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
+include $(ROOT)build/built-$(PRESET_BUILD).mk
 endif
 
-build/.packages: pipelines/packages.txt pipelines/setup.sh
+$(ROOT)build/.packages: $(PIPELINES)/packages.txt $(PIPELINES)/setup.sh
 	@mkdir -p $(@D)
-	pipelines/setup.sh
+	$(PIPELINES)/setup.sh
 	@touch $@
 
-ifeq ($(planning),)
-build/built-$(PRESET_BUILD).mk: build/.packages $(SOURCES)
-	cmake --preset $(PRESET_BUILD) > build/configure.log 2>&1 || { cat build/configure.log >&2; exit 1; }
+ifeq ($(planning)$(INSTALLED),)
+$(ROOT)build/built-$(PRESET_BUILD).mk: $(ROOT)build/.packages $(SOURCES)
+	(cd $(or $(ROOT),.) && cmake --preset $(PRESET_BUILD) > build/configure.log 2>&1 || { cat build/configure.log >&2; exit 1; })
 	cmake --build $(BUILD) --target programs -j $$(nproc)
 	@echo "# Written when the programs in $(BUILD) were last built." > $@
 endif

@@ -13,7 +13,7 @@ $(RUN)/fat-only.tsv: $(whole_set)
 labels_settings := $(SEGMENT) $(MR) --side $(SIDE) $(if $(SERIES),--series $(SERIES)) \
   $(if $(CHEST_WALL),--chest-wall $(CHEST_WALL)) $(SEGMENT_OPTIONS)
 $(RUN)/labels.vtkhdf $(RUN)/points.vtp &: $(MR_FILES) $(CHEST_WALL) $(SEGMENT) $(call changed,labels)
-	@pipelines/scan-identity.sh record $(RUN) $(SIDE) $(scan)
+	@$(PIPELINES)/scan-identity.sh record $(RUN) $(SIDE) $(scan)
 	$(SEGMENT) $(MR) $(RUN)/labels.vtkhdf --side $(SIDE) $(if $(SERIES),--series $(SERIES)) \
 	  $(if $(CHEST_WALL),--chest-wall $(CHEST_WALL)) --points $(RUN)/points.vtp $(SEGMENT_OPTIONS) \
 	  --report $(RUN)/labels.json $(share)
@@ -92,8 +92,8 @@ $(RUN)/truth-cut-fixed.tsv: $(TRUTH) $(RUN)/mesh.vtkhdf $(RUN)/reference-cut-fix
 endif
 
 $(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(RUN)/cut.tsv \
-  $(if $(TRUTH),$(RUN)/truth.tsv $(if $(filter $(sliding_presets),$(PRESET)),,$(RUN)/truth-cut-fixed.tsv)) $(FIGURES) pipelines/summary.sh pipelines/values.sh \
-  pipelines/warnings.sh pipelines/advice.tsv
-	@pipelines/summary.sh $(RUN) $(if $(TRUTH),$(PHANTOM_MR:.nrrd=.json)) > $@.part
+  $(if $(TRUTH),$(RUN)/truth.tsv $(if $(filter $(sliding_presets),$(PRESET)),,$(RUN)/truth-cut-fixed.tsv)) $(FIGURES) $(PIPELINES)/summary.sh $(PIPELINES)/values.sh \
+  $(PIPELINES)/warnings.sh $(PIPELINES)/advice.tsv
+	@$(PIPELINES)/summary.sh $(RUN) $(if $(TRUTH),$(PHANTOM_MR:.nrrd=.json)) > $@.part
 	@mv $@.part $@
 	@cat $@

@@ -44,13 +44,13 @@ given := $(filter-out -% .% MAKE% GNUMAKEFLAGS,$(foreach v,$(.VARIABLES),$(if $(
 unknown := $(filter-out $(known_settings),$(given))
 ifneq ($(unknown),)
   bad_name := $(call strange,unknown,$(name_characters))
-  $(error $(firstword $(unknown)): no such setting$(if $(bad_name),,$(shell pipelines/suggest.sh $(firstword $(unknown)) \
+  $(error $(firstword $(unknown)): no such setting$(if $(bad_name),,$(shell $(PIPELINES)/suggest.sh $(firstword $(unknown)) \
     $(known_settings))); `make -f Makefile.pipeline help` lists them)
 endif
 $(foreach v,$(filter-out share $(if $(findstring command,$(origin CHROMIUM)),,CHROMIUM),$(known_settings)),$(call check_setting,$v))
 
 # $(call among,SETTING,CHOICES): every word of it is one of them.
-among = $(foreach w,$(filter-out $2,$($1)),$(error $1: '$w' is none of $2$(shell pipelines/suggest.sh $w $2)))
+among = $(foreach w,$(filter-out $2,$($1)),$(error $1: '$w' is none of $2$(shell $(PIPELINES)/suggest.sh $w $2)))
 # A plain number: nothing is left without its digits and one point.
 without_digits = $(subst 0,,$(subst 1,,$(subst 2,,$(subst 3,,$(subst 4,,$(subst 5,,$(subst 6,,$(subst 7,,$(subst \
   8,,$(subst 9,,$1))))))))))
@@ -74,4 +74,4 @@ $(if $(RUNS),,$(error RUNS: is empty; name the folder of all runs, or leave RUNS
 $(if $(CASE),,$(error CASE: is empty; name the folder of the run, or leave CASE out))
 $(if $(filter .% ..,$(CASE))$(findstring /,$(CASE)),$(error CASE: '$(CASE)' is not a plain name of a folder below $(RUNS)))
 endef
-material_sets := $(patsubst pipelines/materials/%.tsv,%,$(wildcard pipelines/materials/*.tsv))
+material_sets := $(patsubst $(PIPELINES)/materials/%.tsv,%,$(wildcard $(PIPELINES)/materials/*.tsv))

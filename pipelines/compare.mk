@@ -11,8 +11,8 @@ COMPARE_ELEMENTS ?= 10
 EXPORT_DECK := $(BIN)/export-deck
 COMPARE_FILES := $(COMPARE_SCENES:%=$(COMPARE)/%.tsv)
 PRESSED_FILES := $(COMPARE_PRESSED:%=$(COMPARE)/%.tsv)
-compare_run = BIN=$(BIN) pipelines/compare/compare.sh
-compare_needs := $(FORWARD) $(EXPORT_DECK) pipelines/compare/compare.sh pipelines/values.sh
+compare_run = BIN=$(BIN) $(PIPELINES)/compare/compare.sh
+compare_needs := $(FORWARD) $(EXPORT_DECK) $(PIPELINES)/compare/compare.sh $(PIPELINES)/values.sh
 
 .PHONY: compare
 ifeq ($(shell command -v ccx),)
@@ -28,16 +28,16 @@ $(COMPARE)/all.tsv $(COMPARE)/pressed.tsv:
 	@awk 'NR == 1 || FNR > 1' $^ > $@.part
 	@mv $@.part $@
 
-$(COMPARE)/block-%.tsv: $(compare_needs) pipelines/compare/mooney-rivlin.tsv
+$(COMPARE)/block-%.tsv: $(compare_needs) $(PIPELINES)/compare/mooney-rivlin.tsv
 	@mkdir -p $(COMPARE)
 	cmake --build $(BUILD) --target block_mesh > $(COMPARE)/.build.log
 	$(BIN)/block_mesh $(call part,1,$*) $(COMPARE)/block-$*.vtkhdf
 	$(compare_run) $(COMPARE)/block-$*.vtkhdf $@ $(call part,3,$*) $(call part,4,$*) \
-	  $(if $(filter mr,$(call part,2,$*)),pipelines/compare/mooney-rivlin.tsv,seed2008) --gravity 0,0,-9810
-$(COMPARE)/pressed-%.tsv: $(EXPORT_DECK) tests/bench/bench_pressed_block.cpp pipelines/compare/press.sh
+	  $(if $(filter mr,$(call part,2,$*)),$(PIPELINES)/compare/mooney-rivlin.tsv,seed2008) --gravity 0,0,-9810
+$(COMPARE)/pressed-%.tsv: $(EXPORT_DECK) tests/bench/bench_pressed_block.cpp $(PIPELINES)/compare/press.sh
 	@mkdir -p $(COMPARE)
 	cmake --build $(BUILD) --target block_mesh bench_pressed_block > $(COMPARE)/.build.log
-	BIN=$(BIN) pipelines/compare/press.sh $@ $(call part,1,$*) $(call part,2,$*) $(call part,3,$*) $(call part,4,$*) $(call part,5,$*)
+	BIN=$(BIN) $(PIPELINES)/compare/press.sh $@ $(call part,1,$*) $(call part,2,$*) $(call part,3,$*) $(call part,4,$*) $(call part,5,$*)
 part = $(word $1,$(subst -, ,$2))
 
 # The case's breast, stress-free to supine, without skin.

@@ -28,19 +28,19 @@ $(foreach m,$(sort $(foreach p,$(cost_points),$(call cost_part,$p,2)-$(call cost
 define cost_rules
 cost-$1_settings = $(BACKWARD) $(FORWARD) $(MATERIALS) $(SUPPORT)
 cost-$1_record = $(COST)/$1.settings
-$(COST)/$1.done: $(call cost_mesh,$1) $(BACKWARD) $(FORWARD) $(MATERIAL_FILE) pipelines/posture-change.sh \
+$(COST)/$1.done: $(call cost_mesh,$1) $(BACKWARD) $(FORWARD) $(MATERIAL_FILE) $(PIPELINES)/posture-change.sh \
   $$(call changed,cost-$1)
-	pipelines/posture-change.sh $$< $(COST)/$1 "$(BACKWARD)" "$(FORWARD)" --materials $(MATERIALS) $(SUPPORT) \
+	$(PIPELINES)/posture-change.sh $$< $(COST)/$1 "$(BACKWARD)" "$(FORWARD)" --materials $(MATERIALS) $(SUPPORT) \
 	  --element $(call cost_part,$1,1) $(addprefix --solver ,$(call cost_part,$1,4)) $$(share)
 	@$$(call record,cost-$1)
 	@touch $$@
 endef
 $(foreach p,$(cost_points),$(eval $(call cost_rules,$p)))
 
-$(COST)/cost.tsv: $(addprefix $(COST)/,$(sort $(COST_POINTS:%=%.done) $(COST_FINEST).done)) pipelines/cost.sh \
-  pipelines/values.sh $(PROBE)
-	pipelines/cost.sh $(COST) $(PROBE) $(COST_FINEST) $(COST_POINTS) > $@.part
+$(COST)/cost.tsv: $(addprefix $(COST)/,$(sort $(COST_POINTS:%=%.done) $(COST_FINEST).done)) $(PIPELINES)/cost.sh \
+  $(PIPELINES)/values.sh $(PROBE)
+	$(PIPELINES)/cost.sh $(COST) $(PROBE) $(COST_FINEST) $(COST_POINTS) > $@.part
 	@mv $@.part $@
-$(COST)/cost.png: $(COST)/cost.tsv pipelines/cost.gp
-	gnuplot -e "table='$<'; picture='$@.part'" pipelines/cost.gp
+$(COST)/cost.png: $(COST)/cost.tsv $(PIPELINES)/cost.gp
+	gnuplot -e "table='$<'; picture='$@.part'" $(PIPELINES)/cost.gp
 	@mv $@.part $@

@@ -18,8 +18,8 @@ finding_mechanics = $(or $($1_mechanics),$(MECHANICS))
 $(foreach f,$(FINDINGS),$(if $($f_hexmesh),$(eval $(call variant_mesh_rules,$f,$($f_hexmesh)))))
 $(foreach f,$(FINDINGS),$(eval $(call variant_rules,$f,$(call finding_mesh,$f),$(call finding_mechanics,$f),$(MATERIAL_FILE))))
 
-$(TABLES)/findings.tsv: $(RUN)/base-slopes.tsv $(FINDINGS:%=$(VARIANTS)/%-slopes.tsv) pipelines/findings.sh pipelines/values.sh
+$(TABLES)/findings.tsv: $(RUN)/base-slopes.tsv $(FINDINGS:%=$(VARIANTS)/%-slopes.tsv) $(PIPELINES)/findings.sh $(PIPELINES)/values.sh
 	@mkdir -p $(@D)
-	pipelines/findings.sh $(RUN) $(FINDINGS) > $@.part
+	$(PIPELINES)/findings.sh $(RUN) $(FINDINGS) > $@.part
 	@mv $@.part $@
 endif

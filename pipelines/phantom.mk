@@ -13,8 +13,8 @@ else
 endif
 # A run belongs to one scan and one side: another is refused before it overwrites anything (pipelines/scan-identity.sh).
 scan := $(if $(TRUTH),phantom:$(PRESET),$(MR))
-ifneq ($(filter-out help setup build check clean calibrate cohort population calibrate-invivo,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
-  mixed_up := $(shell pipelines/scan-identity.sh check $(RUN) $(SIDE) $(scan))
+ifneq ($(filter-out help setup build check package clean calibrate cohort population calibrate-invivo,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
+  mixed_up := $(shell $(PIPELINES)/scan-identity.sh check $(RUN) $(SIDE) $(scan))
   $(if $(mixed_up),$(error $(mixed_up)))
 endif
 # The preset `paper` was fitted to the answer of this chain: the rows it was fitted to say so (pipelines/calibration.sh).
@@ -72,9 +72,9 @@ $(eval $(call truth_view,cc,CC))
 $(eval $(call truth_view,mlo,MLO))
 $(TRUTH_TABLE): $(PHANTOM_TRUTH)/landmarks.tsv $(TRUTH_MESHES) $(TRUTH_TABLE_TOOL)
 	$(TRUTH_TABLE_TOOL) $< $@ $(TRUTH_MESHES) $(common)
-same_plates = --thickness $$(. pipelines/values.sh; key $1 thickness_mm) \
-  --edge-at $$(. pipelines/values.sh; key $1 edge_at_mm) --middle-at $$(. pipelines/values.sh; key $1 middle_at_mm) \
-  --turn $$(. pipelines/values.sh; key $1 turn_deg)
+same_plates = --thickness $$(. $(PIPELINES)/values.sh; key $1 thickness_mm) \
+  --edge-at $$(. $(PIPELINES)/values.sh; key $1 edge_at_mm) --middle-at $$(. $(PIPELINES)/values.sh; key $1 middle_at_mm) \
+  --turn $$(. $(PIPELINES)/values.sh; key $1 turn_deg)
 $(RUN)/truth-compressed.tsv: $(TRUTH_TABLE) $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf \
   truth-cc.vtkhdf truth-mlo.vtkhdf) $(PROBE)
 	$(PROBE) $(filter %.vtkhdf,$^) --truth $< > $@.part

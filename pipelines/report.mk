@@ -1,9 +1,9 @@
 # Expected values, and one self-contained page of everything a run produced.
-EXPECTED ?= $(wildcard pipelines/expected/$(CASE)$(if $(PAPER),-as-printed).tsv)
+EXPECTED ?= $(wildcard $(PIPELINES)/expected/$(CASE)$(if $(PAPER),-as-printed).tsv)
 verify: $(RUN)/verify.tsv
-$(RUN)/verify.tsv: $(EXPECTED) pipelines/verify.sh pipelines/values.sh $(RUN)/summary.txt $(TABLE_FILES)
+$(RUN)/verify.tsv: $(EXPECTED) $(PIPELINES)/verify.sh $(PIPELINES)/values.sh $(RUN)/summary.txt $(TABLE_FILES)
 	$(if $(EXPECTED),,$(error no expected values for case $(CASE): name a file with EXPECTED=))
-	@pipelines/verify.sh $(EXPECTED) $(RUN) > $@.part || { cat $@.part; exit 1; }
+	@$(PIPELINES)/verify.sh $(EXPECTED) $(RUN) > $@.part || { cat $@.part; exit 1; }
 	@mv $@.part $@
 	@cat $@
 
@@ -20,12 +20,12 @@ REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/*.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png
 report_settings = $(foreach file,$(REPORT_EXTRAS),$(file) $(shell stat -c %Y $(file)))
 report_record = $(RUN)/report.settings
 $(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(F)/cc-points.png $(F)/mlo-curves.png \
-  $(if $(EXPECTED),$(RUN)/verify.tsv) pipelines/report.sh pipelines/values.sh pipelines/limits.txt \
-  pipelines/warnings.sh pipelines/advice.tsv $(call changed,report)
-	pipelines/report.sh $(RUN) $(RUNS) $(BIN) > $@.part
+  $(if $(EXPECTED),$(RUN)/verify.tsv) $(PIPELINES)/report.sh $(PIPELINES)/values.sh $(PIPELINES)/limits.txt \
+  $(PIPELINES)/warnings.sh $(PIPELINES)/advice.tsv $(call changed,report)
+	$(PIPELINES)/report.sh $(RUN) $(RUNS) $(BIN) > $@.part
 	@mv $@.part $@
 	@$(call record,report)
 	@echo "$@"
 $(RUN)/report.pdf: $(RUN)/report.html
-	pipelines/print.sh "$(CHROMIUM)" $< $@
+	$(PIPELINES)/print.sh "$(CHROMIUM)" $< $@
 	@echo "$@"

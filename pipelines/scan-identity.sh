@@ -11,12 +11,12 @@ what=$1 run=$2 side=$3 scan=$4
 record=$run/.scan
 stamp() {
   case "$scan" in phantom:*) echo "$scan"; return ;; esac
-  if [ -d "$scan" ]; then (cd "$scan" && find . -type f -printf '%P %D %i %s %T@ %C@\n' | sort); else stat -L -c '%d %i %s %y %z' -- "$scan"; fi |
+  if [ -d "$scan" ]; then (cd "$scan" && find -L . -type f -printf '%P %D %i %s %T@ %C@\n' | sort); else stat -L -c '%d %i %s %y %z' -- "$scan"; fi |
     sha256sum | cut -c1-64
 }
 content() {
   case "$scan" in phantom:*) echo "$scan"; return ;; esac
-  if [ -d "$scan" ]; then (cd "$scan" && find . -type f -print0 | sort -z | xargs -0 sha256sum); else sha256sum < "$scan"; fi |
+  if [ -d "$scan" ]; then (cd "$scan" && find -L . -type f -print0 | sort -z | xargs -0 sha256sum); else sha256sum < "$scan"; fi |
     sha256sum | cut -c1-64
 }
 if [ "$what" = record ]; then

@@ -3,7 +3,7 @@
 # every key and value, and nothing in it is executed.
 ifneq ($(CASE_FILE),)
   blank_byte := $(shell printf '\037')
-  case_lines := $(shell pipelines/case-file.sh '$(CASE_FILE)' $(case_settings))
+  case_lines := $(shell $(PIPELINES)/case-file.sh '$(CASE_FILE)' $(case_settings))
   $(if $(filter !%,$(case_lines)),$(error $(subst $(blank_byte),$(space),$(patsubst !%,%,$(filter !%,$(case_lines))))))
   # KEY=VALUE as an assignment: the value holds no dollar sign and no hash.
   $(foreach line,$(case_lines),$(eval $(subst $(blank_byte),$(space),$(subst =, := ,$(firstword $(subst =,= ,$(line))))$(patsubst \
@@ -79,7 +79,7 @@ ifneq ($(call leave_out,no-gravity-in-compression),)
   override COMPRESS_OPTIONS += --gravity off
 endif
 ifneq ($(call leave_out,no-gland),)
-  whole_set := $(or $(wildcard $(MATERIALS)),pipelines/materials/$(MATERIALS).tsv)
+  whole_set := $(or $(wildcard $(MATERIALS)),$(PIPELINES)/materials/$(MATERIALS).tsv)
   override MATERIALS := $(RUN)/fat-only.tsv
 endif
 SEGMENT_OPTIONS ?=
@@ -89,8 +89,8 @@ PHANTOM_OPTIONS ?=
 
 # ---- programs: any stage can be somebody else's -------------------------------------------------------
 PRESET_BUILD ?= release
-BUILD := build/release
-BIN := $(BUILD)/bin
+BUILD := $(ROOT)build/release
+BIN := $(or $(INSTALLED),$(BUILD)/bin)
 SEGMENT ?= $(BIN)/segment
 FIT_HERMITE ?= $(BIN)/fit-hermite
 HEXMESH ?= $(BIN)/hexmesh
@@ -107,5 +107,5 @@ PROBE ?= $(BIN)/probe
 RENDER ?= $(BIN)/render
 
 # Options every program gets: its JSON report beside its first output, its share of the cores.
-share = --threads $$(pipelines/threads.sh)
+share = --threads $$($(PIPELINES)/threads.sh)
 common = --report $(basename $@).json $(share)

@@ -12,7 +12,7 @@ $(RUN)/slicer/scene.mrml: $(addprefix $(RUN)/,labels.vtkhdf mesh.vtkhdf referenc
 
 .PHONY: slicer slicer-table
 slicer: $(RUN)/slicer/scene.mrml
-# The table of section 8 of docs/validation.md, from the default case.
+# The table of docs/validation/slicer.md, from the default case.
 slicer-table: slicer
 	cp $(RUN)/slicer-fields.tsv $(TABLES_OF_PAGE)/slicer-fields.tsv
-	pipelines/validation.sh fill $(PAGES_WITH_TABLES)
+	$(PIPELINES)/validation.sh fill $(PAGES_WITH_TABLES)

@@ -16,6 +16,6 @@ $(STABILITY)/contact.tsv: $(COMPRESS) tests/fixtures/contact_cases.hpp tests/ben
 .PHONY: stability
 stability: $(STABILITY)/summary.tsv
 	@cat $<
-$(STABILITY)/summary.tsv: $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv pipelines/stability-summary.sh
-	pipelines/stability-summary.sh $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv > $@.part
+$(STABILITY)/summary.tsv: $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv $(PIPELINES)/stability-summary.sh
+	$(PIPELINES)/stability-summary.sh $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv > $@.part
 	@mv $@.part $@

@@ -12,7 +12,7 @@ set_mechanics = $(subst --materials $(MATERIALS),--materials $($1_set),$(MECHANI
 # A second --scale of tumour takes the place of the set's: ten times as stiff of ten times as stiff.
 set_mechanics_tumour = $(if $(filter mira2018-x10,$1),$(subst --scale tumour=1000,--scale tumour=$20,$(call set_mechanics,$1)),$(call set_mechanics,$1) --scale tumour=$2)
 
-$(columns_set): pipelines/materials/seed2008.tsv
+$(columns_set): $(PIPELINES)/materials/seed2008.tsv
 	@mkdir -p $(@D)
 	awk -F'\t' -v OFS='\t' '/^#/ { print; next } $$1 == "tissue" { for (i = 1; i <= NF; i++) at[$$i] = i; print; next } \
 	  { first = $$at["a20_Pa"]; second = $$at["a02_Pa"]; third = $$at["a11_Pa"]; \
@@ -23,32 +23,32 @@ $(columns_set): pipelines/materials/seed2008.tsv
 define table8_rules
 $(call variant_rules,$1,$(own_mesh),$(call set_mechanics,$1),$(filter %.tsv,$($1_set)))
 $(foreach s,100 1000 2000,$(call table8_tumour_rules,$1,$s)$(newline))
-$(VARIANTS)/$1-tumour.tsv: pipelines/paper/table6.tsv $(foreach s,100 1000 2000,$(VARIANTS)/$1-tumour-$s.done) \
-  pipelines/scaled-table.sh $(PROBE)
+$(VARIANTS)/$1-tumour.tsv: $(PIPELINES)/paper/table6.tsv $(foreach s,100 1000 2000,$(VARIANTS)/$1-tumour-$s.done) \
+  $(PIPELINES)/scaled-table.sh $(PROBE)
 	awk -F'\t' 'NR == 1 || $$$$1 ~ /^(100|1000|2000)$$$$/' $$< > $$@.rows
-	pipelines/scaled-table.sh $$@.rows $(VARIANTS)/$1-tumour $(VARIANTS)/$1-tumour-100-supine.vtkhdf $(PROBE) > $$@.part
+	$(PIPELINES)/scaled-table.sh $$@.rows $(VARIANTS)/$1-tumour $(VARIANTS)/$1-tumour-100-supine.vtkhdf $(PROBE) > $$@.part
 	@rm -f $$@.rows
 	@mv $$@.part $$@
-$(VARIANTS)/.$1.values: $(VARIANTS)/$1-slopes.tsv $(VARIANTS)/$1-tumour.tsv pipelines/conclusions.sh
-	@pipelines/conclusions.sh slopes $(VARIANTS)/$1-slopes.tsv $(VARIANTS)/$1-tumour.tsv > $$@.part
+$(VARIANTS)/.$1.values: $(VARIANTS)/$1-slopes.tsv $(VARIANTS)/$1-tumour.tsv $(PIPELINES)/conclusions.sh
+	@$(PIPELINES)/conclusions.sh slopes $(VARIANTS)/$1-slopes.tsv $(VARIANTS)/$1-tumour.tsv > $$@.part
 	@mv $$@.part $$@
 endef
 define table8_tumour_rules
 variant-$1-tumour-$2_settings = $(BACKWARD) $(FORWARD) $(call set_mechanics_tumour,$1,$2) $(SUPPORT)
 $(VARIANTS)/$1-tumour-$2.done: $(own_folder)/tumour-mesh.vtkhdf $(VARIANTS)/$1.done $$(call changed,variant-$1-tumour-$2)
 	if [ -f $(VARIANTS)/$1.failed ]; then cp $(VARIANTS)/$1.failed $(VARIANTS)/$1-tumour-$2.failed; \
-	else pipelines/posture-change.sh $$< $(VARIANTS)/$1-tumour-$2 "$(BACKWARD)" "$(FORWARD)" \
+	else $(PIPELINES)/posture-change.sh $$< $(VARIANTS)/$1-tumour-$2 "$(BACKWARD)" "$(FORWARD)" \
 	  $(call set_mechanics_tumour,$1,$2) $(SUPPORT) $$(share); fi
 	@$$(call record,variant-$1-tumour-$2)
 	@touch $$@
 endef
 $(foreach set,$(TABLE8),$(eval $(call table8_rules,$(set))))
-$(VARIANTS)/.ours.values: $(RUN)/base-slopes.tsv $(TABLES)/table6.tsv pipelines/conclusions.sh
-	@pipelines/conclusions.sh slopes $(wordlist 1,2,$^) > $@.part
+$(VARIANTS)/.ours.values: $(RUN)/base-slopes.tsv $(TABLES)/table6.tsv $(PIPELINES)/conclusions.sh
+	@$(PIPELINES)/conclusions.sh slopes $(wordlist 1,2,$^) > $@.part
 	@mv $@.part $@
 
-$(TABLES)/table8.tsv: pipelines/paper/conclusions.tsv $(TABLES)/.conclusions-paper.values $(VARIANTS)/.ours.values \
-  $(TABLE8:%=$(VARIANTS)/.%.values) pipelines/judge.sh pipelines/table8.sh $(PROBE)
-	pipelines/table8.sh $< $(RUN) $(PROBE) $(TABLE8) > $@.part
+$(TABLES)/table8.tsv: $(PIPELINES)/paper/conclusions.tsv $(TABLES)/.conclusions-paper.values $(VARIANTS)/.ours.values \
+  $(TABLE8:%=$(VARIANTS)/.%.values) $(PIPELINES)/judge.sh $(PIPELINES)/table8.sh $(PROBE)
+	$(PIPELINES)/table8.sh $< $(RUN) $(PROBE) $(TABLE8) > $@.part
 	@mv $@.part $@
 endif

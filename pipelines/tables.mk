@@ -50,7 +50,7 @@ $($1_folder)/tumour-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $($
   $$(call changed,tumour-mesh-$1)
 	@mkdir -p $$(@D)
 	$(HEXMESH) $$< $(RUN)/labels.vtkhdf $$@ $($1_hexmesh) \
-	  --tumour $$$$(pipelines/landmark.sh $($1_mesh:.vtkhdf=.json) tumour):0.1 $$(common)
+	  --tumour $$$$($(PIPELINES)/landmark.sh $($1_mesh:.vtkhdf=.json) tumour):0.1 $$(common)
 	@$$(call record,tumour-mesh-$1)
 endef
 
@@ -59,9 +59,9 @@ endef
 define scaled_rules
 scaled-$1-$2-$3_record = $1/.$2-$3.settings
 scaled-$1-$2-$3_settings = $(BACKWARD) $(FORWARD) $5 $(SUPPORT)
-$1/$2-$3.done: $4 $6 $(BACKWARD) $(FORWARD) $(MATERIAL_FILE) pipelines/posture-change.sh $$(call changed,scaled-$1-$2-$3)
+$1/$2-$3.done: $4 $6 $(BACKWARD) $(FORWARD) $(MATERIAL_FILE) $(PIPELINES)/posture-change.sh $$(call changed,scaled-$1-$2-$3)
 	@mkdir -p $$(@D)
-	pipelines/posture-change.sh $4 $1/$2-$3 "$(BACKWARD)" "$(FORWARD)" $5 --scale $2=$3 $(SUPPORT) $$(share)
+	$(PIPELINES)/posture-change.sh $4 $1/$2-$3 "$(BACKWARD)" "$(FORWARD)" $5 --scale $2=$3 $(SUPPORT) $$(share)
 	@$$(call record,scaled-$1-$2-$3)
 	@touch $$@
 endef
@@ -76,10 +76,10 @@ $(foreach n,$(PAPER_TABLES),$(call table_rules,$1,$n,$(tissue_$n))$(newline))
 endef
 # $(call table_rules,MODEL,NUMBER,TISSUE): relative displacements of Table VI refer to its own mesh.
 define table_rules
-$(TABLES)/table$2$(ending_$1).tsv: pipelines/paper/table$2.tsv $(call rows_of,$($1_folder),$3) $($1_solved) \
-  $(if $(filter tumour,$3),$($1_folder)/tumour-100.done) pipelines/scaled-table.sh $(PROBE)
+$(TABLES)/table$2$(ending_$1).tsv: $(PIPELINES)/paper/table$2.tsv $(call rows_of,$($1_folder),$3) $($1_solved) \
+  $(if $(filter tumour,$3),$($1_folder)/tumour-100.done) $(PIPELINES)/scaled-table.sh $(PROBE)
 	@mkdir -p $$(@D)
-	pipelines/scaled-table.sh $$< $($1_folder)/$3 $(if $(filter tumour,$3),$($1_folder)/tumour-100-supine.vtkhdf,$($1_supine)) \
+	$(PIPELINES)/scaled-table.sh $$< $($1_folder)/$3 $(if $(filter tumour,$3),$($1_folder)/tumour-100-supine.vtkhdf,$($1_supine)) \
 	  $(PROBE) > $$@.part
 	@mv $$@.part $$@
 endef
@@ -89,25 +89,25 @@ define newline
 endef
 $(foreach m,$(BOTH),$(eval $(call model_rules,$m)))
 
-MATERIAL_TABLE := $(or $(MATERIAL_FILE),pipelines/materials/$(MATERIALS).tsv)
-table2_settings := pipelines/table2.sh $(MATERIAL_TABLE)
-$(TABLES)/table2.tsv: pipelines/paper/table2.tsv $(MATERIAL_TABLE) pipelines/table2.sh $(call changed,table2)
+MATERIAL_TABLE := $(or $(MATERIAL_FILE),$(PIPELINES)/materials/$(MATERIALS).tsv)
+table2_settings := $(PIPELINES)/table2.sh $(MATERIAL_TABLE)
+$(TABLES)/table2.tsv: $(PIPELINES)/paper/table2.tsv $(MATERIAL_TABLE) $(PIPELINES)/table2.sh $(call changed,table2)
 	@mkdir -p $(@D)
-	pipelines/table2.sh $< $(MATERIAL_TABLE) > $@.part
+	$(PIPELINES)/table2.sh $< $(MATERIAL_TABLE) > $@.part
 	@mv $@.part $@
 	@$(call record,table2)
 
 # The conclusions in numbers: from the paper's own rows, as printed, and as the case is solved.
 conclusion_values = $(addprefix $(TABLES)/.conclusions-,$(addsuffix .values,paper $(BOTH)))
 $(TABLES)/.conclusions-paper.values: prefix := paper_
-$(TABLES)/.conclusions-paper.values $(TABLES)/.conclusions-own.values: $(PAPER_TABLES:%=$(TABLES)/table%.tsv) pipelines/conclusions.sh
-	@pipelines/conclusions.sh rows $(filter %.tsv,$^) $(prefix) > $@.part
+$(TABLES)/.conclusions-paper.values $(TABLES)/.conclusions-own.values: $(PAPER_TABLES:%=$(TABLES)/table%.tsv) $(PIPELINES)/conclusions.sh
+	@$(PIPELINES)/conclusions.sh rows $(filter %.tsv,$^) $(prefix) > $@.part
 	@mv $@.part $@
-$(TABLES)/.conclusions-printed.values: $(PAPER_TABLES:%=$(TABLES)/table%-as-printed.tsv) pipelines/conclusions.sh
-	@pipelines/conclusions.sh rows $(filter %.tsv,$^) > $@.part
+$(TABLES)/.conclusions-printed.values: $(PAPER_TABLES:%=$(TABLES)/table%-as-printed.tsv) $(PIPELINES)/conclusions.sh
+	@$(PIPELINES)/conclusions.sh rows $(filter %.tsv,$^) > $@.part
 	@mv $@.part $@
-$(TABLES)/conclusions.tsv: pipelines/paper/conclusions.tsv $(conclusion_values) pipelines/judge.sh
-	pipelines/judge.sh $< paper=$(TABLES)/.conclusions-paper.values \
+$(TABLES)/conclusions.tsv: $(PIPELINES)/paper/conclusions.tsv $(conclusion_values) $(PIPELINES)/judge.sh
+	$(PIPELINES)/judge.sh $< paper=$(TABLES)/.conclusions-paper.values \
 	  $(if $(PAPER),,as_printed=$(TABLES)/.conclusions-printed.values) ours=$(TABLES)/.conclusions-own.values > $@.part
 	@mv $@.part $@
 
@@ -115,8 +115,8 @@ $(TABLES)/conclusions.tsv: pipelines/paper/conclusions.tsv $(conclusion_values) 
 $(eval $(call slopes_rules,$(RUN)/base,$(own_supine),$(RUN)/reference.vtkhdf,$(own_supine),$(MECHANICS),fat$(comma)fibroglandular$(comma)skin))
 $(eval $(call slopes_rules,$(own_folder)/tumour-100,$(own_folder)/tumour-100.done,$(own_folder)/tumour-100-reference.vtkhdf,$(own_folder)/tumour-100-supine.vtkhdf,$(MECHANICS),tumour))
 $(TABLES)/table7.tsv: $(RUN)/base-slopes.tsv $(own_folder)/tumour-100-slopes.tsv \
-  $(foreach n,$(PAPER_TABLES),$(call rows_of,$(own_folder),$(tissue_$n))) pipelines/table7.sh pipelines/landmark.sh
+  $(foreach n,$(PAPER_TABLES),$(call rows_of,$(own_folder),$(tissue_$n))) $(PIPELINES)/table7.sh $(PIPELINES)/landmark.sh
 	@mkdir -p $(@D)
-	pipelines/table7.sh $(own_supine:.vtkhdf=.json) $(own_folder) $(wordlist 1,2,$^) > $@.part
+	$(PIPELINES)/table7.sh $(own_supine:.vtkhdf=.json) $(own_folder) $(wordlist 1,2,$^) > $@.part
 	@mv $@.part $@
 	@cat $@

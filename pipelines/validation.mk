@@ -7,9 +7,9 @@ TABLES_OF_PAGE := docs/tables
 PAGES_WITH_TABLES := docs/architecture.md docs/validation.md $(wildcard docs/validation/*.md)
 
 validation: $(addprefix $(TABLES_OF_PAGE)/,compression-convergence.tsv calibration.tsv truth.tsv)
-	pipelines/validation.sh fill $(PAGES_WITH_TABLES)
+	$(PIPELINES)/validation.sh fill $(PAGES_WITH_TABLES)
 validation-page:
-	pipelines/validation.sh fill $(PAGES_WITH_TABLES)
+	$(PIPELINES)/validation.sh fill $(PAGES_WITH_TABLES)
 .PHONY: validation validation-page
 
 # How the compressed shapes converge with the mesh.
@@ -23,28 +23,28 @@ $(VALIDATION)/$1-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(wild
 	@$$(call record,convergence-mesh-$1)
 convergence-$1_settings = $(BACKWARD) $(COMPRESS) $(MECHANICS) $(COMPRESS_OPTIONS) $(REDUCTION) $(AT_LEAST) $(SUPPORT)
 convergence-$1_record = $(VALIDATION)/.$1.settings
-$(VALIDATION)/$1.done: $(VALIDATION)/$1-mesh.vtkhdf $(BACKWARD) $(COMPRESS) $(MATERIAL_FILE) pipelines/attempt.sh \
+$(VALIDATION)/$1.done: $(VALIDATION)/$1-mesh.vtkhdf $(BACKWARD) $(COMPRESS) $(MATERIAL_FILE) $(PIPELINES)/attempt.sh \
   $$(call changed,convergence-$1)
-	pipelines/attempt.sh $(VALIDATION)/$1-reference $(BACKWARD) $$< $(PRONE) $(MECHANICS) $(SUPPORT) $$(share)
-	for view in CC MLO; do pipelines/attempt.sh $(VALIDATION)/$1-$$$$view $(COMPRESS) $(VALIDATION)/$1-reference.vtkhdf \
+	$(PIPELINES)/attempt.sh $(VALIDATION)/$1-reference $(BACKWARD) $$< $(PRONE) $(MECHANICS) $(SUPPORT) $$(share)
+	for view in CC MLO; do $(PIPELINES)/attempt.sh $(VALIDATION)/$1-$$$$view $(COMPRESS) $(VALIDATION)/$1-reference.vtkhdf \
 	  --view $$$$view --reduction $(REDUCTION) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) $(SUPPORT) $$(share); done
 	@$$(call record,convergence-$1)
 	@touch $$@
 endef
 $(foreach n,$(VALIDATION_EDGES),$(eval $(call convergence_rules,$n)))
-$(TABLES_OF_PAGE)/compression-convergence.tsv: $(VALIDATION_EDGES:%=$(VALIDATION)/%.done) pipelines/convergence.sh $(PROBE)
+$(TABLES_OF_PAGE)/compression-convergence.tsv: $(VALIDATION_EDGES:%=$(VALIDATION)/%.done) $(PIPELINES)/convergence.sh $(PROBE)
 	@mkdir -p $(@D)
-	pipelines/convergence.sh $(VALIDATION) $(PROBE) $(VALIDATION_EDGES) > $@.part
+	$(PIPELINES)/convergence.sh $(VALIDATION) $(PROBE) $(VALIDATION_EDGES) > $@.part
 	@mv $@.part $@
 
 # What the preset was fitted to, beside what its truth moves: the chain as solved and as printed.
-$(TABLES_OF_PAGE)/calibration.tsv: $(RUN)/displacements.tsv $(VARIANTS)/as-printed.done $(PHANTOM_MR) pipelines/calibration.sh
+$(TABLES_OF_PAGE)/calibration.tsv: $(RUN)/displacements.tsv $(VARIANTS)/as-printed.done $(PHANTOM_MR) $(PIPELINES)/calibration.sh
 	@mkdir -p $(@D)
-	pipelines/calibration.sh table $(RUN) $(PHANTOM_MR:.nrrd=.json) $(SIDE) > $@.part
+	$(PIPELINES)/calibration.sh table $(RUN) $(PHANTOM_MR:.nrrd=.json) $(SIDE) > $@.part
 	@mv $@.part $@
 
 # Errors against the truth, as the summary has them.
-$(TABLES_OF_PAGE)/truth.tsv: $(RUN)/truth.tsv pipelines/validation.sh
+$(TABLES_OF_PAGE)/truth.tsv: $(RUN)/truth.tsv $(PIPELINES)/validation.sh
 	@mkdir -p $(@D)
-	pipelines/validation.sh truth $< > $@.part
+	$(PIPELINES)/validation.sh truth $< > $@.part
 	@mv $@.part $@

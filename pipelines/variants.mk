@@ -16,9 +16,9 @@ endef
 # $(call variant_rules,NAME,MESH,MECHANICS[,MATERIAL FILE])
 define variant_rules
 variant-$1_settings = $(BACKWARD) $(FORWARD) $3 $(SUPPORT)
-$(VARIANTS)/$1.done: $2 $4 $(BACKWARD) $(FORWARD) pipelines/posture-change.sh $$(call changed,variant-$1)
+$(VARIANTS)/$1.done: $2 $4 $(BACKWARD) $(FORWARD) $(PIPELINES)/posture-change.sh $$(call changed,variant-$1)
 	@mkdir -p $$(@D)
-	pipelines/posture-change.sh $2 $(VARIANTS)/$1 "$(BACKWARD)" "$(FORWARD)" $3 $(SUPPORT) $$(share)
+	$(PIPELINES)/posture-change.sh $2 $(VARIANTS)/$1 "$(BACKWARD)" "$(FORWARD)" $3 $(SUPPORT) $$(share)
 	@$$(call record,variant-$1)
 	@touch $$@
 $(call slopes_rules,$(VARIANTS)/$1,$(VARIANTS)/$1.done,$(VARIANTS)/$1-reference.vtkhdf,$(VARIANTS)/$1-supine.vtkhdf,$3,fat$(comma)fibroglandular$(comma)skin)

@@ -12,16 +12,16 @@ wall-sensitivity: $(WALL_SHIFTS)/table.tsv
 define wall_rules
 $(WALL_SHIFTS)/$1/curve.tsv: $(RUN)/curve.tsv $(SEGMENT)
 	@mkdir -p $$(@D)
-	+$$(MAKE) -f Makefile.pipeline RUN=$(WALL_SHIFTS)/$1 MR=$(MR) \
+	+$$(MAKE) -f $(PIPELINE) RUN=$(WALL_SHIFTS)/$1 MR=$(MR) \
 	  SEGMENT_OPTIONS='$(SEGMENT_OPTIONS) --chest-wall-shift $(wall_$1)' \
-	  HEXMESH_OPTIONS="$(HEXMESH_OPTIONS) --tumour $$$$(pipelines/landmark.sh $(RUN)/mesh.json tumour)" chain
+	  HEXMESH_OPTIONS="$(HEXMESH_OPTIONS) --tumour $$$$($(PIPELINES)/landmark.sh $(RUN)/mesh.json tumour)" chain
 	@touch $$@
 endef
 $(foreach v,$(WALL_VARIANTS),$(eval $(call wall_rules,$v)))
 
 $(WALL_SHIFTS)/table.tsv: $(WALL_VARIANTS:%=$(WALL_SHIFTS)/%/curve.tsv) $(RUN)/supine.vtkhdf \
-  pipelines/wall-sensitivity.sh pipelines/landmark.sh pipelines/values.sh
-	pipelines/wall-sensitivity.sh $(RUN) $(WALL_VARIANTS) > $@.part
+  $(PIPELINES)/wall-sensitivity.sh $(PIPELINES)/landmark.sh $(PIPELINES)/values.sh
+	$(PIPELINES)/wall-sensitivity.sh $(RUN) $(WALL_VARIANTS) > $@.part
 	@mv $@.part $@
 	@cat $@
 

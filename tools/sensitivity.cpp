@@ -79,11 +79,12 @@ void run_sensitivity(const Choices& c, Run& run) {
       pick_parameters(all_parameters(mesh, options, c.imaged.vector()), c.parameters);
   const SensitivityChain chain = [&] {
     Timer::Scope phase(run.timer(), "factorisation");
+    run.progress().update("factorisation", -1, "the scan's shape and the deformed one");
     return SensitivityChain(mesh, reference.pressure, c.imaged.vector(), options);
   }();
   const SensitivityResults results = [&] {
     Timer::Scope phase(run.timer(), "derivatives");
-    return (c.adjoint ? adjoint_results : tangent_results)(chain, parameters, mesh, run.report());
+    return (c.adjoint ? adjoint_results : tangent_results)(chain, parameters, mesh, run.report(), run.progress());
   }();
   run.report().set("status", "converged");
   run.report().set("elements", mesh.elements());

@@ -51,6 +51,8 @@ std::string usage(const Argument& argument);
 std::string help_text(const Declaration& tool);
 std::string help_man(const Declaration& tool);
 std::string help_markdown(const Declaration& tool);
+/// For a shell's completion: "--name<TAB>kind<TAB>choice choice" a line for every long option; kind is flag, file or value.
+std::string help_completion(const Declaration& tool);
 
 /// The candidate nearest in edit distance when near enough to be a slip, else empty.
 std::string nearest(const std::string& given, const std::vector<std::string>& candidates);

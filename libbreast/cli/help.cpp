@@ -215,6 +215,19 @@ std::string help_markdown(const Declaration& tool) {
   return out.str();
 }
 
+std::string help_completion(const Declaration& tool) {
+  std::string text;
+  for (const auto* list : {&tool.options, &tool.common}) {
+    for (const Argument& argument : *list) {
+      const bool file = argument.kind == ArgumentKind::input || argument.kind == ArgumentKind::output || argument.kind == ArgumentKind::folder;
+      text += argument.label() + (argument.kind == ArgumentKind::flag ? "\tflag\t" : file ? "\tfile\t" : "\tvalue\t");
+      for (const std::string& choice : argument.choices) text += (text.back() == '\t' ? "" : " ") + choice;
+      text += "\n";
+    }
+  }
+  return text;
+}
+
 std::string nearest(const std::string& given, const std::vector<std::string>& candidates) {
   const auto distance = [](const std::string& a, const std::string& b) {
     std::vector<std::size_t> row(b.size() + 1);

@@ -170,6 +170,8 @@ bool Tool::Impl::answer_questions(const std::vector<std::string>& arguments) con
     answer = help_man(declaration);
   else if (asked("--help-markdown"))
     answer = help_markdown(declaration);
+  else if (asked("--help-completion"))
+    answer = help_completion(declaration);
   if (!answer.empty()) write_stdout(answer);
   return !answer.empty();
 }

@@ -34,15 +34,17 @@ void StderrProgress::update(std::string_view stage, double fraction, std::string
   const std::lock_guard lock(mutex_);
   const double now = seconds();
   const bool new_stage = stage != stage_;
+  const std::optional<double> left = left_.update(stage, fraction, now);
   if (terminal_) {
     if (!new_stage && now - last_line_ < redraw_interval_s) return;
-    draw_bar(stage, fraction, detail);
+    draw_bar(stage, fraction, left, detail);
   } else {
     if (now < quiet_start_s) return;
     if (now - last_line_ < (new_stage ? 1.0 : line_interval_s)) return;
     show_notes();
     std::string line = tool_ + ": " + std::string(stage);
     if (fraction >= 0) line += " " + format_fixed(100 * std::min(fraction, 1.0), 0) + " %";
+    if (left) line += ", " + time_left_text(*left);
     if (!detail.empty()) line += ", " + std::string(detail);
     dprintf(message_descriptor(), "%s\n", line.c_str());
   }
@@ -50,13 +52,15 @@ void StderrProgress::update(std::string_view stage, double fraction, std::string
   last_line_ = now;
 }
 
-void StderrProgress::draw_bar(std::string_view stage, double fraction, std::string_view detail) {
+void StderrProgress::draw_bar(std::string_view stage, double fraction, std::optional<double> left,
+                              std::string_view detail) {
   std::string line = std::string(stage) + " ";
   if (fraction >= 0) {
     constexpr int width = 24;
     const int full = int(std::min(fraction, 1.0) * width);
     line = "[" + std::string(full, '#') + std::string(width - full, ' ') + "] " + line;
   }
+  if (left) line += time_left_text(*left) + (detail.empty() ? "" : ", ");
   line += detail;
   line.resize(std::min(line.size(), terminal_width() - 1));
   dprintf(message_descriptor(), "\r\033[K%s", line.c_str());

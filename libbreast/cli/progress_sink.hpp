@@ -3,9 +3,11 @@
 
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/time_left.hpp"
 #include "core/progress.hpp"
 
 namespace breast {
@@ -21,7 +23,8 @@ class StderrProgress final : public Progress {
   void finish(bool success);
 
  private:
-  void draw_bar(std::string_view stage, double fraction, std::string_view detail);
+  void draw_bar(std::string_view stage, double fraction, std::optional<double> left,
+                std::string_view detail);
   void clear_bar();
   void show_notes();
   double seconds() const;
@@ -30,6 +33,7 @@ class StderrProgress final : public Progress {
   bool quiet_, terminal_, bar_shown_ = false;
   double last_line_ = -1e9;
   std::vector<std::string> held_;
+  TimeLeft left_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
 };

@@ -27,7 +27,7 @@ struct Tool::Impl {
     return declaration.positionals.back();
   }
   void declare_common();
-  /// Answers --help, --version and the hidden --help-man, --help-markdown;
+  /// Answers --help, --version and the hidden --help-man, --help-markdown, --help-completion;
   /// true when one was asked for.
   bool answer_questions(const std::vector<std::string>& arguments) const;
 };

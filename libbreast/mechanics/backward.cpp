@@ -9,6 +9,7 @@
 #include "mechanics/inverse_system.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/solution.hpp"
+#include "mechanics/solve_pace.hpp"
 #include "mechanics/stability/explain.hpp"
 
 namespace breast {
@@ -39,7 +40,8 @@ class BackwardSolve {
   State guess(const Eigen::VectorXd& reference) const {
     return {reference, imaged_, scene_.solid().rest_pressure()};
   }
-  NewtonResult solve(State& state);
+  /// A solve that takes the load from the part `from` to the part `to`.
+  NewtonResult solve(State& state, double from = 0, double to = 1);
   /// From `state` to the full load, in parts when need be; the fraction reached.
   double follow(const Eigen::VectorXd& load, State& state);
   bool stays(const State& state);
@@ -60,12 +62,13 @@ class BackwardSolve {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-NewtonResult BackwardSolve::solve(State& state) {
+NewtonResult BackwardSolve::solve(State& state, double from, double to) {
   ++found_.steps;
+  SolvePace pace(inverse_tolerance);
   NewtonResult result = inverse_.solve(state, [&](const NewtonIteration& iteration) {
     record_iteration(found_, found_.steps, iteration, clock());
     progress_.update(
-        "backward", -1,
+        "backward", from + (to - from) * pace.after(iteration),
         message("iteration ", found_.newton_iterations, ", residual ", iteration.residual));
   });
   found_.residual = result.residual;
@@ -79,7 +82,7 @@ double BackwardSolve::follow(const Eigen::VectorXd& load, State& state) {
   while (!path.finished()) {
     loaded_.set_load(path.next() * load);
     State trial = state;
-    if (solve(trial).converged) {
+    if (solve(trial, path.done, path.next()).converged) {
       state = std::move(trial);
       path.succeed();
     } else if (fail_fast_ || !path.fail()) {

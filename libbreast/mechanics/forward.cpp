@@ -7,6 +7,7 @@
 #include "mechanics/mechanics.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"
+#include "mechanics/solve_pace.hpp"
 #include "mechanics/stability/explain.hpp"
 #include "solve/equilibrate.hpp"
 
@@ -37,7 +38,8 @@ class ForwardSolve {
   double clock() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  EquilibriumResult attempt(Workspace& work, State& state);
+  /// A solve that takes the load from the part `from` to the part `to`.
+  EquilibriumResult attempt(Workspace& work, State& state, double from = 0, double to = 1);
   EquilibriumResult follow(Workspace& work, const Eigen::VectorXd& load, State& state);
   std::unique_ptr<Workspace> workspace(const Eigen::VectorXd& load);
   bool stays(Workspace& work, const State& state);
@@ -52,18 +54,19 @@ class ForwardSolve {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-EquilibriumResult ForwardSolve::attempt(Workspace& work, State& state) {
+EquilibriumResult ForwardSolve::attempt(Workspace& work, State& state, double from, double to) {
   NewtonOptions options;
   options.max_iterations = found_.steps == 0 ? first_limit : later_limit;
   options.reuse_factor = true;
   options.fail_fast = fail_fast_;
   options.timer = &found_.timer;
   ++found_.steps;
+  SolvePace pace(options.tolerance);
   EquilibriumResult result = equilibrate(
       work.loaded.problem, work.solver, work.matrix, state, options, nullptr,
       [&](const NewtonIteration& iteration) {
         record_iteration(found_, found_.steps, iteration, clock());
-        progress_.update("forward", -1,
+        progress_.update("forward", from + (to - from) * pace.after(iteration),
                          message("iteration ", found_.newton_iterations, ", residual ",
                                  iteration.residual));
       });
@@ -79,7 +82,7 @@ EquilibriumResult ForwardSolve::follow(Workspace& work, const Eigen::VectorXd& l
   while (!path.finished()) {
     work.loaded.set_load(path.next() * load);
     State trial = state;
-    result = attempt(work, trial);
+    result = attempt(work, trial, path.done, path.next());
     if (result.converged) {
       state = std::move(trial);
       path.succeed();
@@ -132,6 +135,7 @@ void ForwardSolve::estimate(Workspace& work, const State& state, const Vec3& gra
   if (mesh_.order != 1 || mesh_.landmarks.empty()) return;
   if (scene_.options().estimate != Estimate::step) return;
   Timer::Scope phase(found_.timer, "error estimate");
+  progress_.update("error estimate", -1, "one step on quadratic elements");
   note_estimate(estimate_error(scene_, state, gravity, work.matrix, work.solver), "",
                 found_);
 }

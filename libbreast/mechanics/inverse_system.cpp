@@ -15,7 +15,7 @@ constexpr int max_iterations = 25;
 // One factor serves until GMRES needs more iterations than this, whose back-solves cost
 // as much as a factorisation.
 constexpr int factor_worn = 10, levels_worn = 45;
-constexpr double tolerance = 1e-10, volume_tolerance = 1e-11;
+constexpr double tolerance = inverse_tolerance, volume_tolerance = 1e-11;
 constexpr double near_tolerance = 1e-8, near_volume_tolerance = 1e-9;
 // A volume error of this size counts as much as the whole load when steps are judged.
 constexpr double typical_strain = 0.05;

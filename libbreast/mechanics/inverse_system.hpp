@@ -13,6 +13,9 @@
 
 namespace breast {
 
+/// Residual of the forces, relative to the load, at which a solve ends.
+inline constexpr double inverse_tolerance = 1e-10;
+
 class InverseSolver {
  public:
   /// `fail_fast`: gives up at the first difficulty. All references must outlive this; the problem's

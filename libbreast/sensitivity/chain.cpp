@@ -183,8 +183,10 @@ double SensitivityChain::paddle_force(const Parameter& parameter, const Imbalanc
   return sum.dot(plates_.paddle.normal()) / micronewton_per_newton;
 }
 
-std::vector<Response> SensitivityChain::tangent(const std::vector<Parameter>& parameters) const {
+std::vector<Response> SensitivityChain::tangent(const std::vector<Parameter>& parameters,
+                                                Progress& progress) const {
   const double start = now();
+  progress.update("derivatives", 0, message(parameters.size(), " parameters"));
   const Rights right = rights(parameters);
   const double shared = (now() - start) / double(parameters.size());
   std::vector<Response> responses;
@@ -214,6 +216,7 @@ std::vector<Response> SensitivityChain::tangent(const std::vector<Parameter>& pa
     }
     response.seconds = now() - before + shared;
     responses.push_back(std::move(response));
+    progress.update("derivatives", double(i + 1) / double(parameters.size()), parameters[i].name);
   }
   return responses;
 }

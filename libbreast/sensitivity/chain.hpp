@@ -9,6 +9,7 @@
 
 #include "contact/terms/friction.hpp"
 #include "contact/terms/surface_pressure.hpp"
+#include "core/progress.hpp"
 #include "sensitivity/linearised_state.hpp"
 
 namespace breast {
@@ -39,7 +40,8 @@ class SensitivityChain {
                    const Vec3& imaged_gravity, const MechanicsOptions& options);
 
   /// Tangent-linear: two solves a parameter.
-  std::vector<Response> tangent(const std::vector<Parameter>& parameters) const;
+  std::vector<Response> tangent(const std::vector<Parameter>& parameters,
+                                Progress& progress = no_progress()) const;
   /// Adjoint: six solves a landmark, however many parameters.
   LandmarkGradient adjoint(const Landmark& landmark,
                            const std::vector<Parameter>& parameters) const;

@@ -23,9 +23,9 @@ void add_row(const HexMesh& mesh, const Landmark& landmark, const Parameter& par
 
 SensitivityResults tangent_results(const SensitivityChain& chain,
                                    const std::vector<Parameter>& parameters, const HexMesh& mesh,
-                                   Report& report) {
+                                   Report& report, Progress& progress) {
   SensitivityResults out = empty_results();
-  for (const Response& response : chain.tangent(parameters)) {
+  for (const Response& response : chain.tangent(parameters, progress)) {
     for (const Landmark& landmark : mesh.landmarks) {
       add_row(mesh, landmark, response.parameter,
               landmark_position(mesh, response.position, landmark), response.seconds, out.table,
@@ -42,7 +42,7 @@ SensitivityResults tangent_results(const SensitivityChain& chain,
 
 SensitivityResults adjoint_results(const SensitivityChain& chain,
                                    const std::vector<Parameter>& parameters, const HexMesh& mesh,
-                                   Report& report) {
+                                   Report& report, Progress& progress) {
   SensitivityResults out = empty_results();
   for (const Landmark& landmark : mesh.landmarks) {
     const LandmarkGradient gradient = chain.adjoint(landmark, parameters);
@@ -51,6 +51,7 @@ SensitivityResults adjoint_results(const SensitivityChain& chain,
               gradient.seconds / double(parameters.size()), out.table, report);
     }
     out.arrays.influence[landmark.name] = gradient.by_element;
+    progress.update("derivatives", double(out.arrays.influence.size()) / double(mesh.landmarks.size()), landmark.name);
   }
   return out;
 }

@@ -18,10 +18,10 @@ struct SensitivityResults {
 /// sensitivity/LANDMARK/PARAMETER/... and sensitivity/paddle/... of the report.
 SensitivityResults tangent_results(const SensitivityChain& chain,
                                    const std::vector<Parameter>& parameters, const HexMesh& mesh,
-                                   Report& report);
+                                   Report& report, Progress& progress = no_progress());
 /// By adjoint solves: the landmarks only, and the influence of every element's stiffness on them.
 SensitivityResults adjoint_results(const SensitivityChain& chain,
                                    const std::vector<Parameter>& parameters, const HexMesh& mesh,
-                                   Report& report);
+                                   Report& report, Progress& progress = no_progress());
 
 }  // namespace breast

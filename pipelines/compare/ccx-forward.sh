@@ -6,7 +6,10 @@
 # keeps deck, log and result there. Exit codes are those of forward.
 set -euo pipefail
 export LC_ALL=C
-bin=$(realpath "${BIN:-$(dirname "$0")/../../build/release/bin}")
+pipelines=$(dirname "$0")/..
+own=$pipelines/../build/release/bin
+[ ! -f "$pipelines/installed.mk" ] || own=$pipelines/../../../libexec/breast
+bin=$(realpath "${BIN:-$own}")
 command -v ccx > /dev/null || { echo "ccx-forward: CalculiX is missing (Debian: calculix-ccx)" >&2; exit 1; }
 [ $# -ge 2 ] || { echo "ccx-forward: usage: ccx-forward.sh REFERENCE DEFORMED [options]" >&2; exit 2; }
 reference=$1 deformed=$2

@@ -1,0 +1,31 @@
+// How long a stage still takes, from the fractions it has reported.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace breast {
+
+/// The rate is that of the later half of the time since the stage began, so that a stage that grows slower or faster is followed.
+class TimeLeft {
+ public:
+  /// What is left of `stage` in seconds, `fraction` of it being done at the time `now` (seconds of any clock that does not go back).
+  /// Nothing while too little is known (less than 2 s or 2 % of progress), for a fraction that is below 0, 1 or not finite, and for a stage
+  /// that takes less than 10 s in all. Another stage begins anew, unless its fraction goes on from where the last one ended: then both
+  /// are parts of one whole.
+  std::optional<double> update(std::string_view stage, double fraction, double now);
+
+ private:
+  struct Sample {
+    double time, fraction;
+  };
+  std::string stage_;
+  std::deque<Sample> samples_;  ///< the first is the beginning
+};
+
+/// "about 40 s left", "about 3 min left".
+std::string time_left_text(double seconds);
+
+}  // namespace breast

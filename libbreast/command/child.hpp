@@ -1,0 +1,25 @@
+// Programs that `breast` starts: a tool in its own place, make as a child.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace breast {
+
+/// Becomes `program words...`; returns only by throwing Error (failed).
+[[noreturn]] void become(const std::filesystem::path& program,
+                         const std::vector<std::string>& words);
+
+/// Runs `words` (the program first, searched for in PATH) and waits. It shares this process's terminal, whose interrupt is for the
+/// child alone, and ends when this process does. Returns its exit code, 128 + the signal where one ended it.
+int run_child(const std::vector<std::string>& words);
+
+/// The same, silently: what it printed.
+struct Captured {
+  int exit_code = 0;
+  std::string out, err;
+};
+Captured capture_child(const std::vector<std::string>& words);
+
+}  // namespace breast

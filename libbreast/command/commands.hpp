@@ -1,0 +1,27 @@
+// The commands of `breast` that are no tools.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/declaration.hpp"
+#include "command/installation.hpp"
+
+namespace breast {
+
+/// run, demo, cohort, list, help.
+std::vector<std::string> command_names();
+bool is_pipeline_command(const std::string& name);
+
+/// The face of `breast` itself, for its manual page.
+Declaration breast_declaration();
+
+/// "NAME  summary" a line.
+std::string tool_list(const Installation& installation);
+/// What `breast help` prints.
+std::string overview(const Installation& installation);
+
+/// "'segmnt' is neither a command nor a tool; did you mean 'segment'?", with up to three names.
+std::string unknown_command(const Installation& installation, const std::string& given);
+
+}  // namespace breast

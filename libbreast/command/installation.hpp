@@ -1,0 +1,29 @@
+// The installation a running `breast` belongs to: its tools and its pipeline.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace breast {
+
+struct ToolEntry {
+  std::string name, summary;
+};
+
+struct Installation {
+  std::filesystem::path programs;  ///< folder of the tools
+  std::filesystem::path pipeline;  ///< Makefile.pipeline
+  std::vector<ToolEntry> tools;    ///< those of the build that are there, by name
+
+  std::filesystem::path tool(const std::string& name) const { return programs / name; }
+  bool has(const std::string& name) const;
+  std::vector<std::string> tool_names() const;
+};
+
+/// PREFIX/libexec/breast and PREFIX/share/breast of a program PREFIX/bin/breast; in a build tree, the program's own folder and
+/// the source tree three folders up. `built` are all tools of the build. Throws Error (failed) where neither is found.
+Installation find_installation(const std::filesystem::path& program,
+                               const std::vector<ToolEntry>& built);
+
+}  // namespace breast

@@ -1,0 +1,23 @@
+// The pipeline as a command: breast run, demo and cohort.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "command/installation.hpp"
+
+namespace breast {
+
+/// Runs `breast COMMAND arguments` (run, demo or cohort): everything that can be refused is refused before anything runs, then make
+/// runs in the present folder, and the place of the results is printed. Returns 0, 1 when a stage failed, or 128 + the signal
+/// that ended make; throws Error.
+int run_pipeline(const Installation& installation, const std::string& command,
+                 const std::vector<std::string>& arguments);
+
+/// The settings of the pipeline by name; empty when make cannot say.
+std::vector<std::string> pipeline_settings(const Installation& installation);
+
+/// What the pipeline says of its targets and settings.
+std::string settings_help(const Installation& installation);
+
+}  // namespace breast

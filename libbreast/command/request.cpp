@@ -1,0 +1,202 @@
+#include "command/request.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "cli/parse.hpp"
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+
+bool is_setting(const std::string& word) {
+  const std::size_t equals = word.find('=');
+  return equals != std::string::npos && equals > 0 &&
+         std::all_of(word.begin(), word.begin() + long(equals), [](unsigned char c) {
+           return std::isupper(c) || c == '_' || std::isdigit(c);
+         });
+}
+
+Argument option(ArgumentKind kind, const std::string& name, const std::string& placeholder,
+                const std::string& help, std::function<void(const std::string&)> store) {
+  Argument argument;
+  argument.kind = kind;
+  argument.names = {name};
+  argument.placeholder = placeholder;
+  argument.help = help;
+  argument.store = [store](const std::vector<std::string>& given) {
+    store(given.empty() ? "" : given.front());
+  };
+  return argument;
+}
+
+Argument positional(const std::string& placeholder, const std::string& help, std::string& value) {
+  Argument argument;
+  argument.kind = ArgumentKind::text;
+  argument.placeholder = placeholder;
+  argument.help = help;
+  argument.required = true;
+  argument.store = [&value](const std::vector<std::string>& given) { value = given.front(); };
+  return argument;
+}
+
+void declare_options(Declaration& d, PipelineRequest& r) {
+  Argument runs =
+      option(ArgumentKind::text, "--runs", "DIR",
+             "folder of all runs, each in a folder of its own; it is made when it is missing",
+             [&r](const std::string& value) { r.runs = value; });
+  runs.default_text = r.runs;
+  d.options.push_back(runs);
+  Argument jobs = option(ArgumentKind::integer, "--jobs", "N",
+                         "stages that may run at the same time; they share the cores",
+                         [&r](const std::string& value) { r.jobs = std::stoi(value); });
+  jobs.low = 1;
+  jobs.high = 64;
+  jobs.default_text = "1";
+  d.options.push_back(jobs);
+  d.options.push_back(option(ArgumentKind::flag, "--dry-run", "",
+                             "print the commands that would run, and run nothing",
+                             [&r](const std::string&) { r.plan = true; }));
+}
+
+void declare_target(Declaration& d, PipelineRequest& r) {
+  Argument target = option(ArgumentKind::text, "--target", "NAME",
+                           "what is to be made: chain, figures, summary, page, report or another "
+                           "target of the pipeline (breast help settings)",
+                           [&r](const std::string& value) { r.target = value; });
+  target.default_text = r.target;
+  d.options.push_back(target);
+}
+
+void declare_run(Declaration& d, PipelineRequest& r) {
+  d.summary = "the whole chain on a breast MR scan";
+  d.paragraphs = {
+      "Runs the pipeline on a scan: segment, fit-hermite, hexmesh, backward, forward, compress in both views, project-mammogram, the "
+      "matching of both views, and the figures. Stages whose inputs and settings are unchanged are not run again.",
+      "SETTING=value, any number of times after the scan, sets what `breast help settings` lists, such as TUMOUR=x,y,z, REDUCTION=40, "
+      "CHEST_WALL=labels.nrrd or MATERIALS=wellman. Names of files are relative to the folder of the caller. A scan, or a file of a "
+      "setting, whose name make cannot take (blanks, quotes, brackets, ...) is run through a link of a plain name in DIR/.names; "
+      "the name of the run's folder has an underscore in the place of such characters."};
+  d.positionals.push_back(positional(
+      "SCAN",
+      "T1-weighted MR without fat saturation, patient prone: NRRD, NIfTI, MetaImage or a DICOM folder",
+      r.scan));
+  Argument side =
+      option(ArgumentKind::choice, "--side", "NAME", "the patient's left or right breast",
+             [&r](const std::string& value) { r.side = value; });
+  side.choices = {"left", "right"};
+  d.options.push_back(side);
+  declare_options(d, r);
+  declare_target(d, r);
+  d.examples = {{"breast run scan.nrrd --side left", "results in ./runs/scan-left"},
+                {"breast run 'my scans/patient 1' --side right TUMOUR=-60,-40,12 --runs /data/runs",
+                 "a DICOM folder, and a tumour to follow"}};
+}
+
+void declare_demo(Declaration& d, PipelineRequest& r) {
+  d.summary = "the whole chain on a simulated breast whose truth is known";
+  d.paragraphs = {
+      "Makes a breast MR of a phantom of average size, runs the pipeline on it, and shows the table of landmark displacements, the "
+      "errors against the phantom's truth and the place of the pictures. SETTING=value changes what `breast help "
+      "settings` lists, such as PRESET=paper."};
+  declare_options(d, r);
+  declare_target(d, r);
+  d.examples = {{"breast demo", "results in ./runs/average"},
+                {"breast demo PRESET=small ELEMENTS=6 'PHANTOM_OPTIONS=--coarse 2'",
+                 "a tiny breast, in about a minute"}};
+}
+
+void declare_cohort(Declaration& d, PipelineRequest& r) {
+  d.summary = "the whole chain on every case of a folder";
+  d.paragraphs = {
+      "Runs the pipeline on every case file of DIR (*.case, */case.txt: KEY = VALUE a line, of which MR or PRESET names the scan), "
+      "goes on past a case that fails, and ends with one table of all. Names of files in a case file are relative to the folder "
+      "of the caller. SETTING=value holds for all cases that do not set it themselves."};
+  d.positionals.push_back(positional("DIR", "folder of case files", r.scan));
+  declare_options(d, r);
+  d.examples = {{"breast cohort patients", "results in ./runs/cohort-patients"}};
+}
+
+Declaration declare(const std::string& name, PipelineRequest& r) {
+  Declaration d;
+  d.name = "breast " + name;
+  d.version = BREAST_VERSION;
+  if (name == "run")
+    declare_run(d, r);
+  else if (name == "demo")
+    declare_demo(d, r);
+  else if (name == "cohort")
+    declare_cohort(d, r);
+  else
+    throw failed_error("no command ", name);
+  return d;
+}
+
+// SETTING=value words leave the tokens. The first word may be SCAN or DIR, whatever its name.
+void take_settings(Tokens& tokens, bool scan_first, std::map<std::string, std::string>& settings) {
+  std::vector<std::string> rest;
+  for (const std::string& word : tokens.positionals) {
+    const bool scan = scan_first && rest.empty() && std::filesystem::exists(word);
+    if (!is_setting(word) || scan) {
+      rest.push_back(word);
+      continue;
+    }
+    const std::string name = word.substr(0, word.find('='));
+    if (!settings.emplace(name, word.substr(name.size() + 1)).second)
+      throw input_error(name, " is given twice");
+  }
+  tokens.positionals = rest;
+}
+
+void check_request(const PipelineRequest& r) {
+  for (const char* name : {"RUNS", "RUN"}) {
+    if (r.settings.count(name)) throw input_error(name, " is no setting here: give --runs DIR");
+  }
+  const char* scan = r.command == "cohort" ? "COHORT" : "MR";
+  if (r.settings.count(scan))
+    throw input_error(
+        scan, " is no setting here: ",
+        r.command == "demo" ? "breast run SCAN is for scans" : "it is the first argument");
+  const auto side = r.settings.find("SIDE");
+  if (r.command == "run" && r.side.empty() && side == r.settings.end())
+    throw input_error("--side left|right is missing: which breast of the patient is it?");
+  if (!r.side.empty() && side != r.settings.end() && side->second != r.side)
+    throw input_error("--side ", r.side, " and SIDE=", side->second, " contradict each other");
+  const bool word = std::all_of(r.target.begin(), r.target.end(),
+                                [](unsigned char c) { return std::isalnum(c) || c == '-'; });
+  if (!word || r.target.front() == '-')
+    throw input_error("--target '", r.target, "': is no name of a target");
+}
+
+}  // namespace
+
+Declaration pipeline_command(const std::string& name) {
+  PipelineRequest defaults;
+  Declaration d = declare(name, defaults);
+  Argument settings;
+  settings.placeholder = "[SETTING=value]";
+  settings.help = "a setting of the pipeline: `breast help settings` lists them";
+  settings.repeatable = true;
+  d.positionals.push_back(settings);
+  for (auto* list : {&d.options, &d.positionals}) {
+    for (Argument& argument : *list) argument.store = nullptr;
+  }
+  return d;
+}
+
+PipelineRequest parse_request(const std::string& command,
+                              const std::vector<std::string>& arguments) {
+  PipelineRequest r;
+  r.command = command;
+  if (command == "cohort") r.target = "cohort";
+  Declaration d = declare(command, r);
+  Tokens tokens = tokenize(d, arguments);
+  take_settings(tokens, !d.positionals.empty(), r.settings);
+  assign(d, tokens);
+  check_request(r);
+  return r;
+}
+
+}  // namespace breast

@@ -1,0 +1,27 @@
+// How much of a Newton solve is done, judged by its residuals: for progress bars only.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "solve/newton.hpp"
+
+namespace breast {
+
+/// The decades of the residual that are behind, of those down to `tolerance`; it never goes back.
+class SolvePace {
+ public:
+  explicit SolvePace(double tolerance) : tolerance_(tolerance) {}
+  double after(const NewtonIteration& iteration) {
+    first_ = std::max(first_, iteration.residual_before);
+    const double decades = std::log(first_ / tolerance_);
+    if (decades > 0 && iteration.residual > 0)
+      done_ = std::clamp(std::log(first_ / iteration.residual) / decades, done_, 1.0);
+    return done_;
+  }
+
+ private:
+  double tolerance_, first_ = 0, done_ = 0;
+};
+
+}  // namespace breast
