@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string hostile = "a b'c\"$(touch executed)`touch executed`;\xc3\xa9(=)<script>&\xe2\x80\xa8";
+const std::string hostile =
+    "a b'c\"$(touch executed)`touch executed`;\xc3\xa9(=)<script>&\xe2\x80\xa8";
 
 class HostileNames : public ::testing::TestWithParam<Case> {
  protected:
@@ -27,6 +28,7 @@ class HostileNames : public ::testing::TestWithParam<Case> {
     for (const auto& entry : fs::directory_iterator(inputs_->path())) {
       fs::create_symlink(entry.path(), renamed(entry.path().filename().string()));
     }
+    fs::create_directory_symlink(inputs_->path(), renamed("run"));
   }
   // NAME.vtkhdf as FOLDER/hostileNAME.vtkhdf
   fs::path renamed(const std::string& name) const { return folder_ / (hostile + name); }
@@ -34,7 +36,12 @@ class HostileNames : public ::testing::TestWithParam<Case> {
   std::vector<std::string> arguments() const {
     std::vector<std::string> words = words_of(GetParam().line);
     for (std::size_t w = 1; w < words.size(); ++w) {
-      const bool output = words[w].starts_with("out.") || words[w].starts_with("out-") || words[w] == "out";
+      if (words[w] == ".") {  // the folder of a run
+        words[w] = renamed("run").string();
+        continue;
+      }
+      const bool output =
+          words[w].starts_with("out.") || words[w].starts_with("out-") || words[w] == "out";
       if (output || fs::exists(inputs_->path() / words[w])) words[w] = renamed(words[w]).string();
     }
     return words;

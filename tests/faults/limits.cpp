@@ -23,11 +23,16 @@ struct Limit {
   rlim_t value;
 };
 const Limit limits[] = {
-    {"stack_128_kB", RLIMIT_STACK, 128 * kb}, {"stack_1_MB", RLIMIT_STACK, mb},
-    {"memory_50_MB", RLIMIT_AS, 50 * mb},     {"memory_150_MB", RLIMIT_AS, 150 * mb},
-    {"memory_400_MB", RLIMIT_AS, 400 * mb},   {"memory_1000_MB", RLIMIT_AS, 1000 * mb},
-    {"files_4", RLIMIT_NOFILE, 4},            {"files_6", RLIMIT_NOFILE, 6},
-    {"files_10", RLIMIT_NOFILE, 10},          {"file_of_4_kB", RLIMIT_FSIZE, 4 * kb},
+    {"stack_128_kB", RLIMIT_STACK, 128 * kb},
+    {"stack_1_MB", RLIMIT_STACK, mb},
+    {"memory_40_MB", RLIMIT_AS, 40 * mb},
+    {"memory_150_MB", RLIMIT_AS, 150 * mb},
+    {"memory_400_MB", RLIMIT_AS, 400 * mb},
+    {"memory_1000_MB", RLIMIT_AS, 1000 * mb},
+    {"files_4", RLIMIT_NOFILE, 4},
+    {"files_6", RLIMIT_NOFILE, 6},
+    {"files_10", RLIMIT_NOFILE, 10},
+    {"file_of_4_kB", RLIMIT_FSIZE, 4 * kb},
     {"file_of_20_kB", RLIMIT_FSIZE, 20 * kb},
 };
 
@@ -68,7 +73,8 @@ TEST_P(Limits, EndInOneLine) {
     EXPECT_EQ(result.error_lines(), result.exit_code == 0 ? 0 : 1) << c.name << ": " << result.err;
     if (result.exit_code != 0) {
       for (const auto& entry : fs::directory_iterator(folder.path())) {
-        EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << c.name << ": " << entry.path();
+        EXPECT_FALSE(entry.path().filename().string().starts_with("."))
+            << c.name << ": " << entry.path();
       }
     }
   }
