@@ -152,7 +152,7 @@ fi
 
 sed -n 3p "$work/plain.txt" | grep -q '^Warnings: 3; read these first' || { cat "$work/plain.txt"; fail "warnings come first"; }
 [ "$(grep -c 'twice' "$work/plain.txt")" -eq 1 ] && grep -q 'cc, mlo: twice' "$work/plain.txt" || fail "each warning stands once, with its stages"
-grep -A 1 'plates not balanced' "$work/plain.txt" | grep -q -- '-> .*standoff' || fail "and with what to do"
+grep -A 1 'plates not balanced' "$work/plain.txt" | grep -q -- '-> .*COMPRESS_OPTIONS' || fail "and with what to do"
 grep -q 'TUMOUR IS ARTIFICIAL' "$work/plain.txt" && grep -q 'artificial_tumour_mm' "$work/plain.txt" || fail "an artificial tumour is called so"
 pass "the summary begins with every warning, once, and what to do"
 
