@@ -43,7 +43,7 @@ class Search {
     unit_ = VectorXd::Ones(sought_.count());
     if (options.align) {
       for (Index k = 0; k < 6; ++k) {
-        const double deviation = k < 3 ? options.shift_mm : options.turn_deg;
+        const double deviation = coordinate_deviation(k < 3 ? options.shift_mm : options.turn_deg);
         const Index at = sought_.materials() + k;
         prior_(at, at) = deviation * deviation;
         unit_[at] = deviation;
@@ -135,7 +135,16 @@ void Search::judge(Identified& out) const {
   const Index materials = sought_.materials(), count = sought_.count();
   const MatrixXd& j = out.fit.jacobian;
   out.names = sought_.names;
-  out.covariance = (j.transpose() * j).ldlt().solve(MatrixXd::Identity(count, count));
+  const MatrixXd data = j.topRows(j.rows() - count), identity = MatrixXd::Identity(count, count);
+  const MatrixXd of_data = data.transpose() * data, of_prior = whitening_.transpose() * whitening_;
+  const MatrixXd as_said = (of_data + of_prior).ldlt().solve(identity);
+  const Observations& seen = model_.seen();
+  out.surface_points = model_.surface_points();
+  out.misfit = misfit_of(out.fit.residuals,
+                         3 * seen.points.size() + out.surface_points + seen.forces.size());
+  if (out.misfit.probability < misfit_level)
+    out.discount = out.misfit.chi_squared / double(out.misfit.freedom);
+  out.covariance = (of_data / out.discount + of_prior).ldlt().solve(identity);
   out.prior = prior_.topLeftCorner(materials, materials);
   const MatrixXd own = out.covariance.topLeftCorner(materials, materials);
   out.directions = directions_of(out.names, own, out.prior);
@@ -143,10 +152,6 @@ void Search::judge(Identified& out) const {
   out.motion = model_.motion(out.fit.x);
   out.second = model_.mesh();
   out.pairs = model_.pairs();
-  out.surface_points = model_.surface_points();
-  const Observations& seen = model_.seen();
-  out.misfit = misfit_of(out.fit.residuals,
-                         3 * seen.points.size() + out.surface_points + seen.forces.size());
   for (std::size_t i = 0; i < seen.points.size(); ++i) {
     const SeenPoint& point = seen.points[i];
     const Index first = 3 * Index(i);
@@ -154,8 +159,9 @@ void Search::judge(Identified& out) const {
     const Vec3 residual = point.deviation * out.fit.residuals.segment<3>(first);
     fit.predicted = point.seen + residual;
     fit.residual = residual.norm();
-    fit.left_out =
-        point.deviation * left_out(out.fit.residuals, j, out.covariance, first, 3).norm();
+    const Vec3 left = left_out(out.fit.residuals, j, as_said, first, 3);
+    fit.without = point.seen + point.deviation * left;
+    fit.left_out = point.deviation * left.norm();
     fit.observer = point.deviation * std::sqrt(3.0);
     out.landmarks.push_back(fit);
   }

@@ -20,12 +20,16 @@ struct IdentifyOptions {
   Eigen::VectorXd start = {};  ///< logarithms to begin at; empty: the middle of the prior
 };
 
+/// A misfit less probable than this is one.
+inline constexpr double misfit_level = 0.01;
+
 /// How one landmark is met, mm.
 struct LandmarkFit {
   std::string name;
   Vec3 predicted{0, 0, 0};  ///< its place in the frame of what was seen
+  Vec3 without{0, 0, 0};    ///< the same when it is left out and the rest predicts it, linearised
   double residual = 0;
-  double left_out = 0;  ///< distance when it is left out and the rest predicts it, linearised
+  double left_out = 0;  ///< distance of `without` from where it was seen
   double observer = 0;  ///< rms of the observer's error in space
 };
 
@@ -41,6 +45,9 @@ struct Identified {
   std::vector<LandmarkFit> landmarks;
   double decided = 0;  ///< numbers of the material set decided by the data
   Misfit misfit;
+  /// Where the misfit test fails, how much larger the data's variances must be than said: the
+  /// covariance counts with it. 1 elsewhere.
+  double discount = 1;
   MaterialSet materials;              ///< with supports and uncertainty
   std::vector<std::string> refusals;  ///< why trial points had no answer
   int pairs = 0;                      ///< of backward and forward

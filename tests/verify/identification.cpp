@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "fixtures/in_place.hpp"
+#include "fixtures/seen_skin.hpp"
 #include "fixtures/sliding_cap.hpp"
 #include "identification/chi_squared.hpp"
 #include "identification/identify.hpp"
@@ -55,31 +56,10 @@ struct Case {
   }
 };
 
-// The skin of a shape as a scanner would see it: points and normals of its faces.
-SeenSurface skin_of(const HexMesh& mesh, int pieces) {
-  SeenSurface skin;
-  for (const Face& face : mesh.skin_faces) {
-    const std::vector<int> n = face_nodes(mesh, face);
-    const auto at = [&](double s, double t) {
-      return Vec3((1 - s) * (1 - t) * mesh.points[n[0]] + s * (1 - t) * mesh.points[n[1]] +
-                  s * t * mesh.points[n[2]] + (1 - s) * t * mesh.points[n[3]]);
-    };
-    for (int i = 0; i < pieces; ++i) {
-      for (int j = 0; j < pieces; ++j) {
-        const double s = (i + 0.5) / pieces, t = (j + 0.5) / pieces, h = 1e-3;
-        skin.points.push_back(at(s, t));
-        skin.normals.push_back(
-            (at(s + h, t) - at(s - h, t)).cross(at(s, t + h) - at(s, t - h)).normalized());
-      }
-    }
-  }
-  return skin;
-}
-
 TEST(Identification, ItsJacobianIsThatOfDifferences) {
   const Case c;
   Observations seen = c.seen_with({{"low_order", 0.2}, {"wall", -0.3}}, 6, 2.5);
-  seen.surface = skin_of(c.second_with({{"low_order", 0.2}}), 12);
+  seen.surface = fixtures::seen_skin(c.second_with({{"low_order", 0.2}}), 12);
   Sought sought{{"low_order", "quadratic", "gland", "skin", "wall", "cut"}, true};
   SecondPosture model(c.mesh, c.options.mechanics, c.options.imaged_gravity, c.options.gravity,
                       seen, sought);
