@@ -1,5 +1,6 @@
 #include "identification/agreement.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -21,18 +22,35 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+// Where two landmarks would be without their marks, in units of their errors from where they were seen.
+Eigen::VectorXd without_both(const Identified& found, const Eigen::MatrixXd& covariance,
+                             std::size_t i, std::size_t k) {
+  std::vector<Eigen::Index> rows;
+  for (const std::size_t one : {i, k})
+    for (Eigen::Index c = 0; c < 3; ++c) rows.push_back(3 * Eigen::Index(one) + c);
+  return left_out(found.fit.residuals, found.fit.jacobian, covariance, rows);
+}
+
 void check_exchanged(const Observations& seen, const Identified& found) {
+  const Eigen::MatrixXd& j = found.fit.jacobian;
+  const Eigen::MatrixXd covariance =
+      (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(j.cols(), j.cols()));
+  const auto far = [&](std::size_t i) {
+    return found.landmarks[i].left_out > beyond_observer * found.landmarks[i].observer;
+  };
   for (std::size_t i = 0; i < seen.points.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      const LandmarkFit &a = found.landmarks[i], &b = found.landmarks[k];
-      if (std::min(a.residual / a.observer, b.residual / b.observer) < beyond_observer) continue;
-      const double crossed =
-          (a.predicted - seen.points[k].seen).norm() + (b.predicted - seen.points[i].seen).norm();
-      if (!(crossed < 0.4 * (a.residual + b.residual))) continue;
+      if (!far(i) || !far(k)) continue;
+      const SeenPoint &a = seen.points[i], &b = seen.points[k];
+      const Eigen::VectorXd off = without_both(found, covariance, i, k);
+      const Vec3 from_a = a.deviation * off.head<3>(), from_b = b.deviation * off.tail<3>();
+      const double now = from_a.norm() + from_b.norm(),
+                   crossed = (a.seen + from_a - b.seen).norm() + (b.seen + from_b - a.seen).norm();
+      if (!(crossed < 0.4 * now)) continue;
       throw input_error("landmarks '", b.name, "' and '", a.name,
-                        "' look exchanged in one of the postures: they lie ",
-                        format_fixed(b.residual, 1), " and ", format_fixed(a.residual, 1),
-                        " mm from the best answer, exchanged ", format_fixed(crossed / 2, 1),
+                        "' look exchanged in one of the postures: all others put them ",
+                        format_fixed(from_b.norm(), 1), " and ", format_fixed(from_a.norm(), 1),
+                        " mm from their marks, exchanged ", format_fixed(crossed / 2, 1),
                         " mm in the mean");
     }
   }
@@ -77,8 +95,8 @@ void check_explained(const HexMesh& mesh, const Observations& seen, const Identi
 
 void check_agreement(const HexMesh& mesh, const Observations& seen, const Identified& found) {
   check_exchanged(seen, found);
-  check_explained(mesh, seen, found);
   check_one_against_all(found);
+  check_explained(mesh, seen, found);
 }
 
 std::vector<std::string> doubts_of(const Identified& found) {

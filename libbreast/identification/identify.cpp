@@ -1,6 +1,7 @@
 #include "identification/identify.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +15,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+// Directions known better than this are straight.
+constexpr double bends = 0.15;
 
 Sought sought_of(const IdentifyOptions& options) {
   const MaterialSet set = set_with_supports(options.mechanics);
@@ -71,6 +75,8 @@ class Search {
   VectorXd start();
   void tell(const VectorXd& x, const std::optional<VectorXd>& data) const;
   void judge(Identified& out) const;
+  void widen(Identified& out);
+  void know(Identified& out) const;
 
   IdentifyOptions options_;
   Sought sought_;
@@ -146,12 +152,8 @@ void Search::judge(Identified& out) const {
     out.discount = out.misfit.chi_squared / double(out.misfit.freedom);
   out.covariance = (of_data / out.discount + of_prior).ldlt().solve(identity);
   out.prior = prior_.topLeftCorner(materials, materials);
-  const MatrixXd own = out.covariance.topLeftCorner(materials, materials);
-  out.directions = directions_of(out.names, own, out.prior);
-  out.decided = decided_by_data(own, out.prior);
   out.motion = model_.motion(out.fit.x);
   out.second = model_.mesh();
-  out.pairs = model_.pairs();
   for (std::size_t i = 0; i < seen.points.size(); ++i) {
     const SeenPoint& point = seen.points[i];
     const Index first = 3 * Index(i);
@@ -159,14 +161,51 @@ void Search::judge(Identified& out) const {
     const Vec3 residual = point.deviation * out.fit.residuals.segment<3>(first);
     fit.predicted = point.seen + residual;
     fit.residual = residual.norm();
-    const Vec3 left = left_out(out.fit.residuals, j, as_said, first, 3);
+    const Vec3 left = left_out(out.fit.residuals, j, as_said, {first, first + 1, first + 2});
     fit.without = point.seen + point.deviation * left;
     fit.left_out = point.deviation * left.norm();
     fit.observer = point.deviation * std::sqrt(3.0);
     out.landmarks.push_back(fit);
   }
   out.materials = with_factors(options_.mechanics, sought_, out.fit.x).materials;
+}
+
+// Along x = x̂ + z d + z² a + z³ b with z standard normal, d a deviation of a direction left open and a, b what
+// the parameters must move so that the bent model still meets the data: E[(z² a)²] = 3 a², and of b
+// what its linear part does not hold, 6 b².
+void Search::widen(Identified& out) {
+  const Index materials = sought_.materials(), count = sought_.count(),
+              data = out.fit.jacobian.rows() - count;
+  const MatrixXd j = out.fit.jacobian.topRows(data), c = out.covariance;
+  const MatrixXd own = c.topLeftCorner(materials, materials);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> found(own);
+  for (Index k = materials; k-- > 0;) {
+    const double deviation = std::sqrt(found.eigenvalues()[k]);
+    if (deviation < bends || model_.pairs() + 2 > options_.max_pairs) return;
+    const VectorXd v = found.eigenvectors().col(k);
+    const VectorXd d = c.leftCols(materials) * own.ldlt().solve(v) * deviation;
+    std::vector<VectorXd> shift;  // that undoes the bend on either side
+    for (const double side : {1.0, -1.0}) {
+      const std::optional<VectorXd>& there = this->data(out.fit.x + side * d);
+      if (!there) continue;
+      const VectorXd bend = *there - out.fit.residuals.head(data) - side * j * d;
+      shift.push_back(-c * (j.transpose() * bend) / out.discount);
+    }
+    if (shift.empty()) continue;
+    const VectorXd a = 0.5 * (shift.front() + shift.back()),
+                   b = shift.size() == 2 ? VectorXd(0.5 * (shift[0] - shift[1]))
+                                         : VectorXd::Zero(count);
+    out.covariance += 3 * a * a.transpose() + 6 * b * b.transpose();
+  }
+}
+
+void Search::know(Identified& out) const {
+  const Index materials = sought_.materials();
+  const MatrixXd own = out.covariance.topLeftCorner(materials, materials);
+  out.directions = directions_of(out.names, own, out.prior);
+  out.decided = decided_by_data(own, out.prior);
   out.materials.uncertainty = {out.names, own};
+  out.pairs = model_.pairs();
   out.refusals = refusals_;
 }
 
@@ -182,6 +221,8 @@ Identified Search::run() {
   // The last point tried may have been refused or worse: the answer's own state is what is kept.
   if (solved_ != out.fit.x) residuals(out.fit.x);
   judge(out);
+  if (options_.curvature) widen(out);
+  know(out);
   return out;
 }
 

@@ -16,7 +16,8 @@ struct IdentifyOptions {
   bool align = false;
   double shift_mm = 4,
          turn_deg = 2;         ///< expected motion of the rib cage, of each of three components
-  int max_pairs = 25;          ///< solves of backward and forward
+  int max_pairs = 25;          ///< solves of backward and forward, those for curvature included
+  bool curvature = true;       ///< whether they are spent
   Eigen::VectorXd start = {};  ///< logarithms to begin at; empty: the middle of the prior
 };
 
@@ -37,7 +38,7 @@ struct Identified {
   std::vector<std::string>
       names;                   ///< of the logarithms, those of the rib cage's motion not among them
   TrustRegionResult fit;       ///< residuals and Jacobian with the prior's rows last
-  Eigen::MatrixXd covariance;  ///< of all that is sought
+  Eigen::MatrixXd covariance;  ///< of all that is sought, with what curvature adds
   Eigen::MatrixXd prior;       ///< of the material parameters
   RigidMotion motion;
   HexMesh second;  ///< the second posture found, in the mesh's frame
@@ -61,7 +62,9 @@ struct Identified {
 
 /// Weighted nonlinear least squares of the observations and the prior in the logarithms of the material
 /// set's parts (and the rib cage's motion). Points without a stable equilibrium shorten the step. The
-/// covariance is (JᵀJ)⁻¹ at the answer. Throws Error (input) when there are fewer data than
+/// covariance is (JᵀJ)⁻¹ at the answer, widened by curvature: along each direction that the data leave
+/// open the model is solved one deviation either way, and what the best known directions would have to move
+/// to make up for its bend counts as their uncertainty. Throws Error (input) when there are fewer data than
 /// parameters without a prior, and Error (not converged) when no stable body is found near the
 /// middle of the prior.
 Identified identify(const HexMesh& mesh, const Observations& seen, const IdentifyOptions& options,

@@ -79,10 +79,11 @@ double decided_by_data(const MatrixXd& covariance, const MatrixXd& prior) {
 }
 
 VectorXd left_out(const VectorXd& residuals, const MatrixXd& jacobian, const MatrixXd& covariance,
-                  Eigen::Index first, Eigen::Index count) {
-  const MatrixXd rows = jacobian.middleRows(first, count);
-  const MatrixXd rest = MatrixXd::Identity(count, count) - rows * covariance * rows.transpose();
-  return rest.partialPivLu().solve(residuals.segment(first, count));
+                  const std::vector<Eigen::Index>& rows) {
+  const MatrixXd own = jacobian(rows, Eigen::all);
+  const Eigen::Index count = Eigen::Index(rows.size());
+  const MatrixXd rest = MatrixXd::Identity(count, count) - own * covariance * own.transpose();
+  return rest.partialPivLu().solve(VectorXd(residuals(rows)));
 }
 
 Misfit misfit_of(const VectorXd& residuals, std::size_t data) {

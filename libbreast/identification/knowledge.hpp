@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ struct KnownDirection {
   double prior_deviation = 0;  ///< the same before the data
   /// Share of what is known of it that comes from the data: 1 − variance / variance before.
   double from_data() const {
-    return 1 - deviation * deviation / (prior_deviation * prior_deviation);
+    return std::max(0.0, 1 - deviation * deviation / (prior_deviation * prior_deviation));
   }
   std::string words;  ///< "wall and cut together known to 4 %; 98 % of it from the data"
 };
@@ -30,10 +31,10 @@ std::string in_words(const std::vector<std::string>& names, const KnownDirection
 /// How many numbers the data decide: the trace of 1 − covariance · prior⁻¹.
 double decided_by_data(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& prior);
 
-/// Residuals that rows [first, first + count) would have if they were left out: (1 − H)⁻¹ r with their
-/// block of the hat matrix H = J C Jᵀ. Exact for a linear model.
+/// Residuals that these rows would have if they were left out: (1 − H)⁻¹ r with their block of the hat
+/// matrix H = J C Jᵀ, C = (JᵀJ)⁻¹. Exact for a linear model.
 Eigen::VectorXd left_out(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& jacobian,
-                         const Eigen::MatrixXd& covariance, Eigen::Index first, Eigen::Index count);
+                         const Eigen::MatrixXd& covariance, const std::vector<Eigen::Index>& rows);
 
 /// Test of the whole sum of squares, data and prior, against its distribution: with the right model
 /// and errors it is χ² of as many degrees of freedom as there are data.

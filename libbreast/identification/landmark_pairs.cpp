@@ -60,6 +60,14 @@ bool mostly_inside(const Pairs& pairs, const Locator& body, double outside) {
   return 2 * inside > long(pairs.size());
 }
 
+// Marks of a breast are never all within a few mm: tiny coordinates near the origin are another unit.
+bool clumped(const Pairs& pairs) {
+  constexpr double tiny = 2;  // mm
+  return pairs.size() > 2 && std::all_of(pairs.begin(), pairs.end(), [&](const LandmarkPair& p) {
+           return (p.imaged - pairs.front().imaged).norm() < tiny;
+         });
+}
+
 bool move_as_breasts_do(const Pairs& pairs) {
   const auto moved = std::count_if(pairs.begin(), pairs.end(), [](const LandmarkPair& p) {
     return (p.second - p.imaged).norm() <= usual_move;
@@ -75,10 +83,11 @@ Pairs with(const Slip& slip, const Pairs& pairs) {
 
 void check_frames(const Pairs& pairs, const Locator& body, double outside,
                   const std::string& where) {
-  if (!mostly_inside(pairs, body, outside)) {
+  if (clumped(pairs) || !mostly_inside(pairs, body, outside)) {
     for (const auto& [what, slip] : slips()) {
       const Pairs changed = with(slip, pairs);
-      if (mostly_inside(changed, body, outside)) throw input_error(where, ": ", what);
+      if (!clumped(changed) && mostly_inside(changed, body, outside))
+        throw input_error(where, ": ", what);
     }
   } else if (!move_as_breasts_do(pairs)) {
     for (const auto& [what, slip] : second_slips()) {

@@ -12,6 +12,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double shortest = 5e-3;  // in the parameters' units
+
 // Minimum of |r + J d|² with |d/unit| at most the radius, through the eigenvectors of the scaled JᵀJ.
 class Subproblem {
  public:
@@ -74,8 +76,13 @@ TrustRegionResult trust_region(const LeastSquaresProblem& problem, const VectorX
     for (bool moved = false; !moved;) {
       const VectorXd d = subproblem.step(radius);
       const double length = d.cwiseQuotient(unit).norm(), fall = promised(d);
-      // Steps this short are no progress: the best lies at the edge of what has an answer.
-      if (best.evaluations >= options.max_evaluations || length < 1e-4) return best;
+      // Steps this short are no progress: the best lies at the edge of what has an answer, or the residuals
+      // have kinks there (another nearest point of a surface) and nothing finer can be known.
+      if (length < shortest) {
+        best.converged = !best.at_limit;
+        return best;
+      }
+      if (best.evaluations >= options.max_evaluations) return best;
       const std::optional<VectorXd> found = problem.residuals(best.x + d);
       ++best.evaluations;
       best.at_limit = !found;

@@ -2,14 +2,14 @@
 //
 //     identification_study same MESH.vtkhdf FIRST COUNT
 //     identification_study misaligned MESH.vtkhdf FIRST COUNT
-//     identification_study other MESH.vtkhdf FIRST COUNT
-//     identification_study surface MESH.vtkhdf FIRST COUNT
+//     identification_study other MESH.vtkhdf FIRST COUNT FINER.vtkhdf
+//     identification_study surface MESH.vtkhdf FIRST COUNT FINER.vtkhdf
 //
 // MESH is a breast imaged prone, with its wall surface. `same`: draws FIRST ... FIRST + COUNT - 1 of the set
 // invivo from its own covariance, 30 landmarks whose marks err by 2.5 mm rms in space. In all others the
 // rib cage is also shifted by 4 mm and turned by 2 degrees in random directions. `misaligned`: else as
-// before. `other`: four bodies of 27-node elements with other laws, ratios of gland to fat, skin and
-// supports, COUNT draws of marks each. `surface`: draws as in misaligned, then these bodies, by the skin of
+// before. `other`: four bodies on a finer mesh of the same breast with other laws, ratios of gland to fat,
+// skin and supports, COUNT draws of marks each. `surface`: draws as in misaligned, then these bodies, by the skin of
 // the second posture alone. Rows may be put together; pipelines/identification.sh judges them.
 #include <Eigen/Cholesky>
 #include <cmath>
@@ -27,7 +27,7 @@
 #include "io/mesh_file.hpp"
 #include "material/set_parameter.hpp"
 #include "mechanics/set_supports.hpp"
-#include "mesh/element_order.hpp"
+#include "mesh/locate.hpp"
 
 namespace {
 
@@ -92,10 +92,10 @@ struct OtherLaw {
 
 // Laws that stiffen otherwise than the polynomial (9), or not at all.
 const OtherLaw other_laws[] = {
-    {"neo-Hookean", {LawKind::neo_hookean, {110}}, 3, 0.5, 1.5, 0.8},
-    {"Mooney-Rivlin", {LawKind::mooney_rivlin, {40, 45}}, 0.6, 2, 0.7, 1.2},
-    {"Yeoh", {LawKind::yeoh, {25, 120, 60}}, 5, 1, 1.3, 1},
-    {"exponential", {LawKind::exponential, {20, 3, 15}}, 1.5, 3, 0.6, 1.4},
+    {"neo-Hookean", {LawKind::neo_hookean, {300}}, 3, 0.5, 1.5, 0.8},
+    {"Mooney-Rivlin", {LawKind::mooney_rivlin, {100, 100}}, 0.6, 2, 0.6, 1.3},
+    {"Yeoh", {LawKind::yeoh, {40, 300, 200}}, 5, 1, 2, 1},
+    {"exponential", {LawKind::exponential, {20, 6, 15}}, 1.5, 3, 0.5, 1.5},
 };
 
 Truth other_truth(const HexMesh& mesh, const OtherLaw& other) {
@@ -107,10 +107,8 @@ Truth other_truth(const HexMesh& mesh, const OtherLaw& other) {
   scale_set(set, "skin", other.skin);
   scale_set(set, "wall", other.wall);
   scale_set(set, "cut", other.cut);
-  Truth truth{other.name, raise_order(mesh), {}};
-  MechanicsOptions options = mechanics_with(set);
-  options.element = Element::q2p1;
-  if (!solve(truth.second, options)) throw failed_error(other.name, ": no stable body");
+  Truth truth{other.name, mesh, {}};
+  if (!solve(truth.second, mechanics_with(set))) throw failed_error(other.name, ": no stable body");
   return truth;
 }
 
@@ -130,9 +128,11 @@ RigidMotion misaligned(const HexMesh& mesh, bool at_all, Stream& stream) {
 }
 
 // `count` places anywhere in the body, marked in both postures.
-Marks marked(const Truth& truth, int count, const RigidMotion& moved, Stream& stream) {
+Marks marked(const HexMesh& model, const Truth& truth, int count, const RigidMotion& moved,
+             Stream& stream) {
   Marks marks;
   const HexMesh& mesh = truth.second;
+  const Locator body(model, model.imaged);
   std::uniform_int_distribution<int> element(0, mesh.elements() - 1);
   std::uniform_real_distribution<double> local(-1, 1);
   for (int k = 0; k < count; ++k) {
@@ -142,8 +142,9 @@ Marks marked(const Truth& truth, int count, const RigidMotion& moved, Stream& st
     const Vec3 place = moved(element_position(mesh, mesh.points, at.element, at.local));
     const double deviation = coordinate_deviation(mark_mm);
     marks.true_places.push_back(place);
+    const Location own = body.nearest(element_position(mesh, mesh.imaged, at.element, at.local));
     marks.seen.points.push_back(
-        {"mark" + std::to_string(k), at, place + deviation * normal_vector(stream), deviation});
+        {"mark" + std::to_string(k), own, place + deviation * normal_vector(stream), deviation});
   }
   return marks;
 }
@@ -211,7 +212,7 @@ void row(const char* study, const Truth& truth, int draw, const HexMesh& mesh,
 void by_landmarks(const char* study, const HexMesh& mesh, const Truth& truth, int draw,
                   Stream& stream) {
   const bool align = std::strcmp(study, "same") != 0;
-  const Marks marks = marked(truth, landmarks, misaligned(mesh, align, stream), stream);
+  const Marks marks = marked(mesh, truth, landmarks, misaligned(mesh, align, stream), stream);
   const double start = cpu_seconds();
   const Identified found = identify(mesh, marks.seen, options_of(align));
   std::vector<Vec3> without;
@@ -221,7 +222,7 @@ void by_landmarks(const char* study, const HexMesh& mesh, const Truth& truth, in
 
 void by_surface(const HexMesh& mesh, const Truth& truth, int draw, Stream& stream) {
   const RigidMotion moved = misaligned(mesh, true, stream);
-  const Marks marks = marked(truth, landmarks, moved, stream);
+  const Marks marks = marked(mesh, truth, landmarks, moved, stream);
   Observations seen;
   seen.surface = fixtures::seen_skin(truth.second, 4);
   std::normal_distribution<double> normal;
@@ -240,7 +241,8 @@ void by_surface(const HexMesh& mesh, const Truth& truth, int draw, Stream& strea
   row("surface", truth, draw, mesh, found, marks, places, cpu_seconds() - start);
 }
 
-void run(const std::string& study, const HexMesh& mesh, int first, int count) {
+void run(const std::string& study, const HexMesh& mesh, int first, int count,
+         const HexMesh& finer) {
   const MaterialSet set = load_materials("invivo");
   header();
   if (study != "other") {
@@ -253,7 +255,7 @@ void run(const std::string& study, const HexMesh& mesh, int first, int count) {
   }
   if (study == "same" || study == "misaligned") return;
   for (const OtherLaw& other : other_laws) {
-    const Truth truth = other_truth(mesh, other);
+    const Truth truth = other_truth(finer, other);
     for (int draw = first; draw < first + count; ++draw) {
       Stream stream(std::uint64_t(2000 + draw));
       study == "other" ? by_landmarks("other", mesh, truth, draw, stream)
@@ -265,14 +267,17 @@ void run(const std::string& study, const HexMesh& mesh, int first, int count) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5) {
+  const std::string study = argc > 1 ? argv[1] : "";
+  const bool two_meshes = study == "other" || study == "surface";
+  if (argc != (two_meshes ? 6 : 5)) {
     std::fprintf(stderr,
-                 "identification_study same|misaligned|other|surface MESH.vtkhdf FIRST COUNT\n");
+                 "identification_study same|misaligned MESH.vtkhdf FIRST COUNT\n"
+                 "identification_study other|surface MESH.vtkhdf FIRST COUNT FINER.vtkhdf\n");
     return 2;
   }
   try {
-    run(argv[1], breast::read_mesh(argv[2], {.geometry = true}), std::atoi(argv[3]),
-        std::atoi(argv[4]));
+    const auto mesh = [&](int at) { return breast::read_mesh(argv[at], {.geometry = true}); };
+    run(study, mesh(2), std::atoi(argv[3]), std::atoi(argv[4]), mesh(two_meshes ? 5 : 2));
   } catch (const breast::Error& error) {
     std::fprintf(stderr, "identification_study: %s\n", error.what());
     return error.exit_code();

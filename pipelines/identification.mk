@@ -1,0 +1,39 @@
+# The patient's own material set from landmarks in a second posture (LANDMARKS=pairs.tsv): the chain runs with it, landmarks.tsv
+# says how each landmark is met and would be met if it were left out.
+IDENTIFY ?= $(BIN)/identify
+ifneq ($(LANDMARKS),)
+identified_settings := $(IDENTIFY) $(prior_set) $(SUPPORT)
+$(RUN)/identified.tsv: $(RUN)/mesh.vtkhdf $(LANDMARKS) $(wildcard $(prior_set)) $(IDENTIFY) $(call changed,identified)
+	$(IDENTIFY) $< $@ --landmarks $(LANDMARKS) --align --materials $(prior_set) $(SUPPORT) --table $(RUN)/landmarks.tsv $(common)
+	@$(call record,identified)
+endif
+
+# identify against truths it does not know (tests/bench/identification_study.cpp), on coarse meshes of two phantoms:
+#   make identification                            docs/tables/identification.tsv, about 12 minutes of one processor
+IDENTIFICATION_RUNS := $(RUNS)/identification
+identification_cases := average slim
+define identification_case
+$(IDENTIFICATION_RUNS)/$1-right/mesh.vtkhdf: FORCE
+	@+$(MAKE) -f Makefile.pipeline RUNS=$(IDENTIFICATION_RUNS) CASE=$1-right SIDE=right PRESET=$1 ELEMENTS=8 MATERIALS=invivo TUMOUR=none $$@
+endef
+ifneq ($(filter identification,$(MAKECMDGOALS)),)
+.NOTPARALLEL:
+$(foreach c,$(identification_cases),$(eval $(call identification_case,$c)))
+endif
+# STUDY-PHANTOM-FIRST-COUNT: draws of a study on a phantom's mesh.
+identification_parts := same-average-1-20 same-slim-21-20 misaligned-average-1-10 misaligned-slim-11-10 other-average-1-5 surface-average-1-4
+identification_part = $(word $1,$(subst -, ,$2))
+define identification_rows
+$(IDENTIFICATION_RUNS)/$1.tsv: $(IDENTIFICATION_RUNS)/$(call identification_part,2,$1)-right/mesh.vtkhdf tests/bench/identification_study.cpp
+	@mkdir -p $(RUN)
+	$$(call bench,identification_study)
+	OMP_NUM_THREADS=1 $(BIN)/identification_study $(call identification_part,1,$1) $$< $(call identification_part,3,$1) $(call identification_part,4,$1) > $$@.part
+	@mv $$@.part $$@
+endef
+$(foreach p,$(identification_parts),$(eval $(call identification_rows,$p)))
+identification: $(identification_parts:%=$(IDENTIFICATION_RUNS)/%.tsv) pipelines/identification.sh
+	pipelines/identification.sh $(identification_parts:%=$(IDENTIFICATION_RUNS)/%.tsv) > docs/tables/identification.tsv.part
+	@mv docs/tables/identification.tsv.part docs/tables/identification.tsv
+	@pipelines/validation.sh fill docs/validation.md
+	@cat docs/tables/identification.tsv
+.PHONY: identification
