@@ -73,12 +73,13 @@ TrustRegionResult trust_region(const LeastSquaresProblem& problem, const VectorX
       best.at_limit = false;
       return best;
     }
-    for (bool moved = false; !moved;) {
+    bool moved = false;
+    for (int tries = 0; !moved; ++tries) {
       const VectorXd d = subproblem.step(radius);
       const double length = d.cwiseQuotient(unit).norm(), fall = promised(d);
       // Steps this short are no progress: the best lies at the edge of what has an answer, or the residuals
       // have kinks there (another nearest point of a surface) and nothing finer can be known.
-      if (length < shortest) {
+      if (tries > 0 && length < shortest) {
         best.converged = !best.at_limit;
         return best;
       }
