@@ -34,7 +34,6 @@ inline const std::vector<Case>& cases() {
       {"backward", "backward cap.vtkhdf out.vtkhdf"},
       {"forward", "forward cap_reference.vtkhdf out.vtkhdf"},
       {"sensitivity", "sensitivity cap_reference.vtkhdf cap_supine.vtkhdf out.vtkhdf --table out.tsv"},
-      {"identify", "identify cap.vtkhdf out.tsv --materials seed2008 --nipple 0,2,0 --table out.marks.tsv", 4},
       {"difference", "difference supine.vtkhdf supine.vtkhdf supine.vtkhdf out.vtkhdf"},
       {"compress", "compress pressed.vtkhdf out.vtkhdf --view CC --reduction 5"},
       {"project", "project-mammogram cc.vtkhdf out.vti --labels labels.vtkhdf --png out.png --dicom "
