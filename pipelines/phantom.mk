@@ -13,7 +13,7 @@ else
 endif
 # A run belongs to one scan and one side: another is refused before it overwrites anything (pipelines/scan-identity.sh).
 scan := $(if $(TRUTH),phantom:$(PRESET),$(MR))
-ifneq ($(filter-out help setup build check package clean calibrate cohort population calibrate-invivo,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
+ifneq ($(filter-out help setup build check package clean calibrate cohort population calibrate-invivo identification,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
   mixed_up := $(shell $(PIPELINES)/scan-identity.sh check $(RUN) $(SIDE) $(scan))
   $(if $(mixed_up),$(error $(mixed_up)))
 endif

@@ -63,11 +63,17 @@ else
   HEXMESH_OPTIONS ?= --elements $(ELEMENTS)
   MECHANICS ?= --materials $(MATERIALS) $(addprefix --element ,$(ELEMENT))
   # Soft tissue that slides lies limp between plates that stand far in front of the chest wall.
-  COMPRESS_OPTIONS ?= $(if $(filter invivo,$(MATERIALS)),--image-edge auto)
+  COMPRESS_OPTIONS ?= $(if $(filter invivo,$(or $(prior_set),$(MATERIALS))),--image-edge auto)
 endif
 # Parts of the model to do without: no-skin no-gland no-backward no-gravity-in-compression (what each is worth: leaveout).
 LEAVE_OUT ?=
 $(check_values)
+# Landmarks in a second posture: the set MATERIALS is what is expected, the chain runs with what identify makes of it.
+LANDMARKS ?=
+ifneq ($(LANDMARKS),)
+  prior_set := $(MATERIALS)
+  override MATERIALS := $(RUN)/identified.tsv
+endif
 leave_out = $(filter $1,$(LEAVE_OUT))
 ifneq ($(call leave_out,no-skin),)
   override HEXMESH_OPTIONS += --skin 0

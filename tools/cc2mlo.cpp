@@ -10,6 +10,8 @@
 #include "io/mesh_file.hpp"
 #include "io/picture_file.hpp"
 #include "io/surface_file.hpp"
+#include "material/law.hpp"
+#include "matching/band_materials.hpp"
 #include "matching/curve_lines.hpp"
 #include "matching/point_pair.hpp"
 
@@ -57,6 +59,14 @@ std::optional<BandModel> band_model(const MatchChoices& choices, const Matcher& 
   std::vector<Prior> priors =
       choices.priors.empty() ? default_priors()
                              : priors_from(read_table(choices.priors), choices.priors.string());
+  if (!choices.materials.empty()) {
+    const SoftnessUncertainty known = load_materials(choices.materials).uncertainty;
+    if (known.parameters.empty()) {
+      throw input_error("--materials ", choices.materials,
+                        ": the set has no covariance; identify and calibrate-softness write one");
+    }
+    use_covariance(known.parameters, known.covariance, derivatives.from, derivatives.to, priors);
+  }
   if (patient != nullptr) priors = patient->with_alignment(std::move(priors));
   std::optional<BandModel> band(std::in_place, matcher, derivatives.from, derivatives.to,
                                 std::move(priors));

@@ -8,6 +8,7 @@ namespace breast {
 void MatchChoices::check() const {
   question.check();
   if (!priors.empty() && !band) throw input_error("--priors is for --band");
+  if (!materials.empty() && !band) throw input_error("--materials is for --band");
   if (!supine.empty() && question.pair.empty()) throw input_error("--supine is for --pair");
   if (cc_image.empty() != mlo_image.empty()) {
     throw input_error("--cc-image and --mlo-image go together");
@@ -79,6 +80,9 @@ void declare_match(Tool& tool, MatchChoices& choices) {
             "files by sensitivity and difference)");
   tool.input_file(choices.priors, "--priors", "FILE",
                   "TSV parameter, standard_deviation (1: relative, degree or mm) for --band");
+  tool.text(choices.materials, "--materials", "NAME|FILE",
+            "with --band: the set the files were made with, whose own covariance (identify) takes the place "
+            "of the priors of stiffness and support");
   tool.choice(choices.geometry, "--geometry", {"parallel", "cone"},
               "beam, as in project-mammogram");
   tool.output_file(choices.table, "--table", "OUT.tsv", "one row per point");

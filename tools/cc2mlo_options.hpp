@@ -16,6 +16,7 @@ struct MatchChoices {
   std::filesystem::path curve, table, supine;  ///< outputs, and the shape a pair is followed to
   bool band = false;
   std::filesystem::path priors;  ///< of the band; empty: the default ones
+  std::string materials;         ///< whose covariance the band counts; empty: none
   std::string geometry = "parallel";
   /// The patient's images and what is drawn and written for them.
   std::filesystem::path cc_image, mlo_image, picture, curve_table;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "material/set_parameter.hpp"
 
 namespace breast {
 
@@ -47,6 +48,18 @@ void add_constants(Tissue tissue, const Law& law, std::vector<Parameter>& all) {
   }
 }
 
+// What the set's covariance is about and has no parameter of its own yet.
+void add_set_parameters(const HexMesh& state, const MaterialSet& set, std::vector<Parameter>& all) {
+  const std::vector<std::string>& known = set_parameter_names();
+  for (const std::string& name : set.uncertainty.parameters) {
+    const bool there = std::any_of(all.begin(), all.end(),
+                                   [&](const Parameter& p) { return p.name == name; });
+    if (there || std::find(known.begin(), known.end(), name) == known.end()) continue;
+    Parameter parameter = set_parameter(state, set, name);
+    if (!parameter.members.empty()) all.push_back(std::move(parameter));
+  }
+}
+
 bool is_main(const Parameter& parameter) {
   return parameter.kind != ParameterKind::constant &&
          parameter.kind != ParameterKind::tissue_density;
@@ -64,7 +77,8 @@ std::string Parameter::per() const {
 
 bool Parameter::relative() const {
   return kind <= ParameterKind::tissue_density || kind == ParameterKind::skin_thickness ||
-         kind == ParameterKind::wall_support || kind == ParameterKind::cut_support;
+         kind == ParameterKind::wall_support || kind == ParameterKind::cut_support ||
+         kind == ParameterKind::together;
 }
 
 bool Parameter::of_plates() const {
@@ -93,6 +107,7 @@ std::vector<Parameter> all_parameters(const HexMesh& state, const MechanicsOptio
     all.push_back({"wall", ParameterKind::wall_support});
   }
   if (options.cut.kind == Cut::spring) all.push_back({"cut", ParameterKind::cut_support});
+  add_set_parameters(state, options.materials, all);
   add_gravity(state.gravity, "gravity_", ParameterKind::gravity, all);
   add_gravity(imaged_gravity, "imaged_gravity_", ParameterKind::imaged_gravity, all);
   if (state.contact) {
@@ -102,6 +117,26 @@ std::vector<Parameter> all_parameters(const HexMesh& state, const MechanicsOptio
     all.push_back({"angle", ParameterKind::angle});
   }
   return all;
+}
+
+Parameter set_parameter(const HexMesh& state, const MaterialSet& set, const std::string& name) {
+  const std::vector<std::string>& known = set_parameter_names();
+  if (std::find(known.begin(), known.end(), name) == known.end()) {
+    std::string names;
+    for (const std::string& one : known) names += (names.empty() ? "" : ", ") + one;
+    throw input_error("material parameter '", name, "': use ", names);
+  }
+  Parameter sum{name, ParameterKind::together};
+  if (name == "wall") sum.members.push_back({name, ParameterKind::wall_support});
+  if (name == "cut") sum.members.push_back({name, ParameterKind::cut_support});
+  const std::set<Tissue> present = tissues_of(state);
+  for (const LawConstant& at : constants_of(set, name)) {
+    if (!present.contains(at.tissue)) continue;
+    Parameter one{name, ParameterKind::constant, at.tissue, at.constant};
+    one.value = set.law(at.tissue).constants[at.constant];
+    sum.members.push_back(one);
+  }
+  return sum;
 }
 
 std::vector<Parameter> pick_parameters(const std::vector<Parameter>& all, const std::string& list) {

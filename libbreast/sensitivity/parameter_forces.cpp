@@ -230,10 +230,8 @@ void add_compliance(const Scene& scene, const LoadedState& state,
   }
 }
 
-}  // namespace
-
-ParameterForces parameter_forces(const Scene& scene, const LoadedState& state, ParameterKind role,
-                                 const std::vector<Parameter>& parameters) {
+ParameterForces of_each(const Scene& scene, const LoadedState& state, ParameterKind role,
+                        const std::vector<Parameter>& parameters) {
   ParameterForces out;
   out.force = Eigen::MatrixXd::Zero(3L * scene.nodes(), long(parameters.size()));
   out.volume = Eigen::MatrixXd::Zero(state.state.p.size(), long(parameters.size()));
@@ -263,6 +261,33 @@ ParameterForces parameter_forces(const Scene& scene, const LoadedState& state, P
     } else if (parameter.kind == role) {
       out.force.col(long(i)) -= scene.gravity_force(turned_gravity(state.gravity, parameter.axis));
     }
+  }
+  return out;
+}
+
+}  // namespace
+
+// What changes together has the sum of its members' forces.
+ParameterForces parameter_forces(const Scene& scene, const LoadedState& state, ParameterKind role,
+                                 const std::vector<Parameter>& parameters) {
+  std::vector<Parameter> single;
+  std::vector<long> column;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const Parameter& parameter = parameters[i];
+    if (parameter.kind == ParameterKind::together) {
+      single.insert(single.end(), parameter.members.begin(), parameter.members.end());
+    } else {
+      single.push_back(parameter);
+    }
+    column.resize(single.size(), long(i));
+  }
+  const ParameterForces each = of_each(scene, state, role, single);
+  ParameterForces out;
+  out.force = Eigen::MatrixXd::Zero(each.force.rows(), long(parameters.size()));
+  out.volume = Eigen::MatrixXd::Zero(each.volume.rows(), long(parameters.size()));
+  for (std::size_t k = 0; k < single.size(); ++k) {
+    out.force.col(column[k]) += each.force.col(long(k));
+    out.volume.col(column[k]) += each.volume.col(long(k));
   }
   return out;
 }

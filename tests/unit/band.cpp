@@ -1,6 +1,6 @@
 // The band's linear propagation against re-matched perturbed shapes:
 // derivative, sampling, coverage.
-#include "matching/band.hpp"
+#include "matching/band_materials.hpp"
 
 #include <gtest/gtest.h>
 
@@ -194,6 +194,36 @@ TEST(Band, CoversSampledCurvesAsOftenAsItSays) {
   EXPECT_LE(inside_95, 0.985 * counted);
   EXPECT_GE(inside_50, 0.40 * counted);
   EXPECT_LE(inside_50, 0.60 * counted);
+}
+
+// Two parameters that vary together: the band's variance is gᵀCg, and their own priors are gone.
+TEST(Band, ACovarianceCountsWithItsCorrelations) {
+  const Scene scene;
+  const MatchedCurve curve =
+      scene.matcher.match(*scene.matcher.from_landmark("nipple") + Vec2(-30, 8), 0.001);
+  DerivativeFields from{{"stiffness", scene.from.at("fat")}, {"wall", scene.from.at("fat")}},
+      to{{"stiffness", scene.to.at("fat")}, {"wall", scene.to.at("fat")}};
+  for (Vec3& x : from.at("wall")) x *= -0.5;
+  for (Vec3& x : to.at("wall")) x *= -0.5;
+  const auto deviation = [&](const Eigen::Matrix2d& covariance) {
+    DerivativeFields f = from, t = to;
+    std::vector<Prior> priors{{"fat", 0.7, "", ""}, {"wall", 0.7, "", ""}};
+    use_covariance({"stiffness", "wall"}, covariance, f, t, priors);
+    EXPECT_EQ(priors.size(), 2u);
+    return BandModel(scene.matcher, f, t, priors).band(curve).points[10].deviation;
+  };
+  const double one = BandModel(scene.matcher, scene.from, scene.to, {{"fat", 1, "", ""}})
+                         .band(curve)
+                         .points[10]
+                         .deviation;
+  Eigen::Matrix2d c;
+  c << 0.04, 0.03, 0.03, 0.09;  // g = (1, -0.5): 0.04 - 0.03 + 0.0225
+  EXPECT_NEAR(deviation(c), one * std::sqrt(0.0325), 1e-9);
+  c(0, 1) = c(1, 0) = -0.03;
+  EXPECT_NEAR(deviation(c), one * std::sqrt(0.0925), 1e-9);
+  DerivativeFields none;
+  std::vector<Prior> priors;
+  EXPECT_THROW(use_covariance({"wall"}, Eigen::MatrixXd::Identity(1, 1), none, to, priors), Error);
 }
 
 TEST(Band, PriorsAreChecked) {

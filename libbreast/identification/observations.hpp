@@ -1,0 +1,45 @@
+// What is known of a breast in a second posture.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact/compression.hpp"
+#include "mesh/locate.hpp"
+
+namespace breast {
+
+/// A material point of the imaged breast, and where it was seen.
+struct SeenPoint {
+  std::string name;
+  Location at;           ///< in the imaged shape
+  Vec3 seen{0, 0, 0};    ///< mm, in the second posture
+  double deviation = 1;  ///< mm, standard deviation of each coordinate
+};
+
+/// The skin as seen: points with unit normals (either way round).
+struct SeenSurface {
+  std::vector<Vec3> points, normals;
+  double deviation = 2;  ///< mm, of the distance at one sampled place
+  double reach = 10;     ///< mm along the surface to the next point: beyond is no data
+};
+
+/// Force of the paddle at a thickness between the plates of `press`.
+struct SeenForce {
+  double thickness = 0, force = 0, deviation = 1;  ///< mm, N
+};
+
+struct Observations {
+  std::vector<SeenPoint> points;
+  std::optional<SeenSurface> surface;
+  std::vector<SeenForce> forces;
+  CompressionOptions press;  ///< of the forces; its target is theirs
+
+  std::size_t count() const { return 3 * points.size() + forces.size() + (surface ? 1 : 0); }
+};
+
+/// Standard deviation of one coordinate of a mark whose error in space is `rms_mm`.
+double coordinate_deviation(double rms_mm);
+
+}  // namespace breast

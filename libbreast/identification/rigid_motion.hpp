@@ -1,0 +1,45 @@
+// The rib cage's motion between two postures.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "core/types.hpp"
+
+namespace breast {
+
+/// x ↦ centre + R (x − centre) + shift, R the turn about the vector `turn` by its length.
+struct RigidMotion {
+  Vec3 centre{0, 0, 0}, shift{0, 0, 0};  ///< mm
+  Vec3 turn{0, 0, 0};                    ///< degrees
+
+  static constexpr double radians = std::numbers::pi / 180;
+
+  Mat3 rotation() const {
+    const double angle = turn.norm() * radians;
+    if (!(angle > 0)) return Mat3::Identity();
+    return Eigen::AngleAxisd(angle, turn.normalized()).toRotationMatrix();
+  }
+  Vec3 operator()(const Vec3& x) const { return centre + rotation() * (x - centre) + shift; }
+  /// Derivative of the place of x by `turn`, mm per degree (the left Jacobian of the rotation group).
+  Mat3 by_turn(const Vec3& x) const {
+    const double angle = turn.norm() * radians;
+    Mat3 left = Mat3::Identity();
+    if (angle > 1e-12) {
+      const Vec3 axis = turn.normalized();
+      const double s = std::sin(angle) / angle;
+      left = s * left + (1 - s) * axis * axis.transpose() +
+             (1 - std::cos(angle)) / angle * cross(axis);
+    }
+    return -radians * cross(rotation() * (x - centre)) * left;
+  }
+
+ private:
+  static Mat3 cross(const Vec3& a) {
+    Mat3 m;
+    m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+    return m;
+  }
+};
+
+}  // namespace breast

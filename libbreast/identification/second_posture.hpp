@@ -1,0 +1,80 @@
+// The model that is compared with observations: stress-free shape, second posture, and how both answer
+// what is sought.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/observations.hpp"
+#include "identification/rigid_motion.hpp"
+#include "identification/skin_samples.hpp"
+#include "mechanics/mechanics.hpp"
+#include "sensitivity/chain.hpp"
+
+namespace breast {
+
+/// What is sought: logarithms of factors on the named parts of the material set and, when asked for,
+/// shift (mm) and turn (degrees) of the rib cage between the postures.
+struct Sought {
+  std::vector<std::string> names;  ///< material/set_parameter.hpp
+  bool align = false;
+
+  Eigen::Index materials() const { return Eigen::Index(names.size()); }
+  Eigen::Index count() const { return materials() + (align ? 6 : 0); }
+};
+
+/// `options` with its material set and supports multiplied by exp(x).
+MechanicsOptions with_factors(const MechanicsOptions& options, const Sought& sought,
+                              const Eigen::VectorXd& x);
+
+/// What the supports of these options are, as part of their material set.
+MaterialSet set_with_supports(const MechanicsOptions& options);
+
+class SecondPosture {
+ public:
+  /// `mesh`: imaged under `imaged_gravity`; `gravity` acts in the second posture (mm/s²). Keeps copies.
+  SecondPosture(HexMesh mesh, const MechanicsOptions& options, const Vec3& imaged_gravity,
+                const Vec3& gravity, Observations seen, Sought sought);
+
+  /// Predicted minus seen over standard deviation: three of each point, the sampled skin, forces.
+  /// Nothing where there is no stable equilibrium; `reason()` then says why.
+  std::optional<Eigen::VectorXd> residuals(const Eigen::VectorXd& x);
+  /// ∂ residuals / ∂x of the last answer, by the tangent-linear derivatives of both states.
+  Eigen::MatrixXd jacobian() const;
+
+  const std::string& reason() const { return reason_; }
+  const Observations& seen() const { return seen_; }
+  const Sought& sought() const { return sought_; }
+  /// The second posture of the last answer, before the rib cage's motion.
+  const HexMesh& mesh() const { return mesh_; }
+  /// Skin samples that have a point of the surface near them in the last answer.
+  std::size_t surface_points() const { return surface_points_; }
+  RigidMotion motion(const Eigen::VectorXd& x) const;
+  int pairs() const { return pairs_; }
+
+ private:
+  bool solve(const Eigen::VectorXd& x);
+  bool press(const MechanicsOptions& options);
+  Vec3 place(const Location& at) const {
+    return element_position(mesh_, mesh_.points, at.element, at.local);
+  }
+
+  HexMesh mesh_;
+  MechanicsOptions base_, options_;
+  Vec3 imaged_gravity_, gravity_;
+  Observations seen_;
+  Sought sought_;
+  std::vector<Location> samples_;
+  Vec3 centre_;
+  // Of the last answer.
+  Eigen::VectorXd x_;
+  std::vector<double> imaged_pressure_;
+  std::vector<HexMesh> pressed_;
+  std::vector<std::optional<SurfaceDistance>> distances_;
+  std::size_t surface_points_ = 0;
+  std::string reason_;
+  int pairs_ = 0;
+};
+
+}  // namespace breast

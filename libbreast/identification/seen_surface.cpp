@@ -1,0 +1,68 @@
+#include "identification/seen_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr std::size_t least_points = 50, most_points = 20000;
+constexpr double least_reach = 5, spacings = 3;  // mm, and of the distance between points
+
+// Per point, the sum of its triangles' area vectors.
+std::vector<Vec3> area_vectors(const TriMesh& surface) {
+  std::vector<Vec3> sum(surface.points.size(), Vec3::Zero());
+  for (const auto& [a, b, c] : surface.triangles) {
+    const Vec3 area = (surface.points[std::size_t(b)] - surface.points[std::size_t(a)])
+                          .cross(surface.points[std::size_t(c)] - surface.points[std::size_t(a)]);
+    for (const int node : {a, b, c}) sum[std::size_t(node)] += area;
+  }
+  return sum;
+}
+
+// Median distance to the nearest other point, over a few hundred points.
+double spacing_of(const std::vector<Vec3>& points) {
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / 300);
+  std::vector<double> nearest;
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const double apart = (points[i] - points[k]).squaredNorm();
+      if (k != i && apart > 0) best = std::min(best, apart);
+    }
+    nearest.push_back(std::sqrt(best));
+  }
+  std::nth_element(nearest.begin(), nearest.begin() + long(nearest.size() / 2), nearest.end());
+  return nearest[nearest.size() / 2];
+}
+
+}  // namespace
+
+SeenSurface seen_surface(const TriMesh& surface, double deviation, const std::string& where) {
+  const std::vector<Vec3> normals =
+      surface.triangles.empty() ? surface.normals : area_vectors(surface);
+  if (normals.size() != surface.points.size()) {
+    throw input_error(where, ": points without triangles or normals; give a triangle surface");
+  }
+  SeenSurface seen;
+  seen.deviation = deviation;
+  const double keep = std::min(1.0, double(most_points) / double(surface.points.size()));
+  for (std::size_t k = 0; k < surface.points.size(); ++k) {
+    const bool kept = std::floor(double(k + 1) * keep) > std::floor(double(k) * keep);
+    if (!kept || !(normals[k].norm() > 0)) continue;
+    seen.points.push_back(surface.points[k]);
+    seen.normals.push_back(normals[k].normalized());
+  }
+  if (seen.points.size() < least_points) {
+    throw input_error(where, ": ", seen.points.size(), " points with a normal; at least ",
+                      least_points, " are needed");
+  }
+  seen.reach = std::max(least_reach, spacings * spacing_of(seen.points));
+  return seen;
+}
+
+}  // namespace breast

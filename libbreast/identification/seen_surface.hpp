@@ -1,0 +1,14 @@
+// A surface file as skin that was seen.
+#pragma once
+
+#include "identification/observations.hpp"
+#include "surface/tri_mesh.hpp"
+
+namespace breast {
+
+/// Points with normals from a triangle surface, or a point set that has normals. At most 20000 points
+/// are kept, evenly. Throws Error (input) beginning with `where` when there are no normals or fewer
+/// than 50 points.
+SeenSurface seen_surface(const TriMesh& surface, double deviation, const std::string& where);
+
+}  // namespace breast

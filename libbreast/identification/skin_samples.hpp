@@ -1,0 +1,20 @@
+// Places on the skin at which a prediction is compared with a surface that was seen.
+#pragma once
+
+#include "identification/observations.hpp"
+
+namespace breast {
+
+/// Middles of skin faces, at least `spacing` mm apart in the scan and away from the skin's rim, where
+/// the surface that was seen goes on and the body does not.
+std::vector<Location> skin_samples(const HexMesh& mesh, double spacing);
+
+/// The distance (mm) of x from the surface along its normal, and that normal; nothing where the
+/// nearest point seen lies farther than `reach` along the surface.
+struct SurfaceDistance {
+  double value = 0;
+  Vec3 normal{0, 0, 1};
+};
+std::optional<SurfaceDistance> distance_to(const SeenSurface& surface, const Vec3& x);
+
+}  // namespace breast

@@ -1,0 +1,44 @@
+// Nonlinear least squares with derivatives of a model that costs seconds and may have no answer.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace breast {
+
+/// Residuals already divided by their standard deviations, with those of the prior, so that the
+/// Jacobian has full rank.
+struct LeastSquaresProblem {
+  /// Nothing where the model has no answer, such as a body that does not exist.
+  std::function<std::optional<Eigen::VectorXd>(const Eigen::VectorXd&)> residuals;
+  /// At the point residuals were last asked for; asked only where there was an answer.
+  std::function<Eigen::MatrixXd()> jacobian;
+};
+
+struct TrustRegionOptions {
+  Eigen::VectorXd unit;  ///< a parameter's own unit of length in the region; empty: 1 each
+  double radius = 0.7;   ///< of the first region, in these units
+  double tolerance =
+      2e-3;  ///< the fall of the sum of squares that the last model step still promises
+  int max_evaluations = 25;
+};
+
+struct TrustRegionResult {
+  Eigen::VectorXd x, residuals;
+  Eigen::MatrixXd jacobian;              ///< at x
+  std::vector<Eigen::VectorXd> refused;  ///< points at which the model had no answer
+  int evaluations = 0, jacobians = 0;
+  bool converged = false;
+  /// The last thing that shortened a step was a point without an answer: the best lies at that limit.
+  bool at_limit = false;
+};
+
+/// Levenberg's and Marquardt's method with a trust region (Moré 1978): the step is the minimum of the
+/// linearised sum of squares within the region, which shrinks where the model disagrees with it or has no
+/// answer. Throws Error (not converged) when there is no answer at the start.
+TrustRegionResult trust_region(const LeastSquaresProblem& problem, const Eigen::VectorXd& start,
+                               const TrustRegionOptions& options = {});
+
+}  // namespace breast

@@ -1,0 +1,33 @@
+// The few numbers by which a whole material set is made softer or stiffer.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "material/law.hpp"
+
+namespace breast {
+
+/// One constant of one tissue's law.
+struct LawConstant {
+  Tissue tissue = Tissue::fat;
+  std::size_t constant = 0;
+};
+
+/// "low_order" (constants linear in the invariants, of all tissues but skin), "quadratic" (their other
+/// stiffness constants), "stiffness" (both together), "gland" (all stiffness constants of fibroglandular
+/// tissue and tumour, so the ratio of gland to fat), "skin", "wall" and "cut". The covariance of a
+/// set's uncertainty is of the logarithms of such factors.
+const std::vector<std::string>& set_parameter_names();
+
+/// The constants that a parameter multiplies; none for "wall", "cut" and for what the laws do not have.
+std::vector<LawConstant> constants_of(const MaterialSet& set, std::string_view parameter);
+
+/// Those the set has, without "stiffness".
+std::vector<std::string> set_parameters(const MaterialSet& set);
+
+/// Multiplies what the parameter stands for. Throws Error (input) when the set does not have it.
+void scale_set(MaterialSet& set, std::string_view parameter, double factor);
+
+}  // namespace breast

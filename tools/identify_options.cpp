@@ -1,0 +1,105 @@
+#include "identify_options.hpp"
+
+#include <sstream>
+
+#include "core/error.hpp"
+
+namespace breast {
+
+void IdentifyChoices::check() const {
+  if (landmarks.empty() && surface.empty() && nipple.empty() && forces.empty()) {
+    throw input_error(
+        "nothing is known of a second posture: give --landmarks, --nipple, --surface or "
+        "--force-thickness");
+  }
+  if (!align && align_deviation != std::vector<double>{4, 2})
+    throw input_error("--align-deviation is for --align");
+  for (const double one : align_deviation)
+    if (!(one > 0 && one <= 100))
+      throw input_error("--align-deviation ", one, " must lie above 0 and up to 100");
+}
+
+std::vector<std::string> IdentifyChoices::names() const {
+  std::vector<std::string> list;
+  std::istringstream words(parameters);
+  for (std::string word; std::getline(words, word, ',');) list.push_back(word);
+  return list;
+}
+
+namespace {
+
+void declare_data(Tool& tool, IdentifyChoices& c) {
+  tool.input_file(
+      c.landmarks, "--landmarks", "PAIRS.tsv",
+      "material points marked in both postures: columns prone_x_mm ... supine_z_mm, perhaps "
+      "landmark, observer_mm and side");
+  tool.numbers(c.nipple, "--nipple", "x,y,z", 3,
+               "where the mesh's nipple lies in the second posture, mm LPS");
+  tool.input_file(c.surface, "--surface", "SKIN.vtp",
+                  "skin seen in the second posture: triangles, or points with normals");
+  tool.input_file(
+      c.forces, "--force-thickness", "FILE.tsv",
+      "forces of a paddle: columns thickness_mm, force_N, perhaps sd_N (else a tenth and 0.5 N); "
+      "each row costs a compression a trial");
+  tool.number(c.observer, "--observer-error", "MM", "of one mark in space, rms", 0.01, 100);
+  tool.number(c.surface_error, "--surface-error", "MM",
+              "standard deviation of the skin's distance at one of the sampled places 12 mm apart",
+              0.01, 100);
+  tool.number(c.outside, "--outside", "MM", "by which a mark may lie outside the body in the scan",
+              0.1, 100);
+  tool.choice(c.view, "--view", {"CC", "MLO", "ML"}, "of the forces");
+  tool.number(c.standoff, "--standoff", "MM", "of their plates", 0, 500);
+  tool.number(c.edge_radius, "--edge-radius", "MM", "of their plates' rounded edges", 1, 100);
+}
+
+}  // namespace
+
+void declare_identify(Tool& tool, IdentifyChoices& c) {
+  tool.describe(
+      "Finds a patient's own stiffness: the material set with which her breast, imaged prone, moves to "
+      "where it was seen in a second posture. Sought are logarithms of factors on parts of the set "
+      "--materials: low_order (constants linear in the invariants, of fat and gland alike), quadratic (the "
+      "others), gland (fibroglandular tissue beyond that, the ratio of gland to fat), skin, wall (resistance "
+      "to sliding) and cut; with --align also shift and turn of the rib cage between the postures. "
+      "Gravity keeps its direction in the frame of the scan.");
+  tool.describe(
+      "Weighted least squares with a trust region; derivatives are those of backward and forward, not "
+      "differences. A trial set without a stable body shortens the step and is reported. The prior is the "
+      "set's own covariance about itself (invivo has one), a factor of three where it has none, for gland "
+      "a factor of two; with --prior none a factor of twenty each, which only keeps finite what the data leave "
+      "open.");
+  tool.describe(
+      "stdout has the parameters, then the directions in which the data know them, in words. --table lists "
+      "each landmark's residual, its distance when it is left out and the others predict it, and "
+      "the observer's error. The misfit test compares the sum of squares with its distribution; where it "
+      "fails at 1 % the data's errors count as much larger as the misfit says. OUT.tsv holds the "
+      "covariance: --materials OUT.tsv runs the chain, cc2mlo --band --materials OUT.tsv draws the "
+      "band of what is left open.");
+  tool.input(c.mesh, "MESH.vtkhdf",
+             "mesh of the breast imaged prone, with its wall surface (hexmesh)");
+  tool.output(c.set, "OUT.tsv", "the material set found, with its covariance");
+  declare_data(tool, c);
+  tool.text(
+      c.parameters, "--parameters", "LIST",
+      "of low_order, quadratic, gland, skin, wall, cut, and stiffness for the first two together; "
+      "without it all but stiffness that the set has");
+  tool.choice(c.prior, "--prior", {"set", "none"}, "what is expected before the data");
+  tool.flag(c.align, "--align", "the rib cage may have moved between the postures");
+  tool.numbers(c.align_deviation, "--align-deviation", "MM,DEGREES", 2,
+               "by how much, rms in space of shift and turn (default 4,2)");
+  tool.integer(c.pairs, "--max-pairs", "N", "solves of backward and forward at most", 2, 500);
+  tool.output_file(c.table, "--table", "OUT.tsv", "a row a landmark");
+  tool.output_file(c.second, "--second", "OUT.vtkhdf", "the second posture with the set found");
+  declare_gravity(tool, c.gravity,
+                  "direction of gravity in the second posture, in the frame of the scan");
+  declare_mechanics(tool, c.mechanics);
+  tool.cite("Moré 1978, the Levenberg-Marquardt algorithm: implementation and theory");
+  tool.check([&c] { c.check(); });
+  tool.example(
+      "identify mesh.vtkhdf patient.tsv --landmarks pairs.tsv --align --table landmarks.tsv",
+      "from landmarks marked prone and supine");
+  tool.example("identify mesh.vtkhdf patient.tsv --nipple 158,-9,13",
+               "from the nipple alone: mostly the prior, and it says so");
+}
+
+}  // namespace breast

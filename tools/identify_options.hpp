@@ -1,0 +1,30 @@
+// What identify is told.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/mechanics_options.hpp"
+
+namespace breast {
+
+struct IdentifyChoices {
+  std::filesystem::path mesh, set, landmarks, surface, forces, table, second;
+  std::vector<double> nipple, align_deviation{4, 2};
+  double observer = 2.5, surface_error = 2, outside = 10;
+  double standoff = 5, edge_radius = 5;
+  std::string parameters, prior = "set", view = "CC";
+  bool align = false;
+  int pairs = 25;
+  GravityChoices gravity{"supine", {}};
+  MechanicsChoices mechanics = {};
+
+  IdentifyChoices() { mechanics.materials = "invivo"; }
+  void check() const;
+  std::vector<std::string> names() const;
+};
+
+void declare_identify(Tool& tool, IdentifyChoices& choices);
+
+}  // namespace breast
