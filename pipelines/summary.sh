@@ -57,7 +57,7 @@ done
 cc_line=$(number "$run/cc.json" nipple_in_front_mm) mlo_line=$(number "$run/mlo.json" nipple_in_front_mm)
 if [ -n "$cc_line" ] && [ -n "$mlo_line" ]; then
   awk -v cc="$cc_line" -v mlo="$mlo_line" 'BEGIN { printf "  nipple line: CC %.0f mm, MLO %.0f mm to the image edge; they differ by %.0f mm (clinics accept 10)\n",
-    cc, mlo, cc > mlo ? cc - mlo : mlo - cc }'
+    cc, mlo, (cc > mlo) ? cc - mlo : mlo - cc }'
 fi
 echo
 if [ -s "$run/curve.tsv" ]; then
