@@ -2,14 +2,17 @@
 // obeys mouse, keyboard and touch. Needs Chromium (Debian: chromium) and Python.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
 
 #include "fixtures/chain_files.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "image/volume.hpp"
+#include "io/mammogram_file.hpp"
 #include "io/volume_file.hpp"
 #include "matching/correspondence.hpp"
+#include "projection/projection.hpp"
 
 using namespace breast;
 
@@ -41,31 +44,35 @@ Volume<std::int16_t> scan() {
   return volume;
 }
 
+void write_page(const std::filesystem::path& folder, const std::string& name,
+                const std::vector<std::string>& more) {
+  std::vector<std::string> words{"cc.vtkhdf",    "mlo.vtkhdf", "lookup.h5",  "--page",  name,
+                                 "--from-image", "cc.vti",     "--to-image", "mlo.vti", "--quiet"};
+  words.insert(words.end(), more.begin(), more.end());
+  const ToolResult page = run_tool("match-lookup", words, folder);
+  ASSERT_EQ(page.exit_code, 0) << page.err;
+}
+
 }  // namespace
 
-TEST(PageInBrowser, DrawsWhatTheMatcherFindsAndObeysMouseKeysAndTouch) {
+class PageInBrowser : public testing::TestWithParam<Side> {};
+
+TEST_P(PageInBrowser, DrawsWhatTheMatcherFindsAndObeysMouseKeysAndTouch) {
   if (std::system("command -v chromium chromium-browser google-chrome > /dev/null") != 0) {
     GTEST_SKIP() << "no Chromium: apt-get install chromium";
   }
   const ScratchFolder folder;
-  fixtures::write_chain(folder.path());
+  HexMesh body = fixtures::landmarked_breast(8);
+  body.side = body.geometry->side = GetParam();
+  const HexMesh cc = fixtures::squashed(body, View::cc, 0.6),
+                mlo = fixtures::squashed(body, View::mlo, 0.5);
+  write_mesh(folder / "cc.vtkhdf", cc);
+  write_mesh(folder / "mlo.vtkhdf", mlo);
   write_volume(folder / "scan.nrrd", scan());
-  for (const std::string view : {"cc", "mlo"}) {
-    const ToolResult image = run_tool(
-        "project-mammogram",
-        {view + ".vtkhdf", view + ".vti", "--labels", "labels.vtkhdf", "--pixel", "0.5", "--quiet"},
-        folder.path());
-    ASSERT_EQ(image.exit_code, 0) << image.err;
-  }
-  for (const std::string name : {"page.html", "without.html"}) {
-    std::vector<std::string> words{"cc.vtkhdf", "mlo.vtkhdf",   "lookup.h5", "--page",
-                                   name,        "--from-image", "cc.vti",    "--to-image",
-                                   "mlo.vti",   "--quiet"};
-    if (name == "page.html") words.insert(words.end(), {"--scan", "scan.nrrd"});
-    const ToolResult page = run_tool("match-lookup", words, folder.path());
-    ASSERT_EQ(page.exit_code, 0) << page.err;
-  }
-  const HexMesh cc = read_mesh(folder / "cc.vtkhdf"), mlo = read_mesh(folder / "mlo.vtkhdf");
+  write_mammogram(folder / "cc.vti", project_mammogram(cc, {.pixel = 0.5}));
+  write_mammogram(folder / "mlo.vti", project_mammogram(mlo, {.pixel = 0.5}));
+  write_page(folder.path(), "page.html", {"--scan", "scan.nrrd"});
+  write_page(folder.path(), "without.html", {});
   const Matcher there(cc, mlo), back(mlo, cc);
   {
     std::ofstream truth(folder / "truth.txt");
@@ -78,3 +85,5 @@ TEST(PageInBrowser, DrawsWhatTheMatcherFindsAndObeysMouseKeysAndTouch) {
       "python3 '" BREAST_SOURCE "/tests/page/check_page.py' '" + folder.path().string() + "' >&2";
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
+
+INSTANTIATE_TEST_SUITE_P(Sides, PageInBrowser, testing::Values(Side::left, Side::right));
