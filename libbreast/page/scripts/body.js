@@ -3,18 +3,18 @@ const body = (() => {
   const canvas = document.getElementById('body'), picture = document.createElement('canvas');
   const parts = [['cut', 'rgba(120,130,140,0.20)'], ['wall', 'rgba(201,138,91,0.42)'], ['skin', 'rgba(150,190,225,0.20)']]
       .map(([name, colour]) => ({edges: array(Float32Array, data.body[name]), colour}));
-  const low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
-  for (const {edges} of parts) edges.forEach((x, i) => {
-    low[i % 3] = Math.min(low[i % 3], x);
-    high[i % 3] = Math.max(high[i % 3], x);
-  });
-  const middle = data.body.middle, size = Math.hypot(...high.map((a, k) => a - low[k]));
-  const turn = {yaw: left ? 0.7 : -0.7, pitch: 0.25};
+  const middle = data.body.middle;
+  let radius = 1;  // of a ball about the middle that holds the breast however it is turned
+  for (const {edges} of parts) for (let i = 0; i < edges.length; i += 3) {
+    radius = Math.max(radius, Math.hypot(edges[i] - middle[0], edges[i + 1] - middle[1], edges[i + 2] - middle[2]));
+  }
+  const turn = {yaw: left ? 0.7 : -0.7, pitch: -0.25};
   let drawn = '', scale = 1, zoom = 1, w = 0, h = 0;
+  // Right, down and away on the screen of a direction; from the front the patient's left is at the right.
   const turned = (a, b, c) => {
     const cy = Math.cos(turn.yaw), sy = Math.sin(turn.yaw), cp = Math.cos(turn.pitch), sp = Math.sin(turn.pitch);
     const across = cy * a + sy * b, away = -sy * a + cy * b;
-    return [across, -(cp * c - sp * away)];
+    return [across, -(cp * c - sp * away), sp * c + cp * away];
   };
   const put = p => {
     const [x, y] = turned(p[0] - middle[0], p[1] - middle[1], p[2] - middle[2]);
@@ -62,7 +62,7 @@ const body = (() => {
   function draw() {
     w = canvas.clientWidth;
     h = canvas.clientHeight;
-    scale = 1.3 * zoom * Math.min(w, h) / size;
+    scale = 0.49 * zoom * Math.min(w, h) / radius;
     const ratio = sharp();
     Object.assign(canvas, {width: Math.round(w * ratio), height: Math.round(h * ratio)});
     background();
@@ -88,5 +88,5 @@ const body = (() => {
     turn.yaw += dx;
     turn.pitch = Math.max(-1.57, Math.min(1.57, turn.pitch + dy));
   }
-  return {canvas, draw, by, zoomBy(factor) { zoom = Math.max(0.5, Math.min(6, zoom * factor)); }, to(yaw, pitch) { Object.assign(turn, {yaw, pitch}); }, turn};
+  return {canvas, draw, by, zoomBy(factor) { zoom = Math.max(0.5, Math.min(6, zoom * factor)); }, to(yaw, pitch) { Object.assign(turn, {yaw, pitch}); }, turn, turned};
 })();

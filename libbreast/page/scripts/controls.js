@@ -15,12 +15,12 @@ press('mode', () => {
 });
 press('larger', () => used().forEach(view => view.zoomAt(1.25)));
 press('smaller', () => used().forEach(view => view.zoomAt(0.8)));
-press('fit', () => views.forEach(view => view.reset()));
+press('fit', () => [...views, slice].forEach(picture => picture.reset()));
 press('undo', undo);
 press('clear', clearPins);
 press('front', () => body.to(0, 0));
 press('side', () => body.to(left ? Math.PI / 2 : -Math.PI / 2, 0));
-press('below', () => body.to(0, -Math.PI / 2));
+press('above', () => body.to(0, -Math.PI / 2));
 for (const id of ['show-band', 'show-arc', 'show-marks']) document.getElementById(id).addEventListener('change', () => redraw());
 document.getElementById('depth').addEventListener('input', event => {
   along = event.target.value / 100;
@@ -32,6 +32,13 @@ slice.canvas.addEventListener('wheel', event => {
   slice.step(event.deltaY > 0 ? -1 : 1);
   redraw();
 }, {passive: false});
+slice.canvas.addEventListener('pointerdown', event => slice.canvas.setPointerCapture(event.pointerId));
+slice.canvas.addEventListener('contextmenu', event => event.preventDefault());
+slice.canvas.addEventListener('pointermove', event => {
+  if (!event.buttons) return;
+  slice.changeWindow(event.movementX / 200, -event.movementY / 400);
+  redraw();
+});
 body.canvas.addEventListener('pointerdown', event => body.canvas.setPointerCapture(event.pointerId));
 body.canvas.addEventListener('pointermove', event => {
   if (!event.buttons) return;

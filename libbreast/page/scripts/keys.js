@@ -43,10 +43,11 @@ function listenKeys(view) {
   });
 }
 slice.canvas.addEventListener('keydown', event => {
-  const arrow = arrows[event.key];
-  if (!arrow || !arrow[1]) return;
+  const arrow = arrows[event.key], window = {'[': [-0.1, 0], ']': [0.1, 0], ',': [0, -0.02], '.': [0, 0.02]}[event.key];
+  if (window) slice.changeWindow(...window);
+  else if (arrow && arrow[1]) slice.step(-arrow[1]);
+  else return;
   event.preventDefault();
-  slice.step(-arrow[1]);
   redraw();
 });
 body.canvas.addEventListener('keydown', event => {

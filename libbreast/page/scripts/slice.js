@@ -6,19 +6,22 @@ const slice = (() => {
     document.getElementById('slice-figure').hidden = true;
     document.getElementById('slice-figure').style.display = 'none';
     document.getElementById('aside').className = 'alone';
-    return {draw() {}, follow() {}, step() {}, canvas, at: null};
+    return {draw() {}, follow() {}, step() {}, changeWindow() {}, reset() {}, canvas, at: null};
   }
   const grey = bytes(scan.grey), [nx, ny, nz] = scan.size, [dx, dy, dz] = scan.spacing, [x0, y0, z0] = scan.origin;
   const picture = document.createElement('canvas');
   Object.assign(picture, {width: nx, height: ny});
   const centre = data.body.landmarks.find(mark => mark.name === 'nipple');
-  let k = -1, wanted = Math.round(((centre ? centre.at[2] : data.body.middle[2]) - z0) / dz);
+  const shades = {width: 1, level: 0.5};
+  let k = -1, stale = true, wanted = Math.round(((centre ? centre.at[2] : data.body.middle[2]) - z0) / dz);
   const bounded = index => Math.max(0, Math.min(nz - 1, index));
   function develop() {
-    if (k === wanted) return;
+    if (k === wanted && !stale) return;
     k = wanted;
+    stale = false;
     const pixels = new ImageData(nx, ny), out = new Uint32Array(pixels.data.buffer), first = k * nx * ny;
-    for (let i = 0; i < nx * ny; ++i) out[i] = 0xff000000 | grey[first + i] * 0x010101;
+    const table = developed(shades, 256);
+    for (let i = 0; i < nx * ny; ++i) out[i] = table[grey[first + i]];
     picture.getContext('2d').putImageData(pixels, 0, 0);
   }
   function draw() {
@@ -72,6 +75,8 @@ const slice = (() => {
     canvas, draw,
     follow(point) { if (isMatched(point)) wanted = bounded(Math.round((at(point.match.column)[2] - z0) / dz)); },
     step(by) { wanted = bounded(wanted + by); },
+    changeWindow(wider, higher) { stale = true; rewindow(shades, wider, higher); },
+    reset() { stale = true; Object.assign(shades, fullWindow); },
     get at() { return wanted; }
   };
 })();

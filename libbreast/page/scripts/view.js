@@ -1,6 +1,5 @@
 // A mammogram on a canvas: pose on the screen, window and level. u grows from the chest wall; a right breast is hung mirrored
 // with its chest wall at the right edge.
-const fullWindow = {width: 1, level: 0.5};
 const sharp = () => Math.min(window.devicePixelRatio || 1, 2);
 class View {
   constructor(k) {
@@ -53,8 +52,7 @@ class View {
     this.hold();
   }
   changeWindow(wider, higher) {
-    this.window.width = Math.min(2, Math.max(0.02, this.window.width * Math.exp(wider)));
-    this.window.level = Math.min(1, Math.max(0, this.window.level + higher));
+    rewindow(this.window, wider, higher);
     this.stale = true;
   }
   toScreen(u, v) {
@@ -73,10 +71,9 @@ class View {
   // Grey values through window and level, only when these have changed.
   develop() {
     if (!this.stale) return;
-    const low = this.window.level - this.window.width / 2, table = new Uint8ClampedArray(4096);
-    for (let i = 0; i < 4096; ++i) table[i] = 255 * (i / 4095 - low) / this.window.width;
+    const table = developed(this.window, 4096);
     const pixels = new ImageData(this.image.width, this.image.height), out = new Uint32Array(pixels.data.buffer);
-    for (let i = 0; i < this.grey.length; ++i) out[i] = 0xff000000 | table[this.grey[i] >> 4] * 0x010101;
+    for (let i = 0; i < this.grey.length; ++i) out[i] = table[this.grey[i] >> 4];
     this.picture.getContext('2d').putImageData(pixels, 0, 0);
     this.stale = false;
   }
