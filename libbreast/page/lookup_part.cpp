@@ -12,7 +12,7 @@ namespace breast {
 namespace {
 
 constexpr double unit = 0.01;  // mm of the packed lengths
-constexpr std::size_t most_nodes = 17000;
+constexpr std::size_t most_nodes = 14000;
 
 template <class Integer>
 Integer packed(double value, double step) {

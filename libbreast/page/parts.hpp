@@ -19,8 +19,8 @@ std::string numbers_json(const std::vector<double>& values);
 std::string image_json(const Mammogram& image, const HexMesh& compressed);
 
 /// The curves of a grid, only of nodes in tissue, rounded to 0.01 mm; lengths beyond 327 mm from
-/// `middle` (columns) or from the image's corner (curves) are cut there. A grid with more than 17 000 nodes in
-/// tissue is thinned, so that a direction takes at most 8 MB.
+/// `middle` (columns) or from the image's corner (curves) are cut there. A grid with more than 14 000 nodes in
+/// tissue is thinned, so that a direction takes at most 7 MB.
 std::string lookup_json(const MatchLookup& lookup, const Vec3& middle);
 
 /// Edges of skin, chest wall and cut in the MR frame, mm, with nipple and tumour.
