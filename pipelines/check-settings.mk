@@ -7,7 +7,8 @@ hash := \#
 
 # What a case file may set: pipelines/case-file.sh reads these lists here.
 path_settings := MR CHEST_WALL MATERIALS LANDMARKS
-name_settings := SIDE SERIES CASE PRESET WALL CUT ELEMENT PAPER REDUCTION AT_LEAST ELEMENTS TUMOUR ACCURACY LEAVEOUT_MM POINTS
+name_settings := SIDE SERIES CASE PRESET WALL CUT ELEMENT PAPER REDUCTION AT_LEAST ELEMENTS TUMOUR ACCURACY LEAVEOUT_MM POINTS \
+  PAGE_SCAN
 text_settings := LEAVE_OUT PRONE MECHANICS SEGMENT_OPTIONS FIT_OPTIONS HEXMESH_OPTIONS COMPRESS_OPTIONS PROJECT_OPTIONS \
   PHANTOM_OPTIONS SLICER_OPTIONS
 case_settings := $(path_settings) $(name_settings) $(text_settings)
@@ -63,6 +64,7 @@ $(call among,WALL,held slide $(filter slide:% spring:%,$(WALL)))
 $(call among,CUT,free fixed roller $(filter spring:%,$(CUT)))
 $(call among,ELEMENT,q1p0 q2p1)
 $(call among,PAPER,1)
+$(call among,PAGE_SCAN,yes no)
 $(call among,LEAVE_OUT,no-skin no-gland no-backward no-gravity-in-compression)
 $(call plain_number,REDUCTION)
 $(call plain_number,AT_LEAST)

@@ -1,5 +1,6 @@
 // match-lookup: the matched curves of a whole mammogram, as a file and as a page to point at.
 #include <algorithm>
+#include <optional>
 
 #include "cli/tool.hpp"
 #include "core/atomic_file.hpp"
@@ -9,6 +10,7 @@
 #include "io/lookup_file.hpp"
 #include "io/mammogram_file.hpp"
 #include "io/mesh_file.hpp"
+#include "io/volume_file.hpp"
 #include "page/page.hpp"
 
 using namespace breast;
@@ -16,64 +18,97 @@ using namespace breast;
 namespace {
 
 struct Choices {
-  std::filesystem::path from, to, lookup, priors, page, from_image, to_image;
+  std::filesystem::path from, to, lookup, priors, page, from_image, to_image, scan;
+  int series = 0;
+  bool both_ways = false;
   double pitch = 2;
   std::string geometry = "parallel";
 
   void check() const {
-    if (page.empty() == from_image.empty() && page.empty() == to_image.empty()) return;
-    throw input_error("--page, --from-image and --to-image go together");
+    if (page.empty() != from_image.empty() || page.empty() != to_image.empty()) {
+      throw input_error("--page, --from-image and --to-image go together");
+    }
+    if (page.empty() && !scan.empty())
+      throw input_error("--scan is shown in a page; give --page too");
   }
 };
+
+std::vector<Prior> priors_of(const Choices& choices) {
+  return choices.priors.empty() ? default_priors()
+                                : priors_from(read_table(choices.priors), choices.priors.string());
+}
+
+// Counts of one direction, under the names of the report.
+void report_lookup(const MatchLookup& lookup, const std::string& prefix, Run& run) {
+  Report& report = run.report();
+  report.set(prefix + "nodes", lookup.status.size());
+  const auto count = [&](auto wanted) {
+    return std::size_t(std::count_if(lookup.status.begin(), lookup.status.end(), wanted));
+  };
+  const std::size_t matched = count([](std::uint8_t status) { return status != 0; });
+  const std::size_t leaving =
+      count([](std::uint8_t status) { return status == std::uint8_t(LookupStatus::behind_image); });
+  report.set(prefix + "matched", matched);
+  report.set(prefix + "leaving_image", leaving);
+  if (leaving > 0) {
+    run.warn(message(leaving, " of ", matched, " curves leave the ", view_name(lookup.to_view),
+                     " image: part of them lies behind its posterior edge"));
+  }
+}
+
+// The page is made before the lookup's file is written: one that fails leaves neither.
+void write_page(const Choices& choices, const Matcher& matcher, const MatchLookup& lookup,
+                const MatchLookup& back, Run& run) {
+  Timer::Scope phase(run.timer(), "page");
+  Volume<float> scan;
+  if (!choices.scan.empty()) scan = read_volume(choices.scan, choices.series);
+  const Mammogram from = read_mammogram(choices.from_image), to = read_mammogram(choices.to_image);
+  const std::string page = lookup_page({.matcher = matcher,
+                                        .there = lookup,
+                                        .back = back,
+                                        .from = from,
+                                        .to = to,
+                                        .scan = choices.scan.empty() ? nullptr : &scan});
+  write_text(choices.page, page);
+  run.report().set("page_mb", double(page.size()) / 1e6);
+  run.report().set("page_shows_scan", !choices.scan.empty());
+}
 
 void run_lookup(const Choices& choices, Run& run) {
   const HexMesh from = read_mesh(choices.from, {.contact = true});
   const HexMesh to = read_mesh(choices.to, {.contact = true});
-  const Matcher matcher(from, to, choices.geometry == "cone" ? Beam::cone : Beam::parallel);
+  const Beam beam = choices.geometry == "cone" ? Beam::cone : Beam::parallel;
+  const Matcher matcher(from, to, beam), reverse(to, from, beam);
   const DerivativeFields from_derivatives = read_derivatives(choices.from, from).position,
                          to_derivatives = read_derivatives(choices.to, to).position;
-  const BandModel band(matcher, from_derivatives, to_derivatives,
-                       choices.priors.empty()
-                           ? default_priors()
-                           : priors_from(read_table(choices.priors), choices.priors.string()));
-  MatchLookup lookup;
-  const bool banded = !band.counts_marks_only();
+  const BandModel band(matcher, from_derivatives, to_derivatives, priors_of(choices)),
+      reverse_band(reverse, to_derivatives, from_derivatives, priors_of(choices));
+  const bool banded = !band.counts_marks_only(), both = choices.both_ways || !choices.page.empty();
   if (!banded) {
     run.warn("no band: " + choices.from.filename().string() + " and " +
              choices.to.filename().string() +
              " share no derivative of their shapes; give the files that sensitivity makes of them");
   }
+  MatchLookup lookup;
+  std::optional<MatchLookup> back;
   {
     Timer::Scope phase(run.timer(), "match");
-    lookup =
-        match_lookup(matcher, banded ? &band : nullptr, choices.pitch, 25, run.progress());
+    lookup = match_lookup(matcher, banded ? &band : nullptr, choices.pitch, 25, run.progress());
   }
-  Report& report = run.report();
-  report.set("nodes", lookup.status.size());
-  const auto count = [&](auto wanted) {
-    return std::size_t(std::count_if(lookup.status.begin(), lookup.status.end(), wanted));
-  };
-  const std::size_t matched = count([](std::uint8_t status) { return status != 0; });
-  const std::size_t leaving = count([](std::uint8_t status) {
-    return status == std::uint8_t(LookupStatus::behind_image);
-  });
-  report.set("matched", matched);
-  report.set("leaving_image", leaving);
-  if (leaving > 0) {
-    run.warn(message(leaving, " of ", matched, " curves leave the ", view_name(lookup.to_view),
-                     " image: part of them lies behind its posterior edge"));
+  if (both) {
+    Timer::Scope phase(run.timer(), "match_back");
+    back =
+        match_lookup(reverse, banded ? &reverse_band : nullptr, choices.pitch, 25, run.progress());
   }
-  report.set("samples", lookup.samples);
-  report.set("band", banded);
-  for (const std::string& name : lookup.band_without) report.append("band_without", name);
+  report_lookup(lookup, "", run);
+  if (back) report_lookup(*back, "back/", run);
+  run.report().set("samples", lookup.samples);
+  run.report().set("band", banded);
+  for (const std::string& name : lookup.band_without) run.report().append("band_without", name);
   lookup.history = run.history({{choices.from, from.content_sha256, &from.history},
                                 {choices.to, to.content_sha256, &to.history}});
-  if (!choices.page.empty()) {
-    Timer::Scope phase(run.timer(), "page");
-    write_text(choices.page, lookup_page(lookup, read_mammogram(choices.from_image),
-                                         read_mammogram(choices.to_image), from));
-  }
-  write_lookup(choices.lookup, lookup);
+  if (!choices.page.empty()) write_page(choices, matcher, lookup, *back, run);
+  write_lookup(choices.lookup, lookup, back ? &*back : nullptr);
 }
 
 }  // namespace
@@ -84,13 +119,18 @@ int main(int argc, char** argv) {
   tool.describe(
       "What cc2mlo finds for one point, for a grid of points over the first image: status, curve "
       "in the second image with its deviation, and the column in the MR frame, as one HDF5 file. "
-      "--page makes one HTML file that needs no server and no network: pointing at the first image "
-      "draws curve and band in the second and the column in the body.");
+      "--both-ways adds the curves of the second image's points in the first. --page makes one HTML file "
+      "that needs no server and no network: pointing at either image draws curve, band and arc in the "
+      "other, the column in the body and, with --scan, the slices of the MR that it crosses. The page "
+      "holds no file names and no header of the scan, but the picture of the breast itself: give it "
+      "to those who may see the scan.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), section IV-A");
   tool.input(choices.from, "CC.vtkhdf", "compression pointed at");
   tool.input(choices.to, "MLO.vtkhdf", "compression of the same mesh in another view");
   tool.output(choices.lookup, "LOOKUP.h5", "curves on a grid (docs/file-formats.md)");
   tool.number(choices.pitch, "--pitch", "mm", "distance of the grid's points", 0.1, 50);
+  tool.flag(choices.both_ways, "--both-ways",
+            "curves from the second image to the first too; --page implies it");
   tool.choice(choices.geometry, "--geometry", {"parallel", "cone"},
               "beam, as in project-mammogram");
   tool.input_file(choices.priors, "--priors", "FILE",
@@ -98,6 +138,12 @@ int main(int argc, char** argv) {
   tool.output_file(choices.page, "--page", "FILE.html", "the page");
   tool.input_file(choices.from_image, "--from-image", "CC.vti", "its first image");
   tool.input_file(choices.to_image, "--to-image", "MLO.vti", "its second image");
+  tool.input_file(
+      choices.scan, "--scan", "MR",
+      "MR scan that was segmented; the page then shows slices of the breast's part of it "
+      "(default: no voxel of the scan in the page)");
+  tool.integer(choices.series, "--series", "N", "which series of a DICOM folder (0: the only one)",
+               0, 10000);
   tool.check([&] { choices.check(); });
   tool.example(
       "match-lookup cc.vtkhdf mlo.vtkhdf lookup.h5 --page page.html --from-image cc.vti "

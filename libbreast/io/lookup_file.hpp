@@ -7,6 +7,8 @@
 
 namespace breast {
 
-void write_lookup(const std::filesystem::path& file, const MatchLookup& lookup);
+/// `back`, the points of the second image, goes into a group of its own.
+void write_lookup(const std::filesystem::path& file, const MatchLookup& lookup,
+                  const MatchLookup* back = nullptr);
 
 }  // namespace breast

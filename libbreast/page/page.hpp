@@ -1,18 +1,29 @@
-// The lookup as one HTML file: pointing at one view draws curve and band in the other, and the
-// column in the body. No server, no network: images, curves and script are inside.
+// The lookup as one HTML file: pointing at either view draws curve, band and arc in the other, the
+// slice of the MR and the column in the body. No server, no network: everything is inside.
 #pragma once
 
 #include <string>
 
+#include "image/volume.hpp"
 #include "matching/lookup.hpp"
-#include "mesh/hex_mesh.hpp"
 #include "projection/mammogram.hpp"
 
 namespace breast {
 
-/// `body` gives the outline of the imaged shape. Images are shown at most 0.25 mm a pixel. Throws
-/// Error (input) when an image is not of its view.
-std::string lookup_page(const MatchLookup& lookup, const Mammogram& from, const Mammogram& to,
-                        const HexMesh& body);
+struct PageContents {
+  const Matcher& matcher;    ///< the two compressions; its landmarks and imaged shape are shown
+  const MatchLookup& there;  ///< points of the first view
+  const MatchLookup& back;   ///< points of the second view
+  const Mammogram &from, &to;
+  const Volume<float>* scan =
+      nullptr;  ///< the breast's part of it is shown in slices; may be absent
+};
+
+inline constexpr std::size_t largest_page = 25000000;  ///< bytes
+
+/// Images are shown at most 0.25 mm a pixel. Throws Error (input) when an image is not of its view,
+/// when the lookups are not each other's reverse, when the scan does not cover the breast, and for a page above
+/// largest_page.
+std::string lookup_page(const PageContents& contents);
 
 }  // namespace breast

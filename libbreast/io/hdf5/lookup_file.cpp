@@ -4,18 +4,18 @@
 
 namespace breast {
 
-void write_lookup(const std::filesystem::path& file, const MatchLookup& lookup) {
-  Document document;
-  put_header(document, {"lookup/1", lookup.side, lookup.history});
-  document.attributes["/breast/lookup@from_view"] = array_of(view_name(lookup.from_view));
-  document.attributes["/breast/lookup@to_view"] = array_of(view_name(lookup.to_view));
-  document.attributes["/breast/lookup@pitch_mm"] = array_of(lookup.pitch);
+namespace {
+
+void put_lookup(const std::string& group, const MatchLookup& lookup, Document& document) {
+  document.attributes[group + "@from_view"] = array_of(view_name(lookup.from_view));
+  document.attributes[group + "@to_view"] = array_of(view_name(lookup.to_view));
+  document.attributes[group + "@pitch_mm"] = array_of(lookup.pitch);
   const auto nv = std::size_t(lookup.nv), nu = std::size_t(lookup.nu),
              samples = std::size_t(lookup.samples);
   const auto put = [&](const std::string& name, auto values, std::vector<std::size_t> more) {
     std::vector<std::size_t> shape{nv, nu};
     shape.insert(shape.end(), more.begin(), more.end());
-    document.datasets["/breast/lookup/" + name] = reshaped(array_of(std::move(values)), shape);
+    document.datasets[group + "/" + name] = reshaped(array_of(std::move(values)), shape);
   };
   put("status", lookup.status, {});
   put("depth_mm", lookup.depth, {});
@@ -23,7 +23,17 @@ void write_lookup(const std::filesystem::path& file, const MatchLookup& lookup) 
   put("deviation_mm", lookup.deviation, {samples});
   put("across", lookup.across, {samples, 2});
   put("imaged_mm", lookup.imaged, {samples, 3});
-  document.datasets["/breast/lookup/band_without"] = array_of(lookup.band_without);
+  document.datasets[group + "/band_without"] = array_of(lookup.band_without);
+}
+
+}  // namespace
+
+void write_lookup(const std::filesystem::path& file, const MatchLookup& lookup,
+                  const MatchLookup* back) {
+  Document document;
+  put_header(document, {"lookup/1", lookup.side, lookup.history});
+  put_lookup("/breast/lookup", lookup, document);
+  if (back != nullptr) put_lookup("/breast/lookup_back", *back, document);
   save_document(file, document);
 }
 

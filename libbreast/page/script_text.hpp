@@ -1,0 +1,27 @@
+// Values as JavaScript literals inside an HTML page: texts that cannot end the script, and bytes in base64.
+#pragma once
+
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace breast {
+
+/// A text as a JavaScript string. Names come from files that anybody may have written: only letters,
+/// digits and the plainest signs stand as they are, so that no byte can end the string, the line or
+/// the script element. Bytes that are no UTF-8 become U+FFFD.
+std::string script_text(const std::string& text);
+
+/// Bytes in base64, in double quotes.
+std::string script_bytes(std::span<const unsigned char> bytes);
+
+/// The memory of numbers in base64, in double quotes, little-endian on every processor we build for.
+template <class T>
+std::string script_array(const std::vector<T>& values) {
+  static_assert(std::is_arithmetic_v<T>);
+  return script_bytes(
+      {reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(T)});
+}
+
+}  // namespace breast

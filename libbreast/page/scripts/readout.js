@@ -1,0 +1,18 @@
+// One line about the spot pointed at or the point chosen, in words and, for programs, as data.
+const statusText = ['air', 'matched', 'column leaves through the chest wall, the curve ends there',
+                    'part of the curve lies behind the image'];
+function tell() {
+  const readout = document.getElementById('readout'), point = hover || chosen, slider = document.getElementById('depth');
+  delete readout.dataset.curve;
+  if (!point) readout.textContent = 'Point at a spot in either view; click, tap or press Enter to keep it.';
+  else if (!isMatched(point)) readout.textContent = views[point.k].image.view + ': ' + (point.match ? statusText[0] : 'outside the image');
+  else {
+    readout.textContent = (point.number ? 'Point ' + point.number + ', ' : '') + describe(point);
+    readout.dataset.curve = point.match.curve.map(p => p.map(a => a.toFixed(3)).join(' ')).join(';');
+  }
+  const shown = active();
+  slider.disabled = !isMatched(shown);
+  const deep = isMatched(shown) ? (along * shown.match.depth).toFixed(1) + ' of ' + shown.match.depth.toFixed(1) + ' mm from the paddle' : '';
+  document.getElementById('depth-text').textContent = deep;
+  if (deep) slider.setAttribute('aria-valuetext', deep);
+}
