@@ -114,7 +114,8 @@ job_script "$(basename "$runs")-table" 60 1024 1 'table.out' "$(quoted "$here/sl
 total=$(wc -l < "$folder/cases") size=$(largest_array) offset=0 jobs=
 while [ "$offset" -lt "$total" ]; do
   count=$((total - offset < size ? total - offset : size))
-  job=$(sbatch --parsable --array="0-$((count - 1))" $CLUSTER_OPTIONS "$folder/array.sh" "$offset")
+  job=$(sbatch --parsable --array="0-$((count - 1))" $CLUSTER_OPTIONS "$folder/array.sh" "$offset") ||
+    { echo "cohort: sbatch took $offset of $total cases${jobs:+ (jobs$jobs)}; once they have ended, the same with --resume gives the rest" >&2; exit 1; }
   jobs=$jobs:${job%%;*}
   offset=$((offset + count))
 done
