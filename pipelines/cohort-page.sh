@@ -14,6 +14,20 @@ thumbnail() { # PNG WIDTH TEXT
   printf '<img loading="lazy" alt="%s" src="data:image/jpeg;base64,%s">' "$(escaped "$3")" \
     "$(pngtopnm "$1" 2> /dev/null | pamscale -xsize "$2" 2> /dev/null | pnmtojpeg -quality 70 2> /dev/null | base64 -w 0)"
 }
+# Three axial and two sagittal slices out of the sixteen that segment draws, four a row of 500 x 360 pixels with the breast in the
+# middle; pixel by pixel, because a contour is one pixel wide.
+slices() { # PNG
+  local whole at
+  [ -s "$1" ] && command -v pnmtojpeg > /dev/null || return 0
+  whole=$(mktemp -d)
+  pngtopnm "$1" > "$whole/all" 2> /dev/null
+  for at in 0,1 0,3 1,1 2,1 2,2; do  # row, column
+    pamcut -left $((500 * ${at#*,} + 80)) -top $((360 * ${at%,*} + 40)) -width 340 -height 280 "$whole/all" > "$whole/$at" 2> /dev/null ||
+      rm -f "$whole/$at"  # a picture of another program's
+  done
+  [ ! -s "$whole/2,2" ] || pnmcat -lr "$whole"/?,? 2> /dev/null | pnmtojpeg -quality 70 -sample=1x1 2> /dev/null | base64 -w 0
+  rm -rf "$whole"
+}
 rows() { awk -F'\t' 'NR > 1' "$all"; }
 count() { rows | awk -F'\t' "$1"' { n++ } END { print n + 0 }'; }
 # Cases as CASE, STATUS, LOOK, REASON: failed first, then those that ask for a look, then the rest.
@@ -25,7 +39,7 @@ distribution() { # FILE COLUMN
   awk -F'\t' -v column="$2" '!/^#/ && !at { for (i = 1; i <= NF; i++) if ($i == column) at = i; next } at && $at == $at + 0 { print $at }' "$1" |
     sort -g | awk -v name="$2" -v women="$(awk -F'\t' -v q="$2" '$1 == q { print $2, $3 }' "$here/invivo/women.tsv")" '
     { v[++n] = $1; sum += $1 }
-    END { if (!n) exit; mean = sum / n; for (i = 1; i <= n; i++) square += (v[i] - mean) ^ 2; sd = n > 1 ? sqrt(square / (n - 1)) : 0
+    END { if (!n) exit; mean = sum / n; for (i = 1; i <= n; i++) square += (v[i] - mean) ^ 2; sd = n > 1 && square > 1e-18 ? sqrt(square / (n - 1)) : 0
       low = v[1]; high = v[n]
       if (split(women, w, " ")) { if (w[1] - 2 * w[2] < low) low = w[1] - 2 * w[2]; if (w[1] + 2 * w[2] > high) high = w[1] + 2 * w[2] }
       scale = high > low ? 100 / (high - low) : 0
@@ -46,7 +60,7 @@ td.n { text-align: right; font-variant-numeric: tabular-nums } td.bad, figure.ba
 .look { background: #fff4d6 } img { max-width: 100%; display: block } td img { width: 240px }
 .strip { position: relative; width: 260px; height: 16px } .strip b { position: absolute; height: 16px; background: #ddd }
 .strip i { position: absolute; top: 3px; width: 3px; height: 10px; margin-left: -1px; background: #246 }
-.sheet { display: grid; grid-template-columns: repeat(auto-fill, minmax(560px, 1fr)); gap: 10px } figure { margin: 0; break-inside: avoid }
+figure { margin: 0 0 10px; break-inside: avoid }
 figcaption { font-size: 13px; padding: 1px 4px }
 </style></head><body>
 <h1>$1</h1>
@@ -58,17 +72,18 @@ counted="$(count 1) cases: $(count '$2 == "done"') done, $(count '$2 != "done"')
 
 if [ "$page" = contours ]; then
   head_of "Segmentations of $name"
-  echo "<p>$counted Contours of the chest wall, the breast and its fibroglandular tissue in slices of every scan; those that failed or ask for a look first. A chest wall in the ribs or in the breast, a breast cut off at its side, or fibroglandular tissue in the coil's glare wants a correction (CHEST_WALL=).</p><div class=sheet>"
+  echo "<p>$counted Contours of the chest wall (green, orange where it is uncertain), the breast (yellow) and its fibroglandular tissue (red) in three axial and two sagittal slices of every scan, 0.7 mm a pixel; those that failed or ask for a look first. A click opens all sixteen slices. A chest wall in the ribs or in the breast, a breast cut off at its side, or fibroglandular tissue in the coil's glare wants a correction (CHEST_WALL=).</p>"
   ordered | while IFS=$'\t' read -r case status look reason; do
     class=
     [ "$look" = - ] || class=look
     [ "$status" = done ] || class=bad
-    picture=$(thumbnail "$runs/$case/contours.png" 720 "contours of $case")
+    picture=$(slices "$runs/$case/contours.png")
+    [ -z "$picture" ] || picture="<a href=\"$(escaped "$case")/contours.png\"><img alt=\"contours of $(escaped "$case")\" src=\"data:image/jpeg;base64,$picture\"></a>"
     [ "$look" = - ] && look=
     printf '<figure class="%s"><figcaption class="%s"><b>%s</b> %s</figcaption>%s</figure>\n' "$class" "$class" "$(escaped "$case")" \
       "$(escaped "$([ "$status" = done ] && echo "$look" || echo "failed: $reason")")" "${picture:-<p>no contours</p>}"
   done
-  echo '</div></body></html>'
+  echo '</body></html>'
   exit 0
 fi
 

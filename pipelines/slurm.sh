@@ -43,8 +43,8 @@ folder=$runs/.slurm/$number
 estimate() {
   local cores=$CLUSTER_CORES
   if [ -s "$runs/cost.tsv" ] && [ "$(awk -F'\t' 'NR > 1 && $4 > 0' "$runs/cost.tsv" | wc -l)" -ge 3 ]; then
-    awk -F'\t' -v cores="$cores" 'NR > 1 { n += $4 > 0; if ($4 > s) s = $4; if ($5 > m) m = $5 }
-      END { printf "%d\t%d\tthe dearest of %d cases in cost.tsv: %d CPU seconds, %d MB", 5 + 3 * s / 60, 256 + 1.5 * m, n, s, m }' "$runs/cost.tsv"
+    awk -F'\t' -v cores="$cores" 'NR > 1 { n += $4 > 0; if ($3 > s) s = $3; if ($4 / cores > s) s = $4 / cores; if ($5 > m) m = $5 }
+      END { printf "%d\t%d\tthe dearest of %d cases in cost.tsv: %d seconds, %d MB", 5 + 3 * s / 60, 256 + 1.5 * m, n, s, m }' "$runs/cost.tsv"
   else
     # The largest mesh that a setting or a case file asks for.
     local size=$COST_ELEMENTS element=${COST_ELEMENT:-q1p0} file line
