@@ -50,8 +50,8 @@ estimate() {
     local size=$COST_ELEMENTS element=${COST_ELEMENT:-q1p0} file line
     while IFS=$'\t' read -r _ file _; do
       while IFS= read -r line; do
-        [[ $line =~ ^[[:space:]]*ELEMENTS[[:space:]]*=[[:space:]]*([0-9]+) ]] && [ "${BASH_REMATCH[1]}" -gt "$size" ] && size=${BASH_REMATCH[1]}
-        [[ $line =~ ^[[:space:]]*ELEMENT[[:space:]]*=[[:space:]]*q2p1 ]] && element=q2p1
+        if [[ $line =~ ^[[:space:]]*ELEMENTS[[:space:]]*=[[:space:]]*([0-9]+) ]] && [ "${BASH_REMATCH[1]}" -gt "$size" ]; then size=${BASH_REMATCH[1]}; fi
+        if [[ $line =~ ^[[:space:]]*ELEMENT[[:space:]]*=[[:space:]]*q2p1 ]]; then element=q2p1; fi
       done < "$file"
     done < "$runs/.cases"
     awk -F'\t' -v size="$size" -v element="$element" '$1 == element { r = size / $2; s = $3 * (r > 1 ? r ^ 4 : 1); m = $4 * (r > 1 ? r ^ 3 : 1)

@@ -147,7 +147,7 @@ within 60 "the node is back" sh -c "sinfo -h -o %T | grep -qE 'idle|mixed|alloca
 # Slurm would wait two minutes before it starts a task again.
 again() {
   local job
-  for job in $(squeue -h -r -t PD -o '%i %r' | sed -n 's/ BeginTime$//p'); do scontrol update "JobId=$job" StartTime=now; done
+  for job in $(squeue -h -r -t PD -o '%i %r' | sed -n '/Dependency/!s/ .*//p'); do scontrol update "JobId=$job" StartTime=now; done
   grep -qs '^early on.*start 2' slurm/cohort-patients/.slurm/1/*.out
 }
 within 240 "the case of the lost node is started again" again
