@@ -12,10 +12,12 @@ $(RUN)/fat-only.tsv: $(whole_set)
 
 labels_settings := $(SEGMENT) $(MR) --side $(SIDE) $(if $(SERIES),--series $(SERIES)) \
   $(if $(CHEST_WALL),--chest-wall $(CHEST_WALL)) $(SEGMENT_OPTIONS)
+# Contours to judge the result by; a program in the place of segment need not draw them.
+contours = $(if $(filter $(BIN)/segment,$(SEGMENT)),--overlay $(RUN)/contours.png)
 $(RUN)/labels.vtkhdf $(RUN)/points.vtp &: $(MR_FILES) $(CHEST_WALL) $(SEGMENT) $(call changed,labels)
 	@$(PIPELINES)/scan-identity.sh record $(RUN) $(SIDE) $(scan)
 	$(SEGMENT) $(MR) $(RUN)/labels.vtkhdf --side $(SIDE) $(if $(SERIES),--series $(SERIES)) \
-	  $(if $(CHEST_WALL),--chest-wall $(CHEST_WALL)) --points $(RUN)/points.vtp $(SEGMENT_OPTIONS) \
+	  $(if $(CHEST_WALL),--chest-wall $(CHEST_WALL)) --points $(RUN)/points.vtp $(contours) $(SEGMENT_OPTIONS) \
 	  --report $(RUN)/labels.json $(share)
 	@$(call record,labels)
 

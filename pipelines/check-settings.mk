@@ -18,7 +18,8 @@ programs := SEGMENT FIT_HERMITE HEXMESH BACKWARD FORWARD COMPRESS PROJECT CC2MLO
 known_settings := $(case_settings) $(programs) CASE_FILE COHORT RUNS RUN EXPECTED PRESET_BUILD ACCURACY_LADDER COST_POINTS \
   COST_FINEST FINDINGS_FINEST BUDGET_FINER BAND_SAMPLES BAND_DRAWS BAND_PLACES STABILITY_LIMIT COMPARE_ELEMENTS \
   COMPARE_SCENES COMPARE_PRESSED SCALES SCALES_tumour LEAVEOUT_VARIANTS WALL_VARIANTS POPULATION_SCANS \
-  POPULATION_TOOL POPULATION_ELEMENTS POPULATION_MATERIALS MINUTES FUZZ_MINUTES FUZZ_INPUTS FAULT_ALLOCATIONS share
+  POPULATION_TOOL POPULATION_ELEMENTS POPULATION_MATERIALS CLUSTER CLUSTER_PARTITION CLUSTER_ACCOUNT CLUSTER_TIME CLUSTER_MEMORY \
+  CLUSTER_CORES CLUSTER_OPTIONS RESUME MINUTES FUZZ_MINUTES FUZZ_INPUTS FAULT_ALLOCATIONS share
 
 # Characters that are code to a shell or to make. In options blanks, colons, equals signs, % and ~ are no harm.
 shell_characters := $$ ` ; & | < > ( ) { } [ ] * ? ! " ' \ ^ $(hash)
@@ -33,8 +34,9 @@ refuse_dash = $(if $(filter -%,$(firstword $(value $1))),$(error $1: may not beg
 allowed_TUMOUR := :
 allowed_WALL := :
 allowed_CUT := :
+allowed_CLUSTER_TIME := :
 words_settings := $(text_settings) $(programs) share SCALES SCALES_tumour ACCURACY_LADDER COST_POINTS LEAVEOUT_VARIANTS \
-  WALL_VARIANTS COMPARE_SCENES COMPARE_PRESSED EXPECTED POPULATION_SCANS POPULATION_TOOL
+  WALL_VARIANTS COMPARE_SCENES COMPARE_PRESSED EXPECTED POPULATION_SCANS POPULATION_TOOL CLUSTER_OPTIONS
 check_words = $(call refuse_strange,$1,$(shell_characters))
 check_name = $(call refuse_blanks,$1)$(call refuse_strange,$1,$(filter-out $(allowed_$1),$(name_characters)))$(if \
   $(filter TUMOUR,$1),,$(call refuse_dash,$1))

@@ -13,7 +13,7 @@ else
 endif
 # A run belongs to one scan and one side: another is refused before it overwrites anything (pipelines/scan-identity.sh).
 scan := $(if $(TRUTH),phantom:$(PRESET),$(MR))
-ifneq ($(filter-out help setup build check package clean calibrate cohort population calibrate-invivo identification,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
+ifneq ($(filter-out help setup build check package clean calibrate cohort cohort-table cohort-script population calibrate-invivo identification,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
   mixed_up := $(shell $(PIPELINES)/scan-identity.sh check $(RUN) $(SIDE) $(scan))
   $(if $(mixed_up),$(error $(mixed_up)))
 endif
@@ -40,6 +40,10 @@ $(PHANTOM_MR) $(PHANTOM_TRUTH)/landmarks.tsv $(PHANTOM_TRUTH)/tumour-$(SIDE).tsv
 	$(PHANTOM) $(PHANTOM_MR) --preset $(PRESET) --truth $(PHANTOM_TRUTH) $(PHANTOM_OPTIONS) \
 	  --report $(basename $(PHANTOM_MR)).json $(share)
 	@$(call record,phantom)
+
+# The scan alone: what cases of one phantom share (pipelines/cohort.sh).
+.PHONY: phantom-scan
+phantom-scan: $(if $(TRUTH),$(MR))
 
 # Compressed truth of the phantom: the same body (cut held) on eight times the chain's elements, and on an
 # eighth of them, whose distance is the truth's own error. The finer plates close to the coarser's gap.

@@ -1,6 +1,6 @@
 # Before a release: what takes hours. Every program under failing writes and allocations, small limits, full disks, damaged files
 # of every format in our own checks (100000 inputs a format, and FUZZ_MINUTES more in all) and in whole programs under
-# sanitizers (FUZZ_INPUTS a format); the package in an empty Debian 12.
+# sanitizers (FUZZ_INPUTS a format); the package in an empty Debian 12; a cohort on a Slurm of its own.
 FUZZ_MINUTES ?= 240
 FUZZ_INPUTS ?= 2000
 FAULT_ALLOCATIONS ?= 200
@@ -8,8 +8,8 @@ SANITIZED := build/asan
 # Programs that read the formats of tests/fuzz/whole-tools.py.
 readers := probe evaluate laws export-deck match-lookup segment hexmesh cc2mlo truth-table
 
-.PHONY: release-check faults full-disk whole-tools
-release-check: check faults full-disk whole-tools clean-root
+.PHONY: release-check faults full-disk whole-tools slurm
+release-check: check faults full-disk whole-tools clean-root slurm
 	tests/fuzz/run.sh inputs=100000
 	tests/fuzz/run.sh $(FUZZ_MINUTES)
 
@@ -30,3 +30,8 @@ whole-tools:
 	rm -rf build/whole-tools
 	$(BUILD)/tests/fault_inputs build/whole-tools
 	tests/fuzz/whole-tools.py $(SANITIZED)/bin build/whole-tools $(FUZZ_INPUTS)
+
+# Needs root, slurm-wlm, munge and netpbm; without them it says so and fails.
+slurm:
+	cmake --build $(BUILD) -j $$(nproc) --target programs
+	tests/tools/slurm.sh $(BUILD)

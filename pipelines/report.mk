@@ -20,7 +20,7 @@ REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/*.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png
 report_settings = $(foreach file,$(REPORT_EXTRAS),$(file) $(shell stat -c %Y $(file)))
 report_record = $(RUN)/report.settings
 $(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(F)/cc-points.png $(F)/mlo-curves.png \
-  $(if $(EXPECTED),$(RUN)/verify.tsv) $(PIPELINES)/report.sh $(PIPELINES)/values.sh $(PIPELINES)/limits.txt \
+  $(if $(EXPECTED),$(RUN)/verify.tsv) $(PIPELINES)/report.sh $(PIPELINES)/values.sh $(PIPELINES)/html.sh $(PIPELINES)/limits.txt \
   $(PIPELINES)/warnings.sh $(PIPELINES)/advice.tsv $(call changed,report)
 	$(PIPELINES)/report.sh $(RUN) $(RUNS) $(BIN) > $@.part
 	@mv $@.part $@

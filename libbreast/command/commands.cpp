@@ -62,6 +62,12 @@ Declaration breast_declaration() {
                    word("ARGUMENT", "arguments of the command")};
   d.positionals.back().repeatable = true;
   d.options = pipeline_command("run").options;
+  for (const Argument& option : pipeline_command("cohort").options) {
+    const bool known = std::any_of(d.options.begin(), d.options.end(), [&](const Argument& other) {
+      return other.names == option.names;
+    });
+    if (!known) d.options.push_back(option);
+  }
   for (Argument& option : d.options) option.required = false;
   for (const std::string name : {"--help", "--version"}) {
     Argument flag;

@@ -170,9 +170,10 @@ int run_pipeline(const Installation& installation, const std::string& command,
   if (!run.empty()) run.pop_back();  // the end of its line
   const std::string plan = ask(with({"-n", request.target}));
   if (request.plan) {
-    print(plan);
+    print(request.slurm ? ask(with({"-s", "cohort-script"})) : plan);
     return 0;
   }
+  if (request.slurm) return run_child(with({"-s", request.target})) == 0 ? 0 : 1;
   return make_and_show(with({"-j" + std::to_string(request.jobs), request.target}), run);
 }
 

@@ -52,6 +52,7 @@ void declare_options(Declaration& d, PipelineRequest& r) {
   Argument jobs = option(ArgumentKind::integer, "--jobs", "N",
                          "stages that may run at the same time; they share the cores",
                          [&r](const std::string& value) { r.jobs = std::stoi(value); });
+  jobs.names = {"-j", "--jobs"};
   jobs.low = 1;
   jobs.high = 64;
   jobs.default_text = "1";
@@ -108,15 +109,53 @@ void declare_demo(Declaration& d, PipelineRequest& r) {
                  "a tiny breast, in about a minute"}};
 }
 
+// What a job asks of the cluster: a setting of the pipeline each.
+void declare_request(Declaration& d, PipelineRequest& r, const std::string& name,
+                     const std::string& placeholder, const std::string& help) {
+  std::string setting = "CLUSTER_";
+  for (const char c : name.substr(2)) setting += char(std::toupper(static_cast<unsigned char>(c)));
+  d.options.push_back(option(ArgumentKind::text, name, placeholder, help,
+                             [&r, name, setting](const std::string& value) {
+                               if (!r.settings.emplace(setting, value).second)
+                                 throw input_error(name, " and ", setting, "= are both given");
+                             }));
+}
+
+void declare_cluster(Declaration& d, PipelineRequest& r) {
+  d.options.push_back(option(ArgumentKind::flag, "--slurm", "",
+                             "give the cases to Slurm as one job array, then a job that makes the "
+                             "table; --dry-run prints its script",
+                             [&r](const std::string&) { r.slurm = true; }));
+  d.options.push_back(option(ArgumentKind::flag, "--local", "",
+                             "run the cases as processes of this machine (the default)",
+                             [&r](const std::string&) { r.local = true; }));
+  d.options.push_back(option(ArgumentKind::flag, "--resume", "",
+                             "with --slurm, give only the cases that are missing or out of date; "
+                             "processes of this machine always do so",
+                             [&r](const std::string&) { r.settings["RESUME"] = "1"; }));
+  declare_request(d, r, "--partition", "NAME", "with --slurm, the partition");
+  declare_request(d, r, "--account", "NAME", "with --slurm, the account");
+  declare_request(d, r, "--time", "T",
+                  "with --slurm, the time of a case as sbatch takes it, such as 45 (minutes) or "
+                  "2:00:00; without it from measured cost");
+  declare_request(d, r, "--memory", "MB",
+                  "with --slurm, the memory of a case; without it from measured cost");
+  declare_request(d, r, "--cores", "N", "with --slurm, the cores of a case, 1 unless given");
+}
+
 void declare_cohort(Declaration& d, PipelineRequest& r) {
   d.summary = "the whole chain on every case of a folder";
   d.paragraphs = {
       "Runs the pipeline on every case file of DIR (*.case, */case.txt: KEY = VALUE a line, of which MR or PRESET names the scan), "
-      "goes on past a case that fails, and ends with one table of all. Names of files in a case file are relative to the folder "
-      "of the caller. SETTING=value holds for all cases that do not set it themselves."};
+      "goes on past a case that fails, and ends with one table of all (cohort.tsv, cohort.html) and the contours of every segmentation "
+      "(contours.html). Names of files in a case file are relative to the folder "
+      "of the caller. SETTING=value holds for all cases, whatever their files say."};
   d.positionals.push_back(positional("DIR", "folder of case files", r.scan));
   declare_options(d, r);
-  d.examples = {{"breast cohort patients", "results in ./runs/cohort-patients"}};
+  declare_cluster(d, r);
+  d.examples = {{"breast cohort patients --jobs 4", "results in ./runs/cohort-patients"},
+                {"breast cohort patients --slurm --partition long --resume",
+                 "a job array of the cases that are missing or out of date"}};
 }
 
 Declaration declare(const std::string& name, PipelineRequest& r) {
@@ -164,6 +203,15 @@ void check_request(const PipelineRequest& r) {
     throw input_error("--side left|right is missing: which breast of the patient is it?");
   if (!r.side.empty() && side != r.settings.end() && side->second != r.side)
     throw input_error("--side ", r.side, " and SIDE=", side->second, " contradict each other");
+  if (r.slurm && r.local) throw input_error("--slurm and --local contradict each other");
+  if (!r.slurm) {
+    for (const auto& [name, value] : r.settings) {
+      if (name.starts_with("CLUSTER_"))
+        throw input_error(name, ": is asked of Slurm; give --slurm");
+    }
+  }
+  if (r.slurm && r.jobs != 1)
+    throw input_error("--jobs: is for processes of this machine; with --slurm give --cores");
   const bool word = std::all_of(r.target.begin(), r.target.end(),
                                 [](unsigned char c) { return std::isalnum(c) || c == '-'; });
   if (!word || r.target.front() == '-')
@@ -196,6 +244,7 @@ PipelineRequest parse_request(const std::string& command,
   take_settings(tokens, !d.positionals.empty(), r.settings);
   assign(d, tokens);
   check_request(r);
+  if (r.slurm) r.settings["CLUSTER"] = "slurm";
   return r;
 }
 

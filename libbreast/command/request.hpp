@@ -16,6 +16,7 @@ struct PipelineRequest {
   std::string runs = "runs", target = "summary";
   int jobs = 1;
   bool plan = false;
+  bool slurm = false, local = false;  ///< of cohort: a job array, or processes of this machine
   std::map<std::string, std::string> settings;  ///< given as SETTING=value
 };
 

@@ -98,6 +98,7 @@ touch "a wall.nrrd"
 planned "a_wall.nrrd" breast run scan.nrrd --side left "CHEST_WALL=a wall.nrrd" --dry-run
 printf 'MR = scan.nrrd\n' > "series 1/one.case"
 said "runs/cohort-series_1" breast cohort "series 1" --dry-run
+said "#SBATCH --partition=long" breast cohort "series 1" --slurm --partition long --dry-run
 [ -z "$(find "$prefix" -newer "$work/log" -type f)" ] || fail "nothing is written into the prefix"
 pass "runs are planned from any folder, for scans of any name, with the installed tools"
 

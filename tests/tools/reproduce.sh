@@ -86,6 +86,10 @@ check_cohort() {
   awk -F'\t' '$1 == "first" && $2 == "done" && $5 > 0 && $8 > 0 { good = 1 }
     $1 == "second" && $2 == "failed" && $NF ~ /no-such-scan/ { bad = 1 } END { exit !(good && bad) }' "$table" ||
     { cat "$table"; fail "one case done, one failed with its reason"; }
+  local runs=$work/runs/cohort-patients
+  [ -s "$runs/first/contours.png" ] && grep -q 'data:image/jpeg' "$runs/contours.html" || fail "the contours of the segmentation"
+  grep -q 'no-such-scan' "$runs/cohort.html" && grep -q '^nipple_moved_mm' "$runs/women.tsv" && ! grep -qF "$work" "$runs/cohort.html" ||
+    fail "the page of the cohort"
   pass "cohort: one case done, the other failed and says why"
 }
 

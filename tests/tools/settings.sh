@@ -126,6 +126,39 @@ printf 'case\tstatus\na\tfailed\nb\tdone\n' > "$work/t.tsv"
 pipelines/cohort.sh any-done "$work/t.tsv" || fail "one case done is enough"
 pass "cohorts: names once, a scan in every case, failure when all fail"
 
+# What Slurm would be given, without Slurm.
+script() { make -f Makefile.pipeline RUNS="$work/cluster" COHORT="$work/cohort" CLUSTER=slurm -o build/built-release.mk "$@" cohort-script > "$work/out" 2> "$work/err" || { cat "$work/err"; fail "cohort-script $*"; }; }
+script CLUSTER_PARTITION=long CLUSTER_TIME=2:00:00
+bash -n "$work/out" && grep -q -- '--array=0-1 ' "$work/out" && grep -qx '#SBATCH --partition=long' "$work/out" && grep -qx '#SBATCH --time=2:00:00' "$work/out" &&
+  grep -qx '#SBATCH --requeue' "$work/out" && grep -q 'ELEMENTS=16' "$work/out" || { cat "$work/out"; fail "the script of an array of two cases"; }
+printf 'MR = x.nrrd\nELEMENTS = 32\n' > "$work/cohort/b.case"
+script && grep -q 'ELEMENTS=32' "$work/out" && ! grep -q -- '--partition' "$work/out" || { cat "$work/out"; fail "the largest mesh of a case file counts"; }
+printf 'case\telements\twall_seconds\tcpu_seconds\tpeak_mb\na\t4000\t9\t600\t400\nb\t4000\t9\t60\t800\nc\t4000\t9\t60\t40\n' > "$work/cluster/cohort-cohort/cost.tsv"
+script && grep -qx '#SBATCH --time=35' "$work/out" && grep -qx '#SBATCH --mem=1456M' "$work/out" || { cat "$work/out"; fail "time and memory from the cohort's own cost"; }
+refused "another cluster" CLUSTER -- COHORT="$work/cohort" CLUSTER=slrum cohort
+refused "cores that are no number" CLUSTER_CORES -- COHORT="$work/cohort" CLUSTER=slurm CLUSTER_CORES=two cohort
+pass "a cohort for Slurm: the script, and where its time and memory come from"
+
+# Pages of a cohort: every byte is text, whoever wrote it.
+runs=$work/pages
+mkdir -p "$runs/a<img src=x>"
+printf 'a<img src=x>\tx\tscan\nb\tx\tscan\nlost\tx\tscan\nnever\tx\tscan\n' > "$runs/.cases"
+printf 'failed\t<script>alert(1)</script> "of" %s\n' "'x'" > "$runs/a<img src=x>.status"
+printf 'done\t\n' > "$runs/b.status"
+printf 'running\t\n' > "$runs/lost.status"
+pipelines/cohort.sh results "$runs" false || fail "the results of a cohort with hostile names"
+cut -f1,2 "$runs/cohort.tsv" | paste -s -d, | grep -q '^case.status,a<img src=x>.failed,lost.failed,never.failed,b.done$' || { cat "$runs/cohort.tsv"; fail "failures come first"; }
+grep -q '^lost.*without a word' "$runs/cohort.tsv" && grep -q '^never.*never started' "$runs/cohort.tsv" || fail "a case that left no word is failed"
+for page in cohort contours; do
+  ! grep -qi '<script\|<img src=x' "$runs/$page.html" && grep -q '&lt;script&gt;' "$runs/$page.html" || fail "no name is markup in $page.html"
+  ! grep -qF "$work" "$runs/$page.html" || fail "$page.html names no folder"
+done
+printf '#!/bin/sh\necho "make: *** No rule to make target '"'/secret/place/x.nrrd'"', needed by '"'$runs/n/labels.vtkhdf'"'.  Stop."; exit 2\n' > "$work/missing.sh"
+chmod +x "$work/missing.sh"
+pipelines/cohort.sh run "$runs/n.status" "$runs/n.log" scan "$work/missing.sh"
+[ "$(cat "$runs/n.status")" = "$(printf "failed\t'x.nrrd', which a setting names, does not exist")" ] || { cat "$runs/n.status"; fail "a reason names no folder"; }
+pass "pages of a cohort escape every name, failures first, and name no folder"
+
 # A comma for the decimal point: no number changes.
 run=$work/runs/comma
 mkdir -p "$run"

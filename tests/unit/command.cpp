@@ -121,6 +121,21 @@ TEST(Request, OptionsAndSettings) {
   EXPECT_EQ(parse_request("cohort", {"patients"}).target, "cohort");
 }
 
+TEST(Request, OfACluster) {
+  const PipelineRequest r =
+      parse_request("cohort", {"patients", "--slurm", "--partition", "long", "--time", "2:00:00",
+                               "--cores", "2", "--memory", "900", "--account", "a", "--resume"});
+  EXPECT_TRUE(r.slurm);
+  EXPECT_EQ(r.settings, (std::map<std::string, std::string>{{"CLUSTER", "slurm"},
+                                                            {"CLUSTER_ACCOUNT", "a"},
+                                                            {"CLUSTER_CORES", "2"},
+                                                            {"CLUSTER_MEMORY", "900"},
+                                                            {"CLUSTER_PARTITION", "long"},
+                                                            {"CLUSTER_TIME", "2:00:00"},
+                                                            {"RESUME", "1"}}));
+  EXPECT_TRUE(parse_request("cohort", {"patients", "--local"}).settings.empty());
+}
+
 TEST(Request, WhatIsWrongIsSaid) {
   const std::pair<std::vector<std::string>, std::string> wrong[] = {
       {{"run", "scan"}, "--side left|right is missing"},
@@ -136,6 +151,11 @@ TEST(Request, WhatIsWrongIsSaid) {
       {{"run", "scan", "--side", "left", "--jobs", "0"}, "--jobs 0"},
       {{"demo", "scan.nrrd"}, "one argument too many"},
       {{"demo", "MR=scan.nrrd"}, "breast run SCAN"},
+      {{"cohort", "patients", "--slurm", "--local"}, "contradict"},
+      {{"cohort", "patients", "--time", "5"}, "give --slurm"},
+      {{"cohort", "patients", "--slurm", "--jobs", "2"}, "give --cores"},
+      {{"cohort", "patients", "--slurm", "--time", "5", "CLUSTER_TIME=6"}, "both given"},
+      {{"run", "scan", "--side", "left", "--slurm"}, "--slurm"},
       {{"cohort"}, "DIR is missing"}};
   for (const auto& [words, part] : wrong) {
     try {
