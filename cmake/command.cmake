@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The program breast: all tools and the pipeline under one name. It knows the tools of this build, with the summaries of their manual
 # pages (docs/man, which tests/tools/docs-current.sh holds equal to what the tools say).
 get_property(programs GLOBAL PROPERTY BREAST_TOOLS)

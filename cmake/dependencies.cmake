@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Third parties, all from Debian. The mechanics needs only Eigen, SuiteSparse (CHOLMOD, METIS), BLAS,
 # HDF5 and CLI11; the image and surface stages are left out when their libraries are missing.
 find_package(OpenMP REQUIRED COMPONENTS CXX)

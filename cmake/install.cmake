@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # cmake --install build/release --prefix P: P/bin/breast, its tools in P/libexec/breast, the pipeline in P/share/breast. Everything
 # finds everything else by its place below P, so that P may be moved.
 get_property(programs GLOBAL PROPERTY BREAST_TOOLS)

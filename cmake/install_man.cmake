@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # At installation: the manual pages of `pages` into `destination`, that of the tool NAME as breast-NAME, which is how it is called when
 # installed; compressed without a time, so that the same pages are the same bytes.
 find_program(GZIP_PROGRAM gzip REQUIRED)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # cpack -G DEB in build/package (preset `package`): libbreast_VERSION-1_ARCHITECTURE.deb. What the programs link is found by
 # dpkg-shlibdeps; what the pipeline starts is named here.
 set(CPACK_GENERATOR DEB)

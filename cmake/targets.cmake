@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Warnings, sanitizers and the helpers every folder uses to declare its library, tool or test.
 set(BREAST_WARNINGS -Wall -Wextra -Wpedantic -Wshadow=local -Wnon-virtual-dtor -Woverloaded-virtual
   # GCC 12's false positives in std::string; with precompiled headers it shows more of them

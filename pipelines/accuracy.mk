@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # ACCURACY=MM: the cheapest mesh and element whose error at the landmarks, stress-free and supine, is said to be below
 # MM. ELEMENTS and ELEMENT come from a makefile of two lines, which make brings up to date before anything else; each
 # rung of the ladder, in the order of what they were measured to cost (docs/validation/mechanics.md), is a point of pipelines/cost.mk.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Up a ladder of meshes, cheapest first, until the estimated error is met: accuracy.sh RUN MM PROBE "POINT ..." MAKE...
 # 8-node elements say their error themselves; of 27-node ones it is taken to be at most the distance to the rung of
 # 27-node elements before (the first of them only starts the comparison).

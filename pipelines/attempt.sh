@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A solve that may have no solution: attempt.sh NAME PROGRAM INPUT [ARGUMENT]...
 # writes NAME.vtkhdf and its report. Where it does not converge (exit 3), or INPUT itself was not found, the reason stays
 # in NAME.failed and NAME.vtkhdf is absent: a finding, not an error. Any other failure stops.

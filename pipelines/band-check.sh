@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The linear band against true places: band-check.sh ROWS... (what band_check and band_truth print). One row a
 # file: samples solved and failed, true places, how many of them the 50 and 95 % bands hold, with the 95 % interval
 # of these two figures, root mean square distance across the curve in truth and as the band says, and the distances'

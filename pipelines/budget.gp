@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What is left of the chain's errors when one stage is replaced by the truth: gnuplot -e "table='...'; picture='...'" budget.gp
 # Dashed: the chain as it is; –: the table's column `missing` says why.
 set terminal pngcairo size 1200,600 font 'Sans,11'

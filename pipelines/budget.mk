@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The error budget of the chain: each stage's result replaced in turn by the phantom's truth, what is left of the
 # errors at the truth's places (stress-free, supine, MLO curve), and what the stage costs. Rows of the table:
 #   chain         nothing replaced; compressed between plates that stand as the truth's

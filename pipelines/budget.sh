@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The error budget's table: budget.sh RUN ROW...  Mean and largest error, mm, of the truth's places in the stress-free
 # and supine shapes, and of their MLO places from the curve (mean, 95 %, largest), with one stage replaced by the
 # truth; cpu_s: what the chain's own stage took, user seconds (chain: all of it); missing: why a cell is "-".

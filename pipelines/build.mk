@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Set-up and build, done before make looks at the stages: make remakes an included file first and then
 # starts again, so that the programs' own times decide which stages are out of date. (As ordinary
 # prerequisites, programs that a build leaves untouched would look older than the build.)

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The preset `paper` was fitted so that the chain's own answer is the paper's; who reads that answer must be told.
 #   calibration.sh note TRUTH_JSON SIDE         a sentence for the phantoms whose preset was fitted, nothing for the others
 #   calibration.sh table RUN TRUTH_JSON SIDE    motions from the prone shape, mm: the paper, as printed, as solved, the truth

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A case file as data: KEY = VALUE a line, # a comment. case-file.sh FILE KEY...
 # Prints a word KEY=VALUE a line for make, blanks in VALUE as the byte 0x1f, or one word !MESSAGE (blanks likewise) when a key
 # is none of KEY..., comes twice, or a value holds what make or a shell would read as code. Nothing of it is executed.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The chain, one rule a stage; every file lies in runs/CASE with its report beside it. A stage runs again
 # when its inputs, its program or its settings have changed (pipelines/remember.mk).
 MR_FILES := $(MR) $(if $(wildcard $(MR)/.),$(wildcard $(MR)/*))

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Settings are looked at before make or a shell expands them: unknown names, values that are none of the choices, and
 # file names with characters that make or a shell would read as code are refused in one line, before anything runs.
 comma := ,

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What of a finished or broken-off case asks for a look, a line each: cohort-look.sh RUN WOMEN_TSV
 set -euo pipefail
 run=$1 women=$2

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Pages of a cohort to look through and to send: cohort-page.sh cohort|contours RUNS, HTML on stdout.
 #   cohort    failures first, with reason and log; distributions beside living women's values; then a row and a picture a case
 #   contours  the contours of every segmentation, those that ask for a look first

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A patient is one small case file (MR, SIDE, MATERIALS, ...: KEY = VALUE a line, read as data by pipelines/case-file.sh), a
 # cohort a folder of them: COHORT/*.case or COHORT/*/case.txt (and, as version 0.1 called them, *.mk and */case.mk). Every case
 # is run; one that fails is recorded with its reason and does not stop the others. When all fail, make fails.

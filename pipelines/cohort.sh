@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # cohort.sh run STATUS LOG KIND COMMAND...  runs a case; STATUS says "done", or "failed" and why; while it runs, "running"
 # cohort.sh results RUNS POPULATION  of all cases of RUNS/.cases: cohort.tsv (failures first), cost.tsv, motion.tsv, women.tsv, and the
 #                                    pages cohort.html and contours.html

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Comparison with CalculiX (Debian: calculix-ccx), really run beside ours: gravity on the block and on the
 # case's breast without skin, and the block between plates; the same nodes, law and bulk modulus. One row a scene in
 # runs/compare/*.tsv. Scenes of the block are named block-N-LAW-BULKRATIO-ELEMENT, poly is the set seed2008's fat, and

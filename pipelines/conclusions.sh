@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Values of the paper's conclusions (pipelines/paper/conclusions.tsv), a line each: name, value ("-": no solution).
 #   conclusions.sh rows TABLE3 TABLE4 TABLE5 TABLE6 [PREFIX]  slopes d ln u / d ln s between the rows of 90 and 110 per
 #                                                            cent, from columns PREFIXnipple_mm, PREFIXtumour_mm

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # How compressed shapes converge with the mesh: convergence.sh FOLDER PROBE N...
 # A row a mesh FOLDER/N-{CC,MLO}.{vtkhdf,json}: distance of tumour and nipple to those of the last N, mm, and the forces of
 # paddle and detector; estimate: of the tumour's discretisation error, by the solve itself. "-": no such state was reached

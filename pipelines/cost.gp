@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Error against run time of pipelines/cost.sh's table: gnuplot -e "table='...'; picture='...'" cost.gp
 set terminal pngcairo size 900,640 font 'Sans,11'
 set output picture

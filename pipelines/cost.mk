@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Error against run time: stress-free and supine shape with each element, mesh, template and linear solver, as one
 # table and one plot. The error is the landmarks' distance to the finest solution (COST_FINEST) of the same geometry.
 # A point is named ELEMENT-TEMPLATE-N[-SOLVER]; its solves are cached below RUN/cost.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The table of error against run time: cost.sh FOLDER PROBE FINEST POINT...
 # A row a point ELEMENT-TEMPLATE-N[-SOLVER] from FOLDER/POINT-{reference,supine}.{vtkhdf,json}. error_mm: largest
 # distance of tumour or nipple to FINEST's; estimate_mm: what the solves themselves said (supine: both, the second starts

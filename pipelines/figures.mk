@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Pictures in the manner of the paper's Figs 4-7, drawn off-screen.
 FIGURE_NAMES := points geometry mesh tissues outlines cc-compression mlo-compression pressure force-thickness cc-mammogram mlo-mammogram \
   $(if $(no_tumour),,cc-matching mlo-matching) summary

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # How much of the paper's own figures is numerical: the case's prone-to-supine motion with its choices made one at a time,
 # against the finest solution (FINDINGS_FINEST of about N^3 27-node elements on the dome).
 FINDINGS_FINEST ?= 10

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # How far numerical choices move the paper's figures: findings.sh RUN VARIANT... (the last one is the finest)
 # A row a choice: displacements of nipple and tumour from the imaged place, stress-free and supine, mm; the supine ones
 # against the finest, per cent; the solve's own error estimate of the supine landmarks, mm; slope of the nipple by fat.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Text and tables for pages that can be sent: every byte of input is escaped. The scripts beside this one source it.
 escape() { sed "s/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g; s/\"/\&quot;/g; s/'/\&#39;/g"; }
 escaped() { printf '%s' "$1" | escape; }  # TEXT, of a name that may hold anything

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The patient's own material set from landmarks in a second posture (LANDMARKS=pairs.tsv): the chain runs with it, landmarks.tsv
 # says how each landmark is met and would be met if it were left out.
 IDENTIFY ?= $(BIN)/identify

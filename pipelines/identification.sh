@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Judges the rows of identification_study: identification.sh ROWS.tsv...  One row a study and truth: means over its draws,
 # directions known to 5 % (known_5_percent) and how many of them meet the truth within 10 % and within two deviations, all directions
 # within two deviations, per cent of draws that the misfit test at 5 % takes for another model.

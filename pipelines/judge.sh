@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The paper's conclusions judged for several models, side by side: judge.sh CONCLUSIONS.tsv NAME=VALUES...
 # VALUES are what conclusions.sh prints. Two columns a model: its value, and whether it lies in the bounds.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Prints a place x,y,z (mm) of a landmark from a stage's JSON report: landmark.sh REPORT NAME [imaged|position]
 set -euo pipefail
 export LC_ALL=C

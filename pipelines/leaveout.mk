@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What each optional part of the model is worth: the chain without it, the change at the landmarks and on the
 # MLO curve in mm, and the CPU time saved; then, for each question, the least model that stays within LEAVEOUT_MM, solved
 # and measured. Each variant is a case of its own below RUN/leaveout that starts from the base's labels and geometry.

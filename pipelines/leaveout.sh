@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What each variant changes against the base case: leaveout.sh RUN PROBE VARIANT...
 # Supine: how far tumour and nipple lie from the base's; CC, MLO: the same for the tumour; curve: mean and
 # largest distance of the MLO curve from the base's (evaluate --curves), mm. CPU seconds of the stages each question

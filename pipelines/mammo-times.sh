@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Seconds of the mammogram stages of a finished run, on an otherwise idle machine: mammo-times.sh BIN RUN.
 set -euo pipefail
 export LC_ALL=C

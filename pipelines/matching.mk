@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # From view to view, judged: derivatives of the compressed shapes for the band, and the matched curves of the
 # phantom's landmarks against their true places (target `truth` makes these, many minutes).
 SENSITIVITY ?= $(BIN)/sensitivity

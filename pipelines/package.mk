@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The Debian package, build/package/libbreast_VERSION_ARCHITECTURE.deb: programs for every x86-64 processor, built apart from those of
 # this machine. clean-root (root, network, debootstrap) installs it in an empty Debian 12 and runs the demonstration there.
 .PHONY: clean-root

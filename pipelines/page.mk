@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The page of a case: pointing at either view draws curve, band and arc in the other. page-check opens it in a headless
 # browser (Debian package chromium, not installed by setup).
 # A page is easily sent on: voxels of a patient's scan are in it only with PAGE_SCAN=yes; a phantom's may be seen by all.

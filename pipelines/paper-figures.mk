@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The paper's Figs 4 to 7, by panel. Figs 6c and 6d show several points: a grid of them in the CC view.
 fig4: $(addprefix $(F)/,points.png geometry.png mesh.png tissues.png)
 fig5: $(addprefix $(F)/,mesh.png cc-compression.png mlo-compression.png)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The phantom: a breast MR with known truth. Its stress-free shape is solved to prone on a template and
 # a mesh the chain never uses.
 PHANTOM_MR := $(RUNS)/phantom/$(PRESET).nrrd

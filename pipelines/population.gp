@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # How far tissue moves and how much nearer it comes to the ribs, by its depth, model and women: gnuplot -e "table='judging.tsv'; picture='...'" population.gp. Rows are quantities.
 set terminal pngcairo size 1000,460 font 'Sans,11'
 set output picture

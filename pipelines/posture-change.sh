@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Prone to supine with given mechanics: posture-change.sh MESH NAME BACKWARD FORWARD MECHANICS...
 # writes NAME-reference.vtkhdf and NAME-supine.vtkhdf with their reports. Where a solve does not converge, the reason
 # stays in NAME.failed: a finding, not an error.

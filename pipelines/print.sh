@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A page as PDF, printed by a headless Chromium with a profile of its own: print.sh CHROMIUM PAGE.html OUT.pdf
 set -euo pipefail
 export LC_ALL=C

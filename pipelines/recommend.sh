@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The least model that stays within an error, for surgery (supine places of tumour and nipple) and matching (largest
 # distance on the MLO curve of the tumour):
 #   recommend.sh choose TABLE QUESTION MM PART...   the parts to leave out: smallest change first, while the changes of

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Before a release: what takes hours. Every program under failing writes and allocations, small limits, full disks, damaged files
 # of every format in our own checks (100000 inputs a format, and FUZZ_MINUTES more in all) and in whole programs under
 # sanitizers (FUZZ_INPUTS a format); the package in an empty Debian 12; a cohort on a Slurm of its own.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A stage's settings (program and options) are recorded beside its output when it has succeeded. When the
 # record differs from what is asked now, the stage depends on FORCE and runs again; `make -q` and
 # `make -n` read the record and write nothing.

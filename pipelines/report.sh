@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # One self-contained HTML page of a finished case: report.sh RUN RUNS BIN
 # Pictures are inline, so that the page can be sent; report.pdf is its print.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # One of Tables III to VI: scaled-table.sh PAPER.tsv PREFIX BASE.vtkhdf PROBE
 # Rows are the paper's stiffnesses; ours come from PREFIX-PERCENT-supine.vtkhdf (BASE for 100). Columns: ours,
 # the paper's, and the difference, for displacement and displacement relative to the base, mm; the solve's own

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Whose run a folder holds, so that two patients' scans never share one:
 #   scan-identity.sh check RUN SIDE SCAN    one line saying why SCAN may not be run in RUN; nothing when it may
 #   scan-identity.sh record RUN SIDE SCAN   remembers SCAN and SIDE in RUN/.scan

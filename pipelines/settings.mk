@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Settings, each to be given on the command line: make -f Makefile.pipeline MATERIALS=wellman
 # A case file gives them one a line, KEY = VALUE; the command line overrides it. It is data: pipelines/case-file.sh checks
 # every key and value, and nothing in it is executed.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Installs the Debian packages named in pipelines/packages.txt that are missing; where it may not
 # install, says which to install and stops.
 set -euo pipefail

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The run for 3D Slicer, in RUN/slicer: images, labels, shapes, displacement fields, points and scene.mrml, which opens them.
 EXPORT_SLICER ?= $(BIN)/export-slicer
 SLICER_OPTIONS ?=

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A cohort on Slurm: one job array over its cases (several where the site's MaxArraySize is smaller), then a job that makes the table.
 #   slurm.sh submit RUNS COHORT   gives it to Slurm; with RESUME=1 only the cases that are missing or out of date
 #   slurm.sh script RUNS COHORT   prints the script of the array instead

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Compression far from the ordinary: one row a case in runs/stability/contact.tsv. With the case's
 # stress-free mesh at the end when it has been made. A case that stops short (code 3) is a row of the table.
 STABILITY := $(RUNS)/stability

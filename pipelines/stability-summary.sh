@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # One page of the two tables of extreme cases: stability-summary.sh MECHANICS.tsv CONTACT.tsv
 # A row a direction (compression: one) and outcome: how many cases, the worst of what they say, the seconds of all; the
 # names of those that did not converge, or ended otherwise than their case states.

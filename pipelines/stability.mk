@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The table of extreme cases of gravity (tests/extreme/table/cases.cpp), a row for each direction of each
 # case: counts, residual, seconds, outcome. Its program is built on demand.
 STABILITY_LIMIT ?= 20000

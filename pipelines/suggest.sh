@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # "; did you mean X?" for the candidate that a slip of the fingers turns into WORD, nothing when none is near:
 # suggest.sh WORD CANDIDATE...
 set -euo pipefail

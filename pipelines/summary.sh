@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Prints what a finished case says: first what its stages warned of, each warning once, with what to do; then landmark
 # displacements, errors against the truth when there is one, compressions, the MLO curve, and where the pictures are.
 set -euo pipefail

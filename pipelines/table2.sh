@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Table II: the polynomial constants used beside the paper's, Pa: table2.sh PAPER.tsv MATERIALS.tsv
 set -euo pipefail
 export LC_ALL=C

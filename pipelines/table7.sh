@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Table VII, ours: slopes d ln u / d ln s of all tissues at once from one tangent-linear solve, against the rows of
 # Tables III to VI solved again: table7.sh BASE SCALED SLOPES TUMOUR_SLOPES
 # BASE: supine report of the 100 per cent state; SCALED: folder of TISSUE-PERCENT-supine.json. resolved: three-point

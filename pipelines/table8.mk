@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Table VIII, ours: the paper's conclusions on the case's mesh under other material sets, slopes from one solve each.
 #   columns        seed2008 with Table II's second-order constants as Samani and Plewes are sometimes quoted: its three
 #                  columns stand for a11, a20, a02 instead of a20, a02, a11

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Table VIII: the conclusions under several material sets, and how far each moves: table8.sh CONCLUSIONS.tsv RUN PROBE SET...
 # The first rows say whether the set has a stress-free body, and the supine displacements; then pipelines/judge.sh.
 set -euo pipefail

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The paper's Tables II to VI: prone-to-supine displacements of tumour and nipple when one tissue's stiffness
 # is scaled. Each row is a backward and a forward solve; each table puts the paper's row beside ours. The paper's
 # data set is private: with the phantom the rows are comparable, with a scan only the trends are. Every table is made

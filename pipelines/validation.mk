@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Tables of the validation pages that runs can make, so that none of them goes stale by hand: each is a file in docs/tables, which
 # `make validation` writes from the case's runs and copies into the page between its markers. tests/tools/validation.sh (part of
 # `check`) holds page and files equal.

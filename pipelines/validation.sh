@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Generated tables in a page: between the lines `<!-- table FILE -->` and `<!-- end of table -->` stands FILE (TSV, from the
 # repository's top), as Markdown.
 #   validation.sh fill PAGE...     writes them anew

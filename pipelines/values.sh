@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Values out of what the programs write; the scripts beside this one source it.
 export LC_ALL=C  # decimal points, whatever the user's language
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Prone to supine once more with another mesh, law or element, and the slopes d ln u / d ln s of each: what Table VIII and
 # the findings compare. A variant lies in RUN/variants as NAME-{reference,supine}.vtkhdf, NAME-slopes.tsv; where its
 # material has no stress-free body, NAME.failed says so and its cells are dashes.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Compares a run with expected values: verify.sh EXPECTED.tsv RUN
 # Rows of EXPECTED: file (below RUN), row (value of the file's first column; "-" for a report), column (or top-level
 # key of a .json report), expected, tolerance. Prints the same with the computed value and a verdict; exit 1 when

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # How far the predicted places move when the chest wall moves by its own standard deviation, mm:
 # wall-sensitivity.sh RUN VARIANT...
 set -euo pipefail

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What the chest wall's own uncertainty does to the result: the whole chain with the wall moved everywhere by
 # one standard deviation, backwards and forwards, same tumour, and how far the predictions move. A coherent
 # shift is the worst the band allows: real errors change sign from place to place.

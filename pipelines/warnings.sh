@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What the stages of a run warned of, each warning once, and what to do about it: warnings.sh RUN
 # A line each, tab-separated: the stages that say it, the warning, the advice (pipelines/advice.tsv: the first pattern that
 # matches; "-" where there is none). In the order of the chain, those with the same advice together; the advice stands in

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // backward: the stress-free shape of an imaged breast.
 #include <algorithm>
 

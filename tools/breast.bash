@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # bash completion of breast. The words come from the program itself, which asks its tools for their options: they cannot go stale.
 _breast() {
   local IFS=$'\n' word=${COMP_WORDS[COMP_CWORD]} words

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // breast: all tools and the pipeline under one name.
 #include <cstdio>
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The tools of this build (generated from tools/CMakeLists.txt and docs/man).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // calibrate-softness: the material set with which a cohort moves as women's breasts do.
 #include "calibration/softness.hpp"
 #include "cli/tool.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // calibrate: the phantom whose landmarks move as far as wanted.
 #include "calibration/calibrate.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // cc2mlo: the curve in one mammogram on which a point of another must lie.
 #include <algorithm>
 #include <optional>

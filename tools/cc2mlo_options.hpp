@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What cc2mlo is asked on the command line.
 #pragma once
 

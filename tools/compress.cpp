@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // compress: a breast between two plates.
 #include <optional>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // difference: the derivative of a shape by something that changes the mesh, from two other models.
 #include "cli/tool.hpp"
 #include "core/error.hpp"

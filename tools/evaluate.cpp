@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // evaluate: how far a segmentation or a surface is from the truth.
 #include <optional>
 

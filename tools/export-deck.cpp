@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // export-deck: a scene for FEBio or CalculiX, and their result back as a mesh.
 #include "cli/mechanics_options.hpp"
 #include "cli/tool.hpp"

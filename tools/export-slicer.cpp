@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // export-slicer: a run as files of 3D Slicer, with a scene that opens them all.
 #include "cli/tool.hpp"
 #include "core/atomic_file.hpp"

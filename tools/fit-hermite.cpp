@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fit-hermite: bicubic Hermite sheets of skin and chest wall, and the rim where the body ends.
 #include "core/error.hpp"
 #include "fit_hermite_options.hpp"

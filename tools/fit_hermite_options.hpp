@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What fit-hermite is asked on the command line.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // forward: the shape of a stress-free breast under gravity.
 #include "cli/mechanics_options.hpp"
 #include "cli/tool.hpp"

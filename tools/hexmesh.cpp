@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // hexmesh: hexahedral mesh of a breast from its Hermite geometry and its labels.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What hexmesh is asked on the command line.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // identify: a patient's own stiffness from her breast in two postures.
 #include "core/error.hpp"
 #include "core/table.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Label maps as tools take them: our own files, segmentations of 3D Slicer, volumes of other programs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // laws: a material set's laws, moduli, stable ranges and curves.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // match-lookup: the matched curves of a whole mammogram, as a file and as a page to point at.
 #include <algorithm>
 #include <optional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What forward, backward and compress share from the mesh read to the file written.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // phantom-mesh: one breast of the phantom on a finer mesh of 8-node elements,
 // stress-free, prone, supine.
 #include "cli/tool.hpp"

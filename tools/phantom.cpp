@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // phantom: a prone breast MR scan whose stress-free, prone and supine truth is known.
 #include "phantom/parameters.hpp"
 

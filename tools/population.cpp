@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // population: how breasts move between postures, beside what is known of women.
 #include <algorithm>
 #include <cmath>

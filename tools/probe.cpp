@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // probe: where the landmarks of deformed meshes are, as a table.
 #include <algorithm>
 

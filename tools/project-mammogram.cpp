@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // project-mammogram: the X-ray image of a compressed breast.
 #include <algorithm>
 

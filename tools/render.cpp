@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // render: off-screen pictures of what the pipeline made.
 #include <algorithm>
 

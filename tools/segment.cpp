@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // segment: labels of one breast from a prone T1 MR scan.
 #include "segment/segment.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // sensitivity: how a deformed breast depends on materials, gravity, skin and plates.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Displacement fields of a run, with their errors.
 #include <algorithm>
 #include <cmath>

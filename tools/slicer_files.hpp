@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What export-slicer writes, file by file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // tetrahedra: the body of a hexahedral mesh in tetrahedra, for other solvers.
 #include "tetrahedra/delaunay.hpp"
 

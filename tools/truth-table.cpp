@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // truth-table: true landmark positions under compression, with the truth's own error.
 #include "cli/tool.hpp"
 #include "core/error.hpp"

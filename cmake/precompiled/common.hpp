@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What nearly every file reads: the compiler reads it once. Files still include what they use: without
 // precompiled headers (-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON) they compile as they stand.
 #include <Eigen/Cholesky>

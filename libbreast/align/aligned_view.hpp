@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A patient's mammogram with the simulated view laid over it.
 #pragma once
 

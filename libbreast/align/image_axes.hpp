@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where a patient's mammogram lies: its pixels in mm along the axes of the simulated view.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What is asked of a pair of views, as it is given on a command line.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The skin line in a mammogram, real or simulated.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Both mammograms of a patient beside the two simulated views: points in their pixels, curves drawn
 // on them, and what the alignment adds to the band.
 #pragma once

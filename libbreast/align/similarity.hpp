@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Laying a simulated view over a patient's mammogram: rotation, translation and scale.
 #pragma once
 

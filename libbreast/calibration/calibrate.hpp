@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The size of a phantom's breast and the place of its tumour that give wanted displacements.
 #pragma once
 

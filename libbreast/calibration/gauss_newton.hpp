@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Weighted nonlinear least squares of few parameters whose residuals cost minutes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How soft breasts are and what holds them, such that a cohort moves as women's breasts do.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What can be told about the files of a command before any of them is opened.
 #include <unistd.h>
 

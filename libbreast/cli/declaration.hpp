@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a tool declared about itself: the one source of its help, man page,
 // Markdown page and checks.
 #pragma once

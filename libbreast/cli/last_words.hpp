@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One line and exit 1 also where no handler of Tool::main is reached.
 #pragma once
 

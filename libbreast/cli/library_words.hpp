@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What libraries print on stderr while a tool runs: kept from the user, who gets one line of ours.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A tool's run: questions, parsing, checks, body, report, exit code.
 #include <algorithm>
 #include <cstdio>

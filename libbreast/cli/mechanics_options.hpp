@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The MECHANICS options that backward, forward and compress share, as given on the command line.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Command line -> declared arguments, with every check that needs no file to be opened.
 #pragma once
 

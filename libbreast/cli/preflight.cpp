@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Limits of the process (ulimit) that are too small for the libraries to start: said in one line before they are
 // loaded. OpenBLAS, which takes memory for every thread when it is loaded, tries for ever when there is none.
 #include "cli/preflight.hpp"

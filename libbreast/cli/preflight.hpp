@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Limits of the process that are looked at before its libraries start.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where progress goes: a bar on a terminal, sparse lines otherwise, nothing with --quiet.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A tool that lets another one do part of its work.
 #pragma once
 

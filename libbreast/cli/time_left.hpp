@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How long a stage still takes, from the fractions it has reported.
 #pragma once
 

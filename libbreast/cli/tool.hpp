@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One declaration per tool gives its help, man page, Markdown page, checks and exit codes.
 //
 //   int main(int argc, char** argv) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Private part of Tool: its declaration, rules and common options.
 #pragma once
 

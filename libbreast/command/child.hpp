@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Programs that `breast` starts: a tool in its own place, make as a child.
 #pragma once
 

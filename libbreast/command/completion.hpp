@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Words that a shell may complete a `breast` command line with.
 #pragma once
 

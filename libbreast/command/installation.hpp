@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The installation a running `breast` belongs to: its tools and its pipeline.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // File names as make and its shell take them: which may be given as they are, and the stand-ins of the others.
 #pragma once
 

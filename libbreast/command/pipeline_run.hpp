@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The pipeline as a command: breast run, demo and cohort.
 #pragma once
 

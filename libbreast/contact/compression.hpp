@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Compression of a breast between two plates: gravity first, then the plates from just touching to
 // the target. See methods in docs; equations (7)–(8) of the paper.
 #pragma once

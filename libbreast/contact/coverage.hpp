@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How much of the breast lies in front of the edge of the image.
 #pragma once
 

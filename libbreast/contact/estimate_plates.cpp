@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/estimate_plates.hpp"
 
 #include "contact/solvers/raise_friction.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The plates of a compressed state as the error estimate sees them.
 #pragma once
 

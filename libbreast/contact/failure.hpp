@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Why the plates could not close further: as an identifier and in words.
 #pragma once
 

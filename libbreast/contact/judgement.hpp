@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A compression in the terms of a mammography physicist: each figure against its clinical range,
 // and whether the two plates press on the breast alone.
 #pragma once

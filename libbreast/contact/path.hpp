@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Closing the plates: from just touching to a thickness, a force or a mean pressure, in adaptive
 // steps with a secant predictor.
 #pragma once

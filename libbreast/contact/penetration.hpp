@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How deep the body enters a plate, measured where contact is not imposed: inside the faces.
 #pragma once
 

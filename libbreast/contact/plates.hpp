@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The compression plates as rigid bodies: a flat, rounded edges, upright walls behind them. The
 // signed distance and its first two derivatives are all the contact solver sees of them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A breast is brought between the plates by a hand: it carries the weight and pulls the breast
 // forwards, and lets go while the plates grip.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where a plate presses: a node, or a quadrature point of a face.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From a solved compression to what files and reports say about it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether a shape touches itself or the thorax beside its base: the equations keep neither apart.
 #pragma once
 

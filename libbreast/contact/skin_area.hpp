@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The skin as contact sees it: area per node, extent along the beam, contact per plate.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results appear by write-then-rename: nobody ever sees half a file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The BLAS under the factorisations: which one, how many threads, and the right kernels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elementary functions with the same last bit on every x86-64 processor.
 //
 // The C library chooses its exp, log, pow, sin, cos, tan, atan, acos ... by the processor it runs

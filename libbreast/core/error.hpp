@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Typed errors. The kind decides the exit code of a tool; the message is one line saying what, where,
 // the value, the bound and what to try.
 #pragma once

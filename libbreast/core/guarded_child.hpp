@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Libraries that a damaged file can crash, hang or make greedy do their work in a child process.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which files are ours to replace: a result never takes the place of another program's file.
 #pragma once
 

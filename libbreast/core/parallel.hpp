@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Threads: one number for the whole process, set once by the tool (OpenMP follows it; BLAS keeps to
 // one, see blas.hpp).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The library never prints; it tells a Progress sink where it is. Tools show a bar or sparse lines.
 #pragma once
 

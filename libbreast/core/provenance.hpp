@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where a file came from: every command that led to it, with the SHA-256 of its inputs' content.
 #pragma once
 

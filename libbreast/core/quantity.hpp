@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Named numbers that a table and a report both tell.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a tool has to say at its end, as nested keys and values; written as JSON by --report.
 #pragma once
 

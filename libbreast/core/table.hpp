@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tab-separated tables with units in the header ("nipple_mm").
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/temporary_folder.hpp"
 
 #include <sys/wait.h>

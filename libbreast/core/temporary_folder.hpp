@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A folder of one's own for as long as it is needed, also where the program ends without unwinding.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The few types every folder shares: small vectors, tissue codes, body side.
 #pragma once
 

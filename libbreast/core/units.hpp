@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Units are mm, g, s: stress is then Pa and force µN (1 N = 1e6 µN). Patient frame LPS:
 // x to the patient's left, y posterior, z superior.
 #pragma once

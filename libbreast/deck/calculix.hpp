@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A scene as an input file of CalculiX or Abaqus (.inp).
 #pragma once
 

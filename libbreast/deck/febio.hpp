@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A scene as an input file of FEBio 4 (.feb).
 #pragma once
 

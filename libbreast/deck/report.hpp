@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What export-deck reports of a deck and of another program's answer.
 #pragma once
 

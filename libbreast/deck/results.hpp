@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What another program found, read back onto the mesh the deck was made from.
 #pragma once
 

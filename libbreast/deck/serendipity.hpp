@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Between 27-node elements and the 20-node (serendipity) ones other programs have.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "dicom/header.hpp"
 
 // A walk through a DICOM file's elements (PS3.5 section 7), enough to know that it is whole and to

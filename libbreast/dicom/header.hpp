@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The elements of a DICOM file as text, without a DICOM library.
 #pragma once
 

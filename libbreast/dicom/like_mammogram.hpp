@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Settings of a compression from the header of a mammogram that it shall imitate.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A mammogram as stored in a file: header and grey.
 #pragma once
 

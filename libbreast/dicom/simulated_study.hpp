@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The patient and the study of every DICOM file we write: nobody, simulated.
 #pragma once
 

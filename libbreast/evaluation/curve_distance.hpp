@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Distance between two matched curves in the plane of the mammogram.
 #pragma once
 

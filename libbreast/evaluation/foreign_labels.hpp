@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Label volumes with somebody else's tissue codes: what they show beyond them (codes: image/segments.hpp).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "evaluation/label_surface.hpp"
 
 #include <unordered_map>

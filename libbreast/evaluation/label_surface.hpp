@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The outer surface of the breast in a label volume.
 #pragma once
 

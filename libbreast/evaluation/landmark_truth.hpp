@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where a chain of meshes puts the material points whose true positions are known.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How well two label volumes agree voxel by voxel.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What voxels of mixed tissue allow.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a comparison is told by: named numbers for tables and reports.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A derivative of a shape by what changes the mesh itself, such as the chest wall: by difference of
 // two other models of the same breast.
 #pragma once

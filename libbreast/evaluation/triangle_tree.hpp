@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nearest triangle by a tree of bounding boxes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where a fine solution puts the landmarks, and how far a coarser one of the same body is from it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far the chest wall of one label volume lies from that of another.
 #pragma once
 

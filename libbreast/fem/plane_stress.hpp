@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The energy of a thin incompressible skin in plane stress, as a function of two invariants of its
 // surface, and the same law without its resistance to compression: a tension field.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Second Piola–Kirchhoff stress and material tangent, built once for every law from dW/dI1, dW/dI2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Captions, scale bars and compasses of a panel.
 #include <algorithm>
 #include <array>

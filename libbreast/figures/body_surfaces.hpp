@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What of a breast mesh is drawn: skin, chest wall, cut, fibroglandular region, plates.
 #pragma once
 

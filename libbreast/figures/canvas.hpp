@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A picture of several panels with parallel projection, so that a millimetre is the same length all
 // over a panel. Hides VTK.
 #pragma once

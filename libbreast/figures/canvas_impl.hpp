@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shared by the canvas's source files only; shows VTK.
 #pragma once
 

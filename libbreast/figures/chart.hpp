@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A line chart over a panel: axes with round ticks, curves with markers, shaded clinical ranges.
 #pragma once
 

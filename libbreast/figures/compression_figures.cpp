@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shapes between plates (Fig. 5) and the column that a CC pixel is (Fig. 7).
 #include <Eigen/Geometry>
 #include <algorithm>

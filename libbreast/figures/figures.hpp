@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The pictures of the pipeline, in the manner of Figs 4 to 7 of Pathmanathan et al. 2008.
 #pragma once
 

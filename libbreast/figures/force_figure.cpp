@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Force of both plates against thickness on the way to the compressed shape.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mammograms with curves on them: Fig. 6.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Points, geometry, mesh, tissues: Fig. 4.
 #include <algorithm>
 #include <cmath>

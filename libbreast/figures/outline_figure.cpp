@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shapes of one breast over each other: where its tissue goes from the scan to another posture.
 #include <algorithm>
 #include <array>

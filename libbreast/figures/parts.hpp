@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts the figures share: colours, views, a breast, its mammogram.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contact pressure on the skin, seen through each plate along the beam.
 #include <Eigen/Geometry>
 #include <algorithm>

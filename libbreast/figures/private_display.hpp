@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // VTK 9.1 as packaged draws through X only, and aborts without a display. This one is ours alone.
 #pragma once
 

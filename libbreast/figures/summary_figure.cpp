@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The whole chain on one picture.
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Closest point on a Hermite sheet.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A disc-shaped triangle surface mapped one to one onto the unit square.
 #pragma once
 

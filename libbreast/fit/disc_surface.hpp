@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The skin in front of a box as a triangle mesh with the topology of a disc.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From labels to the geometry of one breast: skin sheet, chest-wall sheet, rim.
 #pragma once
 

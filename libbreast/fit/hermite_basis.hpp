@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Weights of the 16 Hermite degrees of freedom of a patch for a point and its derivatives.
 #pragma once
 

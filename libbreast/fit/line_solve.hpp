@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Systems in which a line of unknowns couples to itself and to the lines beside it only.
 #pragma once
 

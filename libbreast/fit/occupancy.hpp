@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Part of the body (all of it, or the muscle) as a smooth field in a box around one breast: 1
 // inside, 0 outside, its surface at 1/2.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where the body ends: a closed curve in each sheet's parameters, and the
 // straight cut between them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The rim within which the body has the volume of the segmented breast.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Least squares of a Hermite sheet to points, smoothed by its second derivatives.
 #pragma once
 

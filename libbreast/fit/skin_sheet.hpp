@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The skin's Hermite sheet, with as many patches as the largest distance needs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Thick slices made thin: shape-based interpolation of a mask (Raya and Udupa 1990).
 #pragma once
 

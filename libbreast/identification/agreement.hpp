@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether an answer is one: landmarks that no breast of this mesh could have together.
 #pragma once
 

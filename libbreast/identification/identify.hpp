@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A patient's own material set from her breast in two postures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a least-squares answer knows: directions, landmarks left out, misfit.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Landmarks marked in two postures, as tables have them, and what can be wrong with them.
 #pragma once
 

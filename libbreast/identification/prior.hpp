@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What is expected of a patient's material set before anything of her is known.
 #pragma once
 

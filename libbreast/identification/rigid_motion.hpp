@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The rib cage's motion between two postures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The model that is compared with observations: stress-free shape, second posture, and how both answer
 // what is sought.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Places on the skin at which a prediction is compared with a surface that was seen.
 #pragma once
 

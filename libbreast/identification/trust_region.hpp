@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nonlinear least squares with derivatives of a model that costs seconds and may have no answer.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A grey image with coloured lines and areas drawn over it, in pixels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What `segment` knows about a scan: tissue per voxel, fibroglandular fraction, chest-wall confidence,
 // and where the breast and its nipple are.
 #pragma once

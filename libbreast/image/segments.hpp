@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names and colours of tissues for programs that show segments, and the way back from such names to our codes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A scalar volume in patient space (LPS, mm), as ITK and DICOM have it.
 #pragma once
 

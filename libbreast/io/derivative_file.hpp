@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A mesh file with derivatives beside its shapes (sensitivity); see docs/file-formats.md.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Vector fields as .nrrd, as ITK and 3D Slicer read displacement fields.
 #pragma once
 

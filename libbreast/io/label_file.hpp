@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // LabelVolume <-> VTKHDF ImageData file (schema "labels/1"). HDF5 only.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // MatchLookup -> HDF5 file (schema "lookup/1"). HDF5 only.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mammograms as DICOM (Digital Mammography X-Ray Image Storage), through GDCM.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mammogram <-> .vti (float; pose as FieldData) and a 16-bit PNG for looking at, through VTK.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // HexMesh <-> VTKHDF file (schema "mesh/1"). HDF5 only; see docs/file-formats.md.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A drawn picture as PNG, through VTK.
 #pragma once
 

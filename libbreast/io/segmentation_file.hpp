@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Segmentations of 3D Slicer (.seg.nrrd): a label volume whose header says what its values are.
 #pragma once
 

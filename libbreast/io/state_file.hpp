@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A hexahedral mesh for other programs as VTK .vtu, through VTK.
 #pragma once
 

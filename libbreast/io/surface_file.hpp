@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces, point sets and curves as VTK .vtp, through VTK.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tetrahedra for other programs as VTK .vtu, through VTK.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Image volumes through ITK: NRRD, NIfTI, MetaImage by file ending, a DICOM series from a folder.
 #pragma once
 

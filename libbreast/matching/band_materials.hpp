@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a material set leaves open, in the band of cc2mlo.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matched curves as named lines (curve.vtp) and as a table (curve.tsv).
 #pragma once
 

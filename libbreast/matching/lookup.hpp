@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The matched curves of a whole image on a grid, for looking up while a pointer moves.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Questions to a Matcher and all that is found for each.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The same spot marked in two views: where it is in the body.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The material tables compiled into the library (generated from pipelines/materials/*.tsv).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Isotropic laws from first and second derivatives in the invariants I1, I2 alone.
 #pragma once
 

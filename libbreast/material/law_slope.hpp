@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives of a law by its constants: what a sensitivity needs and a solve does not.
 #pragma once
 

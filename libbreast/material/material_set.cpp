@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Material sets: the embedded tables of pipelines/materials, or a file of the same columns.
 #include <cmath>
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A material set as a table that load_materials reads back.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The few numbers by which a whole material set is made softer or stiffer.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where a law stays strongly elliptic (every shear on every plane keeps a positive stiffness).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The inverse problem: X such that the imaged shape x is in equilibrium. The residual is that of
 // forward, R(X, x, p) = 0 with x given, so that forward returns the imaged shape to rounding error.
 #include <algorithm>

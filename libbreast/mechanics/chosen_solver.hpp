@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `--solver auto`: multigrid where it is cheaper and all goes well, else a
 // factor, which knows more.
 #pragma once

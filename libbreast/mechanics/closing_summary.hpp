@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The end of a mechanics run for people: its report in a few short lines.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a mechanics solve returns: a shape in equilibrium, how it was found and what it cost.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the solved fields say about their own worth: pressure oscillation and wrinkling skin.
 #pragma once
 

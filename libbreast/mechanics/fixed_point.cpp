@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/error.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/scene.hpp"

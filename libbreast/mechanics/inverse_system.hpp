@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Newton's method for the inverse problem: the stress-free shape X and the pressures that put a
 // given shape x in equilibrium. Directions come from GMRES on the exact derivatives by X; a factor
 // of the forward tangent only preconditions, and one serves several steps.

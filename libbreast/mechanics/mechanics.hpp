@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forward and backward: the two directions of one discrete equilibrium R(X, x, p) = 0.
 #pragma once
 

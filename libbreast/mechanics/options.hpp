@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The MECHANICS options every mechanics tool shares, and their names on a command line.
 #pragma once
 

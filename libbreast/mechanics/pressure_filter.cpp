@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "mechanics/pressure_filter.hpp"
 
 #include <Eigen/Cholesky>

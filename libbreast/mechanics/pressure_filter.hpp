@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pressures of 8-node elements with one pressure each oscillate from element to element
 // (their inf-sup constant falls with the mesh size, tests/verify/inf_sup.cpp);
 // displacements do not show it.

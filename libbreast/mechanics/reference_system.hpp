@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The linearised inverse problem, the stress-free shape X unknown and the deformed shape given:
 //
 //     [ K_X  −Bᵀ ] [ δX ]   [ f ]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The keys of a mechanics report (docs/file-formats.md).
 #include <algorithm>
 #include <cmath>

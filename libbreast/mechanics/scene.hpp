@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A scene: one breast, its laws, what holds it and what loads it, as terms and constraints. What is
 // absent costs nothing: without skin there is no membrane, without springs no support, on a held
 // wall nothing slides.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The supports of wall and cut with which a material set was found.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where the membrane skin is pressed together, and whether the wrinkles it would throw are ones the
 // mesh can show.
 #pragma once

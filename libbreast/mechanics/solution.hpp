@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shared ends of forward, backward and compress: from a solved state to an Equilibrium.
 #pragma once
 

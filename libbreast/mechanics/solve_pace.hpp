@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How much of a Newton solve is done, judged by its residuals: for progress bars only.
 #pragma once
 

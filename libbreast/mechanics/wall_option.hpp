@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What holds a breast at its back: the chest wall, and the cut through the surrounding tissue.
 #pragma once
 

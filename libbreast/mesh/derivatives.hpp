@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives of a mesh's shape, as arrays beside it.
 #pragma once
 

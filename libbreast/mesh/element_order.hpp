@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From 8-node to 27-node elements on the same geometry.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Gauss–Legendre points and weights on [-1,1], and their products on the square and the cube.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The hexahedral breast mesh every mechanics tool reads and writes.
 #pragma once
 

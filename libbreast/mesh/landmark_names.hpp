@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names of landmarks that mean something to the tools.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One element's isoparametric map in lattice order (ξ fastest), without allocation: the inner loop
 // of point location. Internal to mesh/.
 #pragma once

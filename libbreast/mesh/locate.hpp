@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which element holds a point, and where in it: for landmarks, mammograms and tissue look-up.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nodal fields between meshes (one Vec3 a node) and solvers (3 numbers a node).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Profile of a compression plate's rounded edge: what contact presses with and pictures show.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Proof that an element is nowhere folded: Bézier coefficients of its Jacobian determinant.
 #pragma once
 

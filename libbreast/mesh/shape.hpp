@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lagrange shape functions of the 8- and 27-node hexahedron and the 4- and 9-node quadrilateral, VTK
 // node order, local coordinates in [-1,1].
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tetrahedra for other solvers; nothing here computes with them.
 #pragma once
 

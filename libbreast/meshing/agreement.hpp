@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether geometry and labels are of the same body.
 #pragma once
 

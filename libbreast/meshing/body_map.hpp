@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The body's boundary in the template's own coordinates: polar (ρ, u) on skin and wall, height on
 // the cut between them.
 #pragma once

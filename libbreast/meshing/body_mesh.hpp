@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From a geometry to a hexahedral mesh of its body: template, placement,
 // smoothing, skin layer, checks.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far the faces of a mesh lie from the smooth surface that they stand for.
 #pragma once
 

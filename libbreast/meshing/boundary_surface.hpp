@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A mesh's boundary as triangles, for solvers and programs that mesh for themselves.
 #pragma once
 

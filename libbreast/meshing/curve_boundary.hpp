@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // 27-node elements whose boundary nodes lie on the body's smooth surface.
 #pragma once
 

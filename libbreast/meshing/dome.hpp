@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Topology of the hexahedral templates: the half O-grid with a lateral cut ("dome") and, without
 // outer layers, the paper's cuboid.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The smooth surface under each face and boundary edge of a mesh: sheets, cut, and the two rims.
 #pragma once
 

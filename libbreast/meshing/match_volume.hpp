@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Flat faces between nodes on a curved skin cut corners; a shift of the skin nodes gives the body
 // its volume, and so its weight, back.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Template nodes put into a body: hull nodes on the sheets, the rest by a graph Laplace equation.
 #pragma once
 

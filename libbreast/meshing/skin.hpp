@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Thickness of the skin: from the command line, from the scan, onto the mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/skin_layer.hpp"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Skin as the outermost layer of elements, inside the body.
 #pragma once
 

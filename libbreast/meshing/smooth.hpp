@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Untangling and smoothing of a placed template by the foldover-free energy.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tissue per element from segmented voxels, by volume fraction.
 #pragma once
 

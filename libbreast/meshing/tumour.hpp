@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where the tumour point is, and the landmarks of a mesh.
 #pragma once
 

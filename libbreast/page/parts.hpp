@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The parts of the page's data, each as one JavaScript literal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values as JavaScript literals inside an HTML page: texts that cannot end the script, and bytes in base64.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Node numbers and cells of the slab-and-half-ball template, free of any geometry.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The irregular fibroglandular tree: lobes of branching ducts that converge on the nipple, their
 // lobules, and Cooper's ligaments between. Everything lives in the stress-free frame.
 #pragma once

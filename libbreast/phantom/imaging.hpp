@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the scanner sees: matter per subsample of every voxel of the prone scene, and its labels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From a voxel of the prone image to the stress-free point that lies there.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a point of the phantom is made of, finer than the tissue codes of a label volume.
 #pragma once
 

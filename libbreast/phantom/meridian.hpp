@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Meridian curves of the stress-free breast: its skin and chest wall in
 // half-planes through the axis.
 #pragma once

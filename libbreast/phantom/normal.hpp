@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Normals of surfaces that are level sets of a distance.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every number that shapes the phantom, in one place.
 #pragma once
 

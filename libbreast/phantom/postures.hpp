@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The physics of the phantom: from the known stress-free shape to the prone and the supine one.
 #pragma once
 

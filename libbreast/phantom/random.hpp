@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Counter-based randomness: every number is a pure function of seed and index, so that results do
 // not depend on threads or on the order of evaluation.
 #pragma once

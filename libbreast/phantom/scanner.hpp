@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From matter to magnitude image: coil sensitivity, tissue texture, Rician noise.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The stress-free breast: where it stands on the chest wall and where its skin is.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the phantom knows and the chain has to find: labels, surfaces, landmarks, meshes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A mammogram as it is looked at: hung, windowed, 16 bits.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where a mammogram lies: pose and extent of the image of a compressed breast.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A projection image on the detector plane with the pose that made it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where a bilinear patch is met by a packet of neighbouring rays, all at once in the vector unit.
 #pragma once
 

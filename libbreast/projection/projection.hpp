@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The simulated mammogram: tissue along every ray, sampled in the MR scan the mesh was made from.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // X-rays through a deformed hexahedral mesh: exact entry and exit of every element on a ray.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Following packets of neighbouring rays through the pieces of a RayMesh.
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The map of one 8-node hexahedron as a polynomial: cheap to evaluate and to invert.
 #pragma once
 

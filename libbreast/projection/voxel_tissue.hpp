@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tissue of the MR scan at points of the imaged shape.
 #pragma once
 

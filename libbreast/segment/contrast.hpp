@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether fat is the bright tissue, as in T1 without fat saturation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a segmentation measured, as named numbers for the report and for a table.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures to judge a segmentation by: slices with contours.
 #pragma once
 

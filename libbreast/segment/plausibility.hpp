@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a scan must be for the rest to make sense, and what to tell its reader.
 #pragma once
 

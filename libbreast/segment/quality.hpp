@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far a segmentation is from where it begins to fail, stage by stage.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From the working grid back to the scan's own voxels, cropped to the chosen side.
 #include <algorithm>
 #include <cmath>

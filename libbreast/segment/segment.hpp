@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From a prone bilateral T1 breast MR to the labels of one breast (methods: segmentation).
 #pragma once
 

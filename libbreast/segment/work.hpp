@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the stages of segmentation pass on to each other.
 #pragma once
 

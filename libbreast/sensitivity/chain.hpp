@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives of a deformed breast through the chain backward → forward or compress: the
 // stress-free shape follows every parameter so that the imaged shape stays the imaged shape.
 // docs/methods.md.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A converged state and its linearisation: one assembly, one factorisation, then as many solves
 // with the tangent, its transpose and the inverse problem as parameters or outputs need.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a prediction depends on: material constants, weight, gravity, skin, plates.
 #pragma once
 

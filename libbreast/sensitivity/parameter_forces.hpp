@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // ∂R/∂m: how the residual of an equilibrium changes with a parameter at a given shape.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The plates of a compressed state as the file records them, and how a parameter moves them.
 #pragma once
 

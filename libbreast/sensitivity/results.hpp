@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the derivatives of a state say of its landmarks, and the arrays for its file.
 #pragma once
 

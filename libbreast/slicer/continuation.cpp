@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values from some grid points to all others: nearly harmonic, by nested iteration. Coarse grids carry the far values,
 // a few sweeps of Gauss-Seidel on each grid smooth what the next coarser one gave.
 #include <algorithm>

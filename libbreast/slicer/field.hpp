@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A mesh's displacement between two of its shapes as vectors on a regular grid.
 //
 // Direction, as ITK and 3D Slicer have it: the vector at a grid point p takes p, a place in the first shape, to

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far a displacement field is from the element map it samples.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A scene of 3D Slicer (.mrml) that opens files with a display of our choice.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The couplings of a discretisation: which nodes meet in a cell (element or
 // face), as solvers see it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which linear solver a mesh can afford: a cost model fitted to measurements (docs/methods.md,
 // section 5).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Displacement constraints, each in the axes of its node: the chest wall, rollers, plates.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The unknowns of a problem and how they couple: fixed on the imaged shape, shared by all terms.
 #pragma once
 

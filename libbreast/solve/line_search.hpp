@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far to go along a Newton direction: one rule for all problems.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Newton's method, once for all problems: forward, inverse and contact differ only in what they
 // solve for and in what they call balanced (NewtonSystem). The line search is the same for all.
 #pragma once

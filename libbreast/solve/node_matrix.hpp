@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Symmetric matrices over three unknowns a node: pattern once, values as often as one likes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A symmetric tangent kept per cell in single precision: for meshes whose assembled matrix would be
 // large and which only need products, such as those of the error estimate.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An equilibrium problem: terms plus constraints.
 //
 //     Problem problem = scene.problem(...);       // or add() terms to one

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The derivative of a problem by its reference shape, kept per cell: it is applied, never factorised.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The linear systems of incompressible equilibrium, for whoever builds on them
 // (forward, backward, contact):
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The saddle system by GMRES with a block triangular preconditioner: a multigrid cycle for
 // K + κBᵀM⁻¹B, PressureSchur for the pressure's Schur complement.
 #include <cmath>

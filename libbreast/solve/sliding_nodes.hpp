@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nodes that slide on a smooth surface: an exact bilateral constraint, φ(x) = c. Every node keeps
 // its own level c, that of its place in the imaged shape, so that a mesh whose nodes lie a little
 // off the surface is held without a jump.

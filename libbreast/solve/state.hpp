@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A configuration of a body and the forces in it: what all solvers exchange.
 #pragma once
 

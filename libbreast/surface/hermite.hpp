@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bicubic Hermite sheets (C1 across patches) and the breast's geometry made of two of them.
 #pragma once
 

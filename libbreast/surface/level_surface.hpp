@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A smooth surface given as a level of a function, such as the chest wall a breast slides on.
 #pragma once
 

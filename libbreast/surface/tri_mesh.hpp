@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Triangle surface and point sets with named scalars.
 #pragma once
 

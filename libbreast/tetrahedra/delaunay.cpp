@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tetrahedra/delaunay.hpp"
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>

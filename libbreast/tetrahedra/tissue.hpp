@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tissue of hexahedra for the tetrahedra of the same body.
 #pragma once
 

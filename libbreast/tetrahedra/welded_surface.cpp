@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tetrahedra/welded_surface.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A surface in parts put together again: one node a place, and the lines between its parts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The mammographic views and their names in files, reports and tables.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The pose of a mammographic view: beam direction and image axes in the patient's frame.
 #pragma once
 

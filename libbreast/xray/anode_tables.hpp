@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Unfiltered mammography spectra as polynomials of the tube voltage: Boone, Fewell and Jennings,
 // "Molybdenum, rhodium, and tungsten anode spectral models using interpolating polynomials with
 // application to mammography", Med. Phys. 24 (1997) 1863-1874, from measured spectra. Their

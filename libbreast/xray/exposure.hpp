@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From a perfect image to one taken with a number of photons and scattered radiation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mammographic X-ray spectra: anode, tube voltage, filters.
 #pragma once
 

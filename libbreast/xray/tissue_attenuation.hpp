@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linear attenuation of breast tissues from their elemental composition.
 #pragma once
 

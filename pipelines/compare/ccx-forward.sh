@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # forward by CalculiX: ccx-forward.sh REFERENCE DEFORMED [options of forward and export-deck]
 #   make -f Makefile.pipeline FORWARD=pipelines/compare/ccx-forward.sh ...
 # CCX_OPTIONS: options of export-deck that the other stages do not take, as --without-skin.

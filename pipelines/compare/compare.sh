@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # compare.sh MESH.vtkhdf OUT.tsv BULK_RATIO CCX_ELEMENT MATERIALS [gravity options]
 # Solves one scene with forward and with CalculiX (ccx), one after the other, one thread each; prints one
 # row: node-by-node distance, force balance, CPU seconds (user + system) of both programs and their ratio.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # press.sh OUT.tsv N BULK_RATIO CCX_ELEMENT GAP_PERCENT contact|prescribed
 # The 0.1 m cube of fat, clamped at x = 0, pressed to GAP_PERCENT of its height by ours (contact) and by CalculiX,
 # one thread each, one after the other; one row: force on the upper plate, iterations, CPU seconds (user + system).

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Which boxes may hold a point: boxes sorted into the cells of a uniform grid."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Lines and markers of cc2mlo: the file curve.vtp."""
 from __future__ import annotations
 

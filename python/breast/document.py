@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """An HDF5 file of the toolkit in memory, and typed, checked access to it."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Point location: which element of a shape holds a point, and where in the element it is."""
 from __future__ import annotations
 

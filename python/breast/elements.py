@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The 8-node and the 27-node hexahedron: node order, shape functions, faces."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A displacement field on a grid of voxels, as 3D Slicer has it."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The skin and chest-wall sheets: the file geometry.vtkhdf."""
 from __future__ import annotations
 

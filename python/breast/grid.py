@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A regular grid of voxels in the patient's frame."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Work on data that may crash a library, done in a child process."""
 from __future__ import annotations
 

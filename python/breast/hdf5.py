@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reading an HDF5 file of the toolkit into a Document; the only module that speaks HDF5."""
 from __future__ import annotations
 

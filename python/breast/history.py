@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What every file says of itself: the breast's side, and every command that led to the file."""
 from __future__ import annotations
 

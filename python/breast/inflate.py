@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Bounded decompression of gzip and zlib streams."""
 from __future__ import annotations
 

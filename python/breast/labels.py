@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tissue per voxel: the file labels.vtkhdf."""
 from __future__ import annotations
 

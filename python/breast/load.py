@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Loading whatever a path holds."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The curves of a grid of points of one view in another: the file lookup.h5."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Simulated mammograms: the files cc.vti and mlo.vti."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Points of 3D Slicer (.mrk.json)."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """MetaImage volumes (.mha, .mhd)."""
 from __future__ import annotations
 

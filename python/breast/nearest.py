@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The point of a set of element faces that is nearest to a given point."""
 from __future__ import annotations
 

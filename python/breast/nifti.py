@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """NIfTI-1 and -2 volumes in a single file, plain or gzipped."""
 from __future__ import annotations
 

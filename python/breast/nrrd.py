@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """NRRD volumes (teem.sourceforge.net/nrrd/format.html), attached or detached; raw, gzip and text."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Points that a caller gives."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a mechanics tool recorded: how the solve converged, and the plates of a compression."""
 from __future__ import annotations
 

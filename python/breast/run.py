@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A run folder: every file of one case, read when it is first asked for."""
 from __future__ import annotations
 

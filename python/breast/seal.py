@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The seal of an HDF5 file: whether its bytes are those that were written."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Where a plane cuts element faces."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A segmentation of 3D Slicer (.seg.nrrd)."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """One state of the breast: a hexahedral mesh and everything its file says."""
 from __future__ import annotations
 

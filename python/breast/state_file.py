@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reading a mesh file (schema mesh/1) with the checks of the programs."""
 from __future__ import annotations
 

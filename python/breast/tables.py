@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tab-separated tables: as a pandas DataFrame where pandas is installed, else as a numpy structured array."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Points carried by the tissue from one shape to another."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A scan: grey values on a grid."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A state as a grid of VTK, for whoever has VTK."""
 from __future__ import annotations
 

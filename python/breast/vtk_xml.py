@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The arrays of a VTK XML file (.vtp, .vti) of the toolkit, without VTK."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Surfaces and meshes in VTK XML (.vtp, .vtu), for whatever reads no VTKHDF."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The band of cc2mlo against solving again: parameters are drawn from the priors, the whole chain
 // is solved with them, and the true MLO places are compared with curve and band of the base model.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the programs share that judge the band of cc2mlo against true places: which places, where a
 // turned detector shows them, the row that pipelines/band-check.sh reads.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Our multifrontal Cholesky beside CHOLMOD's supernodal one: the same matrix (gravity block at
 // rest, law of fat, κ/μ = 1000), the same ordering (METIS on the nodes), turn about in one process.
 //

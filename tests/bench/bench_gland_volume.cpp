@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fibroglandular volume of a segmentation against the truth, for a label map with a simulated signal.
 //
 //     bench_gland_volume LABELS FRACTION SIDES left|right|both [NOISE=0.02] [GLAND=0.3,0.5,0.7]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cost of a forward solve on the block other programs solved: a 0.1 m cube clamped at x = 0,
 // gravity along −z, materials of one law.
 //

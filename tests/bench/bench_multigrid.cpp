@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How the multigrid solver grows with the mesh: one linear system of equilibrium under gravity, at
 // rest, exactly incompressible, to a relative residual of 1e-6.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Compression of the block other programs compressed: a 0.1 m cube of fat, law (9), clamped at
 // x = 0, between frictionless plates.
 //

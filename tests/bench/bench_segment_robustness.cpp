@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What noise, coil bias, thick slices, turned axes, cut fields of view, saturated fat and a coil's
 // plate do to a segmentation.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A mesh against a label volume of the VICTRE sample breast, before or after
 // VICTRE's own compression.
 //

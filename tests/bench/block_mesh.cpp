@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The block other programs solved, as a mesh file: a 0.1 m cube of fat without skin, clamped at
 // x = 0, with the landmarks A (100, 100, 100) and B (100, 50, 50) mm.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Command line of a benchmark: options with a value each, and numbers of elements along an edge.
 #pragma once
 

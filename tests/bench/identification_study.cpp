@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // identify against truths it does not know, one row a draw on stdout:
 //
 //     identification_study same MESH.vtkhdf FIRST COUNT

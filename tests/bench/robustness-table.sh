@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # robustness-table.sh PROGRAM NAME=MR:SIDE ... : runs bench_segment_robustness on every scan, rows of all cases into
 # robustness-NAME.tsv here, and prints per case how many scans were refused, failed, flagged, and failed unflagged.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Round trips of breasts that slide, at ever softer fat and fibroglandular tissue, as TSV: backward from
 # the prone scan and forward to it again, and forward to supine.
 #

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Compression far from the ordinary, one row a case on stdout:
 //
 //     stability_contact [--only TEXT] [REFERENCE.vtkhdf...]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Compression far from the ordinary: every case ends as it states success to be. The
 // cases are those of the table that are quick; bench/stability_contact runs them all.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Unusual breasts and unusual grids: the fit stays close, unfolded and star-shaped.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Input that gravity must refuse. (What it must solve: table/cases.cpp.)
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The part of the table of extreme cases that every change must pass.
 #include <gtest/gtest.h>
 

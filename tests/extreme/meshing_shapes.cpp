@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shapes at the edge of what breasts are: very pendulous, thin, sagging, tiny; and hostile sizes.
 #include <gtest/gtest.h>
 

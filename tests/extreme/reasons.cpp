@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every reason for having no answer is said by name, and is true.
 #include <gtest/gtest.h>
 

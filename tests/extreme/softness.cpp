@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A breast of every softness on every wall in every skin: a stable answer that closes, or a true
 // reason with the change that would mend it.
 #include <gtest/gtest.h>

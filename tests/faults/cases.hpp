@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One small run of every tool, with every kind of file it writes, for fault injection.
 #pragma once
 

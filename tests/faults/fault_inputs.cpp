@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fault_inputs FOLDER: small valid files of every format, for tests/fuzz/whole-tools.py.
 #include <cstdio>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every tool under failing writes and failing allocations: exit 1, 2 or 3 with one line, or exit 0 with the
 // right files; no part of a file, no hidden file, nothing left in the temporary folder, no hang.
 //

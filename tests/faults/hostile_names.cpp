@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names that a shell, a page or a report could take for more than names: every tool reads and writes files so
 // called, runs nothing of them, and no file it writes holds one unescaped, nor the folder it lies in.
 #include <gtest/gtest.h>

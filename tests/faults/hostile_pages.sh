@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The scripts that write pages and summaries, given reports, tables and settings whose every text could be markup, a command or
 # a terminal's escape: none of it stands unescaped in the page, none is run, no folder is named.
 set -euo pipefail

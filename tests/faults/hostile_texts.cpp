@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Texts inside the inputs that a page, a report or a terminal could take for more than texts: names of landmarks, histories,
 // a mammogram's energy, a scan's description, names in tables. Whatever a tool writes holds none of them unescaped, nor a
 // folder that an input names.

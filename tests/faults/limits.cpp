@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Small limits on stack, memory, files and their size (ulimit -s, -v, -n, -f): a tool does its work or says one line, soon.
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Under a locale with a decimal comma, or with letters that change case in another way (Turkish i), every tool writes the
 // same bytes as under C: its tables, whatever else it writes, and what it prints.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a tool wrote, and whether two runs of it wrote the same.
 #pragma once
 

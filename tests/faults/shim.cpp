@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Preloaded into a tool by tests/tools/faults.cpp: lets one system call that puts something out, or one
 // allocation, fail. Environment:
 //   BREAST_FAULT       PROGRAM:KIND:N[:ERRNO[+]]  the N-th (from 1) call of that kind in PROGRAM fails with ERRNO;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mutations of packed documents (io/hdf5/packed.hpp) that stay documents: bytes changed blindly nearly always break the packing, and
 // nothing behind it is tried. Linked into the targets whose input is a document.
 #include <algorithm>

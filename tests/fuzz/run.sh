@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # run.sh [MINUTES | inputs=N [TARGET...]]: fuzzes our own checks of every format for so long in all (default 5 minutes), or
 # with N inputs a format, under ASan and UBSan, from small valid files and from every input that once crashed
 # (tests/fuzz/seeds/TARGET). Exit 1 when something crashes, hangs over 10 s or takes over 1 GB; the input is then in

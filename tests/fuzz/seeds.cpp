@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // seeds FOLDER: small valid inputs for every fuzz target, made by our own writers.
 #include <filesystem>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // libFuzzer targets for our own checks of every format: anything but an Error (input) is a crash.
 // Compiled once a target, with FUZZ_TARGET its name. Meshes, labels and geometries are fuzzed behind
 // HDF5, which reads in a child process: their inputs are packed documents (io/hdf5/packed.hpp).

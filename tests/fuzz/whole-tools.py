@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """whole-tools.py BIN INPUTS [COUNT [FORMAT...]]: damages small valid files of every format and gives each to the
 tool that reads it, COUNT times a format (default 2000). BIN holds the programs (built under sanitizers: build/asan/bin),
 INPUTS the files that the program fault_inputs wrote. A run is a finding when it ends by a signal or with another exit code

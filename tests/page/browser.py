@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A headless Chromium driven through its DevTools pipe (file descriptors 3 and 4), with the standard library alone."""
 
 from __future__ import annotations

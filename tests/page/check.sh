@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # check.sh PROGRAM_FOLDER RUN_FOLDER [PICTURES]: the page of a finished run in a real browser (Debian package
 # chromium), without network: points at three places, compares what the page draws with cc2mlo, keeps
 # screenshots in PICTURES. Not part of the tests: the browser is larger than everything else together.

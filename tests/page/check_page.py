@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """check_page.py FOLDER [PICTURES]: opens FOLDER/page.html in a headless Chromium and works with it as a user would, by
 mouse, keyboard and touch. FOLDER/truth.txt has one line a point: view, u, v, then as the matcher has them the tissue's depth, the
 nipple's distance, the first and last point of the curve, its length and the smallest u of the arc, mm. Screenshots go to PICTURES."""

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """run_tests.py PROGRAM_FOLDER [TEST]...: the tests of python/breast on results of these programs; exit 77 where h5py is missing."""
 import pathlib
 import sys

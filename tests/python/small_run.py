@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A small run made by the programs once for all tests: the kept scan through the whole chain, five seconds."""
 import functools
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is read is what the files hold: against the programs' own digests, against VTK where it is installed, and against tables."""
 import importlib.util
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The commands and scripts of docs/python.md and of the tutorial run as they are written, on a small run."""
 import os
 import re

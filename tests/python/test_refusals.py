@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Damaged and foreign files: one clear line that names the file and what is wrong; and the programs refuse the same meshes."""
 import os
 import signal

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Files of 3D Slicer's formats: fields of vectors, segmentations, markups, and meshes in VTK XML."""
 import importlib.util
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Points through the element map: exact on affine maps, there and back, landmarks, distorted elements, points outside."""
 import unittest
 

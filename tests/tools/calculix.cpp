@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // CalculiX, really run on our decks through pipelines/compare/ccx-forward.sh,
 // finds what forward finds.
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # clean-root.sh PACKAGE.deb [SETTING=value]...: the proof that the package is complete. Makes an empty Debian 12 (debootstrap), installs
 # the package there with apt-get, and runs `breast demo` as an ordinary user from a folder with a blank in its name; then checks what
 # a user sees. Needs root, debootstrap and network; takes about 2 GB below TMPDIR. BASE=FOLDER: such a root made before, which is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every tool: help, version, man page, usage errors, reports.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // compress from file to file: contract keys of the report, early stops, refusals.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # docs-current.sh [--write] PROGRAM_FOLDER: compares docs/tools/NAME.md and docs/man/NAME.1 with what the
 # built tools say of themselves; exit 1 and a diff when they differ. --write brings them up to date.
 set -eu

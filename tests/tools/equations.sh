@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Checks docs/tables/equations.tsv: every row's source file holds the named symbol, and its test file the named test.
 set -eu
 cd "$(dirname "$0")/../.."

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // export-deck as a program: what it writes, what it refuses, a foreign result as a mesh of ours.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The fit-hermite program: file in, file out, report, refusals.
 #include <gtest/gtest.h>
 

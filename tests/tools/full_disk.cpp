@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A disk that is full at any byte of any output: an error in one line, no file, no part.
 #include <gtest/gtest.h>
 #include <signal.h>

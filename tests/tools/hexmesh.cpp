@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // hexmesh from files to file: counts, contract keys of the report, refusals.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // identify as a program: the set it writes runs the chain and narrows the band; slips in landmarks are named.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # installed.sh BUILD [PYTHON]: the build installed under a temporary prefix, used as a user would from a folder with a blank in its name:
 # version, list, help, a tool, completion, and plans (make -n) of runs on scans of every name.
 set -euo pipefail

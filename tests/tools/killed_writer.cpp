@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A writer or a tool killed at any moment, or a full disk, leaves no file that could be taken
 // for a result.
 #include <gtest/gtest.h>

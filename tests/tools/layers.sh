@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Checks that no folder of libbreast includes what its CMakeLists.txt does not name: a folder may include its
 # own headers, those of its DEPENDS, and of theirs. Prints one line a violation; exit 1 when there is any.
 set -eu

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // project-mammogram and cc2mlo as a user runs them.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mammograms as DICOM: they read back as written, pass a standard validator, and what does not fit
 // is refused by name.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // backward, forward and laws as programs: exit codes, reports, files.
 #include <gtest/gtest.h>
 

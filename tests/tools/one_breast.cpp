@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A scan that shows one breast alone: from half of the small phantom's field of view to a mesh as
 // good as any.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The page of match-lookup in a real browser: it draws what the matcher finds, in both directions, and
 // obeys mouse, keyboard and touch. Needs Chromium (Debian: chromium) and Python.
 #include <gtest/gtest.h>

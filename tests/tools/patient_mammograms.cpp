@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // cc2mlo on a patient's mammograms: our own DICOM files, moved by a known similarity and sampled
 // with other pixels, must be found where they are, and what does not fit is refused.
 #include <gtest/gtest.h>

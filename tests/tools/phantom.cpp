@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The phantom tool as a user runs it, on its coarsest useful setting.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The make contract on a small phantom: the chain runs, a second run does nothing, touching one input
 # rebuilds exactly what depends on it, and a stage can be swapped.
 set -euo pipefail

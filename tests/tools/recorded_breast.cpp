@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A mesh kept in testdata, made by the whole chain: backward and forward give the recorded
 // landmark displacements, whatever the number of threads.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // render as a user runs it: every figure, with and without DISPLAY, several at a
 // time, nothing left behind.
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What the makefile promises about its numbers, on a small phantom and a coarse mesh:
 #   all     figures, tables, report and the comparison with pipelines/expected/small.tsv, in one make
 #   killed  tables made in a run killed three times, and started again, are the same byte for byte

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Damaged input never crashes a tool nor leaves an output: exit 2 and one line that names the file.
 // A new tool adds one line a file it reads to `readings` below.
 #include <gtest/gtest.h>

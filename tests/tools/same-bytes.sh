@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Labels, geometry and mesh of one scan are the same bytes on every x86-64 processor:
 #   programs   segment, fit-hermite and hexmesh hold no instruction beyond SSE2 and call no function of the C library
 #              or of a BLAS that is chosen by the processor

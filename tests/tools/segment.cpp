@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // segment on a folder as a scanner exports it: several series, files in no order.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // sensitivity as a program: table, arrays, refusals.
 #include <gtest/gtest.h>
 

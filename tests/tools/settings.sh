@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What the makefile refuses before anything runs: unknown settings and values, names that a shell or make would read as code,
 # case files with a slip, another patient's scan in a run's folder. Plans only (make -n): no program is needed.
 set -euo pipefail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // export-slicer as a user runs it: ITK and VTK open every file, fields lead where the mesh does, the scene names what
 // is there; and what the tools say of Slicer's files.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A breast on a wall to slide on, through the programs: what a material set says, what options say,
 // and what is refused.
 #include <gtest/gtest.h>

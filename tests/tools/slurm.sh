@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # slurm.sh BUILD: a cohort on a Slurm of its own (Debian: slurm-wlm, munge, netpbm), on loopback and without systemd. Eight cases run the
 # installed chain, coarse, as processes of this machine and as job arrays of at most six tasks. Under Slurm one case fails, the node
 # is lost in the middle and comes back, one task is cancelled; resumed, the table is the local one byte for byte.

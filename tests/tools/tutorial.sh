@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # tutorial.sh PAGE.md PROGRAM_FOLDER: runs the fenced `sh` blocks of a page as written and in order, in one empty folder
 # and one shell that stops at the first failure, with the programs on the PATH.
 set -euo pipefail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // VTK 9.1's own reader opens every kind of VTKHDF file we write, with the arrays where a user of
 // ParaView looks for them.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The band of cc2mlo against a body that is not the model's: places of the phantom's true body,
 // moved by parameters drawn from the priors along that body's own derivatives, against curve and
 // band of a chain that started from the MR scan and knows nominal parameters only.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A mesh of the chain deformed as the phantom's true body is, for the error budget: every node is a
 // place of the scan (imaged), found in the true body's imaged shape and followed to its stress-free
 // shape and to its points.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Laying a simulated view over a mammogram: axes, a known similarity under noise, foreign tissue
 // and cropping.
 #include <gtest/gtest.h>

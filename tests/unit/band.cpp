@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The band's linear propagation against re-matched perturbed shapes:
 // derivative, sampling, coverage.
 #include "matching/band_materials.hpp"

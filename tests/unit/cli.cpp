@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A declared tool: parsing, checks before any file is opened, exit codes, history, report.
 #include <gtest/gtest.h>
 

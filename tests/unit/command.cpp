@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The pieces of the command `breast`: names for make, its stand-ins, what was asked for.
 #include <gtest/gtest.h>
 

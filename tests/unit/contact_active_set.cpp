@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The active set on bodies small enough for an independent answer: a quadratic body between plates.
 #include <gtest/gtest.h>
 

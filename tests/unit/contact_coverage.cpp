@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How much of a breast lies in front of the edge of the image.
 #include "contact/coverage.hpp"
 

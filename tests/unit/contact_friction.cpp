@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Friction's return map, the springs of an elastic wall, and the options that name them.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What is said of a compression: every figure against its range, the balance of the plates.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Options of compression from their text: plates as in the clinic and as before.
 #include "contact/options.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plates as rounded bodies: distance and derivatives, placement, T0.
 #include <gtest/gtest.h>
 

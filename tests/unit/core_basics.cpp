@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // SHA-256 against published vectors; tables, numbers, reports, histories, atomic files.
 #include <gtest/gtest.h>
 #include <fcntl.h>

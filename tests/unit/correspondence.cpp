@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // CC to MLO: straight for affine deformations, the material point's image
 // for any, measured as said.
 #include "matching/correspondence.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Decks: what is written is the scene; what is read back lands on the right nodes.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elementary functions against the C library's, at special values, and bit for bit.
 #include "core/elementary.hpp"
 

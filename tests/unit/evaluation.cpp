@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Dice, surface distances and translated labels against shapes whose answers are known.
 #include "evaluation/overlap.hpp"
 

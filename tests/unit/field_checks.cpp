@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What is said about pressures and skin: filter, checkerboard, resultants, wrinkles.
 #include <gtest/gtest.h>
 

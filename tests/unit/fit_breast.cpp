@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From labels of an analytic hanging breast to its sheets and rim.
 #include <gtest/gtest.h>
 #include <omp.h>

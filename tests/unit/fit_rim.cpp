@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Curves in parameters: star shapes, insides, centroids; distances to triangles.
 #include <gtest/gtest.h>
 

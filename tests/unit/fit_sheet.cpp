@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Least squares, projection and closest points on Hermite sheets.
 #include <gtest/gtest.h>
 

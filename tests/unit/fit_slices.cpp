@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shape-based interpolation between thick slices.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Damaged and foreign mesh, label and geometry files are refused in one line that names file and dataset.
 #include <gtest/gtest.h>
 

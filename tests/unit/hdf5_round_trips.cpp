@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes, label volumes and geometries survive their files bit for bit, and writers refuse what no reader
 // would take.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // HDF5 files made to mislead: values elsewhere, links that multiply, storage that inflates, damage
 // that HDF5 itself does not survive. All are one line of Error (input).
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Element and membrane kernels against central differences.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The iterative methods: GMRES, conjugate gradients and Lanczos.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Point location against brute force, on linear and curved quadratic meshes.
 #include "mesh/locate.hpp"
 

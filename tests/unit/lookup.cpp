@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The lookup holds what the matcher finds; the page holds the lookup.
 #include "matching/lookup.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The boundary of a mesh: closed, in parts, and curved onto the sheets.
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

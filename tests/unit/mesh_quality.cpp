@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scaled Jacobian, determinants and volumes against values known by hand.
 #include "mesh/quality.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Templates, placement, smoothing, skin layer, tissue and landmarks on the analytic breast.
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

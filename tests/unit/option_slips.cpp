@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers in another unit than asked for: refused with the number that was likely meant.
 #include <gtest/gtest.h>
 

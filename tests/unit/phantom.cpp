@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The phantom's parts without mechanics: template, gland, imaging, labels, coil and noise.
 #include <gtest/gtest.h>
 

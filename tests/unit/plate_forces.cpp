@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How the forces of plates change while the plates move, against finite differences.
 #include <gtest/gtest.h>
 

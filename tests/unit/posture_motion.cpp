@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far tissue moves and how near it comes to the ribs, on a cylinder where both are known.
 #include "evaluation/posture_motion.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // X-rays through meshes with known chords: blocks exactly, balls to the order of the
 // elements, volumes to the pixel rule; labels through the element map; the same image
 // for any number of threads.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The linear algebra against dense matrices.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Anatomies a breast scan comes with: neck and upper chest, implants, arms, breasts that touch what
 // is beside them. Each ends right, or with one clear line.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nipple, debris, ghosts and skin thickness, each on a body made for it.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One synthetic patient scanned badly in many ways: the same breast, or a refusal in one line.
 #include <gtest/gtest.h>
 

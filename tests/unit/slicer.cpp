@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Displacement fields against maps known in closed form, scans seen through them, and the scene that shows them.
 #include <gtest/gtest.h>
 

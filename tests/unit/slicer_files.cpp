@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Segmentations and points of 3D Slicer: as written by us, as Slicer saves them, and what is refused.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every term against finite differences: forces against energy, tangents against forces. A new term
 // is tested by being added to the list.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tetrahedra of the analytic breast: filled, closed, in parts, with the hexahedra's tissue.
 #include <gtest/gtest.h>
 

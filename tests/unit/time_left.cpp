@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The estimate of the time left, on a clock of the test's own.
 #include "cli/time_left.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Volumes whose headers leave voxel size or orientation open, contradict themselves or point
 // elsewhere are refused in one line before a library sees them.
 #include <gtest/gtest.h>

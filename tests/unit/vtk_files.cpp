@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces, curves and mammograms: what is written is read back, and what is not a file of that
 // kind, cut, or not finite is refused with a typed error.
 #include <gtest/gtest.h>

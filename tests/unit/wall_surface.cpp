@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The surface a breast slides on: its derivatives, its ends, and its fit to a thorax.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A chest wall corrected by clicked points moves everything made from it: labels, sheet, mesh.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Attenuation against published measurements, spectra against another program's tables of the same
 // model, scatter and noise against their definitions.
 #include <gtest/gtest.h>

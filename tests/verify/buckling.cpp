@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // When compressed skin gives way: a membrane on an incompressible half-space (a stretched string on an
 // elastic foundation, its tension negative), and a layer that resists bending (Allen 1969, Analysis and
 // Design of Structural Sandwich Panels; Chen and Hutchinson 2004, J. Appl. Mech. 71).

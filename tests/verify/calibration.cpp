@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The calibration finds a phantom again from the way its landmarks move.
 #include <gtest/gtest.h>
 

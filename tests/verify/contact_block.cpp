@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contact against closed forms and symmetry, on real elements.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Compression of the analytic breast: balance, complementarity, release, symmetry, both solvers.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contact of faces with the plates: the patch test, an edge in the middle of the skin, friction.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hertz's contact: a soft ball of large radius against a rigid flat, F = 4/3 E* √R d^(3/2).
 //
 // Meshed is a quarter of the ball near the pole, 30 mm deep and wide, with the top surface

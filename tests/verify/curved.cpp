@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Torsion of a cylinder, inflation of a thick sphere and tube, bending of a block: exact solutions
 // of finite elasticity for every W(I1, I2) (Rivlin 1948–49; Green and Zerna 1968), their forces by
 // one-dimensional integrals, and the same states inverted by backward.

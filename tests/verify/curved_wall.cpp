@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A body pressed on a curved wall and drawn along it, against an exact motion; and sliding that does
 // not depend on how nodes are numbered.
 #include <gtest/gtest.h>

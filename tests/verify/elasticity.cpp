@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exact and manufactured solutions: patch test, homogeneous deformations, orders of convergence.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How good the estimate of the discretisation error is: estimated over true error at the landmarks,
 // where a solution with 27-node elements, on the same mesh or a finer one, stands for the truth.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Gravity: the block other programs solved, and the round trip of forward and backward.
 #include <gtest/gtest.h>
 

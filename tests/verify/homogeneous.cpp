@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Homogeneous states of every law, element and form of the invariants against closed forms, forward
 // and inverted.
 #include <gtest/gtest.h>

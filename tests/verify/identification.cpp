@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A patient's stiffness from two postures: derivatives, known answers, landmarks left out, limits.
 #include <gtest/gtest.h>
 

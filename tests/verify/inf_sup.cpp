@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The numerical inf-sup test (Chapelle and Bathe, Comput. Struct. 47:537, 1993) of both elements on
 // the unit cube held at one face: β² is the least eigenvalue of B A⁻¹ Bᵀ q = β² M q, A the H¹
 // stiffness, B the kernels' volume derivative, M the pressure mass. A stable element's β stays

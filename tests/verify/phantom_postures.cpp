@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The phantom's truth obeys the same discrete mechanics as the chain.
 #include <gtest/gtest.h>
 

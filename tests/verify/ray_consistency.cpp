@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What an image must not depend on: where body and machine stand together, and, in the end, the
 // size of its pixels.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What rays measure against what is known exactly: the volume of a deformed breast as the integral
 // of its chords, for both beams, and chords of block and ball for the point source.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives through backward and forward against central differences of the chain solved again.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives through backward and compress, the touching nodes held, against central differences
 // of both solved again between the same plates.
 #include <gtest/gtest.h>

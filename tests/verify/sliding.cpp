@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A body that slides on a wall: exact cases, the tangent by differences, limits to a held and to a
 // plane wall, and the round trip of forward and backward.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What must not change a result: rigid motion, the numbering of nodes and elements, mirror images;
 // and the two forms of the invariants, whose answers must meet as the mesh is refined.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contact of a body with two plates at one plate position: a primal-dual active set merged with
 // Newton's method. Touching nodes have their normal displacement eliminated exactly, so a solution
 // neither penetrates at a node nor depends on a penalty. Friction, where asked for, is a term.

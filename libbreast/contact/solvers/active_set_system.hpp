@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One plate position as a Newton system: the touching set changes between iterations.
 #pragma once
 

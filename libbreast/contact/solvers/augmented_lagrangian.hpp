@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The paper's way of keeping the plates out of the body: Uzawa updates of nodal contact forces
 // around penalised equilibria. Kept to compare with the active set; it leaves a small penetration.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Friction of a solution with 8-node elements, on the mesh of 27-node elements of its error estimate.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One plate position: what every contact method answers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contact of faces with the plates: equilibria under a pressure that grows steeply with depth. On the
 // way to the target the plates may be entered by as much as `way_depth`; a state to be reported is
 // solved with ever stiffer plates until no point of a face lies deeper than `depth`.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coulomb friction between skin and plate as a term: a return map. A node is tied to an anchor on
 // the plate by a stiff spring along the plate; where the spring would pull more than μ times the
 // normal force the anchor slides after the node. The spring stands for exact sticking: the slip it

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The plates' normal forces on skin nodes as a term: given multipliers, or a penalty about them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The plates' pressure on the faces of a body as a term. It grows steeply with the depth of a point
 // in the plate and is integrated over every face, with many points where the plate is rounded: a
 // condition at the nodes alone lets faces cut across an edge between them, and a node with a whole

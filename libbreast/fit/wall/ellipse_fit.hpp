@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An elliptic cylinder through chest-wall data: the shape of the thorax where nothing was seen.
 #pragma once
 

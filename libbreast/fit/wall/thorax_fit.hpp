@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The chest wall and the rib cage around it, as the surface a breast slides on.
 #pragma once
 

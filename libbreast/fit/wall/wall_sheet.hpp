@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The chest wall as a Hermite sheet that is a height y over (x,z).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An HDF5 file of ours in memory: named arrays and attributes. Everything the readers and writers
 // do happens hereload.cpp and save.cpp alone speak HDF5.
 #pragma once

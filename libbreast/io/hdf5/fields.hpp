@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Typed access to a Document: getters that check presence, type and shape, and
 // setters that mirror them.
 #pragma once

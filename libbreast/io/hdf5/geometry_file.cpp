@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/geometry_file.hpp"
 
 #include "io/hdf5/hermite_group.hpp"

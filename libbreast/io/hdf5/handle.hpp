@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // HDF5 identifiers that close themselves; included by load.cpp and save.cpp only.
 #pragma once
 

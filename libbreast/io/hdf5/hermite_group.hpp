@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // /breast/hermite: the two sheets and the rim, in geometry files and in the meshes made from them.
 #pragma once
 

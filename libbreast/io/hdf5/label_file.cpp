@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/label_file.hpp"
 
 #include "io/hdf5/vtkhdf.hpp"

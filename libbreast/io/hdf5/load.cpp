@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The only file that speaks HDF5 for reading.
 #include <hdf5.h>
 

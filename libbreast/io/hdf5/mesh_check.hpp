@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a mesh must satisfy to be read or written: index ranges, full-length arrays, face sets.
 #pragma once
 

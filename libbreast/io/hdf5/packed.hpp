@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A Document as bytes, to hand it from a reading child process to its parent; private to io/hdf5.
 #pragma once
 

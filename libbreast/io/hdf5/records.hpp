@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // /breast/solve and /breast/contact: how a mesh file's shape was found.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Document -> HDF5 bytes: the same document always gives the same bytes.
 #include <hdf5.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The seal: 80 bytes after the end of the HDF5 data, holding a digest of the whole file.
 //
 // HDF5 ignores what follows its own end, and drops it when it changes the file, so a file edited

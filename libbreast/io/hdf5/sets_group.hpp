@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // /breast/sets, /breast/landmarks and /breast/skin of a mesh file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The surface the breast slides on, <-> group /breast/thorax of geometry and mesh files.
 #pragma once
 

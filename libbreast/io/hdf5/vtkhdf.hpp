@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The /VTKHDF group as VTK 9.1's vtkHDFReader wants it (VTKHDF 1.0).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A DICOM folder's series; private to io/volume.
 #pragma once
 

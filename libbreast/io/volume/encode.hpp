@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A volume as the bytes of a file, format by format; private to io/volume.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/field_file.hpp"
 
 #include "core/atomic_file.hpp"

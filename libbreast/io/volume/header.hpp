@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the header of a volume promises, checked before a library sees the file; private to io/volume.
 //
 // ITK's readers fill what is missing with zeros (NIfTI, MetaImage), do not look at the checksum

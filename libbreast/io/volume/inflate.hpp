@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How many bytes a file holds, inflated when it is gzip; private to io/volume.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // itk::Image -> Volume and the ImageIO for a file ending; private to io/volume.
 #pragma once
 

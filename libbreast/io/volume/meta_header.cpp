@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // MetaImage (.mha, .mhd).
 #include <fstream>
 #include <initializer_list>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // NIfTI-1 and -2 (nifti1.h, nifti2.h).
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // NRRD (teem.sourceforge.net/nrrd/format.html), attached or detached.
 #include <algorithm>
 #include <cctype>

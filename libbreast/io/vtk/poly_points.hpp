@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Points and point data between our structures and vtkPolyData.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/tet_mesh_file.hpp"
 
 #include <vtkCellData.h>

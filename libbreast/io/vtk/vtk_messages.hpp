@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // VTK reports errors as text on stderr; here they become typed errors of ours.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The checks VTK's XML readers do not make before they follow null pointers.
 #pragma once
 

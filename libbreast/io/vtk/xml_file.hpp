@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What every VTK XML file of ours has in common: opening, checking, field data, writing.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far a solution with 8-node elements is from one with 27-node elements on the same geometry:
 // two steps of the richer problem with one matrix, solved iteratively. Covers the discretisation
 // inside the given geometry; not the geometry, the labels or the laws.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The linearised problem of 27-node elements at a solution with 8-node ones, nearly incompressible:
 // what estimate_error solves. Its terms are those of the scene on the richer mesh; its tangent is
 // kept by cells in single precision, since an estimate needs two digits.

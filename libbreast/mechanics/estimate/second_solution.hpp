@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The discretisation error of 8-node elements by solving once more with 27-node elements on the
 // same geometry: dear, but without the iteration cut short of mechanics/estimate/error_estimate.hpp.
 #pragma once

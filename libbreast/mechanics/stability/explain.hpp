@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a solve without a stable answer says beyond that: what carries the instability, and the
 // smallest change that would make the answer stable.
 #pragma once

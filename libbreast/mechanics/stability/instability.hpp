@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What makes an equilibrium unstable: the lowest mode of its tangent, and which part of the body
 // gives way in it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The smallest change of a breast's stiffness, skin or support that gives a stable answer where
 // there is none: found and confirmed by solving again.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Constant nodal forces as a term: gravity, computed once on the imaged shape.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Springs under a set of faces as a term, at rest in the stress-free shape X: an elastic chest wall
 // or cut. Per area of the imaged faces the energy is
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The skin as a term: a membrane on the skin faces. Scenes without membrane skin have no such term.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The tissues of a breast as a term: hexahedra of incompressible hyperelastic laws. What belongs to
 // the imaged shape (volumes, masses, pressure basis) is computed once and for all.
 #pragma once

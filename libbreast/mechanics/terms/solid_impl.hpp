@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The solid over elements of one kind: what its two parts, the imaged shape (solid.cpp) and the pass
 // over the elements (solid_pass.cpp), share.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The smoothing energy of a hexahedral mesh and its gradient, sample by sample.
 #pragma once
 

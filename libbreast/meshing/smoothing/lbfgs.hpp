@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Limited-memory BFGS for the mesh smoother: deterministic, and it backs off where the energy is
 // not finite.
 #pragma once

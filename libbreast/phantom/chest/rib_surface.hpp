@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The phantom's rib cage as a smooth surface that its breasts slide on: the torso's superelliptic
 // sections without the groove over the sternum.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The rigid thorax: chest wall, subcutaneous fat, skin, and what lies behind the pectoral muscle.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The body against air, and the frame of the torso: skin depth, midline, cleft.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Things on the skin that are not the breast: markers, creams, folds of a few millimetres.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether the breast asked for is the one in the field of view.
 #pragma once
 

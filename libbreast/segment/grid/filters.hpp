@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Separable filters in mm, parallel and independent of the number of threads.
 #pragma once
 

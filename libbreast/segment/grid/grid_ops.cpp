@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "segment/grid/grid_ops.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Grids: axes put in patient order, coarser and finer copies.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The ITK filters segment uses, on our volumes (ITK's headers stay in one file).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coil sensitivity from the fat's own brightness.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pieces of the skin's surface, seen in their tangent plane.
 #pragma once
 

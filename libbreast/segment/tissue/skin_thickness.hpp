@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Thickness of the skin, from what it takes off the brightness between air and fat.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fat and fibroglandular tissue inside the breast.
 #pragma once
 

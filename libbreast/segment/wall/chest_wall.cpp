@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "segment/wall/chest_wall.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The chest wall as a height field over (x,z): region-cost minimum cut, then snapping to the
 // half-height crossing.
 #pragma once

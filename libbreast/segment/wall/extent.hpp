@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which part of the body in front of the chest wall is the breast.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Smooth surface through a height field, deaf to outliers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Optimal height field by minimum cut (Li, Wu, Chen, Sonka, IEEE TPAMI 28:119, 2006).
 #pragma once
 

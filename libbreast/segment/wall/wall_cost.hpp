@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What speaks for a chest wall at each depth of a column.
 #pragma once
 

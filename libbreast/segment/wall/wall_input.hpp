@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A chest wall corrected by hand: from a label map or from clicked points.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "segment/wall/wall_uncertainty.hpp"
 
 #include <algorithm>

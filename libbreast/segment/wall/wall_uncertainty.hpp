@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far off the chest wall may lie, in mm.
 #pragma once
 

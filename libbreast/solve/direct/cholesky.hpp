@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Multifrontal Cholesky of a symmetric node matrix: one analysis, many factorisations.
 // Fronts are shared among threads by subtree, large ones by tiles; the result is the same
 // for any number of threads.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The elimination tree of a symmetric node matrix in fronts (supernodes): what a multifrontal
 // Cholesky factorisation needs to know before it sees a value.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Preconditioned conjugate gradients for symmetric positive definite maps.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // GMRES with right preconditioning, for the unsymmetric systems of the backward problem.
 #pragma once
 

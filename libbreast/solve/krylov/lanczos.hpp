@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The ends of a symmetric map's spectrum by Lanczos' method.
 #pragma once
 

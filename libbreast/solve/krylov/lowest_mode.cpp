@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/krylov/lowest_mode.hpp"
 
 #include <Eigen/Eigenvalues>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The lowest mode of a symmetric map and its eigenvalue, positive or not: the way in which a body in
 // unstable equilibrium moves off.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sparse matrices of small dense blocks, by rows: the levels of a multigrid.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One level of a smoothed-aggregation multigrid: smoother, interpolation, Galerkin product.
 #pragma once
 

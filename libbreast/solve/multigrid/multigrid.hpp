@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Smoothed-aggregation multigrid for a symmetric node matrix, its coarse spaces made of the rigid
 // motions of aggregates: one V-cycle is a symmetric positive definite stand-in for the inverse.
 // Own code: the packaged libraries that have it (hypre, PETSc) need MPI in every program.

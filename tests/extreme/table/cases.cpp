@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fixtures/in_place.hpp"
 #include "extreme/table/cases.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The extreme cases of gravity, defined once: for the program that prints the table and for the
 // tests that run a part of it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Prints the table of extreme cases of gravity as TSV, a row for each direction of each case:
 //
 //     print_extreme_mechanics [--limit ELEMENTS] [NAME]    cases of at most so many elements

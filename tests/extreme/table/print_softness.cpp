@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Prints the table of softness of a mesh as TSV, two rows a cell, backward and forward to supine:
 //
 //     print_softness MESH.vtkhdf [NAME]    cells whose name contains NAME

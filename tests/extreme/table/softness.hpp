@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The breast from as stiff as ex-vivo tissue to two hundred times softer, on every wall and in every
 // skin: defined once, for the tests on a small cap and for the program that prints the table of a mesh.
 #pragma once
