@@ -111,7 +111,8 @@ mkdir -p "$folder"
 cp "$runs/.command" "$folder/command"
 wanted > "$folder/cases"
 array_script > "$folder/array.sh"
-job_script "$(basename "$runs")-table" 60 1024 1 'table.out' "$(quoted "$here/slurm.sh") table $(quoted "$folder") $(quoted "$cohort")" > "$folder/table.sh"
+# The table takes a second or two a case.
+job_script "$(basename "$runs")-table" $((30 + $(wc -l < "$runs/.cases") / 10)) 1024 1 'table.out' "$(quoted "$here/slurm.sh") table $(quoted "$folder") $(quoted "$cohort")" > "$folder/table.sh"
 total=$(wc -l < "$folder/cases") size=$(largest_array) offset=0 jobs=
 while [ "$offset" -lt "$total" ]; do
   count=$((total - offset < size ? total - offset : size))
