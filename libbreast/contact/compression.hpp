@@ -49,7 +49,8 @@ struct CompressionResult : Equilibrium {
   double force_balance = 0;
   Vec3 wall_reaction_N{0, 0, 0};  ///< of chest wall and held cut on the body
   double weight_N = 0;
-  Coverage coverage;  ///< by the image, whose edge is that of the plates
+  Coverage coverage;         ///< by the image, whose edge is that of the plates
+  double projected_cm2 = 0;  ///< the breast's shadow in front of that edge
   std::vector<PositioningStage> stages;
   SelfContact self_contact;
   std::map<Tissue, StrainRange> strains;

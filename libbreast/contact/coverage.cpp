@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/coverage.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 
+#include "contact/face_point.hpp"
 #include "core/units.hpp"
 #include "mesh/gauss.hpp"
 #include "mesh/shape.hpp"
@@ -22,27 +22,6 @@ double gland_of(const HexMesh& mesh, int element) {
   const auto e = static_cast<std::size_t>(element);
   if (!mesh.fibroglandular_fraction.empty()) return double(mesh.fibroglandular_fraction[e]);
   return mesh.tissue[e] == Tissue::fibroglandular ? 1 : 0;
-}
-
-/// mm².
-double shadow(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& plate) {
-  double both_sides = 0;
-  for (const Face& face : mesh.skin_faces) {
-    const std::vector<int> nodes = face_nodes(mesh, face);
-    for (const auto& [local, weight] : gauss_square(3)) {
-      const QuadShape shape = quad_shape(mesh.order, local);
-      Vec3 at = Vec3::Zero(), a1 = Vec3::Zero(), a2 = Vec3::Zero();
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const Vec3 node = x.segment<3>(3L * nodes[k]);
-        at += shape.values[Eigen::Index(k)] * node;
-        a1 += shape.gradients(0, Eigen::Index(k)) * node;
-        a2 += shape.gradients(1, Eigen::Index(k)) * node;
-      }
-      if (!(at.dot(plate.anterior) >= plate.edge_start)) continue;
-      both_sides += weight * std::abs(a1.cross(a2).dot(plate.n));
-    }
-  }
-  return 0.5 * both_sides;
 }
 
 }  // namespace
@@ -76,9 +55,21 @@ Coverage coverage(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& pl
   }
   Coverage out;
   if (all > 0) out.volume = percent(seen, all);
-  out.projected_cm2 = shadow(mesh, x, plate) / mm2_per_cm2;
   if (gland > 0) out.fibroglandular = percent(gland_seen, gland);
   return out;
+}
+
+double projected_cm2(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate) {
+  double both_sides = 0;
+  for (const Face& face : mesh.skin_faces) {
+    const std::vector<int> nodes = face_nodes(mesh, face);
+    for (const auto& [local, weight] : gauss_square(3)) {
+      const FacePoint point = face_point(nodes, x, quad_shape(mesh.order, local));
+      if (!(point.at.dot(plate.anterior) >= plate.edge_start)) continue;
+      both_sides += weight * std::abs(point.area.dot(plate.n));
+    }
+  }
+  return 0.5 * both_sides / mm2_per_cm2;
 }
 
 }  // namespace breast

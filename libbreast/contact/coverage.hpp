@@ -13,12 +13,14 @@ namespace breast {
 struct Coverage {
   double volume = 0;
   std::optional<double> fibroglandular;  ///< none where there is no such tissue
-  double projected_cm2 = 0;  ///< the breast's shadow along the beam in front of the edge
 };
 
 /// Of the shape `x` (3 per node, mm) in front of where the plate's rounded edge starts, at 2×2×2 Gauss
-/// points an element, each with its part of the deformed volume. The shadow is half of ∫ |n·dA| over the
-/// skin there: exact where every ray enters and leaves once.
+/// points an element, each with its part of the deformed volume.
 Coverage coverage(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& plate);
+
+/// The breast's shadow along the beam in front of the edge, cm², in the shape `x` (one position a node, mm): half of
+/// ∫ |n·dA| over the skin there, exact where every ray enters and leaves once.
+double projected_cm2(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate);
 
 }  // namespace breast

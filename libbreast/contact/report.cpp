@@ -64,10 +64,10 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
   report.set("touches_itself_cm2", summary.self_contact.itself_cm2);
   report.set("into_thorax_mm", summary.self_contact.into_thorax_mm);
   report.set("coverage/volume_percent", summary.coverage.volume);
-  report.set("coverage/projected_cm2", summary.coverage.projected_cm2);
-  if (summary.coverage.projected_cm2 > 0) {
+  report.set("coverage/projected_cm2", summary.projected_cm2);
+  if (summary.projected_cm2 > 0) {
     report.set("coverage/contact_percent_of_projected",
-               100 * contact.plates[0].area_cm2 / summary.coverage.projected_cm2);
+               100 * contact.plates[0].area_cm2 / summary.projected_cm2);
   }
   if (summary.coverage.fibroglandular) {
     report.set("coverage/fibroglandular_percent", *summary.coverage.fibroglandular);

@@ -194,7 +194,9 @@ void record_compression(const Scene& scene, const CompressionOptions& options, c
   result.contact = std::move(record);
   record_pressure(mesh, state.x, solver, result);
   record_balance(scene, solver.problem().constraints_at(state.x), state, total, weight, result);
-  result.self_contact = self_contact(mesh, unflatten(state.x));
+  const std::vector<Vec3> positions = unflatten(state.x);
+  result.self_contact = self_contact(mesh, positions);
+  result.projected_cm2 = projected_cm2(mesh, positions, result.plates.paddle);
   result.coverage = coverage(mesh, state.x, result.plates.paddle);
   result.strains = strain_ranges(mesh, state.x);
   record_profile(mesh, state.x, solver, result);

@@ -37,10 +37,10 @@ done
 echo "ok: an empty Debian 12, $(du -smx "$root" | cut -f1) MB, $(($(seconds) - start)) s"
 
 start=$(seconds)
-cp "$package" "$root/root/"
+cp "$package" "$root/tmp/"
 inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
 inside apt-get update -q > "$work/apt.log" 2>&1 || { tail -n 20 "$work/apt.log"; fail "apt-get update"; }
-inside sh -c 'cd /root && apt-get install -y --no-install-recommends ./'"$(basename "$package")" >> "$work/apt.log" 2>&1 ||
+inside sh -c 'cd /tmp && apt-get install -y --no-install-recommends ./'"$(basename "$package")" >> "$work/apt.log" 2>&1 ||
   { tail -n 20 "$work/apt.log"; fail "apt-get install"; }
 echo "ok: apt-get install ./$(basename "$package"), $(inside dpkg-query -f '${Package}\n' -W | wc -l) packages, $(du -smx "$root" | cut -f1) MB, $(($(seconds) - start)) s"
 

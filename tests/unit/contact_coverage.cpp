@@ -20,7 +20,8 @@ TEST(Coverage, IsTheVolumeInFrontOfTheEdge) {
   };
   EXPECT_NEAR(of_edge(20).volume, 100 * 40.0 / 60, 1e-9);
   EXPECT_FALSE(of_edge(20).fibroglandular);
-  EXPECT_NEAR(of_edge(20).projected_cm2, 50 * 40 / 100.0, 1e-9);
+  plate.edge_start = 20;
+  EXPECT_NEAR(projected_cm2(mesh, mesh.points, plate), 50 * 40 / 100.0, 1e-9);
   EXPECT_NEAR(of_edge(-5).volume, 100, 1e-9);
   EXPECT_NEAR(of_edge(65).volume, 0, 1e-12);
   // Gland in the foremost layer only: all of it in front of an edge at 20, and half by fractions.
