@@ -10,6 +10,7 @@
 #include "io/mesh_file.hpp"
 #include "mechanics/estimate/second_solution.hpp"
 #include "mechanics_run.hpp"
+#include "mesh/muscle_front.hpp"
 
 using namespace breast;
 
@@ -82,8 +83,8 @@ void declare(Tool& tool, Choices& c) {
   tool.text(
       c.image_edge, "--image-edge", "auto|MM",
       "places the plates as in the clinic: from the most anterior point of the chest wall behind "
-      "the breast to the edge of the image, where the rounded edge starts; auto is 5 for CC and "
-      "0 for MLO and ML. --turn, --edge-radius, --contact-points, --friction, --positioning and "
+      "the breast, or of the muscle on it, to the edge of the image, where the rounded edge starts; auto is 5 for CC and "
+      "0 for MLO and ML, or four fifths of the thickness of a layer of muscle behind its front. --turn, --edge-radius, --contact-points, --friction, --positioning and "
       "--pull then have the defaults that belong to it");
   tool.text(
       c.turn, "--turn", "auto|DEG",
@@ -100,7 +101,7 @@ void declare(Tool& tool, Choices& c) {
   tool.number(
       c.pull, "--pull", "N",
       "pulls the lifted breast forwards with this force, which fades while the plates grip it "
-      "(default: 0)",
+      "(default: 30 with --image-edge on faces with friction, otherwise 0)",
       0, 500);
   tool.number(
       c.plates.edge_at, "--edge-at", "MM",
@@ -137,7 +138,7 @@ void declare(Tool& tool, Choices& c) {
     parse_gravity(c.gravity);
     parse_detector(c.detector);
     if (!c.turn.empty()) parse_turn(c.turn);
-    if (!c.image_edge.empty()) parse_image_edge(c.image_edge, view_named(c.view));
+    if (!c.image_edge.empty()) parse_image_edge(c.image_edge, view_named(c.view), 0);
   });
 }
 
@@ -158,7 +159,7 @@ void run_compress(Choices c, Run& run) {
                          read_mesh(c.reference, {.reference = true}));
   const HexMesh& mesh = mechanics.mesh();
   take_from_mammogram(c, mesh.side, run.report());
-  const CompressionOptions options = compression_options(c, parse_gravity(c.gravity));
+  const CompressionOptions options = compression_options(c, parse_gravity(c.gravity), muscle_thickness(mesh));
   if (c.plates.standoff) {
     run.progress().note("--standoff will go in a later version: --image-edge places the plates' edge");
   }

@@ -14,6 +14,7 @@
 #include "io/surface_file.hpp"
 #include "meshing/agreement.hpp"
 #include "meshing/boundary_surface.hpp"
+#include "meshing/layers/muscle_layer.hpp"
 #include "meshing/report.hpp"
 #include "meshing/skin.hpp"
 #include "meshing/tumour.hpp"
@@ -101,6 +102,18 @@ void fill_with_tetrahedra(const MeshChoices& choices, const HexMesh& mesh, Run& 
                     run_sibling("tetrahedra", {file.string(), choices.tetrahedra.string()}));
 }
 
+void add_muscle(const MeshChoices& choices, const LabelVolume& labels, HexMesh& mesh, Run& run) {
+  MuscleThickness muscle;
+  if (choices.muscle == "measured") {
+    muscle = measured_muscle_thickness(labels, mesh);
+  } else {
+    muscle.mm = parse_muscle_thickness(choices.muscle);
+  }
+  if (muscle.mm > 0) add_muscle_layer(muscle.mm, mesh);
+  run.report().set("muscle_mm", muscle.mm);
+  run.report().set("muscle_seen", muscle.seen);
+}
+
 void run_hexmesh(const MeshChoices& choices, Run& run) {
   const BreastGeometry geometry = read_geometry(choices.geometry);
   const LabelInput input = read_label_input(choices.labels, choices.foreign);
@@ -133,6 +146,7 @@ void run_hexmesh(const MeshChoices& choices, Run& run) {
     }
   }
   add_points(points, choices.landmarks.filename().string(), mesh);
+  add_muscle(choices, labels, mesh, run);
   const MeshQuality quality = mesh_quality(mesh, mesh.points);
   write_report(mesh, quality, body, tissue, run.report());
   for (const std::string& doubt : doubts(quality)) run.warn(doubt);

@@ -3,6 +3,7 @@
 
 #include "cli/sibling.hpp"
 #include "core/error.hpp"
+#include "meshing/layers/muscle_layer.hpp"
 #include "meshing/skin.hpp"
 #include "meshing/tumour.hpp"
 
@@ -32,6 +33,7 @@ void MeshChoices::check() const {
         "a layer of skin");
   if (!tetrahedra.empty()) require_sibling("tetrahedra", "--tetrahedra");
   if (skin != "measured") parse_skin_thickness(skin);
+  if (muscle != "measured") parse_muscle_thickness(muscle);
   mesh_options(1);
   if (tumour != "auto" && tumour != "none" && !std::filesystem::exists(tumour))
     parse_tumour(tumour);
@@ -64,6 +66,9 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
             "thickness of the skin in mm, from 0.1 to 10, or 0 for none");
   tool.choice(choices.skin_as, "--skin-as", {"membrane", "layer"},
               "skin as a membrane on the outer faces or as the outermost layer of elements");
+  tool.text(choices.muscle, "--muscle", "MM|0|measured",
+            "thickness of a layer of muscle between the chest wall that the scan shows and the ribs, on which the "
+            "body then slides; 0 for none; measured: from labels that show the muscle's back, otherwise 8 mm");
   tool.text(
       choices.tumour, "--tumour", "auto|none|x,y,z[:radius]|FILE",
       "tumour point in patient LPS mm; with a radius, elements inside become tumour; FILE is a "

@@ -15,7 +15,8 @@ namespace breast {
 struct MeshChoices {
   std::filesystem::path geometry, labels, mesh, surface, tetrahedra, landmarks;
   LabelChoices foreign;
-  std::string shape = "dome", skin = "1.45", skin_as = "membrane", tumour = "auto";
+  std::string shape = "dome", skin = "1.45", skin_as = "membrane", tumour = "auto",
+              muscle = "0";
   int elements = 16, order = 1;
   bool accept_mismatch = false;
   std::vector<double> dome;  ///< n, l, m, k; empty: about `elements`^3

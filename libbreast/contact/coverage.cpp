@@ -36,6 +36,7 @@ Coverage coverage(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& pl
     points.push_back({hex_shape(mesh.order, at), weight});
   double all = 0, seen = 0, gland = 0, gland_seen = 0;
   for (int e = 0; e < mesh.elements(); ++e) {
+    if (mesh.tissue[static_cast<std::size_t>(e)] == Tissue::muscle) continue;
     const double glandular = gland_of(mesh, e);
     for (const Point& point : points) {
       Vec3 place = Vec3::Zero();

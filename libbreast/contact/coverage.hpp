@@ -9,7 +9,7 @@
 
 namespace breast {
 
-/// Of the whole, percent.
+/// Of the whole breast without the muscle behind it, percent.
 struct Coverage {
   double volume = 0;
   std::optional<double> fibroglandular;  ///< none where there is no such tissue

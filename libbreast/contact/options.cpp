@@ -17,8 +17,9 @@ constexpr double edge_radius = 15, image_edge_radius = 3;
 constexpr double image_edge_friction = 0.3;
 /// With which a hand pulls such a breast forwards until friction holds it, N.
 constexpr double image_edge_pull = 30;
-/// From the chest wall to the edge of the image, mm: in the oblique view muscle is seen.
-constexpr double edge_cc = 5, edge_oblique = 0;
+/// From the chest wall to the edge of the image, mm. In the oblique view muscle is seen: where the mesh
+/// has some the edge lies behind its front by this part of its thickness.
+constexpr double edge_cc = 5, edge_in_muscle = 0.8;
 }  // namespace
 
 double parse_detector(const std::string& text) {
@@ -29,9 +30,9 @@ double parse_detector(const std::string& text) {
   throw input_error("--detector ", text, ": give 'raised', 'fixed' or a rise in mm, 0 or more");
 }
 
-double parse_image_edge(const std::string& text, View view) {
+double parse_image_edge(const std::string& text, View view, double muscle_mm) {
   constexpr double least = -50, most = 500;
-  if (text == "auto") return view == View::cc ? edge_cc : edge_oblique;
+  if (text == "auto") return view == View::cc ? edge_cc : 0 - edge_in_muscle * muscle_mm;
   const std::optional<double> edge = number_in(text);
   if (edge && *edge >= least && *edge <= most) return *edge;
   throw input_error("--image-edge ", text, ": give 'auto' or mm from ", least, " to ", most);
@@ -50,7 +51,8 @@ int CompressionChoices::targets() const {
          int(pressure.has_value());
 }
 
-CompressionOptions compression_options(const CompressionChoices& c, const Vec3& gravity) {
+CompressionOptions compression_options(const CompressionChoices& c, const Vec3& gravity,
+                                       double muscle_mm) {
   constexpr double least_reduction =
       1;  // percent; a smaller number is a fraction, not a percentage
   if (c.reduction && *c.reduction < least_reduction) {
@@ -67,7 +69,7 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   options.path.longest_step = c.plate_step.value_or(0);
   options.path.first_step = c.plate_step.value_or(0);
   const bool clinical = !c.image_edge.empty();
-  if (clinical) options.plates.image_edge = parse_image_edge(c.image_edge, options.view);
+  if (clinical) options.plates.image_edge = parse_image_edge(c.image_edge, options.view, muscle_mm);
   if (clinical && c.plates.standoff) {
     throw input_error("--image-edge with --standoff: both place the plates' edge; give one");
   }

@@ -12,9 +12,9 @@ namespace breast {
 /// mm by which the detector lifts the breast: "raised" infinite, "fixed" 0, or a number ≥ 0. Throws
 /// Error (input) for anything else.
 double parse_detector(const std::string& text);
-/// mm from the wall to the edge of the image; "auto": that of the view. Throws Error (input) for
-/// anything else.
-double parse_image_edge(const std::string& text, View view);
+/// mm from the front of the wall, or of a layer of `muscle_mm` on it, to the edge of the image; "auto":
+/// that of the view. Throws Error (input) for anything else.
+double parse_image_edge(const std::string& text, View view, double muscle_mm);
 /// Degrees by which the plates' edge is turned; "auto": none, to be found from the wall. Throws Error
 /// (input) for anything else.
 std::optional<double> parse_turn(const std::string& text);
@@ -34,6 +34,7 @@ struct CompressionChoices {
 /// unless something else is
 /// asked for. Throws Error (input) for a view or detector that is none, and for a
 /// reduction below 1 percent, which is a fraction by mistake.
-CompressionOptions compression_options(const CompressionChoices& choices, const Vec3& gravity);
+CompressionOptions compression_options(const CompressionChoices& choices, const Vec3& gravity,
+                                       double muscle_mm = 0);
 
 }  // namespace breast

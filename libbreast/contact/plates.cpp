@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "mesh/muscle_front.hpp"
 #include "mesh/nodal.hpp"
 #include "mesh/nodal_faces.hpp"
 #include "mesh/plate_edge.hpp"
@@ -62,13 +63,13 @@ Extent footprint_extent(const HexMesh& mesh, const std::vector<Vec3>& x, const P
   return extent;
 }
 
-/// Most anterior pectoral point, or point of the cut, within the plate's width.
+/// Most anterior point of the chest wall (of the muscle's front, where the mesh has muscle), or of the
+/// cut, within the plate's width.
 double most_anterior_wall(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate,
                           bool with_cut) {
   double wall = -infinity;
-  for (const auto* faces : {&mesh.pectoral_faces, &mesh.cut_faces}) {
-    if (!with_cut && faces == &mesh.cut_faces) continue;
-    for (const int node : nodes_of(mesh, *faces)) {
+  for (const auto& faces : {muscle_front(mesh), with_cut ? mesh.cut_faces : std::vector<Face>{}}) {
+    for (const int node : nodes_of(mesh, faces)) {
       const double v = x[node].dot(plate.lateral);
       if (std::abs(v - plate.lateral_centre) <= plate.half_width) {
         wall = std::max(wall, x[node].dot(plate.anterior));

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "mesh/muscle_front.hpp"
 #include "mesh/quality.hpp"
 
 namespace breast {
@@ -23,6 +24,7 @@ std::vector<Sample> samples_of(const HexMesh& mesh, const ThoraxSurface& surface
   const std::vector<double> volumes = element_volumes(mesh, mesh.imaged);
   std::vector<Sample> samples;
   for (int e = 0; e < mesh.elements(); ++e) {
+    if (mesh.tissue[std::size_t(e)] == Tissue::muscle) continue;
     const Vec3 from = element_position(mesh, mesh.imaged, e, Vec3::Zero());
     const Vec3 to = element_position(mesh, mesh.points, e, Vec3::Zero());
     samples.push_back({volumes[std::size_t(e)], (to - from).norm(),
@@ -89,13 +91,15 @@ double wall_surface_distance(const ThoraxSurface& surface, const Vec3& x) {
   return std::copysign((x - best).norm(), at->value);
 }
 
-PostureMotion posture_motion(const HexMesh& mesh, double muscle_mm) {
+PostureMotion posture_motion(const HexMesh& mesh, double assumed_muscle_mm) {
   if (!mesh.geometry || !mesh.geometry->thorax) {
     throw input_error("mesh: it holds no wall surface to measure distances from; make geometry and "
                       "mesh again with fit-hermite and hexmesh");
   }
   const Landmark* nipple = mesh.landmark("nipple");
   if (nipple == nullptr) throw input_error("mesh: it has no landmark 'nipple'");
+  // Behind a layer of muscle the surface is that of the ribs.
+  const double muscle_mm = muscle_thickness(mesh) > 0 ? 0 : assumed_muscle_mm;
   PostureMotion motion;
   const Vec3 before = landmark_position(mesh, mesh.imaged, *nipple),
              after = landmark_position(mesh, mesh.points, *nipple), moved = after - before;

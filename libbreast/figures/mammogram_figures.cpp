@@ -163,11 +163,14 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
     panel.text(Vec2(edge.x() + 6 * outward, low.y() + 34), "plates from here", letters - 2,
                {0.85, 0.85, 0.85}, align);
   }
-  if (std::any_of(image.through_back.begin(), image.through_back.end(),
-                  [](std::uint8_t flag) { return flag != 0; })) {
+  const auto& back = image.through_back;
+  if (const auto first = std::find_if(back.begin(), back.end(), [](auto flag) { return flag != 0; });
+      first != back.end()) {
+    const bool blank = image.blank(std::size_t(first - back.begin()));
     const double chest = hanging.left() ? low.x() + 6 : high.x() - 6;
-    panel.text({chest, low.y() + 14}, "even grey: behind the mesh", letters - 2, {0.85, 0.85, 0.85},
-               hanging.left() ? Align::left : Align::right);
+    panel.text({chest, low.y() + 14},
+               blank ? "even grey: behind the mesh" : "at the back: fat where the mesh ends",
+               letters - 2, {0.85, 0.85, 0.85}, hanging.left() ? Align::left : Align::right);
   }
   const std::string top = image.view == View::cc ? "lateral" : "superior";
   const std::string bottom = image.view == View::cc ? "medial" : "inferior";

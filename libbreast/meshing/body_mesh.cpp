@@ -8,7 +8,7 @@
 #include "mesh/element_order.hpp"
 #include "mesh/quality.hpp"
 #include "meshing/match_volume.hpp"
-#include "meshing/skin_layer.hpp"
+#include "meshing/layers/skin_layer.hpp"
 
 namespace breast {
 

@@ -23,8 +23,9 @@ Energy::Energy(std::string name, const std::vector<double>& weights,
 
 double Energy::path(const TissuePath& mm) const {
   constexpr double fat_weight = 0.5;
-  if (weights_.size() == 0) return fat_weight * mm.fat + mm.fibroglandular + mm.skin + mm.tumour;
-  const auto exponent = float(mm.fat) * fat_ + float(mm.fibroglandular) * fibroglandular_ +
+  const double watery = mm.fibroglandular + mm.muscle;
+  if (weights_.size() == 0) return fat_weight * mm.fat + watery + mm.skin + mm.tumour;
+  const auto exponent = float(mm.fat) * fat_ + float(watery) * fibroglandular_ +
                         float(mm.skin) * skin_ + float(mm.tumour) * tumour_;
   if (weights_.size() == 1) return exponent.sum();
   // Relative to the best transmitted energy, so that no thickness underflows.

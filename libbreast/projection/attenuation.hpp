@@ -10,11 +10,11 @@ namespace breast {
 
 /// mm of each tissue along one ray.
 struct TissuePath {
-  double fat = 0, fibroglandular = 0, skin = 0, tumour = 0;
-  double total() const { return fat + fibroglandular + skin + tumour; }
+  double fat = 0, fibroglandular = 0, skin = 0, tumour = 0, muscle = 0;
+  double total() const { return fat + fibroglandular + skin + tumour + muscle; }
 };
 
-/// Linear attenuation coefficients in 1/mm at one energy.
+/// Linear attenuation coefficients in 1/mm at one energy; muscle attenuates as fibroglandular tissue.
 struct Attenuation {
   double fat = 0, fibroglandular = 0, skin = 0, tumour = 0;
 };

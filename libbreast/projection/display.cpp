@@ -73,7 +73,7 @@ HungImage hang(const Mammogram& image) {
       const int u = left ? column : image.width - 1 - column;
       const std::size_t from = std::size_t(v) * image.width + u;
       std::uint16_t& grey = hung.grey[std::size_t(row) * image.width + column];
-      if (image.through_back[from] != 0) {
+      if (image.blank(from)) {
         grey = unknown_grey;
         continue;
       }

@@ -25,9 +25,14 @@ struct Mammogram {
   std::vector<float> path;       ///< line integral (or tissue-weighted mm) per pixel, u fastest
   std::vector<float> thickness;  ///< mm of tissue along each ray
   std::vector<float> fibroglandular;  ///< mm of fibroglandular tissue along each ray
-  /// 1: the column leaves the mesh through the chest wall or the cut; nothing is known of it and
-  /// the other arrays hold 0.
+  /// 1: the column leaves the mesh through the chest wall or the cut. Where the plates' edge ends the
+  /// image, what lacks of the column between the plates is taken as fat; otherwise the other arrays
+  /// hold 0.
   std::vector<std::uint8_t> through_back;
+  /// Nothing is known of the pixel.
+  bool blank(std::size_t pixel) const {
+    return through_back[pixel] != 0 && !(thickness[pixel] > 0);
+  }
   /// `path` is mm of tissue, not attenuation: no signal of a detector follows from it.
   bool shows_fraction() const { return energy == "fraction"; }
   History history;

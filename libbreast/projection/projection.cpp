@@ -16,8 +16,10 @@ namespace {
 void add_element_tissue(Tissue tissue, double length, TissuePath& mm) {
   switch (tissue) {
     case Tissue::fibroglandular:
-    case Tissue::muscle:
       mm.fibroglandular += length;
+      break;
+    case Tissue::muscle:
+      mm.muscle += length;
       break;
     case Tissue::skin:
       mm.skin += length;
@@ -34,13 +36,16 @@ void add_element_tissue(Tissue tissue, double length, TissuePath& mm) {
 struct RowSums {
   TissuePath mm;
   double unlabelled = 0;
-  int back = 0;
+  int back = 0, muscle = 0;  // pixels
 };
 
 class Projector {
  public:
   Projector(const HexMesh& mesh, const ProjectionOptions& options, const ViewPose& pose)
-      : mesh_(mesh), options_(options), rays_(mesh, mesh.points, pose) {
+      : mesh_(mesh),
+        options_(options),
+        rays_(mesh, mesh.points, pose),
+        filled_(mesh.contact->ends_image ? mesh.contact->thickness_mm : 0) {
     if (options.labels != nullptr) {
       imaged_ = rays_.pieces_of(mesh, mesh.imaged);
       Vec3 lower = mesh.imaged.front(), upper = lower;
@@ -69,34 +74,44 @@ class Projector {
              RowSums& sums) const {
     if (chords.empty()) return;
     const std::size_t at = std::size_t(v) * image.width + u;
-    if (rays_.leaves_through_back(chords)) {
+    const bool back = rays_.leaves_through_back(chords);
+    if (back) {
       image.through_back[at] = 1;
       ++sums.back;
-      return;
+      if (!(filled_ > 0)) return;
     }
     TissuePath mm;
     if (voxels_) {
       const Ray ray = rays_.ray(image.pixel * Vec2(u, v));
       VoxelTissue::Parts parts = VoxelTissue::Parts::Zero();
-      double length = 0;
+      double length = 0, muscle = 0;
       for (const Chord& chord : chords) {
+        if (mesh_.tissue[rays_.element(chord.piece)] == Tissue::muscle) {
+          muscle += chord.leave - chord.enter;
+          continue;
+        }
         parts += sample_chord(ray, chord);
         length += chord.leave - chord.enter;
       }
       mm = VoxelTissue::path(parts, length);
+      mm.muscle = muscle;
       sums.unlabelled += VoxelTissue::unlabelled(parts);
     } else {
       for (const Chord& chord : chords) {
         add_element_tissue(mesh_.tissue[rays_.element(chord.piece)], chord.leave - chord.enter, mm);
       }
     }
+    if (back) mm.fat += std::max(0.0, filled_ - mm.total());
     image.path[at] = float(std::max(0.0, options_.energy.path(mm)));
     image.thickness[at] = float(mm.total());
     image.fibroglandular[at] = float(mm.fibroglandular);
+    if (mm.muscle > 0) ++sums.muscle;
+    if (back) return;
     sums.mm.fat += mm.fat;
     sums.mm.fibroglandular += mm.fibroglandular;
     sums.mm.skin += mm.skin;
     sums.mm.tumour += mm.tumour;
+    sums.mm.muscle += mm.muscle;
   }
 
   // Midpoint rule with steps of at most half a voxel along every axis of the scan. The chord's
@@ -123,6 +138,9 @@ class Projector {
   const HexMesh& mesh_;
   const ProjectionOptions& options_;
   RayMesh rays_;
+  /// Where the image ends at the plates' edge: their distance, mm. What a column lacks of it goes on
+  /// beyond the mesh.
+  double filled_;
   std::vector<Trilinear> imaged_;
   std::unique_ptr<VoxelTissue> voxels_;
 };
@@ -179,6 +197,8 @@ Mammogram project_mammogram(const HexMesh& mesh, const ProjectionOptions& option
     report->volumes.fibroglandular += area * row.mm.fibroglandular;
     report->volumes.skin += area * row.mm.skin;
     report->volumes.tumour += area * row.mm.tumour;
+    report->volumes.muscle += area * row.mm.muscle;
+    report->muscle_columns += row.muscle;
     report->unlabelled += row.unlabelled;
     report->back_columns += row.back;
     path_mm += row.mm.total();

@@ -26,7 +26,8 @@ struct ProjectionReport {
   TissuePath volumes;        ///< mm³ per tissue in the image
   double unlabelled =
       0;  ///< part of the path in voxels labelled air, muscle or other (taken as fat)
-  int back_columns = 0;  ///< pixels whose column leaves through the back: left blank
+  int muscle_columns = 0;  ///< pixels that show muscle
+  int back_columns = 0;  ///< pixels whose column leaves through the back; not in the volumes
 };
 
 /// Throws Error (input) for a mesh without compression record or an image

@@ -32,6 +32,8 @@ void write_report(const HexMesh& mesh, const Mammogram& image, const ProjectionR
   report.set("volumes_ml/fibroglandular", projection.volumes.fibroglandular / mm3_per_ml);
   report.set("volumes_ml/skin", projection.volumes.skin / mm3_per_ml);
   report.set("volumes_ml/tumour", projection.volumes.tumour / mm3_per_ml);
+  report.set("volumes_ml/muscle", projection.volumes.muscle / mm3_per_ml);
+  report.set("muscle_cm2", projection.muscle_columns * image.pixel * image.pixel / mm2_per_cm2);
   report.set("unlabelled_percent", 100 * projection.unlabelled);
   report.set("columns_through_back", projection.back_columns);
   for (const Landmark& landmark : mesh.landmarks) {

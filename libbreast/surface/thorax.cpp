@@ -105,4 +105,24 @@ Vec3 ThoraxSurface::point(double angle, double height) const {
           origin.y() + slope * height - r * elementary::cos(angle), origin.z() + height};
 }
 
+// R shrinks by depth·|∇φ|. As coefficients of the spline its values at the Greville points (the
+// knots, here) reproduce it to second order of the spacing, and it varies slowly.
+ThoraxSurface surface_behind(const ThoraxSurface& front, double depth) {
+  ThoraxSurface behind = front;
+  const double da = (front.angle_high - front.angle_low) / front.angles;
+  const double dz = (front.height_high - front.height_low) / front.heights;
+  const auto knot = [](int i, int last) { return std::clamp(i - 1, 0, last); };
+  for (int j = 0; j < front.heights + 3; ++j) {
+    for (int i = 0; i < front.angles + 3; ++i) {
+      const double angle = front.angle_low + da * knot(i, front.angles);
+      const double height = front.height_low + dz * knot(j, front.heights);
+      const Radius r = radius_at(front, angle, height);
+      const double along_arc = r.a / r.value;
+      behind.coefficients[std::size_t(j) * std::size_t(front.angles + 3) + std::size_t(i)] -=
+          depth * std::sqrt(1 + along_arc * along_arc + r.z * r.z);
+    }
+  }
+  return behind;
+}
+
 }  // namespace breast

@@ -28,6 +28,10 @@ struct ThoraxSurface final : LevelSurface {
   Vec3 point(double angle, double height) const;
 };
 
+/// The surface `depth` mm behind `front`, along its normal to first order: that of the ribs behind a
+/// layer of muscle.
+ThoraxSurface surface_behind(const ThoraxSurface& front, double depth);
+
 /// Coordinates about the axis: outwards from it to the patient's left and to the front, and upwards.
 struct AxisPlace {
   double left = 0, front = 0, height = 0;

@@ -74,7 +74,7 @@ void expose(Mammogram& image, const Exposure& exposure) {
     std::mt19937_64 stream(seeds);
     for (int u = 0; u < image.width; ++u) {
       const std::size_t i = std::size_t(v) * image.width + u;
-      if (image.through_back[i] != 0) continue;
+      if (image.blank(i)) continue;
       double signal = std::exp(-double(image.path[i])) + (scatters ? scatter[i] : 0.0);
       if (noisy) {
         const double count = double(std::poisson_distribution<long>(photons * signal)(stream));

@@ -39,6 +39,8 @@ TEST(ContactOptions, AnImageEdgeBringsTheClinicsPlates) {
   EXPECT_EQ(cc.pull_N, 30);
   choices.view = "MLO";
   EXPECT_EQ(options_of(choices).plates.image_edge, 0);
+  // A layer of muscle is in the oblique image.
+  EXPECT_EQ(compression_options(choices, Vec3::Zero(), 10).plates.image_edge, -8);
 }
 
 TEST(ContactOptions, WhatIsGivenWins) {
@@ -71,7 +73,7 @@ TEST(ContactOptions, ContradictionsAndOtherTextAreRefused) {
   lagrangian.contact_points = "surface";
   EXPECT_THROW(options_of(lagrangian), Error);
   for (const char* text : {"", "near", "1e9", "nan", "5 mm"}) {
-    EXPECT_THROW(parse_image_edge(text, View::cc), Error) << text;
+    EXPECT_THROW(parse_image_edge(text, View::cc, 0), Error) << text;
     EXPECT_THROW(parse_turn(text), Error) << text;
   }
 }

@@ -249,6 +249,43 @@ TEST(Projection, NoColumnOfTheImageLeavesThroughTheBack) {
   }
 }
 
+// The block's hindmost 15 mm are muscle, and its lower faces there belong to the cut: between plates 50 mm
+// apart what lacks of those columns is fat.
+TEST(Projection, MuscleIsShownAndColumnsGoOnBeyondTheCut) {
+  HexMesh mesh = facing_block();
+  add_contact(mesh, View::cc);
+  mesh.contact->thickness_mm = 50;
+  mesh.skin_faces.clear(), mesh.cut_faces.clear(), mesh.pectoral_faces.clear();
+  for (const Face& face : boundary_faces(mesh)) {
+    const Vec3 at = element_position(mesh, mesh.points, face.element, Vec3::Zero());
+    Vec3 middle = Vec3::Zero();
+    for (const int node : face_nodes(mesh, face)) middle += 0.25 * mesh.points[node];
+    const bool below = at.y() > -15 && middle.z() < 1e-9;
+    (below ? mesh.cut_faces : mesh.skin_faces).push_back(face);
+  }
+  for (int e = 0; e < mesh.elements(); ++e) {
+    if (element_position(mesh, mesh.points, e, Vec3::Zero()).y() > -15)
+      mesh.tissue[std::size_t(e)] = Tissue::muscle;
+  }
+  ProjectionReport report;
+  const auto pixel_at = [](const Mammogram& image, double u) {
+    return std::size_t(image.height / 2) * std::size_t(image.width) +
+           std::size_t(u / image.pixel);
+  };
+  mesh.contact->ends_image = true;
+  const Mammogram image = project_mammogram(mesh, {.pixel = 0.5}, &report);
+  const std::size_t muscle = pixel_at(image, 7), breast = pixel_at(image, 30);
+  EXPECT_EQ(image.through_back[muscle], 1);
+  EXPECT_FALSE(image.blank(muscle));
+  EXPECT_NEAR(image.thickness[muscle], 50, 1e-4);
+  EXPECT_NEAR(image.path[muscle], 40 + 0.5 * 10, 1e-4);
+  EXPECT_NEAR(image.fibroglandular[muscle], 0, 1e-6);
+  EXPECT_EQ(image.through_back[breast], 0);
+  EXPECT_NEAR(image.thickness[breast], 40, 1e-4);
+  EXPECT_NEAR(report.muscle_columns * 0.25, 15 * 80, 0.05 * 15 * 80);
+  EXPECT_EQ(report.volumes.muscle, 0);  // of columns that go on beyond the mesh nothing is summed
+}
+
 TEST(Projection, TheFrameDoesNotDependOnTheTumour) {
   // Sheared so that one side of the chest wall lies far in front of the other: tissue whose column
   // leaves through skin only, behind the posterior edge, is a place where a tumour would be missed.

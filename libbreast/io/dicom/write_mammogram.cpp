@@ -48,7 +48,7 @@ std::vector<std::uint16_t> detector_signal(const Mammogram& image) {
     for (int column = 0; column < image.width; ++column) {
       const std::size_t from =
           std::size_t(v) * image.width + (left ? column : image.width - 1 - column);
-      const double signal = image.through_back[from] != 0 ? 0 : std::exp(-image.path[from]);
+      const double signal = image.blank(from) ? 0 : std::exp(-image.path[from]);
       stored[std::size_t(row) * image.width + column] =
           std::uint16_t(std::lround(16383 * std::clamp(signal, 0.0, 1.0)));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/skin_layer.hpp"
+#include "meshing/layers/skin_layer.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
