@@ -61,10 +61,13 @@ ifdef PAPER
   MECHANICS ?= $(PRINTED_MECHANICS)
   COMPRESS_OPTIONS ?= --gravity off --contact al
 else
-  HEXMESH_OPTIONS ?= --elements $(ELEMENTS)
+  # A breast that slides does so with the muscle behind it; one that is held needs none. Sets that slide say how the wall holds.
+  slides := $(shell grep -l '^wall' $(or $(wildcard $(MATERIALS)),$(PIPELINES)/materials/$(MATERIALS).tsv) 2>/dev/null)
+  MUSCLE ?= $(if $(slides),measured,0)
+  HEXMESH_OPTIONS ?= --elements $(ELEMENTS) $(addprefix --muscle ,$(filter-out 0,$(MUSCLE)))
   MECHANICS ?= --materials $(MATERIALS) $(addprefix --element ,$(ELEMENT))
   # Soft tissue that slides lies limp between plates that stand far in front of the chest wall.
-  COMPRESS_OPTIONS ?= $(if $(filter invivo,$(or $(prior_set),$(MATERIALS))),--image-edge auto)
+  COMPRESS_OPTIONS ?= $(if $(slides),--image-edge auto)
 endif
 # Parts of the model to do without: no-skin no-gland no-backward no-gravity-in-compression (what each is worth: leaveout).
 LEAVE_OUT ?=
