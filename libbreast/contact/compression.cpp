@@ -48,7 +48,7 @@ class Compression {
   bool lift(State& state);
   Grip grip() const;
   PathOptions path_options();
-  bool has_let_go();
+  bool has_let_go(const State& state);
   void close_plates(State& state);
   void record_path();
   void check_stability(const State& state, const ContactSolver& contact);
@@ -137,19 +137,26 @@ PathOptions Compression::path_options() {
 
 /// Whether nothing but the plates holds the breast at the end of the path; says so when a hand still
 /// does, for then it is no compression.
-bool Compression::has_let_go() {
+bool Compression::has_let_go(const State& state) {
   if (options_.positioning == Positioning::hanging) return true;
   const double reduction = 1 - found_.path.thickness / found_.plates.initial_thickness;
   const Grip hand = grip();
   const double weight = hand.weight.at(reduction), pull = hand.pull.at(reduction);
   if (weight == 1 && (pull == 1 || !(options_.pull_N > 0))) return true;
-  found_.reason_id = "ends_before_grip";
   found_.load_reached = weight;
-  found_.record.reason = message(
+  const std::string still = message(
       "the path ends at a reduction of ", 100 * reduction, " %, where a hand still carries ",
-      100 * (1 - weight), " % of the breast's weight and pulls with ", (1 - pull) * options_.pull_N,
-      " N; it lets go from ", 100 * hand.weight.ends,
-      " % on: choose a larger target, a smaller --pull, or --positioning hanging");
+      100 * (1 - weight), " % of the breast's weight and pulls with ", (1 - pull) * options_.pull_N, " N");
+  if (found_.path.reached) {
+    found_.reason_id = "ends_before_grip";
+    found_.record.reason =
+        message(still, "; it lets go from ", 100 * hand.weight.ends,
+                " % on: choose a larger target, a smaller --pull, or --positioning hanging");
+  } else {
+    const StopReason why = explain_stop(mesh_, state.x, found_.path, found_.plates);
+    found_.reason_id = why.id;
+    found_.record.reason = message(still, ": ", why.sentence);
+  }
   return false;
 }
 
@@ -175,7 +182,7 @@ void Compression::close_plates(State& state) {
                                    describe(found_.path.last_failure));
     return;
   }
-  if (!has_let_go()) return;
+  if (!has_let_go(state)) return;
   {
     Timer::Scope phase(found_.timer, "results");
     found_.min_det_F = found_.path.final_step.forces.min_det_F;
