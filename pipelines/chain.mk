@@ -44,10 +44,10 @@ $(RUN)/supine.vtkhdf: $(RUN)/reference.vtkhdf $(FORWARD) $(MATERIAL_FILE) $(call
 
 # The two views: compress, then project. The mammogram's report must not overwrite the compression's.
 define view_rules
-$1_settings := $(COMPRESS) --reduction $(REDUCTION) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) \
+$1_settings := $(COMPRESS) $(STOPS) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) \
   $(MECHANICS) $(SUPPORT)
 $(RUN)/$1.vtkhdf: $(RUN)/reference.vtkhdf $(COMPRESS) $(MATERIAL_FILE) $$(call changed,$1)
-	$(COMPRESS) $$< $$@ --view $2 --reduction $(REDUCTION) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) \
+	$(COMPRESS) $$< $$@ --view $2 $(STOPS) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) \
 	  $(MECHANICS) $(SUPPORT) $$(common)
 	@$$(call record,$1)
 

@@ -8,7 +8,7 @@ hash := \#
 
 # What a case file may set: pipelines/case-file.sh reads these lists here.
 path_settings := MR CHEST_WALL MATERIALS LANDMARKS
-name_settings := SIDE SERIES CASE PRESET WALL CUT MUSCLE ELEMENT PAPER REDUCTION AT_LEAST ELEMENTS TUMOUR ACCURACY LEAVEOUT_MM POINTS \
+name_settings := SIDE SERIES CASE PRESET WALL CUT MUSCLE ELEMENT PAPER REDUCTION PRESSURE AT_LEAST ELEMENTS TUMOUR ACCURACY LEAVEOUT_MM POINTS \
   PAGE_SCAN
 text_settings := LEAVE_OUT PRONE MECHANICS SEGMENT_OPTIONS FIT_OPTIONS HEXMESH_OPTIONS COMPRESS_OPTIONS PROJECT_OPTIONS \
   PHANTOM_OPTIONS SLICER_OPTIONS
@@ -70,6 +70,7 @@ $(call among,PAPER,1)
 $(call among,PAGE_SCAN,yes no)
 $(call among,LEAVE_OUT,no-skin no-gland no-backward no-gravity-in-compression)
 $(call plain_number,REDUCTION)
+$(call plain_number,PRESSURE)
 $(call plain_number,AT_LEAST)
 $(call plain_number,ELEMENTS)
 $(call plain_number,ACCURACY)

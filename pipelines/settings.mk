@@ -40,7 +40,11 @@ RUN := $(RUNS)/$(CASE)$(if $(PAPER),-as-printed)
 ifeq ($(origin MATERIALS),undefined)
   MATERIALS := $(if $(PAPER),seed2008,$(if $(MR)$(filter $(sliding_presets),$(PRESET)),invivo,seed2008))
 endif
+# Sets with which a breast slides say how its wall holds.
+slides := $(if $(PAPER),,$(shell grep -l '^wall' $(or $(wildcard $(MATERIALS)),$(PIPELINES)/materials/$(MATERIALS).tsv) 2>/dev/null))
 REDUCTION ?= 50
+# Mean pressure of the paddle, kPa, that ends a compression before that: what a clinic aims at. Table II is too stiff for it.
+PRESSURE ?= $(if $(slides),10)
 # As printed, elements on the edge of the cuboid fold early (docs/validation/contact.md).
 AT_LEAST ?= $(if $(PAPER),30,40)
 ELEMENTS ?= 16
@@ -61,14 +65,15 @@ ifdef PAPER
   MECHANICS ?= $(PRINTED_MECHANICS)
   COMPRESS_OPTIONS ?= --gravity off --contact al
 else
-  # A breast that slides does so with the muscle behind it; one that is held needs none. Sets that slide say how the wall holds.
-  slides := $(shell grep -l '^wall' $(or $(wildcard $(MATERIALS)),$(PIPELINES)/materials/$(MATERIALS).tsv) 2>/dev/null)
+  # A breast that slides does so with the muscle behind it; one that is held needs none.
   MUSCLE ?= $(if $(slides),measured,0)
   HEXMESH_OPTIONS ?= --elements $(ELEMENTS) $(addprefix --muscle ,$(filter-out 0,$(MUSCLE)))
   MECHANICS ?= --materials $(MATERIALS) $(addprefix --element ,$(ELEMENT))
   # Soft tissue that slides lies limp between plates that stand far in front of the chest wall.
   COMPRESS_OPTIONS ?= $(if $(slides),--image-edge auto)
 endif
+# Where the plates stop: at the first of these.
+STOPS = --reduction $(REDUCTION) $(addprefix --pressure ,$(PRESSURE))
 # Parts of the model to do without: no-skin no-gland no-backward no-gravity-in-compression (what each is worth: leaveout).
 LEAVE_OUT ?=
 $(check_values)

@@ -27,7 +27,8 @@ struct Choices : CompressionChoices {
 void declare(Tool& tool, Choices& c) {
   tool.describe(
       "Loads the stress-free breast with gravity, sets two rigid plates with rounded edges just "
-      "touching it, and closes them to a thickness, a reduction, a force or a mean pressure. "
+      "touching it, and closes them to a thickness, a reduction, a force, a mean pressure or a contact area; of several to "
+      "the one that is reached first. "
       "With --image-edge the plates stand as in the clinic: their edge near the chest wall and along "
       "it, faces kept out of them to 0.05 mm, friction holding the breast, which a hand lifts until they "
       "grip. Otherwise contact is exact at the nodes: no penalty, no penetration there; worst_gap_mm in "
@@ -54,8 +55,9 @@ void declare(Tool& tool, Choices& c) {
       "compress reference.vtkhdf cc.vtkhdf --view CC --pressure 10 --wall spring:1,0.1 "
       "--friction 0.3",
       "to a mean pressure of 10 kPa, on a yielding chest wall, with friction");
-  tool.example("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 50 --image-edge auto",
-               "with the plates where a mammograph has them");
+  tool.example(
+      "compress reference.vtkhdf cc.vtkhdf --view CC --reduction 50 --pressure 10 --image-edge auto",
+      "with the plates where a mammograph has them, to half the thickness or 10 kPa");
   tool.example("compress reference.vtkhdf mlo.vtkhdf --view MLO --angle 50 --force 100",
                "mediolateral oblique at 50 degrees until the paddle presses with 100 N");
   tool.example("compress reference.vtkhdf mlo.vtkhdf --view MLO --like MG.dcm",
@@ -70,6 +72,7 @@ void declare(Tool& tool, Choices& c) {
   tool.number(c.force, "--force", "N", "stop at this paddle force", 1e-6, 1e5);
   tool.number(c.pressure, "--pressure", "KPA", "stop at this paddle force per contact area", 1e-6,
               1e4);
+  tool.number(c.area, "--area", "CM2", "stop at this contact area of the paddle", 1e-3, 1e4);
   tool.input_file(c.like, "--like", "MG.dcm",
                   "angle and target (thickness, else force) of this mammogram; options given win");
   tool.number(c.at_least, "--at-least", "PERCENT",
@@ -131,9 +134,10 @@ void declare(Tool& tool, Choices& c) {
   declare_mechanics(tool, c.mechanics);
   declare_estimate(tool, c.estimate);
   tool.check([&c] {
-    if (c.targets() != 1 && !(c.targets() == 0 && !c.like.empty())) {
-      throw input_error("give exactly one of --thickness, --reduction, --force, --pressure; ",
-                        c.targets(), " were given");
+    if (c.stops().empty() && c.like.empty()) {
+      throw input_error(
+          "give at least one of --thickness, --reduction, --force, --pressure, --area, where the plates "
+          "stop");
     }
     parse_gravity(c.gravity);
     parse_detector(c.detector);
@@ -149,7 +153,7 @@ void take_from_mammogram(Choices& c, Side side, Report& report) {
   if (!c.angle) c.angle = like.angle_deg;
   if (like.force_N) report.set("like/force_N", *like.force_N);
   if (like.thickness_mm) report.set("like/thickness_mm", *like.thickness_mm);
-  if (c.targets() > 0) return;
+  if (!c.stops().empty()) return;
   c.thickness = like.thickness_mm;
   if (!c.thickness) c.force = like.force_N;
 }
@@ -168,6 +172,7 @@ void run_compress(Choices c, Run& run) {
     CompressionOptions same_gap = options;
     same_gap.stop_at = StopAt::thickness;
     same_gap.target = found.thickness_mm;
+    same_gap.or_at.clear();
     estimate_by_second_solution(mesh, mechanics.options(), found,
                                 [&](const HexMesh& richer, const MechanicsOptions& same) {
                                   return compress(richer, same_gap, same, run.progress());

@@ -43,6 +43,7 @@ class Compression {
 
  private:
   bool load_with(const Eigen::VectorXd& load, const char* name, State& state);
+  CompressionTarget target_at(const CompressionStop& stop) const;
   CompressionTarget target() const;
   void place(const State& upright);
   bool lift(State& state);
@@ -102,25 +103,33 @@ bool Compression::load_with(const Eigen::VectorXd& load, const char* name, State
   return true;
 }
 
-CompressionTarget Compression::target() const {
+CompressionTarget Compression::target_at(const CompressionStop& stop) const {
   const double initial = found_.plates.initial_thickness;
-  switch (options_.stop_at) {
+  switch (stop.at) {
     case StopAt::thickness:
-      return {TargetKind::thickness, options_.target};
+      return {TargetKind::thickness, stop.value};
     case StopAt::reduction:
-      return {TargetKind::thickness, initial * (1 - options_.target / 100)};
+      return {TargetKind::thickness, initial * (1 - stop.value / 100)};
     case StopAt::force:
-      return {TargetKind::force, options_.target};
+      return {TargetKind::force, stop.value};
     case StopAt::pressure:
-      return {TargetKind::pressure, options_.target};
+      return {TargetKind::pressure, stop.value};
+    case StopAt::area:
+      return {TargetKind::area, stop.value};
   }
   return {};
+}
+
+CompressionTarget Compression::target() const {
+  CompressionTarget target = target_at({options_.stop_at, options_.target});
+  for (const CompressionStop& stop : options_.or_at) target.or_at.push_back(target_at(stop));
+  return target;
 }
 
 /// When the hand lets go of a lifted breast.
 Grip Compression::grip() const {
   const CompressionTarget end = target();
-  if (end.kind != TargetKind::thickness) return grip_before_any_force();
+  if (end.kind != TargetKind::thickness || !end.or_at.empty()) return grip_before_any_force();
   return grip_before(1 - end.value / found_.plates.initial_thickness);
 }
 
@@ -254,12 +263,24 @@ void Compression::say_how_it_ended(const State& state) {
 
 /// Fraction of the way to the target.
 double Compression::load_reached() const {
-  const CompressionTarget wanted = target();
   const PathPoint& end = found_.path.points.back();
-  if (wanted.kind == TargetKind::force) return end.paddle_N / wanted.value;
-  if (wanted.kind == TargetKind::pressure) return end.pressure_kPa / wanted.value;
   const double initial = found_.initial_thickness_mm;
-  return (initial - found_.thickness_mm) / (initial - wanted.value);
+  const auto part = [&](const CompressionTarget& wanted) {
+    switch (wanted.kind) {
+      case TargetKind::force:
+        return end.paddle_N / wanted.value;
+      case TargetKind::pressure:
+        return end.pressure_kPa / wanted.value;
+      case TargetKind::area:
+        return end.area_cm2 / wanted.value;
+      default:
+        return (initial - found_.thickness_mm) / (initial - wanted.value);
+    }
+  };
+  const CompressionTarget wanted = target();
+  double most = part(wanted);
+  for (const CompressionTarget& other : wanted.or_at) most = std::max(most, part(other));
+  return most;
 }
 
 /// The result against clinical ranges, then how it was found.
@@ -268,7 +289,7 @@ void Compression::judge_against_practice() {
       *found_.contact,
       {found_.pose.n, body_.load->total() / micronewton_per_newton, found_.wall_reaction_N,
        found_.max_volume_error, found_.places, found_.self_contact});
-  for (Judgement& line : judge_path(found_.path, target(), found_.stable)) {
+  for (Judgement& line : judge_path(found_.path, found_.stable)) {
     found_.judgement.push_back(std::move(line));
   }
   if (found_.reduction_percent > 40 && scene_.options().materials.name == "seed2008") {
@@ -342,11 +363,15 @@ void check(const HexMesh& mesh, const CompressionOptions& options,
   if (mesh.reference.size() != mesh.points.size()) {
     throw input_error("mesh: no stress-free reference shape; run backward first");
   }
-  if (!(options.target > 0)) {
-    throw input_error("compression target ", options.target, ": must be above 0");
-  }
-  if (options.stop_at == StopAt::reduction && !(options.target < 100)) {
-    throw input_error("reduction ", options.target, " %: must be below 100");
+  std::vector<CompressionStop> stops = options.or_at;
+  stops.push_back({options.stop_at, options.target});
+  for (const CompressionStop& stop : stops) {
+    if (!(stop.value > 0)) {
+      throw input_error("compression target ", stop.value, ": must be above 0");
+    }
+    if (stop.at == StopAt::reduction && !(stop.value < 100)) {
+      throw input_error("reduction ", stop.value, " %: must be below 100");
+    }
   }
   if (!(options.pull_N >= 0 && options.pull_N <= 500)) {
     throw input_error("pull ", options.pull_N, " N: must lie within 0 and 500");

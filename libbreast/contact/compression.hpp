@@ -23,13 +23,20 @@
 
 namespace breast {
 
-enum class StopAt { thickness, reduction, force, pressure };
+enum class StopAt { thickness, reduction, force, pressure, area };
+
+/// A place to stop: mm, %, N, kPa or cm².
+struct CompressionStop {
+  StopAt at = StopAt::reduction;
+  double value = 50;
+};
 
 struct CompressionOptions {
   View view = View::cc;
   double angle_deg = 0;  ///< beam angle θ
   StopAt stop_at = StopAt::reduction;
-  double target = 50;  ///< mm, %, N or kPa
+  double target = 50;  ///< mm, %, N, kPa or cm²
+  std::vector<CompressionStop> or_at = {};  ///< further ones: the first that is reached ends the path
   PlateOptions plates;
   Vec3 gravity{0, 0, -9810};  ///< mm/s², LPS
   ContactMethod method = ContactMethod::active_set;

@@ -190,8 +190,7 @@ std::vector<Judgement> judge_compression(const ContactRecord& contact, const Pre
   return list;
 }
 
-std::vector<Judgement> judge_path(const PathResult& path, const CompressionTarget& target,
-                                  bool stable) {
+std::vector<Judgement> judge_path(const PathResult& path, bool stable) {
   std::vector<Judgement> list;
   if (path.first_indefinite_thickness) {
     list.push_back({"slips_or_buckles",
@@ -204,9 +203,9 @@ std::vector<Judgement> judge_path(const PathResult& path, const CompressionTarge
   if (path.jump) {
     list.push_back({"jump_at_target",
                     message("jump at target: between plate positions 0.1 micrometre apart the ",
-                            target.kind == TargetKind::force ? "paddle force" : "mean pressure",
+                            target_name(path.met.kind),
                             " goes from ", path.jump->first, " to ", path.jump->second, ", past ",
-                            target.value, "; the nearer one is the result"),
+                            path.met.value, "; the nearer one is the result"),
                     true});
   }
   const double lag = path.final_step.friction_lag;

@@ -45,7 +45,7 @@ struct PressedState {
 std::vector<Judgement> judge_compression(const ContactRecord& contact, const PressedState& state);
 /// What happened on the way of the plates: an indefinite tangent (a doubt unless the end is `stable`), a
 /// jump over the target, bounds of friction that do not follow the pressure.
-std::vector<Judgement> judge_path(const PathResult& path, const CompressionTarget& target,
+std::vector<Judgement> judge_path(const PathResult& path,
                                   bool stable);
 
 }  // namespace breast

@@ -46,9 +46,17 @@ std::optional<double> parse_turn(const std::string& text) {
   throw input_error("--turn ", text, ": give 'auto' or degrees from ", -most, " to ", most);
 }
 
-int CompressionChoices::targets() const {
-  return int(thickness.has_value()) + int(reduction.has_value()) + int(force.has_value()) +
-         int(pressure.has_value());
+std::vector<CompressionStop> CompressionChoices::stops() const {
+  std::vector<CompressionStop> all;
+  const auto add = [&](const std::optional<double>& value, StopAt at) {
+    if (value) all.push_back({at, *value});
+  };
+  add(thickness, StopAt::thickness);
+  add(reduction, StopAt::reduction);
+  add(force, StopAt::force);
+  add(pressure, StopAt::pressure);
+  add(area, StopAt::area);
+  return all;
 }
 
 CompressionOptions compression_options(const CompressionChoices& c, const Vec3& gravity,
@@ -93,15 +101,12 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   options.positioning = lifted ? Positioning::lifted : Positioning::hanging;
   const bool held = frictional && lifted && options.friction > 0;
   options.pull_N = c.pull.value_or(held ? image_edge_pull : 0);
-  const auto stop = [&](const std::optional<double>& value, StopAt at) {
-    if (!value) return;
-    options.stop_at = at;
-    options.target = *value;
-  };
-  stop(c.thickness, StopAt::thickness);
-  stop(c.reduction, StopAt::reduction);
-  stop(c.force, StopAt::force);
-  stop(c.pressure, StopAt::pressure);
+  options.or_at = c.stops();
+  if (!options.or_at.empty()) {
+    options.stop_at = options.or_at.front().at;
+    options.target = options.or_at.front().value;
+    options.or_at.erase(options.or_at.begin());
+  }
   return options;
 }
 

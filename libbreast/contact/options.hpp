@@ -23,11 +23,12 @@ std::optional<double> parse_turn(const std::string& text);
 struct CompressionChoices {
   std::string view = "CC", contact = "active-set", detector = "raised", image_edge, turn;
   std::string contact_points, positioning;  ///< empty: as plates, see compression_options
-  std::optional<double> angle, thickness, reduction, force, pressure, plate_step;
+  std::optional<double> angle, thickness, reduction, force, pressure, area, plate_step;
   std::optional<double> friction, edge_radius, pull;
   PlateOptions plates;
-  /// How many of thickness, reduction, force and pressure are given; one must be.
-  int targets() const;
+  /// Those of thickness, reduction, force, pressure and area that are given; the first one reached ends the
+  /// compression.
+  std::vector<CompressionStop> stops() const;
 };
 /// `gravity` in mm/s², LPS. Plates placed by the edge of the image stand as in the clinic: turned along
 /// the wall, with an edge of 3 mm, pressing on faces with a friction of 0.3, the breast lifted and pulled forwards by 30 N;

@@ -29,8 +29,23 @@ constexpr std::size_t longest_trail = 3;
 struct Waypoint {
   State state;
   ContactMemory memory;
-  double thickness = 0, measured = 0;
+  double thickness = 0;
+  PathPoint point;
 };
+
+double measure(const PathPoint& point, TargetKind kind) {
+  switch (kind) {
+    case TargetKind::thickness:
+      return point.thickness;
+    case TargetKind::force:
+      return point.paddle_N;
+    case TargetKind::pressure:
+      return point.pressure_kPa;
+    case TargetKind::area:
+      return point.area_cm2;
+  }
+  return 0;
+}
 
 class Path {
  public:
@@ -38,18 +53,22 @@ class Path {
        const NodalArea& area, const PathOptions& options, Progress& progress)
       : solver_(solver),
         plates_(plates),
-        target_(target),
         area_(area),
         options_(options),
         progress_(progress),
         start_thickness_(plates.thickness()),
-        tolerance_(options.path_tolerance) {}
+        tolerance_(options.path_tolerance) {
+    take(target);
+    for (const CompressionTarget& other : target.or_at) take(other);
+  }
 
   PathResult run(State& state);
 
  private:
+  void take(const CompressionTarget& target);
+  const CompressionTarget* passed(const PathPoint& point) const;
   bool march();
-  bool refine_control(Waypoint low, Waypoint high);
+  bool refine_control(const CompressionTarget& target, const Waypoint& before, Waypoint high);
   bool attempt(const State& guess, const ContactMemory& memory, double thickness, double tolerance,
                Waypoint& reached);
   bool finish();
@@ -58,13 +77,13 @@ class Path {
   void drop_points_beyond_here();
   State predict(double thickness, bool extrapolate) const;
   double next_thickness(double step) const;
-  double measure(const PathPoint& point) const;
   PathPoint force_point(const State& state, const ContactStep& step, double thickness) const;
   void tell(const PathPoint& point) const;
 
   ContactSolver& solver_;
   PlatePair& plates_;
-  const CompressionTarget& target_;
+  std::optional<double> thickness_;          ///< where the path ends at the latest
+  std::vector<CompressionTarget> controls_;  ///< what else ends it
   const NodalArea& area_;
   const PathOptions& options_;
   Progress& progress_;
@@ -77,6 +96,26 @@ class Path {
   std::optional<Waypoint> first_haste_;  ///< the state before the first that was not
   std::deque<Waypoint> trail_;           ///< the last ones before before_
 };
+
+/// Of several thicknesses the largest comes first.
+void Path::take(const CompressionTarget& target) {
+  if (target.kind == TargetKind::thickness) {
+    thickness_ = std::max(target.value, thickness_.value_or(target.value));
+  } else {
+    controls_.push_back({target.kind, target.value});
+  }
+}
+
+/// The target that lies furthest behind a point; null before all of them.
+const CompressionTarget* Path::passed(const PathPoint& point) const {
+  const CompressionTarget* furthest = nullptr;
+  double most = 1 + options_.control_tolerance;
+  for (const CompressionTarget& control : controls_) {
+    const double part = measure(point, control.kind) / control.value;
+    if (part >= most) most = part, furthest = &control;
+  }
+  return furthest;
+}
 
 PathPoint Path::force_point(const State& state, const ContactStep& step, double thickness) const {
   PathPoint point;
@@ -94,6 +133,7 @@ PathPoint Path::force_point(const State& state, const ContactStep& step, double 
     (contact.plate == 0 ? point.paddle_N : point.detector_N) += along / micronewton_per_newton;
     if (contact.plate == 0 && contact.normal > 0) paddle_area += area[c];
   }
+  point.area_cm2 = paddle_area / mm2_per_cm2;
   if (paddle_area > 0) {
     point.pressure_kPa =
         point.paddle_N * micronewton_per_newton / paddle_area / pascal_per_kilopascal;
@@ -101,18 +141,12 @@ PathPoint Path::force_point(const State& state, const ContactStep& step, double 
   return point;
 }
 
-double Path::measure(const PathPoint& point) const {
-  return target_.kind == TargetKind::pressure ? point.pressure_kPa : point.paddle_N;
-}
-
 void Path::tell(const PathPoint& point) const {
   double fraction = -1;
-  if (target_.kind == TargetKind::thickness) {
-    const double travel = start_thickness_ - target_.value;
-    if (travel != 0) fraction = (start_thickness_ - point.thickness) / travel;
-  } else if (target_.value > 0) {
-    fraction = std::min(1.0, measure(point) / target_.value);
-  }
+  if (thickness_ && start_thickness_ != *thickness_)
+    fraction = (start_thickness_ - point.thickness) / (start_thickness_ - *thickness_);
+  for (const CompressionTarget& control : controls_)
+    fraction = std::max(fraction, std::min(1.0, measure(point, control.kind) / control.value));
   progress_.update(
       "compress", fraction,
       message("thickness ", std::round(10 * point.thickness) / 10, " mm, paddle ",
@@ -148,7 +182,7 @@ bool Path::attempt(const State& guess, const ContactMemory& memory, double thick
   const PathPoint point = force_point(state, step, thickness);
   tell(point);
   result_.final_step = std::move(step);
-  reached = {std::move(state), solver_.memory(), thickness, measure(point)};
+  reached = {std::move(state), solver_.memory(), thickness, point};
   result_.points.push_back(point);
   return true;
 }
@@ -161,21 +195,20 @@ State Path::predict(double thickness, bool extrapolate) const {
 }
 
 double Path::next_thickness(double step) const {
-  if (target_.kind == TargetKind::thickness) {
-    const double left = target_.value - here_.thickness;
-    // No sliver of a step just before the end.
-    if (std::abs(left) <= 1.25 * step) return target_.value;
-    return here_.thickness + std::copysign(step, left);
-  }
   double closing = step;
-  // Force grows exponentially: do not overshoot the target by much.
-  if (have_before_ && before_.measured > 0 && here_.measured > before_.measured) {
-    const double growth =
-        std::log(here_.measured / before_.measured) / (before_.thickness - here_.thickness);
-    closing =
-        std::min(closing, std::max(0.5, std::log(1.15 * target_.value / here_.measured) / growth));
+  for (const CompressionTarget& control : controls_) {
+    // Force grows exponentially: do not overshoot the target by much.
+    const double now = measure(here_.point, control.kind);
+    const double then = have_before_ ? measure(before_.point, control.kind) : 0;
+    if (!(then > 0 && now > then)) continue;
+    const double growth = std::log(now / then) / (before_.thickness - here_.thickness);
+    closing = std::min(closing, std::max(0.5, std::log(1.15 * control.value / now) / growth));
   }
-  return here_.thickness - closing;
+  if (!thickness_) return here_.thickness - closing;
+  const double left = *thickness_ - here_.thickness;
+  // No sliver of a step just before the end.
+  if (std::abs(left) <= 1.25 * closing) return *thickness_;
+  return here_.thickness + std::copysign(closing, left);
 }
 
 bool Path::march() {
@@ -185,9 +218,12 @@ bool Path::march() {
   int failures_in_row = 0;
   result_.jump.reset();
   while (result_.solves < options_.most_solves) {
-    if (target_.kind == TargetKind::thickness && here_.thickness == target_.value) return true;
+    if (thickness_ && here_.thickness == *thickness_) {
+      result_.met = {TargetKind::thickness, *thickness_};
+      return true;
+    }
     const double thickness = next_thickness(step);
-    if (target_.kind != TargetKind::thickness && !(thickness > options_.least_thickness)) {
+    if (!thickness_ && !(thickness > options_.least_thickness)) {
       result_.failed_thickness = thickness;
       result_.last_failure = NewtonStop::none;
       return false;
@@ -207,8 +243,8 @@ bool Path::march() {
       if (iterations < 6 && failures_in_row == 0) step = std::min(longest, 1.4 * step);
       if (iterations > 12) step = std::max(options_.shortest_step, 0.7 * step);
       failures_in_row = 0;
-      if (target_.kind != TargetKind::thickness && reached.measured >= target_.value) {
-        return refine_control(here_, std::move(reached));
+      if (const CompressionTarget* target = passed(reached.point)) {
+        return refine_control(*target, here_, std::move(reached));
       }
       trail_.push_back(std::move(before_));
       if (trail_.size() > longest_trail) trail_.pop_front();
@@ -229,19 +265,29 @@ bool Path::march() {
   return false;
 }
 
-/// Bracketed secant (Illinois) on the thickness; interpolated states make each solve short.
-bool Path::refine_control(Waypoint low, Waypoint high) {
-  double f_low = low.measured - target_.value, f_high = high.measured - target_.value;
+/// Bracketed secant (Illinois) on the thickness between a state before the target and one beyond it;
+/// interpolated states make each solve short. What then lies beyond another target is refined to that.
+bool Path::refine_control(const CompressionTarget& target, const Waypoint& before, Waypoint high) {
+  Waypoint low = before;
+  const auto beyond = [&](const Waypoint& w) {
+    return measure(w.point, target.kind) - target.value;
+  };
+  double f_low = beyond(low), f_high = beyond(high);
   for (int k = 0; k < 40; ++k) {
-    const Waypoint& best =
-        std::abs(high.measured - target_.value) < std::abs(low.measured - target_.value) ? high
-                                                                                         : low;
-    const bool met =
-        std::abs(best.measured - target_.value) <= options_.control_tolerance * target_.value;
+    const Waypoint& best = std::abs(beyond(high)) < std::abs(beyond(low)) ? high : low;
+    const bool met = std::abs(beyond(best)) <= options_.control_tolerance * target.value;
     if (met || std::abs(low.thickness - high.thickness) < narrowest_bracket) {
+      const CompressionTarget* other = passed(best.point);
+      if (met && other != nullptr && other != &target) {
+        const Waypoint from = best;
+        return refine_control(*other, before, from);
+      }
       // Positions that cannot be told apart with the target between them: a node joins, or the body
       // snaps through. The nearer one is the answer, and said to be off its target.
-      if (!met) result_.jump = {low.measured, high.measured};
+      if (!met) {
+        result_.jump = {measure(low.point, target.kind), measure(high.point, target.kind)};
+      }
+      result_.met = target;
       before_ = low;
       here_ = best;
       return true;
@@ -256,7 +302,7 @@ bool Path::refine_control(Waypoint low, Waypoint high) {
       here_ = low;
       return false;
     }
-    const double f = middle.measured - target_.value;
+    const double f = beyond(middle);
     if (f < 0) {
       low = std::move(middle);
       f_low = f;
@@ -330,7 +376,7 @@ bool Path::finish() {
 }
 
 PathResult Path::run(State& state) {
-  here_ = {state, solver_.memory(), plates_.thickness(), 0};
+  here_ = {state, solver_.memory(), plates_.thickness(), {}};
   // The state the plates start from: touching nothing, or the end of an earlier path.
   Waypoint first;
   if (attempt(here_.state, here_.memory, here_.thickness, options_.path_tolerance, first)) {
@@ -353,6 +399,11 @@ PathResult Path::run(State& state) {
 }
 
 }  // namespace
+
+const char* target_name(TargetKind kind) {
+  constexpr const char* names[] = {"thickness", "paddle force", "mean pressure", "contact area"};
+  return names[int(kind)];
+}
 
 PathResult follow_path(ContactSolver& solver, PlatePair& plates, State& state,
                        const CompressionTarget& target, const NodalArea& area,

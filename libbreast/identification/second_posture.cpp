@@ -97,6 +97,7 @@ bool SecondPosture::press(const MechanicsOptions& options) {
     CompressionOptions press = seen_.press;
     press.stop_at = StopAt::thickness;
     press.target = seen.thickness;
+    press.or_at.clear();
     HexMesh state = mesh_;
     const CompressionResult found = compress(state, press, options);
     if (!found.converged()) return reason_ = "compression: " + found.record.reason, false;

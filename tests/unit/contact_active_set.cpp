@@ -229,6 +229,40 @@ TEST(CompressionPath, ForceAndPressureControlHitTheirTarget) {
   }
 }
 
+// Whichever stop comes first ends the path, in whatever order they are given.
+TEST(CompressionPath, TheFirstOfSeveralTargetsEndsIt) {
+  const auto end_of = [](const CompressionTarget& target) {
+    QuadraticBody body(24, 11);
+    PlatePair plates = plates_at(-20, 20, 15);
+    ActiveSet contact = body.active_set();
+    State state = body.start();
+    const PathResult path = close(plates, contact, state, target);
+    EXPECT_TRUE(path.reached);
+    return std::pair(path.points.back(), path.met.kind);
+  };
+  const PathPoint at_force = end_of({TargetKind::force, 0.05}).first;
+  const CompressionTarget closed{TargetKind::thickness, 0.9 * at_force.thickness};
+  const CompressionTarget open{TargetKind::thickness, 1.1 * at_force.thickness};
+  const CompressionTarget force{TargetKind::force, 0.05}, area{TargetKind::area, 0.9 * at_force.area_cm2};
+  const auto with = [](CompressionTarget first, const CompressionTarget& second) {
+    first.or_at = {second};
+    return first;
+  };
+  for (const auto& target : {with(closed, force), with(force, closed)}) {
+    const auto [end, kind] = end_of(target);
+    EXPECT_EQ(kind, TargetKind::force);
+    EXPECT_NEAR(end.paddle_N, 0.05, 1e-4);
+  }
+  for (const auto& target : {with(open, force), with(force, open)}) {
+    const auto [end, kind] = end_of(target);
+    EXPECT_EQ(kind, TargetKind::thickness);
+    EXPECT_EQ(end.thickness, open.value);
+  }
+  const auto [end, kind] = end_of(with(force, area));
+  EXPECT_EQ(kind, TargetKind::area);
+  EXPECT_LT(end.paddle_N, 0.05);
+}
+
 // A penalty that sets in at once, 320 times as stiff as the tangent knows: halves of the step are
 // all too long, the place where the slope vanishes is found at once.
 namespace {

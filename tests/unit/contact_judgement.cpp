@@ -140,16 +140,15 @@ TEST(Judgement, ABreastThatTouchesItselfOrTheThoraxIsDoubted) {
 
 TEST(Judgement, AnIndefiniteWayToAStableEndIsNoDoubt) {
   PathResult path;
-  const CompressionTarget target{TargetKind::force, 100};
-  EXPECT_TRUE(judge_path(path, target, true).empty());
+  EXPECT_TRUE(judge_path(path, true).empty());
   path.first_indefinite_thickness = 60;
   path.indefinite = 3;
-  ASSERT_EQ(judge_path(path, target, true).size(), 1u);
-  EXPECT_FALSE(judge_path(path, target, true)[0].doubtful);
-  EXPECT_TRUE(judge_path(path, target, false)[0].doubtful);
+  ASSERT_EQ(judge_path(path, true).size(), 1u);
+  EXPECT_FALSE(judge_path(path, true)[0].doubtful);
+  EXPECT_TRUE(judge_path(path, false)[0].doubtful);
   path.final_step.friction_lag = 0.1;
   path.jump = {{90, 110}};
   Ids ids;
-  for (const Judgement& j : judge_path(path, target, true)) ids.push_back(j.id);
+  for (const Judgement& j : judge_path(path, true)) ids.push_back(j.id);
   EXPECT_EQ(ids, (Ids{"slips_or_buckles", "jump_at_target", "friction_lags"}));
 }
