@@ -84,6 +84,7 @@ void run_match(const MatchChoices& choices, Run& run) {
   const HexMesh from = read_mesh(choices.from, {.contact = true});
   const HexMesh to = read_mesh(choices.to, {.contact = true});
   const Beam beam = choices.geometry == "cone" ? Beam::cone : Beam::parallel;
+  run.report().set("side", side_name(from.side));
   const Matcher matcher(from, to, beam);
   const std::optional<PatientViews> views = [&] {
     Timer::Scope phase(run.timer(), "align");

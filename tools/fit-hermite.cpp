@@ -57,6 +57,7 @@ void report_fit(Report& report, const FitReport& fit, const BreastGeometry& geom
   report.set("thorax/sheet_max_mm", fit.thorax.sheet_max_mm);
   report.set("wall/coverage_percent", 100 * fit.wall_coverage);
   report_rim(report, fit.rim);
+  report.set("side", side_name(geometry.side));
   report.set("landmarks/nipple/imaged", geometry.nipple);
   report.set("landmarks/nipple/moved_mm", fit.nipple_moved_mm);
   report.set("volumes_ml/body", fit.body_ml);

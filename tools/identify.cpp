@@ -149,6 +149,7 @@ void run_identify(const IdentifyChoices& c, Run& run) {
   }
   for (const std::string& doubt : doubts_of(found)) run.warn(doubt);
   report_answer(found, c.align, run.report());
+  run.report().set("side", side_name(mesh.side));
   run.report().set("elements", mesh.elements());
   run.report().set("status", "converged");
   run.print(answer_of(found));

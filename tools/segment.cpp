@@ -169,6 +169,7 @@ void run_segment(const Choices& c, Run& run) {
   result.labels.history = run.history(inputs);
   Table measures{{"quantity", "value"}, {}};
   tell(measures_of(result), measures, run.report());
+  run.report().set("side", side_name(result.labels.side));
   run.report().set("landmarks/nipple/imaged", result.labels.landmarks.at("nipple"));
   run.report().set("nipple_base", result.nipple_base);
   run.report().set("interior", c.interior);

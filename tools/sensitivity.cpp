@@ -87,6 +87,7 @@ void run_sensitivity(const Choices& c, Run& run) {
     Timer::Scope phase(run.timer(), "derivatives");
     return (c.adjoint ? adjoint_results : tangent_results)(chain, parameters, mesh, run.report(), run.progress());
   }();
+  run.report().set("side", side_name(mesh.side));
   run.report().set("status", "converged");
   run.report().set("elements", mesh.elements());
   run.report().set("parameters", parameters.size());

@@ -87,6 +87,26 @@ std::string without_folders(std::string text, const Tokens& tokens) {
   return text;
 }
 
+/// Names of the files and folders that were given to be read, without the folders they lie in.
+std::vector<std::string> input_names(const Declaration& tool, const Tokens& tokens) {
+  std::vector<std::string> names;
+  const auto add = [&](const Argument& argument, const std::string& value) {
+    if (argument.kind != ArgumentKind::input) return;
+    std::filesystem::path name = value;
+    if (!name.has_filename()) name = name.parent_path();
+    names.push_back(name.filename().string());
+  };
+  for (std::size_t i = 0; i < tokens.positionals.size() && !tool.positionals.empty(); ++i)
+    add(tool.positionals[std::min(i, tool.positionals.size() - 1)], tokens.positionals[i]);
+  for (const Tokens::Option& option : tokens.options) {
+    for (const Argument& argument : tool.options) {
+      if (argument.label() != option.name) continue;
+      for (const std::string& value : option.values) add(argument, value);
+    }
+  }
+  return names;
+}
+
 void write_report(const std::filesystem::path& file, Run& run, const Outcome& outcome, const Tokens& tokens) {
   Report& report = run.report();
   if (outcome.exit_code != 0) {
@@ -198,6 +218,7 @@ int Tool::main(int argc, char** argv, const std::function<void(Run&)>& body) {
   const bool report_possible = outcome.exit_code == 0 || safe_report(impl_->report_file, tokens);
   StderrProgress progress(declaration.name, impl_->quiet);
   Run run(declaration.name, history_command(declaration, arguments), progress);
+  run.report().set("inputs", input_names(declaration, tokens));
   if (outcome.exit_code == 0) {
     apply_threads(impl_->threads);
     if (threads() > 1) sleep_when_waiting(argv);

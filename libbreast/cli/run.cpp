@@ -1,7 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/tool.hpp"
 
+#include <ctime>
+
 namespace breast {
+
+namespace {
+
+/// Now, in universal time: "2008-10-31T09:30:00Z".
+std::string date_and_time() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+}  // namespace
 
 Run::Run(std::string tool, std::string command, Progress& progress)
     : tool_(std::move(tool)),
@@ -9,6 +25,10 @@ Run::Run(std::string tool, std::string command, Progress& progress)
       progress_(progress),
       start_(std::chrono::steady_clock::now()) {
   report_.set("tool", tool_);
+  report_.set("version", BREAST_VERSION);
+  report_.set("command", command_);
+  report_.set("inputs", std::vector<std::string>{});
+  report_.set("date", date_and_time());
   report_.set("status", "ok");
   report_.set("reason", "");
 }

@@ -3,6 +3,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -128,7 +129,11 @@ Report Report::parse(const std::string& json, std::string_view name) {
 }
 
 void Timer::write(Report& report) const {
-  for (const auto& [phase, seconds] : seconds_) report.set("seconds/" + phase, seconds);
+  for (const auto& [phase, seconds] : seconds_) {
+    std::string key = phase;
+    std::replace(key.begin(), key.end(), ' ', '_');
+    report.set("seconds/" + key, seconds);
+  }
 }
 
 double cpu_seconds() {

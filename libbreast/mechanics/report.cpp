@@ -84,6 +84,7 @@ void write_stability(const SolveSummary& summary, Report& report) {
 
 void write_report(const Equilibrium& summary, const HexMesh& mesh, const MechanicsOptions& options,
                   Report& report) {
+  report.set("side", side_name(mesh.side));
   report.set("status", status_name(summary.record.status));
   report.set("reason", summary.reason_id.empty() ? summary.record.reason : summary.reason_id);
   if (!summary.reason_id.empty()) {

@@ -32,6 +32,7 @@ void write_boundary(const HexMesh& mesh, const BodyMeshReport& body, Report& rep
 
 void write_report(const HexMesh& mesh, const MeshQuality& quality, const BodyMeshReport& body,
                   const TissueReport& tissue, Report& report) {
+  report.set("side", side_name(mesh.side));
   report.set("elements", mesh.elements());
   report.set("nodes", mesh.nodes());
   report.set("placed_min_scaled_jacobian", body.placed_scaled_jacobian);

@@ -18,6 +18,7 @@ Vec2 image_position(const HexMesh& mesh, const Mammogram& image, const Landmark&
 
 void write_report(const HexMesh& mesh, const Mammogram& image, const ProjectionReport& projection,
                   Report& report) {
+  report.set("side", side_name(image.side));
   report.set("view", view_name(image.view));
   report.set("angle_deg", image.pose.angle_deg);
   report.set("energy", image.energy);

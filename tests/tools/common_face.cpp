@@ -68,6 +68,13 @@ TEST_P(CommonFace, UsageErrorIsReported) {
   EXPECT_EQ(run({"--no-such-option", "--report", "report.json"}).exit_code, 2);
   const Report report = Report::parse(read_text(folder_ / "report.json"), "report.json");
   EXPECT_EQ(report.text("tool"), GetParam());
+  EXPECT_FALSE(report.text("version").empty());
+  EXPECT_TRUE(report.contains("inputs"));
+  EXPECT_TRUE(report.contains("command"));
+  const std::string date = report.text("date");
+  ASSERT_EQ(date.size(), 20u) << date;
+  EXPECT_EQ(date[10], 'T');
+  EXPECT_EQ(date.back(), 'Z');
   EXPECT_EQ(report.text("status"), "bad_input");
   EXPECT_NE(report.text("reason").find("--no-such-option"), std::string::npos);
 }
