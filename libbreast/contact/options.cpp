@@ -69,7 +69,7 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   const bool clinical = !c.image_edge.empty();
   if (clinical) options.plates.image_edge = parse_image_edge(c.image_edge, options.view);
   if (clinical && c.plates.standoff) {
-    throw input_error("--image-edge with --standoff: both place the plates' edge; give one");
+    throw input_error("--image-edge with --standoff: both place the plates' edge; give only one");
   }
   options.plates.edge_radius = c.edge_radius.value_or(clinical ? image_edge_radius : edge_radius);
   options.plates.turn_deg = parse_turn(!c.turn.empty() ? c.turn : clinical ? "auto" : "0");
@@ -79,8 +79,8 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
                                                        : "surface";
   if (points == "surface" && c.contact == "al") {
     throw input_error(
-        "--contact-points surface with --contact al: the augmented Lagrangian touches "
-        "nodes");
+        "--contact-points surface with --contact al: the augmented Lagrangian has contact at "
+        "nodes only");
   }
   options.method = points == "surface" ? ContactMethod::surface
                    : c.contact == "al" ? ContactMethod::augmented_lagrangian
