@@ -27,7 +27,7 @@ LabelVolume coded_labels(const fs::path& file, const LabelChoices& choices) {
   const auto side = side_of(choices);
   if (!side && choices.native.empty()) {
     throw input_error(file.string(),
-                      ": does not say which breast it is: give --side left or right");
+                      ": does not state which breast it shows: give --side left or right");
   }
   std::string sha256;
   LabelVolume labels = read_tissues(file, parse_tissue_codes(choices.codes), &sha256);

@@ -26,8 +26,7 @@ Eigen::VectorXd pressures(const Scene& scene, const std::vector<double>& mean,
   const int rows = scene.solid().space()->pressures->rows;
   if (int(mean.size()) != scene.mesh().elements()) {
     throw input_error(what,
-                      ": the file holds no pressures; make it with backward, forward or "
-                      "compress");
+                      ": the file has no pressures; make it with backward, forward or compress");
   }
   Eigen::VectorXd p = Eigen::VectorXd::Zero(long(rows) * long(mean.size()));
   for (std::size_t e = 0; e < mean.size(); ++e) p[long(rows) * long(e)] = mean[e];

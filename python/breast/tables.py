@@ -43,7 +43,7 @@ def read_table(file: str | os.PathLike[str], pandas: bool | None = None) -> Any:
 
 def _columns(path: Path) -> dict[str, np.ndarray]:
     if not path.is_file():
-        raise BreastError("is no file", path)
+        raise BreastError("is not a file", path)
     try:
         text = path.read_text(encoding="utf-8")
     except UnicodeDecodeError:
