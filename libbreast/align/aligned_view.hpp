@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A patient's mammogram with the simulated view laid over it.
+// A patient's mammogram registered with the simulated view.
 #pragma once
 
 #include <optional>

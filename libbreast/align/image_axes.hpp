@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a patient's mammogram lies: its pixels in mm along the axes of the simulated view.
+// The axes of a patient's mammogram: conversion of its pixels to mm along the axes of the simulated
+// view.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is asked of a pair of views, as it is given on a command line.
+// The points to be matched between two views, as given on a command line.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Both mammograms of a patient beside the two simulated views: points in their pixels, curves drawn
-// on them, and what the alignment adds to the band.
+// Both mammograms of a patient with the two simulated views: points in their pixels, curves drawn
+// on them, and the uncertainty that the registration adds to the band.
 #pragma once
 
 #include <string>

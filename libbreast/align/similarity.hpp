@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laying a simulated view over a patient's mammogram: rotation, translation and scale.
+// Registration of a simulated view to a patient's mammogram by rotation, translation and scale.
 #pragma once
 
 #include <optional>

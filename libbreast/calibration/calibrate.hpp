@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The size of a phantom's breast and the place of its tumour that give wanted displacements.
+// Fit of a phantom's breast size and tumour position to given displacements.
 #pragma once
 
 #include <array>

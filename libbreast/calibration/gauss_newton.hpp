@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Weighted nonlinear least squares of few parameters whose residuals cost minutes.
+// Weighted nonlinear least squares with few parameters and expensive residuals (minutes per
+// evaluation).
 #pragma once
 
 #include <Eigen/Core>

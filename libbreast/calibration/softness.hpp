@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How soft breasts are and what holds them, such that a cohort moves as women's breasts do.
+// Fit of stiffness and supports to the average motion of women's breasts.
 #pragma once
 
 #include <array>

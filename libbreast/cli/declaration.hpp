@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a tool declared about itself: the one source of its help, man page,
-// Markdown page and checks.
+// The declaration of a tool, from which its help, man page, Markdown page and checks are derived.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One line and exit 1 also where no handler of Tool::main is reached.
+// A one-line message and exit code 1 for failures that do not reach the handlers of Tool::main.
 #pragma once
 
 namespace breast {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What libraries print on stderr while a tool runs: kept from the user, who gets one line of ours.
+// Suppression of what libraries print on stderr while a tool runs; the user gets a single line of
+// the tool.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Command line -> declared arguments, with every check that needs no file to be opened.
+// Parsing of a command line into the declared arguments, with all checks that do not open a file.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Limits of the process that are looked at before its libraries start.
+// Checks of the process limits (stack, memory) before the libraries start.
 #pragma once
 
 namespace breast {

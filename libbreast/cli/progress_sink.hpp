@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where progress goes: a bar on a terminal, sparse lines otherwise, nothing with --quiet.
+// Display of progress on stderr: a bar on a terminal, occasional lines otherwise, nothing with
+// --quiet.
 #pragma once
 
 #include <chrono>

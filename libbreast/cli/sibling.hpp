@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A tool that lets another one do part of its work.
+// Running another tool of the installation for part of a tool's work.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long a stage still takes, from the fractions it has reported.
+// Estimate of the remaining time of a stage from the fractions it has reported.
 #pragma once
 
 #include <deque>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One declaration per tool gives its help, man page, Markdown page, checks and exit codes.
+// Declaration and execution of a tool: one declaration gives its help, man page, Markdown page,
+// checks and exit codes.
 //
 //   int main(int argc, char** argv) {
 //     std::filesystem::path mesh, reference;

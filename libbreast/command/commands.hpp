@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The commands of `breast` that are no tools.
+// The commands of `breast` other than the tools.
 #pragma once
 
 #include <string>

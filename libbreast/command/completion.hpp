@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Words that a shell may complete a `breast` command line with.
+// Words with which a shell can complete a `breast` command line.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// File names as make and its shell take them: which may be given as they are, and the stand-ins of the others.
+// File names for make and its shell: those that can be used directly, and substitutes for the
+// others.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `breast run`, `demo` and `cohort` were asked for.
+// The request given to `breast run`, `demo` or `cohort`, parsed from its command line.
 #pragma once
 
 #include <map>

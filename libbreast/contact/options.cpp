@@ -10,14 +10,16 @@
 namespace breast {
 
 namespace {
-/// Of the plates' rounded edges, mm: without and with plates placed by the edge of the image.
+/// Default radius of the plates' rounded edges, mm: without and with plates placed by the edge of
+/// the image.
 constexpr double edge_radius = 15, image_edge_radius = 3;
-/// Coulomb's coefficient of skin on a plate where none is given, beside plates placed by the edge of
-/// the image. Without any a breast that slides on its ribs is squeezed out from between the plates.
+/// Default friction coefficient of skin on plates that are placed by the edge of the image. Without
+/// friction a breast that slides on the chest wall is squeezed out from between the plates.
 constexpr double image_edge_friction = 0.3;
-/// With which a hand pulls such a breast forwards until friction holds it, N.
+/// Default force with which a hand pulls such a breast forwards until friction holds it, N.
 constexpr double image_edge_pull = 30;
-/// From the chest wall to the edge of the image, mm: in the oblique view muscle is seen.
+/// Default distance from the chest wall to the edge of the image, mm: the oblique view shows
+/// muscle.
 constexpr double edge_cc = 5, edge_oblique = 0;
 }  // namespace
 

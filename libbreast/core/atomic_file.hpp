@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results appear by write-then-rename: nobody ever sees half a file.
+// Atomic output files and folders: results are written under a temporary name and then renamed.
 #pragma once
 
 #include <cstdint>

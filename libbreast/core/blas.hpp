@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The BLAS under the factorisations: which one, how many threads, and the right kernels.
+// Configuration of the BLAS used for factorisations: its threads and its processor-specific
+// kernels.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far apart two shapes are, in three numbers.
+// Summary of distances between two shapes: mean, 95th percentile and maximum.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elementary functions with the same last bit on every x86-64 processor.
+// Elementary functions whose results are bitwise identical on every x86-64 processor.
 //
 // The C library chooses its exp, log, pow, sin, cos, tan, atan, acos ... by the processor it runs
 // on: with fused multiply-add another last bit comes out than without. That is enough for a voxel

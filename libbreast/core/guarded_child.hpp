@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Libraries that a damaged file can crash, hang or make greedy do their work in a child process.
+// Execution in a child process, for libraries that a damaged file can crash, hang or make use up
+// memory.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which files are ours to replace: a result never takes the place of another program's file.
+// Recognition of files written by libbreast, so that a result never replaces another program's
+// file.
 #pragma once
 
 #include <filesystem>

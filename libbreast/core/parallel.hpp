@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Threads: one number for the whole process, set once by the tool (OpenMP follows it; BLAS keeps to
-// one, see blas.hpp).
+// The number of threads of the process, set once by the tool (OpenMP uses it; BLAS uses one thread,
+// see blas.hpp).
 #pragma once
 
 namespace breast {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Named numbers that a table and a report both tell.
+// Named numbers that are written to both a table and a report.
 #pragma once
 
 #include <string>

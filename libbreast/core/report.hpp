@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a tool has to say at its end, as nested keys and values; written as JSON by --report.
+// The report of a tool, with nested keys and values, which --report writes as JSON.
 #pragma once
 
 #include <chrono>

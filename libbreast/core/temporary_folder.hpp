@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A folder of one's own for as long as it is needed, also where the program ends without unwinding.
+// A temporary folder that is removed after use, even if the program ends without stack unwinding.
 #pragma once
 
 #include <filesystem>

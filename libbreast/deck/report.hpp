@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What export-deck reports of a deck and of another program's answer.
+// Report entries of export-deck about an exported model and another program's solution.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What another program found, read back onto the mesh the deck was made from.
+// Reading another program's solution back onto the mesh from which the model was exported.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A scene as other finite-element programs take it: the same reference shape, elements, laws,
-// supports and nodal gravity forces as `forward`, without anything a deck cannot say.
+// A mechanical model (scene) in the form that other finite-element programs need: the same
+// reference shape, elements, laws, supports and nodal gravity forces as `forward`, without anything
+// a deck cannot say.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Between 27-node elements and the 20-node (serendipity) ones other programs have.
+// Conversion between 27-node elements and the 20-node (serendipity) elements of other programs.
 #pragma once
 
 #include <array>

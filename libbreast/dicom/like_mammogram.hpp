@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Settings of a compression from the header of a mammogram that it shall imitate.
+// Compression settings from the header of a mammogram that the simulation should imitate.
 #pragma once
 
 #include <filesystem>

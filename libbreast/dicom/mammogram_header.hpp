@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a mammogram's DICOM header says about how it was taken.
+// Acquisition data from the DICOM header of a mammogram.
 #pragma once
 
 #include <filesystem>

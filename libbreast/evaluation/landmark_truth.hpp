@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a chain of meshes puts the material points whose true positions are known.
+// Errors of the landmarks of a chain of meshes against their known true positions.
 #pragma once
 
 #include <map>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What voxels of mixed tissue allow.
+// Agreement of fibroglandular fractions in voxels of mixed tissue, and the best that a labelling
+// can reach.
 #pragma once
 
 #include "image/label_volume.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How tissue moves from the scanned to another posture, in the quantities measured on women: along
+// Motion of tissue from the scanned to another posture, in the quantities measured on women: along
 // the body's axes, and towards the ribs by depth.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A derivative of a shape by what changes the mesh itself, such as the chest wall: by difference of
-// two other models of the same breast.
+// Derivative of a shape with respect to a parameter that changes the mesh, such as the chest wall,
+// by the difference of two other models of the same breast.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a fine solution puts the landmarks, and how far a coarser one of the same body is from it.
+// Landmark positions from a fine solution, with their distance from a coarser solution of the same
+// body as error.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What of a breast mesh is drawn: skin, chest wall, cut, fibroglandular region, plates.
+// Surfaces of a breast mesh for drawing: skin, chest wall, cut, fibroglandular region, plates.
 #pragma once
 
 #include <vector>

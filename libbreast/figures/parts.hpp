@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parts the figures share: colours, views, a breast, its mammogram.
+// Elements that the figures share: colours, views, a breast, its mammogram.
 #pragma once
 
 #include "figures/body_surfaces.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// VTK 9.1 as packaged draws through X only, and aborts without a display. This one is ours alone.
+// A private X display: the packaged VTK 9.1 draws only through X and aborts without a display.
 #pragma once
 
 #include <sys/types.h>

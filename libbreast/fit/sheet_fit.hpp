@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Least squares of a Hermite sheet to points, smoothed by its second derivatives.
+// Least-squares fit of a Hermite sheet to points, smoothed by a penalty on its second derivatives.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace breast {
 
-/// Points a sheet shall pass, each at a parameter.
+/// Data points for a sheet, each with a parameter.
 struct SheetData {
   std::vector<Vec3> points;     ///< mm
   std::vector<Vec3> normals;    ///< unit: the direction whose residual counts fully

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The skin's Hermite sheet, with as many patches as the largest distance needs.
+// Fit of the skin's Hermite sheet, with as many patches as the bound on the largest distance
+// requires.
 #pragma once
 
 #include <functional>

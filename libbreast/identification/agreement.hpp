@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether an answer is one: landmarks that no breast of this mesh could have together.
+// Checks of an identification: landmarks that contradict each other or the mesh.
 #pragma once
 
 #include "identification/identify.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is known of a breast in a second posture.
+// The observations of a breast in a second posture.
 #pragma once
 
 #include <optional>

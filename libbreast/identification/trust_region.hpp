@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nonlinear least squares with derivatives of a model that costs seconds and may have no answer.
+// Nonlinear least squares by a trust region, for models with derivatives that take seconds and may
+// have no solution.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A grey image with coloured lines and areas drawn over it, in pixels.
+// A grey-scale image with coloured lines and areas drawn over it, in pixels.
 #pragma once
 
 #include <array>

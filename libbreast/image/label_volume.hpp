@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `segment` knows about a scan: tissue per voxel, fibroglandular fraction, chest-wall confidence,
-// and where the breast and its nipple are.
+// The result of `segment`: tissue per voxel, fibroglandular fraction, chest-wall confidence, and
+// where the breast and its nipple are.
 #pragma once
 
 #include <cstdint>

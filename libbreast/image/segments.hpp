@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Names and colours of tissues for programs that show segments, and the way back from such names to our codes.
+// Names and colours of tissues for programs that show segments, and the conversion of such names to
+// tissue codes.
 #pragma once
 
 #include <array>

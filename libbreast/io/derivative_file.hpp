@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A mesh file with derivatives beside its shapes (sensitivity); see docs/file-formats.md.
+// Reading and writing mesh files with derivatives of their shapes (sensitivity); see
+// docs/file-formats.md.
 #pragma once
 
 #include "io/mesh_file.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vector fields as .nrrd, as ITK and 3D Slicer read displacement fields.
+// Writing of vector fields as .nrrd, the form in which ITK and 3D Slicer read displacement fields.
 #pragma once
 
 #include <array>

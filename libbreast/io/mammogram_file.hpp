@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mammogram <-> .vti (float; pose as FieldData) and a 16-bit PNG for looking at, through VTK.
+// Reading and writing of a Mammogram as .vti (float; pose as FieldData) and writing of a 16-bit PNG
+// for viewing, with VTK.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points and curves of 3D Slicer (.mrk.json, Markups schema 1.0).
+// Reading and writing of points and curves of 3D Slicer (.mrk.json, Markups schema 1.0).
 #pragma once
 
 #include <array>

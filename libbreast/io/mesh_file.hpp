@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// HexMesh <-> VTKHDF file (schema "mesh/1"). HDF5 only; see docs/file-formats.md.
+// Reading and writing of a HexMesh as a VTKHDF file (schema "mesh/1"), with HDF5 only; see
+// docs/file-formats.md.
 #pragma once
 
 #include <filesystem>

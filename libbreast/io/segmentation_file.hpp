@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Segmentations of 3D Slicer (.seg.nrrd): a label volume whose header says what its values are.
+// Segmentations of 3D Slicer (.seg.nrrd): label volumes whose header names the segment of every
+// value.
 #pragma once
 
 #include <filesystem>

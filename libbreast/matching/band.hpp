@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far the matched curve may be off: uncertainty of parameters and marking, carried to the
-// second image by derivatives of the two compressed shapes.
+// Uncertainty band of the matched curve: the uncertainty of parameters and marking, propagated to
+// the second image by derivatives of the two compressed shapes.
 #pragma once
 
 #include <map>

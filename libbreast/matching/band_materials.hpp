@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a material set leaves open, in the band of cc2mlo.
+// Contribution of a material set's own covariance to the band of cc2mlo.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A point of one mammogram is a column of tissue; the same tissue in another view is a curve. CC to
-// MLO, MLO to CC, or any two compressions of one mesh.
+// Correspondence of mammographic views: a point of one mammogram is a column of tissue, and the
+// same tissue in another view is a curve. CC to MLO, MLO to CC, or any two compressions of one
+// mesh.
 #pragma once
 
 #include <optional>

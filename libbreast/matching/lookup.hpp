@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The matched curves of a whole image on a grid, for looking up while a pointer moves.
+// Matched curves for a grid of points over a whole image, for interactive lookup.
 #pragma once
 
 #include <cstdint>

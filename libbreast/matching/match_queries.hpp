@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Questions to a Matcher and all that is found for each.
+// Queries to a Matcher, and the results for each.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Isotropic laws from first and second derivatives in the invariants I1, I2 alone.
+// Isotropic hyperelastic laws, defined by their first and second derivatives with respect to the
+// invariants I1 and I2.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Derivatives of a law by its constants: what a sensitivity needs and a solve does not.
+// Derivatives of a law with respect to its constants, for sensitivities.
 #pragma once
 
 #include "material/law.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The few numbers by which a whole material set is made softer or stiffer.
+// Parameters that scale the stiffness of a whole material set.
 #pragma once
 
 #include <string>

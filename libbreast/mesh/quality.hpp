@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shape of hexahedra: scaled Jacobian, determinants, volumes.
+// Shape quality of hexahedra: scaled Jacobians, determinants and volumes.
 #pragma once
 
 #include <array>

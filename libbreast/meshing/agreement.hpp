@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether geometry and labels are of the same body.
+// Check that a geometry and labels describe the same body.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The body's boundary in the template's own coordinates: polar (ρ, u) on skin and wall, height on
-// the cut between them.
+// Map of the body's boundary in coordinates of the mesh template: polar (ρ, u) on skin and wall,
+// height on the cut between them.
 #pragma once
 
 #include <vector>

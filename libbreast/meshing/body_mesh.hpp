@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a geometry to a hexahedral mesh of its body: template, placement,
-// smoothing, skin layer, checks.
+// Hexahedral meshing of the body of a geometry: template, placement, smoothing, skin layer, checks.
 #pragma once
 
 #include "meshing/boundary_distance.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A mesh's boundary as triangles, for solvers and programs that mesh for themselves.
+// The boundary of a mesh as triangles, for other solvers and meshing programs.
 #pragma once
 
 #include "mesh/hex_mesh.hpp"

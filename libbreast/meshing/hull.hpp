@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The smooth surface under each face and boundary edge of a mesh: sheets, cut, and the two rims.
+// The smooth surfaces and curves on which boundary nodes lie: sheets, cut, and the two rims.
 #pragma once
 
 #include <vector>

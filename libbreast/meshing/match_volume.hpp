@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Flat faces between nodes on a curved skin cut corners; a shift of the skin nodes gives the body
-// its volume, and so its weight, back.
+// Volume correction of a mesh: flat faces on a curved skin lose volume, and a shift of the skin
+// nodes restores it and hence the weight.
 #pragma once
 
 #include "meshing/place.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Template nodes put into a body: hull nodes on the sheets, the rest by a graph Laplace equation.
+// Placement of template nodes in a body: boundary nodes on the sheets, the others by a graph
+// Laplace equation.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What hexmesh reports.
+// Report entries and doubts of hexmesh.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the tumour point is, and the landmarks of a mesh.
+// Choice of the tumour's position, and the landmarks of a mesh.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts of the page's data, each as one JavaScript literal.
+// The parts of the page's data, each written as one JavaScript literal.
 #pragma once
 
 #include <string>

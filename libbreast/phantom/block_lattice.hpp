@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Node numbers and cells of the slab-and-half-ball template, free of any geometry.
+// Topology of the slab-and-half-ball template: node numbers and cells, without geometry.
 #pragma once
 
 #include <array>

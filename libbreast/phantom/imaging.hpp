@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the scanner sees: matter per subsample of every voxel of the prone scene, and its labels.
+// Sampling of the prone scene for the simulated scanner: matter per subsample of every voxel, and
+// the labels.
 #pragma once
 
 #include "image/label_volume.hpp"

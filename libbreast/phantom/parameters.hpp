@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every number that shapes the phantom, in one place.
+// All parameters of the phantom.
 #pragma once
 
 #include <cstdint>

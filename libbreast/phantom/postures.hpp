@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The physics of the phantom: from the known stress-free shape to the prone and the supine one.
+// Mechanics of the phantom: the prone and supine shapes of its known stress-free shape.
 #pragma once
 
 #include "mechanics/mechanics.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stress-free breast: where it stands on the chest wall and where its skin is.
+// The stress-free breast of the phantom: its base on the chest wall and its skin.
 #pragma once
 
 #include "phantom/chest/torso.hpp"

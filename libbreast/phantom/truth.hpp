@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the phantom knows and the chain has to find: labels, surfaces, landmarks, meshes.
+// The phantom's ground truth for the chain: labels, surfaces, landmarks, meshes.
 #pragma once
 
 #include <filesystem>

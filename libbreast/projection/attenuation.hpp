@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a mammogram's `path` is made of.
+// The quantity that a simulated mammogram projects (`path`): tissue thickness or attenuation.
 #pragma once
 
 #include <Eigen/Core>

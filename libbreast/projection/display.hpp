@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A mammogram as it is looked at: hung, windowed, 16 bits.
+// A mammogram prepared for display: clinical orientation, window, 16 bits.
 #pragma once
 
 #include <cstdint>

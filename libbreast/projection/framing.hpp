@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a mammogram lies: pose and extent of the image of a compressed breast.
+// Pose and extent of the mammogram of a compressed breast.
 #pragma once
 
 #include "mesh/hex_mesh.hpp"

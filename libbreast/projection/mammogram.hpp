@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A projection image on the detector plane with the pose that made it.
+// A projection image on the detector plane, with its pose.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The simulated mammogram: tissue along every ray, sampled in the MR scan the mesh was made from.
+// Simulation of a mammogram: tissue along every ray, sampled in the MR scan from which the mesh was
+// made.
 #pragma once
 
 #include "core/progress.hpp"

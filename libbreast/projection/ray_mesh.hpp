@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// X-rays through a deformed hexahedral mesh: exact entry and exit of every element on a ray.
+// Tracing of X-rays through a deformed hexahedral mesh, with exact entry and exit points of every
+// element.
 #pragma once
 
 #include <Eigen/Core>

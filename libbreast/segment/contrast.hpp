@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether fat is the bright tissue, as in T1 without fat saturation.
+// Check that fat is the bright tissue, as in T1-weighted scans without fat saturation.
 #pragma once
 
 #include <string>

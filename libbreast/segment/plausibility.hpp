@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a scan must be for the rest to make sense, and what to tell its reader.
+// Plausibility checks of a scan and its segmentation, and the messages for the user.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far a segmentation is from where it begins to fail, stage by stage.
+// Quality scores of a segmentation, stage by stage.
 #pragma once
 
 #include <string>

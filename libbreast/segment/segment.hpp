@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a prone bilateral T1 breast MR to the labels of one breast (methods: segmentation).
+// Segmentation of a prone bilateral T1 breast MR into the labels of one breast (see
+// docs/methods.md).
 #pragma once
 
 #include <optional>

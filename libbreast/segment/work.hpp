@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the stages of segmentation pass on to each other.
+// Intermediate results that the stages of segmentation share.
 #pragma once
 
 #include "image/label_volume.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives of a deformed breast through the chain backward → forward or compress: the
-// stress-free shape follows every parameter so that the imaged shape stays the imaged shape.
+// stress-free shape changes with every parameter so that the imaged shape remains the same.
 // docs/methods.md.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a prediction depends on: material constants, weight, gravity, skin, plates.
+// The parameters on which a prediction depends: material constants, weight, gravity, skin, plates.
 #pragma once
 
 #include <string>

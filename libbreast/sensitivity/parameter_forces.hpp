@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ∂R/∂m: how the residual of an equilibrium changes with a parameter at a given shape.
+// The derivative ∂R/∂m of an equilibrium's residual with respect to a parameter at a fixed shape.
 #pragma once
 
 #include <Eigen/Core>

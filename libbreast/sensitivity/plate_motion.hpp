@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plates of a compressed state as the file records them, and how a parameter moves them.
+// The plates of a compressed state as recorded in its file, and their motion with a parameter.
 #pragma once
 
 #include <vector>

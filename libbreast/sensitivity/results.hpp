@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the derivatives of a state say of its landmarks, and the arrays for its file.
+// The derivatives of a state's landmarks as a table, and the arrays for its file.
 #pragma once
 
 #include "core/report.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A mesh's displacement between two of its shapes as vectors on a regular grid.
+// The displacement between two shapes of a mesh, as vectors on a regular grid.
 //
 // Direction, as ITK and 3D Slicer have it: the vector at a grid point p takes p, a place in the first shape, to
 // p + u(p), its place in the second. Slicer reads such a file as a transform "from parent": applied to an image or a

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far a displacement field is from the element map it samples.
+// Error of a displacement field against the element map that it samples.
 #pragma once
 
 #include "slicer/field.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A scan seen in another shape of the breast.
+// Warping of a scan to another shape of the breast.
 #pragma once
 
 #include "slicer/field.hpp"

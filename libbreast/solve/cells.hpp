@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The couplings of a discretisation: which nodes meet in a cell (element or
-// face), as solvers see it.
+// The connectivity of a discretisation for solvers: the nodes of every cell (element or face).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which linear solver a mesh can afford: a cost model fitted to measurements (docs/methods.md,
+// Choice of the linear solver for a mesh by a cost model fitted to measurements (docs/methods.md,
 // section 5).
 #pragma once
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Displacement constraints, each in the axes of its node: the chest wall, rollers, plates.
+// Displacement boundary conditions, each in the axes of its node, for the chest wall, rollers and
+// plates.
 #pragma once
 
 #include <Eigen/Core>

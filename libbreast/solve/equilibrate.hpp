@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Newton's method for the equilibria of a problem with X given: globalised, with prescribed
-// displacements. Near the end a factor may serve several steps: a tangent a little out of date costs
-// some contraction, a factorisation more.
+// Newton's method for the equilibria of a problem with given X: globalised, with prescribed
+// displacements. Near the end a factor may serve several steps: a tangent a little out of date
+// costs some contraction, a factorisation more.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far to go along a Newton direction: one rule for all problems.
+// The line search along a Newton direction, one rule for all problems.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Newton's method, once for all problems: forward, inverse and contact differ only in what they
-// solve for and in what they call balanced (NewtonSystem). The line search is the same for all.
+// Newton's method for all problems: the forward, inverse and contact problems differ only in their
+// unknowns and convergence criteria (NewtonSystem). The line search is the same for all.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The derivative of a problem by its reference shape, kept per cell: it is applied, never factorised.
+// The derivative of a problem with respect to its reference shape, stored per cell: it is applied
+// but never factorised.
 #pragma once
 
 #include <Eigen/Core>

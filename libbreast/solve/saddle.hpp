@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The linear systems of incompressible equilibrium, for whoever builds on them
-// (forward, backward, contact):
+// Solver for the linear systems of incompressible equilibrium (forward, backward, contact):
 //
 //     [ K  −Bᵀ ] [ δu ]   [ −r ]        r = ∂Π/∂u, θ = −∂Π/∂p, K = ∂r/∂u, B = ∂θ/∂u,
 //     [ B   cM ] [ δp ] = [ −θ ]        M pressure mass, c = 1/bulk modulus (0: incompressible)

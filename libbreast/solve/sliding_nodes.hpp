@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nodes that slide on a smooth surface: an exact bilateral constraint, φ(x) = c. Every node keeps
-// its own level c, that of its place in the imaged shape, so that a mesh whose nodes lie a little
-// off the surface is held without a jump.
+// Nodes that slide on a smooth surface: an exact bilateral constraint, φ(x) = c. Every node has its
+// own level c, that of its position in the imaged shape, so that a mesh whose nodes lie slightly
+// off the surface is not moved onto it.
 //
 // Newton's method sees the constraint in three places: the increment is held along the normal at
 // the present x; the force λ∇φ of the surface turns as the node slides, which adds −λ∇²φ to the

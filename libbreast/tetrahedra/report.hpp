@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What hexmesh says of its tetrahedra.
+// Report entries about a tetrahedral mesh.
 #pragma once
 
 #include "core/report.hpp"

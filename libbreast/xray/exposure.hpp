@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a perfect image to one taken with a number of photons and scattered radiation.
+// Simulation of quantum noise and scattered radiation in a noise-free image.
 #pragma once
 
 #include <cstdint>

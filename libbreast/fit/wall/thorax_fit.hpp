@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The chest wall and the rib cage around it, as the surface a breast slides on.
+// Fit of the chest wall and the rib cage around it, as the surface on which a breast slides.
 #pragma once
 
 #include "fit/wall/wall_sheet.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Things on the skin that are not the breast: markers, creams, folds of a few millimetres.
+// Removal of structures on the skin that do not belong to the breast: markers, creams, small folds.
 #pragma once
 
 #include "segment/grid/grid_ops.hpp"

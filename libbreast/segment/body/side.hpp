@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether the breast asked for is the one in the field of view.
+// Check that the requested breast is the one in the field of view.
 #pragma once
 
 #include "segment/body/body.hpp"

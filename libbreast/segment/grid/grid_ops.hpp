@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Grids: axes put in patient order, coarser and finer copies.
+// Operations on volume grids: axes in patient order, coarsening, resampling, rotation.
 #pragma once
 
 #include <cstdint>

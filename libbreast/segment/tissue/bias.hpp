@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Coil sensitivity from the fat's own brightness.
+// Estimation of the coil sensitivity (bias field) from the brightness of fat.
 #pragma once
 
 #include "segment/grid/grid_ops.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the nipple is.
+// Detection of the nipple.
 #pragma once
 
 #include "segment/grid/grid_ops.hpp"

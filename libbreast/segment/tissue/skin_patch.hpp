@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pieces of the skin's surface, seen in their tangent plane.
+// Patches of the skin surface in the coordinates of their tangent plane.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Thickness of the skin, from what it takes off the brightness between air and fat.
+// Measurement of the skin's thickness from the intensity profile between air and fat.
 #pragma once
 
 #include "segment/grid/grid_ops.hpp"

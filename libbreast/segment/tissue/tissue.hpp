@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fat and fibroglandular tissue inside the breast.
+// Separation of fat and fibroglandular tissue inside the breast.
 #pragma once
 
 #include "segment/grid/grid_ops.hpp"

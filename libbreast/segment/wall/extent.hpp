@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which part of the body in front of the chest wall is the breast.
+// Extent of the breast within the body in front of the chest wall.
 #pragma once
 
 #include "core/types.hpp"

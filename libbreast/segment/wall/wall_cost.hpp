@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What speaks for a chest wall at each depth of a column.
+// Cost of a chest wall at each depth of an image column.
 #pragma once
 
 #include <algorithm>

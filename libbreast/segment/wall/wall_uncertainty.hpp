@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far off the chest wall may lie, in mm.
+// Uncertainty of the chest wall's position, in mm.
 #pragma once
 
 #include "segment/wall/chest_wall.hpp"

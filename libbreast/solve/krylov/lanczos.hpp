@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ends of a symmetric map's spectrum by Lanczos' method.
+// Extreme eigenvalues of a symmetric map by Lanczos' method.
 #pragma once
 
 #include <Eigen/Core>
