@@ -30,7 +30,7 @@ class PatientViews {
   /// The priors with alignment_from and alignment_to added.
   std::vector<Prior> with_alignment(std::vector<Prior> priors) const;
   /// The second image with the outline laid over it, bands, curve, arc and
-  /// nipple: one line a query.
+  /// nipple: one line per query.
   ColourPicture picture(const Matcher& matcher, const std::vector<MatchResult>& results) const;
   void report(Report& report) const;
   std::vector<std::string> doubts() const;

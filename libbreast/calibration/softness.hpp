@@ -14,7 +14,7 @@
 
 namespace breast {
 
-/// What is sought, as factors on a set and supports in kPa/mm.
+/// The unknowns: factors on a material set, and supports in kPa/mm.
 struct Softness {
   double low_order = 0.03;  ///< on the constants of polynomial laws that are linear in I1 and I2
   double quadratic = 0.3;   ///< on the others
@@ -27,11 +27,11 @@ struct Softness {
   static Softness from_logarithms(const Eigen::VectorXd& x);
 };
 
-/// `base` so softened, with these supports. Throws Error (input) when fat or fibroglandular tissue has
-/// no polynomial law of equation (9).
+/// `base` scaled by these factors, with these supports. Throws Error (input) when fat or
+/// fibroglandular tissue has no polynomial law of equation (9).
 MaterialSet softened(const MaterialSet& base, const Softness& softness);
 
-/// A mean over women, mm or kPa, and its standard deviation over them.
+/// A mean over women, mm or kPa, and the standard deviation among them.
 struct Observed {
   std::string quantity;
   double mean = 0, sd = 0;

@@ -8,15 +8,16 @@
 
 namespace breast {
 
-/// Becomes `program words...`; returns only by throwing Error (failed).
+/// Replaces this process by `program words...`; returns only by throwing Error (failed).
 [[noreturn]] void become(const std::filesystem::path& program,
                          const std::vector<std::string>& words);
 
-/// Runs `words` (the program first, searched for in PATH) and waits. It shares this process's terminal, whose interrupt is for the
-/// child alone, and ends when this process does. Returns its exit code, 128 + the signal where one ended it.
+/// Runs `words` (the program first, searched for in PATH) and waits. The child shares this
+/// process's terminal and alone receives its interrupts, and ends when this process does. Returns
+/// its exit code, 128 + the signal where one ended it.
 int run_child(const std::vector<std::string>& words);
 
-/// The same, silently: what it printed.
+/// The same without showing the output, which is returned.
 struct Captured {
   int exit_code = 0;
   std::string out, err;

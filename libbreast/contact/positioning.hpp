@@ -36,7 +36,7 @@ Grip grip_before(double reduction);
 /// releases everything early.
 Grip grip_before_any_force();
 
-/// Nodal forces (µN, 3 a node) that pull the skin in front of the plates' edge away from the chest wall,
+/// Nodal forces (µN, 3 per node) that pull the skin in front of the plates' edge away from the chest wall,
 /// `newton` in all: a uniform traction that rises from zero over the 20 mm next to the edge. `x`:
 /// positions, mm. Throws Error (input) when no skin lies in front of the edge.
 Eigen::VectorXd pull_forwards(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate,

@@ -11,13 +11,14 @@ namespace breast {
 
 struct ShapeDifference {
   std::vector<Vec3> per_node;  ///< (plus − minus) / (2 step) at the base's nodes, mm per unit
-  double outside_mm = 0;       ///< farthest a node was from the imaged shape of another model
+  double outside_mm = 0;       ///< largest distance of a node from the imaged shape of another
+                               ///< model
 };
 
-/// Every node of `base` is a place of the MR scan (imaged); it is found in the imaged shapes of
-/// `plus` and `minus`, whose meshes may be any, and followed to their points. Nodes outside take
-/// the nearest place. Throws Error (input) when side or view differ or a node is more than `bound`
-/// mm outside.
+/// Every node of `base` is a position in the MR scan (imaged); it is located in the imaged shapes
+/// of `plus` and `minus`, which may have other meshes, and mapped to their points. Nodes outside
+/// use the nearest position. Throws Error (input) when side or view differ or a node is more than
+/// `bound` mm outside.
 ShapeDifference shape_difference(const HexMesh& base, const HexMesh& plus, const HexMesh& minus,
                                  double step, double bound = 20);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A picture of several panels with parallel projection, so that a millimetre is the same length all
-// over a panel. Hides VTK.
+// A picture of several panels with parallel projection, so that a millimetre has the same length
+// everywhere in a panel. Hides VTK.
 #pragma once
 
 #include <array>

@@ -58,7 +58,7 @@ FitOutcome fit_sheet(int nu, int nv, SheetData& data, const FitControl& control,
                      const std::function<bool(const HermiteSheet&)>& acceptable);
 
 /// Folding of a sheet: smallest cosine between normals of neighbouring samples, and smallest ratio
-/// of its area element |x_s × x_t| to the median, over `per_patch` samples a side.
+/// of its area element |x_s × x_t| to the median, over `per_patch` samples per side.
 struct FoldCheck {
   double min_cosine = 1, min_area_ratio = 1;
   bool folded() const { return !(min_cosine > 0) || !(min_area_ratio > 0.005); }

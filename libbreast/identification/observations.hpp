@@ -11,7 +11,7 @@
 
 namespace breast {
 
-/// A material point of the imaged breast, and where it was seen.
+/// A material point of the imaged breast, and its observed position.
 struct SeenPoint {
   std::string name;
   Location at;           ///< in the imaged shape

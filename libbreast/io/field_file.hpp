@@ -12,8 +12,9 @@
 
 namespace breast {
 
-/// Three float32 a grid point (mm, LPS), kinds "vector domain domain domain"; `notes` as "key:=value" lines. Atomically;
-/// throws Error (failed) when vectors and grid differ in number.
+/// Three float32 per grid point (mm, LPS), kinds "vector domain domain domain"; `notes` as
+/// "key:=value" lines. Writes atomically; throws Error (failed) if the numbers of vectors and grid
+/// points differ.
 void write_field(const std::filesystem::path& file, const Grid& grid,
                  const std::vector<std::array<float, 3>>& vectors,
                  const std::vector<std::pair<std::string, std::string>>& notes);

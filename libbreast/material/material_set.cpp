@@ -54,7 +54,7 @@ bool read_support(const Table& table, std::size_t row, const std::string& name, 
   return true;
 }
 
-/// Rows with the law "uncertainty": one a parameter, with its correlations to all of them.
+/// Rows with the law "uncertainty": one per parameter, with its correlations to all of them.
 SoftnessUncertainty read_uncertainty(const Table& table, const std::string& name) {
   SoftnessUncertainty known;
   std::vector<std::size_t> rows;

@@ -24,7 +24,7 @@ enum class Matter : std::uint8_t {
   heart,
   blood,
   liver,
-  brawn,  ///< muscle of the back and the organs nobody looks at
+  brawn,  ///< muscle of the back and internal organs
 };
 inline constexpr int n_matters = 15;
 

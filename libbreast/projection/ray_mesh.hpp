@@ -30,7 +30,7 @@ struct Ray {
   Vec3 at(double distance) const { return origin + distance * direction; }
 };
 
-/// Chords of neighbouring rays, one list a ray.
+/// Chords of neighbouring rays, one list per ray.
 using ChordPacket = std::array<std::vector<Chord>, packet_rays>;
 
 /// Elements of order 1 are one piece each; those of order 2 are cut into 4×4×4 trilinear pieces

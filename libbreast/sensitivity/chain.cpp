@@ -116,7 +116,7 @@ SensitivityChain::SensitivityChain(const HexMesh& state, const std::vector<doubl
 // −∂R/∂m of both states, and the movement the plates impose.
 struct SensitivityChain::Rights {
   ParameterForces imaged, deformed;
-  Eigen::MatrixXd imposed;  ///< of x, mm (3 a node)
+  Eigen::MatrixXd imposed;  ///< of x, mm (3 per node)
 };
 
 SensitivityChain::Rights SensitivityChain::rights(const std::vector<Parameter>& parameters) const {

@@ -40,10 +40,10 @@ class SensitivityChain {
   SensitivityChain(const HexMesh& state, const std::vector<double>& imaged_pressure,
                    const Vec3& imaged_gravity, const MechanicsOptions& options);
 
-  /// Tangent-linear: two solves a parameter.
+  /// Tangent-linear: two solves per parameter.
   std::vector<Response> tangent(const std::vector<Parameter>& parameters,
                                 Progress& progress = no_progress()) const;
-  /// Adjoint: six solves a landmark, however many parameters.
+  /// Adjoint: six solves per landmark, however many parameters.
   LandmarkGradient adjoint(const Landmark& landmark,
                            const std::vector<Parameter>& parameters) const;
 

@@ -18,7 +18,7 @@ struct Direction {
   Eigen::VectorXd u, p;
 };
 
-/// A right-hand side: forces (µN, 3 a node) and volumes (mm³, pressures an element).
+/// A right-hand side: forces (µN, 3 per node) and volumes (mm³, pressures per element).
 struct Imbalance {
   Eigen::VectorXd force, volume;
 };
@@ -39,7 +39,7 @@ class LinearisedState {
   /// Force (µN) that is not balanced, relative to the load or the plates' force.
   double residual() const { return residual_; }
 
-  /// (δx, δp) of K δx − Bᵀ δp = force, B δx + cM δp = volume; δx is `imposed` (3 a node) along the
+  /// (δx, δp) of K δx − Bᵀ δp = force, B δx + cM δp = volume; δx is `imposed` (3 per node) along the
   /// plates' normals where it is given, held components do not move.
   Direction solve(const Imbalance& right, const Eigen::VectorXd* imposed = nullptr) const;
   /// (λ, μ) of the transposed system K λ + Bᵀ μ = force, −B λ + cM μ = volume.

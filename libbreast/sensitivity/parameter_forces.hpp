@@ -16,9 +16,9 @@ struct LoadedState {
   Vec3 gravity{0, 0, 0};
 };
 
-/// One column a parameter; gravity of the other state and plates have columns of zeros.
+/// One column per parameter; gravity of the other state and plates have columns of zeros.
 struct ParameterForces {
-  Eigen::MatrixXd force;   ///< ∂r/∂m, µN per unit of the parameter (3 a node)
+  Eigen::MatrixXd force;   ///< ∂r/∂m, µN per unit of the parameter (3 per node)
   Eigen::MatrixXd volume;  ///< ∂θ/∂m, mm³ (with a finite bulk modulus only)
 };
 

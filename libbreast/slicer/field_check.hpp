@@ -15,7 +15,7 @@ struct FieldCheck {
       0;  ///< of grid points outside the first shape, taken into the second
 };
 
-/// What a field is expected to keep, mm.
+/// Expected accuracy of a field, mm.
 inline constexpr double accuracy_mm = 0.05;
 
 /// `count` points drawn from a fixed seed. `from` and `to` as given to displacement_field.

@@ -67,7 +67,7 @@ class SaddleSolver {
                    const Eigen::VectorXd& theta, double tolerance = 1e-6,
                    int restarts = gmres_restarts) const;
   /// The change of positions, smallest in the norm of K, that moves held components by `imposed`
-  /// (3 a node, in the span of what is held) and changes the volumes by −theta.
+  /// (3 per node, in the span of what is held) and changes the volumes by −theta.
   Eigen::VectorXd correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
                              const Eigen::VectorXd& theta, double tolerance) const;
 

@@ -23,7 +23,7 @@ Level level_at_wall_node(const LevelSurface& surface, int node, const Vec3& plac
 
 class SlidingNodes {
  public:
-  /// `nodes` ascending; `imaged` (3 a node, mm) gives the levels. Throws Error (input) for a node
+  /// `nodes` ascending; `imaged` (3 per node, mm) gives the levels. Throws Error (input) for a node
   /// where the surface is not known.
   SlidingNodes(std::shared_ptr<const LevelSurface> surface, std::vector<int> nodes,
                const Eigen::VectorXd& imaged);
@@ -35,7 +35,7 @@ class SlidingNodes {
   /// Puts the nodes back on their levels along the gradient; −1, or a node that has left the part
   /// of space where the surface is known.
   int restore(Eigen::VectorXd& x) const;
-  /// The moves (3 a node, mm) within what `held` holds that put the nodes on their levels, to first
+  /// The moves (3 per node, mm) within what `held` holds that put the nodes on their levels, to first
   /// order; empty where a node is beyond the surface.
   Eigen::VectorXd way_back(const Eigen::VectorXd& x, const Constraints& held) const;
   /// Adds the turning of the surface's force to the tangents that are wanted; `forces.r` is complete

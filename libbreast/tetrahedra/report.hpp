@@ -13,7 +13,7 @@ struct TetQuality {
 };
 TetQuality tet_quality(const TetMesh& mesh);
 
-/// Keys tetrahedra/...; `hex_volume` (mm³) is that of the hexahedra they stand for.
+/// Keys tetrahedra/...; `hex_volume` (mm³) is that of the hexahedra that they replace.
 void write_report(const TetMesh& mesh, double hex_volume, Report& report);
 
 }  // namespace breast

@@ -47,7 +47,7 @@ class SurfacePressure final : public Term {
   bool add(const State& state, const Request& request, Forces& forces) const override;
   std::vector<int> nodes() const override;
 
-  /// Forces of one plate on the nodes (µN, 3 a node).
+  /// Forces of one plate on the nodes (µN, 3 per node).
   Eigen::VectorXd plate_forces(const Eigen::VectorXd& x, int plate) const;
   /// Change of the forces of one plate (−1: of both) on the nodes while the plates move, µN per
   /// unit: `slope` gives the motion of the plates and `moved` (3 per node) that of the body, null

@@ -21,7 +21,7 @@ struct VoxelType {
 /// `voxels`: the values in memory order, little-endian. nifti_bytes throws Error (input) for more than
 /// 32767 voxels along an axis, which the format cannot state.
 std::string nrrd_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels);
-/// The same with notes ("key:=value" lines) and `components` numbers a voxel, which stand together: kind vector.
+/// The same with notes ("key:=value" lines) and `components` numbers per voxel, which stand together: kind vector.
 std::string nrrd_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels,
                        const std::vector<std::pair<std::string, std::string>>& notes,
                        int components);

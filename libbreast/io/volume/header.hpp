@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the header of a volume promises, checked before a library sees the file; private to io/volume.
+// Checks of a volume's header before a library reads the file; private to io/volume.
 //
 // ITK's readers fill what is missing with zeros (NIfTI, MetaImage), do not look at the checksum
-// (NRRD), take 1 mm and the patient's axes where the header has neither, and abort on axes that are
-// not orthonormal. A scan of unknown voxel size or orientation must not be guessed: which breast is
-// the left one would be a matter of luck.
+// (NRRD), assume 1 mm and the patient's axes if the header has neither, and abort on axes that are
+// not orthonormal. Voxel size and orientation must not be guessed, since the wrong breast could be
+// taken for the left one.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ namespace breast {
 /// Most voxels a volume may have: a gigabyte as float.
 inline constexpr double most_voxels = double(std::size_t(1) << 28);
 
-/// Throws Error (input) unless the file holds what its header announces (sizes, checksums), in itself
-/// or in one other file of its own folder, and the header states voxel size and orientation that
+/// Throws Error (input) unless the content agrees with the header (sizes, checksums), in itself or
+/// in one other file of its own folder, and the header states voxel size and orientation that
 /// check_scan_grid accepts. Goes by the ending, in any case; other endings pass.
 void check_header(const std::filesystem::path& file);
 

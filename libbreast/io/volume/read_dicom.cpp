@@ -56,7 +56,7 @@ Eigen::Vector2d pixel_spacing(const fs::path& file, const DicomHeader& header) {
   return {values[0], values[1]};
 }
 
-/// Grey values of 8 or 16 bits, one a pixel: what else there is makes GDCM abort, or is no MR.
+/// Grey values of 8 or 16 bits, one per pixel: what else there is makes GDCM abort, or is no MR.
 void check_pixels(const fs::path& file, const DicomHeader& header) {
   const auto text = [&](const char* key) {
     const auto found = header.find(key);

@@ -49,7 +49,7 @@ class RicherProblem {
   std::vector<std::vector<int>> between_;  // corners of every node that is not one
   Scene scene_;
   Problem problem_;
-  State state_;  // 4 pressures an element
+  State state_;            // 4 pressures per element
   Eigen::VectorXd start_;  // positions between those of the corners
   Constraints held_;       // at the state linearised about
   PackedTangent tangent_;

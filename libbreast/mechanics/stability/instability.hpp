@@ -13,7 +13,7 @@ namespace breast {
 
 /// The curvature of the energy along the lowest mode, by term; parts add up to the whole.
 struct Instability {
-  Eigen::VectorXd mode;  ///< mm, 3 a node, its largest component 1; empty: not known
+  Eigen::VectorXd mode;  ///< mm, 3 per node, its largest component 1; empty: not known
   double value = 0;      ///< lowest eigenvalue of the tangent relative to its diagonal
   /// Contribution of a term of the problem, or of the wall's curvature where nodes slide, relative
   /// to the sum of the magnitudes of all.
