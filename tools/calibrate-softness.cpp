@@ -42,7 +42,7 @@ void declare(Tool& tool, Choices& c) {
       "because it depends on the position of the arms. A further breast is compressed between "
       "plates (CC), whose mean pressure should match the clinical one. The fit is by least "
       "squares in the logarithms, with a prior of a factor of three about --expected; the "
-      "covariance that the data leave is written with the set.");
+      "remaining uncertainty is written with the set as a covariance.");
   tool.cite("Pathmanathan et al. 2008, equation (9) and Table II, scaled");
   tool.output_file(c.set, "--set", "OUT.tsv", "the material set found").required("--set");
   tool.inputs(c.cohort, "MESH.vtkhdf", "meshes of breasts imaged prone (hexmesh)");

@@ -71,7 +71,7 @@ void declare(Tool& tool, Choices& c) {
     if (!c.base.empty() && c.result.empty()) throw input_error("--base needs --read-back RESULT");
   });
   tool.example("export-deck reference.vtkhdf supine.inp --bulk-ratio 1000 --without-skin",
-               "then: ccx supine");
+               "input file of CalculiX, which is then run by: ccx supine");
   tool.example(
       "export-deck reference.vtkhdf supine-ccx.vtkhdf --read-back supine.frd "
       "--base supine.vtkhdf",

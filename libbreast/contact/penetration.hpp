@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Depth to which the body penetrates a plate inside its faces, where contact is not imposed.
+// Depth to which the body penetrates a plate between its nodes, where contact is not imposed.
 #pragma once
 
 #include <Eigen/Core>

@@ -19,7 +19,7 @@ struct Attenuation {
   double fat = 0, fibroglandular = 0, skin = 0, tumour = 0;
 };
 
-/// How a ray's tissue becomes one number.
+/// Conversion of the tissue along a ray to one number.
 class Energy {
  public:
   /// "fraction": mm of fibroglandular-equivalent tissue, fat counting half (the grey of

@@ -25,10 +25,10 @@ struct Mammogram {
   std::vector<float> path;       ///< line integral (or tissue-weighted mm) per pixel, u fastest
   std::vector<float> thickness;  ///< mm of tissue along each ray
   std::vector<float> fibroglandular;  ///< mm of fibroglandular tissue along each ray
-  /// 1: the column leaves the mesh through the chest wall or the cut; nothing is known of it and
-  /// the other arrays hold 0.
+  /// 1 if the column leaves the mesh through the chest wall or the cut, so that its tissue is
+  /// unknown and the other arrays are 0.
   std::vector<std::uint8_t> through_back;
-  /// `path` is mm of tissue, not attenuation: no signal of a detector follows from it.
+  /// Whether `path` is mm of tissue instead of attenuation, so that it gives no detector signal.
   bool shows_fraction() const { return energy == "fraction"; }
   History history;
   std::string content_sha256;

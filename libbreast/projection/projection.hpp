@@ -16,8 +16,8 @@ struct ProjectionOptions {
   double pixel = 0.25;  ///< mm
   Beam beam = Beam::parallel;
   Energy energy{};
-  /// Points along the ray are mapped to the imaged shape and looked up here, so that detail is that
-  /// of the scan; null: one tissue per element, as in the paper's Fig. 6.
+  /// Labels in which points of the ray, mapped to the imaged shape, are looked up, so that the
+  /// image has the detail of the scan; null: one tissue per element, as in the paper's Fig. 6.
   const LabelVolume* labels = nullptr;
 };
 

@@ -16,7 +16,7 @@
 
 namespace breast {
 
-/// The stretch of a ray inside one piece of the mesh.
+/// The segment of a ray inside one piece of the mesh.
 struct Chord {
   int piece = 0;
   double enter = 0, leave = 0;  ///< mm along the ray from its detector point (negative: before it)
@@ -49,8 +49,8 @@ class RayMesh {
   /// several times faster. Stops at the border of the table of candidates; returns how many rays
   /// were followed (at least one).
   int trace(const Vec2& uv, double step, int count, ChordPacket& chords) const;
-  /// A column that meets the chest wall or the cut surface continues in
-  /// tissue the mesh does not have.
+  /// Whether a column meets the chest wall or the cut surface and thus continues in tissue outside
+  /// the mesh.
   bool leaves_through_back(const std::vector<Chord>& chords) const;
 
   int element(int piece) const { return piece / pieces_per_element_; }

@@ -9,14 +9,15 @@
 
 namespace breast {
 
-/// Score of a stage: 1 as usual, 0.5 where a reader has to look, 0 as far beyond again.
+/// Score of a stage: 1 is typical, at 0.5 the result should be checked, and 0 is as far again
+/// beyond that.
 struct StageQuality {
   std::string stage;  ///< contrast, wall, extent, tissue
   double score = 1;
   std::string worst;  ///< the quantity that decided
 };
 
-/// Below this a stage is doubtful and the result has to be looked at.
+/// Score below which a stage is doubtful and the result must be checked.
 constexpr double least_quality = 0.5;
 
 /// One score a stage, the least of those of its quantities.

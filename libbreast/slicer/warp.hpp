@@ -10,7 +10,7 @@ namespace breast {
 /// field leads from the shape to be shown to the scan.
 Volume<float> warped(const Volume<float>& scan, const DisplacementField& field, float air = 0);
 
-/// 0 continued, 1 border, 2 body (FieldPart).
+/// The parts of a field as a volume: 0 extrapolated, 1 border, 2 body (FieldPart).
 Volume<std::uint8_t> part_volume(const DisplacementField& field);
 
 }  // namespace breast

@@ -7,7 +7,7 @@
 
 namespace breast {
 
-/// What a Newton step with either solver is expected to take on this machine.
+/// Expected cost of a Newton step with either solver on this machine.
 struct SolverCost {
   double factor_gb = 0, factor_seconds = 0;  ///< direct: memory of the factor and fronts, one step
   double cycle_gb = 0, cycle_seconds = 0;    ///< multigrid

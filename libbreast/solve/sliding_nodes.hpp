@@ -29,17 +29,17 @@ class SlidingNodes {
                const Eigen::VectorXd& imaged);
 
   const std::vector<int>& nodes() const { return cells_.nodes; }
-  /// Adds to `all` that no node leaves its level to first order at x. False where a node is beyond
-  /// the surface.
+  /// Adds to `all` the constraint that no node leaves its level, to first order at x. False if a
+  /// node is beyond the surface.
   bool hold(const Eigen::VectorXd& x, Constraints& all) const;
   /// Puts the nodes back on their levels along the gradient; −1, or a node that has left the part
   /// of space where the surface is known.
   int restore(Eigen::VectorXd& x) const;
-  /// The moves (3 per node, mm) within what `held` holds that put the nodes on their levels, to first
-  /// order; empty where a node is beyond the surface.
+  /// The displacements (3 per node, mm), within the constraints `held`, that return the nodes to
+  /// their levels to first order; empty if a node is beyond the surface.
   Eigen::VectorXd way_back(const Eigen::VectorXd& x, const Constraints& held) const;
-  /// Adds the turning of the surface's force to the tangents that are wanted; `forces.r` is complete
-  /// but for that force. False where a node is beyond the surface.
+  /// Adds the rotation of the surface's force to the requested tangents; `forces.r` is complete
+  /// except for that force. False where a node is beyond the surface.
   bool add_curvature(const State& state, const Request& request, const Forces& forces) const;
 
  private:

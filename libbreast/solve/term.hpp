@@ -14,7 +14,8 @@
 
 namespace breast {
 
-/// What one pass over the terms fills beside energy, r and θ; null means not wanted.
+/// Quantities that one pass over the terms computes besides energy, r and θ; null means not
+/// requested.
 struct Request {
   const Eigen::VectorXd* kappa = nullptr;  ///< fills Forces::augmented
   SaddleMatrix* matrix = nullptr;          ///< the tangent, assembled
