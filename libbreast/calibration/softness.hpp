@@ -37,13 +37,13 @@ struct Observed {
   double mean = 0, sd = 0;
 };
 
-/// Motion from prone to supine of the calibration's cohort against women's, and the mean pressure
-/// of the paddle on one breast.
+/// The data: motion of women's breasts from prone to supine, with the cohort that should match it,
+/// and the mean pressure of the paddle on one breast.
 struct SoftnessData {
   std::vector<HexMesh> cohort;  ///< imaged prone, with wall surfaces
   HexMesh pressed;
   double muscle_mm = 8;
-  Observed lateral, posterior, ribs_change;  ///< of `women` women
+  Observed lateral, posterior, ribs_change;  ///< means over `women` women
   int women = 63;
   Observed pressure{"pressure_kPa", 10, 2.5};  ///< of the paddle on `pressed`
   CompressionOptions press;                    ///< how `pressed` is compressed
@@ -54,8 +54,8 @@ struct SoftnessData {
 struct SoftnessFound {
   Softness softness;
   LeastSquares fit;
-  std::vector<Observed> wanted;  ///< with the standard deviation each was weighted by
-  std::vector<double> found;     ///< means of the cohort and the pressure
+  std::vector<Observed> wanted;  ///< targets, with the standard deviations used as weights
+  std::vector<double> found;     ///< resulting means of the cohort, and the resulting pressure
   MaterialSet materials;         ///< with the uncertainty
 };
 

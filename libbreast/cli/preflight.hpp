@@ -4,8 +4,9 @@
 
 namespace breast {
 
-/// True; a program that asks has the check (preflight.cpp) in it: too small a stack or, where OpenBLAS is needed, too
-/// small a memory limit ends it with one line and exit code 1.
+/// Returns true; a program that calls it is linked with the check (preflight.cpp), which ends the
+/// program with one line and exit code 1 if the limit on the stack or, where OpenBLAS is needed, on
+/// memory is too small.
 bool has_preflight();
 
 }  // namespace breast

@@ -9,9 +9,9 @@
 
 namespace breast {
 
-/// The word our writers leave in files whose format does not name its maker: the comment of a NRRD
-/// or MetaImage header, the description of a NIfTI header and the comment of a gzip stream, a text
-/// chunk of a PNG, the manufacturer of a DICOM file, the first lines of a deck or page.
+/// The word that libbreast writes into files whose format does not name their maker: the comment of
+/// a NRRD or MetaImage header, the description of a NIfTI header and the comment of a gzip stream,
+/// a text chunk of a PNG, the manufacturer of a DICOM file, the first lines of a deck or page.
 inline constexpr std::string_view maker_mark = "libbreast";
 
 /// True when a file's content says that this toolkit wrote it, or when it is empty. HDF5: the seal,
@@ -20,7 +20,7 @@ inline constexpr std::string_view maker_mark = "libbreast";
 /// for it. False also for a file that cannot be read.
 bool written_by_us(const std::filesystem::path& file);
 
-/// Throws Error (input) when something exists at `target` that is not ours to replace. `label` is
+/// Throws Error (input) if a file exists at `target` that was not written by libbreast. `label` is
 /// the argument that named it.
 void check_replaceable(const std::filesystem::path& target, const std::string& label);
 

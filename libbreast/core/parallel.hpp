@@ -13,9 +13,9 @@ constexpr int worth_threads = 20000;
 void set_threads(int threads);
 int threads();
 
-/// Starts the program anew (same process, same arguments) with threads that fall asleep soon when
-/// they wait, unless the environment says how they should wait. Call before there is anything to
-/// lose; returns when nothing has to change, or cannot. OpenMP's own threads spin for milliseconds:
+/// Restarts the program (same process, same arguments) with threads that sleep soon when they wait,
+/// unless the environment states how they should wait. Call this at the start of the program; it
+/// returns if nothing has to be changed, or cannot be. OpenMP's own threads spin for milliseconds:
 /// beside other work they take the core from the thread they wait for (measured: forward 6.7 s
 /// instead of 1.0), on an idle machine they cost a quarter of the CPU time. libgomp reads the
 /// setting while it is loaded; there is no call for it.

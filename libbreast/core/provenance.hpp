@@ -29,7 +29,7 @@ class Sha256 {
 
 struct InputRecord {
   std::string name;    ///< file name without folders (no machine's path enters a file)
-  std::string sha256;  ///< of the content: without history, wall seconds and solve timings
+  std::string sha256;  ///< of the content, without history, run time and solve timings
 };
 
 struct HistoryEntry {

@@ -20,12 +20,13 @@ struct FatContrast {
   double muscle_ratio = 0;  ///< brightness behind the chest wall relative to fat
 };
 
-/// The first two of them, from the scan and the body alone.
+/// Computes the first two quantities, which only need the scan and the body.
 FatContrast contrast_below_skin(const Work& work);
 
 /// Evidence of saturated fat: the sum of a score for each of the four quantities, from 0 at the
-/// limit of scans with bright fat to 1 at the value of a saturated scan. More than `most_evidence`
-/// is refused: at least two of them, or subcutaneous tissue darker than a third.
+/// limit of scans with bright fat to 1 at the value of a saturated scan. A scan with more than
+/// `most_evidence` is refused, which takes at least two abnormal quantities, or subcutaneous tissue
+/// darker than a third.
 double saturation_evidence(const FatContrast& contrast);
 constexpr double most_evidence = 1.3;
 
