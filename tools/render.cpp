@@ -49,7 +49,7 @@ void add_file(const std::filesystem::path& file, const std::string& figure, Figu
 std::string figure_list() {
   std::string list;
   for (const std::string& name : figure_names())
-    list += " " + name + ": " + figure_summary(name) + ".";
+    list += " " + name + " shows " + figure_summary(name) + ".";
   return list;
 }
 
@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
   tool.describe(
       "Draws without a screen: the tool starts and stops an X server of its own (Xvfb), "
       "whatever DISPLAY says. All views are parallel projections with a scale bar in mm; L, A "
-      "and S mark the patient's left, anterior and superior directions. The figures are:" +
+      "and S mark the patient's left, anterior and superior directions. Figures:" +
       figure_list());
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Figs 4 to 7");
   tool.inputs(choices.files, "FILE",

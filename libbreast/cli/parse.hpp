@@ -31,10 +31,10 @@ Argument* find_option(Declaration& tool, const std::string& label);
 /// was given and what is valid.
 void assign(Declaration& tool, const Tokens& tokens);
 
-/// Inputs exist, are files or folders and readable; outputs have an ending of their format and a
-/// folder that is writable, are not inputs (nor in an input folder, nor named by another argument)
-/// and replace nothing but an older result of libbreast. Devices, pipes and streams such as
-/// /dev/stdout are outputs of any format. Throws Error (input).
+/// Checks that inputs exist, are files or folders and are readable, and that outputs have an
+/// extension of their format and a writable folder, are not inputs (nor in an input folder, nor
+/// named by another argument) and replace nothing but an older result of libbreast. Devices, pipes
+/// and streams such as /dev/stdout are outputs of any format. Throws Error (input).
 void check_paths(const Declaration& tool, const Tokens& tokens);
 
 /// "tool arguments" with folders removed from every path and without the common options, as stored

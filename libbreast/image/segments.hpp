@@ -35,8 +35,9 @@ struct TissueCodes {
   bool empty() const { return values.empty() && names.empty(); }
 };
 
-/// From texts like "29=fibroglandular", "wall=3" or "Pectoralis left=wall": a value or a segment's name on one side,
-/// a tissue on the other, where "wall" is muscle. Throws Error (input) beginning with "--code".
+/// Parses texts such as "29=fibroglandular", "wall=3" or "Pectoralis left=wall", which assign a
+/// tissue to a value or to a segment's name; "wall" means muscle. Throws Error (input) beginning
+/// with "--code".
 TissueCodes parse_tissue_codes(const std::vector<std::string>& texts);
 
 /// The segments of a label volume: the tissues that occur, except air. The tags contain tissue,

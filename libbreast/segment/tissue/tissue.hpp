@@ -6,7 +6,7 @@
 
 namespace breast {
 
-/// What tells fibroglandular tissue from fat.
+/// Method that separates fibroglandular tissue from fat.
 enum class Interior {
   threshold,      ///< midway between the brightness of gland and fat
   region_growing  ///< the paper's 3-D confidence-connected growing of fat; what is left is gland
