@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mammograms as DICOM (Digital Mammography X-Ray Image Storage), through GDCM.
+// Reading and writing of mammograms as DICOM (Digital Mammography X-Ray Image Storage), with GDCM.
 #pragma once
 
 #include <filesystem>

@@ -9,18 +9,18 @@
 
 namespace breast {
 
-/// Score of a stage: 1 is typical, at 0.5 the result should be checked, and 0 is as far again
-/// beyond that.
+/// Score of a stage, linear between 1 for typical values, 0.5 where the result should be checked,
+/// and 0.
 struct StageQuality {
   std::string stage;  ///< contrast, wall, extent, tissue
   double score = 1;
-  std::string worst;  ///< the quantity that decided
+  std::string worst;  ///< the quantity with the lowest score
 };
 
 /// Score below which a stage is doubtful and the result must be checked.
 constexpr double least_quality = 0.5;
 
-/// One score a stage, the least of those of its quantities.
+/// One score per stage, the lowest of its quantities.
 std::vector<StageQuality> quality_of(const Segmentation& result);
 
 }  // namespace breast
