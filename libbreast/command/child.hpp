@@ -14,7 +14,7 @@ namespace breast {
 
 /// Runs `words` (the program first, searched for in PATH) and waits. The child shares this
 /// process's terminal and alone receives its interrupts, and ends when this process does. Returns
-/// its exit code, 128 + the signal where one ended it.
+/// its exit code, or 128 plus the signal number if a signal ended it.
 int run_child(const std::vector<std::string>& words);
 
 /// The same without showing the output, which is returned.

@@ -31,11 +31,11 @@ struct Table {
                                     ///< differently
   std::string closed_text() const;  ///< text() and the line "# rows N", as in every file we write
 };
-/// Lines starting with '#' are comments; "# rows N" closes a table of ours and N is checked, so
-/// that a table truncated at the end of a line is refused. Throws Error (input) with the line
-/// number, also for a cell that is nan or inf.
+/// Lines starting with '#' are comments; "# rows N" closes a table written by libbreast, and N is
+/// checked, so that a table truncated at the end of a line is refused. Throws Error (input) with
+/// the line number, also for a cell that is nan or inf.
 Table read_table(const std::filesystem::path& file);
-/// The same from text; `name` is used in errors.
+/// The same from a text; `name` is used in errors.
 Table parse_table(const std::string& text, const std::string& name);
 void write_table(const std::filesystem::path& file, const Table& table);
 /// Shortest text that reads back to the same double.

@@ -8,7 +8,8 @@
 namespace breast {
 
 struct PartialVolume {
-  double dice = 0;      ///< of the given fibroglandular voxels against the true tissue within them
+  double dice = 0;      ///< Dice coefficient of the given fibroglandular voxels with the true
+                        ///< fractions
   double ceiling = 0;   ///< the highest Dice that any labelling of these voxels could reach
   double truth_ml = 0;  ///< fibroglandular tissue by fraction
   double given_ml = 0;  ///< the given volume's own sum of fractions

@@ -23,7 +23,8 @@ struct CellMatrices {
 /// ∂r/∂X, ∂θ/∂X and ∂θ/∂x of a problem. Every term fills a part of its own.
 class ReferenceTangent {
  public:
-  /// Starts anew: the next term gets the first part. Memory of an earlier pass is kept.
+  /// Starts a new pass, in which the next term gets the first part. The memory of an earlier pass
+  /// is reused.
   void begin() { used_ = 0; }
   /// The part of the next term, over `cells`, which must outlive this; its values are undefined.
   CellMatrices& next(const Cells& cells);

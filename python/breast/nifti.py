@@ -42,7 +42,7 @@ def read_nifti(file: Path) -> Volume:
     dtype = np.dtype(code).newbyteorder(order)
     offset = float(header["offset"])
     if not 348 <= offset <= 1e8:
-        raise BreastError(f"voxels said to begin at byte {offset}: must be 348 or more", file)
+        raise BreastError(f"the stated start of the voxels is byte {offset}: must be 348 or more", file)
     needed = int(offset) + count * dtype.itemsize
     # Padding and extensions of other programs may follow the voxels.
     data = exact_bytes(file, inflated(file, content, needed, whole=False) if zipped else content, needed)

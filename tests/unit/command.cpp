@@ -147,7 +147,7 @@ TEST(Request, WhatIsWrongIsSaid) {
       {{"run", "scan", "--side", "left", "SIDE=right"}, "contradict"},
       {{"run", "scan", "--side", "left", "PRESET=a", "PRESET=b"}, "PRESET is given twice"},
       {{"run", "scan", "--side", "left", "RUNS=x"}, "--runs DIR"},
-      {{"run", "scan", "--side", "left", "MR=x"}, "MR is no setting here"},
+      {{"run", "scan", "--side", "left", "MR=x"}, "MR is not a setting here"},
       {{"run", "scan", "--side", "left", "--target", "a b"}, "not the name of a target"},
       {{"run", "scan", "--side", "left", "--jobs", "0"}, "--jobs 0"},
       {{"demo", "scan.nrrd"}, "one argument too many"},

@@ -194,7 +194,7 @@ TEST(SegmentRobustness, UnevenlySaturatedFatIsRefusedUnlessToldOtherwise) {
   const Segmentation result = run(scan, told);
   EXPECT_GT(saturation_evidence(result.contrast), most_evidence);
   EXPECT_TRUE(std::any_of(result.doubts.begin(), result.doubts.end(), [](const std::string& doubt) {
-    return doubt.find("taken as told: fat is saturated") == 0;
+    return doubt.find("accepted as requested: fat is saturated") == 0;
   }));
   EXPECT_EQ(run(patient().scan, told).labels.tissue, patient().base.labels.tissue);
 }
@@ -257,7 +257,7 @@ TEST(SegmentRobustness, AnArmBesideTheBodyIsLeftOutAndSaid) {
   }
   const auto said = [](const Segmentation& result) {
     return std::count_if(result.doubts.begin(), result.doubts.end(), [](const std::string& doubt) {
-      return doubt.find("apart from the torso") != std::string::npos;
+      return doubt.find("separate from the torso") != std::string::npos;
     });
   };
   EXPECT_EQ(said(patient().base), 0);
