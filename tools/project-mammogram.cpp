@@ -121,8 +121,8 @@ int main(int argc, char** argv) {
   declare_label_choices(tool, choices.foreign);
   tool.output_file(
       choices.png, "--png", "FILE.png",
-      "16-bit grey-scale image, oriented as for clinical reading and corrected for the thinner "
-      "tissue at the periphery");
+      "16-bit grey-scale image, oriented as for clinical reading and corrected to the tissue "
+      "thickness between the plates");
   tool.output_file(choices.dicom, "--dicom", "FILE.dcm",
                    "DICOM mammogram (MG) with view, side, thickness, force and pixel spacing");
   tool.choice(choices.dicom_for, "--dicom-for", {"presentation", "processing"},

@@ -41,7 +41,8 @@ int main(int argc, char** argv) {
       "distance of a landmark between the two resolutions is stated as the error of the truth. "
       "For second-order convergence this is about three times the error of the finer mesh; "
       "nothing is subtracted. The result can be given to probe --truth. The prone positions "
-      "remain those of the image; their error is their distance from the finer mesh.");
+      "remain those of the image; their error is the larger of the distance between the "
+      "resolutions and their distance from the finer mesh.");
   tool.input(landmarks, "LANDMARKS.tsv",
              "stress-free, prone and supine positions (phantom --truth)");
   tool.output(out, "OUT.tsv", "the extended table");
