@@ -22,20 +22,22 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Finds the shape the breast would have without gravity: the one that gravity deforms into "
-      "the imaged shape. The equations are those of forward with the reference shape unknown, "
-      "solved by Newton's method with exact derivatives.");
+      "Finds the stress-free (reference) shape of the breast: the shape that gravity deforms "
+      "into the imaged one. The equations are those of forward with the reference shape as the "
+      "unknown; they are solved by Newton's method with exact derivatives.");
   tool.describe(
-      "Without an answer the exit code is 3, nothing is written, and reason in the report says "
-      "why: no_stress_free_body (the unloaded shapes end before the full load: gravity cannot make "
-      "the imaged shape of these tissues), unstable_equilibrium (a body exists, but would not stay "
-      "in the imaged shape), or where the solution method gave up (iteration_limit, "
-      "no_admissible_step, folded_element). stiffness_factor_needed is how many times stiffer all "
-      "tissues must be for a stable body; stability/change and stability/factor are the smallest "
-      "change of tissue, skin, wall or cut alone that gives one, confirmed by solving again.");
+      "If there is no solution, the exit code is 3, nothing is written, and the report's entry "
+      "reason says why: no_stress_free_body (the solution path ends before the full load, so "
+      "that gravity cannot produce the imaged shape with these tissues), unstable_equilibrium "
+      "(a stress-free body exists, but the imaged shape is not a stable equilibrium of it), or "
+      "the point at which the solution method gave up (iteration_limit, no_admissible_step, "
+      "folded_element). stiffness_factor_needed is the factor by which all tissues must be "
+      "stiffened for a stable body to exist; stability/change and stability/factor give the "
+      "smallest change of one tissue, the skin, the wall or the cut that is sufficient, "
+      "confirmed by solving again.");
   tool.describe(
-      "Afterwards the forward problem is solved from the shape found; closure_mm in the report is "
-      "the largest distance of its nodes from the imaged shape.");
+      "Afterwards the forward problem is solved from the shape found; closure_mm in the report "
+      "is the largest distance between its nodes and those of the imaged shape.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), equation (6)");
   tool.input(c.mesh, "MESH.vtkhdf", "mesh of the imaged shape (hexmesh)");
   tool.output(c.reference, "REFERENCE.vtkhdf", "the same mesh, stress-free");
@@ -44,7 +46,7 @@ void declare(Tool& tool, Choices& c) {
   declare_estimate(tool, c.estimate);
   tool.example("backward mesh.vtkhdf reference.vtkhdf", "prone scan, materials of the paper");
   tool.example("backward mesh.vtkhdf reference.vtkhdf --materials mira2018 --scale fat=120",
-               "softer materials identified in vivo, fat 20 % stiffer");
+               "softer materials identified in vivo, with fat 20 % stiffer");
 }
 
 // Largest distance (mm) of the imaged shape from what forward makes of the shape found.
@@ -71,7 +73,7 @@ void check_closure(HexMesh mesh, const Vec3& gravity, const MechanicsOptions& op
   backward.landmark_error_mm = again.landmark_error_mm;
   backward.error_estimate_how = again.error_estimate_how;
   if (worst > 1e-6) {
-    run.warn(message("forward returns to the imaged shape only within ", worst,
+    run.warn(message("forward returns to the imaged shape only to within ", worst,
                      " mm: another equilibrium is near"));
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibrate-softness: the material set with which a cohort moves as women's breasts do.
+// calibrate-softness: finds the material set with which a cohort moves as women's breasts do.
 #include "calibration/softness.hpp"
 #include "cli/tool.hpp"
 #include "contact/options.hpp"
@@ -33,42 +33,48 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Finds how soft fat and fibroglandular tissue are (linear and quadratic terms of the law "
-      "apart), how stiff the skin is, and what resists sliding along the chest wall and at the cut, "
-      "such that the breasts of a cohort move from prone to supine as women's do on average: the "
-      "nipple's lateral and posterior motion, the tissue's change of distance from the ribs. The "
-      "nipple's motion along the body is not used: it depends on where the arms lie. A further "
-      "breast is pressed between plates (CC), whose mean pressure is to be the clinic's. Least "
-      "squares in the logarithms, with a prior of a factor of three about --expected; the covariance "
-      "of what the data leave open is written with the set.");
+      "Finds the stiffness of fat and fibroglandular tissue (with separate factors for the "
+      "linear and the quadratic terms of the law), the stiffness of the skin, and the "
+      "resistance to sliding along the chest wall and at the cut with which the breasts of a "
+      "cohort move from prone to supine as women's breasts do on average. The data are the "
+      "lateral and posterior displacement of the nipple and the change of the tissue's distance "
+      "from the ribs. The nipple's displacement along the long axis of the body is not used, "
+      "because it depends on the position of the arms. A further breast is compressed between "
+      "plates (CC), whose mean pressure should match the clinical one. The fit is by least "
+      "squares in the logarithms, with a prior of a factor of three about --expected; the "
+      "remaining uncertainty is written with the set as a covariance.");
   tool.cite("Pathmanathan et al. 2008, equation (9) and Table II, scaled");
   tool.output_file(c.set, "--set", "OUT.tsv", "the material set found").required("--set");
   tool.inputs(c.cohort, "MESH.vtkhdf", "meshes of breasts imaged prone (hexmesh)");
-  tool.input_file(c.women, "--women", "TABLE.tsv", "columns quantity, mean, sd of living women")
+  tool.input_file(c.women, "--women", "TABLE.tsv",
+                  "measurements on living women, with columns quantity, mean, sd")
       .required("--women");
-  tool.input_file(c.pressed, "--pressed", "MESH.vtkhdf", "mesh of the breast to press")
+  tool.input_file(c.pressed, "--pressed", "MESH.vtkhdf", "mesh of the breast to compress")
       .required("--pressed");
-  tool.text(c.from, "--from", "NAME|FILE", "set whose constants are scaled");
+  tool.text(c.from, "--from", "NAME|FILE", "material set whose constants are scaled");
   tool.numbers(c.expected, "--expected", "LOW,QUADRATIC,SKIN,WALL,CUT", 5,
-               "middle of the prior: three times per cent, then kPa/mm twice");
+               "centre of the prior: the first three in percent, the last two in kPa/mm");
   tool.number(c.data.expected_ln_sd, "--expected-ln-sd", "LN",
-              "its standard deviation, of the logarithm", 0.01, 10);
-  tool.numbers(c.pressure, "--pressure", "MEAN,SD", 2, "of the paddle, kPa");
-  tool.number(c.press.reduction, "--reduction", "PERCENT", "at this reduction of the thickness", 1,
-              95);
+              "standard deviation of the prior, in the logarithm", 0.01, 10);
+  tool.numbers(c.pressure, "--pressure", "MEAN,SD", 2,
+               "clinical mean and standard deviation of the paddle's pressure, kPa");
+  tool.number(c.press.reduction, "--reduction", "PERCENT",
+              "reduction of the thickness at which the pressure is compared", 1, 95);
   tool.text(c.press.image_edge, "--image-edge", "auto|MM",
-            "and with plates that stand as in the clinic, as compress places them by this option");
+            "position of the plates, as in compress");
   tool.number(c.data.muscle_mm, "--muscle", "MM", "thickness of the muscle in front of the ribs", 0,
               50);
   tool.number(c.kept, "--skin-compression", "PERCENT",
-              "of the skin's law that is kept in compression", 0.1, 100);
-  tool.number(c.smoothing, "--skin-smoothing", "WIDTH", "of its transition, squared stretches",
-              1e-4, 0.5);
-  tool.number(c.prestretch, "--skin-prestretch", "PERCENT", "stretch of the skin at rest", 0, 50);
+              "share of the skin's stiffness that remains in compression", 0.1, 100);
+  tool.number(c.smoothing, "--skin-smoothing", "WIDTH",
+              "half the width of the skin's transition to wrinkling, in squared stretches", 1e-4,
+              0.5);
+  tool.number(c.prestretch, "--skin-prestretch", "PERCENT",
+              "stretch of the skin in the stress-free shape of the body", 0, 50);
   tool.check([&c] { compression_options(c.press, posture_gravity(Posture::upright)); });
   tool.example(
       "calibrate-softness --women women.tsv --pressed large.vtkhdf --set invivo.tsv a.vtkhdf b.vtkhdf",
-      "from two breasts, and the pressure on a third");
+      "from the motion of two breasts and the pressure on a third");
 }
 
 Observed observed(const Table& women, const std::string& quantity) {
@@ -83,8 +89,8 @@ HexMesh prone_mesh(const std::filesystem::path& file) {
   HexMesh mesh = read_mesh(file, {.geometry = true});
   if (!mesh.geometry || !mesh.geometry->thorax) {
     throw input_error(file.string(),
-                      ": it holds no wall surface to slide on; make geometry and mesh "
-                      "again with fit-hermite and hexmesh");
+                      ": it has no chest-wall surface to slide on; run fit-hermite and hexmesh "
+                      "again");
   }
   return mesh;
 }

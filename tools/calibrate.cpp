@@ -19,25 +19,30 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Finds the size of a phantom's breast and the distance of its tumour from the breast's axis "
-      "for which nipple and tumour move as far as wanted from the prone to the supine and to the "
-      "stress-free shape. Least squares by BOBYQA (NLopt) on a coarse phantom mesh; prints the "
-      "parameters to put into the preset, with the bounds between which they were sought, and "
-      "warns of one that lies on a bound. Motions are what a chain would report: its own are "
-      "--gain times the phantom's, measured once.");
+      "Finds the size of a phantom's breast, and the distance of its tumour from the breast's "
+      "axis, for which the nipple and the tumour are displaced by given distances between the "
+      "prone and the supine shape and between the prone and the stress-free shape. The fit is "
+      "by least squares with BOBYQA (NLopt) on a coarse phantom mesh. The tool prints the "
+      "parameters to put into the preset with the bounds of the search, and warns of a "
+      "parameter that lies on a bound. The displacements are those that the chain would report, "
+      "which are --gain times the phantom's (measured once).");
   tool.cite("Pathmanathan et al. 2008, Tables III and IV: 8.8 and 3.0 mm, 4.5 and 1.6 mm")
       .cite("Powell 2009, The BOBYQA algorithm, DAMTP 2009/NA06; Johnson, NLopt");
   tool.choice(c.preset, "--preset", preset_names(), "kind of breast");
-  tool.integer(c.seed, "--seed", "N", "which woman of the kind", 0, 1000000000);
+  tool.integer(c.seed, "--seed", "N", "seed of the phantom: another breast of the same kind", 0,
+               1000000000);
   tool.choice(c.side, "--side", {"left", "right"}, "which breast");
-  tool.numbers(c.supine, "--supine", "NIPPLE,TUMOUR", 2, "wanted motion to supine, mm");
-  tool.numbers(c.free, "--stress-free", "NIPPLE,TUMOUR", 2, "wanted motion to stress-free, mm");
+  tool.numbers(c.supine, "--supine", "NIPPLE,TUMOUR", 2,
+               "target displacements from prone to supine, mm");
+  tool.numbers(c.free, "--stress-free", "NIPPLE,TUMOUR", 2,
+               "target displacements from prone to stress-free, mm");
   tool.numbers(c.gain, "--gain", "NIPPLE,TUMOUR", 2,
-               "the chain's motion over the phantom's, measured on a finished case");
+               "ratio of the chain's displacement to the phantom's, measured on a finished case");
   tool.text(c.materials, "--materials", "NAME|FILE", "material set of the breasts");
-  tool.integer(c.evaluations, "--evaluations", "N", "at most so many trial breasts", 4, 1000);
+  tool.integer(c.evaluations, "--evaluations", "N", "largest number of trial breasts", 4, 1000);
   tool.example("calibrate --preset paper --gain 1.28,1.39",
-               "the paper's motions for a chain that moves 28 and 39 % farther than the phantom");
+               "the paper's displacements, for a chain whose displacements are 28 and 39 % "
+               "larger than the phantom's");
 }
 
 void run_calibrate(const Choices& c, Run& run) {
@@ -73,7 +78,7 @@ void run_calibrate(const Choices& c, Run& run) {
 
 int main(int argc, char** argv) {
   Choices c;
-  Tool tool("calibrate", "the phantom whose landmarks move as far as wanted");
+  Tool tool("calibrate", "fit a phantom's size to given landmark displacements");
   declare(tool, c);
   return tool.main(argc, argv, [&c](Run& run) { run_calibrate(c, run); });
 }

@@ -43,7 +43,7 @@ void report_pair(const MatchChoices& choices, const MatchQuery& query, const Mat
   if (choices.supine.empty()) return;
   const HexMesh supine = read_mesh(choices.supine);
   if (supine.connectivity != matcher.from().connectivity) {
-    throw input_error(choices.supine.string(), ": not a shape of the same mesh");
+    throw input_error(choices.supine.string(), ": this is not a shape of the same mesh");
   }
   run.report().set("spot/supine", pair.position(supine, supine.points));
 }
@@ -73,9 +73,9 @@ std::optional<BandModel> band_model(const MatchChoices& choices, const Matcher& 
                                 std::move(priors));
   if (band->counts_marks_only()) {
     throw input_error("--band: ", choices.from.string(), " and ", choices.to.string(),
-                      " share no derivative of their shapes, so that a band would count errors of "
-                      "marking only; give the files that sensitivity makes of both compressions, "
-                      "or leave --band out");
+                      " have no derivatives in common, so that the band would only include "
+                      "errors of marking; give the files that sensitivity writes for both "
+                      "compressions, or omit --band");
   }
   return band;
 }

@@ -8,17 +8,17 @@ namespace breast {
 
 void MatchChoices::check() const {
   question.check();
-  if (!priors.empty() && !band) throw input_error("--priors is for --band");
-  if (!materials.empty() && !band) throw input_error("--materials is for --band");
-  if (!supine.empty() && question.pair.empty()) throw input_error("--supine is for --pair");
+  if (!priors.empty() && !band) throw input_error("--priors needs --band");
+  if (!materials.empty() && !band) throw input_error("--materials needs --band");
+  if (!supine.empty() && question.pair.empty()) throw input_error("--supine needs --pair");
   if (cc_image.empty() != mlo_image.empty()) {
-    throw input_error("--cc-image and --mlo-image go together");
+    throw input_error("--cc-image and --mlo-image must be given together");
   }
   if (cc_image.empty() && !(picture.empty() && cc_nipple.empty() && mlo_nipple.empty())) {
-    throw input_error("--picture, --cc-nipple and --mlo-nipple are for --cc-image, --mlo-image");
+    throw input_error("--picture, --cc-nipple and --mlo-nipple need --cc-image and --mlo-image");
   }
   if (!cc_image.empty() && !question.truth.empty()) {
-    throw input_error("--truth is in mm: no --cc-image");
+    throw input_error("--truth is in mm and cannot be combined with --cc-image");
   }
 }
 
@@ -26,66 +26,79 @@ namespace {
 
 void declare_images(Tool& tool, MatchChoices& choices) {
   tool.describe(
-      "With --cc-image and --mlo-image, the patient's own mammograms, points are pixels of these "
-      "(column,row from the centre of the top left one). Each simulated view is laid over its "
-      "image by a similarity (rotation, translation, scale) that fits the breast's outline, the "
-      "nipple and the chest-wall edge; what is left is added to the band. View, side and pixel "
-      "spacing of the headers must fit the meshes; thickness and angle are compared (compress "
-      "--like). The picture shows the simulated outline as laid over (magenta), curve and bands "
-      "(yellow), arc (blue) and nipple (cross).");
+      "With the patient's own mammograms, --cc-image and --mlo-image, points are pixels of "
+      "these images (column,row counted from the centre of the top left pixel). Each simulated "
+      "view is registered to its image by a similarity (rotation, translation, scale) that fits "
+      "the outline of the breast, the nipple and the chest-wall edge; the residual is added to "
+      "the band. The view, side and pixel spacing in the headers must agree with the meshes; "
+      "thickness and angle are compared (see compress --like). The picture shows the registered "
+      "simulated outline (magenta), the curve and bands (yellow), the arc (blue) and the nipple "
+      "(cross).");
   tool.input_file(choices.cc_image, "--cc-image", "CC.dcm", "the patient's CC mammogram");
   tool.input_file(choices.mlo_image, "--mlo-image", "MLO.dcm",
                   "the patient's mammogram of the other view");
   tool.numbers(choices.cc_nipple, "--cc-nipple", "x,y", 2,
-               "nipple in the CC image in pixels; without, its most anterior part");
-  tool.numbers(choices.mlo_nipple, "--mlo-nipple", "x,y", 2, "the same in the other image");
-  tool.output_file(choices.picture, "--picture", "OUT.png", "the second image with what was found");
+               "nipple in the CC image in pixels (default: the most anterior point of the "
+               "outline)");
+  tool.numbers(
+      choices.mlo_nipple, "--mlo-nipple", "x,y", 2,
+      "nipple in the other image in pixels (default: the most anterior point of the outline)");
+  tool.output_file(choices.picture, "--picture", "OUT.png",
+                   "the second image with the curve, bands, arc and nipple drawn over it");
   tool.output_file(choices.curve_table, "--curve-table", "OUT.tsv",
-                   "every point of the curves: mm, deviation, pixels of the second image");
+                   "table of all points of the curves: position in mm, standard deviation, "
+                   "pixel of the second image");
 }
 
 }  // namespace
 
 void declare_match(Tool& tool, MatchChoices& choices) {
   tool.describe(
-      "A point of the CC mammogram is the shadow of a column of tissue. The column is followed "
-      "through the material to the MLO compression and projected there: the point must lie on that "
-      "curve. Views follow from the files: any two compressions of one mesh will do, in either "
-      "order. Beside the curve the rules radiologists use: the arc of equal distance from the "
-      "nipple and the straight line of equal depth behind it. u and v are mm from the origin "
-      "stored in the mammogram. The table goes to stdout or --table.");
+      "A point of the CC mammogram is the projection of a column of tissue. The column is "
+      "followed through the deformation to the MLO compression and projected there; the point "
+      "must lie on the resulting curve. The views are read from the files: any two compressions "
+      "of one mesh can be given, in either order. The rules that radiologists use are given "
+      "beside the curve: the arc of equal distance from the nipple and the straight line of "
+      "equal depth behind it. u and v are in mm from the origin stored in the mammogram. The "
+      "table is written to stdout or to --table.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), section IV-A, Figs 6 and 7");
   tool.input(choices.from, "CC.vtkhdf", "compression in which the point is marked");
   tool.input(choices.to, "MLO.vtkhdf", "compression of the same mesh in another view");
-  tool.output(choices.curve, "CURVE.vtp", "curve, arc, line, chord and the column in every shape");
-  tool.numbers(choices.question.point, "--point", "u,v", 2, "point of the first image in mm");
+  tool.output(choices.curve, "CURVE.vtp",
+              "curve, arc, line and chord, and the column in every shape");
+  tool.numbers(choices.question.point, "--point", "u,v", 2, "point in the first image, mm");
   tool.numbers(choices.question.pair, "--pair", "u,v,u,v", 4,
-               "the same spot in both images: also its place in the body, with residuals");
-  tool.input_file(choices.supine, "--supine", "SUPINE.vtkhdf", "with --pair: the spot there too");
+               "the same spot marked in both images; its position in the body is given too, "
+               "with residuals");
+  tool.input_file(choices.supine, "--supine", "SUPINE.vtkhdf",
+                  "with --pair, also give the position of the spot in this supine shape");
   tool.text(
       choices.question.landmark, "--landmark", "NAME",
-      "projection of this landmark of the meshes, such as tumour; its own place in the second "
-      "view is compared");
+      "use the projection of this landmark of the meshes, such as tumour; the curve is compared "
+      "with its position in the second view");
   tool.input_file(choices.question.points, "--points", "FILE",
-                  "TSV with u_mm, v_mm (with --cc-image x_px, y_px) and perhaps name");
+                  "TSV of points with columns u_mm, v_mm (with --cc-image: x_px, y_px) and "
+                  "optionally name");
   tool.input_file(
       choices.question.truth, "--truth", "FILE",
-      "TSV of true positions: landmark, side, cc_x_mm ... mlo_z_mm (truth-table): distances of the "
-      "true place from curve, chord, arc and line, a row a landmark, then mean, 95 % and largest, "
-      "and the part of them in the bands");
+      "TSV of true positions with columns landmark, side, cc_x_mm ... mlo_z_mm (truth-table). "
+      "The table then has one row per landmark with the distances of its true position from the "
+      "curve, chord, arc and line, followed by their mean, 95th percentile and maximum, and the "
+      "share of landmarks inside the bands");
   tool.integer(choices.question.grid, "--grid", "N",
-               "N x N points over the tissue of the first image", 0, 200);
+               "use N x N points over the tissue of the first image", 0, 200);
   tool.flag(choices.band, "--band",
-            "50 % and 95 % bands from parameters, thickness, angle, chest wall and marking "
-            "(derivatives in the "
-            "files by sensitivity and difference)");
+            "draw 50 % and 95 % bands from the uncertainty of parameters, thickness, angle, "
+            "chest wall and marking (the files must have derivatives from sensitivity and "
+            "difference)");
   tool.input_file(choices.priors, "--priors", "FILE",
-                  "TSV parameter, standard_deviation (1: relative, degree or mm) for --band");
+                  "standard deviations for --band: TSV with columns parameter and "
+                  "standard_deviation (relative, degrees or mm)");
   tool.text(choices.materials, "--materials", "NAME|FILE",
-            "with --band: the set the files were made with, whose own covariance (identify) takes the place "
-            "of the priors of stiffness and support");
+            "with --band, the material set with which the files were made; its covariance "
+            "(identify) replaces the priors of stiffness and support");
   tool.choice(choices.geometry, "--geometry", {"parallel", "cone"},
-              "beam, as in project-mammogram");
+              "X-ray beam, as in project-mammogram");
   tool.output_file(choices.table, "--table", "OUT.tsv", "one row per point");
   declare_images(tool, choices);
   tool.describe(default_priors_text());
@@ -93,7 +106,7 @@ void declare_match(Tool& tool, MatchChoices& choices) {
   tool.example("cc2mlo cc.vtkhdf mlo.vtkhdf curve.vtp --landmark tumour --table curve.tsv",
                "where the tumour seen in CC lies in MLO");
   tool.example("cc2mlo cc.vtkhdf mlo.vtkhdf curve.vtp --pair 31,52,35,48 --supine supine.vtkhdf",
-               "a spot marked in both views: its place in the MR scan and supine");
+               "a spot marked in both views, and its position in the MR scan and supine");
   tool.example(
       "cc2mlo cc.vtkhdf mlo.vtkhdf curve.vtp --cc-image CC.dcm --mlo-image MLO.dcm --point "
       "812,1303 --picture where.png --curve-table where.tsv",

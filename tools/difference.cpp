@@ -41,26 +41,36 @@ void run_difference(const Choices& c, Run& run) {
 
 int main(int argc, char** argv) {
   Choices c;
-  Tool tool("difference", "derivative of a shape by what changes the mesh, from two other models");
+  Tool tool("difference",
+            "derivative of a shape with respect to a parameter that changes the "
+            "mesh, from two other models");
   tool.describe(
-      "sensitivity differentiates by materials, gravity and plates; the chest wall changes the "
-      "mesh itself. The chain is run again with the wall moved back and forth (segment "
-      "--chest-wall-shift), and every node of STATE, a place of the scan, is followed in both: "
-      "half the difference is the derivative, a term of the band of cc2mlo and match-lookup.");
-  tool.input(c.state, "STATE.vtkhdf", "the shape, perhaps with derivatives (sensitivity)");
-  tool.input(c.plus, "PLUS.vtkhdf", "the same posture or view, parameter larger by the step");
-  tool.input(c.minus, "MINUS.vtkhdf", "the same, smaller by the step");
-  tool.output(c.out, "OUT.vtkhdf", "STATE with array derivative_PARAMETER beside those it has");
-  tool.text(c.parameter, "--parameter", "NAME", "what was changed, as named in the band's priors");
-  tool.number(c.step, "--step", "unit", "by how much either way", 1e-12);
+      "The tool sensitivity differentiates with respect to materials, gravity and plates; a "
+      "change of the chest wall changes the mesh itself. The chain is therefore run twice more "
+      "with the wall moved backwards and forwards (segment --chest-wall-shift), and every node "
+      "of STATE is located in both results by its position in the scan. Half the difference is "
+      "the derivative; it becomes a term of the band of cc2mlo and match-lookup.");
+  tool.input(c.state, "STATE.vtkhdf",
+             "the shape, which may already have derivatives (sensitivity)");
+  tool.input(c.plus, "PLUS.vtkhdf",
+             "the same posture or view with the parameter increased by "
+             "the step");
+  tool.input(c.minus, "MINUS.vtkhdf",
+             "the same posture or view with the parameter decreased by the step");
+  tool.output(c.out, "OUT.vtkhdf", "STATE with an additional array derivative_PARAMETER");
+  tool.text(c.parameter, "--parameter", "NAME",
+            "parameter that was changed, as it is named in the band's priors");
+  tool.number(c.step, "--step", "unit",
+              "step of the parameter in either direction, in its own unit", 1e-12);
   tool.check([&] {
     if (c.parameter.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") != std::string::npos ||
         c.parameter.empty()) {
-      throw input_error("--parameter '", c.parameter, "': small letters and _ expected");
+      throw input_error("--parameter '", c.parameter,
+                        "': only lower-case letters and _ are allowed");
     }
   });
   tool.example(
       "difference cc-sensitivity.vtkhdf wall/back/cc.vtkhdf wall/front/cc.vtkhdf cc-band.vtkhdf",
-      "the chest wall's one standard deviation in the CC view");
+      "effect of one standard deviation of the chest wall in the CC view");
   return tool.main(argc, argv, [&c](Run& run) { run_difference(c, run); });
 }

@@ -50,37 +50,43 @@ int main(int argc, char** argv) {
   bool curves = false;
   Tool tool("evaluate", "agreement of a segmentation or a surface with the truth");
   tool.describe(
-          "Two label volumes: Dice and volumes of every tissue, of the breast (fat, "
-          "fibroglandular, skin and tumour together) and of the body (all but air, where both "
-          "volumes have voxels), the chest walls' distance along y where the true breast has "
-          "muscle behind it, distances between the breasts' surfaces (good to half a voxel) and "
-          "between the nipples. Two surfaces or point sets (.vtp), or a label volume and a "
-          "surface: distances. Prints a table of quantity and value to stdout.")
+          "Compares two label volumes, two surfaces or point sets (.vtp), or a label volume and "
+          "a surface, and prints a table of quantities and values to stdout. For two label "
+          "volumes these are the Dice coefficient and the volume of every tissue, of the breast "
+          "(fat, fibroglandular tissue, skin and tumour together) and of the body (everything "
+          "but air, where both volumes have voxels); the distance between the chest walls along "
+          "y where the true breast has muscle behind it; and the distances between the breasts' "
+          "surfaces (accurate to half a voxel) and between the nipples. In the other cases they "
+          "are the distances between the surfaces.")
       .cite("Dice 1945, Ecology 26(3):297-302");
   tool.input(given_file, "GIVEN",
              "label volume (.vtkhdf, .seg.nrrd, .nrrd, .nii, .mha) or surface (.vtp)");
-  tool.input(truth_file, "TRUTH", "the same, taken as true");
+  tool.input(truth_file, "TRUTH", "label volume or surface that is taken as true");
   tool.texts(code_texts, "--code", "NUMBER=TISSUE|NAME=TISSUE",
-             "meaning of a foreign code, or of a segment of that name, in a volume not of ours");
+             "tissue of a code, or of a named segment, in a label volume that was not made by "
+             "libbreast");
   tool.input_file(region_file, "--region", "FILE",
-                  "volume outside which the truth's breast is ignored");
-  tool.integer(region_code, "--region-code", "CODE", "value of the region; 0 takes any but 0", 0,
-               65535);
+                  "volume of a region; the true breast is ignored outside it");
+  tool.integer(region_code, "--region-code", "CODE",
+               "value of the region's voxels; 0 takes every value but 0", 0, 65535);
   tool.flag(curves, "--curves",
-            "both files are curves of cc2mlo: distance of the matched curves on the MLO detector");
-  tool.example("evaluate no-skin/curve.vtp curve.vtp --curves", "what a change of model moves");
+            "both files are curves of cc2mlo; print the distance between the matched curves on "
+            "the MLO detector");
+  tool.example("evaluate no-skin/curve.vtp curve.vtp --curves",
+               "how far a change of the model moves the curve");
   tool.integer(nipple_code, "--nipple-code", "CODE",
-               "code of the nipple in a foreign TRUTH: the point of the skin nearest to its centre "
-               "is the true nipple",
+               "code of the nipple in TRUTH; the point of the skin nearest to the centre of its "
+               "voxels is taken as the true nipple",
                1, 65535);
   tool.input_file(fraction_file, "--fraction", "FILE",
-                  "true share of fibroglandular tissue per voxel (0-1 or 0-255): prints the Dice "
-                  "within voxels and the most any labelling of these voxels could reach");
+                  "true fibroglandular fraction of every voxel (0-1 or 0-255); prints also the "
+                  "Dice coefficient of the fractions and the highest one that any labelling of "
+                  "these voxels could reach");
   tool.example("evaluate labels.vtkhdf truth/labels-left.vtkhdf", "a segmentation of the phantom");
   tool.example(
       "evaluate labels.vtkhdf labels_mr.nrrd --code 1=fat --code 29=fibroglandular --code 2=skin "
       "--region side.nrrd --region-code 1",
-      "against a volume with codes of its own and both breasts");
+      "comparison with a volume that has its own codes and shows both breasts");
   tool.check([&] { parse_tissue_codes(code_texts); });
   return tool.main(argc, argv, [&](Run& run) {
     const TissueCodes codes = parse_tissue_codes(code_texts);
@@ -108,7 +114,7 @@ int main(int argc, char** argv) {
     if (truth_labels && nipple_code > 0) {
       const auto centre = skin_over_code(foreign, nipple_code, *truth_labels);
       if (!centre)
-        throw input_error("--nipple-code ", nipple_code, ": no such voxel in the breast");
+        throw input_error("--nipple-code ", nipple_code, ": the breast has no voxel of this code");
       truth_labels->landmarks["nipple"] = *centre;
     }
     if (given_labels && truth_labels)
@@ -121,8 +127,8 @@ int main(int argc, char** argv) {
     run.progress().update("distances", -1, "");
     if (given_labels) given = breast_surface(*given_labels);
     if (truth_labels) truth = breast_surface(*truth_labels);
-    if (given.points.empty()) throw input_error(given_file.string(), ": holds no breast");
-    if (truth.points.empty()) throw input_error(truth_file.string(), ": holds no breast");
+    if (given.points.empty()) throw input_error(given_file.string(), ": shows no breast");
+    if (truth.points.empty()) throw input_error(truth_file.string(), ": shows no breast");
     const SurfaceComparison comparison = compare_surfaces(given, truth);
     tell(distance_quantities("surface", comparison.both), table, run.report());
     tell(distance_quantities("surface_to_truth", comparison.to_truth), table, run.report());

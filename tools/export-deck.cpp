@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// export-deck: a scene for FEBio or CalculiX, and their result back as a mesh.
+// export-deck: writes a model for FEBio or CalculiX, and reads their result back as a mesh.
 #include "cli/mechanics_options.hpp"
 #include "cli/tool.hpp"
 #include "core/atomic_file.hpp"
@@ -29,31 +29,35 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Writes what forward would solve (stress-free shape, laws, held nodes, gravity) as input of "
-      "CalculiX or Abaqus (OUT.inp) or FEBio 4 (OUT.feb): the same nodes, elements and laws of the "
-      "isochoric invariants. These programs hold volume by a bulk modulus, --bulk-ratio (1000 when "
-      "not given). A membrane skin is not in them: mesh with hexmesh --skin-as layer or --skin 0, "
-      "or leave it out knowingly. Law (10) is in FEBio only. CalculiX takes gravity as the nodal "
-      "forces forward uses, FEBio as a body force per unit mass.");
+      "Writes the problem that forward would solve (stress-free shape, material laws, held "
+      "nodes, gravity) as an input file of CalculiX or Abaqus (OUT.inp) or of FEBio 4 "
+      "(OUT.feb), with the same nodes, elements and laws in the isochoric invariants. These "
+      "programs preserve volume by a bulk modulus, --bulk-ratio (1000 if it is not given). They "
+      "have no membrane skin: mesh with hexmesh --skin-as layer or --skin 0, or omit the skin "
+      "with --without-skin. Only FEBio has law (10). CalculiX receives gravity as the nodal "
+      "forces that forward uses, FEBio as a body force per unit mass.");
   tool.describe(
-      "With --read-back RESULT writes OUT.vtkhdf instead: the mesh displaced as the other program "
-      "found, for probe and render. --base compares it node by node with another shape of the same "
-      "mesh.");
+      "With --read-back RESULT the tool writes OUT.vtkhdf instead: the mesh with the "
+      "displacements that the other program found, for probe and render. --base compares it "
+      "node by node with another shape of the same mesh.");
   tool.cite(
       "Dhondt 2004, The Finite Element Method for Three-Dimensional Thermomechanical "
       "Applications (CalculiX); Maas et al. 2012, J Biomech Eng 134(1) (FEBio)");
   tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
-  tool.output(c.out, "OUT.inp|OUT.feb|OUT.vtkhdf", "deck, or with --read-back the displaced mesh");
+  tool.output(c.out, "OUT.inp|OUT.feb|OUT.vtkhdf",
+              "input file of the other program, or with --read-back the displaced mesh");
   declare_gravity(tool, c.gravity, "direction of gravity");
   declare_mechanics(tool, c.mechanics);
-  tool.flag(c.without_skin, "--without-skin", "leave a membrane skin out of the deck");
+  tool.flag(c.without_skin, "--without-skin", "omit a membrane skin from the model");
   tool.text(
       c.calculix_element, "--calculix-element", "TYPE",
-      "C3D8I, C3D8, C3D8R, or with 27-node elements C3D20R, C3D20 (the first is the default)");
+      "element type: C3D8I, C3D8 or C3D8R, and with 27-node elements C3D20R or C3D20 (default: "
+      "C3D8I or C3D20R)");
   tool.input_file(c.result, "--read-back", "RESULT",
-                  "displacements of the deck's nodes: .frd or .dat (CalculiX), .log (FEBio)");
+                  "displacements of the nodes as the other program wrote them: .frd or .dat "
+                  "(CalculiX), .log (FEBio)");
   tool.input_file(c.base, "--base", "FILE.vtkhdf",
-                  "with --read-back: mesh to compare with, node by node");
+                  "with --read-back, the mesh with which the result is compared node by node");
   tool.check([&c] {
     const std::string ending = c.out.extension().string();
     const bool mesh = ending == ".vtkhdf";
@@ -62,27 +66,29 @@ void declare(Tool& tool, Choices& c) {
     }
     if (mesh == c.result.empty()) {
       throw input_error(mesh ? "OUT.vtkhdf needs --read-back RESULT"
-                             : "--read-back writes a mesh: name OUT.vtkhdf");
+                             : "--read-back writes a mesh: the output must be OUT.vtkhdf");
     }
     if (!c.base.empty() && c.result.empty()) throw input_error("--base needs --read-back RESULT");
   });
   tool.example("export-deck reference.vtkhdf supine.inp --bulk-ratio 1000 --without-skin",
-               "then: ccx supine");
+               "input file of CalculiX, which is then run by: ccx supine");
   tool.example(
       "export-deck reference.vtkhdf supine-ccx.vtkhdf --read-back supine.frd "
       "--base supine.vtkhdf",
-      "CalculiX's answer as a mesh, and its distance to ours");
+      "CalculiX's solution as a mesh, and its distance from that of forward");
 }
 
 DeckScene scene_of(const Choices& c, const HexMesh& mesh, Run& run) {
   MechanicsOptions options = mechanics_options(c.mechanics);
   if (!(options.bulk_ratio > 0)) {
     options.bulk_ratio = default_bulk_ratio;
-    run.warn(message("exactly incompressible cannot be written: bulk over shear modulus ",
-                     default_bulk_ratio, " instead (--bulk-ratio)"));
+    run.warn(
+        message("an exactly incompressible law cannot be written: the ratio of bulk to "
+                "shear modulus is ",
+                default_bulk_ratio, " instead (see --bulk-ratio)"));
   }
   if (mesh.skin_model == SkinModel::membrane && c.without_skin) {
-    run.warn("the membrane skin is left out");
+    run.warn("the membrane skin is omitted");
   }
   return deck_scene(mesh, options, c.gravity.vector(), c.without_skin);
 }
@@ -118,7 +124,9 @@ void read_back(const Choices& c, HexMesh mesh, Run& run) {
 
 int main(int argc, char** argv) {
   Choices c;
-  Tool tool("export-deck", "a scene for FEBio or CalculiX, and their result back as a mesh");
+  Tool tool("export-deck",
+            "write a model for FEBio or CalculiX, and read their result back as "
+            "a mesh");
   declare(tool, c);
   return tool.main(argc, argv, [&c](Run& run) {
     HexMesh mesh = read_mesh(c.reference, {.reference = true});

@@ -21,8 +21,9 @@ struct Choices {
   void check() const {
     std::error_code ignored;
     if (fs::weakly_canonical(folder, ignored) == fs::weakly_canonical(run, ignored)) {
-      throw input_error("DIR: ", folder, " is the run itself; name another folder, such as ",
-                        folder, "/slicer");
+      throw input_error("DIR: ", folder,
+                        " is the folder of the run itself; give another folder, such as ", folder,
+                        "/slicer");
     }
     fs::path bare = folder;
     if (!bare.has_filename()) bare = bare.parent_path();  // "scene/"
@@ -38,41 +39,43 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-          "Writes the run for 3D Slicer: the scan, the labels as a segmentation with names and "
+          "Writes a run for 3D Slicer: the scan, the labels as a segmentation with names and "
           "colours, every shape as a volume mesh (.vtu) and a surface (.vtp), the landmarks of "
-          "every shape and the curve of a CC point (.mrk.json), displacement fields, the scan as it "
-          "would look in the supine breast, and scene.mrml, which opens all of it. All places are "
-          "LPS and mm, stated in every file.")
+          "every shape and the curve of a CC point (.mrk.json), displacement fields, the scan "
+          "warped to the supine breast, and scene.mrml, which opens all of these. All "
+          "coordinates are LPS in mm, as every file states.")
       .describe(
-          "A field A-points-to-B.nrrd takes a point of A to its place in B (a displacement field as "
-          "ITK has it). Slicer reads it as a transform from parent: applied to an image, a "
-          "segmentation or a model that lies in B, it shows it in A. To see the scan in the supine "
-          "breast, apply supine-points-to-scan to it. Outside the body a field continues the map of "
-          "the nearest elements for one cell, then nearly harmonically; -part.nrrd tells the three "
-          "apart (2 body, 1 border, 0 continued). Its error against the element map is measured at "
-          "1000 random points of the body, and printed.")
+          "A displacement field A-points-to-B.nrrd maps a point of shape A to its position in "
+          "shape B, by ITK's convention. 3D Slicer reads it as a transform from parent: an "
+          "image, a segmentation or a model of shape B to which it is applied is shown in shape "
+          "A. To see the scan in the supine breast, apply supine-points-to-scan to it. Outside "
+          "the body a field extrapolates the map of the nearest elements over one grid cell, "
+          "and is nearly harmonic beyond; -part.nrrd distinguishes the three parts (2 body, 1 "
+          "border, 0 extrapolated). The error of the field against the element map is measured "
+          "at 1000 random points of the body and printed.")
       .cite("3D Slicer documentation, developer guide: segmentations, markups, transforms");
   // No input as others are: reports and the scene may lie in it, as the pipeline has them.
   tool.word(c.run, "RUN",
-            "folder of a run: labels, mesh and what there is of reference, supine, cc, mlo, curve");
+            "folder of a run with labels, mesh and, where they exist, reference, supine, cc, "
+            "mlo and curve");
   tool.word(c.folder, "DIR",
-            "folder to fill; it may exist, files of other programs in it are kept");
+            "output folder; it may exist already, and files of other programs in it are kept");
   tool.input_file(
       c.scan, "--scan", "MR",
-      "the scan the labels were made from (file or DICOM folder); without it there is no "
-      "background, and fields lie on the labels' grid");
+      "scan from which the labels were made (file or DICOM folder); without it the scene has no "
+      "background image, and the fields have the grid of the labels");
   tool.integer(c.series, "--series", "N", "which series of a DICOM folder (0: the only one)", 0,
                10000);
   tool.number(
       c.spacing, "--spacing", "MM",
-      "distance of the fields' grid points along every axis; without it the scan's own grid, "
-      "slices divided until they are at most 1.25 mm apart",
+      "grid spacing of the fields along every axis (default: the grid of the scan, with its "
+      "slices subdivided until they are at most 1.25 mm apart)",
       0.1, 20);
-  tool.flag(c.no_fields, "--no-fields", "leave out displacement fields and the warped scan");
+  tool.flag(c.no_fields, "--no-fields", "write neither displacement fields nor the warped scan");
   tool.check([&c] { c.check(); });
   tool.example("export-slicer runs/scan-left scene --scan scan.nrrd",
                "then open scene/scene.mrml in 3D Slicer");
-  tool.example("export-slicer runs/average scene --spacing 2", "small fields, on the labels' axes");
+  tool.example("export-slicer runs/average scene --spacing 2", "smaller fields, on a coarser grid");
 }
 
 void run_export(const Choices& c, Run& run) {
@@ -82,7 +85,9 @@ void run_export(const Choices& c, Run& run) {
     slicer_run = read_run(c.run, c.scan, c.series, run);
   }
   if (!slicer_run.scan) {
-    run.warn("without --scan the scene has no image: give the scan the labels were made from");
+    run.warn(
+        "without --scan the scene has no image; give the scan from which the labels were "
+        "made");
   }
   AtomicFolder folder(c.folder, "scene.mrml");
   std::vector<SceneItem> items;

@@ -52,11 +52,11 @@ FitOptions FitChoices::options() const {
 
 void declare_fit_hermite(Tool& tool, FitChoices& choices) {
   tool.describe(
-      "Fits two bicubic Hermite sheets, larger than the body, to the skin and to the front of the "
-      "chest wall, and finds the rim: the closed curve where the breast ends and a straight cut "
-      "joins the sheets. The skin need not be a graph over the chest wall: it is mapped to a "
-      "square first. Fitting alternates closest-point projection and linear least squares with "
-      "smoothing by second derivatives.");
+      "Fits two bicubic Hermite sheets, larger than the body, to the skin and to the front of "
+      "the chest wall, and finds the rim: the closed curve at which the breast ends and a "
+      "straight cut joins the sheets. The skin need not be a height field over the chest wall, "
+      "since it is first mapped to a square. The fit alternates between closest-point "
+      "projection and linear least squares, smoothed by a penalty on second derivatives.");
   tool.cite("Pathmanathan et al., IEEE Trans Biomed Eng 55(10), 2008, section II-A")
       .cite(
           "Yoshizawa, Belyaev, Seidel, Proc. Shape Modeling International, 2004 (map to the "
@@ -64,20 +64,21 @@ void declare_fit_hermite(Tool& tool, FitChoices& choices) {
   tool.input(choices.labels, "LABELS.vtkhdf",
              "labels of one breast (segment), a segmentation of 3D Slicer (.seg.nrrd) or a "
              "label volume (.nrrd, .nii, .mha)");
-  tool.output(choices.geometry, "GEOMETRY.vtkhdf", "two sheets and the rim");
+  tool.output(choices.geometry, "GEOMETRY.vtkhdf", "geometry: the two sheets and the rim");
   tool.text(choices.elements, "--elements", "AxB|auto",
-            "patches of each sheet along x and z; auto: 10x10, and of the skin up to 15x15 where "
-            "it would lie more than 2 mm off");
+            "number of patches of each sheet along x and z; auto takes 10x10, and up to 15x15 "
+            "for a skin that would otherwise be more than 2 mm off");
   tool.text(choices.smoothing, "--smoothing", "S|auto",
-            "weight of the skin's squared second derivatives (parameters 0..1, mm); auto lowers it "
-            "until the rms distance is 0.3 mm");
+            "weight of the skin sheet's squared second derivatives (in mm, for parameters from "
+            "0 to 1); auto lowers it until the rms distance to the skin is 0.3 mm");
   tool.number(choices.max_error, "--max-error", "MM",
-              "refine the skin sheet until no point of the skin is farther from it", 0.05, 100);
+              "refine the skin sheet until no point of the skin is farther from it than this", 0.05,
+              100);
   declare_label_choices(tool, choices.foreign);
   tool.example("fit-hermite labels.vtkhdf geometry.vtkhdf",
                "10 x 10 patches or a few more, automatic smoothing");
   tool.example("fit-hermite labels.vtkhdf geometry.vtkhdf --max-error 1",
-               "as many patches as it takes to stay within 1 mm");
+               "as many patches as are needed to stay within 1 mm");
   tool.example("fit-hermite edited.seg.nrrd geometry.vtkhdf --native labels.vtkhdf",
                "labels corrected in 3D Slicer");
   tool.check([&choices] {

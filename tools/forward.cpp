@@ -19,17 +19,17 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Finds the equilibrium of the breast under gravity, from its stress-free shape: "
-      "hyperelastic, exactly incompressible unless --bulk-ratio is given, the chest wall held. "
-      "Nodal gravity forces are those of the imaged shape, so that under the gravity of the scan "
-      "the imaged shape comes back to rounding error.");
+      "Finds the equilibrium of the breast under gravity from its stress-free shape. The "
+      "tissues are hyperelastic, and exactly incompressible unless --bulk-ratio is given. The "
+      "nodal gravity forces are those of the imaged shape, so that gravity in the direction of "
+      "the scan reproduces the imaged shape to rounding error.");
   tool.describe(
-      "A solve that stops has exit code 3, writes nothing, and gives its reason in the report: "
-      "unstable_equilibrium (the shape found is in balance, but the breast would not stay in it), "
-      "iteration_limit, no_admissible_step, indefinite_tangent, left_wall_surface or folded_element. "
-      "stability/change and stability/factor are the smallest change of tissue, skin, wall or cut "
-      "alone that gives a stable answer from the same stress-free shape, confirmed by solving "
-      "again.");
+      "If the solve does not converge, the exit code is 3, nothing is written, and the report's "
+      "entry reason says why: unstable_equilibrium (the shape found is an equilibrium, but an "
+      "unstable one), iteration_limit, no_admissible_step, indefinite_tangent, "
+      "left_wall_surface or folded_element. stability/change and stability/factor give the "
+      "smallest change of one tissue, the skin, the wall or the cut with which the same "
+      "stress-free shape has a stable equilibrium, confirmed by solving again.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), equation (5)");
   tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
   tool.output(c.deformed, "DEFORMED.vtkhdf", "the same mesh under gravity");
@@ -38,7 +38,7 @@ void declare(Tool& tool, Choices& c) {
   declare_estimate(tool, c.estimate);
   tool.example("forward reference.vtkhdf supine.vtkhdf", "lying on the back");
   tool.example("forward reference.vtkhdf prone.vtkhdf --posture prone --element q2p1",
-               "back to the scanned posture, quadratic elements");
+               "back to the scanned posture, with quadratic elements");
 }
 
 void run_forward(const Choices& c, Run& run) {

@@ -30,8 +30,8 @@ std::optional<Tumour> choose_tumour(const MeshChoices& choices, const LabelVolum
     std::optional<Tumour> found = automatic_tumour(labels, mesh);
     if (!found) {
       run.warn(
-          "no edge of fibroglandular tissue inside the mesh: no artificial tumour was placed; give "
-          "a place with --tumour x,y,z");
+          "there is no edge of fibroglandular tissue inside the mesh, so that no artificial "
+          "tumour was placed; give a position with --tumour x,y,z");
     }
     return found;
   }
@@ -60,13 +60,13 @@ void add_points(const std::vector<MarkupPoint>& points, const std::string& name,
   for (const MarkupPoint& point : points) {
     if (point.label.empty() || point.label.find('/') != std::string::npos) {
       throw input_error("--landmarks ", name, ": a point at (", point.at.transpose(),
-                        ") mm has no name, or one with a slash: give it a label");
+                        ") mm has no name, or a name with a slash: give it a label");
     }
     const bool known = std::any_of(mesh.landmarks.begin(), mesh.landmarks.end(),
                                    [&](const Landmark& l) { return l.name == point.label; });
     if (known) {
       throw input_error("--landmarks ", name, ": a landmark '", point.label,
-                        "' is there already: name it otherwise");
+                        "' exists already: give the point another name");
     }
     add_landmark(point.label, point.at, mesh);
   }
@@ -80,8 +80,9 @@ void judge_agreement(const MeshChoices& choices, const BodyMeshReport& body,
   if (!wrong) return;
   if (!choices.accept_mismatch) {
     throw input_error(*wrong,
-                      ": look at fit-hermite's report and the labels' extent, give the labels the "
-                      "geometry was fitted to, or mesh it all the same with --accept-mismatch");
+                      ": check the report of fit-hermite and the extent of the labels, give the "
+                      "labels to which the geometry was fitted, or mesh it nevertheless with "
+                      "--accept-mismatch");
   }
   run.warn(*wrong);
 }
@@ -141,8 +142,9 @@ void run_hexmesh(const MeshChoices& choices, Run& run) {
     run.report().set("tumour", tumour->origin);
     if (tumour->artificial) {
       run.warn(
-          "the tumour is artificial: nobody found it in the scan. It is called artificial_tumour; "
-          "give the place of a real one with --tumour x,y,z, or none");
+          "the tumour is artificial: it was not found in the scan. It is named "
+          "artificial_tumour; give the position of a real one with --tumour x,y,z, or --tumour "
+          "none");
     }
   }
   add_points(points, choices.landmarks.filename().string(), mesh);

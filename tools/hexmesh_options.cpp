@@ -23,14 +23,13 @@ BodyMeshOptions MeshChoices::mesh_options(double skin_mm) const {
 
 void MeshChoices::check() const {
   parse_tissue_codes(foreign.codes);
-  if (!dome.empty() && shape == "cuboid")
-    throw input_error("--dome goes with --template dome only");
+  if (!dome.empty() && shape == "cuboid") throw input_error("--dome needs --template dome");
   if (!tetrahedra.empty() && tetrahedra.extension() != ".vtu")
     throw input_error("--tetrahedra ", tetrahedra.string(), ": must end in .vtu");
   if (!tetrahedra.empty() && skin_as == "layer")
     throw input_error(
-        "--tetrahedra goes with --skin-as membrane: its elements are thicker than "
-        "a layer of skin");
+        "--tetrahedra needs --skin-as membrane, because its elements are thicker than a layer "
+        "of skin");
   if (!tetrahedra.empty()) require_sibling("tetrahedra", "--tetrahedra");
   if (skin != "measured") parse_skin_thickness(skin);
   if (muscle != "measured") parse_muscle_thickness(muscle);
@@ -41,10 +40,10 @@ void MeshChoices::check() const {
 
 void declare_hexmesh(Tool& tool, MeshChoices& choices) {
   tool.describe(
-      "Fills the body between the skin and chest-wall sheets with hexahedra: a half O-grid (dome) "
-      "that keeps its shape on pendulous breasts, or the warped cuboid of the paper. Nodes slide "
-      "on the sheets while the mesh is untangled and smoothed. Each element takes its tissue from "
-      "the voxels in it. A folded mesh is never written.");
+      "Fills the body between the skin and chest-wall sheets with hexahedra: a half O-grid "
+      "(dome) that keeps its shape on pendulous breasts, or the warped cuboid of the paper. "
+      "Nodes slide on the sheets while the mesh is untangled and smoothed. Each element takes "
+      "its tissue from the voxels inside it. A mesh with folded elements is never written.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), section II-B");
   tool.cite("Garanzha et al. 2021, Foldover-free maps in 50 lines of code, ACM Trans Graph 40(4)");
   tool.input(choices.geometry, "GEOMETRY.vtkhdf", "sheets and rim (fit-hermite)");
@@ -57,40 +56,46 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
   tool.integer(choices.elements, "--elements", "N",
                "about N^3 elements; 16 gives 4000 (dome) or the paper's 4096 (cuboid)", 4, 64);
   tool.numbers(choices.dome, "--dome", "n,l,m,k", 4,
-               "core n x n x l elements, m layers round it, k rows of cut faces");
+               "numbers of elements in the dome: n x n x l in the core, m layers around it, k "
+               "rows of cut faces");
   tool.integer(choices.order, "--order", "1|2",
-               "8-node elements with flat faces, or 27-node ones whose boundary nodes lie on the "
-               "sheets and the cut (for --element q2p1)",
+               "1: 8-node elements with bilinear faces; 2: 27-node elements whose boundary "
+               "nodes lie on the sheets and the cut (for --element q2p1)",
                1, 2);
   tool.text(choices.skin, "--skin", "MM|0|measured",
-            "thickness of the skin in mm, from 0.1 to 10, or 0 for none");
+            "thickness of the skin in mm, from 0.1 to 10; 0 for no skin; measured for the "
+            "thickness found in the scan");
   tool.choice(choices.skin_as, "--skin-as", {"membrane", "layer"},
-              "skin as a membrane on the outer faces or as the outermost layer of elements");
+              "model of the skin: a membrane on the outer faces, or the outermost layer of "
+              "elements");
   tool.text(choices.muscle, "--muscle", "MM|0|measured",
-            "thickness of a layer of muscle between the chest wall that the scan shows and the ribs, on which the "
-            "body then slides; 0 for none; measured: from labels that show the muscle's back, otherwise 8 mm");
+            "thickness of a layer of muscle between the chest wall in the scan and the ribs, on which the "
+            "body then slides; 0 for no muscle; measured for the thickness in labels that show the "
+            "back of the muscle, otherwise 8 mm");
   tool.text(
       choices.tumour, "--tumour", "auto|none|x,y,z[:radius]|FILE",
-      "tumour point in patient LPS mm; with a radius, elements inside become tumour; FILE is a "
-      ".tsv with columns x_mm y_mm z_mm [radius_mm], points of 3D Slicer (.mrk.json: the one labelled tumour, or the "
-      "only one), or labels with tumour voxels; auto: the one of "
-      "the labels, else an artificial one on the gland's edge inside the mesh, landmark "
-      "artificial_tumour");
+      "position of the tumour in LPS mm; with a radius, the elements inside it become tumour. "
+      "FILE is a .tsv with columns x_mm y_mm z_mm [radius_mm], a point of 3D Slicer (.mrk.json: "
+      "the one labelled tumour, or the only one), or a label volume with tumour voxels. auto "
+      "takes the tumour of the labels; if they have none, it places an artificial one at the "
+      "edge of the fibroglandular tissue (landmark artificial_tumour)");
   tool.input_file(
       choices.landmarks, "--landmarks", "FILE",
-      "points to follow through all shapes: of 3D Slicer (.mrk.json, LPS or RAS) under their labels, or a .tsv "
-      "with columns name x_mm y_mm z_mm (LPS); at most 10 mm outside the mesh");
+      "landmarks to follow through all shapes: points of 3D Slicer (.mrk.json, LPS or RAS) with "
+      "their labels as names, or a .tsv with columns name x_mm y_mm z_mm (LPS); they may lie at "
+      "most 10 mm outside the mesh");
   declare_label_choices(tool, choices.foreign);
   tool.flag(choices.accept_mismatch, "--accept-mismatch",
-            "mesh a geometry that is not the body of the labels: more than 2 % off in volume, or "
-            "more than 5 % of the labels' breast outside it. Refused without this");
+            "mesh a geometry even if it does not agree with the labels, that is, if its volume "
+            "differs by more than 2 % or more than 5 % of the labelled breast lies outside it; "
+            "such a geometry is refused otherwise");
   tool.output_file(choices.surface, "--surface", "OUT.vtp",
-                   "the mesh's closed boundary as triangles; scalar part: 0 skin, 1 lateral cut, 2 "
-                   "chest wall");
+                   "closed boundary of the mesh as triangles, with a scalar part (0 skin, 1 "
+                   "lateral cut, 2 chest wall)");
   tool.output_file(choices.tetrahedra, "--tetrahedra", "OUT.vtu",
-                   "tetrahedra of the same body for other solvers, about as long in edge as the "
-                   "hexahedra, with the boundary's triangles; tissue per tetrahedron, part per "
-                   "triangle as in --surface");
+                   "tetrahedral mesh of the same body for other solvers, with about the edge "
+                   "length of the hexahedra, and its boundary triangles; it has a tissue per "
+                   "tetrahedron and a part per triangle as in --surface");
   tool.check([&] { choices.check(); });
   tool.example("hexmesh geometry.vtkhdf labels.vtkhdf mesh.vtkhdf",
                "about 4000 elements, skin as a membrane of 1.45 mm, artificial tumour");

@@ -10,11 +10,11 @@ namespace breast {
 void IdentifyChoices::check() const {
   if (landmarks.empty() && surface.empty() && nipple.empty() && forces.empty()) {
     throw input_error(
-        "nothing is known of a second posture: give --landmarks, --nipple, --surface or "
+        "there are no data of a second posture: give --landmarks, --nipple, --surface or "
         "--force-thickness");
   }
   if (!align && align_deviation != std::vector<double>{4, 2})
-    throw input_error("--align-deviation is for --align");
+    throw input_error("--align-deviation needs --align");
   for (const double one : align_deviation)
     if (!(one > 0 && one <= 100))
       throw input_error("--align-deviation ", one, " must lie above 0 and up to 100");
@@ -32,7 +32,7 @@ namespace {
 void declare_data(Tool& tool, IdentifyChoices& c) {
   tool.input_file(
       c.landmarks, "--landmarks", "PAIRS.tsv",
-      "material points marked in both postures: columns prone_x_mm ... supine_z_mm, perhaps "
+      "material points marked in both postures: columns prone_x_mm ... supine_z_mm, optionally "
       "landmark, observer_mm and side");
   tool.numbers(c.nipple, "--nipple", "x,y,z", 3,
                "where the mesh's nipple lies in the second posture, mm LPS");
@@ -40,17 +40,23 @@ void declare_data(Tool& tool, IdentifyChoices& c) {
                   "skin seen in the second posture: triangles, or points with normals");
   tool.input_file(
       c.forces, "--force-thickness", "FILE.tsv",
-      "forces of a paddle: columns thickness_mm, force_N, perhaps sd_N (else a tenth and 0.5 N); "
-      "each row costs a compression a trial");
-  tool.number(c.observer, "--observer-error", "MM", "of one mark in space, rms", 0.01, 100);
+      "forces of a paddle: columns thickness_mm, force_N, optionally sd_N (default: a tenth of "
+      "the force plus 0.5 N); each row costs one compression per trial");
+  tool.number(c.observer, "--observer-error", "MM",
+              "error with which an observer marks one landmark, rms distance in space", 0.01, 100);
   tool.number(c.surface_error, "--surface-error", "MM",
-              "standard deviation of the skin's distance at one of the sampled places 12 mm apart",
+              "standard deviation of the skin's distance at one of the sample points, which are "
+              "12 mm apart",
               0.01, 100);
-  tool.number(c.outside, "--outside", "MM", "by which a mark may lie outside the body in the scan",
-              0.1, 100);
-  tool.choice(c.view, "--view", {"CC", "MLO", "ML"}, "of the forces");
-  tool.number(c.standoff, "--standoff", "MM", "of their plates", 0, 500);
-  tool.number(c.edge_radius, "--edge-radius", "MM", "of their plates' rounded edges", 1, 100);
+  tool.number(c.outside, "--outside", "MM",
+              "largest distance by which a landmark may lie outside the body in the scan", 0.1,
+              100);
+  tool.choice(c.view, "--view", {"CC", "MLO", "ML"},
+              "mammographic view in which the forces were measured");
+  tool.number(c.standoff, "--standoff", "MM",
+              "stand-off of the plates with which the forces were measured", 0, 500);
+  tool.number(c.edge_radius, "--edge-radius", "MM", "radius of the rounded edges of these plates",
+              1, 100);
 }
 
 }  // namespace
@@ -82,15 +88,18 @@ void declare_identify(Tool& tool, IdentifyChoices& c) {
   declare_data(tool, c);
   tool.text(
       c.parameters, "--parameters", "LIST",
-      "of low_order, quadratic, gland, skin, wall, cut, and stiffness for the first two together; "
-      "without it all but stiffness that the set has");
-  tool.choice(c.prior, "--prior", {"set", "none"}, "what is expected before the data");
-  tool.flag(c.align, "--align", "the rib cage may have moved between the postures");
+      "parameters to identify, from low_order, quadratic, gland, skin, wall, cut, and stiffness "
+      "for the first two together (default: all that the set has, except stiffness)");
+  tool.choice(c.prior, "--prior", {"set", "none"},
+              "prior: the covariance of the material set, or nearly none");
+  tool.flag(c.align, "--align", "allow for a motion of the rib cage between the postures");
   tool.numbers(c.align_deviation, "--align-deviation", "MM,DEGREES", 2,
-               "by how much, rms in space of shift and turn (default 4,2)");
-  tool.integer(c.pairs, "--max-pairs", "N", "solves of backward and forward at most", 2, 500);
-  tool.output_file(c.table, "--table", "OUT.tsv", "a row a landmark");
-  tool.output_file(c.second, "--second", "OUT.vtkhdf", "the second posture with the set found");
+               "rms shift and rotation of the rib cage that are expected (default: 4,2)");
+  tool.integer(c.pairs, "--max-pairs", "N",
+               "largest number of trials, each of which solves backward and forward", 2, 500);
+  tool.output_file(c.table, "--table", "OUT.tsv", "table with one row per landmark");
+  tool.output_file(c.second, "--second", "OUT.vtkhdf",
+                   "the second posture, solved with the set found");
   declare_gravity(tool, c.gravity,
                   "direction of gravity in the second posture, in the frame of the scan");
   declare_mechanics(tool, c.mechanics);
@@ -100,7 +109,7 @@ void declare_identify(Tool& tool, IdentifyChoices& c) {
       "identify mesh.vtkhdf patient.tsv --landmarks pairs.tsv --align --table landmarks.tsv",
       "from landmarks marked prone and supine");
   tool.example("identify mesh.vtkhdf patient.tsv --nipple 158,-9,13",
-               "from the nipple alone: mostly the prior, and it says so");
+               "from the nipple alone; the result is mostly the prior, as the output says");
 }
 
 }  // namespace breast

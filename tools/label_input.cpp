@@ -27,7 +27,7 @@ LabelVolume coded_labels(const fs::path& file, const LabelChoices& choices) {
   const auto side = side_of(choices);
   if (!side && choices.native.empty()) {
     throw input_error(file.string(),
-                      ": does not say which breast it is: give --side left or right");
+                      ": does not state which breast it shows: give --side left or right");
   }
   std::string sha256;
   LabelVolume labels = read_tissues(file, parse_tissue_codes(choices.codes), &sha256);
@@ -52,15 +52,17 @@ LabelVolume foreign_labels(const fs::path& file, const LabelChoices& choices) {
 void declare_label_choices(Tool& tool, LabelChoices& choices) {
   tool.texts(
       choices.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE",
-      "what a value or a segment of foreign labels is: 3=skin or wall=3, 'Pectoralis=wall'; tissues "
-      "are air, fat, fibroglandular, skin, muscle (or wall), tumour, other");
+      "tissue of a value or of a segment in labels from another program, such as 3=skin, wall=3 "
+      "or 'Pectoralis=wall'; the tissues are air, fat, fibroglandular, skin, muscle (or wall), "
+      "tumour, other");
   tool.choice(choices.side, "--side", {"left", "right"},
-              "which breast foreign labels show; segmentations of export-slicer say it themselves");
+              "breast that the labels show; needed only for labels from another program "
+              "(segmentations of export-slicer state it)");
   tool.input_file(
       choices.native, "--native", "LABELS.vtkhdf",
-      "the labels a foreign map was corrected from: what it cannot hold (gland's fraction where the tissue "
-      "is the same, confidence of the chest wall, nipple, skin, midline) is taken from there, and "
-      "its grid");
+      "original labels of segment, if LABELS is a corrected copy from another program; the grid "
+      "and what such a copy lacks (fibroglandular fraction where the tissue is unchanged, "
+      "confidence of the chest wall, nipple, skin, midline) are taken from them");
 }
 
 LabelVolume read_tissues(const fs::path& file, const TissueCodes& codes, std::string* sha256) {
@@ -86,7 +88,8 @@ LabelInput read_label_input(const fs::path& file, const LabelChoices& choices) {
   if (is_native(file)) {
     if (!choices.codes.empty() || !choices.side.empty() || !choices.native.empty()) {
       throw input_error(file.string(),
-                        ": is a label file of ours, which needs no --code, --side or --native");
+                        ": is a label file of libbreast, which takes no --code, --side or "
+                        "--native");
     }
     input.labels = read_labels(file);
     return input;

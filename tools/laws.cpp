@@ -111,20 +111,22 @@ int main(int argc, char** argv) {
   Choices c;
   Tool tool("laws", "a material set: laws, moduli, stable ranges and curves");
   tool.describe(
-      "Prints per tissue the law, its shear modulus at rest, the gravity number (density x gravity "
-      "x 0.1 m / modulus: how much it sags), the uniaxial stretches between which every shear "
-      "keeps a positive stiffness, and the margin of ellipticity: 1 when no constant works against "
-      "it, 0 where the law is refused. With --curves, nominal uniaxial, equibiaxial and pure-shear "
-      "stress against stretch, and simple-shear stress against shear, Pa.");
+      "Prints for each tissue the law, its shear modulus at zero strain, the gravity number "
+      "(density x gravity x 0.1 m / shear modulus, a measure of sagging), the range of uniaxial "
+      "stretch in which every shear has positive stiffness, and the margin of strong "
+      "ellipticity (1 if no constant acts against it, 0 where the law is refused). With "
+      "--curves the tool prints the nominal uniaxial, equibiaxial and pure-shear stress against "
+      "stretch, and the simple-shear stress against shear, in Pa.");
   tool.word(c.set, "NAME|FILE",
             "material set: seed2008, wellman, victre, mira2018, or a TSV file of the same columns");
   tool.texts(c.scale, "--scale", "TISSUE=PERCENT",
-             "stiffness of one tissue in percent of the set's");
-  tool.flag(c.curves, "--curves", "stress curves instead of the summary");
+             "scale the stiffness of one tissue to this percentage of the set's");
+  tool.flag(c.curves, "--curves", "print stress curves instead of the summary");
   tool.number(c.low, "--from", "STRETCH", "smallest stretch of the curves", 0.05, 1);
   tool.number(c.high, "--to", "STRETCH", "largest stretch of the curves", 1, 10);
-  tool.example("laws mira2018", "what is in a set");
-  tool.example("laws my-tissues.tsv --curves > curves.tsv", "curves of one's own file");
+  tool.example("laws mira2018", "summary of a material set");
+  tool.example("laws my-tissues.tsv --curves > curves.tsv",
+               "stress curves of one's own material set");
   return tool.main(argc, argv, [&c](Run& run) {
     MaterialSet set = load_materials(c.set);
     scale_materials(set, c.scale);

@@ -27,10 +27,10 @@ struct Choices {
 
   void check() const {
     if (page.empty() != from_image.empty() || page.empty() != to_image.empty()) {
-      throw input_error("--page, --from-image and --to-image go together");
+      throw input_error("--page, --from-image and --to-image must be given together");
     }
     if (page.empty() && !scan.empty())
-      throw input_error("--scan is shown in a page; give --page too");
+      throw input_error("--scan needs --page, in which it is shown");
   }
 };
 
@@ -53,7 +53,7 @@ void report_lookup(const MatchLookup& lookup, const std::string& prefix, Run& ru
   report.set(prefix + "leaving_image", leaving);
   if (leaving > 0) {
     run.warn(message(leaving, " of ", matched, " curves leave the ", view_name(lookup.to_view),
-                     " image: part of them lies behind its posterior edge"));
+                     " image: part of each lies behind its posterior edge"));
   }
 }
 
@@ -88,7 +88,7 @@ void run_lookup(const Choices& choices, Run& run) {
   if (!banded) {
     run.warn("no band: " + choices.from.filename().string() + " and " +
              choices.to.filename().string() +
-             " share no derivative of their shapes; give the files that sensitivity makes of them");
+             " have no derivatives in common; give the files that sensitivity writes for them");
   }
   MatchLookup lookup;
   std::optional<MatchLookup> back;
@@ -116,33 +116,37 @@ void run_lookup(const Choices& choices, Run& run) {
 
 int main(int argc, char** argv) {
   Choices choices;
-  Tool tool("match-lookup", "the curves of every point of a mammogram, to look up and point at");
+  Tool tool("match-lookup",
+            "matched curves of all points of a mammogram, as a file and as an "
+            "interactive page");
   tool.describe(
-      "What cc2mlo finds for one point, for a grid of points over the first image: status, curve "
-      "in the second image with its deviation, and the column in the MR frame, as one HDF5 file. "
-      "--both-ways adds the curves of the second image's points in the first. --page makes one HTML file "
-      "that needs no server and no network: pointing at either image draws curve, band and arc in the "
-      "other, the column in the body and, with --scan, the slices of the MR that it crosses. The page "
-      "holds no file names and no header of the scan, but the picture of the breast itself: give it "
-      "to those who may see the scan.");
+      "Does for a grid of points over the first image what cc2mlo does for one point, and "
+      "writes one HDF5 file with the status of each point, its curve in the second image "
+      "with its standard deviation, and its column of tissue in the MR frame. --both-ways adds "
+      "the curves in the first image for points of the second. --page writes one HTML file that "
+      "needs neither a server nor a network: pointing at either image draws the curve, band and "
+      "arc in the other, the column in the body and, with --scan, the MR slices that it "
+      "crosses. The page contains no file names and nothing of the scan's header, but it does "
+      "show images of the breast: give it only to those who may see the scan.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), section IV-A");
-  tool.input(choices.from, "CC.vtkhdf", "compression pointed at");
+  tool.input(choices.from, "CC.vtkhdf", "compression of the first image");
   tool.input(choices.to, "MLO.vtkhdf", "compression of the same mesh in another view");
   tool.output(choices.lookup, "LOOKUP.h5", "curves on a grid (docs/file-formats.md)");
-  tool.number(choices.pitch, "--pitch", "mm", "distance of the grid's points", 0.1, 50);
+  tool.number(choices.pitch, "--pitch", "mm", "spacing of the grid points", 0.1, 50);
   tool.flag(choices.both_ways, "--both-ways",
-            "curves from the second image to the first too; --page implies it");
+            "also match points of the second image to curves in the first; --page implies it");
   tool.choice(choices.geometry, "--geometry", {"parallel", "cone"},
               "beam, as in project-mammogram");
   tool.input_file(choices.priors, "--priors", "FILE",
-                  "TSV parameter, standard_deviation for the band");
-  tool.output_file(choices.page, "--page", "FILE.html", "the page");
-  tool.input_file(choices.from_image, "--from-image", "CC.vti", "its first image");
-  tool.input_file(choices.to_image, "--to-image", "MLO.vti", "its second image");
+                  "standard deviations for the band: TSV with columns parameter and "
+                  "standard_deviation");
+  tool.output_file(choices.page, "--page", "FILE.html", "interactive page");
+  tool.input_file(choices.from_image, "--from-image", "CC.vti", "first image of the page");
+  tool.input_file(choices.to_image, "--to-image", "MLO.vti", "second image of the page");
   tool.input_file(
       choices.scan, "--scan", "MR",
-      "MR scan that was segmented; the page then shows slices of the breast's part of it "
-      "(default: no voxel of the scan in the page)");
+      "MR scan that was segmented; the page then shows its slices around the breast (default: "
+      "the page contains no voxel of the scan)");
   tool.integer(choices.series, "--series", "N", "which series of a DICOM folder (0: the only one)",
                0, 10000);
   tool.check([&] { choices.check(); });

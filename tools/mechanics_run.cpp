@@ -30,8 +30,8 @@ MechanicsRun::MechanicsRun(Run& run, const MechanicsChoices& choices, const std:
   const std::string support = support_options(options_);
   if (mesh_.solve && !mesh_.solve->support.empty() && mesh_.solve->support != support) {
     run_.warn(message(input_.filename().string(), " was solved with ", mesh_.solve->support,
-                      ", this run has ", support,
-                      ": the shape of the scan is no equilibrium of it; give both the same options"));
+                      ", but this run uses ", support,
+                      ": the imaged shape is then not an equilibrium; give both the same options"));
   }
 }
 

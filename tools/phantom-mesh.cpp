@@ -20,18 +20,21 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "The breast that `phantom` images, with the same shape, gland, materials and landmarks, on "
-      "8-node elements of which there are 4280 at level 1, 34240 at level 2 (eight times the "
-      "chain's mesh). Solved from stress-free to prone and supine with the lateral cut held, as "
-      "the phantom is. `compress` goes on from the prone mesh; the difference between two levels "
-      "is the error of the finer (truth-table).");
+      "Meshes the breast that `phantom` images, with the same shape, fibroglandular tissue, "
+      "materials and landmarks, by 8-node elements: 4280 at level 1, 34240 at level 2 (eight "
+      "times as many as in the chain's mesh). The prone and supine shapes are solved from the "
+      "stress-free one with the lateral cut held, as in the phantom. `compress` continues from "
+      "the prone mesh; the difference between two levels estimates the error of the finer one "
+      "(truth-table).");
   tool.output(c.mesh, "PRONE.vtkhdf", "the prone mesh with its stress-free reference");
-  tool.output_file(c.supine, "--supine", "SUPINE.vtkhdf", "also write the supine shape");
-  tool.choice(c.preset, "--preset", preset_names(), "as of phantom");
-  tool.integer(c.seed, "--seed", "N", "as of phantom", 0, 1000000000);
+  tool.output_file(c.supine, "--supine", "SUPINE.vtkhdf", "write the supine shape to this file");
+  tool.choice(c.preset, "--preset", preset_names(), "kind of breast, as in phantom");
+  tool.integer(c.seed, "--seed", "N", "random seed, as in phantom", 0, 1000000000);
   tool.choice(c.side, "--side", {"left", "right"}, "which breast");
-  tool.integer(c.level, "--level", "L", "elements: 4280 L^3", 1, 4);
-  tool.text(c.materials, "--materials", "NAME|FILE", "as of phantom");
+  tool.integer(c.level, "--level", "L", "level of refinement; the mesh has 4280 L^3 elements", 1,
+               4);
+  tool.text(c.materials, "--materials", "NAME|FILE",
+            "material set, as in phantom (default: that of the preset)");
   tool.example("phantom-mesh left-fine.vtkhdf --supine left-fine-supine.vtkhdf --level 2",
                "the left breast of the default phantom for `compress --cut fixed`");
 }

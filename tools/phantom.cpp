@@ -29,29 +29,34 @@ struct Choices {
 void declare(Tool& tool, Choices& c) {
   tool.describe(
       "Makes a bilateral prone breast MR (T1 without fat suppression, 512x512x60 voxels of "
-      "0.82x0.82x2.5 mm): breasts with skin, fat, an irregular fibroglandular tree and nipple on a "
-      "chest with pectoral muscle, ribs and lung; coil bias, partial volume, Rician noise. The "
-      "breasts hang as physics says: their known stress-free shape is solved under prone gravity "
-      "with 27-node elements on a template that hexmesh does not have, so that the chain can be "
-      "told its errors. Breasts of the presets average, slim, broad and heavy are shaped as they hang "
-      "and slide on their rib cage, with supports and stiffness that differ from the set's; the "
-      "other presets are shaped stress-free and held at the wall.");
+      "0.82x0.82x2.5 mm): breasts with skin, fat, an irregular fibroglandular tree and nipple "
+      "on a chest with pectoral muscle, ribs and lung; coil bias, partial volume, Rician noise. "
+      "The prone shape is the equilibrium of a known stress-free shape under gravity, solved "
+      "with 27-node elements on a mesh template that hexmesh does not use, so that the errors "
+      "of the chain can be measured. Breasts of the presets average, slim, broad and heavy are "
+      "defined by their prone shape and slide on the rib cage, with supports and stiffness that "
+      "differ from those of the material set; the other presets are defined by their "
+      "stress-free shape and held at the chest wall.");
   tool.output(c.image, "OUT.nrrd", "the scan (.nrrd, .nii, .nii.gz or .mha)",
               {".nii", ".nii.gz", ".mha"});
   tool.output_folder(
       c.truth, "--truth", "DIR",
-      "write labels, surfaces, meshes and landmarks.tsv (stress-free, prone and supine) there");
+      "write the truth to this folder: labels, surfaces, meshes and landmarks.tsv (stress-free, "
+      "prone and supine)");
   tool.choice(c.preset, "--preset", preset_names(), "kind of breast");
-  tool.integer(c.seed, "--seed", "N", "another woman of the same kind", 0, 1000000000);
+  tool.integer(c.seed, "--seed", "N", "random seed: another breast of the same kind", 0,
+               1000000000);
   tool.output_folder(c.dicom, "--dicom", "DIR",
-                     "also write the scan as a DICOM series, one file a slice");
-  tool.number(c.bias, "--bias", "FACTOR", "coil sensitivity: brightest over darkest breast fat", 1,
-              20);
-  tool.number(c.noise, "--noise", "%", "noise in per cent of the fat signal", 0, 100);
+                     "also write the scan as a DICOM series, with one file per slice");
+  tool.number(c.bias, "--bias", "FACTOR",
+              "coil sensitivity: ratio of the brightest to the darkest breast fat", 1, 20);
+  tool.number(c.noise, "--noise", "%",
+              "standard deviation of the noise in percent of the fat signal", 0, 100);
   tool.text(c.materials, "--materials", "NAME|FILE",
-            "material set of the breasts; without it the preset's");
+            "material set of the breasts (default: that of the preset)");
   tool.number(c.coarse, "--coarse", "FACTOR",
-              "larger voxels and, from 2 on, a coarser mesh: for tests", 1, 8);
+              "enlarge the voxels by this factor and, from 2 on, use a coarser mesh, for tests", 1,
+              8);
   tool.check([&c] {
     if (!c.dicom.empty()) check_dicom_folder(c.dicom);
   });

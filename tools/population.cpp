@@ -121,16 +121,21 @@ void run_population(const Choices& c, Run& run) {
 
 int main(int argc, char** argv) {
   Choices c;
-  Tool tool("population", "how breasts move between postures, beside what is known of women");
+  Tool tool("population",
+            "motion of breasts between postures, compared with measurements on "
+            "women");
   tool.describe(
-      "For every deformed mesh, the motion from the scan: of the nipple along the body's axes, and "
-      "of the tissue by its distance from the rib cage in the scan, weighted by volume. Ribs are "
-      "taken to lie behind the wall surface by the thickness of the muscle. A row a breast; "
-      "--summary gives mean, standard deviation and range, beside --women's.");
-  tool.inputs(c.meshes, "FILE.vtkhdf", "deformed meshes (forward), of meshes with a wall surface");
-  tool.output_file(c.table, "--table", "OUT.tsv", "a row a breast; without it to stdout");
-  tool.output_file(c.summary, "--summary", "OUT.tsv", "means over the breasts");
-  tool.input_file(c.women, "--women", "TABLE.tsv", "columns quantity, mean, sd of living women");
+      "Tabulates the displacement from the scan for every deformed mesh: of the nipple along "
+      "the axes of the body, and of the tissue as a volume-weighted function of its distance "
+      "from the rib cage in the scan. The ribs are assumed to lie behind the chest-wall surface "
+      "by the thickness of the muscle. The table has one row per breast; --summary gives the "
+      "mean, standard deviation and range, beside the values of --women.");
+  tool.inputs(c.meshes, "FILE.vtkhdf", "deformed meshes (forward) that have a chest-wall surface");
+  tool.output_file(c.table, "--table", "OUT.tsv",
+                   "table with one row per breast (default: stdout)");
+  tool.output_file(c.summary, "--summary", "OUT.tsv", "summary over all breasts");
+  tool.input_file(c.women, "--women", "TABLE.tsv",
+                  "measurements on living women, with columns quantity, mean, sd");
   tool.number(c.muscle, "--muscle", "MM", "thickness of the muscle in front of the ribs", 0, 50);
   tool.example("population runs/*/supine.vtkhdf --women pipelines/invivo/women.tsv "
                "--summary motion.tsv",

@@ -20,19 +20,20 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-          "Prints one row a file, tab-separated, to stdout. For each landmark NAME: NAME_x_mm, "
-          "NAME_y_mm, NAME_z_mm, its position (LPS); NAME_mm, the length of its displacement from "
-          "the imaged shape; and, with --base, NAME_relative_mm, the distance between its "
-          "positions in this file and in the base, which also shows a change of direction that "
-          "leaves the length alone.")
+          "Prints one tab-separated row per file to stdout. For each landmark NAME the columns "
+          "are its position NAME_x_mm, NAME_y_mm, NAME_z_mm (LPS); the length of its "
+          "displacement from the imaged shape, NAME_mm; and, with --base, the distance between "
+          "its positions in this file and in the base, NAME_relative_mm, which also shows a "
+          "change of direction at equal length.")
       .cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Tables III to VI");
   tool.inputs(c.files, "FILE.vtkhdf", "meshes written by hexmesh, backward, forward or compress");
   tool.text(c.landmarks, "--landmarks", "NAME,...",
-            "landmarks to show; without it, all of the first file");
-  tool.input_file(c.base, "--base", "FILE.vtkhdf", "mesh the relative displacements refer to");
+            "landmarks to print (default: all landmarks of the first file)");
+  tool.input_file(c.base, "--base", "FILE.vtkhdf",
+                  "mesh to which the relative displacements refer");
   tool.input_file(c.truth, "--truth", "FILE.tsv",
-                  "true positions (phantom --truth): prints instead one row a landmark with its "
-                  "error in the posture of each file, mm");
+                  "true positions (phantom --truth); prints one row per landmark instead, with "
+                  "its error in mm in the posture of each file");
   tool.example("probe reference.vtkhdf supine.vtkhdf --truth paper-truth/landmarks.tsv",
                "errors of the chain against the phantom's truth");
   tool.example("probe supine.vtkhdf --landmarks tumour,nipple", "supine displacements");

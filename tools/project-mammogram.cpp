@@ -37,7 +37,9 @@ void check_lineage(const HexMesh& mesh, const LabelVolume& labels, const std::st
     });
   };
   if (std::none_of(mesh.history.begin(), mesh.history.end(), holds)) {
-    run.warn(file + " is not in the mesh's history: are these the labels the mesh was made from?");
+    run.warn(file +
+             " is not in the mesh's history: are these the labels from which the mesh "
+             "was made?");
   }
 }
 
@@ -98,44 +100,52 @@ int main(int argc, char** argv) {
   Choices choices;
   Tool tool("project-mammogram", "simulated mammogram of a compressed breast");
   tool.describe(
-      "Follows an X-ray to every pixel through the compressed mesh. With --labels each point of "
-      "the ray is mapped back through its element to the MR scan and takes the tissue of the voxel "
-      "there, so that the image has the detail of the scan; without, each element has one tissue. "
-      "The image ends where columns would leave the mesh through the chest wall. Beams are spectra "
-      "of Boone, Fewell and Jennings (1997) behind 1 mm beryllium and 0.05 mm rhodium or 0.03 mm "
-      "molybdenum; tissue is of Hammerstein's composition (1979) with the cross sections of "
-      "xraylib; the detector integrates energy and has no blur.");
+      "Traces an X-ray through the compressed mesh to every pixel. With --labels each point of "
+      "the ray is mapped back through its element to the MR scan and takes the tissue of the "
+      "voxel there, so that the image has the detail of the scan; otherwise each element has "
+      "one tissue. The image ends where rays would leave the mesh through the chest wall. The "
+      "X-ray spectra are those of Boone, Fewell and Jennings (1997), filtered by 1 mm beryllium "
+      "and 0.05 mm rhodium or 0.03 mm molybdenum; tissues have the composition given by "
+      "Hammerstein (1979) and the cross sections of xraylib; the detector integrates energy and "
+      "has no blur.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), section IV-A, Fig. 6");
   tool.input(choices.mesh, "COMPRESSED.vtkhdf", "compressed shape (compress)");
-  tool.output(choices.image, "IMAGE.vti", "path, thickness and fibroglandular mm per pixel");
+  tool.output(
+      choices.image, "IMAGE.vti",
+      "image: attenuation path, tissue thickness and fibroglandular thickness (mm) of every "
+      "pixel");
   tool.input_file(
       choices.labels, "--labels", "LABELS.vtkhdf",
-      "tissue of the MR scan (segment; also .seg.nrrd of 3D Slicer and other label volumes); without, one "
-      "tissue per element");
+      "tissue labels of the MR scan (segment; also .seg.nrrd of 3D Slicer and other label "
+      "volumes); without them each element has one tissue");
   declare_label_choices(tool, choices.foreign);
   tool.output_file(
       choices.png, "--png", "FILE.png",
-      "16-bit grey image hung as in the clinic, its grey as if all tissue were as thick as "
-      "between the plates");
+      "16-bit grey-scale image, oriented as for clinical reading and corrected to the tissue "
+      "thickness between the plates");
   tool.output_file(choices.dicom, "--dicom", "FILE.dcm",
                    "DICOM mammogram (MG) with view, side, thickness, force and pixel spacing");
   tool.choice(choices.dicom_for, "--dicom-for", {"presentation", "processing"},
               "the picture as displayed, or the detector's signal");
   tool.number(choices.pixel, "--pixel", "mm", "pixel size", 0.02, 10);
   tool.choice(choices.geometry, "--geometry", {"parallel", "cone"},
-              "beam; cone: point source 650 mm above the detector's chest-wall edge");
+              "X-ray beam; cone has a point source 650 mm above the chest-wall edge of the "
+              "detector");
   tool.text(
       choices.energy, "--energy", "fraction|KEV|SPECTRUM",
-      "fraction: mm of fibroglandular tissue plus half the fat; KEV (5-100): line integral of the "
-      "attenuation; SPECTRUM: W/Rh:KV or Mo/Mo:KV (22-35 kV), or a TSV with columns energy_keV, "
-      "weight");
+      "quantity that is projected. fraction: mm of fibroglandular tissue plus half the mm of "
+      "fat; KEV (5-100): line integral of the attenuation; SPECTRUM: W/Rh:KV or Mo/Mo:KV (22-35 "
+      "kV), or a TSV with columns energy_keV, weight");
   tool.number(
       choices.exposure.scatter_fraction, "--scatter", "part",
-      "scattered part of the radiation behind the breast (0.1 with a grid, 0.3-0.5 without)", 0,
-      0.9);
+      "scattered fraction of the radiation that leaves the breast (0.1 with a grid, 0.3-0.5 "
+      "without)",
+      0, 0.9);
   tool.number(choices.exposure.photons_per_mm2, "--photons", "per mm2",
-              "photons detected without a breast: Poisson noise; 0: none", 0, 1e9);
-  tool.integer(choices.seed, "--seed", "N", "of the noise", 0, 1000000000);
+              "photons per mm2 detected without a breast, which determine the Poisson noise; 0 "
+              "for no noise",
+              0, 1e9);
+  tool.integer(choices.seed, "--seed", "N", "random seed of the noise", 0, 1000000000);
   tool.check([&] {
     choices.exposure.seed = std::uint64_t(choices.seed);
     parse_energy(choices.energy);

@@ -49,7 +49,7 @@ void add_file(const std::filesystem::path& file, const std::string& figure, Figu
 std::string figure_list() {
   std::string list;
   for (const std::string& name : figure_names())
-    list += " " + name + ": " + figure_summary(name) + ".";
+    list += " " + name + " shows " + figure_summary(name) + ".";
   return list;
 }
 
@@ -68,15 +68,14 @@ int main(int argc, char** argv) {
   choices.figure = "mesh";
   Tool tool("render", "pictures of shapes, plates and mammograms");
   tool.describe(
-      "Draws without a screen: it starts an X server of its own (Xvfb) and ends it, whatever "
-      "DISPLAY "
-      "says. All views are parallel projections with a scale bar in mm; L, A and S point to the "
-      "patient's left, anterior and superior. Figures:" +
+      "Draws without a screen: the tool starts and stops an X server of its own (Xvfb), "
+      "whatever DISPLAY says. All views are parallel projections with a scale bar in mm; L, A "
+      "and S mark the patient's left, anterior and superior directions. Figures:" +
       figure_list());
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Figs 4 to 7");
   tool.inputs(choices.files, "FILE",
               "meshes (.vtkhdf), mammograms (.vti), points or curves (.vtp)");
-  tool.choice(choices.figure, "--figure", figure_names(), "what to draw");
+  tool.choice(choices.figure, "--figure", figure_names(), "figure to draw");
   tool.output_file(choices.output, "-o,--output", "OUT.png", "the picture");
   tool.required("--output");
   tool.check([&] { choices.check(); });

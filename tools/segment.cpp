@@ -33,15 +33,15 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Finds the body, the coil's uneven sensitivity, the chest wall (minimum cut), the breast's "
-      "extent on it, fat, fibroglandular tissue, skin and nipple. Everything behind the chest wall "
-      "is labelled muscle, the rest of the body other.");
+      "Finds the body, the coil's uneven sensitivity, the chest wall (minimum cut), the "
+      "breast's extent on it, fat, fibroglandular tissue, skin and nipple. Everything behind "
+      "the chest wall is labelled muscle, and the rest of the body is labelled other.");
   tool.cite("Pathmanathan et al. 2008, section II-A; Li et al., IEEE TPAMI 28:119 (2006)");
   tool.input(c.scan, "MR", "scan: .nrrd, .nii, .nii.gz, .mha, or a DICOM folder");
   tool.output(
       c.labels, "LABELS.vtkhdf",
-      "tissue labels of the chosen breast; as .nrrd, .nii, .nii.gz or .mha the tissue codes "
-      "alone, for other programs",
+      "tissue labels of the chosen breast; a .nrrd, .nii, .nii.gz or .mha file holds the tissue "
+      "codes only, for other programs",
       {".nrrd", ".nii", ".nii.gz", ".mha"});
   tool.choice(c.side, "--side", {"left", "right"}, "the patient's left or right breast")
       .required("--side");
@@ -49,37 +49,40 @@ void declare(Tool& tool, Choices& c) {
                10000);
   tool.input_file(
       c.wall, "--chest-wall", "FILE|POINTS",
-      "corrected chest wall: segmentation of 3D Slicer (.seg.nrrd, segment 'Chest wall'), label map (code 4 "
-      "behind the wall), surface (.vtp; of a file by --points its chest wall), or clicked points: of 3D Slicer "
-      "(.mrk.json) or a table x_mm y_mm z_mm (.tsv)");
+      "corrected chest wall: a segmentation of 3D Slicer (.seg.nrrd, segment 'Chest wall'), a "
+      "label map (code 4 behind the wall), a surface (.vtp; of a file written by --points, its "
+      "chest-wall points), or clicked points from 3D Slicer (.mrk.json) or in a table with "
+      "columns x_mm y_mm z_mm (.tsv)");
   tool.texts(c.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE",
-             "what a value or a segment of --chest-wall is, such as wall=3 or 'Pectoralis=wall'");
+             "tissue of a value or of a segment in --chest-wall, such as wall=3 or "
+             "'Pectoralis=wall'");
   tool.choice(c.interior, "--interior", {"threshold", "region-growing"},
-              "what decides between fat and fibroglandular tissue: threshold: midway between their "
-              "brightness (closer to known truth); region-growing: the paper's 3-D "
-              "confidence-connected growing of fat. The report compares both");
+              "method that separates fat from fibroglandular tissue. threshold: a threshold "
+              "midway between their intensities (closer to the known truth of phantoms); "
+              "region-growing: the paper's 3-D confidence-connected growing of fat. The report "
+              "compares both");
   tool.choice(
       c.contrast, "--contrast", {"auto", "fat-bright"},
-      "auto: a scan in which fat is not the bright tissue (fat saturation, T2, subtraction) "
-      "is refused on the evidence of skin, fat, muscle and what lies below the skin; "
-      "fat-bright: you answer for it, and that evidence is a warning");
-  tool.output_file(c.points, "--points", "OUT.vtp", "skin and chest-wall data points");
+      "check of the contrast. auto: a scan in which fat is not the bright tissue (fat "
+      "saturation, T2, subtraction) is refused, on the evidence of the skin, fat, muscle and "
+      "subcutaneous tissue; fat-bright: the user vouches that fat is bright, and contrary "
+      "evidence is only a warning");
+  tool.output_file(c.points, "--points", "OUT.vtp", "data points of the skin and the chest wall");
   tool.output_file(c.overlay, "--overlay", "OUT.png",
-                   "slices with contours, to judge the result by");
-  tool.output_file(c.measures, "--measures", "OUT.tsv", "every number measured, as a table");
-  tool.number(
-      c.wall_shift, "--chest-wall-shift", "SIGMAS",
-      "move the chest wall by this many of its own standard deviations (--points: sigma_mm), "
-      "backwards when positive: what its uncertainty does to the result",
-      -3, 3);
+                   "picture of slices with contours, for judging the segmentation");
+  tool.output_file(c.measures, "--measures", "OUT.tsv", "table of all measured quantities");
+  tool.number(c.wall_shift, "--chest-wall-shift", "SIGMAS",
+              "move the chest wall by this many of its standard deviations (sigma_mm in --points), "
+              "backwards if positive, to see the effect of its uncertainty",
+              -3, 3);
   tool.check([&c] {
     parse_tissue_codes(c.codes);
-    if (!c.codes.empty() && c.wall.empty()) throw input_error("--code goes with --chest-wall only");
+    if (!c.codes.empty() && c.wall.empty()) throw input_error("--code needs --chest-wall");
   });
   tool.example("segment scan.nrrd labels.vtkhdf --side left --overlay look.png",
-               "the left breast, with a picture");
+               "the left breast, with a picture of the contours");
   tool.example("segment dicom/ labels.vtkhdf --side right --series 2 --chest-wall clicked.tsv",
-               "second series of a folder, chest wall corrected by clicked points");
+               "the second series of a folder, with the chest wall corrected by clicked points");
 }
 
 /// Clicked points: of 3D Slicer, or a table with columns x_mm y_mm z_mm (or x y z), patient LPS.
@@ -118,8 +121,8 @@ Volume<float> read_wall_labels(const std::filesystem::path& file, const TissueCo
       volume.voxels.end()) {
     throw input_error(
         "--chest-wall ", file.string(),
-        ": no voxel is chest wall (code 4, or a segment 'Chest wall'): say which value "
-        "is with --code wall=NUMBER");
+        ": no voxel is chest wall (code 4, or a segment 'Chest wall'); name its value with "
+        "--code wall=NUMBER");
   }
   return volume;
 }
@@ -164,7 +167,7 @@ void run_segment(const Choices& c, Run& run) {
   for (const StageQuality& quality : quality_of(result)) {
     if (quality.score >= least_quality) continue;
     run.warn(message("quality of ", quality.stage, " ", format_fixed(quality.score, 2), " (",
-                     quality.worst, "; at least ", least_quality, " expected): look at --overlay"));
+                     quality.worst, "; at least ", least_quality, " expected); see --overlay"));
   }
   result.labels.history = run.history(inputs);
   Table measures{{"quantity", "value"}, {}};

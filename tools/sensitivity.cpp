@@ -23,40 +23,45 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Derivatives of all nodal positions and of the landmarks with respect to stiffness, single "
-      "material constants, density, directions of gravity, skin thickness and the plates' pose, "
-      "through backward and then forward or compress: the stress-free shape changes with every "
-      "parameter so that the imaged shape stays as imaged. Nothing is solved again: each state is "
-      "factorised once and every parameter costs two linear solves.");
+      "Computes the derivatives of all nodal positions and of the landmarks with respect to "
+      "stiffness, single material constants, density, directions of gravity, skin thickness and "
+      "the plates' pose, through backward and then forward or compress: the stress-free shape "
+      "changes with every parameter so that the imaged shape remains the same. No nonlinear "
+      "problem is solved again; each state is factorised once, and every parameter costs two "
+      "linear solves.");
   tool.describe(
       "Parameters: a tissue's name (stiffness scale), TISSUE.CONSTANT as laws names them "
-      "(fat.a10), density, TISSUE.density, skin_thickness, gravity_x, _y, _z (gravity of the state "
-      "turned towards that axis), imaged_gravity_x ... (of the scan), and for a compressed state "
-      "thickness, standoff and angle of the plates. 'main' is all but single constants and "
-      "densities, 'all' is all. Derivatives are mm per unit relative change (d x / d ln m), per "
-      "degree or per mm. The touching nodes of a compression stay the same ones: where that set is "
-      "about to change, derivatives are one-sided. Thickness, place and pose of the plates are "
-      "held but for the parameter that moves them. Friction holds what it holds: its bounds and the nodes that slip stay.");
+      "(fat.a10), density, TISSUE.density, skin_thickness, gravity_x, _y, _z (gravity of the "
+      "state turned towards that axis), imaged_gravity_x ... (of the scan), and for a "
+      "compressed state thickness, standoff and angle of the plates. 'main' means all "
+      "parameters except single constants and densities; 'all' means every one. Derivatives are "
+      "in mm per unit relative change (d x / d ln m), per degree or per mm. The set of nodes in "
+      "contact is kept; where it is about to change, the derivatives are one-sided. The "
+      "thickness, position and orientation of the plates are fixed except for the parameter "
+      "that moves them. With friction, the bounds of the tangential tractions and the set of "
+      "slipping nodes are kept.");
   tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
-  tool.input(c.state, "STATE.vtkhdf", "what forward or compress made of it");
+  tool.input(c.state, "STATE.vtkhdf", "deformed mesh (forward or compress)");
   tool.output(c.out, "OUT.vtkhdf",
-              "STATE with arrays derivative_PARAMETER on nodes, or influence_LANDMARK on elements");
+              "STATE with additional arrays derivative_PARAMETER on nodes, or "
+              "influence_LANDMARK on elements");
   tool.text(c.parameters, "--parameters", "LIST", "main, all, or names separated by commas");
   tool.flag(c.adjoint, "--adjoint",
-            "landmarks only, any number of parameters for six solves a landmark, and the influence "
-            "of every element's stiffness on them (mm of displacement per relative change)");
+            "use the adjoint method, for the landmarks only: six linear solves per landmark for "
+            "any number of parameters, and also the influence of every element's stiffness (mm "
+            "of displacement per relative change)");
   tool.output_file(c.table, "--table", "OUT.tsv",
-                   "landmark, parameter, derivative, d ln|u| of the displacement from the imaged "
-                   "place, seconds; without it the table goes to stdout");
+                   "table of landmark, parameter, derivative, d ln|u| of the displacement from "
+                   "the imaged position, and seconds (default: stdout)");
   declare_gravity(tool, c.imaged, "direction of gravity during the scan, as given to backward");
   declare_mechanics(tool, c.mechanics);
   tool.cite(
       "Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Tables III-VI (by solving again)");
   tool.example("sensitivity reference.vtkhdf supine.vtkhdf supine-sensitivity.vtkhdf",
-               "what the supine prediction hangs on most");
+               "the parameters on which the supine prediction depends most");
   tool.example(
       "sensitivity reference.vtkhdf cc.vtkhdf out.vtkhdf --parameters all --adjoint --table cc.tsv",
-      "every constant and every element, landmarks only");
+      "every constant and every element, for the landmarks only");
 }
 
 // The two files must be one breast.

@@ -36,7 +36,7 @@ std::vector<std::pair<std::string, std::string>> notes_of(const Named& named) {
   return {
       {"takes_points_of", named.from},
       {"to", named.to},
-      {"in_3D_Slicer", "applied to what lies in " + named.to + ", it shows it in " + named.from}};
+      {"in_3D_Slicer", "applied to what lies in " + named.to + ", it shows that in " + named.from}};
 }
 
 class FieldWriter {
@@ -94,7 +94,7 @@ class FieldWriter {
                       false,
                       {},
                       1,
-                      "applied to what lies in " + named.to + ", it shows it in " + named.from});
+                      "applied to what lies in " + named.to + ", it shows that in " + named.from});
     return field;
   }
 
@@ -114,12 +114,11 @@ class FieldWriter {
          format_fixed(check.max_mm, 4), format_fixed(check.beyond_percent, 1),
          format_fixed(check.smallest_det, 3), format_fixed(check.outside_into_body_percent, 3)});
     if (check.beyond_percent > 0) {
-      run_.warn(
-          message(named.name(), ": ", format_fixed(check.beyond_percent, 1), " % of ", check.points,
-                  " points of the body lie farther than ", accuracy_mm,
-                  " mm from the element map, at most ", format_fixed(check.max_mm, 3),
-                  " mm: the map bends between elements within one cell of the grid; a smaller "
-                  "--spacing comes nearer"));
+      run_.warn(message(named.name(), ": ", format_fixed(check.beyond_percent, 1), " % of ",
+                        check.points, " points of the body lie farther than ", accuracy_mm,
+                        " mm from the element map, at most ", format_fixed(check.max_mm, 3),
+                        " mm, because the gradient of the map jumps between elements within a grid "
+                        "cell; a smaller --spacing reduces this"));
     }
     if (!(check.smallest_det > 0)) {
       run_.warn(message(named.name(), ": folds in at least one cell (determinant ",
@@ -137,7 +136,7 @@ class FieldWriter {
                                    true,
                                    {},
                                    1,
-                                   "the MR through the element map, 0 outside the body"});
+                                   "the MR warped by the element map, 0 outside the body"});
   }
 
   const fs::path& folder_;

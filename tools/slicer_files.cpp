@@ -87,7 +87,7 @@ void add_curve(const fs::path& folder, const PolyLines& lines, const std::string
     const std::string file = name + end + ".mrk.json";
     write_markups(folder / file, curve);
     items.push_back({SceneKind::curve, title + end, file, visible, curve.colour, 1,
-                     "places a point seen in the CC view may come from"});
+                     "possible positions of a point seen in the CC view"});
   }
 }
 
@@ -107,7 +107,8 @@ std::vector<SceneItem> write_shapes(const fs::path& folder, const SlicerRun& run
                    true,
                    {},
                    1,
-                   "tissues of the scan; correct and give back with --chest-wall or as labels"});
+                   "tissues of the scan; may be corrected and given back with --chest-wall or "
+                   "as labels"});
   for (const RunState& state : run.states) {
     for (SceneItem& item : write_state_files(folder, state, history))
       items.push_back(std::move(item));

@@ -32,7 +32,7 @@ void check_same_mesh(const RunState& state, const RunState& prone) {
       std::equal(mesh.imaged.begin(), mesh.imaged.end(), first.imaged.begin(),
                  [&](const Vec3& a, const Vec3& b) { return (a - b).norm() < rounding_mm; });
   if (!same) {
-    throw input_error(state.file.string(), ": is of another mesh than ", prone.file.string(),
+    throw input_error(state.file.string(), ": belongs to another mesh than ", prone.file.string(),
                       ": run the stages after hexmesh again");
   }
 }
@@ -47,8 +47,8 @@ void check_lineage(const SlicerRun& run, const fs::path& scan, const std::string
     }
   }
   if (named.empty()) return;  // labels of another program
-  throw input_error(scan.string(), ": is not the scan these labels were made from (", named,
-                    "): give that one");
+  throw input_error(scan.string(), ": is not the scan from which these labels were made (", named,
+                    "); give that scan");
 }
 
 void read_scan(const fs::path& file, int series, SlicerRun& result) {
@@ -62,13 +62,14 @@ void read_scan(const fs::path& file, int series, SlicerRun& result) {
 
 SlicerRun read_run(const fs::path& folder, const fs::path& scan, int series, Run& run) {
   if (!fs::is_directory(folder)) {
-    throw input_error(folder.string(), ": is no folder of a run (labels.vtkhdf, mesh.vtkhdf ...)");
+    throw input_error(folder.string(),
+                      ": is not the folder of a run (labels.vtkhdf, mesh.vtkhdf ...)");
   }
   for (const char* needed : {"labels.vtkhdf", "mesh.vtkhdf"}) {
     if (!fs::is_regular_file(folder / needed)) {
       throw input_error(
           folder.string(), ": has no ", needed,
-          ", which every run has: name the folder that the pipeline filled (runs/CASE)");
+          ", which every run has; give the folder that the pipeline filled (runs/CASE)");
     }
   }
   SlicerRun result;

@@ -24,23 +24,25 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Fills the body of a hexahedral mesh with Delaunay tetrahedra for other solvers: the same "
-      "surface, whose lines between skin, cut and chest wall are kept as edges, tissue from the "
-      "hexahedron that holds the tetrahedron's centroid. hexmesh --tetrahedra does the same in one "
-      "step.");
+      "Fills the body of a hexahedral mesh with Delaunay tetrahedra for other solvers. The "
+      "surface is the same, and the lines between skin, cut and chest wall are preserved as "
+      "edges; each tetrahedron takes the tissue of the hexahedron that contains its centroid. "
+      "hexmesh --tetrahedra does the same in one step.");
   tool.cite("Jamin et al. 2015, CGALmesh, ACM Trans Math Softw 41(4)");
-  tool.input(c.mesh, "MESH.vtkhdf", "hexahedra, at the positions they have there");
+  tool.input(c.mesh, "MESH.vtkhdf", "hexahedral mesh in any shape");
   tool.output(c.tetrahedra, "OUT.vtu",
-              "tetrahedra and the boundary's triangles; tissue per tetrahedron, part per triangle: "
-              "0 skin, 1 lateral cut, 2 chest wall");
+              "tetrahedra and boundary triangles, with a tissue per tetrahedron and a part per "
+              "triangle (0 skin, 1 lateral cut, 2 chest wall)");
   tool.number(c.edge, "--edge", "MM",
-              "length of the edges; 0: that of a cube of the hexahedra's mean volume", 0, 1000);
+              "edge length; 0 takes the edge of a cube that has the mean volume of the hexahedra",
+              0, 1000);
   tool.check([&c] {
     if (c.tetrahedra.extension() != ".vtu")
       throw input_error(c.tetrahedra.string(), ": must end in .vtu");
   });
   tool.example("tetrahedra mesh.vtkhdf body.vtu", "edges about as long as the hexahedra's");
-  tool.example("tetrahedra cc.vtkhdf compressed.vtu --edge 4", "the compressed body, finer");
+  tool.example("tetrahedra cc.vtkhdf compressed.vtu --edge 4",
+               "a finer mesh of the compressed body");
 }
 
 void run_tetrahedra(const Choices& c, Run& run) {

@@ -34,20 +34,23 @@ double report_errors(const Table& table, Report& report) {
 int main(int argc, char** argv) {
   std::filesystem::path landmarks, out;
   std::vector<std::filesystem::path> files;
-  Tool tool("truth-table", "true landmark positions under compression, with their own error");
+  Tool tool("truth-table", "true landmark positions under compression, with their errors");
   tool.describe(
-      "Joins the phantom's landmark table with meshes of the same breast at two resolutions "
-      "(phantom-mesh, compress): the finer ones give the true places, the distance of a landmark "
-      "between the two is stated as the truth's own error. With second order it is about three "
-      "times the finer mesh's error; nothing is subtracted. The result is a truth for probe "
-      "--truth. The prone places stay those of the image; their own error is what the finer mesh "
-      "says of them.");
-  tool.input(landmarks, "LANDMARKS.tsv", "stress-free, prone and supine places (phantom --truth)");
-  tool.output(out, "OUT.tsv", "the same, extended");
+      "Extends the phantom's landmark table by positions from meshes of the same breast at two "
+      "resolutions (phantom-mesh, compress). The finer meshes give the true positions; the "
+      "distance of a landmark between the two resolutions is stated as the error of the truth. "
+      "For second-order convergence this is about three times the error of the finer mesh; "
+      "nothing is subtracted. The result can be given to probe --truth. The prone positions "
+      "remain those of the image; their error is the larger of the distance between the "
+      "resolutions and their distance from the finer mesh.");
+  tool.input(landmarks, "LANDMARKS.tsv",
+             "stress-free, prone and supine positions (phantom --truth)");
+  tool.output(out, "OUT.tsv", "the extended table");
   tool.inputs(files, "MESH.vtkhdf",
-              "prone, supine, CC, MLO ..., each on the fine and the coarse mesh");
+              "meshes in the prone, supine, CC, MLO ... shapes, each in the fine and the coarse "
+              "resolution");
   tool.example("truth-table landmarks.tsv left.tsv fine-cc.vtkhdf coarse-cc.vtkhdf",
-               "adds the CC places of the left side");
+               "adds the CC positions of the left side");
   return tool.main(argc, argv, [&](Run& run) {
     std::vector<HexMesh> meshes;
     for (const auto& file : files) meshes.push_back(read_mesh(file, {.reference = true}));

@@ -25,7 +25,7 @@ Alignment aligned(const MammogramScan& scan, const ImageAxes& axes, const ImageF
   data.simulated = simulated;
   data.real = image_outline(scan, axes, where);
   data.plate_edge_u = frame.plate_edge_u - edge_radius;
-  if (mark && !landmark) throw input_error(where, ": a nipple is marked, the mesh has none");
+  if (mark && !landmark) throw input_error(where, ": a nipple is marked, but the mesh has none");
   if (mark) data.nipple = {*landmark, axes.mm(*mark)};
   return align_outlines(data, axes, where);
 }
@@ -36,7 +36,7 @@ void require_view(const MammogramHeader& header, const HexMesh& compressed,
                   const std::string& where) {
   if (header.side != compressed.side) {
     throw input_error(where, ": a mammogram of the ", side_name(header.side),
-                      " breast, the meshes are of the ", side_name(compressed.side));
+                      " breast, but the meshes are of the ", side_name(compressed.side));
   }
   if (header.view != compressed.contact->view) {
     throw input_error(where, ": shows ", view_name(header.view), ", the mesh ",
@@ -90,13 +90,13 @@ std::vector<std::string> AlignedView::doubts() const {
     if (!header || !(std::abs(*header - simulated) > bound)) return;
     doubts.push_back(where_ + ": " + what + " " + format_fixed(*header, 1) + unit +
                      ", simulated with " + format_fixed(simulated, 1) + unit +
-                     "; compress --like this file");
+                     "; compress with --like this file");
   };
   differs("thickness", scan_.header.thickness_mm, compression_.thickness_mm, 5, " mm");
   differs("angle", scan_.header.angle_deg, compression_.angle_deg, 5, " degrees");
   if (alignment_.residual_mm > 5) {
     doubts.push_back(where_ + ": outlines " + format_fixed(alignment_.residual_mm, 1) +
-                     " mm apart after alignment: the simulated breast has another shape");
+                     " mm apart after registration: the simulated breast has a different shape");
   }
   return doubts;
 }

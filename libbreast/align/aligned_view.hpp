@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A patient's mammogram with the simulated view laid over it.
+// A patient's mammogram registered with the simulated view.
 #pragma once
 
 #include <optional>
@@ -17,9 +17,9 @@ enum class MatchEnd { from, to };  ///< which of a matcher's two views
 
 class AlignedView {
  public:
-  /// Keeps the scan. `nipple` in pixels, when it was marked. Throws Error (input) beginning with
-  /// `where`: see require_view, ImageAxes, image_outline, align_outlines; a marked nipple without
-  /// nipple in the mesh.
+  /// Keeps the scan. `nipple` is in pixels, if it was marked. Throws Error (input) beginning with
+  /// `where` as require_view, ImageAxes, image_outline and align_outlines do, and if a nipple is
+  /// marked but the mesh has none.
   AlignedView(MammogramScan scan, const Matcher& matcher, MatchEnd end,
               const std::optional<Vec2>& nipple, const std::string& where);
 
@@ -31,9 +31,9 @@ class AlignedView {
   const std::vector<Vec2>& simulated_outline() const { return simulated_; }  ///< (u,v), mm
   double pixel_mm() const { return scan_.header.pixel_mm; }
 
-  /// Keys aligned/VIEW/...: similarity, residuals, header against the simulation.
+  /// Writes the keys aligned/VIEW/...: similarity, residuals, comparison of header and simulation.
   void report(Report& report) const;
-  /// Header and simulation apart, a poor fit.
+  /// Doubts: differences between header and simulation, or a poor fit.
   std::vector<std::string> doubts() const;
 
  private:

@@ -15,11 +15,12 @@ double sign_along(const Vec3& direction, const Vec3& axis, const char* what,
   const double length = direction.norm(), along = direction.dot(axis);
   if (!(length > 0)) {
     throw input_error(where,
-                      ": patient orientation is missing, such as A\\R: which way is it hung?");
+                      ": the patient orientation (such as A\\R) is missing, so that the "
+                      "orientation of the image is unknown");
   }
   if (!(std::abs(along) >= 0.5 * length)) {
     throw input_error(where, ": patient orientation: its ", what,
-                      " do not run along the axes of a mammogram; turn the image");
+                      " are not the axes of a mammogram; rotate the image");
   }
   return along > 0 ? 1 : -1;
 }

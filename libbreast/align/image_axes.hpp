@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a patient's mammogram lies: its pixels in mm along the axes of the simulated view.
+// The axes of a patient's mammogram: conversion of its pixels to mm along the axes of the simulated
+// view.
 #pragma once
 
 #include <string>
@@ -10,8 +11,8 @@
 namespace breast {
 
 /// Pixel (column, row), counted from the centre of the top left one, to mm on the detector along
-/// e_u (anterior) and e_v of the view, and back. Flips follow from the header's Patient
-/// Orientation; the origin is that pixel, so that only a similarity is left to find.
+/// e_u (anterior) and e_v of the view, and back. The header's Patient Orientation determines the
+/// flips. The origin is that pixel, so that only a similarity remains to be found.
 class ImageAxes {
  public:
   /// Throws Error (input) beginning with `where` when the orientation is missing or the rows do
@@ -21,7 +22,7 @@ class ImageAxes {
   Vec2 mm(const Vec2& pixel) const { return mm_per_pixel_.cwiseProduct(pixel); }
   Vec2 pixel(const Vec2& mm) const { return mm.cwiseQuotient(mm_per_pixel_); }
   bool contains(const Vec2& mm, double margin) const;  ///< margin in mm inside the border
-  /// mm along u of the border at the chest.
+  /// Coordinate u of the image border at the chest, mm.
   double posterior_border() const;
   bool anterior_is_right() const { return mm_per_pixel_.x() > 0; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is asked of a pair of views, as it is given on a command line.
+// The points to be matched between two views, as given on a command line.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,8 @@
 
 namespace breast {
 
-/// One of these is given. Points are mm of the first image or, with the patient's images, pixels.
+/// Exactly one of these must be given. Points are in mm of the first image or, with the patient's
+/// images, in pixels.
 struct MatchQuestion {
   std::vector<double> point;            ///< u, v
   std::vector<double> pair;             ///< u, v in the first image, u, v in the second
@@ -21,8 +22,8 @@ struct MatchQuestion {
 
   /// Throws Error (input) unless exactly one is given.
   void check() const;
-  /// `behind` counts true places behind the first image's edge. Throws Error (input), see the
-  /// functions of match_queries.hpp.
+  /// `behind` counts true positions beyond the edge of the first image. Throws Error (input), see
+  /// the functions of match_queries.hpp.
   std::vector<MatchQuery> queries(const Matcher& matcher, const PatientViews* patient,
                                   int& behind) const;
 };

@@ -167,7 +167,7 @@ std::vector<OutlinePoint> image_outline(const MammogramScan& scan, const ImageAx
     }
   }
   if (breast * 50 < raster.grey.size() || outline.size() < 50) {
-    throw input_error(where, ": no breast with air before it is found in this image");
+    throw input_error(where, ": no breast with air in front of it was found in this image");
   }
   return outline;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The skin line in a mammogram, real or simulated.
+// Outline of the breast (skin line) in a real or simulated mammogram.
 #pragma once
 
 #include <functional>
@@ -17,10 +17,11 @@ struct OutlinePoint {
   Vec2 normal;  ///< unit, out of the breast
 };
 
-/// Border between the breast and the air before it, in mm of the image axes, about 0.3 mm apart.
-/// Air is what hangs together with the anterior border and is not brighter than its noise and 1 %
-/// of the breast's grey; letters and markers in the air are left out, the image's own borders are
-/// no outline. Throws Error (input) beginning with `where` when there is no breast or no air.
+/// Border between the breast and the air in front of it, in mm along the image axes, with points
+/// about 0.3 mm apart. Air is the region connected to the anterior border that is not brighter than
+/// its noise plus 1 % of the breast's grey value; letters and markers in the air are ignored, and
+/// the borders of the image are not part of the outline. Throws Error (input) beginning with
+/// `where` if there is no breast or no air.
 std::vector<OutlinePoint> image_outline(const MammogramScan& scan, const ImageAxes& axes,
                                         const std::string& where);
 

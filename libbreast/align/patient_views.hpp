@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Both mammograms of a patient beside the two simulated views: points in their pixels, curves drawn
-// on them, and what the alignment adds to the band.
+// Both mammograms of a patient with the two simulated views: points in their pixels, curves drawn
+// on them, and the uncertainty that the registration adds to the band.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace breast {
 
-/// One image as it is given: where it came from, and the nipple when it was marked, in pixels.
+/// One image with its source and the nipple in pixels, if it was marked.
 struct PatientImage {
   MammogramScan scan;
   std::string where;
@@ -22,15 +22,15 @@ struct PatientImage {
 
 class PatientViews {
  public:
-  /// Of the matcher's first and second view. Throws Error (input), see AlignedView.
+  /// Images of the matcher's first and second view. Throws Error (input), see AlignedView.
   PatientViews(PatientImage from, PatientImage to, const Matcher& matcher);
 
   const AlignedView& from() const { return from_; }
   const AlignedView& to() const { return to_; }
   /// The priors with alignment_from and alignment_to added.
   std::vector<Prior> with_alignment(std::vector<Prior> priors) const;
-  /// The second image with the outline laid over it, bands, curve, arc and
-  /// nipple: one line a query.
+  /// The second image with the registered outline, bands, curve, arc and nipple drawn over it, for
+  /// every query.
   ColourPicture picture(const Matcher& matcher, const std::vector<MatchResult>& results) const;
   void report(Report& report) const;
   std::vector<std::string> doubts() const;

@@ -215,7 +215,7 @@ Alignment align_outlines(const AlignmentData& data, const ImageAxes& axes,
                          const std::string& where) {
   if (data.simulated.size() < 50 || data.real.size() < 50) {
     throw input_error(where, ": outlines of ", data.simulated.size(), " and ", data.real.size(),
-                      " points: too short to align");
+                      " points: too short to be registered");
   }
   Fit fit(data, axes);
   double moved = std::numeric_limits<double>::infinity();
@@ -224,12 +224,12 @@ Alignment align_outlines(const AlignmentData& data, const ImageAxes& axes,
   const Alignment found = fit.result();
   if (!(found.used >= 0.4)) {
     throw input_error(where, ": only ", int(100 * found.used),
-                      " % of the simulated outline lies within this image: not the same breast, or "
-                      "mark the nipple in both");
+                      " % of the simulated outline lies within this image: it may show another "
+                      "breast; otherwise mark the nipple in both images");
   }
   if (!(moved < 0.5)) {
-    throw input_error(where, ": the outlines cannot be laid over each other (still moving ", moved,
-                      " mm); mark the nipple");
+    throw input_error(where, ": the outlines cannot be registered (the last step is still ", moved,
+                      " mm); mark the nipple in both images");
   }
   return found;
 }

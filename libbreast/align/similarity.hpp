@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laying a simulated view over a patient's mammogram: rotation, translation and scale.
+// Registration of a simulated view to a patient's mammogram by rotation, translation and scale.
 #pragma once
 
 #include <optional>
@@ -20,27 +20,27 @@ struct Similarity {
   Vec2 invert(const Vec2& mm) const;
 };
 
-/// What is known of both images, mm. The simulated side in (u,v), the other in image axes.
+/// Data of both images, mm: the simulated one in (u,v), the other in image axes.
 struct AlignmentData {
   std::vector<Vec2> simulated;  ///< outline
   double spacing = 0.4;         ///< mm, mean distance of its points
   std::vector<OutlinePoint> real;
   double plate_edge_u = 0;  ///< chest-wall edge of the simulated plates
-  /// The nipple in both; without, the most anterior part of the outlines.
+  /// The nipple in both images; if absent, the most anterior part of the outlines is used.
   std::optional<std::pair<Vec2, Vec2>> nipple;
 };
 
 struct Alignment {
   Similarity map;
   double residual_mm = 0;  ///< root mean square distance of the simulated outline from the real one
-  /// One standard deviation of a place on the outline along each axis, for the outlines' residual
-  /// (taken as independent every 30 mm, less four).
+  /// Standard deviation of a point on the outline along each axis, derived from the outlines'
+  /// residual (with one independent point every 30 mm, minus four parameters).
   double pose_mm = 0;
   double rotation_sd_deg = 0, scale_sd = 0;
-  double nipple_mm = 0;  ///< distance of the two nipples (or most anterior parts) that is left
+  double nipple_mm = 0;  ///< remaining distance of the two nipples (or most anterior parts)
   double edge_mm = 0;    ///< simulated plate's edge in front of the image's border
   double used = 0;       ///< part of the simulated outline that lies within the image
-  /// What to add to the band: residual and pose together, mm along each axis.
+  /// Standard deviation to be added to the band, from residual and pose, mm along each axis.
   double deviation_mm() const;
 };
 
@@ -48,8 +48,8 @@ struct Alignment {
 /// their spread, which is estimated along), the nipple (2 mm when marked, the most anterior part
 /// 5 mm), the chest-wall edge (parallel within 3°, its place within 10 mm) and the scale (within
 /// 5 %), by Gauss–Newton with new nearest points every step. Throws Error (input) beginning with
-/// `where` when less than 40 % of the simulated outline comes to lie within the image or when the
-/// fit does not come to rest.
+/// `where` if less than 40 % of the simulated outline lies within the image or the fit does not
+/// converge.
 Alignment align_outlines(const AlignmentData& data, const ImageAxes& axes,
                          const std::string& where);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The size of a phantom's breast and the place of its tumour that give wanted displacements.
+// Fit of a phantom's breast size and tumour position to given displacements.
 #pragma once
 
 #include <array>
@@ -12,12 +12,13 @@
 
 namespace breast {
 
-/// How far (mm) nipple and tumour move from the prone shape: to supine, and to stress-free.
+/// Displacements (mm) of nipple and tumour from the prone shape to the supine and to the
+/// stress-free shape.
 struct LandmarkMotion {
   double nipple_supine = 0, tumour_supine = 0, nipple_free = 0, tumour_free = 0;
 };
 
-/// A parameter that is fitted, and between which values.
+/// A fitted parameter and its bounds.
 struct FittedParameter {
   std::string name;
   double low = 0, high = 0;
@@ -34,12 +35,14 @@ struct Calibration {
   double misfit_mm = 0;     ///< root mean square over the four motions
   int evaluations = 0;
 
-  /// Of the parameters that ended on one of their bounds, "tumour_level 0.5 lies on its bound (0.5
-  /// to 0.7)": the best fit may lie beyond, and the other parameters make up for it.
+  /// Messages for parameters that ended on one of their bounds, such as "tumour_level 0.5 lies on
+  /// its bound (0.5 to 0.7)": the best fit may lie beyond, and the other parameters compensate for
+  /// it.
   std::vector<std::string> on_bounds() const;
 };
 
-/// How the landmarks of one side move, solved on the phantom's template with `mesh` elements.
+/// Displacements of the landmarks of one side, solved on the phantom's template with `mesh`
+/// elements.
 LandmarkMotion landmark_motion(const PhantomParameters& parameters, Side side,
                                const MaterialSet& materials);
 

@@ -19,7 +19,8 @@ class Iteration {
       : residuals_(residuals), options_(options) {
     best_.x = std::move(start);
     const std::optional<VectorXd> first = at(best_.x);
-    if (!first) throw not_converged_error("least squares: the model has no answer at the start");
+    if (!first)
+      throw not_converged_error("least squares: the model has no solution at the starting point");
     best_.residuals = *first;
     best_.jacobian = differences();
   }
@@ -50,7 +51,9 @@ class Iteration {
         x[k] += h = sign * options_.difference;
         if ((moved = at(x))) break;
       }
-      if (!moved) throw not_converged_error("least squares: no answer on either side of parameter ", k + 1);
+      if (!moved)
+        throw not_converged_error(
+            "least squares: the model has no solution on either side of parameter ", k + 1);
       jacobian.col(k) = (*moved - best_.residuals) / h;
     }
     return jacobian;

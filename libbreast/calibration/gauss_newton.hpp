@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Weighted nonlinear least squares of few parameters whose residuals cost minutes.
+// Weighted nonlinear least squares with few parameters and expensive residuals (minutes per
+// evaluation).
 #pragma once
 
 #include <Eigen/Core>
@@ -9,8 +10,8 @@
 
 namespace breast {
 
-/// Residuals at a point, already divided by their standard deviations; nothing where the model has
-/// no answer, such as a body without equilibrium.
+/// Residuals at a point, already divided by their standard deviations; nothing if the model has no
+/// solution, such as a body without equilibrium.
 using Residuals = std::function<std::optional<Eigen::VectorXd>(const Eigen::VectorXd&)>;
 
 struct GaussNewtonOptions {
@@ -29,9 +30,9 @@ struct LeastSquares {
 };
 
 /// Gauss and Newton's iteration with the Jacobian by difference quotients at the start and at the end
-/// and Broyden's updates between; steps are halved until the sum of squares falls. Residuals must
-/// contain a prior of every parameter the data may leave open. Throws Error (not converged) when the
-/// model has no answer at the start.
+/// and Broyden's updates between; steps are halved until the sum of squares falls. The residuals
+/// must contain a prior for every parameter that the data may not determine. Throws Error (not
+/// converged) if the model has no solution at the start.
 LeastSquares gauss_newton(const Residuals& residuals, Eigen::VectorXd start,
                           const GaussNewtonOptions& options = {});
 

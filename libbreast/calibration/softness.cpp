@@ -35,7 +35,7 @@ MaterialSet softened(const MaterialSet& base, const Softness& s) {
     Law& law = set.laws[std::size_t(tissue)];
     if (law.kind != LawKind::polynomial) {
       throw input_error("materials ", base.name, ", tissue ", tissue_name(tissue),
-                        ": a polynomial law is needed, with linear and quadratic terms");
+                        ": a polynomial law with linear and quadratic terms is needed");
     }
     for (std::size_t k = 0; k < law.constants.size(); ++k)
       law.constants[k] *= k < 2 ? s.low_order : s.quadratic;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How soft breasts are and what holds them, such that a cohort moves as women's breasts do.
+// Fit of stiffness and supports to the average motion of women's breasts.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace breast {
 
-/// What is sought, as factors on a set and supports in kPa/mm.
+/// The unknowns: factors on a material set, and supports in kPa/mm.
 struct Softness {
   double low_order = 0.03;  ///< on the constants of polynomial laws that are linear in I1 and I2
   double quadratic = 0.3;   ///< on the others
@@ -27,23 +27,23 @@ struct Softness {
   static Softness from_logarithms(const Eigen::VectorXd& x);
 };
 
-/// `base` so softened, with these supports. Throws Error (input) when fat or fibroglandular tissue has
-/// no polynomial law of equation (9).
+/// `base` scaled by these factors, with these supports. Throws Error (input) when fat or
+/// fibroglandular tissue has no polynomial law of equation (9).
 MaterialSet softened(const MaterialSet& base, const Softness& softness);
 
-/// A mean over women, mm or kPa, and its standard deviation over them.
+/// A mean over women, mm or kPa, and the standard deviation among them.
 struct Observed {
   std::string quantity;
   double mean = 0, sd = 0;
 };
 
-/// Motion from prone to supine of the calibration's cohort against women's, and the mean pressure
-/// of the paddle on one breast.
+/// The data: motion of women's breasts from prone to supine, with the cohort that should match it,
+/// and the mean pressure of the paddle on one breast.
 struct SoftnessData {
   std::vector<HexMesh> cohort;  ///< imaged prone, with wall surfaces
   HexMesh pressed;
   double muscle_mm = 8;
-  Observed lateral, posterior, ribs_change;  ///< of `women` women
+  Observed lateral, posterior, ribs_change;  ///< means over `women` women
   int women = 63;
   Observed pressure{"pressure_kPa", 10, 2.5};  ///< of the paddle on `pressed`
   CompressionOptions press;                    ///< how `pressed` is compressed
@@ -54,8 +54,8 @@ struct SoftnessData {
 struct SoftnessFound {
   Softness softness;
   LeastSquares fit;
-  std::vector<Observed> wanted;  ///< with the standard deviation each was weighted by
-  std::vector<double> found;     ///< means of the cohort and the pressure
+  std::vector<Observed> wanted;  ///< targets, with the standard deviations used as weights
+  std::vector<double> found;     ///< resulting means of the cohort, and the resulting pressure
   MaterialSet materials;         ///< with the uncertainty
 };
 

@@ -59,7 +59,7 @@ void check_input(const fs::path& path, const std::string& label) {
   if (!fs::exists(status)) throw input_error(label, ": ", path.string(), " does not exist");
   if (!fs::is_regular_file(status) && !fs::is_directory(status)) {
     throw input_error(label, ": ", path.string(),
-                      " is a device or pipe; copy what it gives to a file first");
+                      " is a device or pipe; copy its content to a file first");
   }
   if (access(path.c_str(), R_OK) != 0) {
     throw input_error(label, ": ", path.string(), " cannot be read (no permission)");
@@ -82,7 +82,7 @@ void check_ending(const fs::path& path, const Argument& argument) {
   std::string list;
   for (const std::string& ending : endings) list += (list.empty() ? "" : ", ") + ending;
   throw input_error(argument.label(), ": ", path.string(), ": the name must end with ", list,
-                    ", which says what is in it");
+                    ", which states its format");
 }
 
 void check_output(const fs::path& path, const Argument& argument) {
@@ -121,12 +121,12 @@ void check_against_input(const NamedPath& output, const NamedPath& input) {
   const std::string& input_label = input.argument->label();
   if (output.whole == input.whole) {
     throw input_error(label, ": ", output.path.filename().string(), " is also the input ",
-                      input_label, "; name another output");
+                      input_label, "; give another output");
   }
   const bool folder = fs::is_directory(input.whole, ignored);
   if (folder && input.argument->kind == ArgumentKind::input && lies_in(output.whole, input.whole)) {
     throw input_error(label, ": ", output.path.string(), " lies in the input folder ", input_label,
-                      "; name an output elsewhere");
+                      "; give an output elsewhere");
   }
 }
 

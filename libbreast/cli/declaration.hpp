@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a tool declared about itself: the one source of its help, man page,
-// Markdown page and checks.
+// The declaration of a tool, from which its help, man page, Markdown page and checks are derived.
 #pragma once
 
 #include <functional>
@@ -28,7 +27,8 @@ struct Argument {
   std::function<void(const std::vector<std::string>& values)> store;
 
   bool positional() const { return names.empty(); }
-  /// Longest name of an option, placeholder of a positional: how messages call it.
+  /// Name used in messages: the longest name of an option, or the placeholder of a positional
+  /// argument.
   const std::string& label() const { return positional() ? placeholder : names.back(); }
 };
 
@@ -44,7 +44,7 @@ struct Declaration {
 
 /// The one-line synopsis: "forward REFERENCE.vtkhdf DEFORMED.vtkhdf [options]".
 std::string synopsis(const Declaration& tool);
-/// "number in mm from 0 to 40; default: 2": what the help adds to an argument's own words.
+/// "number in mm from 0 to 40; default: 2": the remarks that the help adds to an argument's text.
 std::string remarks(const Argument& argument);
 /// "-o, --output FILE".
 std::string usage(const Argument& argument);
@@ -55,7 +55,8 @@ std::string help_markdown(const Declaration& tool);
 /// For a shell's completion: "--name<TAB>kind<TAB>choice choice" a line for every long option; kind is flag, file or value.
 std::string help_completion(const Declaration& tool);
 
-/// The candidate nearest in edit distance when near enough to be a slip, else empty.
+/// The candidate with the smallest edit distance if it is small enough for a typing error,
+/// otherwise empty.
 std::string nearest(const std::string& given, const std::vector<std::string>& candidates);
 
 }  // namespace breast

@@ -34,11 +34,13 @@ pid_t program = 0;
 void end_crashed(int fault) {
   switch (fault) {
     case SIGSEGV:
-      end_with("crashed (bad memory access): out of memory or of stack (ulimit -v, -s), or a fault in this program");
+      end_with(
+          "crashed (invalid memory access): out of memory or stack space (ulimit -v, -s), "
+          "or an error in this program");
     case SIGBUS:
-      end_with("crashed (a file or the memory behind it went away)");
+      end_with("crashed (a file or the memory behind it became unavailable)");
     default:
-      end_with("crashed (a library gave up): out of memory, or a fault in this program");
+      end_with("crashed (a library aborted): out of memory, or an error in this program");
   }
 }
 

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One line and exit 1 also where no handler of Tool::main is reached.
+// A one-line message and exit code 1 for failures that do not reach the handlers of Tool::main.
 #pragma once
 
 namespace breast {
 
-/// From now on a failure that nobody catches (an exception outside Tool::main, in a thread of OpenMP or in a
-/// destructor) and a crash (of a library that does not mind a failed allocation, or of a stack that is full) end the
-/// program with one line on stderr and exit code 1, not with a signal; files and folders of temporary results are
-/// removed where that is safe. A write beyond a limit on file sizes (ulimit -f) is an error like a full disk.
-/// True, so that a static variable can call it before main.
+/// Installs handlers, so that uncaught failures (an exception outside Tool::main, in an OpenMP
+/// thread or in a destructor) and crashes (of a library that ignores a failed allocation, or by a
+/// stack overflow) end the program with one line on stderr and exit code 1 instead of a signal;
+/// temporary files and folders are removed where that is safe. A write beyond a limit on file sizes
+/// (ulimit -f) becomes an error like a full disk. Returns true, so that a static variable can call
+/// it before main.
 bool have_last_words();
 
-/// Says `NAME: reason` (and the last line a library printed), removes the folders of temporary results, ends the
-/// process with exit code 1. Neither allocates nor locks.
+/// Prints `NAME: reason` and the last line that a library printed, removes temporary folders, and
+/// ends the process with exit code 1. Neither allocates nor locks.
 [[noreturn]] void end_with(const char* reason) noexcept;
 
 }  // namespace breast

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What libraries print on stderr while a tool runs: kept from the user, who gets one line of ours.
+// Suppression of what libraries print on stderr while a tool runs; the user gets a single line of
+// the tool.
 #pragma once
 
 #include <cstddef>
 
 namespace breast {
 
-/// While it lives, stderr leads nowhere but into 64 kB of memory; what a tool says goes to message_descriptor(). When
-/// a library ends the program (libgomp does, out of memory), its last line is shown as the reason. Not under a
-/// sanitizer, whose reports are wanted. One at a time.
+/// During its lifetime stderr is redirected to 64 kB of memory; messages of the tool go to
+/// message_descriptor(). If a library ends the program (as libgomp does when out of memory), its
+/// last line is shown as the reason. Inactive under a sanitizer, whose reports are needed. Only one
+/// instance at a time.
 class LibraryWords {
  public:
   LibraryWords();
@@ -17,7 +19,7 @@ class LibraryWords {
   LibraryWords& operator=(const LibraryWords&) = delete;
 };
 
-/// Where the user reads: stderr as it was when the program started.
+/// Descriptor of the user's stderr, as it was when the program started.
 int message_descriptor() noexcept;
 
 /// Copies the last line that a library printed, control characters as '?'; an empty text when there is none. It may be

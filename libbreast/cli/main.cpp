@@ -158,23 +158,23 @@ void Tool::Impl::declare_common() {
     return declaration.common.back();
   };
   add_common(ArgumentKind::output, "--report", "FILE.json",
-             "machine-readable report, also of a failure")
+             "write a machine-readable report, also in case of failure")
       .endings = {".json"};
   declaration.common.back().store = [this](const std::vector<std::string>& given) {
     report_file = given.front();
   };
-  Argument& count = add_common(ArgumentKind::integer, "--threads", "N", "threads to use");
+  Argument& count = add_common(ArgumentKind::integer, "--threads", "N", "number of threads");
   count.low = 1;
   count.high = 1024;
   count.default_text = "all cores";
   count.store = [this](const std::vector<std::string>& given) {
     threads = std::stoi(given.front());
   };
-  add_common(ArgumentKind::flag, "--quiet", "", "no progress and no warnings on stderr").store =
-      [this](const std::vector<std::string>&) { quiet = true; };
+  add_common(ArgumentKind::flag, "--quiet", "", "print no progress and no warnings on stderr")
+      .store = [this](const std::vector<std::string>&) { quiet = true; };
   const auto nothing = [](const std::vector<std::string>&) {};
-  add_common(ArgumentKind::flag, "--help", "", "this text").store = nothing;
-  add_common(ArgumentKind::flag, "--version", "", "name and version").store = nothing;
+  add_common(ArgumentKind::flag, "--help", "", "print this text").store = nothing;
+  add_common(ArgumentKind::flag, "--version", "", "print the name and version").store = nothing;
 }
 
 bool Tool::Impl::answer_questions(const std::vector<std::string>& arguments) const {

@@ -21,7 +21,7 @@ constexpr double least_gravity_mm_s2 = 50;
 void check_scale(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) {
-    throw input_error("--scale: '", text, "' is not TISSUE=PERCENT; for example fat=150");
+    throw input_error("--scale: '", text, "' is not of the form TISSUE=PERCENT, such as fat=150");
   }
   tissue_from_name(text.substr(0, equals));
   const double percent = parse_number(text.substr(equals + 1), "--scale " + text.substr(0, equals));
@@ -30,8 +30,8 @@ void check_scale(const std::string& text) {
     throw input_error("--scale ", text, ": ", format_number(percent), " percent is below ",
                       format_number(least_scale_percent), "; did you mean ",
                       text.substr(0, equals + 1), format_number(100 * percent),
-                      "? (100 leaves the stiffness as it is; a softer tissue needs a set of its "
-                      "own, --materials FILE)");
+                      "? (100 leaves the stiffness unchanged; a softer tissue needs a material "
+                      "set of its own, --materials FILE)");
   }
 }
 
@@ -44,47 +44,50 @@ void check_gravity(const Vec3& gravity, const std::string& given) {
   for (int d = 0; d < 3; ++d) meant += (d == 0 ? "" : ",") + format_number(factor * gravity[d]);
   throw input_error("--gravity ", given, ": ", format_number(size), " mm/s2 is below ",
                     format_number(least_gravity_mm_s2), "; did you mean ", meant,
-                    "? (mm/s2; the earth's is 9810, 0,0,0 is none)");
+                    "? (in mm/s2, the earth's gravity is 9810; 0,0,0 means none)");
 }
 }  // namespace
 
 void declare_mechanics(Tool& tool, MechanicsChoices& choices) {
-  tool.text(choices.materials, "--materials", "NAME|FILE",
-            "name of a material set, or a TSV file of one");
+  tool.text(choices.materials, "--materials", "NAME|FILE", "material set: its name or a TSV file");
   tool.texts(choices.scale, "--scale", "TISSUE=PERCENT",
-             "stiffness of one tissue in percent of the set's, at least 10, as fat=150");
+             "scale the stiffness of one tissue to this percentage of the set's, at least 10, "
+             "such as fat=150");
   tool.choice(choices.element, "--element", {"q1p0", "q2p1"},
-              "8 nodes and one pressure, or 27 nodes and four");
+              "element type: 8 nodes and one pressure, or 27 nodes and four pressures");
   tool.choice(choices.invariants, "--invariants", {"isochoric", "plain"},
-              "invariants of the isochoric part of C, or plain as printed in the paper");
+              "invariants in the laws: those of the isochoric part of C, or the plain ones as "
+              "printed in the paper");
   tool.number(choices.bulk_ratio, "--bulk-ratio", "K_OVER_MU",
-              "bulk over shear modulus; without it, exactly incompressible", 1.0, 1e9);
+              "ratio of bulk to shear modulus (default: exactly incompressible)", 1.0, 1e9);
   tool.text(choices.wall, "--wall", "held|slide[:KT]|spring:KN[,KT]",
-            "the chest wall: held; or the breast slides on it against springs of KT kPa/mm (0.01 "
-            "where no number is given); or on springs of KN across and KT along it (a third of KN); "
-            "without this option as the material set says, or held");
+            "boundary condition at the chest wall. held: no displacement; slide: the breast "
+            "slides on the wall against springs of KT kPa/mm (0.01 if no number is given); "
+            "spring: springs of KN kPa/mm normal and KT tangential to the wall (KT is a third "
+            "of KN if it is not given) (default: that of the material set, otherwise held)");
   tool.text(choices.cut, "--cut", "free|fixed|roller|spring:KC",
-            "what holds the lateral cut surface where the body ends, springs of KC kPa/mm; without "
-            "this option as the material set says, or free");
+            "boundary condition on the lateral cut, the surface at which the model ends: free, "
+            "fixed, roller, or springs of KC kPa/mm (default: that of the material set, "
+            "otherwise free)");
   tool.number(choices.skin_compression, "--skin-compression", "PERCENT",
-              "part of the skin's law that resists compression; the rest wrinkles (default: as the "
-              "material set says, or 100)",
+              "share of the skin's stiffness that remains in compression, where skin wrinkles "
+              "(default: that of the material set, otherwise 100)",
               0.1, 100);
   tool.number(choices.skin_smoothing, "--skin-smoothing", "WIDTH",
-              "half the width of the transition to wrinkling, in squared stretches (default: as the "
-              "material set says, or 0.02)",
+              "half the width of the transition to wrinkling, in squared stretches (default: "
+              "that of the material set, otherwise 0.02)",
               1e-4, 0.5);
   tool.number(choices.skin_prestretch, "--skin-prestretch", "PERCENT",
-              "stretch of the skin in the stress-free shape of the body (default: as the material "
-              "set says, or 0)",
+              "stretch of the skin in the stress-free shape of the body (default: that of the "
+              "material set, otherwise 0)",
               0, 50);
   tool.choice(choices.solver, "--solver", {"auto", "direct", "multigrid"},
-              "linear solver: a Cholesky factor; multigrid, with a check of stability; or "
-              "multigrid where it "
-              "is cheaper, and a factor where multigrid meets a difficulty");
-  tool.flag(
-      choices.keep_unconverged, "--keep-unconverged",
-      "write the last state of a solve that did not converge; its status says so, exit code 3");
+              "linear solver. direct: Cholesky factorisation; multigrid: iterative, with a "
+              "check of stability; auto: multigrid where it is cheaper, followed by direct if "
+              "multigrid meets a difficulty");
+  tool.flag(choices.keep_unconverged, "--keep-unconverged",
+            "write the last state of a solve that did not converge, marked by its status; the exit "
+            "code is still 3");
   tool.check([&choices] {
     for (const std::string& scale : choices.scale) check_scale(scale);
   });
@@ -92,8 +95,9 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices) {
 
 void declare_estimate(Tool& tool, std::string& estimate) {
   tool.choice(estimate, "--estimate", {"step", "q2", "none"},
-              "discretisation error at the landmarks by two steps with 27-node elements and one "
-              "matrix, by a whole second solution with them (dear), or not at all");
+              "estimate of the discretisation error at the landmarks. step: by two steps with "
+              "27-node elements and one matrix; q2: by a complete second solution with 27-node "
+              "elements (expensive); none: no estimate");
 }
 
 Vec3 GravityChoices::vector() const {
@@ -106,8 +110,8 @@ void declare_gravity(Tool& tool, GravityChoices& choices, const std::string& hel
   if (choices.posture == "prone") std::swap(postures[0], postures[1]);
   tool.choice(choices.posture, "--posture", postures, help);
   tool.numbers(choices.gravity, "--gravity", "gx,gy,gz", 3,
-               "gravity in mm/s2, patient axes (left, posterior, superior), instead of --posture; "
-               "its size at least 50, or 0 for none");
+               "gravity vector in mm/s2 along the patient axes (left, posterior, superior), "
+               "instead of --posture; its magnitude is at least 50, or 0 for none");
   tool.check([&choices] {
     if (choices.gravity.empty()) return;
     const Vec3 gravity = choices.vector();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The MECHANICS options that backward, forward and compress share, as given on the command line.
+// The mechanics options that backward, forward and compress share, as given on the command line.
 #pragma once
 
 #include <optional>

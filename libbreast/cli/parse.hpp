@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Command line -> declared arguments, with every check that needs no file to be opened.
+// Parsing of a command line into the declared arguments, with all checks that do not open a file.
 #pragma once
 
 #include <string>
@@ -18,27 +18,27 @@ struct Tokens {
     int times = 0;
   };
   std::vector<Option> options;
-  std::vector<std::string> unknown;  ///< options nobody declared
+  std::vector<std::string> unknown;  ///< undeclared options
   std::string problem;               ///< other parse trouble, empty when none
 };
 /// Splits the command line by the declared names (CLI11).
 Tokens tokenize(const Declaration& tool, const std::vector<std::string>& arguments);
 
-/// The option or common option of that name; null when nobody declared it.
+/// The option or common option of that name; null if it was not declared.
 Argument* find_option(Declaration& tool, const std::string& label);
 
 /// Checks kinds, ranges, choices and counts and stores the values; throws Error (input) saying what
 /// was given and what is valid.
 void assign(Declaration& tool, const Tokens& tokens);
 
-/// Inputs exist, are files or folders and readable; outputs have an ending of their format and a
-/// folder that is writable, are no input (nor in an input folder, nor a file that any other argument
-/// names) and replace nothing but an older result of ours. Devices, pipes and streams such as
-/// /dev/stdout are outputs of any format. Throws Error (input).
+/// Checks that inputs exist, are files or folders and are readable, and that outputs have an
+/// extension of their format and a writable folder, are not inputs (nor in an input folder, nor
+/// named by another argument) and replace nothing but an older result of libbreast. Devices, pipes
+/// and streams such as /dev/stdout are outputs of any format. Throws Error (input).
 void check_paths(const Declaration& tool, const Tokens& tokens);
 
-/// "tool arguments" with folders removed from every path, without the common options: what the
-/// history of an output keeps.
+/// "tool arguments" with folders removed from every path and without the common options, as stored
+/// in the history of an output.
 std::string history_command(const Declaration& tool, const std::vector<std::string>& arguments);
 
 }  // namespace breast

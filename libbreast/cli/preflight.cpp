@@ -64,8 +64,8 @@ void check_limits(int, char** argv, char**) {
   const rlim_t needed = mapped_mb() + work_mb + rlim_t(threads) * blas_thread_mb;
   if (limit.rlim_cur / mb >= needed) return;
   dprintf(STDERR_FILENO,
-          "%s: the limit on memory is %lu MB (ulimit -v): at least %lu are needed with %d threads of OpenBLAS; "
-          "OPENBLAS_NUM_THREADS=1 needs least\n",
+          "%s: the limit on memory is %lu MB (ulimit -v): at least %lu are needed with %d "
+          "threads of OpenBLAS; OPENBLAS_NUM_THREADS=1 needs the least\n",
           name, (unsigned long)(limit.rlim_cur / mb), (unsigned long)needed, threads);
   _exit(1);
 }

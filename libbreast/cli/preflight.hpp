@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Limits of the process that are looked at before its libraries start.
+// Checks of the process limits (stack, memory) before the libraries start.
 #pragma once
 
 namespace breast {
 
-/// True; a program that asks has the check (preflight.cpp) in it: too small a stack or, where OpenBLAS is needed, too
-/// small a memory limit ends it with one line and exit code 1.
+/// Returns true; a program that calls it is linked with the check (preflight.cpp), which ends the
+/// program with one line and exit code 1 if the limit on the stack or, where OpenBLAS is needed, on
+/// memory is too small.
 bool has_preflight();
 
 }  // namespace breast

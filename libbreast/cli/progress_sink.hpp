@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where progress goes: a bar on a terminal, sparse lines otherwise, nothing with --quiet.
+// Display of progress on stderr: a bar on a terminal, occasional lines otherwise, nothing with
+// --quiet.
 #pragma once
 
 #include <chrono>
@@ -13,14 +14,14 @@
 
 namespace breast {
 
-/// Notes and lines are held back for the first seconds, so that a run that fails at once on bad
-/// input says one line, the error.
+/// Notes and lines are delayed for the first seconds, so that a run that fails at once on bad input
+/// prints only one line, the error.
 class StderrProgress final : public Progress {
  public:
   StderrProgress(std::string tool, bool quiet);
   void update(std::string_view stage, double fraction, std::string_view detail) override;
   void note(std::string_view text) override;
-  /// Success: shows the notes held back. Failure: drops them. Either way clears the bar.
+  /// Shows the delayed notes after success, discards them after failure, and clears the bar.
   void finish(bool success);
 
  private:

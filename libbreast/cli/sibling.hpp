@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A tool that lets another one do part of its work.
+// Running another tool of the installation for part of a tool's work.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace breast {
 
-/// Throws Error (input) when no program `tool` stands beside the running one; `what` is the option
-/// that needs it.
+/// Throws Error (input) if there is no program `tool` in the folder of the running one; `what` is
+/// the option that needs it.
 void require_sibling(const std::string& tool, const std::string& what);
 
-/// Runs the program `tool` that stands beside the running one, silently, and returns its report. It
-/// dies with the caller. Throws Error with its reason (input where it says bad input, else failed).
+/// Runs the program `tool` from the folder of the running one, silently, and returns its report. It
+/// ends with the caller. Throws Error with its reason (input for bad input, otherwise failed).
 Report run_sibling(const std::string& tool, const std::vector<std::string>& arguments);
 
 }  // namespace breast

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long a stage still takes, from the fractions it has reported.
+// Estimate of the remaining time of a stage from the fractions it has reported.
 #pragma once
 
 #include <deque>
@@ -9,13 +9,15 @@
 
 namespace breast {
 
-/// The rate is that of the later half of the time since the stage began, so that a stage that grows slower or faster is followed.
+/// The rate is that of the second half of the time since the stage began, so that changes of the
+/// rate are followed.
 class TimeLeft {
  public:
-  /// What is left of `stage` in seconds, `fraction` of it being done at the time `now` (seconds of any clock that does not go back).
-  /// Nothing while too little is known (less than 2 s or 2 % of progress), for a fraction that is below 0, 1 or not finite, and for a stage
-  /// that takes less than 10 s in all. Another stage begins anew, unless its fraction goes on from where the last one ended: then both
-  /// are parts of one whole.
+  /// Remaining seconds of `stage`, of which `fraction` is done at the time `now` (seconds of any
+  /// monotonic clock). Nothing while too little is known (less than 2 s or 2 % of progress), for a
+  /// fraction that is below 0, 1 or not finite, and for a stage that takes less than 10 s in all.
+  /// Another stage starts a new estimate, unless its fraction continues from the end of the last
+  /// one, in which case both are treated as one stage.
   std::optional<double> update(std::string_view stage, double fraction, double now);
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One declaration per tool gives its help, man page, Markdown page, checks and exit codes.
+// Declaration and execution of a tool: one declaration gives its help, man page, Markdown page,
+// checks and exit codes.
 //
 //   int main(int argc, char** argv) {
 //     std::filesystem::path mesh, reference;
@@ -28,7 +29,7 @@
 
 namespace breast {
 
-/// What the body of a tool sees: progress, report, timer, provenance.
+/// The services for the body of a tool: progress, report, timer, provenance.
 class Run {
  public:
   Run(std::string tool, std::string command, Progress& progress);
@@ -44,12 +45,13 @@ class Run {
     const History* history;  ///< may be null (foreign file)
   };
   History history(const std::vector<Input>& inputs) const;
-  /// A remark for the user: stderr and report "warnings".
+  /// A warning for the user, on stderr and in the report under "warnings".
   void warn(const std::string& text);
   /// Data for stdout (tables); nothing else goes there.
   void print(const std::string& text);
   double seconds() const;  ///< since the tool started
-  /// What print() collected: shown only when the tool succeeds, so stdout never holds half a table.
+  /// The text collected by print(), which is shown only if the tool succeeds, so that stdout never
+  /// has an incomplete table.
   const std::string& printed() const { return printed_; }
 
  private:
@@ -106,7 +108,7 @@ class Tool {
                    const std::string& placeholder, const std::string& help);
   Tool& output_file(std::filesystem::path& value, const std::string& name,
                     const std::string& placeholder, const std::string& help);
-  /// A folder the tool fills; it may exist already, its parent must.
+  /// A folder that the tool fills; it may exist already, and its parent must exist.
   Tool& output_folder(std::filesystem::path& value, const std::string& name,
                       const std::string& placeholder, const std::string& help);
   Tool& required(const std::string& name);  ///< makes an option mandatory

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Programs that `breast` starts: a tool in its own place, make as a child.
+// Starting of programs by `breast`: a tool replaces the process, make runs as a child.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,16 @@
 
 namespace breast {
 
-/// Becomes `program words...`; returns only by throwing Error (failed).
+/// Replaces this process by `program words...`; returns only by throwing Error (failed).
 [[noreturn]] void become(const std::filesystem::path& program,
                          const std::vector<std::string>& words);
 
-/// Runs `words` (the program first, searched for in PATH) and waits. It shares this process's terminal, whose interrupt is for the
-/// child alone, and ends when this process does. Returns its exit code, 128 + the signal where one ended it.
+/// Runs `words` (the program first, searched for in PATH) and waits. The child shares this
+/// process's terminal and alone receives its interrupts, and ends when this process does. Returns
+/// its exit code, or 128 plus the signal number if a signal ended it.
 int run_child(const std::vector<std::string>& words);
 
-/// The same, silently: what it printed.
+/// The same without showing the output, which is returned.
 struct Captured {
   int exit_code = 0;
   std::string out, err;

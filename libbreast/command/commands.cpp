@@ -13,8 +13,10 @@ const std::vector<ToolEntry> commands = {
     {"run", "the whole chain on a breast MR scan"},
     {"demo", "the whole chain on a simulated breast whose truth is known"},
     {"cohort", "the whole chain on every case of a folder"},
-    {"list", "the tools, one a line"},
-    {"help", "help on a command or a tool; `help settings`: targets and settings of the pipeline"}};
+    {"list", "list the tools, one per line"},
+    {"help",
+     "help on a command or a tool; `help settings` lists the targets and settings of "
+     "the pipeline"}};
 
 std::string aligned(const std::vector<ToolEntry>& entries, const std::string& indent) {
   std::size_t width = 0;
@@ -55,10 +57,13 @@ Declaration breast_declaration() {
       "from a breast MR scan to a mechanical model: all tools and the pipeline under one name";
   d.version = BREAST_VERSION;
   d.paragraphs = {
-      "`breast TOOL` runs a tool of libbreast with its arguments, as in `breast segment scan.nrrd labels.vtkhdf --side left`; each has a manual page "
-      "of its own, breast-TOOL. `breast list` lists them, `breast help TOOL` prints the help of one.",
-      "`breast run SCAN --side left|right [SETTING=value]...` runs the whole chain on a scan, `breast demo` on a simulated breast, `breast cohort DIR` "
-      "on every case file of a folder. They work from any folder; results are written to ./runs, or the folder named by --runs."};
+      "`breast TOOL` runs a tool of libbreast with its arguments, as in `breast segment "
+      "scan.nrrd labels.vtkhdf --side left`. Each tool has a manual page, breast-TOOL. `breast "
+      "list` lists them, `breast help TOOL` prints the help of one.",
+      "`breast run SCAN --side left|right [SETTING=value]...` runs the whole chain on a scan, "
+      "`breast demo` on a simulated breast, `breast cohort DIR` on every case file of a folder. "
+      "They work from any folder; results are written to ./runs or to the folder given by "
+      "--runs."};
   d.positionals = {word("COMMAND", "run, demo, cohort, list, help, or the name of a tool"),
                    word("ARGUMENT", "arguments of the command")};
   d.positionals.back().repeatable = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The commands of `breast` that are no tools.
+// The commands of `breast` other than the tools.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ namespace breast {
 std::vector<std::string> command_names();
 bool is_pipeline_command(const std::string& name);
 
-/// The face of `breast` itself, for its manual page.
+/// The declaration of `breast` itself, for its manual page.
 Declaration breast_declaration();
 
-/// "NAME  summary" a line.
+/// Lines of "NAME  summary".
 std::string tool_list(const Installation& installation);
 /// What `breast help` prints.
 std::string overview(const Installation& installation);

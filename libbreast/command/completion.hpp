@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Words that a shell may complete a `breast` command line with.
+// Words with which a shell can complete a `breast` command line.
 #pragma once
 
 #include <string>
@@ -9,8 +9,9 @@
 
 namespace breast {
 
-/// Candidates for the last of `words` (what stands after `breast`, the last one incomplete), to be filtered by what it begins with;
-/// empty where a file name is wanted. What options a tool has, it is asked itself.
+/// Candidates for the last of `words` (the words after `breast`, the last one incomplete), to be
+/// filtered by its beginning; empty if a file name is expected. The tools themselves are asked for
+/// their options.
 std::vector<std::string> completions(const Installation& installation,
                                      const std::vector<std::string>& words);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The installation a running `breast` belongs to: its tools and its pipeline.
+// The installation to which a running `breast` belongs: its tools and its pipeline.
 #pragma once
 
 #include <filesystem>

@@ -132,7 +132,8 @@ std::string name_for_make(const fs::path& given, const fs::path& links) {
   if (ending == ".nhdr" || ending == ".mhd")
     throw input_error(
         "'", file.string(),
-        "': a header with its data in another file needs a name without blanks and without any of ",
+        "': a header whose data are in another file needs a name without blanks and without any "
+        "of ",
         refused, "; rename it");
   const fs::path link = links / mark_of(whole) / plain_name(own);
   link_to(whole, link);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// File names as make and its shell take them: which may be given as they are, and the stand-ins of the others.
+// File names for make and its shell: those that can be used directly, and substitutes for the
+// others.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +8,8 @@
 
 namespace breast {
 
-/// True for a path that neither make nor a shell reads as anything but a name: no blank, no control character, none of the
-/// characters that pipelines/check-settings.mk refuses, no dash in front, and valid UTF-8.
+/// True for a path that make and a shell read as a plain name: no blank, no control character, none
+/// of the characters that pipelines/check-settings.mk refuses, no dash in front, and valid UTF-8.
 bool plain_for_make(const std::string& path);
 
 /// `name` with every character that is not plain replaced by an underscore.

@@ -36,17 +36,17 @@ std::string runs_for_make(const std::string& runs) {
   if (name.empty())
     throw input_error(
         "--runs '", runs,
-        "': make cannot write to a folder of such a name; go to the folder above it, or give a name without "
-        "blanks, quotes and brackets");
+        "': make cannot write to a folder with such a name; start from the folder above it, or "
+        "give a name without blanks, quotes and brackets");
   std::error_code problem;
   fs::create_directories(name, problem);
   if (!fs::is_directory(name))
-    throw input_error("--runs '", runs, "': is no folder and cannot be made");
+    throw input_error("--runs '", runs, "': is not a folder and cannot be created");
   // Tried, not asked: root may do everything, and still cannot write to /proc.
   const fs::path links = fs::path(name) / ".names";
   if (!fs::is_directory(links)) {
     if (!fs::create_directory(links, problem))
-      throw input_error("--runs '", runs, "': nothing can be written there");
+      throw input_error("--runs '", runs, "': is not writable");
     fs::remove(links, problem);
   }
   return name;
@@ -88,8 +88,10 @@ std::string refusal(const Captured& made) {
   const std::string name =
       last.substr(no_rule.size(), last.find('\'', no_rule.size()) - no_rule.size());
   if (last.find(", needed by ") != std::string::npos)
-    return "'" + name + "', which a setting names, does not exist";
-  return "'" + name + "' is no target of the pipeline; `breast help settings` lists them";
+    return "'" + name + "', which is named in a setting, does not exist";
+  return "'" + name +
+         "' is not a target of the pipeline; `breast help settings` lists the "
+         "targets";
 }
 
 // What make prints for `words`; its refusal is thrown.
@@ -102,7 +104,7 @@ std::string ask(const std::vector<std::string>& words) {
 std::string make_file(const Installation& installation) {
   const fs::path& file = installation.pipeline;
   if (!fs::exists(file))
-    throw failed_error(file.string(), " is not there: the pipeline is not installed");
+    throw failed_error(file.string(), " does not exist: the pipeline is not installed");
   // In the source tree itself it is called as the README does, so that both ways share their runs.
   std::error_code none;
   const std::string name = fs::equivalent(file.parent_path(), fs::current_path(), none)
@@ -131,10 +133,10 @@ int make_and_show(const std::vector<std::string>& words, const std::string& run)
   const auto before = written(table);
   const int code = run_child(words);
   if (code != 0) {
-    std::fprintf(
-        stderr,
-        "breast: stopped; what was finished lies in %s, and the same command goes on from there\n",
-        run.c_str());
+    std::fprintf(stderr,
+                 "breast: stopped; finished results are in %s, and the same command continues from "
+                 "there\n",
+                 run.c_str());
     return code > 128 ? code : 1;
   }
   if (words.back() == "summary" && before && before == written(table)) print(read_text(table));

@@ -18,7 +18,7 @@ int run_pipeline(const Installation& installation, const std::string& command,
 /// The settings of the pipeline by name; empty when make cannot say.
 std::vector<std::string> pipeline_settings(const Installation& installation);
 
-/// What the pipeline says of its targets and settings.
+/// The pipeline's help on its targets and settings.
 std::string settings_help(const Installation& installation);
 
 }  // namespace breast

@@ -46,12 +46,13 @@ Argument positional(const std::string& placeholder, const std::string& help, std
 void declare_options(Declaration& d, PipelineRequest& r) {
   Argument runs =
       option(ArgumentKind::text, "--runs", "DIR",
-             "folder of all runs, each in a folder of its own; it is made when it is missing",
+             "folder in which every run has a folder of its own; it is created if it does not "
+             "exist",
              [&r](const std::string& value) { r.runs = value; });
   runs.default_text = r.runs;
   d.options.push_back(runs);
   Argument jobs = option(ArgumentKind::integer, "--jobs", "N",
-                         "stages that may run at the same time; they share the cores",
+                         "number of stages that may run at the same time; they share the cores",
                          [&r](const std::string& value) { r.jobs = std::stoi(value); });
   jobs.names = {"-j", "--jobs"};
   jobs.low = 1;
@@ -59,13 +60,13 @@ void declare_options(Declaration& d, PipelineRequest& r) {
   jobs.default_text = "1";
   d.options.push_back(jobs);
   d.options.push_back(option(ArgumentKind::flag, "--dry-run", "",
-                             "print the commands that would run, and run nothing",
+                             "print the commands without running them",
                              [&r](const std::string&) { r.plan = true; }));
 }
 
 void declare_target(Declaration& d, PipelineRequest& r) {
   Argument target = option(ArgumentKind::text, "--target", "NAME",
-                           "what is to be made: chain, figures, summary, page, report or another "
+                           "target to make: chain, figures, summary, page, report or another "
                            "target of the pipeline (breast help settings)",
                            [&r](const std::string& value) { r.target = value; });
   target.default_text = r.target;
@@ -77,16 +78,18 @@ void declare_run(Declaration& d, PipelineRequest& r) {
   d.paragraphs = {
       "Runs the pipeline on a scan: segment, fit-hermite, hexmesh, backward, forward, compress in both views, project-mammogram, the "
       "matching of both views, and the figures. Stages whose inputs and settings are unchanged are not run again.",
-      "SETTING=value, any number of times after the scan, sets what `breast help settings` lists, such as TUMOUR=x,y,z, REDUCTION=40, "
-      "CHEST_WALL=labels.nrrd or MATERIALS=wellman. Names of files are relative to the folder of the caller. A scan, or a file of a "
-      "setting, whose name make cannot take (blanks, quotes, brackets, ...) is run through a link of a plain name in DIR/.names; "
-      "the name of the run's folder has an underscore in the place of such characters."};
+      "Settings of the form SETTING=value may follow the scan, such as TUMOUR=x,y,z, "
+      "REDUCTION=40, CHEST_WALL=labels.nrrd or MATERIALS=wellman; `breast help settings` lists "
+      "them. File names are relative to the current folder. A scan, or a file in a setting, "
+      "whose name make cannot handle (blanks, quotes, brackets, ...) is accessed through a link "
+      "with a plain name in DIR/.names; the name of the run's folder has underscores in place "
+      "of such characters."};
   d.positionals.push_back(positional(
       "SCAN",
       "T1-weighted MR without fat saturation, patient prone: NRRD, NIfTI, MetaImage or a DICOM folder",
       r.scan));
   Argument side =
-      option(ArgumentKind::choice, "--side", "NAME", "the patient's left or right breast",
+      option(ArgumentKind::choice, "--side", "NAME", "breast to model: the patient's left or right",
              [&r](const std::string& value) { r.side = value; });
   side.choices = {"left", "right"};
   d.options.push_back(side);
@@ -100,9 +103,10 @@ void declare_run(Declaration& d, PipelineRequest& r) {
 void declare_demo(Declaration& d, PipelineRequest& r) {
   d.summary = "the whole chain on a simulated breast whose truth is known";
   d.paragraphs = {
-      "Makes a breast MR of a phantom of average size, runs the pipeline on it, and shows the table of landmark displacements, the "
-      "errors against the phantom's truth and the place of the pictures. SETTING=value changes what `breast help "
-      "settings` lists, such as PRESET=paper."};
+      "Simulates the MR scan of a phantom of average size, runs the pipeline on it, and shows "
+      "the table of landmark displacements, the errors against the phantom's truth, and where "
+      "the pictures are. SETTING=value changes a setting that `breast help settings` lists, "
+      "such as PRESET=paper."};
   declare_options(d, r);
   declare_target(d, r);
   d.examples = {{"breast demo", "results in ./runs/average"},
@@ -124,33 +128,34 @@ void declare_request(Declaration& d, PipelineRequest& r, const std::string& name
 
 void declare_cluster(Declaration& d, PipelineRequest& r) {
   d.options.push_back(option(ArgumentKind::flag, "--slurm", "",
-                             "give the cases to Slurm as one job array, then a job that makes the "
-                             "table; --dry-run prints its script",
+                             "submit the cases to Slurm as one job array, followed by a job "
+                             "that makes the table; --dry-run prints the script",
                              [&r](const std::string&) { r.slurm = true; }));
   d.options.push_back(option(ArgumentKind::flag, "--local", "",
-                             "run the cases as processes of this machine (the default)",
+                             "run the cases as processes on this machine (the default)",
                              [&r](const std::string&) { r.local = true; }));
   d.options.push_back(option(ArgumentKind::flag, "--resume", "",
-                             "with --slurm, give only the cases that are missing or out of date; "
-                             "processes of this machine always do so",
+                             "with --slurm, submit only the cases that are missing or out of "
+                             "date; runs on this machine always do so",
                              [&r](const std::string&) { r.settings["RESUME"] = "1"; }));
   declare_request(d, r, "--partition", "NAME", "with --slurm, the partition");
   declare_request(d, r, "--account", "NAME", "with --slurm, the account");
   declare_request(d, r, "--time", "T",
-                  "with --slurm, the time of a case as sbatch takes it, such as 45 (minutes) or "
-                  "2:00:00; without it from measured cost");
+                  "with --slurm, the time limit of a case in the format of sbatch, such as 45 "
+                  "(minutes) or 2:00:00 (default: estimated from measured cost)");
   declare_request(d, r, "--memory", "MB",
-                  "with --slurm, the memory of a case; without it from measured cost");
-  declare_request(d, r, "--cores", "N", "with --slurm, the cores of a case, 1 unless given");
+                  "with --slurm, the memory of a case (default: estimated from measured cost)");
+  declare_request(d, r, "--cores", "N", "with --slurm, the number of cores of a case (default: 1)");
 }
 
 void declare_cohort(Declaration& d, PipelineRequest& r) {
   d.summary = "the whole chain on every case of a folder";
   d.paragraphs = {
-      "Runs the pipeline on every case file of DIR (*.case, */case.txt: KEY = VALUE a line, of which MR or PRESET names the scan), "
-      "goes on past a case that fails, and ends with one table of all (cohort.tsv, cohort.html) and the contours of every segmentation "
-      "(contours.html). Names of files in a case file are relative to the folder "
-      "of the caller. SETTING=value holds for all cases, whatever their files say."};
+      "Runs the pipeline on every case file of DIR (*.case, */case.txt, with one KEY = VALUE "
+      "per line, where MR or PRESET names the scan). It continues after a case that fails, and "
+      "ends with one table of all cases (cohort.tsv, cohort.html) and the contours of every "
+      "segmentation (contours.html). File names in a case file are relative to the current "
+      "folder. SETTING=value applies to all cases and overrides their files."};
   d.positionals.push_back(positional("DIR", "folder of case files", r.scan));
   declare_options(d, r);
   declare_cluster(d, r);
@@ -192,12 +197,12 @@ void take_settings(Tokens& tokens, bool scan_first, std::map<std::string, std::s
 
 void check_request(const PipelineRequest& r) {
   for (const char* name : {"RUNS", "RUN"}) {
-    if (r.settings.count(name)) throw input_error(name, " is no setting here: give --runs DIR");
+    if (r.settings.count(name)) throw input_error(name, " is not a setting here: give --runs DIR");
   }
   const char* scan = r.command == "cohort" ? "COHORT" : "MR";
   if (r.settings.count(scan))
     throw input_error(
-        scan, " is no setting here: ",
+        scan, " is not a setting here: ",
         r.command == "demo" ? "breast run SCAN is for scans" : "it is the first argument");
   const auto side = r.settings.find("SIDE");
   if (r.command == "run" && r.side.empty() && side == r.settings.end())
@@ -208,15 +213,15 @@ void check_request(const PipelineRequest& r) {
   if (!r.slurm) {
     for (const auto& [name, value] : r.settings) {
       if (name.starts_with("CLUSTER_"))
-        throw input_error(name, ": is asked of Slurm; give --slurm");
+        throw input_error(name, ": is a request to Slurm; give --slurm");
     }
   }
   if (r.slurm && r.jobs != 1)
-    throw input_error("--jobs: is for processes of this machine; with --slurm give --cores");
+    throw input_error("--jobs: is for runs on this machine; with --slurm give --cores");
   const bool word = std::all_of(r.target.begin(), r.target.end(),
                                 [](unsigned char c) { return std::isalnum(c) || c == '-'; });
   if (!word || r.target.front() == '-')
-    throw input_error("--target '", r.target, "': is no name of a target");
+    throw input_error("--target '", r.target, "': is not the name of a target");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `breast run`, `demo` and `cohort` were asked for.
+// The request given to `breast run`, `demo` or `cohort`, parsed from its command line.
 #pragma once
 
 #include <map>
@@ -21,7 +21,8 @@ struct PipelineRequest {
   std::map<std::string, std::string> settings;  ///< given as SETTING=value
 };
 
-/// The face of `run`, `demo` or `cohort`, for help and completion; null stores. Throws Error (failed) for another name.
+/// The declaration of `run`, `demo` or `cohort` for help and completion, which stores nothing.
+/// Throws Error (failed) for another name.
 Declaration pipeline_command(const std::string& name);
 
 /// Throws Error (input) for an unknown option, a word too many, a setting given twice, a side that is missing or contradicted.

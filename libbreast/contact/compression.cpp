@@ -154,12 +154,13 @@ bool Compression::has_let_go(const State& state) {
   if (weight == 1 && (pull == 1 || !(options_.pull_N > 0))) return true;
   found_.load_reached = weight;
   const std::string still = message(
-      "the path ends at a reduction of ", 100 * reduction, " %, where a hand still carries ",
-      100 * (1 - weight), " % of the breast's weight and pulls with ", (1 - pull) * options_.pull_N, " N");
+      "the compression ends at a reduction of ", 100 * reduction,
+      " %, at which the hand still carries ", 100 * (1 - weight),
+      " % of the breast's weight and pulls with ", (1 - pull) * options_.pull_N, " N");
   if (found_.path.reached) {
     found_.reason_id = "ends_before_grip";
     found_.record.reason =
-        message(still, "; it lets go from ", 100 * hand.weight.ends,
+        message(still, "; it lets go completely from ", 100 * hand.weight.ends,
                 " % on: choose a larger target, a smaller --pull, or --positioning hanging");
   } else {
     const StopReason why = explain_stop(mesh_, state.x, found_.path, found_.plates);
@@ -222,7 +223,8 @@ void Compression::check_stability(const State& state, const ContactSolver& conta
 void Compression::estimate(const State& state, const ChosenContact& contact) {
   if (contact.surface != nullptr) {
     found_.error_estimate_how =
-        "between plates that press on faces only other meshes tell; solve with more elements";
+        "there is no estimate for plates that press on faces; solve with more elements and "
+        "compare";
     return;
   }
   if (mesh_.order == 1 && !mesh_.landmarks.empty()) {
@@ -295,7 +297,9 @@ void Compression::judge_against_practice() {
   if (found_.reduction_percent > 40 && scene_.options().materials.name == "seed2008") {
     found_.judgement.push_back(
         {"law_stiffens",
-         "the Table II laws stiffen beyond 40 % reduction to forces no patient bears", true});
+         "beyond a reduction of 40 % the Table II laws stiffen so much that no patient would "
+         "tolerate the force",
+         true});
   }
   for (const Judgement& line : found_.judgement) {
     if (line.doubtful) found_.doubts.push_back(line.sentence);
@@ -337,8 +341,8 @@ void Compression::say_where_plates_stand() const {
                          " mm in front of the wall and turned by ", found_.pose.turn_deg,
                          " degrees, edge radius ", found_.plates.paddle.edge_radius, " mm"));
   if (options_.stop_at == StopAt::thickness && !(options_.target < initial)) {
-    throw input_error("thickness ", options_.target, " mm: the breast is only ", initial,
-                      " mm thick between the plates; give less");
+    throw input_error("thickness ", options_.target, " mm is too large: the breast is only ",
+                      initial, " mm thick between the plates; give less");
   }
 }
 
@@ -379,15 +383,14 @@ void check(const HexMesh& mesh, const CompressionOptions& options,
   if (options.pull_N > 0 && options.positioning == Positioning::hanging) {
     throw input_error(
         "pull ", options.pull_N,
-        " N of a breast that hangs: it takes a hand that lifts it; give --positioning "
-        "lifted");
+        " N on a hanging breast: only a lifted breast can be pulled; give --positioning lifted");
   }
   if (!(options.friction >= 0 && options.friction <= 2)) {
     throw input_error("friction ", options.friction, ": must lie within 0 and 2");
   }
   if (options.friction > 0 && options.method == ContactMethod::augmented_lagrangian) {
     throw input_error("friction ", options.friction,
-                      " with the augmented Lagrangian: it has none; leave --contact al out");
+                      " with the augmented Lagrangian, which has no friction: omit --contact al");
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compression of a breast between two plates: gravity first, then the plates from just touching to
-// the target. See methods in docs; equations (7)–(8) of the paper.
+// Compression of a breast between two plates: loads it with gravity, then closes the plates from
+// first contact to the target. See docs/methods.md; equations (7)–(8) of the paper.
 #pragma once
 
 #include <map>
@@ -41,7 +41,7 @@ struct CompressionOptions {
   Vec3 gravity{0, 0, -9810};  ///< mm/s², LPS
   ContactMethod method = ContactMethod::active_set;
   Positioning positioning = Positioning::hanging;
-  double pull_N = 0;    ///< with which the hand that lifts the breast pulls it forwards
+  double pull_N = 0;    ///< force with which the hand pulls the lifted breast forwards
   double friction = 0;  ///< Coulomb's μ between skin and plates
   PathOptions path;
 };
@@ -54,29 +54,31 @@ struct CompressionResult : Equilibrium {
   double thickness_mm = 0, reduction_percent = 0, initial_thickness_mm = 0;
   /// |plates + weight + chest wall + cut| over the larger of paddle force and weight.
   double force_balance = 0;
-  Vec3 wall_reaction_N{0, 0, 0};  ///< of chest wall and held cut on the body
+  Vec3 wall_reaction_N{0, 0, 0};  ///< force of the chest wall and a held cut on the body
   double weight_N = 0;
-  Coverage coverage;         ///< by the image, whose edge is that of the plates
-  double projected_cm2 = 0;  ///< the breast's shadow in front of that edge
+  Coverage coverage;         ///< share of the breast in front of the image edge, which is the
+                             ///< plates' edge
+  double projected_cm2 = 0;  ///< projected area of the breast in front of that edge
   std::vector<PositioningStage> stages;
   SelfContact self_contact;
   std::map<Tissue, StrainRange> strains;
-  std::vector<double> profile_depth_mm, profile_thickness_mm;  ///< from the plate edge forwards
+  std::vector<double> profile_depth_mm, profile_thickness_mm;  ///< from the plate edge to the front
   std::vector<PressedPlace> places;                            ///< per plate of the contact record
-  std::vector<Judgement> judgement;  ///< against clinical ranges, and of the solve
+  std::vector<Judgement> judgement;  ///< comparison with clinical ranges, and comments on the solve
 };
 
-/// Compresses mesh.reference. A path that stops early leaves its last equilibrium with status
-/// stopped_early and the reason; when gravity alone does not converge the status is not_converged.
-/// Throws Error (input) when the plates miss the breast or an option is out of range.
+/// Compresses mesh.reference. A compression that stops early returns its last equilibrium with the
+/// status stopped_early and the reason; if gravity alone does not converge, the status is
+/// not_converged. Throws Error (input) when the plates miss the breast or an option is out of
+/// range.
 CompressionResult compress(const HexMesh& mesh, const CompressionOptions& options,
                            const MechanicsOptions& mechanics, Progress& progress = no_progress());
 
-/// The mechanics report with compression's own keys; `mesh` is the one that was solved.
+/// Writes the mechanics report and the keys of a compression; `mesh` is the one that was solved.
 void write_report(const CompressionResult& result, const HexMesh& mesh,
                   const MechanicsOptions& mechanics, Report& report);
 
-/// The plates in one line, from a report filled by write_report; none where there are no plates.
+/// One line about the plates, from a report filled by write_report; empty if there are no plates.
 std::vector<std::string> plate_lines(const Report& report);
 
 }  // namespace breast

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far the tissue is strained.
+// Ranges of stretch and volume ratio in each tissue of a compressed breast.
 #pragma once
 
 #include <Eigen/Core>

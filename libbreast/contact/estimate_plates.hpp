@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plates of a compressed state as the error estimate sees them.
+// Contact data of a compressed state for the discretisation error estimate.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace breast {
 
-/// Plates that hold nodes along their normals; `friction` may be null. `mesh` and `state` must outlive
-/// the answer.
+/// Contact data of plates that hold nodes along their normals; `friction` may be null. `mesh` and
+/// `state` must outlive the result.
 ContactEstimate estimate_of_nodes(const ContactSolver& contact, const PlatePair& plates,
                                   const std::shared_ptr<FrictionTerm>& friction,
                                   const HexMesh& mesh, const State& state);

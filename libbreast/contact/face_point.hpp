@@ -14,7 +14,8 @@ struct FacePoint {
   Vec3 area{0, 0, 0};  ///< ∂x/∂ξ × ∂x/∂η, outwards, mm² per unit of local coordinates
 };
 
-/// Where the face with these nodes has the shape functions `shape`; `x`: one position a node, mm.
+/// The point of the face with these nodes at which the shape functions are `shape`; `x`: one
+/// position per node, mm.
 FacePoint face_point(const std::vector<int>& nodes, const std::vector<Vec3>& x,
                      const QuadShape& shape);
 

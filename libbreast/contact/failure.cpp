@@ -64,7 +64,7 @@ StopReason explain_stop(const HexMesh& mesh, const Eigen::VectorXd& good, const 
       "the step to ", path.failed_thickness, " mm fails, ", describe(path.last_failure), "; ",
       folded > 0 ? message("the next step folds ", folded, folded == 1 ? " element" : " elements",
                            ", worst element ")
-                 : std::string("the most strained is element "),
+                 : std::string("the most strained element is "),
       worst, " at (", std::round(at.x() * 10) / 10, ", ", std::round(at.y() * 10) / 10, ", ",
       std::round(at.z() * 10) / 10, ") mm, ", tissue_name(mesh.tissue[std::size_t(worst)]),
       ", smallest det F ", det[worst], ", ", where.sentence);

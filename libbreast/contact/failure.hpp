@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Why the plates could not close further: as an identifier and in words.
+// Reason why the plates could not be closed further, as an identifier and as a sentence.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,9 +13,10 @@ namespace breast {
 
 /// `id` is stable: "folds_at_plate_edge", "folds_on_chest_wall", "folds_between_edge_and_wall",
 /// "folds_behind_plates", "folds_between_plates" (where the worst element of the refused step
-/// lies); "shrinks_..." with the same endings (no element folds, but one shrinks too far at once or
-/// its law overflows); "iteration_limit", "indefinite_tangent", "no_admissible_step"; "solve_limit" and
-/// "out_of_reach" (force or pressure, the plates all but closed).
+/// lies); "shrinks_..." with the same endings (no element folds, but one shrinks too much in one
+/// step or its law overflows); "iteration_limit", "indefinite_tangent", "no_admissible_step";
+/// "solve_limit" and "out_of_reach" (a target force or pressure not reached by almost closed
+/// plates).
 struct StopReason {
   std::string id, sentence;
 };

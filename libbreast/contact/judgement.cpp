@@ -60,12 +60,12 @@ void judge_plate(const PlateRecord& plate, std::vector<Judgement>& list) {
             plate.force_N);
   if (force.id.ends_with("below")) {
     force.sentence +=
-        "; a held rigid chest wall and soft moduli give too little: most of the machine's force "
-        "acts on the stiff tissue at the chest wall, which the model leaves out";
+        "; a fixed rigid chest wall and low moduli give too small a force: most of the "
+        "machine's force acts on the stiff tissue at the chest wall, which the model omits";
   } else if (force.id.ends_with("above")) {
     force.sentence +=
-        "; no patient bears it: the laws stiffen too much in compression, or the plate edge is too "
-        "close to the held chest wall";
+        "; no patient would tolerate it: the laws stiffen too much in compression, or the plate "
+        "edge is too close to the fixed chest wall";
   }
   list.push_back(force);
   const std::string id = plate.name + "_pressure", name = plate.name + " mean pressure";
@@ -84,7 +84,7 @@ Judgement against_sensors(const ContactRecord& contact, const PressedState& stat
                   cc ? "CC" : "MLO", ", where only ", cc ? 22 : 14,
                   " % of the force acts (10.1177/0284185120976925): here the mean is ",
                   shown(contact.plates.front().mean_kPa), " kPa with ", shown(100 * (1 - on_edge)),
-                  " % of the force on it, for the model has no stiff tissue behind the edge"),
+                  " % of the force, because the model has no stiff tissue behind the edge"),
           false};
 }
 
@@ -111,14 +111,14 @@ void judge_self_contact(const SelfContact& self, std::vector<Judgement>& list) {
   if (self.itself_cm2 > largest_self_contact_cm2) {
     list.push_back({"touches_itself",
                     message("the breast touches itself over ", shown(self.itself_cm2),
-                            " cm2, which the model lets pass: the shape is wrong there"),
+                            " cm2, which the model does not prevent: the shape is wrong there"),
                     true});
   }
   if (self.into_thorax_mm > deepest_in_thorax_mm) {
     list.push_back({"touches_thorax",
                     message("skin lies ", shown(self.into_thorax_mm),
-                            " mm deep in the chest wall, which the model lets pass: the shape is "
-                            "wrong there"),
+                            " mm deep in the chest wall, which the model does not prevent: the "
+                            "shape is wrong there"),
                     true});
   }
 }
@@ -132,12 +132,12 @@ std::string placing_option(const ContactRecord& contact) {
 Judgement judge_edge(const PlateRecord& plate, const PressedPlace& where,
                      const std::string& placing) {
   const bool much = !(where.edge_part <= most_on_edge);
-  return {
-      plate.name + (much ? "_presses_with_its_edge" : "_presses_with_its_flat"),
-      message("the rounded edge carries ", shown(100 * where.edge_part), " % of the ", plate.name,
-              "'s force",
-              much ? ": the flat reaches too little of the breast; try a smaller " + placing : ""),
-      much};
+  return {plate.name + (much ? "_presses_with_its_edge" : "_presses_with_its_flat"),
+          message("the rounded edge carries ", shown(100 * where.edge_part), " % of the ",
+                  plate.name, "'s force",
+                  much ? ": the flat part covers too little of the breast; try a smaller " + placing
+                       : ""),
+          much};
 }
 
 std::string place(const PressedPlace& where) {
@@ -162,7 +162,7 @@ Judgement judge_balance(const ContactRecord& contact, const PressedState& state)
   const std::size_t k = paddle.force_N > detector.force_N ? 0 : 1;
   std::string sentence =
       "plates not balanced: " + forces + ", more than a quarter of the smaller " + "plate's: the " +
-      contact.plates[k].name + " presses on what is held, not on the breast alone";
+      contact.plates[k].name + " presses on the chest wall or the cut, not on the breast alone";
   if (k < state.places.size() && state.places[k].peak_to_wall_mm >= 0) {
     sentence += message("; its highest pressure, ", shown(contact.plates[k].peak_kPa),
                         " kPa, is at ", place(state.places[k]));
@@ -197,23 +197,24 @@ std::vector<Judgement> judge_path(const PathResult& path, bool stable) {
                     message("the tangent was indefinite in ", path.indefinite,
                             " iterations, first at thickness ", *path.first_indefinite_thickness,
                             " mm: the breast slips or buckles there",
-                            stable ? "; where it ends it is stable" : ""),
+                            stable ? "; the final state is stable" : ""),
                     !stable});
   }
   if (path.jump) {
     list.push_back({"jump_at_target",
-                    message("jump at target: between plate positions 0.1 micrometre apart the ",
-                            target_name(path.met.kind),
-                            " goes from ", path.jump->first, " to ", path.jump->second, ", past ",
-                            path.met.value, "; the nearer one is the result"),
+                    message("snap-through at the target: between plate positions 0.1 micrometre "
+                            "apart the ",
+                            target_name(path.met.kind), " goes from ", path.jump->first, " to ",
+                            path.jump->second, ", past ", path.met.value,
+                            "; the closer one is the result"),
                     true});
   }
   const double lag = path.final_step.friction_lag;
   if (lag > largest_friction_lag) {
     list.push_back({"friction_lags",
                     message("friction's bounds differ by ", shown(100 * lag),
-                            " % from its coefficient times the pressure: forces near the plates' "
-                            "edge are as uncertain"),
+                            " % from its coefficient times the pressure: forces near the "
+                            "plates' edge are uncertain by as much"),
                     true});
   }
   return list;

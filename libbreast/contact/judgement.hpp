@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A compression in the terms of a mammography physicist: each figure against its clinical range,
-// and whether the two plates press on the breast alone.
+// Comparison of a compression with clinical practice: each quantity against its clinical range, and
+// whether the two plates press on the breast alone.
 #pragma once
 
 #include <string>
@@ -19,20 +19,19 @@ struct Judgement {
   bool doubtful = false;  ///< to be read before the result is used
 };
 
-/// Where a plate presses.
+/// Where a plate presses on the breast.
 struct PressedPlace {
   Vec3 peak_at{0, 0, 0};        ///< of the highest pressure, mm
   double peak_to_wall_mm = -1;  ///< to the nearest chest-wall or cut node; negative: no contact
-  double edge_part = 0;         ///< of the force along the plate's normal, on its rounded edge
-  /// The force along the plate's normal behind the edge of the image, in the 20 mm in front of it and
-  /// beyond, N.
+  double edge_part = 0;         ///< share of the normal force that acts on the rounded edge
+  /// Normal force behind the edge of the image, in the first 20 mm in front of it, and beyond, N.
   double behind_edge_N = 0, first_20mm_N = 0, beyond_20mm_N = 0;
 };
 
-/// What is judged besides the contact record.
+/// Quantities that are judged besides the contact record.
 struct PressedState {
   Vec3 beam{0, 0, -1};  ///< n, from paddle to detector
-  /// On the body, N; the wall's includes a held cut.
+  /// Forces on the body, N; the wall's reaction includes that of a held cut.
   Vec3 weight_N{0, 0, 0}, wall_reaction_N{0, 0, 0};
   double max_volume_error = 0;
   std::vector<PressedPlace> places;  ///< per plate of the record
@@ -40,11 +39,11 @@ struct PressedState {
 };
 
 /// Force and mean pressure of both plates, contact area, thickness, reduction, penetration and
-/// volume against the ranges of practice; how much the rounded edge presses; last the balance of
-/// the plates.
+/// volume against the ranges of clinical practice; the share of the rounded edge; finally the
+/// balance of the plates.
 std::vector<Judgement> judge_compression(const ContactRecord& contact, const PressedState& state);
-/// What happened on the way of the plates: an indefinite tangent (a doubt unless the end is `stable`), a
-/// jump over the target, bounds of friction that do not follow the pressure.
+/// Comments on the closing of the plates: an indefinite tangent (a doubt unless the final state is
+/// `stable`), a snap-through past the target, friction bounds that do not follow the pressure.
 std::vector<Judgement> judge_path(const PathResult& path,
                                   bool stable);
 

@@ -10,15 +10,16 @@
 namespace breast {
 
 namespace {
-/// Of the plates' rounded edges, mm: without and with plates placed by the edge of the image.
+/// Default radius of the plates' rounded edges, mm: without and with plates placed by the edge of
+/// the image.
 constexpr double edge_radius = 15, image_edge_radius = 3;
-/// Coulomb's coefficient of skin on a plate where none is given, beside plates placed by the edge of
-/// the image. Without any a breast that slides on its ribs is squeezed out from between the plates.
+/// Default friction coefficient of skin on plates that are placed by the edge of the image. Without
+/// friction a breast that slides on the chest wall is squeezed out from between the plates.
 constexpr double image_edge_friction = 0.3;
-/// With which a hand pulls such a breast forwards until friction holds it, N.
+/// Default force with which a hand pulls such a breast forwards until friction holds it, N.
 constexpr double image_edge_pull = 30;
-/// From the chest wall to the edge of the image, mm. In the oblique view muscle is seen: where the mesh
-/// has some the edge lies behind its front by this part of its thickness.
+/// Default distance from the chest wall to the edge of the image, mm. The oblique view shows muscle:
+/// in a mesh with a layer of muscle the edge lies behind its front by this fraction of its thickness.
 constexpr double edge_cc = 5, edge_in_muscle = 0.8;
 }  // namespace
 
@@ -79,7 +80,7 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   const bool clinical = !c.image_edge.empty();
   if (clinical) options.plates.image_edge = parse_image_edge(c.image_edge, options.view, muscle_mm);
   if (clinical && c.plates.standoff) {
-    throw input_error("--image-edge with --standoff: both place the plates' edge; give one");
+    throw input_error("--image-edge with --standoff: both place the plates' edge; give only one");
   }
   options.plates.edge_radius = c.edge_radius.value_or(clinical ? image_edge_radius : edge_radius);
   options.plates.turn_deg = parse_turn(!c.turn.empty() ? c.turn : clinical ? "auto" : "0");
@@ -89,8 +90,8 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
                                                        : "surface";
   if (points == "surface" && c.contact == "al") {
     throw input_error(
-        "--contact-points surface with --contact al: the augmented Lagrangian touches "
-        "nodes");
+        "--contact-points surface with --contact al: the augmented Lagrangian has contact at "
+        "nodes only");
   }
   options.method = points == "surface" ? ContactMethod::surface
                    : c.contact == "al" ? ContactMethod::augmented_lagrangian

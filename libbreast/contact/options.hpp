@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The options of compression from their text on a command line.
+// Parsing of the compression options of a command line.
 #pragma once
 
 #include <optional>
@@ -9,32 +9,32 @@
 
 namespace breast {
 
-/// mm by which the detector lifts the breast: "raised" infinite, "fixed" 0, or a number ≥ 0. Throws
-/// Error (input) for anything else.
+/// Distance (mm) by which the detector lifts the breast: infinite for "raised", 0 for "fixed", or a
+/// number ≥ 0. Throws Error (input) for anything else.
 double parse_detector(const std::string& text);
-/// mm from the front of the wall, or of a layer of `muscle_mm` on it, to the edge of the image; "auto":
-/// that of the view. Throws Error (input) for anything else.
+/// Distance (mm) from the chest wall, or from the front of a layer of muscle of `muscle_mm`, to the
+/// edge of the image; "auto" gives that of the view. Throws Error (input) for anything else.
 double parse_image_edge(const std::string& text, View view, double muscle_mm);
-/// Degrees by which the plates' edge is turned; "auto": none, to be found from the wall. Throws Error
-/// (input) for anything else.
+/// Angle (degrees) by which the plates' edge is turned; nothing for "auto", where it follows from
+/// the chest wall. Throws Error (input) for anything else.
 std::optional<double> parse_turn(const std::string& text);
 
-/// A compression as given on a command line.
+/// The compression options as given on a command line.
 struct CompressionChoices {
   std::string view = "CC", contact = "active-set", detector = "raised", image_edge, turn;
-  std::string contact_points, positioning;  ///< empty: as plates, see compression_options
+  std::string contact_points, positioning;  ///< empty: the default of compression_options
   std::optional<double> angle, thickness, reduction, force, pressure, area, plate_step;
   std::optional<double> friction, edge_radius, pull;
   PlateOptions plates;
-  /// Those of thickness, reduction, force, pressure and area that are given; the first one reached ends the
-  /// compression.
+  /// The targets given among thickness, reduction, force, pressure and area; the first one that is
+  /// reached ends the compression.
   std::vector<CompressionStop> stops() const;
 };
-/// `gravity` in mm/s², LPS. Plates placed by the edge of the image stand as in the clinic: turned along
-/// the wall, with an edge of 3 mm, pressing on faces with a friction of 0.3, the breast lifted and pulled forwards by 30 N;
-/// unless something else is
-/// asked for. Throws Error (input) for a view or detector that is none, and for a
-/// reduction below 1 percent, which is a fraction by mistake.
+/// `gravity` in mm/s², LPS; `muscle_mm` is the thickness of the mesh's layer of muscle. Plates that
+/// are placed by the edge of the image have the clinical defaults: parallel to the chest wall, with
+/// an edge radius of 3 mm, surface contact with a friction coefficient of 0.3, and a lifted breast
+/// pulled forwards by 30 N. Throws Error (input) for an unknown view or detector, and for a
+/// reduction below 1 percent, which is probably a fraction given by mistake.
 CompressionOptions compression_options(const CompressionChoices& choices, const Vec3& gravity,
                                        double muscle_mm = 0);
 

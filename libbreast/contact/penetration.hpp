@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How deep the body enters a plate, measured where contact is not imposed: inside the faces.
+// Depth to which the body penetrates a plate between its nodes, where contact is not imposed.
 #pragma once
 
 #include <Eigen/Core>

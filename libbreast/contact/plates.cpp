@@ -108,7 +108,7 @@ Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const View
     across.add(x[node].dot(plate.lateral));
     along.add(x[node].dot(plate.anterior));
   }
-  if (across.empty()) throw input_error("the mesh has no skin faces: plates have nothing to press");
+  if (across.empty()) throw input_error("the mesh has no skin faces for the plates to press on");
   plate.lateral_centre = across.middle();
   plate.half_width = options.width > 0 ? 0.5 * options.width : 0.75 * across.size();
   wall_point = most_anterior_wall(mesh, x, plate, !options.image_edge);
@@ -125,7 +125,7 @@ Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const View
         "the plates miss the breast: with a stand-off of ", plate.edge_start - wall_point,
         " mm they start ", depth >= 0 ? "only " : "", std::abs(depth), " mm ",
         depth >= 0 ? "behind" : "in front of", " the most anterior skin (at least ", least_depth,
-        " mm of cover is needed); try --standoff ",
+        " mm of overlap are needed); try --standoff ",
         std::max(0.0, std::floor(plate.edge_start - wall_point + depth - 4 * least_depth)));
   }
   plate.mid_depth = plate.edge_start + 0.5 * depth;

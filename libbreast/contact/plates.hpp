@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The compression plates as rigid bodies: a flat, rounded edges, upright walls behind them. The
-// signed distance and its first two derivatives are all the contact solver sees of them.
+// The compression plates as rigid bodies with a flat part, rounded edges and upright walls. The
+// contact solver uses only the signed distance and its first two derivatives.
 #pragma once
 
 #include <limits>
@@ -14,14 +14,15 @@
 
 namespace breast {
 
-/// Distance of a point to a plate, with derivatives by the point's position.
+/// Signed distance of a point from a plate, with derivatives with respect to the point's position.
 struct Gap {
   double value = 0;             ///< mm, negative inside the plate
-  Vec3 gradient{0, 0, 0};       ///< unit normal of the plate where it is nearest
+  Vec3 gradient{0, 0, 0};       ///< unit normal of the plate at its closest point
   Mat3 hessian = Mat3::Zero();  ///< 1/mm
 };
 
-/// How a gap and its gradient change at a fixed point while a plate moves, per unit of what moves it.
+/// Rates of change of a gap and its gradient at a fixed point while the plate moves, per unit of
+/// its motion parameter.
 struct GapSlope {
   double value = 0;
   Vec3 gradient{0, 0, 0};
@@ -42,12 +43,12 @@ struct Plate {
   double tilt_slope = 0;   ///< rise into the gap per mm anterior
   double edge_radius = 0;  ///< mm
 
-  /// Signed distance. Inside the plate it is to the flat, from where the plate came.
+  /// Signed distance. Inside the plate it is measured to the flat, from which the point entered.
   Gap gap(const Vec3& x) const;
-  /// How far the plate must draw back along the beam for the point to lie
-  /// outside, mm; 0 if it does.
+  /// Distance by which the plate must retreat along the beam so that the point lies outside, mm; 0
+  /// if it already does.
   double overlap(const Vec3& x) const;
-  /// Where the plate has moved along the beam: points fixed to it differ by this, mm.
+  /// Displacement of the plate along the beam, and hence of points fixed to it, mm.
   Vec3 shift() const { return level * n; }
   /// Unit normal of the flat, from the plate into the gap.
   Vec3 normal() const;
@@ -59,34 +60,36 @@ struct Plate {
   Place place(const Vec3& x) const;
 };
 
-/// A paddle of no extent yet, square to the beam of `pose`.
+/// A paddle perpendicular to the beam of `pose`, whose extent is still to be set.
 Plate plate_facing(const ViewPose& pose);
 
-/// How the plates are placed; lengths in mm.
+/// Options for the placement of the plates; lengths in mm.
 struct PlateOptions {
-  /// Most anterior pectoral or cut point to the start of the rounded edge; without it a third of
-  /// the breast's depth in front of that point, at most 25.
+  /// Distance from the most anterior chest-wall or cut point to the start of the rounded edge; by
+  /// default a third of the breast's depth in front of that point, at most 25.
   std::optional<double> standoff;
-  /// Where the rounded edge starts along the anterior axis (−y of the patient), instead of
-  /// standoff: one machine about several meshes of a breast.
+  /// Coordinate of the start of the rounded edge along the anterior axis (−y of the patient),
+  /// instead of standoff, so that several meshes of a breast can have the same plates.
   std::optional<double> edge_at;
-  /// Where the plane lies, along the beam, about which they close; for the same purpose.
+  /// Coordinate, along the beam, of the plane about which the plates close; for the same purpose.
   std::optional<double> middle_at;
-  /// From the most anterior pectoral point to the edge of the image, where the rounded edge starts;
-  /// instead of standoff, which counts points of the cut as well.
+  /// Distance from the most anterior chest-wall point to the edge of the image, where the rounded
+  /// edge starts; instead of standoff, which also considers points of the cut.
   std::optional<double> image_edge;
-  /// By which the edge is turned towards the breast's side about the patient's long axis; without it
-  /// until it lies along the wall behind the breast.
+  /// Angle by which the edge is turned towards the breast's side about the patient's long axis; if
+  /// absent, the edge is made parallel to the chest wall behind the breast.
   std::optional<double> turn_deg = 0;
   double edge_radius = 15;
-  double tilt_deg = 0;  ///< paddle about the lateral axis; positive narrows the gap anteriorly
-  double width = 0;     ///< lateral size of the flats, 0: half as wide again as the body
-  /// mm by which the detector lifts the breast from where it hangs before the paddle does the rest;
-  /// infinite: to the mid-plane of the stress-free breast, both plates moving alike.
+  double tilt_deg = 0;  ///< of the paddle about the lateral axis; positive narrows the gap
+                        ///< anteriorly
+  double width = 0;     ///< lateral size of the flat part; 0: 1.5 times the width of the body
+  /// Distance by which the detector lifts the breast before only the paddle moves; infinite: up to
+  /// the mid-plane of the stress-free breast, with both plates moving symmetrically.
   double detector_rise = std::numeric_limits<double>::infinity();
 };
 
-/// Paddle and detector moving on one parameter, the thickness T between the flats at mid-depth.
+/// Paddle and detector, whose motion has one parameter: the thickness T between the flats at
+/// mid-depth.
 struct PlatePair {
   Plate paddle, detector;
   double initial_thickness = 0;   ///< T0: extent along n within the footprint of the body
@@ -100,31 +103,31 @@ struct PlatePair {
   /// Moves both plates to thickness T (mm).
   void close_to(double thickness);
   double thickness() const { return detector.level - paddle.level; }
-  /// How much of any further closing the paddle does: a half, or all where the detector has risen as
-  /// far as it may.
+  /// Share of the paddle in any further closing: one half, or one if the detector has reached its
+  /// highest position.
   double paddle_share() const;
-  /// Of the plane about which the plates close, along the beam, mm.
+  /// Coordinate, along the beam, of the plane about which the plates close, mm.
   double middle() const { return 0.5 * (paddle_start + detector_start); }
-  /// The smaller of the two gaps, and which plate it belongs to (0 paddle, 1 detector).
+  /// The plate with the smaller gap (0 paddle, 1 detector).
   int nearer(const Vec3& x) const;
   const Plate& plate(int k) const { return k == 0 ? paddle : detector; }
 };
 
-/// `plate` as the paddle and its mirror image as the detector; their levels are left to the caller.
+/// `plate` as the paddle and its mirror image as the detector; the caller sets their levels.
 PlatePair paddle_and_detector(const Plate& plate);
 
-/// The turn that lays the plates' edge along the chest wall behind the breast, degrees: that of the
-/// mean normal of the wall in the shape `x`, at most 45 to either side.
+/// Angle (degrees) that makes the plates' edge parallel to the chest wall behind the breast: that
+/// of the mean normal of the wall in the shape `x`, at most 45 in either direction.
 double wall_turn_deg(const HexMesh& mesh, const std::vector<Vec3>& x);
 
 /// Places the plates about the shape `x` (node positions of the gravity-loaded body, mm, LPS). They
-/// close on the mid-plane of mesh.reference within the same footprint: upright the breast hangs
-/// below it, and plates that met where it hangs would drag it down the held chest wall (on the two
-/// anatomies tried, with up to ten times the force). The detector lifts it, as in the clinic.
-/// Throws Error (input) when the plates miss the breast.
+/// close on the mid-plane of mesh.reference within the same footprint: in the upright posture the
+/// breast hangs below this plane, and plates that met there would drag it down along the fixed
+/// chest wall (with up to ten times the force on the two anatomies tried). The detector lifts the
+/// breast, as in the clinic. Throws Error (input) when the plates miss the breast.
 PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
                        const PlateOptions& options);
-/// `placed` with the same edge, but beginning about another shape of the body.
+/// The plates `placed`, with the same edge but starting from another shape of the body.
 PlatePair start_from(const PlatePair& placed, const HexMesh& mesh, const std::vector<Vec3>& x,
                      const ViewPose& pose, PlateOptions options);
 

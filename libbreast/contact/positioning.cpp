@@ -59,7 +59,9 @@ Eigen::VectorXd pull_forwards(const HexMesh& mesh, const std::vector<Vec3>& x, c
     total += share;
   }
   if (!(total > 0)) {
-    throw input_error("no skin lies in front of the plates' edge to be pulled forwards");
+    throw input_error(
+        "no skin lies in front of the plates' edge, so that there is nothing to "
+        "pull forwards");
   }
   return newton * micronewton_per_newton / total * force;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A breast is brought between the plates by a hand: it carries the weight and pulls the breast
-// forwards, and lets go while the plates grip.
+// Positioning of a breast between the plates by a hand that carries its weight and pulls it
+// forwards, and releases it as the plates grip it.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,44 +12,45 @@
 
 namespace breast {
 
-/// How the breast comes between the plates: as it hangs, or lifted by a hand that carries its weight
-/// until the plates grip it.
+/// Initial position of the breast between the plates: hanging, or lifted by a hand that carries its
+/// weight until the plates grip it.
 enum class Positioning { hanging, lifted };
 
-/// The reductions (fractions of the initial thickness) between which the hand lets go.
+/// The reductions (fractions of the initial thickness) between which the hand releases the breast.
 struct Release {
   double begins = 0, ends = 0;
 
-  /// The part that the hand has let go of at a reduction: 0 before `begins`, 1 from `ends` on.
+  /// Share of the load that the hand has released at a reduction: 0 before `begins`, 1 from `ends`
+  /// on.
   double at(double reduction) const;
 };
 
-/// When the hand lets go. The plates bear the weight of a breast long before friction between them
-/// holds it against a pull.
+/// When the hand releases the weight and the pull. The plates can carry the weight of a breast long
+/// before friction can hold it against a pull.
 struct Grip {
   Release weight, pull;
 };
-/// On the way to a reduction, which is a fraction.
+/// For a compression to a given reduction (a fraction).
 Grip grip_before(double reduction);
-/// Where a force or a pressure ends the path, whose reduction is not known beforehand: the hand lets
-/// go of everything early.
+/// For a compression to a force or pressure, whose reduction is not known in advance: the hand
+/// releases everything early.
 Grip grip_before_any_force();
 
-/// Nodal forces (µN, 3 a node) that pull the skin in front of the plates' edge away from the chest wall,
+/// Nodal forces (µN, 3 per node) that pull the skin in front of the plates' edge away from the chest wall,
 /// `newton` in all: a uniform traction that rises from zero over the 20 mm next to the edge. `x`:
 /// positions, mm. Throws Error (input) when no skin lies in front of the edge.
 Eigen::VectorXd pull_forwards(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate,
                               double newton);
 
-/// A stage of positioning and what it did to the tissue at the edge of the plates.
+/// A stage of positioning and its effect on the tissue at the edge of the plates.
 struct PositioningStage {
   std::string name;  ///< upright, lifted, pulled, compressed
   double volume_in_front_percent = 0;
-  /// Mean motion away from the chest wall, since the breast hung upright, of the tissue that then lay
-  /// within 10 mm of the edge, mm.
+  /// Mean displacement away from the chest wall, relative to the upright hanging breast, of the
+  /// tissue that lay within 10 mm of the edge there, mm.
   double past_edge_mm = 0;
 };
-/// `upright` and `x`: positions (3 a node, mm) of the breast as it hung and at the stage.
+/// `upright` and `x`: positions (3 per node, mm) of the breast hanging upright and at this stage.
 PositioningStage positioning_stage(std::string name, const HexMesh& mesh,
                                    const Eigen::VectorXd& upright, const Eigen::VectorXd& x,
                                    const Plate& plate);

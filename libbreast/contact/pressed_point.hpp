@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a plate presses: a node, or a quadrature point of a face.
+// A point on which a plate presses: a node, or a quadrature point of a face.
 #pragma once
 
 #include "core/types.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a solved compression to what files and reports say about it.
+// Records the results of a solved compression for files and reports.
 #pragma once
 
 #include "contact/compression.hpp"
@@ -8,8 +8,9 @@
 
 namespace breast {
 
-/// Fills contact record, contact pressure and the physical part of the result from the final state,
-/// the last of `result.path`. `surface`: the solver where faces touch, else null.
+/// Fills the contact record, the contact pressure and the physical quantities of the result from
+/// the final state, the last of `result.path`. `surface`: the solver for surface contact, otherwise
+/// null.
 void record_compression(const Scene& scene, const CompressionOptions& options, const State& state,
                         const ContactSolver& solver, const SurfaceContact* surface,
                         const Vec3& weight, CompressionResult& result);

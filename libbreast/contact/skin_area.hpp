@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The skin as contact sees it: area per node, extent along the beam, contact per plate.
+// Skin area per node and thickness of the breast along the beam, for contact.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,8 @@ namespace breast {
 /// Area (mm²) of the skin in shape `x` (3 per node) that belongs to each node: ∫ N_a dA.
 std::vector<double> skin_area_per_node(const HexMesh& mesh, const Eigen::VectorXd& x);
 
-/// Extent of the skin along n on the plane at anterior coordinate a (mm); 0 where there is none.
+/// Extent of the skin along n in the plane at the anterior coordinate a (mm); 0 if the plane meets
+/// no skin.
 double thickness_at(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& plate, double a);
 
 }  // namespace breast

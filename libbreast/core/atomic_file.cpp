@@ -145,7 +145,7 @@ AtomicFolder::AtomicFolder(const fs::path& target, std::string last)
   std::error_code reason;
   fs::create_directories(temporary_, reason);
   if (reason) {
-    throw input_error(target_.string(), ": this folder cannot be made (", reason.message(),
+    throw input_error(target_.string(), ": this folder cannot be created (", reason.message(),
                       "); choose another place");
   }
   note_leftover(temporary_.c_str());
@@ -198,7 +198,7 @@ std::string read_text(const fs::path& source, std::uintmax_t most_bytes) {
   const fs::file_status status = fs::status(source, reason);
   if (fs::is_directory(status)) throw input_error(source.string(), ": is a folder, not a file");
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw input_error(source.string(), ": is a device or pipe; copy what it gives to a file first");
+    throw input_error(source.string(), ": is a device or pipe; copy its content to a file first");
   }
   std::ifstream in(source, std::ios::binary);
   if (!in) throw input_error(source.string(), ": cannot be opened");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results appear by write-then-rename: nobody ever sees half a file.
+// Atomic output files and folders: results are written under a temporary name and then renamed.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +9,24 @@
 
 namespace breast {
 
-/// The one way out for every file: writes `bytes` beside the target as `.NAME.part-PID`, every write
-/// checked, flushed to the disk, read back and compared, then renamed onto it; whatever fails, the target keeps what it held
-/// and the part is removed. A target that is no regular file (/dev/null, a pipe) or is a stream of
-/// this process (/dev/stdout) is written through instead. Throws Error (failed) naming the target,
-/// the bytes written and the system's reason.
+/// Writes `bytes` beside the target as `.NAME.part-PID`, checks every write, flushes to the disk,
+/// reads back and compares, and then renames the file to the target; all files are written in this
+/// way. After a failure the target is unchanged and the part is removed. A target that is not a
+/// regular file (/dev/null, a pipe) or is a stream of this process (/dev/stdout) is written to
+/// directly. Throws Error (failed) naming the target, the bytes written and the system's reason.
 void write_bytes(const std::filesystem::path& target, std::string_view bytes);
 /// The same, for text.
 inline void write_text(const std::filesystem::path& target, std::string_view text) {
   write_bytes(target, text);
 }
-/// True when write_bytes would not put a file there but write through: a device, a pipe, or a
-/// stream such as /dev/stdout.
+/// True if write_bytes would write directly to the target: a device, a pipe, or a stream such as
+/// /dev/stdout.
 bool is_stream(const std::filesystem::path& target);
 
 /// A folder of results: files are written into temporary() (hidden, beside the target), commit()
 /// moves them into the target with `last` as the last one, after the target's old `last` is gone.
-/// Readers that ask for `last` never see half a result. Without commit the temporary is removed.
+/// Readers that wait for `last` never see an incomplete result. Without a commit the temporary
+/// folder is removed.
 class AtomicFolder {
  public:
   /// Makes temporary(); throws Error (input) where that is not possible, or the target holds a

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far apart two shapes are, in three numbers.
+// Summary of distances between two shapes: mean, 95th percentile and maximum.
 #pragma once
 
 #include <vector>
@@ -10,15 +10,15 @@ struct Distances {
   double mean_mm = 0, p95_mm = 0, max_mm = 0;
 };
 
-/// A distance (mm) and how much it counts: the area it stands for, or 1.
+/// A distance (mm) and its weight: the area that it represents, or 1.
 struct WeightedDistance {
   double distance, weight = 1;
 };
 
 /// Weighted mean, the least distance that 95 % of the weight does not exceed, and the largest. All
-/// zero where the weights sum to nothing. The order of the samples does not matter.
+/// are zero if the weights sum to zero. The order of the samples does not matter.
 Distances summarise(std::vector<WeightedDistance> samples);
-/// The same of distances that count alike.
+/// The same for distances of equal weight.
 Distances summarise(const std::vector<double>& distances);
 
 }  // namespace breast

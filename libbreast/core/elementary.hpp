@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elementary functions with the same last bit on every x86-64 processor.
+// Elementary functions whose results are bitwise identical on every x86-64 processor.
 //
 // The C library chooses its exp, log, pow, sin, cos, tan, atan, acos ... by the processor it runs
-// on: with fused multiply-add another last bit comes out than without. That is enough for a voxel
-// to change its label. These are a fixed sequence of additions, multiplications and divisions, in
-// long double but for the small last terms of a series: the x87 unit rounds each alike on every
+// on: the last bit differs with and without fused multiply-add. That is enough for a voxel to
+// change its label. These are a fixed sequence of additions, multiplications and divisions, in long
+// double but for the small last terms of a series: the x87 unit rounds each alike on every
 // processor and has no vector or fused form. Its 64 bits leave the result within 0.51 units in the
 // last place of the exact value (pow: 0.65 where y log x is in the hundreds).
 //

@@ -12,9 +12,9 @@
 namespace breast {
 
 enum class ErrorKind {
-  failed,         ///< exit 1: something we did not foresee (disk full, library failure)
+  failed,         ///< exit 1: unexpected failure (disk full, library failure)
   input,          ///< exit 2: bad usage or bad input file
-  not_converged,  ///< exit 3: the solve stopped without an acceptable answer
+  not_converged,  ///< exit 3: the solve stopped without an acceptable solution
 };
 
 class Error : public std::runtime_error {

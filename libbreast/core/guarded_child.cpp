@@ -135,7 +135,7 @@ std::string in_guarded_child(const std::string& name, const std::function<std::s
     in_time = receive(ends[0], seconds, answer);
   } catch (const std::bad_alloc&) {
     end(true);
-    throw input_error(name, ": what is in it does not fit in memory");
+    throw input_error(name, ": its content does not fit in memory");
   }
   const int status = end(!in_time);
   if (!in_time) throw input_error(name, ": reading it takes more than ", seconds, " s: damaged");
@@ -147,7 +147,7 @@ std::string in_guarded_child(const std::string& name, const std::function<std::s
   const char kind = answer.front();
   answer.erase(0, 1);
   if (kind == result) return answer;
-  if (kind == no_memory) throw input_error(name, ": states more data than fits in memory");
+  if (kind == no_memory) throw input_error(name, ": declares more data than fit in memory");
   throw Error(kind == refusal ? ErrorKind::input : ErrorKind::failed, answer);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Libraries that a damaged file can crash, hang or make greedy do their work in a child process.
+// Execution in a child process, for libraries that a damaged file can crash, hang or make use up
+// memory.
 #pragma once
 
 #include <functional>
@@ -8,10 +9,10 @@
 namespace breast {
 
 /// Runs `work` in a child process with limits on time and memory, its stdout and stderr silenced, and
-/// returns the bytes it returned. An Error of the child is thrown here with its words and kind; lack
-/// of memory, a child that dies and one that takes longer than `seconds` become Error (input)
-/// beginning with `name`. Nothing else of what the child does reaches this process.
-/// The child may use `memory_mb` beyond what this process has.
+/// returns the bytes it returned. An Error of the child is thrown here with the same message and
+/// kind; lack of memory, a crash of the child and a run time of more than `seconds` become Error
+/// (input) beginning with `name`. Nothing else that the child does affects this process. The child
+/// may use `memory_mb` more than this process has.
 std::string in_guarded_child(const std::string& name, const std::function<std::string()>& work,
                              double seconds = 300, double memory_mb = 3072);
 

@@ -101,8 +101,8 @@ void check_replaceable(const fs::path& target, const std::string& label) {
   std::error_code ignored;
   if (!fs::exists(target, ignored) || is_stream(target) || written_by_us(target)) return;
   throw input_error(label, ": ", target.string(),
-                    " exists and does not look like a result of libbreast; it is not replaced: "
-                    "name another output, or remove it");
+                    " exists and does not look like a result of libbreast, so that it is not "
+                    "replaced: give another output, or remove it");
 }
 
 std::string marked_png(std::string_view png) {

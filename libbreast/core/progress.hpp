@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The library never prints; it tells a Progress sink where it is. Tools show a bar or sparse lines.
+// Interface for progress reports: the library never prints, and tools show a bar or occasional
+// lines.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a file came from: every command that led to it, with the SHA-256 of its inputs' content.
+// Provenance of a file: all commands that led to it, with the SHA-256 of the content of their
+// inputs.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +29,7 @@ class Sha256 {
 
 struct InputRecord {
   std::string name;    ///< file name without folders (no machine's path enters a file)
-  std::string sha256;  ///< of the content: without history, wall seconds and solve timings
+  std::string sha256;  ///< of the content, without history, run time and solve timings
 };
 
 struct HistoryEntry {

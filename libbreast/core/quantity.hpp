@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Named numbers that a table and a report both tell.
+// Named numbers that are written to both a table and a report.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct Quantity {
   std::string name;  ///< in a table, with its unit
   std::string key;   ///< in a report
   double value;
-  int digits = all_digits;  ///< worth printing after the point
+  int digits = all_digits;  ///< number of digits to print after the decimal point
 };
 
 /// A row (name, value) for each in the table, a key for each in the report.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a tool has to say at its end, as nested keys and values; written as JSON by --report.
+// The report of a tool, with nested keys and values, which --report writes as JSON.
 #pragma once
 
 #include <chrono>
@@ -34,8 +34,8 @@ class Report {
   void set(std::string_view path, const Vec3& value);
   /// Appends a string to a list: warnings, things to doubt.
   void append(std::string_view path, std::string_view value);
-  /// Sets what another report has at `path`: a value or all below it. Throws Error (failed) when
-  /// nothing is there.
+  /// Copies the entry of another report at `path`, a value or everything below it. Throws Error
+  /// (failed) if it does not exist.
   void copy(std::string_view path, const Report& from);
 
   bool contains(std::string_view path) const;

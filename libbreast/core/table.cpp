@@ -56,7 +56,8 @@ void check_reads_back(const Table& table, const std::string& text) {
     reason = error.what();
   }
   throw failed_error(table.name, ": cannot be written as tab-separated text (", reason,
-                     "): names in a table must not hold tabs or line breaks, nor begin a row with #");
+                     "): names in a table must not contain tabs or line breaks, nor begin a row "
+                     "with #");
 }
 }  // namespace
 
@@ -134,7 +135,7 @@ Table parse_table(const std::string& text, const std::string& name) {
   }
   if (table.columns.empty()) throw input_error(name, ": no header line");
   if (!promised.empty() && promised != std::to_string(table.rows.size())) {
-    throw input_error(name, ": has ", table.rows.size(), " rows, its last line promises ",
+    throw input_error(name, ": has ", table.rows.size(), " rows, but its last line states ",
                       promised);
   }
   table.counted = !promised.empty();

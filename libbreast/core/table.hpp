@@ -16,7 +16,8 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 
   std::string name = "table";  ///< of the file it came from, for errors
-  bool counted = false;        ///< read with its closing line "# rows N": nothing was cut off
+  bool counted = false;        ///< true if read with its closing line "# rows N", so that nothing
+                               ///< was truncated
 
   /// Throws Error (input) beginning with the table's name and naming the columns there are.
   int column(const std::string& column) const;
@@ -26,14 +27,15 @@ struct Table {
   double number(std::size_t row, const std::string& column) const;
   /// The numbers of the columns PREFIXx_mm, PREFIXy_mm and PREFIXz_mm (or without _mm), mm.
   Vec3 point(std::size_t row, const std::string& prefix) const;
-  std::string text() const;  ///< throws Error (failed) naming the row that would read back as another
+  std::string text() const;         ///< throws Error (failed) naming a row that would read back
+                                    ///< differently
   std::string closed_text() const;  ///< text() and the line "# rows N", as in every file we write
 };
-/// Lines starting with '#' are comments; "# rows N" closes a table of ours and N is checked, so
-/// that one cut at a line's end is refused. Throws Error (input) with the line number, also for a
-/// cell that is nan or inf.
+/// Lines starting with '#' are comments; "# rows N" closes a table written by libbreast, and N is
+/// checked, so that a table truncated at the end of a line is refused. Throws Error (input) with
+/// the line number, also for a cell that is nan or inf.
 Table read_table(const std::filesystem::path& file);
-/// The same from text; `name` is used in errors.
+/// The same from a text; `name` is used in errors.
 Table parse_table(const std::string& text, const std::string& name);
 void write_table(const std::filesystem::path& file, const Table& table);
 /// Shortest text that reads back to the same double.

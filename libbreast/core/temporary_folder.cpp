@@ -54,7 +54,8 @@ void remove_leftovers() noexcept {
 
 TemporaryFolder::TemporaryFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "breast-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw failed_error(name, ": no temporary folder");
+  if (mkdtemp(name.data()) == nullptr)
+    throw failed_error(name, ": no temporary folder can be created");
   note_leftover(name.c_str());
   try {
     path_ = name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A folder of one's own for as long as it is needed, also where the program ends without unwinding.
+// A temporary folder that is removed after use, even if the program ends without stack unwinding.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,8 @@ namespace breast {
 
 class TemporaryFolder {
  public:
-  /// An empty folder where the system keeps such; throws Error (failed) where it cannot be made.
+  /// Creates an empty folder in the system's place for temporary files; throws Error (failed) if
+  /// that is not possible.
   TemporaryFolder();
   /// Removes it with all that is in it.
   ~TemporaryFolder();
@@ -23,8 +24,8 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// From now on remove_leftovers() removes this folder. A few at a time; beyond that, or where the path is very long, it
-/// does nothing.
+/// Registers the folder for remove_leftovers(). Only a few can be registered at a time; beyond
+/// that, or for a very long path, it does nothing.
 void note_leftover(const char* folder) noexcept;
 void forget_leftover(const char* folder) noexcept;
 

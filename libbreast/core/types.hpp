@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The few types every folder shares: small vectors, tissue codes, body side.
+// The types that all folders share: small vectors, tissue codes, side of the body.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Units are mm, g, s: stress is then Pa and force µN (1 N = 1e6 µN). Patient frame LPS:
-// x to the patient's left, y posterior, z superior.
+// Units and patient frame: mm, g and s, hence stress in Pa and force in µN (1 N = 1e6 µN); LPS
+// axes, x to the patient's left, y posterior, z superior.
 #pragma once
 
 #include <cstdint>

@@ -28,7 +28,7 @@ void check_element(const DeckScene& scene, const std::string& element) {
   if (linear != (scene.nodes_per_element == 8)) {
     throw input_error("CalculiX element ", element, ": this scene has elements of ",
                       scene.nodes_per_element, " nodes; give --element ", linear ? "q1p0" : "q2p1",
-                      " and a mesh that fits it");
+                      " and a matching mesh");
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers and names in a deck. Internal to deck/.
+// Formatting of numbers and names in input files of other solvers. Internal to deck/.
 #pragma once
 
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What export-deck reports of a deck and of another program's answer.
+// Report entries of export-deck about an exported model and another program's solution.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@ namespace breast {
 /// Elements, nodes and held nodes of a deck; `element` is its type's name.
 void write_report(const DeckScene& scene, const std::string& element, Report& report);
 
-/// Supports and gravity must add up to nothing: weight, `reaction` (µN) and what is left over
-/// relative to the weight. Nothing for a scene with rollers, whose share is not in the reaction.
+/// Writes the balance of weight and `reaction` (µN), which must vanish, relative to the weight.
+/// Nothing for a scene with rollers, whose share is not in the reaction.
 void write_balance(const DeckScene& scene, const Vec3& reaction, Report& report);
 
-/// How far two shapes of `mesh` are apart, also as a table of one row.
+/// Distance between two shapes of `mesh`, also as a table of one row.
 Table write_difference(const NodeDifference& difference, const HexMesh& mesh, Report& report);
 
 }  // namespace breast

@@ -35,7 +35,7 @@ class NodeValues {
     for (std::size_t i = 0; i < values_.size(); ++i) {
       if (!values_[i].allFinite()) {
         throw input_error(file_, ": no displacement of node ", i + 1, " of ", values_.size(),
-                          "; did the run end?");
+                          "; did the run finish?");
       }
     }
     return values_;
@@ -67,7 +67,7 @@ std::vector<Vec3> read_frd(const std::string& name, const std::string& text, int
     } else if (line.compare(0, 3, " -3") == 0) {
       in_block = false;
     } else if (in_block && line.compare(0, 3, " -1") == 0) {
-      if (line.size() < 49) throw input_error(name, ": line cut short: '", line, "'");
+      if (line.size() < 49) throw input_error(name, ": truncated line: '", line, "'");
       values.set(trimmed(line.substr(3, 10)),
                  {trimmed(line.substr(13, 12)), trimmed(line.substr(25, 12)),
                   trimmed(line.substr(37, 12))});

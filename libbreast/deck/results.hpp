@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What another program found, read back onto the mesh the deck was made from.
+// Reading another program's solution back onto the mesh from which the model was exported.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct DeckResult {
 DeckResult read_deck_result(const std::filesystem::path& file, int nodes);
 
 /// mesh.points = reference + displacement (face and element centres of 27-node elements by their 20
-/// nodes). Clears what the other program did not give: pressure, det F, contact.
+/// nodes). Clears the data that the other program does not provide: pressure, det F, contact.
 void apply_displacement(HexMesh& mesh, const std::vector<Vec3>& displacement);
 
 /// Distances between two shapes of one mesh.

@@ -29,13 +29,13 @@ void refuse_what_no_deck_says(const HexMesh& mesh, const MechanicsOptions& optio
   }
   if (options.wall.kind != WallKind::held || options.cut.kind == Cut::spring) {
     throw input_error("--wall ", describe(options.wall), " --cut ", describe(options.cut),
-                      ": a deck holds the chest wall, and no springs; give --wall held and --cut "
-                      "free, fixed or roller");
+                      ": an exported model has a fixed chest wall and no springs; give --wall "
+                      "held and --cut free, fixed or roller");
   }
   if (mesh.skin_model == SkinModel::membrane && !without_skin) {
     throw input_error(
-        "mesh: its skin is a membrane, which FEBio and CalculiX do not have; leave "
-        "it out with --without-skin, or remesh with hexmesh --skin-as layer");
+        "mesh: its skin is a membrane, which FEBio and CalculiX do not have; omit it with "
+        "--without-skin, or remesh with hexmesh --skin-as layer");
   }
 }
 

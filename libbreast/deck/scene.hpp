@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A scene as other finite-element programs take it: the same reference shape, elements, laws,
-// supports and nodal gravity forces as `forward`, without anything a deck cannot say.
+// A mechanical model (scene) in the form that other finite-element programs need: the same
+// reference shape, elements, laws, supports and nodal gravity forces as `forward`, restricted to
+// what an input file can express.
 #pragma once
 
 #include <vector>
@@ -36,14 +37,14 @@ struct DeckScene {
   int elements() const { return int(tissue.size()); }
 };
 
-/// `options.bulk_ratio` must be given: no deck can say exactly incompressible. A membrane skin has
-/// no counterpart in a deck: it is left out when `without_skin`, refused otherwise (as are plain
-/// invariants). Throws Error (input).
+/// `options.bulk_ratio` must be given, since these programs have no exact incompressibility. They
+/// have no membrane skin either: it is omitted if `without_skin`, and refused otherwise (as are
+/// plain invariants). Throws Error (input).
 DeckScene deck_scene(const HexMesh& mesh, const MechanicsOptions& options, const Vec3& gravity,
                      bool without_skin);
 
-/// The loads with those on held nodes taken out, which do no work (programs differ in whether they
-/// count them in the supports' total force, so no deck has them).
+/// The loads without those on held nodes, which do no work (programs differ in whether they include
+/// them in the total force of the supports).
 std::vector<Vec3> free_load(const DeckScene& scene);
 
 /// The deck's nodes as nodes of the mesh: all of an 8-node mesh; of a 27-node mesh the corners and

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Between 27-node elements and the 20-node (serendipity) ones other programs have.
+// Conversion between 27-node elements and the 20-node (serendipity) elements of other programs.
 #pragma once
 
 #include <array>
@@ -13,12 +13,12 @@ namespace breast {
 /// Source: Zienkiewicz and Taylor, The Finite Element Method, quadratic serendipity family.
 std::array<double, 20> serendipity_shape(const Vec3& local);
 
-/// Face centres and element centres get what the 20-node elements have there. `nodal` has one entry
-/// per node of the 27-node mesh, of which those at corners and mid-edges are given.
+/// Sets face centres and element centres to the values of the 20-node elements there. `nodal` has
+/// one entry per node of the 27-node mesh, of which those at corners and mid-edges are given.
 void interpolate_centres(const HexMesh& mesh, std::vector<Vec3>& nodal);
 
-/// The transpose: forces on face and element centres go to the corners and mid-edges that do the
-/// same virtual work.
+/// The transpose: forces on face and element centres are distributed to corners and mid-edges with
+/// the same virtual work.
 void gather_centres(const HexMesh& mesh, std::vector<Vec3>& force);
 
 }  // namespace breast

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Building DICOM data sets element by element, and the bytes of a file of one (PS3.5, PS3.10).
+// Construction of DICOM data sets element by element, and their encoding as files (PS3.5, PS3.10).
 #pragma once
 
 #include <cstdint>

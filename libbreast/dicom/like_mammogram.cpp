@@ -9,7 +9,7 @@ LikeMammogram like_mammogram(const std::filesystem::path& file, View view, Side 
   const MammogramHeader header = read_mammogram_header(file);
   if (header.side != side) {
     throw input_error(file.string(), ": a mammogram of the ", side_name(header.side),
-                      " breast, the mesh is of the ", side_name(side));
+                      " breast, but the mesh is of the ", side_name(side));
   }
   if (header.view != view) {
     throw input_error(file.string(), ": shows ", view_name(header.view), ", --view is ",
@@ -17,7 +17,7 @@ LikeMammogram like_mammogram(const std::filesystem::path& file, View view, Side 
   }
   if (!header.thickness_mm && !header.force_N) {
     throw input_error(file.string(),
-                      ": tells neither thickness nor force of the compression; give "
+                      ": states neither the thickness nor the force of the compression; give "
                       "--thickness or --force");
   }
   return {header.angle_deg, header.thickness_mm, header.force_N};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Settings of a compression from the header of a mammogram that it shall imitate.
+// Compression settings from the header of a mammogram that the simulation should imitate.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,13 @@
 
 namespace breast {
 
-/// What the header gives of a compression; thickness is what the machine measured and is the target
-/// when it is there, force otherwise.
+/// Compression data of the header; the thickness measured by the machine is the target if present,
+/// otherwise the force.
 struct LikeMammogram {
   std::optional<double> angle_deg, thickness_mm, force_N;
 };
-/// Throws Error (input) when the mammogram is of the other breast or another view, or when it tells
-/// neither thickness nor force.
+/// Throws Error (input) when the mammogram is of the other breast or another view, or when it
+/// states neither thickness nor force.
 LikeMammogram like_mammogram(const std::filesystem::path& file, View view, Side side);
 
 }  // namespace breast

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a mammogram's DICOM header says about how it was taken.
+// Acquisition data from the DICOM header of a mammogram.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ struct MammogramHeader {
   std::optional<double> thickness_mm;  ///< between the plates
   std::optional<double> force_N;
   double pixel_mm = 0;  ///< at the detector
-  /// mm at the detector for one mm in the breast, as far as the header tells; 1 when it does not.
+  /// Magnification: mm at the detector per mm in the breast if the header states it, otherwise 1.
   double magnification = 1;
   int columns = 0, rows = 0;
   /// Patient directions of the image's rows (to the right) and columns (downwards), from letters

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A mammogram as stored in a file: header and grey.
+// A mammogram as stored in a file: header and grey values.
 #pragma once
 
 #include <vector>

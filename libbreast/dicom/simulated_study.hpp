@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The patient and the study of every DICOM file we write: nobody, simulated.
+// The fictitious patient and study in every DICOM file that libbreast writes.
 #pragma once
 
 #include <string>

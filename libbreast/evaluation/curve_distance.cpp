@@ -27,7 +27,8 @@ std::map<int, Curve> curves_of(const PolyLines& lines, const std::string& name) 
     Curve& curve = curves[query];
     for (const int point : lines.lines[l]) curve.push_back(lines.points[std::size_t(point)]);
   }
-  if (curves.empty()) throw input_error(name, ": holds no line 'curve'; cc2mlo writes such files");
+  if (curves.empty())
+    throw input_error(name, ": has no line 'curve'; such files are written by cc2mlo");
   return curves;
 }
 
@@ -79,7 +80,7 @@ CurveComparison compare_curves(const PolyLines& given, const PolyLines& truth,
   for (auto& [query, curve] : ours) {
     const auto other = theirs.find(query);
     if (other == theirs.end()) {
-      throw input_error(truth_name, ": holds no curve for query ", query, " of ", given_name);
+      throw input_error(truth_name, ": has no curve for query ", query, " of ", given_name);
     }
     flatten(curve, normal);
     flatten(other->second, normal);

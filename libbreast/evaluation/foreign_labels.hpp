@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Label volumes with somebody else's tissue codes: what they show beyond them (codes: image/segments.hpp).
+// Label volumes with another program's tissue codes: restriction to a region, and nipple (codes:
+// image/segments.hpp).
 #pragma once
 
 #include <optional>

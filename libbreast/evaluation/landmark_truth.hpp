@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a chain of meshes puts the material points whose true positions are known.
+// Errors of the landmarks of a chain of meshes against their known true positions.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace breast {
 
-/// Where a material point truly is in one posture, mm LPS, and how well that is known.
+/// True position of a material point in one posture, mm LPS, and its uncertainty.
 struct TruePosition {
   Vec3 x{0, 0, 0};
   std::optional<double> own_error;  ///< mm; of the truth's own discretisation
@@ -31,11 +31,11 @@ struct TrueLandmark {
 /// (input) beginning with `name`.
 std::vector<TrueLandmark> true_landmarks(const Table& table, Side side, const std::string& name);
 
-/// What a mesh file shows: "prone" (imaged), "stress_free", "supine", or when compressed its view
-/// in small letters; empty for anything else.
+/// The posture of a mesh: "prone" (imaged), "stress_free", "supine", or when compressed its view in
+/// small letters; empty for anything else.
 std::string posture_of(const HexMesh& mesh);
 
-/// One row a landmark: the true point in the imaged frame is found in the first mesh (outside_mm:
+/// One row per landmark: the true point in the imaged frame is found in the first mesh (outside_mm:
 /// how far it had to move to reach it), then compared with the truth in the posture of each mesh
 /// (POSTURE_error_mm) beside the true displacement from prone (POSTURE_true_mm) and the truth's own
 /// error where it is known (POSTURE_own_error_mm: errors below it are not claimed). All meshes must

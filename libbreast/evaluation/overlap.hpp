@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How well two label volumes agree voxel by voxel.
+// Voxelwise agreement of two label volumes.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What voxels of mixed tissue allow.
+// Agreement of fibroglandular fractions in voxels of mixed tissue, and the best that a labelling
+// can reach.
 #pragma once
 
 #include "image/label_volume.hpp"
@@ -7,8 +8,9 @@
 namespace breast {
 
 struct PartialVolume {
-  double dice = 0;      ///< of the given fibroglandular voxels against the true tissue within them
-  double ceiling = 0;   ///< the best any labelling of the fraction's voxels could reach
+  double dice = 0;      ///< Dice coefficient of the given fibroglandular voxels with the true
+                        ///< fractions
+  double ceiling = 0;   ///< the highest Dice that any labelling of these voxels could reach
   double truth_ml = 0;  ///< fibroglandular tissue by fraction
   double given_ml = 0;  ///< the given volume's own sum of fractions
 };

@@ -78,7 +78,7 @@ double wall_surface_distance(const ThoraxSurface& surface, const Vec3& x) {
   constexpr int rounds = 25;
   constexpr double along = 0.6;  // of the way along the surface, which is curved
   const std::optional<Level> at = surface.at(x);
-  if (!at) throw failed_error("a place at ", x.transpose(), " mm lies beyond the wall surface");
+  if (!at) throw failed_error("a point at ", x.transpose(), " mm lies beyond the wall surface");
   Vec3 foot = x, best = x - at->value / at->gradient.squaredNorm() * at->gradient;
   for (int i = 0; i < rounds; ++i) {
     const std::optional<Level> level = surface.at(foot);
@@ -93,8 +93,9 @@ double wall_surface_distance(const ThoraxSurface& surface, const Vec3& x) {
 
 PostureMotion posture_motion(const HexMesh& mesh, double assumed_muscle_mm) {
   if (!mesh.geometry || !mesh.geometry->thorax) {
-    throw input_error("mesh: it holds no wall surface to measure distances from; make geometry and "
-                      "mesh again with fit-hermite and hexmesh");
+    throw input_error(
+        "mesh: it has no chest-wall surface from which distances are measured; "
+        "run fit-hermite and hexmesh again");
   }
   const Landmark* nipple = mesh.landmark("nipple");
   if (nipple == nullptr) throw input_error("mesh: it has no landmark 'nipple'");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How tissue moves from the scanned to another posture, in the quantities measured on women: along
+// Motion of tissue from the scanned to another posture, in the quantities measured on women: along
 // the body's axes, and towards the ribs by depth.
 #pragma once
 
@@ -19,12 +19,12 @@ struct DepthBin {
 };
 
 struct PostureMotion {
-  /// Of the nipple, mm: away from the midline, backwards, and towards the feet.
+  /// Displacement of the nipple, mm: lateral, posterior and caudal.
   double nipple_lateral = 0, nipple_posterior = 0, nipple_caudal = 0, nipple_moved = 0;
-  /// Twice the nipple's distance from the midline, which is that of the wall surface's axis, mm.
+  /// Twice the nipple's distance from the midline (the axis of the wall surface), mm.
   double nipples_apart_before = 0, nipples_apart_after = 0;
-  /// How far the nipple lies in front of the sternal notch, mm: of the wall surface on the midline,
-  /// notch_height_mm above the nipple as imaged.
+  /// Distance of the nipple in front of the sternal notch, mm, which is taken as the point of the
+  /// wall surface on the midline, notch_height_mm above the imaged nipple.
   double before_notch_before = 0, before_notch_after = 0;
   double ribs_before = 0, ribs_after = 0;  ///< mean distance of tissue from the ribs, mm
   double ratio = 0;                        ///< median of after over before

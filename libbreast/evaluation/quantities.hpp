@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a comparison is told by: named numbers for tables and reports.
+// The results of a comparison as named numbers for tables and reports.
 #pragma once
 
 #include <string>

@@ -33,7 +33,7 @@ std::vector<Vec3> followed(const HexMesh& base, const HexMesh& other, double bou
   }
   if (!(outside <= bound)) {
     throw input_error("a node lies ", outside, " mm outside the other model, at most ", bound,
-                      " mm expected: not models of one scan");
+                      " mm expected: these are not models of one scan");
   }
   return places;
 }

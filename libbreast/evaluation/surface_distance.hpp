@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Distances between two surfaces, both ways.
+// Distances between two surfaces in both directions.
 #pragma once
 
 #include "core/distances.hpp"

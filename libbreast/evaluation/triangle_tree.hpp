@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nearest triangle by a tree of bounding boxes.
+// Search for the nearest triangle with a tree of bounding boxes.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -24,11 +24,12 @@ std::map<std::string, Pair> pairs_by_posture(const std::vector<HexMesh>& meshes)
   std::map<std::string, Pair> pairs;
   for (const HexMesh& mesh : meshes) {
     const std::string posture = posture_of(mesh);
-    if (posture.empty()) throw input_error("a mesh shows none of the postures of a truth table");
-    if (mesh.side != meshes.front().side) throw input_error("the meshes are of both sides");
+    if (posture.empty()) throw input_error("a mesh is in none of the postures of a truth table");
+    if (mesh.side != meshes.front().side) throw input_error("the meshes are of different sides");
     Pair& pair = pairs[posture];
     const HexMesh*& slot = mesh.elements() == most ? pair.fine : pair.coarse;
-    if (slot != nullptr) throw input_error("two meshes of one size show the posture ", posture);
+    if (slot != nullptr)
+      throw input_error("two meshes of the same size are in the posture ", posture);
     slot = &mesh;
   }
   for (const auto& [posture, pair] : pairs) {

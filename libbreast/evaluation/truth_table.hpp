@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a fine solution puts the landmarks, and how far a coarser one of the same body is from it.
+// Landmark positions from a fine solution, with their distance from a coarser solution of the same
+// body as error.
 #pragma once
 
 #include <string>
@@ -10,13 +11,13 @@
 
 namespace breast {
 
-/// The landmark table `imaged` (phantom --truth) for the side of the meshes, extended by what the
-/// meshes know. Meshes are of two sizes, each in the same postures (posture_of), with the landmarks
-/// of the table; the finer ones are the truth. For every posture of the meshes POSTURE_{x,y,z}_mm
-/// comes from the finer mesh, except prone, which stays as imaged; POSTURE_own_error_mm is the
-/// distance of the landmark between the two meshes (for prone: the larger of that and the distance
-/// to the imaged place). Throws Error (input) when postures, landmarks, sides or plate gaps of the
-/// two sizes differ.
+/// The landmark table `imaged` (phantom --truth) for the side of the meshes, extended by positions
+/// from the meshes. Meshes are of two sizes, each in the same postures (posture_of), with the
+/// landmarks of the table; the finer ones are the truth. For every posture of the meshes
+/// POSTURE_{x,y,z}_mm comes from the finer mesh, except prone, which stays as imaged;
+/// POSTURE_own_error_mm is the distance of the landmark between the two meshes (for prone: the
+/// larger of that and the distance to the imaged place). Throws Error (input) when postures,
+/// landmarks, sides or plate gaps of the two sizes differ.
 Table truth_table(const Table& imaged, const std::vector<HexMesh>& meshes);
 
 }  // namespace breast

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far the chest wall of one label volume lies from that of another.
+// Distance between the chest walls of two label volumes.
 #pragma once
 
 #include "core/distances.hpp"

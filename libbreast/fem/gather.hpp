@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nodal values of one element or face.
+// Gathering of the nodal values of one element or face.
 #pragma once
 
 #include <Eigen/Core>

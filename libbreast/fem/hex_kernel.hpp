@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One hexahedron: residual, volume constraint and their exact derivatives with respect to the
-// deformed and the reference shape. Q1 (8 nodes, 1 pressure) and Q2 (27 nodes, 4 pressures) share
-// the code.
+// The kernel of one hexahedral element: residual, volume constraint and their exact derivatives
+// with respect to the deformed and the reference shape. Q1 (8 nodes, 1 pressure) and Q2 (27 nodes,
+// 4 pressures) share the code.
 #pragma once
 
 #include <Eigen/Core>

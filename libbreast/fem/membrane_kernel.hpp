@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Skin as a membrane on a boundary face: a law in plane stress, without thickness of its own in the
-// mesh. Energy ∫ t √det a_imaged f(I, d) dξ with I = A^{αβ}a_{αβ}, d = det a/det A, incompressible:
-// I1 = I + 1/d, I2 = d + I/d.
+// The kernel of the skin as a membrane on a boundary face, with a law in plane stress and no
+// thickness in the mesh. Energy ∫ t √det a_imaged f(I, d) dξ with I = A^{αβ}a_{αβ}, d = det a/det
+// A, incompressible: I1 = I + 1/d, I2 = d + I/d.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What of a breast mesh is drawn: skin, chest wall, cut, fibroglandular region, plates.
+// Surfaces of a breast mesh for drawing: skin, chest wall, cut, fibroglandular region, plates.
 #pragma once
 
 #include <vector>
@@ -20,7 +20,7 @@ Facets tissue_facets(const HexMesh& mesh, const std::vector<Vec3>& nodal, Tissue
 /// `length` mm forward, `half_width` mm to either side of its origin.
 Facets plate_facets(const PlateRecord& plate, double length, double half_width);
 
-/// The sheet sampled on a grid of `fineness` cells a patch; `inside` are cells within the rim.
+/// The sheet sampled on a grid of `fineness` cells per patch; `inside` are cells within the rim.
 struct SheetFacets {
   Facets inside, outside;
   std::vector<std::vector<Vec3>> patch_lines;  ///< within the rim

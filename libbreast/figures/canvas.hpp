@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A picture of several panels with parallel projection, so that a millimetre is the same length all
-// over a panel. Hides VTK.
+// A picture of several panels with parallel projection, so that a millimetre has the same length
+// everywhere in a panel. Hides VTK.
 #pragma once
 
 #include <array>
@@ -53,8 +53,8 @@ class Panel {
   /// Line lying on an image (z slightly above 0), `width` in pixels.
   void stroke(const std::vector<Vec3>& points, const Colour& colour, double width);
 
-  /// Looks along `direction`, `up` on top, everything added so far in view; `margin` is the part of
-  /// the panel left free round it.
+  /// Looks along `direction` with `up` on top and everything added so far in view; `margin` is the
+  /// fraction of the panel left free around it.
   void look_along(const Vec3& direction, const Vec3& up, double margin = 0.12);
   /// The same with a given centre and height of the view in mm.
   void look_along(const Vec3& direction, const Vec3& up, const Vec3& centre, double height_mm);

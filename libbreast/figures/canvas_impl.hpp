@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shared by the canvas's source files only; shows VTK.
+// Implementation of the canvas, shared by its source files only, because it exposes VTK.
 #pragma once
 
 #include <vtkLightKit.h>

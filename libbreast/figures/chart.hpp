@@ -22,7 +22,7 @@ class Chart {
   Chart(Panel& panel, const Axis& across, const Axis& upwards);
   /// Horizontal band of values.
   void band(double low, double high, const Colour& colour, const std::string& label);
-  /// Points outside the axes are left out, with the pieces that lead to them.
+  /// Points outside the axes are omitted, with the segments that lead to them.
   void curve(const std::vector<Vec2>& points, const Colour& colour, double width, bool dashed);
   /// One line of the legend, from the top.
   void legend(const std::string& words, const Colour& colour, bool dashed);

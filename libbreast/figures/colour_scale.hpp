@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colours for values, and their bar.
+// Colour scale for values, and its legend.
 #pragma once
 
 #include <string>

@@ -115,9 +115,10 @@ void draw_matching(Picture& picture, const FigureInput& input) {
   std::vector<Shape> shapes;
   if (cc != nullptr) {
     const std::string tumour = tumour_words(*cc);
-    shapes.push_back({*cc, cc->points, "column in CC",
-                      "CC: the pixel's column (green)" + (tumour.empty() ? "" : ", " + tumour),
-                      plate_view(*cc)});
+    shapes.push_back(
+        {*cc, cc->points, "column in CC",
+         "CC: the column of tissue above the pixel (green)" + (tumour.empty() ? "" : ", " + tumour),
+         plate_view(*cc)});
   }
   shapes.push_back({any,
                     any.reference.empty() ? any.imaged : any.reference,

@@ -34,32 +34,35 @@ const std::vector<Figure>& figures() {
   static const std::vector<Figure> list = {
       {"points", "data points of skin and chest wall (points .vtp of segment)", 1600, 800, false,
        true, draw_points},
-      {"geometry", "Hermite sheets with patch lines and rim (geometry .vtkhdf, maybe points .vtp)",
+      {"geometry",
+       "Hermite sheets with patch lines and rim (geometry .vtkhdf, optionally "
+       "points .vtp)",
        1600, 800, true, true, draw_geometry},
       {"mesh", "element edges, front and back (mesh .vtkhdf)", 1600, 800, false, false, draw_mesh},
       {"tissues", "fibroglandular region and tumour through a translucent skin (mesh .vtkhdf)",
        1600, 800, false, false, draw_tissues},
       {"outlines",
-       "shapes over each other, from the scan to other postures (one or more deformed .vtkhdf)",
-       1600, 800, false, false, draw_outlines},
+       "superimposed shapes, from the scan to other postures (one or more deformed .vtkhdf)", 1600,
+       800, false, false, draw_outlines},
       {"compression", "shapes between their plates (one or two compressed .vtkhdf)", 1600, 1060,
        false, false, draw_compression},
       {"pressure",
        "contact pressure of paddle and detector on the skin (one or two compressed .vtkhdf)", 1600,
        1300, false, false, draw_pressure},
-      {"force-thickness",
-       "force of both plates on the way to the compressed shape (compressed .vtkhdf)", 1600, 700,
-       false, false, draw_force_thickness},
+      {"force-thickness", "force of both plates during the compression (compressed .vtkhdf)", 1600,
+       700, false, false, draw_force_thickness},
       {"mammogram",
-       "mammograms with axes in mm (one or two .vti), maybe curve, arc and tumour (curve .vtp)", 1600,
-       1000, false, false, draw_mammogram},
+       "mammograms with axes in mm (one or two .vti), optionally with curve, arc and tumour "
+       "(curve .vtp)",
+       1600, 1000, false, false, draw_mammogram},
       {"matching",
-       "the column in CC, reference and MLO (cc.vtkhdf mlo.vtkhdf, or one of them, curve.vtp)",
+       "the column of a CC point in the CC, stress-free and MLO shapes (cc.vtkhdf mlo.vtkhdf, "
+       "or one of them, curve.vtp)",
        1800, 680, false, false, draw_matching},
       {"summary",
-       "the whole chain (mesh reference supine cc mlo .vtkhdf, cc.vti mlo.vti, maybe curve.vtp)",
-       2000,
-       1250, false, false, draw_summary},
+       "the whole chain (mesh reference supine cc mlo .vtkhdf, cc.vti mlo.vti, optionally "
+       "curve.vtp)",
+       2000, 1250, false, false, draw_summary},
   };
   return list;
 }

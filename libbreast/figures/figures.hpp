@@ -14,7 +14,7 @@
 
 namespace breast {
 
-/// What a figure is drawn from, in the order given by the user.
+/// Input of a figure, in the order given by the user.
 struct FigureInput {
   struct NamedMesh {
     std::string name;  ///< file name without folders, for messages
@@ -30,9 +30,9 @@ struct FigureInput {
 /// "points", "geometry", "mesh", "tissues", "outlines", "compression", "pressure",
 /// "force-thickness", "mammogram", "matching", "summary".
 const std::vector<std::string>& figure_names();
-/// One line for the help: what the figure shows and needs.
+/// One line for the help on what the figure shows and needs.
 std::string figure_summary(const std::string& name);
-/// What files ending in .vtkhdf and .vtp hold for this figure.
+/// The content that .vtkhdf and .vtp files must have for this figure.
 bool figure_takes_geometry(const std::string& name);
 bool figure_takes_points(const std::string& name);
 

@@ -58,7 +58,7 @@ std::vector<ImageLine> image_lines(const PolyLines& lines, const std::string& na
   return image_lines(lines, [&](const std::string& line) { return line == name; });
 }
 
-/// The place in MLO that somebody names: the truth, a mark, or the model's own landmark. (Files of
+/// The position given for the MLO view: the truth, a mark, or the model's own landmark. (Files of
 /// before 0.2 call the model's own place "truth in MLO" too.)
 bool is_place(const std::string& line) {
   return line.ends_with(" in MLO") &&

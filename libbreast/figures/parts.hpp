@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parts the figures share: colours, views, a breast, its mammogram.
+// Elements that the figures share: colours, views, a breast, its mammogram.
 #pragma once
 
 #include "figures/body_surfaces.hpp"
@@ -22,7 +22,7 @@ inline constexpr Colour ink{0, 0, 0};
 
 namespace breast {
 
-/// Direction of view and what is up, in the patient frame.
+/// Viewing direction and upward direction, in the patient frame.
 struct Camera {
   Vec3 direction, up;
 };
@@ -58,7 +58,7 @@ void add_mammogram(Panel& panel, const Mammogram& image, const PolyLines* curves
 /// Points of all lines of that name.
 std::vector<std::vector<Vec3>> named_lines(const PolyLines& lines, const std::string& name);
 
-/// Throws Error (input) naming the figure when fewer were given.
+/// Throws Error (input) naming the figure if fewer files were given.
 void need(bool given, const std::string& figure, const std::string& what);
 
 void draw_points(Picture& picture, const FigureInput& input);

@@ -83,7 +83,8 @@ void Picture::save(const std::filesystem::path& file) {
   const int w = impl_->width * supersampling, h = impl_->height * supersampling;
   impl_->window->GetPixelData(0, 0, w - 1, h - 1, 0, pixels);
   if (pixels->GetNumberOfValues() != vtkIdType(3) * w * h) {
-    throw failed_error(file.string(), ": the picture could not be drawn (OpenGL gave no pixels)");
+    throw failed_error(file.string(),
+                       ": the picture could not be drawn (OpenGL returned no pixels)");
   }
   vtkNew<vtkPNGWriter> writer;
   writer->WriteToMemoryOn();

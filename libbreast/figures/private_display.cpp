@@ -34,7 +34,8 @@ void check_installed() {
     server = access((path.substr(from, to - from) + "/Xvfb").c_str(), X_OK) == 0;
     from = to + 1;
   }
-  if (!server) throw failed_error("render needs the X server Xvfb, which is not here: ", packages);
+  if (!server)
+    throw failed_error("render needs the X server Xvfb, which is not installed: ", packages);
   // Without the software driver VTK aborts the process when it opens its window.
   std::error_code ignored;
   bool driver = std::getenv("LIBGL_DRIVERS_PATH") != nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// VTK 9.1 as packaged draws through X only, and aborts without a display. This one is ours alone.
+// A private X display: the packaged VTK 9.1 draws only through X and aborts without a display.
 #pragma once
 
 #include <sys/types.h>
@@ -8,9 +8,9 @@
 
 namespace breast {
 
-/// Starts Xvfb on a display number it picks itself and points DISPLAY at it, whatever DISPLAY was:
-/// pictures are the same on a desktop, over ssh and in a container. Several may run at a time. The
-/// server ends with this object, and also when the process is killed.
+/// Starts Xvfb on a free display number and sets DISPLAY to it, whatever DISPLAY was before, so
+/// that pictures are the same on a desktop, over ssh and in a container. Several can run at the
+/// same time. The server ends with this object, and also when the process is killed.
 class PrivateDisplay {
  public:
   /// Throws Error (failed) naming the Debian packages when Xvfb or the software OpenGL driver is

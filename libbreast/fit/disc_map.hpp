@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A disc-shaped triangle surface mapped one to one onto the unit square.
+// One-to-one map of a disc-shaped triangle surface onto the unit square.
 #pragma once
 
 #include <array>

@@ -321,11 +321,14 @@ DiscSurface extract_skin(const OccupancyField& field, const Box& box, const Vec3
   const auto loops = border_loops(mesh);
   if (loops.empty())
     throw input_error(
-        "labels: the breast's skin is closed on all sides: the body behind it is missing");
+        "labels: the skin of the breast is a closed surface: the body behind the breast is "
+        "missing");
   for (std::size_t l = 1; l < loops.size(); ++l) close_by_fan(mesh, loops[l], surface.filled);
   if (const int euler = euler_number(mesh); euler != 1)
-    throw input_error("labels: the skin around the breast is no disc (Euler number ", euler,
-                      " instead of 1): the body mask has handles; smooth or close it in segment");
+    throw input_error(
+        "labels: the skin around the breast does not have the topology of a disc "
+        "(Euler number ",
+        euler, " instead of 1): the body mask has handles; smooth or close it in segment");
   surface.points = std::move(mesh.points);
   surface.triangles = std::move(mesh.triangles);
   surface.border = loops[0];

@@ -19,9 +19,10 @@ struct DiscSurface {
   std::vector<char> filled;  ///< 1 where a hole in the skin (field of view) was closed by a fan
 };
 
-/// Marching tetrahedra with `step_mm` on the field in `box`, after filling what is not open to the
-/// air in front and dropping what is not joined to the breast; triangles evened out along the
-/// surface. Throws Error (input) when the skin at `nipple` is no disc.
+/// Marching tetrahedra with `step_mm` on the field in `box`, after filling cavities that are not
+/// open to the air in front and removing parts that are not connected to the breast; the triangles
+/// are equalised along the surface. Throws Error (input) if the skin at `nipple` does not have the
+/// topology of a disc.
 DiscSurface extract_skin(const OccupancyField& field, const Box& box, const Vec3& nipple,
                          double step_mm);
 

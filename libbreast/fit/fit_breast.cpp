@@ -24,11 +24,11 @@ void check_front(const DiscSurface& surface, double front, FitReport& report) {
   const double percent = 100 * cut / total;
   if (percent > 10)
     throw input_error("labels: the body touches the front end of the field of view over ", percent,
-                      " % of its skin; at most 10 % can be bridged; the scan or the crop cuts the "
-                      "breast off");
+                      " % of its skin; at most 10 % can be bridged; the scan or the crop "
+                      "truncates the breast");
   if (percent > 0.1)
     report.doubts.push_back(message("the front end of the field of view cuts off ", percent,
-                                    " % of the skin: it is flat there"));
+                                    " % of the skin: the fitted skin is flat there"));
 }
 
 /// The skin as a disc; a ragged mask is smoothed more and cropped closer before it is refused.
@@ -48,7 +48,10 @@ DiscSurface skin_surface(const LabelVolume& labels, BreastRegion& region, const 
       if (!reason.empty())
         report.doubts.push_back(message("the skin was smoothed by ", smoothing, " mm and cropped ",
                                         part * options.margin_mm,
-                                        " mm beyond the breast to become a disc: ", reason));
+
+                                        " mm beyond the breast to obtain the topology of a "
+                                        "disc: ",
+                                        reason));
       return surface;
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::input) throw;
@@ -88,28 +91,30 @@ void find_doubts(const BreastRegion& region, const BreastGeometry& geometry, Fit
   if (report.skin_to_sheet.max_mm > 2)
     doubt("the skin's largest distance to its sheet is ", report.skin_to_sheet.max_mm, " mm");
   if (!region.nipple_known)
-    doubt("no nipple landmark in the labels: the most anterior point stands in for it");
+    doubt("the labels have no nipple landmark; the most anterior point is used instead");
   if (report.nipple_moved_mm > 5)
-    doubt("the nipple landmark lies ", report.nipple_moved_mm, " mm off the skin sheet");
+    doubt("the nipple landmark lies ", report.nipple_moved_mm, " mm from the skin sheet");
   if (report.wall_coverage < 0.9)
-    doubt("the chest wall is seen behind ", 100 * report.wall_coverage, " % of the breast only");
+    doubt("the chest wall is visible behind only ", 100 * report.wall_coverage, " % of the breast");
   if (report.thorax.wall_p95_mm > 8)
     doubt("beside the breast the wall surface lies up to ", report.thorax.wall_p95_mm,
-          " mm (95 %) from the labels' chest wall: look at the labels before sliding on it");
+          " mm (95th percentile) from the labels' chest wall: check the labels before letting "
+          "the breast slide on it");
   if (report.filled_points > 0)
     doubt("the skin leaves the field of view inside the breast's outline: ", report.filled_points,
-          " hole(s) bridged by the smooth sheet");
+          " hole(s) are bridged by the smooth sheet");
   const double margin =
       double(std::count(geometry.rim_end.begin(), geometry.rim_end.end(), RimEnd::margin)) /
       double(geometry.rim_end.size());
   // A breast that goes over into the axilla ends there on ordinary scans: a tenth to a half of the rim on eight of ours.
   if (margin > 0.5)
     doubt(std::lround(100 * margin),
-          " % of the rim lies where the sheet ends, not where the breast does "
-          "(field of view, midline, or tissue that never thins)");
+          " % of the rim lies at the border of the sheet rather than at that of the breast "
+          "(field of view, midline, or tissue that does not become thinner)");
   if (!(std::abs(report.body_ml / report.label_ml - 1) < 0.01))
-    doubt("the body inside the rim has ", std::lround(report.body_ml), " ml, the labelled breast ",
-          std::lround(report.label_ml), " ml: the rim cannot follow where the labels end");
+    doubt("the body inside the rim has ", std::lround(report.body_ml),
+          " ml, but the labelled breast has ", std::lround(report.label_ml),
+          " ml: the rim cannot follow the border of the labels");
   if (report.rim.skin_angle_min < 30 || report.rim.wall_angle_min < 30)
     doubt("sharp rim: ", std::lround(report.rim.skin_angle_min), " degrees at the skin, ",
           std::lround(report.rim.wall_angle_min), " at the wall");

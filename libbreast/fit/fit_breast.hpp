@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From labels to the geometry of one breast: skin sheet, chest-wall sheet, rim.
+// Fit of the geometry of one breast to labels: skin sheet, chest-wall sheet, rim.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct FitOptions {
   /// until no point of the skin lies farther from its sheet. Missing it is a doubt, not an error.
   double target_max_mm = 2;
   int most_patches = 10;
-  double margin_mm = 25;       ///< skin beyond the breast's foot
+  double margin_mm = 25;       ///< skin included beyond the base of the breast
   double surface_step_mm = 3;  ///< raster of the skin surface
   double wall_smoothing_mm = 7;
   RimOptions rim;
@@ -46,7 +46,7 @@ struct FitReport {
   double body_ml = 0, label_ml = 0;  ///< volume inside the sheets and cut; of the breast's voxels
   Rim rim;
   ThoraxReport thorax;
-  std::vector<std::string> doubts;  ///< what a reader of the result should look at
+  std::vector<std::string> doubts;  ///< what a user should check
 };
 
 /// Fits everything. Throws Error (input) when the labels hold no breast that can be bounded this

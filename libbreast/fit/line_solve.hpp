@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Systems in which a line of unknowns couples to itself and to the lines beside it only.
+// Solver for block-tridiagonal systems, in which each line of unknowns couples only to itself and
+// to adjacent lines.
 #pragma once
 
 #include <Eigen/Core>

@@ -168,7 +168,7 @@ BreastRegion find_region(const LabelVolume& labels, double margin_mm) {
   if (!(extent.minCoeff() > 40))
     throw input_error("labels: the box around the breast inside the field of view is ", extent.x(),
                       " x ", extent.y(), " x ", extent.z(),
-                      " mm; each must exceed 40 mm; the scan cuts the breast off");
+                      " mm, of which each must exceed 40 mm; the scan truncates the breast");
   return region;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Part of the body (all of it, or the muscle) as a smooth field in a box around one breast: 1
-// inside, 0 outside, its surface at 1/2.
+// The body, or its muscle, as a smooth occupancy field in a box around one breast: 1 inside, 0
+// outside, its surface at 1/2.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ struct Box {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
 };
 
-/// Where the breast is in a label volume and which part of the body its sheets shall cover.
+/// Location of the breast in a label volume, and the part of the body that its sheets must cover.
 struct BreastRegion {
   Box foot;     ///< of the breast's own voxels
   Box crop;     ///< foot box and margin, clipped to the field of view and just past the midline
@@ -38,8 +38,8 @@ class OccupancyField {
   /// `smoothing_mm` is the Gaussian's sigma, at least 0.6 voxels along every axis.
   OccupancyField(const LabelVolume& labels, const Box& box, double smoothing_mm,
                  const std::function<bool(Tissue)>& counts);
-  /// Trilinear; values at the border of the field of view are held, but
-  /// nothing lies in front of it.
+  /// Trilinear interpolation; values at the border of the field of view are extended outwards,
+  /// except that there is nothing in front of it.
   double value(const Vec3& p) const;
   Vec3 gradient(const Vec3& p) const;      ///< per mm, central differences of half the smoothing
   double front() const { return front_; }  ///< y of the field of view's anterior end

@@ -371,8 +371,8 @@ Rim lay_rim(const HermiteSheet& skin, const WallSheet& wall, const RimRays& rays
     return rim;
   }
   throw input_error(
-      "labels: no straight cut joins the skin's rim to the chest wall without crossing itself; the "
-      "wall lies in front of the skin or is too ragged: see segment --chest-wall");
+      "labels: no straight cut joins the skin's rim to the chest wall without crossing itself; "
+      "the wall lies in front of the skin or is too ragged; see segment --chest-wall");
 }
 
 }  // namespace breast

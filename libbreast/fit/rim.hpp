@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the body ends: a closed curve in each sheet's parameters, and the
-// straight cut between them.
+// The rim at which the body ends: a closed curve in the parameters of each sheet, joined by a
+// straight cut.
 #pragma once
 
 #include <vector>
@@ -17,9 +17,10 @@ struct RimOptions {
       0;                      ///< tissue where the body ends; 0: sternal tissue + 5, within 15..30
   double slope_degrees = 15;  ///< ends where tissue thins less than this ...
   double slope_below = 0.4;   ///< ... and is below this part of its greatest thickness
-  /// Past the least thickness the rim still moves on until the skin is less steep than this to the
-  /// wall, or tissue is thinner than this part of it: a rim on the breast's steep side would leave
-  /// elements with an edge of nearly 180 degrees between skin and cut.
+  /// Beyond the least thickness the rim continues outwards until the angle between skin and wall is
+  /// below `steep_degrees`, or the tissue is thinner than `steep_down_to` of it: a rim on the steep
+  /// side of the breast would give elements with an angle of nearly 180 degrees between skin and
+  /// cut.
   double steep_degrees = 40;
   double steep_down_to = 0.6;
   double low_pass_degrees = 12;  ///< standard deviation of the smoothing of the rim's log radius
@@ -38,7 +39,7 @@ struct Rim {
   double least_thickness_mm = 0;  ///< used
   double greatest_thickness_mm = 0;
   double cut_height_min_mm = 0, cut_height_median_mm = 0, cut_height_max_mm = 0;
-  /// Angle inside the body between cut and skin, cut and wall, degrees.
+  /// Interior angles between cut and skin and between cut and wall, degrees.
   double skin_angle_min = 0, skin_angle_median = 0, skin_angle_max = 0;
   double wall_angle_min = 0, wall_angle_median = 0, wall_angle_max = 0;
 };

@@ -6,11 +6,11 @@
 
 namespace breast {
 
-/// The rays say where the breast ends to a few mm, the labels say how much breast there is: the rim
-/// is moved in or out, by at most 20 mm along the skin, until skin, cut and wall enclose
-/// `wanted_ml`. Where the sheet's margin or the laying of the cut stops that first, the nearest rim
-/// that can be laid. Sets the geometry's centre and rim (its sheets must be there); throws Error
-/// (input) when no rim can be laid at all.
+/// The rays locate the border of the breast to a few mm, and the labels give its volume: the rim is
+/// moved in or out, by at most 20 mm along the skin, until skin, cut and wall enclose `wanted_ml`.
+/// If the margin of the sheet or the construction of the cut prevents this, the closest possible
+/// rim is used. Sets the geometry's centre and rim (its sheets must be there); throws Error (input)
+/// when no rim can be laid at all.
 Rim rim_of_volume(double wanted_ml, const WallSheet& wall, const RimRays& rays,
                   const RimOptions& options, BreastGeometry& geometry);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Least squares of a Hermite sheet to points, smoothed by its second derivatives.
+// Least-squares fit of a Hermite sheet to points, smoothed by a penalty on its second derivatives.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace breast {
 
-/// Points a sheet shall pass, each at a parameter.
+/// Data points for a sheet, each with a parameter.
 struct SheetData {
   std::vector<Vec3> points;     ///< mm
   std::vector<Vec3> normals;    ///< unit: the direction whose residual counts fully
@@ -58,7 +58,7 @@ FitOutcome fit_sheet(int nu, int nv, SheetData& data, const FitControl& control,
                      const std::function<bool(const HermiteSheet&)>& acceptable);
 
 /// Folding of a sheet: smallest cosine between normals of neighbouring samples, and smallest ratio
-/// of its area element |x_s × x_t| to the median, over `per_patch` samples a side.
+/// of its area element |x_s × x_t| to the median, over `per_patch` samples per side.
 struct FoldCheck {
   double min_cosine = 1, min_area_ratio = 1;
   bool folded() const { return !(min_cosine > 0) || !(min_area_ratio > 0.005); }

@@ -106,7 +106,7 @@ SkinSheet fit_skin(const DiscSurface& surface, const DiscMap& map, const Vec3& n
     throw not_converged_error("skin sheet: largest distance ", report.whole_skin_to_sheet.max_mm,
                               " mm with ", report.patches_s, " x ", report.patches_t,
                               " patches, above --max-error ", options.max_error_mm,
-                              "; ask for less");
+                              "; choose a larger value");
   }
 }
 

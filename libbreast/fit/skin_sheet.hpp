@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The skin's Hermite sheet, with as many patches as the largest distance needs.
+// Fit of the skin's Hermite sheet, with as many patches as the bound on the largest distance
+// requires.
 #pragma once
 
 #include <functional>
@@ -16,7 +17,7 @@ namespace breast {
 
 struct SkinSheet {
   FitOutcome outcome;
-  SheetData data;  ///< the skin's points, each with its foot on the sheet
+  SheetData data;  ///< the skin's points, each with its closest point on the sheet
 };
 
 /// Fits the skin sheet; refines it by a quarter more patches at a time until max_error_mm, which
@@ -25,8 +26,8 @@ struct SkinSheet {
 SkinSheet fit_skin(const DiscSurface& surface, const DiscMap& map, const Vec3& nipple,
                    const FitOptions& options, FitReport& report, Progress& progress);
 
-/// The points that say how good a sheet is (imaged skin with its parameter in `wanted`) and their
-/// distances to it, mm.
+/// The points by which the quality of a sheet is measured (imaged skin whose parameter is in
+/// `wanted`), and their distances to it, mm.
 std::vector<std::pair<double, Vec3>> measured_points(
     const HermiteSheet& sheet, const SheetData& data, const DiscSurface& surface,
     const std::function<bool(const Vec2&)>& wanted);

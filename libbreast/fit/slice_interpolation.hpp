@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Thick slices made thin: shape-based interpolation of a mask (Raya and Udupa 1990).
+// Shape-based interpolation of a mask between thick slices (Raya and Udupa 1990).
 #pragma once
 
 #include "image/volume.hpp"

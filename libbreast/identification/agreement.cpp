@@ -49,10 +49,11 @@ void check_exchanged(const Observations& seen, const Identified& found) {
                    crossed = (a.seen + from_a - b.seen).norm() + (b.seen + from_b - a.seen).norm();
       if (!(crossed < 0.4 * now)) continue;
       throw input_error("landmarks '", b.name, "' and '", a.name,
-                        "' look exchanged in one of the postures: all others put them ",
+                        "' seem to be interchanged in one of the postures: the other landmarks "
+                        "predict them ",
                         format_fixed(from_b.norm(), 1), " and ", format_fixed(from_a.norm(), 1),
-                        " mm from their marks, exchanged ", format_fixed(crossed / 2, 1),
-                        " mm in the mean");
+                        " mm from their marks, and when interchanged ",
+                        format_fixed(crossed / 2, 1), " mm on average");
     }
   }
 }
@@ -66,8 +67,9 @@ void check_one_against_all(const Identified& found) {
     if (landmark.left_out < std::max(surely_wrong_mm, beyond_others * usual)) continue;
     throw not_converged_error("landmark '", landmark.name, "' lies ",
                               format_fixed(landmark.left_out, 1),
-                              " mm from where all others put it, whose median is ",
-                              format_fixed(usual, 1), " mm: check its places, or leave it out");
+                              " mm from where the other landmarks predict it, while the median "
+                              "is ",
+                              format_fixed(usual, 1), " mm: check its positions, or omit it");
   }
 }
 
@@ -86,7 +88,7 @@ void check_explained(const HexMesh& mesh, const Observations& seen, const Identi
     return;
   const double n = double(seen.points.size());
   throw not_converged_error(
-      "the landmarks contradict each other or the mesh: the best answer leaves ",
+      "the landmarks contradict each other or the mesh: the best fit leaves ",
       format_fixed(std::sqrt(left / n), 1), " mm rms of their motion of ",
       format_fixed(std::sqrt(motion / n), 1),
       " mm; check names, frames and the alignment of the rib cages (--align)");
@@ -103,21 +105,22 @@ void check_agreement(const HexMesh& mesh, const Observations& seen, const Identi
 std::vector<std::string> doubts_of(const Identified& found) {
   std::vector<std::string> doubts;
   if (found.fit.at_limit && !found.fit.converged) {
-    doubts.push_back("the answer lies at the limit of what has a stable body (" +
+    doubts.push_back("the solution lies at the limit beyond which there is no stable body (" +
                      found.refusals.back() +
-                     "): beyond it nothing is known, and deviations are those "
-                     "of this side");
+                     "): nothing is known beyond it, and the standard deviations hold on this "
+                     "side only");
   }
   if (found.misfit.probability < misfit_level) {
     doubts.push_back(message(
         "misfit: chi-squared ", format_fixed(found.misfit.chi_squared, 1), " of ",
         found.misfit.freedom, " data, probability ", format_number(found.misfit.probability),
-        ": laws, mesh or alignment are not this patient's, or marks are worse than "
-        "said; the data were given ",
-        format_fixed(std::sqrt(found.discount), 2), " times their errors in all deviations"));
+        ": the laws, mesh or alignment are not this patient's, or the marks are less accurate "
+        "than stated; the data were given ",
+        format_fixed(std::sqrt(found.discount), 2),
+        " times their stated errors in all standard deviations"));
   }
   if (found.decided < 0.5 * double(found.names.size())) {
-    doubts.push_back(message("the answer is mostly the prior: the data decide ",
+    doubts.push_back(message("the result is mostly the prior: the data determine ",
                              format_fixed(found.decided, 1), " of ", found.names.size(),
                              " numbers"));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The distribution of a sum of squares.
+// The chi-squared distribution.
 #pragma once
 
 namespace breast {

@@ -133,7 +133,7 @@ VectorXd Search::start() {
     if (data(x)) return x;
     x.head(sought_.materials()).array() += 0.4;
   }
-  throw not_converged_error("no stable body to begin with, also not with ",
+  throw not_converged_error("there is no stable body at the starting point, nor with ",
                             std::exp(0.4 * (most - 1)), " times the stiffness of materials ",
                             options_.mechanics.materials.name, ": ", model_.reason());
 }
@@ -233,8 +233,8 @@ Identified identify(const HexMesh& mesh, const Observations& seen, const Identif
                     Progress& progress) {
   if (seen.count() == 0) {
     throw input_error(
-        "nothing is known of the second posture: give landmarks, the nipple, a surface "
-        "or forces");
+        "there are no data of the second posture: give landmarks, the nipple, a surface or "
+        "forces");
   }
   return Search(mesh, seen, options, progress).run();
 }

@@ -22,14 +22,15 @@ struct IdentifyOptions {
   Eigen::VectorXd start = {};  ///< logarithms to begin at; empty: the middle of the prior
 };
 
-/// A misfit less probable than this is one.
+/// Probability below which a misfit is reported.
 inline constexpr double misfit_level = 0.01;
 
-/// How one landmark is met, mm.
+/// Fit of one landmark, mm.
 struct LandmarkFit {
   std::string name;
-  Vec3 predicted{0, 0, 0};  ///< its place in the frame of what was seen
-  Vec3 without{0, 0, 0};    ///< the same when it is left out and the rest predicts it, linearised
+  Vec3 predicted{0, 0, 0};  ///< its position in the frame of the observations
+  Vec3 without{0, 0, 0};    ///< the same as predicted by the other data without this landmark,
+                            ///< linearised
   double residual = 0;
   double left_out = 0;  ///< distance of `without` from where it was seen
   double observer = 0;  ///< rms of the observer's error in space

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a least-squares answer knows: directions, landmarks left out, misfit.
+// Statistics of a least-squares solution: determined directions, leave-one-out errors, misfit.
 #pragma once
 
 #include <Eigen/Core>

@@ -27,16 +27,16 @@ Vec3 from_ras(const Vec3& x) {
 // What people do, the likeliest first.
 const std::vector<std::pair<std::string, Slip>>& slips() {
   static const std::vector<std::pair<std::string, Slip>> list{
-      {"prone and supine look exchanged: exchange the columns",
+      {"prone and supine seem to be interchanged: interchange the columns",
        [](LandmarkPair p) { return std::swap(p.imaged, p.second), p; }},
-      {"coordinates look like RAS: change the sign of x and y, patient LPS is read here",
+      {"coordinates seem to be RAS: change the signs of x and y, since LPS is expected",
        [](LandmarkPair p) {
          p.imaged = from_ras(p.imaged), p.second = from_ras(p.second);
          return p;
        }},
-      {"coordinates look like metres: multiply them by 1000, mm are read here",
+      {"coordinates seem to be in metres: multiply them by 1000, since mm are expected",
        [](LandmarkPair p) { return p.imaged *= 1000, p.second *= 1000, p; }},
-      {"coordinates look like centimetres: multiply them by 10, mm are read here",
+      {"coordinates seem to be in centimetres: multiply them by 10, since mm are expected",
        [](LandmarkPair p) { return p.imaged *= 10, p.second *= 10, p; }}};
   return list;
 }
@@ -44,11 +44,11 @@ const std::vector<std::pair<std::string, Slip>>& slips() {
 // Only the second posture's.
 const std::vector<std::pair<std::string, Slip>>& second_slips() {
   static const std::vector<std::pair<std::string, Slip>> list{
-      {"the second posture's coordinates look like RAS: change the sign of their x and y",
+      {"the second posture's coordinates seem to be RAS: change the signs of their x and y",
        [](LandmarkPair p) { return p.second = from_ras(p.second), p; }},
-      {"the second posture's coordinates look like metres: multiply them by 1000",
+      {"the second posture's coordinates seem to be in metres: multiply them by 1000",
        [](LandmarkPair p) { return p.second *= 1000, p; }},
-      {"the second posture's coordinates look like centimetres: multiply them by 10",
+      {"the second posture's coordinates seem to be in centimetres: multiply them by 10",
        [](LandmarkPair p) { return p.second *= 10, p; }}};
   return list;
 }
@@ -117,7 +117,7 @@ void check_neighbours(const Pairs& pairs, const std::string& where) {
       throw input_error(where, ": landmarks '", pairs[k].name, "' and '", pairs[i].name,
                         "' contradict each other: ", format_fixed(before, 1),
                         " mm apart in the scan, ", format_fixed(after, 1),
-                        " mm in the second posture; check their names and places");
+                        " mm in the second posture; check their names and positions");
     }
   }
 }
@@ -140,7 +140,8 @@ std::vector<LandmarkPair> landmark_pairs(const Table& table, Side side, double o
   }
   if (pairs.empty()) {
     throw input_error(table.name, ": no landmark of the ", side_name(side),
-                      " breast; at least one is needed, ten or more tell stiffness from support");
+                      " breast; at least one is needed, and ten or more to distinguish "
+                      "stiffness from support");
   }
   return pairs;
 }
@@ -162,7 +163,8 @@ std::vector<SeenPoint> seen_points(const HexMesh& mesh, const std::vector<Landma
     if (moved > longest_move) {
       throw input_error(where, ": landmark '", pair.name, "' would have moved ",
                         format_fixed(moved, 0), " mm, more than ", longest_move,
-                        " mm; both postures must be in one frame, rib cages laid over each other");
+                        " mm; both postures must be given in one frame, in which the rib cages "
+                        "coincide");
     }
     points.push_back({pair.name, at, pair.second, coordinate_deviation(pair.observer)});
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Landmarks marked in two postures, as tables have them, and what can be wrong with them.
+// Landmarks marked in two postures, read from tables, with checks for common mistakes.
 #pragma once
 
 #include <string>

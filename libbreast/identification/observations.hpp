@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is known of a breast in a second posture.
+// The observations of a breast in a second posture.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace breast {
 
-/// A material point of the imaged breast, and where it was seen.
+/// A material point of the imaged breast, and its observed position.
 struct SeenPoint {
   std::string name;
   Location at;           ///< in the imaged shape

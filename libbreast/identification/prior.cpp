@@ -44,7 +44,7 @@ Eigen::MatrixXd prior_covariance(const MaterialSet& set, const std::vector<std::
     }
     if (!(covariance(i, i) > 0)) {
       throw input_error("materials ", set.name, ", uncertainty of ", names[std::size_t(i)],
-                        ": a standard deviation of 0 leaves nothing to identify; leave it out of "
+                        ": a standard deviation of 0 leaves nothing to identify; omit it from "
                         "--parameters");
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is expected of a patient's material set before anything of her is known.
+// The prior of a patient's material parameters.
 #pragma once
 
 #include <Eigen/Core>

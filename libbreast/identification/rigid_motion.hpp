@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rib cage's motion between two postures.
+// Rigid motion of the rib cage between two postures.
 #pragma once
 
 #include <Eigen/Geometry>

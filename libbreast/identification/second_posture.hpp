@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The model that is compared with observations: stress-free shape, second posture, and how both answer
-// what is sought.
+// The model that is compared with observations: stress-free shape and second posture, with their
+// derivatives with respect to the unknowns.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@
 
 namespace breast {
 
-/// What is sought: logarithms of factors on the named parts of the material set and, when asked for,
+/// The unknowns: logarithms of factors on the named parts of the material set and, when asked for,
 /// shift (mm) and turn (degrees) of the rib cage between the postures.
 struct Sought {
   std::vector<std::string> names;  ///< material/set_parameter.hpp
@@ -29,7 +29,7 @@ struct Sought {
 MechanicsOptions with_factors(const MechanicsOptions& options, const Sought& sought,
                               const Eigen::VectorXd& x);
 
-/// What the supports of these options are, as part of their material set.
+/// The material set of these options including their supports.
 MaterialSet set_with_supports(const MechanicsOptions& options);
 
 class SecondPosture {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface file as skin that was seen.
+// Conversion of a surface file to an observed skin surface.
 #pragma once
 
 #include "identification/observations.hpp"

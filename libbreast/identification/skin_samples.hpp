@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Places on the skin at which a prediction is compared with a surface that was seen.
+// Sample points on the skin at which a prediction is compared with an observed surface.
 #pragma once
 
 #include "identification/observations.hpp"

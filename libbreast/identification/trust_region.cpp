@@ -58,7 +58,8 @@ TrustRegionResult trust_region(const LeastSquaresProblem& problem, const VectorX
   const VectorXd unit = options.unit.size() ? options.unit : VectorXd::Ones(start.size());
   const std::optional<VectorXd> first = problem.residuals(start);
   ++best.evaluations;
-  if (!first) throw not_converged_error("least squares: the model has no answer at the start");
+  if (!first)
+    throw not_converged_error("least squares: the model has no solution at the starting point");
   best.residuals = *first;
   double radius = options.radius;
   while (true) {

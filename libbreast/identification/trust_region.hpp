@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nonlinear least squares with derivatives of a model that costs seconds and may have no answer.
+// Nonlinear least squares by a trust region, for models with derivatives that take seconds and may
+// have no solution.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,9 +13,9 @@ namespace breast {
 /// Residuals already divided by their standard deviations, with those of the prior, so that the
 /// Jacobian has full rank.
 struct LeastSquaresProblem {
-  /// Nothing where the model has no answer, such as a body that does not exist.
+  /// Nothing if the model has no solution, such as a body that does not exist.
   std::function<std::optional<Eigen::VectorXd>(const Eigen::VectorXd&)> residuals;
-  /// At the point residuals were last asked for; asked only where there was an answer.
+  /// The Jacobian at the point of the last residuals; only requested if there was a solution.
   std::function<Eigen::MatrixXd()> jacobian;
 };
 
@@ -32,13 +33,14 @@ struct TrustRegionResult {
   std::vector<Eigen::VectorXd> refused;  ///< points at which the model had no answer
   int evaluations = 0, jacobians = 0;
   bool converged = false;
-  /// The last thing that shortened a step was a point without an answer: the best lies at that limit.
+  /// True if the last step was shortened by a point without a solution, so that the best point lies
+  /// at that limit.
   bool at_limit = false;
 };
 
 /// Levenberg's and Marquardt's method with a trust region (Moré 1978): the step is the minimum of the
-/// linearised sum of squares within the region, which shrinks where the model disagrees with it or has no
-/// answer. Throws Error (not converged) when there is no answer at the start.
+/// linearised sum of squares within the region, which shrinks where the model disagrees with it or
+/// has no solution. Throws Error (not converged) if there is no solution at the start.
 TrustRegionResult trust_region(const LeastSquaresProblem& problem, const Eigen::VectorXd& start,
                                const TrustRegionOptions& options = {});
 

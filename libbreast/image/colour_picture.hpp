@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A grey image with coloured lines and areas drawn over it, in pixels.
+// A grey-scale image with coloured lines and areas drawn over it, in pixels.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@ class ColourPicture {
   /// `grey` from 0 to 1, rows from the top; values beyond are clipped.
   ColourPicture(int width, int height, const std::vector<float>& grey);
 
-  // What is drawn is collected, each pixel once however often it is covered ...
+  // Drawing collects the covered pixels, each only once ...
   void line(const std::vector<Vec2>& points, double width);
   void disc(const Vec2& centre, double radius);
   void quadrilateral(const std::array<Vec2, 4>& corners);
-  /// ... and painted with this colour over `opacity` of what was there.
+  /// ... which are then painted with this colour at this opacity.
   void paint(const Colour& colour, double opacity);
 
   int width() const { return width_; }

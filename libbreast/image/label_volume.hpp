@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `segment` knows about a scan: tissue per voxel, fibroglandular fraction, chest-wall confidence,
-// and where the breast and its nipple are.
+// The result of `segment`: tissue per voxel, fibroglandular fraction, chest-wall confidence, and
+// where the breast and its nipple are.
 #pragma once
 
 #include <cstdint>
@@ -24,9 +24,9 @@ struct LabelVolume {
   std::vector<float> fibroglandular_fraction;   ///< [0,1], 0 outside the breast
   std::vector<float> chest_wall_confidence;     ///< [0,1], constant along each chest-wall column
   Side side = Side::left;
-  std::map<std::string, Vec3> landmarks;        ///< "nipple" (LPS mm), maybe "tumour"
+  std::map<std::string, Vec3> landmarks;        ///< "nipple" (LPS mm), optionally "tumour"
   double skin_thickness = 0;                    ///< mm, 0 when not measured
-  std::optional<double> midline_mm;             ///< x of the body's midline; none: not known
+  std::optional<double> midline_mm;             ///< x of the body's midline; absent if not known
   History history;
   std::string content_sha256;                   ///< filled by the reader
 

@@ -117,15 +117,16 @@ void check_asked(const std::vector<Segment>& segments, const TissueCodes& codes,
     const bool found = std::any_of(segments.begin(), segments.end(),
                                    [&](const Segment& s) { return s.name == asked; });
     if (!found) {
-      throw input_error(name, ": has no segment '", asked, "', which --code names; it has ", there);
+      throw input_error(name, ": has no segment '", asked,
+                        "', which --code names; its segments are ", there);
     }
   }
   for (const auto& [value, tissue] : codes.values) {
     const bool found = std::any_of(segments.begin(), segments.end(),
                                    [&](const Segment& s) { return s.value == value; });
     if (!found && value != 0) {
-      throw input_error(name, ": no segment has the value ", value, ", which --code names; it has ",
-                        there);
+      throw input_error(name, ": no segment has the value ", value,
+                        ", which --code names; its segments are ", there);
     }
   }
 }
@@ -133,8 +134,8 @@ void check_asked(const std::vector<Segment>& segments, const TissueCodes& codes,
 std::uint8_t translate(float value, const TissueCodes& codes, const std::string& name) {
   if (codes.values.empty()) {
     if (value >= 0 && value < n_tissues && value == float(int(value))) return std::uint8_t(value);
-    throw input_error(name, ": holds ", value, ", which is no tissue code 0 to ", n_tissues - 1,
-                      "; translate it with --code");
+    throw input_error(name, ": holds ", value, ", which is not a tissue code from 0 to ",
+                      n_tissues - 1, "; translate it with --code");
   }
   const bool whole = value >= 0 && value <= 65535 && value == float(int(value));
   const auto found = whole ? codes.values.find(int(value)) : codes.values.end();
@@ -161,7 +162,7 @@ TissueCodes parse_tissue_codes(const std::vector<std::string>& texts) {
     if (!tissue) {
       throw input_error(
           "--code: '", text, "': '", ours,
-          "' is no tissue; they are air, fat, fibroglandular, skin, muscle (or wall), "
+          "' is not a tissue; the tissues are air, fat, fibroglandular, skin, muscle (or wall), "
           "tumour, other");
     }
     if (!is_number(foreign)) {
@@ -208,7 +209,7 @@ std::vector<Segment> segments_of(const LabelVolume& labels) {
 
 TissueCodes codes_of(const std::vector<Segment>& segments, const TissueCodes& codes,
                      const std::string& name) {
-  if (segments.empty()) throw input_error(name, ": holds no segment");
+  if (segments.empty()) throw input_error(name, ": has no segment");
   check_asked(segments, codes, name);
   TissueCodes all;
   all.values[0] = Tissue::air;
@@ -218,8 +219,8 @@ TissueCodes codes_of(const std::vector<Segment>& segments, const TissueCodes& co
       std::vector<std::string> known;
       for (const Look& look : looks) known.emplace_back(look.name);
       throw input_error(name, ": segment '", segment.name, "' (value ", segment.value,
-                        ") is none that is known: rename it to one of ", listed(known),
-                        ", or say what it is with --code ", segment.value, "=TISSUE");
+                        ") has an unknown name: rename it to one of ", listed(known),
+                        ", or state its tissue with --code ", segment.value, "=TISSUE");
     }
     all.values[segment.value] = *tissue;
   }
@@ -229,7 +230,7 @@ TissueCodes codes_of(const std::vector<Segment>& segments, const TissueCodes& co
 LabelVolume translate_labels(const Volume<float>& volume, const TissueCodes& codes,
                              const std::string& name) {
   if (!codes.names.empty()) {
-    throw input_error(name, ": is no segmentation (.seg.nrrd) and has no segment '",
+    throw input_error(name, ": is not a segmentation (.seg.nrrd) and has no segment '",
                       codes.names.begin()->first, "', which --code names: give its number instead");
   }
   LabelVolume labels;
@@ -245,7 +246,7 @@ LabelVolume labels_of(const SegmentedVolume& segmentation, const TissueCodes& co
   LabelVolume labels = translate_labels(segmentation.values, codes_of(segments, codes, name), name);
   const std::string* tagged = tag_of(segments, side_tag);
   if (!side && tagged == nullptr) {
-    throw input_error(name, ": does not say which breast it is: give --side left or right");
+    throw input_error(name, ": does not state which breast it shows: give --side left or right");
   }
   labels.side = side ? *side : side_from_name(*tagged);
   labels.fibroglandular_fraction.reserve(labels.tissue.size());
@@ -289,7 +290,9 @@ LabelVolume completed_labels(const LabelVolume& edited, const LabelVolume& nativ
       }
     }
   }
-  if (!overlap) throw input_error(name, ": lies elsewhere than the labels it is said to come from");
+  if (!overlap)
+    throw input_error(name,
+                      ": covers a different region than the labels from which it is said to come");
   return labels;
 }
 

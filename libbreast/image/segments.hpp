@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Names and colours of tissues for programs that show segments, and the way back from such names to our codes.
+// Names and colours of tissues for programs that show segments, and the conversion of such names to
+// tissue codes.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 
 namespace breast {
 
-/// One segment of a segmentation: what voxels of `value` are.
+/// One segment of a segmentation: the meaning of voxels of `value`.
 struct Segment {
   std::string name;
   int value = 0;
@@ -20,51 +21,55 @@ struct Segment {
   std::map<std::string, std::string> tags;      ///< 3D Slicer keeps them when it saves
 };
 
-/// A segmentation as read: one value a voxel, and what the values are.
+/// A segmentation as read: one value per voxel, and the meaning of the values.
 struct SegmentedVolume {
   Volume<float> values;
   std::vector<Segment> segments;
   std::string content_sha256;  ///< of grid and voxels
 };
 
-/// What foreign values, or segments of that name, are; empty: nothing was said.
+/// Tissues of another program's values or named segments; empty if none were given.
 struct TissueCodes {
   std::map<int, Tissue> values;
   std::map<std::string, Tissue> names;
   bool empty() const { return values.empty() && names.empty(); }
 };
 
-/// From texts like "29=fibroglandular", "wall=3" or "Pectoralis left=wall": a value or a segment's name on one side,
-/// a tissue on the other, where "wall" is muscle. Throws Error (input) beginning with "--code".
+/// Parses texts such as "29=fibroglandular", "wall=3" or "Pectoralis left=wall", which assign a
+/// tissue to a value or to a segment's name; "wall" means muscle. Throws Error (input) beginning
+/// with "--code".
 TissueCodes parse_tissue_codes(const std::vector<std::string>& texts);
 
-/// The segments of our labels: those tissues that occur, air left out. Tags hold tissue, side, nipple (LPS mm), measured
-/// skin thickness and midline, so that the way back needs no other file.
+/// The segments of a label volume: the tissues that occur, except air. The tags contain tissue,
+/// side, nipple (LPS mm), measured skin thickness and midline, so that the inverse conversion needs
+/// no other file.
 std::vector<Segment> segments_of(const LabelVolume& labels);
 
 /// Name and colour of a tissue's segment.
 Segment segment_of(Tissue tissue);
 
-/// Value to tissue: by --code, else by the tag of segments_of, else by name in any case ("Chest wall", "Skin", "Gland",
-/// "Tumor" ...). Throws Error (input) beginning with `name` for a segment that none of these knows, and for one that
-/// `codes` names and the file does not hold, naming the segments there are and the names that are known.
+/// Maps values to tissues: by --code, otherwise by the tag of segments_of, otherwise by name,
+/// ignoring case ("Chest wall", "Skin", "Gland", "Tumor" ...). Throws Error (input) beginning with
+/// `name` for a segment that none of these identifies, and for one that `codes` names but the file
+/// does not have, listing the existing segments and the known names.
 TissueCodes codes_of(const std::vector<Segment>& segments, const TissueCodes& codes,
                      const std::string& name);
 
-/// With a table of codes, what it does not name becomes `other` (0: air). Without, throws Error (input) beginning with
-/// `name` at the first voxel that is none of our codes.
+/// With a table of codes, values that it does not name become `other` (0: air). Without one, throws
+/// Error (input) beginning with `name` at the first voxel that is not a tissue code.
 LabelVolume translate_labels(const Volume<float>& volume, const TissueCodes& codes,
                              const std::string& name);
 
-/// Labels of a segmentation: tissue by codes_of, gland's fraction 1 or 0, no confidence of the chest wall; side,
-/// nipple, skin thickness and midline from the tags where they are. `side` (may be empty) overrides the tag; throws
-/// Error (input) when neither is there.
+/// The labels of a segmentation: tissue by codes_of, fibroglandular fraction 1 or 0, no confidence
+/// of the chest wall; side, nipple, skin thickness and midline from the tags, if present. `side`
+/// (may be empty) overrides the tag; throws Error (input) if there is neither.
 LabelVolume labels_of(const SegmentedVolume& segmentation, const TissueCodes& codes,
                       const std::optional<Side>& side, const std::string& name);
 
-/// `edited` on the grid of `native` (nearest voxel; air beyond), with what only native labels hold: the fraction of
-/// gland where the tissue is the same, the confidence of the chest wall, side, landmarks, skin thickness, midline,
-/// history. Throws Error (input) beginning with `name` where the two do not overlap.
+/// `edited` on the grid of `native` (nearest voxel; air beyond), with the data that only native
+/// labels have: the fibroglandular fraction where the tissue is the same, the confidence of the
+/// chest wall, side, landmarks, skin thickness, midline, history. Throws Error (input) beginning
+/// with `name` where the two do not overlap.
 LabelVolume completed_labels(const LabelVolume& edited, const LabelVolume& native,
                              const std::string& name);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A scalar volume in patient space (LPS, mm), as ITK and DICOM have it.
+// A scalar volume in patient space (LPS, mm), with the conventions of ITK and DICOM.
 #pragma once
 
 #include <Eigen/LU>

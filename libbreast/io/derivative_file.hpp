@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A mesh file with derivatives beside its shapes (sensitivity); see docs/file-formats.md.
+// Reading and writing mesh files with derivatives of their shapes (sensitivity); see
+// docs/file-formats.md.
 #pragma once
 
 #include "io/mesh_file.hpp"
@@ -7,7 +8,7 @@
 
 namespace breast {
 
-/// As write_mesh, with the arrays; other readers of the file are not disturbed by them.
+/// As write_mesh, with the additional arrays, which other readers of the file ignore.
 void write_mesh(const std::filesystem::path& file, const HexMesh& mesh,
                 const Derivatives& derivatives);
 

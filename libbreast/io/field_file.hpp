@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vector fields as .nrrd, as ITK and 3D Slicer read displacement fields.
+// Writing of vector fields as .nrrd, the form in which ITK and 3D Slicer read displacement fields.
 #pragma once
 
 #include <array>
@@ -12,8 +12,9 @@
 
 namespace breast {
 
-/// Three float32 a grid point (mm, LPS), kinds "vector domain domain domain"; `notes` as "key:=value" lines. Atomically;
-/// throws Error (failed) when vectors and grid differ in number.
+/// Three float32 per grid point (mm, LPS), kinds "vector domain domain domain"; `notes` as
+/// "key:=value" lines. Writes atomically; throws Error (failed) if the numbers of vectors and grid
+/// points differ.
 void write_field(const std::filesystem::path& file, const Grid& grid,
                  const std::vector<std::array<float, 3>>& vectors,
                  const std::vector<std::pair<std::string, std::string>>& notes);

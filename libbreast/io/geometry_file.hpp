@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// BreastGeometry <-> VTKHDF file (schema "geometry/1"): /VTKHDF holds the body's boundary as quads for
-// viewing, /breast/hermite the sheets. HDF5 only.
+// Reading and writing of a BreastGeometry as a VTKHDF file (schema "geometry/1"): /VTKHDF has the
+// body's boundary as quads for viewing, /breast/hermite the sheets. HDF5 only.
 #pragma once
 
 #include <filesystem>

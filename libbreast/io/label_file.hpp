@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// LabelVolume <-> VTKHDF ImageData file (schema "labels/1"). HDF5 only.
+// Reading and writing of a LabelVolume as a VTKHDF ImageData file (schema "labels/1"), with HDF5
+// only.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// MatchLookup -> HDF5 file (schema "lookup/1"). HDF5 only.
+// Writing of a MatchLookup as an HDF5 file (schema "lookup/1"), with HDF5 only.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mammograms as DICOM (Digital Mammography X-Ray Image Storage), through GDCM.
+// Reading and writing of mammograms as DICOM (Digital Mammography X-Ray Image Storage), with GDCM.
 #pragma once
 
 #include <filesystem>
@@ -10,20 +10,20 @@
 
 namespace breast {
 
-/// What the image file says besides the image.
+/// Header data of the file besides the image.
 struct MammogramDicom {
   bool for_processing = false;  ///< detector signal, linear; else as displayed (display.hpp)
   std::optional<double> thickness_mm, force_N, reduction_percent;
 };
 
-/// One file, explicit little endian, 16 bits, hung as a radiologist hangs it. UIDs follow from the
-/// content: the same image gives the same file. Throws Error (input) for a tissue-fraction image
-/// asked for as detector signal.
+/// Writes one file, explicit little endian, 16 bits, in the clinical orientation. The UIDs are
+/// derived from the content, so that the same image gives the same file. Throws Error (input) if
+/// the detector signal of a tissue-fraction image is requested.
 void write_mammogram_dicom(const std::filesystem::path& file, const Mammogram& image,
                            const MammogramDicom& about);
 
-/// Any transfer syntax GDCM decodes. Throws Error (input): see read_mammogram_header; colour,
-/// several frames, undecodable pixels.
+/// Reads any transfer syntax that GDCM decodes. Throws Error (input) as read_mammogram_header, and
+/// for colour images, several frames or undecodable pixels.
 MammogramScan read_mammogram_dicom(const std::filesystem::path& file);
 
 }  // namespace breast

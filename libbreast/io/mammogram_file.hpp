@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mammogram <-> .vti (float; pose as FieldData) and a 16-bit PNG for looking at, through VTK.
+// Reading and writing of a Mammogram as .vti (float; pose as FieldData) and writing of a 16-bit PNG
+// for viewing, with VTK.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +11,9 @@ namespace breast {
 
 Mammogram read_mammogram(const std::filesystem::path& file);
 void write_mammogram(const std::filesystem::path& file, const Mammogram& image);
-/// Hung as a radiologist hangs it: chest wall at the image's right edge for a right breast and at the
-/// left edge for a left one; lateral (CC) or superior (MLO, ML) at the top; dense is bright.
+/// Writes the image in the clinical orientation: chest wall at the right edge for a right breast
+/// and at the left edge for a left one; lateral (CC) or superior (MLO, ML) at the top; dense is
+/// bright.
 void write_mammogram_png(const std::filesystem::path& file, const Mammogram& image);
 
 }  // namespace breast

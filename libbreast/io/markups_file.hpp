@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points and curves of 3D Slicer (.mrk.json, Markups schema 1.0).
+// Reading and writing of points and curves of 3D Slicer (.mrk.json, Markups schema 1.0).
 #pragma once
 
 #include <array>
@@ -27,16 +27,16 @@ struct Markups {
 /// True for .mrk.json, in any case.
 bool is_markups_name(const std::filesystem::path& file);
 
-/// Every point of every list of the file that has a place, in LPS whichever of LPS and RAS the file states (without a
-/// statement LPS, as the schema says). Throws Error (input) for another format, coordinates that are not three finite
-/// mm, and a file without points.
+/// All points of all lists of the file that have a position, converted to LPS if the file states
+/// RAS (LPS is the default, as in the schema). Throws Error (input) for another format, coordinates
+/// that are not three finite mm, and a file without points.
 std::vector<MarkupPoint> read_markups(const std::filesystem::path& file);
 
-/// LPS, locked; atomically.
+/// Writes locked points in LPS, atomically.
 void write_markups(const std::filesystem::path& file, const Markups& markups);
 
-/// The point labelled `label` (in any case), or the only one. Throws Error (input) beginning with `name` and listing
-/// the labels there are otherwise.
+/// The point labelled `label` (ignoring case), or the only point. Otherwise throws Error (input)
+/// beginning with `name` and listing the existing labels.
 MarkupPoint point_named(const std::vector<MarkupPoint>& points, const std::string& label,
                         const std::string& name);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// HexMesh <-> VTKHDF file (schema "mesh/1"). HDF5 only; see docs/file-formats.md.
+// Reading and writing of a HexMesh as a VTKHDF file (schema "mesh/1"), with HDF5 only; see
+// docs/file-formats.md.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +9,8 @@
 
 namespace breast {
 
-/// What the reading tool needs; the reader refuses a file without it, saying which tool makes it.
+/// Parts that the reading tool needs; the reader refuses a file without them and names the tool
+/// that makes them.
 struct MeshNeeds {
   bool reference = false;  ///< stress-free shape (backward)
   bool geometry = false;   ///< Hermite sheets
@@ -19,7 +21,7 @@ struct MeshNeeds {
 /// fills content_sha256. Throws Error (input) naming file, dataset, index, value and bound.
 HexMesh read_mesh(const std::filesystem::path& file, const MeshNeeds& needs = {});
 
-/// Writes atomically. Throws Error (failed) when the disk does, or when the mesh is inconsistent.
+/// Writes atomically. Throws Error (failed) if the disk fails or the mesh is inconsistent.
 void write_mesh(const std::filesystem::path& file, const HexMesh& mesh);
 
 }  // namespace breast

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A drawn picture as PNG, through VTK.
+// Writing of a drawn picture as PNG, with VTK.
 #pragma once
 
 #include <filesystem>

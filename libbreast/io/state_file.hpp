@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A hexahedral mesh for other programs as VTK .vtu, through VTK.
+// Writing of a hexahedral mesh for other programs as VTK .vtu, with VTK.
 #pragma once
 
 #include <filesystem>

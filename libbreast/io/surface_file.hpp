@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces, point sets and curves as VTK .vtp, through VTK.
+// Reading and writing of surfaces, point sets and curves as VTK .vtp, with VTK.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tetrahedra for other programs as VTK .vtu, through VTK.
+// Writing of a tetrahedral mesh for other programs as VTK .vtu, with VTK.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Image volumes through ITK: NRRD, NIfTI, MetaImage by file ending, a DICOM series from a folder.
+// Reading and writing of image volumes with ITK: NRRD, NIfTI or MetaImage by file extension, or a
+// DICOM series from a folder.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,7 @@ void write_volume(const std::filesystem::path& file, const Volume<std::int16_t>&
 bool is_volume_name(const std::filesystem::path& file);
 /// Throws Error (input) when `folder` holds anything but slices write_dicom_series wrote.
 void check_dicom_folder(const std::filesystem::path& folder);
-/// DICOM MR series, one file a slice, into `folder` (created; complete or absent). An older series of
+/// DICOM MR series, one file per slice, into `folder` (created; complete or absent). An older series of
 /// ours is replaced; throws Error (input) as check_dicom_folder.
 void write_dicom_series(const std::filesystem::path& folder, const Volume<std::int16_t>& volume,
                         const std::string& description);

@@ -116,7 +116,8 @@ BandModel::BandModel(const Matcher& matcher, const DerivativeFields& from,
 std::string BandModel::what_is_missing() const {
   std::string names;
   for (const std::string& name : without_) names += " " + name;
-  return "the band does not count" + names + ": no derivative in both files (tool sensitivity)";
+  return "the band does not include" + names +
+         ": there is no derivative in both files (see sensitivity)";
 }
 
 Vec3 BandModel::moved(const HexMesh& mesh, const ImageFrame& frame, const Vec3& centre,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far the matched curve may be off: uncertainty of parameters and marking, carried to the
-// second image by derivatives of the two compressed shapes.
+// Uncertainty band of the matched curve: the uncertainty of parameters and marking, propagated to
+// the second image by derivatives of the two compressed shapes.
 #pragma once
 
 #include <map>
@@ -12,18 +12,19 @@
 
 namespace breast {
 
-/// Nodal derivative of a shape by one parameter, mm per unit of the parameter.
+/// Nodal derivative of a shape with respect to one parameter, mm per unit of the parameter.
 using NodalField = std::vector<Vec3>;
 /// By parameter name (HexMesh::derivatives, tool sensitivity).
 using DerivativeFields = std::map<std::string, NodalField>;
 
-/// Standard deviations, in the unit the derivative is by (1 for a relative change, degree, mm).
+/// Standard deviation of a parameter, in the unit of its derivative (1 for a relative change,
+/// degree, mm).
 struct Prior {
   std::string parameter;
   double deviation = 0;
   std::string unit, source;
 };
-/// What is known without the patient: see the table in band_priors.cpp for values and sources.
+/// The default priors; see the table in band_priors.cpp for values and sources.
 std::vector<Prior> default_priors();
 /// The same with their sources as one paragraph, for help texts.
 std::string default_priors_text();
@@ -49,20 +50,20 @@ inline constexpr double half_width_50 = 0.6744897502, half_width_95 = 1.95996398
 /// the curve counts. Parameters of the breast act on both shapes together; those of a compression
 /// ("thickness", "angle", "standoff", "detector") are independent in the two; with "angle" the
 /// detector turns about the middle of the shape. "repositioning" (mm) shifts the breast in each image,
-/// "chain" is what the chain itself errs by in the second. The priors "picking" and "alignment_from" (mm) are errors of the
-/// mark along each axis of the first image, "marking" and "alignment_to" of what is compared with
-/// it in the second.
+/// "chain" is the chain's own error in the second. The priors "picking" and "alignment_from" (mm)
+/// are errors of the mark along each axis of the first image, "marking" and "alignment_to" of what
+/// is compared with it in the second.
 class BandModel {
  public:
   /// Keeps references. Throws Error (input) for a field that does not have a vector per node.
   BandModel(const Matcher& matcher, const DerivativeFields& from, const DerivativeFields& to,
             std::vector<Prior> priors);
   Band band(const MatchedCurve& curve) const;
-  /// Priors the meshes have no derivative for: not counted.
+  /// Priors that are not included, because the meshes have no derivative for them.
   const std::vector<std::string>& without() const { return without_; }
   std::string what_is_missing() const;  ///< the same as a sentence
-  /// Nothing but errors of images and marks is left of the priors: no derivative of any
-  /// parameter is in both files. Such a band says nothing of the model.
+  /// True if no parameter has a derivative in both files, so that only errors of images and marks
+  /// remain and the band says nothing about the model.
   bool counts_marks_only() const { return causes_.empty() && !without_.empty(); }
 
  private:
@@ -86,8 +87,8 @@ class BandModel {
   std::vector<std::pair<std::string, double>> in_first_, in_second_;
 };
 
-/// Signed distance across the curve from its nearest point over that point's deviation: within
-/// ±1.96 for 95 % of truths when the band is right.
+/// Signed distance across the curve from its nearest point, divided by the standard deviation
+/// there: within ±1.96 for 95 % of true positions if the band is correct.
 double standardised_distance(const Band& band, const Vec2& uv);
 
 /// Middle of a shape's bounding box (mm), about which beam and detector turn with the angle.

@@ -15,9 +15,9 @@ namespace {
 const NodalField& derivative_in(const DerivativeFields& fields, const std::string& name) {
   const auto found = fields.find(name);
   if (found == fields.end()) {
-    throw input_error("band: the material set knows how far '", name,
-                      "' may be off, but a file has no derivative by it; run sensitivity with "
-                      "--materials naming this set");
+    throw input_error("band: the material set states the uncertainty of '", name,
+                      "', but a file has no derivative with respect to it; run sensitivity with "
+                      "this set as --materials");
   }
   return found->second;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a material set leaves open, in the band of cc2mlo.
+// Contribution of a material set's own covariance to the band of cc2mlo.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,11 +10,11 @@
 
 namespace breast {
 
-/// Puts a set's covariance of logarithms in the place of the priors of what it is about: stiffness of
-/// fat (low_order, quadratic, stiffness), fibroglandular tissue (gland), skin, wall and cut. Parameters
-/// that vary together become causes that do not: for each eigenvector of the covariance the fields get
-/// the combination of derivatives and `priors` its deviation, under the name "materials_1", the widest
-/// first. Throws Error (input) when a file lacks a derivative.
+/// Replaces the priors of the parameters of a set by its covariance of logarithms: stiffness of fat
+/// (low_order, quadratic, stiffness), fibroglandular tissue (gland), skin, wall and cut. Parameters
+/// that vary together become causes that do not: for each eigenvector of the covariance the fields
+/// get the combination of derivatives and `priors` its deviation, under the name "materials_1", the
+/// widest first. Throws Error (input) when a file lacks a derivative.
 void use_covariance(const std::vector<std::string>& parameters, const Eigen::MatrixXd& covariance,
                     DerivativeFields& from, DerivativeFields& to, std::vector<Prior>& priors);
 

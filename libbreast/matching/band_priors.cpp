@@ -14,32 +14,39 @@ std::vector<Prior> default_priors() {
       {"fibroglandular", 0.7, "relative", moduli},
       {"tumour", 0.7, "relative", moduli},
       {"skin", 0.7, "relative", moduli},
-      {"wall", 0.7, "relative", "assumed, as of stiffness: resistance to sliding on the chest wall"},
-      {"cut", 0.7, "relative", "the same, of the tissue beside the breast"},
+      {"wall", 0.7, "relative",
+       "resistance to sliding on the chest wall; assumed, as for the "
+       "stiffness"},
+      {"cut", 0.7, "relative", "support by the tissue beside the breast; assumed likewise"},
       {"skin_thickness", 0.2, "relative",
        "0.5-2.0 mm, mean 1.45: Huang et al., Med Phys 35:1199, 2008"},
       {"density", 0.03, "relative", "fat 0.93 to gland 1.04 g/cm3: Hammerstein 1979"},
       {"thickness", 2.5, "mm",
        "displayed thickness within 5 mm: EUREF protocol, 4th edition; up to 14 % off: Med Phys "
        "39:263, 2012"},
-      {"angle", 3.0, "degree", "assumed: the patient's turn against the C-arm"},
-      {"standoff", 5.0, "mm", "assumed: plate edge to chest wall, not recorded by any machine"},
-      {"detector", 10.0, "mm", "assumed: height of the detector against the inframammary fold"},
+      {"angle", 3.0, "degree", "assumed: rotation of the patient relative to the C-arm"},
+      {"standoff", 5.0, "mm",
+       "assumed: distance from plate edge to chest wall, which no "
+       "machine records"},
+      {"detector", 10.0, "mm",
+       "assumed: height of the detector relative to the inframammary "
+       "fold"},
       {"repositioning", 3.0, "mm",
-       "outlines of the same view on another date, after a similarity fit, 2-7 mm rms apart: four "
-       "pairs of public mammograms; a part of it each image"},
+       "outlines of the same view on different dates differ by 2-7 mm rms after a similarity "
+       "fit, in four pairs of public mammograms; each image has a share of it"},
       {"chain", 2.0, "mm",
-       "errors of segmentation, mesh and tissue: what the phantom's true places showed beyond the "
-       "band without it (docs/validation.md)"},
+       "errors of segmentation, mesh and tissue: the excess of the phantom's true errors over a "
+       "band without this term (docs/validation.md)"},
       {"chest_wall", 1.0, "sigma",
-       "of the wall's own deviation (segment), everywhere to one side: the worst it allows"},
+       "in units of the wall's own standard deviation (segment), everywhere in one direction, "
+       "which is the worst case"},
       {"picking", 1.0, "mm", "assumed: marking the centre of a lesion"},
   };
 }
 
 std::string default_priors_text() {
   const std::vector<Prior> priors = default_priors();
-  std::string text = "Default priors, one standard deviation: ";
+  std::string text = "The default priors are, as one standard deviation: ";
   for (std::size_t i = 0; i < priors.size(); ++i) {
     const Prior& prior = priors[i];
     text += prior.parameter;

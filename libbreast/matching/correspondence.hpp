@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A point of one mammogram is a column of tissue; the same tissue in another view is a curve. CC to
-// MLO, MLO to CC, or any two compressions of one mesh.
+// Correspondence of mammographic views: a point of one mammogram is a column of tissue, and the
+// same tissue in another view is a curve. CC to MLO, MLO to CC, or any two compressions of one
+// mesh.
 #pragma once
 
 #include <optional>
@@ -12,7 +13,7 @@
 
 namespace breast {
 
-/// One material point of a column and where it is in every shape.
+/// One material point of a column and its position in every shape.
 struct ColumnPoint {
   int element = 0;
   Vec3 local;        ///< in [-1,1]^3
@@ -30,8 +31,8 @@ struct MatchedCurve {
   double length = 0;                ///< mm of the projected curve
   double chord = 0;                 ///< mm between its ends
   double max_deviation = 0;         ///< mm, largest distance from the straight chord
-  /// mm, the same of the stress-free column in space: the bend that compression puts into a column,
-  /// before the second view bends and projects it again.
+  /// The same for the stress-free column in space, mm: the bending of a column by the first
+  /// compression, before the second view bends and projects it again.
   double reference_deviation = 0;
   double behind_image = 0;  ///< mm of the curve that lie behind the second image's posterior edge
   double inside_image = 0;  ///< mm of the curve that lie in the second image
@@ -59,14 +60,15 @@ class Matcher {
   bool tissue_in_to(const Vec2& uv) const;
   bool tissue_in_from(const Vec2& uv) const;
 
-  /// Points of the second image as far from its nipple as `from_uv` is from the first's: the
-  /// radiologist's arc. Stretches inside the breast's image, posterior of the nipple. Empty without
-  /// a nipple.
+  /// The radiologist's arc: points of the second image at the same distance from its nipple as
+  /// `from_uv` has from that of the first. Only the parts inside the image of the breast, posterior
+  /// of the nipple. Empty without a nipple.
   std::vector<std::vector<Vec2>> nipple_arc(const Vec2& from_uv) const;
   /// Radius of that arc, mm; 0 without a nipple.
   double nipple_distance(const Vec2& from_uv) const;
-  /// The other rule, a straight line: as far behind the nipple along the chest-wall normal (u) as
-  /// in the first image. u of that line in the second; nothing without a nipple.
+  /// The other rule, a straight line at the same depth behind the nipple along the chest-wall
+  /// normal (u) as in the first image: u of that line in the second image; nothing without a
+  /// nipple.
   std::optional<double> nipple_depth_line(const Vec2& from_uv) const;
 
  private:

@@ -12,15 +12,15 @@ namespace breast {
 
 /// Lines named "curve", "arc", "line", "chord", "band 50", "band 95" (both edges; on the second
 /// view's detector), "column in FROM", "column in reference", "column in imaged", "column in TO";
-/// markers "point in FROM", "nipple in FROM", "nipple in TO" and, by who says so, "truth in TO",
-/// "mark in TO" or "model's LANDMARK in TO", where FROM and TO are the views, such as CC and MLO.
-/// Point data: query (number), depth_mm (columns and curve, else 0), u_mm, v_mm (image position; of
-/// columns, their projection), all in the patient frame.
+/// markers "point in FROM", "nipple in FROM", "nipple in TO" and, depending on the source, "truth
+/// in TO", "mark in TO" or "model's LANDMARK in TO", where FROM and TO are the views, such as CC
+/// and MLO. Point data: query (number), depth_mm (columns and curve, else 0), u_mm, v_mm (image
+/// position; of columns, their projection), all in the patient frame.
 PolyLines curve_lines(const Matcher& matcher, const std::vector<MatchResult>& results);
 
-/// One row per query, "-" where there is nothing to say. Columns of the queried point carry the
-/// first view's name (cc_u_mm), those of its place in the second view say whose it is: model_u_mm,
-/// marked_u_mm or true_u_mm.
+/// One row per query, with "-" for missing values. The columns of the queried point have the first
+/// view's name (cc_u_mm), those of its position in the second view the prefix of its origin:
+/// model_u_mm, marked_u_mm or true_u_mm.
 Table curve_table(const Matcher& matcher, const std::vector<MatchResult>& results);
 
 }  // namespace breast

@@ -47,7 +47,7 @@ MatchLookup match_lookup(const Matcher& matcher, const BandModel* band, double p
                          Progress& progress) {
   const ImageFrame& frame = matcher.from_frame();
   if (!(pitch > 0) || !(frame.width / pitch * (frame.height / pitch) < 1e6)) {
-    throw input_error("pitch ", pitch, " mm: positive, and at most a million points, expected");
+    throw input_error("pitch ", pitch, " mm: must be positive and give at most a million points");
   }
   MatchLookup lookup;
   lookup.from_view = frame.view;

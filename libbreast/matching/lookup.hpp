@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The matched curves of a whole image on a grid, for looking up while a pointer moves.
+// Matched curves for a grid of points over a whole image, for interactive lookup.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct MatchLookup {
   std::vector<float> deviation;  ///< mm, one standard deviation across the curve (0 without band)
   std::vector<float> across;     ///< unit vector across the curve
   std::vector<float> imaged;     ///< x, y, z of the column in the MR frame, mm
-  std::vector<std::string> band_without;  ///< priors the deviation does not count
+  std::vector<std::string> band_without;  ///< priors that the deviation does not include
   History history;
 
   std::size_t node(int i, int j) const { return std::size_t(j) * std::size_t(nu) + std::size_t(i); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Questions to a Matcher and all that is found for each.
+// Queries to a Matcher, and the results for each.
 #pragma once
 
 #include <functional>
@@ -14,19 +14,19 @@
 
 namespace breast {
 
-/// Who says where a point lies in the second image: the same model's own landmark (which checks the
-/// mapping and nothing else), the user's second mark, or a table of truth.
+/// Origin of a point's position in the second image: the landmark of the same model (which only
+/// checks the mapping), the user's second mark, or a table of true positions.
 enum class PlaceOrigin { model, mark, truth };
-/// "model", "marked" or "true": what keys and columns about such a place begin with.
+/// "model", "marked" or "true": the prefix of keys and columns about such a position.
 const char* place_word(PlaceOrigin origin);
 
-/// A point of the first image asked about.
+/// A point of the first image to be matched.
 struct MatchQuery {
   Vec2 from_uv;
   std::string landmark;       ///< name when the point is a landmark's projection, else empty
-  std::optional<Vec2> place;  ///< where it lies in the second image, when somebody says so
+  std::optional<Vec2> place;  ///< its position in the second image, if known
   PlaceOrigin origin = PlaceOrigin::model;
-  /// The true nipple in both images: the usual rules are then judged as they would be read there.
+  /// The true nipple in both images, with which the usual rules are then evaluated.
   std::optional<std::pair<Vec2, Vec2>> nipples = std::nullopt;
 };
 
@@ -38,7 +38,8 @@ struct MatchResult {
   double nipple_distance = 0;        ///< mm, 0 without a nipple
   std::optional<double> depth_line;  ///< mm, u of the straight rule in the second image
   std::optional<Band> band;          ///< when asked for
-  /// mm from the place; with `query.place` only, arc and line with a nipple only.
+  /// Distances from the given position, mm; only with `query.place`, and for arc and line only with
+  /// a nipple.
   double place_to_curve = 0, place_to_arc = 0, place_to_line = 0, place_to_chord = 0;
   double place_standardised = 0;  ///< distance across the curve over the band's deviation
   /// A true place is known, and the point is not in air.
@@ -57,10 +58,10 @@ std::vector<MatchResult> match_queries(const Matcher& matcher,
                                        const std::vector<MatchQuery>& queries,
                                        const BandModel* band = nullptr);
 
-/// A landmark of the meshes: its projection, and the model's own place of it in the second view.
-/// Throws Error (input) listing the landmarks there are.
+/// Query for a landmark of the meshes: its projection, and the model's position of it in the second
+/// view. Throws Error (input) listing the existing landmarks.
 MatchQuery landmark_query(const Matcher& matcher, const std::string& name);
-/// N × N points spread over the tissue of the first image, those in air left out.
+/// N × N points distributed over the tissue of the first image, without those in air.
 std::vector<MatchQuery> grid_queries(const Matcher& matcher, int n);
 /// Rows of a table with columns u_mm, v_mm and perhaps name; with `uv_of_pixel`, x_px and y_px.
 std::vector<MatchQuery> point_queries(
@@ -73,9 +74,9 @@ std::vector<MatchQuery> point_queries(
 std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table,
                                       const std::string& where, int& behind);
 
-/// What to doubt: columns through the chest wall, how much of the curves lies outside the second
-/// image, points outside the first image or in air. Throws
-/// Error (input) when there is nothing to report: no point, or the only one in air.
+/// Doubts: columns through the chest wall, how much of the curves lies outside the second image,
+/// points outside the first image or in air. Throws Error (input) when there is nothing to report:
+/// no point, or the only one in air.
 std::vector<std::string> match_doubts(const Matcher& matcher,
                                       const std::vector<MatchResult>& results);
 /// Length, bends and distances of one result: keys from_uv_mm, curve_mm,

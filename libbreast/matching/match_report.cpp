@@ -47,8 +47,8 @@ std::vector<std::string> match_doubts(const Matcher& matcher,
   const std::string all = " of " + std::to_string(results.size()) + " ";
   if (const auto back = count("through_chest_wall"); back > 0) {
     doubts.push_back(std::to_string(back) + all +
-                     "columns leave the mesh through the chest wall: their curves end there though "
-                     "the tissue does not");
+                     "columns leave the mesh through the chest wall: their curves end there "
+                     "although the tissue does not");
   }
   if (const Lengths lengths = lengths_of(results); lengths.outside() > 0.01 * lengths.curves) {
     std::string which;
@@ -69,17 +69,19 @@ std::vector<std::string> match_doubts(const Matcher& matcher,
                     [](const auto& result) { return result.query.from_uv.x() < 0; });
   if (behind_first > 0 && results.size() == 1) {
     doubts.push_back(message("the point lies ", format_fixed(-results[0].query.from_uv.x(), 1),
-                             " mm behind the posterior edge of the ", view_name(from.view),
-                             " image: nobody sees it there"));
+                             " mm beyond the posterior edge of the ", view_name(from.view),
+                             " image and is not visible in it"));
   } else if (behind_first > 0) {
-    doubts.push_back(message(behind_first, all, "points lie behind the posterior edge of the ",
-                             view_name(from.view), " image: nobody sees them in it"));
+    doubts.push_back(message(behind_first, all, "points lie beyond the posterior edge of the ",
+                             view_name(from.view), " image and are not visible in it"));
   }
   if (const auto air = count("air"); air > 0) {
     doubts.push_back(std::to_string(air) + all + "points lie in air");
   }
   if (!matcher.from_landmark("nipple") || !matcher.to_landmark("nipple")) {
-    doubts.push_back("the meshes have no nipple landmark: no equal-distance arc and line");
+    doubts.push_back(
+        "the meshes have no nipple landmark: there are no arc and line of equal "
+        "distance");
   }
   return doubts;
 }

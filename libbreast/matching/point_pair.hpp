@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same spot marked in two views: where it is in the body.
+// Position in the body of a spot that is marked in two views.
 #pragma once
 
 #include "core/report.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Isotropic laws from first and second derivatives in the invariants I1, I2 alone.
+// Isotropic hyperelastic laws, defined by their first and second derivatives with respect to the
+// invariants I1 and I2.
 #pragma once
 
 #include <array>
@@ -45,8 +46,8 @@ std::vector<std::string_view> law_constant_names(LawKind kind);
 /// Column of a constant in tables: its name with the unit, as in "a10_Pa"; b has no unit.
 std::string law_constant_column(std::string_view constant);
 
-/// How thin skin behaves beside its law: it wrinkles rather than resist compression, and is
-/// stretched on the body even at rest. Defaults: the law alone, as in the paper.
+/// Behaviour of thin skin in addition to its law: it wrinkles instead of resisting compression, and
+/// is stretched even on the stress-free body. The defaults give the law alone, as in the paper.
 struct SkinBehaviour {
   double kept = 1;        ///< fraction of the law that remains in compression; 1: all of it
   double smoothing = 0.02;  ///< half the width of the transition, in squared stretches
@@ -57,22 +58,22 @@ struct SkinBehaviour {
 /// stretched enough at rest to lie beyond the transition: (1 + pre-stretch)² at least 1 + smoothing.
 void check_skin(const SkinBehaviour& skin, const std::string& where);
 
-/// What is left open by the data a set was found from: covariance of the natural logarithms of
-/// "low_order" (the constants of polynomial laws that are linear in the invariants), "quadratic" (the
-/// others), "skin", "wall" and "cut". Empty for published sets.
+/// Uncertainty left by the data from which a set was identified: covariance of the natural
+/// logarithms of "low_order" (the constants of polynomial laws that are linear in the invariants),
+/// "quadratic" (the others), "skin", "wall" and "cut". Empty for published sets.
 struct SoftnessUncertainty {
   std::vector<std::string> parameters;
   Eigen::MatrixXd covariance;  ///< parameters²
 };
 
-/// Law and density per tissue, and what goes with them.
+/// Law and density of every tissue, with skin behaviour, supports and uncertainty.
 struct MaterialSet {
   std::string name;
   std::array<Law, n_tissues> laws;
   std::array<double, n_tissues> density;  ///< g/mm^3
   SkinBehaviour skin;
-  /// Resistance of the chest wall to sliding and of the cut, kPa/mm, for which the set was found;
-  /// none: the wall is held, the cut free.
+  /// Resistance to sliding at the chest wall and stiffness at the cut, kPa/mm, with which the set
+  /// was identified; if absent, the wall is fixed and the cut free.
   std::optional<double> wall_support, cut_support;
   SoftnessUncertainty uncertainty;
   const Law& law(Tissue t) const { return laws[static_cast<std::size_t>(t)]; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Derivatives of a law by its constants: what a sensitivity needs and a solve does not.
+// Derivatives of a law with respect to its constants, for sensitivities.
 #pragma once
 
 #include "material/law.hpp"
@@ -11,10 +11,11 @@ struct LawSlope {
   double w1 = 0, w2 = 0;
 };
 
-/// By constants[index], per Pa (per 1 for b of the exponential).
+/// Derivative with respect to constants[index], per Pa (dimensionless for b of the exponential).
 LawSlope law_slope(const Law& law, std::size_t index, double i1, double i2);
 
-/// By the logarithm of a factor on all stiffness constants, as Law::scaled has it.
+/// Derivative with respect to the logarithm of a factor on all stiffness constants, as in
+/// Law::scaled.
 LawSlope law_scale_slope(const Law& law, double i1, double i2);
 
 }  // namespace breast

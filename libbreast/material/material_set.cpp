@@ -54,7 +54,7 @@ bool read_support(const Table& table, std::size_t row, const std::string& name, 
   return true;
 }
 
-/// Rows with the law "uncertainty": one a parameter, with its correlations to all of them.
+/// Rows with the law "uncertainty": one per parameter, with its correlations to all of them.
 SoftnessUncertainty read_uncertainty(const Table& table, const std::string& name) {
   SoftnessUncertainty known;
   std::vector<std::size_t> rows;
@@ -157,8 +157,8 @@ void check_skin(const SkinBehaviour& skin, const std::string& where) {
   const double stretched = (1 + skin.prestretch) * (1 + skin.prestretch) - 1;
   if (skin.kept < 1 && !(stretched >= skin.smoothing)) {
     throw input_error(where, ": a pre-stretch of ", 100 * skin.prestretch,
-                      " % leaves skin at rest within the transition of its tension field; give at "
-                      "least ",
+                      " % leaves the skin of the stress-free shape within the transition to "
+                      "wrinkling; give at least ",
                       100 * (std::sqrt(1 + skin.smoothing) - 1), " %, or less smoothing");
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A material set as a table that load_materials reads back.
+// Conversion of a material set to a table that load_materials can read.
 #pragma once
 
 #include "core/table.hpp"

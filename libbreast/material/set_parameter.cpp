@@ -79,8 +79,8 @@ void scale_set(MaterialSet& set, std::string_view parameter, double factor) {
     *set.cut_support *= factor;
   } else if (constants.empty()) {
     throw input_error("materials ", set.name, ": no '", std::string(parameter),
-                      "' to scale; it may be one of low_order, quadratic, stiffness, gland, skin, "
-                      "wall and cut, and only what the set has");
+                      "' to scale; choose one that the set has of low_order, quadratic, "
+                      "stiffness, gland, skin, wall and cut");
   }
 }
 

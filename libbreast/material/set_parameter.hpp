@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The few numbers by which a whole material set is made softer or stiffer.
+// Parameters that scale the stiffness of a whole material set.
 #pragma once
 
 #include <string>
@@ -25,10 +25,11 @@ const std::vector<std::string>& set_parameter_names();
 /// The constants that a parameter multiplies; none for "wall", "cut" and for what the laws do not have.
 std::vector<LawConstant> constants_of(const MaterialSet& set, std::string_view parameter);
 
-/// Those the set has, without "stiffness".
+/// Names of the parameters that the set has, without "stiffness".
 std::vector<std::string> set_parameters(const MaterialSet& set);
 
-/// Multiplies what the parameter stands for. Throws Error (input) when the set does not have it.
+/// Multiplies the constants or support of the parameter. Throws Error (input) if the set does not
+/// have it.
 void scale_set(MaterialSet& set, std::string_view parameter, double factor);
 
 }  // namespace breast

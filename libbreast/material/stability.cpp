@@ -122,7 +122,7 @@ void check_law(const Law& law, const std::string& where) {
   }
   const double modulus = law.shear_modulus();
   if (!(modulus > 0)) {
-    throw input_error(where, ": shear modulus at rest ", modulus,
+    throw input_error(where, ": shear modulus at zero strain ", modulus,
                       " Pa must be positive (2(W1+W2) at I1 = I2 = 3)");
   }
   if (law.kind == LawKind::exponential) {

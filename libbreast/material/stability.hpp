@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a law stays strongly elliptic (every shear on every plane keeps a positive stiffness).
+// Range of strains in which a law is strongly elliptic (every shear on every plane has positive
+// stiffness).
 #pragma once
 
 #include <string>

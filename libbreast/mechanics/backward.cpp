@@ -123,16 +123,16 @@ void BackwardSolve::judge_end(const State& state, double reached) {
     record.reason = message("stopped at ", 100 * reached, " % of the load: ", failure_.reason);
     if (ends) {
       record.reason = message(
-          "no stress-free body: the shapes that gravity could deform into the "
-          "imaged one end near ",
+          "no stress-free body: the family of stress-free shapes that gravity deforms into the "
+          "imaged one ends near ",
           100 * reached, " % of the load (", failure_.reason, ")");
     }
   } else if (!found_.stable) {
     record.status = SolveStatus::unstable;
     found_.reason_id = unstable_equilibrium;
     record.reason =
-        "unstable equilibrium: the body found is in balance in the imaged shape but would not stay "
-        "in it";
+        "unstable equilibrium: the imaged shape is an equilibrium of the body found, but not a "
+        "stable one";
   } else {
     record.status = SolveStatus::converged;
   }
@@ -158,8 +158,9 @@ void BackwardSolve::find_needed_stiffness(const Eigen::VectorXd& load) {
   static_cast<SolveSummary&>(found_) = std::move(summary);
   if (!(part > 0)) return;
   found_.stiffness_factor_needed = 1 / part;
-  found_.record.reason += message("; stiffnesses and supports all ", std::ceil(100 / part) / 100,
-                                  " times as large would give a stable body");
+  found_.record.reason +=
+      message("; stiffnesses and supports that are all ", std::ceil(100 / part) / 100,
+              " times larger would give a stable body");
 }
 
 Equilibrium BackwardSolve::finish(const State& state) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `--solver auto`: multigrid where it is cheaper and all goes well, else a
-// factor, which knows more.
+// The automatic choice of linear solver (`--solver auto`): multigrid where it is cheaper, followed
+// by a direct solve where multigrid meets a difficulty.
 #pragma once
 
 #include <functional>
@@ -9,14 +9,13 @@
 
 namespace breast {
 
-/// Solves with options.solver direct or multigrid. `fail_fast`: is to give up at the first
-/// difficulty, and wherever the answer is not known to be a stable equilibrium.
+/// A solve with options.solver direct or multigrid. With `fail_fast` it gives up at the first
+/// difficulty, and whenever the result is not known to be a stable equilibrium.
 using SolveAttempt = std::function<Equilibrium(const MechanicsOptions& options, bool fail_fast)>;
 
-/// What `attempt` returns with the linear solver the options name. With automatic choice,
-/// multigrid where the cost model (solve/choose_solver.hpp) expects it to be cheaper; an
-/// attempt of it that gave up is followed by a direct solve from the start, where memory
-/// allows, and counts in the seconds.
+/// Runs `attempt` with the linear solver of the options. The automatic choice is multigrid where
+/// the cost model (solve/choose_solver.hpp) expects it to be cheaper; if that attempt gives up, a
+/// direct solve from the start follows, memory permitting, and the time of both counts.
 Equilibrium with_chosen_solver(double unknowns, const MechanicsOptions& options,
                                Progress& progress, const SolveAttempt& attempt);
 

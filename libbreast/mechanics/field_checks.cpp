@@ -36,10 +36,11 @@ void check_fields(const Scene& scene, Equilibrium& equilibrium) {
   equilibrium.skin =
       skin_state(mesh, scene.options().materials, equilibrium.reference, equilibrium.points);
   if (equilibrium.skin.wrinkling > 0 && equilibrium.skin.wrinkling_share > much_wrinkling) {
-    equilibrium.doubts.push_back(message(
-        "the skin is compressed enough to wrinkle over two elements or more on ",
-        std::round(1000 * equilibrium.skin.wrinkling_share) / 10, " % of its area (wrinkles up to ",
-        std::round(equilibrium.skin.longest_wrinkle_mm), " mm): its folds there are the mesh's"));
+    equilibrium.doubts.push_back(
+        message("the skin is compressed enough to wrinkle over two elements or more on ",
+                std::round(1000 * equilibrium.skin.wrinkling_share) / 10,
+                " % of its area (wrinkles up to ", std::round(equilibrium.skin.longest_wrinkle_mm),
+                " mm): the folds there depend on the mesh"));
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the solved fields say about their own worth: pressure oscillation and wrinkling skin.
+// Checks of the solved fields for oscillating pressures and wrinkling skin.
 #pragma once
 
 #include "mechanics/equilibrium.hpp"
@@ -7,7 +7,7 @@
 
 namespace breast {
 
-/// From a solved state: fills pressure_quality (8-node elements) and skin, and adds what to doubt.
+/// Fills pressure_quality (8-node elements) and skin from a solved state, and adds doubts.
 void check_fields(const Scene& scene, Equilibrium& equilibrium);
 
 }  // namespace breast

@@ -127,7 +127,7 @@ void ForwardSolve::judge(Workspace& work, const State& state) {
   found_.record.status = SolveStatus::unstable;
   found_.reason_id = unstable_equilibrium;
   found_.record.reason =
-      "unstable equilibrium: the shape found is in balance but the breast would not stay in it";
+      "unstable equilibrium: the shape found is an equilibrium, but not a stable one";
   if (fail_fast_) return;
   note_instability(find_instability(work.loaded.problem, state, work.matrix, work.solver), found_);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Newton's method for the inverse problem: the stress-free shape X and the pressures that put a
-// given shape x in equilibrium. Directions come from GMRES on the exact derivatives by X; a factor
-// of the forward tangent only preconditions, and one serves several steps.
+// Newton's method for the inverse problem: the stress-free shape X and the pressures for which a
+// given shape x is in equilibrium. The directions come from GMRES with the exact derivatives with
+// respect to X; a factor of the forward tangent is only the preconditioner, so that one factor
+// serves several steps.
 #pragma once
 
 #include <functional>
@@ -19,22 +20,22 @@ inline constexpr double inverse_tolerance = 1e-10;
 
 class InverseSolver {
  public:
-  /// `fail_fast`: gives up at the first difficulty. All references must outlive this; the problem's
-  /// load may change between solves.
+  /// With `fail_fast` a solve gives up at the first difficulty. All references must outlive this;
+  /// the problem's load may change between solves.
   InverseSolver(const Problem& problem, LinearSolver kind, bool fail_fast, Timer& timer);
 
-  /// Moves state.reference and state.p; not converged: to the last admissible ones.
+  /// Moves state.reference and state.p; if it does not converge, to the last admissible ones.
   NewtonResult solve(State& state, const std::function<void(const NewtonIteration&)>& watch);
   /// Whether the forward tangent at the state is known to be positive definite; `augmentation` is
-  /// κ/μ, 0: what suits the linear solver.
+  /// κ/μ, where 0 chooses what suits the linear solver.
   bool stable(const State& state, double augmentation);
 
-  /// What gives way in the forward tangent at the state.
+  /// The unstable mode of the forward tangent at the state.
   Instability instability(const State& state);
 
   const SaddleSolver& solver() const { return solver_; }
   const SaddleMatrix& matrix() const { return matrix_; }
-  /// Of the last state looked at.
+  /// Smallest det F of the last state evaluated.
   double min_det_F() const { return min_det_F_; }
 
  private:

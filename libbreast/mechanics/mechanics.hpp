@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forward and backward: the two directions of one discrete equilibrium R(X, x, p) = 0.
+// The forward and the backward problem: the discrete equilibrium R(X, x, p) = 0 solved for x or for
+// X.
 #pragma once
 
 #include "core/progress.hpp"
@@ -9,24 +10,24 @@
 namespace breast {
 
 /// The shape under `gravity` (mm/s², LPS) of the body whose stress-free shape is mesh.reference;
-/// nodal gravity forces are those of mesh.imaged. Not converged: status says so, no throw; the last
-/// good state is returned.
+/// the nodal gravity forces are those of mesh.imaged. If it does not converge, it does not throw:
+/// the last valid state is returned with the appropriate status.
 Equilibrium solve_forward(const HexMesh& mesh, const Vec3& gravity, const MechanicsOptions& options,
                           Progress& progress = no_progress());
 
-/// The stress-free shape such that the imaged shape is in equilibrium under `gravity`; pressures are
-/// those of the imaged state.
+/// The stress-free shape for which the imaged shape is in equilibrium under `gravity`; the
+/// pressures are those of the imaged shape.
 Equilibrium solve_backward(const HexMesh& mesh, const Vec3& gravity,
                            const MechanicsOptions& options, Progress& progress = no_progress());
 
-/// The same under any dead nodal forces (µN, 3 per node) instead of gravity, starting from
-/// mesh.reference, where held nodes stay.
+/// The same under arbitrary dead nodal forces (µN, 3 per node) instead of gravity, starting from
+/// mesh.reference, in which held nodes remain.
 Equilibrium solve_backward_under(const HexMesh& mesh, const Eigen::VectorXd& forces,
                                  const MechanicsOptions& options,
                                  Progress& progress = no_progress());
 
-/// The same by fixed point, X ← X − (x(X) − x_imaged), one forward solve an iteration (Sellier
-/// 2011): slower and less robust, an independent check of solve_backward.
+/// The same by fixed-point iteration, X ← X − (x(X) − x_imaged), with one forward solve per
+/// iteration (Sellier 2011): slower and less robust, but an independent check of solve_backward.
 Equilibrium solve_backward_fixed_point(const HexMesh& mesh, const Vec3& gravity,
                                        const MechanicsOptions& options, double tolerance_mm = 1e-8,
                                        int max_iterations = 60,

@@ -56,7 +56,7 @@ std::string describe_support(const WallOption& wall) {
   const std::string along = message(wall.stiffness.tangential);
   switch (wall.kind) {
     case WallKind::held:
-      return "the breast is held everywhere on the chest wall, where a living breast slides";
+      return "the breast is fixed everywhere on the chest wall, where a living breast slides";
     case WallKind::slide:
       return "the breast slides on the chest wall against " + along + " kPa per mm";
     case WallKind::spring:
@@ -75,15 +75,16 @@ std::string support_options(const MechanicsOptions& options) {
 std::string describe_model(const MechanicsOptions& options) {
   const MaterialSet& set = options.materials;
   std::string sentence = describe_support(options.wall);
-  sentence += message("; at rest fat has a shear modulus of ",
-                      std::round(set.law(Tissue::fat).shear_modulus()), " Pa (materials ", set.name,
-                      ")");
+  sentence +=
+      message("; fat has an initial shear modulus of ",
+              std::round(set.law(Tissue::fat).shear_modulus()), " Pa (materials ", set.name, ")");
   if (set.skin.kept < 1) {
-    sentence += message("; skin wrinkles where it is pressed together, ", 100 * set.skin.kept,
+    sentence += message("; skin wrinkles where it is compressed, with ", 100 * set.skin.kept,
                         " % of its stiffness remaining");
   }
   if (set.skin.prestretch > 0) {
-    sentence += message("; skin is stretched by ", 100 * set.skin.prestretch, " % at rest");
+    sentence += message("; skin is stretched by ", 100 * set.skin.prestretch,
+                        " % in the stress-free shape");
   }
   return sentence;
 }

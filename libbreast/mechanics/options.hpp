@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The MECHANICS options every mechanics tool shares, and their names on a command line.
+// The options that all mechanics tools share, and their names on a command line.
 #pragma once
 
 #include <optional>
@@ -29,12 +29,12 @@ struct MechanicsOptions {
   CutOption cut = {};
   SolverOption solver = SolverOption::automatic;
   Estimate estimate = Estimate::none;
-  /// Without a stable answer the smallest change that gives one is sought, by some twenty solves: not
-  /// for searches that expect failures.
+  /// Whether to seek the smallest change that gives a stable solution where there is none, by about
+  /// twenty solves; set to false for searches in which failures are expected.
   bool seek_remedy = true;
 };
 
-/// The MECHANICS options as texts. Empty: what the material set says of wall, cut and skin.
+/// The mechanics options as texts. Where wall, cut or skin is empty, the material set decides.
 struct MechanicsTexts {
   std::string materials = "seed2008";  ///< set or file
   std::vector<std::string> scale = {};  ///< "TISSUE=PERCENT"
@@ -44,13 +44,14 @@ struct MechanicsTexts {
   std::optional<double> skin_compression = {}, skin_smoothing = {}, skin_prestretch = {};  ///< per cent, -, per cent
 };
 
-/// Names are those of the MECHANICS options: materials (set or file), "TISSUE=PERCENT" scales,
+/// The texts are those of the mechanics options: materials (set or file), "TISSUE=PERCENT" scales,
 /// "q1p0" | "q2p1", "isochoric" | "plain", bulk ratio K/μ (none: incompressible), wall and cut as
-/// parse_wall and parse_cut read them, "auto" | "direct" | "multigrid". Throws Error (input) for any other.
+/// parse_wall and parse_cut read them, "auto" | "direct" | "multigrid". Throws Error (input) for
+/// any other.
 MechanicsOptions mechanics_options(const MechanicsTexts& texts);
 
-/// The same from a command line's choices: a struct with members of these names, which belongs to a
-/// layer this one does not include.
+/// The same from the choices of a command line: any struct with members of these names, since the
+/// struct of the tools belongs to a layer that this one does not include.
 template <class Choices>
 MechanicsOptions mechanics_options(const Choices& c) {
   return mechanics_options(MechanicsTexts{c.materials, c.scale, c.element, c.invariants,
@@ -59,10 +60,10 @@ MechanicsOptions mechanics_options(const Choices& c) {
                                           c.skin_prestretch});
 }
 
-/// Which model of a breast this is, in one sentence: what holds it, how soft it is, what its skin does.
+/// Describes the model in one sentence: its boundary conditions, stiffness and skin.
 std::string describe_model(const MechanicsOptions& options);
 
-/// What holds the breast, as on a command line: "--wall held --cut free".
+/// The boundary conditions as on a command line: "--wall held --cut free".
 std::string support_options(const MechanicsOptions& options);
 
 /// "none" | "step" | "q2". Throws Error (input) for any other.

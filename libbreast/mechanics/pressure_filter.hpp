@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pressures of 8-node elements with one pressure each oscillate from element to element
-// (their inf-sup constant falls with the mesh size, tests/verify/inf_sup.cpp);
-// displacements do not show it.
+// Filter for the pressures of 8-node elements, which oscillate from element to element (the inf-sup
+// constant decreases with the mesh size, tests/verify/inf_sup.cpp); the displacements do not show
+// it.
 #pragma once
 
 #include <map>

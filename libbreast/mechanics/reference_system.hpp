@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The linearised inverse problem, the stress-free shape X unknown and the deformed shape given:
+// The linearised inverse problem, in which the deformed shape is given and the stress-free shape X
+// is unknown:
 //
 //     [ K_X  −Bᵀ ] [ δX ]   [ f ]
 //     [ B_X   cM ] [ δp ] = [ v ]
 //
-// and its transpose, by GMRES on the factor of the forward problem: near F = 1 moving X one way is
-// moving x the other way.
+// and its transpose, by GMRES preconditioned with the factor of the forward problem: near F = 1,
+// moving X in one direction is equivalent to moving x in the opposite one.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,14 +24,15 @@ struct ReferenceStep {
 
 class ReferenceSystem {
  public:
-  /// `solver` holds the factor of `matrix` under its constraints, which may be of a state near that
-  /// of `tangent`: it only preconditions. `moved` are the constraints of δX, those of the solver but
-  /// where nodes slide on a surface: they follow its normals at X. All must outlive this. `size` is a typical element edge
-  /// (mm): it makes forces of volumes, so that one norm measures both.
+  /// `solver` has the factor of `matrix` under its constraints, possibly of a state near that of
+  /// `tangent`, since it is only the preconditioner. `moved` are the constraints of δX: those of
+  /// the solver, except that nodes which slide on a surface follow its normals at X. All must
+  /// outlive this. `size` is a typical element edge (mm): it converts volumes to forces, so that
+  /// one norm measures both.
   ReferenceSystem(const SaddleMatrix& matrix, const ReferenceTangent& tangent,
                   const SaddleSolver& solver, const Constraints& moved, double size);
 
-  /// Held components of f are ignored, of δX zero.
+  /// Held components of f are ignored; those of δX are zero.
   ReferenceStep solve(const Eigen::VectorXd& f, const Eigen::VectorXd& v, double tolerance,
                       int max_iterations) const;
   /// The transposed system, [K_Xᵀ B_Xᵀ; −B cM], with right-hand side (f, v).

@@ -40,7 +40,9 @@ std::shared_ptr<const LevelSurface> wall_surface(const HexMesh& mesh, const Wall
 void check(const HexMesh& mesh) {
   if (mesh.elements() == 0) throw input_error("mesh: no elements");
   if (mesh.pectoral_faces.empty()) {
-    throw input_error("mesh: no pectoral faces, so nothing holds the breast; remesh with hexmesh");
+    throw input_error(
+        "mesh: no chest-wall faces, so that nothing holds the breast; remesh with "
+        "hexmesh");
   }
   for (const Tissue tissue : mesh.tissue) {
     if (tissue == Tissue::air)
@@ -97,8 +99,8 @@ void Scene::add_wall() {
   if (wall.kind == WallKind::slide) {
     if (!surface) {
       throw input_error(
-          "--wall slide: the mesh holds no wall surface to slide on; make geometry and mesh again "
-          "with fit-hermite and hexmesh, or use --wall held");
+          "--wall slide: the mesh has no chest-wall surface to slide on; run fit-hermite and "
+          "hexmesh again, or use --wall held");
     }
     sliding_ = std::make_shared<SlidingNodes>(surface, nodes_of(mesh_, mesh_.pectoral_faces),
                                               flatten(mesh_.imaged));

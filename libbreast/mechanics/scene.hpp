@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A scene: one breast, its laws, what holds it and what loads it, as terms and constraints. What is
-// absent costs nothing: without skin there is no membrane, without springs no support, on a held
-// wall nothing slides.
+// The mechanical model of one breast (the scene): its material laws, boundary conditions and loads,
+// as terms and constraints. What is absent costs nothing: without skin there is no membrane,
+// without springs no support, and with a fixed wall no sliding.
 //
 //     Scene scene(mesh, options);
 //     LoadedProblem loaded = scene.problem(scene.gravity_force(g));
@@ -20,24 +20,25 @@
 
 namespace breast {
 
-/// The constraints of the options that do not depend on where the body is: all of the chest wall (pectoral faces) unless it
-/// slides or rests on springs; the cut fixed, or rolling on its mean normal of the imaged shape.
+/// The constraints that do not depend on the deformed shape: the nodes of the chest wall (pectoral
+/// faces) unless they slide or rest on springs, and a cut that is fixed or on rollers along its
+/// mean normal in the imaged shape.
 Constraints wall_constraints(const HexMesh& mesh, const MechanicsOptions& options);
 
-/// A problem and the load in it, which may change.
+/// A problem together with its load, which may change.
 struct LoadedProblem {
   Problem problem;
   std::shared_ptr<DeadLoad> load;
-  double stiffness_force = 1;  ///< stands for the load where there is none, µN
+  double stiffness_force = 1;  ///< scale of the residual if there is no load, µN
 
-  /// Sets the nodal forces (µN, 3 per node) and the norm residuals are compared with.
+  /// Sets the nodal forces (µN, 3 per node) and the norm with which residuals are compared.
   void set_load(const Eigen::VectorXd& force);
 };
 
 class Scene {
  public:
   /// The mesh must outlive the scene (its sets, tissues and imaged shape are read). Throws Error
-  /// (input) when mesh and options do not fit.
+  /// (input) if mesh and options do not agree.
   Scene(const HexMesh& mesh, const MechanicsOptions& options,
         TangentStorage storage = TangentStorage::assembled);
 
@@ -52,7 +53,7 @@ class Scene {
   /// The constraints that do not depend on where the body is.
   const Constraints& walls() const { return walls_; }
   int nodes() const { return solid_->space()->nodes(); }
-  long unknowns() const;  ///< displacements not held, and pressures
+  long unknowns() const;  ///< free displacements and pressures
   /// Mean edge of an element of the imaged shape, mm, and the largest shear modulus at rest, Pa.
   double element_size() const;
   double stiffest() const;
@@ -61,9 +62,9 @@ class Scene {
   LoadedProblem problem(const Eigen::VectorXd& force) const;
   /// Nodal gravity forces, µN (3 per node), from the imaged shape. `gravity`: mm/s², LPS.
   Eigen::VectorXd gravity_force(const Vec3& gravity) const;
-  /// A force that stands for the stiffness of the scene where there is no load, µN.
+  /// A force derived from the stiffness, as a scale of the residual if there is no load, µN.
   double stiffness_force() const;
-  /// `shape` (3 per node) without stress.
+  /// The state of `shape` (3 per node) without stress.
   State at_rest(const Eigen::VectorXd& shape) const {
     return {shape, shape, solid_->rest_pressure()};
   }

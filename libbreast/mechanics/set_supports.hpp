@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The supports of wall and cut with which a material set was found.
+// Use of the supports of wall and cut with which a material set was identified.
 #pragma once
 
 #include "mechanics/options.hpp"
 
 namespace breast {
 
-/// Where the set of `options` has a support, the breast slides on its wall against it, and the cut
-/// has springs; elsewhere wall and cut stay as they are.
+/// If the material set of `options` has supports, the breast slides on the chest wall against them
+/// and the cut has springs; otherwise wall and cut are unchanged.
 inline void take_supports_of_set(MechanicsOptions& options) {
   const MaterialSet& set = options.materials;
   if (set.wall_support) options.wall = WallOption(WallKind::slide, {0, *set.wall_support});

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the membrane skin is pressed together, and whether the wrinkles it would throw are ones the
-// mesh can show.
+// Compression of the membrane skin, and whether the mesh can resolve the wrinkles that would form.
 #pragma once
 
 #include "material/law.hpp"
@@ -10,7 +9,7 @@ namespace breast {
 
 /// A membrane on a soft half-space under a compressive resultant N wrinkles at wave numbers above
 /// 2μ/|N| (μ of the tissue beneath), so with wave lengths below π|N|/μ. Where that is at least two
-/// elements long the mesh itself can wrinkle; shorter wrinkles are beyond it, and harmless to it.
+/// elements long the mesh itself can wrinkle; it cannot resolve shorter wrinkles, which do no harm.
 struct SkinState {
   int faces = 0, compressed = 0, wrinkling = 0;      ///< counts
   double compressed_share = 0, wrinkling_share = 0;  ///< of the deformed skin area
@@ -18,7 +17,7 @@ struct SkinState {
   double longest_wrinkle_mm = 0;                     ///< largest π|N|/μ
 };
 
-/// Of the membrane of `mesh` at the deformed shape; all zero without one.
+/// The state of the membrane of `mesh` in the deformed shape; all zero without a membrane.
 SkinState skin_state(const HexMesh& mesh, const MaterialSet& materials,
                      const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed);
 

@@ -67,7 +67,7 @@ void judge(Equilibrium& equilibrium, const Scene& scene, const State& state) {
   const int beyond = beyond_stable_range(scene, state);
   if (beyond > 0) {
     equilibrium.doubts.push_back(
-        message(beyond, " elements are beyond the stable range of their law"));
+        message(beyond, " elements are strained beyond the stable range of their law"));
   }
   if (equilibrium.min_det_F > 0 && equilibrium.min_det_F < 0.3) {
     equilibrium.doubts.push_back(message("smallest det F ", equilibrium.min_det_F,

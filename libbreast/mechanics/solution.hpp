@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shared ends of forward, backward and compress: from a solved state to an Equilibrium.
+// The final steps that forward, backward and compress share: from a solved state to an Equilibrium.
 #pragma once
 
 #include <algorithm>
@@ -11,27 +11,27 @@
 
 namespace breast {
 
-/// The reason_id of a shape that is in balance but would not stay.
+/// The reason_id of an unstable equilibrium.
 inline constexpr const char* unstable_equilibrium = "unstable_equilibrium";
-/// κ/μ that holds volumes nearly as incompressibility does, for judging stability with a multigrid.
+/// κ/μ that is nearly incompressible, for the check of stability with multigrid.
 inline constexpr double nearly_incompressible = 100;
 
-/// What a solve says of an end whose tangent is not known to be positive definite.
+/// Message for a final state whose tangent is not known to be positive definite.
 inline constexpr const char* unknown_stability =
     "the last tangent is not known to be positive definite: the equilibrium may be unstable";
 
 /// Appends one Newton iteration of a load step to the record; `clock` is seconds since the start.
 void record_iteration(SolveSummary& summary, int step, const NewtonIteration& iteration,
                       double clock);
-/// Notes what the linear solver needed: call after the last factorisation.
+/// Records the cost of the linear solver; call it after the last factorisation.
 void note_solver(const SaddleSolver& solver, const SaddleMatrix& matrix, SolveSummary& summary);
-/// Copies positions, pressures, det F and gravity (mm/s²), and judges them: poor or strained
-/// elements, oscillating pressures and wrinkling skin add to `doubts`. In a backward solve
-/// state.x is the imaged shape.
+/// Copies positions, pressures, det F and gravity (mm/s²), and checks them: poorly shaped or
+/// overstrained elements, oscillating pressures and wrinkling skin are added to `doubts`. In a
+/// backward solve state.x is the imaged shape.
 void conclude(Equilibrium& equilibrium, const Scene& scene, const State& state,
               const Vec3& gravity);
 
-/// Loads that grow in steps when one step does not converge.
+/// Load stepping, used when the full load does not converge in one step.
 struct LoadPath {
   double done = 0, step = 1;
   static constexpr double smallest = 1.0 / 40;
@@ -40,7 +40,7 @@ struct LoadPath {
     done = next();
     step *= 1.5;
   }
-  /// False when the step would become too small.
+  /// Halves the step; false if it would become too small.
   bool fail() {
     step *= 0.5;
     return step >= smallest;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How much of a Newton solve is done, judged by its residuals: for progress bars only.
+// Completed fraction of a Newton solve, estimated from its residuals, for progress bars only.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,8 @@
 
 namespace breast {
 
-/// The decades of the residual that are behind, of those down to `tolerance`; it never goes back.
+/// Fraction of the decades from the first residual to `tolerance` that are completed; it never
+/// decreases.
 class SolvePace {
  public:
   explicit SolvePace(double tolerance) : tolerance_(tolerance) {}

@@ -45,8 +45,9 @@ WallOption parse_wall(const std::string& text) {
     if (normal > 0 && along >= 0) return {WallKind::spring, SupportStiffness{normal, along}};
   }
   throw input_error("--wall ", text,
-                    ": give 'held', 'slide', 'slide:TANGENTIAL' or 'spring:NORMAL,TANGENTIAL' in "
-                    "kPa/mm, not negative, a spring's first number above 0; for example slide:0.01");
+                    ": give 'held', 'slide', 'slide:TANGENTIAL' or 'spring:NORMAL,TANGENTIAL' "
+                    "in kPa/mm, where no number is negative and NORMAL is above 0; for example "
+                    "slide:0.01");
 }
 
 CutOption parse_cut(const std::string& text) {

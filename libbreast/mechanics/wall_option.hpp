@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What holds a breast at its back: the chest wall, and the cut through the surrounding tissue.
+// The boundary conditions at the back of a breast: the chest wall, and the cut through the
+// surrounding tissue.
 #pragma once
 
 #include <memory>
@@ -13,13 +14,13 @@ namespace breast {
 enum class WallKind {
   held,    ///< all nodes of the chest wall stay in place
   slide,   ///< they stay on the wall surface and move along it against springs
-  spring,  ///< springs across and along the wall
+  spring,  ///< springs normal and tangential to the wall
 };
 
 struct WallOption {
   WallKind kind = WallKind::held;
-  SupportStiffness stiffness = {};  ///< slide: `tangential` alone counts
-  /// The surface to slide on; null: that of the mesh's geometry.
+  SupportStiffness stiffness = {};  ///< slide: only `tangential` is used
+  /// The surface on which the breast slides; null: that of the mesh's geometry.
   std::shared_ptr<const LevelSurface> surface = nullptr;
 
   WallOption() = default;
@@ -45,14 +46,14 @@ struct CutOption {
 inline constexpr double usual_sliding_stiffness = 0.01;
 
 /// "held" ("fixed" of earlier versions), "slide", "slide:TANGENTIAL", "spring:NORMAL" or
-/// "spring:NORMAL,TANGENTIAL", kPa/mm. A spring without the second number has a third of the first
-/// along the wall, as a thin layer of incompressible elastic tissue whose sides are free (E/h
-/// across, G/h = E/3h along). Throws Error (input) for anything else.
+/// "spring:NORMAL,TANGENTIAL", kPa/mm. If the second number of a spring is missing, its tangential
+/// stiffness is a third of the normal one, as for a thin layer of incompressible elastic tissue
+/// with free sides (E/h normal, G/h = E/3h tangential). Throws Error (input) for anything else.
 WallOption parse_wall(const std::string& text);
 /// "free", "fixed", "roller" or "spring:STIFFNESS" in kPa/mm. Throws Error (input) otherwise.
 CutOption parse_cut(const std::string& text);
 
-/// As on a command line.
+/// The option's text as on a command line.
 std::string describe(const WallOption& wall);
 std::string describe(const CutOption& cut);
 

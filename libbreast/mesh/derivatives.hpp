@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Derivatives of a mesh's shape, as arrays beside it.
+// Derivatives of a mesh's shape with respect to parameters, as arrays on the mesh.
 #pragma once
 
 #include <map>
@@ -11,9 +11,9 @@
 namespace breast {
 
 struct Derivatives {
-  /// ∂points/∂parameter per node, by parameter: mm per relative change, degree or mm.
+  /// ∂points/∂parameter per node, for each parameter: mm per relative change, degree or mm.
   std::map<std::string, std::vector<Vec3>> position;
-  /// ∂(displacement of a landmark, mm)/∂(ln stiffness of the element), by landmark.
+  /// ∂(displacement of a landmark, mm)/∂(ln stiffness of the element), for each landmark.
   std::map<std::string, std::vector<double>> influence;
 };
 

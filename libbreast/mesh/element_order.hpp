@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From 8-node to 27-node elements on the same geometry.
+// Conversion from 8-node to 27-node elements on the same geometry.
 #pragma once
 
 #include "mesh/hex_mesh.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The hexahedral breast mesh every mechanics tool reads and writes.
+// The hexahedral breast mesh that every mechanics tool reads and writes.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ inline constexpr std::array<std::array<int, 4>, 6> hex_face_corners = {{
 /// A material point: the same imaged point for every mesh of one geometry.
 struct Landmark {
   std::string name;         ///< "tumour", "nipple", ...
-  Vec3 imaged{0, 0, 0};     ///< mm, LPS, the point asked for
+  Vec3 imaged{0, 0, 0};     ///< mm, LPS, the requested point
   int element = -1;         ///< containing element of the imaged mesh
   Vec3 local{0, 0, 0};      ///< (ξ,η,ζ) in [-1,1]^3
   double moved = 0;         ///< mm moved to reach the mesh (0 when inside)
@@ -47,32 +47,35 @@ struct PlateRecord {
   Vec3 origin{0, 0, 0};         ///< point of the flat where the rounded edge starts, mid-width
   double edge_radius = 0;       ///< mm
   double force_N = 0, area_cm2 = 0, mean_kPa = 0, peak_kPa = 0;
-  /// How deep the body enters the plate, mm, over sampled points of every free boundary face.
+  /// Greatest penetration of the plate by the body, mm, over sampled points of every free boundary
+  /// face.
   double worst_gap_mm = 0;
 };
-/// A node that friction of a plate holds in the compressed state.
+/// A node that is held by the friction of a plate in the compressed state.
 struct FrictionRecord {
   int node = 0, plate = 0;
   Vec3 anchor{0, 0, 0};  ///< mm
-  double bound = 0;      ///< the most it is held with, µN
-  double stick = 0;      ///< stiffness of the hold, µN/mm
+  double bound = 0;      ///< largest friction force, µN
+  double stick = 0;      ///< stiffness of the anchor spring, µN/mm
 };
 struct ContactRecord {
   View view = View::cc;
-  double angle_deg = 0;      ///< beam angle θ, degrees from cranio-caudal
-  /// By which the plates' edge is turned towards the breast's side about the patient's long axis.
+  double angle_deg = 0;  ///< beam angle θ, degrees from craniocaudal
+  /// Angle by which the plates' edge is turned towards the breast's side about the patient's long
+  /// axis.
   double turn_deg = 0;
   /// Whether the image ends at the plates' edge, as in the clinic, or at the chest wall.
   bool ends_image = false;
-  /// Of the plates against faces, Pa/mm; 0: nodes touch, exactly.
+  /// Stiffness of the plates against faces, Pa/mm; 0: exact contact at nodes.
   double surface_stiffness = 0;
   double thickness_mm = 0, reduction_percent = 0, initial_thickness_mm = 0, standoff_mm = 0;
   std::vector<PlateRecord> plates;
-  std::vector<FrictionRecord> friction;  ///< where faces touch with friction
-  /// How much of any further closing the paddle does: a half, or all where the detector has risen as
-  /// far as it may.
+  std::vector<FrictionRecord> friction;  ///< in surface contact with friction
+  /// Share of the paddle in any further closing: one half, or one if the detector has reached its
+  /// highest position.
   double paddle_share = 0.5;
-  /// The way there: thickness, and the force of paddle and detector (the latter may be empty).
+  /// The path of the compression: thickness, and the force of paddle and detector (the latter may
+  /// be empty).
   std::vector<double> path_thickness_mm, path_force_N, path_detector_N;
 };
 
@@ -83,26 +86,26 @@ struct IterationRecord {
 };
 enum class SolveStatus {
   converged,
-  stopped_early,  ///< compress: a valid equilibrium short of the target
-  unstable,       ///< backward: in balance, but it would not stay in that shape
+  stopped_early,  ///< compress: a valid equilibrium before the target
+  unstable,       ///< backward: an equilibrium, but an unstable one
   not_converged,
 };
-/// Name in files and reports, and back; nothing for any other text.
+/// Name in files and reports, and its inverse, which returns nothing for any other text.
 const char* status_name(SolveStatus status);
 std::optional<SolveStatus> status_from_name(const std::string& name);
 struct SolveRecord {
   SolveStatus status = SolveStatus::not_converged;
   std::string reason;  ///< empty when converged
-  /// What held the breast, as options: "--wall slide:0.01 --cut free"; empty in files of before.
+  /// The boundary conditions as options: "--wall slide:0.01 --cut free"; empty in older files.
   std::string support = {};
   std::vector<IterationRecord> iterations;
 };
 
 /// Hexahedra of order 1 (8 nodes, VTK_HEXAHEDRON) or 2 (27 nodes, VTK_TRIQUADRATIC_HEXAHEDRON), node
-/// order as VTK. Arrays per node or element are either empty (absent) or full length.
+/// order as VTK. Arrays per node or element are either empty (absent) or of full length.
 struct HexMesh {
   int order = 1;
-  std::vector<Vec3> points;     ///< the shape this file is about
+  std::vector<Vec3> points;     ///< the shape that this file describes
   std::vector<Vec3> imaged;     ///< the MR frame, copied unchanged by every tool
   std::vector<Vec3> reference;  ///< stress-free shape, from backward on
   std::vector<int> connectivity;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One element's isoparametric map in lattice order (ξ fastest), without allocation: the inner loop
-// of point location. Internal to mesh/.
+// The isoparametric map of one element in lattice order (ξ fastest), without memory allocation, for
+// the inner loop of point location. Internal to mesh/.
 #pragma once
 
 #include <array>

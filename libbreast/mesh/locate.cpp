@@ -48,7 +48,8 @@ Vec3 nearest_lattice_point(int order, const Vec3* points, const Vec3& point, int
 // Coordinates whose squares overflow are near to nothing.
 Error no_distance(const Vec3& point) {
   return input_error("point location: no distance to (", point.transpose(),
-                     ") can be computed: it or the mesh has coordinates that are no mm of a body");
+                     ") can be computed: the coordinates of the point or of the mesh are not "
+                     "those of a body in mm");
 }
 
 }  // namespace
@@ -173,7 +174,7 @@ Location Locator::nearest(const Vec3& point) const {
   if (const std::optional<Location> inside = find(point)) return *inside;
   Location best;
   double best_squared = std::numeric_limits<double>::infinity();
-  if (!point.allFinite()) throw input_error("point location: the point asked for is not finite");
+  if (!point.allFinite()) throw input_error("point location: the given point is not finite");
   std::vector<std::pair<double, int>> stack{{tree_[0].box.squared_distance(point), 0}};
   while (!stack.empty()) {
     const auto [distance, index] = stack.back();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which element holds a point, and where in it: for landmarks, mammograms and tissue look-up.
+// Point location: the element that contains a point and its local coordinates, for landmarks,
+// mammograms and tissue lookup.
 #pragma once
 
 #include <optional>
@@ -14,7 +15,7 @@ namespace breast {
 struct Location {
   int element = -1;
   Vec3 local{0, 0, 0};  ///< (ξ,η,ζ) in [-1,1]^3
-  double moved = 0;     ///< mm from the point asked for to the point found; 0 when inside
+  double moved = 0;     ///< mm from the requested point to the point found; 0 if inside
 };
 
 /// Point location in one nodal field (mesh.points, mesh.imaged, mesh.reference) of a mesh of order
@@ -27,9 +28,10 @@ class Locator {
   Locator(const HexMesh& mesh, const std::vector<Vec3>& nodal);
 
   /// The element containing `point`, or nothing. `hint` is tried first (the element of a
-  /// neighbouring point, for walks along a ray); a point strictly inside it is answered at once.
+  /// neighbouring point, for walks along a ray); if the point is strictly inside it, the search
+  /// ends at once.
   std::optional<Location> find(const Vec3& point, int hint = -1) const;
-  /// As find, else the nearest point of the mesh with the distance moved.
+  /// As find, but outside the mesh its nearest point, with the distance moved.
   Location nearest(const Vec3& point) const;
   /// Position of a local point of an element in this field.
   Vec3 position(int element, const Vec3& local) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nodal fields between meshes (one Vec3 a node) and solvers (3 numbers a node).
+// Conversion of nodal fields between meshes (one Vec3 per node) and solvers (3 numbers per node).
 #pragma once
 
 #include <Eigen/Core>

@@ -8,11 +8,11 @@ namespace breast {
 
 /// A lower bound (mm³) of det ∂x/∂ξ over the whole element, not only at points. The determinant is
 /// a polynomial of degree 2 (order 1) or 5 (order 2) in each of ξ, η, ζ; its Bernstein-Bézier
-/// coefficients bound it from both sides, those at the corners are its values. Where the least
-/// coefficient is not positive the element is halved in each direction and asked again, at most
-/// four times. Positive: the element is proved unfolded. Otherwise a value that the determinant
-/// takes at a corner of a part, or the last bound (Johnen, Remacle and Geuzaine, J Comput Phys
-/// 233:359, 2013).
+/// coefficients bound it from both sides, those at the corners are its values. If the smallest
+/// coefficient is not positive, the element is halved in each direction and the parts are tested
+/// again, at most four times. A positive result proves that the element is not folded. Otherwise a
+/// value that the determinant takes at a corner of a part, or the last bound (Johnen, Remacle and
+/// Geuzaine, J Comput Phys 233:359, 2013).
 double jacobian_lower_bound(const HexMesh& mesh, const std::vector<Vec3>& nodal, int element);
 
 }  // namespace breast

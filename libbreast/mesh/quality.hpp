@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shape of hexahedra: scaled Jacobian, determinants, volumes.
+// Shape quality of hexahedra: scaled Jacobians, determinants and volumes.
 #pragma once
 
 #include <array>
@@ -15,8 +15,9 @@ namespace breast {
 /// SAND2007, "hex scaled Jacobian").
 double scaled_jacobian(const Vec3* corners);
 
-/// Of an element and of all, in the given nodal field; order 2: the least at the 27 lattice points,
-/// with the map's tangents for edges (at the corners of a straight element the same number).
+/// Scaled Jacobian of one element and of all elements in the given nodal field. For order 2 it is
+/// the minimum at the 27 lattice points, with the tangents of the map as edges (the same number at
+/// the corners of a straight element).
 double scaled_jacobian(const HexMesh& mesh, const std::vector<Vec3>& nodal, int element);
 std::vector<double> scaled_jacobians(const HexMesh& mesh, const std::vector<Vec3>& nodal);
 

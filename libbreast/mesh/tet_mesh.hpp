@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tetrahedra for other solvers; nothing here computes with them.
+// A tetrahedral mesh for export to other solvers; libbreast does not compute with it.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@ struct TetMesh {
   std::vector<Vec3> points;                    ///< mm, LPS
   std::vector<std::array<int, 4>> tetrahedra;  ///< positive volume, node order as VTK_TETRA
   std::vector<Tissue> tissue;                  ///< per tetrahedron
-  std::vector<std::array<int, 3>> triangles;   ///< the boundary, turned inwards
+  std::vector<std::array<int, 3>> triangles;   ///< the boundary, with inward normals
   std::vector<std::uint8_t> part;              ///< per triangle: 0 skin, 1 cut, 2 chest wall
   History history;
 };

@@ -26,8 +26,9 @@ std::optional<std::string> mismatch(const BodyMeshReport& body, const TissueRepo
       std::max(0.0, (body.body_volume - body.mesh_volume) / tissue.segmented_volume);
   const double missed = tissue.missed_fraction - cut_off;
   if (std::abs(excess) <= most_volume && missed <= most_missed) return std::nullopt;
-  return message("the geometry is not the body of the labels: it holds ",
-                 format_fixed(body.body_volume / mm3_per_ml, 0), " ml, the labels' breast ",
+  return message("the geometry does not agree with the labels: it encloses ",
+                 format_fixed(body.body_volume / mm3_per_ml, 0),
+                 " ml, while the labelled breast has ",
                  format_fixed(tissue.segmented_volume / mm3_per_ml, 0), " ml (at most ",
                  percent(most_volume), " apart), and ", percent(missed),
                  " of that breast lies outside it (at most ", percent(most_missed), ")");

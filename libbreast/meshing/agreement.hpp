@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether geometry and labels are of the same body.
+// Check that a geometry and labels describe the same body.
 #pragma once
 
 #include <optional>
@@ -10,12 +10,12 @@
 
 namespace breast {
 
-/// What is wrong where the body between the sheets and the breast of the labels differ by more than
-/// 2 % in volume, or more than 5 % of that breast lies outside: one sentence, else nothing. What the
-/// flat faces of a coarse mesh cut off is not counted; too_coarse() reports it.
+/// One sentence if the body between the sheets and the labelled breast differ by more than 2 % in
+/// volume, or if more than 5 % of that breast lies outside; otherwise nothing. The volume lost by
+/// the flat faces of a coarse mesh is not included; too_coarse() reports it.
 std::optional<std::string> mismatch(const BodyMeshReport& body, const TissueReport& tissue);
 
-/// A warning where the mesh's flat faces lose more than 2 % of the volume between the sheets.
+/// A warning if the mesh's flat faces lose more than 2 % of the volume between the sheets.
 std::optional<std::string> too_coarse(const BodyMeshReport& body);
 
 }  // namespace breast

@@ -41,8 +41,8 @@ int star_shaped_at(const std::vector<Vec2>& curve, const Vec2& centre) {
 void check_star_shaped(const std::vector<Vec2>& curve, const Vec2& centre, const char* sheet) {
   const int i = star_shaped_at(curve, centre);
   if (i >= 0) {
-    throw input_error("rim on the ", sheet, " sheet turns back at point ", i, " of ", curve.size(),
-                      " seen from its pole (", centre.x(), ", ", centre.y(),
+    throw input_error("rim on the ", sheet, " sheet reverses its direction at point ", i, " of ",
+                      curve.size(), " seen from its pole (", centre.x(), ", ", centre.y(),
                       "): it must be star-shaped and counter-clockwise; run fit-hermite again with "
                       "more smoothing");
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The body's boundary in the template's own coordinates: polar (ρ, u) on skin and wall, height on
-// the cut between them.
+// Map of the body's boundary in coordinates of the mesh template: polar (ρ, u) on skin and wall,
+// height on the cut between them.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,9 @@
 
 namespace breast {
 
-/// u ∈ [0,1) runs once round the rim (equal steps of u are equal lengths of rim, mean of skin and
-/// wall); ρ ∈ [0,1] from the pole (skin: geometry.centre; wall: its rim's centroid) to the rim.
+/// u ∈ [0,1) runs once around the rim (equal steps of u are equal lengths of rim, averaged over
+/// skin and wall); ρ ∈ [0,1] from the pole (skin: geometry.centre; wall: its rim's centroid) to the
+/// rim.
 class BodyMap {
  public:
   /// Keeps a reference to the geometry. Throws Error (input) when the rim is not star-shaped about

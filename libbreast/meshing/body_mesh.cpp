@@ -111,8 +111,8 @@ HexMesh body_mesh(const BreastGeometry& geometry, const BodyMeshOptions& options
   if (!(local.body_volume > 0)) {
     throw input_error(
         "body between the sheets has volume ", local.body_volume / 1000,
-        " ml: the sheets are inside out (normal of the skin must point out of the body, "
-        "rims counter-clockwise)");
+        " ml: the sheets are inside out (the normal of the skin must point out of the body and "
+        "the rims must be counter-clockwise)");
   }
   DomeTemplate dome = dome_template(options.size);
   PlacedNodes nodes = smoothed_nodes(geometry, body, options, dome, local);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a geometry to a hexahedral mesh of its body: template, placement,
-// smoothing, skin layer, checks.
+// Hexahedral meshing of the body of a geometry: template, placement, smoothing, skin layer, checks.
 #pragma once
 
 #include "meshing/boundary_distance.hpp"
@@ -28,9 +27,9 @@ struct BodyMeshReport {
   Distances skin_distance, wall_distance, cut_distance;  ///< of the mesh's boundary
 };
 
-/// Mesh with points = imaged, connectivity, face sets, scaled_jacobian, template and geometry; all
-/// elements fat (skin in a layer). Throws Error (input) when an element is folded, saying where, or
-/// when the geometry's rim or orientation is unusable.
+/// Returns a mesh in its imaged shape with connectivity, face sets, scaled_jacobian, template and
+/// geometry. All elements are fat, except those of a skin layer. Throws Error (input) if an element
+/// is folded, stating its position, or if the geometry's rim or orientation is unusable.
 HexMesh body_mesh(const BreastGeometry& geometry, const BodyMeshOptions& options,
                   BodyMeshReport* report = nullptr);
 

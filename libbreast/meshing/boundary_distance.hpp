@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far the faces of a mesh lie from the smooth surface that they stand for.
+// Distance of the boundary faces of a mesh from the smooth surface that they approximate.
 #pragma once
 
 #include "core/distances.hpp"

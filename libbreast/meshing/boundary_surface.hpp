@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A mesh's boundary as triangles, for solvers and programs that mesh for themselves.
+// The boundary of a mesh as triangles, for other solvers and meshing programs.
 #pragma once
 
 #include "mesh/hex_mesh.hpp"
@@ -7,7 +7,7 @@
 
 namespace breast {
 
-/// The closed boundary of `points`, two triangles a face (eight for order 2), turned outwards;
+/// The closed boundary of `points`, two triangles per face (eight for order 2), turned outwards;
 /// scalar "part": 0 skin, 1 cut, 2 chest wall. Nodes on the line between two parts occur once in
 /// each, so that every point has one part.
 TriMesh boundary_surface(const HexMesh& mesh);

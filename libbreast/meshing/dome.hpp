@@ -29,7 +29,7 @@ DomeSize cuboid_size(int edge);
 /// below 2 million elements.
 void check_dome(const DomeSize& size);
 
-/// What a template node rests on.
+/// Surface on which a template node lies.
 enum class Support : std::uint8_t {
   interior,  ///< free in space
   skin,      ///< on the skin sheet

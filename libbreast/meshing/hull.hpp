@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The smooth surface under each face and boundary edge of a mesh: sheets, cut, and the two rims.
+// The smooth surfaces and curves on which boundary nodes lie: sheets, cut, and the two rims.
 #pragma once
 
 #include <vector>
@@ -20,9 +20,9 @@ struct HullPoint {
 
 /// Point of the part at these parameters.
 HullPoint hull_point(const BodyMap& body, Hull part, const Vec2& at);
-/// Where a boundary node of the template rests on the part.
+/// Position of a boundary node of the template on the part.
 HullPoint hull_point_of_node(const BodyMap& body, Hull part, const PlacedNodes& nodes, int node);
-/// Parameters weighted; u is taken round the rim the short way.
+/// Weighted mean of parameters, where u is averaged along the shorter way around the rim.
 Vec2 mean_parameters(Hull part, const std::vector<Vec2>& at, const std::vector<double>& weights);
 /// The part's point nearest to `x`, by Gauss-Newton from `start` (which is near: half a face away).
 HullPoint nearest_on_hull(const BodyMap& body, Hull part, const Vec2& start, const Vec3& x);

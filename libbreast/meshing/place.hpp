@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Template nodes put into a body: hull nodes on the sheets, the rest by a graph Laplace equation.
+// Placement of template nodes in a body: boundary nodes on the sheets, the others by a graph
+// Laplace equation.
 #pragma once
 
 #include <vector>
@@ -9,16 +10,16 @@
 
 namespace breast {
 
-/// Node positions and what each node may slide on.
+/// Node positions and the surface on which each node may slide.
 struct PlacedNodes {
   std::vector<Vec3> x;           ///< mm
   std::vector<Support> support;  ///< skin, wall and cut nodes slide in st
   std::vector<Vec2> st;          ///< skin, wall: the sheet's (s,t); cut: (u, height)
 };
 
-/// Hull nodes at their places; the wall's disc, then the inside, by Laplace with graph weights.
-/// Throws Error (failed) when a system cannot be solved.
-/// Rim heights are 0 (wall) and 1 (skin) exactly.
+/// Places boundary nodes on the hull; the nodes of the wall's disc and then the interior nodes
+/// follow from a Laplace equation with graph weights. Throws Error (failed) when a system cannot be
+/// solved. Rim heights are 0 (wall) and 1 (skin) exactly.
 inline bool on_rim(double height) {
   return height <= 0 || height >= 1;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What hexmesh reports.
+// Report entries and doubts of hexmesh.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ namespace breast {
 /// volumes_ml, landmarks).
 void write_report(const HexMesh& mesh, const MeshQuality& quality, const BodyMeshReport& body,
                   const TissueReport& tissue, Report& report);
-/// Elements so thin that solves will be slower.
+/// Warnings about elements so thin that solves will be slower.
 std::vector<std::string> doubts(const MeshQuality& quality);
 
 }  // namespace breast

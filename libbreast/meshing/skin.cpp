@@ -23,8 +23,8 @@ double measured_skin_thickness(const LabelVolume& labels, const BreastGeometry& 
       labels.skin_thickness > 0 ? labels.skin_thickness : geometry.skin_thickness;
   if (!(thickness > 0)) {
     throw input_error(
-        "--skin measured: neither labels nor geometry carry a measured thickness; give "
-        "millimetres (breast CT: 1.45)");
+        "--skin measured: neither the labels nor the geometry have a measured thickness; give "
+        "millimetres (1.45 in breast CT)");
   }
   return thickness;
 }

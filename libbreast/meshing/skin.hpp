@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Thickness of the skin: from the command line, from the scan, onto the mesh.
+// Thickness of the skin, from the command line or the scan, and its assignment to the mesh.
 #pragma once
 
 #include <string>

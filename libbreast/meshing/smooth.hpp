@@ -20,7 +20,8 @@ struct SmoothOptions {
   bool mid_edges = false;  ///< sample the energy at mid-edges too (cuboid)
 };
 
-/// The cuboid's flat corners cannot be good: a high power would sacrifice all others to them.
+/// The cuboid's flat corners cannot become well shaped: a high power would sacrifice all others for
+/// them.
 inline SmoothOptions for_cuboid(SmoothOptions options) {
   options.theta = 0.3;
   options.power = 4;
@@ -39,8 +40,8 @@ struct SmoothReport {
 double worst_shape(const std::vector<int>& connectivity, const std::vector<Vec3>& x);
 
 /// Moves inside nodes in space, skin, wall and cut nodes in their parameters, rim nodes along
-/// their rim. Nodes in
-/// `held` (may be empty) stay too. Keeps the better of before and after by minimum scaled Jacobian.
+/// their rim. Nodes in `held` (may be empty) are not moved. Of the meshes before and after, keeps
+/// the one with the larger minimum scaled Jacobian.
 SmoothReport smooth_nodes(const std::vector<int>& connectivity, const BodyMap& body,
                           const SmoothOptions& options, const std::vector<bool>& held,
                           PlacedNodes& nodes);

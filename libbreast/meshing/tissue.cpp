@@ -121,13 +121,13 @@ TissueReport assign_tissue(const LabelVolume& labels, HexMesh& mesh) {
   if (labels.side != mesh.side) {
     throw input_error("labels are of the ", side_name(labels.side),
                       " breast and the geometry of the ", side_name(mesh.side),
-                      " one: give the labels the geometry was fitted to");
+                      " breast: give the labels to which the geometry was fitted");
   }
   long long breast_voxels = 0;
   for (const std::uint8_t code : labels.tissue)
     breast_voxels += is_breast(static_cast<Tissue>(code));
   if (breast_voxels == 0)
-    throw input_error("labels hold no breast voxel (fat, fibroglandular, skin)");
+    throw input_error("the labels have no breast voxels (fat, fibroglandular, skin)");
   const int elements = mesh.elements();
   mesh.tissue.resize(elements, Tissue::fat);
   mesh.fibroglandular_fraction.assign(elements, 0.0f);
@@ -156,7 +156,7 @@ TissueReport assign_tissue(const LabelVolume& labels, HexMesh& mesh) {
   }
   if (!(inside > 0)) {
     throw input_error(
-        "no element of the mesh lies in a breast voxel: labels and geometry are of "
+        "no element of the mesh lies in a breast voxel: the labels and the geometry are of "
         "different scans or frames");
   }
   report.volume = tissue_volumes(mesh);

@@ -19,15 +19,15 @@ struct TissueReport {
 };
 
 /// Fills tissue and fibroglandular_fraction from 3³ samples per element, weighted by their volumes,
-/// at the imaged positions; samples outside the breast count for nothing, an element without any
-/// breast sample is fat. The elements with the largest fractions are fibroglandular, as many as
-/// give the volume of the fractions' sum, with the threshold kept within 0.1 to 0.7 (one half would
-/// lose thin ducts: their fractions add up and no element reaches a half). An element half tumour
-/// is tumour; elements that are skin already (layer) stay skin. Throws Error (input) when the
-/// labels hold no breast, are of the other side, or do not overlap the mesh.
+/// at the imaged positions; samples outside the breast are ignored, and an element without any
+/// breast sample is fat. The elements with the largest fractions become fibroglandular, in such a
+/// number that their volume equals the sum of the fractions, with the threshold limited to 0.1 to
+/// 0.7 (a threshold of one half would lose thin ducts, whose fractions never reach a half). An
+/// element with at least half tumour is tumour; elements of a skin layer remain skin. Throws Error
+/// (input) when the labels hold no breast, are of the other side, or do not overlap the mesh.
 TissueReport assign_tissue(const LabelVolume& labels, HexMesh& mesh);
 
-/// The tissue volumes of the mesh as it stands (after a tumour was put in).
+/// The present tissue volumes of the mesh (after adding a tumour).
 std::array<double, n_tissues> tissue_volumes(const HexMesh& mesh);
 
 }  // namespace breast

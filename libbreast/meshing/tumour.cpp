@@ -144,7 +144,8 @@ std::optional<Tumour> automatic_tumour(const LabelVolume& labels, const HexMesh&
 
 Tumour tumour_of(const LabelVolume& labels, const std::string& name) {
   const Region region = region_of(labels, Tissue::tumour);
-  if (region.voxels == 0) throw input_error("--tumour ", name, ": the labels hold no tumour voxel");
+  if (region.voxels == 0)
+    throw input_error("--tumour ", name, ": the labels have no tumour voxels");
   const double volume = double(region.voxels) * labels.grid.voxel_volume();
   return {region.centroid, std::cbrt(3 * volume / (4 * std::numbers::pi)),
           "tumour voxels of " + name, false};
@@ -184,7 +185,7 @@ Tumour parse_tumour(const std::string& text) {
 }
 
 void add_nipple(HexMesh& mesh) {
-  if (!mesh.geometry) throw failed_error("nipple: the mesh carries no geometry");
+  if (!mesh.geometry) throw failed_error("nipple: the mesh has no geometry");
   const Vec3 at = mesh.geometry->nipple;
   const Location found = nearest_on_faces(mesh, mesh.imaged, mesh.skin_faces, at);
   mesh.landmarks.push_back({"nipple", at, found.element, found.local, found.moved});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the tumour point is, and the landmarks of a mesh.
+// Choice of the tumour's position, and the landmarks of a mesh.
 #pragma once
 
 #include <filesystem>
@@ -15,14 +15,14 @@ struct Tumour {
   Vec3 centre{0, 0, 0};  ///< mm, LPS, MR frame
   double radius = 0;     ///< mm; 0: a point, no element becomes tumour
   std::string origin;    ///< how it was chosen, for the report
-  bool artificial = false;  ///< nobody found it: its landmark is called artificial_tumour
+  bool artificial = false;  ///< not found in the scan: its landmark is called artificial_tumour
 };
 
 /// The tumour of the labels (landmark "tumour", else centroid of tumour voxels), else an artificial
 /// one on the edge of the fibroglandular region and inside the mesh, nearest to the region's upper
 /// outer part (centroid + 0.7 rms radius laterally and superiorly): at least 8 mm from skin and
-/// chest wall of the labels and 5 mm from the boundary of the mesh; where no place is, 5 or 2 mm
-/// from that boundary alone. The mesh only passes over places outside it, so that meshes of one
+/// chest wall of the labels and 5 mm from the boundary of the mesh; if there is no such point, 5 or
+/// 2 mm from that boundary only. The mesh only excludes points outside it, so that meshes of one
 /// geometry share the imaged point. Nothing when no edge of fibroglandular tissue lies inside.
 std::optional<Tumour> automatic_tumour(const LabelVolume& labels, const HexMesh& mesh);
 

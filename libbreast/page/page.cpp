@@ -14,7 +14,7 @@ namespace {
 void check_view(const Mammogram& image, View view, Side side) {
   if (image.view == view && image.side == side) return;
   throw input_error("the image shows ", view_name(image.view), " of the ", side_name(image.side),
-                    " breast, the compression ", view_name(view), " of the ", side_name(side));
+                    " breast, but the compression ", view_name(view), " of the ", side_name(side));
 }
 
 void check(const PageContents& contents) {
@@ -23,9 +23,9 @@ void check(const PageContents& contents) {
   check_view(contents.to, there.to_view, there.side);
   if (back.from_view == there.to_view && back.to_view == there.from_view && back.side == there.side)
     return;
-  throw input_error("the way back goes from ", view_name(back.from_view), " to ",
-                    view_name(back.to_view), ", the way there from ", view_name(there.from_view),
-                    " to ", view_name(there.to_view));
+  throw input_error("the lookup back goes from ", view_name(back.from_view), " to ",
+                    view_name(back.to_view), ", but the first lookup from ",
+                    view_name(there.from_view), " to ", view_name(there.to_view));
 }
 
 std::string data_json(const PageContents& contents) {
@@ -51,8 +51,7 @@ std::string lookup_page(const PageContents& contents) {
   page.replace(page.find(mark), mark.size(), data_json(contents));
   if (page.size() > largest_page) {
     throw input_error("the page would have ", page.size() / 1000000, " MB, at most ",
-                      largest_page / 1000000,
-                      " expected; use a larger --pitch or leave out --scan");
+                      largest_page / 1000000, " allowed; use a larger --pitch or omit --scan");
   }
   return page;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The lookup as one HTML file: pointing at either view draws curve, band and arc in the other, the
-// slice of the MR and the column in the body. No server, no network: everything is inside.
+// The interactive page as one HTML file: pointing at either view draws the curve, band and arc in
+// the other, the slice of the MR and the column in the body. No server, no network: everything is
+// inside.
 #pragma once
 
 #include <string>

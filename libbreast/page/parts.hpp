@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts of the page's data, each as one JavaScript literal.
+// The parts of the page's data, each written as one JavaScript literal.
 #pragma once
 
 #include <string>
@@ -27,10 +27,10 @@ std::string lookup_json(const MatchLookup& lookup, const Vec3& middle);
 /// Edges of skin, chest wall and cut in the MR frame, mm, with nipple and tumour.
 std::string body_json(const HexMesh& mesh);
 
-/// The scan in the box of the imaged breast and 15 mm about it, so that no more of the patient than
-/// the page speaks of is in it: 8 bits between the 1st and the 99.5th percentile, axes along the
-/// patient's, voxels of at least 1 by 1 by 2 mm, at most 4 MB. Throws Error (input) when the scan
-/// and the breast do not overlap.
+/// The scan in the box of the imaged breast and 15 mm about it, so that it contains only the part
+/// of the patient that the page shows: 8 bits between the 1st and the 99.5th percentile, axes along
+/// the patient's, voxels of at least 1 by 1 by 2 mm, at most 4 MB. Throws Error (input) when the
+/// scan and the breast do not overlap.
 std::string scan_json(const Volume<float>& scan, const HexMesh& mesh);
 
 /// Corners of the box of the imaged shape, mm.

@@ -50,7 +50,7 @@ std::string scan_json(const Volume<float>& scan, const HexMesh& mesh) {
   if (inside.size() < grid.voxels() / 4) {
     throw input_error(
         "the scan covers ", 100 * inside.size() / grid.voxels(),
-        " % of the box of the imaged breast; give --scan the scan that was segmented");
+        " % of the bounding box of the imaged breast; give the scan that was segmented as --scan");
   }
   const double low = at_rank(inside, 0.01), high = at_rank(inside, 0.995),
                range = std::max(high - low, 1e-30);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Node numbers and cells of the slab-and-half-ball template, free of any geometry.
+// Topology of the slab-and-half-ball template: node numbers and cells, without geometry.
 #pragma once
 
 #include <array>
@@ -17,9 +17,9 @@ class BlockLattice {
   /// Counts in elements; `order` 1 or 2.
   BlockLattice(const MeshParameters& size);
 
-  /// Where a node lies. For the slab: `ball` is its place on the slab's top disc of
-  /// radius 1 (fold) or up to 2 (rim), `level` in [0,1] from wall to top. For the dome:
-  /// its place in the unit half ball.
+  /// Position of a node. For the slab, `ball` is its position on the slab's top disc of radius 1
+  /// (fold) or up to 2 (rim), `level` in [0,1] from wall to top. For the dome, it is the position
+  /// in the unit half ball.
   struct Place {
     bool dome = false;
     Vec3 ball{0, 0, 0};
@@ -28,8 +28,8 @@ class BlockLattice {
   };
   const std::vector<Place>& places() const { return places_; }
 
-  /// Elements: (order+1)³ nodes, first direction fastest, right-handed; and which side (VTK local
-  /// face) of which element lies on which surface.
+  /// The elements, with (order+1)³ nodes each, first direction fastest, right-handed; and for each
+  /// surface the elements and sides (VTK local faces) that lie on it.
   struct Side {
     int element, local;
   };

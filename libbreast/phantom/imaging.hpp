@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the scanner sees: matter per subsample of every voxel of the prone scene, and its labels.
+// Sampling of the prone scene for the simulated scanner: matter per subsample of every voxel, and
+// the labels.
 #pragma once
 
 #include "image/label_volume.hpp"
@@ -21,8 +22,8 @@ Grid phantom_grid(const MriParameters& parameters);
 /// depend on the number of threads.
 PhantomImage image_scene(const PhantomScene& scene, Progress& progress = no_progress());
 /// The label volume `segment` should find for one side, cropped to the breast and its surroundings.
-/// Breast is what the mesh holds, up to its cut, fat beyond is `other`. Landmarks: the tip of the
-/// nipple and the tumour, prone.
+/// The breast is the tissue inside the mesh, up to its cut; fat beyond is `other`. Landmarks: the
+/// tip of the nipple and the tumour, prone.
 LabelVolume true_labels(const PhantomScene& scene, const PhantomImage& image, Side side);
 
 }  // namespace breast

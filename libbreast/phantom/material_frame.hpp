@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a voxel of the prone image to the stress-free point that lies there.
+// Map from voxels of the prone image to the stress-free points that lie there.
 #pragma once
 
 #include "image/volume.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a point of the phantom is made of, finer than the tissue codes of a label volume.
+// Materials of the phantom, with finer distinctions than the tissue codes of a label volume.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ enum class Matter : std::uint8_t {
   heart,
   blood,
   liver,
-  brawn,  ///< muscle of the back and the organs nobody looks at
+  brawn,  ///< muscle of the back and internal organs
 };
 inline constexpr int n_matters = 15;
 

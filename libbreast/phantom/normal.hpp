@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Normals of surfaces that are level sets of a distance.
+// Normals of surfaces given as level sets of a distance function.
 #pragma once
 
 #include "core/types.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every number that shapes the phantom, in one place.
+// All parameters of the phantom.
 #pragma once
 
 #include <cstdint>
@@ -67,10 +67,10 @@ struct MeshParameters {
   int order = 2;
 };
 
-/// What holds the breasts, and how soft they are. Breasts on a held wall are shaped stress-free and
-/// hang from there. A breast that slides is shaped as it hangs in the scan, because the chest beside
-/// it, which the phantom does not move, would tear off otherwise: its stress-free shape is what the
-/// solver finds.
+/// Boundary conditions and stiffness of the breasts. Breasts on a fixed wall are defined by their
+/// stress-free shape. A breast that slides is defined by its prone shape, because it would
+/// otherwise detach from the chest beside it, which is rigid in the phantom; its stress-free shape
+/// is computed.
 struct BodyParameters {
   std::string materials = "seed2008";
   std::vector<std::string> scale = {};  ///< TISSUE=PERCENT of the set
@@ -92,7 +92,7 @@ struct PhantomParameters {
 };
 
 /// "average", "slim", "broad" and "heavy" slide on rib cages that fall away at the sides; "paper",
-/// "flat", "small", "large" and "pendulous" are held at theirs.
+/// "flat", "small", "large" and "pendulous" are fixed at theirs.
 const std::vector<std::string>& preset_names();
 /// Whether the breasts of a preset slide on their wall.
 bool preset_slides(const std::string& name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The physics of the phantom: from the known stress-free shape to the prone and the supine one.
+// Mechanics of the phantom: the prone and supine shapes of its known stress-free shape.
 #pragma once
 
 #include "mechanics/mechanics.hpp"
@@ -14,15 +14,16 @@ struct Postures {
   double imaged_gap = 0;  ///< mm between `imaged` as loaded and `points` as solved
 };
 
-/// Wall and cut held. Gravity forces and skin thickness belong to the imaged (prone) shape, as
-/// everywhere in the chain, so prone is solved again with the forces of its own result until they
-/// agree to 1e-4 mm (`imaged_gap`). mesh.imaged is the first guess of the prone shape. Throws Error
-/// (not converged) naming the side and the posture.
+/// Wall and cut are fixed. As everywhere in the chain, gravity forces and skin thickness are those
+/// of the imaged (prone) shape; the prone shape is therefore solved repeatedly with the forces of
+/// its own result until they agree to 1e-4 mm (`imaged_gap`). mesh.imaged is the first guess of the
+/// prone shape. Throws Error (not converged) naming the side and the posture.
 Postures solve_postures(HexMesh& mesh, const MaterialSet& materials,
                         Progress& progress = no_progress());
 
-/// The same of a breast that is shaped as it hangs and slides on `surface`: prone is mesh.imaged, and
-/// stress-free what the backward solve finds. The materials hold the supports of wall and cut.
+/// The same for a breast that is defined by its prone shape and slides on `surface`: prone is
+/// mesh.imaged, and the stress-free shape comes from the backward solve. The materials include the
+/// supports of wall and cut.
 Postures solve_sliding_postures(const HexMesh& mesh, const MaterialSet& materials,
                                 std::shared_ptr<const LevelSurface> surface,
                                 Progress& progress = no_progress());

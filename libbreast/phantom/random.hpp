@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Counter-based randomness: every number is a pure function of seed and index, so that results do
-// not depend on threads or on the order of evaluation.
+// Counter-based random numbers: every number is a pure function of seed and index, so that results
+// do not depend on threads or on the order of evaluation.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From matter to magnitude image: coil sensitivity, tissue texture, Rician noise.
+// Simulation of the magnitude image from the sampled matter: coil sensitivity, tissue texture,
+// Rician noise.
 #pragma once
 
 #include "phantom/imaging.hpp"

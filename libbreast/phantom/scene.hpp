@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole phantom: a rigid thorax and two deformable breasts, stress-free and prone.
+// The complete phantom: a rigid thorax and two deformable breasts, stress-free and prone.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stress-free breast: where it stands on the chest wall and where its skin is.
+// The stress-free breast of the phantom: its base on the chest wall and its skin.
 #pragma once
 
 #include "phantom/chest/torso.hpp"
@@ -14,9 +14,12 @@ class BreastShape {
 
   Side side() const { return side_; }
   const Torso& torso() const { return torso_; }
-  const Vec3& foot() const { return foot_; }  ///< the axis meets the chest wall
+  const Vec3& foot() const { return foot_; }  ///< intersection of the axis with the chest wall
   const Vec3& axis() const { return axes_[2]; }
-  const Vec3& apex() const { return apex_; }  ///< the axis meets the skin: base of the nipple
+  const Vec3& apex() const {
+    return apex_;
+  }  ///< intersection of the axis with the skin, the base
+     ///< of the nipple
   /// Unit radial direction at azimuth φ about the axis (0 = towards patient left, 90° superior).
   Vec3 radial(double azimuth) const;
   /// (r, φ, h) of a stress-free point: distance from the axis, azimuth,
@@ -28,13 +31,13 @@ class BreastShape {
 
   /// Approximate signed distance (mm) to the skin of breast and chest, without nipple; < 0 inside.
   double skin_distance(const Vec3& x) const;
-  /// The same with the nipple standing on it: what the image shows.
+  /// The same including the nipple, as shown in the image.
   double outline(const Vec3& x) const;
   /// Distance to the nipple's body, negative inside.
   double nipple_distance(const Vec3& x) const;
-  /// Distance to the breast's body less that to the chest's skin, less `part` of the fillet's
-  /// width: on the skin zero at the middle of the fold for part 0, and at the fillet's end, where
-  /// the breast no longer influences the chest's skin, for part 1 (mm).
+  /// Distance to the breast's body minus distance to the chest's skin minus `part` times the
+  /// fillet's width (mm). On the skin it vanishes at the middle of the fold for part 0, and for
+  /// part 1 at the end of the fillet, beyond which the breast does not influence the chest's skin.
   double beyond_fold(const Vec3& x, double part) const;
   /// Skin thickness (mm), larger at the areola.
   double skin_thickness(const Vec3& x) const;

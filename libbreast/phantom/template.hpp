@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The phantom's own hexahedral template: a slab of fat on the chest wall, wider than the breast,
-// and on it a half ball (square core and shell) that is the breast. It is none of the templates of
-// `hexmesh`, so the chain never meets its own mesh.
+// and on it a half ball (square core and shell) that is the breast. `hexmesh` does not use this
+// template, so that the chain is tested on a different mesh.
 #pragma once
 
 #include "mesh/hex_mesh.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the phantom knows and the chain has to find: labels, surfaces, landmarks, meshes.
+// The phantom's ground truth for the chain: labels, surfaces, landmarks, meshes.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,8 @@ void add_landmarks(const PhantomBreast& breast, const Postures& postures, Table&
 /// The tumour's prone place as hexmesh --tumour reads it: x_mm y_mm z_mm.
 Table tumour_place(const HexMesh& mesh);
 
-/// How one breast's solve went and how far its nipple and tumour move, under "left/" or "right/".
+/// Reports the solve of one breast and the displacements of its nipple and tumour, under "left/" or
+/// "right/".
 void report_breast(const PhantomBreast& breast, const Postures& postures, Report& report);
 
 /// Volumes (ml) of the true labels by tissue name under "volumes_ml/".

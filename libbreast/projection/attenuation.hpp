@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a mammogram's `path` is made of.
+// The quantity that a simulated mammogram projects (`path`): tissue thickness or attenuation.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@ struct Attenuation {
   double fat = 0, fibroglandular = 0, skin = 0, tumour = 0;
 };
 
-/// How a ray's tissue becomes one number.
+/// Conversion of the tissue along a ray to one number.
 class Energy {
  public:
   /// "fraction": mm of fibroglandular-equivalent tissue, fat counting half (the grey of

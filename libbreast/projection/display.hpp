@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A mammogram as it is looked at: hung, windowed, 16 bits.
+// A mammogram prepared for display: clinical orientation, window, 16 bits.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ struct HungImage {
   std::vector<std::uint16_t> grey;
   double window_high = 0;  ///< compensated path at grey 65535; grey goes with its square
 };
-/// The path as if all tissue were as thick as between the plates, so that the thicker tissue behind
-/// them is not lost in white: in full where tissue is thicker, by the square root of the ratio
-/// where it is thinner (towards the skin). Same unit and order as `path`.
+/// The path corrected to the thickness between the plates, so that the thicker tissue behind them
+/// is not saturated: fully where the tissue is thicker, by the square root of the ratio where it is
+/// thinner (towards the skin). Same unit and order as `path`.
 std::vector<float> compensated_path(const Mammogram& image);
 HungImage hang(const Mammogram& image);
 

@@ -58,7 +58,7 @@ ImageFrame image_frame(const HexMesh& mesh, Beam beam) {
   }
   if (!(upper > lower)) {
     throw input_error(
-        "mesh: no tissue in front of its chest-wall and cut surfaces; nothing to image");
+        "mesh: there is no tissue in front of its chest-wall and cut surfaces to be imaged");
   }
   pose.origin =
       u0 * pose.e_u + 0.5 * (lower + upper) * pose.e_v + detector_height(mesh, pose.n) * pose.n;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a mammogram lies: pose and extent of the image of a compressed breast.
+// Pose and extent of the mammogram of a compressed breast.
 #pragma once
 
 #include "mesh/hex_mesh.hpp"
@@ -13,9 +13,9 @@ inline constexpr double source_distance_mm = 650;  ///< source to detector, cone
 /// Detector pose and image extent. They follow from the mesh and its compression record alone,
 /// never from the pixel size, so that every tool finds the same (u,v). The posterior edge u = 0 is
 /// the most anterior point of the chest-wall and cut surfaces: as in the paper, the image then
-/// shows no column that leaves the mesh through its back. Landmarks do not count: a machine does not
-/// know where the tumour is, and an image that widened to show it would hide that it may be missed.
-/// The detector plane is that of its plate.
+/// shows no column that leaves the mesh through its back. Landmarks are not considered: a machine
+/// does not know where the tumour is, and an image enlarged to show it would hide that it may be
+/// missed. The detector plane is that of its plate.
 struct ImageFrame {
   ViewPose pose;
   View view = View::cc;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A projection image on the detector plane with the pose that made it.
+// A projection image on the detector plane, with its pose.
 #pragma once
 
 #include <cstdint>
@@ -25,15 +25,15 @@ struct Mammogram {
   std::vector<float> path;       ///< line integral (or tissue-weighted mm) per pixel, u fastest
   std::vector<float> thickness;  ///< mm of tissue along each ray
   std::vector<float> fibroglandular;  ///< mm of fibroglandular tissue along each ray
-  /// 1: the column leaves the mesh through the chest wall or the cut. Where the plates' edge ends the
-  /// image, what lacks of the column between the plates is taken as fat; otherwise the other arrays
-  /// hold 0.
+  /// 1 if the column leaves the mesh through the chest wall or the cut. Where the image ends at the
+  /// plates' edge, the missing part of the column between the plates is assumed to be fat; otherwise
+  /// the other arrays are 0.
   std::vector<std::uint8_t> through_back;
-  /// Nothing is known of the pixel.
+  /// Whether nothing is known of a pixel.
   bool blank(std::size_t pixel) const {
     return through_back[pixel] != 0 && !(thickness[pixel] > 0);
   }
-  /// `path` is mm of tissue, not attenuation: no signal of a detector follows from it.
+  /// Whether `path` is mm of tissue instead of attenuation, so that it gives no detector signal.
   bool shows_fraction() const { return energy == "fraction"; }
   History history;
   std::string content_sha256;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a bilinear patch is met by a packet of neighbouring rays, all at once in the vector unit.
+// Intersections of a bilinear patch with a packet of neighbouring rays, computed with vector
+// instructions.
 #pragma once
 
 #include <array>

@@ -151,7 +151,7 @@ Mammogram empty_image(const HexMesh& mesh, const ImageFrame& frame,
   const double pixels = (frame.width / options.pixel) * (frame.height / options.pixel);
   if (!(pixels <= 1e8)) {
     throw input_error("pixel ", options.pixel, " mm: ", pixels,
-                      " pixels, at most 1e8; use larger pixels");
+                      " pixels, but at most 1e8 are allowed; use larger pixels");
   }
   Mammogram image;
   image.pose = frame.pose;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The simulated mammogram: tissue along every ray, sampled in the MR scan the mesh was made from.
+// Simulation of a mammogram: tissue along every ray, sampled in the MR scan from which the mesh was
+// made.
 #pragma once
 
 #include "core/progress.hpp"
@@ -15,8 +16,8 @@ struct ProjectionOptions {
   double pixel = 0.25;  ///< mm
   Beam beam = Beam::parallel;
   Energy energy{};
-  /// Points along the ray are mapped to the imaged shape and looked up here, so that detail is that
-  /// of the scan; null: one tissue per element, as in the paper's Fig. 6.
+  /// Labels in which points of the ray, mapped to the imaged shape, are looked up, so that the
+  /// image has the detail of the scan; null: one tissue per element, as in the paper's Fig. 6.
   const LabelVolume* labels = nullptr;
 };
 

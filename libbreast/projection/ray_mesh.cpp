@@ -81,7 +81,7 @@ void RayMesh::bin_pieces() {
   }
   if (!((upper - lower).minCoeff() >= 0) || !((upper - lower).maxCoeff() < 1e4)) {
     throw input_error("mesh: its projection spans ", (upper - lower).maxCoeff(),
-                      " mm, less than 10000 expected (units are mm)");
+                      " mm, but less than 10000 are expected (units are mm)");
   }
   bins_lower_ = lower;
   for (int k = 0; k < 2; ++k) bins_[k] = 1 + int((upper - lower)[k] / bin_mm);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// X-rays through a deformed hexahedral mesh: exact entry and exit of every element on a ray.
+// Tracing of X-rays through a deformed hexahedral mesh, with exact entry and exit points of every
+// element.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +16,7 @@
 
 namespace breast {
 
-/// The stretch of a ray inside one piece of the mesh.
+/// The segment of a ray inside one piece of the mesh.
 struct Chord {
   int piece = 0;
   double enter = 0, leave = 0;  ///< mm along the ray from its detector point (negative: before it)
@@ -29,7 +30,7 @@ struct Ray {
   Vec3 at(double distance) const { return origin + distance * direction; }
 };
 
-/// Chords of neighbouring rays, one list a ray.
+/// Chords of neighbouring rays, one list per ray.
 using ChordPacket = std::array<std::vector<Chord>, packet_rays>;
 
 /// Elements of order 1 are one piece each; those of order 2 are cut into 4×4×4 trilinear pieces
@@ -48,8 +49,8 @@ class RayMesh {
   /// several times faster. Stops at the border of the table of candidates; returns how many rays
   /// were followed (at least one).
   int trace(const Vec2& uv, double step, int count, ChordPacket& chords) const;
-  /// A column that meets the chest wall or the cut surface continues in
-  /// tissue the mesh does not have.
+  /// Whether a column meets the chest wall or the cut surface and thus continues in tissue outside
+  /// the mesh.
   bool leaves_through_back(const std::vector<Chord>& chords) const;
 
   int element(int piece) const { return piece / pieces_per_element_; }

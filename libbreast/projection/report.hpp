@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What project-mammogram reports.
+// Report entries and doubts of project-mammogram.
 #pragma once
 
 #include "core/report.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The map of one 8-node hexahedron as a polynomial: cheap to evaluate and to invert.
+// The isoparametric map of one 8-node hexahedron as a polynomial, for fast evaluation and
+// inversion.
 #pragma once
 
 #include <array>

@@ -17,12 +17,12 @@ namespace breast {
 /// a voxel: taken as fat, and counted.
 class VoxelTissue {
  public:
-  /// Parts of fibroglandular, skin, tumour, and of unlabelled voxels; what the
-  /// first three leave is fat.
+  /// Fractions of fibroglandular tissue, skin, tumour, and unlabelled voxels; fat is the remainder
+  /// of the first three.
   using Parts = Eigen::Array<float, 4, 1>;
 
-  /// Copies the voxels within the box (mm, imaged shape): the part of the
-  /// scan the mesh can ask for.
+  /// Copies the voxels within the box (mm, imaged shape), which is the part of the scan that the
+  /// mesh needs.
   VoxelTissue(const LabelVolume& labels, const Vec3& lower, const Vec3& upper);
 
   /// Voxel coordinates (of the copy) of a point in mm; affine.

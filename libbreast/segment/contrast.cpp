@@ -88,8 +88,8 @@ std::string refusal_of(const FatContrast& contrast) {
   const double evidence = saturation_evidence(contrast);
   if (!(evidence > most_evidence)) return "";
   return message(
-      "fat is saturated, or for another reason not the bright tissue of this scan: "
-      "below the skin it has ",
+      "fat is saturated or, for another reason, not the bright tissue of this scan: below the "
+      "skin it has ",
       std::lround(100 * contrast.subcutaneous),
       " % of the brightness around it (usually above 50), the skin ",
       std::lround(100 * contrast.skin_to_subcutis),
@@ -97,8 +97,8 @@ std::string refusal_of(const FatContrast& contrast) {
       std::lround(100 * contrast.muscle_ratio), " % (15 to 45), and it varies by ",
       format_fixed(100 * contrast.fat_cv, 1), " % (below 8.6): evidence ",
       format_fixed(evidence, 1), ", at most ", most_evidence,
-      " accepted. Give the T1 series without fat saturation, or --contrast fat-bright "
-      "if this is one");
+      " accepted. Give the T1 series without fat saturation, or --contrast fat-bright if this "
+      "is such a series");
 }
 
 }  // namespace breast

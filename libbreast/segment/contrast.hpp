@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether fat is the bright tissue, as in T1 without fat saturation.
+// Check that fat is the bright tissue, as in T1-weighted scans without fat saturation.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace breast {
 
 struct Work;
 
-/// What differs between scans in which fat is bright and those in which it is saturated.
+/// Quantities that distinguish scans in which fat is bright from those in which it is saturated.
 struct FatContrast {
   /// 90th percentile, over the breast's skin, of its brightness relative to the subcutaneous tissue
   /// nearby: skin is darker than fat, and brighter than saturated fat.
@@ -20,12 +20,13 @@ struct FatContrast {
   double muscle_ratio = 0;  ///< brightness behind the chest wall relative to fat
 };
 
-/// The first two of them, from the scan and the body alone.
+/// Computes the first two quantities, which only need the scan and the body.
 FatContrast contrast_below_skin(const Work& work);
 
-/// How much speaks for saturated fat: each of the four counts from 0 where scans with bright fat
-/// end to 1 where a saturated one was seen. More than `most_evidence` is
-/// refused: at least two of them, or subcutaneous tissue darker than a third.
+/// Evidence of saturated fat: the sum of a score for each of the four quantities, from 0 at the
+/// limit of scans with bright fat to 1 at the value of a saturated scan. A scan with more than
+/// `most_evidence` is refused, which takes at least two abnormal quantities, or subcutaneous tissue
+/// darker than a third.
 double saturation_evidence(const FatContrast& contrast);
 constexpr double most_evidence = 1.3;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures to judge a segmentation by: slices with contours.
+// Pictures of slices with contours, for judging a segmentation.
 #pragma once
 
 #include <filesystem>

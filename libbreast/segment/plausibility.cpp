@@ -100,9 +100,9 @@ std::vector<std::string> extent_doubts(const Extents& found, double greatest_dep
   };
   if (!(found.front_left_out_percent < most_left_out)) {
     doubts.push_back(message("extent doubtful: ", std::lround(found.front_left_out_percent),
-                             " % of the body in front of the sternum's skin is not labelled breast "
-                             "(usually below ",
-                             std::lround(most_left_out), " %): look at --overlay"));
+                             " % of the body in front of the skin over the sternum is not "
+                             "labelled breast (usually below ",
+                             std::lround(most_left_out), " %): see --overlay"));
   }
   if (outside(found.volume_ml, least_volume, most_volume)) {
     doubts.push_back(message("extent doubtful: a breast of ", std::lround(found.volume_ml), " ml (",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far a segmentation is from where it begins to fail, stage by stage.
+// Quality scores of a segmentation, stage by stage.
 #pragma once
 
 #include <string>
@@ -9,17 +9,18 @@
 
 namespace breast {
 
-/// Score of a stage: 1 as usual, 0.5 where a reader has to look, 0 as far beyond again.
+/// Score of a stage, linear between 1 for typical values, 0.5 where the result should be checked,
+/// and 0.
 struct StageQuality {
   std::string stage;  ///< contrast, wall, extent, tissue
   double score = 1;
-  std::string worst;  ///< the quantity that decided
+  std::string worst;  ///< the quantity with the lowest score
 };
 
-/// Below this a stage is doubtful and the result has to be looked at.
+/// Score below which a stage is doubtful and the result must be checked.
 constexpr double least_quality = 0.5;
 
-/// One score a stage, the least of those of its quantities.
+/// One score per stage, the lowest of its quantities.
 std::vector<StageQuality> quality_of(const Segmentation& result);
 
 }  // namespace breast

@@ -142,48 +142,53 @@ void find_doubts(Segmentation& result, const Work& work) {
   if (result.wall_confident_percent < 80) {
     result.doubts.push_back(
         message("chest wall uncertain on ", std::lround(100 - result.wall_confident_percent),
-                " % of the breast's columns: look at it, correct with --chest-wall"));
+                " % of the breast's columns: check it (--overlay) and correct it with "
+                "--chest-wall"));
   }
   if (result.muscle_ratio < 0.12) {
-    result.doubts.push_back(message(
-        "behind the chest wall the image has ", std::lround(100 * result.muscle_ratio),
-        " % of the brightness of fat (muscle 20-40 %): lung, or fat is saturated: look at it"));
+    result.doubts.push_back(
+        message("behind the chest wall the image has ", std::lround(100 * result.muscle_ratio),
+                " % of the brightness of fat (muscle has 20-40 %): it may be lung, or fat may be "
+                "saturated; check it (--overlay)"));
   }
   if (result.roll_degrees != 0) {
-    result.doubts.push_back(message("the body lies turned by ", std::lround(result.roll_degrees),
-                                    " degrees against the scan's axes: sampled again upright"));
+    result.doubts.push_back(message("the body is rotated by ", std::lround(result.roll_degrees),
+                                    " degrees against the scan's axes: the scan was resampled "
+                                    "along the axes of the body"));
   }
   if (result.cut_by_view_cm2 > 5) {
-    result.doubts.push_back(message("the field of view cuts the breast on ",
+    result.doubts.push_back(message("the field of view truncates the breast on ",
                                     std::lround(result.cut_by_view_cm2),
-                                    " cm2: volume and lateral support are those of what is seen"));
+                                    " cm2: volume and lateral support are those of the visible "
+                                    "part"));
   }
   if (work.torso.one_breast) {
     result.doubts.push_back(message(
-        "one breast alone in the field of view: its midline was taken from the deepest skin "
+        "only one breast is in the field of view: the midline was placed at the deepest skin "
         "medial of it, at x = ",
-        std::lround(result.midline_mm), " mm: look at the sternal border"));
+        std::lround(result.midline_mm), " mm; check the sternal border"));
   }
   if (result.beside_ml > 150) {
     result.doubts.push_back(message(std::lround(result.beside_ml),
-                                    " ml of tissue lie apart from the torso, arms or what wrapped "
-                                    "round the field of view: left out; look at --overlay"));
+                                    " ml of tissue are separate from the torso (arms, or tissue "
+                                    "wrapped around the field of view) and were omitted; see "
+                                    "--overlay"));
   }
   if (result.compact_dark_mm > 20) {
     result.doubts.push_back(
         message("a ball of ", std::lround(result.compact_dark_mm),
-                " mm radius fits into what is labelled fibroglandular: an implant, a cyst or a very "
-                "dense breast; implants are not modelled"));
+                " mm radius fits into tissue labelled fibroglandular: this may be an implant, a "
+                "cyst or a very dense breast; implants are not modelled"));
   }
   if (result.flat_skin_cm2 > 6) {
     result.doubts.push_back(
         message(std::lround(result.flat_skin_cm2),
-                " cm2 of the skin is flat, as if it rested on coil or table: backward assumes that "
-                "the breast hangs free"));
+                " cm2 of the skin are flat, as if the breast rested on the coil or table: "
+                "backward assumes that it hangs freely"));
   }
   if (result.nipple_from_extreme > 10) {
     result.doubts.push_back(message("nipple found ", std::lround(result.nipple_from_extreme),
-                                    " mm from the most anterior point: look at it"));
+                                    " mm from the most anterior point: check it (--overlay)"));
   }
 }
 
@@ -208,7 +213,7 @@ void judge_contrast(Segmentation& result, const SegmentOptions& options) {
   const std::string refusal = refusal_of(result.contrast);
   if (refusal.empty()) return;
   if (options.contrast == Contrast::automatic) throw input_error(refusal);
-  result.doubts.push_back("taken as told: " + refusal);
+  result.doubts.push_back("accepted as requested: " + refusal);
 }
 
 /// Where a wall is held by the limits of the search alone, or what lies behind is as bright as fat
@@ -217,11 +222,13 @@ void refuse_without_wall(const Segmentation& result) {
   constexpr double least_confidence = 0.15, brightest_muscle = 0.6;
   if (result.wall_confidence_mean >= least_confidence && result.muscle_ratio < brightest_muscle)
     return;
-  throw input_error(
-      "no chest wall found: behind it the image has ", std::lround(100 * result.muscle_ratio),
-      " % of the brightness in front (at most ", std::lround(100 * brightest_muscle),
-      " % expected), mean confidence ", result.wall_confidence_mean, " (at least ",
-      least_confidence, "): is fat saturated, or the scan not T1? Otherwise give --chest-wall");
+  throw input_error("no chest wall found: behind it the image has ",
+                    std::lround(100 * result.muscle_ratio),
+                    " % of the brightness in front (at most ", std::lround(100 * brightest_muscle),
+                    " % expected), mean confidence ", result.wall_confidence_mean, " (at least ",
+                    least_confidence,
+                    "): is fat saturated, or is the scan not T1-weighted? Otherwise give "
+                    "--chest-wall");
 }
 
 }  // namespace

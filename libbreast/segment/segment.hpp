@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a prone bilateral T1 breast MR to the labels of one breast (methods: segmentation).
+// Segmentation of a prone bilateral T1 breast MR into the labels of one breast (see
+// docs/methods.md).
 #pragma once
 
 #include <optional>
@@ -17,8 +18,8 @@ namespace breast {
 
 /// Which tissue is bright.
 enum class Contrast {
-  automatic,  ///< refused when the image speaks against bright fat
-  fat_bright  ///< the user answers for it; what speaks against it is a warning
+  automatic,  ///< refused if there is evidence against bright fat
+  fat_bright  ///< vouched for by the user; contrary evidence is only a warning
 };
 
 struct SegmentOptions {
@@ -27,7 +28,7 @@ struct SegmentOptions {
   std::vector<Vec3> wall_points;             ///< clicked points on the wall (patient mm)
   /// `wall_points` are those of a surface: dense, and reaching beyond the searched wall.
   bool wall_points_of_surface = false;
-  /// Moves the wall by this many of its own standard deviations, backwards when positive.
+  /// Number of its standard deviations by which the wall is moved, backwards if positive.
   double wall_shift = 0;
   Interior interior = Interior::threshold;
   Contrast contrast = Contrast::automatic;
@@ -56,7 +57,7 @@ struct Segmentation {
   double debris_ml = 0;             ///< taken off the skin
   double beside_ml = 0;             ///< tissue apart from the torso
   double compact_dark_mm = 0;       ///< radius of the largest ball within fibroglandular tissue
-  std::vector<std::string> doubts;  ///< what a reader should look at
+  std::vector<std::string> doubts;  ///< what a user should check
 };
 
 /// Throws Error (input) saying which stage failed on this scan and what to try.

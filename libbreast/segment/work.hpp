@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the stages of segmentation pass on to each other.
+// Intermediate results that the stages of segmentation share.
 #pragma once
 
 #include "image/label_volume.hpp"
@@ -11,7 +11,7 @@
 
 namespace breast {
 
-/// Everything on one grid.
+/// All volumes have the same grid.
 struct Work {
   Volume<float> scan, ratio, skin_distance;
   Volume<float> brightness;  ///< as ratio (scan over bias), also outside the body
@@ -26,12 +26,12 @@ struct Work {
   double skin = 0;
 };
 
-/// The chosen side of the original scan with everything found so far, for the final labels: where
-/// the working grid was coarser, the body's border is found again on the finer voxels.
+/// The chosen side of the original scan with everything found so far, for the final labels: if the
+/// working grid was coarser, the border of the body is determined again on the finer voxels.
 Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side);
 
-/// Inside of the breast: deeper than `skin_depth` mm, more than
-/// `wall_margin` mm in front of the wall.
+/// Interior of the breast: deeper than `skin_depth` mm, more than `wall_margin` mm in front of the
+/// wall.
 Mask interior_of(const Work& work, double skin_depth, double wall_margin);
 /// Within `reach` mm in front of the wall on columns whose confidence is below a half.
 Mask near_unsure_wall(const Work& work, double reach);

@@ -26,8 +26,7 @@ Eigen::VectorXd pressures(const Scene& scene, const std::vector<double>& mean,
   const int rows = scene.solid().space()->pressures->rows;
   if (int(mean.size()) != scene.mesh().elements()) {
     throw input_error(what,
-                      ": the file holds no pressures; make it with backward, forward or "
-                      "compress");
+                      ": the file has no pressures; make it with backward, forward or compress");
   }
   Eigen::VectorXd p = Eigen::VectorXd::Zero(long(rows) * long(mean.size()));
   for (std::size_t e = 0; e < mean.size(); ++e) p[long(rows) * long(e)] = mean[e];
@@ -117,7 +116,7 @@ SensitivityChain::SensitivityChain(const HexMesh& state, const std::vector<doubl
 // −∂R/∂m of both states, and the movement the plates impose.
 struct SensitivityChain::Rights {
   ParameterForces imaged, deformed;
-  Eigen::MatrixXd imposed;  ///< of x, mm (3 a node)
+  Eigen::MatrixXd imposed;  ///< of x, mm (3 per node)
 };
 
 SensitivityChain::Rights SensitivityChain::rights(const std::vector<Parameter>& parameters) const {

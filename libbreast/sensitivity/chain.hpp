@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives of a deformed breast through the chain backward → forward or compress: the
-// stress-free shape follows every parameter so that the imaged shape stays the imaged shape.
+// stress-free shape changes with every parameter so that the imaged shape remains the same.
 // docs/methods.md.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace breast {
 
-/// How a state answers one parameter, per unit of it.
+/// Response of a state to one parameter, per unit of it.
 struct Response {
   Parameter parameter;
   std::vector<Vec3> position, reference;  ///< dx/dm and dX/dm, mm
@@ -23,7 +23,7 @@ struct Response {
   double seconds = 0;
 };
 
-/// Derivatives of one landmark by many parameters, from three adjoint solves.
+/// Derivatives of one landmark with respect to many parameters, from three adjoint solves.
 struct LandmarkGradient {
   std::string name;
   std::vector<Vec3> by_parameter;  ///< mm, in the parameters' order
@@ -35,21 +35,21 @@ struct LandmarkGradient {
 class SensitivityChain {
  public:
   /// `state` is a converged forward or compress result with its reference (order 1, or 2 for q2p1),
-  /// `imaged_pressure` the mean pressures (Pa) backward found. Contacts stay as they are: where the
-  /// set of touching nodes changes, derivatives are one-sided. Must not outlive `state`.
+  /// `imaged_pressure` the mean pressures (Pa) backward found. The set of touching nodes is kept:
+  /// where it is about to change, derivatives are one-sided. Must not outlive `state`.
   SensitivityChain(const HexMesh& state, const std::vector<double>& imaged_pressure,
                    const Vec3& imaged_gravity, const MechanicsOptions& options);
 
-  /// Tangent-linear: two solves a parameter.
+  /// Tangent-linear method: two solves per parameter.
   std::vector<Response> tangent(const std::vector<Parameter>& parameters,
                                 Progress& progress = no_progress()) const;
-  /// Adjoint: six solves a landmark, however many parameters.
+  /// Adjoint method: six solves per landmark, for any number of parameters.
   LandmarkGradient adjoint(const Landmark& landmark,
                            const std::vector<Parameter>& parameters) const;
 
   const LinearisedState& imaged() const { return imaged_; }
   const LinearisedState& deformed() const { return deformed_; }
-  /// Nodes that plates hold.
+  /// Number of nodes held by plates.
   std::size_t contacts() const { return deformed_.contacts().size(); }
   /// Whether plates touch the deformed state.
   bool pressed() const { return pressure_ != nullptr || !deformed_.contacts().empty(); }
@@ -57,9 +57,9 @@ class SensitivityChain {
  private:
   struct Rights;
   Rights rights(const std::vector<Parameter>& parameters) const;
-  /// How the gaps of the plates change with a parameter, which must outlive the answer.
+  /// Rates of change of the plates' gaps with a parameter, which must outlive the result.
   std::function<GapSlope(int, const Gap&, const Vec3&)> slope_of(const Parameter& parameter) const;
-  /// How points fixed to the plates move with a parameter, which must outlive the answer.
+  /// Velocities of points fixed to the plates with a parameter, which must outlive the result.
   std::function<Vec3(int, const Vec3&)> velocity_of(const Parameter& parameter) const;
   double paddle_force(const Parameter& parameter, const Imbalance& along,
                       const Direction& moved) const;
@@ -73,7 +73,7 @@ class SensitivityChain {
   LinearisedState deformed_;
 };
 
-/// d ln|u| of a landmark's displacement from its imaged place, per unit of the parameter whose
+/// d ln|u| of a landmark's displacement from its imaged position, per unit of the parameter whose
 /// derivative of position (mm) is `slope`.
 double displacement_elasticity(const HexMesh& mesh, const Landmark& landmark, const Vec3& slope);
 

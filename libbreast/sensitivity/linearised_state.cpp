@@ -77,7 +77,7 @@ void LinearisedState::settle(const std::string& what) {
     held_.project(free);
     residual_ = free.norm() / load;
     if (!solver_.factorise(matrix_, held_, false).ok) {
-      throw failed_error(what, " is an unstable equilibrium: its derivatives do not exist");
+      throw failed_error(what, " is an unstable equilibrium, for which there are no derivatives");
     }
     if (residual_ <= settled || (residual_ <= rounded && last <= still_mm)) return;
     const SaddleStep step = solver_.solve(matrix_, forces.r, forces.theta, 1e-8);
@@ -85,10 +85,10 @@ void LinearisedState::settle(const std::string& what) {
     moved = std::max(moved, last);
     if (i == most_settling || !(moved <= far_mm)) {
       throw input_error(
-          what, " is no equilibrium of these options (residual ", residual_,
+          what, " is not an equilibrium under these options (residual ", residual_,
           " of the load, a node would move ", moved,
-          " mm): give the MECHANICS options and gravity the file was made with (a compression "
-          "with friction or an elastic wall has no derivatives here)");
+          " mm): give the mechanics options and the gravity with which the file was made (a "
+          "compression with friction or an elastic wall has no derivatives here)");
     }
     state_.state.x += step.u;
     state_.state.p += step.p;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A converged state and its linearisation: one assembly, one factorisation, then as many solves
-// with the tangent, its transpose and the inverse problem as parameters or outputs need.
+// A converged state and its linearisation: one assembly and one factorisation, then any number of
+// solves with the tangent, its transpose and the inverse problem.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ struct Direction {
   Eigen::VectorXd u, p;
 };
 
-/// A right-hand side: forces (µN, 3 a node) and volumes (mm³, pressures an element).
+/// A right-hand side: forces (µN, 3 per node) and volumes (mm³, pressures per element).
 struct Imbalance {
   Eigen::VectorXd force, volume;
 };
@@ -28,18 +28,18 @@ class LinearisedState {
   /// `contacts` are held along their normals; `plates`: their terms where they press on
   /// faces. `what` names the
   /// state in messages. Pressures of 27-node elements, which files do not hold in
-  /// full, are recovered. Throws Error (input) when the state is no equilibrium under these
-  /// options, and Error (failed) when it is an unstable one.
+  /// full, are recovered. Throws Error (input) if the state is not an equilibrium under these
+  /// options, and Error (failed) if it is an unstable one.
   LinearisedState(const Scene& scene, LoadedState state, std::vector<PlateContact> contacts,
                   const std::vector<std::shared_ptr<const Term>>& plates,
                   const std::string& what);
 
   const LoadedState& state() const { return state_; }
   const std::vector<PlateContact>& contacts() const { return contacts_; }
-  /// Force (µN) that is not balanced, relative to the load or the plates' force.
+  /// Norm of the unbalanced force, relative to the load or the plates' force.
   double residual() const { return residual_; }
 
-  /// (δx, δp) of K δx − Bᵀ δp = force, B δx + cM δp = volume; δx is `imposed` (3 a node) along the
+  /// (δx, δp) of K δx − Bᵀ δp = force, B δx + cM δp = volume; δx is `imposed` (3 per node) along the
   /// plates' normals where it is given, held components do not move.
   Direction solve(const Imbalance& right, const Eigen::VectorXd* imposed = nullptr) const;
   /// (λ, μ) of the transposed system K λ + Bᵀ μ = force, −B λ + cM μ = volume.
@@ -47,7 +47,7 @@ class LinearisedState {
   /// K δx − Bᵀ δp and B δx + cM δp, of all components.
   Imbalance apply(const Direction& change) const;
 
-  /// What moving the stress-free shape by δX does at fixed x: K_X δX, B_X δX.
+  /// Effect of moving the stress-free shape by δX at fixed x: K_X δX, B_X δX.
   Imbalance of_reference(const Eigen::VectorXd& change) const;
   /// Its transpose: K_Xᵀ λ + B_Xᵀ μ.
   Eigen::VectorXd of_reference_transposed(const Direction& weights) const;

@@ -161,7 +161,7 @@ std::vector<Parameter> pick_parameters(const std::vector<Parameter>& all, const 
     if (found) continue;
     std::string known = "main, all";
     for (const Parameter& parameter : all) known += ", " + parameter.name;
-    throw input_error("parameter '", word, "' is not one this state depends on: use ", known);
+    throw input_error("parameter '", word, "' does not influence this state: use ", known);
   }
   if (picked.empty()) throw input_error("no parameter named; 'main' names the usual ones");
   return picked;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ∂R/∂m: how the residual of an equilibrium changes with a parameter at a given shape.
+// The derivative ∂R/∂m of an equilibrium's residual with respect to a parameter at a fixed shape.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,9 +16,9 @@ struct LoadedState {
   Vec3 gravity{0, 0, 0};
 };
 
-/// One column a parameter; gravity of the other state and plates have columns of zeros.
+/// One column per parameter; the columns of the other state's gravity and of the plates are zero.
 struct ParameterForces {
-  Eigen::MatrixXd force;   ///< ∂r/∂m, µN per unit of the parameter (3 a node)
+  Eigen::MatrixXd force;   ///< ∂r/∂m, µN per unit of the parameter (3 per node)
   Eigen::MatrixXd volume;  ///< ∂θ/∂m, mm³ (with a finite bulk modulus only)
 };
 
@@ -26,8 +26,8 @@ struct ParameterForces {
 ParameterForces parameter_forces(const Scene& scene, const LoadedState& state, ParameterKind role,
                                  const std::vector<Parameter>& parameters);
 
-/// λᵀ ∂r/∂(ln stiffness of element e) for every element, the skin's faces counted to their element;
-/// λ is a nodal field (mm).
+/// λᵀ ∂r/∂(ln stiffness of element e) for every element, with the skin's faces assigned to their
+/// element; λ is a nodal field (mm).
 std::vector<double> element_stiffness_products(const Scene& scene, const LoadedState& state,
                                                const Eigen::VectorXd& lambda);
 

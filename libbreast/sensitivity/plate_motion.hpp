@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plates of a compressed state as the file records them, and how a parameter moves them.
+// The plates of a compressed state as recorded in its file, and their motion with a parameter.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace breast {
 
-/// Paddle and detector of mesh.contact. Their far and lateral edges, which nothing touches, are
-/// taken to be at infinity. Throws Error (input) when there is no record.
+/// Paddle and detector of mesh.contact. Their far and lateral edges, which touch nothing, are
+/// assumed at infinity. Throws Error (input) if there is no record.
 PlatePair recorded_plates(const HexMesh& mesh);
 
 /// A skin node held by a plate.
@@ -30,9 +30,10 @@ std::vector<PlateContact> recorded_contacts(const HexMesh& mesh, const PlatePair
 /// plate.
 Vec3 plate_velocity(const PlatePair& plates, int plate, const Vec3& x, const Parameter& parameter,
                     Side side);
-/// What a parameter does to one contact at a fixed point: ∂g/∂m and ∂∇g/∂m. Plates move as rigid bodies: closing by their shares of the thickness (a half each, or the paddle
-/// alone where the detector has risen as far as it may), both along the anterior axis, both against the beam, or about
-/// their common anterior mid-line.
+/// Effect of a parameter on one contact at a fixed point: ∂g/∂m and ∂∇g/∂m. The plates move as
+/// rigid bodies: they close by their shares of the thickness (one half each, or the paddle alone if
+/// the detector has reached its highest position), or both move along the anterior axis or against
+/// the beam, or turn about their common anterior mid-line.
 GapSlope gap_slope(const PlatePair& plates, const PlateContact& contact, const Vec3& x,
                    const Parameter& parameter, Side side);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the derivatives of a state say of its landmarks, and the arrays for its file.
+// The derivatives of a state's landmarks as a table, and the arrays for its file.
 #pragma once
 
 #include "core/report.hpp"
@@ -15,12 +15,13 @@ struct SensitivityResults {
   Derivatives arrays;
 };
 
-/// By tangent solves: the motion of all nodes with every parameter. Sets the keys
-/// sensitivity/LANDMARK/PARAMETER/... and sensitivity/paddle/... of the report.
+/// Derivatives of all node positions by the tangent-linear method, for every parameter. Sets the
+/// keys sensitivity/LANDMARK/PARAMETER/... and sensitivity/paddle/... of the report.
 SensitivityResults tangent_results(const SensitivityChain& chain,
                                    const std::vector<Parameter>& parameters, const HexMesh& mesh,
                                    Report& report, Progress& progress = no_progress());
-/// By adjoint solves: the landmarks only, and the influence of every element's stiffness on them.
+/// Derivatives of the landmarks only, by the adjoint method, and the influence of every element's
+/// stiffness on them.
 SensitivityResults adjoint_results(const SensitivityChain& chain,
                                    const std::vector<Parameter>& parameters, const HexMesh& mesh,
                                    Report& report, Progress& progress = no_progress());

@@ -163,7 +163,7 @@ DisplacementField displacement_field(const HexMesh& mesh, const std::vector<Vec3
   sampler.sample_body(progress, stage);
   if (sampler.empty()) {
     throw input_error("displacement field: no point of its grid (", grid.spacing.transpose(),
-                      " mm apart) lies in the body: choose a finer one");
+                      " mm apart) lies in the body: choose a finer grid");
   }
   sampler.sample_border();
   DisplacementField field = sampler.take();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A mesh's displacement between two of its shapes as vectors on a regular grid.
+// The displacement between two shapes of a mesh, as vectors on a regular grid.
 //
-// Direction, as ITK and 3D Slicer have it: the vector at a grid point p takes p, a place in the first shape, to
-// p + u(p), its place in the second. Slicer reads such a file as a transform "from parent": applied to an image or a
-// model of the *second* shape, it brings that to the *first*.
+// Direction, by the convention of ITK and 3D Slicer: the vector u(p) at a grid point p maps p, a
+// position in the first shape, to p + u(p), its position in the second. Slicer reads such a file as
+// a transform "from parent": an image or a model of the *second* shape to which it is applied is
+// shown in the *first*.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@
 
 namespace breast {
 
-/// What a grid point's vector was found from.
+/// Origin of a grid point's vector.
 enum class FieldPart : std::uint8_t {
   continued = 0,  ///< harmonic continuation of the rest, no flux through the grid's border
   border =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far a displacement field is from the element map it samples.
+// Error of a displacement field against the element map that it samples.
 #pragma once
 
 #include "slicer/field.hpp"
@@ -15,7 +15,7 @@ struct FieldCheck {
       0;  ///< of grid points outside the first shape, taken into the second
 };
 
-/// What a field is expected to keep, mm.
+/// Expected accuracy of a field, mm.
 inline constexpr double accuracy_mm = 0.05;
 
 /// `count` points drawn from a fixed seed. `from` and `to` as given to displacement_field.

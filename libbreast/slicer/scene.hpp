@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A scene of 3D Slicer (.mrml) that opens files with a display of our choice.
+// Writing of a 3D Slicer scene (.mrml) that opens files with chosen display settings.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A scan seen in another shape of the breast.
+// Warping of a scan to another shape of the breast.
 #pragma once
 
 #include "slicer/field.hpp"
@@ -10,7 +10,7 @@ namespace breast {
 /// field leads from the shape to be shown to the scan.
 Volume<float> warped(const Volume<float>& scan, const DisplacementField& field, float air = 0);
 
-/// 0 continued, 1 border, 2 body (FieldPart).
+/// The parts of a field as a volume: 0 extrapolated, 1 border, 2 body (FieldPart).
 Volume<std::uint8_t> part_volume(const DisplacementField& field);
 
 }  // namespace breast

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The couplings of a discretisation: which nodes meet in a cell (element or
-// face), as solvers see it.
+// The connectivity of a discretisation for solvers: the nodes of every cell (element or face).
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +13,7 @@ struct Cells {
   std::vector<int> nodes;  ///< nodes_per_cell per cell
   int count() const { return nodes_per_cell == 0 ? 0 : int(nodes.size()) / nodes_per_cell; }
   const int* cell(int c) const { return nodes.data() + std::size_t(c) * nodes_per_cell; }
-  /// The values (3 per node in `nodal`) of a cell's nodes, under each other.
+  /// The values (3 per node in `nodal`) of a cell's nodes, stacked.
   Eigen::VectorXd gather(int c, const Eigen::VectorXd& nodal) const {
     Eigen::VectorXd local(3L * nodes_per_cell);
     for (int a = 0; a < nodes_per_cell; ++a) {

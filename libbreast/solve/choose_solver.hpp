@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which linear solver a mesh can afford: a cost model fitted to measurements (docs/methods.md,
+// Choice of the linear solver for a mesh by a cost model fitted to measurements (docs/methods.md,
 // section 5).
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace breast {
 
-/// What a Newton step with either solver is expected to take on this machine.
+/// Expected cost of a Newton step with either solver on this machine.
 struct SolverCost {
   double factor_gb = 0, factor_seconds = 0;  ///< direct: memory of the factor and fronts, one step
   double cycle_gb = 0, cycle_seconds = 0;    ///< multigrid

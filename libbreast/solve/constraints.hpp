@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Displacement constraints, each in the axes of its node: the chest wall, rollers, plates.
+// Displacement boundary conditions, each in the axes of its node, for the chest wall, rollers and
+// plates.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,8 +27,8 @@ class Constraints {
   void hold(int node, const Vec3& increment = Vec3::Zero());
   /// Only the component along a unit `normal`; the node slides in the plane.
   void hold_normal(int node, const Vec3& normal, double increment = 0);
-  /// The component along a unit `normal` besides what is held of the node already (a symmetry plane,
-  /// a wall to slide on). Where that leaves the normal no freedom nothing changes.
+  /// Also holds the component along a unit `normal` of a node that may be held already (a symmetry
+  /// plane, a sliding surface). Nothing changes if the normal has no freedom left.
   void hold_along(int node, const Vec3& normal, double increment = 0);
   void set(int node, const NodeConstraint& constraint);
   void release(int node);
@@ -41,7 +42,7 @@ class Constraints {
     const NodeConstraint* c = at(node);
     return c != nullptr && c->held[axis];
   }
-  /// All increments to zero: what a corrector or a preconditioner needs.
+  /// Sets all increments to zero, as correctors and preconditioners need.
   void zero_increments();
   bool any_increment() const;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The unknowns of a problem and how they couple: fixed on the imaged shape, shared by all terms.
+// The unknowns of a problem and their couplings, defined on the imaged shape and shared by all
+// terms.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Newton's method for the equilibria of a problem with X given: globalised, with prescribed
-// displacements. Near the end a factor may serve several steps: a tangent a little out of date costs
-// some contraction, a factorisation more.
+// Newton's method for the equilibria of a problem with given X: globalised, with prescribed
+// displacements. Near the end one factor may serve several steps, since a slightly outdated tangent
+// slows the convergence less than a factorisation would cost.
 #pragma once
 
 #include <functional>
@@ -20,17 +20,18 @@ struct NewtonOptions {
   int max_iterations = 30;
   double tolerance = 1e-10;         ///< ‖r on free components‖ / load norm
   double volume_tolerance = 1e-11;  ///< |θ_e| / V_e
-  /// Near the end one factor serves several steps. Stops just below the tolerance, where Newton's
-  /// last step would go far below: not for the start of a path that magnifies small differences.
+  /// Uses one factor for several steps near the end. The solve then stops just below the tolerance,
+  /// whereas Newton's last step would go far below it; therefore not suitable for the start of a
+  /// path that magnifies small differences.
   bool reuse_factor = false;
   /// Gives up at the first tangent that is not positive definite and at the first linear system
-  /// that 60 iterations do not solve: where somebody else stands by.
+  /// that 60 iterations do not solve, for use with a fallback.
   bool fail_fast = false;
   Timer* timer = nullptr;  ///< seconds by phase, when wanted
 };
 
-/// A Newton step with X given: tangent, factorisation, direction, trial states. What counts as
-/// balanced is left to whoever derives from it.
+/// A Newton step with X given: tangent, factorisation, direction, trial states. Derived classes
+/// define the convergence criterion.
 class TangentSystem : public NewtonSystem {
  public:
   /// All references must outlive this. `state` is moved.
@@ -38,15 +39,15 @@ class TangentSystem : public NewtonSystem {
 
   std::optional<Trial> attempt(double length) override;
   void accept(Trial trial) override;
-  /// Why the last attempt or look was inadmissible.
+  /// Reason why the last attempt or evaluation was inadmissible.
   NewtonStop refusal() const override { return refusal_; }
   int folded_element() const override { return problem_.folded_element(state_); }
   const Forces& forces() const { return forces_; }
-  /// Positions of the first trial that was refused as inadmissible since the last accepted one.
+  /// Positions of the first inadmissible trial since the last accepted one.
   const Eigen::VectorXd& refused() const { return refused_; }
 
  protected:
-  /// How a trial compares with the start of the step.
+  /// Compares a trial with the start of the step.
   virtual Appraisal appraise(const State& state, const Forces& forces) const = 0;
   /// Puts sliding nodes on their surface; false: a node lies beyond it.
   bool put_on_surface();
@@ -55,7 +56,7 @@ class TangentSystem : public NewtonSystem {
   bool look();
   /// Assembles the tangent at the present state, with its forces; false: inadmissible.
   bool assemble();
-  /// Factorises under `constraints`, with a shift where need be and allowed.
+  /// Factorises under `constraints`, with a shift if necessary and allowed.
   Factorisation factorise(const Constraints& constraints, bool may_shift = true);
   /// Solves for the direction with the present forces and the last factor.
   NewtonDirection solve(double volume_accuracy, int restarts);
@@ -76,7 +77,8 @@ class TangentSystem : public NewtonSystem {
   Eigen::VectorXd refused_;
 };
 
-/// Force (µN) that rounding the positions alone can make: no residual gets reliably below it.
+/// Force (µN) that rounding of the positions alone can cause, below which no residual can be
+/// reduced reliably.
 double rounding_force(const SaddleMatrix& matrix, const Eigen::VectorXd& x);
 
 struct EquilibriumResult : NewtonResult {
@@ -84,8 +86,9 @@ struct EquilibriumResult : NewtonResult {
 };
 
 /// Moves `state` to equilibrium. `targets`: positions of held components (3 per node; other entries
-/// ignored); null: held components stay. Not converged: `state` is the last admissible one. A state
-/// with an element that is not positive at a corner is no equilibrium, however small its residual.
+/// ignored); null: held components remain. If not converged, `state` is the last admissible one. A
+/// state with an element that is not positive at a corner is not accepted, however small its
+/// residual.
 EquilibriumResult equilibrate(const Problem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
                               State& state, const NewtonOptions& options = {},
                               const Eigen::VectorXd* targets = nullptr,

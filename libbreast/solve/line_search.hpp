@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far to go along a Newton direction: one rule for all problems.
+// The line search along a Newton direction, one rule for all problems.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ struct SearchResult {
   bool any_admissible = false;  ///< at least one trial was admissible
 };
 
-/// Shortens the direction until a length of it is accepted, and doubles it where the body slips.
+/// Shortens the step until it is accepted, and doubles it where the body snaps through.
 SearchResult line_search(NewtonSystem& system, const NewtonDirection& direction,
                          const LineSearchRule& rule);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Newton's method, once for all problems: forward, inverse and contact differ only in what they
-// solve for and in what they call balanced (NewtonSystem). The line search is the same for all.
+// Newton's method for all problems: the forward, inverse and contact problems differ only in their
+// unknowns and convergence criteria (NewtonSystem). The line search is the same for all.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace breast {
 
-/// Why a Newton solve ended without convergence.
+/// Reason why a Newton solve ended without convergence.
 enum class NewtonStop {
   none,
   folded,            ///< an element turns inside out
@@ -48,12 +48,12 @@ struct NewtonResult {
   double residual = 0;  ///< relative, of the final state
 };
 
-/// How far the present state is from a solution.
+/// Distance of the present state from a solution.
 struct Balance {
   double residual = 0;  ///< of the forces, relative
-  double merit = 0;     ///< what a step is to reduce
+  double merit = 0;     ///< quantity that a step must reduce
   bool converged = false;
-  bool nearly = false;  ///< good enough where no further step can be made
+  bool nearly = false;                 ///< acceptable if no further step can be made
   NewtonStop stop = NewtonStop::none;  ///< not none: the solve ends here
   std::string reason;
 };
@@ -61,13 +61,14 @@ struct Balance {
 struct NewtonDirection {
   NewtonStop stop = NewtonStop::none;  ///< not none: there is no direction
   std::string reason;
-  double slope = 0;  ///< δxᵀ K δx with the tangent solved with: the descent promised
+  double slope = 0;  ///< δxᵀ K δx with the tangent of the solve: the predicted descent
   double shift = 0;
   int linear_iterations = 0;
-  bool provisional = false;  ///< found with an older factor: that it fails is not the end
+  bool provisional = false;  ///< found with an older factor, so that its failure does not end the
+                             ///< solve
 };
 
-/// A state a part of the direction away.
+/// Evaluation of a state at a fraction of the direction.
 struct Appraisal {
   double residual = 0;  ///< relative
   double merit = 0;
@@ -79,18 +80,18 @@ struct Trial {
   Appraisal seen;
 };
 
-/// What a line search accepts beside a merit below the one at the start.
+/// Conditions under which a line search accepts a step, besides a merit below that at the start.
 struct LineSearchRule {
   double merit = 0;            ///< at the start
   double tolerance = 0;        ///< residual of a solution
   int most_halvings = 6;       ///< before the direction is given up
-  bool any = false;            ///< every admissible length
-  bool flat_suffices = false;  ///< an end where the energy is flatter along the direction
-  /// The tangent was shifted and the body may slip: going down in energy suffices, and a step is
-  /// doubled while the slope stays as steep as promised.
+  bool any = false;            ///< accept every admissible length
+  bool flat_suffices = false;  ///< accept an end at which the energy is flatter along the direction
+  /// The tangent was shifted and the body may snap through: a decrease of energy suffices, and a
+  /// step is doubled as long as the slope stays as steep as predicted.
   bool downhill_suffices = false;
-  /// The energy has kinks: a penalty that sets in along the step can be hundreds of times as stiff
-  /// as the tangent knows, so after halves the slope says how much shorter.
+  /// The energy has kinks: a penalty that becomes active along the step can be hundreds of times
+  /// stiffer than the tangent, so that after several halvings the slope determines the step length.
   bool kinks = false;
 };
 
@@ -102,14 +103,14 @@ class NewtonSystem {
   virtual NewtonDirection direction(const Balance& now) = 0;
   virtual LineSearchRule rule(const NewtonResult& so_far, const Balance& now,
                               const NewtonDirection& direction) const = 0;
-  /// The state `length` times the direction away; nothing where it is inadmissible. Beyond length 1
-  /// pressures stay as at 1.
+  /// The state at `length` times the direction; nothing if it is inadmissible. Beyond length 1 the
+  /// pressures remain as at 1.
   virtual std::optional<Trial> attempt(double length) = 0;
   virtual void accept(Trial trial) = 0;
   /// Why the last attempt was inadmissible.
   virtual NewtonStop refusal() const { return NewtonStop::folded; }
   /// An element of the present state that is turned inside out at a corner or a quadrature point;
-  /// −1: none. A state with one is no solution, however small its residual.
+  /// −1: none. A state with such an element is not accepted, however small its residual.
   virtual int folded_element() const { return -1; }
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Symmetric matrices over three unknowns a node: pattern once, values as often as one likes.
+// Symmetric sparse matrices with three unknowns per node, whose pattern is built once for many sets
+// of values.
 #pragma once
 
 #include <Eigen/Core>

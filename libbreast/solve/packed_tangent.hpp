@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A symmetric tangent kept per cell in single precision: for meshes whose assembled matrix would be
-// large and which only need products, such as those of the error estimate.
+// A symmetric tangent stored per cell in single precision, for large meshes that only need
+// matrix-vector products, such as that of the error estimate.
 #pragma once
 
 #include <Eigen/Core>

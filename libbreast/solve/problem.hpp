@@ -20,7 +20,7 @@ namespace breast {
 
 class Problem {
  public:
-  /// Nothing yet but unknowns, of which `constraints` holds some.
+  /// A problem without terms, with unknowns of which `constraints` fixes some.
   Problem(std::shared_ptr<const Discretisation> space, Constraints constraints);
 
   void add(std::shared_ptr<const Term> term);
@@ -40,14 +40,15 @@ class Problem {
   int nodes() const { return space_->nodes(); }
   SaddleMatrix make_matrix() const { return space_->make_matrix(); }
 
-  /// One pass over all terms. Not valid: it stops at once, the request's targets are undefined.
+  /// Evaluates all terms in one pass. If the state is invalid, it stops at once and the request's
+  /// targets are undefined.
   Forces evaluate(const State& state, const Request& request) const;
   /// Without a tangent; `kappa` (per element) may be null.
   Forces forces(const State& state, const Eigen::VectorXd* kappa = nullptr) const;
   /// Forces and tangent together. False (and forces.valid false) at an inadmissible state.
   bool tangent(const State& state, Forces& forces, SaddleMatrix& matrix) const;
 
-  /// Norm that the residual is compared with, µN: of the external load, or what stands for it.
+  /// Norm with which the residual is compared, µN: that of the external load, or its substitute.
   double load_norm() const { return load_norm_; }
   void set_load_norm(double norm) { load_norm_ = norm; }
   /// ‖r‖ over the components that are not held at the positions x, µN.
@@ -60,7 +61,7 @@ class Problem {
   /// compressible body still has a volume error.
   double volume_residual(const Forces& forces) const;
   /// An element that is not positive in both shapes at its corners and quadrature points; −1: none.
-  /// No state with such an element is an answer.
+  /// A state with such an element is not accepted.
   int folded_element(const State& state) const;
 
  private:

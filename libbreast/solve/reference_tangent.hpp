@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The derivative of a problem by its reference shape, kept per cell: it is applied, never factorised.
+// The derivative of a problem with respect to its reference shape, stored per cell: it is applied
+// but never factorised.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +23,8 @@ struct CellMatrices {
 /// ∂r/∂X, ∂θ/∂X and ∂θ/∂x of a problem. Every term fills a part of its own.
 class ReferenceTangent {
  public:
-  /// Starts anew: the next term gets the first part. Memory of an earlier pass is kept.
+  /// Starts a new pass, in which the next term gets the first part. The memory of an earlier pass
+  /// is reused.
   void begin() { used_ = 0; }
   /// The part of the next term, over `cells`, which must outlive this; its values are undefined.
   CellMatrices& next(const Cells& cells);

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The linear systems of incompressible equilibrium, for whoever builds on them
-// (forward, backward, contact):
+// Solver for the linear systems of incompressible equilibrium (forward, backward, contact):
 //
 //     [ K  −Bᵀ ] [ δu ]   [ −r ]        r = ∂Π/∂u, θ = −∂Π/∂p, K = ∂r/∂u, B = ∂θ/∂u,
 //     [ B   cM ] [ δp ] = [ −θ ]        M pressure mass, c = 1/bulk modulus (0: incompressible)
 //
-// solved through the positive definite K + κ Bᵀ M⁻¹ B (element-local, so with the pattern of K):
+// solved through the positive definite K + κ Bᵀ M⁻¹ B (element-local, hence with the pattern of K):
 // directly, by its Cholesky factor and a few conjugate-gradient iterations on the pressure; or, for
-// meshes whose factor is not affordable, by GMRES preconditioned with a multigrid cycle and a
-// sparse stand-in for the pressure's Schur complement (κ then is three times the shear modulus
-// instead of a thousand). Use:
+// meshes whose factor is too large, by GMRES preconditioned with a multigrid cycle and a sparse
+// approximation of the pressure's Schur complement (κ is then three times the shear modulus instead
+// of a thousand times). Example:
 //
 //     SaddleSolver solver(pattern);                    // ordering and analysis, once per mesh
 //     problem.tangent(state, forces, matrix);          // fills a SaddleMatrix
@@ -32,7 +31,7 @@ namespace breast {
 
 enum class LinearSolver { direct, multigrid };
 
-/// Times that GMRES begins again, after 60 iterations each, before it gives up.
+/// Number of GMRES cycles of 60 iterations before it gives up.
 inline constexpr int gmres_restarts = 6;
 
 struct Factorisation {
@@ -53,41 +52,43 @@ class SaddleSolver {
                         LinearSolver kind = LinearSolver::direct);
 
   /// Imposes the constraints exactly (rotated axes, scaled identity: the pattern never changes) and
-  /// factorises. Without positive definiteness a minimal multiple of SaddleMatrix::diagonal is
-  /// added: ×8 from the last one that was needed / 8. `may_shift` false: fails instead.
-  /// With multigrid the levels are built instead; only an indefinite direction that a coarse space
-  /// sees is noticed: see positive_definite.
+  /// factorises. If the matrix is not positive definite, a small multiple of SaddleMatrix::diagonal
+  /// is added: starting from an eighth of the last shift that was needed, it is increased by
+  /// factors of 8. If `may_shift` is false, it fails instead. With multigrid the levels are built
+  /// instead, and only an indefinite direction in a coarse space is noticed: see positive_definite.
   Factorisation factorise(const SaddleMatrix& matrix, const Constraints& constraints,
                           bool may_shift = true);
 
-  /// The increments; `tolerance` is the relative residual of the volume equation (multigrid: of
-  /// both equations, a tenth of it). `matrix` and the
-  /// constraints are those of the last factorise, except that increments may be given anew.
-  /// GMRES gives up after `restarts` times 60 iterations.
+  /// Solves for the increments; `tolerance` is the relative residual of the volume equation (with
+  /// multigrid, a tenth of it is that of both equations). `matrix` and the constraints must be
+  /// those of the last factorise, except for the prescribed increments. GMRES gives up after
+  /// `restarts` times 60 iterations.
   SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
                    const Eigen::VectorXd& theta, double tolerance = 1e-6,
                    int restarts = gmres_restarts) const;
-  /// The change of positions, smallest in the norm of K, that moves held components by `imposed`
-  /// (3 a node, in the span of what is held) and changes the volumes by −theta.
+  /// The change of positions that is smallest in the norm of K, moves held components by `imposed`
+  /// (3 per node, in the span of the constraints) and changes the volumes by −theta.
   Eigen::VectorXd correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
                              const Eigen::VectorXd& theta, double tolerance) const;
 
-  /// Whether the matrix of the last factorise is positive definite. A factor knows; with multigrid
-  /// the lowest eigenvalue of cycle times matrix by Lanczos, and false also where that is too near
-  /// zero to tell.
+  /// Whether the matrix of the last factorise is positive definite: from the Cholesky
+  /// factorisation, or with multigrid from the lowest eigenvalue of cycle times matrix (Lanczos).
+  /// Also false if that is too close to zero to decide.
   bool positive_definite() const;
 
-  /// (K + κBᵀM⁻¹B)⁻¹ v on the free part, held components zero. With multigrid one cycle: a
+  /// (K + κBᵀM⁻¹B)⁻¹ v on the free part, held components zero. With multigrid this is one cycle, a
   /// symmetric positive definite approximation.
   Eigen::VectorXd back_solve(const Eigen::VectorXd& v) const;
 
-  /// S⁻¹ q for the pressure's Schur complement S = (1 − κc) B K_κ⁻¹ Bᵀ + cM of `matrix`, about:
-  /// κM⁻¹q beside a factor; with multigrid that of the last factorise, and no fixed linear map.
+  /// Approximation of S⁻¹ q for the pressure's Schur complement S = (1 − κc) B K_κ⁻¹ Bᵀ + cM of
+  /// `matrix`: κM⁻¹q with a factor; with multigrid that of the last factorise, which is not a fixed
+  /// linear map.
   Eigen::VectorXd schur_solve(const SaddleMatrix& matrix, const Eigen::VectorXd& q) const;
 
   const Constraints& constraints() const { return constraints_; }
   LinearSolver kind() const { return kind_; }
-  /// Values kept and GFlop of one factorisation; with multigrid values of all levels, and zero.
+  /// Stored values and GFlop of one factorisation; with multigrid the values of all levels, and
+  /// zero.
   double factor_entries() const;
   double factor_gflop() const;
   /// Numerical factorisations (multigrid: constructions of the levels) so far.

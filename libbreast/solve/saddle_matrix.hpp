@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The matrices of incompressible equilibrium as assembled: K + κBᵀM⁻¹B, B, M and c of saddle.hpp.
+// The assembled matrices of incompressible equilibrium: K + κBᵀM⁻¹B, B, M and c of saddle.hpp.
 #pragma once
 
 #include <Eigen/Core>

@@ -20,8 +20,8 @@ Level level_at_wall_node(const LevelSurface& surface, int node, const Vec3& plac
   const std::optional<Level> level = surface.at(place);
   if (!level) {
     throw input_error("mesh: wall node ", node, " at ", place.transpose(),
-                      " mm lies where the wall surface is not known; fit it again with "
-                      "fit-hermite, or hold the wall");
+                      " mm lies outside the known part of the chest-wall surface; run "
+                      "fit-hermite again, or use --wall held");
   }
   return *level;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nodes that slide on a smooth surface: an exact bilateral constraint, φ(x) = c. Every node keeps
-// its own level c, that of its place in the imaged shape, so that a mesh whose nodes lie a little
-// off the surface is held without a jump.
+// Nodes that slide on a smooth surface: an exact bilateral constraint, φ(x) = c. Every node has its
+// own level c, that of its position in the imaged shape, so that a mesh whose nodes lie slightly
+// off the surface is not moved onto it.
 //
 // Newton's method sees the constraint in three places: the increment is held along the normal at
 // the present x; the force λ∇φ of the surface turns as the node slides, which adds −λ∇²φ to the
@@ -23,23 +23,23 @@ Level level_at_wall_node(const LevelSurface& surface, int node, const Vec3& plac
 
 class SlidingNodes {
  public:
-  /// `nodes` ascending; `imaged` (3 a node, mm) gives the levels. Throws Error (input) for a node
+  /// `nodes` ascending; `imaged` (3 per node, mm) gives the levels. Throws Error (input) for a node
   /// where the surface is not known.
   SlidingNodes(std::shared_ptr<const LevelSurface> surface, std::vector<int> nodes,
                const Eigen::VectorXd& imaged);
 
   const std::vector<int>& nodes() const { return cells_.nodes; }
-  /// Adds to `all` that no node leaves its level to first order at x. False where a node is beyond
-  /// the surface.
+  /// Adds to `all` the constraint that no node leaves its level, to first order at x. False if a
+  /// node is beyond the surface.
   bool hold(const Eigen::VectorXd& x, Constraints& all) const;
   /// Puts the nodes back on their levels along the gradient; −1, or a node that has left the part
   /// of space where the surface is known.
   int restore(Eigen::VectorXd& x) const;
-  /// The moves (3 a node, mm) within what `held` holds that put the nodes on their levels, to first
-  /// order; empty where a node is beyond the surface.
+  /// The displacements (3 per node, mm), within the constraints `held`, that return the nodes to
+  /// their levels to first order; empty if a node is beyond the surface.
   Eigen::VectorXd way_back(const Eigen::VectorXd& x, const Constraints& held) const;
-  /// Adds the turning of the surface's force to the tangents that are wanted; `forces.r` is complete
-  /// but for that force. False where a node is beyond the surface.
+  /// Adds the rotation of the surface's force to the requested tangents; `forces.r` is complete
+  /// except for that force. False where a node is beyond the surface.
   bool add_curvature(const State& state, const Request& request, const Forces& forces) const;
 
  private:

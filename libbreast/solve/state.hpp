@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A configuration of a body and the forces in it: what all solvers exchange.
+// A configuration of a body and its forces, as exchanged by all solvers.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One contribution to the energy of a body: its solid, its skin, a load, a support, a
-// plate. A problem is a list of them (solve/problem.hpp); what a scene lacks is not in
-// the list and costs nothing.
+// Interface of a term, one contribution to the energy of a body: its solid, skin, a load, a support
+// or a plate. A problem is a list of terms (solve/problem.hpp); what a scene lacks is not in the
+// list and costs nothing.
 #pragma once
 
 #include <string>
@@ -14,7 +14,8 @@
 
 namespace breast {
 
-/// What one pass over the terms fills beside energy, r and θ; null means not wanted.
+/// Quantities that one pass over the terms computes besides energy, r and θ; null means not
+/// requested.
 struct Request {
   const Eigen::VectorXd* kappa = nullptr;  ///< fills Forces::augmented
   SaddleMatrix* matrix = nullptr;          ///< the tangent, assembled

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A smooth surface given as a level of a function, such as the chest wall a breast slides on.
+// A smooth surface given as a level set of a function, such as the chest wall on which a breast
+// slides.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The chest wall and the rib cage around it as one smooth surface without folds: a radius over angle
-// and height about an axis inside the thorax. What slides on the wall may leave the part that the
-// breast covered in the scan, so the surface goes on far beyond it.
+// The chest wall and the rib cage around it as one smooth surface without folds, given by a radius
+// as a function of angle and height about an axis inside the thorax. Tissue that slides on the wall
+// may leave the part that the breast covered in the scan, so that the surface extends far beyond
+// it.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What hexmesh says of its tetrahedra.
+// Report entries about a tetrahedral mesh.
 #pragma once
 
 #include "core/report.hpp"
@@ -13,7 +13,7 @@ struct TetQuality {
 };
 TetQuality tet_quality(const TetMesh& mesh);
 
-/// Keys tetrahedra/...; `hex_volume` (mm³) is that of the hexahedra they stand for.
+/// Keys tetrahedra/...; `hex_volume` (mm³) is that of the hexahedra that they replace.
 void write_report(const TetMesh& mesh, double hex_volume, Report& report);
 
 }  // namespace breast

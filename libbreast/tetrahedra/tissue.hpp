@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tissue of hexahedra for the tetrahedra of the same body.
+// Transfer of tissue from hexahedra to the tetrahedra of the same body.
 #pragma once
 
 #include "mesh/hex_mesh.hpp"

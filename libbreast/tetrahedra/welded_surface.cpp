@@ -49,7 +49,10 @@ WeldedSurface weld(const TriMesh& surface) {
     welded.part.push_back(int(parts->second[t[0]]));
     for (int c = 0; c < 3; ++c) {
       const bool fresh = triangle_at.try_emplace({node[t[c]], node[t[(c + 1) % 3]]}, number).second;
-      if (!fresh) throw input_error("surface: two triangles run the same way along one edge");
+      if (!fresh)
+        throw input_error(
+            "surface: two triangles have the same orientation along a "
+            "common edge");
     }
   }
   std::map<int, std::vector<int>> seam;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface in parts put together again: one node a place, and the lines between its parts.
+// A surface joined from its parts, with one node per position, and the lines between the parts.
 #pragma once
 
 #include "surface/tri_mesh.hpp"

@@ -9,19 +9,19 @@
 
 namespace breast {
 
-/// Cranio-caudal, mediolateral oblique, mediolateral.
+/// Craniocaudal, mediolateral oblique, mediolateral.
 enum class View : std::uint8_t { cc, mlo, ml };
 
-/// "CC", "MLO" or "ML", as files, reports, captions and the command line have it.
+/// "CC", "MLO" or "ML", as in files, reports, captions and on the command line.
 std::string view_name(View view);
-/// "cc", "mlo" or "ml", as columns of tables and postures are named.
+/// "cc", "mlo" or "ml", as in names of table columns and postures.
 std::string view_column(View view);
 /// Inverse of view_name; nothing for any other text.
 std::optional<View> view_from_name(std::string_view name);
 /// The same; throws Error (input) naming the choices.
 View view_named(std::string_view name);
 
-/// Default beam angle in degrees from cranio-caudal: CC 0, MLO 45, ML 90.
+/// Default beam angle in degrees from craniocaudal: CC 0, MLO 45, ML 90.
 double view_angle_deg(View view);
 
 }  // namespace breast

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Unfiltered mammography spectra as polynomials of the tube voltage: Boone, Fewell and Jennings,
 // "Molybdenum, rhodium, and tungsten anode spectral models using interpolating polynomials with
-// application to mammography", Med. Phys. 24 (1997) 1863-1874, from measured spectra. Their
-// coefficients for 8-35 keV (what passes a mammographic filter).
+// application to mammography", Med. Phys. 24 (1997) 1863-1874, fitted to measured spectra. The
+// coefficients are given for 8-35 keV, the range that passes a mammographic filter.
 #pragma once
 
 #include <array>

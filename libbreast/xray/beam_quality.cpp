@@ -50,7 +50,8 @@ Energy parse_energy(const std::string& text) {
   if (names_spectrum(text)) return from_spectrum(text);
   if (!std::filesystem::is_regular_file(text)) {
     throw input_error("--energy ", text,
-                      ": not \"fraction\", a number of keV, a beam such as W/Rh:28, or a file");
+                      ": must be \"fraction\", a number of keV, a spectrum such as W/Rh:28, or "
+                      "a file");
   }
   return from_file(text);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the tool's --energy may say.
+// Parsing of the option --energy: tissue fraction, photon energy or X-ray spectrum.
 #pragma once
 
 #include <string>

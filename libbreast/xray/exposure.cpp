@@ -61,7 +61,7 @@ void expose(Mammogram& image, const Exposure& exposure) {
   const bool scatters = exposure.scatter_fraction > 0, noisy = exposure.photons_per_mm2 > 0;
   if (!scatters && !noisy) return;
   if (image.shows_fraction()) {
-    throw input_error("scatter and noise need photons: give --energy as keV or a beam");
+    throw input_error("scatter and noise need photons: give --energy in keV or as a spectrum");
   }
   std::vector<float> scatter;
   if (scatters) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a perfect image to one taken with a number of photons and scattered radiation.
+// Simulation of quantum noise and scattered radiation in a noise-free image.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 namespace breast {
 
 struct Exposure {
-  /// Scatter over all radiation behind the breast: about 0.1 with a grid, 0.3-0.5 without.
+  /// Scattered fraction of the radiation that leaves the breast: about 0.1 with a grid, 0.3-0.5
+  /// without.
   double scatter_fraction = 0;
   double photons_per_mm2 = 0;  ///< detected without a breast; 0: no noise
   std::uint64_t seed = 1;
@@ -17,7 +18,7 @@ struct Exposure {
 
 /// Scatter is the primary radiation that passed tissue, spread by exp(−|x|/8 mm) along each image
 /// axis; noise is Poisson, its stream fixed by seed and row (the same for any number of threads).
-/// `path` becomes −ln of what is then detected, at least 0. Throws Error (input) for a tissue
+/// `path` becomes −ln of the detected signal, at least 0. Throws Error (input) for a tissue
 /// fraction image (it has no photons) and for a scatter fraction outside [0, 0.9].
 void expose(Mammogram& image, const Exposure& exposure);
 

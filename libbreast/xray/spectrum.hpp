@@ -13,18 +13,18 @@ struct Spectrum {
   std::vector<double> kev;      ///< bin centres
   std::vector<double> fluence;  ///< photons per bin, relative
 
-  double mean_kev() const;  ///< over photons
-  /// mm of aluminium that halve the air kerma. Kerma per photon goes with E times air's
-  /// mass energy-absorption coefficient (xraylib).
+  double mean_kev() const;  ///< weighted by photon number
+  /// Half-value layer: mm of aluminium that halve the air kerma. The kerma per photon is
+  /// proportional to E times the mass energy-absorption coefficient of air (xraylib).
   double half_value_layer() const;
 };
 
-/// Unfiltered, 22-35 kV. Throws Error (input) outside.
+/// Unfiltered spectrum at 22-35 kV. Throws Error (input) outside this range.
 Spectrum anode_spectrum(Anode anode, double kv);
-/// Behind `mm` of an element (atomic number z, density of the solid).
+/// The spectrum behind `mm` of a chemical element (atomic number z, density of the solid).
 Spectrum filtered(const Spectrum& spectrum, int z, double mm);
 
-/// Behind `mm` of dry air of 1.205e-3 g/cm³.
+/// The spectrum behind `mm` of dry air of 1.205e-3 g/cm³.
 Spectrum behind_air(const Spectrum& spectrum, double mm);
 
 /// "W/Rh:28" or "Mo/Mo:26": 0.05 mm rhodium or 0.03 mm molybdenum, 1 mm beryllium window,

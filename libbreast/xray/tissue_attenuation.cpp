@@ -46,7 +46,7 @@ double attenuation(const Composition& tissue, double kev) {
 
 Attenuation attenuation_at(double kev) {
   if (!(kev >= 5 && kev <= 100)) {
-    throw input_error("energy ", kev, " keV: outside 5-100 keV, where breast tissue is X-rayed");
+    throw input_error("energy ", kev, " keV: outside the range of breast imaging, 5-100 keV");
   }
   Attenuation mu;
   mu.fat = attenuation(adipose, kev);

@@ -81,7 +81,7 @@ def _first_line(error: Exception) -> str:
 def _existing(file: str | os.PathLike[str]) -> Path:
     path = Path(file)
     if not path.is_file():
-        raise BreastError("is no file", path, "give the path of a run folder or of one of its files")
+        raise BreastError("is not a file", path, "give the path of a run folder or of one of its files")
     return path
 
 

@@ -42,7 +42,7 @@ def read_nifti(file: Path) -> Volume:
     dtype = np.dtype(code).newbyteorder(order)
     offset = float(header["offset"])
     if not 348 <= offset <= 1e8:
-        raise BreastError(f"voxels said to begin at byte {offset}: must be 348 or more", file)
+        raise BreastError(f"the stated start of the voxels is byte {offset}: must be 348 or more", file)
     needed = int(offset) + count * dtype.itemsize
     # Padding and extensions of other programs may follow the voxels.
     data = exact_bytes(file, inflated(file, content, needed, whole=False) if zipped else content, needed)
@@ -61,7 +61,7 @@ def _header(file: Path, head: bytes) -> tuple[np.void, str]:
             stated = np.frombuffer(head[:4].ljust(4, b"\0"), order + "i4")[0]
             if stated == layout.itemsize and len(head) >= stated and head[magic_at : magic_at + 3] == magic:
                 return np.frombuffer(head, layout.newbyteorder(order), 1)[0], order
-    raise BreastError("no NIfTI header of a single file", file)
+    raise BreastError("not the NIfTI header of a single file", file)
 
 
 def _placed(file: Path, header: np.void) -> tuple[np.ndarray, np.ndarray]:
@@ -84,7 +84,7 @@ def _placed(file: Path, header: np.void) -> tuple[np.ndarray, np.ndarray]:
                           "convert the scan again from DICOM")
     (axes, origin), (other, elsewhere) = found[0], found[-1]  # the same where only one form is stated
     if np.abs((axes - other) / size).max() > 0.011 or np.linalg.norm(origin - elsewhere) > 1:
-        raise BreastError("qform and sform contradict each other", file, "keep the scanner's one")
+        raise BreastError("qform and sform contradict each other", file, "keep only that of the scanner")
     return axes, origin
 
 

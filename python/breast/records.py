@@ -87,7 +87,7 @@ class Contact:
         surface_stiffness: of the plates against faces, Pa/mm; 0 where nodes touch exactly.
         plates: by name.
         friction: what friction holds, or None.
-        path: columns thickness_mm, force_N (paddle) and detector_N (absent in older files) on the way there.
+        path: columns thickness_mm, force_N (paddle) and detector_N (absent in older files) along the compression.
     """
 
     view: str

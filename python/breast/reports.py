@@ -15,7 +15,7 @@ def read_report(file: str | os.PathLike[str]) -> dict[str, Any]:
     """A report as nested dicts and lists; keys name their units (force_N). Raises BreastError when it is not one."""
     path = Path(file)
     if not path.is_file():
-        raise BreastError("is no file", path)
+        raise BreastError("is not a file", path)
 
     def refuse(constant: str) -> NoReturn:
         raise BreastError(f"holds {constant}, which no report does", path)

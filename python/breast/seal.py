@@ -36,5 +36,5 @@ def check_seal(file: Path, content: bytes, advice: str) -> bool:
     if content[body : body + len(_MARK)] != _MARK:
         raise BreastError(f"is damaged: {len(content)} bytes where its header states {end}", file, advice)
     if content[body + len(_MARK) :] != hashlib.sha256(content[:body]).hexdigest().encode():
-        raise BreastError("is damaged: its bytes disagree with the digest at its end", file, advice)
+        raise BreastError("is damaged: its content disagrees with the digest at its end", file, advice)
     return True

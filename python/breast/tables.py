@@ -43,7 +43,7 @@ def read_table(file: str | os.PathLike[str], pandas: bool | None = None) -> Any:
 
 def _columns(path: Path) -> dict[str, np.ndarray]:
     if not path.is_file():
-        raise BreastError("is no file", path)
+        raise BreastError("is not a file", path)
     try:
         text = path.read_text(encoding="utf-8")
     except UnicodeDecodeError:
@@ -68,7 +68,7 @@ def _columns(path: Path) -> dict[str, np.ndarray]:
     if len(set(header)) != len(header):
         raise BreastError("has two columns of one name", path)
     if promised is not None and promised != str(len(rows)):
-        raise BreastError(f"has {len(rows)} rows, its last line promises {promised}", path)
+        raise BreastError(f"has {len(rows)} rows, but its last line states {promised}", path)
     return {name: _typed(path, name, [row[c] for row in rows]) for c, name in enumerate(header)}
 
 

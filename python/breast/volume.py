@@ -101,5 +101,5 @@ def detached_data(file: Path, name: str) -> bytes:
         raise BreastError(f"names '{name}' for its voxels: must be one file in its own folder", file)
     data = file.parent / name
     if not data.is_file():
-        raise BreastError(f"its voxels should be in {name}, which is no file", file)
+        raise BreastError(f"its voxels should be in {name}, which is not a file", file)
     return data.read_bytes()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A state as a grid of VTK, for whoever has VTK."""
+"""Conversion of a state to a VTK grid (needs VTK)."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any

@@ -24,7 +24,7 @@ class VtkXml:
     def __init__(self, file: Path, wanted: str) -> None:
         self.file = file
         if not file.is_file():
-            raise self.refuse("is no file")
+            raise self.refuse("is not a file")
         content = file.read_bytes()
         self._check_seal(content)
         if b"<!DOCTYPE" in content or b"<!ENTITY" in content:

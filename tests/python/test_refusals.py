@@ -108,7 +108,7 @@ class Meshes(unittest.TestCase):
         file = small_run.scratch("seal") / "mesh.vtkhdf"
         for at in np.random.default_rng(7).integers(2000, len(content) - 80, 20):
             file.write_bytes(content[:at] + bytes([content[at] ^ 16]) + content[at + 1 :])
-            self.refused(file, "damaged: its bytes disagree")
+            self.refused(file, "damaged: its content disagrees")
         file.write_bytes(content[:5000])
         self.refused(file, "truncated")
         file.write_bytes(b"no mesh at all")
@@ -145,7 +145,7 @@ class OtherFiles(unittest.TestCase):
             breast.load(small_run.scratch("empty"))
 
     def test_tables(self) -> None:
-        self.refused("t.tsv", b"a\tb\n1\t2\n# rows 2\n", "has 1 rows, its last line promises 2")
+        self.refused("t.tsv", b"a\tb\n1\t2\n# rows 2\n", "has 1 rows, but its last line states 2")
         self.refused("t.tsv", b"a\tb\n1\t2\t3\n", "line 2 has 3 columns")
         self.refused("t.tsv", b"a\n1\nnan\n", "row 2, a: 'nan' is not finite")
         self.refused("t.tsv", b"", "no header line")
@@ -183,7 +183,7 @@ class OtherFiles(unittest.TestCase):
         self.refused("s.nii", bytes(blank), "no orientation")
         self.refused("s.nii", bytes(nifti[:-500]), "truncated")
         self.refused("s.nii", bytes(nifti[:80]) + np.float32(0).tobytes() + bytes(nifti[84:]), "voxel size|contradict")
-        self.refused("s.nii", b"\1" * 400, "no NIfTI header")
+        self.refused("s.nii", b"\1" * 400, "not the NIfTI header")
         meta = (folder / "l.mha").read_bytes()
         lines = [line for line in meta.split(b"\n", 20) if not line.startswith(b"TransformMatrix")]
         self.refused("s.mha", b"\n".join(lines), "TransformMatrix")

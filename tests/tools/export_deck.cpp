@@ -37,7 +37,7 @@ TEST_F(ExportDeck, WritesBothPrograms) {
   EXPECT_EQ(Report::parse(read_text(folder_ / "a.json"), "a").number("elements"), 32);
   const ToolResult febio = run({"skin.vtkhdf", "b.feb", "--without-skin", "--posture", "upright"});
   ASSERT_EQ(febio.exit_code, 0) << febio.err;
-  EXPECT_NE(febio.err.find("membrane skin is left out"), std::string::npos);
+  EXPECT_NE(febio.err.find("membrane skin is omitted"), std::string::npos);
   EXPECT_NE(febio.err.find("1000 instead"), std::string::npos);
   EXPECT_NE(read_text(folder_ / "b.feb").find("<z lc=\"1\">9810</z>"), std::string::npos);
   ASSERT_EQ(run({"bare.vtkhdf", "c.inp", "--element", "q2p1"}).exit_code, 0);

@@ -95,11 +95,11 @@ TEST_F(HexmeshTool, AGeometryOfAnotherBodyIsRefusedUnlessAccepted) {
       "hexmesh", {"geometry.vtkhdf", "labels.vtkhdf", "mesh.vtkhdf", "--quiet"}, folder_.path());
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_EQ(refused.error_lines(), 1) << refused.err;
-  EXPECT_NE(refused.err.find("is not the body of the labels"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("does not agree with the labels"), std::string::npos) << refused.err;
   EXPECT_NE(refused.err.find("--accept-mismatch"), std::string::npos) << refused.err;
   EXPECT_FALSE(written());
   ASSERT_EQ(hexmesh({"--elements", "8"}).exit_code, 0);
-  EXPECT_NE(read_text(folder_ / "r.json").find("is not the body of the labels"), std::string::npos);
+  EXPECT_NE(read_text(folder_ / "r.json").find("does not agree with the labels"), std::string::npos);
 }
 
 TEST_F(HexmeshTool, CuboidWithLayerHasThePapersCounts) {

@@ -154,7 +154,7 @@ TEST_F(IdentifyTool, SlipsInLandmarksAreNamed) {
             const Vec3 far(0, 150, 0);  // as after a breast that moves far
             m.supine = m.prone, m.prone += far;
           }),
-          2, "look exchanged");
+          2, "seem to be interchanged");
   refused(changed([&](Mark& m) { m.prone = ras(m.prone), m.supine = ras(m.supine); }), 2, "RAS");
   refused(changed([](Mark& m) { m.prone /= 1000, m.supine /= 1000; }), 2, "metres");
   refused(changed([](Mark& m) { m.supine += Vec3(500, 0, 0); }), 2, "would have moved");
@@ -171,7 +171,7 @@ TEST_F(IdentifyTool, SlipsInLandmarksAreNamed) {
   refused({good[0]}, 2, "too few data", "--prior none");
   list = good;
   std::swap(list[2].supine, list[7].supine);
-  refused(list, 2, "look exchanged");
+  refused(list, 2, "seem to be interchanged");
   list = good;
   list[6].supine += Vec3(40, 20, 40);
   refused(list, 3, "landmark 'm6' lies");

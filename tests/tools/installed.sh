@@ -109,10 +109,10 @@ refused "did you mean SIDE?" breast run scan.nrrd --side left SIDES=left
 refused "did you mean seed2008?" breast run scan.nrrd --side left MATERIALS=seed208
 refused "'wall.nrrd'" breast run scan.nrrd --side left CHEST_WALL=wall.nrrd
 refused "may not stand in it" breast run scan.nrrd --side left 'FIT_OPTIONS=$(shell touch executed)'
-refused "make cannot write to a folder of such a name" breast run scan.nrrd --side left --runs 'a b'
-refused "nothing can be written there" breast run scan.nrrd --side left --runs /proc
+refused "make cannot write to a folder with such a name" breast run scan.nrrd --side left --runs 'a b'
+refused "is not writable" breast run scan.nrrd --side left --runs /proc
 refused "needs the source tree" breast run scan.nrrd --side left --target check
-refused "no target of the pipeline" breast run scan.nrrd --side left --target summry
+refused "not a target of the pipeline" breast run scan.nrrd --side left --target summry
 touch "a header.mhd"
 refused "rename it" breast run "a header.mhd" --side left
 [ ! -e executed ] && [ ! -e 'a b' ] || fail "what is refused leaves nothing"

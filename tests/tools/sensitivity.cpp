@@ -87,8 +87,8 @@ TEST_F(SensitivityTool, RefusesWhatDoesNotBelongTogether) {
     EXPECT_NE(result.err.find(about), std::string::npos) << result.err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.vtkhdf"));
   };
-  refused({"--scale", "fat=150"}, "reference.vtkhdf", "no equilibrium");
-  refused({"--posture", "upright"}, "reference.vtkhdf", "the imaged shape is no equilibrium");
+  refused({"--scale", "fat=150"}, "reference.vtkhdf", "not an equilibrium");
+  refused({"--posture", "upright"}, "reference.vtkhdf", "the imaged shape is not an equilibrium");
   refused({"--parameters", "fat,lead"}, "reference.vtkhdf", "'lead'");
   refused({"--parameters", "thickness"}, "reference.vtkhdf", "'thickness'");
   ASSERT_EQ(run("backward", {"mesh.vtkhdf", "other.vtkhdf", "--scale", "fat=90"}).exit_code, 0);

@@ -213,12 +213,12 @@ TEST_F(SlicerExport, BadInputIsOneLine) {
   refuse("export-slicer run run", "run itself");
   refuse("export-slicer run no/such/o", "make it first");
   refuse("export-slicer mixed o", "another mesh");
-  refuse("export-slicer other.nrrd o", "no folder of a run");
+  refuse("export-slicer other.nrrd o", "not the folder of a run");
   refuse("hexmesh run/geometry.vtkhdf out/labels.seg.nrrd m.vtkhdf --code wal=3",
          "'wal' is no tissue");
   refuse("hexmesh run/geometry.vtkhdf out/labels.seg.nrrd m.vtkhdf --code 9=fat", "value 9");
   refuse("hexmesh run/geometry.vtkhdf other.nrrd m.vtkhdf", "--side");
-  refuse("hexmesh run/geometry.vtkhdf run/labels.vtkhdf m.vtkhdf --side left", "needs no --code");
+  refuse("hexmesh run/geometry.vtkhdf run/labels.vtkhdf m.vtkhdf --side left", "takes no --code");
   refuse("segment other.nrrd l.vtkhdf --side left --chest-wall other.nrrd", "--code wall=NUMBER");
   refuse("segment other.nrrd l.vtkhdf --side left --code wall=3", "--chest-wall");
   EXPECT_FALSE(fs::exists(at() / "o"));

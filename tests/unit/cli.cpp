@@ -89,7 +89,7 @@ TEST(Cli, UsageErrorsAreOneLineAndNothingRuns) {
       {{"--skin", "nan"}, "'nan' is not a finite number"},
       {{"--skin", "1", "--skin", "2"}, "given 2 times"},
       {{"--skin", "13"}, "unlucky"},
-      {{"--scale", "fat"}, "not TISSUE=PERCENT"},
+      {{"--scale", "fat"}, "not of the form TISSUE=PERCENT"},
       {{"--scale", "gland=3"}, "unknown tissue 'gland'"},
       {{"--scale", "fat=-3"}, "above 0"},
       {{"--scale", "fat=1.5"}, "did you mean fat=150?"},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact of a body with two plates at one plate position: a primal-dual active set merged with
 // Newton's method. Touching nodes have their normal displacement eliminated exactly, so a solution
-// neither penetrates at a node nor depends on a penalty. Friction, where asked for, is a term.
+// neither penetrates at a node nor depends on a penalty. Friction, if any, is a term.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,8 +16,8 @@
 namespace breast {
 
 struct ActiveSetOptions {
-  int max_iterations = 30;    ///< without a snap-through
-  int most_iterations = 150;  ///< with one
+  int max_iterations = 30;    ///< if there is no snap-through
+  int most_iterations = 150;  ///< if there is one
   /// In the first sweeps violated nodes are added and pulling nodes dropped together; later,
   /// pulling nodes are dropped only at convergence, which cannot cycle.
   int free_sweeps = 12;

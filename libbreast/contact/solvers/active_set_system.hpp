@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One plate position as a Newton system: the touching set changes between iterations.
+// The Newton system of the active-set method at one plate position; the set of touching nodes
+// changes between iterations.
 #pragma once
 
 #include <functional>
@@ -14,13 +15,13 @@ class ActiveSet::System final : public TangentSystem {
  public:
   System(ActiveSet& owner, State& state, double tolerance);
 
-  /// False: the start itself is inadmissible.
+  /// False if the initial state is inadmissible.
   bool begin() { return look(); }
   Balance assess(const NewtonResult& so_far) override;
   NewtonDirection direction(const Balance& now) override;
   LineSearchRule rule(const NewtonResult& so_far, const Balance& now,
                       const NewtonDirection& direction) const override;
-  /// After convergence: forces per candidate, anchors moved after their nodes.
+  /// After convergence: returns the forces per candidate and moves the anchors with their nodes.
   std::vector<NodalContact> finish();
   bool hurried() const { return hurried_; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The paper's way of keeping the plates out of the body: Uzawa updates of nodal contact forces
-// around penalised equilibria. Kept to compare with the active set; it leaves a small penetration.
+// The paper's contact method, an augmented Lagrangian: Uzawa updates of nodal contact forces around
+// penalised equilibria. It is kept for comparison with the active set and leaves a small
+// penetration.
 #pragma once
 
 #include <memory>

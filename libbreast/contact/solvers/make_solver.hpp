@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The contact solver that options ask for.
+// Construction of the contact solver that the options select.
 #pragma once
 
 #include <memory>
@@ -10,13 +10,14 @@
 
 namespace breast {
 
-/// Faces kept out of the plates; nodes, exactly; or nodes by the paper's augmented Lagrangian.
+/// Contact of faces, exact contact of nodes, or contact of nodes by the paper's augmented
+/// Lagrangian.
 enum class ContactMethod { surface, active_set, augmented_lagrangian };
 
 struct ChosenContact {
   std::unique_ptr<ContactSolver> solver;
-  const SurfaceContact* surface = nullptr;  ///< the solver where faces touch
-  std::shared_ptr<FrictionTerm> friction;   ///< where nodes touch, exactly; null: none
+  const SurfaceContact* surface = nullptr;  ///< the solver in case of surface contact
+  std::shared_ptr<FrictionTerm> friction;   ///< of nodes in exact contact; null: none
 };
 
 /// `friction`: Coulomb's coefficient, none for the augmented Lagrangian. `saddle` must outlive the result.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Friction of a solution with 8-node elements, on the mesh of 27-node elements of its error estimate.
+// Transfer of friction from a solution with 8-node elements to the 27-node mesh of its error
+// estimate.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +11,9 @@
 
 namespace breast {
 
-/// The same tractions, anchors and stick stiffness per area: every node of a face whose corners one
-/// plate holds takes its part of the face, ∫N dA, in the shape `x` (3 per node of the 8-node mesh).
+/// The same tractions, anchors and stick stiffness per area: every node of a face whose corners are
+/// all held by one plate receives its share of the face, ∫N dA, in the shape `x` (3 per node of the
+/// 8-node mesh).
 std::shared_ptr<const Term> raise_friction(const FrictionTerm& coarse, const HexMesh& mesh,
                                            const Eigen::VectorXd& x, const RicherMesh& richer);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contact of faces with the plates: equilibria under a pressure that grows steeply with depth. On the
-// way to the target the plates may be entered by as much as `way_depth`; a state to be reported is
-// solved with ever stiffer plates until no point of a face lies deeper than `depth`.
+// Contact of faces with the plates by a pressure that grows steeply with depth. On the way to the
+// target the faces may penetrate the plates by up to `way_depth`; a state to be reported is solved
+// with increasingly stiff plates until no point of a face lies deeper than `depth`.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ struct SurfaceContactOptions {
   double stiffness = 3e4;       ///< Pa/mm, to start with
   double way_depth = 1;         ///< mm
   double depth = 0.035;         ///< mm
-  double way_tolerance = 1e-6;  ///< solves less tight than this are on the way
+  double way_tolerance = 1e-6;  ///< a solve with a larger tolerance is an intermediate one
   double volume_tolerance = 1e-9;
   Friction friction;
   int max_iterations = 100;   ///< without an indefinite tangent
@@ -37,7 +37,7 @@ class SurfaceContact : public ContactSolver {
     return problem_.constraints_at(state.x);
   }
   const std::vector<int>& candidates() const override { return candidates_; }
-  /// The plates' pressure, as of the last solve.
+  /// The plates' pressure in the last solve.
   const SurfacePressure& pressure() const { return *pressure_; }
   /// The friction of the last solve; null: none.
   const std::shared_ptr<FrictionTerm>& friction() const { return friction_; }

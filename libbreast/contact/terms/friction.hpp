@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Coulomb friction between skin and plate as a term: a return map. A node is tied to an anchor on
-// the plate by a stiff spring along the plate; where the spring would pull more than μ times the
-// normal force the anchor slides after the node. The spring stands for exact sticking: the slip it
-// allows is the friction force over its stiffness. With the bound given (Tresca's friction) it is
-// the gradient of a convex energy; Coulomb's bound is followed from outside.
+// Coulomb friction between skin and plate as a term, by a return map. A node is tied to an anchor
+// on the plate by a stiff tangential spring; where the spring force would exceed μ times the normal
+// force, the anchor slides with the node. The spring replaces exact sticking: the slip that it
+// allows is the friction force divided by its stiffness. For a given bound (Tresca friction) the
+// force is the gradient of a convex energy; the caller updates Coulomb's bound.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ namespace breast {
 
 /// Friction of a plate on one node.
 struct FrictionForce {
-  Vec3 force{0, 0, 0};            ///< on the node, at right angles to the plate's normal, µN
+  Vec3 force{0, 0, 0};            ///< on the node, perpendicular to the plate's normal, µN
   Mat3 stiffness = Mat3::Zero();  ///< −∂force/∂x at a fixed bound and normal, symmetric, µN/mm
   double energy = 0;              ///< nJ
   bool slips = false;
@@ -27,16 +27,16 @@ struct Friction {
   double stick = 0;        ///< stiffness of the anchor springs, µN/mm per node
 
   bool present() const { return coefficient > 0; }
-  /// The most a plate that presses with this normal force holds, µN; nothing where it pulls.
+  /// Largest friction force under this normal force, µN; zero in tension.
   double bound(double pressed) const { return pressed > 0 ? coefficient * pressed : 0; }
 };
 
-/// `x` and `anchor`: the node and what holds it, mm; `normal`: unit, of the plate at x; `bound`, µN;
-/// `stick`, µN/mm.
+/// `x` and `anchor`: positions of the node and its anchor, mm; `normal`: unit normal of the plate
+/// at x; `bound`, µN; `stick`, µN/mm.
 FrictionForce friction_force(const Vec3& x, const Vec3& anchor, const Vec3& normal, double bound,
                              double stick);
 
-/// A node that a plate holds.
+/// A node that is held by the friction of a plate.
 struct FrictionEntry {
   int node = 0;
   int plate = 0;           ///< 0 paddle, 1 detector
@@ -45,8 +45,9 @@ struct FrictionEntry {
   double stick = 0;        ///< µN/mm
 };
 
-/// The tangent leaves out how the plate's normal turns with the node: exact on a flat plate, and on
-/// a rounded edge as good as the step is short. The full one would not be symmetric.
+/// The tangent neglects the rotation of the plate's normal with the node: it is exact on a flat
+/// plate, and on a rounded edge its error is proportional to the step. The full tangent would not
+/// be symmetric.
 class FrictionTerm final : public Term {
  public:
   void set_plates(const PlatePair& plates) { plates_ = plates; }
@@ -55,8 +56,8 @@ class FrictionTerm final : public Term {
   const PlatePair& plates() const { return plates_; }
   FrictionForce at(const FrictionEntry& entry, const Eigen::VectorXd& x) const;
 
-  /// Change of the forces on the nodes (µN, 3 a node) while the plates move, what holds the nodes moving
-  /// with them by velocity(plate, x), mm per unit; bounds and slipping nodes stay.
+  /// Change of the forces on the nodes (µN, 3 per node) while the plates move and carry the anchors
+  /// with them by velocity(plate, x), mm per unit; bounds and slipping nodes are kept.
   Eigen::VectorXd change_of_forces(
       const Eigen::VectorXd& x, int plate,
       const std::function<Vec3(int plate, const Vec3& x)>& velocity) const;

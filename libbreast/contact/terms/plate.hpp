@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plates' normal forces on skin nodes as a term: given multipliers, or a penalty about them.
+// The plates' normal forces on skin nodes as a term: given multipliers, with or without a penalty.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ struct PlateEntry {
   double multiplier = 0;  ///< µN per unit gap gradient
 };
 
-/// Where an entry stands, and the force f along the gap's gradient, µN.
+/// Gap of an entry, and its force f along the gradient of the gap, µN.
 struct PlateForce {
   int plate = 0;
   Gap gap;
@@ -24,13 +24,13 @@ struct PlateForce {
 };
 
 /// With a penalty ρ the energy is Σ (f² − λ²)/2ρ, f = max(0, λ − ρ g): the augmented Lagrangian.
-/// Without (ρ = 0) it is −Σ λ g: the multiplier itself, whose gap is held by a constraint; only the
-/// turning of its direction (−λ ∇²g) then enters the tangent.
+/// Without a penalty (ρ = 0) it is −Σ λ g: a constraint holds the gap, and only the rotation of the
+/// force's direction (−λ ∇²g) enters the tangent.
 class PlateTerm final : public Term {
  public:
   explicit PlateTerm(std::vector<int> candidates);
 
-  /// Where the plates stand from now on.
+  /// Sets the position of the plates.
   void set_plates(const PlatePair& plates) { plates_ = plates; }
   void set_penalty(double penalty) { penalty_ = penalty; }
   PlateEntry& entry(std::size_t candidate) { return entries_[candidate]; }

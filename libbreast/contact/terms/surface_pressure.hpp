@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The plates' pressure on the faces of a body as a term. It grows steeply with the depth of a point
-// in the plate and is integrated over every face, with many points where the plate is rounded: a
-// condition at the nodes alone lets faces cut across an edge between them, and a node with a whole
-// force on it slips off an edge that a face rolls over.
+// in the plate and is integrated over every face, with many points where the plate is rounded. A
+// condition at the nodes alone lets faces penetrate an edge between nodes, and a node that carries
+// a whole force slips off an edge over which a face can roll.
 //
 // Per area of the imaged faces the energy is ψ(s) with s = −gap, and ψ' is the pressure: ρ s²/(2δ) to
-// a depth of δ, ρ (s − δ/2) beyond, so that the tangent is continuous. ρ stands for rigid plates:
-// whoever solves raises it until no point lies deeper than allowed.
+// a depth of δ, ρ (s − δ/2) beyond, so that the tangent is continuous. ρ approximates rigid plates:
+// the solver increases it until no point lies deeper than allowed.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,7 @@ namespace breast {
 
 class SurfacePressure final : public Term {
  public:
-  /// `space` is that of the solid beneath.
+  /// `space` is that of the underlying solid.
   SurfacePressure(const HexMesh& mesh, const std::vector<Face>& faces, const Discretisation& space);
   ~SurfacePressure() override;
   SurfacePressure(const SurfacePressure&) = delete;
@@ -35,27 +35,29 @@ class SurfacePressure final : public Term {
   /// ρ, Pa/mm.
   void set_stiffness(double stiffness) { stiffness_ = stiffness; }
   double stiffness() const { return stiffness_; }
-  /// Chooses the points of every face for plates and positions near these: until the next call the
-  /// forces are a smooth function of the positions. True: others than before.
+  /// Chooses the quadrature points of every face for plates and positions near these; until the
+  /// next call the forces are a smooth function of the positions. Returns true if the points
+  /// changed.
   bool choose_points(const Eigen::VectorXd& x);
-  /// How the forces turn on a rounded edge enters the tangent as if no point lay deeper than this,
-  /// mm: far from a solution the depth says nothing of the force there.
+  /// In the tangent, the rotation of the forces on a rounded edge is taken as if no point lay
+  /// deeper than this, mm: far from a solution the depth does not determine the force.
   void set_turning_depth(double depth) { turning_depth_ = depth; }
 
   std::string name() const override { return "plates on faces"; }
   bool add(const State& state, const Request& request, Forces& forces) const override;
   std::vector<int> nodes() const override;
 
-  /// Forces of one plate on the nodes (µN, 3 a node).
+  /// Forces of one plate on the nodes (µN, 3 per node).
   Eigen::VectorXd plate_forces(const Eigen::VectorXd& x, int plate) const;
-  /// Change of the forces of one plate (−1: of both) on the nodes while the plates move, µN per unit:
-  /// `slope` says how; `moved` (3 a node) is how the body moves, null: not at all.
+  /// Change of the forces of one plate (−1: of both) on the nodes while the plates move, µN per
+  /// unit: `slope` gives the motion of the plates and `moved` (3 per node) that of the body, null
+  /// for none.
   Eigen::VectorXd change_of_forces(
       const Eigen::VectorXd& x, int plate, const Eigen::VectorXd* moved,
       const std::function<GapSlope(int plate, const Gap&, const Vec3&)>& slope) const;
   /// All points under pressure, face by face.
   std::vector<PressedPoint> pressed(const Eigen::VectorXd& x) const;
-  /// The greatest depth of any of its points in a plate, mm; 0 where nothing is touched.
+  /// The greatest depth of any quadrature point in a plate, mm; 0 without contact.
   double deepest(const Eigen::VectorXd& x) const;
 
  private:

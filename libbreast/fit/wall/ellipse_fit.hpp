@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An elliptic cylinder through chest-wall data: the shape of the thorax where nothing was seen.
+// Fit of an elliptic cylinder to chest-wall data, for the shape of the thorax where there are no
+// data.
 #pragma once
 
 #include <vector>
@@ -17,14 +18,14 @@ struct EllipticCylinder {
   double radius(double angle) const;
 };
 
-/// Where a parameter is expected, and how sharply: its standard deviation.
+/// Prior of a parameter: expected value and standard deviation.
 struct Expected {
   double value = 0, sigma = 1;
 };
 
-/// Robust least squares (Cauchy weights) of distances, with expectations that decide what an arc of
-/// data leaves open: half axes 135 ± 15 and 95 ± 15 mm, slope 0 ± 0.3. `weights` holds one
-/// weight for each point.
+/// Robust least squares (Cauchy weights) of distances, with priors for the parameters that an arc
+/// of data does not determine: half axes 135 ± 15 and 95 ± 15 mm, slope 0 ± 0.3. `weights` holds
+/// one weight for each point.
 EllipticCylinder fit_elliptic_cylinder(const std::vector<Vec3>& points,
                                        const std::vector<double>& weights,
                                        const Expected& centre_x);

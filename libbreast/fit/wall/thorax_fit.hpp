@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The chest wall and the rib cage around it, as the surface a breast slides on.
+// Fit of the chest wall and the rib cage around it, as the surface on which a breast slides.
 #pragma once
 
 #include "fit/wall/wall_sheet.hpp"
@@ -15,10 +15,10 @@ struct ThoraxReport {
   double sheet_max_mm = 0;  ///< largest distance of the wall sheet within the rim
 };
 
-/// A surface that is the wall sheet within the rim (to a fraction of a millimetre), follows the
-/// labels' chest wall beside the breast, outliers weighted down, and goes over to an elliptic
-/// cylinder along the same data beyond. It reaches `reach` (150 mm) further than the breast.
-/// The centre of the ellipse lies near `midline` (x, mm) when the labels know it.
+/// A surface that coincides with the wall sheet within the rim (to a fraction of a millimetre),
+/// follows the labels' chest wall beside the breast with reduced weight of outliers, and blends
+/// into an elliptic cylinder fitted to the same data beyond. It reaches `reach` (150 mm) further
+/// than the breast. The centre of the ellipse lies near `midline` (x, mm) when the labels know it.
 ThoraxSurface fit_thorax(const LabelVolume& labels, const BreastGeometry& geometry,
                          ThoraxReport& report);
 

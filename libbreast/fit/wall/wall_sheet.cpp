@@ -110,7 +110,8 @@ WallSheet fit_wall(const LabelVolume& labels, const BreastRegion& region, int nu
   WallData found = collect(labels, region, wall.box);
   wall.coverage = found.coverage;
   if (!(wall.coverage >= 0.2))
-    throw input_error("labels: the chest wall (muscle) is seen behind ", 100 * wall.coverage,
+    throw input_error("labels: the chest wall (muscle) is visible behind only ",
+                      100 * wall.coverage,
                       " % of the breast; at least 20 % are needed; see segment --chest-wall");
 
   const double length =

@@ -10,7 +10,7 @@
 namespace breast {
 
 /// s runs linearly with x, t with z, so x_s × x_t points to the front (-y): out of the chest wall,
-/// into the breast. Beyond the data the sheet goes on straight (least bending).
+/// into the breast. Beyond the data the sheet is extrapolated linearly (least bending).
 struct WallSheet {
   HermiteSheet sheet;
   Box box;              ///< x and z range of the sheet; y range of its data
@@ -26,9 +26,10 @@ struct WallSheet {
   double height_above(const Vec3& p) const { return sheet.position(parameter(p)).y() - p.y(); }
 };
 
-/// First muscle from the front in every column of a 3 mm raster, smoothed over `smoothing_mm` with
-/// outliers weighted down and weight by the chest wall's confidence.
-/// Throws Error (input) when less than a fifth of the columns behind the breast show muscle.
+/// Fits the sheet to the first muscle from the front in every column of a 3 mm raster, smoothed
+/// over `smoothing_mm`, weighted by the chest wall's confidence and with reduced weight of
+/// outliers. Throws Error (input) when less than a fifth of the columns behind the breast show
+/// muscle.
 WallSheet fit_wall(const LabelVolume& labels, const BreastRegion& region, int nu, int nv,
                    double smoothing_mm);
 

@@ -36,7 +36,7 @@ std::vector<float> stored_values(const gdcm::Image& image, const std::vector<cha
     return values_of<std::int16_t>(bytes);
   }
   throw input_error(where, ": pixels are ", format.GetScalarTypeAsString(),
-                    ", 8 or 16 bit grey expected");
+                    "; 8 or 16 bit grey values are expected");
 }
 
 // The pixels through GDCM, which can abort on what is damaged or unusual: one byte, 1 when bright is
@@ -50,10 +50,10 @@ std::string decoded(const std::string& where) {
       image.GetPhotometricInterpretation() == gdcm::PhotometricInterpretation::MONOCHROME1;
   if (!inverted &&
       image.GetPhotometricInterpretation() != gdcm::PhotometricInterpretation::MONOCHROME2) {
-    throw input_error(where, ": a colour image; a grey mammogram expected");
+    throw input_error(where, ": a colour image; a grey mammogram is expected");
   }
   if (image.GetNumberOfDimensions() != 2 && image.GetDimension(2) != 1) {
-    throw input_error(where, ": ", image.GetDimension(2), " frames, one expected");
+    throw input_error(where, ": ", image.GetDimension(2), " frames; one is expected");
   }
   std::vector<char> bytes(image.GetBufferLength());
   if (!image.GetBuffer(bytes.data())) throw input_error(where, ": its pixels cannot be decoded");

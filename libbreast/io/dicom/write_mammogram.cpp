@@ -148,11 +148,12 @@ void write_mammogram_dicom(const std::filesystem::path& file, const Mammogram& i
                            const MammogramDicom& about) {
   if (about.for_processing && image.shows_fraction()) {
     throw input_error(
-        "a tissue-fraction image has no detector signal: give --energy as keV or a beam");
+        "an image of tissue fractions has no detector signal: give --energy in keV or as a "
+        "spectrum");
   }
   if (image.width > 65535 || image.height > 65535) {
     throw input_error(file.string(), ": ", image.width, " x ", image.height,
-                      " pixels, DICOM holds 65535 a side; use larger pixels");
+                      " pixels, but DICOM allows at most 65535 along a side; use larger pixels");
   }
   DatasetBuilder set;
   add_identity(set, image, about.for_processing);

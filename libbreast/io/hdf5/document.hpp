@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An HDF5 file of ours in memory: named arrays and attributes. Everything the readers and writers
-// do happens hereload.cpp and save.cpp alone speak HDF5.
+// An HDF5 file of libbreast in memory: named arrays and attributes. All readers and writers work on
+// itload.cpp and save.cpp alone speak HDF5.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,8 @@
 
 namespace breast {
 
-/// How a message about one file begins and ends: input errors when reading, failures when writing.
+/// The beginning and end of messages about one file: input errors when reading, failures when
+/// writing.
 struct Complaint {
   ErrorKind kind = ErrorKind::input;
   std::string file;
@@ -44,8 +45,8 @@ class Fields {
   Doubles doubles(const std::string& path, const Shape& shape);
   Texts texts(const std::string& path, const Shape& shape);
   std::vector<Vec3> vectors(const std::string& path, std::size_t count = any);  ///< (count, 3)
-  /// Vectors that are places in mm: refused by index beyond `farthest_mm`, where squares overflow
-  /// and searches find nothing.
+  /// Vectors that are positions in mm: values beyond `farthest_mm`, for which squares overflow and
+  /// searches fail, are refused with their index.
   std::vector<Vec3> places(const std::string& path, std::size_t count = any);
   static constexpr double farthest_mm = 1e6;
   /// Integers in [low, high), refused by index and value otherwise.

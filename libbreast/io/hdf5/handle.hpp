@@ -33,7 +33,7 @@ inline std::mutex& hdf5_mutex() {
   static std::mutex mutex;
   return mutex;
 }
-/// HDF5 prints its error stack unless told not to; our one line says what matters.
+/// Switches off HDF5's printing of its error stack; the error message of libbreast suffices.
 inline void silence_hdf5() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

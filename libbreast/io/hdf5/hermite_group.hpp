@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// /breast/hermite: the two sheets and the rim, in geometry files and in the meshes made from them.
+// Reading and writing of /breast/hermite: the two sheets and the rim, in geometry files and in the
+// meshes made from them.
 #pragma once
 
 #include "io/hdf5/fields.hpp"

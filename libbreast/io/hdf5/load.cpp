@@ -98,7 +98,7 @@ class Loader {
       throw source_.refuse(child, " cannot be read");
     }
     if (!visited_.insert(object.addr).second) {
-      throw source_.refuse(child, " is a second link to something that has another name already");
+      throw source_.refuse(child, " is a second link to an object that has another name already");
     }
     if (object.type == H5O_TYPE_GROUP) {
       load_group(file, child, depth + 1);
@@ -188,7 +188,7 @@ class Loader {
   // Counts what a dataset or attribute will take against the whole file's budget.
   void spend(const std::string& path, std::size_t count, std::size_t width) {
     if (width > 0 && count > (most_bytes - spent_) / width) {
-      throw source_.refuse(path, " and what comes before it need more than ", most_bytes,
+      throw source_.refuse(path, " and the objects before it need more than ", most_bytes,
                            " bytes of memory");
     }
     spent_ += count * width;
@@ -313,7 +313,7 @@ Document parse(const Source& source, std::string& content,
   Loader loader(source, content.size());
   for (const std::string& group : groups) {
     if (H5Lexists(h5, group.c_str(), H5P_DEFAULT) <= 0) {
-      throw source.refuse("group ", group, " is missing: not a file of libbreast");
+      throw source.refuse("group ", group, " is missing: this is not a file of libbreast");
     }
     H5L_info_t link{};
     if (H5Lget_info(h5, group.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD) {
@@ -340,7 +340,7 @@ Document load_document(const fs::path& file, const std::string& schema, const st
     check_all_finite(source, document);
     return document;
   } catch (const std::bad_alloc&) {
-    throw source.refuse("states more data than fits in memory");
+    throw source.refuse("declares more data than fit in memory");
   }
 }
 

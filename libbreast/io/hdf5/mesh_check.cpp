@@ -192,7 +192,7 @@ void check_mesh(const HexMesh& mesh, const Complaint& complain) {
   }
   if (mesh.skin_model == SkinModel::membrane && mesh.skin_thickness.empty() &&
       !mesh.skin_faces.empty()) {
-    throw complain("dataset /breast/skin/thickness is missing, the membrane skin needs it");
+    throw complain("dataset /breast/skin/thickness is missing, which a membrane skin needs");
   }
   if (mesh.geometry) check_geometry(*mesh.geometry, complain);
   if (mesh.contact) check_contact(*mesh.contact, complain);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a mesh must satisfy to be read or written: index ranges, full-length arrays, face sets.
+// Checks of a mesh that is read or written: index ranges, array lengths, face sets.
 #pragma once
 
 #include "io/hdf5/fields.hpp"

@@ -209,7 +209,7 @@ Document mesh_document(const std::filesystem::path& file, const HexMesh& mesh) {
   const Complaint complain{ErrorKind::failed, file.string(), ""};
   check_mesh(mesh, complain);
   if (mesh.geometry && mesh.geometry->side != mesh.side) {
-    throw complain("mesh is of the ", side_name(mesh.side), " breast, its geometry of the ",
+    throw complain("mesh is of the ", side_name(mesh.side), " breast, but its geometry of the ",
                    side_name(mesh.geometry->side));
   }
   Document document;

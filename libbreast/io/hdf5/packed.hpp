@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A Document as bytes, to hand it from a reading child process to its parent; private to io/hdf5.
+// Conversion of a Document to bytes, for the transfer from a reading child process to its parent;
+// private to io/hdf5.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// /breast/solve and /breast/contact: how a mesh file's shape was found.
+// Reading and writing of /breast/solve and /breast/contact, the records of how a mesh file's shape
+// was found.
 #pragma once
 
 #include "io/hdf5/fields.hpp"

@@ -60,7 +60,8 @@ void check_seal(std::string_view view, const std::string& name, const std::strin
                       end, advice);
   }
   if (view.substr(body + mark.size()) != digest(view.substr(0, body))) {
-    throw input_error(name, ": is damaged: its bytes disagree with the digest at its end", advice);
+    throw input_error(name, ": is damaged: its content disagrees with the digest at its end",
+                      advice);
   }
 }
 

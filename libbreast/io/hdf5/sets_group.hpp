@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// /breast/sets, /breast/landmarks and /breast/skin of a mesh file.
+// Reading and writing of /breast/sets, /breast/landmarks and /breast/skin of a mesh file.
 #pragma once
 
 #include "io/hdf5/fields.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The surface the breast slides on, <-> group /breast/thorax of geometry and mesh files.
+// Reading and writing of /breast/thorax, the surface on which the breast slides, in geometry and
+// mesh files.
 #pragma once
 
 #include "io/hdf5/fields.hpp"
@@ -8,7 +9,7 @@
 namespace breast {
 
 void put_thorax(Document& document, const ThoraxSurface& thorax);
-/// Throws through `fields` for values that are no surface.
+/// Throws through `fields` for values that do not describe a surface.
 ThoraxSurface get_thorax(Fields& fields);
 bool has_thorax(const Fields& fields);
 

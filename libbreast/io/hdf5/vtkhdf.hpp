@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The /VTKHDF group as VTK 9.1's vtkHDFReader wants it (VTKHDF 1.0).
+// Reading and writing of the /VTKHDF group in the form that vtkHDFReader of VTK 9.1 requires
+// (VTKHDF 1.0).
 #pragma once
 
 #include "image/volume.hpp"

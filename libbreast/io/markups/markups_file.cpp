@@ -61,7 +61,7 @@ void add_points(const Json& markups, const std::string& where, std::vector<Marku
   for (std::size_t n = 0; n < list->size(); ++n) {
     const Json& point = (*list)[n];
     const std::string here = where + ", point " + std::to_string(n);
-    if (!point.is_object()) throw input_error(here, ": is no object");
+    if (!point.is_object()) throw input_error(here, ": is not an object");
     if (text_of(point, "positionStatus", "defined") != "defined") continue;  // not placed yet
     points.push_back({text_of(point, "label", ""), place_of(point, space == "RAS", here)});
   }
@@ -92,14 +92,14 @@ std::vector<MarkupPoint> read_markups(const fs::path& file) {
   const auto lists = root.is_object() ? root.find("markups") : root.end();
   if (root.is_discarded() || !root.is_object() || lists == root.end() || !lists->is_array()) {
     throw input_error(file.string(),
-                      ": is no markups file of 3D Slicer (JSON with a list 'markups')");
+                      ": is not a markups file of 3D Slicer (JSON with a list 'markups')");
   }
   std::vector<MarkupPoint> points;
   for (const Json& markups : *lists) {
-    if (!markups.is_object()) throw input_error(file.string(), ": 'markups' holds no object");
+    if (!markups.is_object()) throw input_error(file.string(), ": 'markups' contains no object");
     add_points(markups, file.string(), points);
   }
-  if (points.empty()) throw input_error(file.string(), ": no points with a place");
+  if (points.empty()) throw input_error(file.string(), ": no points with a position");
   return points;
 }
 
@@ -139,7 +139,7 @@ MarkupPoint point_named(const std::vector<MarkupPoint>& points, const std::strin
     labels += (labels.empty() ? "'" : ", '") + point.label + "'";
   }
   if (points.size() == 1) return points.front();
-  throw input_error(name, ": has ", points.size(), " points and none is labelled '", label,
+  throw input_error(name, ": has ", points.size(), " points, none of which is labelled '", label,
                     "'; they are ", labels);
 }
 

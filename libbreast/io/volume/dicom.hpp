@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A DICOM folder's series; private to io/volume.
+// The series of a DICOM folder; private to io/volume.
 #pragma once
 
 #include <filesystem>

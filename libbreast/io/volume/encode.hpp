@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A volume as the bytes of a file, format by format; private to io/volume.
+// Encoding of a volume as the bytes of a file, for each format; private to io/volume.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace breast {
 
-/// One voxel's type under the names the formats have for it.
+/// The type of a voxel, by its name in each format.
 struct VoxelType {
   const char* nrrd;
   const char* meta;
@@ -21,14 +21,15 @@ struct VoxelType {
 /// `voxels`: the values in memory order, little-endian. nifti_bytes throws Error (input) for more than
 /// 32767 voxels along an axis, which the format cannot state.
 std::string nrrd_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels);
-/// The same with notes ("key:=value" lines) and `components` numbers a voxel, which stand together: kind vector.
+/// The same with notes ("key:=value" lines) and `components` numbers per voxel, which stand together: kind vector.
 std::string nrrd_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels,
                        const std::vector<std::pair<std::string, std::string>>& notes,
                        int components);
 std::string meta_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels);
 std::string nifti_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels);
 
-/// One gzip stream, with the maker's mark as its comment; the same bytes for the same content.
+/// Compresses to one gzip stream, with the maker's mark as its comment; identical content gives
+/// identical bytes.
 std::string gzip_bytes(std::string_view content);
 
 }  // namespace breast

@@ -58,7 +58,8 @@ fs::path detached_data(const fs::path& header, const std::string& name) {
   const fs::path data = header.parent_path() / given;
   std::error_code reason;
   if (!fs::is_regular_file(data, reason)) {
-    throw input_error(header.string(), ": its voxels should be in ", name, ", which is no file");
+    throw input_error(header.string(), ": its voxels should be in ", name,
+                      ", which does not exist");
   }
   return data;
 }

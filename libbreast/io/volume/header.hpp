@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the header of a volume promises, checked before a library sees the file; private to io/volume.
+// Checks of a volume's header before a library reads the file; private to io/volume.
 //
-// ITK's readers fill what is missing with zeros (NIfTI, MetaImage), do not look at the checksum
-// (NRRD), take 1 mm and the patient's axes where the header has neither, and abort on axes that are
-// not orthonormal. A scan of unknown voxel size or orientation must not be guessed: which breast is
-// the left one would be a matter of luck.
+// ITK's readers fill missing data with zeros (NIfTI, MetaImage), do not look at the checksum
+// (NRRD), assume 1 mm and the patient's axes if the header has neither, and abort on axes that are
+// not orthonormal. Voxel size and orientation must not be guessed, since the wrong breast could be
+// taken for the left one.
 #pragma once
 
 #include <filesystem>
@@ -15,12 +15,13 @@
 
 namespace breast {
 
-/// Most voxels a volume may have: a gigabyte as float.
+/// Largest number of voxels of a volume, which take a gigabyte as float.
 inline constexpr double most_voxels = double(std::size_t(1) << 28);
 
-/// Throws Error (input) unless the file holds what its header announces (sizes, checksums), in itself
-/// or in one other file of its own folder, and the header states voxel size and orientation that
-/// check_scan_grid accepts. Goes by the ending, in any case; other endings pass.
+/// Throws Error (input) unless the data, which may be in another file of the same folder, agree
+/// with the header (sizes, checksums), and the header states a voxel size and orientation that
+/// check_scan_grid accepts. The format is chosen by the file extension, ignoring case; files with
+/// other extensions pass.
 void check_header(const std::filesystem::path& file);
 
 /// Voxel size 0.01 to 50 mm, origin within 1e5 mm, axes orthonormal within 1e-3 (left-handed ones
@@ -30,26 +31,26 @@ void check_scan_grid(const std::string& name, const Grid& grid);
 /// spacing and direction from three axis vectors, whose lengths are the voxel sizes.
 void set_axes(Grid& grid, const Mat3& axes);
 
-/// The checks of one format each.
+/// The checks for each format.
 void check_nifti(const std::filesystem::path& file);
 void check_nrrd(const std::filesystem::path& file);
 void check_meta(const std::filesystem::path& file);
 
-/// What the program that wrote a NRRD file noted in its header ("key:=value").
+/// Notes in the header of a NRRD file ("key:=value").
 struct NrrdNotes {
   int dimension = 0;
   std::map<std::string, std::string> values;
 };
 NrrdNotes nrrd_notes(const std::filesystem::path& file);
 
-/// The file a header names for its voxels: Error (input) unless it is a regular file named relative
-/// to the header's folder and without "..".
+/// The file that a header names for its voxels. Throws Error (input) unless it is a regular file
+/// named relative to the header's folder and without "..".
 std::filesystem::path detached_data(const std::filesystem::path& header, const std::string& name);
 
 /// Throws Error (input) when there are more than most_voxels, or none.
 void check_voxel_count(const std::string& name, double voxels);
 
-/// The numbers of a text such as "(1,0,0)" or "1 0 0"; empty when something else is in it.
+/// The numbers of a text such as "(1,0,0)" or "1 0 0"; empty if it contains anything else.
 std::vector<double> header_numbers(std::string text);
 
 }  // namespace breast

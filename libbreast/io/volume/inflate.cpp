@@ -22,7 +22,7 @@ class Counter {
     content.bytes += double(count);
     if (content.bytes > most_bytes_) {
       throw input_error(file_.string(), ": holds more than ", most_bytes_,
-                        " bytes, which is all its header accounts for");
+                        " bytes, the number that its header states");
     }
   }
   Content content;
@@ -38,7 +38,8 @@ class Inflater {
  public:
   Inflater(const fs::path& file, std::ifstream& in) : file_(file), in_(in) {
     constexpr int gzip_only = 15 + 16;
-    if (inflateInit2(&z_, gzip_only) != Z_OK) throw failed_error(file.string(), ": no zlib");
+    if (inflateInit2(&z_, gzip_only) != Z_OK)
+      throw failed_error(file.string(), ": zlib cannot be started");
   }
   ~Inflater() { inflateEnd(&z_); }
   Inflater(const Inflater&) = delete;

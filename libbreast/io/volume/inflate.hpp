@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How many bytes a file holds, inflated when it is gzip; private to io/volume.
+// Number of bytes in a file, after inflation if it is gzip; private to io/volume.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// itk::Image -> Volume and the ImageIO for a file ending; private to io/volume.
+// Conversion of itk::Image to Volume, and choice of the ImageIO by file extension; private to
+// io/volume.
 #pragma once
 
 #include <itkImage.h>
@@ -14,12 +15,12 @@
 
 namespace breast {
 
-/// The ImageIO a file's ending asks for, or null when we do not know the ending.
+/// The ImageIO for a file's extension, or null for an unknown extension.
 itk::ImageIOBase::Pointer image_io_for(const std::filesystem::path& file);
 /// The endings we know, for messages.
 inline constexpr const char* known_endings = ".nrrd .nhdr .nii .nii.gz .mha .mhd";
 
-/// One line out of ITK's many: the description without file, line and object address.
+/// Extracts the description from ITK's messages, without file, line and object address.
 std::string one_line(const itk::ExceptionObject& exception);
 
 /// Silences ITK's warnings and what its readers say on std::cerr for the life of the object.

@@ -165,7 +165,9 @@ void check_orientation(const std::string& name, const NiftiHeader& header) {
   const Grid other = quaternion_grid(name, header, mm);
   if ((grid.direction - other.direction).cwiseAbs().maxCoeff() > of_direction ||
       (grid.origin - other.origin).norm() > of_origin_mm) {
-    throw input_error(name, ": qform and sform contradict each other: keep the scanner's one");
+    throw input_error(name,
+                      ": qform and sform contradict each other: keep only that of the "
+                      "scanner");
   }
 }
 
@@ -190,7 +192,8 @@ double announced_bytes(const std::string& name, const NiftiHeader& header) {
   const double offset = header.voxel_offset();
   constexpr double most_offset = 1e8;
   if (!(offset >= 348 && offset <= most_offset)) {
-    throw input_error(name, ": voxels said to begin at byte ", offset, ": must be 348 or more");
+    throw input_error(name, ": the stated start of the voxels is byte ", offset,
+                      ": must be 348 or more");
   }
   return offset + voxels * header.bits() / 8;
 }
@@ -201,7 +204,7 @@ void check_nifti(const fs::path& file) {
   const std::string name = file.string();
   const std::vector<unsigned char> head = head_of(file);
   const auto header = NiftiHeader::of(head);
-  if (!header) throw input_error(name, ": no NIfTI header of a single file");
+  if (!header) throw input_error(name, ": not the NIfTI header of a single file");
   const double needed = announced_bytes(name, *header);
   check_orientation(name, *header);
   const double found = content_from(file, 0, needed + slack_bytes).bytes;

@@ -56,7 +56,7 @@ Eigen::Vector2d pixel_spacing(const fs::path& file, const DicomHeader& header) {
   return {values[0], values[1]};
 }
 
-/// Grey values of 8 or 16 bits, one a pixel: what else there is makes GDCM abort, or is no MR.
+/// Grey values of 8 or 16 bits, one per pixel: what else there is makes GDCM abort, or is no MR.
 void check_pixels(const fs::path& file, const DicomHeader& header) {
   const auto text = [&](const char* key) {
     const auto found = header.find(key);
@@ -66,18 +66,19 @@ void check_pixels(const fs::path& file, const DicomHeader& header) {
   const std::string samples = text("0028|0002"), kind = text("0028|0004");
   if (bits != "8" && bits != "16") {
     throw input_error(file.string(), ": ", bits.empty() ? "no" : bits,
-                      " bits allocated a pixel: 8 or 16 are read");
+                      " bits allocated per pixel: 8 or 16 are supported");
   }
   const int depth = std::atoi(stored.c_str());
   if (!stored.empty() && !(depth >= 1 && depth <= std::atoi(bits.c_str()))) {
-    throw input_error(file.string(), ": ", stored, " of ", bits, " bits stored a pixel");
+    throw input_error(file.string(), ": ", stored, " of ", bits, " bits stored per pixel");
   }
   if (!samples.empty() && samples != "1") {
-    throw input_error(file.string(), ": ", samples, " samples a pixel: grey slices are needed");
+    throw input_error(file.string(), ": ", samples,
+                      " samples per pixel: grey-scale slices are needed");
   }
   if (kind != "MONOCHROME2") {
     throw input_error(file.string(), ": photometric interpretation '", kind,
-                      "': MONOCHROME2 (grey, bright is high) is needed");
+                      "': MONOCHROME2 (grey scale, high values bright) is needed");
   }
 }
 
@@ -146,7 +147,7 @@ double slice_spacing(const fs::path& folder, const std::vector<Slice>& slices) {
       throw input_error(folder.string(), ": slices ", slices[n - 1].file.filename().string(),
                         " and ", slices[n].file.filename().string(), " are ", step,
                         " mm apart, the others ", usual,
-                        " mm (bound 1 %): a slice is missing or doubled");
+                        " mm (bound 1 %): a slice is missing or duplicated");
     }
   }
   return usual;
@@ -210,7 +211,7 @@ Volume<float> read_dicom_series(const fs::path& folder, const DicomSeries& serie
       in_guarded_child(folder.string(), [&] { return guarded_itk(folder, read); }));
   if (volume.grid.size[2] != static_cast<int>(slices.size())) {
     throw input_error(folder.string(), ": ", slices.size(), " files gave ", volume.grid.size[2],
-                      " slices: multi-frame files are not read");
+                      " slices: multi-frame files are not supported");
   }
   // Geometry from all positions, not from the first two slices alone.
   const Vec3 step = (slices.back().position - slices.front().position) / double(slices.size() - 1);

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 void check_layout(const fs::path& file, const itk::ImageIOBase& io) {
   if (io.GetNumberOfComponents() != 1) {
     throw input_error(file.string(), ": ", io.GetNumberOfComponents(),
-                      " components a voxel: a scalar (grey) volume is needed");
+                      " components per voxel: a scalar (grey-scale) volume is needed");
   }
   std::size_t voxels = 1;
   for (unsigned d = 0; d < io.GetNumberOfDimensions(); ++d) {
@@ -75,8 +75,8 @@ std::string read_with(const fs::path& file, const fs::path& opened, itk::ImageIO
 Volume<float> read_single_file(const fs::path& file) {
   const auto io = image_io_for(file);
   if (!io) {
-    throw input_error(file.string(), ": unknown ending; volumes are read from ", known_endings,
-                      " or a DICOM folder");
+    throw input_error(file.string(), ": unknown file name extension; volumes are read from ",
+                      known_endings, " or a DICOM folder");
   }
   check_header(file);
   std::optional<TemporaryFolder> folder;
@@ -119,7 +119,7 @@ Volume<float> read_folder(const fs::path& folder, int series, std::string& descr
   if (series > count || (series == 0 && count > 1)) {
     std::string text;
     for (int n = 0; n < count; ++n) text += message(n ? "; " : "", n + 1, " = ", list[n].label());
-    throw input_error(folder.string(), ": ", count, " series, choose one with --series N: ", text);
+    throw input_error(folder.string(), ": ", count, " series; choose one with --series N: ", text);
   }
   const int chosen = series == 0 ? 1 : series;
   description = message("DICOM series ", chosen, ": ", list[chosen - 1].label());

@@ -104,16 +104,17 @@ SegmentedVolume read_segmentation(const fs::path& file) {
   if (notes.dimension > 3) {
     throw input_error(
         file.string(),
-        ": its segments lie in several layers, because they overlap: in 3D Slicer let "
-        "segments overwrite each other (Segment Editor, Masking, Modify other "
-        "segments: Overwrite all), or export a label map");
+        ": its segments overlap and are therefore stored in several layers: in 3D Slicer let "
+        "segments overwrite each other (Segment Editor, Masking, Modify other segments: "
+        "Overwrite all), or export a label map");
   }
   SegmentedVolume segmentation;
   segmentation.segments = segments_in(file, notes);
   if (segmentation.segments.empty()) {
     throw input_error(file.string(),
-                      ": its header names no segment (Segment0_Name ...), so it is no segmentation "
-                      "of 3D Slicer: give it another ending than .seg.nrrd if it is a label map");
+                      ": its header names no segment (Segment0_Name ...), so that it is not a "
+                      "segmentation of 3D Slicer; if it is a label map, change its extension "
+                      ".seg.nrrd");
   }
   VolumeSource source;
   segmentation.values = read_volume(file, 0, &source);

@@ -95,8 +95,8 @@ void check_dicom_folder(const fs::path& folder) {
     const fs::path& file = entry.path();
     if (entry.is_regular_file() && file.extension() == ".dcm" && written_by_us(file)) continue;
     throw input_error(folder.string(), ": holds ", file.filename().string(),
-                      ", which is no simulated slice of libbreast, so it is not replaced: choose "
-                      "another folder");
+                      ", which is not a simulated slice of libbreast and is not replaced: "
+                      "choose another folder");
   }
 }
 
@@ -109,7 +109,7 @@ void write_dicom_series(const fs::path& folder, const Volume<std::int16_t>& volu
   }
   if (volume.grid.size[0] > 65535 || volume.grid.size[1] > 65535) {
     throw input_error(target.string(), ": ", volume.grid.size[0], " x ", volume.grid.size[1],
-                      " pixels, DICOM holds 65535 a side");
+                      " pixels, but DICOM allows at most 65535 along a side");
   }
   check_dicom_folder(target);
   Sha256 hash;

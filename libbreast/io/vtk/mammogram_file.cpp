@@ -91,14 +91,14 @@ Mammogram parse_mammogram(const std::filesystem::path& file) {
   data->GetDimensions(size);
   if (size[0] < 1 || size[1] < 1 || size[2] != 1) {
     throw input_error(where, ": ", size[0], " x ", size[1], " x ", size[2],
-                      " points, one slice expected");
+                      " points; one slice is expected");
   }
   image.width = size[0];
   image.height = size[1];
   image.pixel = number_field(fields, "pixel", 1, where)[0];
   if (!(image.pixel > 0) || !(std::abs(image.pixel - data->GetSpacing()[0]) < 1e-9)) {
-    throw input_error(where, ": FieldData pixel ", image.pixel, " mm does not fit the spacing ",
-                      data->GetSpacing()[0], " mm");
+    throw input_error(where, ": FieldData pixel ", image.pixel,
+                      " mm does not agree with the spacing ", data->GetSpacing()[0], " mm");
   }
   image.pose.n = vector_field(fields, "n", where);
   image.pose.e_u = vector_field(fields, "e_u", where);

@@ -19,7 +19,7 @@ namespace breast {
 
 namespace {
 
-// Rows from the top, `channels` values a pixel.
+// Rows from the top, `channels` values per pixel.
 template <class T>
 void write_png(const std::filesystem::path& file, const std::vector<T>& values, int width,
                int height, int channels) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points and point data between our structures and vtkPolyData.
+// Conversion of points and point data between libbreast structures and vtkPolyData.
 #pragma once
 
 #include <vtkSmartPointer.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// VTK reports errors as text on stderr; here they become typed errors of ours.
+// Conversion of VTK's error messages, which it prints on stderr, to typed errors.
 #pragma once
 
 #include <string>

@@ -55,8 +55,8 @@ void check_frame(const fs::path& file, const std::string& type) {
   const std::string expected = sha_of(std::string_view(text).substr(0, seal));
   if (rest.compare(0, 64, expected) != 0 || rest.compare(64, seal_close.size(), seal_close) != 0) {
     throw input_error(file.string(),
-                      ": damaged or changed since it was written (its sha256 line does not"
-                      " fit; delete that line if the change was meant)");
+                      ": damaged or changed since it was written (its sha256 line does not "
+                      "match; delete that line if the change was intended)");
   }
 }
 
@@ -134,7 +134,8 @@ void check_xml(const fs::path& file, const std::string& type) {
     throw input_error(file.string(), ": damaged (not well-formed XML)");
   }
   if (!root_ok(parser->GetRootElement(), type)) {
-    throw input_error(file.string(), ": damaged (its VTKFile element is not that of a ", type, ")");
+    throw input_error(file.string(), ": damaged (its VTKFile element does not belong to a ", type,
+                      ")");
   }
   const std::string bad = first_bad(parser->GetRootElement(), false);
   if (!bad.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The checks VTK's XML readers do not make before they follow null pointers.
+// Checks of VTK XML files that VTK's readers omit before they follow null pointers.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every VTK XML file of ours has in common: opening, checking, field data, writing.
+// Functions common to all VTK XML files of libbreast: opening, checking, field data, writing.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -26,7 +26,7 @@ namespace breast {
 vtkSmartPointer<vtkPolyData> read_poly_data(const std::filesystem::path& file);
 vtkSmartPointer<vtkImageData> read_image_data(const std::filesystem::path& file);
 /// Does `read`, which opens `file` through VTK, first in a child process: VTK's readers follow damaged
-/// lengths out of their buffers, and what kills the child is one line here instead.
+/// lengths out of their buffers, and a crash of the child becomes a one-line error here.
 template <class Read>
 auto read_guarded(const std::filesystem::path& file, const Read& read) {
   in_guarded_child(file.string(), [&] {
@@ -53,8 +53,8 @@ std::vector<double> number_field(vtkFieldData* fields, const std::string& name, 
                                  const std::string& where);
 /// Empty when the file has none (another program's file).
 History history_field(vtkFieldData* fields, const std::string& where);
-/// Refuses a file of ours whose schema is another one; a foreign file without schema passes when
-/// `required` is false.
+/// Refuses a file of libbreast with another schema; a file of another program without a schema
+/// passes if `required` is false.
 void check_schema(vtkFieldData* fields, const std::string& schema, bool required,
                   const std::string& where);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The linearised problem of 27-node elements at a solution with 8-node ones, nearly incompressible:
-// what estimate_error solves. Its terms are those of the scene on the richer mesh; its tangent is
-// kept by cells in single precision, since an estimate needs two digits.
+// The linearised, nearly incompressible problem with 27-node elements at a solution with 8-node
+// elements, which estimate_error solves. Its terms are those of the scene on the richer mesh; its
+// tangent is kept by cells in single precision, since an estimate needs two digits.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,9 @@ namespace breast {
 
 class RicherProblem {
  public:
-  /// κ/μ of a step, whose pressures are δp = −κM⁻¹(θ + Bδu): near the material, so that conjugate
-  /// gradients are few; what volume error is left is for the pressures of the next.
+  /// κ/μ of a step, whose pressures are δp = −κM⁻¹(θ + Bδu). It is close to the material's, so that
+  /// few conjugate-gradient iterations are needed; the pressures of the next step remove the
+  /// remaining volume error.
   static constexpr double augmentation = 5;
 
   RicherProblem(const Scene& coarse, const State& state, const Vec3& gravity,
@@ -28,13 +29,14 @@ class RicherProblem {
   /// −r − κBᵀM⁻¹θ on free components.
   const Eigen::VectorXd& right_hand_side() const { return right_; }
   Eigen::VectorXd apply(const Eigen::VectorXd& v) const;
-  /// Additive two levels: the 8-node problem, and 3×3 blocks on the nodes between corners.
+  /// Additive two-level preconditioner: the 8-node problem, and 3×3 blocks at the nodes between
+  /// corners.
   Eigen::VectorXd precondition(const Eigen::VectorXd& r, const SaddleSolver& coarse) const;
-  /// Moves the state by v, the pressures by what the volumes then ask for; the right-hand side is
-  /// that of the new state, the matrix stays. False: an element folds.
+  /// Moves the state by v and the pressures according to the resulting volumes; the right-hand side
+  /// becomes that of the new state, the matrix is kept. False if an element folds.
   bool move(const Eigen::VectorXd& v);
-  /// How far the state is from the 8-node solution, mm: moves so far, and what puts new nodes on the
-  /// surface they slide on.
+  /// Displacement of the state from the 8-node solution, mm: the steps so far, and the projection
+  /// of new nodes onto the surface on which they slide.
   Eigen::VectorXd moved() const { return state_.x - start_; }
 
  private:
@@ -47,7 +49,7 @@ class RicherProblem {
   std::vector<std::vector<int>> between_;  // corners of every node that is not one
   Scene scene_;
   Problem problem_;
-  State state_;  // 4 pressures an element
+  State state_;            // 4 pressures per element
   Eigen::VectorXd start_;  // positions between those of the corners
   Constraints held_;       // at the state linearised about
   PackedTangent tangent_;

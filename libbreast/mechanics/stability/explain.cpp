@@ -19,9 +19,10 @@ void note_instability(const Instability& instability, SolveSummary& summary) {
   if (instability.mode.size() == 0 || !(instability.value < 0)) return;
   summary.skin_share = instability.share_of("membrane");
   if (!(*summary.skin_share > most_of_it)) return;
-  summary.record.reason += message("; compressed skin buckles: ",
-                                   std::round(100 * *summary.skin_share),
-                                   " % of what drives the instability is skin under compression");
+  summary.record.reason +=
+      message("; compressed skin buckles: ", std::round(100 * *summary.skin_share),
+              " % of what drives the instability comes from skin under "
+              "compression");
 }
 
 void find_remedy(const HexMesh& mesh, const MechanicsOptions& options, const Stands& stands,
@@ -30,10 +31,11 @@ void find_remedy(const HexMesh& mesh, const MechanicsOptions& options, const Sta
   summary.remedy = smallest_remedy(mesh, options, stands, summary.stiffness_factor_needed);
   if (summary.remedy) {
     summary.record.reason +=
-        "; the smallest single change that gives a stable answer is " + summary.remedy->words();
+        "; the smallest single change that gives a stable solution is " + summary.remedy->words();
   } else {
     summary.record.reason +=
-        "; no single change of stiffness, skin or support up to a hundredfold gives a stable answer";
+        "; no single change of stiffness, skin or support by up to a factor of a hundred gives "
+        "a stable solution";
   }
   const bool buckles = summary.skin_share.value_or(0) > most_of_it;
   if (!buckles || options.materials.skin.kept < 1) return;

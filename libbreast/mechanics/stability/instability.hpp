@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What makes an equilibrium unstable: the lowest mode of its tangent, and which part of the body
-// gives way in it.
+// The cause of an unstable equilibrium: the lowest mode of its tangent, and the terms that
+// contribute to it.
 #pragma once
 
 #include <string>
@@ -13,22 +13,22 @@ namespace breast {
 
 /// The curvature of the energy along the lowest mode, by term; parts add up to the whole.
 struct Instability {
-  Eigen::VectorXd mode;  ///< mm, 3 a node, its largest component 1; empty: not known
+  Eigen::VectorXd mode;  ///< mm, 3 per node, its largest component 1; empty: not known
   double value = 0;      ///< lowest eigenvalue of the tangent relative to its diagonal
-  /// Of every term of the problem, and of the wall's curvature where nodes slide; relative to the
-  /// sum of the magnitudes of all.
+  /// Contribution of a term of the problem, or of the wall's curvature where nodes slide, relative
+  /// to the sum of the magnitudes of all.
   struct Part {
     std::string name;
     double curvature = 0;
   };
   std::vector<Part> parts;
 
-  /// Of all that lowers the energy along the mode, the share of the term `name`: 0 to 1.
+  /// Share (0 to 1) of the term `name` in the negative curvature of the energy along the mode.
   double share_of(const std::string& name) const;
 };
 
-/// Of the tangent of `problem` at `state`. `matrix` and `solver` belong to the problem; both are
-/// used anew. Empty where no tangent exists.
+/// The instability of the tangent of `problem` at `state`. `matrix` and `solver` belong to the
+/// problem and are overwritten. Empty if no tangent exists.
 Instability find_instability(const Problem& problem, const State& state, SaddleMatrix& matrix,
                              SaddleSolver& solver);
 

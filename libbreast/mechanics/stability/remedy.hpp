@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The smallest change of a breast's stiffness, skin or support that gives a stable answer where
-// there is none: found and confirmed by solving again.
+// The smallest change of a breast's stiffness, skin or support that gives a stable solution where
+// there is none, confirmed by solving again.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace breast {
 
-/// What can be changed, one at a time.
+/// The quantities that can be changed, one at a time.
 enum class Changed {
   tissue,  ///< all tissues but skin
   skin,
@@ -24,24 +24,24 @@ const char* changed_name(Changed what);
 
 struct Remedy {
   Changed what = Changed::tissue;
-  /// Times the present stiffness; of a support that is not there, 0.
+  /// Factor on the present stiffness; 0 for a support that does not exist yet.
   double factor = 1;
-  double support = 0;  ///< of wall and cut: the stiffness then, kPa/mm
+  double support = 0;  ///< resulting stiffness of wall or cut, kPa/mm
 
   /// "fat and glandular tissue 1.4 times as stiff".
   std::string words() const;
 };
 
-/// `options` with one stiffness changed by the ratio e^size. A support that is not there gets
+/// `options` with one stiffness multiplied by e^size. A support that does not exist yet gets
 /// (e^size − 1) times the usual resistance to sliding.
 MechanicsOptions with_change(const MechanicsOptions& options, Changed what, double size);
 
-/// Whether these options give a stable answer.
+/// Whether these options give a stable solution.
 using Stands = std::function<bool(const MechanicsOptions&)>;
 
-/// Of all changes the smallest in ratio, up to a hundredfold, with which the answer is stable, each
-/// change within about a tenth of itself; none where no single one was found. `all_factor`: how many
-/// times stiffer everything together has to be; 0 where that is not known.
+/// The smallest change, as a ratio of at most a hundred, that gives a stable solution, to about 10
+/// %; nothing if no single change was found. `all_factor`: the factor by which everything together
+/// must be stiffened; 0 if it is not known.
 std::optional<Remedy> smallest_remedy(const HexMesh& mesh, const MechanicsOptions& options,
                                       const Stands& stands, double all_factor);
 

@@ -16,7 +16,7 @@ class DeadLoad final : public Term {
   Vec3 total() const;
 
   std::string name() const override { return "dead load"; }
-  /// Energy −f·(x − X). It does not depend on X in any way that moves forces.
+  /// Energy −f·(x − X). The forces do not depend on X.
   bool add(const State& state, const Request& request, Forces& forces) const override;
   std::vector<int> nodes() const override;
 

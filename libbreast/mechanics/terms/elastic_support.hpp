@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Springs under a set of faces as a term, at rest in the stress-free shape X: an elastic chest wall
+// Springs on a set of faces as a term, unloaded in the stress-free shape X: an elastic chest wall
 // or cut. Per area of the imaged faces the energy is
 //
 //     ½ k_t |x − X|² + ½ (k_n − k_t) (φ(x) − φ(X))² / |∇φ|²
 //
-// with φ a level function of the wall surface, its gradient taken in the imaged shape: k_n across the
-// wall and k_t along it, on a plane and on a curved wall alike.
+// where φ is a level function of the wall surface and its gradient is taken in the imaged shape:
+// k_n acts normal and k_t tangential to the wall, whether it is flat or curved.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@
 
 namespace breast {
 
-/// Stiffness per area of the imaged faces, kPa/mm, along their normal and at right angles to it.
+/// Stiffness per area of the imaged faces, kPa/mm, normal and tangential to them.
 struct SupportStiffness {
   double normal = 0, tangential = 0;
 };
@@ -25,7 +25,7 @@ struct SupportStiffness {
 class ElasticSupport final : public Term {
  public:
   /// Springs at the nodes of `faces`, each with its share of the imaged area. Without a surface
-  /// every node has a plane of its own, with the mean normal of the imaged faces there. Throws Error
+  /// every node has its own plane, with the mean normal of the imaged faces there. Throws Error
   /// (input) unless normal > 0 and tangential ≥ 0, and for a node beyond the surface.
   ElasticSupport(const HexMesh& mesh, const std::vector<Face>& faces,
                  const SupportStiffness& stiffness,
@@ -34,19 +34,19 @@ class ElasticSupport final : public Term {
   std::string name() const override { return "elastic support"; }
   bool add(const State& state, const Request& request, Forces& forces) const override;
   std::vector<int> nodes() const override { return cells_.nodes; }
-  /// Its part of r (µN, 3 a node).
+  /// Contribution to r (µN, 3 per node).
   Eigen::VectorXd forces(const State& state) const;
   /// Force of the support on the body, µN.
   Vec3 force_on_body(const State& state) const;
 
  private:
-  /// Force on the body, and what changes it.
+  /// Force on the body and its derivatives.
   struct Spring {
     double energy = 0;
     Vec3 force{0, 0, 0};                                        ///< ∂U/∂x
     Mat3 tangent = Mat3::Zero(), by_reference = Mat3::Zero();  ///< ∂²U/∂x², ∂²U/∂x∂X
   };
-  /// Nothing where a place is beyond the surface.
+  /// Nothing if a position is beyond the surface.
   std::optional<Spring> spring(const State& state, int i) const;
   std::optional<Level> level(int i, const Vec3& x) const;
 

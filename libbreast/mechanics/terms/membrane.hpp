@@ -11,7 +11,8 @@
 
 namespace breast {
 
-/// `space` is that of the solid beneath. Throws Error (input) when thicknesses do not fit the faces.
+/// `space` is that of the underlying solid. Throws Error (input) if the thicknesses do not match
+/// the faces.
 std::shared_ptr<const Term> make_membrane(const HexMesh& mesh, const MechanicsOptions& options,
                                           const Discretisation& space);
 

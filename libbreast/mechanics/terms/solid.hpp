@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tissues of a breast as a term: hexahedra of incompressible hyperelastic laws. What belongs to
-// the imaged shape (volumes, masses, pressure basis) is computed once and for all.
+// The tissues of a breast as a term: hexahedra of incompressible hyperelastic laws. Quantities of
+// the imaged shape (volumes, masses, pressure basis) are computed only once.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,7 +28,8 @@ class Solid : public Term {
                                          const Eigen::VectorXd& deformed) const = 0;
 
   const std::shared_ptr<const Discretisation>& space() const { return space_; }
-  /// The linear solver that matrices are made for: multigrid where the options say so, else direct.
+  /// The linear solver for which matrices are made: multigrid if the options say so, otherwise
+  /// direct.
   LinearSolver solver() const { return solver_; }
   /// Mass of each node, g: ∫ρN dv on the imaged shape, once and for all.
   const Eigen::VectorXd& nodal_mass() const { return nodal_mass_; }
@@ -42,11 +43,11 @@ class Solid : public Term {
   Eigen::VectorXd nodal_mass_, rest_pressure_;
 };
 
-/// How tangents are wanted: assembled for a factor or a multigrid, or packed by cells only, which
-/// spares the pattern of a matrix that would be large.
+/// Storage of tangents: assembled, for a factorisation or multigrid, or packed by cells, which
+/// avoids the pattern of a large matrix.
 enum class TangentStorage { assembled, packed };
 
-/// Throws Error (input) when mesh and options do not fit (element order, folded imaged element).
+/// Throws Error (input) if mesh and options do not agree (element order, folded imaged element).
 std::shared_ptr<const Solid> make_solid(const HexMesh& mesh, const MechanicsOptions& options,
                                         TangentStorage storage = TangentStorage::assembled);
 

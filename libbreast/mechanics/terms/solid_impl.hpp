@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The solid over elements of one kind: what its two parts, the imaged shape (solid.cpp) and the pass
-// over the elements (solid_pass.cpp), share.
+// Implementation of the solid for elements of one kind, shared by its two parts: the imaged shape
+// (solid.cpp) and the pass over the elements (solid_pass.cpp).
 #pragma once
 
 #include <Eigen/StdVector>

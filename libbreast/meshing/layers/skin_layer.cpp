@@ -25,7 +25,7 @@ void refuse_thick_layer(double thickness, const BodyMap& body, const DomeTemplat
     if (on_skin_rim(place) && !(thickness < 0.6 * row)) {
       throw input_error(
           "skin layer of ", thickness, " mm: the first row of the cut is ", row,
-          " mm high and the layer may take 60 % of it: use a thinner layer or fewer rows "
+          " mm high, of which the layer may take 60 %: use a thinner layer or fewer rows "
           "(--dome n,l,m,k)");
     }
   }

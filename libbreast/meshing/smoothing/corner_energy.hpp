@@ -14,7 +14,7 @@ class CornerEnergy {
     double theta = 0.2;  ///< weight of size against shape
     int power = 8;
     double epsilon = 1e-6;   ///< regularisation of det A near and below 0
-    bool mid_edges = false;  ///< samples at the 12 mid-edges too: flat corners (180°) need them
+    bool mid_edges = false;  ///< also sample at the 12 mid-edges, which flat corners (180°) need
   };
   /// connectivity: 8 per element, VTK order. The target edge is that of the mean element of `x`.
   CornerEnergy(const std::vector<int>& connectivity, const std::vector<Vec3>& x);

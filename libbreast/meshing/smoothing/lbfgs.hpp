@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Limited-memory BFGS for the mesh smoother: deterministic, and it backs off where the energy is
-// not finite.
+// Deterministic limited-memory BFGS for the mesh smoother, which shortens its step where the energy
+// is not finite.
 #pragma once
 
 #include <Eigen/Core>

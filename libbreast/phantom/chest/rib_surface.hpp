@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The phantom's rib cage as a smooth surface that its breasts slide on: the torso's superelliptic
+// The phantom's rib cage as a smooth surface on which its breasts slide: the torso's superelliptic
 // sections without the groove over the sternum.
 #pragma once
 

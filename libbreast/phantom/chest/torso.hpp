@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rigid thorax: chest wall, subcutaneous fat, skin, and what lies behind the pectoral muscle.
+// The rigid thorax of the phantom: chest wall, subcutaneous fat, skin, and the tissues behind the
+// pectoral muscle.
 #pragma once
 
 #include "phantom/matter.hpp"
@@ -15,7 +16,7 @@ class Torso {
   double wall_distance(const Vec3& x) const;
   /// The same to the skin of the chest without breasts; negative inside the body.
   double skin_distance(const Vec3& x) const;
-  /// Both at once, for half the price.
+  /// Both at once, for half the cost.
   struct Distances {
     double skin, wall;
   };

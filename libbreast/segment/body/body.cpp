@@ -250,7 +250,7 @@ Body find_body(const Volume<float>& scan, Side side) {
   Body body;
   body.air_level = corner_air_level(scan);
   const auto [low, high] = std::minmax_element(scan.voxels.begin(), scan.voxels.end());
-  if (!(*high > *low)) throw input_error("the scan is uniform (", *low, "): no body to find");
+  if (!(*high > *low)) throw input_error("the scan is uniform (", *low, "): it shows no body");
   // A scan without air noise (n0 = 0) still needs a finite logarithm.
   const double floor = std::max(body.air_level, 1e-3 * double(*high));
   std::vector<float> logs(scan.voxels.size());

@@ -21,12 +21,12 @@ struct Body {
   Mask mask;             ///< body with lungs and other cavities filled
   double air_level = 0;  ///< n0: 90th percentile of the air in front of the patient
   double threshold = 0;  ///< intensity that separates body from air
-  double debris_ml = 0;  ///< taken off the skin: markers and the like
-  double beside_ml = 0;  ///< tissue apart from the torso, left out: arms and the like
+  double debris_ml = 0;  ///< removed from the skin: markers and similar objects
+  double beside_ml = 0;  ///< tissue separate from the torso that was omitted, such as arms
 };
 /// Otsu on log(I + n0), opening, largest component, closing, filling.
 /// Throws Error (input) when there is no contrast or no air in front.
-/// `side` is the breast wanted; it matters where the field of view holds no other.
+/// `side` is the requested breast; it is used if the field of view shows only one.
 Body find_body(const Volume<float>& scan, Side side);
 
 struct TorsoFront {
@@ -34,7 +34,7 @@ struct TorsoFront {
   int midline = 0;            ///< column i of the sternum
   std::vector<double> cleft;  ///< depth (mm) of the skin over the sternum, per slice; above its
                               ///< notch that of the chest, not of the neck
-  bool one_breast = false;    ///< the other is not in the field of view
+  bool one_breast = false;    ///< true if the other breast is not in the field of view
 };
 /// The midline is the skin's mirror column; where one breast alone is in view (less than 270 mm of
 /// body and no valley between two) it is the deepest column medial of the breast of `side`.

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Things on the skin that are not the breast: markers, creams, folds of a few millimetres.
+// Removal of structures on the skin that do not belong to the breast: markers, creams, small folds.
 #pragma once
 
 #include "segment/grid/grid_ops.hpp"
 
 namespace breast {
 
-/// Takes from the body what an opening by a disc of 3.5 mm in the axial slices takes off and stands
-/// out by more than 2 mm, except near the most anterior point of each half (nipples, which look
-/// alike). Returns the volume taken away, ml. `midline` is the column between the halves.
+/// Removes from the body the structures that an opening by a disc of 3.5 mm in the axial slices
+/// removes and that protrude by more than 2 mm, except near the most anterior point of each half
+/// (the nipples, which look similar). Returns the removed volume, ml. `midline` is the column
+/// between the halves.
 double remove_debris(Mask& body, int midline);
 
-/// Takes from the body, from its border inwards by at most 25 mm, what is dimmer than 0.15 of the
-/// brightest tissue within 15 mm: ghosts of the heart beside the body that the threshold let in.
+/// Removes from the body, from its border inwards by at most 25 mm, voxels dimmer than 0.15 of the
+/// brightest tissue within 15 mm: ghosts of the heart beside the body that exceed the threshold.
 /// Skin is brighter; dark chest is filled in again afterwards.
 void remove_ghosts(Mask& body, const Volume<float>& scan);
 

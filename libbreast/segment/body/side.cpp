@@ -39,9 +39,9 @@ void refuse_other_side(const TorsoFront& torso, const Grid& grid, Side side) {
   if (torso.one_breast) {
     const double fall = fall_to_the_left(torso, grid) * lateral_sign(side);
     if (fall > -clear_fall) return;
-    throw input_error("the one breast in the field of view is the ", side_name(other),
+    throw input_error("the only breast in the field of view is the ", side_name(other),
                       " one, not the ", side_name(side), ": its skin falls back ",
-                      std::lround(-fall), " mm farther on the patient's ", side_name(other),
+                      std::lround(-fall), " mm more on the patient's ", side_name(other),
                       " than on the ", side_name(side), " (sternum and flank; at most ", clear_fall,
                       " mm accepted): give --side ", side_name(other),
                       ", or a scan that shows the ", side_name(side), " breast");

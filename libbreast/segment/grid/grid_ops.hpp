@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Grids: axes put in patient order, coarser and finer copies.
+// Operations on volume grids: axes in patient order, coarsening, resampling, rotation.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace breast {
 using Mask = Volume<std::uint8_t>;
 
 /// The same voxels with axes permuted and flipped so that i runs mostly to the patient's left, j to
-/// posterior and k to superior. Every voxel keeps its place in the patient.
+/// posterior and k to superior. Every voxel keeps its position in the patient.
 Volume<float> in_patient_order(const Volume<float>& volume);
 /// Mean of blocks of factor[0] x factor[1] x factor[2] voxels; incomplete blocks at the far ends
 /// are averaged over what is there.

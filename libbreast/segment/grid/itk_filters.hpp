@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ITK filters segment uses, on our volumes (ITK's headers stay in one file).
+// The ITK filters that segmentation uses, applied to libbreast volumes (ITK's headers stay in one
+// file).
 #pragma once
 
 #include "segment/grid/grid_ops.hpp"

@@ -115,7 +115,8 @@ BiasField fat_bias(const Volume<float>& scan, const Mask& allowed,
   }
   if (std::none_of(fat.voxels.begin(), fat.voxels.end(), [](float v) { return v > 0; })) {
     throw input_error(
-        "no fat found in front of the chest wall: is this a T1 scan without fat suppression?");
+        "no fat was found in front of the chest wall: is this a T1-weighted scan without fat "
+        "suppression?");
   }
   BiasField field;
   for (int pass = 0; pass < 4; ++pass) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the nipple is.
+// Detection of the nipple.
 #pragma once
 
 #include "segment/grid/grid_ops.hpp"
@@ -14,8 +14,8 @@ struct Nipple {
 };
 /// Starts at the most convex skin point (least body within 6 mm, by a Gaussian) within 25 mm of the
 /// most anterior one. About it the skin's height over its tangent plane is compared with a quadric
-/// through the ring 9-25 mm away: what stands out by more than half its maximum is the papilla (or
-/// the apex of a cone), its weighted centre the nipple, to a fraction of a voxel.
+/// through the ring 9-25 mm away: the part that protrudes by more than half the maximum is the
+/// papilla (or the apex of a cone), and its weighted centre the nipple, to a fraction of a voxel.
 Nipple find_nipple(const Mask& breast, const Mask& body);
 
 }  // namespace breast

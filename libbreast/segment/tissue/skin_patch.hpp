@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pieces of the skin's surface, seen in their tangent plane.
+// Patches of the skin surface in the coordinates of their tangent plane.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace breast {
 
-/// Voxel face against air: its centre and its part of the surface's area vector (outward). Places
-/// are mm from the grid's first voxel, along the grid's axes.
+/// A voxel face adjacent to air: its centre and its share of the surface's area vector (outward).
+/// Positions are in mm from the grid's first voxel, along the grid's axes.
 struct SkinFace {
   Vec3 centre, area;
 };
-/// Faces of the body within `reach` mm of a place; faces on the grid's own border are none.
+/// Faces of the body within `reach` mm of a place; faces on the border of the grid are excluded.
 std::vector<SkinFace> skin_faces(const Mask& body, const Vec3& about, double reach);
 
 struct TangentFrame {

@@ -244,8 +244,8 @@ Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& inter
   if (interior_by == Interior::region_growing) {
     if (fat_seeds(ratio, interior).empty()) {
       throw input_error(
-          "no voxel of the breast is as bright as fat: region growing has nowhere to start; "
-          "use --interior threshold");
+          "no voxel of the breast is as bright as fat, so that region growing has no seed; use "
+          "--interior threshold");
     }
     for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
       result.fraction.voxels[n] = grown.voxels[n] ? 1 : 0;

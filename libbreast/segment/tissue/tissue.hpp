@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fat and fibroglandular tissue inside the breast.
+// Separation of fat and fibroglandular tissue inside the breast.
 #pragma once
 
 #include "segment/grid/grid_ops.hpp"
 
 namespace breast {
 
-/// What tells fibroglandular tissue from fat.
+/// Method that separates fibroglandular tissue from fat.
 enum class Interior {
   threshold,      ///< midway between the brightness of gland and fat
   region_growing  ///< the paper's 3-D confidence-connected growing of fat; what is left is gland

@@ -9,7 +9,7 @@
 
 namespace breast {
 
-/// Columns on which the wall is sought, and how deep.
+/// Columns in which the wall is sought, and the range of its depth.
 struct WallDomain {
   int first = 0, last = 0;      ///< columns i, inclusive
   std::vector<double> nearest;  ///< mm per slice: no wall in front of this

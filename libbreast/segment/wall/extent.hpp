@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which part of the body in front of the chest wall is the breast.
+// Extent of the breast within the body in front of the chest wall.
 #pragma once
 
 #include "core/types.hpp"
@@ -8,17 +8,17 @@
 namespace breast {
 
 struct BreastExtent {
-  std::vector<std::uint8_t> columns;  ///< nx*nz: 1 where the breast stands on the chest wall
+  std::vector<std::uint8_t> columns;  ///< nx*nz: 1 where the breast covers the chest wall
   double sternal_thickness = 0;       ///< mm from wall to skin over the sternum
-  double least_thickness = 0;         ///< mm: where the breast ends
+  double least_thickness = 0;         ///< mm; thickness at which the breast ends
   double greatest_thickness = 0;      ///< mm
 };
 /// `skin_distance`: signed distance to air (mm, negative inside).
 BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const TorsoFront& torso,
                          const Volume<float>& skin_distance, Side side);
 
-/// Voxels of the breast: in front of the wall on the extent's columns, and parts that hang over
-/// beyond it.
+/// Voxels of the breast: those in front of the wall in the columns of the extent, and overhanging
+/// parts beyond it.
 Mask breast_voxels(const Mask& body, const ChestWall& wall, const WallDomain& domain,
                    const TorsoFront& torso, const BreastExtent& extent, Side side);
 

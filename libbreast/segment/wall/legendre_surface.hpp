@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Smooth surface through a height field, deaf to outliers.
+// Robust fit of a smooth surface to a height field.
 #pragma once
 
 #include "segment/wall/chest_wall.hpp"

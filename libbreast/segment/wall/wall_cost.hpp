@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What speaks for a chest wall at each depth of a column.
+// Cost of a chest wall at each depth of an image column.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +40,7 @@ struct Levels {
 };
 
 /// Fills one column's costs at the given levels: bright in front, dark behind and a drop between
-/// are cheap. `prior` (may be null) makes depths far from it dear.
+/// are cheap. `prior` (may be null) increases the cost of depths far from it.
 void column_cost(const Volume<float>& ratio, const WallDomain& domain, const HeightField* prior,
                  double muscle, const Levels& levels, int i, int k, float* cost);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A chest wall corrected by hand: from a label map or from clicked points.
+// Manual correction of the chest wall from a label map, clicked points or a surface.
 #pragma once
 
 #include <string>
@@ -14,9 +14,9 @@ namespace breast {
 /// Returns the share of the domain's columns replaced.
 double apply_wall_labels(ChestWall& wall, const WallDomain& domain, const Grid& grid,
                          const Volume<float>& labels);
-/// Moves the wall through clicked points (patient mm): thin-plate spline of the corrections, held
-/// at zero farther than 50 mm from every point. Of more than 400 points the mean of every cell of
-/// 8 mm counts. Throws Error (input) for a point beside the domain.
+/// Moves the wall to clicked points (patient mm) by a thin-plate spline of the corrections, which
+/// are zero farther than 50 mm from every point. More than 400 points are averaged in cells of 8
+/// mm. Throws Error (input) for a point beside the domain.
 void apply_wall_points(ChestWall& wall, const WallDomain& domain, const Grid& grid,
                        const std::vector<Vec3>& points);
 /// Moves the wall to a surface given by its points (patient mm): the mean point of every cell of

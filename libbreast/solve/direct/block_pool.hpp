@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Blocks of memory that are used again: fronts come and go hundreds of times a factorisation, and
+// A pool of reusable memory blocks: fronts are allocated hundreds of times per factorisation, and
 // fresh pages cost more than the arithmetic of a small front.
 #pragma once
 

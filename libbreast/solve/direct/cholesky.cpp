@@ -28,7 +28,8 @@ class Cholesky::Impl {
       factor_.reset(new double[std::size_t(tree.panel_start.back())]);
     } catch (const std::bad_alloc&) {
       throw failed_error("the Cholesky factor needs ", tree.stored_entries() * 8e-9,
-                         " GB, more than there is: use --solver multigrid or a coarser mesh");
+                         " GB, more than the available memory: use --solver multigrid or a "
+                         "coarser mesh");
     }
     rest_.resize(std::size_t(tree.count()));
     for (int f = 0; f < tree.count(); ++f) {

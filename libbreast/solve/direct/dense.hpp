@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Dense pieces of a front, in place and column-major, large ones cut into tiles that OpenMP tasks
-// share. The tiles do not depend on the number of threads, so neither does the result.
+// Dense operations on a front, in place and column-major; large ones are divided into tiles that
+// OpenMP tasks share. The tiles do not depend on the number of threads, so neither does the result.
 #pragma once
 
 namespace breast::dense {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The elimination tree of a symmetric node matrix in fronts (supernodes): what a multifrontal
-// Cholesky factorisation needs to know before it sees a value.
+// The elimination tree of a symmetric node matrix in fronts (supernodes): the symbolic analysis of
+// a multifrontal Cholesky factorisation.
 #pragma once
 
 #include <vector>

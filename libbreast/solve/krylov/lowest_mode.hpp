@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The lowest mode of a symmetric map and its eigenvalue, positive or not: the way in which a body in
-// unstable equilibrium moves off.
+// The lowest mode of a symmetric map and its eigenvalue, positive or not: the direction in which a
+// body leaves an unstable equilibrium.
 #pragma once
 
 #include <Eigen/Core>

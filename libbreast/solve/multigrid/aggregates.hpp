@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nodes gathered into aggregates, the nodes of the next coarser level (Vanek, Mandel and Brezina
-// 1996, "Algebraic multigrid by smoothed aggregation", Computing 56).
+// Aggregation of nodes into the nodes of the next coarser multigrid level (Vanek, Mandel and
+// Brezina 1996, "Algebraic multigrid by smoothed aggregation", Computing 56).
 #pragma once
 
 #include <cmath>

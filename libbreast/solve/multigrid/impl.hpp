@@ -10,7 +10,7 @@
 
 namespace breast {
 
-/// Near-null space of a level: B × 6 values a node.
+/// Near-null space of a level: B × 6 values per node.
 template <int B>
 using Motions = std::vector<Eigen::Matrix<double, B, 6>>;
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Smoothed-aggregation multigrid for a symmetric node matrix, its coarse spaces made of the rigid
-// motions of aggregates: one V-cycle is a symmetric positive definite stand-in for the inverse.
-// Own code: the packaged libraries that have it (hypre, PETSc) need MPI in every program.
+// Smoothed-aggregation multigrid for a symmetric node matrix, whose coarse spaces are the rigid
+// motions of aggregates: one V-cycle is a symmetric positive definite approximation of the inverse.
+// It is our own code, since the packaged libraries that provide it (hypre, PETSc) need MPI in every
+// program.
 #pragma once
 
 #include <Eigen/Core>

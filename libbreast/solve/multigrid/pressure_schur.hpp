@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stands for the inverse of the pressure's Schur complement where no factor is at hand:
+// Approximate inverse of the pressure's Schur complement, used where no factor is available:
 //
 //     S = (1 − κc) B K_κ⁻¹ Bᵀ + cM,    S⁻¹ = κM⁻¹ + (1 − κc)(B K⁻¹ Bᵀ + cM)⁻¹    (exactly)
 //
