@@ -13,14 +13,14 @@ table=$run/accuracy.tsv
 printf 'point\telements\tstress_free_estimate_mm\tsupine_estimate_mm\tcpu_s\tmeets\n' > "$table.part"
 meets=no coarser=
 for point in $ladder; do
-  "$@" "$run/cost/$point.done" >&2
-  backward=$run/cost/$point-reference.json forward=$run/cost/$point-supine.json
-  [ ! -f "$run/cost/$point.failed" ] || continue
+  "$@" "$run/studies/cost/$point/supine.json" >&2
+  backward=$run/studies/cost/$point/reference.json forward=$run/studies/cost/$point/supine.json
+  [ -s "${forward%.json}.vtkhdf" ] || continue
   if [ "${point%%-*}" = q2p1 ]; then
     a= b=
     if [ -n "$coarser" ]; then
-      a=$(apart "$probe" "${backward%.json}.vtkhdf" "$run/cost/$coarser-reference.vtkhdf")
-      b=$(apart "$probe" "${forward%.json}.vtkhdf" "$run/cost/$coarser-supine.vtkhdf")
+      a=$(apart "$probe" "${backward%.json}.vtkhdf" "$run/studies/cost/$coarser/reference.vtkhdf")
+      b=$(apart "$probe" "${forward%.json}.vtkhdf" "$run/studies/cost/$coarser/supine.vtkhdf")
     fi
     coarser=$point
   else
@@ -33,7 +33,7 @@ for point in $ladder; do
   chosen=$point
   [ "$meets" = no ] || break
 done
-[ -n "${chosen:-}" ] || { echo "accuracy: no mesh of the ladder could be solved: see $run/cost/*.failed" >&2; exit 3; }
+[ -n "${chosen:-}" ] || { echo "accuracy: no mesh of the ladder could be solved: see $run/studies/cost/*/*.json" >&2; exit 3; }
 mv "$table.part" "$table"
 cat "$table" >&2
 [ "$meets" = yes ] || echo "accuracy: $wanted mm is not met by any mesh tried; the finest is taken" >&2

@@ -42,7 +42,8 @@ missing() { # FOLDER ROW
   local shape said=
   [ "$2" != compression ] || said="stress-free, supine: not solved in this row"
   for shape in reference supine cc mlo; do
-    [ ! -f "$1/$shape.failed" ] || said="${said:+$said; }$shape: $(key "$1/$shape.json" reason || cat "$1/$shape.failed")"
+    [ ! -s "$run/studies/budget/$2/$shape.json" ] || [ -s "$run/studies/budget/$2/$shape.vtkhdf" ] ||
+      said="${said:+$said; }$shape: $(key "$run/studies/budget/$2/$shape.json" reason)"
   done
   echo "${said:--}"
 }

@@ -38,7 +38,7 @@ truth_at() { # LANDMARK: motion to the stress-free shape in the phantom's table 
 }
 printf '\tnipple, supine\ttumour, supine\tnipple, stress-free\ttumour, stress-free\t\n'
 printf 'the paper\t8.8\t3.0\t4.5\t1.6\t\n'
-row 'as printed in the paper' "$run/variants/as-printed-supine.json" "$run/variants/as-printed-reference.json" 'calibrated to this row'
+row 'as printed in the paper' "$run/studies/findings/as-printed/supine.json" "$run/studies/findings/as-printed/reference.json" 'calibrated to this row'
 row 'default chain' "$run/supine.json" "$run/reference.json" 'calibrated to this row, by the same fit'
 printf "the phantom's truth\t%s\t%s\t%s\t%s\t\n" "$(rounded 2 "$(of_phantom "$truth" "$side" nipple distance_mm)")" \
   "$(rounded 2 "$(of_phantom "$truth" "$side" tumour distance_mm)")" "$(truth_at nipple)" "$(truth_at tumour)"

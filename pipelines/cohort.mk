@@ -40,11 +40,6 @@ COHORT_RUNS := $(RUNS)/cohort-$(notdir $(patsubst %/,%,$(if $(filter . .. %/. %/
 .DEFAULT_GOAL := cohort
 
 # CASE, its file, and what it is of (scan or phantom), a line each: a file, because ten thousand do not fit a command line.
-define newline
-
-
-endef
-tab := $(shell printf '\t')
 case_lines_of_all = $(subst $(newline)$(space),$(newline),$(foreach f,$(COHORT_FILES),$(call cohort_case,$f)$(tab)$f$(tab)$(kind_$(call \
   cohort_case,$f))$(newline)))
 CASE_LIST := $(COHORT_RUNS)/.cases

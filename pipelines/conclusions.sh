@@ -17,6 +17,7 @@ if [ "$how" = rows ]; then
   }
 else
   slopes=$1 stiff=$2 prefix=
+  [ -s "$slopes" ] || slopes=/dev/null  # a material without a stress-free body has none
   slope() {
     awk -F'\t' -v tissue="$2" -v landmark="$3" '{ sub(/^artificial_/, "", $1) } $1 == landmark && $2 == tissue { value = sprintf("%.4f", $7) }
       END { print (value == "" ? "-" : value) }' "$slopes"

@@ -12,9 +12,9 @@ moved() { # REPORT LANDMARK
   paste -d, <("$here/landmark.sh" "$1" "$2" imaged) <("$here/landmark.sh" "$1" "$2" position) |
     awk -F, '{ printf "%.6f", sqrt(($1 - $4) ^ 2 + ($2 - $5) ^ 2 + ($3 - $6) ^ 2) }'
 }
-finest=$run/variants/${!#}
+finest=$run/studies/findings/${!#}
 nipple=- tumour=-
-[ -f "$finest.failed" ] || { nipple=$(moved "$finest-supine.json" nipple) tumour=$(moved "$finest-supine.json" tumour); }
+[ ! -s "$finest/supine.vtkhdf" ] || { nipple=$(moved "$finest/supine.json" nipple) tumour=$(moved "$finest/supine.json" tumour); }
 row() { # NAME STRESS-FREE SUPINE SLOPES
   local a b
   a=$(moved "$3" nipple) b=$(moved "$3" tumour)
@@ -27,12 +27,12 @@ row() { # NAME STRESS-FREE SUPINE SLOPES
 printf 'model\telements\tstress_free_nipple_mm\tstress_free_tumour_mm\tsupine_nipple_mm\tsupine_tumour_mm\tnipple_from_finest_percent'
 printf '\ttumour_from_finest_percent\testimate_mm\tfat_slope_nipple\tfat_slope_tumour\n'
 printf 'paper\t4096\t4.5\t1.6\t8.78\t3.03\t-\t-\t-\t-0.607\t-0.705\n'
-row default "$run/reference.json" "$run/supine.json" "$run/base-slopes.tsv"
+row default "$run/reference.json" "$run/supine.json" "$run/slopes.tsv"
 for variant in "$@"; do
-  name=$run/variants/$variant
-  if [ -f "$name.failed" ]; then
+  name=$run/studies/findings/$variant
+  if [ ! -s "$name/supine.vtkhdf" ]; then
     printf '%s\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\n' "$variant"
   else
-    row "$variant" "$name-reference.json" "$name-supine.json" "$name-slopes.tsv"
+    row "$variant" "$name/reference.json" "$name/supine.json" "$name/slopes.tsv"
   fi
 done

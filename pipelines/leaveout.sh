@@ -24,7 +24,7 @@ surgery=$(seconds "$run" reference supine) matching=$(seconds "$run" reference c
 printf 'variant\tsupine_tumour_mm\tsupine_nipple_mm\tcc_tumour_mm\tmlo_tumour_mm\tcurve_mean_mm\tcurve_max_mm\tcc_force_N\tsurgery_cpu_s\tsurgery_saved_s\tmatching_cpu_s\tmatching_saved_s\n'
 printf 'base\t0\t0\t0\t0\t0\t0\t%.1f\t%s\t0\t%s\t0\n' "$(key "$run/cc.json" force_N)" "$surgery" "$matching"
 for variant in "$@"; do
-  folder=$run/leaveout/$variant
+  folder=$run/studies/leaveout/$variant
   curve=$("$evaluate" "$folder/curve.vtp" "$run/curve.vtp" --curves --quiet |
     awk -F'\t' '$1 == "curve_mean_mm" { mean = $2 } $1 == "curve_max_mm" { most = $2 } END { print mean "\t" most }')
   own_surgery=$(seconds "$folder" reference supine) own_matching=$(seconds "$folder" reference cc mlo)

@@ -4,7 +4,7 @@
 # distance on the MLO curve of the tumour):
 #   recommend.sh choose TABLE QUESTION MM PART...   the parts to leave out: smallest change first, while the changes of
 #                                                   leaveout's TABLE add up to no more than MM
-#   recommend.sh table RUN PROBE MM PART...         those parts, the sum, and what RUN/leaveout/least-QUESTION really gives
+#   recommend.sh table RUN PROBE MM PART...         those parts, the sum, and what RUN/studies/leaveout/least-QUESTION really gives
 # Changes need not add up: the last column says whether the model without all of them keeps the error.
 set -euo pipefail
 here=$(dirname "$0")

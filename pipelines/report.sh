@@ -30,7 +30,7 @@ extra() { # TITLE NOTE FILE...: tables and plots of a slow target, when it was r
 
 # CPU seconds of every solve behind Tables III to VI, from their reports.
 solved_again() {
-  cat "$run"/scaled/*-{reference,supine}.json 2> /dev/null | awk '$1 == "\"cpu_seconds\":" { total += $2 } END { printf "%.0f", total }'
+  cat "$run"/studies/scaled/*/{reference,supine}.json 2> /dev/null | awk '$1 == "\"cpu_seconds\":" { total += $2 } END { printf "%.0f", total }'
 }
 
 name=$(escaped "$(basename "$run")")

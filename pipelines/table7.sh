@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Table VII, ours: slopes d ln u / d ln s of all tissues at once from one tangent-linear solve, against the rows of
 # Tables III to VI solved again: table7.sh BASE SCALED SLOPES TUMOUR_SLOPES
-# BASE: supine report of the 100 per cent state; SCALED: folder of TISSUE-PERCENT-supine.json. resolved: three-point
+# BASE: supine report of the 100 per cent state; SCALED: folder of TISSUE-PERCENT/supine.json. resolved: three-point
 # derivative in ln s through 90, 100, 110 per cent (tumour: 100, 150, 200, one-sided). step_error: what its steps cost,
 # from the same formula through 50, 100, 200 (tumour: 100, 200, 500) and the orders of both. vector_difference: of the two
 # derivatives of the landmark's place, per cent of its length. agrees: difference at most twice step_error plus 1e-4.
@@ -14,15 +14,15 @@ place() { "$here/landmark.sh" "$1" "$2" "$3" | tr , ' '; }  # REPORT LANDMARK im
 printf 'tissue\tlandmark\ttangent\tresolved\tdifference\tstep_error\tvector_difference_percent\tverdict\n'
 for tissue in fat fibroglandular skin tumour; do
   zero=$base from=$slopes steps="90 110 50 200"
-  [ $tissue != tumour ] || { zero=$scaled/tumour-100-supine.json from=$tumour_slopes steps="150 200 200 500"; }
+  [ $tissue != tumour ] || { zero=$scaled/tumour-100/supine.json from=$tumour_slopes steps="150 200 200 500"; }
   for landmark in tumour nipple; do
     {
       echo "$steps"
       place "$zero" $landmark imaged
       place "$zero" $landmark position
       for percent in $steps; do
-        report=$scaled/$tissue-$percent-supine.json
-        [ -s "$report" ] && place "$report" $landmark position || echo -
+        report=$scaled/$tissue-$percent/supine.json
+        [ -s "${report%.json}.vtkhdf" ] && place "$report" $landmark position || echo -
       done
       awk -F'\t' -v t=$tissue -v l=$landmark '{ sub(/^artificial_/, "", $1) } $1 == l && $2 == t { print $4, $5, $6, $7 }' "$from"
     } | awk -v OFS='\t' -v tissue=$tissue -v landmark=$landmark '

@@ -7,14 +7,14 @@ conclusions=$1 run=$2 probe=$3
 shift 3
 here=$(dirname "$0")
 . "$here/values.sh"
-models=("paper=$run/tables/.conclusions-paper.values" "ours=$run/variants/.ours.values")
-for set in "$@"; do models+=("$set=$run/variants/.$set.values"); done
+models=("paper=$run/tables/.conclusions-paper.values" "ours=$run/tables/.ours.values")
+for set in "$@"; do models+=("$set=$run/studies/table8/$set/.values"); done
 table=$("$here/judge.sh" "$conclusions" "${models[@]}")
 head -n 1 <<< "$table"
 moved() { "$probe" "$1" --landmarks tumour,nipple --quiet | cell - "$(basename "$1")" "$2_mm"; }  # FILE LANDMARK
 printf 'stress-free body of the imaged shape\t-\t-\t-\t\tyes\t'
 for set in "$@"; do
-  [ ! -f "$run/variants/$set.failed" ] && printf '\tyes\t' || printf '\tno\t%s' "$(tr '\t\n' '  ' < "$run/variants/$set.failed")"
+  [ -s "$run/studies/table8/$set/supine.vtkhdf" ] && printf '\tyes\t' || printf '\tno\t%s ' "$(why "$run/studies/table8/$set/supine.json" | tr '\t' ' ')"
 done
 printf '\n'
 for landmark in nipple tumour; do
@@ -22,7 +22,7 @@ for landmark in nipple tumour; do
     "$(cell "$here/paper/table3.tsv" 100 ${landmark}_mm)" "$(moved "$run/supine.vtkhdf" $landmark)" \
     "$([ -z "${CALIBRATED:-}" ] || echo 'calibrated to this row')"
   for set in "$@"; do
-    [ -f "$run/variants/$set.failed" ] && printf '\t-\t' || printf '\t%s\t' "$(moved "$run/variants/$set-supine.vtkhdf" $landmark)"
+    [ ! -s "$run/studies/table8/$set/supine.vtkhdf" ] && printf '\t-\t' || printf '\t%s\t' "$(moved "$run/studies/table8/$set/supine.vtkhdf" $landmark)"
   done
   printf '\n'
 done

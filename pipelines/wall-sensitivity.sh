@@ -15,7 +15,7 @@ moved() {
 printf 'wall\tsigma_mean_mm\tvolume_ml\tsupine_tumour_mm\tsupine_nipple_mm\tcc_tumour_mm\tmlo_tumour_mm\n'
 printf 'as found\t%.2f\t%.1f\t0\t0\t0\t0\n' "$(number "$run/labels.json" sigma_mean_mm)" "$(number "$run/mesh.json" volume_ml)"
 for variant in "$@"; do
-  folder=$run/wall/$variant
+  folder=$run/studies/wall/$variant
   printf '%s\t%.2f\t%.1f\t%s\t%s\t%s\t%s\n' "$variant" "$(number "$folder/labels.json" sigma_mean_mm)" \
     "$(number "$folder/mesh.json" volume_ml)" \
     "$(moved "$folder/supine.json" "$run/supine.json" tumour)" "$(moved "$folder/supine.json" "$run/supine.json" nipple)" \
