@@ -87,8 +87,8 @@ placed = $(if $(findstring {tumour},$2),$(subst {tumour},$$($(PIPELINES)/landmar
 # A variant's solve may end early; one that waits for another variant (column `if`) ends with it.
 inputs_of = $(foreach s,$(reads_$2),$(call file_of,$1,$s))
 attempt = $(if $(filter $(RUN),$1),,$(PIPELINES)/attempt.sh $1/$2.json "$(strip $(call inputs_of,$1,$2) $(addsuffix /supine.vtkhdf,$($1@if)))")
-run_stage = $(call attempt,$1,$2) $(program_$2) $(scan_$2) $(call inputs_of,$1,$2) $(addprefix $1/,$(firstword $(or $(writes_$2),$2.vtkhdf))) \
-  $(fixed_$2) $(call placed,$1,$(options_$2)) --report $1/$2.json $(share)
+run_stage = $(strip $(call attempt,$1,$2) $(program_$2) $(scan_$2) $(call inputs_of,$1,$2) $(addprefix $1/,$(firstword $(or $(writes_$2),$2.vtkhdf))) \
+  $(fixed_$2) $(call placed,$1,$(options_$2)) --report $1/$2.json $(share))
 define stage_rule
 $1/$2_record := $1/.$2.settings
 $1/$2_settings := $(program_$2) $(scan_$2) $(options_$2)

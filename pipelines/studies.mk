@@ -64,7 +64,7 @@ $$(call read_table,$2)
 $$(call none_of,$2,$$(columns),$(study_columns))
 $$(call each_row,variant)
 $(call study_dir,$1).tsv: $$(foreach v,$$($1_variants),$$(call results,$1,$$v,$$($(call study_dir,$1/)$$v@ends_at))) $(PIPELINES)/study.sh $(PROBE)
-	$$(call table,$(PIPELINES)/study.sh $(call study_dir,$1) $(PROBE) $(landmarks) $$($1_variants))
+	$$(call table,$(PIPELINES)/study.sh $(call study_dir,$1) $(PROBE) $$(landmarks) $$($1_variants))
 endef
 studies := $(sort $(wildcard $(PIPELINES)/studies/*.tsv))
 $(foreach s,$(studies),$(eval $(call load_study,$(basename $(notdir $s)),$s,$(RUN))))

@@ -54,8 +54,8 @@ kill_at() { # SIGNAL FILE DELAY
 check_killed() {
   local file at=$work/killed/small
   kill_at TERM "$at/geometry.vtkhdf" 0.31
-  kill_at KILL "$at/scaled/fat-110-reference.vtkhdf" 0.07
-  kill_at KILL "$at/variants/as-printed-slopes.tsv" 0.19
+  kill_at KILL "$at/studies/scaled/fat-110/reference.vtkhdf" 0.07
+  kill_at KILL "$at/studies/findings/as-printed/slopes.json" 0.19
   run RUNS="$work/killed" share='--threads 1' -j2 "${killed_files[@]/#/$at/}" > "$work/log" 2>&1 ||
     { tail -n 20 "$work/log"; fail "the run finishes after three kills"; }
   for file in "${killed_files[@]}"; do

@@ -50,7 +50,7 @@ for name in "${worst[@]}" "a b.nrrd" "a'b.nrrd" 'a"b.nrrd' 'a(b).nrrd' 'a=b.nrrd
   'a>b' 'a*b' 'a[b]' 'a#b' 'a\b'; do
   refuse_name MR "$name"
 done
-for setting in CHEST_WALL CASE MATERIALS TUMOUR RUNS COHORT CASE_FILE; do
+for setting in CHEST_WALL CASE MATERIALS TUMOUR RUNS COHORT CASE_FILE STUDY; do
   for name in "${worst[@]}"; do refuse_name "$setting" "$name"; done
 done
 all_settings=$(make -f Makefile.pipeline -n --eval='print: ; $(info $(known_settings))' print 2> /dev/null | sed -n 1p)
@@ -126,6 +126,29 @@ printf 'case\tstatus\na\tfailed\nb\tfailed\n' > "$work/t.tsv"
 printf 'case\tstatus\na\tfailed\nb\tdone\n' > "$work/t.tsv"
 pipelines/cohort.sh any-done "$work/t.tsv" || fail "one case done is enough"
 pass "cohorts: names once, a scan in every case, failure when all fail"
+
+# A study is data: columns, stages and rows are known, and nothing in it is code.
+study() { printf "$1\n" > "$work/own.tsv"; }
+study 'variant\tstarts_at\tmechanics\nsofter\treference\t+--scale fat=50'
+plan PRESET=small STUDY="$work/own.tsv" study && grep -q -- 'studies/own/softer/reference.vtkhdf .*--materials seed2008 --scale fat=50' "$work/out" ||
+  { cat "$work/err" "$work/out"; fail "a study of one's own is planned"; }
+study 'variant\tstarts_at\tmechanic\nsofter\treference\t+--scale fat=50'
+refused "a slip in a study's column" "mechanic" "did you mean mechanics?" -- STUDY="$work/own.tsv" study
+study 'variant\tstarts_at\nsofter\trefference'
+refused "an unknown stage" "did you mean reference?" -- STUDY="$work/own.tsv" study
+study 'variant\tfrom\tstarts_at\nsofter\tharder\treference'
+refused "a variant of nothing" "harder" "no row above" -- STUDY="$work/own.tsv" study
+study 'variant\tstarts_at\tfit\nsofter\treference'
+refused "a line with a cell too few" "softer has 2 cells and not 3" -- STUDY="$work/own.tsv" study
+study 'variant\tstarts_at\nsofter\treference\nsofter\treference'
+refused "two rows of a name" "softer is no name of a row of its own" -- STUDY="$work/own.tsv" study
+for code in '$(shell touch '"$bait"')' '`touch '"$bait"'`' "; touch $bait" '{MR}' '{shell}'; do
+  printf 'variant\tstarts_at\tmechanics\nsofter\treference\t%s\n' "$code" > "$work/own.tsv"
+  refused "a study with $code" "may not stand in a study" -- STUDY="$work/own.tsv" study
+done
+refused "a study that is not there" "STUDY" "leaveout" -- STUDY="$work/none.tsv" study
+[ ! -e "$bait" ] || fail "nothing of a study is executed"
+pass "a study's table is checked by column, stage and row, never executed"
 
 # What Slurm would be given, without Slurm.
 script() { make -f Makefile.pipeline RUNS="$work/cluster" COHORT="$work/cohort" CLUSTER=slurm -o build/built-release.mk "$@" cohort-script > "$work/out" 2> "$work/err" || { cat "$work/err"; fail "cohort-script $*"; }; }
