@@ -3,8 +3,6 @@
 # MM. ELEMENTS and ELEMENT come from a makefile of two lines, which make brings up to date before anything else; each
 # rung of the ladder, in the order of what they were measured to cost (docs/validation/mechanics.md), is a row of
 # pipelines/studies/cost.tsv.
-ACCURACY_LADDER ?= $(addprefix q1p0-dome-,4 6 8 10 12) q2p1-dome-8 q1p0-dome-16 q2p1-dome-10 q1p0-dome-20 q2p1-dome-12 \
-  q2p1-dome-16
 ifneq ($(strip $(ACCURACY)),)
 accuracy_settings = $(ACCURACY) $(ACCURACY_LADDER) $(MATERIALS) $(SUPPORT)
 accuracy_record = $(RUN)/.accuracy.settings

@@ -3,19 +3,8 @@
 # cohort a folder of them: COHORT/*.case or COHORT/*/case.txt (and, as version 0.1 called them, *.mk and */case.mk). Every case
 # is run; one that fails is recorded with its reason and does not stop the others. When all fail, make fails.
 # CLUSTER=slurm gives the cases to Slurm as one job array (pipelines/slurm.sh); without it they are processes of this machine.
-CLUSTER ?= local
-CLUSTER_PARTITION ?=
-CLUSTER_ACCOUNT ?=
-CLUSTER_TIME ?=
-CLUSTER_MEMORY ?=
-CLUSTER_CORES ?= 1
-CLUSTER_OPTIONS ?=
-# Of a cohort given to Slurm: submit only the cases that are missing or out of date. Local processes always do so.
-RESUME ?=
+# RESUME: of a cohort given to Slurm submit only the cases that are missing or out of date. Local processes always do so.
 ifneq ($(COHORT),)
-$(call among,CLUSTER,local slurm)
-$(call plain_number,CLUSTER_CORES)
-$(call plain_number,CLUSTER_MEMORY)
 case_patterns := *.case */case.txt *.mk */case.mk
 COHORT_FILES := $(sort $(wildcard $(addprefix $(COHORT)/,$(case_patterns))))
 ifeq ($(COHORT_FILES),)
@@ -68,8 +57,7 @@ ifeq ($(CLUSTER),slurm)
 task_make = make -f $(PIPELINE) -o $(ROOT)build/built-$(PRESET_BUILD).mk -o $(ROOT)build/.packages
 task_settings = $(foreach v,$(filter-out COHORT RUNS CASE CASE_FILE CLUSTER% RESUME,$(given)),$(newline)$v=$(value $v))
 task_command = $(subst $(space)$(newline),$(newline),$(subst $(space),$(newline),$(task_make))$(task_settings))
-slurm = CLUSTER_PARTITION='$(CLUSTER_PARTITION)' CLUSTER_ACCOUNT='$(CLUSTER_ACCOUNT)' CLUSTER_TIME='$(CLUSTER_TIME)' \
-  CLUSTER_MEMORY='$(CLUSTER_MEMORY)' CLUSTER_CORES='$(CLUSTER_CORES)' CLUSTER_OPTIONS='$(CLUSTER_OPTIONS)' RESUME='$(RESUME)' \
+slurm = $(foreach v,PARTITION ACCOUNT TIME MEMORY CORES OPTIONS,CLUSTER_$v='$(CLUSTER_$v)') RESUME='$(RESUME)' \
   COST_ELEMENTS='$(ELEMENTS)' COST_ELEMENT='$(ELEMENT)' $(PIPELINES)/slurm.sh
 $(COHORT_RUNS)/.command: FORCE | $(COHORT_RUNS)/.folder
 	@$(if $(planning),,$(file > $@,$(task_command))):

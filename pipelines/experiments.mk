@@ -6,7 +6,6 @@
 # The change at the landmarks and on the MLO curve in mm, and the CPU time saved (studies/leaveout.tsv); then, for each
 # question, the least model that stays within LEAVEOUT_MM, solved and measured.
 LEAVEOUT := $(RUN)/leaveout
-LEAVEOUT_MM ?= 1
 LEAVEOUT_VARIANTS ?= $(leaveout_variants)
 LEAVEOUT_PARTS := $(filter no-%,$(leaveout_variants))
 LEAVEOUT_QUESTIONS := surgery matching
@@ -42,7 +41,6 @@ $(WALL_SHIFTS)/table.tsv: $(call results,wall,$(WALL_VARIANTS),supine curve) $(R
 	$(call table,$(PIPELINES)/wall-sensitivity.sh $(RUN) $(WALL_VARIANTS))
 	@cat $@
 # Derivatives by stiffness, plates and chest wall in one file a view, and the band they give the tumour's curve.
-DIFFERENCE ?= $(BIN)/difference
 $(RUN)/cc-band.vtkhdf $(RUN)/mlo-band.vtkhdf: $(RUN)/%-band.vtkhdf: $(RUN)/%-sensitivity.vtkhdf $(call results,wall,$(WALL_VARIANTS),curve) $(DIFFERENCE)
 	$(DIFFERENCE) $< $(foreach v,$(WALL_VARIANTS),$(call study_dir,wall/$v)/$*.vtkhdf) $@ --parameter chest_wall $(common)
 $(RUN)/band.tsv: $(RUN)/cc-band.vtkhdf $(RUN)/mlo-band.vtkhdf $(CC2MLO)
@@ -54,7 +52,6 @@ band: $(RUN)/band.tsv
 # ---- error against run time --------------------------------------------------------------------------------
 # The error is the landmarks' distance to the finest solution (COST_FINEST) of the same geometry, stress-free and supine.
 COST := $(RUN)/cost
-COST_FINEST ?= q2p1-dome-24
 COST_POINTS ?= $(cost_variants)
 $(call among,COST_POINTS,$(cost_variants))
 $(call among,COST_FINEST,$(cost_variants))

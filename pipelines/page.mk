@@ -5,7 +5,6 @@
 PAGE_SCAN ?= $(if $(TRUTH),yes,no)
 page_scan := $(if $(filter yes,$(PAGE_SCAN)),--scan $(MR) $(if $(SERIES),--series $(SERIES)))
 # With friction or a wall on springs there are no derivatives yet: the page then shows curves without bands.
-MATCH_LOOKUP ?= $(BIN)/match-lookup
 derivatives := $(if $(findstring --friction,$(COMPRESS_OPTIONS))$(findstring spring:,$(COMPRESS_OPTIONS)),,-sensitivity)
 page_states := $(RUN)/cc$(derivatives).vtkhdf $(RUN)/mlo$(derivatives).vtkhdf
 lookup_settings := $(MATCH_LOOKUP) $(page_states) $(page_scan)

@@ -3,7 +3,6 @@
 # tissue with that of living women (pipelines/invivo/women.tsv). Cases of scans take part when POPULATION_SCANS names the scan's file.
 #   make population                                the table, and the figure of motion against depth
 #   make calibrate-invivo                          pipelines/materials/invivo.tsv from the calibration half of the cohort
-# POPULATION_ELEMENTS=10 are 936 elements a breast; 16 gives 4000.
 POPULATION_RUNS := $(RUNS)/population
 population_files = $(patsubst %,$(POPULATION_RUNS)/%/$2.vtkhdf,$1)
 population_both = $(population_calibration) $(population_judging)

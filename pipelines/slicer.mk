@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The run for 3D Slicer, in RUN/slicer: images, labels, shapes, displacement fields, points and scene.mrml, which opens them.
-EXPORT_SLICER ?= $(BIN)/export-slicer
-SLICER_OPTIONS ?=
 slicer_settings := $(EXPORT_SLICER) $(MR) $(SLICER_OPTIONS)
 $(RUN)/slicer/scene.mrml: $(addprefix $(RUN)/,labels.vtkhdf mesh.vtkhdf reference.vtkhdf supine.vtkhdf cc.vtkhdf mlo.vtkhdf) $(CURVE) \
   $(EXPORT_SLICER) $(call changed,slicer)

@@ -79,3 +79,5 @@ $(STABILITY)/contact.tsv: $(COMPRESS) tests/fixtures/contact_cases.hpp tests/ben
 	@mv $@.part $@
 $(STABILITY)/summary.tsv: $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv $(PIPELINES)/stability-summary.sh
 	$(call table,$(PIPELINES)/stability-summary.sh $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv)
+
+include $(ROOT)tests/bench/compare.mk

@@ -8,8 +8,6 @@ COMPARE_SCENES ?= block-8-poly-1000-C3D8I block-8-poly-1000-C3D8 block-8-mr-100-
   block-8-mr-1000-C3D8I block-4-poly-1000-C3D20R breast-1000-C3D8I block-16-poly-1000-C3D8I
 COMPARE_PRESSED ?= pressed-8-10000-C3D8I-60-contact pressed-8-10000-C3D8I-50-prescribed \
   pressed-16-10000-C3D8I-60-contact
-COMPARE_ELEMENTS ?= 10
-EXPORT_DECK := $(BIN)/export-deck
 COMPARE_FILES := $(COMPARE_SCENES:%=$(COMPARE)/%.tsv)
 PRESSED_FILES := $(COMPARE_PRESSED:%=$(COMPARE)/%.tsv)
 compare_run = BIN=$(BIN) $(PIPELINES)/compare/compare.sh
