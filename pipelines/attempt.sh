@@ -14,4 +14,6 @@ for input in $inputs; do
 done
 code=0
 "$@" || code=$?
+# A program of somebody else's need not write a report.
+[ "$code" -ne 0 ] || [ -s "$report" ] || printf '{\n  "status": "ok"\n}\n' > "$report"
 [ "$code" -eq 0 ] || [ "$code" -eq 3 -a -s "$report" ]

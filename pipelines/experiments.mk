@@ -7,6 +7,7 @@
 # question, the least model that stays within LEAVEOUT_MM, solved and measured.
 LEAVEOUT := $(RUN)/leaveout
 LEAVEOUT_VARIANTS ?= $(leaveout_variants)
+$(call among,LEAVEOUT_VARIANTS,$(leaveout_variants))
 LEAVEOUT_PARTS := $(filter no-%,$(leaveout_variants))
 LEAVEOUT_QUESTIONS := surgery matching
 leaveout: $(LEAVEOUT)/table.tsv $(LEAVEOUT)/recommendation.tsv

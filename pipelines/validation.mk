@@ -9,7 +9,11 @@ validation: $(addprefix $(TABLES_OF_PAGE)/,compression-convergence.tsv calibrati
 	$(PIPELINES)/validation.sh fill $(PAGES_WITH_TABLES)
 validation-page:
 	$(PIPELINES)/validation.sh fill $(PAGES_WITH_TABLES)
-.PHONY: validation validation-page
+# Of docs/validation/slicer.md, from the default case.
+slicer-table: slicer
+	cp $(RUN)/slicer-fields.tsv $(TABLES_OF_PAGE)/slicer-fields.tsv
+	$(PIPELINES)/validation.sh fill $(PAGES_WITH_TABLES)
+.PHONY: validation validation-page slicer-table
 
 # How the compressed shapes converge with the mesh (studies/convergence.tsv).
 $(TABLES_OF_PAGE)/compression-convergence.tsv: $(call results,convergence,$(convergence_variants),cc mlo) $(PIPELINES)/convergence.sh $(PROBE)
