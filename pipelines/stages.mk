@@ -48,9 +48,8 @@ needs_supine = $(needs_reference)
 define view_stages
 program_$1 = $$(COMPRESS)
 reads_$1 := reference
-fixed_$1 := --view $2
-options_$1 = $$(if $$($$1@plates),$$(call same_plates,$$(TRUTH_AT)-fine-$1.json),--reduction $$(REDUCTION)) \
-  --at-least $$(AT_LEAST) $$($$1@compress) $$(mechanics)
+fixed_$1 = --view $2 $$(if $$($$1@plates),$$(call same_plates,$$(TRUTH_AT)-fine-$1.json))
+options_$1 = $$(if $$($$1@plates),,--reduction $$(REDUCTION)) --at-least $$(AT_LEAST) $$($$1@compress) $$(mechanics)
 needs_$1 = $$(needs_reference) $$(if $$($$1@plates),$$(TRUTH_TABLE))
 
 program_$1-mammogram = $$(PROJECT)
@@ -83,21 +82,22 @@ file_of = $(call home,$1,$2)/$2.vtkhdf
 made_in = $(if $(filter $(RUN),$1),$(addprefix $1/,$(or $(writes_$2),$2.vtkhdf)),$1/$2.json)
 target_of = $(firstword $(call made_in,$(call home,$1,$2),$2))
 # A tumour where the mesh it comes from has it: {tumour} among the options.
-placed = $(if $(findstring {tumour},$2),$(subst {tumour},$$($(PIPELINES)/landmark.sh $(call home,$($1@from),mesh)/mesh.json tumour),$2),$2)
+placed = $(if $(findstring {tumour},$2),$(if $(no_tumour),$(error $1: needs a tumour to follow, TUMOUR=x$(comma)y$(comma)z))$(subst \
+  {tumour},$$($(PIPELINES)/landmark.sh $(call home,$($1@from),mesh)/mesh.json tumour),$2),$2)
 # A variant's solve may end early; one that waits for another variant (column `if`) ends with it.
 inputs_of = $(foreach s,$(reads_$2),$(call file_of,$1,$s))
 attempt = $(if $(filter $(RUN),$1),,$(PIPELINES)/attempt.sh $1/$2.json "$(strip $(call inputs_of,$1,$2) $(addsuffix /supine.vtkhdf,$($1@if)))")
 run_stage = $(strip $(call attempt,$1,$2) $(program_$2) $(scan_$2) $(call inputs_of,$1,$2) $(addprefix $1/,$(firstword $(or $(writes_$2),$2.vtkhdf))) \
   $(fixed_$2) $(call placed,$1,$(options_$2)) --report $1/$2.json $(share))
+settings_of = $(program_$2) $(scan_$2) $(options_$2)
+# A folder's name may hold a comma: it is no argument in what is expanded later.
 define stage_rule
-$1/$2_record := $1/.$2.settings
-$1/$2_settings := $(program_$2) $(scan_$2) $(options_$2)
 $(call made_in,$1,$2) $(if $(word 2,$(call made_in,$1,$2)),&): $(foreach s,$(reads_$2) $(also_$2),$(call target_of,$1,$s)) \
   $(program_$2) $(needs_$2) $(if $(findstring {tumour},$(options_$2)),$(call target_of,$($1@from),mesh)) \
-  $(addsuffix /supine.json,$($1@if)) $$(call changed,$1/$2)
+  $(addsuffix /supine.json,$($1@if)) $(call stale,$1/.$2.settings,$(settings_of))
 	$(if $(filter $(RUN),$1),$(call before_$2,$1),@mkdir -p $1)
-	$$(call run_stage,$1,$2)
-	@$$(call record,$1/$2)
+	$$(call run_stage,$$(@D),$2)
+	@$$(call note,$$(@D)/.$2.settings,$$(call settings_of,$$(@D),$2))
 endef
 case_rules = $(foreach s,$2,$(eval $(call stage_rule,$1,$s)))
 

@@ -59,12 +59,12 @@ study := $1
 study_file := $2
 base := $3
 $1_variants :=
-$$(call check_table,$2)
-$$(call read_table,$2)
-$$(call none_of,$2,$$(columns),$(study_columns))
+$$(call check_table,$$(study_file))
+$$(call read_table,$$(study_file))
+$$(call none_of,$$(study_file),$$(columns),$$(study_columns))
 $$(call each_row,variant)
-$(call study_dir,$1).tsv: $$(foreach v,$$($1_variants),$$(call results,$1,$$v,$$($(call study_dir,$1/)$$v@ends_at))) $(PIPELINES)/study.sh $(PROBE)
-	$$(call table,$(PIPELINES)/study.sh $(call study_dir,$1) $(PROBE) $$(landmarks) $$($1_variants))
+$(call study_dir,$1).tsv: $$(foreach v,$$($1_variants),$$(call results,$1,$$v,$$($$(call study_dir,$1/$$v)@ends_at))) $(PIPELINES)/study.sh $(PROBE)
+	$$(call table,$$(PIPELINES)/study.sh $$(basename $$@) $$(PROBE) $$(landmarks) $$($1_variants))
 endef
 studies := $(sort $(wildcard $(PIPELINES)/studies/*.tsv))
 $(foreach s,$(studies),$(eval $(call load_study,$(basename $(notdir $s)),$s,$(RUN))))
@@ -76,7 +76,7 @@ ifeq ($(STUDY),)
 study:
 	$(error study: name a table of variants, STUDY=FILE.tsv, or one of $(basename $(notdir $(studies))))
 else
-study_name := $(basename $(notdir $(STUDY)))
+study_name := $(subst $(comma),_,$(basename $(notdir $(STUDY))))
 ifeq ($($(study_name)_variants),)
   $(if $(wildcard $(STUDY)),,$(error STUDY: '$(STUDY)' is neither a file nor one of $(basename $(notdir $(studies)))))
   $(eval $(call load_study,$(study_name),$(STUDY),$(RUN)))

@@ -35,8 +35,8 @@ $(TABLES)/.:
 define table_rules
 table$2: $(TABLES)/table$2$(ending_$1).tsv
 $(TABLES)/table$2$(ending_$1).tsv: $(PIPELINES)/paper/table$2.tsv $(call rows_of,scaled$(ending_$1),$3) $(base_$1) $(PIPELINES)/scaled-table.sh $(PROBE)
-	$$(call table,$(PIPELINES)/scaled-table.sh $$< $(call study_dir,scaled$(ending_$1))/$3 $(if $(filter tumour,$3),$(call \
-	  study_dir,scaled$(ending_$1)/tumour-100)/supine.vtkhdf,$(basename $(base_$1)).vtkhdf) $(PROBE))
+	$$(call table,$$(PIPELINES)/scaled-table.sh $$< $$(call study_dir,scaled$(ending_$1))/$3 $(if $(filter tumour,$3),$$(call \
+	  study_dir,scaled$(ending_$1)/tumour-100)/supine.vtkhdf,$$(basename $$(base_$1)).vtkhdf) $$(PROBE))
 endef
 $(foreach m,$(BOTH),$(foreach n,$(PAPER_TABLES),$(eval $(call table_rules,$m,$n,$(tissue_$n)))))
 
@@ -78,10 +78,10 @@ define set_rules
 $(call study_dir,table8/$1-tumour).tsv: $(PIPELINES)/paper/table6.tsv $(call results,table8,$(filter $1-tumour-%,$(table8_variants)),supine) \
   $(PIPELINES)/scaled-table.sh $(PROBE)
 	grep -E '^(stiffness|100	|1000	|2000	)' $$< > $$@.rows
-	$$(call table,$(PIPELINES)/scaled-table.sh $$@.rows $$(basename $$@) $$(basename $$@)-100/supine.vtkhdf $(PROBE))
+	$$(call table,$$(PIPELINES)/scaled-table.sh $$@.rows $$(basename $$@) $$(basename $$@)-100/supine.vtkhdf $$(PROBE))
 	@rm -f $$@.rows
 $(call study_dir,table8/$1)/.values: $(call results,table8,$1,slopes) $(call study_dir,table8/$1-tumour).tsv $(PIPELINES)/conclusions.sh
-	@$$(call table,$(PIPELINES)/conclusions.sh slopes $$(@D)/slopes.tsv $(call study_dir,table8/$1-tumour).tsv)
+	@$$(call table,$$(PIPELINES)/conclusions.sh slopes $$(@D)/slopes.tsv $$(call study_dir,table8/$1-tumour).tsv)
 endef
 $(foreach set,$(SETS),$(eval $(call set_rules,$(set))))
 $(TABLES)/.ours.values: $(RUN)/slopes.tsv $(TABLES)/table6.tsv $(PIPELINES)/conclusions.sh
