@@ -81,3 +81,4 @@ $(STABILITY)/summary.tsv: $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv $(
 	$(call table,$(PIPELINES)/stability-summary.sh $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv)
 
 include $(ROOT)tests/bench/compare.mk
+include $(ROOT)tests/validation.mk
