@@ -4,7 +4,6 @@
 # writes NAME.vtkhdf and its report. Where it does not converge (exit 3), or INPUT itself was not found, the reason stays
 # in NAME.failed and NAME.vtkhdf is absent: a finding, not an error. Any other failure stops.
 set -euo pipefail
-. "$(dirname "$0")/values.sh"
 name=$1 program=$2 input=$3
 shift 3
 rm -f "$name.vtkhdf" "$name.json" "$name.failed"
@@ -14,8 +13,7 @@ if [ -f "${input%.vtkhdf}.failed" ]; then
 fi
 code=0
 "$program" "$input" "$name.vtkhdf" "$@" --report "$name.json" || code=$?
-case $code in
-  0) ;;
-  3) why "$name.json" > "$name.failed" ;;
-  *) exit "$code" ;;
-esac
+[ "$code" -ne 0 ] || exit 0
+[ "$code" -eq 3 ] || exit "$code"
+# The report's sentence, or its typed reason where it has none.
+{ grep '^  "explanation": ".' "$name.json" || grep '^  "reason": "' "$name.json"; } | sed -E 's/^[^:]*: "(.*)",?$/\1/' > "$name.failed"

@@ -97,8 +97,8 @@ $(BUDGET)/chain/landmarks.tsv: $(RUN)/reference.vtkhdf $(RUN)/supine.vtkhdf $(TR
 
 $(BUDGET)/budget.tsv: $(foreach row,chain $(BUDGET_ROWS),$(BUDGET)/$(row)/curves.tsv) \
   $(foreach row,chain $(filter-out compression,$(BUDGET_ROWS)),$(BUDGET)/$(row)/landmarks.tsv) \
-  $(RUN)/cc.vti $(RUN)/mlo.vti $(PIPELINES)/budget.sh $(PIPELINES)/values.sh
-	$(PIPELINES)/budget.sh $(RUN) $(BUDGET_ROWS) > $@.part
+  $(RUN)/cc.vti $(RUN)/mlo.vti $(TABULATE)
+	$(tabulate) budget $(RUN) $(BUDGET_ROWS) > $@.part
 	@mv $@.part $@
 $(BUDGET)/budget.png: $(BUDGET)/budget.tsv $(PIPELINES)/budget.gp
 	gnuplot -e "table='$<'; picture='$@.part'" $(PIPELINES)/budget.gp

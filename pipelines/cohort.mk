@@ -63,10 +63,9 @@ endef
 $(foreach f,$(COHORT_FILES),$(eval $(call cohort_rules,$(call cohort_case,$f),$f)))
 
 # The table of what has ended so far, and its pages.
-cohort_results = $(PIPELINES)/cohort.sh results $(COHORT_RUNS) $(POPULATION_TOOL)
+cohort_results = $(tabulate) cohort $(COHORT_RUNS) $(POPULATION_TOOL)
 cohort-table: $(CASE_LIST)
 	@$(cohort_results)
-	@cat $(COHORT_RUNS)/cohort.tsv
 
 ifeq ($(CLUSTER),slurm)
 # The make command of a task, a word a line. Programs are taken as they are: no task builds anything.
@@ -75,7 +74,7 @@ task_settings = $(foreach v,$(filter-out COHORT RUNS CASE CASE_FILE CLUSTER% RES
 task_command = $(subst $(space)$(newline),$(newline),$(subst $(space),$(newline),$(task_make))$(task_settings))
 slurm = CLUSTER_PARTITION='$(CLUSTER_PARTITION)' CLUSTER_ACCOUNT='$(CLUSTER_ACCOUNT)' CLUSTER_TIME='$(CLUSTER_TIME)' \
   CLUSTER_MEMORY='$(CLUSTER_MEMORY)' CLUSTER_CORES='$(CLUSTER_CORES)' CLUSTER_OPTIONS='$(CLUSTER_OPTIONS)' RESUME='$(RESUME)' \
-  COST_ELEMENTS='$(ELEMENTS)' COST_ELEMENT='$(ELEMENT)' $(PIPELINES)/slurm.sh
+  COST_ELEMENTS='$(ELEMENTS)' COST_ELEMENT='$(ELEMENT)' TABULATE='$(tabulate)' $(PIPELINES)/slurm.sh
 $(COHORT_RUNS)/.command: FORCE | $(COHORT_RUNS)/.folder
 	@$(if $(planning),,$(file > $@,$(task_command))):
 cohort: $(CASE_LIST) $(COHORT_RUNS)/.command
@@ -85,7 +84,6 @@ cohort-script: $(CASE_LIST) $(COHORT_RUNS)/.command
 else
 cohort: $(COHORT_CASES:%=$(COHORT_RUNS)/%.status) $(CASE_LIST)
 	@$(cohort_results)
-	@cat $(COHORT_RUNS)/cohort.tsv
 	@$(PIPELINES)/cohort.sh any-done $(COHORT_RUNS)/cohort.tsv
 cohort-script:
 	$(error cohort-script: is for CLUSTER=slurm)

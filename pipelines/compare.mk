@@ -13,7 +13,7 @@ EXPORT_DECK := $(BIN)/export-deck
 COMPARE_FILES := $(COMPARE_SCENES:%=$(COMPARE)/%.tsv)
 PRESSED_FILES := $(COMPARE_PRESSED:%=$(COMPARE)/%.tsv)
 compare_run = BIN=$(BIN) $(PIPELINES)/compare/compare.sh
-compare_needs := $(FORWARD) $(EXPORT_DECK) $(PIPELINES)/compare/compare.sh $(PIPELINES)/values.sh
+compare_needs := $(FORWARD) $(EXPORT_DECK) $(PIPELINES)/compare/compare.sh $(TABULATE)
 
 .PHONY: compare
 ifeq ($(shell command -v ccx),)

@@ -38,9 +38,8 @@ $(COST)/$1.done: $(call cost_mesh,$1) $(BACKWARD) $(FORWARD) $(MATERIAL_FILE) $(
 endef
 $(foreach p,$(cost_points),$(eval $(call cost_rules,$p)))
 
-$(COST)/cost.tsv: $(addprefix $(COST)/,$(sort $(COST_POINTS:%=%.done) $(COST_FINEST).done)) $(PIPELINES)/cost.sh \
-  $(PIPELINES)/values.sh $(PROBE)
-	$(PIPELINES)/cost.sh $(COST) $(PROBE) $(COST_FINEST) $(COST_POINTS) > $@.part
+$(COST)/cost.tsv: $(addprefix $(COST)/,$(sort $(COST_POINTS:%=%.done) $(COST_FINEST).done)) $(TABULATE)
+	$(tabulate) cost $(COST) $(COST_FINEST) $(COST_POINTS) > $@.part
 	@mv $@.part $@
 $(COST)/cost.png: $(COST)/cost.tsv $(PIPELINES)/cost.gp
 	gnuplot -e "table='$<'; picture='$@.part'" $(PIPELINES)/cost.gp

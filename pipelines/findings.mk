@@ -19,8 +19,8 @@ finding_mechanics = $(or $($1_mechanics),$(MECHANICS))
 $(foreach f,$(FINDINGS),$(if $($f_hexmesh),$(eval $(call variant_mesh_rules,$f,$($f_hexmesh)))))
 $(foreach f,$(FINDINGS),$(eval $(call variant_rules,$f,$(call finding_mesh,$f),$(call finding_mechanics,$f),$(MATERIAL_FILE))))
 
-$(TABLES)/findings.tsv: $(RUN)/base-slopes.tsv $(FINDINGS:%=$(VARIANTS)/%-slopes.tsv) $(PIPELINES)/findings.sh $(PIPELINES)/values.sh
+$(TABLES)/findings.tsv: $(RUN)/base-slopes.tsv $(FINDINGS:%=$(VARIANTS)/%-slopes.tsv) $(TABULATE)
 	@mkdir -p $(@D)
-	$(PIPELINES)/findings.sh $(RUN) $(FINDINGS) > $@.part
+	$(tabulate) findings $(RUN) $(FINDINGS) > $@.part
 	@mv $@.part $@
 endif

@@ -8,7 +8,7 @@ LEAVEOUT_PARTS := no-skin no-gland no-backward no-gravity-in-compression
 LEAVEOUT_VARIANTS := $(LEAVEOUT_PARTS) sharp-edge tumour-element cut-fixed quadratic
 
 leaveout_sharp-edge := COMPRESS_OPTIONS='$(COMPRESS_OPTIONS) --edge-radius 7.5'
-leaveout_tumour-element := HEXMESH_OPTIONS="$(HEXMESH_OPTIONS) --tumour $$($(PIPELINES)/landmark.sh $(RUN)/mesh.json tumour):0.1" \
+leaveout_tumour-element := HEXMESH_OPTIONS="$(HEXMESH_OPTIONS) --tumour $$($(tabulate) place $(RUN)/mesh.json tumour):0.1" \
   MECHANICS='$(MECHANICS) --scale tumour=1000'
 leaveout_cut-fixed := CUT=fixed
 leaveout_quadratic := MECHANICS='$(MECHANICS) --element q2p1'
@@ -29,8 +29,8 @@ $(LEAVEOUT)/$1/curve.tsv: $(RUN)/curve.tsv $(RUN)/geometry.vtkhdf
 endef
 $(foreach v,$(LEAVEOUT_VARIANTS),$(eval $(call leaveout_rules,$v)))
 
-$(LEAVEOUT)/table.tsv: $(LEAVEOUT_VARIANTS:%=$(LEAVEOUT)/%/curve.tsv) $(RUN)/supine.vtkhdf $(PROBE) $(PIPELINES)/leaveout.sh
-	$(PIPELINES)/leaveout.sh $(RUN) $(PROBE) $(LEAVEOUT_VARIANTS) > $@.part
+$(LEAVEOUT)/table.tsv: $(LEAVEOUT_VARIANTS:%=$(LEAVEOUT)/%/curve.tsv) $(RUN)/supine.vtkhdf $(TABULATE)
+	$(tabulate) leaveout $(RUN) $(LEAVEOUT_VARIANTS) > $@.part
 	@mv $@.part $@
 
 # The parts a question can do without, solved without them.
@@ -38,13 +38,13 @@ LEAVEOUT_QUESTIONS := surgery matching
 define least_rules
 leaveout-least-$1_record = $(LEAVEOUT)/.least-$1.settings
 leaveout-least-$1_settings = $(LEAVEOUT_MM)
-$(LEAVEOUT)/least-$1/curve.tsv: $(LEAVEOUT)/table.tsv $(PIPELINES)/recommend.sh $$(call changed,leaveout-least-$1)
+$(LEAVEOUT)/least-$1/curve.tsv: $(LEAVEOUT)/table.tsv $(TABULATE) $$(call changed,leaveout-least-$1)
 	$$(leaveout_chain)
-	+$$(leaveout_make) LEAVE_OUT="$$$$($(PIPELINES)/recommend.sh choose $(LEAVEOUT)/table.tsv $1 $(LEAVEOUT_MM) $(LEAVEOUT_PARTS))" chain
+	+$$(leaveout_make) LEAVE_OUT="$$$$($(tabulate) least $(LEAVEOUT)/table.tsv $1 $(LEAVEOUT_MM) $(LEAVEOUT_PARTS))" chain
 	@$$(call record,leaveout-least-$1)
 	@touch $$@
 endef
 $(foreach q,$(LEAVEOUT_QUESTIONS),$(eval $(call least_rules,$q)))
-$(LEAVEOUT)/recommendation.tsv: $(LEAVEOUT_QUESTIONS:%=$(LEAVEOUT)/least-%/curve.tsv) $(PIPELINES)/recommend.sh $(PIPELINES)/leaveout.sh
-	$(PIPELINES)/recommend.sh table $(RUN) $(PROBE) $(LEAVEOUT_MM) $(LEAVEOUT_PARTS) > $@.part
+$(LEAVEOUT)/recommendation.tsv: $(LEAVEOUT_QUESTIONS:%=$(LEAVEOUT)/least-%/curve.tsv) $(TABULATE)
+	$(tabulate) recommendation $(RUN) $(LEAVEOUT_MM) $(LEAVEOUT_PARTS) > $@.part
 	@mv $@.part $@

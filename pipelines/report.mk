@@ -2,9 +2,9 @@
 # Expected values, and one self-contained page of everything a run produced.
 EXPECTED ?= $(wildcard $(PIPELINES)/expected/$(CASE)$(if $(PAPER),-as-printed).tsv)
 verify: $(RUN)/verify.tsv
-$(RUN)/verify.tsv: $(EXPECTED) $(PIPELINES)/verify.sh $(PIPELINES)/values.sh $(RUN)/summary.txt $(TABLE_FILES)
+$(RUN)/verify.tsv: $(EXPECTED) $(TABULATE) $(RUN)/summary.txt $(TABLE_FILES)
 	$(if $(EXPECTED),,$(error no expected values for case $(CASE): name a file with EXPECTED=))
-	@$(PIPELINES)/verify.sh $(EXPECTED) $(RUN) > $@.part || { cat $@.part; exit 1; }
+	@$(tabulate) verify $(EXPECTED) $(RUN) > $@.part
 	@mv $@.part $@
 	@cat $@
 
@@ -21,9 +21,8 @@ REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/*.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png
 report_settings = $(foreach file,$(REPORT_EXTRAS),$(file) $(shell stat -c %Y $(file)))
 report_record = $(RUN)/report.settings
 $(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(F)/cc-points.png $(F)/mlo-curves.png \
-  $(if $(EXPECTED),$(RUN)/verify.tsv) $(PIPELINES)/report.sh $(PIPELINES)/values.sh $(PIPELINES)/html.sh $(PIPELINES)/limits.txt \
-  $(PIPELINES)/warnings.sh $(PIPELINES)/advice.tsv $(call changed,report)
-	$(PIPELINES)/report.sh $(RUN) $(RUNS) $(BIN) > $@.part
+  $(if $(EXPECTED),$(RUN)/verify.tsv) $(TABULATE) $(PIPELINES)/limits.txt $(PIPELINES)/advice.tsv $(call changed,report)
+	$(tabulate) report $(RUN) $(RUNS) > $@.part
 	@mv $@.part $@
 	@$(call record,report)
 	@echo "$@"

@@ -112,6 +112,9 @@ TRUTH_TABLE_TOOL ?= $(BIN)/truth-table
 CALIBRATE ?= $(BIN)/calibrate
 PROBE ?= $(BIN)/probe
 RENDER ?= $(BIN)/render
+# Every table, verdict and page is made by tabulate, from reports, tables and shapes.
+TABULATE := $(BIN)/tabulate
+tabulate = $(TABULATE) --quiet --pipelines $(PIPELINES)
 
 # Options every program gets: its JSON report beside its first output, its share of the cores.
 share = --threads $$($(PIPELINES)/threads.sh)

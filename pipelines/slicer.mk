@@ -16,4 +16,4 @@ slicer: $(RUN)/slicer/scene.mrml
 # The table of docs/validation/slicer.md, from the default case.
 slicer-table: slicer
 	cp $(RUN)/slicer-fields.tsv $(TABLES_OF_PAGE)/slicer-fields.tsv
-	$(PIPELINES)/validation.sh fill $(PAGES_WITH_TABLES)
+	$(tabulate) pages fill $(PAGES_WITH_TABLES)

@@ -17,6 +17,6 @@ $(STABILITY)/contact.tsv: $(COMPRESS) tests/fixtures/contact_cases.hpp tests/ben
 .PHONY: stability
 stability: $(STABILITY)/summary.tsv
 	@cat $<
-$(STABILITY)/summary.tsv: $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv $(PIPELINES)/stability-summary.sh
-	$(PIPELINES)/stability-summary.sh $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv > $@.part
+$(STABILITY)/summary.tsv: $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv $(TABULATE)
+	$(tabulate) stability $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv > $@.part
 	@mv $@.part $@

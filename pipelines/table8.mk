@@ -25,13 +25,13 @@ define table8_rules
 $(call variant_rules,$1,$(own_mesh),$(call set_mechanics,$1),$(filter %.tsv,$($1_set)))
 $(foreach s,100 1000 2000,$(call table8_tumour_rules,$1,$s)$(newline))
 $(VARIANTS)/$1-tumour.tsv: $(PIPELINES)/paper/table6.tsv $(foreach s,100 1000 2000,$(VARIANTS)/$1-tumour-$s.done) \
-  $(PIPELINES)/scaled-table.sh $(PROBE)
+  $(TABULATE)
 	awk -F'\t' 'NR == 1 || $$$$1 ~ /^(100|1000|2000)$$$$/' $$< > $$@.rows
-	$(PIPELINES)/scaled-table.sh $$@.rows $(VARIANTS)/$1-tumour $(VARIANTS)/$1-tumour-100-supine.vtkhdf $(PROBE) > $$@.part
+	$(tabulate) scaled $$@.rows $(VARIANTS)/$1-tumour $(VARIANTS)/$1-tumour-100-supine.vtkhdf > $$@.part
 	@rm -f $$@.rows
 	@mv $$@.part $$@
-$(VARIANTS)/.$1.values: $(VARIANTS)/$1-slopes.tsv $(VARIANTS)/$1-tumour.tsv $(PIPELINES)/conclusions.sh
-	@$(PIPELINES)/conclusions.sh slopes $(VARIANTS)/$1-slopes.tsv $(VARIANTS)/$1-tumour.tsv > $$@.part
+$(VARIANTS)/.$1.values: $(VARIANTS)/$1-slopes.tsv $(VARIANTS)/$1-tumour.tsv $(TABULATE)
+	@$(tabulate) conclusions-of-slopes $(VARIANTS)/$1-slopes.tsv $(VARIANTS)/$1-tumour.tsv > $$@.part
 	@mv $$@.part $$@
 endef
 define table8_tumour_rules
@@ -44,12 +44,12 @@ $(VARIANTS)/$1-tumour-$2.done: $(own_folder)/tumour-mesh.vtkhdf $(VARIANTS)/$1.d
 	@touch $$@
 endef
 $(foreach set,$(TABLE8),$(eval $(call table8_rules,$(set))))
-$(VARIANTS)/.ours.values: $(RUN)/base-slopes.tsv $(TABLES)/table6.tsv $(PIPELINES)/conclusions.sh
-	@$(PIPELINES)/conclusions.sh slopes $(wordlist 1,2,$^) > $@.part
+$(VARIANTS)/.ours.values: $(RUN)/base-slopes.tsv $(TABLES)/table6.tsv $(TABULATE)
+	@$(tabulate) conclusions-of-slopes $(wordlist 1,2,$^) > $@.part
 	@mv $@.part $@
 
 $(TABLES)/table8.tsv: $(PIPELINES)/paper/conclusions.tsv $(TABLES)/.conclusions-paper.values $(VARIANTS)/.ours.values \
-  $(TABLE8:%=$(VARIANTS)/.%.values) $(PIPELINES)/judge.sh $(PIPELINES)/table8.sh $(PROBE)
-	$(PIPELINES)/table8.sh $< $(RUN) $(PROBE) $(TABLE8) > $@.part
+  $(TABLE8:%=$(VARIANTS)/.%.values) $(TABULATE)
+	$(tabulate) survival $< $(RUN) $(TABLE8) > $@.part
 	@mv $@.part $@
 endif

@@ -51,7 +51,7 @@ $($1_folder)/tumour-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $($
   $$(call changed,tumour-mesh-$1)
 	@mkdir -p $$(@D)
 	$(HEXMESH) $$< $(RUN)/labels.vtkhdf $$@ $($1_hexmesh) \
-	  --tumour $$$$($(PIPELINES)/landmark.sh $($1_mesh:.vtkhdf=.json) tumour):0.1 $$(common)
+	  --tumour $$$$($(tabulate) place $($1_mesh:.vtkhdf=.json) tumour):0.1 $$(common)
 	@$$(call record,tumour-mesh-$1)
 endef
 
@@ -78,10 +78,9 @@ endef
 # $(call table_rules,MODEL,NUMBER,TISSUE): relative displacements of Table VI refer to its own mesh.
 define table_rules
 $(TABLES)/table$2$(ending_$1).tsv: $(PIPELINES)/paper/table$2.tsv $(call rows_of,$($1_folder),$3) $($1_solved) \
-  $(if $(filter tumour,$3),$($1_folder)/tumour-100.done) $(PIPELINES)/scaled-table.sh $(PROBE)
+  $(if $(filter tumour,$3),$($1_folder)/tumour-100.done) $(TABULATE)
 	@mkdir -p $$(@D)
-	$(PIPELINES)/scaled-table.sh $$< $($1_folder)/$3 $(if $(filter tumour,$3),$($1_folder)/tumour-100-supine.vtkhdf,$($1_supine)) \
-	  $(PROBE) > $$@.part
+	$(tabulate) scaled $$< $($1_folder)/$3 $(if $(filter tumour,$3),$($1_folder)/tumour-100-supine.vtkhdf,$($1_supine)) > $$@.part
 	@mv $$@.part $$@
 endef
 define newline
@@ -91,24 +90,24 @@ endef
 $(foreach m,$(BOTH),$(eval $(call model_rules,$m)))
 
 MATERIAL_TABLE := $(or $(MATERIAL_FILE),$(PIPELINES)/materials/$(MATERIALS).tsv)
-table2_settings := $(PIPELINES)/table2.sh $(MATERIAL_TABLE)
-$(TABLES)/table2.tsv: $(PIPELINES)/paper/table2.tsv $(MATERIAL_TABLE) $(PIPELINES)/table2.sh $(call changed,table2)
+table2_settings := $(MATERIAL_TABLE)
+$(TABLES)/table2.tsv: $(PIPELINES)/paper/table2.tsv $(MATERIAL_TABLE) $(TABULATE) $(call changed,table2)
 	@mkdir -p $(@D)
-	$(PIPELINES)/table2.sh $< $(MATERIAL_TABLE) > $@.part
+	$(tabulate) constants $< $(MATERIAL_TABLE) > $@.part
 	@mv $@.part $@
 	@$(call record,table2)
 
 # The conclusions in numbers: from the paper's own rows, as printed, and as the case is solved.
 conclusion_values = $(addprefix $(TABLES)/.conclusions-,$(addsuffix .values,paper $(BOTH)))
 $(TABLES)/.conclusions-paper.values: prefix := paper_
-$(TABLES)/.conclusions-paper.values $(TABLES)/.conclusions-own.values: $(PAPER_TABLES:%=$(TABLES)/table%.tsv) $(PIPELINES)/conclusions.sh
-	@$(PIPELINES)/conclusions.sh rows $(filter %.tsv,$^) $(prefix) > $@.part
+$(TABLES)/.conclusions-paper.values $(TABLES)/.conclusions-own.values: $(PAPER_TABLES:%=$(TABLES)/table%.tsv) $(TABULATE)
+	@$(tabulate) conclusions $(filter %.tsv,$^) $(prefix) > $@.part
 	@mv $@.part $@
-$(TABLES)/.conclusions-printed.values: $(PAPER_TABLES:%=$(TABLES)/table%-as-printed.tsv) $(PIPELINES)/conclusions.sh
-	@$(PIPELINES)/conclusions.sh rows $(filter %.tsv,$^) > $@.part
+$(TABLES)/.conclusions-printed.values: $(PAPER_TABLES:%=$(TABLES)/table%-as-printed.tsv) $(TABULATE)
+	@$(tabulate) conclusions $(filter %.tsv,$^) > $@.part
 	@mv $@.part $@
-$(TABLES)/conclusions.tsv: $(PIPELINES)/paper/conclusions.tsv $(conclusion_values) $(PIPELINES)/judge.sh
-	$(PIPELINES)/judge.sh $< paper=$(TABLES)/.conclusions-paper.values \
+$(TABLES)/conclusions.tsv: $(PIPELINES)/paper/conclusions.tsv $(conclusion_values) $(TABULATE)
+	$(tabulate) judge $< paper=$(TABLES)/.conclusions-paper.values \
 	  $(if $(PAPER),,as_printed=$(TABLES)/.conclusions-printed.values) ours=$(TABLES)/.conclusions-own.values > $@.part
 	@mv $@.part $@
 
@@ -116,8 +115,8 @@ $(TABLES)/conclusions.tsv: $(PIPELINES)/paper/conclusions.tsv $(conclusion_value
 $(eval $(call slopes_rules,$(RUN)/base,$(own_supine),$(RUN)/reference.vtkhdf,$(own_supine),$(MECHANICS),fat$(comma)fibroglandular$(comma)skin))
 $(eval $(call slopes_rules,$(own_folder)/tumour-100,$(own_folder)/tumour-100.done,$(own_folder)/tumour-100-reference.vtkhdf,$(own_folder)/tumour-100-supine.vtkhdf,$(MECHANICS),tumour))
 $(TABLES)/table7.tsv: $(RUN)/base-slopes.tsv $(own_folder)/tumour-100-slopes.tsv \
-  $(foreach n,$(PAPER_TABLES),$(call rows_of,$(own_folder),$(tissue_$n))) $(PIPELINES)/table7.sh $(PIPELINES)/landmark.sh
+  $(foreach n,$(PAPER_TABLES),$(call rows_of,$(own_folder),$(tissue_$n))) $(TABULATE)
 	@mkdir -p $(@D)
-	$(PIPELINES)/table7.sh $(own_supine:.vtkhdf=.json) $(own_folder) $(wordlist 1,2,$^) > $@.part
+	$(tabulate) slopes $(own_supine:.vtkhdf=.json) $(own_folder) $(wordlist 1,2,$^) > $@.part
 	@mv $@.part $@
 	@cat $@

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Tables of the validation pages that runs can make, so that none of them goes stale by hand: each is a file in docs/tables, which
-# `make validation` writes from the case's runs and copies into the page between its markers. tests/tools/validation.sh (part of
+# `make validation` writes from the case's runs and copies into the page between its markers. The test tools_validation (part of
 # `check`) holds page and files equal.
 VALIDATION := $(RUN)/validation
 VALIDATION_EDGES ?= 8 10 12 16 20
@@ -8,9 +8,9 @@ TABLES_OF_PAGE := docs/tables
 PAGES_WITH_TABLES := docs/architecture.md docs/validation.md $(wildcard docs/validation/*.md)
 
 validation: $(addprefix $(TABLES_OF_PAGE)/,compression-convergence.tsv calibration.tsv truth.tsv)
-	$(PIPELINES)/validation.sh fill $(PAGES_WITH_TABLES)
+	$(tabulate) pages fill $(PAGES_WITH_TABLES)
 validation-page:
-	$(PIPELINES)/validation.sh fill $(PAGES_WITH_TABLES)
+	$(tabulate) pages fill $(PAGES_WITH_TABLES)
 .PHONY: validation validation-page
 
 # How the compressed shapes converge with the mesh.
@@ -33,19 +33,19 @@ $(VALIDATION)/$1.done: $(VALIDATION)/$1-mesh.vtkhdf $(BACKWARD) $(COMPRESS) $(MA
 	@touch $$@
 endef
 $(foreach n,$(VALIDATION_EDGES),$(eval $(call convergence_rules,$n)))
-$(TABLES_OF_PAGE)/compression-convergence.tsv: $(VALIDATION_EDGES:%=$(VALIDATION)/%.done) $(PIPELINES)/convergence.sh $(PROBE)
+$(TABLES_OF_PAGE)/compression-convergence.tsv: $(VALIDATION_EDGES:%=$(VALIDATION)/%.done) $(TABULATE)
 	@mkdir -p $(@D)
-	$(PIPELINES)/convergence.sh $(VALIDATION) $(PROBE) $(VALIDATION_EDGES) > $@.part
+	$(tabulate) convergence $(VALIDATION) $(VALIDATION_EDGES) > $@.part
 	@mv $@.part $@
 
 # What the preset was fitted to, beside what its truth moves: the chain as solved and as printed.
-$(TABLES_OF_PAGE)/calibration.tsv: $(RUN)/displacements.tsv $(VARIANTS)/as-printed.done $(PHANTOM_MR) $(PIPELINES)/calibration.sh
+$(TABLES_OF_PAGE)/calibration.tsv: $(RUN)/displacements.tsv $(VARIANTS)/as-printed.done $(PHANTOM_MR) $(TABULATE)
 	@mkdir -p $(@D)
-	$(PIPELINES)/calibration.sh table $(RUN) $(PHANTOM_MR:.nrrd=.json) $(SIDE) > $@.part
+	$(tabulate) calibration $(RUN) $(PHANTOM_MR:.nrrd=.json) $(SIDE) > $@.part
 	@mv $@.part $@
 
 # Errors against the truth, as the summary has them.
-$(TABLES_OF_PAGE)/truth.tsv: $(RUN)/truth.tsv $(PIPELINES)/validation.sh
+$(TABLES_OF_PAGE)/truth.tsv: $(RUN)/truth.tsv $(TABULATE)
 	@mkdir -p $(@D)
-	$(PIPELINES)/validation.sh truth $< > $@.part
+	$(tabulate) truth $< > $@.part
 	@mv $@.part $@

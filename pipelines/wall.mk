@@ -15,14 +15,13 @@ $(WALL_SHIFTS)/$1/curve.tsv: $(RUN)/curve.tsv $(SEGMENT)
 	@mkdir -p $$(@D)
 	+$$(MAKE) -f $(PIPELINE) RUN=$(WALL_SHIFTS)/$1 MR=$(MR) \
 	  SEGMENT_OPTIONS='$(SEGMENT_OPTIONS) --chest-wall-shift $(wall_$1)' \
-	  HEXMESH_OPTIONS="$(HEXMESH_OPTIONS) --tumour $$$$($(PIPELINES)/landmark.sh $(RUN)/mesh.json tumour)" chain
+	  HEXMESH_OPTIONS="$(HEXMESH_OPTIONS) --tumour $$$$($(tabulate) place $(RUN)/mesh.json tumour)" chain
 	@touch $$@
 endef
 $(foreach v,$(WALL_VARIANTS),$(eval $(call wall_rules,$v)))
 
-$(WALL_SHIFTS)/table.tsv: $(WALL_VARIANTS:%=$(WALL_SHIFTS)/%/curve.tsv) $(RUN)/supine.vtkhdf \
-  $(PIPELINES)/wall-sensitivity.sh $(PIPELINES)/landmark.sh $(PIPELINES)/values.sh
-	$(PIPELINES)/wall-sensitivity.sh $(RUN) $(WALL_VARIANTS) > $@.part
+$(WALL_SHIFTS)/table.tsv: $(WALL_VARIANTS:%=$(WALL_SHIFTS)/%/curve.tsv) $(RUN)/supine.vtkhdf $(TABULATE)
+	$(tabulate) wall $(RUN) $(WALL_VARIANTS) > $@.part
 	@mv $@.part $@
 	@cat $@
 

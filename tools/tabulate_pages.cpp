@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <fstream>
 #include <sstream>
 #include <thread>
 
@@ -42,16 +43,11 @@ std::string summary(const Request& r) {
 }
 
 std::string processor() {
-  std::istringstream in;
-  try {
-    in.str(read_text("/proc/cpuinfo"));
-  } catch (const Error&) {
-    return "";
-  }
+  std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);)
     if (line.starts_with("model name") && line.find(": ") != std::string::npos)
       return line.substr(line.find(": ") + 2);
-  return "";
+  return "a processor without a name";
 }
 
 std::string report(const Request& r) {
@@ -83,9 +79,12 @@ std::string verified(const Request& r) {
 }
 
 std::string key(const Request& r) {
-  const std::string value = StageReport::read(r.word(0)).text(r.word(1));
-  if (value.empty()) throw input_error(r.word(0), ": has no '", r.word(1), "'");
-  return value + "\n";
+  const StageReport report = StageReport::read(r.word(0));
+  const std::string value = report.text(r.word(1));
+  if (!value.empty()) return value + "\n";
+  const auto number = report.first(r.word(1));
+  if (!number) throw input_error(r.word(0), ": has no '", r.word(1), "'");
+  return format_number(*number) + "\n";
 }
 
 std::string place(const Request& r) {
@@ -169,7 +168,9 @@ std::vector<TabulateKind> page_kinds() {
        2, 2, verified},
       {"expected", "EXPECTED.tsv RUN", "that table with the run's values where they differ", 2, 2,
        [](const Request& r) { return expected_anew(read_text(r.word(0)), r.word(1)); }},
-      {"key", "REPORT.json PATH", "one value of a report, seconds/total", 2, 2, key},
+      {"key", "REPORT.json PATH",
+       "one value of a report: at a path of keys (seconds/total), or the first number of that name",
+       2, 2, key},
       {"place", "REPORT.json LANDMARK [imaged|position]", "a landmark's place x,y,z, mm", 2, 3,
        place},
       {"truth", "TRUTH.tsv", "rows of a table of errors against the truth, as a page shows them", 1,

@@ -70,7 +70,7 @@ check_threads() {
   run RUNS="$work/threads" share='--threads 2' chain > "$work/log" 2>&1 || { tail -n 20 "$work/log"; fail "the chain on two threads"; }
   for stage in reference supine cc mlo; do
     for name in nipple tumour; do
-      a=$(pipelines/landmark.sh "$whole/$stage.json" $name position) b=$(pipelines/landmark.sh "$work/threads/small/$stage.json" $name position)
+      a=$(build/release/bin/tabulate place "$whole/$stage.json" $name position --quiet) b=$(build/release/bin/tabulate place "$work/threads/small/$stage.json" $name position --quiet)
       most=$(awk -F, -v most="$most" '{ d = sqrt(($1 - $4) ^ 2 + ($2 - $5) ^ 2 + ($3 - $6) ^ 2); print (d > most ? d : most) }' <<< "$a,$b")
     done
   done
