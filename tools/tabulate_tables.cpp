@@ -11,6 +11,8 @@
 #include "study/experiments/coverage.hpp"
 #include "study/experiments/draws.hpp"
 #include "study/experiments/leaveout.hpp"
+#include "study/experiments/outcomes.hpp"
+#include "study/experiments/pressed.hpp"
 #include "study/paper/conclusions.hpp"
 #include "study/paper/findings.hpp"
 #include "study/paper/scaled_table.hpp"
@@ -98,6 +100,13 @@ std::string identification(const Request& r) {
   return identification_table(studies).closed_text();
 }
 
+std::string pressed(const Request& r) {
+  const auto number = [&](std::size_t i) { return parse_number(r.word(i), "pressed"); };
+  return pressed_table({r.word(1), number(2), number(3), r.word(4), int(number(5)), number(6)},
+                       r.table(0))
+      .text();
+}
+
 }  // namespace
 
 std::vector<TabulateKind> table_kinds() {
@@ -154,9 +163,7 @@ std::vector<TabulateKind> table_kinds() {
       {"leaveout", "RUN VARIANT...", "what each variant of RUN/leaveout changes, mm, and saves, s",
        2, any_number,
        [](const Request& r) {
-         return leaveout_table(r.word(0), std::filesystem::path(r.word(0)) / "leaveout", r.rest(1),
-                               read_shape, curve_gap)
-             .text();
+         return leaveout_table(r.word(0), r.rest(1), read_shape, curve_gap).text();
        }},
       {"least", "TABLE.tsv surgery|matching MM PART...",
        "the parts to leave out while their changes add up to no more than MM", 4, any_number,
@@ -177,6 +184,13 @@ std::vector<TabulateKind> table_kinds() {
       {"identification", "ROWS.tsv...",
        "identify against truths it does not know, a row a study and truth", 1, any_number,
        identification},
+      {"pressed", "OURS.tsv SCENE GAP REACHED FORCE ITERATIONS SECONDS",
+       "a block between plates, by CalculiX (its figures as arguments) beside ours", 7, 7, pressed},
+      {"study", "FOLDER LANDMARK,... VARIANT...",
+       "what became of every stage of the variants FOLDER/VARIANT", 3, any_number,
+       [](const Request& r) {
+         return outcomes_table(r.word(0), split(r.word(1), ','), r.rest(2), read_shape).text();
+       }},
       {"stability", "MECHANICS.tsv CONTACT.tsv", "one page of what became of every extreme case", 2,
        2, [](const Request& r) { return stability_table(r.table(0), r.table(1)).text(); }},
   };

@@ -6,6 +6,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "study/cells.hpp"
+#include "study/places.hpp"
 
 namespace breast {
 
@@ -123,15 +124,16 @@ std::optional<std::string> failure_of(const fs::path& name) {
   }
   if (fs::exists(name.string() + ".vtkhdf")) return {};
   const StageReport report = StageReport::read(name.string() + ".json");
-  const std::string status = report.text("status");
-  if (status != "not_converged" && status != "unstable") return {};
+  if (report.empty()) return {};
   const std::string sentence = report.text("explanation");
-  return one_line(sentence.empty() ? report.text("reason") : sentence);
+  const std::string reason = report.text("reason");
+  return one_line(!sentence.empty() ? sentence : !reason.empty() ? reason : report.text("status"));
 }
 
 std::optional<std::string> posture_failure_of(const fs::path& name) {
-  for (const char* shape : {"", "-reference", "-supine"})
-    if (auto failure = failure_of(name.string() + shape)) return failure;
+  if (auto failure = failure_of(name)) return failure;
+  for (const char* shape : {"reference", "supine"})
+    if (auto failure = failure_of(stage_of(name, shape))) return failure;
   return {};
 }
 

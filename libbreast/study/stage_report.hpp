@@ -43,7 +43,7 @@ class StageReport {
 /// Why the solve NAME.vtkhdf, NAME.json has no result: the sentence in its report, or its typed reason; also what a mark
 /// NAME.failed says. Nothing when it has one, or was never tried.
 std::optional<std::string> failure_of(const std::filesystem::path& name);
-/// The same of a change of posture: NAME itself, NAME-reference or NAME-supine.
+/// The same of a change of posture: of NAME itself, or of its stages reference and supine (study/places.hpp).
 std::optional<std::string> posture_failure_of(const std::filesystem::path& name);
 
 }  // namespace breast

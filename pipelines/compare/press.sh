@@ -16,10 +16,8 @@ penalty=${PENALTY:-1e6}
 
 # The model of export-deck's deck up to its step, with the nodes of both faces as sets.
 model() {
-  awk -F, '/^\*STEP/ { exit } { print } /^\*/ { nodes = /^\*NODE, NSET=ALL/; next }
-    nodes && $2 > 1e-6 && $4 > 100 - 1e-6 { top = top $1 "\n" }
-    nodes && $2 > 1e-6 && $4 < 1e-6 { bottom = bottom $1 "\n" }
-    END { printf "*NSET, NSET=TOP\n%s*NSET, NSET=BOTTOM\n%s", top, bottom }' "$1"
+  awk -F, '/^\*STEP/ { exit } { print } /^\*/ { nodes = /^\*NODE, NSET=ALL/; next } nodes && $2 > 1e-6 && $4 > 100 - 1e-6 { top = top $1 "\n" }
+    nodes && $2 > 1e-6 && $4 < 1e-6 { bottom = bottom $1 "\n" } END { printf "*NSET, NSET=TOP\n%s*NSET, NSET=BOTTOM\n%s", top, bottom }' "$1"
 }
 # Each plate is one element that is moved as a whole; FACE of it presses NODES.
 plate() { # NAME FIRST_NODE Z_LOW Z_HIGH ELEMENT FACE NODES
@@ -68,13 +66,5 @@ iterations=$(grep -c '^ iteration ' "$work/ccx.log" || true)
 reached=$(awk 'NF > 5 && $1 ~ /^[0-9]+$/ { last = $5 } END { print last + 0 }' "$work/press.sta")
 ccx_N=$(awk '/total force/ { getline; getline; f = $3 } END { printf "%.1f", (f < 0 ? -f : f) * 1e-6 }' "$work/press.dat")
 "$bin/bench_pressed_block" --bulk-ratio "$ratio" --to "$gap" "$n" > "$work/ours.tsv"
-{
-  printf 'scene\tgap_percent\tccx_reached_gap_percent\tccx_force_N\tour_force_N\tccx_iterations\tour_newton\tccx_cpu_s\tour_cpu_s\tccx_over_ours\tours\n'
-  awk -F'\t' -v scene="$(basename "$work")" -v gap="$gap" -v reached="$reached" -v force="$ccx_N" \
-    -v its="$iterations" -v cpu="$ccx_s" '
-    NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
-    { newton += $at["newton"]; seconds += $at["cpu_seconds"]; ours = $at["force_N"]; status = $at["status"] }
-    END { printf "%s\t%g\t%.1f\t%s\t%s\t%d\t%d\t%s\t%.2f\t%.1f\t%s\n", scene, gap, 100 - reached * (100 - gap), force, ours, its,
-      newton, cpu, seconds, cpu / seconds, status }' "$work/ours.tsv"
-} > "$out.part"
+"$bin/tabulate" pressed "$work/ours.tsv" "$(basename "$work")" "$gap" "$reached" "$ccx_N" "$iterations" "$ccx_s" --quiet > "$out.part"
 mv "$out.part" "$out"

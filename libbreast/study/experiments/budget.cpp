@@ -4,6 +4,7 @@
 #include <map>
 
 #include "study/cells.hpp"
+#include "study/places.hpp"
 #include "study/stage_report.hpp"
 
 namespace breast {
@@ -40,13 +41,14 @@ std::string curve_cell(const std::optional<Table>& curves, const std::string& ro
   return no_value;
 }
 
-std::string missing(const std::filesystem::path& folder, const std::string& row) {
+std::string missing(const std::filesystem::path& run, const std::string& row) {
+  const std::filesystem::path solves = variant_of(run, "budget", "budget", row);
   std::vector<std::string> said;
   if (row == "compression") said.push_back("stress-free, supine: not solved in this row");
   for (const std::string shape : {"reference", "supine", "cc", "mlo"}) {
-    const auto failure = failure_of(folder / shape);
+    const auto failure = failure_of(solves / shape);
     if (!failure) continue;
-    const std::string reason = StageReport::read(folder / (shape + ".json")).text("reason");
+    const std::string reason = StageReport::read(solves / (shape + ".json")).text("reason");
     said.push_back(shape + ": " + one_line(reason.empty() ? *failure : reason));
   }
   return cell_or_dash(join(said, "; "));
@@ -72,7 +74,7 @@ Table budget_table(const std::filesystem::path& run, const std::vector<std::stri
                                 : no_value);
     for (const std::string which : {"mean", "p95", "largest"})
       row.push_back(curve_cell(curves, which));
-    row.insert(row.end(), {cpu_cell(run, name), missing(folder, name)});
+    row.insert(row.end(), {cpu_cell(run, name), missing(run, name)});
     table.rows.push_back(row);
   }
   return table;

@@ -18,7 +18,7 @@ namespace breast {
 /// carries along. Nothing when either is not estimated.
 std::optional<double> carried_estimate(const StageReport& backward, const StageReport& forward);
 
-/// A row a point ELEMENT-TEMPLATE-N[-SOLVER] from FOLDER/POINT-{reference,supine}.{vtkhdf,json}. error_mm: largest distance of
+/// A row a point ELEMENT-TEMPLATE-N[-SOLVER] of the variants FOLDER/POINT (study/places.hpp). error_mm: largest distance of
 /// tumour or nipple to the point `finest`; estimate_mm: what the solves themselves said; "-": no solution or not estimated.
 Table cost_table(const std::filesystem::path& folder, const std::string& finest,
                  const std::vector<std::string>& points, const ShapeReader& read);
@@ -30,7 +30,7 @@ Table cost_table(const std::filesystem::path& folder, const std::string& finest,
 std::optional<Row> accuracy_row(const std::filesystem::path& folder, const std::string& point,
                                 const std::string& coarser, double wanted, const ShapeReader& read);
 
-/// How compressed shapes converge with the mesh: a row a mesh FOLDER/N-{CC,MLO}.{vtkhdf,json}: distance of tumour and nipple to
+/// How compressed shapes converge with the mesh: a row a mesh, the variant FOLDER/N with its stages cc and mlo: distance of tumour and nipple to
 /// those of the last N, mm, the forces of paddle and detector, and the solve's own estimate at the tumour. "-": not reached.
 Table convergence_table(const std::filesystem::path& folder, const std::vector<std::string>& meshes,
                         const ShapeReader& read);

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "study/cells.hpp"
+#include "study/places.hpp"
 #include "study/stage_report.hpp"
 
 namespace breast {
@@ -31,9 +32,8 @@ double change_of(const Table& table, const std::string& variant, const std::stri
 
 }  // namespace
 
-Table leaveout_table(const fs::path& run, const fs::path& folder,
-                     const std::vector<std::string>& variants, const ShapeReader& read,
-                     const CurveReader& curves) {
+Table leaveout_table(const fs::path& run, const std::vector<std::string>& variants,
+                     const ShapeReader& read, const CurveReader& curves) {
   const double surgery = seconds_of(run, surgery_stages),
                matching = seconds_of(run, matching_stages);
   const auto force = [](const fs::path& of) {
@@ -45,7 +45,7 @@ Table leaveout_table(const fs::path& run, const fs::path& folder,
               {{"base", "0", "0", "0", "0", "0", "0", force(run), format_fixed(surgery, 1), "0",
                 format_fixed(matching, 1), "0"}}};
   for (const std::string& variant : variants) {
-    const fs::path at = folder / variant;
+    const fs::path at = variant_of(run, "leaveout", "leaveout", variant);
     const auto gap = [&](const char* shape, const char* landmark) {
       return format_fixed(apart_at(read, at / shape, run / shape, landmark), 3);
     };
@@ -101,7 +101,7 @@ Table recommendation(const fs::path& run, double allowed, const std::vector<std:
       sum += part.change;
     }
     const std::string least = "least-" + question, cpu = question + "_cpu_s";
-    const Table own = leaveout_table(run, run / "leaveout", {least}, read, curves);
+    const Table own = leaveout_table(run, {least}, read, curves);
     const double change = change_of(own, least, question),
                  seconds = number_at(own, least, cpu).value_or(0),
                  base = number_at(own, "base", cpu).value_or(0);
@@ -126,7 +126,7 @@ Table wall_table(const fs::path& run, const std::vector<std::string>& variants) 
   table.rows.push_back(start("as found", run));
   table.rows.back().resize(table.columns.size(), "0");
   for (const std::string& variant : variants) {
-    const fs::path folder = run / "wall" / variant;
+    const fs::path folder = variant_of(run, "wall", "wall", variant);
     Row row = start(variant, folder);
     const std::vector<std::pair<std::string, std::string>> places{
         {"supine", "tumour"}, {"supine", "nipple"}, {"cc", "tumour"}, {"mlo", "tumour"}};

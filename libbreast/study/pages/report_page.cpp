@@ -174,10 +174,14 @@ std::string figures(const fs::path& run, const Words& words) {
 
 // CPU seconds of every solve behind Tables III to VI, from their reports.
 double solved_again(const fs::path& run) {
+  std::vector<fs::path> files = files_in(run / "scaled", ".json");
+  std::error_code ignored;
+  for (const auto& variant : fs::directory_iterator(run / "studies/scaled", ignored))
+    for (const fs::path& file : files_in(variant.path(), ".json")) files.push_back(file);
   double total = 0;
-  for (const fs::path& file : files_in(run / "scaled", ".json")) {
+  for (const fs::path& file : files) {
     const std::string name = file.stem();
-    if (name.ends_with("-reference") || name.ends_with("-supine"))
+    if (name.ends_with("reference") || name.ends_with("supine"))
       total += StageReport::read(file).number("cpu_seconds").value_or(0);
   }
   return total;
@@ -225,7 +229,11 @@ std::string own_tables(const fs::path& run, const std::string& calibrated) {
             "Tangent-linear derivatives of the converged state (<i>tangent</i>) against the rows of Tables III to VI solved again "
             "(<i>resolved</i>: three-point derivative in ln s). <i>Step error</i> is what the finite steps of the solved rows cost; the two "
             "agree when they differ by no more than twice that. Cost: " +
-            fixed_cell(StageReport::read(run / "base-sensitivity.json").number("cpu_seconds"), 2) +
+            fixed_cell(
+                StageReport::read(run / (fs::exists(run / "slopes.json") ? "slopes.json"
+                                                                         : "base-sensitivity.json"))
+                    .number("cpu_seconds"),
+                2) +
             " CPU seconds for all, against " + format_fixed(solved_again(run), 0) +
             " for the solves of the tables.") +
         html_table_of(tables / "table7.tsv");

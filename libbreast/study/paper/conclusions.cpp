@@ -6,6 +6,7 @@
 
 #include "study/cells.hpp"
 #include "study/paper/slopes.hpp"
+#include "study/places.hpp"
 #include "study/stage_report.hpp"
 
 namespace breast {
@@ -114,11 +115,15 @@ Table judge(const Table& conclusions, const std::vector<JudgedModel>& models) {
 Table survival_table(const Table& conclusions, const Table& third, const std::filesystem::path& run,
                      const ShapeReader& read, const std::vector<std::string>& sets,
                      const std::string& calibrated) {
-  const auto at = [&](const std::string& set) { return run / "variants" / set; };
-  std::vector<JudgedModel> models{{"paper", read_table(run / "tables/.conclusions-paper.values")},
-                                  {"ours", read_table(run / "variants/.ours.values")}};
+  const auto at = [&](const std::string& set) {
+    return variant_of(run, "table8", "variants", set);
+  };
+  const bool folders = std::filesystem::is_directory(run / "studies/table8");
+  std::vector<JudgedModel> models{
+      {"paper", read_table(run / "tables/.conclusions-paper.values")},
+      {"ours", read_table(run / (folders ? "tables/.ours.values" : "variants/.ours.values"))}};
   for (const std::string& set : sets)
-    models.push_back({set, read_table(at("." + set + ".values"))});
+    models.push_back({set, read_table(folders ? at(set) / ".values" : at("." + set + ".values"))});
   const Table judged = judge(conclusions, models);
   Table table{judged.columns, {}};
   Row body{"stress-free body of the imaged shape", "-", "-", "-", "", "yes", ""};
@@ -141,7 +146,7 @@ Table survival_table(const Table& conclusions, const Table& third, const std::fi
     for (const std::string& set : sets)
       row.insert(
           row.end(),
-          {posture_failure_of(at(set)) ? no_value : shown(at(set).string() + "-supine.vtkhdf"),
+          {posture_failure_of(at(set)) ? no_value : shown(stage_of(at(set), "supine") + ".vtkhdf"),
            ""});
     table.rows.push_back(row);
   }

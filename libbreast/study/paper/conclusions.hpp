@@ -35,7 +35,7 @@ struct JudgedModel {
 Table judge(const Table& conclusions, const std::vector<JudgedModel>& models);
 
 /// Table VIII: first whether each set of `sets` has a stress-free body and the supine displacements of nipple and tumour, then
-/// judge() of the paper, of RUN and of the sets in RUN/variants. `third`: the paper's Table III.
+/// judge() of the paper, of RUN and of the sets, the variants of RUN/studies/table8 (study/places.hpp). `third`: the paper's Table III.
 Table survival_table(const Table& conclusions, const Table& third, const std::filesystem::path& run,
                      const ShapeReader& read, const std::vector<std::string>& sets,
                      const std::string& calibrated);

@@ -10,7 +10,7 @@
 
 namespace breast {
 
-/// A row for the paper, the case as solved and every variant RUN/variants/NAME (the last one is the finest): displacements
+/// A row for the paper, the case as solved and every variant of RUN/studies/findings (study/places.hpp) (the last one is the finest): displacements
 /// of nipple and tumour from the imaged place, stress-free and supine, mm; the supine ones against the finest, per cent; the
 /// solve's own error estimate of the supine landmarks, mm; slopes by fat.
 Table findings_table(const std::filesystem::path& run, const std::vector<std::string>& variants);

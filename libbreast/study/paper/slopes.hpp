@@ -42,7 +42,7 @@ struct SlopeComparison {
 SlopeComparison compare_slopes(const TangentSlope& tangent, const ResolvedPlaces& resolved);
 
 /// Table VII: every slope of the tables of `sensitivity` against Tables III to VI solved again. `base`: supine report of the
-/// 100 per cent state; `scaled`: folder of TISSUE-PERCENT-supine.json. Steps 90, 110 and 50, 200 per cent; of the tumour 150,
+/// 100 per cent state; `scaled`: folder of the variants TISSUE-PERCENT. Steps 90, 110 and 50, 200 per cent; of the tumour 150,
 /// 200 and 200, 500, one-sided. "not evaluated" where one of them has no solution.
 Table slopes_table(const std::filesystem::path& base, const std::filesystem::path& scaled,
                    const Table& slopes, const Table& tumour_slopes);
