@@ -51,5 +51,5 @@ band-truth: $(RUN)/band-nominal.tsv $(RUN)/band-drawn.tsv
 
 # What they cost, on an idle machine: a 0.1 mm image, one curve, the full grid.
 mammo-times: $(addprefix $(RUN)/,cc-sensitivity.vtkhdf mlo-sensitivity.vtkhdf labels.vtkhdf)
-	@$(PIPELINES)/mammo-times.sh $(BIN) $(RUN)
+	@tests/bench/mammo-times.sh $(BIN) $(RUN)
 .PHONY: mammo-times
