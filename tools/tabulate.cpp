@@ -57,7 +57,7 @@ void declare(Tool& tool, const std::vector<TabulateKind>& kinds) {
       "Reads the JSON reports, TSV tables and shapes of finished runs and prints one table or page to stdout: tab-separated text whose first "
       "line is the header, or HTML. It solves nothing. The pipeline makes all its tables and pages with it; each kind can be asked for by hand.");
   for (const TabulateKind& kind : kinds)
-    tool.describe(kind.name + " " + kind.arguments + ": " + kind.help);
+    tool.describe(kind.name + " " + kind.arguments + ": " + kind.help + ".");
   tool.describe(
       "In the environment, CALIBRATED=\"REPORT.json SIDE\" names the report of a phantom whose preset was fitted to the answer of the chain: the "
       "rows it was fitted to say so.");

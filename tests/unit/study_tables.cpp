@@ -75,6 +75,8 @@ TEST(Conclusions, HoldOnlyWithinTheirBoundsAndWithAValue) {
   EXPECT_EQ(judged.cell(0, "ours_verdict"), "fails");
   EXPECT_EQ(judged.cell(1, "ours_verdict"), "holds");
   EXPECT_EQ(judged.cell(2, "ours_verdict"), "not evaluated");
+  EXPECT_THROW(judge(bounds, {{"ours", table_of("a\t0.1\nb\t1\n")}}), Error)
+      << "values without a header";
 }
 
 TEST(Conclusions, OfRowsAndOfSlopesAreTheSameNumbers) {
@@ -267,7 +269,7 @@ TEST(Studies, OfManySolvesAreCountedByKind) {
 }
 
 TEST(Verify, ToleratesAndNamesWhatDiffers) {
-  EXPECT_EQ(verdict_of("1.0", "1.05", "0.05"), "ok");
+  EXPECT_EQ(verdict_of("1.0", "1.04", "0.05"), "ok");
   EXPECT_EQ(verdict_of("1.0", "1.051", "0.05"), "differs");
   EXPECT_EQ(verdict_of("converged", "stopped_early", "0"), "differs");
   EXPECT_EQ(verdict_of("0", "", "1"), "missing");

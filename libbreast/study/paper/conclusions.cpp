@@ -97,6 +97,8 @@ Table conclusions_from_slopes(const std::optional<Table>& slopes, const Table& s
 Table judge(const Table& conclusions, const std::vector<JudgedModel>& models) {
   Table table{{"conclusion", "lowest", "highest"}, {}};
   for (const JudgedModel& model : models)
+    model.values.column("value");  // refuses a table of something else
+  for (const JudgedModel& model : models)
     table.columns.insert(table.columns.end(), {model.name, model.name + "_verdict"});
   for (std::size_t r = 0; r < conclusions.rows.size(); ++r) {
     Row row{conclusions.cell(r, "text"), conclusions.cell(r, "lowest"),

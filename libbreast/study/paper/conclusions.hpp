@@ -31,7 +31,8 @@ struct JudgedModel {
   std::string name;
   Table values;  ///< conclusion, value
 };
-/// The conclusions' bounds, and for every model its value and verdict: holds, fails, not evaluated.
+/// The conclusions' bounds, and for every model its value and verdict: holds, fails, not evaluated. Throws Error (input) naming
+/// a table of values without its columns.
 Table judge(const Table& conclusions, const std::vector<JudgedModel>& models);
 
 /// Table VIII: first whether each set of `sets` has a stress-free body and the supine displacements of nipple and tumour, then
