@@ -145,6 +145,11 @@ TEST(ScaledTable, PutsThePapersRowBesideOursAndDashesWhereThereIsNoSolution) {
       scaled_table(paper, folder / "fat", folder / "supine.vtkhdf", read, "").cell(1, "nipple_mm"),
       "-")
       << "a variant that is a folder";
+  for (const char* percent : {"10", "50", "100"})
+    write_text(folder / ("soft-" + std::string(percent) + ".failed"), "none\n");
+  const Table none =
+      scaled_table(paper, folder / "soft", folder / "soft-100-supine.vtkhdf", read, "");
+  EXPECT_EQ(none.cell(2, "tumour_mm"), "-") << "not even the base has a solution";
 }
 
 TEST(Coverage, OfOneSampleIsWilsonsAndOfManyTheScatterOfTheirOwn) {

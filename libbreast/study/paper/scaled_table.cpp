@@ -35,7 +35,7 @@ Table scaled_table(const Table& paper, const std::filesystem::path& prefix,
     for (const std::string& column : {quantity, "paper_" + quantity, "difference_" + quantity})
       table.columns.push_back(column);
   table.columns.insert(table.columns.end(), {"estimate_mm", "remark"});
-  const Shape base_shape = read(base);
+  std::optional<Shape> base_shape;  // of a base that may have no solution itself
   for (std::size_t r = 0; r < paper.rows.size(); ++r) {
     const std::string percent = paper.rows[r].front();
     const bool whole = percent == "100";
@@ -45,7 +45,8 @@ Table scaled_table(const Table& paper, const std::filesystem::path& prefix,
     Row row{percent};
     std::string estimate = no_value;
     if (std::filesystem::exists(file)) {
-      const auto ours = displacements(read(file), file, base_shape, base);
+      if (!base_shape) base_shape = read(base);
+      const auto ours = displacements(read(file), file, *base_shape, base);
       for (std::size_t q = 0; q < ours.size(); ++q) {
         const std::string& theirs = paper.cell(r, quantities[q]);
         row.insert(row.end(), {format_fixed(ours[q], 3), theirs,
