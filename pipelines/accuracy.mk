@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # ACCURACY=MM: the cheapest mesh and element whose error at the landmarks, stress-free and supine, is said to be below
 # MM. ELEMENTS and ELEMENT come from a makefile of two lines, which make brings up to date before anything else; each
-# rung of the ladder, in the order of what they were measured to cost (docs/validation/mechanics.md), is a point of pipelines/cost.mk.
-ACCURACY_LADDER ?= $(addprefix q1p0-dome-,4 6 8 10 12) q2p1-dome-8 q1p0-dome-16 q2p1-dome-10 q1p0-dome-20 q2p1-dome-12 \
-  q2p1-dome-16
+# rung of the ladder, in the order of what they were measured to cost (docs/validation/mechanics.md), is a row of
+# pipelines/studies/cost.tsv.
 ifneq ($(strip $(ACCURACY)),)
 accuracy_settings = $(ACCURACY) $(ACCURACY_LADDER) $(MATERIALS) $(SUPPORT)
 accuracy_record = $(RUN)/.accuracy.settings
@@ -11,9 +10,9 @@ ifneq ($(planning),)
 # A plan solves nothing: it shows the mesh chosen last, or the default where none was chosen yet.
 -include $(wildcard $(RUN)/accuracy.mk)
 else
-$(RUN)/accuracy.mk: $(RUN)/labels.vtkhdf $(RUN)/geometry.vtkhdf $(PIPELINES)/accuracy.sh $(PIPELINES)/values.sh \
-  $(PROBE) $(HEXMESH) $(BACKWARD) $(FORWARD) $(call changed,accuracy)
-	+$(PIPELINES)/accuracy.sh $(RUN) $(ACCURACY) $(PROBE) "$(ACCURACY_LADDER)" $(MAKE) -f $(PIPELINE) ACCURACY=
+$(RUN)/accuracy.mk: $(RUN)/labels.vtkhdf $(RUN)/geometry.vtkhdf $(PIPELINES)/accuracy.sh $(TABULATE) \
+  $(HEXMESH) $(BACKWARD) $(FORWARD) $(call changed,accuracy)
+	+$(PIPELINES)/accuracy.sh $(RUN) $(ACCURACY) "$(tabulate)" "$(ACCURACY_LADDER)" $(MAKE) -f $(PIPELINE) ACCURACY=
 	@$(call record,accuracy)
 include $(RUN)/accuracy.mk
 endif

@@ -1,42 +1,25 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Up a ladder of meshes, cheapest first, until the estimated error is met: accuracy.sh RUN MM PROBE "POINT ..." MAKE...
-# 8-node elements say their error themselves; of 27-node ones it is taken to be at most the distance to the rung of
-# 27-node elements before (the first of them only starts the comparison).
-# Writes RUN/accuracy.tsv, what was tried, and RUN/accuracy.mk, the ELEMENTS and ELEMENT chosen (the last rung where
-# none is good enough).
+# Up a ladder of meshes, cheapest first, until the estimated error is met: accuracy.sh RUN MM TABULATE "POINT ..." MAKE...
+# Writes RUN/accuracy.tsv, what was tried, and RUN/accuracy.mk, the ELEMENTS and ELEMENT chosen (the last rung where none is good
+# enough).
 set -euo pipefail
-run=$1 wanted=$2 probe=$3 ladder=$4
+run=$1 wanted=$2 tabulate=$3 ladder=$4
 shift 4
-. "$(dirname "$0")/values.sh"
-table=$run/accuracy.tsv
+table=$run/accuracy.tsv coarser= chosen= row=
 printf 'point\telements\tstress_free_estimate_mm\tsupine_estimate_mm\tcpu_s\tmeets\n' > "$table.part"
-meets=no coarser=
 for point in $ladder; do
-  "$@" "$run/cost/$point.done" >&2
-  backward=$run/cost/$point-reference.json forward=$run/cost/$point-supine.json
-  [ ! -f "$run/cost/$point.failed" ] || continue
-  if [ "${point%%-*}" = q2p1 ]; then
-    a= b=
-    if [ -n "$coarser" ]; then
-      a=$(apart "$probe" "${backward%.json}.vtkhdf" "$run/cost/$coarser-reference.vtkhdf")
-      b=$(apart "$probe" "${forward%.json}.vtkhdf" "$run/cost/$coarser-supine.vtkhdf")
-    fi
-    coarser=$point
-  else
-    a=$(number "$backward" error_estimate_mm) b=$(carried_estimate "$backward" "$forward")
-  fi
-  cpu=$(awk -v a="$(key "$backward" cpu_seconds)" -v b="$(key "$forward" cpu_seconds)" 'BEGIN { printf "%.2f", a + b }')
-  meets=$(awk -v a="$a" -v b="$b" -v w="$wanted" 'BEGIN { print (a != "" && b != "" && a <= w + 0 && b <= w + 0) ? "yes" : "no" }')
-  printf '%s\t%s\t%s\t%s\t%s\t%s\n' "$point" "$(key "$forward" elements)" "$(rounded 4 "$a")" "$(rounded 4 "$b")" \
-    "$cpu" "$meets" >> "$table.part"
-  chosen=$point
-  [ "$meets" = no ] || break
+  "$@" "$run/studies/cost/$point/supine.json" >&2
+  tried=$($tabulate accuracy "$run/studies/cost" "$point" "$wanted" $coarser)
+  [ -n "$tried" ] || continue  # no solution
+  row=$tried chosen=$point
+  [[ $point != q2p1-* ]] || coarser=$point
+  printf '%s\n' "$row" | tee -a "$table.part" >&2
+  [[ $row != *yes ]] || break
 done
-[ -n "${chosen:-}" ] || { echo "accuracy: no mesh of the ladder could be solved: see $run/cost/*.failed" >&2; exit 3; }
+[ -n "$chosen" ] || { echo "accuracy: no mesh of the ladder could be solved: see $run/studies/cost" >&2; exit 3; }
 mv "$table.part" "$table"
-cat "$table" >&2
-[ "$meets" = yes ] || echo "accuracy: $wanted mm is not met by any mesh tried; the finest is taken" >&2
+[[ $row = *yes ]] || echo "accuracy: $wanted mm is not met by any mesh tried; the finest is taken" >&2
 IFS=- read -r element _ edge _ <<< "$chosen"
 printf 'ELEMENTS := %s\nELEMENT := %s\n' "$edge" "$element" > "$run/accuracy.mk.part"
 mv "$run/accuracy.mk.part" "$run/accuracy.mk"

@@ -1,21 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# A solve that may have no solution: attempt.sh NAME PROGRAM INPUT [ARGUMENT]...
-# writes NAME.vtkhdf and its report. Where it does not converge (exit 3), or INPUT itself was not found, the reason stays
-# in NAME.failed and NAME.vtkhdf is absent: a finding, not an error. Any other failure stops.
+# A stage of a variant, which may have no solution: attempt.sh STAGE.json "INPUT ..." PROGRAM ARGUMENT...
+# Where it does not converge (exit 3) the program's report STAGE.json says why and is the result; where an INPUT was not found
+# for such a reason, INPUT's report becomes this one's. Either way nothing else of the stage is left. Any other failure stops.
 set -euo pipefail
-. "$(dirname "$0")/values.sh"
-name=$1 program=$2 input=$3
-shift 3
-rm -f "$name.vtkhdf" "$name.json" "$name.failed"
-if [ -f "${input%.vtkhdf}.failed" ]; then
-  cp "${input%.vtkhdf}.failed" "$name.failed"
+report=$1 inputs=$2
+shift 2
+rm -f "${report%.json}".{vtkhdf,vtp,tsv,json}
+for input in $inputs; do
+  [ ! -e "$input" ] || continue
+  cp "${input%.vtkhdf}.json" "$report"
   exit 0
-fi
+done
 code=0
-"$program" "$input" "$name.vtkhdf" "$@" --report "$name.json" || code=$?
-case $code in
-  0) ;;
-  3) why "$name.json" > "$name.failed" ;;
-  *) exit "$code" ;;
-esac
+"$@" || code=$?
+# A program of somebody else's need not write a report.
+[ "$code" -ne 0 ] || [ -s "$report" ] || printf '{\n  "status": "ok"\n}\n' > "$report"
+[ "$code" -eq 0 ] || [ "$code" -eq 3 -a -s "$report" ]

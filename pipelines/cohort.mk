@@ -3,19 +3,8 @@
 # cohort a folder of them: COHORT/*.case or COHORT/*/case.txt (and, as version 0.1 called them, *.mk and */case.mk). Every case
 # is run; one that fails is recorded with its reason and does not stop the others. When all fail, make fails.
 # CLUSTER=slurm gives the cases to Slurm as one job array (pipelines/slurm.sh); without it they are processes of this machine.
-CLUSTER ?= local
-CLUSTER_PARTITION ?=
-CLUSTER_ACCOUNT ?=
-CLUSTER_TIME ?=
-CLUSTER_MEMORY ?=
-CLUSTER_CORES ?= 1
-CLUSTER_OPTIONS ?=
-# Of a cohort given to Slurm: submit only the cases that are missing or out of date. Local processes always do so.
-RESUME ?=
+# RESUME: of a cohort given to Slurm submit only the cases that are missing or out of date. Local processes always do so.
 ifneq ($(COHORT),)
-$(call among,CLUSTER,local slurm)
-$(call plain_number,CLUSTER_CORES)
-$(call plain_number,CLUSTER_MEMORY)
 case_patterns := *.case */case.txt *.mk */case.mk
 COHORT_FILES := $(sort $(wildcard $(addprefix $(COHORT)/,$(case_patterns))))
 ifeq ($(COHORT_FILES),)
@@ -40,11 +29,6 @@ COHORT_RUNS := $(RUNS)/cohort-$(notdir $(patsubst %/,%,$(if $(filter . .. %/. %/
 .DEFAULT_GOAL := cohort
 
 # CASE, its file, and what it is of (scan or phantom), a line each: a file, because ten thousand do not fit a command line.
-define newline
-
-
-endef
-tab := $(shell printf '\t')
 case_lines_of_all = $(subst $(newline)$(space),$(newline),$(foreach f,$(COHORT_FILES),$(call cohort_case,$f)$(tab)$f$(tab)$(kind_$(call \
   cohort_case,$f))$(newline)))
 CASE_LIST := $(COHORT_RUNS)/.cases
@@ -63,19 +47,17 @@ endef
 $(foreach f,$(COHORT_FILES),$(eval $(call cohort_rules,$(call cohort_case,$f),$f)))
 
 # The table of what has ended so far, and its pages.
-cohort_results = $(PIPELINES)/cohort.sh results $(COHORT_RUNS) $(POPULATION_TOOL)
+cohort_results = $(tabulate) cohort $(COHORT_RUNS) $(POPULATION_TOOL)
 cohort-table: $(CASE_LIST)
 	@$(cohort_results)
-	@cat $(COHORT_RUNS)/cohort.tsv
 
 ifeq ($(CLUSTER),slurm)
 # The make command of a task, a word a line. Programs are taken as they are: no task builds anything.
 task_make = make -f $(PIPELINE) -o $(ROOT)build/built-$(PRESET_BUILD).mk -o $(ROOT)build/.packages
 task_settings = $(foreach v,$(filter-out COHORT RUNS CASE CASE_FILE CLUSTER% RESUME,$(given)),$(newline)$v=$(value $v))
 task_command = $(subst $(space)$(newline),$(newline),$(subst $(space),$(newline),$(task_make))$(task_settings))
-slurm = CLUSTER_PARTITION='$(CLUSTER_PARTITION)' CLUSTER_ACCOUNT='$(CLUSTER_ACCOUNT)' CLUSTER_TIME='$(CLUSTER_TIME)' \
-  CLUSTER_MEMORY='$(CLUSTER_MEMORY)' CLUSTER_CORES='$(CLUSTER_CORES)' CLUSTER_OPTIONS='$(CLUSTER_OPTIONS)' RESUME='$(RESUME)' \
-  COST_ELEMENTS='$(ELEMENTS)' COST_ELEMENT='$(ELEMENT)' $(PIPELINES)/slurm.sh
+slurm = $(foreach v,PARTITION ACCOUNT TIME MEMORY CORES OPTIONS,CLUSTER_$v='$(CLUSTER_$v)') RESUME='$(RESUME)' \
+  COST_ELEMENTS='$(ELEMENTS)' COST_ELEMENT='$(ELEMENT)' TABULATE='$(tabulate)' $(PIPELINES)/slurm.sh
 $(COHORT_RUNS)/.command: FORCE | $(COHORT_RUNS)/.folder
 	@$(if $(planning),,$(file > $@,$(task_command))):
 cohort: $(CASE_LIST) $(COHORT_RUNS)/.command
@@ -85,7 +67,6 @@ cohort-script: $(CASE_LIST) $(COHORT_RUNS)/.command
 else
 cohort: $(COHORT_CASES:%=$(COHORT_RUNS)/%.status) $(CASE_LIST)
 	@$(cohort_results)
-	@cat $(COHORT_RUNS)/cohort.tsv
 	@$(PIPELINES)/cohort.sh any-done $(COHORT_RUNS)/cohort.tsv
 cohort-script:
 	$(error cohort-script: is for CLUSTER=slurm)

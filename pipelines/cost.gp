@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Error against run time of pipelines/cost.sh's table: gnuplot -e "table='...'; picture='...'" cost.gp
+# Error against run time of the table of tabulate cost: gnuplot -e "table='...'; picture='...'" cost.gp
 set terminal pngcairo size 900,640 font 'Sans,11'
 set output picture
 set datafile separator '\t'

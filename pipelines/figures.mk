@@ -1,33 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Pictures in the manner of the paper's Figs 4-7, drawn off-screen.
-FIGURE_NAMES := points geometry mesh tissues outlines cc-compression mlo-compression pressure force-thickness cc-mammogram mlo-mammogram \
-  $(if $(no_tumour),,cc-matching mlo-matching) summary
-FIGURES := $(FIGURE_NAMES:%=$(RUN)/figures/%.png)
+# Pictures in the manner of the paper's Figs 4-7 (figures.tsv), drawn off-screen; fig4 ... fig7 are the panels of one of them.
 F := $(RUN)/figures
-render = mkdir -p $(@D) && $(RENDER) $(filter %.vtkhdf %.vtp %.vti,$^) --figure $1 -o $@
+FIGURES :=
+$(foreach n,4 5 6 7,$(eval fig$n :=))
+define picture
+file := $(F)/$(call cell,picture).png
+FIGURES += $(if $(filter all $(if $(no_tumour),,tumour),$(call cell,of)),$(file))
+$(foreach p,$(call text,$(call cell,panels)),$(eval $p += $(file)))
+$(file): figure := $(call cell,figure)
+$(file): $(patsubst $(RUN)/CURVE,$(CURVE),$(addprefix $(RUN)/,$(call text,$(call cell,files)))) $(RENDER)
+	@mkdir -p $(@D) && $(RENDER) $(filter %.vtkhdf %.vtp %.vti,$^) --figure $(figure) -o $@
+endef
+$(call read_table,$(PIPELINES)/figures.tsv)
+$(call each_row,picture)
+fig4: $(fig4)
+fig5: $(fig5)
+fig6: $(fig6)
+fig7: $(fig7)
+.PHONY: fig4 fig5 fig6 fig7
 
-$(F)/points.png: $(RUN)/points.vtp $(RENDER)
-	@$(call render,points)
-$(F)/geometry.png: $(RUN)/geometry.vtkhdf $(RENDER)
-	@$(call render,geometry)
-$(F)/mesh.png: $(RUN)/mesh.vtkhdf $(RENDER)
-	@$(call render,mesh)
-$(F)/tissues.png: $(RUN)/mesh.vtkhdf $(RENDER)
-	@$(call render,tissues)
-$(F)/outlines.png: $(RUN)/supine.vtkhdf $(RENDER)
-	@$(call render,outlines)
-$(F)/%-compression.png: $(RUN)/%.vtkhdf $(RENDER)
-	@$(call render,compression)
-$(F)/pressure.png: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(RENDER)
-	@$(call render,pressure)
-$(F)/force-thickness.png: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(RENDER)
-	@$(call render,force-thickness)
-$(F)/cc-mammogram.png: $(RUN)/cc.vti $(CURVE) $(RENDER)
-	@$(call render,mammogram)
-$(F)/mlo-mammogram.png: $(RUN)/mlo.vti $(CURVE) $(RENDER)
-	@$(call render,mammogram)
-$(F)/%-matching.png: $(RUN)/%.vtkhdf $(RUN)/curve.vtp $(RENDER)
-	@$(call render,matching)
-$(F)/summary.png: $(RUN)/mesh.vtkhdf $(RUN)/reference.vtkhdf $(RUN)/supine.vtkhdf $(RUN)/cc.vtkhdf \
-  $(RUN)/mlo.vtkhdf $(RUN)/cc.vti $(RUN)/mlo.vti $(CURVE) $(RENDER)
-	@$(call render,summary)
+# Figs 6c and 6d show several points: a grid of them in the CC view.
+curves_settings := $(CC2MLO) $(POINTS)
+$(RUN)/curves.vtp $(RUN)/curves.tsv &: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(CC2MLO) $(call changed,curves)
+	$(CC2MLO) $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(RUN)/curves.vtp --grid $(POINTS) --table $(RUN)/curves.tsv --report $(RUN)/curves.json $(share)
+	@$(call record,curves)

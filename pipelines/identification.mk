@@ -38,9 +38,9 @@ $(IDENTIFICATION_RUNS)/$1.tsv: $(IDENTIFICATION_RUNS)/$(call identification_part
 	@mv $$@.part $$@
 endef
 $(foreach p,$(identification_parts),$(eval $(call identification_rows,$p)))
-identification: $(identification_parts:%=$(IDENTIFICATION_RUNS)/%.tsv) $(PIPELINES)/identification.sh
-	$(PIPELINES)/identification.sh $(identification_parts:%=$(IDENTIFICATION_RUNS)/%.tsv) > docs/tables/identification.tsv.part
+identification: $(identification_parts:%=$(IDENTIFICATION_RUNS)/%.tsv) $(TABULATE)
+	$(tabulate) identification $(identification_parts:%=$(IDENTIFICATION_RUNS)/%.tsv) > docs/tables/identification.tsv.part
 	@mv docs/tables/identification.tsv.part docs/tables/identification.tsv
-	@$(PIPELINES)/validation.sh fill $(PAGES_WITH_TABLES)
+	@$(tabulate) pages fill $(PAGES_WITH_TABLES)
 	@cat docs/tables/identification.tsv
 .PHONY: identification

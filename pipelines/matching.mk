@@ -29,7 +29,7 @@ $(RUN)/band-samples.tsv: $(RUN)/band-check-mesh.vtkhdf tests/bench/band_check.cp
 	$(BIN)/band_check $< 1 $(BAND_SAMPLES) > $@.part
 	@mv $@.part $@
 band-check: $(RUN)/band-samples.tsv
-	@$(PIPELINES)/band-check.sh $<
+	@$(tabulate) coverage $<
 .PHONY: band-check
 
 # The band of the chain from the MR scan against the phantom's true body: its places as they are (band-nominal), and
@@ -46,10 +46,10 @@ $(RUN)/band-nominal.tsv $(RUN)/band-drawn.tsv &: $(band_bodies) tests/truth/band
 	$(BIN)/band_truth $(band_bodies) 1 $(BAND_DRAWS) $(BAND_PLACES) > $(RUN)/band-drawn.tsv.part
 	@for rows in nominal drawn; do mv $(RUN)/band-$$rows.tsv.part $(RUN)/band-$$rows.tsv; done
 band-truth: $(RUN)/band-nominal.tsv $(RUN)/band-drawn.tsv
-	@$(PIPELINES)/band-check.sh $^
+	@$(tabulate) coverage $^
 .PHONY: band-truth
 
 # What they cost, on an idle machine: a 0.1 mm image, one curve, the full grid.
 mammo-times: $(addprefix $(RUN)/,cc-sensitivity.vtkhdf mlo-sensitivity.vtkhdf labels.vtkhdf)
-	@$(PIPELINES)/mammo-times.sh $(BIN) $(RUN)
+	@tests/bench/mammo-times.sh $(BIN) $(RUN)
 .PHONY: mammo-times

@@ -18,7 +18,7 @@ ifneq ($(filter-out help setup build check package clean calibrate cohort cohort
   mixed_up := $(shell $(PIPELINES)/scan-identity.sh check $(RUN) $(SIDE) $(scan))
   $(if $(mixed_up),$(error $(mixed_up)))
 endif
-# The preset `paper` was fitted to the answer of this chain: the rows it was fitted to say so (pipelines/calibration.sh).
+# The preset `paper` was fitted to the answer of this chain: the rows it was fitted to say so (tabulate).
 export CALIBRATED := $(if $(TRUTH),$(if $(filter paper,$(PRESET)),$(PHANTOM_MR:.nrrd=.json) $(SIDE)))
 # The tumour as hexmesh is told, unless HEXMESH_OPTIONS names another; no_tumour: none, so that the chain ends with the
 # curves of all CC points and their page instead of one curve.
@@ -77,9 +77,8 @@ $(eval $(call truth_view,cc,CC))
 $(eval $(call truth_view,mlo,MLO))
 $(TRUTH_TABLE): $(PHANTOM_TRUTH)/landmarks.tsv $(TRUTH_MESHES) $(TRUTH_TABLE_TOOL)
 	$(TRUTH_TABLE_TOOL) $< $@ $(TRUTH_MESHES) $(common)
-same_plates = --thickness $$(. $(PIPELINES)/values.sh; key $1 thickness_mm) \
-  --edge-at $$(. $(PIPELINES)/values.sh; key $1 edge_at_mm) --middle-at $$(. $(PIPELINES)/values.sh; key $1 middle_at_mm) \
-  --turn $$(. $(PIPELINES)/values.sh; key $1 turn_deg)
+same_plates = --thickness $$($(tabulate) key $1 thickness_mm) --edge-at $$($(tabulate) key $1 edge_at_mm) \
+  --middle-at $$($(tabulate) key $1 middle_at_mm) --turn $$($(tabulate) key $1 turn_deg)
 $(RUN)/truth-compressed.tsv: $(TRUTH_TABLE) $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf \
   truth-cc.vtkhdf truth-mlo.vtkhdf) $(PROBE)
 	$(PROBE) $(filter %.vtkhdf,$^) --truth $< > $@.part

@@ -4,10 +4,11 @@
 # `make -n` read the record and write nothing.
 #   $(call changed,STAGE)  FORCE when STAGE_settings differs from the record of an existing output
 #   $(call record,STAGE)   shell command that records them in STAGE_record (default RUN/.STAGE.settings)
+#   $(call stale,FILE,TEXT), $(call note,FILE,TEXT)  the same for a record and settings that have no NAME
 record_file = $(or $($1_record),$(RUN)/.$1.settings)
-squeeze = $(strip $1)
-differ = $(subst x$(call squeeze,$1)x,,x$(call squeeze,$2)x)
-changed = $(if $(call differ,$(file < $(call record_file,$1)),$($1_settings)),FORCE)
-record = printf '%s\n' '$(subst ','\'',$(call squeeze,$($1_settings)))' > $(call record_file,$1)
+stale = $(if $(subst x$(strip $(file < $1))x,,x$(strip $2)x),FORCE)
+note = printf '%s\n' '$(subst ','\'',$(strip $2))' > $1
+changed = $(call stale,$(call record_file,$1),$($1_settings))
+record = $(call note,$(call record_file,$1),$($1_settings))
 .PHONY: FORCE
 FORCE:

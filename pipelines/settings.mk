@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Settings, each to be given on the command line: make -f Makefile.pipeline MATERIALS=wellman
+# Values of the settings (settings.tsv), each to be given on the command line: make -f Makefile.pipeline MATERIALS=wellman
 # A case file gives them one a line, KEY = VALUE; the command line overrides it. It is data: pipelines/case-file.sh checks
 # every key and value, and nothing in it is executed.
 ifneq ($(CASE_FILE),)
@@ -12,16 +12,22 @@ ifneq ($(CASE_FILE),)
   $(foreach v,$(path_settings) $(name_settings),$(call check_setting,$v))
 endif
 
+# ---- programs: any stage can be somebody else's -------------------------------------------------------
+BUILD := $(ROOT)build/release
+BIN := $(or $(INSTALLED),$(BUILD)/bin)
+$(foreach v,$(filter-out $(program_settings),$(known_settings)),$(if $(default_$v),$(eval $v ?= $(default_$v))))
+$(foreach v,$(program_settings),$(eval $v ?= $(BIN)/$(default_$v)))
+
+# Every table, verdict and page is made by tabulate, from reports, tables and shapes.
+tabulate = $(TABULATE) --quiet --pipelines $(PIPELINES)
+
 # ---- the case -----------------------------------------------------------------------------------------
-# MR: scan file or DICOM folder; empty runs the phantom PRESET. SIDE: left or right. SERIES: of a DICOM
-# folder with several. CHEST_WALL: corrected label map or clicked points. CASE: name of the run's folder.
 # Breasts of these presets slide on their rib cage; the others are held, as in the paper, whose tables, figures and studies are
 # theirs: these targets take the phantom `paper` unless told otherwise.
 sliding_presets := average slim broad heavy
 paper_goals := $(filter all tables table% fig4 fig5 fig6 fig7 findings verify report validation calibrate truth matching band \
   band-check band-truth budget leaveout wall-sensitivity cost compare stability%,$(MAKECMDGOALS))
 PRESET ?= $(if $(PAPER)$(paper_goals),paper,average)
-SIDE ?= left
 scan_endings := .nii.gz .nii .nrrd .nhdr .mha .mhd .vtkhdf
 # The name of a scan without its ending: pat.001.nrrd is another than pat.002.nrrd, and a folder keeps its dots.
 without_ending = $(firstword $(foreach e,$(scan_endings),$(patsubst %$e,%,$(filter %$e,$1))) $1)
@@ -31,7 +37,6 @@ ifdef MR
 else
   CASE ?= $(PRESET)$(if $(filter right,$(SIDE)),-right)
 endif
-RUNS ?= runs
 RUN := $(RUNS)/$(CASE)$(if $(PAPER),-as-printed)
 
 # ---- choices ------------------------------------------------------------------------------------------
@@ -42,20 +47,12 @@ ifeq ($(origin MATERIALS),undefined)
 endif
 # Sets with which a breast slides say how its wall holds.
 slides := $(if $(PAPER),,$(shell grep -l '^wall' $(or $(wildcard $(MATERIALS)),$(PIPELINES)/materials/$(MATERIALS).tsv) 2>/dev/null))
-REDUCTION ?= 50
-# Mean pressure of the paddle, kPa, that ends a compression before that: what a clinic aims at. Table II is too stiff for it.
+# Mean pressure of the paddle, kPa, that ends a compression before REDUCTION: what a clinic aims at. Table II is too stiff for it.
 PRESSURE ?= $(if $(slides),10)
 # As printed, elements on the edge of the cuboid fold early (docs/validation/contact.md).
 AT_LEAST ?= $(if $(PAPER),30,40)
-ELEMENTS ?= 16
-# Element of the mechanics, q1p0 or q2p1; empty: the programs' default. ACCURACY=MM chooses both.
-ELEMENT ?=
 # What holds the breast at its back; empty: what the material set was found with, or a held wall and a free cut.
-WALL ?=
-CUT ?=
 SUPPORT = $(addprefix --wall ,$(WALL)) $(addprefix --cut ,$(CUT))
-# What the imaged shape hangs under; --gravity 0,0,0 takes it as stress-free.
-PRONE ?= --posture prone
 # As printed in the paper: cuboid, skin as a layer of elements, plain invariants, free cut.
 PRINTED_HEXMESH = --template cuboid --elements $(ELEMENTS) --skin-as layer
 PRINTED_MECHANICS = --materials $(MATERIALS) --invariants plain --element q1p0
@@ -68,21 +65,20 @@ else
   # A breast that slides does so with the muscle behind it; one that is held needs none.
   MUSCLE ?= $(if $(slides),measured,0)
   HEXMESH_OPTIONS ?= --elements $(ELEMENTS) $(addprefix --muscle ,$(filter-out 0,$(MUSCLE)))
+  # An empty ELEMENT is the programs' default. ACCURACY=MM chooses ELEMENTS and ELEMENT.
   MECHANICS ?= --materials $(MATERIALS) $(addprefix --element ,$(ELEMENT))
   # Soft tissue that slides lies limp between plates that stand far in front of the chest wall.
   COMPRESS_OPTIONS ?= $(if $(slides),--image-edge auto)
 endif
 # Where the plates stop: at the first of these.
 STOPS = --reduction $(REDUCTION) $(addprefix --pressure ,$(PRESSURE))
-# Parts of the model to do without: no-skin no-gland no-backward no-gravity-in-compression (what each is worth: leaveout).
-LEAVE_OUT ?=
 $(check_values)
 # Landmarks in a second posture: the set MATERIALS is what is expected, the chain runs with what identify makes of it.
-LANDMARKS ?=
 ifneq ($(LANDMARKS),)
   prior_set := $(MATERIALS)
   override MATERIALS := $(RUN)/identified.tsv
 endif
+# Parts of the model to do without; what each is worth: studies/leaveout.tsv.
 leave_out = $(filter $1,$(LEAVE_OUT))
 ifneq ($(call leave_out,no-skin),)
   override HEXMESH_OPTIONS += --skin 0
@@ -97,29 +93,6 @@ ifneq ($(call leave_out,no-gland),)
   whole_set := $(or $(wildcard $(MATERIALS)),$(PIPELINES)/materials/$(MATERIALS).tsv)
   override MATERIALS := $(RUN)/fat-only.tsv
 endif
-SEGMENT_OPTIONS ?=
-FIT_OPTIONS ?=
-PROJECT_OPTIONS ?=
-PHANTOM_OPTIONS ?=
-
-# ---- programs: any stage can be somebody else's -------------------------------------------------------
-PRESET_BUILD ?= release
-BUILD := $(ROOT)build/release
-BIN := $(or $(INSTALLED),$(BUILD)/bin)
-SEGMENT ?= $(BIN)/segment
-FIT_HERMITE ?= $(BIN)/fit-hermite
-HEXMESH ?= $(BIN)/hexmesh
-BACKWARD ?= $(BIN)/backward
-FORWARD ?= $(BIN)/forward
-COMPRESS ?= $(BIN)/compress
-PROJECT ?= $(BIN)/project-mammogram
-CC2MLO ?= $(BIN)/cc2mlo
-PHANTOM ?= $(BIN)/phantom
-PHANTOM_MESH ?= $(BIN)/phantom-mesh
-TRUTH_TABLE_TOOL ?= $(BIN)/truth-table
-CALIBRATE ?= $(BIN)/calibrate
-PROBE ?= $(BIN)/probe
-RENDER ?= $(BIN)/render
 
 # Options every program gets: its JSON report beside its first output, its share of the cores.
 share = --threads $$($(PIPELINES)/threads.sh)

@@ -7,7 +7,7 @@
 #   slurm.sh table FOLDER COHORT  within the last job
 # RUNS/.cases and RUNS/.command are written by pipelines/cohort.mk. Every submission keeps its own list in RUNS/.slurm/N, so that a
 # second one does not change what the tasks of the first will read. CLUSTER_PARTITION, _ACCOUNT, _TIME (minutes, or as sbatch
-# takes it), _MEMORY (MB), _CORES and _OPTIONS are asked for; time and memory come from measured cost where they are empty.
+# takes it), _MEMORY (MB), _CORES and _OPTIONS are asked for; time and memory come from measured cost where they are empty (by TABULATE).
 set -euo pipefail
 export LC_ALL=C
 unset MAKEFLAGS MFLAGS MAKEOVERRIDES MAKELEVEL  # tasks are makes of their own
@@ -42,22 +42,15 @@ folder=$runs/.slurm/$number
 
 # Minutes and MB of one case, and where they come from: three times, and one and a half times, what was measured.
 estimate() {
-  local cores=$CLUSTER_CORES
-  if [ -s "$runs/cost.tsv" ] && [ "$(awk -F'\t' 'NR > 1 && $4 > 0' "$runs/cost.tsv" | wc -l)" -ge 3 ]; then
-    awk -F'\t' -v cores="$cores" 'NR > 1 { n += $4 > 0; if ($3 > s) s = $3; if ($4 / cores > s) s = $4 / cores; if ($5 > m) m = $5 }
-      END { printf "%d\t%d\tthe dearest of %d cases in cost.tsv: %d seconds, %d MB", 5 + 3 * s / 60, 256 + 1.5 * m, n, s, m }' "$runs/cost.tsv"
-  else
-    # The largest mesh that a setting or a case file asks for.
-    local size=$COST_ELEMENTS element=${COST_ELEMENT:-q1p0} file line
-    while IFS=$'\t' read -r _ file _; do
-      while IFS= read -r line; do
-        if [[ $line =~ ^[[:space:]]*ELEMENTS[[:space:]]*=[[:space:]]*([0-9]+) ]] && [ "${BASH_REMATCH[1]}" -gt "$size" ]; then size=${BASH_REMATCH[1]}; fi
-        if [[ $line =~ ^[[:space:]]*ELEMENT[[:space:]]*=[[:space:]]*q2p1 ]]; then element=q2p1; fi
-      done < "$file"
-    done < "$runs/.cases"
-    awk -F'\t' -v size="$size" -v element="$element" '$1 == element { r = size / $2; s = $3 * (r > 1 ? r ^ 4 : 1); m = $4 * (r > 1 ? r ^ 3 : 1)
-      printf "%d\t%d\tpipelines/cohort-cost.tsv, %s, ELEMENTS=%d: about %d CPU seconds, %d MB", 5 + 3 * s / 60, 256 + 1.5 * m, element, size, s, m }' "$here/cohort-cost.tsv"
-  fi
+  # The largest mesh that a setting or a case file asks for.
+  local size=$COST_ELEMENTS element=${COST_ELEMENT:-q1p0} file line
+  while IFS=$'\t' read -r _ file _; do
+    while IFS= read -r line; do
+      if [[ $line =~ ^[[:space:]]*ELEMENTS[[:space:]]*=[[:space:]]*([0-9]+) ]] && [ "${BASH_REMATCH[1]}" -gt "$size" ]; then size=${BASH_REMATCH[1]}; fi
+      if [[ $line =~ ^[[:space:]]*ELEMENT[[:space:]]*=[[:space:]]*q2p1 ]]; then element=q2p1; fi
+    done < "$file"
+  done < "$runs/.cases"
+  $TABULATE case-cost "$runs" "$CLUSTER_CORES" "$element" "$size"
 }
 IFS=$'\t' read -r minutes memory source <<< "$(estimate)"
 [ -z "$CLUSTER_TIME" ] && [ -z "$CLUSTER_MEMORY" ] || source="$source${CLUSTER_TIME:+; time as asked}${CLUSTER_MEMORY:+; memory as asked}"

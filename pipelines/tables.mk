@@ -1,123 +1,91 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The paper's Tables II to VI: prone-to-supine displacements of tumour and nipple when one tissue's stiffness
-# is scaled. Each row is a backward and a forward solve; each table puts the paper's row beside ours. The paper's
-# data set is private: with the phantom the rows are comparable, with a scan only the trends are. Every table is made
+# is scaled. Each row is a backward and a forward solve (studies/scaled.tsv); each table puts the paper's row beside ours. The
+# paper's data set is private: with the phantom the rows are comparable, with a scan only the trends are. Every table is made
 # twice: with the case's own mesh and mechanics (tableN.tsv), and as printed in the paper (tableN-as-printed.tsv).
 # Table VII and VIII are ours: slopes in one solve, and the conclusions under other material sets.
 TABLES := $(RUN)/tables
-SCALES := 10 50 90 110 200 1000
-SCALES_tumour := 150 200 500 1000 2000
-scales_of = $(or $(SCALES_$1),$(SCALES))
 PAPER_TABLES := 3 4 5 6
 tissue_3 := fat
 tissue_4 := fibroglandular
 tissue_5 := skin
 tissue_6 := tumour
+# The rows of a table that are solved: all but the case itself, whose 100 per cent Table VI has on a mesh of its own.
+rows_of = $(call results,$1,$(filter $2-%,$(filter-out tumour-mesh,$(scaled_variants))),supine)
 BOTH := own $(if $(PAPER),,printed)
 ending_printed := -as-printed
+base_own := $(RUN)/supine.vtkhdf
+base_printed := $(call study_dir,findings/as-printed)/supine.json
 
 table2: $(TABLES)/table2.tsv
 table7: $(TABLES)/table7.tsv
 table8: $(TABLES)/table8.tsv
-define table_target
-table$1: $(foreach m,$(BOTH),$(TABLES)/table$1$(ending_$m).tsv)
-endef
-$(foreach n,$(PAPER_TABLES),$(eval $(call table_target,$n)))
+findings: $(TABLES)/findings.tsv
+	@cat $<
 TABLE_FILES := $(if $(no_tumour),,$(foreach m,$(BOTH),$(foreach n,$(PAPER_TABLES),$(TABLES)/table$n$(ending_$m).tsv)) \
   $(addprefix $(TABLES)/,table2.tsv conclusions.tsv table7.tsv $(if $(PAPER),,table8.tsv findings.tsv)))
 tables: $(TABLE_FILES)
 	@for table in $(TABLES)/conclusions.tsv $(if $(PAPER),,$(TABLES)/table8.tsv $(TABLES)/findings.tsv); do echo; cat $$table; done
-.PHONY: table2 table3 table4 table5 table6 table7 table8 tables
+.PHONY: table2 table3 table4 table5 table6 table7 table8 tables findings
+$(TABLE_FILES) $(TABLES)/.conclusions-paper.values: | $(TABLES)/.
+$(TABLES)/.:
+	@mkdir -p $@
 
-# The two models: folder of its scaled solves, mesh, hexmesh options, mechanics, supine shape.
-own_folder := $(RUN)/scaled
-own_mesh := $(RUN)/mesh.vtkhdf
-own_hexmesh = $(HEXMESH_OPTIONS)
-own_mechanics = $(MECHANICS)
-own_supine := $(RUN)/supine.vtkhdf
-printed_folder := $(VARIANTS)/scaled-as-printed
-printed_mesh := $(VARIANTS)/as-printed-mesh.vtkhdf
-printed_hexmesh = $(PRINTED_HEXMESH)
-printed_mechanics = $(PRINTED_MECHANICS)
-printed_supine := $(VARIANTS)/as-printed-supine.vtkhdf
-# What a model's tables wait for; a variant's shapes are those of its mark.
-own_solved := $(own_supine)
-printed_solved := $(VARIANTS)/as-printed.done
-
-# Table VI has one whole element of tumour, round the tumour point of the base mesh.
-define tumour_mesh_rules
-tumour-mesh-$1_settings = $(HEXMESH) $($1_hexmesh) element
-$($1_folder)/tumour-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $($1_mesh) $(HEXMESH) \
-  $$(call changed,tumour-mesh-$1)
-	@mkdir -p $$(@D)
-	$(HEXMESH) $$< $(RUN)/labels.vtkhdf $$@ $($1_hexmesh) \
-	  --tumour $$$$($(PIPELINES)/landmark.sh $($1_mesh:.vtkhdf=.json) tumour):0.1 $$(common)
-	@$$(call record,tumour-mesh-$1)
-endef
-
-# $(call scaled_rules,FOLDER,TISSUE,PERCENT,MESH,MECHANICS[,NEEDS]): stress-free and supine shape with one tissue's
-# stiffness scaled. A material that has no stress-free body leaves a mark NAME.failed and a row of dashes, not a stop.
-define scaled_rules
-scaled-$1-$2-$3_record = $1/.$2-$3.settings
-scaled-$1-$2-$3_settings = $(BACKWARD) $(FORWARD) $5 $(SUPPORT)
-$1/$2-$3.done: $4 $6 $(BACKWARD) $(FORWARD) $(MATERIAL_FILE) $(PIPELINES)/posture-change.sh $$(call changed,scaled-$1-$2-$3)
-	@mkdir -p $$(@D)
-	$(PIPELINES)/posture-change.sh $4 $1/$2-$3 "$(BACKWARD)" "$(FORWARD)" $5 --scale $2=$3 $(SUPPORT) $$(share)
-	@$$(call record,scaled-$1-$2-$3)
-	@touch $$@
-endef
-rows_of = $(patsubst %,$1/$2-%.done,$(call scales_of,$2))
-define model_rules
-$(call tumour_mesh_rules,$1)
-$(foreach t,fat fibroglandular skin,$(foreach s,$(SCALES),$(call \
-  scaled_rules,$($1_folder),$t,$s,$($1_mesh),$($1_mechanics))$(newline)))
-$(foreach s,100 $(SCALES_tumour),$(call \
-  scaled_rules,$($1_folder),tumour,$s,$($1_folder)/tumour-mesh.vtkhdf,$($1_mechanics))$(newline))
-$(foreach n,$(PAPER_TABLES),$(call table_rules,$1,$n,$(tissue_$n))$(newline))
-endef
 # $(call table_rules,MODEL,NUMBER,TISSUE): relative displacements of Table VI refer to its own mesh.
 define table_rules
-$(TABLES)/table$2$(ending_$1).tsv: $(PIPELINES)/paper/table$2.tsv $(call rows_of,$($1_folder),$3) $($1_solved) \
-  $(if $(filter tumour,$3),$($1_folder)/tumour-100.done) $(PIPELINES)/scaled-table.sh $(PROBE)
-	@mkdir -p $$(@D)
-	$(PIPELINES)/scaled-table.sh $$< $($1_folder)/$3 $(if $(filter tumour,$3),$($1_folder)/tumour-100-supine.vtkhdf,$($1_supine)) \
-	  $(PROBE) > $$@.part
-	@mv $$@.part $$@
+table$2: $(TABLES)/table$2$(ending_$1).tsv
+$(TABLES)/table$2$(ending_$1).tsv: $(PIPELINES)/paper/table$2.tsv $(call rows_of,scaled$(ending_$1),$3) $(base_$1) $(TABULATE)
+	$$(call table,$$(tabulate) scaled $$< $$(call study_dir,scaled$(ending_$1))/$3 $(if $(filter tumour,$3),$$(call \
+	  study_dir,scaled$(ending_$1)/tumour-100)/supine.vtkhdf,$$(basename $$(base_$1)).vtkhdf))
 endef
-define newline
+$(foreach m,$(BOTH),$(foreach n,$(PAPER_TABLES),$(eval $(call table_rules,$m,$n,$(tissue_$n)))))
 
-
-endef
-$(foreach m,$(BOTH),$(eval $(call model_rules,$m)))
-
-MATERIAL_TABLE := $(or $(MATERIAL_FILE),$(PIPELINES)/materials/$(MATERIALS).tsv)
-table2_settings := $(PIPELINES)/table2.sh $(MATERIAL_TABLE)
-$(TABLES)/table2.tsv: $(PIPELINES)/paper/table2.tsv $(MATERIAL_TABLE) $(PIPELINES)/table2.sh $(call changed,table2)
-	@mkdir -p $(@D)
-	$(PIPELINES)/table2.sh $< $(MATERIAL_TABLE) > $@.part
-	@mv $@.part $@
+table2_settings := $(MATERIAL_TABLE)
+$(TABLES)/table2.tsv: $(PIPELINES)/paper/table2.tsv $(MATERIAL_TABLE) $(TABULATE) $(call changed,table2)
+	$(call table,$(tabulate) constants $< $(MATERIAL_TABLE))
 	@$(call record,table2)
 
 # The conclusions in numbers: from the paper's own rows, as printed, and as the case is solved.
 conclusion_values = $(addprefix $(TABLES)/.conclusions-,$(addsuffix .values,paper $(BOTH)))
 $(TABLES)/.conclusions-paper.values: prefix := paper_
-$(TABLES)/.conclusions-paper.values $(TABLES)/.conclusions-own.values: $(PAPER_TABLES:%=$(TABLES)/table%.tsv) $(PIPELINES)/conclusions.sh
-	@$(PIPELINES)/conclusions.sh rows $(filter %.tsv,$^) $(prefix) > $@.part
-	@mv $@.part $@
-$(TABLES)/.conclusions-printed.values: $(PAPER_TABLES:%=$(TABLES)/table%-as-printed.tsv) $(PIPELINES)/conclusions.sh
-	@$(PIPELINES)/conclusions.sh rows $(filter %.tsv,$^) > $@.part
-	@mv $@.part $@
-$(TABLES)/conclusions.tsv: $(PIPELINES)/paper/conclusions.tsv $(conclusion_values) $(PIPELINES)/judge.sh
-	$(PIPELINES)/judge.sh $< paper=$(TABLES)/.conclusions-paper.values \
-	  $(if $(PAPER),,as_printed=$(TABLES)/.conclusions-printed.values) ours=$(TABLES)/.conclusions-own.values > $@.part
-	@mv $@.part $@
+$(TABLES)/.conclusions-paper.values $(TABLES)/.conclusions-own.values: $(PAPER_TABLES:%=$(TABLES)/table%.tsv)
+$(TABLES)/.conclusions-printed.values: $(PAPER_TABLES:%=$(TABLES)/table%-as-printed.tsv)
+$(conclusion_values): $(TABULATE)
+	@$(call table,$(tabulate) conclusions $(filter %.tsv,$^) $(prefix))
+$(TABLES)/conclusions.tsv: $(PIPELINES)/paper/conclusions.tsv $(conclusion_values) $(TABULATE)
+	$(call table,$(tabulate) judge $< paper=$(TABLES)/.conclusions-paper.values \
+	  $(if $(PAPER),,as_printed=$(TABLES)/.conclusions-printed.values) ours=$(TABLES)/.conclusions-own.values)
 
 # Table VII, ours: all slopes from one solve of `sensitivity` on the base state, against the rows solved again.
-$(eval $(call slopes_rules,$(RUN)/base,$(own_supine),$(RUN)/reference.vtkhdf,$(own_supine),$(MECHANICS),fat$(comma)fibroglandular$(comma)skin))
-$(eval $(call slopes_rules,$(own_folder)/tumour-100,$(own_folder)/tumour-100.done,$(own_folder)/tumour-100-reference.vtkhdf,$(own_folder)/tumour-100-supine.vtkhdf,$(MECHANICS),tumour))
-$(TABLES)/table7.tsv: $(RUN)/base-slopes.tsv $(own_folder)/tumour-100-slopes.tsv \
-  $(foreach n,$(PAPER_TABLES),$(call rows_of,$(own_folder),$(tissue_$n))) $(PIPELINES)/table7.sh $(PIPELINES)/landmark.sh
-	@mkdir -p $(@D)
-	$(PIPELINES)/table7.sh $(own_supine:.vtkhdf=.json) $(own_folder) $(wordlist 1,2,$^) > $@.part
-	@mv $@.part $@
+$(TABLES)/table7.tsv: $(RUN)/slopes.tsv $(call results,scaled,tumour-100,slopes) $(foreach n,$(PAPER_TABLES),$(call rows_of,scaled,$(tissue_$n))) \
+  $(TABULATE)
+	$(call table,$(tabulate) slopes $(RUN)/supine.json $(call study_dir,scaled) $< $(call study_dir,scaled/tumour-100)/slopes.tsv)
 	@cat $@
+
+# How much of the paper's own figures is numerical, against the finest solution (about FINDINGS_FINEST^3 27-node elements).
+$(TABLES)/findings.tsv: $(RUN)/slopes.tsv $(call results,findings,$(findings_variants),slopes) $(TABULATE)
+	$(call table,$(tabulate) findings $(RUN) $(findings_variants))
+
+# Table VIII, ours: the paper's conclusions on the case's mesh under the sets of studies/table8.tsv, slopes from one solve each.
+SETS := $(filter-out %-100 %-1000 %-2000,$(table8_variants))
+$(RUN)/columns.tsv: $(PIPELINES)/materials/seed2008.tsv
+	@mkdir -p $(@D)
+	$(call table,awk -F'\t' -v OFS='\t' '/^#/ { print; next } $$1 == "tissue" { for (i = 1; i <= NF; i++) at[$$i] = i; print; next } \
+	  { first = $$at["a20_Pa"]; second = $$at["a02_Pa"]; third = $$at["a11_Pa"]; \
+	    $$at["a11_Pa"] = first; $$at["a20_Pa"] = second; $$at["a02_Pa"] = third; print }' $<)
+# $(call set_rules,SET): its rows of Table VI, and its conclusions.
+define set_rules
+$(call study_dir,table8/$1-tumour).tsv: $(PIPELINES)/paper/table6.tsv $(call results,table8,$(filter $1-tumour-%,$(table8_variants)),supine) \
+  $(TABULATE)
+	grep -E '^(stiffness|100	|1000	|2000	)' $$< > $$@.rows
+	$$(call table,$$(tabulate) scaled $$@.rows $$(basename $$@) $$(basename $$@)-100/supine.vtkhdf)
+	@rm -f $$@.rows
+$(call study_dir,table8/$1)/.values: $(call results,table8,$1,slopes) $(call study_dir,table8/$1-tumour).tsv $(TABULATE)
+	@$$(call table,$$(tabulate) conclusions-of-slopes $$(@D)/slopes.tsv $$(call study_dir,table8/$1-tumour).tsv)
+endef
+$(foreach set,$(SETS),$(eval $(call set_rules,$(set))))
+$(TABLES)/.ours.values: $(RUN)/slopes.tsv $(TABLES)/table6.tsv $(TABULATE)
+	@$(call table,$(tabulate) conclusions-of-slopes $(wordlist 1,2,$^))
+$(TABLES)/table8.tsv: $(PIPELINES)/paper/conclusions.tsv $(TABLES)/.conclusions-paper.values $(TABLES)/.ours.values \
+  $(SETS:%=$(call study_dir,table8)/%/.values) $(TABULATE)
+	$(call table,$(tabulate) survival $< $(RUN) $(SETS))

@@ -95,6 +95,15 @@ Tool& Tool::word(std::string& value, const std::string& placeholder, const std::
   argument.store = [&value](const std::vector<std::string>& given) { value = given.front(); };
   return *this;
 }
+
+Tool& Tool::words(std::vector<std::string>& values, const std::string& placeholder,
+                  const std::string& help) {
+  Argument& argument = impl_->add_positional(positional(ArgumentKind::text, placeholder, help));
+  argument.repeatable = true;
+  argument.store = [&values](const std::vector<std::string>& given) { values = given; };
+  return *this;
+}
+
 Tool& Tool::output(std::filesystem::path& value, const std::string& placeholder,
                    const std::string& help, const std::vector<std::string>& more_endings) {
   Argument& argument = impl_->add_positional(positional(ArgumentKind::output, placeholder, help));

@@ -83,6 +83,9 @@ class Tool {
                const std::string& help, const std::vector<std::string>& more_endings = {});
   /// A positional that is not (always) a file: a name, or a choice the tool resolves itself.
   Tool& word(std::string& value, const std::string& placeholder, const std::string& help);
+  /// One or more of them; only as the last positional.
+  Tool& words(std::vector<std::string>& values, const std::string& placeholder,
+              const std::string& help);
 
   // Options. `name` is "--skin" or "-o,--output"; unit/placeholder is shown in the help; the
   // default is the variable's present value. Numbers outside [low, high] are usage errors.

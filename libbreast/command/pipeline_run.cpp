@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 namespace {
 
 // Settings that may name a file or folder of the caller's.
-const std::set<std::string> path_settings = {"CHEST_WALL", "MATERIALS",   "TUMOUR",  "CASE_FILE",
-                                             "SEGMENT",    "FIT_HERMITE", "HEXMESH", "BACKWARD",
-                                             "FORWARD",    "COMPRESS",    "PROJECT", "CC2MLO"};
+const std::set<std::string> path_settings = {
+    "CHEST_WALL", "MATERIALS", "TUMOUR",  "CASE_FILE", "STUDY",   "SEGMENT", "FIT_HERMITE",
+    "HEXMESH",    "BACKWARD",  "FORWARD", "COMPRESS",  "PROJECT", "CC2MLO"};
 
 // The folder of all runs as make may name it.
 std::string runs_for_make(const std::string& runs) {

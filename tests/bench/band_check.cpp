@@ -7,7 +7,7 @@
 // MESH is an imaged mesh (hexmesh --elements 8). Samples FIRST ... FIRST + COUNT - 1, one row a
 // sample and place on stdout: sample, place, distance_mm across the curve, deviation_mm of the
 // band. SPREAD times the priors' deviations. Rows of several runs may be put together;
-// pipelines/band-check.sh judges them.
+// tabulate coverage judges them.
 #include <cmath>
 #include <cstdio>
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the programs share that judge the band of cc2mlo against true places: which places, where a
-// turned detector shows them, the row that pipelines/band-check.sh reads.
+// turned detector shows them, the row that tabulate coverage reads.
 #pragma once
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 // rib cage is also shifted by 4 mm and turned by 2 degrees in random directions. `misaligned`: else as
 // before. `other`: four bodies on a finer mesh of the same breast with other laws, ratios of gland to fat,
 // skin and supports, COUNT draws of marks each. `surface`: draws as in misaligned, then these bodies, by the skin of
-// the second posture alone. Rows may be put together; pipelines/identification.sh judges them.
+// the second posture alone. Rows may be put together; tabulate identification judges them.
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <cstdio>

@@ -14,14 +14,8 @@ shift
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-. "$here/pipelines/values.sh"
-
 # value FILE KEY: of a report, "-" where it has none.
-value() {
-  local found
-  found=$(key "$1" "$2" || true)
-  printf '%s' "${found:--}"
-}
+value() { "$bin/tabulate" key "$1" "$2" --quiet 2> /dev/null || printf -- '-'; }
 
 closure() {
   local found

@@ -55,6 +55,7 @@ inline const std::vector<Case>& cases() {
       {"population", "population supine.vtkhdf --table out.tsv --summary out.mean.tsv"},
       {"render_mammogram", "render cc.vti mlo.vti curve.vtp --figure mammogram -o out.png", 12},
       {"render_mesh", "render mesh.vtkhdf --figure mesh -o out.png", 0},
+      {"tabulate", "tabulate wall . back front"},
       {"truth_table", "truth-table landmarks.tsv out.tsv cc.vtkhdf fine_cc.vtkhdf"},
       {"phantom_mesh", "phantom-mesh out.vtkhdf --preset small --level 1", 0},
       {"phantom", "phantom out.nrrd --preset small --coarse 8 --truth out --dicom out-series", 0},

@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The scripts that write pages and summaries, given reports, tables and settings whose every text could be markup, a command or
-# a terminal's escape: none of it stands unescaped in the page, none is run, no folder is named.
+# tabulate, which writes pages and summaries, given reports, tables and settings whose every text could be markup, a command or
+# a terminal's escape: none of it stands unescaped in the page, none is run, no folder is named. hostile_pages.sh [BIN]
 set -euo pipefail
+bin=$(realpath "${1:-$(dirname "$0")/../../build/release/bin}")
 cd "$(dirname "$0")/../.."
+pipelines=$PWD/pipelines
 export LC_ALL=C
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -14,7 +16,7 @@ corpus=('</script><script>alert(1)</script>' '"><img src=x onerror=alert(1)>' "'
 json() { sed 's/\\/\\\\/g; s/"/\\"/g' <<< "$1"; }
 
 run=
-# Every report, table and setting that the scripts read, with TEXT wherever a text stands.
+# Every report, table and setting that it reads, with TEXT wherever a text stands.
 fill() { # TEXT
   local text=$1 stage name table
   rm -rf "$work/runs"
@@ -37,7 +39,7 @@ fill() { # TEXT
 bytes_of_page() { tr -d '\n' < "$1"; }
 for text in "${corpus[@]}"; do
   fill "$text"
-  (cd "$work" && "$OLDPWD/pipelines/report.sh" "$run" "$work/runs" /nonexistent > "$work/page.html" 2> "$work/err") ||
+  (cd "$work" && "$bin/tabulate" report "$run" "$work/runs" --quiet --pipelines "$pipelines" > "$work/page.html" 2> "$work/err") ||
     { cat "$work/err"; fail "a page of a case with the text: $text"; }
   page=$(bytes_of_page "$work/page.html" | tr -d '\0')
   case "$text" in
@@ -47,7 +49,7 @@ for text in "${corpus[@]}"; do
   ! grep -aqF "$secret" "$work/page.html" || fail "the page names a folder"
   ! grep -aqF "$work" "$work/page.html" || fail "the page names its own folder"
   [ ! -e "$work/executed" ] || fail "$text was run"
-  (cd "$work" && "$OLDPWD/pipelines/summary.sh" "$run" > "$work/summary.txt" 2> "$work/err") ||
+  (cd "$work" && "$bin/tabulate" summary "$run" --quiet --pipelines "$pipelines" > "$work/summary.txt" 2> "$work/err") ||
     { cat "$work/err"; fail "a summary of a case with the text: $text"; }
   [ ! -e "$work/executed" ] || fail "$text was run by the summary"
 done

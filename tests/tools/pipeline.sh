@@ -50,6 +50,26 @@ run FORWARD="$work/my-forward" "$case_dir/supine.vtkhdf" > "$work/log" 2>&1 || f
 [ -s "$work/mark" ] || fail "FORWARD= swaps the stage"
 pass "FORWARD= swaps the stage"
 
+# A new experiment is a line of a table: a variant that converges, and one that comes from it and has no solution.
+study=$work/softer.tsv
+printf 'variant\tfrom\tstarts_at\tends_at\tmechanics\tmaterials\n' > "$study"
+printf 'softer\t-\treference\tsupine\t+--scale fat=50\t-\n' >> "$study"
+run STUDY="$study" study > "$work/log" 2>&1 || { tail -n 20 "$work/log"; fail "a study of one line"; }
+rows=$case_dir/studies/softer.tsv
+awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { row[$1, $2] = $at["status"]; moved[$1, $2] = $at["nipple_mm"] }
+  END { exit !(row["softer", "reference"] == "converged" && row["softer", "supine"] == "converged" && moved["softer", "supine"] > 1) }' "$rows" ||
+  { cat "$rows"; fail "a study says what became of each solve"; }
+run STUDY="$study" -q "$rows" || fail "a second run of a study does nothing"
+printf 'hopeless\tsofter\treference\tsupine\t-\tmira2018\n' >> "$study"
+plan=$(run STUDY="$study" -n study)
+! grep -q 'studies/softer/softer/' <<< "$(grep bin/ <<< "$plan" | grep -v study.sh)" || { echo "$plan"; fail "one more line solves that line alone"; }
+run STUDY="$study" study > "$work/log" 2>&1 || { tail -n 20 "$work/log"; fail "a solve that ends early is no failure of a study"; }
+awk -F'\t' '$1 == "hopeless" && $3 != "converged" && $4 != "-" { reasons++ } END { exit reasons != 2 }' "$rows" || { cat "$rows"; fail "it is a row with its reason"; }
+[ ! -e "$case_dir/studies/softer/hopeless/supine.vtkhdf" ] && run STUDY="$study" -q "$rows" || fail "and is not tried again"
+plan=$(run STUDY="$study" FORWARD="$work/my-forward" -n study)
+grep -q "my-forward.*studies/softer/softer/supine" <<< "$plan" || fail "a swapped stage runs a study's rows again"
+pass "a new study is a line of a table, and a solve that ends early a row with its reason"
+
 # The same image as somebody's scan: nothing is known of a tumour, and none is invented.
 run MR="$work/runs/phantom/small.nrrd" CASE=scan -j2 summary > "$work/log" 2>&1 || { tail -n 20 "$work/log"; fail "a scan without a tumour runs to its page"; }
 scan_dir=$work/runs/scan

@@ -54,8 +54,8 @@ kill_at() { # SIGNAL FILE DELAY
 check_killed() {
   local file at=$work/killed/small
   kill_at TERM "$at/geometry.vtkhdf" 0.31
-  kill_at KILL "$at/scaled/fat-110-reference.vtkhdf" 0.07
-  kill_at KILL "$at/variants/as-printed-slopes.tsv" 0.19
+  kill_at KILL "$at/studies/scaled/fat-110/reference.vtkhdf" 0.07
+  kill_at KILL "$at/studies/findings/as-printed/slopes.json" 0.19
   run RUNS="$work/killed" share='--threads 1' -j2 "${killed_files[@]/#/$at/}" > "$work/log" 2>&1 ||
     { tail -n 20 "$work/log"; fail "the run finishes after three kills"; }
   for file in "${killed_files[@]}"; do
@@ -70,7 +70,7 @@ check_threads() {
   run RUNS="$work/threads" share='--threads 2' chain > "$work/log" 2>&1 || { tail -n 20 "$work/log"; fail "the chain on two threads"; }
   for stage in reference supine cc mlo; do
     for name in nipple tumour; do
-      a=$(pipelines/landmark.sh "$whole/$stage.json" $name position) b=$(pipelines/landmark.sh "$work/threads/small/$stage.json" $name position)
+      a=$(build/release/bin/tabulate place "$whole/$stage.json" $name position --quiet) b=$(build/release/bin/tabulate place "$work/threads/small/$stage.json" $name position --quiet)
       most=$(awk -F, -v most="$most" '{ d = sqrt(($1 - $4) ^ 2 + ($2 - $5) ^ 2 + ($3 - $6) ^ 2); print (d > most ? d : most) }' <<< "$a,$b")
     done
   done

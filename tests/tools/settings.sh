@@ -1,12 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What the makefile refuses before anything runs: unknown settings and values, names that a shell or make would read as code,
-# case files with a slip, another patient's scan in a run's folder. Plans only (make -n): no program is needed.
+# case files with a slip, another patient's scan in a run's folder: plans (make -n). Then what tabulate says and draws of runs whose
+# names and texts are hostile. settings.sh [BIN]
 set -euo pipefail
+bin=$(realpath "${1:-$(dirname "$0")/../../build/release/bin}")
 unset MAKEFLAGS MFLAGS MAKEOVERRIDES MAKELEVEL  # of a make that runs the tests
 cd "$(dirname "$0")/../.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+tabulate() { "$bin/tabulate" "$@" --quiet; }
 passed=0
 pass() { passed=$((passed + 1)); echo "ok: $*"; }
 fail() { echo "FAILED: $*"; echo "$passed passed, 1 failed"; exit 1; }
@@ -50,7 +53,7 @@ for name in "${worst[@]}" "a b.nrrd" "a'b.nrrd" 'a"b.nrrd' 'a(b).nrrd' 'a=b.nrrd
   'a>b' 'a*b' 'a[b]' 'a#b' 'a\b'; do
   refuse_name MR "$name"
 done
-for setting in CHEST_WALL CASE MATERIALS TUMOUR RUNS COHORT CASE_FILE; do
+for setting in CHEST_WALL CASE MATERIALS TUMOUR RUNS COHORT CASE_FILE STUDY; do
   for name in "${worst[@]}"; do refuse_name "$setting" "$name"; done
 done
 all_settings=$(make -f Makefile.pipeline -n --eval='print: ; $(info $(known_settings))' print 2> /dev/null | sed -n 1p)
@@ -127,6 +130,29 @@ printf 'case\tstatus\na\tfailed\nb\tdone\n' > "$work/t.tsv"
 pipelines/cohort.sh any-done "$work/t.tsv" || fail "one case done is enough"
 pass "cohorts: names once, a scan in every case, failure when all fail"
 
+# A study is data: columns, stages and rows are known, and nothing in it is code.
+study() { printf "$1\n" > "$work/own.tsv"; }
+study 'variant\tstarts_at\tmechanics\nsofter\treference\t+--scale fat=50'
+plan PRESET=small STUDY="$work/own.tsv" study && grep -q -- 'studies/own/softer/reference.vtkhdf .*--materials seed2008 --scale fat=50' "$work/out" ||
+  { cat "$work/err" "$work/out"; fail "a study of one's own is planned"; }
+study 'variant\tstarts_at\tmechanic\nsofter\treference\t+--scale fat=50'
+refused "a slip in a study's column" "mechanic" "did you mean mechanics?" -- STUDY="$work/own.tsv" study
+study 'variant\tstarts_at\nsofter\trefference'
+refused "an unknown stage" "did you mean reference?" -- STUDY="$work/own.tsv" study
+study 'variant\tfrom\tstarts_at\nsofter\tharder\treference'
+refused "a variant of nothing" "harder" "no row above" -- STUDY="$work/own.tsv" study
+study 'variant\tstarts_at\tfit\nsofter\treference'
+refused "a line with a cell too few" "softer has 2 cells and not 3" -- STUDY="$work/own.tsv" study
+study 'variant\tstarts_at\nsofter\treference\nsofter\treference'
+refused "two rows of a name" "softer is no name of a row of its own" -- STUDY="$work/own.tsv" study
+for code in '$(shell touch '"$bait"')' '`touch '"$bait"'`' "; touch $bait" '{MR}' '{shell}'; do
+  printf 'variant\tstarts_at\tmechanics\nsofter\treference\t%s\n' "$code" > "$work/own.tsv"
+  refused "a study with $code" "may not stand in a study" -- STUDY="$work/own.tsv" study
+done
+refused "a study that is not there" "STUDY" "leaveout" -- STUDY="$work/none.tsv" study
+[ ! -e "$bait" ] || fail "nothing of a study is executed"
+pass "a study's table is checked by column, stage and row, never executed"
+
 # What Slurm would be given, without Slurm.
 script() { make -f Makefile.pipeline RUNS="$work/cluster" COHORT="$work/cohort" CLUSTER=slurm -o build/built-release.mk "$@" cohort-script > "$work/out" 2> "$work/err" || { cat "$work/err"; fail "cohort-script $*"; }; }
 script CLUSTER_PARTITION=long CLUSTER_TIME=2:00:00
@@ -147,7 +173,7 @@ printf 'a<img src=x>\tx\tscan\nb\tx\tscan\nlost\tx\tscan\nnever\tx\tscan\n' > "$
 printf 'failed\t<script>alert(1)</script> "of" %s\n' "'x'" > "$runs/a<img src=x>.status"
 printf 'done\t\n' > "$runs/b.status"
 printf 'running\t\n' > "$runs/lost.status"
-pipelines/cohort.sh results "$runs" false || fail "the results of a cohort with hostile names"
+tabulate cohort "$runs" false > /dev/null || fail "the results of a cohort with hostile names"
 cut -f1,2 "$runs/cohort.tsv" | paste -s -d, | grep -q '^case.status,a<img src=x>.failed,lost.failed,never.failed,b.done$' || { cat "$runs/cohort.tsv"; fail "failures come first"; }
 grep -q '^lost.*without a word' "$runs/cohort.tsv" && grep -q '^never.*never started' "$runs/cohort.tsv" || fail "a case that left no word is failed"
 for page in cohort contours; do
@@ -168,14 +194,14 @@ sed 's/plates not balanced/thrice/' "$run/cc.json" > "$run/mlo.json"
 printf '{\n  "tumour": "artificial, on the edge"\n}\n' > "$run/mesh.json"
 printf 'file\tartificial_tumour_mm\nsupine.vtkhdf\t3.5\n' > "$run/displacements.tsv"
 printf 'file\tnipple_mm\nsupine.vtkhdf\t3.5\n' > "$run/cut.tsv"
-pipelines/summary.sh "$run" > "$work/plain.txt"
+tabulate summary "$run" > "$work/plain.txt"
 if locale -a | grep -qi '^de_DE.utf-\?8'; then :; else
   mkdir -p "$work/locales"
   export LOCPATH=$work/locales
   localedef -i de_DE -f UTF-8 "$work/locales/de_DE.UTF-8" 2> /dev/null || true
 fi
 if [ "$(LC_ALL=de_DE.UTF-8 printf '%.1f' 1 2> /dev/null)" = 1,0 ]; then
-  LC_ALL=de_DE.UTF-8 pipelines/summary.sh "$run" > "$work/comma.txt"
+  LC_ALL=de_DE.UTF-8 tabulate summary "$run" > "$work/comma.txt"
   cmp "$work/plain.txt" "$work/comma.txt" || fail "the summary is the same under a comma locale"
   LC_ALL=de_DE.UTF-8 make -f Makefile.pipeline -n --eval='print: ; +@printf "%.1f\n" 1.5' print > "$work/out" 2> /dev/null
   grep -qx '1\.5' "$work/out" || fail "recipes have decimal points under a comma locale"
@@ -195,7 +221,7 @@ mkdir -p "$hostile/leaveout"
 cp "$run"/* "$hostile"
 printf '%s /home/someone/secret/scan.nrrd --side left </script><script>x\n' build/release/bin/segment > "$hostile/.labels.settings"
 printf 'a\tb\n<img src=x>\t1\n' > "$hostile/leaveout/table.tsv"
-pipelines/report.sh "$hostile" "$work/runs" /nonexistent > "$work/report.html" || fail "a report of a case with a hostile name"
+tabulate report "$hostile" "$work/runs" > "$work/report.html" || fail "a report of a case with a hostile name"
 ! grep -qi '<script\|<img src=x' "$work/report.html" || fail "no name is markup in the report"
 ! grep -q 'secret\|/home' "$work/report.html" || fail "the report names no folder"
 grep -q 'Content-Security-Policy' "$work/report.html" || fail "and allows no script"
@@ -211,8 +237,8 @@ plan MR="$work/scan.nrrd" TUMOUR=auto chain && grep -q -- '--tumour auto' "$work
 refused "tables of a case without a tumour" TUMOUR -- MR="$work/scan.nrrd" tables
 pass "no tumour is invented for a scan"
 
-printf 'fibroglandular_nipple\t0.09\nskin_nipple\t-0.003\ntumour_1000\t2.3\n' > "$work/values"
-pipelines/judge.sh pipelines/paper/conclusions.tsv ours="$work/values" > "$work/judged.tsv"
+printf 'conclusion\tvalue\nfibroglandular_nipple\t0.09\nskin_nipple\t-0.003\ntumour_1000\t2.3\n' > "$work/values"
+tabulate judge pipelines/paper/conclusions.tsv ours="$work/values" > "$work/judged.tsv"
 verdict() { awk -F'\t' -v row="$1" '$1 == row { print $5 }' "$work/judged.tsv"; }
 [ "$(verdict 'slope of nipple displacement, fibroglandular')" = fails ] && [ "$(verdict 'slope of nipple displacement, skin')" = holds ] &&
   [ "$(verdict 'tumour 10 times as stiff: tumour displacement, % change')" = fails ] || { cat "$work/judged.tsv"; fail "a wrong sign fails"; }

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "study/pages/html.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/atomic_file.hpp"
+#include "study/cells.hpp"
+
+namespace breast {
+
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : valid_utf8(text)) {
+    switch (c) {
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      case '\'':
+        safe += "&#39;";
+        break;
+      default:
+        safe += c;
+    }
+  }
+  return safe;
+}
+
+std::string base64(const std::string& bytes) {
+  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63u] : '=';
+  }
+  return text;
+}
+
+std::string page_head(const std::string& title, const std::string& style) {
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta http-equiv=\"Content-Security-Policy\" "
+         "content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\">\n<title>" +
+         escaped(title) + "</title>\n<style>\n" + style + "</style></head><body>\n";
+}
+
+namespace {
+
+bool stands_out(const std::string& cell) {
+  return cell == "fails" || cell == "differs" || cell == "missing" || cell == "failed";
+}
+bool is_number(const std::string& cell) {
+  return !cell.empty() && cell.find_first_not_of("-+0123456789.eE") == std::string::npos;
+}
+
+}  // namespace
+
+std::string html_table(const std::string& tsv) {
+  std::istringstream in(tsv);
+  std::string text;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with('#')) continue;
+    Row cells = split(line, '\t');
+    if (text.empty()) {
+      text = "<table><tr>\n";
+      for (std::string& cell : cells) {
+        std::replace(cell.begin(), cell.end(), '_', ' ');
+        text += "<th>" + escaped(cell) + "</th>\n";
+      }
+      text += "</tr>\n";
+      continue;
+    }
+    text += "<tr>";
+    for (const std::string& cell : cells)
+      text += std::string(stands_out(cell)  ? "<td class=bad>"
+                          : is_number(cell) ? "<td class=n>"
+                                            : "<td>") +
+              escaped(cell) + "</td>";
+    text += "</tr>\n";
+  }
+  return text.empty() ? text : text + "</table>\n";
+}
+
+std::string html_table_of(const std::filesystem::path& file) {
+  return std::filesystem::is_regular_file(file) ? html_table(read_text(file)) : "";
+}
+
+std::string html_figure(const std::filesystem::path& png, const std::string& caption) {
+  if (!std::filesystem::is_regular_file(png) || std::filesystem::file_size(png) == 0) return "";
+  return "<figure><img alt=\"" + escaped(caption) + "\" src=\"data:image/png;base64," +
+         base64(read_text(png)) + "\"><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+}
+
+}  // namespace breast

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "study/pages/markdown.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <sstream>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "study/cells.hpp"
+
+namespace breast {
+
+namespace fs = std::filesystem;
+
+std::string markdown_table(const std::string& tsv, const std::string& name) {
+  std::istringstream in(tsv);
+  std::string text;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with('#')) continue;
+    const Row cells = split(line, '\t');
+    const bool header = text.empty();
+    text += "|";
+    for (const std::string& cell : cells) text += " " + cell + " |";
+    text += "\n";
+    if (!header) continue;
+    text += "|";
+    for (std::size_t c = 0; c < cells.size(); ++c) text += "---|";
+    text += "\n";
+  }
+  if (text.empty()) throw input_error(name, ": holds no table");
+  return text;
+}
+
+std::string with_tables(const std::string& page, const std::string& name,
+                        const std::function<std::string(const std::string& file)>& read) {
+  const std::string begin = "<!-- table ", close = " -->", end = "<!-- end of table -->";
+  std::istringstream in(page);
+  std::string text, inside;
+  for (std::string line; std::getline(in, line);) {
+    if (line == end) inside.clear();
+    if (!inside.empty()) continue;
+    text += line + "\n";
+    if (!line.starts_with(begin) || !line.ends_with(close)) continue;
+    inside = line.substr(begin.size(), line.size() - begin.size() - close.size());
+    if (inside.empty() || inside.find(' ') != std::string::npos) {
+      inside.clear();
+      continue;
+    }
+    text += "\n" + markdown_table(read(inside), inside) + "\n";
+  }
+  if (!inside.empty())
+    throw input_error(name, ": the table ", inside, " has no end; close it with ", end);
+  return text;
+}
+
+Table truth_summary(const Table& truth) {
+  Table table{{"landmark", "imaged error", "stress-free error", "of", "supine error", "of"}, {}};
+  for (std::size_t r = 0; r < truth.rows.size(); ++r) {
+    const std::string& landmark = truth.rows[r].front();
+    if (landmark != "mean" && landmark != "largest" && landmark != "nipple" &&
+        landmark != "true-tumour")
+      continue;
+    Row row{landmark};
+    for (const std::string column : {"prone_error_mm", "stress_free_error_mm",
+                                     "stress_free_true_mm", "supine_error_mm", "supine_true_mm"})
+      row.push_back(truth.has(column) ? fixed_cell(number_of(truth.cell(r, column)), 2) : no_value);
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+namespace {
+
+std::vector<fs::path> files_of(const fs::path& source) {
+  if (!fs::is_directory(source)) return {source};
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(source))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// What the pattern's group finds first; "" without a hit.
+std::string stated(const fs::path& source, const std::string& pattern) {
+  const std::regex wanted(pattern, std::regex::extended);
+  for (const fs::path& file : files_of(source)) {
+    if (!fs::is_regular_file(file)) continue;
+    std::istringstream in(read_text(file));
+    std::smatch found;
+    for (std::string line; std::getline(in, line);)
+      if (std::regex_search(line, found, wanted) && found.size() > 1) return found[1].str();
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<std::string> wrong_numbers(const Table& numbers) {
+  std::vector<std::string> wrong;
+  for (std::size_t r = 0; r < numbers.rows.size(); ++r) {
+    const auto cell = [&](const char* column) { return numbers.cell(r, column); };
+    const std::string said = stated(cell("page"), cell("page_pattern")),
+                      decided = stated(cell("source"), cell("source_pattern"));
+    if (!said.empty() && said == decided) continue;
+    wrong.push_back(message(cell("page"), " says '", said.empty() ? "nothing" : said, "' for ",
+                            cell("page_pattern"), "; ", cell("source"), " has '",
+                            decided.empty() ? "nothing" : decided, "' for ",
+                            cell("source_pattern")));
+  }
+  return wrong;
+}
+
+}  // namespace breast

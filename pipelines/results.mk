@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What people look at: the page of both views, the run for 3D Slicer, expected values, and one self-contained report.
+
+# ---- pointing at either view draws curve, band and arc in the other -----------------------------------------
+# A page is easily sent on: voxels of a patient's scan are in it only with PAGE_SCAN=yes; a phantom's may be seen by all.
+PAGE_SCAN ?= $(if $(TRUTH),yes,no)
+page_scan := $(if $(filter yes,$(PAGE_SCAN)),--scan $(MR) $(if $(SERIES),--series $(SERIES)))
+# With friction or a wall on springs there are no derivatives yet: the page then shows curves without bands.
+derivatives := $(if $(findstring --friction,$(COMPRESS_OPTIONS))$(findstring spring:,$(COMPRESS_OPTIONS)),,-sensitivity)
+page_states := $(RUN)/cc$(derivatives).vtkhdf $(RUN)/mlo$(derivatives).vtkhdf
+lookup_settings := $(MATCH_LOOKUP) $(page_states) $(page_scan)
+$(RUN)/lookup.h5 $(RUN)/page.html &: $(page_states) $(RUN)/cc.vti $(RUN)/mlo.vti $(if $(page_scan),$(MR_FILES)) $(MATCH_LOOKUP) $(call changed,lookup)
+	$(MATCH_LOOKUP) $(page_states) $(RUN)/lookup.h5 --page $(RUN)/page.html --pitch 1 \
+	  --from-image $(RUN)/cc.vti --to-image $(RUN)/mlo.vti $(page_scan) --report $(RUN)/lookup.json $(share)
+	@$(call record,lookup)
+page: $(RUN)/page.html
+# In a headless browser (Debian package chromium, not installed by setup).
+page-check: $(RUN)/page.html $(CC2MLO)
+	tests/page/check.sh $(BIN) $(RUN) $(RUN)
+
+# ---- 3D Slicer: images, labels, shapes, displacement fields, points and scene.mrml, which opens them ---------
+slicer_settings := $(EXPORT_SLICER) $(MR) $(SLICER_OPTIONS)
+$(RUN)/slicer/scene.mrml: $(addprefix $(RUN)/,labels.vtkhdf mesh.vtkhdf reference.vtkhdf supine.vtkhdf cc.vtkhdf mlo.vtkhdf) $(CURVE) \
+  $(EXPORT_SLICER) $(call changed,slicer)
+	$(EXPORT_SLICER) $(RUN) $(RUN)/slicer --scan $(MR) $(if $(SERIES),--series $(SERIES)) $(SLICER_OPTIONS) \
+	  --report $(RUN)/slicer.json $(share) > $(RUN)/slicer-fields.tsv.part
+	@mv $(RUN)/slicer-fields.tsv.part $(RUN)/slicer-fields.tsv
+	@cat $(RUN)/slicer-fields.tsv
+	@$(call record,slicer)
+slicer: $(RUN)/slicer/scene.mrml
+
+# ---- expected values, and the report ------------------------------------------------------------------------
+EXPECTED ?= $(wildcard $(PIPELINES)/expected/$(CASE)$(if $(PAPER),-as-printed).tsv)
+verify: $(RUN)/verify.tsv
+$(RUN)/verify.tsv: $(EXPECTED) $(TABULATE) $(RUN)/summary.txt $(TABLE_FILES)
+	$(if $(EXPECTED),,$(error no expected values for case $(CASE): name a file with EXPECTED=))
+	@$(tabulate) verify $(EXPECTED) $(RUN) > $@.part
+	@mv $@.part $@
+	@cat $@
+
+CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
+report: $(RUN)/report.html $(if $(CHROMIUM),$(RUN)/report.pdf)
+	@$(if $(CHROMIUM),,echo "report: no PDF: chromium is not installed (apt-get install chromium); any browser prints the page" >&2)
+all: figures tables $(if $(EXPECTED),verify) report
+.PHONY: page page-check slicer verify report all
+# What the slow targets left behind is embedded with its date. Named as prerequisites they would be solved anew where a
+# program is newer; so the page remembers which files they were, of when.
+REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/*.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png $(RUN)/budget/*.tsv $(RUN)/budget/*.png \
+  $(RUNS)/stability/*.tsv $(RUNS)/compare/all.tsv $(RUNS)/compare/pressed.tsv)
+report_settings = $(foreach file,$(REPORT_EXTRAS),$(file) $(shell stat -c %Y $(file)))
+report_record = $(RUN)/report.settings
+$(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(F)/cc-points.png $(F)/mlo-curves.png \
+  $(if $(EXPECTED),$(RUN)/verify.tsv) $(TABULATE) $(addprefix $(PIPELINES)/,limits.txt advice.tsv) $(call changed,report)
+	$(call table,$(tabulate) report $(RUN) $(RUNS))
+	@$(call record,report)
+	@echo "$@"
+$(RUN)/report.pdf: $(RUN)/report.html
+	$(PIPELINES)/print.sh "$(CHROMIUM)" $< $@
+	@echo "$@"

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The chain, every stage once: what it reads, its program, its settings. A case is a folder that has all stages
+# ($(RUN)); a variant is a folder that has some and takes the others from where it comes from (pipelines/studies.mk).
+#   $(call case_rules,DIR,STAGES)   the rules of these stages in DIR, whose settings are the variables DIR@ATTRIBUTE
+# In the case STAGE.vtkhdf is the target and a failed stage fails make. In a variant STAGE.json is: a solve that ends
+# early is a result with its reason (pipelines/attempt.sh).
+STAGES := labels geometry mesh reference supine cc mlo cc-mammogram mlo-mammogram curve slopes
+
+# ---- what a stage is: $1 is the folder it is made in -------------------------------------------------------
+# reads_STAGE      the stages whose files it takes, in the order of its arguments; also_STAGE: those it waits for beside them
+# writes_STAGE     its file, where that is not STAGE.vtkhdf, and what is made with it; needs_STAGE: other files it depends on
+# fixed_STAGE      arguments that follow from the stage; options_STAGE: its settings
+program_labels = $(SEGMENT)
+# The scan stands where the others name their stages' files; it is a setting too.
+scan_labels = $(MR)
+needs_labels = $(MR_FILES) $(CHEST_WALL)
+writes_labels := labels.vtkhdf points.vtp
+fixed_labels = --points $1/points.vtp $(if $(filter $(RUN),$1),$(contours))
+options_labels = --side $(SIDE) $(addprefix --series ,$(SERIES)) $(addprefix --chest-wall ,$(CHEST_WALL)) $($1@segment)
+# Contours to judge the result by; a program in the place of segment need not draw them.
+contours = $(if $(filter $(BIN)/segment,$(SEGMENT)),--overlay $(RUN)/contours.png)
+before_labels = $(if $(filter $(RUN),$1),@$(PIPELINES)/scan-identity.sh record $(RUN) $(SIDE) $(scan))
+
+program_geometry = $(FIT_HERMITE)
+reads_geometry := labels
+options_geometry = $($1@fit)
+
+program_mesh = $(HEXMESH)
+reads_mesh := geometry labels
+needs_mesh = $(wildcard $(TUMOUR))
+options_mesh = $($1@hexmesh) $(if $(findstring --tumour,$($1@hexmesh)),,--tumour $(TUMOUR))
+
+program_reference = $(BACKWARD)
+reads_reference := mesh
+options_reference = $($1@prone) $(mechanics)
+# What all solves share: law and element, and what holds the breast.
+mechanics = $($1@mechanics) $(support)
+support = $(addprefix --wall ,$($1@wall)) $(addprefix --cut ,$($1@cut))
+needs_reference = $(or $(wildcard $($1@materials)),$(filter $(RUN)/%,$($1@materials)))
+
+program_supine = $(FORWARD)
+reads_supine := reference
+fixed_supine := --posture supine
+options_supine = $(mechanics)
+needs_supine = $(needs_reference)
+
+# The two views: compress, then project; plates as far apart as the case asks, or where the phantom's truth has them.
+define view_stages
+program_$1 = $$(COMPRESS)
+reads_$1 := reference
+fixed_$1 = --view $2 $$(if $$($$1@plates),$$(call same_plates,$$(TRUTH_AT)-fine-$1.json))
+options_$1 = $$(if $$($$1@plates),,$$(STOPS)) --at-least $$(AT_LEAST) $$($$1@compress) $$(mechanics)
+needs_$1 = $$(needs_reference) $$(if $$($$1@plates),$$(TRUTH_TABLE))
+
+program_$1-mammogram = $$(PROJECT)
+reads_$1-mammogram := $1
+also_$1-mammogram := labels
+writes_$1-mammogram := $1.vti $1.png
+fixed_$1-mammogram = --labels $$(call file_of,$$1,labels) --png $$1/$1.png
+options_$1-mammogram = $$(PROJECT_OPTIONS)
+endef
+$(eval $(call view_stages,cc,CC))
+$(eval $(call view_stages,mlo,MLO))
+
+program_curve = $(CC2MLO)
+reads_curve := cc mlo
+writes_curve := curve.vtp curve.tsv
+fixed_curve = --landmark tumour --table $1/curve.tsv
+
+# Slopes d ln u / d ln s of the prone-to-supine motion by the stiffness of tissues.
+
+program_slopes = $(SENSITIVITY)
+reads_slopes := reference supine
+writes_slopes := slopes.vtkhdf slopes.tsv
+fixed_slopes = --table $1/slopes.tsv
+options_slopes = $($1@prone) $(mechanics) --parameters $($1@slopes)
+
+# ---- the rules ---------------------------------------------------------------------------------------------
+# Where DIR has a stage from: itself, or where it comes from. Its file; and the target that makes it.
+home = $(if $(filter $2,$($1@stages)),$1,$(call home,$($1@from),$2))
+file_of = $(call home,$1,$2)/$2.vtkhdf
+made_in = $(if $(filter $(RUN),$1),$(addprefix $1/,$(or $(writes_$2),$2.vtkhdf)),$1/$2.json)
+target_of = $(firstword $(call made_in,$(call home,$1,$2),$2))
+# A tumour where the mesh it comes from has it: {tumour} among the options.
+placed = $(if $(findstring {tumour},$2),$(if $(no_tumour),$(error $1: needs a tumour to follow, TUMOUR=x$(comma)y$(comma)z))$(subst \
+  {tumour},$$($(tabulate) place $(call home,$($1@from),mesh)/mesh.json tumour),$2),$2)
+# A variant's solve may end early; one that waits for another variant (column `if`) ends with it.
+inputs_of = $(foreach s,$(reads_$2),$(call file_of,$1,$s))
+attempt = $(if $(filter $(RUN),$1),,$(PIPELINES)/attempt.sh $1/$2.json "$(strip $(call inputs_of,$1,$2) $(addsuffix /supine.vtkhdf,$($1@if)))")
+run_stage = $(strip $(call attempt,$1,$2) $(program_$2) $(scan_$2) $(call inputs_of,$1,$2) $(addprefix $1/,$(firstword $(or $(writes_$2),$2.vtkhdf))) \
+  $(fixed_$2) $(call placed,$1,$(options_$2)) --report $1/$2.json $(share))
+settings_of = $(program_$2) $(scan_$2) $(options_$2)
+# A folder's name may hold a comma: it is no argument in what is expanded later.
+define stage_rule
+$(call made_in,$1,$2) $(if $(word 2,$(call made_in,$1,$2)),&): $(foreach s,$(reads_$2) $(also_$2),$(call target_of,$1,$s)) \
+  $(program_$2) $(needs_$2) $(if $(findstring {tumour},$(options_$2)),$(call target_of,$($1@from),mesh)) \
+  $(addsuffix /supine.json,$($1@if)) $(call stale,$1/.$2.settings,$(settings_of))
+	$(if $(filter $(RUN),$1),$(call before_$2,$1),@mkdir -p $1)
+	$$(call run_stage,$$(@D),$2)
+	@$$(call note,$$(@D)/.$2.settings,$$(call settings_of,$$(@D),$2))
+endef
+case_rules = $(foreach s,$2,$(eval $(call stage_rule,$1,$s)))
+
+# ---- the case itself ---------------------------------------------------------------------------------------
+MR_FILES := $(MR) $(if $(wildcard $(MR)/.),$(wildcard $(MR)/*))
+CHAIN_FILES := $(addprefix $(RUN)/,labels.vtkhdf geometry.vtkhdf mesh.vtkhdf reference.vtkhdf \
+  supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti $(if $(no_tumour),lookup.h5 page.html,curve.vtp))
+ATTRIBUTES := segment fit hexmesh prone mechanics wall cut compress plates slopes materials
+$(RUN)@stages := $(STAGES)
+$(RUN)@segment := $(SEGMENT_OPTIONS)
+$(RUN)@fit := $(FIT_OPTIONS)
+$(RUN)@hexmesh := $(HEXMESH_OPTIONS)
+$(RUN)@prone := $(PRONE)
+$(RUN)@mechanics := $(MECHANICS)
+$(RUN)@wall := $(WALL)
+$(RUN)@cut := $(CUT)
+$(RUN)@compress := $(COMPRESS_OPTIONS)
+$(RUN)@slopes := fat,fibroglandular,skin
+$(RUN)@materials := $(MATERIALS)
+MATERIAL_FILE := $(call needs_reference,$(RUN))
+MATERIAL_TABLE := $(or $(MATERIAL_FILE),$(PIPELINES)/materials/$(MATERIALS).tsv)
+$(call case_rules,$(RUN),$(STAGES))
+
+# Without gland: the set with the fibroglandular law replaced by fat's.
+$(RUN)/fat-only.tsv: $(or $(whole_set),$(MATERIAL_TABLE))
+	@mkdir -p $(@D)
+	awk -F'\t' -v OFS='\t' '$$1 == "fat" { fat = $$0 } $$1 == "fibroglandular" { $$0 = fat; $$1 = "fibroglandular" } { print }' $< > $@.part
+	@mv $@.part $@
+
+# The same with the lateral cut held: what this boundary condition changes at the landmarks.
+cut-fixed_settings := $(BACKWARD) $(FORWARD) $(MECHANICS)
+$(RUN)/reference-cut-fixed.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD) $(MATERIAL_FILE) $(call changed,cut-fixed)
+	$(BACKWARD) $< $@ --posture prone $(MECHANICS) --cut fixed $(common)
+	@$(call record,cut-fixed)
+$(RUN)/supine-cut-fixed.vtkhdf: $(RUN)/reference-cut-fixed.vtkhdf $(FORWARD)
+	$(FORWARD) $< $@ --posture supine $(MECHANICS) --cut fixed $(common)
+
+# Tables come from stdout; a rename makes them complete or absent: $(call table,COMMAND).
+table = $1 > $@.part && mv $@.part $@
+SHOWN := $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf)
+$(RUN)/displacements.tsv: $(SHOWN) $(addprefix $(RUN)/,cc.vtkhdf mlo.vtkhdf) $(PROBE)
+	$(call table,$(PROBE) $(filter %.vtkhdf,$^) --landmarks $(landmarks))
+$(RUN)/cut.tsv: $(RUN)/supine-cut-fixed.vtkhdf $(RUN)/supine.vtkhdf $(PROBE)
+	$(call table,$(PROBE) $< --base $(RUN)/supine.vtkhdf --landmarks $(landmarks))
+
+# Errors against the phantom's truth (stress-free, prone, supine); a real scan has none.
+ifdef TRUTH
+$(RUN)/truth.tsv: $(TRUTH) $(SHOWN) $(PROBE)
+$(RUN)/truth-cut-fixed.tsv: $(TRUTH) $(RUN)/mesh.vtkhdf $(RUN)/reference-cut-fixed.vtkhdf $(RUN)/supine-cut-fixed.vtkhdf $(PROBE)
+$(RUN)/truth.tsv $(RUN)/truth-cut-fixed.tsv:
+	$(call table,$(PROBE) $(filter %.vtkhdf,$^) --truth $(TRUTH))
+endif
+
+$(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(RUN)/cut.tsv \
+  $(if $(TRUTH),$(RUN)/truth.tsv $(if $(filter $(sliding_presets),$(PRESET)),,$(RUN)/truth-cut-fixed.tsv)) $(FIGURES) \
+  $(TABULATE) $(PIPELINES)/advice.tsv
+	@$(call table,$(tabulate) summary $(RUN) $(if $(TRUTH),$(PHANTOM_MR:.nrrd=.json)))
+	@cat $@

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Targets of the source tree alone, which an installation has not: tests, extreme cases, what takes hours before a release, the
+# Debian package. Makefile.pipeline includes it.
+.PHONY: check fuzz release-check faults full-disk whole-tools slurm package clean-root stability stability-mechanics stability-contact
+check:
+	cmake --build $(BUILD) -j $$(nproc)
+	OPENBLAS_THREAD_TIMEOUT=4 ctest --test-dir $(BUILD) --output-on-failure --no-tests=error -j $$(nproc)
+	tests/tools/docs-current.sh $(BIN)
+	tests/tools/pipeline.sh
+	tests/tools/reproduce.sh
+
+# Needs clang and libclang-rt-14-dev, which nothing else does.
+fuzz:
+	tests/fuzz/run.sh $(or $(MINUTES),5)
+
+# Before a release: what takes hours. Every program under failing writes and allocations, small limits, full disks, damaged files
+# of every format in our own checks (100000 inputs a format, and FUZZ_MINUTES more in all) and in whole programs under
+# sanitizers (FUZZ_INPUTS a format); the package in an empty Debian 12; a cohort on a Slurm of its own.
+release-check: check faults full-disk whole-tools clean-root slurm
+	tests/fuzz/run.sh inputs=100000
+	tests/fuzz/run.sh $(FUZZ_MINUTES)
+
+faults:
+	cmake --build $(BUILD) -j $$(nproc) --target programs tetrahedra tools_faults tools_limits
+	BREAST_FAULT_ALLOCATIONS=$(FAULT_ALLOCATIONS) OPENBLAS_THREAD_TIMEOUT=4 $(BUILD)/tests/tools_faults
+	BREAST_FAULT_ALLOCATIONS=$(FAULT_ALLOCATIONS) OPENBLAS_THREAD_TIMEOUT=4 $(BUILD)/tests/tools_limits
+
+full-disk:
+	cmake --build $(BUILD) -j $$(nproc) --target programs tools_full_disk tools_killed_writer
+	$(BUILD)/tests/tools_full_disk
+	$(BUILD)/tests/tools_killed_writer
+
+# Programs that read the formats of tests/fuzz/whole-tools.py.
+readers := probe evaluate laws export-deck match-lookup segment hexmesh cc2mlo truth-table
+SANITIZED := build/asan
+whole-tools:
+	cmake --build $(BUILD) -j $$(nproc) --target programs fault_inputs
+	cmake --preset asan > /dev/null
+	cmake --build $(SANITIZED) -j $$(nproc) --target $(readers)
+	rm -rf build/whole-tools
+	$(BUILD)/tests/fault_inputs build/whole-tools
+	tests/fuzz/whole-tools.py $(SANITIZED)/bin build/whole-tools $(FUZZ_INPUTS)
+
+# Needs root, slurm-wlm, munge and netpbm; without them it says so and fails.
+slurm:
+	cmake --build $(BUILD) -j $$(nproc) --target programs
+	tests/tools/slurm.sh $(BUILD)
+
+# build/package/libbreast_VERSION_ARCHITECTURE.deb: programs for every x86-64 processor, built apart from those of this machine.
+# clean-root (root, network, debootstrap) installs it in an empty Debian 12 and runs the demonstration there.
+package: $(ROOT)build/.packages
+	cmake --preset package > build/package.log 2>&1 || { cat build/package.log >&2; exit 1; }
+	cmake --build build/package -j $$(nproc)
+	cd build/package && cpack -G DEB > cpack.log || { cat cpack.log >&2; exit 1; }
+	@ls build/package/libbreast_*.deb
+clean-root: package
+	tests/tools/clean-root.sh build/package/libbreast_*.deb
+
+# ---- extreme cases -----------------------------------------------------------------------------------------
+# Of gravity (tests/extreme/table/cases.cpp), a row for each direction of each case; of compression, with the case's stress-free
+# mesh at the end when it has been made. A case that stops short (code 3) is a row of the table. Then one page of their ends.
+STABILITY := $(RUNS)/stability
+stability-mechanics: $(STABILITY)/mechanics.tsv
+	@cut -f1-11 $<
+stability-contact: $(STABILITY)/contact.tsv
+	@cat $<
+stability: $(STABILITY)/summary.tsv
+	@cat $<
+$(STABILITY)/mechanics.tsv: $(SOURCES) $(wildcard tests/extreme/table/*)
+	@mkdir -p $(@D)
+	cmake --build $(BUILD) --target print_extreme_mechanics -j $$(nproc)
+	$(call table,$(BUILD)/tests/print_extreme_mechanics --limit $(STABILITY_LIMIT))
+$(STABILITY)/contact.tsv: $(COMPRESS) tests/fixtures/contact_cases.hpp tests/bench/stability_contact.cpp \
+  $(wildcard $(RUN)/reference.vtkhdf)
+	@mkdir -p $(STABILITY)
+	cmake -B $(BUILD) -DBREAST_BENCH=ON > $(STABILITY)/.build.log
+	cmake --build $(BUILD) --target stability_contact >> $(STABILITY)/.build.log
+	$(BIN)/stability_contact $(wildcard $(RUN)/reference.vtkhdf) > $@.part || [ $$? -eq 3 ]
+	@mv $@.part $@
+$(STABILITY)/summary.tsv: $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv $(TABULATE)
+	$(call table,$(tabulate) stability $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv)
+
+include $(ROOT)tests/bench/compare.mk
+include $(ROOT)tests/validation.mk

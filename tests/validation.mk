@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Tables of the validation pages that runs can make, so that none of them goes stale by hand: each is a file in docs/tables, which
+# `make validation` writes from the case's runs and copies into the page between its markers. The test tools_validation (part of
+# `check`) holds page and files equal.
+TABLES_OF_PAGE := docs/tables
+PAGES_WITH_TABLES := docs/architecture.md docs/validation.md $(wildcard docs/validation/*.md)
+
+validation: $(addprefix $(TABLES_OF_PAGE)/,compression-convergence.tsv calibration.tsv truth.tsv)
+	$(tabulate) pages fill $(PAGES_WITH_TABLES)
+validation-page:
+	$(tabulate) pages fill $(PAGES_WITH_TABLES)
+# Of docs/validation/slicer.md, from the default case.
+slicer-table: slicer
+	cp $(RUN)/slicer-fields.tsv $(TABLES_OF_PAGE)/slicer-fields.tsv
+	$(tabulate) pages fill $(PAGES_WITH_TABLES)
+.PHONY: validation validation-page slicer-table
+
+# How the compressed shapes converge with the mesh (studies/convergence.tsv).
+$(TABLES_OF_PAGE)/compression-convergence.tsv: $(call results,convergence,$(convergence_variants),cc mlo) $(TABULATE)
+	@mkdir -p $(@D)
+	$(call table,$(tabulate) convergence $(call study_dir,convergence) $(convergence_variants))
+
+# What the preset was fitted to, beside what its truth moves: the chain as solved and as printed.
+$(TABLES_OF_PAGE)/calibration.tsv: $(RUN)/displacements.tsv $(base_printed) $(PHANTOM_MR) $(TABULATE)
+	@mkdir -p $(@D)
+	$(call table,$(tabulate) calibration $(RUN) $(PHANTOM_MR:.nrrd=.json) $(SIDE))
+
+# Errors against the truth, as the summary has them.
+$(TABLES_OF_PAGE)/truth.tsv: $(RUN)/truth.tsv $(TABULATE)
+	@mkdir -p $(@D)
+	$(call table,$(tabulate) truth $<)

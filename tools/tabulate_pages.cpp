@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is said of a case, of a report, and in the pages of docs/.
+#include <unistd.h>
+
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "cli/declaration.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "study/cells.hpp"
+#include "study/pages/markdown.hpp"
+#include "study/pages/report_page.hpp"
+#include "study/paper/findings.hpp"
+#include "study/summary.hpp"
+#include "study/verify.hpp"
+#include "tabulate_kinds.hpp"
+
+namespace breast {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Request = TabulateRequest;
+
+// "runs/x/": the folder's name is its last part.
+fs::path folder_of(const std::string& word) {
+  fs::path folder = word;
+  return folder.has_filename() ? folder : folder.parent_path();
+}
+
+std::string note_of(const Request& r) {
+  return r.calibrated.empty() ? "" : calibration_note(r.calibrated, r.side);
+}
+
+std::string summary(const Request& r) {
+  return summary_text(folder_of(r.word(0)), {read_advice(r.own("advice.tsv")),
+                                             r.words.size() > 1 ? r.word(1) : "", note_of(r)});
+}
+
+std::string processor() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("model name") && line.find(": ") != std::string::npos)
+      return line.substr(line.find(": ") + 2);
+  return "a processor without a name";
+}
+
+std::string report(const Request& r) {
+  const fs::path run = folder_of(r.word(0));
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char made[32];
+  std::strftime(made, sizeof made, "%Y-%m-%d %H:%M UTC", &utc);
+  ReportContext context{r.word(1), read_advice(r.own("advice.tsv")), {}, note_of(r), ""};
+  context.made = std::string("Made ") + made + "\nwith libbreast " + BREAST_VERSION + ", BLAS " +
+                 StageReport::read(run / "reference.json").text("blas") + ", " +
+                 std::to_string(std::thread::hardware_concurrency()) + " cores (" + processor() +
+                 ").";
+  std::istringstream limits(read_text(r.own("limits.txt")));
+  for (std::string line; std::getline(limits, line);) context.limits.push_back(line);
+  return report_page(run, context);
+}
+
+std::string verified(const Request& r) {
+  const Verification result = verify(r.table(0), r.word(1));
+  if (result.failed == 0) return result.table.text();
+  std::string which;
+  for (const Row& row : result.table.rows)
+    if (row.back() != "ok")
+      which += "; " + row[0] + " " + row[1] + " " + row[2] + " is " + row[4] + ", expected " +
+               row[3] + " within " + row[5];
+  throw failed_error(result.failed, " values differ from ", r.word(0), which);
+}
+
+std::string key(const Request& r) {
+  const StageReport report = StageReport::read(r.word(0));
+  const std::string value = report.text(r.word(1));
+  if (!value.empty()) return value + "\n";
+  const auto number = report.first(r.word(1));
+  if (!number) throw input_error(r.word(0), ": has no '", r.word(1), "'");
+  return format_number(*number) + "\n";
+}
+
+std::string place(const Request& r) {
+  const std::string what = r.words.size() > 2 ? r.word(2) : "imaged";
+  const auto found = StageReport::read(r.word(0)).place(r.word(1), what);
+  if (!found) throw input_error(r.word(0), ": has no landmark '", r.word(1), "'");
+  return format_number(found->x()) + "," + format_number(found->y()) + "," +
+         format_number(found->z()) + "\n";
+}
+
+// Warnings as a table of text, for other programs.
+std::string warnings(const Request& r) {
+  Table table{{"stages", "warning", "advice"}, {}};
+  for (const Warning& w : warnings_of(r.word(0), read_advice(r.own("advice.tsv"))))
+    table.rows.push_back({w.stages, w.text, cell_or_dash(w.remedy)});
+  return table.text();
+}
+
+std::string pages(const Request& r) {
+  const bool fill = r.word(0) == "fill";
+  if (!fill && r.word(0) != "check")
+    throw input_error("pages: '", r.word(0), "' is neither fill nor check");
+  std::string all;
+  for (const std::string& name : r.rest(1)) {
+    const std::string page = read_text(name);
+    const std::string filled =
+        with_tables(page, name, [](const std::string& file) { return read_text(file); });
+    all += page;
+    if (filled == page) continue;
+    if (!fill)
+      throw failed_error(
+          name,
+          ": its tables are not those of docs/tables: make -f Makefile.pipeline validation-page");
+    write_text(name, filled);
+  }
+  if (fill) return "";
+  for (const auto& entry : fs::directory_iterator("docs/tables")) {
+    const std::string file = entry.path().generic_string();
+    if (entry.path().extension() == ".tsv" &&
+        all.find("<!-- table " + file + " -->") == std::string::npos)
+      throw failed_error(file, ": stands in no page");
+  }
+  return "";
+}
+
+std::string numbers(const Request& r) {
+  const std::vector<std::string> wrong = wrong_numbers(r.table(0));
+  if (!wrong.empty()) throw failed_error(join(wrong, "; "));
+  return "";
+}
+
+// "; did you mean X?" for the makefile, whatever the letters' case.
+std::string suggestion(const Request& r) {
+  const auto upper = [](std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
+      return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : char(c);
+    });
+    return text;
+  };
+  std::vector<std::string> candidates;
+  for (const std::string& candidate : r.rest(1)) candidates.push_back(upper(candidate));
+  const std::string near = nearest(upper(r.word(0)), candidates);
+  const auto found = std::find(candidates.begin(), candidates.end(), near);
+  return near.empty()
+             ? ""
+             : "; did you mean " + r.word(1 + std::size_t(found - candidates.begin())) + "?";
+}
+
+}  // namespace
+
+std::vector<TabulateKind> page_kinds() {
+  return {
+      {"summary", "RUN [PHANTOM.json]", "what a finished case says as text, its warnings first", 1,
+       2, summary},
+      {"report", "RUN RUNS",
+       "one self-contained HTML page of a finished case; RUNS holds stability/ and compare/", 2, 2,
+       report},
+      {"warnings", "RUN", "what the stages warned of, each warning once, and what to do", 1, 1,
+       warnings},
+      {"verify", "EXPECTED.tsv RUN", "a run against expected values; exit code 1 where one differs",
+       2, 2, verified},
+      {"expected", "EXPECTED.tsv RUN", "that table with the run's values where they differ", 2, 2,
+       [](const Request& r) { return expected_anew(read_text(r.word(0)), r.word(1)); }},
+      {"key", "REPORT.json PATH",
+       "one value of a report: at a path of keys (seconds/total), or the first number of that name",
+       2, 2, key},
+      {"place", "REPORT.json LANDMARK [imaged|position]", "a landmark's place x,y,z, mm", 2, 3,
+       place},
+      {"truth", "TRUTH.tsv", "rows of a table of errors against the truth, as a page shows them", 1,
+       1, [](const Request& r) { return truth_summary(r.table(0)).text(); }},
+      {"pages", "fill|check PAGE.md...",
+       "the tables between the marks of pages, written anew or compared", 2, any_number, pages},
+      {"numbers", "NUMBERS.tsv", "whether the numbers that pages state are those of their sources",
+       1, 1, numbers},
+      {"nearest", "WORD CANDIDATE...", "the candidate that a slip of the fingers turned into WORD",
+       2, any_number, suggestion},
+  };
+}
+
+}  // namespace breast
