@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +35,25 @@ void Panel::scale_bar(const Colour& colour) {
   for (const Vec2& end : {left, right}) line(end - Vec2(0, 5), end + Vec2(0, 5), colour, 2);
   text(0.5 * (left + right) + Vec2(0, 16), std::to_string(int(length)) + " mm", letters - 1, colour,
        Align::centre);
+}
+
+void Panel::ring(const Vec3& at, double radius, const Colour& colour) {
+  constexpr int steps = 64;
+  std::vector<Vec2> circle;
+  for (int k = 0; k <= steps; ++k) {
+    const double angle = 2 * std::numbers::pi * k / steps;
+    circle.push_back(to_pixel(at) + radius * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  path(circle, black, 4.5);
+  path(circle, colour, 2.5);
+}
+
+void Panel::arrow(const Vec3& from, const Vec3& to, const Colour& colour) {
+  const Vec2 start = to_pixel(from), tip = to_pixel(to);
+  if ((tip - start).norm() < 8) return;  // shorter than its own head
+  const Vec2 along = (tip - start).normalized(), side(-along.y(), along.x());
+  line(start, tip, colour, 2.2);
+  path({tip - 10 * along + 4.5 * side, tip, tip - 10 * along - 4.5 * side}, colour, 2.2);
 }
 
 void Panel::compass() {

@@ -32,6 +32,10 @@ struct Figure {
 
 const std::vector<Figure>& figures() {
   static const std::vector<Figure> list = {
+      {"slices",
+       "the scan in three planes with its segmentation's contours (--scan, --labels, maybe mesh "
+       ".vtkhdf)",
+       1800, 760, false, false, draw_slices},
       {"points", "data points of skin and chest wall (points .vtp of segment)", 1600, 800, false,
        true, draw_points},
       {"geometry", "Hermite sheets with patch lines and rim (geometry .vtkhdf, maybe points .vtp)",

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "core/units.hpp"
+#include "figures/gland_surface.hpp"
 #include "mesh/landmark_names.hpp"
 
 namespace breast {
@@ -55,11 +56,13 @@ void add_body(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
                    .edges = style.edges});
   }
   if (!style.inside) return;
-  panel.surface(tissue_facets(mesh, nodal, Tissue::fibroglandular),
-                {.colour = palette::gland, .opacity = style.gland_opacity, .smooth = false});
+  panel.surface(gland_facets(mesh, nodal),
+                {.colour = palette::gland, .opacity = style.gland_opacity, .shine = 0.25});
+  panel.draw_through(true);
   const Facets lesion = tissue_facets(mesh, nodal, Tissue::tumour);
   if (!lesion.quads.empty()) panel.surface(lesion, {.colour = palette::tumour});
   add_landmark(panel, mesh, nodal, "tumour", 4, palette::tumour);
+  panel.draw_through(false);
 }
 
 std::string tumour_words(const HexMesh& mesh) {

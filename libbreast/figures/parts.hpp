@@ -5,6 +5,7 @@
 #include "figures/body_surfaces.hpp"
 #include "figures/canvas.hpp"
 #include "figures/figures.hpp"
+#include "figures/slice_view.hpp"
 
 namespace breast::palette {
 
@@ -61,6 +62,19 @@ std::vector<std::vector<Vec3>> named_lines(const PolyLines& lines, const std::st
 /// Throws Error (input) naming the figure when fewer were given.
 void need(bool given, const std::string& figure, const std::string& what);
 
+/// Throws Error (input) without scan and labels.
+void need_scan(const FigureInput& input, const std::string& figure);
+/// The point all three slices pass through: the tumour, or the middle of the fibroglandular tissue.
+Vec3 slices_through(const FigureInput& input);
+/// Width and height in mm that a slice needs to show the breast.
+Vec2 slice_size(const FigureInput& input, SlicePlane plane);
+/// The scan's slice with contours, marks, letters of orientation and scale bar, filling the panel.
+void add_slice(Panel& panel, const FigureInput& input, SlicePlane plane, double mm_per_pixel,
+               const std::string& letter);
+/// One row: what the slices' colours mean.
+void add_slice_legend(Panel& panel, const FigureInput& input);
+
+void draw_slices(Picture& picture, const FigureInput& input);
 void draw_points(Picture& picture, const FigureInput& input);
 void draw_geometry(Picture& picture, const FigureInput& input);
 void draw_mesh(Picture& picture, const FigureInput& input);

@@ -31,6 +31,7 @@ Picture::Picture(int width, int height) : impl_(std::make_unique<Impl>()) {
   impl_->window->SetSize(width * supersampling, height * supersampling);
   impl_->window->SetMultiSamples(0);
   impl_->window->SetAlphaBitPlanes(1);
+  impl_->window->SetNumberOfLayers(2);
 }
 
 Picture::~Picture() = default;
@@ -46,7 +47,14 @@ Panel& Picture::panel(double left, double bottom, double right, double top) {
   panel->lights->SetKeyLightAngle(35, -25);
   panel->lights->AddLightsToRenderer(panel->renderer);
   panel->pixels = Vec2((right - left) * impl_->width, (top - bottom) * impl_->height);
+  panel->front->SetViewport(left, bottom, right, top);
+  panel->front->SetLayer(1);
+  panel->front->SetActiveCamera(panel->renderer->GetActiveCamera());
+  panel->front_lights->SetKeyLightIntensity(0.85);
+  panel->front_lights->SetKeyLightAngle(35, -25);
+  panel->front_lights->AddLightsToRenderer(panel->front);
   impl_->window->AddRenderer(panel->renderer);
+  impl_->window->AddRenderer(panel->front);
   impl_->panels.push_back(std::make_unique<Panel>(std::move(panel)));
   return *impl_->panels.back();
 }
@@ -87,6 +95,7 @@ void Picture::save(const std::filesystem::path& file) {
   }
   vtkNew<vtkPNGWriter> writer;
   writer->WriteToMemoryOn();
+  writer->SetCompressionLevel(9);
   writer->SetInputData(averaged(pixels, impl_->width, impl_->height));
   writer->Write();
   if (writer->GetErrorCode() != 0) throw failed_error(file.string(), ": cannot be written");
