@@ -88,7 +88,8 @@ int main(int argc, char** argv) {
   tool.input_file(choices.scan, "--scan", "MR",
                   "the MR scan behind the contours of slices and summary (.nrrd, .nii, .nii.gz, .mha or a "
                   "DICOM folder)");
-  tool.integer(choices.series, "--series", "N", "series of a DICOM folder that holds several", 0, 100000);
+  tool.integer(choices.series, "--series", "N", "which series of a DICOM folder (0: the only one)", 0,
+               100000);
   tool.input_file(choices.labels, "--labels", "LABELS.vtkhdf", "its segmentation (segment)");
   tool.choice(choices.figure, "--figure", figure_names(), "what to draw");
   tool.output_file(choices.output, "-o,--output", "OUT.png", "the picture");

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,8 +19,19 @@ constexpr Colour black{0, 0, 0};
 constexpr double letters = 17;  // pixels
 }  // namespace
 
-void Panel::caption(const std::string& words) {
-  text({10, size().y() - 18}, words, letters + 1, black);
+int Panel::caption(const std::string& words) {
+  constexpr double letter_width = 8.4, line_height = 22;
+  const auto room = std::size_t(std::max(12.0, (size().x() - 14) / letter_width));
+  std::istringstream stream(words);
+  std::vector<std::string> lines(1);
+  for (std::string word; stream >> word;) {
+    if (!lines.back().empty() && lines.back().size() + 1 + word.size() > room) lines.emplace_back();
+    lines.back() += (lines.back().empty() ? "" : " ") + word;
+  }
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    text({10, size().y() - 18 - line_height * double(k)}, lines[k], letters + 1, black);
+  }
+  return int(lines.size());
 }
 
 void Panel::scale_bar(const Colour& colour) {

@@ -81,7 +81,8 @@ class Panel {
   void ring(const Vec3& at, double radius, const Colour& colour);
   /// An arrow from place to place in the plane of the picture.
   void arrow(const Vec3& from, const Vec3& to, const Colour& colour);
-  void caption(const std::string& words);            ///< top left
+  /// Top left, in as many lines as the panel's width asks for; returns their number.
+  int caption(const std::string& words);
   void scale_bar(const Colour& colour = {0, 0, 0});  ///< bottom right, a round number of mm
   void compass();                                    ///< bottom left: left, anterior, superior
 

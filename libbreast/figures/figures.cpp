@@ -33,7 +33,7 @@ struct Figure {
 const std::vector<Figure>& figures() {
   static const std::vector<Figure> list = {
       {"slices",
-       "the scan in three planes with its segmentation's contours (--scan, --labels, maybe mesh "
+       "the scan in three planes with its segmentation's contours (--scan, --labels, mesh "
        ".vtkhdf)",
        1800, 760, false, false, draw_slices},
       {"points", "data points of skin and chest wall (points .vtp of segment)", 1600, 800, false,
@@ -61,9 +61,10 @@ const std::vector<Figure>& figures() {
        "the column in CC, reference and MLO (cc.vtkhdf mlo.vtkhdf, or one of them, curve.vtp)",
        1800, 680, false, false, draw_matching},
       {"summary",
-       "the whole chain (mesh reference supine cc mlo .vtkhdf, cc.vti mlo.vti, maybe curve.vtp)",
-       2000,
-       1250, false, false, draw_summary},
+       "the whole chain (mesh reference supine cc mlo .vtkhdf, cc.vti mlo.vti, maybe curve.vtp, maybe "
+       "--scan and --labels)",
+       1600,
+       1120, false, false, draw_summary},
   };
   return list;
 }

@@ -7,8 +7,8 @@
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "figures/parts.hpp"
-#include "figures/plane_section.hpp"
-#include "figures/slice_view.hpp"
+#include "figures/shapes/plane_section.hpp"
+#include "figures/shapes/slice_view.hpp"
 #include "mesh/landmark_names.hpp"
 
 namespace breast {
@@ -47,6 +47,15 @@ const Vec3* tumour_of(const FigureInput& input) {
   }
   const auto found = input.labels->landmarks.find("tumour");
   return found != input.labels->landmarks.end() ? &found->second : nullptr;
+}
+
+/// The nipple where it lies in the slice, or near it.
+const Vec3* nipple_in(const FigureInput& input, SlicePlane plane) {
+  const auto found = input.labels->landmarks.find("nipple");
+  if (found == input.labels->landmarks.end()) return nullptr;
+  const int axis = axis_of(plane);
+  const double beside = std::abs(found->second[axis] - slices_through(input)[axis]);
+  return beside < in_plane_mm ? &found->second : nullptr;
 }
 
 /// Three-dimensional places of a slice's drawing: mm of the frame, a little above the image.
@@ -92,10 +101,6 @@ void add_ticks(Panel& panel, const SliceFrame& frame, const Vec3& through) {
   }
 }
 
-double place_along(const Vec3& x, SlicePlane plane) {
-  return x[axis_of(plane)];
-}
-
 }  // namespace
 
 Vec3 slices_through(const FigureInput& input) {
@@ -132,21 +137,21 @@ void add_slice(Panel& panel, const FigureInput& input, SlicePlane plane, double 
   if (const Vec3* tumour = tumour_of(input)) {
     panel.ring(lifted(frame.flat(*tumour)), ring_pixels, palette::tumour);
   }
-  const auto nipple = input.labels->landmarks.find("nipple");
-  if (nipple != input.labels->landmarks.end() && frame.distance(nipple->second) < in_plane_mm) {
-    panel.ring(lifted(frame.flat(nipple->second)), 0.7 * ring_pixels, white);
+  if (const Vec3* nipple = nipple_in(input, plane)) {
+    panel.ring(lifted(frame.flat(*nipple)), 0.7 * ring_pixels, white);
   }
   add_letters(panel, plane);
   add_ticks(panel, frame, through);
   const PlaneWords words = words_of(plane);
   panel.text({10, panel.size().y() - 16},
              letter + words.name + ", " + words.axis + " = " +
-                 format_fixed(place_along(through, plane), 0) + " mm",
+                 format_fixed(through[axis_of(plane)], 0) + " mm",
              letters + 1, white);
   panel.scale_bar(white);
 }
 
-void add_slice_legend(Panel& panel, const FigureInput& input) {
+void add_slice_legend(Panel& panel, const FigureInput& input,
+                      const std::vector<SlicePlane>& planes) {
   const double y = 0.5 * panel.size().y();
   double x = 14;
   const auto words = [&](const std::string& text) {
@@ -170,7 +175,10 @@ void add_slice_legend(Panel& panel, const FigureInput& input) {
     const bool artificial = mesh != nullptr && tumour_words(*mesh).starts_with("artificial");
     words(artificial ? "yellow ring: artificial tumour, in no scan" : "yellow ring: tumour");
   }
-  words("white ring: nipple");
+  if (std::any_of(planes.begin(), planes.end(),
+                  [&](SlicePlane plane) { return nipple_in(input, plane) != nullptr; })) {
+    words("white ring: nipple");
+  }
 }
 
 void need_scan(const FigureInput& input, const std::string& figure) {
@@ -181,24 +189,25 @@ void need_scan(const FigureInput& input, const std::string& figure) {
 void draw_slices(Picture& picture, const FigureInput& input) {
   need_scan(input, "slices");
   constexpr double legend = 0.07, gap = 0.003;
-  const std::array<SlicePlane, 3> planes{SlicePlane::axial, SlicePlane::sagittal,
-                                         SlicePlane::coronal};
-  double across = 0, height = 0;
+  const std::vector<SlicePlane> planes{SlicePlane::axial, SlicePlane::sagittal,
+                                       SlicePlane::coronal};
+  double across = 0;
+  for (const SlicePlane plane : planes) across += slice_size(input, plane).x();
+  // One scale for all: the panels are as wide as what they show.
+  std::vector<Panel*> panels;
+  double left = 0, scale = 0;
   for (const SlicePlane plane : planes) {
-    across += slice_size(input, plane).x();
-    height = std::max(height, slice_size(input, plane).y());
-  }
-  double left = 0;
-  char letter = 'a';
-  for (const SlicePlane plane : planes) {
-    const double right = left + slice_size(input, plane).x() / across;
-    Panel& panel = picture.panel(left, legend, right < 0.999 ? right - gap : 1, 1);
-    const Vec2 fits = slice_size(input, plane).cwiseQuotient(panel.size());
-    const double scale = std::max(fits.x(), height / panel.size().y());
-    add_slice(panel, input, plane, scale, {'(', letter++, ')', ' '});
+    const Vec2 size = slice_size(input, plane);
+    const double right = left + size.x() / across;
+    panels.push_back(&picture.panel(left, legend, plane == planes.back() ? 1 : right - gap, 1));
+    scale = std::max(scale, size.cwiseQuotient(panels.back()->size()).maxCoeff());
     left = right;
   }
-  add_slice_legend(picture.panel(0, 0, 1, legend), input);
+  char letter = 'a';
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    add_slice(*panels[k], input, planes[k], scale, {'(', letter++, ')', ' '});
+  }
+  add_slice_legend(picture.panel(0, 0, 1, legend), input, planes);
 }
 
 }  // namespace breast

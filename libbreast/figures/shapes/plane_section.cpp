@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures/plane_section.hpp"
+#include "figures/shapes/plane_section.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "figures/contour_lines.hpp"
+#include "figures/shapes/contour_lines.hpp"
 
 namespace breast {
 

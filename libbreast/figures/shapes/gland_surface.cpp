@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures/gland_surface.hpp"
+#include "figures/shapes/gland_surface.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "figures/contour_lines.hpp"
+#include "figures/shapes/contour_lines.hpp"
 #include "image/label_volume.hpp"
 #include "image/volume.hpp"
 

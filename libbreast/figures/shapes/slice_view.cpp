@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures/slice_view.hpp"
+#include "figures/shapes/slice_view.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,9 +12,9 @@ namespace breast {
 namespace {
 
 constexpr double raster_mm = 0.6;
-/// Over which labels are averaged, so that contours do not follow the voxels' steps; small beside a
-/// voxel's diagonal.
-constexpr double smoothing_mm = 0.9;
+/// Labels are averaged over at least this, and over this many voxels in the plane, so that contours do
+/// not follow the voxels' steps.
+constexpr double smoothing_mm = 0.9, smoothing_voxels = 0.6;
 /// Contours are shown up to this far from the breast.
 constexpr double near_breast_mm = 2.5;
 /// Mid-greys are lifted a little, as a viewer's default window does.
@@ -63,15 +63,22 @@ PlaneField sampled(const LabelVolume& labels, const SliceFrame& frame, const Val
   return field;
 }
 
-/// Lines of the field at one half; with `near`, those of them where it is above a trace.
-std::vector<PlaneSegment> half_lines(const PlaneField& field, const PlaneField* near) {
-  std::vector<PlaneSegment> lines = contour_lines(smoothed(field, smoothing_mm), 0.5);
-  constexpr double trace = 0.05;
-  if (near != nullptr) {
-    std::erase_if(lines, [&](const PlaneSegment& line) {
-      return near->near(0.5 * (line[0] + line[1])) < trace;
-    });
+/// Averaging length along the coarser of the plane's two axes, mm.
+double smoothing_in(const Grid& grid, const SliceFrame& frame) {
+  double coarsest = 0;
+  for (int d = 0; d < 3; ++d) {
+    const Vec3 step = grid.spacing[d] * grid.direction.col(d);
+    coarsest = std::max({coarsest, std::abs(step.dot(frame.right)), std::abs(step.dot(frame.up))});
   }
+  return std::max(smoothing_mm, smoothing_voxels * coarsest);
+}
+
+/// Those of the lines where the field `near` is above a trace.
+std::vector<PlaneSegment> beside(const PlaneField& near, std::vector<PlaneSegment> lines) {
+  constexpr double trace = 0.05;
+  std::erase_if(lines, [&](const PlaneSegment& line) {
+    return near.near(0.5 * (line[0] + line[1])) < trace;
+  });
   return lines;
 }
 
@@ -96,9 +103,13 @@ SliceContours slice_contours(const LabelVolume& labels, const SliceFrame& frame)
   const auto body = [&](std::size_t n) { return tissue(n) == Tissue::air ? 0.0 : 1.0; };
   const auto muscle = [&](std::size_t n) { return tissue(n) == Tissue::muscle ? 1.0 : 0.0; };
   const auto gland = [&](std::size_t n) { return double(labels.fibroglandular_fraction[n]); };
-  return {half_lines(sampled(labels, frame, body), &breast),
-          half_lines(sampled(labels, frame, muscle), &breast),
-          half_lines(sampled(labels, frame, gland), nullptr)};
+  const double sigma = smoothing_in(labels.grid, frame);
+  const auto half = [&](const PlaneField& field) {
+    return contour_lines(smoothed(field, sigma), 0.5);
+  };
+  return {beside(breast, half(sampled(labels, frame, body))),
+          beside(breast, half(sampled(labels, frame, muscle))),
+          contour_lines(smoothed(sampled(labels, frame, gland), smoothing_mm), 0.5)};
 }
 
 ShownBox breast_box(const LabelVolume& labels, double margin) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures/contour_lines.hpp"
+#include "figures/shapes/contour_lines.hpp"
 
 #include <algorithm>
 #include <cmath>
