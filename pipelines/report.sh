@@ -63,7 +63,8 @@ HTML
   END { if (NR) printf "<div class=warnings><h2>Warnings: %d; read these first</h2>\n<ul>\n%s</ul></div>\n", NR, text
         else print "<p>No stage warned of anything.</p>" }'
 [ "$tumour" != artificial ] || printf '<p class=bad><b>The tumour of this case is artificial: nobody found it in the scan.</b> Every figure and table below follows that point.</p>\n'
-picture "$run/figures/summary.png" "The chain: as imaged, stress-free, supine, CC and MLO compression, simulated mammograms$([ "$tumour" = none ] || echo ' and the matched curve')."
+picture "$run/figures/slices.png" "The scan in three planes$([ "$tumour" = none ] || echo " through${tumour_words# and}") with the contours of its segmentation: judge these before all that follows."
+picture "$run/figures/summary.png" "The chain: the scan, the silhouettes of the postures, CC and MLO compression, simulated mammograms$([ "$tumour" = none ] || echo ' and the matched curve')."
 
 # Said beside every table of the rows that the preset was fitted to.
 calibrated=
@@ -92,15 +93,16 @@ section "Figure 4: from data points to the mesh"
 picture "$run/figures/points.png" "4a. Skin (light) and chest-wall (dark) data points."
 picture "$run/figures/geometry.png" "4b. The fitted cubic-Hermite sheets and the rim where the body ends."
 picture "$run/figures/mesh.png" "4c. The hexahedral mesh from the front, and its back surface (dark)."
-picture "$run/figures/tissues.png" "4d. Fibroglandular elements (dark)$tumour_words through the translucent skin."
+picture "$run/figures/tissues.png" "4d. Fibroglandular tissue (violet; the surface that encloses its volume)$tumour_words through the translucent skin."
+picture "$run/figures/outlines.png" "The shapes as scanned, stress-free and supine over each other; arrows from the scan to supine, lengths in space."
 section "Figure 5: mammographic compression"
-picture "$run/figures/cc-compression.png" "5a, b. Before and after CC compression, with the plates."
+picture "$run/figures/cc-compression.png" "5a, b. Before and after CC compression, with the plates; orange: the border of the image on the detector."
 picture "$run/figures/mlo-compression.png" "5c, d. MLO compression, two views."
 picture "$run/figures/pressure.png" "Contact pressure under paddle and detector; blue: where the flat of the plate begins."
 picture "$run/figures/force-thickness.png" "Force of both plates against thickness."
 section "Figure 6: simulated mammograms"
-picture "$run/figures/cc-mammogram.png" "6a. CC$([ "$tumour" = none ] || echo "; the dot is${tumour_words# and}")."
-picture "$run/figures/mlo-mammogram.png" "6b. MLO$([ "$tumour" = none ] || echo "; the computed curve, the place the model gives${tumour_words# and} (dot) and the arc of equal nipple distance")."
+picture "$run/figures/cc-mammogram.png" "6a. CC$([ "$tumour" = none ] || echo "; the yellow ring is${tumour_words# and}"). White ring: nipple."
+picture "$run/figures/mlo-mammogram.png" "6b. MLO$([ "$tumour" = none ] || echo "; the computed curve, the place the model gives${tumour_words# and} (ring) and the arc of equal nipple distance")."
 picture "$run/figures/cc-points.png" "6c. A selection of CC points."
 picture "$run/figures/mlo-curves.png" "6d. Their curves in MLO."
 [ "$tumour" = none ] || section "Figure 7: the column of the tumour's pixel"

@@ -67,4 +67,9 @@ else
   echo "Every CC point and its MLO curve: $run/page.html (a browser opens it), numbers in $run/lookup.h5"
 fi
 echo "Pictures: $run/figures/"
-for picture in "$run"/figures/*.png; do echo "  $picture"; done
+first=
+for picture in "$run"/figures/slices.png "$run"/figures/*.png; do
+  [ -s "$picture" ] && [ "$picture" != "$first" ] || continue  # the scan's slices come first, once
+  first=${first:-$picture}
+  echo "  $picture"
+done

@@ -1,5 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Captions, scale bars and compasses of a panel.
+#include <vtkActor2D.h>
+#include <vtkCellArray.h>
+#include <vtkCoordinate.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty2D.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,6 +25,34 @@ namespace breast {
 namespace {
 constexpr Colour black{0, 0, 0};
 constexpr double letters = 17;  // pixels
+
+vtkSmartPointer<vtkActor2D> annulus(const Vec2& centre, double inner, double outer,
+                                    const Colour& colour) {
+  constexpr int steps = 72;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (int k = 0; k < steps; ++k) {
+    const double angle = 2 * std::numbers::pi * k / steps;
+    for (const double radius : {inner, outer}) {
+      const Vec2 p = supersampling * (centre + radius * Vec2(std::cos(angle), std::sin(angle)));
+      points->InsertNextPoint(p.x(), p.y(), 0);
+    }
+    const int next = (k + 1) % steps;
+    cells->InsertNextCell({2 * k, 2 * k + 1, 2 * next + 1, 2 * next});
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(cells);
+  vtkNew<vtkCoordinate> viewport;
+  viewport->SetCoordinateSystemToViewport();
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(data);
+  mapper->SetTransformCoordinate(viewport);
+  auto actor = vtkSmartPointer<vtkActor2D>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(colour.r, colour.g, colour.b);
+  return actor;
+}
 }  // namespace
 
 int Panel::caption(const std::string& words) {
@@ -49,15 +85,13 @@ void Panel::scale_bar(const Colour& colour) {
        Align::centre);
 }
 
+// Filled annuli: wide lines of many short pieces would show gaps between them.
 void Panel::ring(const Vec3& at, double radius, const Colour& colour) {
-  constexpr int steps = 64;
-  std::vector<Vec2> circle;
-  for (int k = 0; k <= steps; ++k) {
-    const double angle = 2 * std::numbers::pi * k / steps;
-    circle.push_back(to_pixel(at) + radius * Vec2(std::cos(angle), std::sin(angle)));
-  }
-  path(circle, black, 4.5);
-  path(circle, colour, 2.5);
+  constexpr double half_width = 1.3, rim = 1.0;  // pixels
+  impl_->front->AddViewProp(annulus(to_pixel(at), radius - half_width - rim,
+                                    radius + half_width + rim, black));
+  impl_->front->AddViewProp(
+      annulus(to_pixel(at), radius - half_width, radius + half_width, colour));
 }
 
 void Panel::arrow(const Vec3& from, const Vec3& to, const Colour& colour) {

@@ -63,8 +63,7 @@ const std::vector<Figure>& figures() {
       {"summary",
        "the whole chain (mesh reference supine cc mlo .vtkhdf, cc.vti mlo.vti, maybe curve.vtp, maybe "
        "--scan and --labels)",
-       1600,
-       1120, false, false, draw_summary},
+       1500, 1050, false, false, draw_summary},
   };
   return list;
 }

@@ -161,7 +161,7 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
   if (std::any_of(image.through_back.begin(), image.through_back.end(),
                   [](std::uint8_t flag) { return flag != 0; })) {
     const double chest = hanging.left() ? low.x() + 6 : high.x() - 6;
-    panel.text({chest, low.y() + 14}, "even grey: chest wall, outside the model", letters - 2, {0.85, 0.85, 0.85},
+    panel.text({chest, low.y() + 14}, "even grey: chest wall, not modelled", letters - 2, {0.85, 0.85, 0.85},
                hanging.left() ? Align::left : Align::right);
   }
   const std::string top = image.view == View::cc ? "lateral" : "superior";
@@ -171,7 +171,9 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
   const std::string marker = (hanging.left() ? "L " : "R ") + view_name(image.view);
   panel.text({inset, high.y() - 18}, marker, 22, white, inner);
   panel.text({inset, high.y() - 42}, top, letters, white, inner);
-  panel.text({inset, low.y() + 14}, bottom, letters, white, inner);
+  // In a narrow image above the words at the chest wall.
+  const double row = high.x() - low.x() < 400 ? 54 : 14;
+  panel.text({inset, low.y() + row}, bottom, letters, white, inner);
 }
 
 }  // namespace

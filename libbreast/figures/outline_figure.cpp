@@ -77,14 +77,12 @@ void add_arrows(Panel& panel, const std::vector<Shape>& shapes) {
     if (shapes.size() < 2) continue;
     std::string name = landmark.name;
     std::replace(name.begin(), name.end(), '_', ' ');
+    // Past the arrow's head, where the words hide no mark.
     const Vec2 start = panel.to_pixel(from), tip = panel.to_pixel(to);
-    const Vec2 along = tip - start, across(-along.y(), along.x());
-    const double up = across.y() >= 0 ? 1 : -1;
-    const Vec2 beside =
-        across.norm() > 0 ? Vec2(up * 16 / across.norm() * across) : Vec2(0, 16);
-    panel.label(0.5 * (start + tip) + beside,
+    const bool rightwards = tip.x() >= start.x();
+    panel.label(tip + Vec2(rightwards ? 12 : -12, 0),
                 name + " " + format_fixed(moved_mm(shapes, shapes.size() - 1, landmark), 0) + " mm",
-                letters - 2, palette::ink, Align::centre);
+                letters - 2, palette::ink, rightwards ? Align::left : Align::right);
   }
 }
 

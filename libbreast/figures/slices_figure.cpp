@@ -173,7 +173,7 @@ void add_slice_legend(Panel& panel, const FigureInput& input,
     words("through the middle of the fibroglandular tissue");
   } else {
     const bool artificial = mesh != nullptr && tumour_words(*mesh).starts_with("artificial");
-    words(artificial ? "yellow ring: artificial tumour, in no scan" : "yellow ring: tumour");
+    words(artificial ? "yellow ring: artificial tumour (not in the scan)" : "yellow ring: tumour");
   }
   if (std::any_of(planes.begin(), planes.end(),
                   [&](SlicePlane plane) { return nipple_in(input, plane) != nullptr; })) {

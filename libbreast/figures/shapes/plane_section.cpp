@@ -12,7 +12,9 @@ namespace breast {
 namespace {
 
 constexpr double raster_mm = 0.5;
-constexpr int border = 4;  // pixels round the raster
+/// Pixels of the raster a piece of outline: short pieces draw as a row of dots.
+constexpr int thinning = 3;
+constexpr int border = 12;  // pixels round the raster
 
 void fill_triangle(PlaneField& field, const Vec2& a, const Vec2& b, const Vec2& c) {
   const auto across = [](const Vec2& p, const Vec2& q) { return p.x() * q.y() - p.y() * q.x(); };
@@ -26,6 +28,17 @@ void fill_triangle(PlaneField& field, const Vec2& a, const Vec2& b, const Vec2& 
       if (u >= 0 && v >= 0 && u + v <= 1) field.at(column, row) = 1;
     }
   }
+}
+
+PlaneField thinned(const PlaneField& field) {
+  PlaneField out(1 + (field.width - 1) / thinning, 1 + (field.height - 1) / thinning,
+                 thinning * field.pixel);
+  for (int row = 0; row < out.height; ++row) {
+    for (int column = 0; column < out.width; ++column) {
+      out.at(column, row) = field.at(thinning * column, thinning * row);
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -77,7 +90,7 @@ std::vector<std::array<Vec3, 2>> silhouette(const Facets& facets, const Vec3& di
     return Vec3(p.x() * right + p.y() * top + depth.dot(forward) * forward);
   };
   std::vector<std::array<Vec3, 2>> lines;
-  for (const auto& [a, b] : contour_lines(smoothed(field, 1.2 * raster_mm), 0.5)) {
+  for (const auto& [a, b] : contour_lines(thinned(smoothed(field, thinning * raster_mm)), 0.5)) {
     lines.push_back({lifted(a), lifted(b)});
   }
   return lines;
