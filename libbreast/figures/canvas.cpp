@@ -321,6 +321,10 @@ vtkSmartPointer<vtkTextActor> words_at(const Vec2& at, const std::string& words,
   property->SetFontFamilyToArial();
   property->SetFontSize(int(std::lround(height * supersampling)));
   property->SetColor(colour.r, colour.g, colour.b);
+  if (colour.r + colour.g + colour.b > 2.4) {  // light words stand on an image
+    property->ShadowOn();
+    property->SetShadowOffset(supersampling, -supersampling);
+  }
   property->SetVerticalJustificationToCentered();
   if (align == Align::left) property->SetJustificationToLeft();
   if (align == Align::centre) property->SetJustificationToCentered();

@@ -93,10 +93,17 @@ std::string add_curves(Panel& panel, const Mammogram& image, const PolyLines& cu
                        const Hanging& hanging, std::vector<Mark>& marks) {
   const auto points = image_lines(curves, "point in CC");
   const int count = int(points.size());
+  const Vec2 size(hanging.width(), hanging.height());
+  double outside = 0;
+  // What lies outside the image is not drawn, but said. Returns its length.
   const auto draw = [&](const ImageLine& line, const Colour& colour, double width) {
-    std::vector<Vec3> path;
-    for (const Vec2& uv : line.uv) path.push_back(hanging.at(uv));
-    panel.stroke(path, colour, width);
+    double lost = 0;
+    for (const auto& part : parts_inside(line.uv, size, &lost)) {
+      std::vector<Vec3> path;
+      for (const Vec2& uv : part) path.push_back(hanging.at(uv));
+      panel.stroke(path, colour, width);
+    }
+    return lost;
   };
   const bool cc = image.view == View::cc;
   for (const auto& nipple : image_lines(curves, cc ? "nipple in CC" : "nipple in MLO")) {
@@ -115,14 +122,16 @@ std::string add_curves(Panel& panel, const Mammogram& image, const PolyLines& cu
     for (const auto& line : image_lines(curves, "arc")) draw(line, palette::arc, 2.5);
   }
   for (const auto& line : image_lines(curves, "curve")) {
-    draw(line, count == 1 ? Colour{0.1, 0.9, 0.4} : query_colour(line.query, count), 3);
+    outside += draw(line, count == 1 ? Colour{0.1, 0.9, 0.4} : query_colour(line.query, count), 3);
   }
   const auto places = image_lines(curves, is_place);
   for (const auto& p : places) {
     marks.push_back({hanging.at(p.uv[0]), count > 1 ? point_pixels : ring_pixels, palette::tumour});
   }
-  if (count > 1) return "their curves";
-  const std::string words = "green: its curve; blue: equal nipple distance";
+  const std::string lost =
+      outside >= 0.5 ? " (" + format_fixed(outside, 0) + " mm outside the image)" : "";
+  if (count > 1) return "their curves" + lost;
+  const std::string words = "green: its curve" + lost + "; blue: equal nipple distance";
   if (places.empty()) return words;
   if (of_artificial_tumour(curves)) return words + "; ring: artificial tumour";
   return words + "; ring: model's own place";
@@ -161,7 +170,7 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
   if (std::any_of(image.through_back.begin(), image.through_back.end(),
                   [](std::uint8_t flag) { return flag != 0; })) {
     const double chest = hanging.left() ? low.x() + 6 : high.x() - 6;
-    panel.text({chest, low.y() + 14}, "even grey: chest wall, not modelled", letters - 2, {0.85, 0.85, 0.85},
+    panel.text({chest, low.y() + 14}, "even grey: chest wall", letters - 2, {0.85, 0.85, 0.85},
                hanging.left() ? Align::left : Align::right);
   }
   const std::string top = image.view == View::cc ? "lateral" : "superior";
@@ -177,6 +186,34 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
 }
 
 }  // namespace
+
+std::vector<std::vector<Vec2>> parts_inside(const std::vector<Vec2>& line, const Vec2& size,
+                                            double* outside_mm) {
+  std::vector<std::vector<Vec2>> parts;
+  double all = 0, kept = 0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Vec2 &a = line[i], along = line[i + 1] - a;
+    all += along.norm();
+    // The piece from t = low to high lies between all four sides.
+    double low = 0, high = 1;
+    for (int d = 0; d < 2; ++d) {
+      for (const double side : {0.0, size[d]}) {
+        const double room = side > 0 ? side - a[d] : a[d];       // >= 0: a is within this side
+        const double closing = side > 0 ? along[d] : -along[d];  // by which the way to b lessens it
+        if (closing > 0) high = std::min(high, room / closing);
+        if (closing < 0) low = std::max(low, room / closing);
+        if (closing == 0 && room < 0) high = -1;
+      }
+    }
+    if (!(high > low)) continue;
+    kept += (high - low) * along.norm();
+    const Vec2 start = a + low * along, end = a + high * along;
+    if (parts.empty() || low > 0 || (parts.back().back() - start).norm() > 1e-9) parts.push_back({start});
+    parts.back().push_back(end);
+  }
+  if (outside_mm != nullptr) *outside_mm = all - kept;
+  return parts;
+}
 
 void add_mammogram(Panel& panel, const Mammogram& image, const PolyLines* curves,
                    const std::string& letter) {

@@ -132,8 +132,7 @@ void draw_outlines(Picture& picture, const FigureInput& input) {
   const std::vector<Shape> shapes = shapes_of(states);
   const HexMesh& first = *states.front();
   const Landmark* nipple = first.landmark("nipple");
-  const double height =
-      nipple != nullptr ? landmark_position(first, first.imaged, *nipple).z() : 0;
+  const double height = nipple != nullptr ? landmark_position(first, first.imaged, *nipple).z() : 0;
 
   Panel& slice = picture.panel(0, 0, 0.5, 1);
   for (std::size_t k = 0; k < shapes.size(); ++k) {

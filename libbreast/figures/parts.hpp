@@ -60,6 +60,9 @@ std::string compression_caption(const HexMesh& mesh);
 /// begins the caption.
 void add_mammogram(Panel& panel, const Mammogram& image, const PolyLines* curves,
                    const std::string& letter);
+/// The parts of a line within an image of `size` mm; the length of the rest, mm, in `outside_mm`.
+std::vector<std::vector<Vec2>> parts_inside(const std::vector<Vec2>& line, const Vec2& size,
+                                            double* outside_mm);
 /// Points of all lines of that name.
 std::vector<std::vector<Vec3>> named_lines(const PolyLines& lines, const std::string& name);
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "figures/body_surfaces.hpp"
+#include "figures/parts.hpp"
 #include "figures/shapes/contour_lines.hpp"
 #include "figures/shapes/gland_surface.hpp"
 #include "figures/shapes/plane_section.hpp"
@@ -43,7 +44,8 @@ double enclosed(const Facets& facets) {
   for (const auto& q : facets.quads) {
     const auto& x = facets.points;
     sum += x[std::size_t(q[0])].dot(x[std::size_t(q[1])].cross(x[std::size_t(q[2])])) / 6;
-    if (q[2] != q[3]) sum += x[std::size_t(q[0])].dot(x[std::size_t(q[2])].cross(x[std::size_t(q[3])])) / 6;
+    if (q[2] != q[3])
+      sum += x[std::size_t(q[0])].dot(x[std::size_t(q[2])].cross(x[std::size_t(q[3])])) / 6;
   }
   return sum;
 }
@@ -183,7 +185,8 @@ TEST(FigureShapes, SlicesHaveTheirContoursWhereTheTissuesEnd) {
     for (const auto& line : contours.skin) {
       const Vec3 x = frame.at(line[0]);
       // Beside the muscle, which is body too, the border of the body leaves the ball.
-      if (x.y() < 26) EXPECT_NEAR(x.norm(), 40, 1.5) << x.transpose();
+      if (x.y() >= 26) continue;
+      EXPECT_NEAR(x.norm(), 40, 1.5) << x.transpose();
     }
   }
 }
@@ -210,7 +213,8 @@ TEST(FigureShapes, SlicesShowTheirPointsWhereTheirLettersSay) {
     double weight = 0;
     for (int row = 0; row < image.height; ++row) {
       for (int column = 0; column < image.width; ++column) {
-        const double grey = image.grey[std::size_t(row) * std::size_t(image.width) + std::size_t(column)];
+        const double grey =
+            image.grey[std::size_t(row) * std::size_t(image.width) + std::size_t(column)];
         sum += grey * Vec2(column, image.height - 1 - row);
         weight += grey;
       }
@@ -227,4 +231,24 @@ TEST(FigureShapes, SlicesShowTheirPointsWhereTheirLettersSay) {
   EXPECT_GT(sagittal.flat(Vec3(0, 0, 40)).y(), sagittal.flat(Vec3(0, 0, 0)).y());
   EXPECT_GT(coronal.flat(Vec3(40, 0, 0)).x(), coronal.flat(Vec3(0, 0, 0)).x());
   EXPECT_GT(coronal.flat(Vec3(0, 0, 40)).y(), coronal.flat(Vec3(0, 0, 0)).y());
+}
+
+// A curve that leaves the image is cut at its border, and its caption says by how much.
+TEST(FigureShapes, CurvesEndAtTheImagesBorder) {
+  const Vec2 size(80, 150);
+  double outside = -1;
+  const auto whole = parts_inside({{10, 10}, {20, 90}, {70, 140}}, size, &outside);
+  ASSERT_EQ(whole.size(), 1u);
+  EXPECT_EQ(whole[0].size(), 3u);
+  EXPECT_NEAR(outside, 0, 1e-12);
+  // In, out beyond u = 80, in again, and at last beyond v = 0.
+  const auto parts =
+      parts_inside({{60, 50}, {100, 50}, {100, 60}, {60, 60}, {60, -30}}, size, &outside);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_NEAR(outside, 20 + 10 + 20 + 30, 1e-9);
+  EXPECT_LT((parts[0].back() - Vec2(80, 50)).norm(), 1e-9);
+  EXPECT_LT((parts[1].front() - Vec2(80, 60)).norm(), 1e-9);
+  EXPECT_LT((parts[1].back() - Vec2(60, 0)).norm(), 1e-9);
+  EXPECT_TRUE(parts_inside({{-5, 3}, {-5, 90}}, size, &outside).empty());
+  EXPECT_NEAR(outside, 87, 1e-12);
 }

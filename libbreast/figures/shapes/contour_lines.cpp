@@ -57,8 +57,8 @@ std::vector<PlaneSegment> contour_lines(const PlaneField& field, double level) {
       std::array<Vec2, 4> crossing;
       std::size_t count = 0;
       for (std::size_t k = 0; k < 4; ++k) {
-        const auto &[i, j] = corner[k];
-        const auto &[m, n] = corner[(k + 1) % 4];
+        const auto& [i, j] = corner[k];
+        const auto& [m, n] = corner[(k + 1) % 4];
         const double a = field.at(i, j), b = field.at(m, n);
         if ((a > level) == (b > level)) continue;
         const double f = (level - a) / (b - a);

@@ -62,8 +62,8 @@ void add_cells(const HexMesh& mesh, const std::vector<Vec3>& field, int element,
                    b = at(i + 0.5, j + 1, k + 0.5) - at(i + 0.5, j, k + 0.5),
                    c = at(i + 0.5, j + 0.5, k + 1) - at(i + 0.5, j + 0.5, k);
         const Vec3 middle = local_at(i + 0.5, j + 0.5, k + 0.5);
-        list.push_back({std::abs(a.cross(b).dot(c)),
-                        element_position(mesh, field, element, middle).x()});
+        list.push_back(
+            {std::abs(a.cross(b).dot(c)), element_position(mesh, field, element, middle).x()});
       }
     }
   }
@@ -88,7 +88,7 @@ class Surface {
       : mesh_(mesh), nodal_(nodal), field_(field), level_(level) {}
 
   void add_element(int element) {
-    std::array<Corner, std::size_t(side* side* side)> lattice;
+    std::array<Corner, std::size_t(side * side * side)> lattice;
     bool above = false, below = false;
     for (int n = 0; n < int(lattice.size()); ++n) {
       const Vec3 local = local_at(n % side, n / side % side, n / (side * side));
@@ -133,7 +133,8 @@ class Surface {
         .first->second;
   }
   int crossing(const Corner& a, const Corner& b) {
-    const auto [at, added] = crossings_.try_emplace(std::minmax(a.id, b.id), int(facets_.points.size()));
+    const auto [at, added] =
+        crossings_.try_emplace(std::minmax(a.id, b.id), int(facets_.points.size()));
     if (added) {
       const double f = a.value / (a.value - b.value);
       facets_.points.push_back((1 - f) * a.place + f * b.place);
@@ -150,7 +151,7 @@ class Surface {
       outwards += at < middle ? Vec3(-(*at)->place / double(inside))
                               : Vec3((*at)->place / double(4 - inside));
     }
-    const auto &[p, q, r, s] = corners;
+    const auto& [p, q, r, s] = corners;
     if (inside == 1) {
       triangle(crossing(*p, *q), crossing(*p, *r), crossing(*p, *s), outwards);
     } else if (inside == 3) {

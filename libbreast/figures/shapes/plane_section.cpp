@@ -91,7 +91,9 @@ std::vector<std::array<Vec3, 2>> silhouette(const Facets& facets, const Vec3& di
   };
   std::vector<std::array<Vec3, 2>> lines;
   for (const auto& [a, b] : contour_lines(thinned(smoothed(field, thinning * raster_mm)), 0.5)) {
-    lines.push_back({lifted(a), lifted(b)});
+    // A little longer than they are: wide lines leave gaps where pieces only touch.
+    const Vec2 more = 0.15 * raster_mm * (b - a).stableNormalized();
+    lines.push_back({lifted(a - more), lifted(b + more)});
   }
   return lines;
 }

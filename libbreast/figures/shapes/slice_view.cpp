@@ -166,7 +166,8 @@ double white_level(const Volume<float>& scan, const LabelVolume& labels) {
   if (sample.empty()) return 1;
   const auto high = sample.begin() + std::ptrdiff_t(0.995 * double(sample.size() - 1));
   std::nth_element(sample.begin(), high, sample.end());
-  if (!(*high > 0)) throw input_error("scan: dark where the labels have the breast; another scan's?");
+  if (!(*high > 0))
+    throw input_error("scan: dark where the labels have the breast; another scan's?");
   return *high;
 }
 

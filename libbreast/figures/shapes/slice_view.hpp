@@ -17,7 +17,7 @@ enum class SlicePlane { axial, sagittal, coronal };
 /// the front.
 struct SliceFrame {
   SlicePlane plane = SlicePlane::axial;
-  Vec3 right, up, corner;  ///< unit vectors; the lower left corner
+  Vec3 right, up, corner;        ///< unit vectors; the lower left corner
   double width = 0, height = 0;  ///< mm
 
   /// The frame of `size` mm about a point.
