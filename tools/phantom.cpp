@@ -21,9 +21,8 @@ namespace {
 
 struct Choices {
   std::filesystem::path image, truth, dicom;
-  std::string preset = "average", materials, solve = "both";
+  std::string preset = "average", materials;
   int seed = 1;
-  bool solves(Side side) const { return solve == "both" || solve == side_name(side); }
   double bias = 2, noise = 2, coarse = 1;
 };
 
@@ -51,9 +50,6 @@ void declare(Tool& tool, Choices& c) {
   tool.number(c.noise, "--noise", "%", "noise in per cent of the fat signal", 0, 100);
   tool.text(c.materials, "--materials", "NAME|FILE",
             "material set of the breasts; without it the preset's");
-  tool.choice(c.solve, "--solve", {"both", "left", "right"},
-              "breast whose stress-free and supine truth is solved; the other is in the scan all the "
-              "same, in half the time. Only for presets that are shaped as they hang");
   tool.number(c.coarse, "--coarse", "FACTOR",
               "larger voxels and, from 2 on, a coarser mesh: for tests", 1, 8);
   tool.check([&c] {
@@ -74,20 +70,16 @@ PhantomParameters parameters_of(const Choices& c) {
   return p;
 }
 
-/// Without `postures` what the scan alone says: labels and surfaces, no mesh.
 void write_truth_side(const std::filesystem::path& folder, PhantomBreast& breast,
-                      const Postures* postures, const PhantomScene& scene, const PhantomImage& image,
-                      Run& run) {
+                      const Postures& postures, const PhantomScene& scene, const PhantomImage& image, Run& run) {
   const std::string side(side_name(breast.mesh.side));
   LabelVolume labels = true_labels(scene, image, breast.mesh.side);
   labels.history = breast.mesh.history = run.history({});
   report_volumes(labels, "volumes_ml/" + side, run.report());
   write_labels(folder / ("labels-" + side + ".vtkhdf"), labels);
   HexMesh mesh = breast.mesh;
-  if (postures != nullptr) {
-    mesh.reference = postures->stress_free;
-    write_mesh(folder / (side + ".vtkhdf"), mesh);
-  }
+  mesh.reference = postures.stress_free;
+  write_mesh(folder / (side + ".vtkhdf"), mesh);
   write_surface(folder / ("skin-" + side + ".vtp"),
                 boundary_surface(mesh, mesh.points, mesh.skin_faces));
   write_surface(folder / ("wall-" + side + ".vtp"),
@@ -96,10 +88,6 @@ void write_truth_side(const std::filesystem::path& folder, PhantomBreast& breast
 
 void run_phantom(const Choices& c, Run& run) {
   const PhantomParameters parameters = parameters_of(c);
-  if (c.solve != "both" && !parameters.body.slides) {
-    throw input_error("--solve ", c.solve, ": preset ", c.preset,
-                      " is shaped stress-free, so its scan needs both breasts solved; leave out --solve");
-  }
   const MaterialSet materials = body_materials(parameters.body);
   // Made before minutes are spent on what goes into it.
   std::optional<AtomicFolder> folder;
@@ -114,7 +102,6 @@ void run_phantom(const Choices& c, Run& run) {
   double worst = 0;
   std::map<Side, Postures> solved;
   for (Side side : {Side::left, Side::right}) {
-    if (!c.solves(side)) continue;
     Timer::Scope phase(run.timer(), "mechanics");
     PhantomBreast& breast = scene.breast(side);
     TruthError error;
@@ -136,8 +123,7 @@ void run_phantom(const Choices& c, Run& run) {
   if (!c.truth.empty()) {
     const std::filesystem::path& truth = folder->temporary();
     for (Side side : {Side::left, Side::right})
-      write_truth_side(truth, scene.breast(side), solved.contains(side) ? &solved.at(side) : nullptr, scene,
-                       image, run);
+      write_truth_side(truth, scene.breast(side), solved.at(side), scene, image, run);
     write_table(truth / "landmarks.tsv", landmarks);
     for (Side side : {Side::left, Side::right})
       write_table(truth / ("tumour-" + std::string(side_name(side)) + ".tsv"),
