@@ -2,14 +2,16 @@
 # Pictures in the manner of the paper's Figs 4-7 (figures.tsv), drawn off-screen; fig4 ... fig7 are the panels of one of them.
 F := $(RUN)/figures
 FIGURES :=
+on_scan = --scan $(MR) --labels $(RUN)/labels.vtkhdf $(addprefix --series ,$(SERIES))
 $(foreach n,4 5 6 7,$(eval fig$n :=))
 define picture
 file := $(F)/$(call cell,picture).png
 FIGURES += $(if $(filter all $(if $(no_tumour),,tumour),$(call cell,of)),$(file))
 $(foreach p,$(call text,$(call cell,panels)),$(eval $p += $(file)))
-$(file): figure := $(call cell,figure)
-$(file): $(patsubst $(RUN)/CURVE,$(CURVE),$(addprefix $(RUN)/,$(call text,$(call cell,files)))) $(RENDER)
-	@mkdir -p $(@D) && $(RENDER) $(filter %.vtkhdf %.vtp %.vti,$^) --figure $(figure) -o $@
+$(file): figure := $(call cell,figure) $(if $(call cell,scan),$(on_scan))
+$(file): $(patsubst $(RUN)/CURVE,$(CURVE),$(addprefix $(RUN)/,$(call text,$(call cell,files)))) \
+  $(if $(call cell,scan),$(RUN)/labels.vtkhdf) $(RENDER)
+	@mkdir -p $(@D) && $(RENDER) $(filter-out %/labels.vtkhdf,$(filter %.vtkhdf %.vtp %.vti,$^)) --figure $(figure) -o $@
 endef
 $(call read_table,$(PIPELINES)/figures.tsv)
 $(call each_row,picture)

@@ -6,9 +6,11 @@
 #include "core/error.hpp"
 #include "figures/figures.hpp"
 #include "io/geometry_file.hpp"
+#include "io/label_file.hpp"
 #include "io/mammogram_file.hpp"
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
+#include "io/volume_file.hpp"
 
 using namespace breast;
 
@@ -16,10 +18,13 @@ namespace {
 
 struct Choices {
   std::vector<std::filesystem::path> files;
+  std::filesystem::path scan, labels;
+  int series = 0;
   std::string figure;
   std::filesystem::path output;
 
   void check() const {
+    if (scan.empty() != labels.empty()) throw input_error("--scan and --labels go together");
     for (const auto& file : files) {
       const std::string ending = file.extension().string();
       if (ending != ".vtkhdf" && ending != ".vti" && ending != ".vtp") {
@@ -56,6 +61,10 @@ std::string figure_list() {
 void run_render(const Choices& choices, Run& run) {
   FigureInput input;
   for (const auto& file : choices.files) add_file(file, choices.figure, input);
+  if (!choices.scan.empty()) {
+    input.scan = read_volume(choices.scan, choices.series);
+    input.labels = read_labels(choices.labels);
+  }
   Timer::Scope phase(run.timer(), "draw");
   draw_figure(choices.figure, input, choices.output);
   run.report().set("figure", choices.figure);
@@ -75,10 +84,18 @@ int main(int argc, char** argv) {
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Figs 4 to 7");
   tool.inputs(choices.files, "FILE",
               "meshes (.vtkhdf), mammograms (.vti), points or curves (.vtp)");
+  tool.input_file(choices.scan, "--scan", "MR",
+                  "MR scan behind the contours of slices and summary (.nrrd, .nii, .nii.gz, .mha or a "
+                  "DICOM folder)");
+  tool.integer(choices.series, "--series", "N", "series of a DICOM folder (0: the only one)", 0,
+               100000);
+  tool.input_file(choices.labels, "--labels", "LABELS.vtkhdf", "segmentation of that scan (segment)");
   tool.choice(choices.figure, "--figure", figure_names(), "figure to draw");
   tool.output_file(choices.output, "-o,--output", "OUT.png", "the picture");
   tool.required("--output");
   tool.check([&] { choices.check(); });
+  tool.example("render mesh.vtkhdf --figure slices --scan scan.nrrd --labels labels.vtkhdf -o slices.png",
+               "the scan in three planes through the tumour, with the contours of the segmentation");
   tool.example("render mesh.vtkhdf --figure tissues -o tissues.png",
                "fibroglandular tissue and tumour through a translucent skin");
   tool.example("render cc.vti mlo.vti curve.vtp --figure mammogram -o mammograms.png",

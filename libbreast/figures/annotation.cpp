@@ -1,8 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Captions, scale bars and compasses of a panel.
+#include <vtkActor2D.h>
+#include <vtkCellArray.h>
+#include <vtkCoordinate.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty2D.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,10 +25,49 @@ namespace breast {
 namespace {
 constexpr Colour black{0, 0, 0};
 constexpr double letters = 17;  // pixels
+
+vtkSmartPointer<vtkActor2D> annulus(const Vec2& centre, double inner, double outer,
+                                    const Colour& colour) {
+  constexpr int steps = 72;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (int k = 0; k < steps; ++k) {
+    const double angle = 2 * std::numbers::pi * k / steps;
+    for (const double radius : {inner, outer}) {
+      const Vec2 p = supersampling * (centre + radius * Vec2(std::cos(angle), std::sin(angle)));
+      points->InsertNextPoint(p.x(), p.y(), 0);
+    }
+    const int next = (k + 1) % steps;
+    cells->InsertNextCell({2 * k, 2 * k + 1, 2 * next + 1, 2 * next});
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(cells);
+  vtkNew<vtkCoordinate> viewport;
+  viewport->SetCoordinateSystemToViewport();
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(data);
+  mapper->SetTransformCoordinate(viewport);
+  auto actor = vtkSmartPointer<vtkActor2D>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(colour.r, colour.g, colour.b);
+  return actor;
+}
 }  // namespace
 
-void Panel::caption(const std::string& words) {
-  text({10, size().y() - 18}, words, letters + 1, black);
+int Panel::caption(const std::string& words) {
+  constexpr double letter_width = 8.4, line_height = 22;
+  const auto room = std::size_t(std::max(12.0, (size().x() - 14) / letter_width));
+  std::istringstream stream(words);
+  std::vector<std::string> lines(1);
+  for (std::string word; stream >> word;) {
+    if (!lines.back().empty() && lines.back().size() + 1 + word.size() > room) lines.emplace_back();
+    lines.back() += (lines.back().empty() ? "" : " ") + word;
+  }
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    text({10, size().y() - 18 - line_height * double(k)}, lines[k], letters + 1, black);
+  }
+  return int(lines.size());
 }
 
 void Panel::scale_bar(const Colour& colour) {
@@ -34,6 +83,23 @@ void Panel::scale_bar(const Colour& colour) {
   for (const Vec2& end : {left, right}) line(end - Vec2(0, 5), end + Vec2(0, 5), colour, 2);
   text(0.5 * (left + right) + Vec2(0, 16), std::to_string(int(length)) + " mm", letters - 1, colour,
        Align::centre);
+}
+
+// Filled annuli: wide lines of many short pieces would show gaps between them.
+void Panel::ring(const Vec3& at, double radius, const Colour& colour) {
+  constexpr double half_width = 1.3, rim = 1.0;  // pixels
+  impl_->front->AddViewProp(annulus(to_pixel(at), radius - half_width - rim,
+                                    radius + half_width + rim, black));
+  impl_->front->AddViewProp(
+      annulus(to_pixel(at), radius - half_width, radius + half_width, colour));
+}
+
+void Panel::arrow(const Vec3& from, const Vec3& to, const Colour& colour) {
+  const Vec2 start = to_pixel(from), tip = to_pixel(to);
+  if ((tip - start).norm() < 8) return;  // shorter than its own head
+  const Vec2 along = (tip - start).normalized(), side(-along.y(), along.x());
+  line(start, tip, colour, 2.2);
+  path({tip - 10 * along + 4.5 * side, tip, tip - 10 * along - 4.5 * side}, colour, 2.2);
 }
 
 void Panel::compass() {

@@ -80,10 +80,20 @@ vtkSmartPointer<vtkPolyData> vtk_facets(const Facets& facets) {
 Panel::Panel(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Panel::~Panel() = default;
 
+void Panel::draw_through(bool on) {
+  impl_->through = on;
+}
+
 void Panel::surface(const Facets& facets, const Look& look) {
   const auto data = vtk_facets(facets);
   vtkNew<vtkPolyDataMapper> mapper;
-  if (look.smooth) {
+  if (!facets.normals.empty()) {
+    vtkNew<vtkDoubleArray> normals;
+    normals->SetNumberOfComponents(3);
+    for (const Vec3& n : facets.normals) normals->InsertNextTuple(n.data());
+    data->GetPointData()->SetNormals(normals);
+    mapper->SetInputData(data);
+  } else if (look.smooth) {
     vtkNew<vtkPolyDataNormals> normals;
     normals->SetInputData(data);
     normals->SetFeatureAngle(50);
@@ -108,7 +118,7 @@ void Panel::surface(const Facets& facets, const Look& look) {
     property->SetEdgeColor(look.edge_colour.r, look.edge_colour.g, look.edge_colour.b);
     property->SetLineWidth(float(0.7 * supersampling));
   }
-  impl_->renderer->AddViewProp(actor);
+  impl_->add(actor);
   for (const auto& quad : facets.quads) {
     for (const int corner : quad) impl_->extend(facets.points[corner]);
   }
@@ -216,7 +226,32 @@ void Panel::stroke(const std::vector<Vec3>& points, const Colour& colour, double
   actor->GetProperty()->SetColor(colour.r, colour.g, colour.b);
   actor->GetProperty()->SetLineWidth(float(width * supersampling));
   actor->GetProperty()->LightingOff();
-  impl_->renderer->AddActor(actor);
+  impl_->add(actor);
+}
+
+void Panel::strokes(const std::vector<std::array<Vec3, 2>>& pieces, const Colour& colour,
+                    double width) {
+  if (pieces.empty()) return;
+  std::vector<Vec3> ends;
+  vtkNew<vtkCellArray> cells;
+  for (const auto& piece : pieces) {
+    cells->InsertNextCell(2);
+    for (const Vec3& end : piece) {
+      cells->InsertCellPoint(vtkIdType(ends.size()));
+      ends.push_back(end);
+    }
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(vtk_points(ends));
+  data->SetLines(cells);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(colour.r, colour.g, colour.b);
+  actor->GetProperty()->SetLineWidth(float(width * supersampling));
+  actor->GetProperty()->LightingOff();
+  impl_->add(actor, ends);
 }
 
 void Panel::look_along(const Vec3& direction, const Vec3& up, double margin) {
@@ -275,38 +310,65 @@ Vec2 Panel::to_pixel(const Vec3& x) const {
   return 0.5 * size() + Vec2(d.dot(impl_->right), d.dot(impl_->top)) / mm_per_pixel();
 }
 
-void Panel::text(const Vec2& at, const std::string& words, double height, const Colour& colour,
-                 Align align) {
-  vtkNew<vtkTextActor> actor;
+namespace {
+
+vtkSmartPointer<vtkTextActor> words_at(const Vec2& at, const std::string& words, double height,
+                                       const Colour& colour, Align align) {
+  auto actor = vtkSmartPointer<vtkTextActor>::New();
   actor->SetInput(words.c_str());
   actor->SetTextScaleModeToNone();
   vtkTextProperty* property = actor->GetTextProperty();
   property->SetFontFamilyToArial();
   property->SetFontSize(int(std::lround(height * supersampling)));
   property->SetColor(colour.r, colour.g, colour.b);
+  if (colour.r + colour.g + colour.b > 2.4) {  // light words stand on an image
+    property->ShadowOn();
+    property->SetShadowOffset(supersampling, -supersampling);
+  }
   property->SetVerticalJustificationToCentered();
   if (align == Align::left) property->SetJustificationToLeft();
   if (align == Align::centre) property->SetJustificationToCentered();
   if (align == Align::right) property->SetJustificationToRight();
   actor->GetPositionCoordinate()->SetCoordinateSystemToViewport();
   actor->SetPosition(at.x() * supersampling, at.y() * supersampling);
-  impl_->renderer->AddViewProp(actor);
+  return actor;
+}
+
+}  // namespace
+
+// What lies in the plane of the picture goes to the front layer, over what is drawn through.
+void Panel::text(const Vec2& at, const std::string& words, double height, const Colour& colour,
+                 Align align) {
+  impl_->front->AddViewProp(words_at(at, words, height, colour, align));
+}
+
+void Panel::label(const Vec2& at, const std::string& words, double height, const Colour& colour,
+                  Align align) {
+  const auto actor = words_at(at, words, height, colour, align);
+  actor->GetTextProperty()->SetBackgroundColor(1, 1, 1);
+  actor->GetTextProperty()->SetBackgroundOpacity(0.8);
+  impl_->front->AddViewProp(actor);
 }
 
 void Panel::line(const Vec2& from, const Vec2& to, const Colour& colour, double width) {
+  path({from, to}, colour, width);
+}
+
+void Panel::path(const std::vector<Vec2>& points, const Colour& colour, double width) {
   vtkNew<vtkCoordinate> viewport;
   viewport->SetCoordinateSystemToViewport();
   vtkNew<vtkPolyDataMapper2D> mapper;
-  const auto lifted = [](const Vec2& p) {
-    return Vec3(p.x() * supersampling, p.y() * supersampling, 0);
-  };
-  mapper->SetInputData(vtk_line({lifted(from), lifted(to)}));
+  std::vector<Vec3> lifted;
+  for (const Vec2& p : points) {
+    lifted.emplace_back(p.x() * supersampling, p.y() * supersampling, 0);
+  }
+  mapper->SetInputData(vtk_line(lifted));
   mapper->SetTransformCoordinate(viewport);
   vtkNew<vtkActor2D> actor;
   actor->SetMapper(mapper);
   actor->GetProperty()->SetColor(colour.r, colour.g, colour.b);
   actor->GetProperty()->SetLineWidth(float(width * supersampling));
-  impl_->renderer->AddViewProp(actor);
+  impl_->front->AddViewProp(actor);
 }
 
 }  // namespace breast

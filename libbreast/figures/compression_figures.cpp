@@ -69,19 +69,23 @@ void compression_row(Picture& picture, const HexMesh& mesh, double bottom, doubl
   Panel& middle = picture.panel(1.0 / 3, bottom, 2.0 / 3, top);
   add_body(middle, mesh, mesh.points, {});
   add_plates(middle, mesh, 0.45);
+  add_image_border(middle, mesh);
   Panel& right = picture.panel(2.0 / 3, bottom, 1, top);
   add_body(right, mesh, mesh.points, {.edges = true});
   add_plates(right, mesh, 0.25);
+  add_image_border(right, mesh);
   const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg, mesh.contact->turn_deg);
   finish({{left, view, name(0) + "stress-free, plates touching"},
           {middle, view, name(1) + compression_caption(mesh)},
           {right,
            {-pose.e_u + 0.35 * view.direction + 0.3 * pose.n, -pose.n},
-           name(2) + "from the front, with elements"}});
+           name(2) + "from the front; orange: border of the image"}});
 }
 
 void add_columns(Panel& panel, const PolyLines& curves, const std::string& name) {
-  for (const auto& line : named_lines(curves, name)) panel.tube(line, 1.2, palette::column);
+  panel.draw_through(true);
+  for (const auto& line : named_lines(curves, name)) panel.tube(line, 1.0, palette::column);
+  panel.draw_through(false);
 }
 
 }  // namespace
@@ -104,15 +108,15 @@ void draw_matching(Picture& picture, const FigureInput& input) {
   const HexMesh *cc = compressed(input, true), *mlo = compressed(input, false);
   need(cc != nullptr || mlo != nullptr, "matching", "a compressed .vtkhdf");
   const HexMesh& any = cc != nullptr ? *cc : *mlo;
-  const BodyStyle style{.skin_opacity = 0.22, .inside = true, .gland_opacity = 0.55};
-  struct Shape {
+  const BodyStyle style{.skin_opacity = 0.22, .inside = true, .gland_opacity = 0.7};
+  struct Posture {
     const HexMesh& mesh;
     const std::vector<Vec3>& points;
     std::string line, caption;
     Camera view;
   };
   const Camera side = lateral_view(any.side);
-  std::vector<Shape> shapes;
+  std::vector<Posture> shapes;
   if (cc != nullptr) {
     const std::string tumour = tumour_words(*cc);
     shapes.push_back(
@@ -133,8 +137,9 @@ void draw_matching(Picture& picture, const FigureInput& input) {
   std::vector<Sight> sights;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     Panel& panel = picture.panel(double(k) * width, 0, double(k + 1) * width, 1);
-    add_body(panel, shapes[k].mesh, shapes[k].points, style);
+    // First the column, so that the tumour in it is not hidden.
     add_columns(panel, *input.curves, shapes[k].line);
+    add_body(panel, shapes[k].mesh, shapes[k].points, style);
     sights.push_back(
         {panel, shapes[k].view, "(" + std::string(1, char('a' + k)) + ") " + shapes[k].caption});
   }

@@ -32,6 +32,10 @@ struct Figure {
 
 const std::vector<Figure>& figures() {
   static const std::vector<Figure> list = {
+      {"slices",
+       "the scan in three planes with its segmentation's contours (--scan, --labels, mesh "
+       ".vtkhdf)",
+       1800, 760, false, false, draw_slices},
       {"points", "data points of skin and chest wall (points .vtp of segment)", 1600, 800, false,
        true, draw_points},
       {"geometry",
@@ -60,9 +64,9 @@ const std::vector<Figure>& figures() {
        "or one of them, curve.vtp)",
        1800, 680, false, false, draw_matching},
       {"summary",
-       "the whole chain (mesh reference supine cc mlo .vtkhdf, cc.vti mlo.vti, optionally "
-       "curve.vtp)",
-       2000, 1250, false, false, draw_summary},
+       "the whole chain (mesh reference supine cc mlo .vtkhdf, cc.vti mlo.vti, optionally curve.vtp, "
+       "--scan and --labels)",
+       1500, 1050, false, false, draw_summary},
   };
   return list;
 }

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "image/label_volume.hpp"
+#include "image/volume.hpp"
 #include "mesh/hex_mesh.hpp"
 #include "projection/mammogram.hpp"
 #include "surface/hermite.hpp"
@@ -25,9 +27,11 @@ struct FigureInput {
   std::optional<BreastGeometry> geometry;
   std::vector<TriMesh> surfaces;    ///< data points of segment
   std::optional<PolyLines> curves;  ///< of cc2mlo
+  std::optional<Volume<float>> scan;
+  std::optional<LabelVolume> labels;  ///< of that scan
 };
 
-/// "points", "geometry", "mesh", "tissues", "outlines", "compression", "pressure",
+/// "slices", "points", "geometry", "mesh", "tissues", "outlines", "compression", "pressure",
 /// "force-thickness", "mammogram", "matching", "summary".
 const std::vector<std::string>& figure_names();
 /// One line for the help on what the figure shows and needs.

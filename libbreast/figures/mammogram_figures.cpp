@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "core/table.hpp"
 #include "figures/parts.hpp"
@@ -81,56 +80,61 @@ Colour query_colour(int query, int count) {
   return {1 - 0.9 * channel(5), 1 - 0.9 * channel(3), 1 - 0.9 * channel(1)};
 }
 
-// A filled dot with a dark rim, legible on grey and black.
-void dot(Panel& panel, const Vec3& at, double radius, const Colour& colour) {
-  panel.sphere(at, radius, colour);
-  std::vector<Vec3> circle;
-  for (int k = 0; k <= 32; ++k) {
-    const double a = 2 * std::numbers::pi * k / 32;
-    circle.push_back(at + 1.15 * radius * Vec3(std::cos(a), std::sin(a), 0) + Vec3(0, 0, radius));
-  }
-  panel.stroke(circle, {0, 0, 0}, 1.5);
-}
+constexpr double ring_pixels = 13, nipple_pixels = 9, point_pixels = 6;
 
-void cross(Panel& panel, const Vec3& at, double radius) {
-  panel.stroke({at - Vec3(radius, 0, 0), at + Vec3(radius, 0, 0)}, white, 1.5);
-  panel.stroke({at - Vec3(0, radius, 0), at + Vec3(0, radius, 0)}, white, 1.5);
-}
+/// A ring to draw when the camera stands.
+struct Mark {
+  Vec3 at;
+  double radius;
+  Colour colour;
+};
 
 std::string add_curves(Panel& panel, const Mammogram& image, const PolyLines& curves,
-                       const Hanging& hanging) {
+                       const Hanging& hanging, std::vector<Mark>& marks) {
   const auto points = image_lines(curves, "point in CC");
   const int count = int(points.size());
+  const Vec2 size(hanging.width(), hanging.height());
+  double outside = 0;
+  // What lies outside the image is not drawn, but said. Returns its length.
   const auto draw = [&](const ImageLine& line, const Colour& colour, double width) {
-    std::vector<Vec3> path;
-    for (const Vec2& uv : line.uv) path.push_back(hanging.at(uv));
-    panel.stroke(path, colour, width);
+    double lost = 0;
+    for (const auto& part : parts_inside(line.uv, size, &lost)) {
+      std::vector<Vec3> path;
+      for (const Vec2& uv : part) path.push_back(hanging.at(uv));
+      panel.stroke(path, colour, width);
+    }
+    return lost;
   };
   const bool cc = image.view == View::cc;
   for (const auto& nipple : image_lines(curves, cc ? "nipple in CC" : "nipple in MLO")) {
-    cross(panel, hanging.at(nipple.uv[0]), 2.5);
+    marks.push_back({hanging.at(nipple.uv[0]), nipple_pixels, white});
   }
   if (cc) {
     for (const auto& p : points) {
-      dot(panel, hanging.at(p.uv[0], 3), 1.6, query_colour(p.query, count));
+      marks.push_back({hanging.at(p.uv[0]), count > 1 ? point_pixels : ring_pixels,
+                       query_colour(p.query, count)});
     }
     if (count > 1) return "points";
-    return of_artificial_tumour(curves) ? "dot: the artificial tumour; cross: nipple"
-                                        : "dot: the point; cross: nipple";
+    return of_artificial_tumour(curves) ? "yellow ring: artificial tumour; white: nipple"
+                                        : "yellow ring: the point; white: nipple";
   }
   if (count == 1) {
     for (const auto& line : image_lines(curves, "arc")) draw(line, palette::arc, 2.5);
   }
   for (const auto& line : image_lines(curves, "curve")) {
-    draw(line, count == 1 ? Colour{0.1, 0.9, 0.4} : query_colour(line.query, count), 3);
+    outside += draw(line, count == 1 ? Colour{0.1, 0.9, 0.4} : query_colour(line.query, count), 3);
   }
   const auto places = image_lines(curves, is_place);
-  for (const auto& p : places) dot(panel, hanging.at(p.uv[0], 3), 1.6, palette::tumour);
-  if (count > 1) return "their curves";
-  const std::string words = "green: its curve; blue: equal nipple distance";
+  for (const auto& p : places) {
+    marks.push_back({hanging.at(p.uv[0]), count > 1 ? point_pixels : ring_pixels, palette::tumour});
+  }
+  const std::string lost =
+      outside >= 0.5 ? " (" + format_fixed(outside, 0) + " mm outside the image)" : "";
+  if (count > 1) return "their curves" + lost;
+  const std::string words = "green: its curve" + lost + "; blue: equal nipple distance";
   if (places.empty()) return words;
-  if (of_artificial_tumour(curves)) return words + "; dot: artificial tumour";
-  return words + "; dot: model's own place";
+  if (of_artificial_tumour(curves)) return words + "; ring: artificial tumour";
+  return words + "; ring: model's own place";
 }
 
 void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
@@ -169,7 +173,7 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
     const bool blank = image.blank(std::size_t(first - back.begin()));
     const double chest = hanging.left() ? low.x() + 6 : high.x() - 6;
     panel.text({chest, low.y() + 14},
-               blank ? "even grey: behind the mesh" : "at the back: fat where the mesh ends",
+               blank ? "even grey: chest wall" : "at the back: fat assumed beyond the mesh",
                letters - 2, {0.85, 0.85, 0.85}, hanging.left() ? Align::left : Align::right);
   }
   const std::string top = image.view == View::cc ? "lateral" : "superior";
@@ -179,10 +183,40 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
   const std::string marker = (hanging.left() ? "L " : "R ") + view_name(image.view);
   panel.text({inset, high.y() - 18}, marker, 22, white, inner);
   panel.text({inset, high.y() - 42}, top, letters, white, inner);
-  panel.text({inset, low.y() + 14}, bottom, letters, white, inner);
+  // In a narrow image above the words at the chest wall.
+  const double row = high.x() - low.x() < 400 ? 54 : 14;
+  panel.text({inset, low.y() + row}, bottom, letters, white, inner);
 }
 
 }  // namespace
+
+std::vector<std::vector<Vec2>> parts_inside(const std::vector<Vec2>& line, const Vec2& size,
+                                            double* outside_mm) {
+  std::vector<std::vector<Vec2>> parts;
+  double all = 0, kept = 0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Vec2 &a = line[i], along = line[i + 1] - a;
+    all += along.norm();
+    // The piece from t = low to high lies between all four sides.
+    double low = 0, high = 1;
+    for (int d = 0; d < 2; ++d) {
+      for (const double side : {0.0, size[d]}) {
+        const double room = side > 0 ? side - a[d] : a[d];       // >= 0: a is within this side
+        const double closing = side > 0 ? along[d] : -along[d];  // by which the way to b lessens it
+        if (closing > 0) high = std::min(high, room / closing);
+        if (closing < 0) low = std::max(low, room / closing);
+        if (closing == 0 && room < 0) high = -1;
+      }
+    }
+    if (!(high > low)) continue;
+    kept += (high - low) * along.norm();
+    const Vec2 start = a + low * along, end = a + high * along;
+    if (parts.empty() || low > 0 || (parts.back().back() - start).norm() > 1e-9) parts.push_back({start});
+    parts.back().push_back(end);
+  }
+  if (outside_mm != nullptr) *outside_mm = all - kept;
+  return parts;
+}
 
 void add_mammogram(Panel& panel, const Mammogram& image, const PolyLines* curves,
                    const std::string& letter) {
@@ -190,16 +224,18 @@ void add_mammogram(Panel& panel, const Mammogram& image, const PolyLines* curves
   const Hanging hanging(image);
   panel.image(hung.grey, hung.width, hung.height, image.pixel);
   std::string words = letter + view_name(image.view);
-  if (curves != nullptr) words += "; " + add_curves(panel, image, *curves, hanging);
+  std::vector<Mark> marks;
+  if (curves != nullptr) words += "; " + add_curves(panel, image, *curves, hanging, marks);
   // Room for axes (70 and 100 pixels beside and below) and caption.
-  const Vec2 free = panel.size() - Vec2(100, 110);
+  const int more_lines = panel.caption(words) - 1;
+  const Vec2 free = panel.size() - Vec2(100, 110 + 22 * more_lines);
   const double scale = std::max(hanging.width() / free.x(), hanging.height() / free.y());
   const double sideways = hanging.left() ? 12 : -12;
-  panel.look_along(
-      {0, 0, -1}, {0, 1, 0},
-      Vec3(hanging.width() / 2, hanging.height() / 2, 0) + scale * Vec3(sideways, -10, 0),
-      scale * panel.size().y());
-  panel.caption(words);
+  panel.look_along({0, 0, -1}, {0, 1, 0},
+                   Vec3(hanging.width() / 2, hanging.height() / 2, 0) +
+                       scale * Vec3(sideways, -10 + 11 * more_lines, 0),
+                   scale * panel.size().y());
+  for (const Mark& mark : marks) panel.ring(mark.at, mark.radius, mark.colour);
   axis_ticks(panel, image, hanging);
 }
 

@@ -104,12 +104,13 @@ void draw_mesh(Picture& picture, const FigureInput& input) {
 void draw_tissues(Picture& picture, const FigureInput& input) {
   need(!input.meshes.empty(), "tissues", "a mesh .vtkhdf");
   const HexMesh& mesh = input.meshes.front().mesh;
-  const BodyStyle style{.skin_opacity = 0.28, .inside = true, .gland_opacity = 0.75};
+  const BodyStyle style{.skin_opacity = 0.28, .inside = true, .gland_opacity = 0.85};
   Panel& left = picture.panel(0, 0, 0.5, 1);
   add_body(left, mesh, mesh.points, style);
   const std::string tumour = tumour_words(mesh);
   finish(left, lateral_view(mesh.side),
-         "(a) fibroglandular (dark), " + (tumour.empty() ? "" : tumour + ", ") + "muscle (red)");
+         "(a) fibroglandular (violet), " + (tumour.empty() ? "" : tumour + " drawn through, ") +
+             "muscle (red)");
   Panel& right = picture.panel(0.5, 0, 1, 1);
   add_body(right, mesh, mesh.points, style);
   finish(right, anterior_view(),

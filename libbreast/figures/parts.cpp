@@ -8,7 +8,9 @@
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "core/units.hpp"
+#include "figures/shapes/gland_surface.hpp"
 #include "mesh/landmark_names.hpp"
+#include "projection/framing.hpp"
 
 namespace breast {
 
@@ -55,11 +57,13 @@ void add_body(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
                    .edges = style.edges});
   }
   if (!style.inside) return;
-  panel.surface(tissue_facets(mesh, nodal, Tissue::fibroglandular),
-                {.colour = palette::gland, .opacity = style.gland_opacity, .smooth = false});
+  panel.surface(gland_facets(mesh, nodal),
+                {.colour = palette::gland, .opacity = style.gland_opacity, .shine = 0.25});
+  panel.draw_through(true);
   const Facets lesion = tissue_facets(mesh, nodal, Tissue::tumour);
   if (!lesion.quads.empty()) panel.surface(lesion, {.colour = palette::tumour});
   add_landmark(panel, mesh, nodal, "tumour", 4, palette::tumour);
+  panel.draw_through(false);
 }
 
 std::string tumour_words(const HexMesh& mesh) {
@@ -97,6 +101,21 @@ void add_plates(Panel& panel, const HexMesh& mesh, double opacity) {
     panel.surface(facets, {.colour = palette::plate, .opacity = opacity, .shine = 0.5});
     panel.tube(outline(facets.points), 0.5, {0.35, 0.45, 0.55});
   }
+}
+
+void add_image_border(Panel& panel, const HexMesh& mesh) {
+  const ImageFrame frame = image_frame(mesh);
+  const auto at = [&](double u, double v) {
+    return Vec3(frame.pose.origin + u * frame.pose.e_u + v * frame.pose.e_v);
+  };
+  const std::vector<Vec3> corners{at(0, 0), at(frame.width, 0), at(frame.width, frame.height),
+                                  at(0, frame.height)};
+  panel.draw_through(true);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    panel.tube({corners[k], corners[(k + 1) % corners.size()]}, k == 3 ? 0.9 : 0.4,
+               palette::image_border);
+  }
+  panel.draw_through(false);
 }
 
 std::string compression_caption(const HexMesh& mesh) {

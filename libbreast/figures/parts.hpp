@@ -5,17 +5,19 @@
 #include "figures/body_surfaces.hpp"
 #include "figures/canvas.hpp"
 #include "figures/figures.hpp"
+#include "figures/shapes/slice_view.hpp"
 
 namespace breast::palette {
 
 inline constexpr Colour skin{0.93, 0.74, 0.63};
 inline constexpr Colour muscle{0.42, 0.15, 0.13};
 inline constexpr Colour cut{0.72, 0.52, 0.45};
-inline constexpr Colour gland{0.40, 0.22, 0.42};
+inline constexpr Colour gland{0.62, 0.36, 0.56};
 inline constexpr Colour tumour{1.0, 0.82, 0.05};
 inline constexpr Colour column{0.0, 0.62, 0.35};
 inline constexpr Colour arc{0.20, 0.55, 1.0};
 inline constexpr Colour plate{0.55, 0.68, 0.80};
+inline constexpr Colour image_border{0.95, 0.50, 0.05};
 inline constexpr Colour ink{0, 0, 0};
 
 }  // namespace breast::palette
@@ -43,6 +45,9 @@ void add_body(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
               const BodyStyle& style);
 /// Both plates of the mesh's compression, long enough for the body.
 void add_plates(Panel& panel, const HexMesh& mesh, double opacity);
+/// The border of the mammogram on the detector, seen through the body: its posterior side is where
+/// the image ends. In the pose of the projection's parallel beam.
+void add_image_border(Panel& panel, const HexMesh& mesh);
 /// A landmark of the mesh as a sphere; nothing when it has none of that name.
 void add_landmark(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
                   const std::string& name, double radius, const Colour& colour);
@@ -55,12 +60,42 @@ std::string compression_caption(const HexMesh& mesh);
 /// begins the caption.
 void add_mammogram(Panel& panel, const Mammogram& image, const PolyLines* curves,
                    const std::string& letter);
+/// The parts of a line within an image of `size` mm; the length of the rest, mm, in `outside_mm`.
+std::vector<std::vector<Vec2>> parts_inside(const std::vector<Vec2>& line, const Vec2& size,
+                                            double* outside_mm);
 /// Points of all lines of that name.
 std::vector<std::vector<Vec3>> named_lines(const PolyLines& lines, const std::string& name);
 
 /// Throws Error (input) naming the figure if fewer files were given.
 void need(bool given, const std::string& figure, const std::string& what);
 
+/// Throws Error (input) without scan and labels.
+void need_scan(const FigureInput& input, const std::string& figure);
+/// The point all three slices pass through: the tumour, or the middle of the fibroglandular tissue.
+Vec3 slices_through(const FigureInput& input);
+/// Width and height in mm that a slice needs to show the breast.
+Vec2 slice_size(const FigureInput& input, SlicePlane plane);
+/// The scan's slice with contours, marks, letters of orientation and scale bar, filling the panel.
+void add_slice(Panel& panel, const FigureInput& input, SlicePlane plane, double mm_per_pixel,
+               const std::string& letter);
+/// One row: what the slices' colours mean.
+void add_slice_legend(Panel& panel, const FigureInput& input,
+                      const std::vector<SlicePlane>& planes);
+
+/// Shapes of one breast over each other: the scan's, then those of the states.
+struct Shape {
+  const HexMesh* mesh;
+  const std::vector<Vec3>* points;
+  std::string name;
+};
+std::vector<Shape> shapes_of(const std::vector<const HexMesh*>& states);
+/// Their silhouettes from the outer side, with arrows from the scan's place of each landmark to that
+/// of the last shape and the distance in mm.
+void add_silhouettes(Panel& panel, const std::vector<Shape>& shapes);
+/// A line a shape: its colour, its name, how far its landmarks have moved.
+void add_shape_legend(Panel& panel, const std::vector<Shape>& shapes);
+
+void draw_slices(Picture& picture, const FigureInput& input);
 void draw_points(Picture& picture, const FigureInput& input);
 void draw_geometry(Picture& picture, const FigureInput& input);
 void draw_mesh(Picture& picture, const FigureInput& input);

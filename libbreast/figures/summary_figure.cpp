@@ -10,8 +10,7 @@ namespace breast {
 
 namespace {
 
-// Pixels of the picture as figures.cpp declares it: the panels' shape follows.
-constexpr double summary_width = 2000, summary_height = 1250;
+constexpr BodyStyle body_style{.skin_opacity = 0.3, .inside = true, .gland_opacity = 0.85};
 
 // The shapes by what their files say of themselves, in any order.
 struct Chain {
@@ -36,34 +35,61 @@ Chain sort_meshes(const FigureInput& input) {
   return chain;
 }
 
-// Extent of a point set along a direction, mm.
-double extent(const std::vector<Vec3>& points, const Vec3& along) {
-  double low = 1e300, high = -1e300;
-  for (const Vec3& x : points) {
-    low = std::min(low, x.dot(along));
-    high = std::max(high, x.dot(along));
+constexpr double legend_height = 0.034, gap = 0.003;
+
+/// Two of the scan's planes at one scale, and below all the row what their colours mean.
+void add_scan(Picture& picture, const FigureInput& input, double bottom, double right) {
+  const std::vector<SlicePlane> planes{SlicePlane::axial, SlicePlane::sagittal};
+  const double axial = slice_size(input, planes[0]).x(),
+               sagittal = slice_size(input, planes[1]).x();
+  const double middle = right * axial / (axial + sagittal);
+  const std::vector<Panel*> panels{
+      &picture.panel(0, bottom + legend_height, middle - gap, 1),
+      &picture.panel(middle, bottom + legend_height, right - gap, 1)};
+  double scale = 0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    scale = std::max(
+        scale, slice_size(input, planes[k]).cwiseQuotient(panels[k]->size()).maxCoeff());
   }
-  return high - low;
+  for (std::size_t k = 0; k < 2; ++k) {
+    add_slice(*panels[k], input, planes[k], scale, k == 0 ? "(a) " : "(b) ");
+  }
+  add_slice_legend(picture.panel(0, bottom, 1, bottom + legend_height), input, planes);
 }
 
-// Height of the view that shows all shapes at one scale in panels of the given width over height.
-double common_height(const Chain& chain, const Camera& view, double aspect) {
-  const Vec3 across = view.direction.cross(view.up).normalized();
-  double height = 1;
-  for (const HexMesh* mesh : {chain.imaged, chain.reference, chain.supine}) {
-    height = std::max({height, extent(mesh->points, view.up) / 0.72,
-                       extent(mesh->points, across) / (0.9 * aspect)});
+/// Without a scan: the tissues of the imaged body from two sides.
+void add_tissues(Picture& picture, const HexMesh& mesh, double bottom, double right) {
+  const std::string tumour = tumour_words(mesh);
+  const std::string words = "fibroglandular (violet)" + (tumour.empty() ? "" : ", " + tumour);
+  for (int k = 0; k < 2; ++k) {
+    Panel& panel = picture.panel(0.5 * right * k, bottom, 0.5 * right * (k + 1), 1);
+    add_body(panel, mesh, mesh.points, body_style);
+    const Camera view = k == 0 ? lateral_view(mesh.side) : anterior_view();
+    panel.look_along(view.direction, view.up);
+    panel.caption(k == 0 ? "(a) as imaged: " + words : "(b) from the front");
+    panel.scale_bar();
+    panel.compass();
   }
-  return height;
 }
 
-Vec3 middle_of(const HexMesh& mesh) {
-  Vec3 low = mesh.points.front(), high = low;
-  for (const Vec3& x : mesh.points) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
+void add_pressed(Panel& panel, const HexMesh& mesh, const PolyLines* curves,
+                 const std::string& letter) {
+  panel.draw_through(true);
+  if (curves != nullptr) {
+    for (const auto& line : named_lines(
+             *curves, mesh.contact->view == View::cc ? "column in CC" : "column in MLO")) {
+      panel.tube(line, 1.0, palette::column);
+    }
   }
-  return 0.5 * (low + high);
+  panel.draw_through(false);
+  add_body(panel, mesh, mesh.points, body_style);
+  add_plates(panel, mesh, 0.4);
+  add_image_border(panel, mesh);
+  const Camera view = plate_view(mesh);
+  panel.look_along(view.direction, view.up, 0.1);
+  panel.caption(letter + compression_caption(mesh) + "; orange: image border");
+  panel.scale_bar();
+  panel.compass();
 }
 
 }  // namespace
@@ -74,46 +100,23 @@ void draw_summary(Picture& picture, const FigureInput& input) {
            input.images.size() >= 2,
        "summary", "five meshes and two mammograms");
   const PolyLines* curves = input.curves ? &*input.curves : nullptr;
-  const bool artificial = tumour_words(*chain.imaged).starts_with("artificial");
-  const Camera side = lateral_view(chain.imaged->side);
-  const double split = 0.54;
-  const double aspect = 0.2 * summary_width / ((1 - split) * summary_height);
-  const double height = common_height(chain, side, aspect);
-  struct Shape {
-    const HexMesh* mesh;
-    std::string caption;
-  };
-  const std::vector<Shape> shapes = {
-      {chain.imaged, artificial ? "(a) prone, artificial tumour" : "(a) as imaged, prone"},
-                                     {chain.reference, "(b) stress-free"},
-                                     {chain.supine, "(c) supine"}};
-  const BodyStyle style{.skin_opacity = 0.3, .inside = true, .gland_opacity = 0.7};
-  for (std::size_t k = 0; k < shapes.size(); ++k) {
-    Panel& panel = picture.panel(0.2 * double(k), split, 0.2 * double(k + 1), 1);
-    add_body(panel, *shapes[k].mesh, shapes[k].mesh->points, style);
-    panel.look_along(side.direction, side.up, middle_of(*shapes[k].mesh), height);
-    panel.caption(shapes[k].caption);
-    panel.scale_bar();
-    panel.compass();
+  constexpr double split = 0.48, scan_right = 0.63;
+  if (input.scan && input.labels) {
+    add_scan(picture, input, split, scan_right);
+  } else {
+    add_tissues(picture, *chain.imaged, split, scan_right);
   }
-  const std::vector<Shape> pressed = {{chain.cc, "(d) "}, {chain.mlo, "(e) "}};
-  for (std::size_t k = 0; k < pressed.size(); ++k) {
-    Panel& panel = picture.panel(0.6 + 0.2 * double(k), split, 0.8 + 0.2 * double(k), 1);
-    add_body(panel, *pressed[k].mesh, pressed[k].mesh->points, style);
-    add_plates(panel, *pressed[k].mesh, 0.4);
-    if (curves != nullptr) {
-      for (const auto& line : named_lines(*curves, k == 0 ? "column in CC" : "column in MLO")) {
-        panel.tube(line, 1.2, palette::column);
-      }
-    }
-    const Camera view = plate_view(*pressed[k].mesh);
-    panel.look_along(view.direction, view.up, 0.1);
-    panel.caption(pressed[k].caption + compression_caption(*pressed[k].mesh));
-    panel.scale_bar();
-    panel.compass();
-  }
+  Panel& postures = picture.panel(scan_right, split + legend_height, 1, 1);
+  const std::vector<Shape> shapes = shapes_of({chain.reference, chain.supine});
+  add_silhouettes(postures, shapes);
+  postures.caption("(c) silhouettes from the outer side");
+  add_shape_legend(postures, shapes);
+  postures.scale_bar();
+  postures.compass();
+  add_pressed(picture.panel(0, 0, 0.25, split), *chain.cc, curves, "(d) ");
+  add_pressed(picture.panel(0.25, 0, 0.5, split), *chain.mlo, curves, "(e) ");
   for (std::size_t k = 0; k < 2; ++k) {
-    Panel& panel = picture.panel(0.5 * double(k), 0, 0.5 * double(k + 1), split);
+    Panel& panel = picture.panel(0.5 + 0.25 * double(k), 0, 0.75 + 0.25 * double(k), split);
     add_mammogram(panel, input.images[k], curves, k == 0 ? "(f) " : "(g) ");
   }
 }

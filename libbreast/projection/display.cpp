@@ -10,10 +10,14 @@ namespace {
 
 // Steeper in the dense tissue than at the skin, as film is.
 constexpr double display_gamma = 2;
-constexpr std::uint16_t unknown_grey = 13000;
-// Where tissue is thinner than between the plates the image may fade towards the skin, and a ray
-// that passes little but skin must not shine: compensation is partial there.
-constexpr double thin_exponent = 0.5;
+// As bright as muscle is beside fat and gland: what lies there is mostly the pectoral muscle.
+constexpr std::uint16_t unknown_grey = 28000;
+// Where tissue is thinner than between the plates the image fades towards the skin. A little
+// compensation keeps the skin's line visible; more makes a bright seam of it, because rays that graze
+// the skin stay in it for centimetres.
+constexpr double thin_exponent = 0.2;
+// Half width, in pixels, over which the border of the unknown part is softened.
+constexpr int soft_border = 2;
 
 float at_rank(std::vector<float> values, double rank, float fallback) {
   if (values.empty()) return fallback;
@@ -44,6 +48,30 @@ double bright_end(const std::vector<float>& shown) {
   return at_rank(tissue, 0.998, 1);
 }
 
+/// Means over the neighbours of pixels that have both known and unknown ones round them: the border
+/// between the two is no line of steps.
+void soften_border(const std::vector<std::uint8_t>& unknown, HungImage& hung) {
+  const std::vector<std::uint16_t> sharp = hung.grey;
+  for (int row = 0; row < hung.height; ++row) {
+    for (int column = 0; column < hung.width; ++column) {
+      int count = 0, flagged = 0;
+      long sum = 0;
+      for (int r = std::max(0, row - soft_border); r <= std::min(hung.height - 1, row + soft_border);
+           ++r) {
+        for (int c = std::max(0, column - soft_border);
+             c <= std::min(hung.width - 1, column + soft_border); ++c) {
+          const std::size_t at = std::size_t(r) * hung.width + c;
+          ++count;
+          flagged += unknown[at];
+          sum += sharp[at];
+        }
+      }
+      if (flagged == 0 || flagged == count) continue;
+      hung.grey[std::size_t(row) * hung.width + column] = std::uint16_t(sum / count);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<float> compensated_path(const Mammogram& image) {
@@ -64,6 +92,7 @@ HungImage hang(const Mammogram& image) {
   const std::vector<float> shown = compensated_path(image);
   hung.window_high = bright_end(shown);
   hung.grey.resize(image.path.size());
+  std::vector<std::uint8_t> unknown(image.path.size(), 0);  // hung
   // e_v points away from lateral (CC) and from superior (MLO) on the left
   // side, towards on the right.
   const bool left = image.side == Side::left;
@@ -75,12 +104,14 @@ HungImage hang(const Mammogram& image) {
       std::uint16_t& grey = hung.grey[std::size_t(row) * image.width + column];
       if (image.blank(from)) {
         grey = unknown_grey;
+        unknown[std::size_t(row) * image.width + column] = 1;
         continue;
       }
       const double value = std::clamp(shown[from] / hung.window_high, 0.0, 1.0);
       grey = std::uint16_t(std::lround(65535 * std::pow(value, display_gamma)));
     }
   }
+  soften_border(unknown, hung);
   return hung;
 }
 

@@ -127,7 +127,10 @@ std::string pictures_text(const fs::path& run) {
   if (fs::is_directory(run / "figures"))
     for (const auto& entry : fs::directory_iterator(run / "figures"))
       if (entry.path().extension() == ".png") pictures.push_back(entry.path().string());
+  // The slices of the scan come first: what all others are made from.
+  const auto first = [](const std::string& picture) { return picture.ends_with("/slices.png"); };
   std::sort(pictures.begin(), pictures.end());
+  std::stable_partition(pictures.begin(), pictures.end(), first);
   std::string text = "Pictures: " + run.string() + "/figures/\n";
   for (const std::string& picture : pictures) text += "  " + picture + "\n";
   return text;

@@ -2,9 +2,13 @@
 // render as a user runs it: every figure, with and without DISPLAY, several at a
 // time, nothing left behind.
 #include <gtest/gtest.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
 
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <thread>
 
 #include "core/atomic_file.hpp"
@@ -12,6 +16,7 @@
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/surface_file.hpp"
+#include "io/volume_file.hpp"
 
 using namespace breast;
 namespace fs = std::filesystem;
@@ -29,6 +34,13 @@ class Render : public testing::Test {
       points.point_data["surface"].push_back(i % 2);
     }
     write_surface(*folder_ / "points.vtp", points);
+    // A scan of the same grid: bright fat, darker gland.
+    const LabelVolume labels = fixtures::analytic_labels();
+    Volume<std::int16_t> scan(labels.grid);
+    for (std::size_t n = 0; n < scan.voxels.size(); ++n) {
+      scan.voxels[n] = labels.fibroglandular_fraction[n] > 0.5f ? 300 : 900;
+    }
+    write_volume(*folder_ / "scan.nrrd", scan);
     for (const char* view : {"cc", "mlo"}) {
       const std::string name = view;
       run("project-mammogram", {name + ".vtkhdf", name + ".vti", "--pixel", "1"});
@@ -59,6 +71,31 @@ int servers_of(pid_t parent) {
   return count;
 }
 
+/// Pixels of the picture's part between the two fractions of its width that satisfy `wanted` (r, g, b).
+int pixels_where(const fs::path& file, double left, double right,
+                 const std::function<bool(int, int, int)>& wanted) {
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  vtkImageData* image = reader->GetOutput();
+  const int* size = image->GetDimensions();
+  int count = 0;
+  for (int y = 0; y < size[1]; ++y) {
+    for (int x = int(left * size[0]); x < int(right * size[0]); ++x) {
+      const auto* p = static_cast<const unsigned char*>(image->GetScalarPointer(x, y, 0));
+      count += wanted(p[0], p[1], p[2]);
+    }
+  }
+  return count;
+}
+
+bool is_tumour_yellow(int r, int g, int b) {
+  return r > 150 && g > 0.65 * r && b < 0.45 * r;
+}
+bool is_curve_green(int r, int g, int b) {
+  return g > 150 && r < 0.5 * g && b < 0.7 * g;
+}
+
 bool is_png(const fs::path& file) {
   return fs::exists(file) && read_text(file).substr(1, 3) == "PNG";
 }
@@ -67,10 +104,12 @@ bool is_png(const fs::path& file) {
 
 TEST_F(Render, EveryFigureIsDrawn) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> figures = {
+      {"slices", {"mesh.vtkhdf", "--scan", "scan.nrrd", "--labels", "labels.vtkhdf"}},
       {"points", {"points.vtp"}},
       {"geometry", {"geometry.vtkhdf"}},
       {"mesh", {"mesh.vtkhdf"}},
       {"tissues", {"mesh.vtkhdf"}},
+      {"outlines", {"reference.vtkhdf", "supine.vtkhdf"}},
       {"compression", {"cc.vtkhdf", "mlo.vtkhdf"}},
       {"pressure", {"cc.vtkhdf", "mlo.vtkhdf"}},
       {"force-thickness", {"cc.vtkhdf", "mlo.vtkhdf"}},
@@ -79,7 +118,7 @@ TEST_F(Render, EveryFigureIsDrawn) {
       {"matching", {"mlo.vtkhdf", "curve.vtp"}},
       {"summary",
        {"mesh.vtkhdf", "reference.vtkhdf", "supine.vtkhdf", "cc.vtkhdf", "mlo.vtkhdf", "cc.vti",
-        "mlo.vti", "curve.vtp"}},
+        "mlo.vti", "curve.vtp", "--scan", "scan.nrrd", "--labels", "labels.vtkhdf"}},
       {"summary",  // a case without a tumour has no curve
        {"mesh.vtkhdf", "reference.vtkhdf", "supine.vtkhdf", "cc.vtkhdf", "mlo.vtkhdf", "cc.vti",
         "mlo.vti"}}};
@@ -90,6 +129,59 @@ TEST_F(Render, EveryFigureIsDrawn) {
     EXPECT_EQ(result.exit_code, 0) << name << ": " << result.err;
     ASSERT_TRUE(is_png(file(name + ".png"))) << name;
     EXPECT_GT(fs::file_size(file(name + ".png")), 20000u) << name << " is all but empty";
+  }
+}
+
+// The fixture's tumour lies inside its gland: what the captions promise is seen all the same.
+TEST_F(Render, TheTumourIsSeenThroughSkinAndGland) {
+  ASSERT_EQ(run("render", {"mesh.vtkhdf", "--figure", "tissues", "-o", "seen.png"}).exit_code, 0);
+  // A ball of 8 mm at about 0.25 mm a pixel covers 800.
+  EXPECT_GT(pixels_where(file("seen.png"), 0, 0.5, is_tumour_yellow), 300);
+  EXPECT_GT(pixels_where(file("seen.png"), 0.5, 1, is_tumour_yellow), 300);
+  ASSERT_EQ(run("render", {"cc.vtkhdf", "mlo.vtkhdf", "curve.vtp", "--figure", "matching", "-o",
+                           "column.png"})
+                .exit_code,
+            0);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_GT(pixels_where(file("column.png"), k / 3.0, (k + 1) / 3.0, is_tumour_yellow), 100) << k;
+  }
+  // Without a tumour there is nothing yellow to be seen.
+  HexMesh none = read_mesh(file("mesh.vtkhdf"));
+  std::erase_if(none.landmarks, [](const Landmark& landmark) { return landmark.name == "tumour"; });
+  none.tumour_node = -1;
+  write_mesh(file("none.vtkhdf"), none);
+  ASSERT_EQ(run("render", {"none.vtkhdf", "--figure", "tissues", "-o", "none.png"}).exit_code, 0);
+  EXPECT_EQ(pixels_where(file("none.png"), 0, 1, is_tumour_yellow), 0);
+}
+
+TEST_F(Render, MarksAreRingsThatHideNothing) {
+  ASSERT_EQ(
+      run("render", {"cc.vti", "curve.vtp", "--figure", "mammogram", "-o", "ring.png"}).exit_code,
+      0);
+  // The circumference of 13 pixels' radius by 2.6; a filled mark would have 530.
+  const int ring = pixels_where(file("ring.png"), 0, 1, is_tumour_yellow);
+  EXPECT_GT(ring, 120);
+  EXPECT_LT(ring, 350);
+  ASSERT_EQ(
+      run("render", {"mlo.vti", "curve.vtp", "--figure", "mammogram", "-o", "curve.png"}).exit_code,
+      0);
+  EXPECT_GT(pixels_where(file("curve.png"), 0, 1, is_curve_green), 200);
+}
+
+TEST_F(Render, SlicesNeedScanAndLabelsOfOneBreast) {
+  const ToolResult result = run("render", {"mesh.vtkhdf", "--figure", "slices", "-o", "no.png"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("--scan"), std::string::npos) << result.err;
+  EXPECT_EQ(run("render", {"mesh.vtkhdf", "--figure", "slices", "--scan", "scan.nrrd", "-o", "no.png"})
+                .exit_code,
+            2);
+  ASSERT_EQ(run("render", {"mesh.vtkhdf", "--figure", "slices", "--scan", "scan.nrrd", "--labels",
+                           "labels.vtkhdf", "-o", "planes.png"})
+                .exit_code,
+            0);
+  // The tumour's ring stands in each of the three planes.
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_GT(pixels_where(file("planes.png"), k / 3.0, (k + 1) / 3.0, is_tumour_yellow), 100) << k;
   }
 }
 

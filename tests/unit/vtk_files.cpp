@@ -228,6 +228,39 @@ TEST(MammogramFile, ThickTissueBehindThePlatesIsNotLostInWhite) {
   EXPECT_LT(hang(image).grey[4], hung.grey[4]);
 }
 
+// Rays that graze the skin stay in it for centimetres: they may show, but less than what is inside.
+TEST(MammogramFile, TheSkinFadesAndTheUnknownPartEndsSoftly) {
+  Mammogram image = some_mammogram(Side::left);
+  image.width = 40;
+  image.height = 5;
+  image.plate_edge_u = 0;
+  image.path.assign(200, 0);
+  image.thickness.assign(200, 0);
+  image.fibroglandular.assign(200, 0);
+  image.through_back.assign(200, 0);
+  for (std::size_t i = 0; i < 200; ++i) {
+    const std::size_t u = i % 40;
+    if (u < 10) {
+      image.through_back[i] = 1;
+    } else if (u < 30) {
+      image.thickness[i] = 50;
+      image.path[i] = i < 40 && u >= 20 ? 48 : 22;  // gland in the first row, else fat
+    } else if (u < 36) {  // mostly skin, as along a tangent
+      image.thickness[i] = float(36 - u) * 5;
+      image.path[i] = image.thickness[i] * 0.72f;
+    }
+  }
+  const HungImage hung = hang(image);
+  const auto grey = [&](std::size_t u) { return int(hung.grey[80 + u]); };
+  for (std::size_t u = 30; u < 36; ++u) EXPECT_LE(grey(u + 1), grey(u)) << u;
+  EXPECT_LT(grey(30), 1.45 * grey(25));
+  EXPECT_GT(grey(34), 0);
+  // Between even grey and tissue no step of one pixel.
+  const int step = std::abs(grey(25) - grey(4));
+  EXPECT_GT(step, 0);
+  for (std::size_t u = 5; u < 17; ++u) EXPECT_LT(std::abs(grey(u + 1) - grey(u)), 0.25 * step) << u;
+}
+
 TEST(MammogramFile, PngIsSixteenBitGrey) {
   const ScratchFolder folder;
   write_mammogram_png(folder / "m.png", some_mammogram());
