@@ -7,10 +7,14 @@ $(BAND_STATES:%=$(RUN)/%-sensitivity.vtkhdf): $(RUN)/%-sensitivity.vtkhdf: $(RUN
 	$(SENSITIVITY) $(RUN)/reference.vtkhdf $< $@ $(PRONE) $(MECHANICS) $(SUPPORT) \
 	  --table $(basename $@).tsv $(common)
 
+# What the material set leaves open stands in the place of the priors of softness and supports, where the set says it.
+set_file = $(or $(wildcard $(MATERIALS)),$(wildcard $(PIPELINES)/materials/$(MATERIALS).tsv))
+band_set = $(if $(set_file),$(shell grep -q '^[a-z_]*	uncertainty	' $(set_file) && echo $(MATERIALS)))
 # matching.tsv: the chain from the MR; matching-true-mesh.tsv: the true body on as many elements as the chain's.
 # Both are read against the true body on eight times as many.
 $(RUN)/matching.tsv: $(RUN)/truth-cc-sensitivity.vtkhdf $(RUN)/truth-mlo-sensitivity.vtkhdf $(TRUTH_TABLE) $(CC2MLO)
-	$(CC2MLO) $(wordlist 1,2,$^) $(basename $@).vtp --truth $(TRUTH_TABLE) --band --table $@ $(common)
+	$(CC2MLO) $(wordlist 1,2,$^) $(basename $@).vtp --truth $(TRUTH_TABLE) --band $(addprefix --materials ,$(band_set)) \
+	  --table $@ $(common)
 $(RUN)/matching-true-mesh.tsv: $(TRUTH_TABLE) $(CC2MLO)
 	$(CC2MLO) $(TRUTH_AT)-coarse-cc.vtkhdf $(TRUTH_AT)-coarse-mlo.vtkhdf $(basename $@).vtp \
 	  --truth $(TRUTH_TABLE) --table $@ $(common)
@@ -36,14 +40,17 @@ band-check: $(RUN)/band-samples.tsv
 # moved by parameters drawn from the priors along the true body's own derivatives (band-drawn; BAND_DRAWS of them).
 BAND_DRAWS ?= 400
 BAND_PLACES ?= 150
+truth_support := $(if $(body_slides),--materials $(TRUTH_SET),--cut fixed)
 TRUE_SENSITIVITIES := $(foreach view,cc mlo,$(TRUTH_AT)-coarse-$(view)-sensitivity.vtkhdf)
 $(TRUE_SENSITIVITIES): %-sensitivity.vtkhdf: %.vtkhdf $(TRUTH_AT)-coarse.vtkhdf $(SENSITIVITY)
-	$(SENSITIVITY) $(TRUTH_AT)-coarse.vtkhdf $< $@ --posture prone --cut fixed --table $(basename $@).tsv $(common)
+	$(SENSITIVITY) $(TRUTH_AT)-coarse.vtkhdf $< $@ --posture prone $(truth_support) --table $(basename $@).tsv $(common)
 band_bodies := $(RUN)/truth-cc-sensitivity.vtkhdf $(RUN)/truth-mlo-sensitivity.vtkhdf $(TRUE_SENSITIVITIES)
+# $(call band_rows,COUNT,SPREAD)
+band_rows = $(BIN)/band_truth $(band_bodies) 1 $1 $(BAND_PLACES) $2 $(band_set)
 $(RUN)/band-nominal.tsv $(RUN)/band-drawn.tsv &: $(band_bodies) tests/truth/band_truth.cpp
 	$(call bench,band_truth)
-	$(BIN)/band_truth $(band_bodies) 1 1 $(BAND_PLACES) 0 > $(RUN)/band-nominal.tsv.part
-	$(BIN)/band_truth $(band_bodies) 1 $(BAND_DRAWS) $(BAND_PLACES) > $(RUN)/band-drawn.tsv.part
+	$(call band_rows,1,0) > $(RUN)/band-nominal.tsv.part
+	$(call band_rows,$(BAND_DRAWS),1) > $(RUN)/band-drawn.tsv.part
 	@for rows in nominal drawn; do mv $(RUN)/band-$$rows.tsv.part $(RUN)/band-$$rows.tsv; done
 band-truth: $(RUN)/band-nominal.tsv $(RUN)/band-drawn.tsv
 	@$(tabulate) coverage $^

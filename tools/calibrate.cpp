@@ -5,6 +5,7 @@
 #include <array>
 
 #include "cli/tool.hpp"
+#include "core/error.hpp"
 #include "core/table.hpp"
 
 using namespace breast;
@@ -40,6 +41,11 @@ void declare(Tool& tool, Choices& c) {
                "ratio of the chain's displacement to the phantom's, measured on a finished case");
   tool.text(c.materials, "--materials", "NAME|FILE", "material set of the breasts");
   tool.integer(c.evaluations, "--evaluations", "N", "largest number of trial breasts", 4, 1000);
+  tool.check([&c] {
+    if (!preset_slides(c.preset)) return;
+    throw input_error("--preset ", c.preset, ": its breasts slide on their ribs, and trial breasts here are held; ",
+                      "choose paper, flat, small, large or pendulous");
+  });
   tool.example("calibrate --preset paper --gain 1.28,1.39",
                "the paper's displacements, for a chain whose displacements are 28 and 39 % "
                "larger than the phantom's");

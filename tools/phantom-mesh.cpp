@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // phantom-mesh: one breast of the phantom on a finer mesh of 8-node elements,
 // stress-free, prone, supine.
+#include <algorithm>
+#include <cmath>
+
 #include "cli/tool.hpp"
 #include "core/units.hpp"
 #include "io/mesh_file.hpp"
+#include "material/material_table.hpp"
 #include "mechanics/mechanics.hpp"
+#include "phantom/chest/rib_spline.hpp"
 #include "phantom/postures.hpp"
 #include "phantom/random.hpp"
 
@@ -13,30 +18,45 @@ using namespace breast;
 namespace {
 
 struct Choices {
-  std::filesystem::path mesh, supine;
+  std::filesystem::path mesh, supine, set;
   std::string preset = "paper", side = "left", materials;
-  int seed = 1, level = 2;
+  int seed = 1;
+  double level = 2, coarse = 1;
 };
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
       "Meshes the breast that `phantom` images, with the same shape, fibroglandular tissue, "
       "materials and landmarks, by 8-node elements: 4280 at level 1, 34240 at level 2 (eight "
-      "times as many as in the chain's mesh). The prone and supine shapes are solved from the "
-      "stress-free one with the lateral cut held, as in the phantom. `compress` continues from "
-      "the prone mesh; the difference between two levels estimates the error of the finer one "
-      "(truth-table).");
+      "times as many as in the chain's mesh), and a tenth more if the breast slides. The prone and "
+      "supine shapes are solved as in the phantom: held at the wall and the cut, or sliding on the "
+      "ribs, which are then the chest-wall surface of the mesh. `compress` continues from "
+      "the prone mesh, for a sliding breast with the set of --set; the difference between two levels "
+      "estimates the error of the finer one (truth-table).");
   tool.output(c.mesh, "PRONE.vtkhdf", "the prone mesh with its stress-free reference");
   tool.output_file(c.supine, "--supine", "SUPINE.vtkhdf", "write the supine shape to this file");
   tool.choice(c.preset, "--preset", preset_names(), "kind of breast, as in phantom");
   tool.integer(c.seed, "--seed", "N", "random seed, as in phantom", 0, 1000000000);
   tool.choice(c.side, "--side", {"left", "right"}, "which breast");
-  tool.integer(c.level, "--level", "L", "level of refinement; the mesh has 4280 L^3 elements", 1,
-               4);
+  tool.number(c.level, "--level", "L",
+              "level of refinement; the mesh has about 4280 L^3 elements", 0.5, 4);
   tool.text(c.materials, "--materials", "NAME|FILE",
             "material set, as in phantom (default: that of the preset)");
+  tool.number(c.coarse, "--coarse", "FACTOR",
+              "coarsening of the phantom's own mesh, as in phantom: its landmarks depend on that mesh", 1, 8);
+  tool.output_file(c.set, "--set", "SET.tsv",
+                   "also write the material set of the body, for --materials; for a sliding breast with its "
+                   "supports of wall and cut");
   tool.example("phantom-mesh left-fine.vtkhdf --supine left-fine-supine.vtkhdf --level 2",
-               "the left breast of the default phantom for `compress --cut fixed`");
+               "the left breast of the phantom `paper` for `compress --cut fixed`");
+  tool.example("phantom-mesh body.vtkhdf --preset average --level 1 --set body.tsv",
+               "a breast that slides, for `compress --materials body.tsv --image-edge auto`");
+}
+
+// Of a mesh that is none of phantom's and none of hexmesh's: `level` times as many elements along every edge.
+MeshParameters mesh_of_level(double level, bool slides) {
+  const auto times = [level](double n) { return std::max(1, int(std::lround(n * level))); };
+  return {2 * times(5), times(5), times(slides ? 5 : 3), times(4), times(7), 1};
 }
 
 void run_phantom_mesh(const Choices& c, Run& run) {
@@ -46,11 +66,15 @@ void run_phantom_mesh(const Choices& c, Run& run) {
   const Side side = side_from_name(c.side);
   const Torso torso(parameters.torso, mix(parameters.seed, 301));
   run.progress().update("shape", -1, "the phantom's own mesh, for its landmarks");
+  if (c.coarse >= 2) parameters.mesh = coarse_mesh(parameters);
   const HexMesh imaged = PhantomBreast(parameters, torso, side).mesh;
-  const int level = c.level;
-  parameters.mesh = {10 * level, 5 * level, 3 * level, 4 * level, 7 * level, 1};
+  parameters.mesh = mesh_of_level(c.level, parameters.body.slides);
   PhantomBreast breast(parameters, torso, side);
   HexMesh& mesh = breast.mesh;
+  if (parameters.body.slides) {
+    mesh.geometry.emplace().side = side;
+    mesh.geometry->thorax = rib_spline(parameters.torso);
+  }
   carry_landmarks(imaged, mesh);
   TruthError error;
   const Postures postures = [&] {
@@ -68,9 +92,15 @@ void run_phantom_mesh(const Choices& c, Run& run) {
   report.set("error_estimate_by", "largest landmark distance to a mesh of half the resolution");
   mesh.history = run.history({});
   mesh.reference = postures.stress_free;
+  mesh.pressure = postures.pressure;
+  mesh.gravity = posture_gravity(Posture::prone);
+  mesh.solve = postures.prone.record;
   write_mesh(c.mesh, mesh);
+  if (!c.set.empty()) write_table(c.set, material_table(materials));
   if (c.supine.empty()) return;
   mesh.points = postures.supine;
+  // These belong to the prone shape.
+  mesh.pressure.clear(), mesh.det_F.clear(), mesh.scaled_jacobian.clear();
   mesh.gravity = posture_gravity(Posture::supine);
   mesh.solve = postures.supine_solve.record;
   write_mesh(c.supine, mesh);

@@ -55,6 +55,7 @@ Postures solve_postures(HexMesh& mesh, const MaterialSet& materials, Progress& p
   }
   for (Landmark& landmark : mesh.landmarks)
     landmark.imaged = landmark_position(mesh, mesh.imaged, landmark);
+  out.pressure = mesh.pressure;
   HexMesh supine = mesh;
   out.supine_solve = take_posture(supine, Posture::supine, materials, progress);
   out.supine = std::move(supine.points);
@@ -77,6 +78,7 @@ Postures solve_sliding_postures(const HexMesh& imaged, const MaterialSet& materi
   store(prone, mesh);
   out.prone = prone;
   out.stress_free = mesh.reference;
+  out.pressure = mesh.pressure;
   const Equilibrium supine =
       solve_forward(mesh, posture_gravity(Posture::supine), options, progress);
   must_converge(supine, mesh, "supine");
@@ -140,7 +142,9 @@ Postures solve_breast(PhantomBreast& breast, const PhantomParameters& parameters
                       const MaterialSet& materials, TruthError& error, Progress& progress) {
   HexMesh coarse = half_resolution(breast, parameters);
   if (parameters.body.slides) {
-    const auto ribs = std::make_shared<RibSurface>(parameters.torso);
+    std::shared_ptr<const LevelSurface> ribs;
+    if (!breast.mesh.geometry) ribs = std::make_shared<RibSurface>(parameters.torso);
+    coarse.geometry = breast.mesh.geometry;
     const Postures guess = solve_sliding_postures(coarse, materials, ribs, progress);
     const Postures postures = solve_sliding_postures(breast.mesh, materials, ribs, progress);
     error = compare(breast.mesh, postures, coarse, guess);

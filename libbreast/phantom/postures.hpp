@@ -10,6 +10,7 @@ namespace breast {
 /// Equilibria of one breast. The mesh given to solve_postures becomes prone: imaged = points.
 struct Postures {
   std::vector<Vec3> stress_free, supine;  ///< nodal positions
+  std::vector<double> pressure;           ///< Pa per element, of the prone shape
   SolveSummary prone, supine_solve;
   double imaged_gap = 0;  ///< mm between `imaged` as loaded and `points` as solved
 };
@@ -21,9 +22,9 @@ struct Postures {
 Postures solve_postures(HexMesh& mesh, const MaterialSet& materials,
                         Progress& progress = no_progress());
 
-/// The same for a breast that is defined by its prone shape and slides on `surface`: prone is
-/// mesh.imaged, and the stress-free shape comes from the backward solve. The materials include the
-/// supports of wall and cut.
+/// The same for a breast that is defined by its prone shape and slides on `surface` (null: on the
+/// chest-wall surface of the mesh's geometry): prone is mesh.imaged, and the stress-free shape comes
+/// from the backward solve. The materials include the supports of wall and cut.
 Postures solve_sliding_postures(const HexMesh& mesh, const MaterialSet& materials,
                                 std::shared_ptr<const LevelSurface> surface,
                                 Progress& progress = no_progress());
@@ -41,6 +42,7 @@ struct TruthError {
 };
 
 /// Solves the breast, held or sliding, on a mesh of half the resolution and on its own, and compares.
+/// What slides does so on the wall surface of the mesh's geometry where there is one, else on RibSurface.
 Postures solve_breast(PhantomBreast& breast, const PhantomParameters& parameters,
                       const MaterialSet& materials, TruthError& error,
                       Progress& progress = no_progress());

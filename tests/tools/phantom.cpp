@@ -2,6 +2,8 @@
 // The phantom tool as a user runs it, on its coarsest useful setting.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/atomic_file.hpp"
 #include "core/report.hpp"
 #include "core/table.hpp"
@@ -69,4 +71,31 @@ TEST(PhantomTool, RefusesBadUsageBeforeItStarts) {
     EXPECT_EQ(run.error_lines(), 1) << run.err;
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "p.nrrd"));
   }
+}
+
+// What compress goes on from: wall surface and material set are all that a solve of the body needs.
+TEST(PhantomMeshTool, WritesASlidingBodyThatForwardSolvesAgain) {
+  ScratchFolder folder;
+  ToolResult run = run_tool("phantom-mesh",
+                            {"prone.vtkhdf", "--supine", "supine.vtkhdf", "--set", "body.tsv", "--preset",
+                             "slim", "--level", "0.5", "--quiet"},
+                            folder.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  run = run_tool("forward",
+                 {"prone.vtkhdf", "again.vtkhdf", "--posture", "supine", "--materials", "body.tsv",
+                  "--estimate", "none", "--quiet"},
+                 folder.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const HexMesh prone = read_mesh(folder.path() / "prone.vtkhdf", {.reference = true}),
+                supine = read_mesh(folder.path() / "supine.vtkhdf"),
+                again = read_mesh(folder.path() / "again.vtkhdf");
+  ASSERT_TRUE(prone.geometry && prone.geometry->thorax);
+  EXPECT_EQ(int(prone.pressure.size()), prone.elements());
+  double apart = 0, moved = 0;
+  for (std::size_t n = 0; n < supine.points.size(); ++n) {
+    apart = std::max(apart, (supine.points[n] - again.points[n]).norm());
+    moved = std::max(moved, (supine.points[n] - prone.points[n]).norm());
+  }
+  EXPECT_LT(apart, 1e-6);
+  EXPECT_GT(moved, 20);
 }

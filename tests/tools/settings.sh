@@ -237,6 +237,18 @@ plan MR="$work/scan.nrrd" TUMOUR=auto chain && grep -q -- '--tumour auto' "$work
 refused "tables of a case without a tumour" TUMOUR -- MR="$work/scan.nrrd" tables
 pass "no tumour is invented for a scan"
 
+for goal in budget band-check calibrate; do
+  refused "$goal of a breast that slides" "$goal: holds the breast at its wall" "PRESET=paper" -- PRESET=average "$goal"
+done
+for goal in truth matching band-truth budget; do
+  refused "$goal of a scan" "$goal: a scan has no truth" -- MR="$work/scan.nrrd" "$goal"
+done
+refused "the printed model beside a truth that slides" "PAPER=1" -- PAPER=1 PRESET=slim truth
+plan PRESET=average truth && grep 'left-fine-cc' "$work/out" | grep -q -- '--materials [^ ]*left-set.tsv --image-edge 20' &&
+  ! grep -q -- '--cut fixed --at-least' "$work/out" || { cat "$work/out"; fail "the truth of a sliding breast slides"; }
+plan truth && grep 'left-fine-cc' "$work/out" | grep -q -- '--cut fixed' || fail "the truth of a held breast is held"
+pass "a truth is that of the phantom's own body, or is refused"
+
 printf 'conclusion\tvalue\nfibroglandular_nipple\t0.09\nskin_nipple\t-0.003\ntumour_1000\t2.3\n' > "$work/values"
 tabulate judge pipelines/paper/conclusions.tsv ours="$work/values" > "$work/judged.tsv"
 verdict() { awk -F'\t' -v row="$1" '$1 == row { print $5 }' "$work/judged.tsv"; }

@@ -182,6 +182,22 @@ TEST(MeshFile, RoundTripsTheBareMinimum) {
   EXPECT_EQ(back.content_sha256.size(), 64u);
 }
 
+// As of a phantom: a surface to slide on, and no sheets.
+TEST(MeshFile, KeepsAWallSurfaceThatComesWithoutSheets) {
+  const ScratchFolder folder;
+  HexMesh mesh = samples::block(2, 1);
+  mesh.tissue.assign(8, Tissue::fat);
+  mesh.geometry.emplace().side = mesh.side;
+  mesh.geometry->thorax = samples::geometry().thorax;
+  write_mesh(folder / "mesh.vtkhdf", mesh);
+  const HexMesh back = read_mesh(folder / "mesh.vtkhdf");
+  ASSERT_TRUE(back.geometry && back.geometry->thorax);
+  EXPECT_EQ(back.geometry->thorax->coefficients, mesh.geometry->thorax->coefficients);
+  EXPECT_EQ(back.geometry->thorax->slope, mesh.geometry->thorax->slope);
+  EXPECT_TRUE(back.geometry->skin.nodes.empty());
+  EXPECT_THROW(read_mesh(folder / "mesh.vtkhdf", {.geometry = true}), Error);
+}
+
 TEST(LabelFile, RoundTrips) {
   const ScratchFolder folder;
   const LabelVolume a = samples::labels();

@@ -10,6 +10,7 @@
 #include "fixtures/small_phantom.hpp"
 #include "mesh/quality.hpp"
 #include "phantom/random.hpp"
+#include "phantom/chest/rib_spline.hpp"
 #include "phantom/chest/rib_surface.hpp"
 #include "phantom/scanner.hpp"
 
@@ -95,6 +96,30 @@ TEST(RibSurface, DerivativesAreThoseOfTheValueAndItIsTheTorsosWall) {
   TorsoParameters sharp;
   sharp.power = 1.8;
   EXPECT_THROW(RibSurface{sharp}, Error);
+}
+
+TEST(RibSpline, IsTheRibSurfaceWhereBreastsSlide) {
+  for (const char* preset : {"average", "slim", "broad", "heavy"}) {
+    const TorsoParameters torso = phantom_preset(preset, 1).torso;
+    const RibSurface ribs(torso);
+    const ThoraxSurface spline = rib_spline(torso);
+    for (double angle = -2.9; angle < 2.95; angle += 0.237) {
+      for (double height = -290; height < 291; height += 47.3) {
+        const Vec3 x = spline.point(angle, height);
+        ASSERT_TRUE(spline.at(x) && ribs.at(x));
+        EXPECT_NEAR(ribs.at(x)->value, 0, 1e-4) << preset << " " << angle << " " << height;
+        const Vec3 a = ribs.at(x)->gradient.normalized(), b = spline.at(x)->gradient.normalized();
+        EXPECT_NEAR((a - b).norm(), 0, 1e-4) << preset << " " << angle << " " << height;
+      }
+    }
+  }
+  TorsoParameters sharp;
+  sharp.power = 1.5;
+  EXPECT_THROW(rib_spline(sharp), Error);
+  TorsoParameters steep;
+  steep.power = 2;
+  steep.bend = 5e-3;  // 300 mm up the ribs are no longer about the axis
+  EXPECT_THROW(rib_spline(steep), Error);
 }
 
 TEST(BodyMaterials, ASlidingBreastNeedsSupportsAndTheyAreScaled) {

@@ -115,7 +115,12 @@ void check_rim(const std::vector<Vec2>& rim, const std::string& path, const Comp
 
 }  // namespace
 
+bool has_sheets(const BreastGeometry& geometry) {
+  return !geometry.skin.nodes.empty() || !geometry.wall.nodes.empty() || !geometry.thorax;
+}
+
 void check_geometry(const BreastGeometry& geometry, const Complaint& complain) {
+  if (!has_sheets(geometry)) return;
   check_sheet(geometry.skin, group + "/skin", complain);
   check_sheet(geometry.wall, group + "/wall", complain);
   const std::size_t n = geometry.rim_skin.size();
@@ -141,9 +146,10 @@ void check_geometry(const BreastGeometry& geometry, const Complaint& complain) {
 }
 
 void put_hermite(Document& document, const BreastGeometry& geometry) {
+  if (geometry.thorax) put_thorax(document, *geometry.thorax);
+  if (!has_sheets(geometry)) return;
   put_sheet(document, group + "/skin", geometry.skin);
   put_sheet(document, group + "/wall", geometry.wall);
-  if (geometry.thorax) put_thorax(document, *geometry.thorax);
   document.datasets[group + "/rim/skin"] = rim_array(geometry.rim_skin);
   document.datasets[group + "/rim/wall"] = rim_array(geometry.rim_wall);
   Bytes ends;

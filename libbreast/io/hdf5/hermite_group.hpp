@@ -8,6 +8,10 @@
 
 namespace breast {
 
+/// Whether a geometry holds sheets: that of a phantom's mesh holds the surface to slide on alone.
+bool has_sheets(const BreastGeometry& geometry);
+
+/// Sheets and rim where there are any, and the thorax (thorax_group.hpp).
 void put_hermite(Document& document, const BreastGeometry& geometry);
 /// Everything but history, side and content_sha256.
 BreastGeometry get_hermite(Fields& fields);

@@ -7,6 +7,7 @@
 #include "io/hdf5/mesh_check.hpp"
 #include "io/hdf5/records.hpp"
 #include "io/hdf5/sets_group.hpp"
+#include "io/hdf5/thorax_group.hpp"
 #include "io/hdf5/vtkhdf.hpp"
 
 namespace breast {
@@ -141,6 +142,7 @@ void get_cell_data(Fields& fields, HexMesh& mesh) {
 
 void put_geometry(Document& document, const HexMesh& mesh) {
   put_hermite(document, *mesh.geometry);
+  if (!has_sheets(*mesh.geometry)) return;
   document.attributes["/breast/hermite@content_sha256"] = array_of(mesh.geometry->content_sha256);
 }
 
@@ -149,6 +151,9 @@ void get_optional_groups(Fields& fields, HexMesh& mesh) {
     mesh.geometry = get_hermite(fields);
     mesh.geometry->side = mesh.side;
     mesh.geometry->content_sha256 = fields.text("/breast/hermite@content_sha256");
+  } else if (has_thorax(fields)) {
+    mesh.geometry.emplace().side = mesh.side;
+    mesh.geometry->thorax = get_thorax(fields);
   }
   if (fields.has_group("/breast/solve")) mesh.solve = get_solve(fields);
   if (fields.has_group("/breast/contact")) mesh.contact = get_contact(fields);
@@ -159,7 +164,7 @@ void check_needs(const HexMesh& mesh, const MeshNeeds& needs, const std::string&
     throw input_error(file, ": has no stress-free shape (dataset ", point_data,
                       "reference); make it with backward");
   }
-  if (needs.geometry && !mesh.geometry) {
+  if (needs.geometry && !(mesh.geometry && has_sheets(*mesh.geometry))) {
     throw input_error(file,
                       ": has no Hermite sheets (group /breast/hermite); make it with hexmesh");
   }
