@@ -15,6 +15,7 @@ $(file): $(patsubst $(RUN)/CURVE,$(CURVE),$(addprefix $(RUN)/,$(call text,$(call
 endef
 $(call read_table,$(PIPELINES)/figures.tsv)
 $(call each_row,picture)
+FIGURES += $(if $(SUPINE),$(F)/postures.png)
 fig4: $(fig4)
 fig5: $(fig5)
 fig6: $(fig6)

@@ -1,11 +1,50 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The patient's own material set from landmarks in a second posture (LANDMARKS=pairs.tsv): the chain runs with it, landmarks.tsv
-# says how each landmark is met and would be met if it were left out.
+# The patient's own material set from a second posture: landmarks (LANDMARKS=pairs.tsv, or marks of 3D Slicer, PRONE.mrk.json,SUPINE.mrk.json)
+# or a supine scan (SUPINE=scan, or SUPINE=phantom, the phantom's own) or both. The chain runs with it; landmarks.tsv says how far each
+# landmark is from where it was seen with this set, with Table II (seed2008) and with the set expected, and figures/postures.png
+# shows both postures. Everything of the second scan lies in RUN/second.
 IDENTIFY ?= $(BIN)/identify
-ifneq ($(LANDMARKS),)
-identified_settings := $(IDENTIFY) $(prior_set) $(SUPPORT)
-$(RUN)/identified.tsv: $(RUN)/mesh.vtkhdf $(LANDMARKS) $(wildcard $(prior_set)) $(IDENTIFY) $(call changed,identified)
-	$(IDENTIFY) $< $@ --landmarks $(LANDMARKS) --align --materials $(prior_set) $(SUPPORT) --table $(RUN)/landmarks.tsv $(common)
+ifneq ($(LANDMARKS)$(SUPINE),)
+landmark_files := $(subst $(comma), ,$(LANDMARKS))
+second_marks := $(if $(LANDMARKS),--landmarks $(firstword $(landmark_files)) $(addprefix --second-landmarks ,$(word 2,$(landmark_files))))
+ifneq ($(SUPINE),)
+PHANTOM_SUPINE := $(RUNS)/phantom/$(PRESET)-supine.nrrd
+supine_scan := $(if $(filter phantom,$(SUPINE)),$(PHANTOM_SUPINE),$(SUPINE))
+ifeq ($(SUPINE),phantom)
+$(if $(TRUTH),,$(error SUPINE: phantom is the second scan of a phantom, not of MR=$(MR); name the patient's supine scan))
+supine_truth := $(PHANTOM_SUPINE:.nrrd=-truth)/landmarks.tsv
+phantom-supine_record := $(RUNS)/phantom/.$(PRESET)-supine.settings
+phantom-supine_settings := $(PHANTOM) $(PRESET) $(PHANTOM_OPTIONS)
+$(PHANTOM_SUPINE) $(supine_truth) &: $(PHANTOM) $(call changed,phantom-supine)
+	@mkdir -p $(dir $(PHANTOM_SUPINE))
+	$(PHANTOM) $(PHANTOM_SUPINE) --preset $(PRESET) --posture supine --misalign 4,2 --truth $(PHANTOM_SUPINE:.nrrd=-truth) \
+	  $(PHANTOM_OPTIONS) --report $(PHANTOM_SUPINE:.nrrd=.json) $(share)
+	@$(call record,phantom-supine)
+endif
+second-labels_record := $(RUN)/second/.labels.settings
+second-labels_settings := $(SEGMENT) $(supine_scan) --side $(SIDE)
+$(RUN)/second/labels.vtkhdf $(RUN)/second/points.vtp &: $(supine_scan) $(SEGMENT) $(call changed,second-labels)
+	@mkdir -p $(RUN)/second
+	$(SEGMENT) $(supine_scan) $(RUN)/second/labels.vtkhdf --side $(SIDE) --posture supine --points $(RUN)/second/points.vtp \
+	  --overlay $(RUN)/second/contours.png --report $(RUN)/second/labels.json $(share)
+	@$(call record,second-labels)
+second_scan := $(RUN)/second/points.vtp $(RUN)/second/labels.vtkhdf $(RUN)/labels.vtkhdf
+second_skin := --surface $(RUN)/second/points.vtp --labels $(RUN)/labels.vtkhdf --second-labels $(RUN)/second/labels.vtkhdf \
+  --seen $(RUN)/second/seen.vtp --second $(RUN)/second/predicted.vtkhdf
+# A phantom's supine landmarks judge what was identified without them.
+second_judge := $(if $(supine_truth),$(if $(LANDMARKS),,--judge $(supine_truth)))
+second_states := $(RUN)/second/predicted.vtkhdf $(RUN)/second/seen.vtp
+$(RUN)/figures/postures.png: $(RUN)/second/predicted.vtkhdf $(RUN)/second/seen.vtp $(RENDER)
+	@mkdir -p $(@D) && $(RENDER) $(filter %.vtkhdf %.vtp,$^) --figure postures -o $@
+endif
+identified_settings := $(IDENTIFY) $(prior_set) $(SUPPORT) $(second_marks) $(second_skin) $(second_judge)
+$(RUN)/identified.tsv $(RUN)/landmarks.tsv $(second_states) &: $(RUN)/mesh.vtkhdf $(landmark_files) $(second_scan) $(supine_truth) $(wildcard $(prior_set)) $(IDENTIFY) \
+  $(call changed,identified)
+	$(IDENTIFY) $< $(RUN)/identified.tsv $(second_marks) --align $(second_skin) $(second_judge) --materials $(prior_set) $(SUPPORT) \
+	  $(addprefix --compare ,$(sort seed2008 $(prior_set))) --table $(RUN)/landmarks.tsv \
+	  --report $(RUN)/identified.json $(share) > $(RUN)/identified.txt.part
+	@mv $(RUN)/identified.txt.part $(RUN)/identified.txt
+	@cat $(RUN)/identified.txt
 	@$(call record,identified)
 endif
 

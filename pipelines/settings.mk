@@ -73,8 +73,9 @@ endif
 # Where the plates stop: at the first of these.
 STOPS = --reduction $(REDUCTION) $(addprefix --pressure ,$(PRESSURE))
 $(check_values)
-# Landmarks in a second posture: the set MATERIALS is what is expected, the chain runs with what identify makes of it.
-ifneq ($(LANDMARKS),)
+# Landmarks in a second posture, or a supine scan of the same patient: the set MATERIALS is what is expected, the chain runs with what
+# identify makes of it.
+ifneq ($(LANDMARKS)$(SUPINE),)
   prior_set := $(MATERIALS)
   override MATERIALS := $(RUN)/identified.tsv
 endif

@@ -4,59 +4,16 @@
 #include "core/table.hpp"
 #include "core/units.hpp"
 #include "identification/agreement.hpp"
-#include "identification/landmark_pairs.hpp"
-#include "identification/seen_surface.hpp"
-#include "identify_options.hpp"
+#include "identification/comparison.hpp"
+#include "identify_seen.hpp"
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
 #include "material/material_table.hpp"
 #include "mesh/element_order.hpp"
-#include "views/view.hpp"
 
 using namespace breast;
 
 namespace {
-
-std::vector<LandmarkPair> pairs_of(const IdentifyChoices& c, const HexMesh& mesh) {
-  std::vector<LandmarkPair> pairs;
-  if (!c.landmarks.empty()) pairs = landmark_pairs(read_table(c.landmarks), mesh.side, c.observer);
-  if (c.nipple.empty()) return pairs;
-  const Landmark* nipple = mesh.landmark("nipple");
-  if (nipple == nullptr) throw input_error(c.mesh.string(), ": it has no landmark 'nipple'");
-  const std::string name = pairs.empty() ? "nipple" : "nipple (--nipple)";
-  pairs.push_back({name, nipple->imaged, Vec3(c.nipple[0], c.nipple[1], c.nipple[2]), c.observer});
-  return pairs;
-}
-
-std::vector<SeenForce> forces_of(const Table& table) {
-  std::vector<SeenForce> forces;
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    SeenForce seen{table.number(row, "thickness_mm"), table.number(row, "force_N"), 0};
-    seen.deviation = table.has("sd_N") ? table.number(row, "sd_N") : 0.1 * seen.force + 0.5;
-    if (!(seen.thickness > 0 && seen.force > 0 && seen.deviation > 0)) {
-      throw input_error(table.name, ", row ", row + 1,
-                        ": thickness_mm, force_N and sd_N must be above 0");
-    }
-    forces.push_back(seen);
-  }
-  if (forces.empty()) throw input_error(table.name, ": no row");
-  return forces;
-}
-
-Observations observations(const IdentifyChoices& c, const HexMesh& mesh) {
-  Observations seen;
-  const std::vector<LandmarkPair> pairs = pairs_of(c, mesh);
-  const std::string where = c.landmarks.empty() ? "--nipple" : c.landmarks.string();
-  if (!pairs.empty()) seen.points = seen_points(mesh, pairs, c.outside, where);
-  if (!c.surface.empty())
-    seen.surface = seen_surface(read_surface(c.surface), c.surface_error, c.surface.string());
-  if (!c.forces.empty()) seen.forces = forces_of(read_table(c.forces));
-  seen.press.view = view_named(c.view);
-  seen.press.angle_deg = view_angle_deg(seen.press.view);
-  seen.press.plates.standoff = c.standoff;
-  seen.press.plates.edge_radius = c.edge_radius;
-  return seen;
-}
 
 // The parameters and, below them, what is known of their combinations.
 std::string answer_of(const Identified& found) {
@@ -76,15 +33,28 @@ std::string answer_of(const Identified& found) {
   return table.text() + "\n" + directions.text();
 }
 
-Table landmark_table(const Identified& found) {
-  Table table{{"landmark", "residual_mm", "left_out_mm", "observer_mm", "predicted_x_mm",
+std::string cell(double value) {
+  return std::isfinite(value) ? format_fixed(value, 2) : "-";
+}
+
+// Fitted landmarks with all that is known of them, judged ones with their errors.
+Table landmark_table(const Identified& found, const Comparison& compared) {
+  Table table{{"landmark", "fitted", "moved_mm", "residual_mm", "left_out_mm", "observer_mm", "predicted_x_mm",
                "predicted_y_mm", "predicted_z_mm"},
               {}};
-  for (const LandmarkFit& one : found.landmarks) {
-    std::vector<std::string> row{one.name};
-    for (const double value : {one.residual, one.left_out, one.observer, one.predicted.x(),
-                               one.predicted.y(), one.predicted.z()})
-      row.push_back(format_fixed(value, 2));
+  for (const std::string& set : compared.sets) table.columns.push_back(set + "_mm");
+  for (std::size_t i = 0; i < compared.landmarks.size(); ++i) {
+    const ComparedLandmark& one = compared.landmarks[i];
+    std::vector<std::string> row{one.name, one.fitted ? "yes" : "no", cell(one.moved)};
+    if (one.fitted) {
+      const LandmarkFit& fit = found.landmarks[i];
+      for (const double value : {fit.residual, fit.left_out, fit.observer, fit.predicted.x(),
+                                 fit.predicted.y(), fit.predicted.z()})
+        row.push_back(cell(value));
+    } else {
+      row.insert(row.end(), {"-", cell(one.found), "-", "-", "-", "-"});
+    }
+    for (const double error : one.sets) row.push_back(cell(error));
     table.rows.push_back(row);
   }
   return table;
@@ -104,7 +74,7 @@ void report_landmarks(const Identified& found, Report& report) {
   report.set("left_out_mean_mm", left_out);
 }
 
-void report_answer(const Identified& found, bool aligned, Report& report) {
+void report_answer(const Identified& found, Report& report) {
   for (std::size_t k = 0; k < found.names.size(); ++k) {
     report.set("parameters/" + found.names[k] + "/factor", found.factor(k));
     report.set("parameters/" + found.names[k] + "/ln_sd", found.ln_sd(k));
@@ -116,11 +86,6 @@ void report_answer(const Identified& found, bool aligned, Report& report) {
   report.set("misfit/data", found.misfit.freedom);
   report.set("misfit/probability", found.misfit.probability);
   report.set("misfit/discount", found.discount);
-  if (aligned) {
-    report.set("alignment/centre_mm", found.motion.centre);
-    report.set("alignment/shift_mm", found.motion.shift);
-    report.set("alignment/turn_deg", found.motion.turn);
-  }
   report.set("surface_points", found.surface_points);
   report.set("pairs", found.pairs);
   report.set("jacobians", found.fit.jacobians);
@@ -128,8 +93,33 @@ void report_answer(const Identified& found, bool aligned, Report& report) {
   if (!found.refusals.empty()) report.set("refused", found.refusals);
 }
 
-void run_identify(const IdentifyChoices& c, Run& run) {
-  HexMesh mesh = read_mesh(c.mesh, {.geometry = true});
+// The rib cage's whole motion from the scan to the second one, and what of it the walls told.
+void report_motion(const Identified& found, const std::optional<WallAlignment>& ribs, Report& report) {
+  const RigidMotion whole = ribs ? ribs->motion.after(found.motion) : found.motion;
+  report.set("alignment/centre_mm", whole.centre);
+  report.set("alignment/shift_mm", whole.shift);
+  report.set("alignment/turn_deg", whole.turn);
+  if (!ribs) return;
+  report.set("alignment/walls/shift_mm", ribs->motion.shift);
+  report.set("alignment/walls/turn_deg", ribs->motion.turn);
+  report.set("alignment/walls/residual_mm", ribs->residual_mm);
+  report.set("alignment/walls/left_out_percent", ribs->left_out_percent);
+  report.set("alignment/walls/places", ribs->places);
+  for (const std::string& words : ribs->words()) report.append("alignment/walls/known", words);
+}
+
+void report_comparison(const Comparison& compared, Report& report) {
+  for (std::size_t s = 0; s < compared.sets.size(); ++s)
+    if (!compared.refusals[s].empty())
+      report.append("compared_without_body", compared.sets[s] + ": " + compared.refusals[s]);
+  const Table summary = compared.summary();
+  for (std::size_t row = 0; row < summary.rows.size(); ++row)
+    if (summary.cell(row, "mean_mm") != "-")
+      report.set("compared/" + summary.cell(row, "model") + "/mean_mm", summary.number(row, "mean_mm"));
+  report.set("compared_seconds", compared.solve_seconds);
+}
+
+IdentifyOptions options_of(const IdentifyChoices& c) {
   IdentifyOptions options;
   options.mechanics = mechanics_options(c.mechanics);
   options.gravity = c.gravity.vector();
@@ -139,21 +129,59 @@ void run_identify(const IdentifyChoices& c, Run& run) {
   options.align = c.align;
   options.shift_mm = c.align_deviation[0], options.turn_deg = c.align_deviation[1];
   options.max_pairs = c.pairs;
-  const Observations seen = observations(c, mesh);
+  return options;
+}
+
+// Sets to compare: what they say themselves, on the same elements.
+std::vector<ComparedSet> sets_of(const IdentifyChoices& c) {
+  std::vector<ComparedSet> sets;
+  for (const std::string& name : c.compare) {
+    MechanicsChoices own;
+    own.materials = name, own.element = c.mechanics.element;
+    sets.push_back({name, mechanics_options(own)});
+  }
+  return sets;
+}
+
+void tell_ribs(const WallAlignment& ribs, Run& run) {
+  run.warn(message("rib cages laid over each other by their walls: residual ", format_fixed(ribs.residual_mm, 2),
+                   " mm at ", ribs.places, " places, ", format_fixed(ribs.left_out_percent, 0), " % left out"));
+  for (const std::string& words : ribs.words())
+    if (words.find("not determined") != std::string::npos) run.warn(words);
+}
+
+void run_identify(const IdentifyChoices& c, Run& run) {
+  HexMesh mesh = read_mesh(c.mesh, {.geometry = true});
+  IdentifyOptions options = options_of(c);
+  const std::vector<ComparedSet> sets = sets_of(c);
+  const SecondScan scan = read_second_scan(c, mesh);
+  if (scan.ribs) {
+    options.align = true;
+    options.motion_covariance = scan.ribs->covariance;
+    options.gravity = scan.ribs->motion.rotation().transpose() * options.gravity;
+    tell_ribs(*scan.ribs, run);
+  }
   if (options.mechanics.element == Element::q2p1) mesh = raise_order(mesh);
-  Identified found = identify(mesh, seen, options, run.progress());
-  check_agreement(mesh, seen, found);
+  Identified found = identify(mesh, scan.seen, options, run.progress());
+  check_agreement(mesh, scan.seen, found);
   if (!found.fit.converged && !found.fit.at_limit) {
     throw not_converged_error("not settled after ", found.pairs,
                               " solves of both postures; give more with --max-pairs");
   }
   for (const std::string& doubt : doubts_of(found)) run.warn(doubt);
-  report_answer(found, c.align, run.report());
+  const Comparison compared =
+      compare_sets(mesh, scan.seen, scan.judged, found, sets, options, run.progress());
+  report_answer(found, run.report());
+  if (options.align) report_motion(found, scan.ribs, run.report());
+  report_comparison(compared, run.report());
   run.report().set("side", side_name(mesh.side));
   run.report().set("elements", mesh.elements());
   run.report().set("status", "converged");
   run.print(answer_of(found));
-  if (!c.table.empty()) write_table(c.table, landmark_table(found));
+  if (!compared.landmarks.empty() && (!sets.empty() || !scan.judged.empty()))
+    run.print("\n" + compared.summary().text());
+  if (!c.table.empty()) write_table(c.table, landmark_table(found, compared));
+  if (!c.seen.empty()) write_surface(c.seen, seen_beside(scan, found));
   if (!c.second.empty()) {
     found.second.history = run.history({{c.mesh, mesh.content_sha256, &mesh.history}});
     found.second.wall_seconds = run.seconds();

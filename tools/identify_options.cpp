@@ -13,8 +13,13 @@ void IdentifyChoices::check() const {
         "there are no data of a second posture: give --landmarks, --nipple, --surface or "
         "--force-thickness");
   }
-  if (!align && align_deviation != std::vector<double>{4, 2})
-    throw input_error("--align-deviation needs --align");
+  if (labels.empty() != second_labels.empty())
+    throw input_error("--labels and --second-labels go together: walls of both scans are compared");
+  if (!second_landmarks.empty() && landmarks.empty())
+    throw input_error("--second-landmarks goes with --landmarks");
+  if (!seen.empty() && surface.empty()) throw input_error("--seen goes with --surface");
+  if (!align && labels.empty() && align_deviation != std::vector<double>{4, 2})
+    throw input_error("--align-deviation is for --align and --labels");
   for (const double one : align_deviation)
     if (!(one > 0 && one <= 100))
       throw input_error("--align-deviation ", one, " must lie above 0 and up to 100");
@@ -31,13 +36,22 @@ namespace {
 
 void declare_data(Tool& tool, IdentifyChoices& c) {
   tool.input_file(
-      c.landmarks, "--landmarks", "PAIRS.tsv",
+      c.landmarks, "--landmarks", "PAIRS.tsv|MARKS.mrk.json",
       "material points marked in both postures: columns prone_x_mm ... supine_z_mm, optionally "
-      "landmark, observer_mm and side");
+      "landmark, observer_mm and side; or marks of 3D Slicer, paired by their labels (prone-3 with supine-3)");
+  tool.input_file(c.second_landmarks, "--second-landmarks", "MARKS.mrk.json",
+                  "marks of the second posture, if --landmarks contains only those of the scan");
   tool.numbers(c.nipple, "--nipple", "x,y,z", 3,
                "where the mesh's nipple lies in the second posture, mm LPS");
   tool.input_file(c.surface, "--surface", "SKIN.vtp",
-                  "skin seen in the second posture: triangles, or points with normals");
+                  "skin seen in the second posture: triangles, or points with normals, as segment --posture supine "
+                  "--points gives them");
+  tool.input_file(c.labels, "--labels", "LABELS.vtkhdf",
+                  "segmentation of the scan: its chest wall is laid over that of --second-labels");
+  tool.input_file(c.second_labels, "--second-labels", "LABELS.vtkhdf",
+                  "segmentation of the second scan (segment --posture supine); its nipple is judged, not fitted");
+  tool.input_file(c.judge, "--judge", "PAIRS.tsv",
+                  "landmarks as --landmarks has them, predicted and judged but not fitted");
   tool.input_file(
       c.forces, "--force-thickness", "FILE.tsv",
       "forces of a paddle: columns thickness_mm, force_N, optionally sd_N (default: a tenth of "
@@ -82,6 +96,10 @@ void declare_identify(Tool& tool, IdentifyChoices& c) {
       "fails at 1 % the data's errors count as much larger as the misfit says. OUT.tsv holds the "
       "covariance: --materials OUT.tsv runs the chain, cc2mlo --band --materials OUT.tsv draws the "
       "band of what is left open.");
+  tool.describe(
+      "With --labels and --second-labels the rib cage's motion between the scans is taken from their chest walls first (rigid, "
+      "places that do not fit are left out), and what the walls do not tell of it, which is said, stays sought. Landmarks then are "
+      "judged in the frame of the mesh: errors of the answer, each landmark left out, beside those of other sets (--compare).");
   tool.input(c.mesh, "MESH.vtkhdf",
              "mesh of the breast imaged prone, with its wall surface (hexmesh)");
   tool.output(c.set, "OUT.tsv", "the material set found, with its covariance");
@@ -93,11 +111,15 @@ void declare_identify(Tool& tool, IdentifyChoices& c) {
   tool.choice(c.prior, "--prior", {"set", "none"},
               "prior: the covariance of the material set, or nearly none");
   tool.flag(c.align, "--align", "allow for a motion of the rib cage between the postures");
+  tool.texts(c.compare, "--compare", "NAME|FILE",
+             "another material set whose errors at the landmarks are tabulated for comparison");
   tool.numbers(c.align_deviation, "--align-deviation", "MM,DEGREES", 2,
                "rms shift and rotation of the rib cage that are expected (default: 4,2)");
   tool.integer(c.pairs, "--max-pairs", "N",
                "largest number of trials, each of which solves backward and forward", 2, 500);
   tool.output_file(c.table, "--table", "OUT.tsv", "table with one row per landmark");
+  tool.output_file(c.seen, "--seen", "OUT.vtp",
+                   "the surface of --surface in the frame of --second, for figures");
   tool.output_file(c.second, "--second", "OUT.vtkhdf",
                    "the second posture, solved with the set found");
   declare_gravity(tool, c.gravity,
@@ -108,6 +130,9 @@ void declare_identify(Tool& tool, IdentifyChoices& c) {
   tool.example(
       "identify mesh.vtkhdf patient.tsv --landmarks pairs.tsv --align --table landmarks.tsv",
       "from landmarks marked prone and supine");
+  tool.example("identify mesh.vtkhdf patient.tsv --surface supine-skin.vtp --labels labels.vtkhdf --second-labels "
+               "supine-labels.vtkhdf --compare seed2008 --compare invivo --table landmarks.tsv",
+               "from the skin of a supine scan, rib cages laid over each other by their walls");
   tool.example("identify mesh.vtkhdf patient.tsv --nipple 158,-9,13",
                "from the nipple alone; the result is mostly the prior, as the output says");
 }

@@ -11,7 +11,9 @@
 namespace breast {
 
 struct IdentifyChoices {
-  std::filesystem::path mesh, set, landmarks, surface, forces, table, second;
+  std::filesystem::path mesh, set, landmarks, second_landmarks, surface, forces, labels, second_labels, judge, table,
+      second, seen;
+  std::vector<std::string> compare;
   std::vector<double> nipple, align_deviation{4, 2};
   double observer = 2.5, surface_error = 2, outside = 10;
   double standoff = 5, edge_radius = 5;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// phantom: a prone breast MR scan whose stress-free, prone and supine truth is known.
+// phantom: a prone or supine breast MR scan whose stress-free, prone and supine truth is known.
 #include "phantom/parameters.hpp"
 
 #include <map>
@@ -21,14 +21,15 @@ namespace {
 
 struct Choices {
   std::filesystem::path image, truth, dicom;
-  std::string preset = "average", materials;
+  std::string preset = "average", materials, posture = "prone";
+  std::vector<double> misalign{0, 0};
   int seed = 1;
   double bias = 2, noise = 2, coarse = 1;
 };
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Makes a bilateral prone breast MR (T1 without fat suppression, 512x512x60 voxels of "
+      "Makes a bilateral breast MR (T1 without fat suppression, 512x512x60 voxels of "
       "0.82x0.82x2.5 mm): breasts with skin, fat, an irregular fibroglandular tree and nipple "
       "on a chest with pectoral muscle, ribs and lung; coil bias, partial volume, Rician noise. "
       "The prone shape is the equilibrium of a known stress-free shape under gravity, solved "
@@ -37,6 +38,11 @@ void declare(Tool& tool, Choices& c) {
       "defined by their prone shape and slide on the rib cage, with supports and stiffness that "
       "differ from those of the material set; the other presets are defined by their "
       "stress-free shape and held at the chest wall.");
+  tool.describe(
+      "With --posture supine it makes the scan of the same body lying on her back: the same rib cage, the "
+      "breasts where the same mechanics puts them, and the fat of the chest as thick as before wherever no breast lies. "
+      "--misalign shifts and rotates that body in the scanner, as a second visit does; all supine truth is then that of "
+      "the moved body, and the report contains the motion.");
   tool.output(c.image, "OUT.nrrd", "the scan (.nrrd, .nii, .nii.gz or .mha)",
               {".nii", ".nii.gz", ".mha"});
   tool.output_folder(
@@ -52,6 +58,9 @@ void declare(Tool& tool, Choices& c) {
               "coil sensitivity: ratio of the brightest to the darkest breast fat", 1, 20);
   tool.number(c.noise, "--noise", "%",
               "standard deviation of the noise in percent of the fat signal", 0, 100);
+  tool.choice(c.posture, "--posture", {"prone", "supine"}, "posture of the scan");
+  tool.numbers(c.misalign, "--misalign", "MM,DEGREES", 2,
+               "shift and rotation of a supine body relative to the prone one, in directions drawn from the seed");
   tool.text(c.materials, "--materials", "NAME|FILE",
             "material set of the breasts (default: that of the preset)");
   tool.number(c.coarse, "--coarse", "FACTOR",
@@ -59,10 +68,19 @@ void declare(Tool& tool, Choices& c) {
               8);
   tool.check([&c] {
     if (!c.dicom.empty()) check_dicom_folder(c.dicom);
+    const double shift = c.misalign[0], turn = c.misalign[1];
+    if ((shift != 0 || turn != 0) && c.posture != "supine")
+      throw input_error("--misalign is for --posture supine");
+    if (!(shift >= 0 && shift <= 50 && turn >= 0 && turn <= 15)) {
+      throw input_error("--misalign ", shift, ",", turn,
+                        ": the shift must lie between 0 and 50 mm, the turn between 0 and 15 degrees");
+    }
   });
   tool.example("phantom paper.nrrd --truth paper-truth", "a breast of average size and its truth");
   tool.example("phantom p.nrrd --preset pendulous --seed 7 --bias 5 --dicom p-dicom",
                "a pendulous breast under a strong coil bias, also as DICOM");
+  tool.example("phantom supine.nrrd --posture supine --misalign 4,2 --truth supine-truth",
+               "the average body on her back, lying 4 mm and 2 degrees off");
 }
 
 PhantomParameters parameters_of(const Choices& c) {
@@ -91,6 +109,26 @@ void write_truth_side(const std::filesystem::path& folder, PhantomBreast& breast
                 boundary_surface(mesh, mesh.points, mesh.pectoral_faces));
 }
 
+/// Supine shapes for imaging.
+void lie_supine(PhantomScene& scene, const std::map<Side, Postures>& solved) {
+  for (const auto& [side, postures] : solved) scene.breast(side).lie_supine(postures.supine);
+}
+
+/// Where the body lies in the scanner, for the truth beside the image.
+void move_with_body(PhantomScene& scene, const RigidMotion& moved) {
+  for (Side side : {Side::left, Side::right}) {
+    HexMesh& mesh = scene.breast(side).mesh;
+    for (Vec3& point : mesh.points) point = moved(point);
+    mesh.gravity = moved.rotation() * mesh.gravity;
+  }
+}
+
+void report_motion(const RigidMotion& moved, Report& report) {
+  report.set("misalignment/centre_mm", moved.centre);
+  report.set("misalignment/shift_mm", moved.shift);
+  report.set("misalignment/turn_deg", moved.turn);
+}
+
 void run_phantom(const Choices& c, Run& run) {
   const PhantomParameters parameters = parameters_of(c);
   const MaterialSet materials = body_materials(parameters.body);
@@ -98,11 +136,15 @@ void run_phantom(const Choices& c, Run& run) {
   std::optional<AtomicFolder> folder;
   if (!c.truth.empty()) folder.emplace(c.truth, "landmarks.tsv");
   write_parameters(parameters, run.report());
+  run.report().set("posture", c.posture);
   run.progress().update("shape", -1, "stress-free breasts and their glands");
   PhantomScene scene = [&] {
     Timer::Scope phase(run.timer(), "shape");
     return PhantomScene(parameters);
   }();
+  const bool supine = c.posture == "supine";
+  const RigidMotion moved = supine ? misalignment(scene, c.misalign[0], c.misalign[1]) : RigidMotion();
+  if (supine) report_motion(moved, run.report());
   Table landmarks;
   double worst = 0;
   std::map<Side, Postures> solved;
@@ -112,17 +154,21 @@ void run_phantom(const Choices& c, Run& run) {
     TruthError error;
     const Postures postures = solve_breast(breast, parameters, materials, error, run.progress());
     report_breast(breast, postures, run.report());
-    add_landmarks(breast, postures, landmarks);
+    Postures seen = postures;
+    for (Vec3& point : seen.supine) point = moved(point);
+    add_landmarks(breast, seen, landmarks);
     worst = std::max(worst, error.worst());
     solved[side] = postures;
   }
   run.report().set("error_estimate_mm", worst);
   run.report().set("error_estimate_by",
                    "largest landmark distance to a mesh of half the resolution");
+  if (supine) lie_supine(scene, solved);
   PhantomImage image = [&] {
     Timer::Scope phase(run.timer(), "imaging");
-    return image_scene(scene, run.progress());
+    return image_scene(scene, run.progress(), moved);
   }();
+  if (supine) move_with_body(scene, moved);
   Timer::Scope phase(run.timer(), "writing");
   const Volume<std::int16_t> mr = scan(image, parameters.mri, parameters.seed);
   if (!c.truth.empty()) {
@@ -144,7 +190,7 @@ void run_phantom(const Choices& c, Run& run) {
 
 int main(int argc, char** argv) {
   Choices c;
-  Tool tool("phantom", "a prone breast MR scan whose truth is known");
+  Tool tool("phantom", "a prone or supine breast MR scan whose truth is known");
   declare(tool, c);
   return tool.main(argc, argv, [&c](Run& run) { run_phantom(c, run); });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// segment: labels of one breast from a prone T1 MR scan.
+// segment: labels of one breast from a prone or supine T1 MR scan.
 #include "segment/segment.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 
 struct Choices {
   std::filesystem::path scan, labels, wall, points, overlay, measures;
-  std::string side, interior = "threshold", contrast = "auto";
+  std::string side, interior = "threshold", contrast = "auto", posture = "prone";
   int series = 0;
   double wall_shift = 0;
   std::vector<std::string> codes;
@@ -36,6 +36,11 @@ void declare(Tool& tool, Choices& c) {
       "Finds the body, the coil's uneven sensitivity, the chest wall (minimum cut), the "
       "breast's extent on it, fat, fibroglandular tissue, skin and nipple. Everything behind "
       "the chest wall is labelled muscle, and the rest of the body is labelled other.");
+  tool.describe(
+      "For a supine scan (--posture supine), the second posture of identify, skin and chest wall are what "
+      "matters: --points then contains the skin of the whole side with normals, and the wall wherever it was "
+      "seen. The breast, spread over the side of the chest, is labelled as far as the wall was sought; beyond "
+      "the side of the rib cage its end is arbitrary.");
   tool.cite("Pathmanathan et al. 2008, section II-A; Li et al., IEEE TPAMI 28:119 (2006)");
   tool.input(c.scan, "MR", "scan: .nrrd, .nii, .nii.gz, .mha, or a DICOM folder");
   tool.output(
@@ -45,6 +50,7 @@ void declare(Tool& tool, Choices& c) {
       {".nrrd", ".nii", ".nii.gz", ".mha"});
   tool.choice(c.side, "--side", {"left", "right"}, "the patient's left or right breast")
       .required("--side");
+  tool.choice(c.posture, "--posture", {"prone", "supine"}, "how the patient lies");
   tool.integer(c.series, "--series", "N", "which series of a DICOM folder (0: the only one)", 0,
                10000);
   tool.input_file(
@@ -81,6 +87,8 @@ void declare(Tool& tool, Choices& c) {
   });
   tool.example("segment scan.nrrd labels.vtkhdf --side left --overlay look.png",
                "the left breast, with a picture of the contours");
+  tool.example("segment supine.nrrd supine-labels.vtkhdf --side left --posture supine --points supine-skin.vtp",
+               "the second posture, for identify");
   tool.example("segment dicom/ labels.vtkhdf --side right --series 2 --chest-wall clicked.tsv",
                "the second series of a folder, with the chest wall corrected by clicked points");
 }
@@ -150,6 +158,7 @@ Run::Input read_wall(const std::filesystem::path& file, const TissueCodes& codes
 void run_segment(const Choices& c, Run& run) {
   SegmentOptions options;
   options.side = side_from_name(c.side);
+  options.posture = posture_from_name(c.posture);
   options.wall_shift = c.wall_shift;
   if (c.interior == "region-growing") options.interior = Interior::region_growing;
   if (c.contrast == "fat-bright") options.contrast = Contrast::fat_bright;
@@ -175,6 +184,7 @@ void run_segment(const Choices& c, Run& run) {
   run.report().set("side", side_name(result.labels.side));
   run.report().set("landmarks/nipple/imaged", result.labels.landmarks.at("nipple"));
   run.report().set("nipple_base", result.nipple_base);
+  run.report().set("posture", c.posture);
   run.report().set("interior", c.interior);
   const Timer::Scope phase(run.timer(), "write");
   if (!c.overlay.empty()) write_overlay(c.overlay, scan, result.labels);
@@ -193,7 +203,7 @@ void run_segment(const Choices& c, Run& run) {
 
 int main(int argc, char** argv) {
   Choices c;
-  Tool tool("segment", "labels of one breast from a prone T1 MR scan");
+  Tool tool("segment", "labels of one breast from a prone or supine T1 MR scan");
   declare(tool, c);
   return tool.main(argc, argv, [&c](Run& run) { run_segment(c, run); });
 }

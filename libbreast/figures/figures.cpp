@@ -48,6 +48,10 @@ const std::vector<Figure>& figures() {
       {"outlines",
        "superimposed shapes, from the scan to other postures (one or more deformed .vtkhdf)", 1600,
        800, false, false, draw_outlines},
+      {"postures",
+       "one slice of a breast prone, as predicted in a second posture, and as seen there (deformed .vtkhdf, "
+       "and .vtp of identify --seen)",
+       1100, 900, false, true, draw_postures},
       {"compression", "shapes between their plates (one or two compressed .vtkhdf)", 1600, 1060,
        false, false, draw_compression},
       {"pressure",

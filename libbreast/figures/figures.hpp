@@ -31,7 +31,7 @@ struct FigureInput {
   std::optional<LabelVolume> labels;  ///< of that scan
 };
 
-/// "slices", "points", "geometry", "mesh", "tissues", "outlines", "compression", "pressure",
+/// "slices", "points", "geometry", "mesh", "tissues", "outlines", "postures", "compression", "pressure",
 /// "force-thickness", "mammogram", "matching", "summary".
 const std::vector<std::string>& figure_names();
 /// One line for the help on what the figure shows and needs.

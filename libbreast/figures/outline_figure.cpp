@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/table.hpp"
 #include "figures/parts.hpp"
@@ -18,6 +19,7 @@ constexpr std::array<Colour, 4> colours = {
 constexpr Colour wall_colour{0.35, 0.20, 0.18};
 constexpr double line_pixels = 3, thin_pixels = 1.5, letters = 17;
 constexpr double ring_pixels = 6;
+constexpr double dot_mm = 0.7;
 
 const Colour& colour_of(std::size_t shape) {
   return colours[shape % colours.size()];
@@ -86,6 +88,34 @@ void add_arrows(Panel& panel, const std::vector<Shape>& shapes) {
   }
 }
 
+/// Points of a second scan about a height: a slab as thick as its slices are apart.
+void add_seen(Panel& panel, const TriMesh& seen, double height) {
+  constexpr double thinnest = 1.3;  // mm to either side
+  std::vector<Vec3> skin, wall;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Vec3& point : seen.points) nearest = std::min(nearest, std::abs(point.z() - height));
+  const auto kind = seen.point_data.find("surface");
+  for (std::size_t i = 0; i < seen.points.size(); ++i) {
+    if (std::abs(seen.points[i].z() - height) > std::max(thinnest, 1.5 * nearest)) continue;
+    const bool on_wall = kind != seen.point_data.end() && kind->second[i] > 0.5;
+    Vec3 at = seen.points[i];
+    at.z() = height;
+    (on_wall ? wall : skin).push_back(at);
+  }
+  if (!skin.empty()) panel.cloud(skin, dot_mm, colours[2]);
+  if (!wall.empty()) panel.cloud(wall, dot_mm, wall_colour);
+}
+
+void add_names(Panel& panel, const std::vector<std::pair<std::string, Colour>>& names) {
+  constexpr double row = 24, text_height = 17, left = 18;
+  double y = panel.size().y() - 62;
+  for (const auto& [name, colour] : names) {
+    panel.line({left, y + 6}, {left + 26, y + 6}, colour, 4);
+    panel.text({left + 34, y}, name, text_height, palette::ink);
+    y -= row;
+  }
+}
+
 }  // namespace
 
 std::vector<Shape> shapes_of(const std::vector<const HexMesh*>& states) {
@@ -123,6 +153,28 @@ void add_shape_legend(Panel& panel, const std::vector<Shape>& shapes) {
     panel.line({left, y}, {left + 26, y}, colour_of(k), 4);
     panel.text({left + 34, y}, words, letters - 1, palette::ink);
   }
+}
+
+void draw_postures(Picture& picture, const FigureInput& input) {
+  need(input.meshes.size() == 1 && input.surfaces.size() == 1, "postures",
+       "a deformed .vtkhdf and the .vtp of what was seen (identify --second and --seen)");
+  const HexMesh& mesh = input.meshes.front().mesh;
+  const Landmark* nipple = mesh.landmark("nipple");
+  const double height = nipple != nullptr ? landmark_position(mesh, mesh.points, *nipple).z() : 0;
+  Panel& slice = picture.panel(0, 0, 1, 1);
+  add_section(slice, {&mesh, &mesh.imaged, ""}, height, colours[0]);
+  add_section(slice, {&mesh, &mesh.points, ""}, height, colours[1]);
+  add_wall(slice, mesh, height);
+  add_seen(slice, input.surfaces.front(), height);
+  add_arrows(slice, {{&mesh, &mesh.imaged, ""}, {&mesh, &mesh.points, ""}});
+  slice.look_along(Vec3(0, 0, 1), Vec3(0, -1, 0), 0.16);
+  slice.caption("transverse section through the nipple as predicted, seen from below");
+  add_names(slice, {{"as scanned prone, with the nipple", colours[0]},
+                    {posture_of(mesh.gravity) + " as predicted", colours[1]},
+                    {"skin as seen in the second scan", colours[2]},
+                    {"chest wall of both scans", wall_colour}});
+  slice.scale_bar();
+  slice.compass();
 }
 
 void draw_outlines(Picture& picture, const FigureInput& input) {

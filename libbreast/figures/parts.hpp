@@ -101,6 +101,7 @@ void draw_geometry(Picture& picture, const FigureInput& input);
 void draw_mesh(Picture& picture, const FigureInput& input);
 void draw_tissues(Picture& picture, const FigureInput& input);
 void draw_outlines(Picture& picture, const FigureInput& input);
+void draw_postures(Picture& picture, const FigureInput& input);
 void draw_compression(Picture& picture, const FigureInput& input);
 void draw_pressure(Picture& picture, const FigureInput& input);
 void draw_force_thickness(Picture& picture, const FigureInput& input);

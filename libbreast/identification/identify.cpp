@@ -53,6 +53,10 @@ class Search {
         prior_(at, at) = deviation * deviation;
         unit_[at] = deviation;
       }
+      if (options.motion_covariance) {
+        prior_.bottomRightCorner<6, 6>() = *options.motion_covariance;
+        unit_.tail<6>() = options.motion_covariance->diagonal().cwiseSqrt();
+      }
     }
     const Eigen::LLT<MatrixXd> factor(prior_);
     if (factor.info() != Eigen::Success) {

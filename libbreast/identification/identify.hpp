@@ -16,7 +16,9 @@ struct IdentifyOptions {
   PriorKind prior = PriorKind::set;
   bool align = false;
   double shift_mm = 4,
-         turn_deg = 2;         ///< expected motion of the rib cage, of each of three components
+         turn_deg = 2;         ///< expected motion of the rib cage, rms in space
+  /// The same as a covariance of shift (mm) and turn (degrees), where more is known of it.
+  std::optional<Eigen::Matrix<double, 6, 6>> motion_covariance = {};
   int max_pairs = 25;          ///< solves of backward and forward, those for curvature included
   bool curvature = true;       ///< whether they are spent
   Eigen::VectorXd start = {};  ///< logarithms to begin at; empty: the middle of the prior

@@ -49,12 +49,16 @@ SeenSurface seen_surface(const TriMesh& surface, double deviation, const std::st
   if (normals.size() != surface.points.size()) {
     throw input_error(where, ": points without triangles or normals; give a triangle surface");
   }
+  const auto kind = surface.point_data.find("surface");
+  const auto is_skin = [&](std::size_t k) {
+    return kind == surface.point_data.end() || kind->second[k] == 0;
+  };
   SeenSurface seen;
   seen.deviation = deviation;
   const double keep = std::min(1.0, double(most_points) / double(surface.points.size()));
   for (std::size_t k = 0; k < surface.points.size(); ++k) {
     const bool kept = std::floor(double(k + 1) * keep) > std::floor(double(k) * keep);
-    if (!kept || !(normals[k].norm() > 0)) continue;
+    if (!kept || !is_skin(k) || !(normals[k].norm() > 0)) continue;
     seen.points.push_back(surface.points[k]);
     seen.normals.push_back(normals[k].normalized());
   }

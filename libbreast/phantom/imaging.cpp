@@ -91,9 +91,9 @@ class Imager {
     tissue = Tissue::air;
     if (skin > 0) return Matter::air;
     if (wall > 0) {
-      // Within the cut whatever is not in the prone breast is air. The last 3 mm before the cut
+      // Within the cut whatever is not in the breast is air. The last 3 mm before the cut
       // hardly move: there the rigid skin is as good.
-      if (scene_.left->map.inside_cut(x, 3) || scene_.right->map.inside_cut(x, 3)) {
+      if (scene_.left->inside_cut(x, 3) || scene_.right->inside_cut(x, 3)) {
         return Matter::air;
       }
       tissue = Tissue::other;
@@ -196,14 +196,19 @@ class Imager {
 
 }  // namespace
 
-PhantomImage image_scene(const PhantomScene& scene, Progress& progress) {
+PhantomImage image_scene(const PhantomScene& scene, Progress& progress, const RigidMotion& moved) {
   PhantomImage image;
-  image.signal = Volume<float>(phantom_grid(scene.parameters.mri));
+  const Grid scanner = phantom_grid(scene.parameters.mri);
+  // Seen from a body that was moved, the scanner's grid is.
+  Grid seen = scanner;
+  seen.origin = moved.origin_of(scanner.origin);
+  seen.direction = moved.rotation().transpose() * scanner.direction;
+  image.signal = Volume<float>(seen);
   const Grid& grid = image.signal.grid;
   image.tissue.resize(grid.voxels());
   image.side.resize(grid.voxels());
   image.gland_percent.resize(grid.voxels());
-  progress.update("image", 0, "locating voxels in the prone breasts");
+  progress.update("image", 0, "locating voxels in the breasts");
   Imager imager(scene, image);
   std::atomic<int> done{0};
 #pragma omp parallel for schedule(dynamic) num_threads(threads())
@@ -213,12 +218,13 @@ PhantomImage image_scene(const PhantomScene& scene, Progress& progress) {
 #pragma omp critical(phantom_progress)
     progress.update("image", double(finished) / grid.size[2], "slices");
   }
+  image.signal.grid = scanner;
   return image;
 }
 
 namespace {
 
-// The papilla's tip in the prone image: it stands out of the mesh, turned
+// The papilla's tip in the image: it stands out of the mesh, turned
 // with the tissue behind it.
 Vec3 nipple_tip(const PhantomBreast& breast) {
   const HexMesh& mesh = breast.mesh;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sampling of the prone scene for the simulated scanner: matter per subsample of every voxel, and
-// the labels.
+// Sampling of the scene for the simulated scanner: matter per subsample of every voxel, and the
+// labels.
 #pragma once
 
 #include "image/label_volume.hpp"
@@ -18,12 +18,13 @@ struct PhantomImage {
 
 /// 512×512×60 voxels of 0.82×0.82×2.5 mm around the chest; coarser by `voxel_factor`.
 Grid phantom_grid(const MriParameters& parameters);
-/// Images the prone shape (mesh.points). Voxels are independent of each other: the result does not
-/// depend on the number of threads.
-PhantomImage image_scene(const PhantomScene& scene, Progress& progress = no_progress());
+/// Images the shape in mesh.points, the whole body `moved` in the scanner. Voxels are independent of each other: the
+/// result does not depend on the number of threads.
+PhantomImage image_scene(const PhantomScene& scene, Progress& progress = no_progress(),
+                         const RigidMotion& moved = {});
 /// The label volume `segment` should find for one side, cropped to the breast and its surroundings.
 /// The breast is the tissue inside the mesh, up to its cut; fat beyond is `other`. Landmarks: the
-/// tip of the nipple and the tumour, prone.
+/// tip of the nipple and the tumour. Meshes of a body that was moved must have been moved with it.
 LabelVolume true_labels(const PhantomScene& scene, const PhantomImage& image, Side side);
 
 }  // namespace breast

@@ -16,11 +16,17 @@ BreastFrames::BreastFrames(const PhantomBreast& breast, const Grid& grid)
       locator_(breast.mesh, breast.mesh.points),
       nipple_(breast.mesh.points[breast.mesh.nipple_node]) {
   const Vec3 margin(16, 16, 16);
-  const Vec3 a = grid.to_index(locator_.lower() - margin),
-             b = grid.to_index(locator_.upper() + margin);
+  // Corners of the box in a grid that may be turned against it.
+  const Vec3 low = locator_.lower() - margin, high = locator_.upper() + margin;
+  Vec3 a = grid.to_index(low), b = a;
+  for (int corner = 1; corner < 8; ++corner) {
+    const Vec3 at = grid.to_index(Vec3((corner & 1 ? high : low).x(), (corner & 2 ? high : low).y(),
+                                       (corner & 4 ? high : low).z()));
+    a = a.cwiseMin(at), b = b.cwiseMax(at);
+  }
   for (int d = 0; d < 3; ++d) {
-    low_[d] = std::clamp(int(std::floor(std::min(a[d], b[d]))), 0, grid.size[d] - 1);
-    size_[d] = std::clamp(int(std::ceil(std::max(a[d], b[d]))), 0, grid.size[d] - 1) - low_[d] + 1;
+    low_[d] = std::clamp(int(std::floor(a[d])), 0, grid.size[d] - 1);
+    size_[d] = std::clamp(int(std::ceil(b[d])), 0, grid.size[d] - 1) - low_[d] + 1;
   }
   element_.assign(std::size_t(size_[0]) * size_[1] * size_[2], -1);
 #pragma omp parallel for schedule(dynamic) num_threads(threads())
@@ -57,7 +63,7 @@ bool BreastFrames::at(int i, int j, int k, MaterialFrame& out) const {
     }
   }
   if (!touches(i, j, k) && (x - nipple_).norm() > 15) return false;
-  if (breast_.shape.torso().wall_distance(x) > 0 && !breast_.map.inside_cut(x, 0)) {
+  if (breast_.shape.torso().wall_distance(x) > 0 && !breast_.inside_cut(x, 0)) {
     return false;
   }
   out = frame(locator_.nearest(x), x);
@@ -67,20 +73,20 @@ bool BreastFrames::at(int i, int j, int k, MaterialFrame& out) const {
 // Outside the mesh the map is continued linearly from the nearest point of it.
 MaterialFrame BreastFrames::frame(const Location& location, const Vec3& x) const {
   const HexMesh& mesh = breast_.mesh;
-  std::array<Vec3, 27> prone, stress_free;
+  std::array<Vec3, 27> imaged, stress_free;
   const int* vtk = lattice::vtk_nodes(mesh.order);
   const int* nodes = mesh.element(location.element);
   for (int a = 0; a < mesh.nodes_per_element(); ++a) {
-    prone[a] = mesh.points[nodes[vtk[a]]];
+    imaged[a] = mesh.points[nodes[vtk[a]]];
     stress_free[a] = mesh.reference[nodes[vtk[a]]];
   }
   Vec3 at, material;
-  Mat3 prone_jacobian, jacobian;
-  lattice::evaluate(mesh.order, prone.data(), location.local, at, prone_jacobian);
+  Mat3 imaged_jacobian, jacobian;
+  lattice::evaluate(mesh.order, imaged.data(), location.local, at, imaged_jacobian);
   lattice::evaluate(mesh.order, stress_free.data(), location.local, material, jacobian);
   MaterialFrame out;
-  out.gradient = jacobian * prone_jacobian.inverse();
-  out.prone = x;
+  out.gradient = jacobian * imaged_jacobian.inverse();
+  out.imaged = x;
   out.stress_free = material + out.gradient * (x - at);
   return out;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Map from voxels of the prone image to the stress-free points that lie there.
+// Map from voxels of the image to the stress-free points that lie there.
 #pragma once
 
 #include "image/volume.hpp"
@@ -11,9 +11,9 @@ namespace breast {
 /// The deformation around one voxel, inverted and linearised at its centre (the error within a
 /// voxel is below 0.02 mm: strains change over centimetres).
 struct MaterialFrame {
-  Vec3 prone{0, 0, 0}, stress_free{0, 0, 0};
-  Mat3 gradient = Mat3::Identity();  ///< ∂(stress-free)/∂(prone)
-  Vec3 at(const Vec3& x) const { return stress_free + gradient * (x - prone); }
+  Vec3 imaged{0, 0, 0}, stress_free{0, 0, 0};
+  Mat3 gradient = Mat3::Identity();  ///< ∂(stress-free)/∂(imaged)
+  Vec3 at(const Vec3& x) const { return stress_free + gradient * (x - imaged); }
 };
 
 /// Finds the frame of every voxel in or next to one breast: in the mesh, within one voxel of it, or

@@ -10,6 +10,7 @@
 #include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/units.hpp"
 #include "mesh/lattice.hpp"
 #include "mesh/locate.hpp"
 #include "phantom/random.hpp"
@@ -27,6 +28,12 @@ PhantomBreast::PhantomBreast(const PhantomParameters& parameters, const Torso& t
   place_landmarks(*this, mesh);
 }
 
+void PhantomBreast::lie_supine(const std::vector<Vec3>& points) {
+  mesh.points = points;
+  mesh.gravity = posture_gravity(Posture::supine);
+  supine_cut.emplace(mesh);
+}
+
 PhantomScene::PhantomScene(const PhantomParameters& p)
     : parameters(p),
       torso(p.torso, mix(p.seed, 301)),
@@ -39,6 +46,19 @@ PhantomScene::PhantomScene(const PhantomParameters& p)
       throw input_error("phantom breasts meet at the midline: larger centre_x or smaller radius");
     }
   }
+}
+
+RigidMotion misalignment(const PhantomScene& scene, double shift_mm, double turn_deg) {
+  RandomStream stream(mix(scene.parameters.seed, 501));
+  const auto direction = [&stream] {
+    const double x = stream.normal(), y = stream.normal(), z = stream.normal();
+    return Vec3(x, y, z).normalized();
+  };
+  RigidMotion motion;
+  motion.centre = scene.torso.wall_point(0, 0);
+  motion.shift = shift_mm * direction();
+  motion.turn = turn_deg * direction();
+  return motion;
 }
 
 void assign_gland(const GlandField& gland, HexMesh& mesh) {

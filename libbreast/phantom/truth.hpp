@@ -17,11 +17,11 @@ namespace breast {
 TriMesh boundary_surface(const HexMesh& mesh, const std::vector<Vec3>& nodal,
                          const std::vector<Face>& faces);
 
-/// One row per landmark of one side: landmark, side, then x y z (mm, LPS) stress-free, prone,
+/// One row per landmark of one side: landmark, side, then x y z (mm, LPS) stress-free, prone (mesh.imaged),
 /// supine. Rows are appended to `table`, whose columns are set when it is empty.
 void add_landmarks(const PhantomBreast& breast, const Postures& postures, Table& table);
 
-/// The tumour's prone place as hexmesh --tumour reads it: x_mm y_mm z_mm.
+/// The tumour's place in the scan (mesh.points) as hexmesh --tumour reads it: x_mm y_mm z_mm.
 Table tumour_place(const HexMesh& mesh);
 
 /// Reports the solve of one breast and the displacements of its nipple and tumour, under "left/" or

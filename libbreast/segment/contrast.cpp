@@ -31,12 +31,11 @@ float squared(float value) {
 
 }  // namespace
 
-FatContrast contrast_below_skin(const Work& work) {
+FatContrast contrast_below_skin(const Work& work, double behind_sternum) {
   const Grid& grid = work.scan.grid;
   Volume<float> tissue(grid), subcutis(grid), weight(grid);
-  // In front of the sternum's skin there is breast and nothing else.
   for (int k = 0; k < grid.size[2]; ++k) {
-    for (int j = 0; j < grid.size[1] && j * grid.spacing[1] < work.torso.cleft[k]; ++j) {
+    for (int j = 0; j < grid.size[1] && j * grid.spacing[1] < work.torso.cleft[k] + behind_sternum; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
         const std::size_t n = grid.offset(i, j, k);
         const double depth = -work.skin_distance.voxels[n];
@@ -58,7 +57,7 @@ FatContrast contrast_below_skin(const Work& work) {
   subcutis = gaussian(subcutis, 10);
   weight = gaussian(weight, 10);
   for (int k = 0; k < grid.size[2]; ++k) {
-    for (int j = 0; j < grid.size[1] && j * grid.spacing[1] < work.torso.cleft[k]; ++j) {
+    for (int j = 0; j < grid.size[1] && j * grid.spacing[1] < work.torso.cleft[k] + behind_sternum; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
         const std::size_t n = grid.offset(i, j, k);
         const double depth = -work.skin_distance.voxels[n];

@@ -20,8 +20,9 @@ struct FatContrast {
   double muscle_ratio = 0;  ///< brightness behind the chest wall relative to fat
 };
 
-/// Computes the first two quantities, which only need the scan and the body.
-FatContrast contrast_below_skin(const Work& work);
+/// Computes the first two quantities, which only need the scan and the body: below skin that lies at
+/// most `behind_sternum` mm behind that over the sternum. In front of it there is only breast.
+FatContrast contrast_below_skin(const Work& work, double behind_sternum = 0);
 
 /// Evidence of saturated fat: the sum of a score for each of the four quantities, from 0 at the
 /// limit of scans with bright fat to 1 at the value of a saturated scan. A scan with more than

@@ -86,6 +86,7 @@ Extents extents_of(const Work& work, const Vec3& nipple, Side side) {
   const int i = std::clamp(int(std::lround(at[0])), 0, grid.size[0] - 1),
             k = std::clamp(int(std::lround(at[2])), 0, grid.size[2] - 1);
   found.nipple_depth_mm = work.wall.depth.at(i, k) - at[1] * grid.spacing[1];
+  found.nipple_in_front_mm = work.torso.cleft[k] - at[1] * grid.spacing[1];
   return found;
 }
 

@@ -43,14 +43,17 @@ std::vector<StageQuality> quality_of(const Segmentation& result) {
       .of("sigma_p95_mm", result.wall_sigma_p95, 3, 6)
       .of("muscle_to_fat", result.muscle_ratio, 0.2, 0.12)
       .of("muscle_to_fat", result.muscle_ratio, 0.4, 0.5);
-  extent.of("front_left_out_percent", result.front_left_out_percent, 5, 12)
-      .of("breast_ml", volume, 100, 50)
+  extent.of("breast_ml", volume, 100, 50)
       .of("breast_ml", volume, 2500, 3500)
       .of("lateral_border_mm", result.lateral_border_mm, 90, 70)
-      .of("lateral_border_mm", result.lateral_border_mm, 200, 230)
-      .of("nipple_depth_mm", result.nipple_depth_mm, 0.8 * result.greatest_thickness,
-          0.6 * result.greatest_thickness)
-      .of("nipple_from_extreme_mm", result.nipple_from_extreme, 5, 10);
+      .of("lateral_border_mm", result.lateral_border_mm, 200, 230);
+  // A supine breast neither stands in front of the sternum nor has its nipple foremost.
+  if (result.posture == Posture::prone) {
+    extent.of("front_left_out_percent", result.front_left_out_percent, 5, 12)
+        .of("nipple_depth_mm", result.nipple_depth_mm, 0.8 * result.greatest_thickness,
+            0.6 * result.greatest_thickness)
+        .of("nipple_from_extreme_mm", result.nipple_from_extreme, 5, 10);
+  }
   // Of a few specks two methods find different ones.
   constexpr double least_gland = 0.01;
   if (1 - result.fat_fraction > least_gland)

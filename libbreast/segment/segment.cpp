@@ -24,6 +24,8 @@ namespace {
 constexpr double depth_limit =
     45;  // mm behind the sternal skin: no fat for the first bias estimate
 constexpr double least_roll = 0.1;    // radians: less is the asymmetry of people
+// Skin of a supine breast lies in front of and beside the sternum's; by this much a breast hangs prone.
+constexpr double spread_behind = 40, hanging = 45;  // mm
 constexpr double wall_clearance = 2;  // mm in front of the wall used for the later ones
 
 /// Bias on a grid halved in plane, and the ratio on the working grid. `limit` gives the depth (mm)
@@ -63,7 +65,7 @@ Volume<float> working_copy(const Volume<float>& scan) {
 /// Samples a turned body again until it lies straight, always from the scan itself: skin that a
 /// turned breast hides from the front can make the first angle half of what it should be. Returns
 /// the angle (radians).
-double stand_upright(Work& work, Volume<float>& own, Side side) {
+double stand_upright(Work& work, Volume<float>& own, const SegmentOptions& options) {
   const Volume<float> scan = own;
   double roll = 0;
   for (int pass = 0; pass < 3; ++pass) {
@@ -72,7 +74,7 @@ double stand_upright(Work& work, Volume<float>& own, Side side) {
     roll += more;
     own = rolled(scan, roll, float(0.5 * work.body.air_level));
     work.scan = working_copy(own);
-    work.body = find_body(work.scan, side);
+    work.body = find_body(work.scan, options.side, options.posture);
   }
   return roll;
 }
@@ -186,16 +188,24 @@ void find_doubts(Segmentation& result, const Work& work) {
                 " cm2 of the skin are flat, as if the breast rested on the coil or table: "
                 "backward assumes that it hangs freely"));
   }
-  if (result.nipple_from_extreme > 10) {
+  if (result.posture == Posture::prone && result.nipple_from_extreme > 10) {
     result.doubts.push_back(message("nipple found ", std::lround(result.nipple_from_extreme),
                                     " mm from the most anterior point: check it (--overlay)"));
   }
 }
 
-void doubt_extent(Segmentation& result, const Extents& found) {
+void doubt_extent(Segmentation& result, const Extents& found, const SegmentOptions& options) {
   result.front_left_out_percent = found.front_left_out_percent;
   result.lateral_border_mm = found.lateral_border_mm;
   result.nipple_depth_mm = found.nipple_depth_mm;
+  if (options.posture != Posture::prone) {
+    if (found.nipple_in_front_mm > hanging) {
+      result.doubts.push_back(message("the nipple stands ", std::lround(found.nipple_in_front_mm),
+                                      " mm in front of the sternum's skin (supine below ", hanging,
+                                      "): is the scan prone?"));
+    }
+    return;
+  }
   for (std::string& doubt : extent_doubts(found, result.greatest_thickness))
     result.doubts.push_back(std::move(doubt));
 }
@@ -238,21 +248,23 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   Work work;
   Volume<float> own;  // the scan itself in patient order; `work` may be coarser
   Segmentation result;
+  const bool supine = options.posture != Posture::prone;
+  result.posture = options.posture;
   {
     const Timer::Scope phase(timer, "body");
     progress.update("body", 0, "");
     work.scan = in_patient_order(scan);
     own = work.scan;
     work.scan = working_copy(own);
-    work.body = find_body(work.scan, options.side);
-    result.roll_degrees = stand_upright(work, own, options.side) * 180 / std::numbers::pi;
+    work.body = find_body(work.scan, options.side, options.posture);
+    result.roll_degrees = stand_upright(work, own, options) * 180 / std::numbers::pi;
     result.debris_ml = work.body.debris_ml;
     result.beside_ml = work.body.beside_ml;
     work.torso = find_torso(work.body.mask, options.side);
     work.skin_distance = signed_distance(work.body.mask);
     work.domain = wall_domain(work.body.mask, work.torso, options.side == Side::left);
     refuse_other_side(work.torso, work.scan.grid, options.side);
-    result.contrast = contrast_below_skin(work);
+    result.contrast = contrast_below_skin(work, supine ? spread_behind : 0);
   }
   find_wall(work, options, progress, timer);
   {
@@ -271,7 +283,8 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   const Timer::Scope phase(timer, "tissue");
   progress.update("tissue", 0.8, "");
   work = on_scan_grid(work, own, options.side);
-  work.extent = find_extent(work.wall, work.domain, work.torso, work.skin_distance, options.side);
+  work.extent = find_extent(work.wall, work.domain, work.torso, work.skin_distance, options.side,
+                            options.posture);
   work.breast =
       breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent, options.side);
   work.skin = skin_thickness(work.brightness, work.breast, work.skin_distance);
@@ -284,18 +297,19 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   result.labels = labels_of(work, options.side);
   result.labels.midline_mm =
       work.scan.grid.to_patient(Vec3(work.torso.midline, 0, 0.5 * work.scan.grid.size[2]))[0];
-  const Nipple nipple = find_nipple(work.breast, work.body.mask);
+  const Nipple nipple = find_nipple(work.breast, work.body.mask, options.posture);
   result.labels.landmarks["nipple"] = nipple.tip;
   result.nipple_base = nipple.base;
   result.papilla_height = nipple.height;
   result.nipple_from_extreme = nipple.from_extreme;
-  result.points = data_points(work);
+  result.points = supine ? side_points(work) : data_points(work);
   result.wall_shift = options.wall_shift;
   result.cut_by_view_cm2 = cut_by_view_cm2(work.breast);
-  result.flat_skin_cm2 = flat_skin_cm2(work);
+  // A supine breast is flat, and what its side rests on is not gone back to.
+  if (!supine) result.flat_skin_cm2 = flat_skin_cm2(work);
   summarise(result, work);
   find_doubts(result, work);
-  doubt_extent(result, extents_of(work, nipple.tip, options.side));
+  doubt_extent(result, extents_of(work, nipple.tip, options.side), options);
   if (!options.wall_labels && options.wall_points.empty()) refuse_without_wall(result);
   return result;
 }

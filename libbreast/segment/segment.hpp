@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Segmentation of a prone bilateral T1 breast MR into the labels of one breast (see
+// Segmentation of a bilateral T1 breast MR, prone or supine, into the labels of one breast (see
 // docs/methods.md).
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #include "core/progress.hpp"
 #include "core/report.hpp"
+#include "core/units.hpp"
 #include "image/label_volume.hpp"
 #include "segment/contrast.hpp"
 #include "segment/tissue/tissue.hpp"
@@ -24,6 +25,9 @@ enum class Contrast {
 
 struct SegmentOptions {
   Side side = Side::left;
+  /// prone or supine. A supine breast spreads beside and behind the front of the chest: what a prone one is known by, that it stands
+  /// in front of the sternum with the nipple foremost, is asked of prone scans only.
+  Posture posture = Posture::prone;
   std::optional<Volume<float>> wall_labels;  ///< corrected label map, code 4 = behind the wall
   std::vector<Vec3> wall_points;             ///< clicked points on the wall (patient mm)
   /// `wall_points` are those of a surface: dense, and reaching beyond the searched wall.
@@ -35,8 +39,11 @@ struct SegmentOptions {
 };
 
 struct Segmentation {
+  Posture posture = Posture::prone;
   LabelVolume labels;
-  TriMesh points;  ///< data points: scalar "surface" 0 skin, 1 chest wall; "confidence" [0,1]
+  /// Data points: scalar "surface" 0 skin, 1 chest wall; "confidence" [0,1]. Of a supine scan the skin of the whole side with normals,
+  /// and the wall wherever it was seen.
+  TriMesh points;
   double midline_mm = 0;                         ///< patient x of the sternum
   double bias_cv_before = 0, bias_cv_after = 0;  ///< coefficient of variation of fat
   double bias_range = 1;                     ///< brightest over dimmest fat, 1 %-99 % of the breast

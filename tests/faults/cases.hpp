@@ -52,6 +52,8 @@ inline const std::vector<Case>& cases() {
       {"evaluate", "evaluate labels.vtkhdf labels.vtkhdf", 4},
       {"evaluate_nrrd", "evaluate labels.vtkhdf labels.nrrd", 4},
       {"laws", "laws seed2008"},
+      {"identify", "identify pressed.vtkhdf out.tsv --nipple 0,25,0 --materials seed2008 --parameters stiffness --second "
+                   "out.vtkhdf --table out.marks.tsv", 6},
       {"population", "population supine.vtkhdf --table out.tsv --summary out.mean.tsv"},
       {"render_mammogram", "render cc.vti mlo.vti curve.vtp --figure mammogram -o out.png", 12},
       {"render_mesh", "render mesh.vtkhdf --figure mesh -o out.png", 0},

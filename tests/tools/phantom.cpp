@@ -55,6 +55,58 @@ TEST(PhantomTool, WritesScanDicomAndAConsistentTruth) {
   EXPECT_GT(report.number("volumes_ml/left/fat"), 200);
 }
 
+// The second posture as a user makes and segments it: its wall, nipple and skin are those of the truth.
+TEST(PhantomTool, ASupineScanIsOfTheSameBodyAndIsSegmented) {
+  ScratchFolder folder;
+  const auto run = [&](const std::string& line) { return run_line(line + " --quiet", folder.path()); };
+  const std::string options = " --preset average --coarse 3";
+  ToolResult said = run("phantom s.nrrd --posture supine --misalign 4,2 --truth s --report s.json" + options);
+  ASSERT_EQ(said.exit_code, 0) << said.err;
+  said = run("segment s.nrrd l.vtkhdf --side left --posture supine --points p.vtp --report l.json");
+  ASSERT_EQ(said.exit_code, 0) << said.err;
+  const HexMesh mesh = read_mesh(folder.path() / "s/left.vtkhdf", {.reference = true});
+  EXPECT_GT(mesh.gravity.y(), 0);
+  const Report report = Report::parse(read_text(folder.path() / "s.json"), "s.json");
+  const Table landmarks = read_table(folder.path() / "s/landmarks.tsv");
+  for (std::size_t row = 0; row < landmarks.rows.size(); ++row) {
+    if (landmarks.cell(row, "side") != "left") continue;
+    const Landmark* landmark = mesh.landmark(landmarks.cell(row, "landmark"));
+    ASSERT_NE(landmark, nullptr);
+    EXPECT_LT((landmark_position(mesh, mesh.points, *landmark) - landmarks.point(row, "supine_")).norm(), 1e-4);
+    EXPECT_LT((landmark_position(mesh, mesh.imaged, *landmark) - landmarks.point(row, "prone_")).norm(), 1e-4);
+  }
+  const LabelVolume truth = read_labels(folder.path() / "s/labels-left.vtkhdf");
+  const LabelVolume labels = read_labels(folder.path() / "l.vtkhdf");
+  EXPECT_LT((labels.landmarks.at("nipple") - truth.landmarks.at("nipple")).norm(), 6);
+  // Skin of the segmentation lies on the true skin where that has a face near.
+  const TriMesh points = read_surface(folder.path() / "p.vtp"), skin = read_surface(folder.path() / "s/skin-left.vtp");
+  ASSERT_EQ(points.normals.size(), points.points.size());
+  const std::vector<double>& kind = points.point_data.at("surface");
+  double sum = 0, outwards = 0, wall = 0;
+  int count = 0;
+  for (std::size_t k = 0; k < skin.points.size(); k += 7) {
+    double nearest = 1e9;
+    std::size_t at = 0;
+    for (std::size_t p = 0; p < points.points.size(); ++p) {
+      const double apart = (points.points[p] - skin.points[k]).norm();
+      if (kind[p] == 0 && apart < nearest) nearest = apart, at = p;
+    }
+    if (nearest > 12) continue;  // beyond what segment looks at, at the body's side
+    const double off = (points.points[at] - skin.points[k]).dot(points.normals[at]);
+    sum += std::abs(off), outwards += points.normals[at].y() < 0.7, ++count;
+  }
+  for (const double one : kind) wall += one == 1;
+  EXPECT_GT(count, 50);
+  EXPECT_LT(sum / count, 2);
+  EXPECT_GT(outwards, 0.9 * count);
+  EXPECT_GT(wall, 100);
+  said = run("segment s.nrrd l2.vtkhdf --side left --posture flat");
+  EXPECT_EQ(said.exit_code, 2);
+  said = run("phantom t.nrrd --misalign 4,2");
+  EXPECT_EQ(said.exit_code, 2);
+  EXPECT_EQ(said.error_lines(), 1) << said.err;
+}
+
 TEST(PhantomTool, RefusesBadUsageBeforeItStarts) {
   ScratchFolder folder;
   const std::vector<std::vector<std::string>> wrong = {

@@ -85,4 +85,16 @@ run MR="$work/runs/phantom/small.nrrd" CASE=scan TUMOUR=auto chain "$scan_dir/di
 grep -q '	artificial_tumour	' "$scan_dir/curve.tsv" && grep -q 'artificial_tumour_mm' "$scan_dir/displacements.tsv" &&
   grep -q '"artificial_tumour"' "$scan_dir/supine.json" || fail "an artificial tumour is called so"
 pass "TUMOUR=auto makes a tumour that is called artificial"
+
+# The same woman on her back: her own set, the table of its landmarks and the figure, and a chain that runs with it.
+second_dir=$work/runs/second
+run SUPINE=phantom CASE=second TUMOUR=none "$second_dir/figures/postures.png" "$second_dir/reference.vtkhdf" > "$work/log" 2>&1 ||
+  { tail -n 20 "$work/log"; fail "SUPINE= runs to the patient's own set"; }
+grep -q '^identified, landmark left out	' "$second_dir/identified.txt" && grep -q 'seed2008_mm' "$second_dir/landmarks.tsv" &&
+  [ "$(wc -l < "$second_dir/landmarks.tsv")" -gt 50 ] && grep -q 'identified.tsv' <(run SUPINE=phantom CASE=second -n -W "$second_dir/mesh.vtkhdf" chain) ||
+  fail "SUPINE= judges the phantom's landmarks and its set runs the chain"
+run SUPINE=phantom CASE=second TUMOUR=none -q "$second_dir/figures/postures.png" || fail "a second run of SUPINE= does nothing"
+! run SUPINE=phantom MR="$work/runs/phantom/small.nrrd" CASE=third -n chain > "$work/log" 2>&1 && grep -q 'SUPINE: phantom' "$work/log" ||
+  fail "SUPINE=phantom is refused beside a scan"
+pass "SUPINE= identifies from the supine scan and the chain runs with the set"
 echo "$passed passed, 0 failed"

@@ -222,7 +222,8 @@ double second_component_ml(const Mask& mask) {
 
 /// Mask of what is brighter than the threshold: opened, filled, its border at half height, debris
 /// off. `from` as in fill_chest().
-Found body_above(const Volume<float>& scan, double threshold, double from, Side side) {
+Found body_above(const Volume<float>& scan, double threshold, double from, Side side,
+                 Posture posture) {
   Found found;
   Mask& mask = found.mask;
   mask = Mask(scan.grid);
@@ -239,14 +240,15 @@ Found body_above(const Volume<float>& scan, double threshold, double from, Side 
   fill_between_sides(mask, torso);
   peel_partial_voxels(mask, scan);
   mask = largest_component(mask);
-  found.debris_ml = remove_debris(mask, find_torso(mask, side).midline);
+  if (posture == Posture::prone)
+    found.debris_ml = remove_debris(mask, find_torso(mask, side).midline);
   if (found.debris_ml > 0) mask = largest_component(mask);
   return found;
 }
 
 }  // namespace
 
-Body find_body(const Volume<float>& scan, Side side) {
+Body find_body(const Volume<float>& scan, Side side, Posture posture) {
   Body body;
   body.air_level = corner_air_level(scan);
   const auto [low, high] = std::minmax_element(scan.voxels.begin(), scan.voxels.end());
@@ -264,7 +266,7 @@ Body find_body(const Volume<float>& scan, Side side) {
   if (!(fraction > 0.02 && fraction < 0.95)) {
     throw input_error("the body fills ", 100 * fraction,
                       " % of the scan (2-95 % expected): is this a ",
-                      "prone breast MR with air in front?");
+                      "breast MR with air in front?");
   }
   // Under strong bias and noise Otsu's level may part bright from dim tissue instead of air from
   // body; air itself ends at about twice its 90th percentile.
@@ -275,7 +277,7 @@ Body find_body(const Volume<float>& scan, Side side) {
   double most_filled = -1;
   for (const Try& attempt : {Try{otsu_level, 30}, Try{otsu_level, 12},
                              Try{std::sqrt(otsu_level * air_end), 12}, Try{air_end, 12}}) {
-    Found found = body_above(scan, attempt.level, attempt.from, side);
+    Found found = body_above(scan, attempt.level, attempt.from, side, posture);
     if (!(found.filled > most_filled)) continue;
     most_filled = found.filled;
     body.threshold = attempt.level;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/types.hpp"
+#include "core/units.hpp"
 #include "segment/grid/grid_ops.hpp"
 
 namespace breast {
@@ -26,8 +27,9 @@ struct Body {
 };
 /// Otsu on log(I + n0), opening, largest component, closing, filling.
 /// Throws Error (input) when there is no contrast or no air in front.
-/// `side` is the requested breast; it is used if the field of view shows only one.
-Body find_body(const Volume<float>& scan, Side side);
+/// `side` is the requested breast; it is used if the field of view shows only one. Debris on the skin
+/// is not removed from a supine body, whose nipples cannot be told from it by their position.
+Body find_body(const Volume<float>& scan, Side side, Posture posture = Posture::prone);
 
 struct TorsoFront {
   HeightField skin;           ///< first body voxel from the front

@@ -21,12 +21,50 @@ struct Apex {
   Vec3 extreme, chosen;  // mm from the grid's first voxel
 };
 
+/// Skin of the breast with nothing of the body beyond it within `reach` mm: where it ends, edges are convex too.
+bool well_inside(const Mask& breast, const Mask& body, int i, int j, int k, double reach) {
+  const Grid& grid = breast.grid;
+  std::array<int, 3> steps;
+  for (int d = 0; d < 3; ++d) steps[std::size_t(d)] = int(reach / grid.spacing[d]);
+  for (int c = k - steps[2]; c <= k + steps[2]; c += std::max(1, steps[2] / 2)) {
+    for (int b = j - steps[1]; b <= j + steps[1]; b += std::max(1, steps[1] / 4)) {
+      for (int a = i - steps[0]; a <= i + steps[0]; a += std::max(1, steps[0] / 4)) {
+        if (grid.contains(a, b, c) && body.at(a, b, c) && !breast.at(a, b, c)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// The most convex point of a supine breast's skin.
+Apex find_apex_anywhere(const Mask& breast, const Mask& body, const Volume<float>& share) {
+  constexpr double from_end = 15;  // mm
+  const Grid& grid = breast.grid;
+  Apex apex{Vec3::Zero(), Vec3::Zero()};
+  float least = 1;
+  for (int k = 1; k + 1 < grid.size[2]; ++k) {
+    for (int j = 1; j + 1 < grid.size[1]; ++j) {
+      for (int i = 1; i + 1 < grid.size[0]; ++i) {
+        if (!breast.at(i, j, k) || !(share.at(i, j, k) < least)) continue;
+        const bool skin = !body.at(i, j - 1, k) || !body.at(i - 1, j, k) || !body.at(i + 1, j, k);
+        if (!skin || !well_inside(breast, body, i, j, k, from_end)) continue;
+        least = share.at(i, j, k);
+        apex.chosen = grid.spacing.cwiseProduct(Vec3(i, j, k));
+      }
+    }
+  }
+  if (!(least < 1)) throw failed_error("the breast has no skin apart from its border");
+  apex.extreme = apex.chosen;
+  return apex;
+}
+
 /// Most anterior and most convex point of the skin.
-Apex find_apex(const Mask& breast, const Mask& body) {
+Apex find_apex(const Mask& breast, const Mask& body, Posture posture) {
   const Grid& grid = breast.grid;
   Volume<float> filled(grid);
   for (std::size_t n = 0; n < filled.voxels.size(); ++n) filled.voxels[n] = body.voxels[n];
   const Volume<float> share = gaussian(filled, 4.5);
+  if (posture != Posture::prone) return find_apex_anywhere(breast, body, share);
   Vec3 extreme(0, 1e9, 0);
   std::vector<Vec3> candidates;
   std::vector<float> convexity;
@@ -118,8 +156,8 @@ Vec3 dome_apex(const Mask& body, const Vec3& start) {
 
 }  // namespace
 
-Nipple find_nipple(const Mask& breast, const Mask& body) {
-  const Apex apex = find_apex(breast, body);
+Nipple find_nipple(const Mask& breast, const Mask& body, Posture posture) {
+  const Apex apex = find_apex(breast, body, posture);
   Vec3 tip = apex.chosen, base = apex.chosen;
   double height = 0;
   constexpr int rounds = 3;
@@ -131,7 +169,7 @@ Nipple find_nipple(const Mask& breast, const Mask& body) {
     // Near the field of view's edge the ring may lie to one side only and say nothing.
     const double least = std::max(least_height, least_steps * breast.grid.spacing.maxCoeff());
     if (!(papilla.height > least && papilla.height < 20)) {
-      if (round == 0) tip = base = dome_apex(body, tip);
+      if (round == 0 && posture == Posture::prone) tip = base = dome_apex(body, tip);
       break;
     }
     const double foot = ring.dot(monomials(papilla.a, papilla.b));

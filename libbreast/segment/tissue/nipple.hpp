@@ -2,6 +2,7 @@
 // Detection of the nipple.
 #pragma once
 
+#include "core/units.hpp"
 #include "segment/grid/grid_ops.hpp"
 
 namespace breast {
@@ -12,10 +13,11 @@ struct Nipple {
   double height = 0;        ///< mm from base to tip; 0 on a smooth dome
   double from_extreme = 0;  ///< mm between the tip and the most anterior point of the breast
 };
-/// Starts at the most convex skin point (least body within 6 mm, by a Gaussian) within 25 mm of the
-/// most anterior one. About it the skin's height over its tangent plane is compared with a quadric
-/// through the ring 9-25 mm away: the part that protrudes by more than half the maximum is the
-/// papilla (or the apex of a cone), and its weighted centre the nipple, to a fraction of a voxel.
-Nipple find_nipple(const Mask& breast, const Mask& body);
+/// Starts at the most convex skin point (least body within 6 mm, by a Gaussian): prone within 25 mm of
+/// the most anterior one, supine of the whole breast more than 15 mm from its end. About it the skin's
+/// height over its tangent plane is compared with a quadric through the ring 9-25 mm away: the part
+/// that protrudes by more than half the maximum is the papilla (or the apex of a cone), and its
+/// weighted centre the nipple, to a fraction of a voxel.
+Nipple find_nipple(const Mask& breast, const Mask& body, Posture posture = Posture::prone);
 
 }  // namespace breast

@@ -140,7 +140,7 @@ void end_cranially(std::vector<std::uint8_t>& columns, const HeightField& thickn
 }  // namespace
 
 BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const TorsoFront& torso,
-                         const Volume<float>& skin_distance, Side side) {
+                         const Volume<float>& skin_distance, Side side, Posture posture) {
   const Grid& grid = skin_distance.grid;
   const int nx = grid.size[0], nz = grid.size[2];
   const Thickness measured = thickness_before(wall, domain, torso, skin_distance);
@@ -157,14 +157,17 @@ BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const 
   const int step = std::max(1, int(6 / grid.spacing[0]));
   for (int k = 0; k < nz; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
-      if (!on_side(i, torso, side) || wall.depth.at(i, k) > domain.deepest.at(i, k) - 3) continue;
+      if (!on_side(i, torso, side)) continue;
+      const bool turns_away = wall.depth.at(i, k) > domain.deepest.at(i, k) - 3;
+      if (turns_away && posture == Posture::prone) continue;
       const int a = std::max(i - step, domain.first), b = std::min(i + step, domain.last);
       const double slope =
           std::abs(wall.depth.at(b, k) - wall.depth.at(a, k)) / ((b - a) * grid.spacing[0]);
       // Where the chest curves away a column grazes it: its thickness
       // counts along the wall's normal.
-      if (slope > 1.5 || !(thickness.at(i, k) > extent.least_thickness * std::hypot(1, slope)))
-        continue;
+      const bool steep = slope > 1.5 && posture == Posture::prone;
+      const double least = extent.least_thickness * (turns_away ? 1 : std::hypot(1, slope));
+      if (steep || !(thickness.at(i, k) > least)) continue;
       extent.columns[std::size_t(k) * nx + i] = 1;
     }
   }

@@ -13,9 +13,11 @@ struct BreastExtent {
   double least_thickness = 0;         ///< mm; thickness at which the breast ends
   double greatest_thickness = 0;      ///< mm
 };
-/// `skin_distance`: signed distance to air (mm, negative inside).
+/// `skin_distance`: signed distance to air (mm, negative inside). A supine breast slides to where the
+/// wall turns away from the front: there what lies in front of the deepest wall sought is breast too.
 BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const TorsoFront& torso,
-                         const Volume<float>& skin_distance, Side side);
+                         const Volume<float>& skin_distance, Side side,
+                         Posture posture = Posture::prone);
 
 /// Voxels of the breast: those in front of the wall in the columns of the extent, and overhanging
 /// parts beyond it.

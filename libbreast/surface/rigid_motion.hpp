@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rigid motion of the rib cage between two postures.
+// A rigid motion, such as that of a rib cage between two scans.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -22,6 +22,19 @@ struct RigidMotion {
     return Eigen::AngleAxisd(angle, turn.normalized()).toRotationMatrix();
   }
   Vec3 operator()(const Vec3& x) const { return centre + rotation() * (x - centre) + shift; }
+  /// The point that comes to lie at y.
+  Vec3 origin_of(const Vec3& y) const {
+    return centre + rotation().transpose() * (y - centre - shift);
+  }
+  /// First `other`, then this one; about the other's centre.
+  RigidMotion after(const RigidMotion& other) const {
+    RigidMotion both;
+    both.centre = other.centre;
+    both.shift = (*this)(other(other.centre)) - other.centre;
+    const Eigen::AngleAxisd turned(rotation() * other.rotation());
+    both.turn = turned.angle() / radians * turned.axis();
+    return both;
+  }
   /// Derivative of the place of x by `turn`, mm per degree (the left Jacobian of the rotation group).
   Mat3 by_turn(const Vec3& x) const {
     const double angle = turn.norm() * radians;

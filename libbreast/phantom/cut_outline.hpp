@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the cut of a breast lies in a shape that was solved: what is breast, and what the chest beside it.
+#pragma once
+
+#include <vector>
+
+#include "mesh/hex_mesh.hpp"
+
+namespace breast {
+
+/// The closed curves in which the cut meets wall and skin, as radii and heights over the azimuth about
+/// an axis through the breast's middle on the wall, square to the wall there on average.
+class CutOutline {
+ public:
+  /// Of mesh.points. Throws Error (failed) when a curve does not go round the axis.
+  explicit CutOutline(const HexMesh& mesh);
+  /// Whether a point in front of the chest wall lies on the breast's side of the cut (extended
+  /// straight outwards), more than `margin` mm from it.
+  bool inside(const Vec3& x, double margin) const;
+
+ private:
+  struct Corner {
+    double azimuth = 0, radius = 0, height = 0;
+  };
+  using Curve = std::vector<Corner>;  ///< by azimuth, which covers more than −π to π
+
+  Corner place_of(const Vec3& x) const;
+  Curve curve_through(const HexMesh& mesh, const std::vector<int>& nodes) const;
+  static Corner at(const Curve& curve, double azimuth);
+
+  Vec3 middle_, axis_, u_, v_;
+  Curve wall_, skin_;
+};
+
+}  // namespace breast
