@@ -50,3 +50,19 @@ if(NLOPT_INCLUDE AND NLOPT_LIBRARY)
   target_include_directories(breast_nlopt SYSTEM INTERFACE ${NLOPT_INCLUDE})
   target_link_libraries(breast_nlopt INTERFACE ${NLOPT_LIBRARY})
 endif()
+
+# Meshes for more than one process (libbreast/distributed). Debian's PETSc is linked with HDF5's MPI build, we
+# with its serial one: their symbols have different versions (HDF5_MPI_..., HDF5_SERIAL_...), so that each
+# library of one process calls its own (docs/scale.md).
+find_package(PkgConfig QUIET)
+if(PkgConfig_FOUND)
+  pkg_check_modules(PETSC QUIET petsc>=3.18)
+endif()
+find_package(MPI QUIET COMPONENTS C)
+find_program(MPIRUN_PROGRAM mpirun)
+if(PETSC_FOUND AND MPI_C_FOUND AND MPIRUN_PROGRAM)
+  add_library(breast_petsc INTERFACE)
+  target_include_directories(breast_petsc SYSTEM INTERFACE ${PETSC_INCLUDE_DIRS} ${MPI_C_INCLUDE_DIRS})
+  target_compile_definitions(breast_petsc INTERFACE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  target_link_libraries(breast_petsc INTERFACE ${PETSC_LINK_LIBRARIES} ${MPI_C_LIBRARIES})
+endif()

@@ -30,8 +30,8 @@ breast::HexMesh block_with_landmarks(int n) {
 
 int main(int argc, char** argv) {
   const long n = argc == 3 ? std::strtol(argv[1], nullptr, 10) : 0;
-  if (n < 1 || n > 64) {
-    std::fprintf(stderr, "usage: block_mesh N OUT.vtkhdf (N from 1 to 64)\n");
+  if (n < 1 || n > 128) {
+    std::fprintf(stderr, "usage: block_mesh N OUT.vtkhdf (N from 1 to 128)\n");
     return 2;
   }
   try {

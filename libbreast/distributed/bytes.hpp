@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers and arrays of numbers as bytes, from one process to another of the same build.
+#pragma once
+
+#include <cstring>
+#include <type_traits>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace breast {
+
+/// What may be copied byte by byte; Eigen's small matrices are plain numbers as well.
+template <class T>
+inline constexpr bool plain =
+    std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3> || std::is_same_v<T, Mat3>;
+
+class ByteWriter {
+ public:
+  template <class T>
+  void put(const T& value) {
+    static_assert(plain<T>);
+    append(&value, sizeof(T));
+  }
+  template <class T>
+  void put(const std::vector<T>& values) {
+    static_assert(plain<T>);
+    put(values.size());
+    append(values.data(), values.size() * sizeof(T));
+  }
+  std::vector<char> take() { return std::move(bytes_); }
+
+ private:
+  void append(const void* from, std::size_t size) {
+    const char* first = static_cast<const char*>(from);
+    bytes_.insert(bytes_.end(), first, first + size);
+  }
+  std::vector<char> bytes_;
+};
+
+/// Reads what a ByteWriter wrote, in the same order.
+class ByteReader {
+ public:
+  explicit ByteReader(const std::vector<char>& bytes) : at_(bytes.data()) {}
+  template <class T>
+  void get(T& value) {
+    static_assert(plain<T>);
+    std::memcpy(static_cast<void*>(&value), at_, sizeof(T));
+    at_ += sizeof(T);
+  }
+  template <class T>
+  void get(std::vector<T>& values) {
+    static_assert(plain<T>);
+    std::size_t count = 0;
+    get(count);
+    values.resize(count);
+    if (count > 0) std::memcpy(static_cast<void*>(values.data()), at_, count * sizeof(T));
+    at_ += count * sizeof(T);
+  }
+
+ private:
+  const char* at_;
+};
+
+}  // namespace breast

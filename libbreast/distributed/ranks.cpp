@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "distributed/ranks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <string>
+
+#include "distributed/petsc.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr long most_bytes = 1L << 30;  // of one message: MPI counts in int
+constexpr int tag = 1;
+
+// Reduced on the root and sent to all: a sum made by every rank for itself may differ in its last bit.
+template <class T>
+T reduce(T mine, MPI_Datatype type, MPI_Op how) {
+  T all = mine;
+  MPI_Reduce(&mine, &all, 1, type, how, 0, MPI_COMM_WORLD);
+  MPI_Bcast(&all, 1, type, 0, MPI_COMM_WORLD);
+  return all;
+}
+
+template <class Pass>
+void in_pieces(char* data, std::size_t size, const Pass& pass) {
+  for (std::size_t at = 0; at < size; at += most_bytes) {
+    pass(data + at, int(std::min<std::size_t>(most_bytes, size - at)));
+  }
+}
+
+}  // namespace
+
+RankSession::RankSession() {
+  int given = 0;
+  if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given) != MPI_SUCCESS ||
+      PetscInitializeNoArguments() != 0) {
+    throw failed_error("MPI or PETSc cannot begin; run the tool under mpirun");
+  }
+  // What PETSc has to say becomes an Error.
+  PetscPopSignalHandler();
+  PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr);
+}
+
+RankSession::~RankSession() {
+  PetscFinalize();
+  MPI_Finalize();
+}
+
+Ranks::Ranks() {
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &size_);
+}
+
+double Ranks::sum(double mine) const {
+  return reduce(mine, MPI_DOUBLE, MPI_SUM);
+}
+long Ranks::sum(long mine) const {
+  return reduce(mine, MPI_LONG, MPI_SUM);
+}
+// What MPI makes of the greater of two numbers of which one is none is not said.
+double Ranks::most(double mine) const {
+  const bool good = all(!std::isnan(mine));
+  return good ? reduce(mine, MPI_DOUBLE, MPI_MAX) : std::numeric_limits<double>::quiet_NaN();
+}
+double Ranks::least(double mine) const {
+  return -most(-mine);
+}
+long Ranks::least(long mine) const {
+  return reduce(mine, MPI_LONG, MPI_MIN);
+}
+
+long Ranks::before(long mine) const {
+  long sum = 0;
+  MPI_Exscan(&mine, &sum, 1, MPI_LONG, MPI_SUM, MPI_COMM_WORLD);
+  return root() ? 0 : sum;
+}
+
+void Ranks::broadcast(std::vector<char>& bytes) const {
+  unsigned long size = bytes.size();
+  MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, 0, MPI_COMM_WORLD);
+  bytes.resize(size);
+  in_pieces(bytes.data(), size,
+            [](char* at, int count) { MPI_Bcast(at, count, MPI_BYTE, 0, MPI_COMM_WORLD); });
+}
+
+void Ranks::send(const std::vector<char>& bytes, int to) const {
+  const unsigned long size = bytes.size();
+  MPI_Send(&size, 1, MPI_UNSIGNED_LONG, to, tag, MPI_COMM_WORLD);
+  in_pieces(const_cast<char*>(bytes.data()), size, [&](const char* at, int count) {
+    MPI_Send(at, count, MPI_BYTE, to, tag, MPI_COMM_WORLD);
+  });
+}
+
+std::vector<char> Ranks::receive(int from) const {
+  unsigned long size = 0;
+  MPI_Recv(&size, 1, MPI_UNSIGNED_LONG, from, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  std::vector<char> bytes(size);
+  in_pieces(bytes.data(), size, [&](char* at, int count) {
+    MPI_Recv(at, count, MPI_BYTE, from, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  });
+  return bytes;
+}
+
+void Ranks::together(const std::function<void()>& work) const {
+  int kind = -1;
+  std::string text;
+  try {
+    work();
+  } catch (const Error& error) {
+    kind = int(error.kind());
+    text = error.what();
+  } catch (const std::bad_alloc&) {
+    kind = int(ErrorKind::failed);
+    text = "out of memory";
+  } catch (const std::exception& error) {
+    kind = int(ErrorKind::failed);
+    text = error.what();
+  }
+  const int speaker = int(least(long(kind < 0 ? size_ : rank_)));
+  if (speaker == size_) return;
+  int length = int(text.size());
+  MPI_Bcast(&kind, 1, MPI_INT, speaker, MPI_COMM_WORLD);
+  MPI_Bcast(&length, 1, MPI_INT, speaker, MPI_COMM_WORLD);
+  text.resize(std::size_t(length));
+  MPI_Bcast(text.data(), length, MPI_CHAR, speaker, MPI_COMM_WORLD);
+  throw SharedError(ErrorKind(kind), text);
+}
+
+void Ranks::abort(int exit_code) const {
+  MPI_Abort(MPI_COMM_WORLD, exit_code);
+  std::_Exit(exit_code);
+}
+
+}  // namespace breast

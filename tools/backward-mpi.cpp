@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// backward-mpi: backward on several processes, for meshes that one machine's memory or patience does not hold.
+#include <algorithm>
+#include <optional>
+
+#include "cli/mechanics_options.hpp"
+#include "core/error.hpp"
+#include "distributed/distributed.hpp"
+#include "io/mesh_file.hpp"
+#include "mechanics_run.hpp"
+#include "ranks_main.hpp"
+
+using namespace breast;
+
+namespace {
+
+struct Choices {
+  std::filesystem::path mesh, reference;
+  GravityChoices gravity{"prone", {}};
+  MechanicsChoices mechanics;
+};
+
+void declare(Tool& tool, Choices& c) {
+  tool.describe(
+      "Solves what backward solves, with the same terms and the same Newton method, on as many "
+      "processes as mpirun starts: see forward-mpi. The linearised inverse problem is unsymmetric; "
+      "its product with a vector is made element by element, and the multigrid of the forward "
+      "problem preconditions it.");
+  tool.describe(
+      "Afterwards the forward problem is solved from the shape found; closure_mm in the report is "
+      "the largest distance of its nodes from the imaged shape. There is no estimate of the "
+      "discretisation error, and of a solve without an answer neither stiffness_factor_needed nor "
+      "the change that would give one: for these use backward on a coarser mesh.");
+  tool.cite("Balay et al. 2022, PETSc/TAO Users Manual, ANL-21/39 revision 3.18");
+  tool.input(c.mesh, "MESH.vtkhdf", "mesh of the imaged shape (hexmesh)");
+  tool.output(c.reference, "REFERENCE.vtkhdf", "the same mesh, stress-free");
+  declare_gravity(tool, c.gravity, "direction of gravity during the scan");
+  declare_mechanics(tool, c.mechanics);
+  tool.example("mpirun -n 16 backward-mpi mesh.vtkhdf reference.vtkhdf", "on 16 processes");
+}
+
+// As check_closure of backward.
+void check_closure(const Ranks& ranks, HexMesh mesh, const Vec3& gravity,
+                   const MechanicsOptions& options, Run& run, Equilibrium& found) {
+  if (ranks.root()) store(found, mesh);
+  Equilibrium again;
+  {
+    Timer::Scope phase(found.timer, "closure");
+    again = solve_forward_on(ranks, mesh, gravity, options, run.progress());
+  }
+  if (!ranks.root()) return;
+  if (!again.converged()) {
+    run.warn("forward did not return to the imaged shape: " + again.record.reason);
+    return;
+  }
+  double worst = 0;
+  for (int i = 0; i < mesh.nodes(); ++i) {
+    worst = std::max(worst, (again.points[i] - mesh.imaged[i]).norm());
+  }
+  run.report().set("closure_mm", worst);
+  if (worst > 1e-6) {
+    run.warn(message("forward returns to the imaged shape only within ", worst,
+                     " mm: another equilibrium is near"));
+  }
+}
+
+void run_backward(const Choices& c, Run& run, const Ranks& ranks) {
+  const Vec3 gravity = c.gravity.vector();
+  const MechanicsOptions options = mechanics_options(c.mechanics);
+  std::optional<MechanicsRun> mechanics;
+  ranks.together([&] {
+    if (ranks.root()) mechanics.emplace(run, c.mechanics, "none", c.mesh, read_mesh(c.mesh));
+  });
+  const HexMesh none;
+  const HexMesh& mesh = mechanics ? mechanics->mesh() : none;
+  Equilibrium found = solve_backward_on(ranks, mesh, gravity, options, run.progress());
+  if (found.converged()) check_closure(ranks, mesh, gravity, options, run, found);
+  run.report().set("ranks", ranks.size());
+  ranks.together([&] {
+    if (!mechanics) return;
+    write_report(found, mesh, options, run.report());
+    mechanics->finish(found, c.reference);
+  });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choices c;
+  Tool tool("backward-mpi", "backward on several processes, for very large meshes");
+  declare(tool, c);
+  return ranks_main(tool, argc, argv,
+                    [&c](Run& run, const Ranks& ranks) { run_backward(c, run, ranks); });
+}
