@@ -57,7 +57,7 @@ task_make = make -f $(PIPELINE) -o $(ROOT)build/built-$(PRESET_BUILD).mk -o $(RO
 task_settings = $(foreach v,$(filter-out COHORT RUNS CASE CASE_FILE CLUSTER% RESUME,$(given)),$(newline)$v=$(value $v))
 task_command = $(subst $(space)$(newline),$(newline),$(subst $(space),$(newline),$(task_make))$(task_settings))
 slurm = $(foreach v,PARTITION ACCOUNT TIME MEMORY CORES OPTIONS,CLUSTER_$v='$(CLUSTER_$v)') RESUME='$(RESUME)' \
-  COST_ELEMENTS='$(ELEMENTS)' COST_ELEMENT='$(ELEMENT)' TABULATE='$(tabulate)' $(PIPELINES)/slurm.sh
+  COST_ELEMENTS='$(ELEMENTS)' COST_ELEMENT='$(ELEMENT)' COHORT_TABULATE='$(tabulate)' $(PIPELINES)/slurm.sh
 $(COHORT_RUNS)/.command: FORCE | $(COHORT_RUNS)/.folder
 	@$(if $(planning),,$(file > $@,$(task_command))):
 cohort: $(CASE_LIST) $(COHORT_RUNS)/.command

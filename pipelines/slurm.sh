@@ -7,7 +7,7 @@
 #   slurm.sh table FOLDER COHORT  within the last job
 # RUNS/.cases and RUNS/.command are written by pipelines/cohort.mk. Every submission keeps its own list in RUNS/.slurm/N, so that a
 # second one does not change what the tasks of the first will read. CLUSTER_PARTITION, _ACCOUNT, _TIME (minutes, or as sbatch
-# takes it), _MEMORY (MB), _CORES and _OPTIONS are asked for; time and memory come from measured cost where they are empty (by TABULATE).
+# takes it), _MEMORY (MB), _CORES and _OPTIONS are asked for; time and memory come from measured cost where they are empty (by COHORT_TABULATE).
 set -euo pipefail
 export LC_ALL=C
 unset MAKEFLAGS MFLAGS MAKEOVERRIDES MAKELEVEL  # tasks are makes of their own
@@ -50,7 +50,7 @@ estimate() {
       if [[ $line =~ ^[[:space:]]*ELEMENT[[:space:]]*=[[:space:]]*q2p1 ]]; then element=q2p1; fi
     done < "$file"
   done < "$runs/.cases"
-  $TABULATE case-cost "$runs" "$CLUSTER_CORES" "$element" "$size"
+  $COHORT_TABULATE case-cost "$runs" "$CLUSTER_CORES" "$element" "$size"
 }
 IFS=$'\t' read -r minutes memory source <<< "$(estimate)"
 [ -z "$CLUSTER_TIME" ] && [ -z "$CLUSTER_MEMORY" ] || source="$source${CLUSTER_TIME:+; time as asked}${CLUSTER_MEMORY:+; memory as asked}"

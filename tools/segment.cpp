@@ -173,6 +173,9 @@ void run_segment(const Choices& c, Run& run) {
   if (wall) inputs.push_back(*wall);
   Segmentation result = segment_breast(scan, options, run.progress(), run.timer());
   for (const std::string& doubt : result.doubts) run.warn(doubt);
+  const bool guessed = options.posture != Posture::prone;
+  run.report().set("nipple", guessed ? "guessed" : "found");
+  if (guessed) run.progress().note("the nipple of a breast that lies flat is a guess; identify does not use it");
   for (const StageQuality& quality : quality_of(result)) {
     if (quality.score >= least_quality) continue;
     run.warn(message("quality of ", quality.stage, " ", format_fixed(quality.score, 2), " (",

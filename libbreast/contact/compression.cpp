@@ -43,7 +43,6 @@ class Compression {
 
  private:
   bool load_with(const Eigen::VectorXd& load, const char* name, State& state);
-  CompressionTarget target_at(const CompressionStop& stop) const;
   CompressionTarget target() const;
   void place(const State& upright);
   bool lift(State& state);
@@ -103,34 +102,18 @@ bool Compression::load_with(const Eigen::VectorXd& load, const char* name, State
   return true;
 }
 
-CompressionTarget Compression::target_at(const CompressionStop& stop) const {
-  const double initial = found_.plates.initial_thickness;
-  switch (stop.at) {
-    case StopAt::thickness:
-      return {TargetKind::thickness, stop.value};
-    case StopAt::reduction:
-      return {TargetKind::thickness, initial * (1 - stop.value / 100)};
-    case StopAt::force:
-      return {TargetKind::force, stop.value};
-    case StopAt::pressure:
-      return {TargetKind::pressure, stop.value};
-    case StopAt::area:
-      return {TargetKind::area, stop.value};
-  }
-  return {};
-}
-
 CompressionTarget Compression::target() const {
-  CompressionTarget target = target_at({options_.stop_at, options_.target});
-  for (const CompressionStop& stop : options_.or_at) target.or_at.push_back(target_at(stop));
+  const double initial = found_.plates.initial_thickness;
+  CompressionTarget target = target_of({options_.stop_at, options_.target}, initial);
+  for (const CompressionStop& stop : options_.or_at) target.or_at.push_back(target_of(stop, initial));
   return target;
 }
 
 /// When the hand lets go of a lifted breast.
 Grip Compression::grip() const {
-  const CompressionTarget end = target();
-  if (end.kind != TargetKind::thickness || !end.or_at.empty()) return grip_before_any_force();
-  return grip_before(1 - end.value / found_.plates.initial_thickness);
+  const std::optional<double> thickness = thickness_in(target());
+  if (!thickness) return grip_before_any_force();
+  return grip_before(1 - *thickness / found_.plates.initial_thickness, !options_.or_at.empty());
 }
 
 /// Where the breast is lifted its weight comes back while the plates grip it.
@@ -140,6 +123,10 @@ PathOptions Compression::path_options() {
   path.prepare = [this, grip = grip()](double thickness) {
     const double reduction = 1 - thickness / found_.plates.initial_thickness;
     body_.set_load(grip.weight.at(reduction) * load_ + (1 - grip.pull.at(reduction)) * pull_);
+  };
+  if (!thickness_in(target())) return path;
+  path.may_end = [this, grip = grip()](double thickness) {
+    return grip.gone(1 - thickness / found_.plates.initial_thickness);
   };
   return path;
 }
@@ -265,24 +252,7 @@ void Compression::say_how_it_ended(const State& state) {
 
 /// Fraction of the way to the target.
 double Compression::load_reached() const {
-  const PathPoint& end = found_.path.points.back();
-  const double initial = found_.initial_thickness_mm;
-  const auto part = [&](const CompressionTarget& wanted) {
-    switch (wanted.kind) {
-      case TargetKind::force:
-        return end.paddle_N / wanted.value;
-      case TargetKind::pressure:
-        return end.pressure_kPa / wanted.value;
-      case TargetKind::area:
-        return end.area_cm2 / wanted.value;
-      default:
-        return (initial - found_.thickness_mm) / (initial - wanted.value);
-    }
-  };
-  const CompressionTarget wanted = target();
-  double most = part(wanted);
-  for (const CompressionTarget& other : wanted.or_at) most = std::max(most, part(other));
-  return most;
+  return part_of_way(found_.path.points.back(), target(), found_.initial_thickness_mm);
 }
 
 /// The result against clinical ranges, then how it was found.

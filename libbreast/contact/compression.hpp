@@ -11,9 +11,9 @@
 #include "contact/coverage.hpp"
 #include "contact/deformation.hpp"
 #include "contact/judgement.hpp"
-#include "contact/path.hpp"
+#include "contact/path/path.hpp"
 #include "contact/plates.hpp"
-#include "contact/positioning.hpp"
+#include "contact/path/positioning.hpp"
 #include "contact/self_contact.hpp"
 #include "contact/solvers/make_solver.hpp"
 #include "core/progress.hpp"
@@ -22,14 +22,6 @@
 #include "mechanics/options.hpp"
 
 namespace breast {
-
-enum class StopAt { thickness, reduction, force, pressure, area };
-
-/// A place to stop: mm, %, N, kPa or cm².
-struct CompressionStop {
-  StopAt at = StopAt::reduction;
-  double value = 50;
-};
 
 struct CompressionOptions {
   View view = View::cc;

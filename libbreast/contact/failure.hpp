@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "contact/path.hpp"
+#include "contact/path/path.hpp"
 #include "contact/plates.hpp"
 #include "mesh/hex_mesh.hpp"
 

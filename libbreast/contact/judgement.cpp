@@ -209,6 +209,12 @@ std::vector<Judgement> judge_path(const PathResult& path, bool stable) {
                             "; the closer one is the result"),
                     true});
   }
+  if (path.passed_by) {
+    list.push_back({"ends_past_target",
+                    message("the ", target_name(path.met.kind), " is ", *path.passed_by, ", past its target of ",
+                            path.met.value, ": the hand that lifts the breast had not let go before"),
+                    true});
+  }
   const double lag = path.final_step.friction_lag;
   if (lag > largest_friction_lag) {
     list.push_back({"friction_lags",

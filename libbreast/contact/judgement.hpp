@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/path.hpp"
+#include "contact/path/path.hpp"
 #include "contact/self_contact.hpp"
 #include "core/types.hpp"
 #include "mesh/hex_mesh.hpp"

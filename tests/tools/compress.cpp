@@ -151,7 +151,7 @@ TEST_F(CompressTool, AnEarlyStopIsWrittenOnlyWhenEnoughWasReached) {
 TEST_F(CompressTool, RefusesWhatItCannotDo) {
   for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
            {"CC"},
-           {"CC", "--reduction", "40", "--force", "100"},
+           {"CC", "--reduction", "40", "--area", "0"},
            {"XX", "--reduction", "40"},
            {"CC", "--reduction", "40", "--friction", "-0.3"},
            {"CC", "--reduction", "40", "--wall", "spring:0"},

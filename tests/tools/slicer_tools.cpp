@@ -215,7 +215,7 @@ TEST_F(SlicerExport, BadInputIsOneLine) {
   refuse("export-slicer mixed o", "another mesh");
   refuse("export-slicer other.nrrd o", "not the folder of a run");
   refuse("hexmesh run/geometry.vtkhdf out/labels.seg.nrrd m.vtkhdf --code wal=3",
-         "'wal' is no tissue");
+         "'wal' is not a tissue");
   refuse("hexmesh run/geometry.vtkhdf out/labels.seg.nrrd m.vtkhdf --code 9=fat", "value 9");
   refuse("hexmesh run/geometry.vtkhdf other.nrrd m.vtkhdf", "--side");
   refuse("hexmesh run/geometry.vtkhdf run/labels.vtkhdf m.vtkhdf --side left", "takes no --code");

@@ -7,7 +7,7 @@
 
 #include "contact/solvers/active_set.hpp"
 #include "contact/solvers/augmented_lagrangian.hpp"
-#include "contact/path.hpp"
+#include "contact/path/path.hpp"
 #include "core/units.hpp"
 #include "fixtures/level_surfaces.hpp"
 #include "fixtures/wide_plates.hpp"
@@ -261,6 +261,29 @@ TEST(CompressionPath, TheFirstOfSeveralTargetsEndsIt) {
   const auto [end, kind] = end_of(with(force, area));
   EXPECT_EQ(kind, TargetKind::area);
   EXPECT_LT(end.paddle_N, 0.05);
+}
+
+// Where the path may not end yet a target is passed, and the result says by how much.
+TEST(CompressionPath, ATargetMayBePassedBeforeThePathMayEnd) {
+  QuadraticBody body(24, 11);
+  PlatePair plates = plates_at(-20, 20, 15);
+  ActiveSet contact = body.active_set();
+  State state = body.start();
+  ASSERT_TRUE(close(plates, contact, state, {TargetKind::force, 0.05}).reached);
+  const double early = plates.thickness();
+  PlatePair again = plates_at(-20, 20, 15);
+  ActiveSet fresh = body.active_set();
+  state = body.start();
+  PathOptions options;
+  options.may_end = [&](double thickness) { return thickness < 0.9 * early; };
+  const CompressionTarget target{TargetKind::force, 0.05, {{TargetKind::thickness, 0.5 * early}}};
+  const PathResult path = close(again, fresh, state, target, options);
+  ASSERT_TRUE(path.reached);
+  EXPECT_EQ(path.met.kind, TargetKind::force);
+  ASSERT_TRUE(path.passed_by);
+  EXPECT_GT(*path.passed_by, 0.05);
+  EXPECT_NEAR(*path.passed_by, path.points.back().paddle_N, 1e-5);
+  EXPECT_LT(path.thickness, 0.9 * early);
 }
 
 // A penalty that sets in at once, 320 times as stiff as the tangent knows: halves of the step are

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A hand that brings the breast between the plates, and a breast that touches itself or the thorax.
-#include "contact/positioning.hpp"
+#include "contact/path/positioning.hpp"
 
 #include <gtest/gtest.h>
 

@@ -103,7 +103,7 @@ TEST(Body, ChestAsDarkAsAirIsFilled) {
 TEST(SegmentRobustness, SkinFlattenedByTheCoilIsDoubted) {
   const auto flat_doubts = [](const Segmentation& result) {
     return std::count_if(result.doubts.begin(), result.doubts.end(), [](const std::string& doubt) {
-      return doubt.find("is flat") != std::string::npos;
+      return doubt.find("are flat") != std::string::npos;
     });
   };
   EXPECT_EQ(flat_doubts(patient().base), 0);
@@ -115,7 +115,10 @@ TEST(SegmentRobustness, SkinFlattenedByTheCoilIsDoubted) {
 
 TEST(SegmentRobustness, ImplausibleExtentIsDoubted) {
   const auto doubts_of = [](const Segmentation& result, double left_out) {
-    const Extents found{left_out, result.lateral_border_mm, result.nipple_depth_mm, 500};
+    const Extents found{.front_left_out_percent = left_out,
+                        .lateral_border_mm = result.lateral_border_mm,
+                        .nipple_depth_mm = result.nipple_depth_mm,
+                        .volume_ml = 500};
     return extent_doubts(found, result.greatest_thickness).size();
   };
   const Segmentation& base = patient().base;

@@ -107,7 +107,7 @@ TEST(Segmentations, FilesThatAreNoneAreRefused) {
   EXPECT_EQ(labels_of(volume, {}, Side::right, "f").side, Side::right);
   LabelVolume far = labels_of(volume, {}, Side::left, "f");
   far.grid.origin += Vec3(1e4, 0, 0);
-  EXPECT_TRUE(says(reason([&] { completed_labels(far, samples::labels(), "f"); }), "elsewhere"));
+  EXPECT_TRUE(says(reason([&] { completed_labels(far, samples::labels(), "f"); }), "different region"));
 }
 
 TEST(MarkupFiles, RoundTripIsExact) {

@@ -187,7 +187,7 @@ TEST_F(VolumeFile, ForeignAndNonFiniteFilesAreRefused) {
   std::ofstream(folder / "text.nrrd") << "hello\n";
   std::ofstream(folder / "scan.xyz") << "hello\n";
   EXPECT_NE(error_of([&] { read_volume(folder / "text.nrrd"); }), "");
-  EXPECT_NE(error_of([&] { read_volume(folder / "scan.xyz"); }).find("ending"), std::string::npos);
+  EXPECT_NE(error_of([&] { read_volume(folder / "scan.xyz"); }).find("extension"), std::string::npos);
   EXPECT_NE(error_of([&] { read_volume(folder / "absent.nrrd"); }), "");
   fs::create_directories(folder / "empty");
   EXPECT_NE(error_of([&] { read_volume(folder / "empty"); }).find("DICOM"), std::string::npos);

@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
         Header{"twice", "kinds", "type: float", "twice"},
         Header{"device", "kinds", "data file: /dev/zero", "own folder"},
         Header{"climbing", "kinds", "data file: ../other.raw", "own folder"},
-        Header{"absent", "kinds", "data file: other.raw", "no file"},
+        Header{"absent", "kinds", "data file: other.raw", "does not exist"},
         Header{"list", "kinds", "data file: LIST", "one"},
         Header{"bzip2", "encoding", "encoding: bzip2", "bzip2"},
         Header{"colour", "type", "type: block", "block"}),
@@ -180,7 +180,7 @@ TEST_F(NiftiHeaders, WithNumbersThatAreNone) {
   expect("data type", bad);
   bad = good_;
   put(bad, 108, std::numeric_limits<float>::infinity());
-  expect("begin", bad);
+  expect("start of the voxels", bad);
   bad = good_;
   put(bad, 344, 'x');
   expect("not the NIfTI header", bad);

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "contact/path.hpp"
+#include "contact/path/path.hpp"
 #include "contact/penetration.hpp"
 #include "contact/solvers/surface_contact.hpp"
 #include "core/units.hpp"

@@ -8,25 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "contact/path/target.hpp"
 #include "contact/plates.hpp"
 #include "contact/solvers/solver.hpp"
 #include "core/progress.hpp"
 
 namespace breast {
-
-enum class TargetKind { thickness, force, pressure, area };
-
-/// Target: thickness between the flat parts of the plates (mm), paddle force (N), paddle force per
-/// contact area (kPa), or the paddle's contact area (cm²).
-struct CompressionTarget {
-  TargetKind kind = TargetKind::thickness;
-  double value = 0;
-  /// Further places to stop: the path ends at the first of all that it reaches.
-  std::vector<CompressionTarget> or_at = {};
-};
-
-/// "thickness", "paddle force", "mean pressure" or "contact area".
-const char* target_name(TargetKind kind);
 
 /// Step lengths are in mm of thickness; 0 chooses a fraction of the initial thickness.
 struct PathOptions {
@@ -40,18 +27,15 @@ struct PathOptions {
   /// Called with the thickness (mm) before each position is solved, to update whatever depends on
   /// it.
   std::function<void(double)> prepare;
-};
-
-/// A converged state of the path.
-struct PathPoint {
-  double thickness = 0;  ///< mm
-  double paddle_N = 0, detector_N = 0, pressure_kPa = 0, area_cm2 = 0;
-  int iterations = 0;
+  /// Whether the path may end at a thickness (mm) for another target than a thickness; always, if empty.
+  std::function<bool(double)> may_end;
 };
 
 struct PathResult {
   bool reached = false;
   CompressionTarget met;  ///< which target was reached
+  /// The target was passed where the path may not end: the quantity at the end, in the target's unit.
+  std::optional<double> passed_by;
   NewtonStop last_failure = NewtonStop::none;  ///< why the path stopped early
   bool solve_limit = false;                    ///< stopped because of PathOptions::most_solves
   /// If the path snaps through past a target that is not a thickness: the quantity on both sides of

@@ -29,9 +29,12 @@ struct Release {
 /// before friction can hold it against a pull.
 struct Grip {
   Release weight, pull;
+  /// Whether the hand has let go completely at a reduction (a fraction).
+  bool gone(double reduction) const { return weight.at(reduction) == 1 && pull.at(reduction) == 1; }
 };
-/// For a compression to a given reduction (a fraction).
-Grip grip_before(double reduction);
+/// For a compression to a given reduction (a fraction), or, where `may_end_before` it, to the first of this and
+/// other targets: the pull then ends earlier.
+Grip grip_before(double reduction, bool may_end_before = false);
 /// For a compression to a force or pressure, whose reduction is not known in advance: the hand
 /// releases everything early.
 Grip grip_before_any_force();

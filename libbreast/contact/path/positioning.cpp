@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/positioning.hpp"
+#include "contact/path/positioning.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +21,8 @@ constexpr double bears_weight = 0.25, bears_weight_before_any_force = 0.1, begin
 constexpr double latest_part = 0.5;
 /// Friction holds the breast against the pull between these fractions of the reduction.
 constexpr double pull_begins_part = 0.6, pull_ends_part = 0.9;
+/// Earlier where another target may end the path before that reduction.
+constexpr double early_begins_part = 0.4, early_ends_part = 0.7;
 /// The traction of the hand rises over this depth from the edge, mm.
 constexpr double pull_ramp_mm = 20;
 /// Tissue nearer to the edge than this is at the edge, mm.
@@ -36,9 +38,11 @@ double Release::at(double reduction) const {
   return std::clamp((reduction - begins) / (ends - begins), 0.0, 1.0);
 }
 
-Grip grip_before(double reduction) {
+Grip grip_before(double reduction, bool may_end_before) {
+  const double begins = may_end_before ? early_begins_part : pull_begins_part;
+  const double ends = may_end_before ? early_ends_part : pull_ends_part;
   return {release_by(std::min(bears_weight, latest_part * reduction)),
-          {pull_begins_part * reduction, pull_ends_part * reduction}};
+          {begins * reduction, ends * reduction}};
 }
 
 Grip grip_before_any_force() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/path.hpp"
+#include "contact/path/path.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,41 +33,26 @@ struct Waypoint {
   PathPoint point;
 };
 
-double measure(const PathPoint& point, TargetKind kind) {
-  switch (kind) {
-    case TargetKind::thickness:
-      return point.thickness;
-    case TargetKind::force:
-      return point.paddle_N;
-    case TargetKind::pressure:
-      return point.pressure_kPa;
-    case TargetKind::area:
-      return point.area_cm2;
-  }
-  return 0;
-}
-
 class Path {
  public:
   Path(ContactSolver& solver, PlatePair& plates, const CompressionTarget& target,
        const NodalArea& area, const PathOptions& options, Progress& progress)
       : solver_(solver),
         plates_(plates),
+        thickness_(thickness_in(target)),
+        controls_(others_than_thickness(target)),
         area_(area),
         options_(options),
         progress_(progress),
         start_thickness_(plates.thickness()),
-        tolerance_(options.path_tolerance) {
-    take(target);
-    for (const CompressionTarget& other : target.or_at) take(other);
-  }
+        tolerance_(options.path_tolerance) {}
 
   PathResult run(State& state);
 
  private:
-  void take(const CompressionTarget& target);
   const CompressionTarget* passed(const PathPoint& point) const;
   bool march();
+  bool end_at(const CompressionTarget& target, Waypoint reached);
   bool refine_control(const CompressionTarget& target, const Waypoint& before, Waypoint high);
   bool attempt(const State& guess, const ContactMemory& memory, double thickness, double tolerance,
                Waypoint& reached);
@@ -96,15 +81,6 @@ class Path {
   std::optional<Waypoint> first_haste_;  ///< the state before the first that was not
   std::deque<Waypoint> trail_;           ///< the last ones before before_
 };
-
-/// Of several thicknesses the largest comes first.
-void Path::take(const CompressionTarget& target) {
-  if (target.kind == TargetKind::thickness) {
-    thickness_ = std::max(target.value, thickness_.value_or(target.value));
-  } else {
-    controls_.push_back({target.kind, target.value});
-  }
-}
 
 /// The target that lies furthest behind a point; null before all of them.
 const CompressionTarget* Path::passed(const PathPoint& point) const {
@@ -243,8 +219,9 @@ bool Path::march() {
       if (iterations < 6 && failures_in_row == 0) step = std::min(longest, 1.4 * step);
       if (iterations > 12) step = std::max(options_.shortest_step, 0.7 * step);
       failures_in_row = 0;
-      if (const CompressionTarget* target = passed(reached.point)) {
-        return refine_control(*target, here_, std::move(reached));
+      const bool may_end = !options_.may_end || options_.may_end(thickness);
+      if (const CompressionTarget* target = may_end ? passed(reached.point) : nullptr) {
+        return end_at(*target, std::move(reached));
       }
       trail_.push_back(std::move(before_));
       if (trail_.size() > longest_trail) trail_.pop_front();
@@ -263,6 +240,18 @@ bool Path::march() {
   }
   result_.solve_limit = true;
   return false;
+}
+
+/// Between the last state and one beyond the target; the latter itself where the path could not end before.
+bool Path::end_at(const CompressionTarget& target, Waypoint reached) {
+  const bool between = !options_.may_end || options_.may_end(here_.thickness);
+  if (between && measure(here_.point, target.kind) < target.value)
+    return refine_control(target, here_, std::move(reached));
+  result_.met = target;
+  result_.passed_by = measure(reached.point, target.kind);
+  before_ = std::move(here_);
+  here_ = std::move(reached);
+  return true;
 }
 
 /// Bracketed secant (Illinois) on the thickness between a state before the target and one beyond it;
@@ -399,11 +388,6 @@ PathResult Path::run(State& state) {
 }
 
 }  // namespace
-
-const char* target_name(TargetKind kind) {
-  constexpr const char* names[] = {"thickness", "paddle force", "mean pressure", "contact area"};
-  return names[int(kind)];
-}
 
 PathResult follow_path(ContactSolver& solver, PlatePair& plates, State& state,
                        const CompressionTarget& target, const NodalArea& area,

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/path/target.hpp"
+
+#include <algorithm>
+
+namespace breast {
+
+const char* target_name(TargetKind kind) {
+  constexpr const char* names[] = {"thickness", "paddle force", "mean pressure", "contact area"};
+  return names[int(kind)];
+}
+
+double measure(const PathPoint& point, TargetKind kind) {
+  switch (kind) {
+    case TargetKind::thickness:
+      return point.thickness;
+    case TargetKind::force:
+      return point.paddle_N;
+    case TargetKind::pressure:
+      return point.pressure_kPa;
+    case TargetKind::area:
+      return point.area_cm2;
+  }
+  return 0;
+}
+
+CompressionTarget target_of(const CompressionStop& stop, double initial) {
+  switch (stop.at) {
+    case StopAt::thickness:
+      return {TargetKind::thickness, stop.value};
+    case StopAt::reduction:
+      return {TargetKind::thickness, initial * (1 - stop.value / 100)};
+    case StopAt::force:
+      return {TargetKind::force, stop.value};
+    case StopAt::pressure:
+      return {TargetKind::pressure, stop.value};
+    case StopAt::area:
+      return {TargetKind::area, stop.value};
+  }
+  return {};
+}
+
+std::optional<double> thickness_in(const CompressionTarget& target) {
+  std::optional<double> largest;
+  const auto take = [&](const CompressionTarget& one) {
+    if (one.kind == TargetKind::thickness)
+      largest = std::max(one.value, largest.value_or(one.value));
+  };
+  take(target);
+  for (const CompressionTarget& other : target.or_at) take(other);
+  return largest;
+}
+
+std::vector<CompressionTarget> others_than_thickness(const CompressionTarget& target) {
+  std::vector<CompressionTarget> others;
+  const auto take = [&](const CompressionTarget& one) {
+    if (one.kind != TargetKind::thickness) others.push_back({one.kind, one.value});
+  };
+  take(target);
+  for (const CompressionTarget& other : target.or_at) take(other);
+  return others;
+}
+
+double part_of_way(const PathPoint& end, const CompressionTarget& target, double initial) {
+  const auto part = [&](const CompressionTarget& wanted) {
+    if (wanted.kind == TargetKind::thickness)
+      return (initial - end.thickness) / (initial - wanted.value);
+    return measure(end, wanted.kind) / wanted.value;
+  };
+  double most = part(target);
+  for (const CompressionTarget& other : target.or_at) most = std::max(most, part(other));
+  return most;
+}
+
+}  // namespace breast
