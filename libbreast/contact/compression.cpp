@@ -161,7 +161,7 @@ void Compression::close_plates(State& state) {
   const ChosenContact contact =
       make_contact_solver(options_.method, options_.friction, scene_, body_.problem, solver_);
   const auto area = [&](const State& s) {
-    const std::vector<double> all = skin_area_per_node(mesh_, s.x);
+    const std::vector<double> all = contact_area_per_node(mesh_, s.x, contact.surface != nullptr);
     std::vector<double> own;
     for (const int node : contact.solver->candidates()) own.push_back(all[std::size_t(node)]);
     return own;
@@ -263,6 +263,12 @@ void Compression::judge_against_practice() {
        found_.max_volume_error, found_.places, found_.self_contact});
   for (Judgement& line : judge_path(found_.path, found_.stable)) {
     found_.judgement.push_back(std::move(line));
+  }
+  if (found_.path.reached) {
+    const PlateRecord& paddle = found_.contact->plates[0];
+    const PathPoint end{found_.thickness_mm, paddle.force_N, 0, paddle.mean_kPa, paddle.area_cm2};
+    if (auto line = judge_target(found_.path.met, measure(end, found_.path.met.kind)))
+      found_.judgement.push_back(std::move(*line));
   }
   if (found_.reduction_percent > 40 && scene_.options().materials.name == "seed2008") {
     found_.judgement.push_back(

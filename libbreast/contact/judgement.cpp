@@ -190,6 +190,17 @@ std::vector<Judgement> judge_compression(const ContactRecord& contact, const Pre
   return list;
 }
 
+std::optional<Judgement> judge_target(const CompressionTarget& met, double reached) {
+  constexpr double on_target = 0.02, far_off = 0.25;
+  const double off = std::abs(reached / met.value - 1);
+  if (!(off > on_target)) return std::nullopt;
+  return Judgement{"off_target",
+                   message("the ", target_name(met.kind), " ends at ", shown(reached), ", ",
+                           shown(100 * off), " % from its target of ", shown(met.value),
+                           ": the contact area changes by whole nodes"),
+                   off > far_off};
+}
+
 std::vector<Judgement> judge_path(const PathResult& path, bool stable) {
   std::vector<Judgement> list;
   if (path.first_indefinite_thickness) {

@@ -3,6 +3,7 @@
 // whether the two plates press on the breast alone.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ struct PressedState {
 /// volume against the ranges of clinical practice; the share of the rounded edge; finally the
 /// balance of the plates.
 std::vector<Judgement> judge_compression(const ContactRecord& contact, const PressedState& state);
+/// Says when the quantity that ended the path is not its target at the end, tightly solved: `reached` beside the
+/// target; a doubt from a quarter on. The contact area changes by whole nodes. Nothing within 2 %.
+std::optional<Judgement> judge_target(const CompressionTarget& met, double reached);
 /// Comments on the closing of the plates: an indefinite tangent (a doubt unless the final state is
 /// `stable`), a snap-through past the target, friction bounds that do not follow the pressure.
 std::vector<Judgement> judge_path(const PathResult& path,

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "contact/penetration.hpp"
 #include "mesh/nodal_faces.hpp"
 
 namespace breast {
 
-std::vector<double> skin_area_per_node(const HexMesh& mesh, const Eigen::VectorXd& x) {
-  return nodal_faces(mesh, mesh.skin_faces, x).area;
+std::vector<double> contact_area_per_node(const HexMesh& mesh, const Eigen::VectorXd& x,
+                                          bool faces) {
+  return nodal_faces(mesh, faces ? touchable_faces(mesh) : mesh.skin_faces, x).area;
 }
 
 double thickness_at(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& plate, double a) {

@@ -173,7 +173,7 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
     const bool blank = image.blank(std::size_t(first - back.begin()));
     const double chest = hanging.left() ? low.x() + 6 : high.x() - 6;
     panel.text({chest, low.y() + 14},
-               blank ? "even grey: chest wall" : "at the back: fat assumed beyond the mesh",
+               blank ? "even grey: chest wall" : "back: fat assumed",
                letters - 2, {0.85, 0.85, 0.85}, hanging.left() ? Align::left : Align::right);
   }
   const std::string top = image.view == View::cc ? "lateral" : "superior";
