@@ -53,14 +53,15 @@ endif()
 
 # Meshes for more than one process (libbreast/distributed). Debian's PETSc is linked with HDF5's MPI build, we
 # with its serial one: their symbols have different versions (HDF5_MPI_..., HDF5_SERIAL_...), so that each
-# library of one process calls its own (docs/scale.md).
+# library of one process calls its own (docs/scale.md). The package does without: few who install it have a cluster.
+option(BREAST_MPI "forward-mpi and backward-mpi, where PETSc is installed" ON)
 find_package(PkgConfig QUIET)
 if(PkgConfig_FOUND)
   pkg_check_modules(PETSC QUIET petsc>=3.18)
 endif()
 find_package(MPI QUIET COMPONENTS C)
 find_program(MPIRUN_PROGRAM mpirun)
-if(PETSC_FOUND AND MPI_C_FOUND AND MPIRUN_PROGRAM)
+if(BREAST_MPI AND PETSC_FOUND AND MPI_C_FOUND AND MPIRUN_PROGRAM)
   add_library(breast_petsc INTERFACE)
   target_include_directories(breast_petsc SYSTEM INTERFACE ${PETSC_INCLUDE_DIRS} ${MPI_C_INCLUDE_DIRS})
   target_compile_definitions(breast_petsc INTERFACE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
