@@ -15,6 +15,7 @@
 #include "mechanics/estimate/error_estimate.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"
+#include "mesh/nodal_faces.hpp"
 #include "solve/equilibrate.hpp"
 
 namespace breast {
@@ -160,8 +161,9 @@ bool Compression::has_let_go(const State& state) {
 void Compression::close_plates(State& state) {
   const ChosenContact contact =
       make_contact_solver(options_.method, options_.friction, scene_, body_.problem, solver_);
+  const std::vector<Face> faces = contact_faces(mesh_, contact.surface != nullptr);
   const auto area = [&](const State& s) {
-    const std::vector<double> all = contact_area_per_node(mesh_, s.x, contact.surface != nullptr);
+    const std::vector<double> all = nodal_faces(mesh_, faces, s.x).area;
     std::vector<double> own;
     for (const int node : contact.solver->candidates()) own.push_back(all[std::size_t(node)]);
     return own;

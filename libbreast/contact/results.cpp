@@ -66,7 +66,7 @@ std::vector<PressedPoint> pressed_points(const PlatePair& plates, const Eigen::V
 void record_pressure(const HexMesh& mesh, const Eigen::VectorXd& x, const ContactSolver& solver,
                      CompressionResult& result) {
   const ContactStep& step = result.path.final_step;
-  const std::vector<double> area = contact_area_per_node(mesh, x, !step.pressed.empty());
+  const std::vector<double> area = nodal_faces(mesh, contact_faces(mesh, !step.pressed.empty()), x).area;
   for (std::size_t c = 0; c < step.contacts.size(); ++c) {
     const NodalContact& contact = step.contacts[c];
     if (contact.plate < 0 || !(contact.normal > 0)) continue;

@@ -5,13 +5,11 @@
 #include <limits>
 
 #include "contact/penetration.hpp"
-#include "mesh/nodal_faces.hpp"
 
 namespace breast {
 
-std::vector<double> contact_area_per_node(const HexMesh& mesh, const Eigen::VectorXd& x,
-                                          bool faces) {
-  return nodal_faces(mesh, faces ? touchable_faces(mesh) : mesh.skin_faces, x).area;
+std::vector<Face> contact_faces(const HexMesh& mesh, bool surface_contact) {
+  return surface_contact ? touchable_faces(mesh) : mesh.skin_faces;
 }
 
 double thickness_at(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& plate, double a) {

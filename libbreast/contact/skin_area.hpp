@@ -9,9 +9,8 @@
 
 namespace breast {
 
-/// Area (mm²) in shape `x` (3 per node) that belongs to each node, ∫ N_a dA: of the skin, or of all
-/// faces that may touch a plate where contact is that of `faces`.
-std::vector<double> contact_area_per_node(const HexMesh& mesh, const Eigen::VectorXd& x, bool faces);
+/// Faces whose area counts as contact area: the skin, or all that may touch a plate in surface contact.
+std::vector<Face> contact_faces(const HexMesh& mesh, bool surface_contact);
 
 /// Extent of the skin along n in the plane at the anterior coordinate a (mm); 0 if the plane meets
 /// no skin.

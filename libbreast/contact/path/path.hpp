@@ -27,7 +27,8 @@ struct PathOptions {
   /// Called with the thickness (mm) before each position is solved, to update whatever depends on
   /// it.
   std::function<void(double)> prepare;
-  /// Whether the path may end at a thickness (mm) for another target than a thickness; always, if empty.
+  /// Whether a target that is not a thickness may end the path where the plates are this far apart (mm).
+  /// If empty, it may everywhere.
   std::function<bool(double)> may_end;
 };
 

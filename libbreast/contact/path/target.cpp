@@ -5,6 +5,17 @@
 
 namespace breast {
 
+namespace {
+
+/// A target and its alternatives, one after the other.
+std::vector<CompressionTarget> all_of(const CompressionTarget& target) {
+  std::vector<CompressionTarget> all{{target.kind, target.value}};
+  all.insert(all.end(), target.or_at.begin(), target.or_at.end());
+  return all;
+}
+
+}  // namespace
+
 const char* target_name(TargetKind kind) {
   constexpr const char* names[] = {"thickness", "paddle force", "mean pressure", "contact area"};
   return names[int(kind)];
@@ -42,22 +53,16 @@ CompressionTarget target_of(const CompressionStop& stop, double initial) {
 
 std::optional<double> thickness_in(const CompressionTarget& target) {
   std::optional<double> largest;
-  const auto take = [&](const CompressionTarget& one) {
+  for (const CompressionTarget& one : all_of(target)) {
     if (one.kind == TargetKind::thickness)
       largest = std::max(one.value, largest.value_or(one.value));
-  };
-  take(target);
-  for (const CompressionTarget& other : target.or_at) take(other);
+  }
   return largest;
 }
 
 std::vector<CompressionTarget> others_than_thickness(const CompressionTarget& target) {
-  std::vector<CompressionTarget> others;
-  const auto take = [&](const CompressionTarget& one) {
-    if (one.kind != TargetKind::thickness) others.push_back({one.kind, one.value});
-  };
-  take(target);
-  for (const CompressionTarget& other : target.or_at) take(other);
+  std::vector<CompressionTarget> others = all_of(target);
+  std::erase_if(others, [](const auto& one) { return one.kind == TargetKind::thickness; });
   return others;
 }
 
@@ -68,7 +73,7 @@ double part_of_way(const PathPoint& end, const CompressionTarget& target, double
     return measure(end, wanted.kind) / wanted.value;
   };
   double most = part(target);
-  for (const CompressionTarget& other : target.or_at) most = std::max(most, part(other));
+  for (const CompressionTarget& one : all_of(target)) most = std::max(most, part(one));
   return most;
 }
 
