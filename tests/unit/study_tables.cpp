@@ -256,11 +256,13 @@ TEST(Studies, OfManySolvesAreCountedByKind) {
   const Table one = table_of(
       header +
       "same\ta\t500\t6\t1\t1\t2\t1\t2\t4\t3\t40\t1\t2\t0.5\nsame\ta\t500\t8\t3\t1\t2\t2\t2\t4\t4\t44\t2\t4\t0.01\n");
-  const Table two = table_of(header + "surface\ta\t500\t100\t9\t0\t0\t0\t0\t0\t0\t40\t-\t3\t-\n");
+  const Table two = table_of(header + "surface\ta\t500\t100\t9\t0\t0\t0\t0\t0\t0\t40\t-\t3\t-\n" +
+                             "same\ta\t900\t5\t2\t1\t0\t0\t0\t4\t4\t41\t1\t2\t0.5\n");
   const Table table = identification_table({one, two});
   EXPECT_EQ(join(table.rows[0], " "), "same a 2 500 2 7.0 8 2.0 4 75 100 88 42 1.50 3.00 4.00 50");
   EXPECT_EQ(table.cell(1, "alarms_%"), "-");
   EXPECT_EQ(table.cell(1, "known_5_percent"), "-");
+  EXPECT_EQ(table.cell(2, "elements") + " " + table.cell(2, "draws"), "900 1");  // another mesh, another row
 
   const Table mechanics = table_of(
       "case\tdirection\toutcome\tresidual\tmin_det_F\tnewton\tseconds\nx\tforward\tconverged\t1e-9\t0.5\t7\t1\ny\tforward\tconverged\t2e-9\t0.25\t5\t2\nz\tbackward\trefused\t-\t-\t0\t0\n");

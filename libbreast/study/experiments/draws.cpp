@@ -11,7 +11,7 @@ namespace breast {
 
 namespace {
 
-// Sums and largest values by column over the draws of one study and truth.
+// Sums and largest values by column over the draws of one study, truth and mesh.
 struct Draws {
   std::string study, truth, elements;
   int count = 0, alarms = 0;
@@ -58,12 +58,13 @@ Table identification_table(const std::vector<Table>& studies) {
   for (const Table& table : studies) {
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
       const std::string &study = table.cell(r, "study"), &truth = table.cell(r, "truth");
+      const std::string& elements = table.cell(r, "elements");
       auto draws = std::find_if(all.begin(), all.end(), [&](const Draws& d) {
-        return d.study == study && d.truth == truth;
+        return d.study == study && d.truth == truth && d.elements == elements;
       });
-      if (draws == all.end()) draws = all.insert(all.end(), Draws{study, truth, "", 0, 0, {}, {}});
+      if (draws == all.end())
+        draws = all.insert(all.end(), Draws{study, truth, elements, 0, 0, {}, {}});
       ++draws->count;
-      draws->elements = table.cell(r, "elements");
       draws->alarms += number_or_0(table, r, "probability") < 0.05 ? 1 : 0;
       for (const std::string column :
            {"pairs", "cpu_s", "converged", "identifiable", "within_10_percent", "within_2_sd",

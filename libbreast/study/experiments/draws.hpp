@@ -9,7 +9,7 @@
 
 namespace breast {
 
-/// Judges the rows of identification_study: one row a study and truth. Means over its draws; directions known to 5 % and how
+/// Judges the rows of identification_study: one row a study, truth and mesh. Means over its draws; directions known to 5 % and how
 /// many of them meet the truth within 10 % and within two deviations, all directions within two deviations, per cent of
 /// draws that the misfit test at 5 % takes for another model.
 Table identification_table(const std::vector<Table>& studies);
