@@ -50,8 +50,9 @@ LabelVolume truth_labels(const Volume<float>& native, const Vec3& offset, Side s
     for (int j = 0; j < truth.grid.size[1]; ++j) {
       for (int i = 0; i < truth.grid.size[0]; ++i) {
         const int code = int(native.at(stride * i + half, stride * j + half, stride * k + half));
-        const auto known = codes.find(code);
-        truth.tissue.push_back(std::uint8_t(known == codes.end() ? Tissue::air : known->second));
+        const auto known = codes.values.find(code);
+        const bool is_known = known != codes.values.end();
+        truth.tissue.push_back(std::uint8_t(is_known ? known->second : Tissue::air));
       }
     }
   }
