@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# How far tissue moves and how much nearer it comes to the ribs, by its depth, model and women: gnuplot -e "table='judging.tsv'; picture='...'" population.gp. Rows are quantities.
+# How far tissue moves and how much nearer it comes to the ribs, by its depth, model and women: gnuplot -e "table='judging.tsv'; picture='...'" population.gp (model='...': what it is called). Rows are quantities.
+if (!exists('model')) model = 'model, mean and SD over breasts'
 set terminal pngcairo size 1000,460 font 'Sans,11'
 set output picture
 set datafile separator '\t'
@@ -16,7 +17,7 @@ set ylabel 'moved from prone to supine (mm)'
 set yrange [0:140]
 set title 'Motion of tissue'
 plot table using (at(strcol('quantity'),'moved')-0.08):'women_mean':'women_sd' with yerrorbars pt 5 lw 2 lc rgb '#888888' title 'women, mean and SD', \
-  '' using (at(strcol('quantity'),'moved')+0.08):'mean':'sd' with yerrorbars pt 7 lw 2 lc rgb '#c0392b' title 'model, mean and SD over breasts'
+  '' using (at(strcol('quantity'),'moved')+0.08):'mean':'sd' with yerrorbars pt 7 lw 2 lc rgb '#c0392b' title model
 set ylabel 'change of the distance from the ribs (mm)'
 set yrange [-55:5]
 set key bottom left

@@ -46,10 +46,16 @@ all: figures tables $(if $(EXPECTED),verify) report
 # What the slow targets left behind is embedded with its date. Named as prerequisites they would be solved anew where a
 # program is newer; so the page remembers which files they were, of when.
 REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/*.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png $(RUN)/budget/*.tsv $(RUN)/budget/*.png \
-  $(RUNS)/stability/*.tsv $(RUNS)/compare/all.tsv $(RUNS)/compare/pressed.tsv)
+  $(RUNS)/stability/*.tsv $(RUNS)/compare/all.tsv $(RUNS)/compare/pressed.tsv $(addprefix $(RUNS)/population/,judging.tsv motion.png))
 report_settings = $(foreach file,$(REPORT_EXTRAS),$(file) $(shell stat -c %Y $(file)))
 report_record = $(RUN)/report.settings
-$(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(F)/cc-points.png $(F)/mlo-curves.png \
+# How the breast moved beside living women, where its wall slides.
+$(RUN)/population.tsv: $(RUN)/supine.vtkhdf $(PIPELINES)/invivo/women.tsv $(POPULATION_TOOL)
+	$(POPULATION_TOOL) $< --women $(word 2,$^) --table $(RUN)/motion.tsv --summary $@ --report $(RUN)/population.json --quiet
+$(F)/motion.png: $(RUN)/population.tsv $(PIPELINES)/population.gp
+	@mkdir -p $(@D)
+	$(call plot,-e "model='this breast'" $(PIPELINES)/population.gp)
+$(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(if $(slides),$(RUN)/population.tsv $(F)/motion.png) $(F)/cc-points.png $(F)/mlo-curves.png \
   $(if $(EXPECTED),$(RUN)/verify.tsv) $(TABULATE) $(addprefix $(PIPELINES)/,limits.txt advice.tsv) $(call changed,report)
 	$(call table,$(tabulate) report $(RUN) $(RUNS))
 	@$(call record,report)

@@ -149,6 +149,8 @@ TEST(ReportPage, NamesNoFolderAndBeginsWithWarnings) {
   write_text(run / "cc.json",
              R"({"status": "converged", "thickness_mm": 41.27, "warnings": ["<script>"]})");
   write_text(run / "displacements.tsv", "file\tnipple_mm\nsupine.vtkhdf\t3.5\n");
+  write_text(run / "population.tsv",
+             "quantity\tmean\twomen_mean\twomen_sd\twithin_one_sd\nnipple_moved_mm\t97.3\t101\t33\tyes\n");
   write_text(run / ".labels.settings", "/home/me/bin/segment /secret/scan.nrrd --side left\n");
   const std::string page = report_page(run, {folder.path(), {}, {"A limit."}, "", "Made today."});
   EXPECT_NE(page.find("labels: segment scan.nrrd --side left\n"), std::string::npos);
@@ -158,6 +160,7 @@ TEST(ReportPage, NamesNoFolderAndBeginsWithWarnings) {
   EXPECT_LT(page.find("Warnings: 1"), page.find("<h2>Landmarks"));
   EXPECT_NE(page.find("<td>41.27"), std::string::npos);
   EXPECT_NE(page.find("<li>A limit."), std::string::npos);
+  EXPECT_NE(page.find("<td>nipple moved mm<td class=n>97.3<td class=n>101"), std::string::npos);
 }
 
 TEST(Cohort, FailuresComeFirstAndASilentCaseIsOne) {
