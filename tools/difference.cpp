@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// difference: the derivative of a shape by something that changes the mesh, from two other models.
+// difference: the derivative of a shape with respect to a parameter that changes the mesh, from two
+// other models.
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "evaluation/shape_difference.hpp"

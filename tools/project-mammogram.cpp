@@ -27,8 +27,8 @@ struct Choices {
   LabelChoices foreign;
 };
 
-// Another scan's labels would be sampled without complaint, so their content must be among the
-// inputs that led to the mesh.
+// Labels of another scan would otherwise be sampled without an error. Their content must therefore
+// be among the inputs that led to the mesh.
 void check_lineage(const HexMesh& mesh, const LabelVolume& labels, const std::string& file,
                    Run& run) {
   const auto holds = [&](const HistoryEntry& entry) {

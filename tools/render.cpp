@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// render: off-screen pictures of what the pipeline made.
+// render: pictures of the pipeline's results, drawn off-screen.
 #include <algorithm>
 
 #include "cli/tool.hpp"
