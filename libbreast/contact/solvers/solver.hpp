@@ -29,7 +29,7 @@ struct ContactStep : NewtonResult {
   Forces forces;  ///< of the final state, plates and friction included
   /// Number of iterations after a first equilibrium, which do not depend on the step of the plates.
   int corrections = 0;
-  bool hurried = false;  ///< abandoned because it began badly
+  bool hurried = false;  ///< abandoned because it began badly (set_fail_fast)
   /// For a state to be reported: relative difference between the friction bounds and those of its
   /// own normal forces.
   double friction_lag = 0;
