@@ -17,13 +17,14 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double spacing_mm = 12, least_deviation = 1;  // mm
-// Errors of a segmented wall hang together over this length: so many places tell as much as one.
+// Errors of a segmented wall are correlated over this length, so that this many places count as
+// one.
 constexpr double hangs_together_mm = 30, places_a_datum = (hangs_together_mm / spacing_mm) *
                                                           (hangs_together_mm / spacing_mm);
 constexpr double beyond = 4.685;  // Tukey's constant, in deviations
 constexpr double same_frame_mm = 15;
 constexpr int least_places = 20, most_rounds = 60;
-constexpr double worst_residual_mm = 4;  // of walls that are one and the same
+constexpr double worst_residual_mm = 4;  // largest residual of two segmentations of the same wall, mm
 constexpr const char* names[6] = {"shift to the side",
                                   "shift from front to back",
                                   "shift along the body",
@@ -39,10 +40,10 @@ double median(std::vector<double> values) {
 
 struct Compared {
   std::vector<double> distances;
-  std::vector<Vector6> slopes;  // by shift (mm) and turn (degrees)
+  std::vector<Vector6> slopes;  // derivatives with respect to shift (mm) and rotation (degrees)
 };
 
-// The second wall's places in the first scan, where that has a wall.
+// The places of the second wall in the first scan, where that has a wall.
 Compared compare(const WallMap& wall, const std::vector<Vec3>& places, const RigidMotion& motion) {
   Compared out;
   const Mat3 rotation = motion.rotation();
@@ -93,7 +94,7 @@ std::optional<double> sternum(const std::vector<Vec3>& places, double midline) {
   return median(depths);
 }
 
-// Frames of scans may differ by the table's height and the patient's place on it.
+// The frames of two scans may differ by the height of the table and the patient's position on it.
 Vec3 frames_differ_by(const LabelVolume& first, const LabelVolume& second,
                       const std::vector<Vec3>& first_places,
                       const std::vector<Vec3>& second_places) {

@@ -30,7 +30,7 @@ CutOutline::CutOutline(const HexMesh& mesh) : middle_(Vec3::Zero()), axis_(Vec3:
   for (const Face& face : mesh.pectoral_faces) {
     const std::vector<int> nodes = face_nodes(mesh, face);
     const auto corner = [&](int k) { return mesh.points[std::size_t(nodes[std::size_t(k)])]; };
-    // Out of the body, into the chest.
+    // The direction out of the body into the chest.
     const Vec3 out = 0.5 * (corner(2) - corner(0)).cross(corner(3) - corner(1));
     axis_ -= out;
     middle_ += out.norm() * 0.25 * (corner(0) + corner(1) + corner(2) + corner(3));

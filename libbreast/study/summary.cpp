@@ -73,7 +73,7 @@ std::string tumour_text(const StageReport& mesh) {
   return "Tumour: " + mesh.text("tumour") + ".\n";
 }
 
-// The header and the rows of these names.
+// The header and the rows with these names.
 std::string some_rows(const std::string& tsv, const std::vector<std::string>& names) {
   std::istringstream in(tsv);
   std::string text;
@@ -127,7 +127,7 @@ std::string pictures_text(const fs::path& run) {
   if (fs::is_directory(run / "figures"))
     for (const auto& entry : fs::directory_iterator(run / "figures"))
       if (entry.path().extension() == ".png") pictures.push_back(entry.path().string());
-  // The slices of the scan come first: what all others are made from.
+  // The slices of the scan come first, because everything else is made from them.
   const auto first = [](const std::string& picture) { return picture.ends_with("/slices.png"); };
   std::sort(pictures.begin(), pictures.end());
   std::stable_partition(pictures.begin(), pictures.end(), first);

@@ -29,7 +29,7 @@ bool asks(const Table& cases, std::size_t row) {
   return cases.cell(row, "look") != no_value;
 }
 
-// Failed first, then those that ask for a look, then the rest.
+// Failed cases first, then those that should be checked, then the others.
 std::vector<std::size_t> ordered(const Table& cases) {
   std::vector<std::size_t> rows(cases.rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r) rows[r] = r;
@@ -69,7 +69,8 @@ std::string thumbnail(const CohortPages& cohort, const std::filesystem::path& pn
              : "<img loading=\"lazy\" alt=\"" + escaped(text) + "\" src=\"" + jpeg(bytes) + "\">";
 }
 
-// A column's numbers as a row: a dot a case over the grey band of women's mean and deviation.
+// The numbers of a column as a row of dots, one per case, over a grey band for the women's mean and
+// deviation.
 std::string distribution_row(const Table& table, const std::string& column, const Table& women) {
   if (!table.has(column)) return "";
   std::vector<double> values;
@@ -128,7 +129,7 @@ std::string failed_part(const CohortPages& cohort) {
                             rows + "</table>\n";
 }
 
-// One remark a line.
+// One remark per line.
 std::string lines(const std::string& look) {
   std::string text;
   for (std::size_t at = 0; at < look.size();) {

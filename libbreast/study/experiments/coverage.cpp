@@ -12,7 +12,8 @@
 namespace breast {
 
 namespace {
-// Half-widths of the 50 and 95 % bands of a normal distribution, in deviations; z: as the intervals are rounded.
+// Half-widths of the 50 and 95 % bands of a normal distribution, in standard deviations; z is
+// rounded as for the intervals.
 constexpr double half_50 = 0.6744897502, half_95 = 1.9599639845, z = 1.96;
 }  // namespace
 

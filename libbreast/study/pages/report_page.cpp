@@ -63,7 +63,7 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& ending
   return files;
 }
 
-// Tables and plots of a slow target, when it was run.
+// Tables and plots of a slow target, if it was run.
 std::string extra(const std::string& title, const std::string& text, std::vector<fs::path> files) {
   std::erase_if(files, [](const fs::path& file) { return !has_something(file); });
   if (files.empty()) return "";
@@ -91,7 +91,7 @@ std::string warnings_box(const std::vector<Warning>& warnings) {
   return text + "</ul></div>\n";
 }
 
-// The header, and the rows of these names.
+// The header and the rows with these names.
 std::string truth_rows(const fs::path& file) {
   const std::vector<std::string> names{"nipple", "tumour", "mean", "largest"};
   std::istringstream in(read_text(file));
@@ -105,7 +105,7 @@ std::string truth_rows(const fs::path& file) {
   return text;
 }
 
-// A number with a point in four digits, everything else as it stands.
+// A number with a decimal point with four digits; any other text unchanged.
 std::string short_number(const std::string& value) {
   const auto number = number_of(value);
   return number && value.find('.') != std::string::npos ? general(*number, 4) : cell_or_dash(value);
@@ -129,7 +129,7 @@ std::string compression_table(const fs::path& run) {
 
 struct Words {
   bool tumour = false;
-  std::string in_4, in_6;  ///< what a caption says of it
+  std::string in_4, in_6;  ///< text in the caption
 };
 Words words_of(const std::string& origin) {
   if (origin == "none") return {};
@@ -177,7 +177,7 @@ std::string figures(const fs::path& run, const Words& words) {
   return text + picture("mlo-matching", "7c. The same tissue stress-free and in the MLO breast.");
 }
 
-// CPU seconds of every solve behind Tables III to VI, from their reports.
+// CPU seconds of all solves for Tables III to VI, from their reports.
 double solved_again(const fs::path& run) {
   std::vector<fs::path> files = files_in(run / "scaled", ".json");
   std::error_code ignored;
@@ -295,7 +295,7 @@ std::string cost_table_of(const fs::path& run) {
   return text + "</table>\n";
 }
 
-// Words without their folders: a page that is sent says nothing of this machine.
+// Words without the folders in them, because a page that is sent must not describe this machine.
 std::string without_folders(const std::string& text) {
   std::string shown, word;
   for (const char c : text) {

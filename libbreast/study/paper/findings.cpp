@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// mm from the landmark's imaged place.
+// Distance in mm from the landmark's imaged position.
 double moved_in(const fs::path& file, const std::string& landmark) {
   const StageReport report = StageReport::read(file);
   const auto from = report.place(landmark, "imaged"), to = report.place(landmark, "position");
