@@ -16,7 +16,7 @@ namespace breast {
 inline constexpr int supersampling = 2;
 
 struct Panel::Impl {
-  vtkNew<vtkRenderer> renderer, front;  ///< the latter over the former, with the same camera
+  vtkNew<vtkRenderer> renderer, front;  ///< `front` is drawn over `renderer` with the same camera
   vtkNew<vtkLightKit> lights, front_lights;
   bool through = false;
   Vec2 pixels{1, 1};

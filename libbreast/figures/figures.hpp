@@ -28,7 +28,7 @@ struct FigureInput {
   std::vector<TriMesh> surfaces;    ///< data points of segment
   std::optional<PolyLines> curves;  ///< of cc2mlo
   std::optional<Volume<float>> scan;
-  std::optional<LabelVolume> labels;  ///< of that scan
+  std::optional<LabelVolume> labels;  ///< segmentation of that scan
 };
 
 /// "slices", "points", "geometry", "mesh", "tissues", "outlines", "postures", "compression", "pressure",

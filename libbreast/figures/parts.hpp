@@ -45,8 +45,8 @@ void add_body(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
               const BodyStyle& style);
 /// Both plates of the mesh's compression, long enough for the body.
 void add_plates(Panel& panel, const HexMesh& mesh, double opacity);
-/// The border of the mammogram on the detector, seen through the body: its posterior side is where
-/// the image ends. In the pose of the projection's parallel beam.
+/// The border of the mammogram on the detector, visible through the body, in the pose of the
+/// projection's parallel beam. The image ends at its posterior side.
 void add_image_border(Panel& panel, const HexMesh& mesh);
 /// A landmark of the mesh as a sphere; nothing when it has none of that name.
 void add_landmark(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
@@ -60,7 +60,8 @@ std::string compression_caption(const HexMesh& mesh);
 /// begins the caption.
 void add_mammogram(Panel& panel, const Mammogram& image, const PolyLines* curves,
                    const std::string& letter);
-/// The parts of a line within an image of `size` mm; the length of the rest, mm, in `outside_mm`.
+/// The parts of a line inside an image of `size` mm; `outside_mm` receives the length of the rest
+/// in mm.
 std::vector<std::vector<Vec2>> parts_inside(const std::vector<Vec2>& line, const Vec2& size,
                                             double* outside_mm);
 /// Points of all lines of that name.
@@ -71,28 +72,30 @@ void need(bool given, const std::string& figure, const std::string& what);
 
 /// Throws Error (input) without scan and labels.
 void need_scan(const FigureInput& input, const std::string& figure);
-/// The point all three slices pass through: the tumour, or the middle of the fibroglandular tissue.
+/// The point in which all three slices intersect: the tumour, or the centre of the fibroglandular
+/// tissue.
 Vec3 slices_through(const FigureInput& input);
-/// Width and height in mm that a slice needs to show the breast.
+/// Width and height in mm of the slice that shows the whole breast.
 Vec2 slice_size(const FigureInput& input, SlicePlane plane);
-/// The scan's slice with contours, marks, letters of orientation and scale bar, filling the panel.
+/// Draws the slice of the scan with contours, marks, orientation letters and scale bar, filling the
+/// panel.
 void add_slice(Panel& panel, const FigureInput& input, SlicePlane plane, double mm_per_pixel,
                const std::string& letter);
-/// One row: what the slices' colours mean.
+/// Draws one row with the legend of the slices' colours.
 void add_slice_legend(Panel& panel, const FigureInput& input,
                       const std::vector<SlicePlane>& planes);
 
-/// Shapes of one breast over each other: the scan's, then those of the states.
+/// Overlaid shapes of one breast: that of the scan, then those of the states.
 struct Shape {
   const HexMesh* mesh;
   const std::vector<Vec3>* points;
   std::string name;
 };
 std::vector<Shape> shapes_of(const std::vector<const HexMesh*>& states);
-/// Their silhouettes from the outer side, with arrows from the scan's place of each landmark to that
-/// of the last shape and the distance in mm.
+/// Draws their silhouettes from the lateral side, with an arrow from each landmark's position in
+/// the scan to that in the last shape, and the distance in mm.
 void add_silhouettes(Panel& panel, const std::vector<Shape>& shapes);
-/// A line a shape: its colour, its name, how far its landmarks have moved.
+/// Draws one line per shape with its colour, its name and the displacements of its landmarks.
 void add_shape_legend(Panel& panel, const std::vector<Shape>& shapes);
 
 void draw_slices(Picture& picture, const FigureInput& input);

@@ -42,7 +42,8 @@ struct TruthError {
 };
 
 /// Solves the breast, held or sliding, on a mesh of half the resolution and on its own, and compares.
-/// What slides does so on the wall surface of the mesh's geometry where there is one, else on RibSurface.
+/// A sliding breast slides on the wall surface of the mesh's geometry if there is one, otherwise on
+/// RibSurface.
 Postures solve_breast(PhantomBreast& breast, const PhantomParameters& parameters,
                       const MaterialSet& materials, TruthError& error,
                       Progress& progress = no_progress());

@@ -22,7 +22,7 @@ struct Extents {
   double front_left_out_percent = 0;
   double lateral_border_mm = 0;  ///< farthest column on the wall from the midline
   double nipple_depth_mm = 0;    ///< from the nipple back to the wall
-  double nipple_in_front_mm = 0;  ///< of the skin over the sternum
+  double nipple_in_front_mm = 0;  ///< distance of the nipple in front of the skin over the sternum
   double volume_ml = 0;
 };
 Extents extents_of(const Work& work, const Vec3& nipple, Side side);

@@ -25,8 +25,9 @@ enum class Contrast {
 
 struct SegmentOptions {
   Side side = Side::left;
-  /// prone or supine. A supine breast spreads beside and behind the front of the chest: what a prone one is known by, that it stands
-  /// in front of the sternum with the nipple foremost, is asked of prone scans only.
+  /// Posture of the patient. A supine breast spreads beside and behind the front of the chest, so
+  /// that the properties by which a prone breast is recognised (it lies in front of the sternum,
+  /// with the nipple foremost) are only required of prone scans.
   Posture posture = Posture::prone;
   std::optional<Volume<float>> wall_labels;  ///< corrected label map, code 4 = behind the wall
   std::vector<Vec3> wall_points;             ///< clicked points on the wall (patient mm)
@@ -41,8 +42,9 @@ struct SegmentOptions {
 struct Segmentation {
   Posture posture = Posture::prone;
   LabelVolume labels;
-  /// Data points: scalar "surface" 0 skin, 1 chest wall; "confidence" [0,1]. Of a supine scan the skin of the whole side with normals,
-  /// and the wall wherever it was seen.
+  /// Data points with the scalars "surface" (0 skin, 1 chest wall) and "confidence" [0,1]. For a
+  /// supine scan they are the skin of the whole side with normals, and the wall wherever it was
+  /// observed.
   TriMesh points;
   double midline_mm = 0;                         ///< patient x of the sternum
   double bias_cv_before = 0, bias_cv_after = 0;  ///< coefficient of variation of fat

@@ -38,8 +38,9 @@ Mask near_unsure_wall(const Work& work, double reach);
 LabelVolume labels_of(const Work& work, Side side);
 /// Data for surface fitting: skin at voxel faces against air, wall on the breast's columns.
 TriMesh data_points(const Work& work);
-/// The same of a supine side, to be compared with a prediction: all its skin in front of the deepest wall
-/// sought, with outward normals, and the wall on every column where the image shows it.
+/// The same for a supine side, for comparison with a prediction: all its skin in front of the
+/// deepest wall sought, with outward normals, and the wall in every column where the image shows
+/// it.
 TriMesh side_points(const Work& work);
 
 }  // namespace breast
