@@ -28,9 +28,9 @@ constexpr double worst_residual_mm = 4;  // largest residual of two segmentation
 constexpr const char* names[6] = {"shift to the side",
                                   "shift from front to back",
                                   "shift along the body",
-                                  "turn about the left-right axis",
-                                  "turn about the front-back axis",
-                                  "turn about the body's long axis"};
+                                  "rotation about the left-right axis",
+                                  "rotation about the front-back axis",
+                                  "rotation about the body's long axis"};
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -59,9 +59,9 @@ Compared compare(const WallMap& wall, const std::vector<Vec3>& places, const Rig
   }
   if (int(out.distances.size()) < least_places) {
     throw input_error(
-        "the chest walls of both scans lie over each other at ", out.distances.size(),
+        "the chest walls of both scans can be compared at ", out.distances.size(),
         " places 12 mm apart, at least ", least_places,
-        " are needed: are both of one patient and side, and in frames that differ by less "
+        " are needed: do both scans show the same patient and side, in frames that differ by less "
         "than a hand along the body?");
   }
   return out;
@@ -167,10 +167,11 @@ WallAlignment align_walls(const LabelVolume& first, const LabelVolume& second, c
   }
   if (!(out.residual_mm < worst_residual_mm)) {
     throw input_error(
-        "the chest walls of both scans do not fit over each other: ",
+        "the chest walls of both scans do not agree: ",
         format_fixed(out.residual_mm, 1), " mm rms at ", out.places, " places, at most ",
         worst_residual_mm,
-        " expected: are both of one patient, and their walls right (segment --overlay)?");
+        " expected: do both scans show the same patient, and are their chest walls right (segment "
+        "--overlay)?");
   }
   for (int k = 0; k < 6; ++k)
     out.from_walls[std::size_t(k)] = std::max(0.0, 1 - out.covariance(k, k) * information[k]);

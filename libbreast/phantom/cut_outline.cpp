@@ -64,7 +64,7 @@ CutOutline::Curve CutOutline::curve_through(const HexMesh& mesh,
   curve.push_back(first);
   for (std::size_t k = 1; k < curve.size(); ++k) {
     if (!(curve[k].azimuth - curve[k - 1].azimuth < widest))
-      throw failed_error("phantom: the cut's outline does not go round the breast");
+      throw failed_error("phantom: the outline of the cut does not enclose the breast");
   }
   return curve;
 }

@@ -19,7 +19,7 @@ std::regex pattern_of(const std::string& text, const std::string& where) {
   try {
     return std::regex(text, std::regex::extended);
   } catch (const std::regex_error&) {
-    throw input_error(where, ": '", text, "' is no extended regular expression");
+    throw input_error(where, ": '", text, "' is not an extended regular expression");
   }
 }
 

@@ -126,7 +126,7 @@ ShownBox breast_box(const LabelVolume& labels, double margin) {
       }
     }
   }
-  if (!(box.high.x() >= box.low.x())) throw input_error("labels: no breast in them to show");
+  if (!(box.high.x() >= box.low.x())) throw input_error("labels: there is no breast to show");
   box.low -= Vec3::Constant(margin);
   box.high += Vec3::Constant(margin);
   return box;
@@ -168,7 +168,7 @@ double white_level(const Volume<float>& scan, const LabelVolume& labels) {
   const auto high = sample.begin() + std::ptrdiff_t(0.995 * double(sample.size() - 1));
   std::nth_element(sample.begin(), high, sample.end());
   if (!(*high > 0))
-    throw input_error("scan: dark where the labels have the breast; another scan's?");
+    throw input_error("scan: it is dark where the labels have the breast; is it another scan?");
   return *high;
 }
 

@@ -48,7 +48,7 @@ double radius(const RibSurface& ribs, const ThoraxSurface& about, double outside
     if (std::abs(step) < 1e-12 * outside) return r;
   }
   throw input_error("phantom torso: at height ", height,
-                    " mm its ribs do not surround the axis; less tilt or bend");
+                    " mm the ribs do not surround the axis; reduce tilt or bend");
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ BandRows read_band_rows(const std::string& text, const std::string& name) {
     const std::string where = message(name, ", line ", number);
     rows.places.push_back({cells[0], parse_number(cells[2], where), parse_number(cells[3], where)});
   }
-  if (rows.places.empty()) throw input_error(name, ": holds no places");
+  if (rows.places.empty()) throw input_error(name, ": contains no places");
   return rows;
 }
 

@@ -65,7 +65,7 @@ Table leaveout_table(const fs::path& run, const std::vector<std::string>& varian
 std::vector<PartChange> changes(const Table& leaveout, const std::string& question,
                                 const std::vector<std::string>& parts) {
   if (question != "surgery" && question != "matching")
-    throw input_error("'", question, "' is no question: surgery or matching");
+    throw input_error("'", question, "' is not a question; use surgery or matching");
   std::vector<PartChange> list;
   for (const std::string& part : parts) {
     if (question == "surgery" && part == "no-gravity-in-compression")

@@ -29,7 +29,7 @@ std::string markdown_table(const std::string& tsv, const std::string& name) {
     for (std::size_t c = 0; c < cells.size(); ++c) text += "---|";
     text += "\n";
   }
-  if (text.empty()) throw input_error(name, ": holds no table");
+  if (text.empty()) throw input_error(name, ": contains no table");
   return text;
 }
 
