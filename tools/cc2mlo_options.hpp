@@ -13,11 +13,13 @@ namespace breast {
 
 struct MatchChoices {
   MatchQuestion question;
-  std::filesystem::path from, to;              ///< the two compressions
-  std::filesystem::path curve, table, supine;  ///< outputs, and the shape to which a pair is followed
+  std::filesystem::path from, to;  ///< the two compressions
+  /// Outputs, and the shape to which a pair is followed.
+  std::filesystem::path curve, table, supine;
   bool band = false;
   std::filesystem::path priors;  ///< priors of the band; empty for the default ones
-  std::string materials;         ///< material set with the covariance used for the band; empty for none
+  /// Material set with the covariance used for the band; empty for none.
+  std::string materials;
   std::string geometry = "parallel";
   /// The patient's images, and the outputs for them.
   std::filesystem::path cc_image, mlo_image, picture, curve_table;

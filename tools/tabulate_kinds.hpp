@@ -30,7 +30,8 @@ struct TabulateRequest {
 
 struct TabulateKind {
   std::string name, arguments, help;
-  std::size_t least, most;                                  ///< smallest and largest number of arguments
+  /// Smallest and largest number of arguments.
+  std::size_t least, most;
   std::function<std::string(const TabulateRequest&)> make;  ///< returns the text for stdout
 };
 

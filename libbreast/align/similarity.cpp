@@ -18,7 +18,8 @@ constexpr double degree = std::numbers::pi / 180;
 // Standard deviations of the information other than the outlines.
 constexpr double marked_nipple = 2, anterior_part = 5, edge_place = 10;  // mm
 constexpr double edge_direction = 3 * degree, log_scale = 0.05;
-constexpr double correlation = 30;   // length of outline with correlated errors, mm: shapes differ in long waves
+// Length of outline with correlated errors, mm: shapes differ in long waves.
+constexpr double correlation = 30;
 constexpr double finest = 0.05;      // smallest standard deviation of an outline, mm
 constexpr double border_margin = 1;  // mm: outlines end at the image's border
 constexpr int most_iterations = 200;

@@ -158,9 +158,10 @@ double touching_thickness(const HexMesh& mesh, const std::vector<Vec3>& x, Plate
 /// the prism.
 struct Plate::Place {
   Vec3 normal;
-  double height = 0;           ///< height over the flat, mm
-  Vec3 beyond{0, 0, 0};        ///< from the outline of the flat to the point, in its plane, mm
-  Mat3 across = Mat3::Zero();  ///< projection onto the directions in which the point lies beyond the outline
+  double height = 0;     ///< height over the flat, mm
+  Vec3 beyond{0, 0, 0};  ///< from the outline of the flat to the point, in its plane, mm
+  /// Projection onto the directions in which the point lies beyond the outline.
+  Mat3 across = Mat3::Zero();
 };
 
 Plate::Place Plate::place(const Vec3& x) const {

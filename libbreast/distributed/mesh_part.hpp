@@ -30,11 +30,14 @@ struct MeshPart {
   /// Elements, nodes and face sets of the part; owned nodes come first. Faces on elements of other
   /// ranks are missing from the sets, even if this part has their nodes.
   HexMesh mesh;
-  int owned = 0;                     ///< number of owned nodes
-  std::vector<int> nodes, elements;  ///< numbers of this part's nodes and elements in the whole mesh
-  std::vector<SharedNodes> shared;   ///< in ascending order of rank
-  std::vector<HeldNode> held;        ///< constraints by wall and cut, from the face sets of the whole mesh
-  std::vector<int> sliding;          ///< nodes of the chest wall, ascending; empty if the wall is held
+  int owned = 0;  ///< number of owned nodes
+  /// Numbers of this part's nodes and elements in the whole mesh.
+  std::vector<int> nodes, elements;
+  std::vector<SharedNodes> shared;  ///< in ascending order of rank
+  /// Constraints by wall and cut, from the face sets of the whole mesh.
+  std::vector<HeldNode> held;
+  /// Nodes of the chest wall, ascending; empty if the wall is held.
+  std::vector<int> sliding;
   std::shared_ptr<const LevelSurface> wall;  ///< null if the mesh has no wall surface
 };
 

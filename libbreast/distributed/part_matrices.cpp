@@ -48,7 +48,8 @@ PartMatrices::PartMatrices(const PartProblem& problem)
 void PartMatrices::make_stiffness() {
   const NodePattern& pattern = *problem_.own().space().pattern;
   const int nodes = pattern.nodes(), owned = int(numbering_.owned);
-  Eigen::VectorXd room = Eigen::VectorXd::Zero(2L * nodes);  // number of own columns and of columns of other ranks
+  // Number of own columns and of columns of other ranks.
+  Eigen::VectorXd room = Eigen::VectorXd::Zero(2L * nodes);
   const auto couple = [&](int row, int column) {
     if (row >= owned || column < owned) room[2L * row] += 1;
     if (row >= owned || column >= owned) room[2L * row + 1] += 1;

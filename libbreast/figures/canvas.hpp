@@ -21,7 +21,8 @@ struct Colour {
 struct Facets {
   std::vector<Vec3> points;
   std::vector<std::array<int, 4>> quads;
-  std::vector<Vec3> normals;  ///< at the points, for shading; if empty, they are computed from the facets
+  /// At the points, for shading; if empty, they are computed from the facets.
+  std::vector<Vec3> normals;
 };
 
 struct Look {

@@ -12,9 +12,10 @@ namespace breast {
 
 namespace {
 
-constexpr double beyond_observer = 4;   // smaller residuals, in errors of a mark, are not judged
-constexpr double beyond_others = 6;     // limit for a landmark left out, relative to the median of all
-constexpr double surely_wrong_mm = 25;  // errors above this cannot come from the model
+constexpr double beyond_observer = 4;  // smaller residuals, in errors of a mark, are not judged
+// Limit for a landmark left out, relative to the median of all.
+constexpr double beyond_others = 6;
+constexpr double surely_wrong_mm = 25;    // errors above this cannot come from the model
 constexpr double most_unexplained = 0.6;  // as a fraction of the rms motion
 constexpr std::size_t few = 5;            // with fewer landmarks no median is formed
 

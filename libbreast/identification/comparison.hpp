@@ -19,14 +19,16 @@ struct ComparedSet {
 /// The motion of a landmark, and the error of its position predicted with each set, mm.
 struct ComparedLandmark {
   std::string name;
-  bool fitted = false;  ///< whether it was fitted; the error of the set found is then the one without this landmark
+  /// Whether it was fitted; the error of the set found is then the one without this landmark.
+  bool fitted = false;
   double moved = 0, found = 0;
   std::vector<double> sets;  ///< in the order of the sets; not a number if a set has no stable body
 };
 
 struct Comparison {
   std::vector<std::string> sets;
-  std::vector<std::string> refusals;  ///< per set: the reason why it has no stable body; empty if it has one
+  /// Per set: the reason why it has no stable body; empty if it has one.
+  std::vector<std::string> refusals;
   std::vector<ComparedLandmark> landmarks;
   double solve_seconds = 0;  ///< time of solving the sets
 

@@ -23,7 +23,8 @@ struct SeenPoint {
 struct SeenSurface {
   std::vector<Vec3> points, normals;
   double deviation = 2;  ///< standard deviation of the distance at one sampled place, mm
-  double reach = 10;     ///< largest distance along the surface to the nearest point, mm; farther places have no data
+  /// Largest distance along the surface to the nearest point, mm; farther places have no data.
+  double reach = 10;
 };
 
 /// Force of the paddle at a thickness between the plates of `press`.
@@ -35,7 +36,8 @@ struct Observations {
   std::vector<SeenPoint> points;
   std::optional<SeenSurface> surface;
   std::vector<SeenForce> forces;
-  CompressionOptions press;  ///< compression in which the forces were measured; its target is set by theirs
+  /// Compression in which the forces were measured; its target is set by theirs.
+  CompressionOptions press;
 
   std::size_t count() const { return 3 * points.size() + forces.size() + (surface ? 1 : 0); }
 };

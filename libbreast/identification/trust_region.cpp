@@ -28,7 +28,8 @@ class Subproblem {
   VectorXd step(double radius) const {
     double damping = 0;
     if (!(length(0) <= radius)) {
-      double low = 0, high = slope_.norm() / radius;  // bounds; at the upper one the step is certainly short enough
+      // Bounds; at the upper one the step is certainly short enough.
+      double low = 0, high = slope_.norm() / radius;
       for (int i = 0; i < 200 && high - low > 1e-12 * high; ++i) {
         damping = 0.5 * (low + high);
         (length(damping) > radius ? low : high) = damping;

@@ -24,7 +24,8 @@ constexpr double hangs_together_mm = 30, places_a_datum = (hangs_together_mm / s
 constexpr double beyond = 4.685;  // Tukey's constant, in deviations
 constexpr double same_frame_mm = 15;
 constexpr int least_places = 20, most_rounds = 60;
-constexpr double worst_residual_mm = 4;  // largest residual of two segmentations of the same wall, mm
+// Largest residual of two segmentations of the same wall, mm.
+constexpr double worst_residual_mm = 4;
 constexpr const char* names[6] = {"shift to the side",
                                   "shift from front to back",
                                   "shift along the body",
@@ -167,9 +168,8 @@ WallAlignment align_walls(const LabelVolume& first, const LabelVolume& second, c
   }
   if (!(out.residual_mm < worst_residual_mm)) {
     throw input_error(
-        "the chest walls of both scans do not agree: ",
-        format_fixed(out.residual_mm, 1), " mm rms at ", out.places, " places, at most ",
-        worst_residual_mm,
+        "the chest walls of both scans do not agree: ", format_fixed(out.residual_mm, 1),
+        " mm rms at ", out.places, " places, at most ", worst_residual_mm,
         " expected: do both scans show the same patient, and are their chest walls right (segment "
         "--overlay)?");
   }

@@ -21,7 +21,8 @@ std::string folded(const std::string& text, std::size_t width);
 
 struct SummaryContext {
   std::vector<Advice> advice;
-  std::filesystem::path phantom;  ///< report of the phantom, for the error of the truth; may be empty
+  /// Report of the phantom, for the error of the truth; may be empty.
+  std::filesystem::path phantom;
   std::string
       calibration;  ///< a sentence beside the rows that were fitted to the paper's; may be empty
 };

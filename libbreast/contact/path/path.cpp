@@ -16,13 +16,13 @@ namespace {
 /// Automatic step lengths as fractions of the initial thickness: 6 and 8 mm for a typical breast.
 constexpr double first_part = 0.07, longest_part = 0.095;
 
-/// Steps longer than this fraction of the longest step are abandoned if they begin badly.
+/// Steps longer than this fraction of the longest are abandoned if they begin badly.
 constexpr double fast_part = 0.3;
 
 /// Plate positions closer than this count as equal, mm.
 constexpr double narrowest_bracket = 1e-4;
 
-/// Number of states kept for a return when the last one turns out not to be an equilibrium.
+/// States kept for a return when the last one turns out not to be an equilibrium.
 constexpr std::size_t longest_trail = 3;
 
 /// A converged state to which the path can return.
@@ -77,7 +77,7 @@ class Path {
   PathResult result_;
   Waypoint start_, here_, before_;
   bool have_before_ = false;
-  bool patient_ = false;                 ///< whether positions that begin badly are solved to the end
+  bool patient_ = false;                 ///< solves positions that begin badly to the end
   std::optional<Waypoint> first_haste_;  ///< the state before the first position that was abandoned
   std::deque<Waypoint> trail_;           ///< the states before before_
 };
@@ -256,8 +256,8 @@ bool Path::end_at(const CompressionTarget& target, Waypoint reached) {
 }
 
 /// Bracketed secant method (Illinois) on the thickness between a state before the target and one
-/// beyond it; interpolated initial states keep each solve short. If a state then lies beyond
-/// another target, the end is refined to that target.
+/// beyond it; interpolated initial states keep each solve short. A state that then lies beyond
+/// another target moves the end to that target.
 bool Path::refine_control(const CompressionTarget& target, const Waypoint& before, Waypoint high) {
   Waypoint low = before;
   const auto beyond = [&](const Waypoint& w) {
@@ -273,9 +273,8 @@ bool Path::refine_control(const CompressionTarget& target, const Waypoint& befor
         const Waypoint from = best;
         return refine_control(*other, before, from);
       }
-      // Two positions are equal within the resolution but have the target between them: a node
-      // comes into contact, or the body snaps through. The nearer one is returned, with the
-      // statement that it is off its target.
+      // The positions are equal, with the target between them: a node comes into contact, or the
+      // body snaps through. The nearer one is returned and said to be off its target.
       if (!met) {
         result_.jump = {measure(low.point, target.kind), measure(high.point, target.kind)};
       }
@@ -333,8 +332,8 @@ bool Path::step_back() {
   return true;
 }
 
-/// Returns, once, to the state where abandoning a position first changed the path: short steps may
-/// follow a branch that ends where a long step passes to the next branch.
+/// Returns, once, to where abandoning a position first changed the path: short steps may follow a
+/// branch that ends where a long step passes to the next branch.
 bool Path::be_patient() {
   if (patient_ || !first_haste_) return false;
   patient_ = true;
@@ -345,10 +344,9 @@ bool Path::be_patient() {
   return true;
 }
 
-/// Solves the last state accurately, so that it is an equilibrium to the reported tolerance. Close
-/// to a place where a path ends or slips, a loosely solved state may not be an equilibrium. Then
-/// the function returns false, and here_ is the last waypoint that could be solved accurately; if
-/// there is none, no points are left.
+/// Solves the last state accurately. Close to where a path ends or slips, a loosely solved state
+/// may not be an equilibrium: then returns false, and here_ is the last waypoint with an accurate
+/// solution; if there is none, no points are left.
 bool Path::finish() {
   for (bool last = true;; last = false) {
     Waypoint reached;
@@ -376,8 +374,7 @@ PathResult Path::run(State& state) {
     start_ = here_ = std::move(first);
     result_.reached = march();
     if (!finish() && !result_.points.empty()) {
-      // The loosely solved states were misleading: the path is repeated from here with every
-      // position solved accurately.
+      // The loosely solved states were misleading: repeats the path with accurate solves.
       tolerance_ = options_.tolerance;
       result_.reached = march();
       if (!finish()) result_.reached = false;

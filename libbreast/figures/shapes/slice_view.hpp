@@ -29,7 +29,8 @@ struct SliceFrame {
 
 /// Contours as segments, in mm in the frame.
 struct SliceContours {
-  std::vector<PlaneSegment> skin;   ///< border of the body towards air, where it belongs to the breast
+  /// Border of the body towards air, where it belongs to the breast.
+  std::vector<PlaneSegment> skin;
   std::vector<PlaneSegment> wall;   ///< chest wall where the breast lies on it
   std::vector<PlaneSegment> gland;  ///< contour of a fibroglandular fraction of one half
 };

@@ -133,7 +133,8 @@ Table stability_table(const Table& mechanics, const Table& contact) {
   add_cases(contact, "compression", outcomes);
   for (const Outcome& o : outcomes) {
     const bool reached =
-        o.least_det_F > 0;  // false for a scene refused before its first state, which has neither residual nor det F
+        // False for a scene refused before its first state, which has neither residual nor det F.
+        o.least_det_F > 0;
     table.rows.push_back({o.solve, o.outcome, std::to_string(o.cases),
                           reached ? exponential(o.worst_residual) : no_value,
                           reached ? format_fixed(o.least_det_F, 3) : no_value,

@@ -15,8 +15,9 @@ struct ReportContext {
   std::filesystem::path runs;  ///< folder of all runs, with stability/ and compare/
   std::vector<Advice> advice;
   std::vector<std::string> limits;  ///< what is not reproduced, and why, one paragraph each
-  std::string calibration;  ///< sentence beside the rows that were fitted to the paper; may be empty
-  std::string made;         ///< time, version and machine of the run
+  /// Sentence beside the rows that were fitted to the paper; may be empty.
+  std::string calibration;
+  std::string made;  ///< time, version and machine of the run
 };
 /// All text from reports, tables and settings is escaped, and no folder is named. Throws Error
 /// (input) naming a file that is not a report.
