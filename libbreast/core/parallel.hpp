@@ -5,8 +5,8 @@
 
 namespace breast {
 
-/// Number of cells or nodes below which a loop of a few microseconds ends before a second thread
-/// wakes.
+/// Number of cells or nodes below which a loop takes only a few microseconds and ends before a
+/// second thread wakes.
 constexpr int worth_threads = 20000;
 
 /// 0 means all cores. Also tells OpenMP.

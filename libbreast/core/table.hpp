@@ -19,7 +19,8 @@ struct Table {
   bool counted = false;        ///< true if read with its closing line "# rows N", so that nothing
                                ///< was truncated
 
-  /// Throws Error (input) beginning with the table's name and naming the columns there are.
+  /// Index of a column; throws Error (input) beginning with the table's name and listing the
+  /// existing columns if there is none.
   int column(const std::string& column) const;
   bool has(const std::string& column) const;
   const std::string& cell(std::size_t row, const std::string& column) const;
@@ -44,7 +45,7 @@ std::string format_number(double value);
 std::optional<double> number_in(const std::string& text);
 /// The same; throws Error (input) beginning with `where`.
 double parse_number(const std::string& text, const std::string& where);
-/// Fixed decimals for people.
+/// The value with a fixed number of decimals, for display.
 std::string format_fixed(double value, int decimals);
 
 }  // namespace breast

@@ -11,8 +11,8 @@
 
 namespace breast {
 
-/// Pictures are drawn this many times larger and averaged down: smooth edges
-/// with translucent surfaces.
+/// Pictures are drawn larger by this factor and averaged, for smooth edges also of translucent
+/// surfaces.
 inline constexpr int supersampling = 2;
 
 struct Panel::Impl {

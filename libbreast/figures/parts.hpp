@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elements that the figures share: colours, views, a breast, its mammogram.
+// Drawing functions that the figures share: colours, views, a breast, its mammogram.
 #pragma once
 
 #include "figures/body_surfaces.hpp"
@@ -31,7 +31,7 @@ struct Camera {
 Camera lateral_view(Side side);  ///< from the body's outer side
 Camera anterior_view();          ///< from the front
 Camera oblique_view(Side side);  ///< from front, lateral and above
-/// Along the plates' edges of a compression, paddle on top: shows both plates edge-on.
+/// The view along the edges of the plates, with the paddle on top, which shows both plates edge-on.
 Camera plate_view(const HexMesh& mesh);
 
 struct BodyStyle {
@@ -48,29 +48,30 @@ void add_plates(Panel& panel, const HexMesh& mesh, double opacity);
 /// The border of the mammogram on the detector, visible through the body, in the pose of the
 /// projection's parallel beam. The image ends at its posterior side.
 void add_image_border(Panel& panel, const HexMesh& mesh);
-/// A landmark of the mesh as a sphere; nothing when it has none of that name.
+/// Draws a landmark of the mesh as a sphere; nothing if there is none of that name.
 void add_landmark(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
                   const std::string& name, double radius, const Colour& colour);
 /// "tumour (yellow)", "artificial tumour (yellow)", or nothing for a mesh without one.
 std::string tumour_words(const HexMesh& mesh);
-/// "MLO (left), 46.2 mm, 91 / 93 N" of a compressed mesh: forces of paddle and detector.
+/// A caption such as "MLO (left), 46.2 mm, 91 / 93 N" for a compressed mesh, with the forces of
+/// paddle and detector.
 std::string compression_caption(const HexMesh& mesh);
 
-/// Hung mammogram with axes in mm; curves of `curves` (nullable) for its view on top. `letter`
-/// begins the caption.
+/// Draws a mammogram in clinical orientation with axes in mm, and over it the curves of `curves`
+/// (may be null) for its view. `letter` begins the caption.
 void add_mammogram(Panel& panel, const Mammogram& image, const PolyLines* curves,
                    const std::string& letter);
 /// The parts of a line inside an image of `size` mm; `outside_mm` receives the length of the rest
 /// in mm.
 std::vector<std::vector<Vec2>> parts_inside(const std::vector<Vec2>& line, const Vec2& size,
                                             double* outside_mm);
-/// Points of all lines of that name.
+/// The points of all lines with that name.
 std::vector<std::vector<Vec3>> named_lines(const PolyLines& lines, const std::string& name);
 
 /// Throws Error (input) naming the figure if fewer files were given.
 void need(bool given, const std::string& figure, const std::string& what);
 
-/// Throws Error (input) without scan and labels.
+/// Throws Error (input) if scan and labels are not given.
 void need_scan(const FigureInput& input, const std::string& figure);
 /// The point in which all three slices intersect: the tumour, or the centre of the fibroglandular
 /// tissue.

@@ -36,17 +36,18 @@ Tumour read_tumour(const std::filesystem::path& file);
 /// volume. Throws Error (input) when they hold none; `name` is used in the error.
 Tumour tumour_of(const LabelVolume& labels, const std::string& name);
 
-/// Landmark nipple: the geometry's nipple, located on the skin faces; node
+/// Adds the landmark nipple: the nipple of the geometry, located on the skin faces; sets
 /// nipple_node. Needs mesh.geometry.
 void add_nipple(HexMesh& mesh);
 
-/// A landmark at the material point nearest to `at` (mm, LPS, imaged shape). Throws Error (input) when it lies more than
-/// `max_moved` mm outside the mesh.
+/// Adds a landmark at the material point nearest to `at` (mm, LPS, imaged shape). Throws Error
+/// (input) if `at` lies more than `max_moved` mm outside the mesh.
 void add_landmark(const std::string& name, const Vec3& at, HexMesh& mesh, double max_moved = 10);
 
-/// Landmark "tumour" (or "artificial_tumour", mesh/landmark_names.hpp) and tumour_node; with a radius, elements at least half inside the ball become
-/// tumour (the element holding the centre always does). Throws Error (input) when the centre lies
-/// more than `max_moved` mm outside the mesh.
+/// Adds the landmark "tumour" (or "artificial_tumour", mesh/landmark_names.hpp) and sets
+/// tumour_node. With a radius, elements with at least half of their volume inside the ball become
+/// tumour, and so does the element that contains the centre. Throws Error (input) if the centre
+/// lies more than `max_moved` mm outside the mesh.
 void add_tumour(const Tumour& tumour, HexMesh& mesh, double max_moved = 10);
 
 }  // namespace breast

@@ -13,7 +13,7 @@ struct PhantomImage {
   Volume<float> signal;
   std::vector<std::uint8_t> tissue;         ///< majority Tissue per voxel, both breasts
   std::vector<std::uint8_t> side;           ///< 0 rigid body or air, 1 left breast, 2 right breast
-  std::vector<std::uint8_t> gland_percent;  ///< fibroglandular share of the voxel
+  std::vector<std::uint8_t> gland_percent;  ///< fibroglandular percentage of the voxel
 };
 
 /// 512×512×60 voxels of 0.82×0.82×2.5 mm around the chest; coarser by `voxel_factor`.

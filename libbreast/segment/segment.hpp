@@ -63,10 +63,10 @@ struct Segmentation {
   FatContrast contrast;
   double roll_degrees = 0;          ///< by which the labels' grid is turned against the scan's
   double wall_shift = 0;            ///< standard deviations the wall was moved by
-  double debris_ml = 0;             ///< taken off the skin
-  double beside_ml = 0;             ///< tissue apart from the torso
+  double debris_ml = 0;             ///< volume removed from the skin
+  double beside_ml = 0;             ///< tissue separate from the torso
   double compact_dark_mm = 0;       ///< radius of the largest ball within fibroglandular tissue
-  std::vector<std::string> doubts;  ///< what a user should check
+  std::vector<std::string> doubts;  ///< results that the user should check
 };
 
 /// Throws Error (input) saying which stage failed on this scan and what to try.
