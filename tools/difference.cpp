@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
   tool.output(c.out, "OUT.vtkhdf", "STATE with an additional array derivative_PARAMETER");
   tool.text(c.parameter, "--parameter", "NAME",
             "parameter that was changed, as it is named in the band's priors");
-  tool.number(c.step, "--step", "unit",
+  tool.number(c.step, "--step", "STEP",
               "step of the parameter in either direction, in its own unit", 1e-12);
   tool.check([&] {
     if (c.parameter.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") != std::string::npos ||

@@ -11,7 +11,8 @@
 
 namespace breast {
 
-/// Elements, nodes and held nodes of a deck; `element` is its type's name.
+/// Reports elements, nodes and held nodes of an input file; `element` is the name of its element
+/// type.
 void write_report(const DeckScene& scene, const std::string& element, Report& report);
 
 /// Writes the balance of weight and `reaction` (µN), which must vanish, relative to the weight.

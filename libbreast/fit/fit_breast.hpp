@@ -51,8 +51,9 @@ struct FitReport {
   std::vector<std::string> doubts;  ///< results that the user should check
 };
 
-/// Fits everything. Throws Error (input) when the labels hold no breast that can be bounded this
-/// way, Error (not_converged) when no sheet without folds was found or max_error_mm was not met.
+/// Fits sheets and rim. Throws Error (input) if the labels contain no breast that can be bounded in
+/// this way, and Error (not_converged) if no sheet without folds was found or max_error_mm was not
+/// met.
 BreastGeometry fit_breast(const LabelVolume& labels, const FitOptions& options, FitReport& report,
                           Timer& timer, Progress& progress = no_progress());
 

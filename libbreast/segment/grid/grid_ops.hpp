@@ -22,8 +22,8 @@ Grid coarsened_grid(const Grid& grid, const std::array<int, 3>& factor);
 /// parallel; border values held.
 Volume<float> resampled(const Volume<float>& coarse, const Grid& fine);
 
-/// The volume sampled on a grid of the same size turned by `angle` (radians, i towards j) about its
-/// centre; every tissue keeps its place in the patient.
+/// The volume sampled on a grid of the same size rotated by `angle` (radians, i towards j) about
+/// its centre; all tissue keeps its position in the patient.
 Volume<float> rolled(const Volume<float>& volume, double angle, float outside);
 
 }  // namespace breast
