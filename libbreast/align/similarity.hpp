@@ -14,7 +14,7 @@ namespace breast {
 /// Simulated (u,v) in mm to mm of the image axes.
 struct Similarity {
   double scale = 1, rotation_deg = 0;  ///< from u towards v
-  Vec2 shift{0, 0};                    ///< mm, where (u,v) = (0,0) goes
+  Vec2 shift{0, 0};                    ///< image of (u,v) = (0,0), mm
 
   Vec2 apply(const Vec2& uv) const;
   Vec2 invert(const Vec2& mm) const;

@@ -9,7 +9,7 @@ namespace breast {
 /// second thread wakes.
 constexpr int worth_threads = 20000;
 
-/// 0 means all cores. Also tells OpenMP.
+/// Sets the number of threads, also for OpenMP; 0 means all cores.
 void set_threads(int threads);
 int threads();
 

@@ -41,7 +41,7 @@ Table parse_table(const std::string& text, const std::string& name);
 void write_table(const std::filesystem::path& file, const Table& table);
 /// Shortest text that reads back to the same double.
 std::string format_number(double value);
-/// The whole text as one finite number; nothing for any other text.
+/// The whole text as one finite number; no value for any other text.
 std::optional<double> number_in(const std::string& text);
 /// The same; throws Error (input) beginning with `where`.
 double parse_number(const std::string& text, const std::string& where);

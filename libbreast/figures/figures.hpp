@@ -34,7 +34,7 @@ struct FigureInput {
 /// "slices", "points", "geometry", "mesh", "tissues", "outlines", "postures", "compression", "pressure",
 /// "force-thickness", "mammogram", "matching", "summary".
 const std::vector<std::string>& figure_names();
-/// One line for the help on what the figure shows and needs.
+/// One line for the help about the content and the input of the figure.
 std::string figure_summary(const std::string& name);
 /// The content that .vtkhdf and .vtp files must have for this figure.
 bool figure_takes_geometry(const std::string& name);

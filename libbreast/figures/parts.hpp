@@ -51,7 +51,7 @@ void add_image_border(Panel& panel, const HexMesh& mesh);
 /// Draws a landmark of the mesh as a sphere; nothing if there is none of that name.
 void add_landmark(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
                   const std::string& name, double radius, const Colour& colour);
-/// "tumour (yellow)", "artificial tumour (yellow)", or nothing for a mesh without one.
+/// "tumour (yellow)", "artificial tumour (yellow)", or an empty text for a mesh without a tumour.
 std::string tumour_words(const HexMesh& mesh);
 /// A caption such as "MLO (left), 46.2 mm, 91 / 93 N" for a compressed mesh, with the forces of
 /// paddle and detector.

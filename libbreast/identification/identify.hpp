@@ -19,7 +19,7 @@ struct IdentifyOptions {
          turn_deg = 2;         ///< expected motion of the rib cage, rms in space
   /// The same as a covariance of shift (mm) and rotation (degrees), if more is known about it.
   std::optional<Eigen::Matrix<double, 6, 6>> motion_covariance = {};
-  int max_pairs = 25;          ///< limit on pairs of backward and forward solves, including those for curvature
+  int max_pairs = 25;          ///< limit on pairs of backward and forward solves
   bool curvature = true;       ///< whether the covariance is widened by curvature
   Eigen::VectorXd start = {};  ///< initial logarithms; empty for the centre of the prior
 };
@@ -40,7 +40,7 @@ struct LandmarkFit {
 
 struct Identified {
   std::vector<std::string>
-      names;                   ///< of the logarithms, those of the rib cage's motion not among them
+      names;                   ///< names of the material parameters
   TrustRegionResult fit;       ///< residuals and Jacobian with the prior's rows last
   Eigen::MatrixXd covariance;  ///< covariance of all unknowns, widened by curvature
   Eigen::MatrixXd prior;       ///< prior covariance of the material parameters

@@ -75,9 +75,9 @@ std::vector<MatchQuery> point_queries(
 std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table,
                                       const std::string& where, int& behind);
 
-/// Doubts: columns through the chest wall, how much of the curves lies outside the second image,
-/// points outside the first image or in air. Throws Error (input) when there is nothing to report:
-/// no point, or the only one in air.
+/// Doubts about columns through the chest wall, parts of curves outside the second image, and
+/// points outside the first image or in air. Throws Error (input) if there is nothing to report: no
+/// point, or a single one in air.
 std::vector<std::string> match_doubts(const Matcher& matcher,
                                       const std::vector<MatchResult>& results);
 /// Reports length, bends and distances of one result under the keys from_uv_mm, curve_mm,

@@ -32,8 +32,8 @@ Tumour parse_tumour(const std::string& text);
 /// First row of a table with columns x_mm y_mm z_mm and maybe radius_mm. Throws Error (input).
 Tumour read_tumour(const std::filesystem::path& file);
 
-/// Centroid of the tumour voxels of other labels in the same frame, radius of the ball of their
-/// volume. Throws Error (input) when they hold none; `name` is used in the error.
+/// Centroid of the tumour voxels of other labels in the same frame, with the radius of the ball of
+/// their volume. Throws Error (input) if there are no such voxels; `name` is used in the message.
 Tumour tumour_of(const LabelVolume& labels, const std::string& name);
 
 /// Adds the landmark nipple: the nipple of the geometry, located on the skin faces; sets

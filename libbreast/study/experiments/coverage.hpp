@@ -37,8 +37,9 @@ struct BandRows {
 /// Reads the output of band_check and band_truth: lines with sample, place, distance and deviation,
 /// and "# sample ..." for a sample that failed. Throws Error (input) naming line and file.
 BandRows read_band_rows(const std::string& text, const std::string& name);
-/// A row a file: samples solved and failed, places, how many of them the 50 and 95 % bands hold, with the 95 % interval of
-/// these figures, root mean square distance in truth and as the band says, quantiles over the band's half-widths.
+/// One row per file: solved and failed samples; places, and the percentages of them inside the 50
+/// and 95 % bands with their 95 % intervals; root mean square distance, true and according to the
+/// band; quantiles divided by the band's half-widths.
 Table coverage_table(const std::vector<BandRows>& files);
 
 }  // namespace breast
