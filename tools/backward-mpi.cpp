@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// backward-mpi: backward on several processes, for meshes that one machine's memory or patience does not hold.
+// backward-mpi: backward on several processes, for meshes that need more memory or time than one
+// machine offers.
 #include <algorithm>
 #include <optional>
 
@@ -22,15 +23,15 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Solves what backward solves, with the same terms and the same Newton method, on as many "
-      "processes as mpirun starts: see forward-mpi. The linearised inverse problem is unsymmetric; "
-      "its product with a vector is made element by element, and the multigrid of the forward "
-      "problem preconditions it.");
+      "Solves the same problem as backward, with the same terms and the same Newton method, on "
+      "the processes that mpirun starts (see forward-mpi). The linearised inverse problem is "
+      "unsymmetric; its product with a vector is computed element by element, and the multigrid "
+      "of the forward problem preconditions it.");
   tool.describe(
       "Afterwards the forward problem is solved from the shape found; closure_mm in the report is "
       "the largest distance of its nodes from the imaged shape. There is no estimate of the "
-      "discretisation error, and of a solve without an answer neither stiffness_factor_needed nor "
-      "the change that would give one: for these use backward on a coarser mesh.");
+      "discretisation error. If there is no solution, neither stiffness_factor_needed nor the "
+      "change that would give one is computed; use backward on a coarser mesh for these.");
   tool.cite("Balay et al. 2022, PETSc/TAO Users Manual, ANL-21/39 revision 3.18");
   tool.input(c.mesh, "MESH.vtkhdf", "mesh of the imaged shape (hexmesh)");
   tool.output(c.reference, "REFERENCE.vtkhdf", "the same mesh, stress-free");
@@ -39,7 +40,7 @@ void declare(Tool& tool, Choices& c) {
   tool.example("mpirun -n 16 backward-mpi mesh.vtkhdf reference.vtkhdf", "on 16 processes");
 }
 
-// As check_closure of backward.
+// The counterpart of check_closure in backward.cpp.
 void check_closure(const Ranks& ranks, HexMesh mesh, const Vec3& gravity,
                    const MechanicsOptions& options, Run& run, Equilibrium& found) {
   if (ranks.root()) store(found, mesh);

@@ -49,7 +49,7 @@ void declare(Tool& tool, Choices& c) {
                "softer materials identified in vivo, with fat 20 % stiffer");
 }
 
-// Largest distance (mm) of the imaged shape from what forward makes of the shape found.
+// Largest distance (mm) between the imaged shape and the result of forward from the shape found.
 void check_closure(HexMesh mesh, const Vec3& gravity, const MechanicsOptions& options, Run& run,
                    Equilibrium& backward) {
   store(backward, mesh);
@@ -68,7 +68,7 @@ void check_closure(HexMesh mesh, const Vec3& gravity, const MechanicsOptions& op
   }
   run.report().set("closure_mm", worst);
   backward.timer.move("closure", "error estimate", again.timer.seconds("error estimate"));
-  // Of the equilibrium both directions share.
+  // Both directions share these data of the equilibrium.
   backward.error_estimate_mm = again.error_estimate_mm;
   backward.landmark_error_mm = again.landmark_error_mm;
   backward.error_estimate_how = again.error_estimate_how;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibrate: the phantom whose landmarks move as far as wanted.
+// calibrate: fits a phantom to given landmark displacements.
 #include "calibration/calibrate.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What cc2mlo is asked on the command line.
+// The command-line options of cc2mlo.
 #pragma once
 
 #include <filesystem>
@@ -13,21 +13,23 @@ namespace breast {
 
 struct MatchChoices {
   MatchQuestion question;
-  std::filesystem::path from, to;              ///< the two compressions
-  std::filesystem::path curve, table, supine;  ///< outputs, and the shape a pair is followed to
+  std::filesystem::path from, to;  ///< the two compressions
+  /// Outputs, and the shape to which a pair is followed.
+  std::filesystem::path curve, table, supine;
   bool band = false;
-  std::filesystem::path priors;  ///< of the band; empty: the default ones
-  std::string materials;         ///< whose covariance the band counts; empty: none
+  std::filesystem::path priors;  ///< priors of the band; empty for the default ones
+  /// Material set with the covariance used for the band; empty for none.
+  std::string materials;
   std::string geometry = "parallel";
-  /// The patient's images and what is drawn and written for them.
+  /// The patient's images, and the outputs for them.
   std::filesystem::path cc_image, mlo_image, picture, curve_table;
-  std::vector<double> cc_nipple, mlo_nipple;  ///< pixels
+  std::vector<double> cc_nipple, mlo_nipple;  ///< in pixels
 
-  /// Throws Error (input) for options that do not go together.
+  /// Throws Error (input) if options contradict each other.
   void check() const;
 };
 
-/// All options of the tool, its description and examples.
+/// Declares all options of the tool, its description and examples.
 void declare_match(Tool& tool, MatchChoices& choices);
 
 }  // namespace breast

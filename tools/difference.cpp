@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// difference: the derivative of a shape by something that changes the mesh, from two other models.
+// difference: the derivative of a shape with respect to a parameter that changes the mesh, from two
+// other models.
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "evaluation/shape_difference.hpp"
@@ -60,7 +61,7 @@ int main(int argc, char** argv) {
   tool.output(c.out, "OUT.vtkhdf", "STATE with an additional array derivative_PARAMETER");
   tool.text(c.parameter, "--parameter", "NAME",
             "parameter that was changed, as it is named in the band's priors");
-  tool.number(c.step, "--step", "unit",
+  tool.number(c.step, "--step", "STEP",
               "step of the parameter in either direction, in its own unit", 1e-12);
   tool.check([&] {
     if (c.parameter.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") != std::string::npos ||

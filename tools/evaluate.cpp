@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// evaluate: how far a segmentation or a surface is from the truth.
+// evaluate: the distance of a segmentation or a surface from the truth.
 #include <optional>
 
 #include "cli/tool.hpp"
@@ -23,7 +23,7 @@ bool is_surface(const std::filesystem::path& file) {
   return file.extension() == ".vtp";
 }
 
-/// `volume` (may be null) receives a foreign volume as it is.
+/// `volume` (may be null) receives a volume of another program unchanged.
 LabelVolume read_any_labels(const std::filesystem::path& file, const TissueCodes& codes,
                             Volume<float>* volume) {
   if (file.extension() == ".vtkhdf" || is_segmentation_name(file)) return read_tissues(file, codes);
@@ -32,7 +32,7 @@ LabelVolume read_any_labels(const std::filesystem::path& file, const TissueCodes
   return translate_labels(foreign, codes, file.string());
 }
 
-// Curves of cc2mlo: how far apart they are on the MLO detector.
+// Distance between curves of cc2mlo on the MLO detector.
 void evaluate_curves(Run& run, Table& table, const std::filesystem::path& given,
                      const std::filesystem::path& truth) {
   const CurveComparison comparison =

@@ -16,7 +16,7 @@ using namespace breast;
 
 namespace {
 
-// Where no bulk modulus is asked for: volume held to about a thousandth.
+// Default bulk ratio, with which the volume is preserved to about a thousandth.
 constexpr double default_bulk_ratio = 1000;
 
 struct Choices {

@@ -54,7 +54,8 @@ void declare(Tool& tool, Choices& c) {
           "border, 0 extrapolated). The error of the field against the element map is measured "
           "at 1000 random points of the body and printed.")
       .cite("3D Slicer documentation, developer guide: segmentations, markups, transforms");
-  // No input as others are: reports and the scene may lie in it, as the pipeline has them.
+  // Not declared as an input file: reports and the scene may be written into it, as the pipeline
+  // does.
   tool.word(c.run, "RUN",
             "folder of a run with labels, mesh and, where they exist, reference, supine, cc, "
             "mlo and curve");

@@ -10,7 +10,8 @@ namespace breast {
 
 namespace {
 
-/// "10x12" -> patches along s (x) and t (z); auto: as many as the largest distance needs.
+/// "10x12" -> patches along s (x) and t (z); auto: as many as the bound on the largest distance
+/// requires.
 void parse_elements(const std::string& text, FitOptions& options) {
   if (text == "auto") {
     options.most_patches = 15;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What fit-hermite is asked on the command line.
+// The command-line options of fit-hermite.
 #pragma once
 
 #include <filesystem>
@@ -18,11 +18,11 @@ struct FitChoices {
   std::optional<double> max_error;  ///< mm
   LabelChoices foreign;
 
-  /// Throws Error (input) for texts that are not to be read.
+  /// Throws Error (input) if a text cannot be parsed.
   FitOptions options() const;
 };
 
-/// All options of the tool, its description and examples.
+/// Declares all options of the tool, its description and examples.
 void declare_fit_hermite(Tool& tool, FitChoices& choices);
 
 }  // namespace breast

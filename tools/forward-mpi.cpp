@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forward-mpi: forward on several processes, for meshes that one machine's memory or patience does not hold.
+// forward-mpi: forward on several processes, for meshes that need more memory or time than one
+// machine offers.
 #include <optional>
 
 #include "cli/mechanics_options.hpp"
@@ -20,15 +21,16 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Solves what forward solves, with the same terms and the same Newton method, on as many "
-      "processes as mpirun starts. The elements are shared out by PT-Scotch; linear systems are "
-      "solved by PETSc: flexible GMRES, split by field, with algebraic multigrid (GAMG) for the "
-      "displacements and a stand-in for the pressure's Schur complement. The first process reads "
-      "and writes; the file written is that of forward.");
+      "Solves the same problem as forward, with the same terms and the same Newton method, on the "
+      "processes that mpirun starts. PT-Scotch distributes the elements over the processes. PETSc "
+      "solves the linear systems by flexible GMRES, with algebraic multigrid (GAMG) for the "
+      "displacements and an approximation of the Schur complement for the pressures. The first "
+      "process reads and writes the files, which are the same as those of forward.");
   tool.describe(
-      "There is no estimate of the discretisation error and no search for a change that would give "
-      "a stable answer. --threads are those of all processes together. PETSC_OPTIONS in the "
-      "environment changes PETSc's settings, for example -breast_ksp_monitor.");
+      "There is no estimate of the discretisation error and no search for a change that would "
+      "give a stable equilibrium. --threads is the number of threads of all processes together. "
+      "The environment variable PETSC_OPTIONS changes PETSc's settings, for example "
+      "-breast_ksp_monitor.");
   tool.cite("Balay et al. 2022, PETSc/TAO Users Manual, ANL-21/39 revision 3.18");
   tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
   tool.output(c.deformed, "DEFORMED.vtkhdf", "the same mesh under gravity");

@@ -55,7 +55,8 @@ std::vector<MarkupPoint> named_points(const std::filesystem::path& file) {
   return points;
 }
 
-/// The user's points as landmarks; those the mesh has of its own (nipple, tumour) keep their place.
+/// Adds the user's points as landmarks; the mesh's own landmarks (nipple, tumour) keep their
+/// positions.
 void add_points(const std::vector<MarkupPoint>& points, const std::string& name, HexMesh& mesh) {
   for (const MarkupPoint& point : points) {
     if (point.label.empty() || point.label.find('/') != std::string::npos) {
@@ -72,7 +73,8 @@ void add_points(const std::vector<MarkupPoint>& points, const std::string& name,
   }
 }
 
-/// Refuses a geometry that is not the labels' body, unless the user accepts it.
+/// Refuses a geometry that does not describe the same body as the labels, unless the user accepts
+/// it.
 void judge_agreement(const MeshChoices& choices, const BodyMeshReport& body,
                      const TissueReport& tissue, Run& run) {
   if (const auto coarse = too_coarse(body)) run.warn(*coarse);
@@ -93,7 +95,7 @@ void write_boundary(const HexMesh& mesh, const std::filesystem::path& file) {
   write_surface(file, surface);
 }
 
-/// By the program tetrahedra, from the mesh under the name it will have.
+/// Runs the program tetrahedra on the mesh under its final name.
 void fill_with_tetrahedra(const MeshChoices& choices, const HexMesh& mesh, Run& run) {
   Timer::Scope phase(run.timer(), "tetrahedra");
   const TemporaryFolder folder;

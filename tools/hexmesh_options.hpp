@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What hexmesh is asked on the command line.
+// The command-line options of hexmesh.
 #pragma once
 
 #include <filesystem>
@@ -19,14 +19,14 @@ struct MeshChoices {
               muscle = "0";
   int elements = 16, order = 1;
   bool accept_mismatch = false;
-  std::vector<double> dome;  ///< n, l, m, k; empty: about `elements`^3
+  std::vector<double> dome;  ///< n, l, m, k; empty for about `elements`^3 elements
 
   BodyMeshOptions mesh_options(double skin_mm) const;
-  /// Throws Error (input) for options that are not to be read or do not go together.
+  /// Throws Error (input) if options cannot be parsed or contradict each other.
   void check() const;
 };
 
-/// All options of the tool, its description and examples.
+/// Declares all options of the tool, its description and examples.
 void declare_hexmesh(Tool& tool, MeshChoices& choices);
 
 }  // namespace breast

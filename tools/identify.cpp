@@ -15,7 +15,7 @@ using namespace breast;
 
 namespace {
 
-// The parameters and, below them, what is known of their combinations.
+// Table of the parameters and, below it, of the combinations that the data determine.
 std::string answer_of(const Identified& found) {
   Table table{{"parameter", "factor", "ln_sd", "prior_ln_sd", "from_data_percent"}, {}};
   for (std::size_t k = 0; k < found.names.size(); ++k) {
@@ -37,7 +37,7 @@ std::string cell(double value) {
   return std::isfinite(value) ? format_fixed(value, 2) : "-";
 }
 
-// Fitted landmarks with all that is known of them, judged ones with their errors.
+// Table of fitted landmarks with all their quantities, and of other landmarks with their errors.
 Table landmark_table(const Identified& found, const Comparison& compared) {
   Table table{{"landmark", "fitted", "moved_mm", "residual_mm", "left_out_mm", "observer_mm", "predicted_x_mm",
                "predicted_y_mm", "predicted_z_mm"},
@@ -93,7 +93,8 @@ void report_answer(const Identified& found, Report& report) {
   if (!found.refusals.empty()) report.set("refused", found.refusals);
 }
 
-// The rib cage's whole motion from the scan to the second one, and what of it the walls told.
+// Reports the whole motion of the rib cage between the scans, and the part found from the chest
+// walls.
 void report_motion(const Identified& found, const std::optional<WallAlignment>& ribs, Report& report) {
   const RigidMotion whole = ribs ? ribs->motion.after(found.motion) : found.motion;
   report.set("alignment/centre_mm", whole.centre);
@@ -132,7 +133,7 @@ IdentifyOptions options_of(const IdentifyChoices& c) {
   return options;
 }
 
-// Sets to compare: what they say themselves, on the same elements.
+// The sets to compare, with their own settings and the same elements.
 std::vector<ComparedSet> sets_of(const IdentifyChoices& c) {
   std::vector<ComparedSet> sets;
   for (const std::string& name : c.compare) {
@@ -144,7 +145,7 @@ std::vector<ComparedSet> sets_of(const IdentifyChoices& c) {
 }
 
 void tell_ribs(const WallAlignment& ribs, Run& run) {
-  run.warn(message("rib cages laid over each other by their walls: residual ", format_fixed(ribs.residual_mm, 2),
+  run.warn(message("rib cages registered by their chest walls: residual ", format_fixed(ribs.residual_mm, 2),
                    " mm at ", ribs.places, " places, ", format_fixed(ribs.left_out_percent, 0), " % left out"));
   for (const std::string& words : ribs.words())
     if (words.find("not determined") != std::string::npos) run.warn(words);
@@ -165,7 +166,7 @@ void run_identify(const IdentifyChoices& c, Run& run) {
   Identified found = identify(mesh, scan.seen, options, run.progress());
   check_agreement(mesh, scan.seen, found);
   if (!found.fit.converged && !found.fit.at_limit) {
-    throw not_converged_error("not settled after ", found.pairs,
+    throw not_converged_error("not converged after ", found.pairs,
                               " solves of both postures; give more with --max-pairs");
   }
   for (const std::string& doubt : doubts_of(found)) run.warn(doubt);

@@ -14,7 +14,7 @@ namespace {
 
 using Marks = std::vector<MarkupPoint>;
 
-// A label's posture, where it names one, and the label without it.
+// The posture that a label names, if any, and the label without it.
 struct Label {
   std::string posture, rest;
 };
@@ -42,7 +42,8 @@ const MarkupPoint* find(const Marks& marks, const std::string& rest) {
   return nullptr;
 }
 
-// The marks of a file with both postures, by the words in their labels or by their order.
+// The marks of a file with both postures, distinguished by the words in their labels or by their
+// order.
 std::pair<Marks, Marks> parted(const Marks& all) {
   std::pair<Marks, Marks> out;
   for (const MarkupPoint& mark : all) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Landmarks of two postures as users have them: one table, or marks of 3D Slicer in one file or two.
+// Reading of landmarks of two postures: one table, or marks of 3D Slicer in one or two files.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,11 @@
 
 namespace breast {
 
-/// Pairs of `first`: a table, or a .mrk.json; of .mrk.json the second posture's marks are those of `second`, or where that is empty
-/// in the same file. Marks pair by their labels, whose words prone and supine are put aside ("prone-3" is "supine-3"); in one
-/// file without these words the first mark of a label is the scan's. Throws Error (input), one line, naming marks
-/// without a partner.
+/// Reads pairs from `first`, which is a table or a .mrk.json file. With .mrk.json, the marks of the
+/// second posture are those of `second`, or of `first` if `second` is empty. Marks are paired by
+/// their labels without the words prone and supine ("prone-3" with "supine-3"); in a single file
+/// without these words, the first mark of a label belongs to the scan. Throws Error (input) with
+/// one line that names marks without a partner.
 std::vector<LandmarkPair> read_landmark_pairs(const std::filesystem::path& first,
                                               const std::filesystem::path& second, Side side,
                                               double observer);

@@ -10,16 +10,17 @@ namespace breast {
 void IdentifyChoices::check() const {
   if (landmarks.empty() && surface.empty() && nipple.empty() && forces.empty()) {
     throw input_error(
-        "there are no data of a second posture: give --landmarks, --nipple, --surface or "
+        "no data of a second posture are given; use --landmarks, --nipple, --surface or "
         "--force-thickness");
   }
   if (labels.empty() != second_labels.empty())
-    throw input_error("--labels and --second-labels go together: walls of both scans are compared");
+    throw input_error("--labels and --second-labels must be given together, because the chest "
+                      "walls of both scans are compared");
   if (!second_landmarks.empty() && landmarks.empty())
-    throw input_error("--second-landmarks goes with --landmarks");
-  if (!seen.empty() && surface.empty()) throw input_error("--seen goes with --surface");
+    throw input_error("--second-landmarks needs --landmarks");
+  if (!seen.empty() && surface.empty()) throw input_error("--seen needs --surface");
   if (!align && labels.empty() && align_deviation != std::vector<double>{4, 2})
-    throw input_error("--align-deviation is for --align and --labels");
+    throw input_error("--align-deviation needs --align or --labels");
   for (const double one : align_deviation)
     if (!(one > 0 && one <= 100))
       throw input_error("--align-deviation ", one, " must lie above 0 and up to 100");
@@ -42,22 +43,25 @@ void declare_data(Tool& tool, IdentifyChoices& c) {
   tool.input_file(c.second_landmarks, "--second-landmarks", "MARKS.mrk.json",
                   "marks of the second posture, if --landmarks contains only those of the scan");
   tool.numbers(c.nipple, "--nipple", "x,y,z", 3,
-               "where the mesh's nipple lies in the second posture, mm LPS");
+               "position of the nipple in the second posture, mm LPS");
   tool.input_file(c.surface, "--surface", "SKIN.vtp",
-                  "skin seen in the second posture: triangles, or points with normals, as segment --posture supine "
-                  "--points gives them");
+                  "skin observed in the second posture: triangles, or points with normals as "
+                  "written by segment --posture supine --points");
   tool.input_file(c.labels, "--labels", "LABELS.vtkhdf",
-                  "segmentation of the scan: its chest wall is laid over that of --second-labels");
+                  "segmentation of the first scan; its chest wall is registered with that of "
+                  "--second-labels");
   tool.input_file(c.second_labels, "--second-labels", "LABELS.vtkhdf",
-                  "segmentation of the second scan (segment --posture supine); its nipple is judged, not fitted");
+                  "segmentation of the second scan (segment --posture supine); its nipple is "
+                  "compared, not fitted");
   tool.input_file(c.judge, "--judge", "PAIRS.tsv",
-                  "landmarks as --landmarks has them, predicted and judged but not fitted");
+                  "landmarks in the format of --landmarks that are not fitted; their predicted "
+                  "positions are compared with the marks");
   tool.input_file(
       c.forces, "--force-thickness", "FILE.tsv",
       "forces of a paddle: columns thickness_mm, force_N, optionally sd_N (default: a tenth of "
       "the force plus 0.5 N); each row costs one compression per trial");
   tool.number(c.observer, "--observer-error", "MM",
-              "error with which an observer marks one landmark, rms distance in space", 0.01, 100);
+              "rms distance in space between an observer's mark of a landmark and its position", 0.01, 100);
   tool.number(c.surface_error, "--surface-error", "MM",
               "standard deviation of the skin's distance at one of the sample points, which are "
               "12 mm apart",
@@ -77,29 +81,34 @@ void declare_data(Tool& tool, IdentifyChoices& c) {
 
 void declare_identify(Tool& tool, IdentifyChoices& c) {
   tool.describe(
-      "Finds a patient's own stiffness: the material set with which her breast, imaged prone, moves to "
-      "where it was seen in a second posture. Sought are logarithms of factors on parts of the set "
-      "--materials: low_order (constants linear in the invariants, of fat and gland alike), quadratic (the "
-      "others), gland (fibroglandular tissue beyond that, the ratio of gland to fat), skin, wall (resistance "
-      "to sliding) and cut; with --align also shift and turn of the rib cage between the postures. "
-      "Gravity keeps its direction in the frame of the scan.");
+      "Finds a patient's own stiffness: the material set with which her breast, imaged prone, "
+      "moves to its position observed in a second posture. The unknowns are factors (in "
+      "logarithms) on parts of the set given by --materials: low_order (constants linear in the "
+      "invariants, of fat and fibroglandular tissue alike), quadratic (the other constants), "
+      "gland (additional factor for fibroglandular tissue, that is, the ratio of gland to fat), "
+      "skin, wall (resistance to sliding) and cut. With --align, the shift and rotation of the "
+      "rib cage between the postures are unknowns as well. Gravity keeps its direction in the "
+      "frame of the scan.");
   tool.describe(
-      "Weighted least squares with a trust region; derivatives are those of backward and forward, not "
-      "differences. A trial set without a stable body shortens the step and is reported. The prior is the "
-      "set's own covariance about itself (invivo has one), a factor of three where it has none, for gland "
-      "a factor of two; with --prior none a factor of twenty each, which only keeps finite what the data leave "
-      "open.");
+      "The method is weighted least squares with a trust region and exact derivatives of backward "
+      "and forward. If a trial set has no stable body, the step is shortened, and the trial is "
+      "reported. The prior is the covariance of the set itself (invivo has one). For a set "
+      "without a covariance it is a factor of three, for gland a factor of two; with --prior none "
+      "it is a factor of twenty for each, which only keeps undetermined parameters finite.");
   tool.describe(
-      "stdout has the parameters, then the directions in which the data know them, in words. --table lists "
-      "each landmark's residual, its distance when it is left out and the others predict it, and "
-      "the observer's error. The misfit test compares the sum of squares with its distribution; where it "
-      "fails at 1 % the data's errors count as much larger as the misfit says. OUT.tsv holds the "
-      "covariance: --materials OUT.tsv runs the chain, cc2mlo --band --materials OUT.tsv draws the "
-      "band of what is left open.");
+      "The tool prints the parameters, then in words the combinations of parameters that the data "
+      "determine. --table contains, for each landmark, the residual, the distance from its "
+      "position predicted without this landmark, and the observer's error. The misfit test "
+      "compares the sum of squares with its distribution; if it fails at 1 %, the errors of the "
+      "data are enlarged accordingly. OUT.tsv contains the covariance: --materials OUT.tsv runs "
+      "the chain with this set, and cc2mlo --band --materials OUT.tsv draws the band for the "
+      "remaining uncertainty.");
   tool.describe(
-      "With --labels and --second-labels the rib cage's motion between the scans is taken from their chest walls first (rigid, "
-      "places that do not fit are left out), and what the walls do not tell of it, which is said, stays sought. Landmarks then are "
-      "judged in the frame of the mesh: errors of the answer, each landmark left out, beside those of other sets (--compare).");
+      "With --labels and --second-labels, the motion of the rib cage between the scans is first "
+      "found from their chest walls (a rigid motion; places that do not fit are left out). The "
+      "components that the walls do not determine are reported and remain unknowns. Landmarks are "
+      "then compared in the frame of the mesh: the errors of this solution, each landmark also "
+      "when it is left out, beside the errors of other sets (--compare).");
   tool.input(c.mesh, "MESH.vtkhdf",
              "mesh of the breast imaged prone, with its wall surface (hexmesh)");
   tool.output(c.set, "OUT.tsv", "the material set found, with its covariance");
@@ -114,14 +123,14 @@ void declare_identify(Tool& tool, IdentifyChoices& c) {
   tool.texts(c.compare, "--compare", "NAME|FILE",
              "another material set whose errors at the landmarks are tabulated for comparison");
   tool.numbers(c.align_deviation, "--align-deviation", "MM,DEGREES", 2,
-               "rms shift and rotation of the rib cage that are expected (default: 4,2)");
+               "expected rms shift and rotation of the rib cage");
   tool.integer(c.pairs, "--max-pairs", "N",
                "largest number of trials, each of which solves backward and forward", 2, 500);
   tool.output_file(c.table, "--table", "OUT.tsv", "table with one row per landmark");
   tool.output_file(c.seen, "--seen", "OUT.vtp",
-                   "the surface of --surface in the frame of --second, for figures");
+                   "surface of --surface in the frame of --second, for figures");
   tool.output_file(c.second, "--second", "OUT.vtkhdf",
-                   "the second posture, solved with the set found");
+                   "shape in the second posture, solved with the set found");
   declare_gravity(tool, c.gravity,
                   "direction of gravity in the second posture, in the frame of the scan");
   declare_mechanics(tool, c.mechanics);
@@ -132,9 +141,10 @@ void declare_identify(Tool& tool, IdentifyChoices& c) {
       "from landmarks marked prone and supine");
   tool.example("identify mesh.vtkhdf patient.tsv --surface supine-skin.vtp --labels labels.vtkhdf --second-labels "
                "supine-labels.vtkhdf --compare seed2008 --compare invivo --table landmarks.tsv",
-               "from the skin of a supine scan, rib cages laid over each other by their walls");
+               "from the skin of a supine scan, with rib cages registered by their chest walls");
   tool.example("identify mesh.vtkhdf patient.tsv --nipple 158,-9,13",
-               "from the nipple alone; the result is mostly the prior, as the output says");
+               "from the nipple alone; as the output says, the result is mostly determined by the "
+               "prior");
 }
 
 }  // namespace breast

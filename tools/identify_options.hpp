@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What identify is told.
+// The command-line options of identify.
 #pragma once
 
 #include <filesystem>

@@ -53,7 +53,7 @@ Vec3 wall_middle(const HexMesh& mesh) {
   return middle;
 }
 
-// Pairs whose second place is in the frame of the mesh.
+// Pairs with their second position transformed into the frame of the mesh.
 std::vector<LandmarkPair> laid_over(std::vector<LandmarkPair> pairs, const SecondScan& scan) {
   if (!scan.ribs) return pairs;
   for (LandmarkPair& pair : pairs) pair.second = scan.ribs->motion.origin_of(pair.second);

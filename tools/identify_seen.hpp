@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What identify is shown of the second posture, brought into the frame of the mesh.
+// The data of the second posture for identify, transformed into the frame of the mesh.
 #pragma once
 
 #include <optional>
@@ -13,15 +13,16 @@ namespace breast {
 
 struct SecondScan {
   Observations seen;
-  std::vector<SeenPoint> judged;      ///< not fitted
-  std::optional<WallAlignment> ribs;  ///< of the scans
-  TriMesh surface;                    ///< as read, in the frame of the mesh
+  std::vector<SeenPoint> judged;      ///< landmarks that are compared but not fitted
+  std::optional<WallAlignment> ribs;  ///< registration of the two scans by their chest walls
+  TriMesh surface;                    ///< the surface as read, in the frame of the mesh
 };
 
-/// Reads and checks all that was given. Throws Error (input).
+/// Reads and checks all given data. Throws Error (input).
 SecondScan read_second_scan(const IdentifyChoices& choices, const HexMesh& mesh);
 
-/// The surface in the frame of the answer: moved by what was left of the rib cage's motion too.
+/// The surface in the frame of the solution, that is, also moved by the remaining motion of the rib
+/// cage.
 TriMesh seen_beside(const SecondScan& scan, const Identified& found);
 
 }  // namespace breast

@@ -22,7 +22,7 @@ std::optional<Side> side_of(const LabelChoices& choices) {
   return choices.side.empty() ? std::nullopt : std::optional(side_from_name(choices.side));
 }
 
-// A volume of codes, without names: its side has to be said.
+// A volume of codes without names, for which the user must state the side.
 LabelVolume coded_labels(const fs::path& file, const LabelChoices& choices) {
   const auto side = side_of(choices);
   if (!side && choices.native.empty()) {
@@ -41,7 +41,7 @@ LabelVolume coded_labels(const fs::path& file, const LabelChoices& choices) {
 
 LabelVolume foreign_labels(const fs::path& file, const LabelChoices& choices) {
   if (!is_segmentation_name(file)) return coded_labels(file, choices);
-  // With native labels they say which breast it is.
+  // The native labels, if given, state the side.
   auto side = side_of(choices);
   if (!side && !choices.native.empty()) side = Side::left;
   return labels_of(read_segmentation(file), parse_tissue_codes(choices.codes), side, file.string());

@@ -12,7 +12,7 @@ using namespace breast;
 
 namespace {
 
-// A reference size for ρgL/μ: a breast of 0.1 m.
+// Reference length in ρgL/μ: a breast of 0.1 m.
 constexpr double typical_size_mm = 100;
 
 struct Choices {

@@ -39,7 +39,7 @@ std::vector<Prior> priors_of(const Choices& choices) {
                                 : priors_from(read_table(choices.priors), choices.priors.string());
 }
 
-// Counts of one direction, under the names of the report.
+// Reports the counts of one direction.
 void report_lookup(const MatchLookup& lookup, const std::string& prefix, Run& run) {
   Report& report = run.report();
   report.set(prefix + "nodes", lookup.status.size());
@@ -57,7 +57,7 @@ void report_lookup(const MatchLookup& lookup, const std::string& prefix, Run& ru
   }
 }
 
-// The page is made before the lookup's file is written: one that fails leaves neither.
+// The page is made before the lookup's file is written, so that neither is left if the page fails.
 void write_page(const Choices& choices, const Matcher& matcher, const MatchLookup& lookup,
                 const MatchLookup& back, Run& run) {
   Timer::Scope phase(run.timer(), "page");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What forward, backward and compress share from the mesh read to the file written.
+// The steps that forward, backward and compress share, from reading the mesh to writing the result.
 #pragma once
 
 #include <filesystem>
@@ -14,18 +14,19 @@ namespace breast {
 
 class MechanicsRun {
  public:
-  /// `input` is where `mesh` was read from. For 27-node elements its order is raised.
+  /// `input` is the file from which `mesh` was read. For 27-node elements the order of the mesh is
+  /// raised.
   MechanicsRun(Run& run, const MechanicsChoices& choices, const std::string& estimate,
                std::filesystem::path input, HexMesh mesh);
 
-  /// As read; no tool changes it before finish.
+  /// The mesh as read; it is unchanged until finish.
   const HexMesh& mesh() const { return mesh_; }
   const MechanicsOptions& options() const { return options_; }
 
-  /// The end of all three tools, after the report is filled: tells the summary (`results`:
-  /// lines of the tool's own) and the warnings, writes `output` when the solve converged,
-  /// when it stopped `enough` of the way, or when --keep-unconverged asks for it. Throws
-  /// Error (not converged) otherwise.
+  /// Ends all three tools after the report is filled. Prints the summary (with `results`, the
+  /// tool's own lines) and the warnings. Writes `output` if the solve converged, if `enough` says
+  /// that it came far enough, or if --keep-unconverged is given. Throws Error (not converged)
+  /// otherwise.
   void finish(const Equilibrium& found, const std::filesystem::path& output, bool enough = false,
               const std::vector<std::string>& results = {});
 

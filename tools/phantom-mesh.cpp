@@ -53,7 +53,8 @@ void declare(Tool& tool, Choices& c) {
                "a breast that slides, for `compress --materials body.tsv --image-edge auto`");
 }
 
-// Of a mesh that is none of phantom's and none of hexmesh's: `level` times as many elements along every edge.
+// Mesh parameters that differ from those of phantom and hexmesh, with `level` times as many
+// elements along every edge.
 MeshParameters mesh_of_level(double level, bool slides) {
   const auto times = [level](double n) { return std::max(1, int(std::lround(n * level))); };
   return {2 * times(5), times(5), times(slides ? 5 : 3), times(4), times(7), 1};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// phantom: a prone or supine breast MR scan whose stress-free, prone and supine truth is known.
+// phantom: a prone or supine breast MR scan with known stress-free, prone and supine truth.
 #include "phantom/parameters.hpp"
 
 #include <map>
@@ -109,12 +109,12 @@ void write_truth_side(const std::filesystem::path& folder, PhantomBreast& breast
                 boundary_surface(mesh, mesh.points, mesh.pectoral_faces));
 }
 
-/// Supine shapes for imaging.
+/// Moves the breasts to their supine shapes for imaging.
 void lie_supine(PhantomScene& scene, const std::map<Side, Postures>& solved) {
   for (const auto& [side, postures] : solved) scene.breast(side).lie_supine(postures.supine);
 }
 
-/// Where the body lies in the scanner, for the truth beside the image.
+/// Moves the truth to the position of the body in the scanner.
 void move_with_body(PhantomScene& scene, const RigidMotion& moved) {
   for (Side side : {Side::left, Side::right}) {
     HexMesh& mesh = scene.breast(side).mesh;
@@ -132,7 +132,7 @@ void report_motion(const RigidMotion& moved, Report& report) {
 void run_phantom(const Choices& c, Run& run) {
   const PhantomParameters parameters = parameters_of(c);
   const MaterialSet materials = body_materials(parameters.body);
-  // Made before minutes are spent on what goes into it.
+  // The folder is created first, so that a failure does not cost the minutes of the simulation.
   std::optional<AtomicFolder> folder;
   if (!c.truth.empty()) folder.emplace(c.truth, "landmarks.tsv");
   write_parameters(parameters, run.report());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// population: how breasts move between postures, beside what is known of women.
+// population: the motion of breasts between postures, beside measurements on women.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -46,7 +46,7 @@ Quantities quantities_of(const PostureMotion& m) {
   return list;
 }
 
-/// Mean, standard deviation and range of every quantity; with women's values beside ours.
+/// Mean, standard deviation and range of every quantity, beside the values of women.
 Table summary_of(const std::vector<Quantities>& cases, const Choices& c) {
   std::map<std::string, std::size_t> women_row;
   Table women;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// probe: where the landmarks of deformed meshes are, as a table.
+// probe: the positions of landmarks in deformed meshes, as a table.
 #include <algorithm>
 
 #include "cli/tool.hpp"
@@ -52,7 +52,7 @@ std::vector<std::string> split(const std::string& list) {
   return names;
 }
 
-// Landmarks asked for, or those of the first file.
+// The requested landmarks, or those of the first file.
 std::vector<std::string> chosen(const std::string& option, const HexMesh& first) {
   if (!option.empty()) return split(option);
   std::vector<std::string> names;
@@ -101,14 +101,15 @@ void report_landmark(const Probe& here, Report& report) {
   report.set("landmarks/" + name + "/distance_mm", displacement.norm());
 }
 
-// One row a file; the landmarks of a single file also go to the report.
+// One row per file; the landmarks of a single file are also reported.
 void tell_positions(const Choices& c, const std::vector<HexMesh>& meshes, Run& run) {
   const std::vector<std::string> names = chosen(c.landmarks, meshes.front());
   if (names.empty()) throw input_error(c.files.front().string(), ": has no landmarks");
   const bool relative = !c.base.empty();
   const HexMesh base = relative ? read_mesh(c.base) : HexMesh();
   Table table{{"file"}, {}};
-  // A landmark is shown by its own name: who asks for the tumour sees when it is an artificial one.
+  // A landmark is shown by its own name, so that a request for the tumour reveals an artificial
+  // one.
   for (const std::string& name : names) {
     add_columns(table, find(meshes.front(), name, c.files.front()).name, relative);
   }

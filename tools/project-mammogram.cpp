@@ -27,8 +27,8 @@ struct Choices {
   LabelChoices foreign;
 };
 
-// Another scan's labels would be sampled without complaint, so their content must be among the
-// inputs that led to the mesh.
+// Labels of another scan would otherwise be sampled without an error. Their content must therefore
+// be among the inputs that led to the mesh.
 void check_lineage(const HexMesh& mesh, const LabelVolume& labels, const std::string& file,
                    Run& run) {
   const auto holds = [&](const HistoryEntry& entry) {
@@ -137,11 +137,11 @@ int main(int argc, char** argv) {
       "fat; KEV (5-100): line integral of the attenuation; SPECTRUM: W/Rh:KV or Mo/Mo:KV (22-35 "
       "kV), or a TSV with columns energy_keV, weight");
   tool.number(
-      choices.exposure.scatter_fraction, "--scatter", "part",
+      choices.exposure.scatter_fraction, "--scatter", "FRACTION",
       "scattered fraction of the radiation that leaves the breast (0.1 with a grid, 0.3-0.5 "
       "without)",
       0, 0.9);
-  tool.number(choices.exposure.photons_per_mm2, "--photons", "per mm2",
+  tool.number(choices.exposure.photons_per_mm2, "--photons", "N_PER_MM2",
               "photons per mm2 detected without a breast, which determine the Poisson noise; 0 "
               "for no noise",
               0, 1e9);

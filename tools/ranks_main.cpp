@@ -36,7 +36,7 @@ std::vector<char*> without_report(int argc, char** argv) {
   return kept;
 }
 
-// Nothing of what this process says from here on is seen, but on the descriptor returned.
+// Discards all output of this process from here on, except on the returned descriptor.
 int fall_silent() {
   const int stderr_before = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -51,7 +51,7 @@ int fall_silent() {
 int ranks_main(Tool& tool, int argc, char** argv,
                const std::function<void(Run&, const Ranks&)>& body) {
   if (asks(argc, argv)) return tool.main(argc, argv, [](Run&) {});
-  // Before MPI begins: it may start the program anew.
+  // This precedes the start of MPI, because it may restart the program.
   sleep_when_waiting(argv);
   const RankSession session;
   const Ranks ranks;
@@ -69,7 +69,7 @@ int ranks_main(Tool& tool, int argc, char** argv,
           "some of the processes refuse the files that others accept; run where all "
           "see the same folders");
     }
-    // The machine's threads are shared; PETSc uses none.
+    // The ranks share the machine's threads; PETSc uses none.
     set_threads(std::max(1, threads() / ranks.size()));
     try {
       body(run, ranks);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The main function of tools that mpirun starts on several processes: one of them reads, writes and
-// speaks, an error of one is an error of all.
+// prints, and an error of one ends all.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace breast {
 
-/// As Tool::main, on all ranks of the run. What `body` throws on one rank outside Ranks::together
-/// ends the run on all.
+/// Runs Tool::main on all ranks. An exception of `body` on one rank outside Ranks::together ends
+/// the run on all ranks.
 int ranks_main(Tool& tool, int argc, char** argv,
                const std::function<void(Run&, const Ranks&)>& body);
 

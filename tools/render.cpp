@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// render: off-screen pictures of what the pipeline made.
+// render: pictures of the pipeline's results, drawn off-screen.
 #include <algorithm>
 
 #include "cli/tool.hpp"
@@ -24,7 +24,8 @@ struct Choices {
   std::filesystem::path output;
 
   void check() const {
-    if (scan.empty() != labels.empty()) throw input_error("--scan and --labels go together");
+    if (scan.empty() != labels.empty())
+      throw input_error("--scan and --labels must be given together");
     for (const auto& file : files) {
       const std::string ending = file.extension().string();
       if (ending != ".vtkhdf" && ending != ".vti" && ending != ".vtp") {
@@ -54,7 +55,7 @@ void add_file(const std::filesystem::path& file, const std::string& figure, Figu
 std::string figure_list() {
   std::string list;
   for (const std::string& name : figure_names())
-    list += " " + name + " shows " + figure_summary(name) + ".";
+    list += " --figure " + name + " draws " + figure_summary(name) + ".";
   return list;
 }
 
@@ -77,25 +78,28 @@ int main(int argc, char** argv) {
   choices.figure = "mesh";
   Tool tool("render", "pictures of shapes, plates and mammograms");
   tool.describe(
-      "Draws without a screen: the tool starts and stops an X server of its own (Xvfb), "
-      "whatever DISPLAY says. All views are parallel projections with a scale bar in mm; L, A "
-      "and S mark the patient's left, anterior and superior directions. Figures:" +
+      "Draws one figure without a screen: the tool starts and stops an X server of its own "
+      "(Xvfb), whatever DISPLAY says. All views are parallel projections with a scale bar in mm; "
+      "L, A and S mark the patient's left, anterior and superior directions." +
       figure_list());
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Figs 4 to 7");
   tool.inputs(choices.files, "FILE",
               "meshes (.vtkhdf), mammograms (.vti), points or curves (.vtp)");
-  tool.input_file(choices.scan, "--scan", "MR",
-                  "MR scan behind the contours of slices and summary (.nrrd, .nii, .nii.gz, .mha or a "
-                  "DICOM folder)");
+  tool.input_file(
+      choices.scan, "--scan", "MR",
+      "MR scan behind the contours of slices and summary (.nrrd, .nii, .nii.gz, .mha or a "
+      "DICOM folder)");
   tool.integer(choices.series, "--series", "N", "series of a DICOM folder (0: the only one)", 0,
                100000);
-  tool.input_file(choices.labels, "--labels", "LABELS.vtkhdf", "segmentation of that scan (segment)");
+  tool.input_file(choices.labels, "--labels", "LABELS.vtkhdf",
+                  "segmentation of that scan (segment)");
   tool.choice(choices.figure, "--figure", figure_names(), "figure to draw");
   tool.output_file(choices.output, "-o,--output", "OUT.png", "the picture");
   tool.required("--output");
   tool.check([&] { choices.check(); });
-  tool.example("render mesh.vtkhdf --figure slices --scan scan.nrrd --labels labels.vtkhdf -o slices.png",
-               "the scan in three planes through the tumour, with the contours of the segmentation");
+  tool.example(
+      "render mesh.vtkhdf --figure slices --scan scan.nrrd --labels labels.vtkhdf -o slices.png",
+      "the scan in three planes through the tumour, with the contours of the segmentation");
   tool.example("render mesh.vtkhdf --figure tissues -o tissues.png",
                "fibroglandular tissue and tumour through a translucent skin");
   tool.example("render cc.vti mlo.vti curve.vtp --figure mammogram -o mammograms.png",

@@ -93,7 +93,8 @@ void declare(Tool& tool, Choices& c) {
                "the second series of a folder, with the chest wall corrected by clicked points");
 }
 
-/// Clicked points: of 3D Slicer, or a table with columns x_mm y_mm z_mm (or x y z), patient LPS.
+/// Reads clicked points: those of 3D Slicer, or a table with columns x_mm y_mm z_mm (or x y z),
+/// patient LPS.
 std::vector<Vec3> read_points(const std::filesystem::path& file) {
   std::vector<Vec3> points;
   if (is_markups_name(file)) {
@@ -111,12 +112,12 @@ bool holds_points(const std::filesystem::path& file) {
   return ending == ".tsv" || ending == ".txt" || is_markups_name(file);
 }
 
-/// Muscle is the wall; a map without any is refused before the scan is looked at.
+/// Muscle is the chest wall; a map without muscle is refused before the scan is read.
 Volume<float> read_wall_labels(const std::filesystem::path& file, const TissueCodes& codes,
                                std::string& sha256) {
   LabelVolume labels;
   if (codes.empty() && file.extension() != ".vtkhdf" && !is_segmentation_name(file)) {
-    // Only the wall's code counts: a map may hold others of its own.
+    // Only the code of the chest wall matters: a map may have other codes of its own.
     TissueCodes wall;
     wall.values[int(Tissue::muscle)] = Tissue::muscle;
     labels = read_tissues(file, wall, &sha256);

@@ -64,7 +64,7 @@ void declare(Tool& tool, Choices& c) {
       "every constant and every element, for the landmarks only");
 }
 
-// The two files must be one breast.
+// Checks that the two files describe the same breast.
 void check_pair(const HexMesh& reference, const HexMesh& state, const Choices& c) {
   const bool same =
       reference.reference.size() == state.reference.size() && reference.tissue == state.tissue &&

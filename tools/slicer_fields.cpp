@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The scan's lattice, thick slices divided into equal parts: its own points stay among them.
+// The grid of the scan with thick slices divided into equal parts, so that its points include those
+// of the scan.
 Grid lattice_of(const SlicerRun& run) {
   constexpr double most_mm = 1.25, rounding = 1e-6;
   Grid lattice = run.scan ? run.scan->grid : run.labels.grid;

@@ -56,7 +56,8 @@ std::vector<SceneItem> write_state_files(const fs::path& folder, const RunState&
   write_surface(folder / skin, surface);
   Markups points{"landmarks, " + state.title, false, colour_of(state.name), {}};
   for (const Landmark& landmark : mesh.landmarks) {
-    // Where nothing was moved, the scan's own point: given back, it makes the same mesh.
+    // If nothing was moved, the point of the scan itself is written: read back, it gives the same
+    // mesh.
     const bool exact = state.name == "prone" && landmark.moved == 0;
     points.points.push_back(
         {landmark.name, exact ? landmark.imaged : landmark_position(mesh, mesh.points, landmark)});
@@ -72,7 +73,7 @@ std::vector<SceneItem> write_state_files(const fs::path& folder, const RunState&
            "landmarks of the model in this shape"}};
 }
 
-// Stretches of one line of curve.vtp, a file each.
+// Writes every section of one line of curve.vtp as a file.
 void add_curve(const fs::path& folder, const PolyLines& lines, const std::string& line,
                const std::string& name, const std::string& title, bool visible,
                std::vector<SceneItem>& items) {

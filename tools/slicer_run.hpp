@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The files of a run that 3D Slicer is to show.
+// The files of a run that are exported to 3D Slicer.
 #pragma once
 
 #include <filesystem>
@@ -16,15 +16,15 @@ namespace breast {
 
 /// One shape of the breast.
 struct RunState {
-  std::string name;   ///< of its files: prone, stress-free, supine, cc, mlo
-  std::string title;  ///< for people
+  std::string name;   ///< name in file names: prone, stress-free, supine, cc, mlo
+  std::string title;  ///< title shown to the user
   std::filesystem::path file;
   HexMesh mesh;
 };
 
 struct SlicerRun {
   LabelVolume labels;
-  std::vector<RunState> states;  ///< prone first, then those there are
+  std::vector<RunState> states;  ///< prone first, then the other available states
   std::optional<PolyLines> curve;
   std::optional<Volume<float>> scan;
   std::vector<Run::Input> inputs;
@@ -32,9 +32,9 @@ struct SlicerRun {
   const RunState& prone() const { return states.front(); }
 };
 
-/// Reads labels, mesh and whatever of reference, supine, cc, mlo and curve.vtp is there; `scan` may be empty. Throws
-/// Error (input) for a folder without labels or mesh, states of different meshes, and a scan that is not the one the
-/// labels were made from.
+/// Reads labels and mesh, and reference, supine, cc, mlo and curve.vtp if they exist; `scan` may be
+/// empty. Throws Error (input) for a folder without labels or mesh, states of different meshes, and
+/// a scan other than the one from which the labels were made.
 SlicerRun read_run(const std::filesystem::path& folder, const std::filesystem::path& scan,
                    int series, Run& run);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tabulate: tables, verdicts and pages of runs, out of their reports, tables and shapes.
+// tabulate: tables, verdicts and pages of runs, from their reports, tables and shapes.
 #include <algorithm>
 #include <cstdlib>
 
@@ -27,8 +27,8 @@ const TabulateKind& kind_called(const std::vector<TabulateKind>& kinds, const st
   for (const TabulateKind& kind : kinds) names.push_back(kind.name);
   const std::string near = nearest(name, names);
   throw input_error(
-      "'", name, "' is nothing that can be made",
-      near.empty() ? "; tabulate --help lists what can" : "; did you mean '" + near + "'?");
+      "'", name, "' is not a kind of table or page",
+      near.empty() ? "; tabulate --help lists all kinds" : "; did you mean '" + near + "'?");
 }
 
 void check_count(const TabulateKind& kind, std::size_t count) {
@@ -40,7 +40,8 @@ void check_count(const TabulateKind& kind, std::size_t count) {
                       "; usage: tabulate ", kind.name, " ", kind.arguments);
 }
 
-// CALIBRATED="REPORT SIDE", which the makefile exports for a phantom whose preset was fitted to the chain.
+// Reads CALIBRATED="REPORT SIDE", which the makefile exports for a phantom with a preset fitted to
+// the chain.
 void read_calibrated(TabulateRequest& request) {
   const char* given = std::getenv("CALIBRATED");
   const std::string text = given == nullptr ? "" : given;
@@ -54,13 +55,16 @@ void read_calibrated(TabulateRequest& request) {
 
 void declare(Tool& tool, const std::vector<TabulateKind>& kinds) {
   tool.describe(
-      "Reads the JSON reports, TSV tables and shapes of finished runs and prints one table or page to stdout: tab-separated text whose first "
-      "line is the header, or HTML. It solves nothing. The pipeline makes all its tables and pages with it; each kind can be asked for by hand.");
+      "Reads the JSON reports, TSV tables and shapes of finished runs and prints one table or "
+      "page to stdout, either as tab-separated text with a header line or as HTML. It runs no "
+      "simulation. The pipeline makes all its tables and pages with this tool, and each kind can also "
+      "be made by hand. The kinds are:");
   for (const TabulateKind& kind : kinds)
     tool.describe(kind.name + " " + kind.arguments + ": " + kind.help + ".");
   tool.describe(
-      "In the environment, CALIBRATED=\"REPORT.json SIDE\" names the report of a phantom whose preset was fitted to the answer of the chain: the "
-      "rows it was fitted to say so.");
+      "If a phantom's preset was fitted to results of the chain, the environment variable "
+      "CALIBRATED=\"REPORT.json SIDE\" names the phantom's report and side, and the rows to which "
+      "it was fitted are marked.");
 }
 
 }  // namespace
@@ -73,15 +77,16 @@ int main(int argc, char** argv) {
   std::string pipelines = request.pipelines;
   Tool tool("tabulate", "tables, verdicts and pages of finished runs");
   declare(tool, kinds);
-  tool.word(name, "KIND", "what to make, from the list above");
-  tool.words(request.words, "ARGUMENT", "of that kind: files, folders and names");
+  tool.word(name, "KIND", "kind of table or page, from the list above");
+  tool.words(request.words, "ARGUMENT", "arguments of that kind: files, folders and names");
   tool.text(pipelines, "--pipelines", "FOLDER",
-            "the pipeline's own tables: advice.tsv, limits.txt, paper/, invivo/");
+            "folder with the pipeline's own tables: advice.tsv, limits.txt, paper/, invivo/");
   tool.check([&] { check_count(kind_called(kinds, name), request.words.size()); });
-  tool.example("tabulate summary runs/average", "what a finished case says, its warnings first");
+  tool.example("tabulate summary runs/average",
+               "the results of a finished case, preceded by its warnings");
   tool.example(
       "tabulate slopes runs/paper/supine.json runs/paper/scaled runs/paper/base-slopes.tsv runs/paper/scaled/tumour-100-slopes.tsv",
-      "every slope from one solve against solving again");
+      "every slope from one solve, compared with solving again");
   return tool.main(argc, argv, [&](Run& run) {
     request.pipelines = pipelines;
     read_calibrated(request);

@@ -25,7 +25,8 @@ bool in_path(const std::string& program) {
   return false;
 }
 
-// Bytes that a pipe of netpbm's programs prints; "" where one of them fails: a picture of another program's.
+// The output of a pipe of netpbm programs; "" if one of them fails because another program made the
+// picture.
 std::string piped(const std::string& pipe, const std::vector<std::string>& arguments) {
   std::vector<std::string> words{"bash", "-o", "pipefail", "-c", pipe, "netpbm"};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -34,8 +35,9 @@ std::string piped(const std::string& pipe, const std::vector<std::string>& argum
 }
 
 Thumbnails thumbnails() {
-  // Three axial and two sagittal slices out of the sixteen that segment draws, four a row of 500 x 360 pixels with the breast in the
-  // middle; pixel by pixel, because a contour is one pixel wide.
+  // Selects three axial and two sagittal slices out of the sixteen that segment draws, four per row
+  // of 500 x 360 pixels with the breast in the middle; pixel by pixel, because a contour is one
+  // pixel wide.
   const std::string slices =
       "cut() { pngtopnm \"$1\" | pamcut -left $((500 * $3 + 80)) -top $((360 * $2 + 40)) -width 340 -height 280; }; "
       "pnmcat -lr <(cut \"$1\" 0 1) <(cut \"$1\" 0 3) <(cut \"$1\" 1 1) <(cut \"$1\" 2 1) <(cut \"$1\" 2 2) | pnmtojpeg -quality 70 -sample=1x1";
@@ -54,7 +56,8 @@ Thumbnails thumbnails() {
           [made, slices](const fs::path& png) { return made(png, slices, ""); }};
 }
 
-// How the tissue of a case moved, where its mesh has a wall to measure from; made again when the supine shape is newer.
+// Tabulates the motion of a case's tissue if its mesh has a chest wall to measure from; repeated if
+// the supine shape is newer.
 void measure_motion(const fs::path& run, const std::string& population) {
   const fs::path supine = run / "supine.vtkhdf", motion = run / "motion.tsv";
   const bool solved = fs::exists(supine);
@@ -110,11 +113,12 @@ std::string cost_of_case(const Request& r) {
 std::vector<TabulateKind> cohort_kinds() {
   return {
       {"cohort", "RUNS POPULATION",
-       "of all cases of RUNS/.cases the table, which is also printed, and beside it cost.tsv, motion.tsv, women.tsv (by the "
-       "program POPULATION), cohort.html and contours.html",
+       "table of all cases in RUNS/.cases, which is also printed; beside it cost.tsv, motion.tsv "
+       "and women.tsv (made by the program POPULATION), cohort.html and contours.html are written",
        2, 2, cohort},
       {"case-cost", "RUNS CORES ELEMENT ELEMENTS",
-       "minutes, MB and their source, to ask a cluster for, from RUNS/cost.tsv or the pipeline's own",
+       "minutes and MB to request from a cluster, and their source: RUNS/cost.tsv or the "
+       "pipeline's own table",
        4, 4, cost_of_case},
   };
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What tabulate can make: each kind with its arguments, and the function that makes it.
+// The kinds of tables and pages that tabulate makes, each with its arguments and function.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace breast {
 
-/// What a kind is asked for.
+/// The arguments of one call.
 struct TabulateRequest {
-  std::vector<std::string> words;  ///< its arguments
+  std::vector<std::string> words;  ///< arguments of the kind
   std::filesystem::path
-      pipelines;  ///< the pipeline's own tables: advice.tsv, limits.txt, paper/, invivo/
+      pipelines;  ///< folder of the pipeline's tables: advice.tsv, limits.txt, paper/, invivo/
   std::filesystem::path
-      calibrated;    ///< report of a phantom whose preset was fitted to the chain; empty: none
-  std::string side;  ///< of that phantom
+      calibrated;    ///< report of a phantom with a preset fitted to the chain; empty for none
+  std::string side;  ///< side of that phantom
 
   const std::string& word(std::size_t i) const { return words[i]; }
   std::vector<std::string> rest(std::size_t first) const {
@@ -30,12 +30,13 @@ struct TabulateRequest {
 
 struct TabulateKind {
   std::string name, arguments, help;
-  std::size_t least, most;                                  ///< how many arguments
-  std::function<std::string(const TabulateRequest&)> make;  ///< the text for stdout
+  /// Smallest and largest number of arguments.
+  std::size_t least, most;
+  std::function<std::string(const TabulateRequest&)> make;  ///< returns the text for stdout
 };
 
-std::vector<TabulateKind> table_kinds();  ///< of the paper's tables and of studies
-std::vector<TabulateKind> page_kinds();   ///< of a case, of reports and of documents
+std::vector<TabulateKind> table_kinds();  ///< tables of the paper and of studies
+std::vector<TabulateKind> page_kinds();   ///< texts and pages of cases, reports and documents
 std::vector<TabulateKind> cohort_kinds();
 
 inline constexpr std::size_t any_number = std::size_t(-1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is said of a case, of a report, and in the pages of docs/.
+// Texts and pages about a case, values of reports, and tables in the pages of docs/.
 #include <unistd.h>
 
 #include <algorithm>
@@ -136,7 +136,7 @@ std::string numbers(const Request& r) {
   return "";
 }
 
-// "; did you mean X?" for the makefile, whatever the letters' case.
+// Returns "; did you mean X?" for the makefile, ignoring case.
 std::string suggestion(const Request& r) {
   const auto upper = [](std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
@@ -157,29 +157,37 @@ std::string suggestion(const Request& r) {
 
 std::vector<TabulateKind> page_kinds() {
   return {
-      {"summary", "RUN [PHANTOM.json]", "what a finished case says as text, its warnings first", 1,
-       2, summary},
+      {"summary", "RUN [PHANTOM.json]",
+       "results of a finished case as text, preceded by its "
+       "warnings",
+       1, 2, summary},
       {"report", "RUN RUNS",
-       "one self-contained HTML page of a finished case; RUNS holds stability/ and compare/", 2, 2,
-       report},
-      {"warnings", "RUN", "what the stages warned of, each warning once, and what to do", 1, 1,
-       warnings},
-      {"verify", "EXPECTED.tsv RUN", "a run against expected values; exit code 1 where one differs",
+       "one self-contained HTML page of a finished case; RUNS contains stability/ and compare/", 2,
+       2, report},
+      {"warnings", "RUN", "warnings of the stages, each once, with advice", 1, 1, warnings},
+      {"verify", "EXPECTED.tsv RUN",
+       "comparison of a run with expected values; exit code 1 if "
+       "one differs",
        2, 2, verified},
-      {"expected", "EXPECTED.tsv RUN", "that table with the run's values where they differ", 2, 2,
-       [](const Request& r) { return expected_anew(read_text(r.word(0)), r.word(1)); }},
+      {"expected", "EXPECTED.tsv RUN",
+       "table of expected values, with the values of the run in "
+       "rows that differ",
+       2, 2, [](const Request& r) { return expected_anew(read_text(r.word(0)), r.word(1)); }},
       {"key", "REPORT.json PATH",
-       "one value of a report: at a path of keys (seconds/total), or the first number of that name",
+       "one value of a report, at a path of keys (seconds/total) or the first number of that name",
        2, 2, key},
-      {"place", "REPORT.json LANDMARK [imaged|position]", "a landmark's place x,y,z, mm", 2, 3,
-       place},
-      {"truth", "TRUTH.tsv", "rows of a table of errors against the truth, as a page shows them", 1,
-       1, [](const Request& r) { return truth_summary(r.table(0)).text(); }},
+      {"place", "REPORT.json LANDMARK [imaged|position]", "position x,y,z of a landmark in mm", 2,
+       3, place},
+      {"truth", "TRUTH.tsv", "rows of a table of errors against the truth that a page shows", 1, 1,
+       [](const Request& r) { return truth_summary(r.table(0)).text(); }},
       {"pages", "fill|check PAGE.md...",
-       "the tables between the marks of pages, written anew or compared", 2, any_number, pages},
-      {"numbers", "NUMBERS.tsv", "whether the numbers that pages state are those of their sources",
-       1, 1, numbers},
-      {"nearest", "WORD CANDIDATE...", "the candidate that a slip of the fingers turned into WORD",
+       "tables between the marks of pages, written again (fill) or compared (check)", 2, any_number,
+       pages},
+      {"numbers", "NUMBERS.tsv", "whether the numbers in pages agree with their sources", 1, 1,
+       numbers},
+      {"nearest", "WORD CANDIDATE...",
+       "candidate that is most similar to WORD, for messages "
+       "about typing errors",
        2, any_number, suggestion},
   };
 }

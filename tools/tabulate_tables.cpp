@@ -112,87 +112,95 @@ std::string pressed(const Request& r) {
 std::vector<TabulateKind> table_kinds() {
   return {
       {"scaled", "PAPER.tsv PREFIX BASE.vtkhdf",
-       "one of Tables III to VI, ours from PREFIX-PERCENT-supine.vtkhdf beside the paper's", 3, 3,
+       "one of Tables III to VI: our results from PREFIX-PERCENT-supine.vtkhdf beside the paper's",
+       3, 3,
        [](const Request& r) {
          return scaled_table(r.table(0), r.word(1), r.word(2), read_shape, calibrated_words(r))
              .text();
        }},
-      {"constants", "PAPER.tsv MATERIALS.tsv", "Table II, the constants used beside the paper's", 2,
+      {"constants", "PAPER.tsv MATERIALS.tsv", "Table II: the constants used beside the paper's", 2,
        2, [](const Request& r) { return constants_table(r.table(0), r.table(1)).text(); }},
       {"slopes", "SUPINE.json SCALED SLOPES.tsv TUMOUR-SLOPES.tsv",
-       "Table VII, slopes from one solve against solving again", 4, 4,
+       "Table VII: slopes from one solve compared with solving again", 4, 4,
        [](const Request& r) {
          return slopes_table(r.word(0), r.word(1), r.table(2), r.table(3)).text();
        }},
       {"conclusions", "TABLE3 TABLE4 TABLE5 TABLE6 [PREFIX]",
-       "values of the paper's conclusions, from rows of 90 and 110 per cent", 4, 5,
+       "values of the paper's conclusions, from the rows of 90 and 110 per cent", 4, 5,
        conclusions_rows},
       {"conclusions-of-slopes", "SLOPES.tsv TABLE6.tsv",
-       "the same from slopes (an empty file: no solution)", 2, 2,
+       "values of the paper's conclusions, from slopes (an empty file means no solution)", 2, 2,
        [](const Request& r) {
          return conclusions_from_slopes(table_if_any(r.word(0)), r.table(1)).text();
        }},
       {"judge", "CONCLUSIONS.tsv NAME=VALUES.tsv...",
-       "whether the conclusions hold for each of these values", 2, any_number, judged},
+       "whether the conclusions hold for each of these sets of values", 2, any_number, judged},
       {"survival", "CONCLUSIONS.tsv RUN SET...",
-       "Table VIII, the conclusions under the material sets of RUN/variants", 3, any_number,
+       "Table VIII: the conclusions with the material sets of RUN/variants", 3, any_number,
        [](const Request& r) {
          return survival_table(r.table(0), read_table(r.own("paper/table3.tsv")), r.word(1),
                                read_shape, r.rest(2), calibrated_words(r))
              .text();
        }},
       {"findings", "RUN VARIANT...",
-       "how far numerical choices move the figures; the last variant is the finest", 2, any_number,
-       [](const Request& r) { return findings_table(r.word(0), r.rest(1)).text(); }},
+       "effect of numerical choices on the paper's results; the last variant is the finest", 2,
+       any_number, [](const Request& r) { return findings_table(r.word(0), r.rest(1)).text(); }},
       {"calibration", "RUN PHANTOM.json SIDE",
-       "what the preset was fitted to, beside what its truth moves", 3, 3, calibration},
+       "values to which the preset was fitted, beside the motion of its truth", 3, 3, calibration},
       {"budget", "RUN ROW...",
-       "what is left of the errors when one stage is the truth's (RUN/budget/ROW)", 2, any_number,
+       "errors that remain when one stage is replaced by the truth (RUN/budget/ROW)", 2, any_number,
        [](const Request& r) { return budget_table(r.word(0), r.rest(1)).text(); }},
       {"convergence", "FOLDER N...",
-       "compressed shapes FOLDER/N-CC, N-MLO against those of the last N", 2, any_number,
+       "distances of the compressed shapes FOLDER/N-CC and N-MLO from those of the last N", 2,
+       any_number,
        [](const Request& r) { return convergence_table(r.word(0), r.rest(1), read_shape).text(); }},
       {"cost", "FOLDER FINEST POINT...",
-       "error against run time of the points ELEMENT-TEMPLATE-N[-SOLVER]", 3, any_number,
+       "error against run time for the points ELEMENT-TEMPLATE-N[-SOLVER]", 3, any_number,
        [](const Request& r) {
          return cost_table(r.word(0), r.word(1), r.rest(2), read_shape).text();
        }},
       {"accuracy", "FOLDER POINT MM [COARSER]",
-       "a point's row of the ladder of ACCURACY, without header; nothing where it has no solution",
+       "row of one discretisation tried by ACCURACY, without header; nothing if it has no "
+       "solution",
        3, 4, accuracy},
-      {"leaveout", "RUN VARIANT...", "what each variant of RUN/leaveout changes, mm, and saves, s",
+      {"leaveout", "RUN VARIANT...",
+       "change in mm and time saved in s by each variant of "
+       "RUN/leaveout",
        2, any_number,
        [](const Request& r) {
          return leaveout_table(r.word(0), r.rest(1), read_shape, curve_gap).text();
        }},
       {"least", "TABLE.tsv surgery|matching MM PART...",
-       "the parts to leave out while their changes add up to no more than MM", 4, any_number,
-       least},
+       "parts of the model that can be left out while their changes add up to no more than MM", 4,
+       any_number, least},
       {"recommendation", "RUN MM PART...",
-       "those parts, the sum, and what RUN/leaveout/least-QUESTION really gives", 3, any_number,
+       "those parts, the sum of their changes, and the change in RUN/leaveout/least-QUESTION", 3,
+       any_number,
        [](const Request& r) {
          return recommendation(r.word(0), parse_number(r.word(1), "recommendation: MM"), r.rest(2),
                                read_shape, curve_gap)
              .text();
        }},
       {"wall", "RUN VARIANT...",
-       "how far places move when the chest wall moves by its own deviation (RUN/wall/VARIANT)", 2,
-       any_number, [](const Request& r) { return wall_table(r.word(0), r.rest(1)).text(); }},
+       "motion of positions when the chest wall moves by its own standard deviation "
+       "(RUN/wall/VARIANT)",
+       2, any_number, [](const Request& r) { return wall_table(r.word(0), r.rest(1)).text(); }},
       {"coverage", "ROWS.tsv...",
-       "how many true places the band holds, with the 95 % interval of that figure", 1, any_number,
+       "percentage of true positions inside the band, with its 95 % interval", 1, any_number,
        coverage_rows},
       {"identification", "ROWS.tsv...",
-       "identify against truths it does not know, a row a study and truth", 1, any_number,
+       "results of identify for known truths, one row per study and truth", 1, any_number,
        identification},
       {"pressed", "OURS.tsv SCENE GAP REACHED FORCE ITERATIONS SECONDS",
-       "a block between plates, by CalculiX (its figures as arguments) beside ours", 7, 7, pressed},
+       "block pressed between plates: CalculiX (results given as arguments) beside ours", 7, 7,
+       pressed},
       {"study", "FOLDER LANDMARK,... VARIANT...",
-       "what became of every stage of the variants FOLDER/VARIANT", 3, any_number,
+       "outcome of every stage in the variants FOLDER/VARIANT", 3, any_number,
        [](const Request& r) {
          return outcomes_table(r.word(0), split(r.word(1), ','), r.rest(2), read_shape).text();
        }},
-      {"stability", "MECHANICS.tsv CONTACT.tsv", "one page of what became of every extreme case", 2,
-       2, [](const Request& r) { return stability_table(r.table(0), r.table(1)).text(); }},
+      {"stability", "MECHANICS.tsv CONTACT.tsv", "one page with the outcome of every extreme case",
+       2, 2, [](const Request& r) { return stability_table(r.table(0), r.table(1)).text(); }},
   };
 }
 

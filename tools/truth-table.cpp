@@ -9,7 +9,7 @@ using namespace breast;
 
 namespace {
 
-// Largest and mean own error of every posture under "own_error/POSTURE".
+// Reports the largest and mean own error of every posture as "own_error/POSTURE".
 double report_errors(const Table& table, Report& report) {
   double worst = 0;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {

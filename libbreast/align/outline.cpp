@@ -76,7 +76,7 @@ float threshold_of(const Raster& raster, bool anterior_is_right) {
   return middle + std::max(float(level) * (bright - middle), float(noise_levels) * noise);
 }
 
-// Marks all unknown pixels on one side of the threshold that hang together with the start.
+// Marks all unknown pixels on one side of the threshold that are connected with the start.
 std::size_t flood(Raster& raster, std::size_t start, float threshold, bool above, Part part) {
   std::vector<std::size_t> open{start};
   raster.part[start] = part;
@@ -124,7 +124,7 @@ std::size_t mark_breast(Raster& raster, float threshold) {
   return largest;
 }
 
-// Out of the breast: from the breast's pixels around to the air's.
+// The direction out of the breast, from its pixels nearby to those of air.
 Vec2 outward(const Raster& raster, int x, int y) {
   constexpr int reach = 4;
   Vec2 sum = Vec2::Zero();

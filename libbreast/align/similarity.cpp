@@ -15,11 +15,12 @@ namespace breast {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-// Standard deviations of what is known beside the outlines.
+// Standard deviations of the information other than the outlines.
 constexpr double marked_nipple = 2, anterior_part = 5, edge_place = 10;  // mm
 constexpr double edge_direction = 3 * degree, log_scale = 0.05;
-constexpr double correlation = 30;   // mm of outline that err together: shapes differ in long waves
-constexpr double finest = 0.05;      // mm, no outline is trusted beyond
+// Length of outline with correlated errors, mm: shapes differ in long waves.
+constexpr double correlation = 30;
+constexpr double finest = 0.05;      // smallest standard deviation of an outline, mm
 constexpr double border_margin = 1;  // mm: outlines end at the image's border
 constexpr int most_iterations = 200;
 
@@ -113,7 +114,7 @@ class Fit {
     double squares = 0;
     for (const Pairing& p : pairs_) squares += p.distance * p.distance;
     found.residual_mm = std::sqrt(squares / double(pairs_.size()));
-    // What the four numbers have taken from the residual is given back.
+    // Compensates for the part of the residual that the four parameters have absorbed.
     const double independent = double(pairs_.size()) * data_.spacing / correlation;
     const double deviation =
         found.residual_mm * std::sqrt(independent / std::max(independent - 4, 1.0));
@@ -165,7 +166,7 @@ class Fit {
     return most_anterior(data_.simulated, [&](const Vec2& uv) { return pose_.apply(uv); }) -
            real_anterior_;
   }
-  // Middle of the simulated plate's edge in the image.
+  // Centre of the simulated plate's edge in the image.
   Vec2 edge_at() const { return pose_.apply(Vec2(data_.plate_edge_u, pose_.pivot.y())); }
 
   Normal equations(double deviation) const {
@@ -219,7 +220,8 @@ Alignment align_outlines(const AlignmentData& data, const ImageAxes& axes,
   }
   Fit fit(data, axes);
   double moved = std::numeric_limits<double>::infinity();
-  // At rest when nearest points no longer change: a hundredth of a millimetre at the image's rim.
+  // Converged when the nearest points no longer change: a hundredth of a millimetre at the rim of
+  // the image.
   for (int i = 0; i < most_iterations && !(moved < 0.01); ++i) moved = fit.step();
   const Alignment found = fit.result();
   if (!(found.used >= 0.4)) {

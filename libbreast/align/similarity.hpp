@@ -14,7 +14,7 @@ namespace breast {
 /// Simulated (u,v) in mm to mm of the image axes.
 struct Similarity {
   double scale = 1, rotation_deg = 0;  ///< from u towards v
-  Vec2 shift{0, 0};                    ///< mm, where (u,v) = (0,0) goes
+  Vec2 shift{0, 0};                    ///< image of (u,v) = (0,0), mm
 
   Vec2 apply(const Vec2& uv) const;
   Vec2 invert(const Vec2& mm) const;
@@ -45,11 +45,11 @@ struct Alignment {
 };
 
 /// Least squares over the distances of the simulated outline from the real one (Huber beyond twice
-/// their spread, which is estimated along), the nipple (2 mm when marked, the most anterior part
-/// 5 mm), the chest-wall edge (parallel within 3°, its place within 10 mm) and the scale (within
-/// 5 %), by Gauss–Newton with new nearest points every step. Throws Error (input) beginning with
-/// `where` if less than 40 % of the simulated outline lies within the image or the fit does not
-/// converge.
+/// their spread, which is estimated at the same time), the nipple (2 mm if marked; 5 mm for the
+/// most anterior part otherwise), the chest-wall edge (parallel within 3°, position within 10 mm)
+/// and the scale (within 5 %), by Gauss–Newton with new nearest points in every step. Throws Error
+/// (input) beginning with `where` if less than 40 % of the simulated outline lies within the image
+/// or the fit does not converge.
 Alignment align_outlines(const AlignmentData& data, const ImageAxes& axes,
                          const std::string& where);
 

@@ -33,7 +33,7 @@ const std::array<FittedParameter, 3>& fitted_parameters() {
 }
 
 std::vector<std::string> Calibration::on_bounds() const {
-  constexpr double near = 2e-3;  // twice what the search resolves
+  constexpr double near = 2e-3;  // twice the resolution of the search
   const std::array values = {size, tumour_aside, tumour_level};
   std::vector<std::string> list;
   for (std::size_t k = 0; k < values.size(); ++k) {

@@ -40,7 +40,7 @@ class Iteration {
     return residuals_(x);
   }
 
-  // Forward quotients, backward ones where the model has no answer ahead.
+  // Forward quotients; backward ones if the model has no solution ahead.
   MatrixXd differences() {
     MatrixXd jacobian(best_.residuals.size(), best_.x.size());
     for (Eigen::Index k = 0; k < best_.x.size(); ++k) {

@@ -10,7 +10,7 @@
 
 namespace breast {
 
-/// Residuals at a point, already divided by their standard deviations; nothing if the model has no
+/// Residuals at a point, divided by their standard deviations; no value if the model has no
 /// solution, such as a body without equilibrium.
 using Residuals = std::function<std::optional<Eigen::VectorXd>(const Eigen::VectorXd&)>;
 
@@ -29,8 +29,8 @@ struct LeastSquares {
   bool converged = false;
 };
 
-/// Gauss and Newton's iteration with the Jacobian by difference quotients at the start and at the end
-/// and Broyden's updates between; steps are halved until the sum of squares falls. The residuals
+/// Gauss–Newton iterations with a Jacobian from difference quotients at the start and at the end,
+/// and Broyden's updates in between. Steps are halved until the sum of squares falls. The residuals
 /// must contain a prior for every parameter that the data may not determine. Throws Error (not
 /// converged) if the model has no solution at the start.
 LeastSquares gauss_newton(const Residuals& residuals, Eigen::VectorXd start,

@@ -53,11 +53,11 @@ MechanicsOptions options_with(const MaterialSet& materials) {
   MechanicsOptions options;
   options.materials = materials;
   take_supports_of_set(options);
-  options.seek_remedy = false;  // the search meets sets without a stable answer, and goes on
+  options.seek_remedy = false;  // the search tries sets without a stable solution and continues
   return options;
 }
 
-// Leaves the mesh with its stress-free shape; false where there is none.
+// Gives the mesh its stress-free shape; returns false if there is none.
 bool unload(HexMesh& mesh, const MechanicsOptions& options) {
   const Equilibrium found = solve_backward(mesh, posture_gravity(Posture::prone), options);
   if (found.converged()) store(found, mesh);
@@ -81,7 +81,7 @@ std::optional<double> pressure_on(HexMesh mesh, const MechanicsOptions& options,
   return found.contact->plates[0].mean_kPa;
 }
 
-// Means of lateral, posterior and rib motion over the cohort, and the pressure.
+// The means of lateral, posterior and rib motion over the cohort, and the pressure.
 std::optional<std::vector<double>> model(const MaterialSet& materials, const SoftnessData& data) {
   const MechanicsOptions options = options_with(materials);
   std::vector<double> sum(3, 0.0);
@@ -99,7 +99,7 @@ std::optional<std::vector<double>> model(const MaterialSet& materials, const Sof
   return sum;
 }
 
-// The data do not know more, and a set is read by people.
+// Rounded, because the data determine no more digits and people read the set.
 double rounded(double value, int digits = 3) {
   std::ostringstream text;
   text << std::setprecision(digits) << value;

@@ -17,7 +17,7 @@ namespace breast {
 /// The unknowns: factors on a material set, and supports in kPa/mm.
 struct Softness {
   double low_order = 0.03;  ///< on the constants of polynomial laws that are linear in I1 and I2
-  double quadratic = 0.3;   ///< on the others
+  double quadratic = 0.3;   ///< on the other constants
   double skin = 1;          ///< on the law of skin
   double wall = 0.01, cut = 0.01;
 
@@ -47,7 +47,7 @@ struct SoftnessData {
   int women = 63;
   Observed pressure{"pressure_kPa", 10, 2.5};  ///< of the paddle on `pressed`
   CompressionOptions press;                    ///< how `pressed` is compressed
-  Softness expected;                           ///< of the prior
+  Softness expected;                           ///< centre of the prior
   double expected_ln_sd = 1.1;                 ///< a factor of three either way
 };
 
@@ -56,12 +56,12 @@ struct SoftnessFound {
   LeastSquares fit;
   std::vector<Observed> wanted;  ///< targets, with the standard deviations used as weights
   std::vector<double> found;     ///< resulting means of the cohort, and the resulting pressure
-  MaterialSet materials;         ///< with the uncertainty
+  MaterialSet materials;         ///< with its uncertainty
 };
 
 /// Least squares in the logarithms of Softness. A mean over n breasts is weighted by the standard
-/// error of its difference from the women's, sd √(1/women + 1/n). Throws Error (not converged) when
-/// the expected softness gives no equilibrium.
+/// error of its difference from the women's mean, sd √(1/women + 1/n). Throws Error (not converged)
+/// if there is no equilibrium with the expected softness.
 SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& data,
                                  Progress& progress = no_progress());
 

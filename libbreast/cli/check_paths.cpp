@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What can be told about the files of a command before any of them is opened.
+// Checks of the files of a command that are possible before any of them is opened.
 #include <unistd.h>
 
 #include <algorithm>

@@ -52,7 +52,8 @@ std::string usage(const Argument& argument);
 std::string help_text(const Declaration& tool);
 std::string help_man(const Declaration& tool);
 std::string help_markdown(const Declaration& tool);
-/// For a shell's completion: "--name<TAB>kind<TAB>choice choice" a line for every long option; kind is flag, file or value.
+/// For the completion in a shell: one line "--name<TAB>kind<TAB>choice choice" per long option,
+/// where kind is flag, file or value.
 std::string help_completion(const Declaration& tool);
 
 /// The candidate with the smallest edit distance if it is small enough for a typing error,

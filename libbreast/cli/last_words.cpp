@@ -47,7 +47,7 @@ void end_crashed(int fault) {
 }  // namespace
 
 void end_with(const char* reason) noexcept {
-  // A child that was forked to read or to draw says nothing: its parent does.
+  // A child process that was forked to read or to draw prints nothing: its parent does.
   if (getpid() != program) _exit(1);
   const int user = message_descriptor();
   const auto put = [user](const char* part) {

@@ -24,7 +24,7 @@ void at_exit() {
   end_with("a library ended the program");
 }
 
-// 64 kB that do not grow: a write beyond them fails, and nobody minds.
+// A buffer of 64 kB that does not grow: a write beyond it fails, which does no harm.
 int little_memory() {
   constexpr off_t size = 1 << 16;
   const int file = memfd_create("words of libraries", MFD_CLOEXEC | MFD_ALLOW_SEALING);

@@ -22,8 +22,8 @@ class LibraryWords {
 /// Descriptor of the user's stderr, as it was when the program started.
 int message_descriptor() noexcept;
 
-/// Copies the last line that a library printed, control characters as '?'; an empty text when there is none. It may be
-/// called in a signal handler.
+/// Copies the last line that a library printed, with control characters replaced by '?'; an empty
+/// text if there is none. A signal handler may call it.
 void copy_last_library_line(char* text, std::size_t size) noexcept;
 
 }  // namespace breast

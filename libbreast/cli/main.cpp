@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A tool's run: questions, parsing, checks, body, report, exit code.
+// The run of a tool: questions such as --help, parsing, checks, body, report, exit code.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -20,13 +20,13 @@ namespace breast {
 
 namespace {
 
-// Before main(): a tool's own options may be what does not fit in memory.
+// Runs before main(), because the tool's own options may be what does not fit in memory.
 [[maybe_unused]] const bool prepared = has_preflight() && have_last_words();
 
 std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
-  // Whatever of a file's content a message quotes: no terminal obeys it.
+  // Text from a file that a message quotes must not contain control sequences for the terminal.
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
   return text;
@@ -110,7 +110,7 @@ std::vector<std::string> input_names(const Declaration& tool, const Tokens& toke
 void write_report(const std::filesystem::path& file, Run& run, const Outcome& outcome, const Tokens& tokens) {
   Report& report = run.report();
   if (outcome.exit_code != 0) {
-    // A solve that did not converge has typed its reason already.
+    // A solve that did not converge has already recorded its typed reason.
     const bool typed = outcome.exit_code == 3 && report.contains("explanation");
     if (!typed) {
       report.set("status", outcome.status);

@@ -12,9 +12,10 @@ namespace breast {
 
 namespace {
 
-// Below these a number is far likelier in another unit than meant: a fraction for a percentage (the
-// softest row of the paper's tables is 10 percent), m/s2 or multiples of the earth's gravity for
-// mm/s2 (50 mm/s2, a two-hundredth of the earth's, moves a breast by a tenth of a millimetre).
+// Numbers below these limits are much more likely to be in another unit than intended: a fraction
+// instead of a percentage (the softest row of the paper's tables is 10 percent), m/s2 or multiples
+// of the earth's gravity instead of mm/s2 (50 mm/s2, a two-hundredth of the earth's gravity, moves
+// a breast by a tenth of a millimetre).
 constexpr double least_scale_percent = 10;
 constexpr double least_gravity_mm_s2 = 50;
 

@@ -16,10 +16,10 @@ struct MechanicsChoices {
   std::string element = "q1p0";          ///< q1p0 | q2p1
   std::string invariants = "isochoric";  ///< isochoric | plain
   std::optional<double> bulk_ratio;      ///< K/μ; none: exactly incompressible
-  std::string wall, cut;                 ///< empty: as the material set says
+  std::string wall, cut;                 ///< empty: those of the material set
   std::optional<double> skin_compression, skin_smoothing, skin_prestretch;
   std::string solver = "auto";           ///< auto | direct
-  bool keep_unconverged = false;         ///< write the file even so, its status saying so
+  bool keep_unconverged = false;         ///< write the file even if not converged, with this status
 };
 
 void declare_mechanics(Tool& tool, MechanicsChoices& choices);

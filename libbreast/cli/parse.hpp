@@ -19,7 +19,7 @@ struct Tokens {
   };
   std::vector<Option> options;
   std::vector<std::string> unknown;  ///< undeclared options
-  std::string problem;               ///< other parse trouble, empty when none
+  std::string problem;               ///< another error in the command line, empty if none
 };
 /// Splits the command line by the declared names (CLI11).
 Tokens tokenize(const Declaration& tool, const std::vector<std::string>& arguments);
@@ -27,8 +27,8 @@ Tokens tokenize(const Declaration& tool, const std::vector<std::string>& argumen
 /// The option or common option of that name; null if it was not declared.
 Argument* find_option(Declaration& tool, const std::string& label);
 
-/// Checks kinds, ranges, choices and counts and stores the values; throws Error (input) saying what
-/// was given and what is valid.
+/// Checks kinds, ranges, choices and counts and stores the values; throws Error (input) that states
+/// the given value and the valid ones.
 void assign(Declaration& tool, const Tokens& tokens);
 
 /// Checks that inputs exist, are files or folders and are readable, and that outputs have an

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Limits of the process (ulimit) that are too small for the libraries to start: said in one line before they are
-// loaded. OpenBLAS, which takes memory for every thread when it is loaded, tries for ever when there is none.
+// Checks for limits of the process (ulimit) that are too small for the libraries to start; the
+// message is one line printed before they are loaded. OpenBLAS, which allocates memory for every
+// thread when it is loaded, retries for ever if there is none.
 #include "cli/preflight.hpp"
 
 #include <sched.h>
@@ -43,7 +44,7 @@ rlim_t mapped_mb() {
   return rlim_t(pages) * rlim_t(sysconf(_SC_PAGESIZE)) / mb;
 }
 
-// The dynamic loader calls it before any library's own start.
+// The dynamic loader calls this before the initialisation of any library.
 void check_limits(int, char** argv, char**) {
   rlimit limit{};
   const char* name = argv[0];

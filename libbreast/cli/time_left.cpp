@@ -28,7 +28,7 @@ std::optional<double> TimeLeft::update(std::string_view stage, double fraction, 
   }
   stage_ = stage;
   samples_.push_back({now, fraction});
-  // The beginning and the end are kept, what lies between thinned.
+  // The beginning and the end are kept; the reports between are thinned.
   if (samples_.size() > most_samples) {
     for (std::size_t i = 1; i + 1 < samples_.size(); ++i)
       samples_.erase(samples_.begin() + long(i));

@@ -83,7 +83,7 @@ class Tool {
                const std::string& help, const std::vector<std::string>& more_endings = {});
   /// A positional that is not (always) a file: a name, or a choice the tool resolves itself.
   Tool& word(std::string& value, const std::string& placeholder, const std::string& help);
-  /// One or more of them; only as the last positional.
+  /// One or more values; only as the last positional argument.
   Tool& words(std::vector<std::string>& values, const std::string& placeholder,
               const std::string& help);
 

@@ -28,8 +28,8 @@ struct Tool::Impl {
     return declaration.positionals.back();
   }
   void declare_common();
-  /// Answers --help, --version and the hidden --help-man, --help-markdown, --help-completion;
-  /// true when one was asked for.
+  /// Answers --help, --version and the hidden --help-man, --help-markdown, --help-completion; true
+  /// if one of them was given.
   bool answer_questions(const std::vector<std::string>& arguments) const;
 };
 

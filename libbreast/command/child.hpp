@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Starting of programs by `breast`: a tool replaces the process, make runs as a child.
+// Execution of programs by `breast`: a tool replaces the process, make runs as a child.
 #pragma once
 
 #include <filesystem>

@@ -10,7 +10,7 @@
 
 namespace breast {
 
-/// run, demo, cohort, list, help.
+/// Names of the commands: run, demo, cohort, list, help.
 std::vector<std::string> command_names();
 bool is_pipeline_command(const std::string& name);
 
@@ -19,7 +19,7 @@ Declaration breast_declaration();
 
 /// Lines of "NAME  summary".
 std::string tool_list(const Installation& installation);
-/// What `breast help` prints.
+/// The output of `breast help`.
 std::string overview(const Installation& installation);
 
 /// "'segmnt' is neither a command nor a tool; did you mean 'segment'?", with up to three names.

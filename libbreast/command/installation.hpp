@@ -22,8 +22,9 @@ struct Installation {
   std::vector<std::string> tool_names() const;
 };
 
-/// PREFIX/libexec/breast and PREFIX/share/breast of a program PREFIX/bin/breast; in a build tree, the program's own folder and
-/// the source tree three folders up. `built` are all tools of the build. Throws Error (failed) where neither is found.
+/// The installation of a program PREFIX/bin/breast is PREFIX/libexec/breast and
+/// PREFIX/share/breast; in a build tree it is the program's own folder and the source tree three
+/// folders up. `built` are all tools of the build. Throws Error (failed) if neither is found.
 Installation find_installation(const std::filesystem::path& program,
                                const std::vector<ToolEntry>& built);
 

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Of pipelines/check-settings.mk: shell_characters and name_characters.
+// The character sets shell_characters and name_characters of pipelines/check-settings.mk.
 const std::string refused = "$`;&|<>(){}[]*?!\"'\\^#=:%~";
 
 // Length of the valid UTF-8 character at `at`, 0 when there is none.
@@ -36,7 +36,7 @@ bool plain_byte(char c) {
   return std::uint8_t(c) > ' ' && c != 0x7f && refused.find(c) == std::string::npos;
 }
 
-// The same for the same file; told apart from those of other files.
+// A name that is the same for the same file and differs from those of other files.
 std::string mark_of(const fs::path& file) {
   std::uint64_t hash = 1469598103934665603u;  // FNV-1a
   for (const char c : file.string()) hash = (hash ^ std::uint8_t(c)) * 1099511628211u;
@@ -53,7 +53,7 @@ void link_to(const fs::path& target, const fs::path& link) {
   fs::create_symlink(target, link);
 }
 
-// A folder of links to the files of `folder`, numbered where a name is not plain.
+// A folder of links to the files of `folder`, which are numbered if a name is not plain.
 void link_files(const fs::path& folder, const fs::path& links) {
   std::set<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))

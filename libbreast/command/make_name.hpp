@@ -15,10 +15,12 @@ bool plain_for_make(const std::string& path);
 /// `name` with every character that is not plain replaced by an underscore.
 std::string plain_name(const std::string& name);
 
-/// A path of `given` for make, run in the present folder: as given, or relative to that folder, where that is plain; else a link in
-/// `links`, which is created: of a file or folder whose own name is plain the folder above it is linked (a detached header
-/// keeps its data beside it). A folder with a file whose name is not plain (slices of a scan) is linked file by file. The link is the
-/// same whenever the file is. Throws Error (input) for a detached header whose own name is not plain, and where `given` does not exist.
+/// A path of `given` for make, run in the present folder. It is `given` itself, or relative to that
+/// folder, if that is plain; otherwise it is a link in `links`, which is created. If a file or
+/// folder has a plain name of its own, the folder above it is linked (so that a detached header
+/// keeps its data beside it). A folder that contains a file with a name that is not plain (slices
+/// of a scan) is linked file by file. The link is the same whenever the file is. Throws Error
+/// (input) for a detached header with a name that is not plain, and if `given` does not exist.
 std::string name_for_make(const std::filesystem::path& given, const std::filesystem::path& links);
 
 }  // namespace breast

@@ -25,7 +25,7 @@ const std::set<std::string> path_settings = {
     "CHEST_WALL", "MATERIALS", "TUMOUR",  "CASE_FILE", "STUDY",   "SEGMENT", "FIT_HERMITE",
     "HEXMESH",    "BACKWARD",  "FORWARD", "COMPRESS",  "PROJECT", "CC2MLO"};
 
-// The folder of all runs as make may name it.
+// The folder of all runs under a name that make can handle.
 std::string runs_for_make(const std::string& runs) {
   const fs::path whole = fs::weakly_canonical(fs::absolute(runs));
   std::string name;
@@ -42,7 +42,8 @@ std::string runs_for_make(const std::string& runs) {
   fs::create_directories(name, problem);
   if (!fs::is_directory(name))
     throw input_error("--runs '", runs, "': is not a folder and cannot be created");
-  // Tried, not asked: root may do everything, and still cannot write to /proc.
+  // Tested by writing rather than by permissions, because root has all permissions and still cannot
+  // write to /proc.
   const fs::path links = fs::path(name) / ".names";
   if (!fs::is_directory(links)) {
     if (!fs::create_directory(links, problem))
@@ -52,7 +53,7 @@ std::string runs_for_make(const std::string& runs) {
   return name;
 }
 
-// Every setting as make takes it, links made where a file's name needs one.
+// Every setting in the form that make accepts, with links where the name of a file needs one.
 std::vector<std::string> settings_for_make(const PipelineRequest& r, const std::string& runs) {
   const fs::path links = fs::path(runs) / ".names";
   std::vector<std::string> words{"RUNS=" + runs};
@@ -67,7 +68,8 @@ std::vector<std::string> settings_for_make(const PipelineRequest& r, const std::
   return words;
 }
 
-// "pipelines/check-settings.mk:47: *** SIDES: no such setting.  Stop." without what is make's own.
+// Shortens "pipelines/check-settings.mk:47: *** SIDES: no such setting. Stop." to the message
+// without make's additions.
 std::string refusal(const Captured& made) {
   std::istringstream lines(made.err);
   std::string line, last;
@@ -94,7 +96,7 @@ std::string refusal(const Captured& made) {
          "targets";
 }
 
-// What make prints for `words`; its refusal is thrown.
+// The output of make for `words`; throws if make refuses.
 std::string ask(const std::vector<std::string>& words) {
   const Captured made = capture_child(words);
   if (made.exit_code != 0) throw input_error(refusal(made));
@@ -105,7 +107,7 @@ std::string make_file(const Installation& installation) {
   const fs::path& file = installation.pipeline;
   if (!fs::exists(file))
     throw failed_error(file.string(), " does not exist: the pipeline is not installed");
-  // In the source tree itself it is called as the README does, so that both ways share their runs.
+  // In the source tree it is called as in the README, so that both ways share their runs.
   std::error_code none;
   const std::string name = fs::equivalent(file.parent_path(), fs::current_path(), none)
                                ? file.filename().string()
@@ -127,7 +129,8 @@ void print(const std::string& text) {
     throw failed_error("stdout cannot be written");
 }
 
-// Runs the stages. The summary shows itself when it is made; one that was up to date is shown here.
+// Runs the stages. A new summary is printed when it is made; one that was up to date is printed
+// here.
 int make_and_show(const std::vector<std::string>& words, const std::string& run) {
   const fs::path table = fs::path(run) / "summary.txt";
   const auto before = written(table);

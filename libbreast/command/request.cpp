@@ -114,7 +114,7 @@ void declare_demo(Declaration& d, PipelineRequest& r) {
                  "a tiny breast, in about a minute"}};
 }
 
-// What a job asks of the cluster: a setting of the pipeline each.
+// The resources that a job requests from the cluster, each as a setting of the pipeline.
 void declare_request(Declaration& d, PipelineRequest& r, const std::string& name,
                      const std::string& placeholder, const std::string& help) {
   std::string setting = "CLUSTER_";
@@ -179,7 +179,8 @@ Declaration declare(const std::string& name, PipelineRequest& r) {
   return d;
 }
 
-// SETTING=value words leave the tokens. The first word may be SCAN or DIR, whatever its name.
+// Removes SETTING=value words from the tokens. The first word may be SCAN or DIR, whatever its
+// name.
 void take_settings(Tokens& tokens, bool scan_first, std::map<std::string, std::string>& settings) {
   std::vector<std::string> rest;
   for (const std::string& word : tokens.positionals) {

@@ -12,12 +12,12 @@ namespace breast {
 
 struct PipelineRequest {
   std::string command;  ///< run, demo or cohort
-  std::string scan;     ///< of run: a file or folder; of cohort: the folder of case files
-  std::string side;     ///< left, right, or empty: not given
+  std::string scan;     ///< for run a file or folder, for cohort the folder of case files
+  std::string side;     ///< left, right, or empty if not given
   std::string runs = "runs", target = "summary";
   int jobs = 1;
   bool plan = false;
-  bool slurm = false, local = false;  ///< of cohort: a job array, or processes of this machine
+  bool slurm = false, local = false;  ///< for cohort: a job array, or processes on this machine
   std::map<std::string, std::string> settings;  ///< given as SETTING=value
 };
 
@@ -25,7 +25,8 @@ struct PipelineRequest {
 /// Throws Error (failed) for another name.
 Declaration pipeline_command(const std::string& name);
 
-/// Throws Error (input) for an unknown option, a word too many, a setting given twice, a side that is missing or contradicted.
+/// Throws Error (input) for an unknown option, a superfluous word, a setting given twice, or a side
+/// that is missing or contradicted.
 PipelineRequest parse_request(const std::string& command,
                               const std::vector<std::string>& arguments);
 

@@ -22,7 +22,7 @@ namespace breast {
 
 namespace {
 
-/// The contact solver needs a factor.
+/// The contact solver needs a Cholesky factor.
 MechanicsOptions by_factor(MechanicsOptions mechanics) {
   mechanics.solver = SolverOption::direct;
   return mechanics;
@@ -68,14 +68,14 @@ class Compression {
   Progress& progress_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   Scene scene_;
-  Eigen::VectorXd load_, pull_;  // weight; what a hand adds to it before it lets go
+  Eigen::VectorXd load_, pull_;  // the weight; the force that a hand adds until it lets go
   LoadedProblem body_;
   SaddleSolver solver_;
-  Eigen::VectorXd upright_;  // the breast as it hangs before it is lifted
+  Eigen::VectorXd upright_;  // the hanging breast before it is lifted
   CompressionResult found_;
 };
 
-/// Loads the body alone, in steps when one does not converge. `name` is that of the load.
+/// Loads the body alone, in steps if one step does not converge. `name` is the name of the load.
 bool Compression::load_with(const Eigen::VectorXd& load, const char* name, State& state) {
   Timer::Scope phase(found_.timer, name);
   SaddleMatrix matrix = body_.problem.make_matrix();
@@ -110,14 +110,14 @@ CompressionTarget Compression::target() const {
   return target;
 }
 
-/// When the hand lets go of a lifted breast.
+/// The reductions at which the hand releases a lifted breast.
 Grip Compression::grip() const {
   const std::optional<double> thickness = thickness_in(target());
   if (!thickness) return grip_before_any_force();
   return grip_before(1 - *thickness / found_.plates.initial_thickness, !options_.or_at.empty());
 }
 
-/// Where the breast is lifted its weight comes back while the plates grip it.
+/// If the breast is lifted, its weight returns while the plates grip it.
 PathOptions Compression::path_options() {
   PathOptions path = options_.path;
   if (options_.positioning == Positioning::hanging) return path;
@@ -132,8 +132,8 @@ PathOptions Compression::path_options() {
   return path;
 }
 
-/// Whether nothing but the plates holds the breast at the end of the path; says so when a hand still
-/// does, for then it is no compression.
+/// Whether only the plates hold the breast at the end of the path. If a hand still does, this is
+/// not a compression, and the result says so.
 bool Compression::has_let_go(const State& state) {
   if (options_.positioning == Positioning::hanging) return true;
   const double reduction = 1 - found_.path.thickness / found_.plates.initial_thickness;
@@ -195,8 +195,8 @@ void Compression::close_plates(State& state) {
   say_how_it_ended(state);
 }
 
-/// The tangent of the final state with its touching nodes held, the turning
-/// of their forces included.
+/// The tangent of the final state with its touching nodes constrained, including the rotation of
+/// their forces.
 void Compression::check_stability(const State& state, const ContactSolver& contact) {
   Timer::Scope phase(found_.timer, "stability");
   SaddleMatrix matrix = body_.problem.make_matrix();
@@ -207,8 +207,9 @@ void Compression::check_stability(const State& state, const ContactSolver& conta
   if (!found_.stable) found_.doubts.push_back(unknown_stability);
 }
 
-/// Discretisation error of the final state, the touching set held. Faces that roll on plates have no
-/// such set: steps towards a richer mesh were wrong by factors of three either way (validation).
+/// Discretisation error of the final state with a fixed touching set. Faces that roll on plates
+/// have no such set: for them, steps towards a richer mesh were wrong by factors of three either
+/// way (docs/validation).
 void Compression::estimate(const State& state, const ChosenContact& contact) {
   if (contact.surface != nullptr) {
     found_.error_estimate_how =
@@ -252,12 +253,12 @@ void Compression::say_how_it_ended(const State& state) {
   judge_against_practice();
 }
 
-/// Fraction of the way to the target.
+/// Completed fraction of the path to the target.
 double Compression::load_reached() const {
   return part_of_way(found_.path.points.back(), target(), found_.initial_thickness_mm);
 }
 
-/// The result against clinical ranges, then how it was found.
+/// Compares the result with clinical ranges, then adds comments on the path.
 void Compression::judge_against_practice() {
   found_.judgement = judge_compression(
       *found_.contact,
@@ -298,8 +299,8 @@ void Compression::note_stage(const char* name, const State& state) {
   found_.stages.push_back(positioning_stage(name, mesh_, upright_, state.x, found_.plates.paddle));
 }
 
-/// A lifted breast takes on its stress-free shape, there the plates begin, and the hand pulls it
-/// forwards. False when it cannot be pulled so.
+/// Gives a lifted breast its stress-free shape, places the plates there and pulls the breast
+/// forwards by the hand. Returns false if no equilibrium under the pull is found.
 bool Compression::lift(State& state) {
   if (options_.positioning == Positioning::hanging) return true;
   state = scene_.at_rest(flatten(mesh_.reference));

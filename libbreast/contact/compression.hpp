@@ -28,7 +28,7 @@ struct CompressionOptions {
   double angle_deg = 0;  ///< beam angle θ
   StopAt stop_at = StopAt::reduction;
   double target = 50;  ///< mm, %, N, kPa or cm²
-  std::vector<CompressionStop> or_at = {};  ///< further ones: the first that is reached ends the path
+  std::vector<CompressionStop> or_at = {};  ///< further targets; the first that is reached ends the path
   PlateOptions plates;
   Vec3 gravity{0, 0, -9810};  ///< mm/s², LPS
   ContactMethod method = ContactMethod::active_set;

@@ -17,7 +17,7 @@ double percent(double part, double whole) {
   return 100 * part / whole;
 }
 
-/// Of an element that is fat or fibroglandular, the fraction that is fibroglandular.
+/// The fibroglandular fraction of an element of fat or fibroglandular tissue.
 double gland_of(const HexMesh& mesh, int element) {
   const auto e = static_cast<std::size_t>(element);
   if (!mesh.fibroglandular_fraction.empty()) return double(mesh.fibroglandular_fraction[e]);

@@ -19,7 +19,7 @@ std::vector<HexShape> gauss_shapes(int order) {
   return shapes;
 }
 
-/// F = ∂x/∂X of an element at a point.
+/// The deformation gradient F = ∂x/∂X of an element at a point.
 Mat3 deformation_gradient(const HexMesh& mesh, const Eigen::VectorXd& x, int element,
                           const HexShape& shape) {
   Mat3 now = Mat3::Zero(), before = Mat3::Zero();

@@ -18,7 +18,7 @@ Vec3 centre(const HexMesh& mesh, const Eigen::VectorXd& x, int element) {
   return sum / 8;
 }
 
-/// What an element is caught between.
+/// The parts of the scene between which an element is caught.
 StopReason surroundings(const HexMesh& mesh, const Eigen::VectorXd& x, int element,
                         const PlatePair& plates) {
   const std::vector<int> wall_list = nodes_of(mesh, mesh.pectoral_faces);

@@ -10,7 +10,7 @@ namespace breast {
 
 namespace {
 
-/// A range of clinical practice and where it comes from.
+/// A range of clinical practice and its source.
 struct Range {
   const char* id;
   const char* name;
@@ -25,15 +25,16 @@ constexpr Range thickness_range{
     35,          70,          "means: CC 44 mm, MLO 48 mm, Helvie; MLO 62 mm, UK 2022"};
 constexpr Range reduction_range{"reduction", "reduction", "%", 35, 55, "VICTRE 45-51 %"};
 
-/// A plate may pass this part of the smaller plate's force on to wall and cut before the two are
-/// called unbalanced, and always this much.
+/// The plates are called unbalanced if one of them transfers more than this fraction of the smaller
+/// plate's force, and more than this force, to wall and cut.
 constexpr double wall_part = 0.25, wall_least_N = 10;
-/// More than this part of the force on the rounded edge: the flat hardly does the compressing.
+/// If more than this fraction of the force acts on the rounded edge, the flat part hardly
+/// compresses.
 constexpr double most_on_edge = 0.5;
 constexpr double deepest_penetration_mm = 0.05, largest_volume_error = 1e-6;
-/// Of faces that touch others, and of skin in the chest wall: less than the mesh resolves.
+/// Self-contact and penetration of the chest wall below these values are not resolved by the mesh.
 constexpr double largest_self_contact_cm2 = 0.5, deepest_in_thorax_mm = 1;
-/// Of the bounds of friction, relative: beyond this their error is seen in the forces.
+/// Relative error of the friction bounds above which the forces are visibly affected.
 constexpr double largest_friction_lag = 0.02;
 
 double shown(double value) {
@@ -41,7 +42,7 @@ double shown(double value) {
 }
 
 Judgement judge(const Range& range, double value) {
-  // Not a number is never within.
+  // A value that is not a number is never within the range.
   const bool low = value < range.low, within = value >= range.low && value <= range.high;
   const std::string verdict = within ? "within" : low ? "below" : "above";
   return {std::string(range.id) + "_" + verdict,
@@ -75,7 +76,7 @@ void judge_plate(const PlateRecord& plate, std::vector<Judgement>& list) {
             plate.mean_kPa));
 }
 
-/// Sensors under the plate read far less on the breast itself than force over area says.
+/// Pressure sensors under the plate read far less on the breast itself than force divided by area.
 Judgement against_sensors(const ContactRecord& contact, const PressedState& state) {
   const double on_edge = state.places.empty() ? 0 : state.places.front().edge_part;
   const bool cc = contact.view == View::cc;
@@ -106,7 +107,7 @@ Judgement judge_volume(double error) {
           !good};
 }
 
-/// Nothing keeps the breast out of itself and of the chest wall beside its base.
+/// The model does not prevent the breast from penetrating itself or the chest wall beside its base.
 void judge_self_contact(const SelfContact& self, std::vector<Judgement>& list) {
   if (self.itself_cm2 > largest_self_contact_cm2) {
     list.push_back({"touches_itself",
@@ -123,12 +124,12 @@ void judge_self_contact(const SelfContact& self, std::vector<Judgement>& list) {
   }
 }
 
-/// The option that says how far the plates stand from the wall.
+/// The option that sets the distance of the plates from the wall.
 std::string placing_option(const ContactRecord& contact) {
   return contact.ends_image ? "--image-edge" : "--standoff";
 }
 
-/// A thickness between flats means little where the flats carry little of the force.
+/// A thickness between the flat parts means little if these carry little of the force.
 Judgement judge_edge(const PlateRecord& plate, const PressedPlace& where,
                      const std::string& placing) {
   const bool much = !(where.edge_part <= most_on_edge);
@@ -146,8 +147,8 @@ std::string place(const PressedPlace& where) {
                  " mm from the chest wall or cut");
 }
 
-/// What the plates' forces differ by is weight and wall. The weight is the breast's own; what the
-/// wall carries beyond it a plate presses into wall or cut, through the breast.
+/// The forces of the plates differ by the weight of the breast and the reaction of the wall. A
+/// reaction beyond the weight means that a plate presses on wall or cut through the breast.
 Judgement judge_balance(const ContactRecord& contact, const PressedState& state) {
   const PlateRecord &paddle = contact.plates[0], &detector = contact.plates[1];
   const double weight = state.weight_N.dot(state.beam);
@@ -222,8 +223,10 @@ std::vector<Judgement> judge_path(const PathResult& path, bool stable) {
   }
   if (path.passed_by) {
     list.push_back({"ends_past_target",
-                    message("the ", target_name(path.met.kind), " is ", *path.passed_by, ", past its target of ",
-                            path.met.value, ": the hand that lifts the breast had not let go before"),
+                    message("the ", target_name(path.met.kind), " is ", *path.passed_by, 
+      ", beyond its target of ",
+                            path.met.value, 
+      ": the hand that lifts the breast had not let go earlier"),
                     true});
   }
   const double lag = path.final_step.friction_lag;

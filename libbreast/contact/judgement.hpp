@@ -43,8 +43,9 @@ struct PressedState {
 /// volume against the ranges of clinical practice; the share of the rounded edge; finally the
 /// balance of the plates.
 std::vector<Judgement> judge_compression(const ContactRecord& contact, const PressedState& state);
-/// Says when the quantity that ended the path is not its target at the end, tightly solved: `reached` beside the
-/// target; a doubt from a quarter on. The contact area changes by whole nodes. Nothing within 2 %.
+/// A statement if the quantity that ended the path differs from its target in the final, accurately
+/// solved state (`reached`); it is a doubt if the difference is a quarter or more, and absent
+/// within 2 %. The contact area changes by whole nodes.
 std::optional<Judgement> judge_target(const CompressionTarget& met, double reached);
 /// Comments on the closing of the plates: an indefinite tangent (a doubt unless the final state is
 /// `stable`), a snap-through past the target, friction bounds that do not follow the pressure.

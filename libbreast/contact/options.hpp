@@ -15,8 +15,8 @@ double parse_detector(const std::string& text);
 /// Distance (mm) from the chest wall, or from the front of a layer of muscle of `muscle_mm`, to the
 /// edge of the image; "auto" gives that of the view. Throws Error (input) for anything else.
 double parse_image_edge(const std::string& text, View view, double muscle_mm);
-/// Angle (degrees) by which the plates' edge is turned; nothing for "auto", where it follows from
-/// the chest wall. Throws Error (input) for anything else.
+/// Angle (degrees) by which the plates' edge is turned; no value for "auto", for which it follows
+/// from the chest wall. Throws Error (input) for anything else.
 std::optional<double> parse_turn(const std::string& text);
 
 /// The compression options as given on a command line.

@@ -17,8 +17,8 @@ std::vector<Face> free_boundary_faces(const HexMesh& mesh, const Constraints& he
 /// Boundary faces that plates may touch: skin and cut.
 std::vector<Face> touchable_faces(const HexMesh& mesh);
 
-/// Deepest penetration of the faces into the plate in shape `x` (3 per node), mm, at 5×5 points of
-/// every face, its corners included; 0 where nothing enters.
+/// Deepest penetration of the faces into the plate in the shape `x` (3 per node), mm, at 5×5 points
+/// of every face including its corners; 0 if there is none.
 double deepest_penetration(const HexMesh& mesh, const std::vector<Face>& faces,
                            const Eigen::VectorXd& x, const Plate& plate);
 

@@ -16,9 +16,9 @@ namespace breast {
 
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Sharper edges are rounded to this: on a corner the direction of a force would be undefined, mm.
+/// Smallest edge radius, mm: at a corner the direction of a force would be undefined.
 constexpr double least_edge_radius = 1.0;
-/// Stand-off unless given: this part of the breast's depth, and no more than so many mm.
+/// Default stand-off: this fraction of the breast's depth, and at most this many mm.
 constexpr double standoff_part = 1.0 / 3, most_standoff = 25;
 /// A plate must reach at least this far over the breast to compress it, mm.
 constexpr double least_depth = 5.0;
@@ -34,7 +34,7 @@ struct Extent {
   double middle() const { return 0.5 * (low + high); }
 };
 
-/// Extent along n of the skin in front of the plane a = start, faces cut exactly at that plane.
+/// Extent along n of the skin in front of the plane a = start; faces are cut exactly at that plane.
 Extent footprint_extent(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate) {
   Extent extent;
   const auto inside = [&](const Vec3& point) {
@@ -63,8 +63,8 @@ Extent footprint_extent(const HexMesh& mesh, const std::vector<Vec3>& x, const P
   return extent;
 }
 
-/// Most anterior point of the chest wall (of the muscle's front, where the mesh has muscle), or of the
-/// cut, within the plate's width.
+/// Most anterior point of the chest wall (of the front of the muscle, if the mesh has muscle) or of
+/// the cut, within the width of the plate.
 double most_anterior_wall(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate,
                           bool with_cut) {
   double wall = -infinity;
@@ -97,7 +97,7 @@ void check_options(const PlateOptions& options) {
   }
 }
 
-/// Plate coordinates that do not depend on the level: width, edge start, far edge, mid-depth.
+/// Plate coordinates that do not depend on its level: width, edge start, far edge, mid-depth.
 Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
                      const PlateOptions& options, double& wall_point) {
   Plate plate = plate_facing(pose);
@@ -129,16 +129,17 @@ Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const View
         std::max(0.0, std::floor(plate.edge_start - wall_point + depth - 4 * least_depth)));
   }
   plate.mid_depth = plate.edge_start + 0.5 * depth;
-  // Compression lengthens the breast forwards; the plate's front edge must stay ahead of it.
+  // Compression lengthens the breast forwards; the front edge of the plate must remain in front of
+  // it.
   plate.far_edge = plate.edge_start + 2 * depth + 20;
   return plate;
 }
-/// Skin behind the footprint may reach further than T0: the thickness at
-/// which nothing is penetrated.
+/// Skin behind the footprint may extend beyond T0: this is the thickness at which nothing is
+/// penetrated.
 double touching_thickness(const HexMesh& mesh, const std::vector<Vec3>& x, PlatePair pair) {
   const std::vector<int> skin = nodes_of(mesh, mesh.skin_faces);
   double thickness = pair.initial_thickness, opening = 1;
-  // Once, but for a tilted paddle, whose edge drawing back moves across the body.
+  // One pass suffices, except for a tilted paddle, whose edge moves across the body as it retreats.
   for (int k = 0; k < 20 && opening > 1e-9; ++k) {
     opening = 0;
     for (const int node : skin) {
@@ -153,12 +154,14 @@ double touching_thickness(const HexMesh& mesh, const std::vector<Vec3>& x, Plate
 }
 }  // namespace
 
-/// A point seen from the plate: height over the flat, and the way back onto the prism's outline.
+/// A point in plate coordinates: its height over the flat, and the vector to it from the outline of
+/// the prism.
 struct Plate::Place {
   Vec3 normal;
-  double height = 0;           ///< mm over the flat
-  Vec3 beyond{0, 0, 0};        ///< from the outline of the flat to the point, in its plane, mm
-  Mat3 across = Mat3::Zero();  ///< projection onto the directions in which the outline is passed
+  double height = 0;     ///< height over the flat, mm
+  Vec3 beyond{0, 0, 0};  ///< from the outline of the flat to the point, in its plane, mm
+  /// Projection onto the directions in which the point lies beyond the outline.
+  Mat3 across = Mat3::Zero();
 };
 
 Plate::Place Plate::place(const Vec3& x) const {
@@ -182,7 +185,7 @@ Plate::Place Plate::place(const Vec3& x) const {
 
 Gap Plate::gap(const Vec3& x) const {
   const Place at = place(x);
-  const double above = at.height + edge_radius;  // the swept prism's top lies a radius below
+  const double above = at.height + edge_radius;  // the top of the swept prism lies one radius lower
   if (at.beyond.isZero()) return {at.height, at.normal, Mat3::Zero()};
   const Vec3 to = at.beyond + std::max(0.0, above) * at.normal;
   const double length = to.norm();
@@ -209,7 +212,8 @@ Vec3 Plate::origin() const {
 
 void PlatePair::close_to(double thickness) {
   const double closing = initial_thickness - thickness;
-  // Half each, until the detector has risen as far as it may; the paddle does the rest.
+  // Each plate moves by one half until the detector has reached its highest position; then only the
+  // paddle moves.
   const double risen = std::min(0.5 * closing, detector_rise);
   paddle.level = paddle_start + closing - risen;
   detector.level = detector_start - risen;
@@ -257,7 +261,7 @@ PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const Vi
   }
   pair.initial_thickness = extent.size();
   pair.underside = extent.high;
-  // A detector that does not lift the breast all the way stands under it where it hangs.
+  // A detector that does not lift the breast completely stands under the hanging breast.
   const Extent unloaded = footprint_extent(mesh, mesh.reference, plate);
   const bool lifts = std::isinf(options.detector_rise) && !unloaded.empty();
   const double middle = options.middle_at.value_or((lifts ? unloaded : extent).middle());
@@ -282,7 +286,7 @@ PlatePair start_from(const PlatePair& placed, const HexMesh& mesh, const std::ve
 
 double wall_turn_deg(const HexMesh& mesh, const std::vector<Vec3>& x) {
   constexpr double most = 45;
-  Vec3 outward = Vec3::Zero();  // of the body: towards the ribs
+  Vec3 outward = Vec3::Zero();  // outward direction of the body, towards the ribs
   for (const Vec3& part : nodal_faces(mesh, mesh.pectoral_faces, flatten(x)).vector)
     outward += part;
   if (!(outward.head<2>().norm() > 0)) return 0;

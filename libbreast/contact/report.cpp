@@ -103,7 +103,7 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
 
 namespace {
 
-/// Three digits: enough to judge by; the report has them all.
+/// Three digits suffice here; the report has all of them.
 std::string brief(const Report& report, const std::string& key) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", report.number(key));

@@ -17,10 +17,10 @@ namespace breast {
 namespace {
 
 constexpr int profile_points = 10;
-/// Depth of the zone next to the plates' edge whose force is told apart, mm.
+/// Depth of the zone at the plates' edge for which the force is reported separately, mm.
 constexpr double first_zone_mm = 20;
 
-/// Distance of a point to the nearest node of chest wall and cut, mm.
+/// Distance of a point from the nearest node of chest wall and cut, mm.
 double distance_to_wall(const HexMesh& mesh, const Eigen::VectorXd& x, const Vec3& at) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto* faces : {&mesh.pectoral_faces, &mesh.cut_faces}) {
@@ -31,7 +31,7 @@ double distance_to_wall(const HexMesh& mesh, const Eigen::VectorXd& x, const Vec
   return least;
 }
 
-/// A plate's pose, and how deep the body enters it.
+/// The pose of a plate, and the depth of the body in it.
 PlateRecord pose_of(const HexMesh& mesh, const Plate& plate, const std::vector<Face>& faces,
                     const Eigen::VectorXd& x) {
   PlateRecord record;
@@ -45,7 +45,7 @@ PlateRecord pose_of(const HexMesh& mesh, const Plate& plate, const std::vector<F
   return record;
 }
 
-/// Where the plates press: points of faces, or nodes.
+/// The points on which the plates press: points of faces, or nodes.
 std::vector<PressedPoint> pressed_points(const PlatePair& plates, const Eigen::VectorXd& x,
                                          const ContactSolver& solver, const ContactStep& step) {
   if (!step.pressed.empty()) return step.pressed;
@@ -60,9 +60,10 @@ std::vector<PressedPoint> pressed_points(const PlatePair& plates, const Eigen::V
   return points;
 }
 
-/// Pressure at the nodes, kPa: a node's force over the area of the faces that may touch around it. That
-/// of all nodes under pressure is the contact area: single points of a face between nodes at rest on
-/// a plate are off it by nanometres or not.
+/// Pressure at the nodes, kPa: the force of a node divided by the area of the surrounding faces
+/// that may touch. The area of all nodes under pressure is the contact area; single points of a
+/// face between nodes at rest on a plate would not define it, because they are nanometres inside or
+/// outside the plate.
 void record_pressure(const HexMesh& mesh, const Eigen::VectorXd& x, const ContactSolver& solver,
                      CompressionResult& result) {
   const ContactStep& step = result.path.final_step;
@@ -88,8 +89,8 @@ void record_pressure(const HexMesh& mesh, const Eigen::VectorXd& x, const Contac
   }
 }
 
-/// Force, area and mean pressure of a plate, and where along its depth the force acts. Returns the
-/// force on the body, µN.
+/// Fills force, area and mean pressure of a plate, and the position of the force along its depth.
+/// Returns the force on the body, µN.
 Vec3 record_plate(const std::vector<PressedPoint>& points, int k, const Plate& plate,
                   PlateRecord& record, PressedPlace& place) {
   Vec3 force = Vec3::Zero();
@@ -175,7 +176,7 @@ void record_compression(const Scene& scene, const CompressionOptions& options, c
   const std::vector<PressedPoint> points =
       pressed_points(result.plates, state.x, solver, result.path.final_step);
   const std::vector<Face> faces = free_boundary_faces(mesh, scene.walls());
-  Vec3 total = Vec3::Zero();  // of both plates on the body, µN
+  Vec3 total = Vec3::Zero();  // force of both plates on the body, µN
   if (friction != nullptr) {
     for (const FrictionEntry& held : friction->entries()) {
       record.friction.push_back({held.node, held.plate, held.anchor, held.bound, held.stick});

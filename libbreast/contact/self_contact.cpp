@@ -14,8 +14,8 @@ namespace breast {
 
 namespace {
 
-/// Parts of the body nearer than this in front of a face touch it, mm: the plates' own accuracy, ten
-/// times.
+/// Parts of the body closer than this in front of a face count as touching it, mm: ten times the
+/// accuracy of the plates.
 constexpr double touching_mm = 0.5;
 
 double depth_in_thorax(const HexMesh& mesh, const Vec3& at) {

@@ -9,7 +9,8 @@
 
 namespace breast {
 
-/// Faces whose area counts as contact area: the skin, or all that may touch a plate in surface contact.
+/// The faces that count as contact area: the skin, or in surface contact all faces that may touch a
+/// plate.
 std::vector<Face> contact_faces(const HexMesh& mesh, bool surface_contact);
 
 /// Extent of the skin along n in the plane at the anterior coordinate a (mm); 0 if the plane meets

@@ -23,13 +23,13 @@ inline void write_text(const std::filesystem::path& target, std::string_view tex
 /// /dev/stdout.
 bool is_stream(const std::filesystem::path& target);
 
-/// A folder of results: files are written into temporary() (hidden, beside the target), commit()
-/// moves them into the target with `last` as the last one, after the target's old `last` is gone.
-/// Readers that wait for `last` never see an incomplete result. Without a commit the temporary
-/// folder is removed.
+/// A folder of results. Files are written into temporary() (hidden, beside the target); commit()
+/// moves them into the target, with `last` as the last one and after the target's old `last` was
+/// removed, so that readers that wait for `last` never see an incomplete result. Without a commit
+/// the temporary folder is removed.
 class AtomicFolder {
  public:
-  /// Makes temporary(); throws Error (input) where that is not possible, or the target holds a
+  /// Creates temporary(); throws Error (input) if this is not possible, or if the target contains a
   /// `last` of another program.
   AtomicFolder(const std::filesystem::path& target, std::string last);
   ~AtomicFolder();

@@ -7,15 +7,15 @@
 
 namespace breast {
 
-/// Sets OpenBLAS to one thread, because the order of its sums depends on the number of threads, on
-/// which results must not depend; moreover, fronts are shared among OpenMP threads, and two pools
-/// of spinning threads would compete. OpenBLAS 0.3.21 does not recognise processors newer than
-/// itself and falls back to kernels of 2004 (SSE3), which are five times slower: in that case, if
-/// the processor has AVX2 or AVX-512, its table of kernels is selected again. OPENBLAS_CORETYPE set
-/// by the user takes precedence. Call this before the first use of BLAS; later calls have no cost.
+/// Sets OpenBLAS to one thread. Results must not depend on the number of threads, but the order of
+/// OpenBLAS's sums does; moreover, fronts are shared among OpenMP threads, and two pools of
+/// spinning threads would compete. OpenBLAS 0.3.21 does not recognise processors newer than itself
+/// and falls back to kernels of 2004 (SSE3), which are five times slower: in that case, if the
+/// processor has AVX2 or AVX-512, its table of kernels is selected again. OPENBLAS_CORETYPE set by
+/// the user takes precedence. Call this before the first use of BLAS; later calls have no cost.
 void prepare_blas();
 
-/// "OpenBLAS SkylakeX" or "reference BLAS": for reports.
+/// Name of the BLAS for reports: "OpenBLAS SkylakeX" or "reference BLAS".
 std::string blas_name();
 
 }  // namespace breast

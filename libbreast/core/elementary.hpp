@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elementary functions whose results are bitwise identical on every x86-64 processor.
+// Elementary functions with results that are bitwise identical on every x86-64 processor.
 //
-// The C library chooses its exp, log, pow, sin, cos, tan, atan, acos ... by the processor it runs
-// on: the last bit differs with and without fused multiply-add. That is enough for a voxel to
-// change its label. These are a fixed sequence of additions, multiplications and divisions, in long
-// double but for the small last terms of a series: the x87 unit rounds each alike on every
-// processor and has no vector or fused form. Its 64 bits leave the result within 0.51 units in the
-// last place of the exact value (pow: 0.65 where y log x is in the hundreds).
+// The C library selects its exp, log, pow, sin, cos, tan, atan, acos ... according to the
+// processor: the last bit differs with and without fused multiply-add, which is enough for a voxel
+// to change its label. The functions here are a fixed sequence of additions, multiplications and
+// divisions in long double, except for the small last terms of a series: the x87 unit rounds them
+// in the same way on every processor and has no vector or fused form. Its 64 bits leave the result
+// within 0.51 units in the last place of the exact value (pow: 0.65 where y log x is in the
+// hundreds).
 //
-// Image and geometry stages call these only. std::sqrt, floor, hypot and cbrt are safe: they are
-// exact or have one version.
+// Image and geometry stages use only these functions. std::sqrt, floor, hypot and cbrt are safe:
+// they are exact or have one version.
 #pragma once
 
 namespace breast::elementary {

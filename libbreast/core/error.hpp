@@ -27,8 +27,8 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
-/// Anything that can be streamed, for message(): what is compiled once for a type is not compiled again
-/// for every message.
+/// Anything that can be streamed, for message(): code for a type is compiled once instead of for
+/// every message.
 class Piece {
  public:
   template <class T>
@@ -47,7 +47,7 @@ class Piece {
   const void* value_;
   void (*print_)(std::ostream&, const void*);
 };
-/// The pieces one after the other.
+/// The concatenation of the pieces.
 std::string joined(std::initializer_list<Piece> pieces);
 
 /// Message from streamed pieces: input_error("thickness ", t, " mm: must be positive").

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Execution in a child process, for libraries that a damaged file can crash, hang or make use up
-// memory.
+// Execution in a child process, for libraries that may crash, hang or use too much memory on a
+// damaged file.
 #pragma once
 
 #include <functional>

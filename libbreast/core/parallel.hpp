@@ -5,11 +5,11 @@
 
 namespace breast {
 
-/// Number of cells or nodes below which a loop of a few microseconds ends before a second thread
-/// wakes.
+/// Number of cells or nodes below which a loop takes only a few microseconds and ends before a
+/// second thread wakes.
 constexpr int worth_threads = 20000;
 
-/// 0 means all cores. Also tells OpenMP.
+/// Sets the number of threads, also for OpenMP; 0 means all cores.
 void set_threads(int threads);
 int threads();
 

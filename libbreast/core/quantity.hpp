@@ -13,13 +13,13 @@ namespace breast {
 struct Quantity {
   static constexpr int all_digits = -1;
 
-  std::string name;  ///< in a table, with its unit
-  std::string key;   ///< in a report
+  std::string name;  ///< name in a table, with its unit
+  std::string key;   ///< key in a report
   double value;
   int digits = all_digits;  ///< number of digits to print after the decimal point
 };
 
-/// A row (name, value) for each in the table, a key for each in the report.
+/// Adds a row (name, value) for each quantity to the table, and a key for each to the report.
 void tell(const std::vector<Quantity>& quantities, Table& table, Report& report);
 
 }  // namespace breast

@@ -19,7 +19,8 @@ struct Table {
   bool counted = false;        ///< true if read with its closing line "# rows N", so that nothing
                                ///< was truncated
 
-  /// Throws Error (input) beginning with the table's name and naming the columns there are.
+  /// Index of a column; throws Error (input) beginning with the table's name and listing the
+  /// existing columns if there is none.
   int column(const std::string& column) const;
   bool has(const std::string& column) const;
   const std::string& cell(std::size_t row, const std::string& column) const;
@@ -40,11 +41,11 @@ Table parse_table(const std::string& text, const std::string& name);
 void write_table(const std::filesystem::path& file, const Table& table);
 /// Shortest text that reads back to the same double.
 std::string format_number(double value);
-/// The whole text as one finite number; nothing for any other text.
+/// The whole text as one finite number; no value for any other text.
 std::optional<double> number_in(const std::string& text);
 /// The same; throws Error (input) beginning with `where`.
 double parse_number(const std::string& text, const std::string& where);
-/// Fixed decimals for people.
+/// The value with a fixed number of decimals, for display.
 std::string format_fixed(double value, int decimals);
 
 }  // namespace breast

@@ -29,8 +29,9 @@ class TemporaryFolder {
 void note_leftover(const char* folder) noexcept;
 void forget_leftover(const char* folder) noexcept;
 
-/// Removes the noted folders of this process (not those of the process it was forked from) with all that is in them.
-/// Neither allocates nor locks: it may be called in a signal handler.
+/// Removes the registered folders of this process (not those of the process from which it was
+/// forked) with all their contents. It neither allocates nor locks, so that a signal handler can
+/// call it.
 void remove_leftovers() noexcept;
 
 }  // namespace breast

@@ -11,11 +11,12 @@
 
 namespace breast {
 
-/// Elements, nodes and held nodes of a deck; `element` is its type's name.
+/// Reports elements, nodes and held nodes of an input file; `element` is the name of its element
+/// type.
 void write_report(const DeckScene& scene, const std::string& element, Report& report);
 
 /// Writes the balance of weight and `reaction` (µN), which must vanish, relative to the weight.
-/// Nothing for a scene with rollers, whose share is not in the reaction.
+/// Writes nothing for a scene with rollers, because `reaction` does not include their part.
 void write_balance(const DeckScene& scene, const Vec3& reaction, Report& report);
 
 /// Distance between two shapes of `mesh`, also as a table of one row.

@@ -13,9 +13,8 @@ namespace breast {
 /// Only elements of at most 256 bytes are kept.
 using DicomHeader = std::map<std::string, std::string>;
 
-/// Walks through all elements of a DICOM file. Returns false when the file is not
-/// DICOM at all; throws Error (input) when it is but is damaged, truncated, or in a
-/// transfer syntax we do not read.
+/// Reads all elements of a DICOM file. Returns false if the file is not DICOM at all; throws Error
+/// (input) if it is, but is damaged, truncated, or in an unsupported transfer syntax.
 bool read_dicom_header(const std::filesystem::path& file, DicomHeader& header);
 
 }  // namespace breast

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compression settings from the header of a mammogram that the simulation should imitate.
+// Compression settings from the header of a mammogram that the simulation is to reproduce.
 #pragma once
 
 #include <filesystem>

@@ -26,9 +26,9 @@ struct MammogramHeader {
 };
 
 /// Reads modality, View Position, Image Laterality, Imager Pixel Spacing, Body Part Thickness (mm),
-/// Compression Force (N), Positioner Primary Angle (its sign differs between makers and is
-/// dropped), Patient Orientation. Throws Error (input) when the file is no mammogram, or its view,
-/// side or pixel spacing are missing or not ones we know.
+/// Compression Force (N), Positioner Primary Angle (without its sign, which differs between
+/// manufacturers) and Patient Orientation. Throws Error (input) if the file is not a mammogram, or
+/// if its view, side or pixel spacing is missing or unknown.
 MammogramHeader read_mammogram_header(const std::filesystem::path& file);
 
 }  // namespace breast

@@ -11,8 +11,9 @@ namespace breast {
 struct SimulatedStudy {
   std::string modality;      ///< "MR", "MG"
   std::string patient_name;  ///< as DICOM's PN, marked as simulated
-  std::string content;       ///< of what study and series are made: same content, same UIDs
-  int instance = 1;          ///< number of the image in its series
+  /// Content from which study and series are derived: the same content gives the same UIDs.
+  std::string content;
+  int instance = 1;  ///< number of the image in its series
 };
 /// Adds modality, maker, patient, study and series; dates, times and identifying numbers stay empty.
 void add_study(DatasetBuilder& set, const SimulatedStudy& study);

@@ -22,7 +22,7 @@ class BackwardOnRanks {
         solver_(problem),
         matrix_(problem.own().make_matrix()) {}
 
-  /// From `state` to the full load, in parts when need be.
+  /// Increases the load from `state` to the full load, in parts if necessary.
   void follow(PartProblem& load, State& state);
   Equilibrium found;
 
@@ -74,7 +74,7 @@ void BackwardOnRanks::follow(PartProblem& load, State& state) {
   note_solver(solver_, found);
 }
 
-// Is the imaged shape a stable equilibrium of the unloaded shape found?
+// Whether the imaged shape is a stable equilibrium of the unloaded shape found.
 bool BackwardOnRanks::stays(const State& state, double augmentation) {
   Request request;
   request.matrix = &matrix_;

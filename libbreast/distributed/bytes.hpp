@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers and arrays of numbers as bytes, from one process to another of the same build.
+// Serialisation of numbers and arrays of numbers as bytes, for messages between processes of the
+// same build.
 #pragma once
 
 #include <cstring>
@@ -10,7 +11,8 @@
 
 namespace breast {
 
-/// What may be copied byte by byte; Eigen's small matrices are plain numbers as well.
+/// Whether a type may be copied byte by byte; small Eigen matrices consist of plain numbers as
+/// well.
 template <class T>
 inline constexpr bool plain =
     std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3> || std::is_same_v<T, Mat3>;
@@ -38,7 +40,7 @@ class ByteWriter {
   std::vector<char> bytes_;
 };
 
-/// Reads what a ByteWriter wrote, in the same order.
+/// Reads the values that a ByteWriter wrote, in the same order.
 class ByteReader {
  public:
   explicit ByteReader(const std::vector<char>& bytes) : at_(bytes.data()) {}

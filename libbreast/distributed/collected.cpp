@@ -13,7 +13,7 @@ std::vector<double> plain_vector(const Eigen::VectorXd& v) {
   return {v.data(), v.data() + v.size()};
 }
 
-// What a rank knows of the whole: its owned nodes and its elements.
+// The data of a rank that are collected: those of its owned nodes and its elements.
 std::vector<char> packed(const MeshPart& part, const State& own) {
   ByteWriter out;
   out.put(std::vector<int>(part.nodes.begin(), part.nodes.begin() + part.owned));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What forward and backward over ranks share: their options, and the way from the parts' states to
-// the answer of the whole mesh.
+// Steps that forward and backward on several ranks share: their options, and the collection of the
+// parts' states into the result for the whole mesh.
 #pragma once
 
 #include "distributed/part_problem.hpp"
@@ -9,14 +9,15 @@
 
 namespace breast {
 
-/// The same with the one solver that works over ranks. Throws Error (input) where another is asked for.
+/// `options` with the only linear solver that works on several ranks. Throws Error (input) if
+/// another solver is requested.
 MechanicsOptions options_for_ranks(const MechanicsOptions& options);
 
-/// Notes what the linear solver needed, over all ranks; collective.
+/// Adds the cost of the linear solver, over all ranks, to the summary; collective.
 void note_solver(const PartSaddle& solver, SolveSummary& summary);
 
-/// Fills the arrays of `found` on the root and judges them, see conclude in mechanics/solution.hpp;
-/// `mesh` is the whole one, read on the root. Collective.
+/// Fills the arrays of `found` on the root and assesses them (see conclude in
+/// mechanics/solution.hpp). `mesh` is the whole mesh, which is read on the root only. Collective.
 void conclude_on(const PartProblem& problem, const HexMesh& mesh, const MechanicsOptions& options,
                  const State& own, const Vec3& gravity, Equilibrium& found);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forward and backward of mechanics/mechanics.hpp on all ranks of a run. The root has the mesh and
-// gets the answer.
+// Forward and backward of mechanics/mechanics.hpp on all ranks of a run. The root rank has the mesh
+// and receives the result.
 #pragma once
 
 #include "core/progress.hpp"
@@ -10,9 +10,10 @@
 
 namespace breast {
 
-/// Collective. `mesh` is read, and the arrays of the result are filled, on the root only; its summary
-/// on all ranks. Always multigrid; no search for a remedy and no error estimate. Throws a SharedError
-/// (input) when mesh and options do not fit.
+/// Both functions are collective. `mesh` is read on the root only; the arrays of the result are
+/// filled on the root only, and its summary on all ranks. The linear solver is always multigrid;
+/// there is no search for a remedy and no error estimate. Throws a SharedError (input) if mesh and
+/// options do not fit together.
 Equilibrium solve_forward_on(const Ranks& ranks, const HexMesh& mesh, const Vec3& gravity,
                              const MechanicsOptions& options, Progress& progress);
 Equilibrium solve_backward_on(const Ranks& ranks, const HexMesh& mesh, const Vec3& gravity,

@@ -24,7 +24,7 @@ class ForwardOnRanks {
         solver_(problem),
         matrix_(problem.own().make_matrix()) {}
 
-  /// Follows the load from `state`; on success that is the equilibrium.
+  /// Increases the load from `state`; on success, `state` is the equilibrium.
   void follow(PartProblem& load, State& state);
   Equilibrium found;
 
@@ -91,8 +91,8 @@ bool ForwardOnRanks::definite(const State& state, double augmentation) {
          solver_.positive_definite();
 }
 
-// The last levels tell, of a state next to it. The augmentation that suits them need not hold what
-// incompressibility holds.
+// The last multigrid levels show this, for a neighbouring state. The augmentation that suits them
+// does not necessarily preserve volumes as well as incompressibility does.
 void ForwardOnRanks::judge(const State& state) {
   Timer::Scope phase(found.timer, "stability");
   found.stable = (solver_.factorisations() > 0 && solver_.positive_definite()) ||

@@ -12,7 +12,7 @@ namespace breast {
 
 namespace {
 
-// What the root knows of the whole mesh before it cuts it.
+// The root's data about the whole mesh before it is divided.
 struct Whole {
   const HexMesh& mesh;
   const MechanicsOptions& options;
@@ -43,8 +43,8 @@ Whole look_at(const HexMesh& mesh, const MechanicsOptions& options, int parts) {
   return whole;
 }
 
-// Springs stand at nodes, with the area and the normal of all faces there: of areas every part adds
-// its share, of normals it cannot.
+// Springs are attached to nodes, with the area and the normal of all faces there. Every part adds
+// its share of the areas, but normals cannot be added in this way.
 void check(const HexMesh& mesh, const MechanicsOptions& options) {
   const bool surface = mesh.geometry && mesh.geometry->thorax;
   if (options.wall.kind == WallKind::spring && !surface) {
@@ -95,7 +95,7 @@ void number_nodes(const Whole& whole, int rank, MeshPart& part) {
   part.nodes.insert(part.nodes.end(), others.begin(), others.end());
 }
 
-// Both sides list a shared node in the order of the whole mesh.
+// Both ranks list shared nodes in the order of the whole mesh.
 void note_shared(const Whole& whole, int rank, const std::vector<int>& local, MeshPart& part) {
   std::vector<int> ascending = part.nodes;
   std::sort(ascending.begin(), ascending.end());

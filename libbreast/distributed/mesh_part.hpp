@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part of a mesh that one rank solves: its elements, their nodes, and who else has those nodes.
-// Every element belongs to one rank; every node is owned by the lowest rank that has an element at it.
+// The part of a mesh that one rank solves: its elements, their nodes, and the other ranks that have
+// these nodes. Every element belongs to one rank; every node is owned by the lowest rank that has
+// an element at it.
 #pragma once
 
 #include <memory>
@@ -13,36 +14,40 @@
 
 namespace breast {
 
-/// The nodes this rank has in common with another, in the order both agree on.
+/// The nodes that this rank has in common with another, in an order on which both agree.
 struct SharedNodes {
   int rank = 0;
   std::vector<int> nodes;  ///< of this part
 };
 
-/// A node that something holds, the same on every rank that has it.
+/// A constrained node; the constraint is the same on every rank that has the node.
 struct HeldNode {
   int node = 0;  ///< of this part
   NodeConstraint constraint;
 };
 
 struct MeshPart {
-  /// Elements, nodes and face sets of the part; owned nodes come first. The faces of a set that lie
-  /// on other ranks' elements are missing, also where their nodes are present.
+  /// Elements, nodes and face sets of the part; owned nodes come first. Faces on elements of other
+  /// ranks are missing from the sets, even if this part has their nodes.
   HexMesh mesh;
-  int owned = 0;                     ///< nodes
-  std::vector<int> nodes, elements;  ///< their numbers in the whole mesh
-  std::vector<SharedNodes> shared;   ///< by rank, ascending
-  std::vector<HeldNode> held;        ///< by wall and cut, of the whole mesh's face sets
-  std::vector<int> sliding;          ///< nodes of the chest wall, ascending; empty where it is held
-  std::shared_ptr<const LevelSurface> wall;  ///< null: the mesh has none
+  int owned = 0;  ///< number of owned nodes
+  /// Numbers of this part's nodes and elements in the whole mesh.
+  std::vector<int> nodes, elements;
+  std::vector<SharedNodes> shared;  ///< in ascending order of rank
+  /// Constraints by wall and cut, from the face sets of the whole mesh.
+  std::vector<HeldNode> held;
+  /// Nodes of the chest wall, ascending; empty if the wall is held.
+  std::vector<int> sliding;
+  std::shared_ptr<const LevelSurface> wall;  ///< null if the mesh has no wall surface
 };
 
-/// The root's mesh in one part per rank, cut by PT-Scotch along element faces; collective. `mesh` is
-/// read on the root only. Throws Error (input) on all ranks for fewer elements than ranks and where
-/// the options cannot be met part by part.
+/// Divides the root's mesh into one part per rank with PT-Scotch, along element faces; collective.
+/// `mesh` is read on the root only. Throws Error (input) on all ranks if there are fewer elements
+/// than ranks, or if the options cannot be met part by part.
 MeshPart share_mesh(const Ranks& ranks, const HexMesh& mesh, const MechanicsOptions& options);
 
-/// The part of every element, 0 … parts−1: few faces between parts of nearly the same size.
+/// The part of every element, from 0 to parts − 1, such that the parts have nearly the same size
+/// and few common faces.
 std::vector<int> partition(const HexMesh& mesh, int parts);
 
 }  // namespace breast

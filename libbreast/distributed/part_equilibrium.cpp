@@ -11,7 +11,7 @@ namespace breast {
 
 namespace {
 
-// As in solve/equilibrate.cpp, where the reasons stand.
+// The same steps as in solve/equilibrate.cpp, which gives the reasons.
 constexpr double tolerance = 1e-10, volume_tolerance = 1e-11;
 constexpr double near_enough = 1e-5, gain_wanted = 0.02;
 constexpr double volume_accuracy = 1e-5;
@@ -99,7 +99,7 @@ NewtonDirection PartEquilibrium::direction(const Balance&) {
     direction.reason = message(step_.iterations, " iterations did not solve a linear system");
     return direction;
   }
-  // Parts of the matrix, whole vectors: their products add up.
+  // The matrix is distributed and the vectors are complete, so that the products add up.
   direction.slope = problem_.ranks().sum(step_.u.dot(matrix_.stiffness.multiply(step_.u)));
   return direction;
 }

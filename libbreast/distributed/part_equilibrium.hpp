@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Newton's method for equilibria over all ranks: solve/equilibrate.hpp for a body in parts.
+// Newton's method for equilibria on several ranks: the counterpart of solve/equilibrate.hpp for a
+// body in parts.
 #pragma once
 
 #include <functional>
@@ -12,7 +13,7 @@ namespace breast {
 
 class PartEquilibrium final : public NewtonSystem {
  public:
-  /// All references must outlive this; `state` is moved.
+  /// All references must outlive this object; `state` is changed.
   PartEquilibrium(const PartProblem& problem, PartSaddle& solver, SaddleMatrix& matrix,
                   State& state, int max_iterations, Timer& timer);
 
@@ -41,7 +42,7 @@ class PartEquilibrium final : public NewtonSystem {
   Timer& timer_;
   Forces forces_;
   SaddleStep step_;
-  bool serves_ = false;  // the last levels serve this step too
+  bool serves_ = false;  // whether the last multigrid levels are used for this step too
   NewtonStop refusal_ = NewtonStop::folded;
 };
 

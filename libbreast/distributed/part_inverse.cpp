@@ -11,7 +11,7 @@ namespace breast {
 
 namespace {
 
-// As in mechanics/inverse_system.cpp, where the reasons stand.
+// The same steps as in mechanics/inverse_system.cpp, which gives the reasons.
 constexpr int max_iterations = 25, max_gmres = 60, levels_worn = 45;
 constexpr double volume_tolerance = 1e-11;
 constexpr double near_tolerance = 1e-8, near_volume_tolerance = 1e-9;
@@ -84,9 +84,9 @@ bool PartInverse::precondition() {
   return solver_.factorise(matrix_, problem_.constraints_at(state_.x));
 }
 
-// On (w, q) with w = −δX: [−K_X −Bᵀ; −B_X cM] near [K −Bᵀ; B cM] (mechanics/reference_system.hpp).
-// To the forces are added κBᵀM⁻¹ times the volumes on both sides, which makes it near the matrix
-// that the levels are of.
+// Acts on (w, q) with w = −δX as [−K_X −Bᵀ; −B_X cM], which is close to [K −Bᵀ; B cM]
+// (mechanics/reference_system.hpp). κBᵀM⁻¹ times the volumes is added to the forces on both sides,
+// which makes the matrix similar to the one from which the multigrid levels are built.
 bool PartInverse::solve_direction(double accuracy) {
   Timer::Scope phase(timer_, "solve");
   const PressureSpace& space = *matrix_.space;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Newton's method for the inverse problem over all ranks: mechanics/inverse_system.hpp for a body in
-// parts.
+// Newton's method for the inverse problem on several ranks: the counterpart of
+// mechanics/inverse_system.hpp for a body in parts.
 #pragma once
 
 #include "core/report.hpp"
@@ -11,7 +11,7 @@ namespace breast {
 
 class PartInverse final : public NewtonSystem {
  public:
-  /// All references must outlive this; state.reference and state.p are moved.
+  /// All references must outlive this object; state.reference and state.p are changed.
   PartInverse(const PartProblem& problem, PartSaddle& solver, SaddleMatrix& matrix, State& state,
               Timer& timer);
 
@@ -26,9 +26,9 @@ class PartInverse final : public NewtonSystem {
   const Forces& forces() const { return forces_; }
 
  private:
-  // How far a state is from equilibrium.
+  // Distance of a state from equilibrium.
   struct Distance {
-    double force = 0, volume = 0;  // relative to the load; worst |θ_e|/V_e
+    double force = 0, volume = 0;  // relative to the load; largest |θ_e|/V_e
     double merit = 0;
   };
   Distance distance(const Forces& forces) const;

@@ -8,7 +8,7 @@ namespace breast {
 
 namespace {
 
-// Row or column of B at a node, in its axes and without what is held.
+// Row or column of B at a node, in the node's axes and without constrained components.
 void constrain(const NodeConstraint* held, Mat3& block, bool rows, bool columns) {
   if (held == nullptr) return;
   if (rows) block = (held->axes.transpose() * block).eval();
@@ -44,11 +44,12 @@ PartMatrices::PartMatrices(const PartProblem& problem)
   make_stiffness();
 }
 
-// Of rows shared with other ranks at least as much room as all of them fill together.
+// For rows shared with other ranks, at least as much space as all these ranks fill together.
 void PartMatrices::make_stiffness() {
   const NodePattern& pattern = *problem_.own().space().pattern;
   const int nodes = pattern.nodes(), owned = int(numbering_.owned);
-  Eigen::VectorXd room = Eigen::VectorXd::Zero(2L * nodes);  // own columns, and those of others
+  // Number of own columns and of columns of other ranks.
+  Eigen::VectorXd room = Eigen::VectorXd::Zero(2L * nodes);
   const auto couple = [&](int row, int column) {
     if (row >= owned || column < owned) room[2L * row] += 1;
     if (row >= owned || column >= owned) room[2L * row + 1] += 1;
@@ -76,8 +77,8 @@ void PartMatrices::make_stiffness() {
   ask(MatSetOption(stiffness_, MAT_SYMMETRIC, PETSC_TRUE));
 }
 
-// Every rank adds its part of a block, turned into the axes of its nodes; the owner of a held
-// component adds the one entry that is left of it.
+// Every rank adds its part of a block, rotated into the axes of its nodes; the owner of a
+// constrained component adds the one entry that remains for it.
 void PartMatrices::fill_stiffness(const SaddleMatrix& matrix, const Constraints& constraints,
                                   double held) {
   const NodePattern& pattern = matrix.stiffness.pattern();
@@ -204,7 +205,7 @@ OwnedMat PartMatrices::compressibility(const SaddleMatrix& matrix, double factor
                    PETSC_DETERMINE, rows, nullptr, 0, nullptr, out.fresh()));
   std::vector<PetscInt> row(std::size_t(rows), 0);
   for (int e = 0; e < space.elements(); ++e) {
-    // M is symmetric: by rows or by columns is the same.
+    // M is symmetric, so that the order by rows or by columns does not matter.
     const Eigen::MatrixXd values = factor * space.compliance[e] * space.mass_at(e);
     for (int i = 0; i < rows; ++i) row[i] = numbering_.first_pressure + rows * e + i;
     ask(MatSetValues(out, rows, row.data(), rows, row.data(), values.data(), INSERT_VALUES));

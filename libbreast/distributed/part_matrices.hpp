@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The saddle system of solve/saddle.hpp as PETSc's matrices, from every rank's part of it. For the
-// .cpp files of this folder only.
+// The saddle-point system of solve/saddle.hpp as PETSc matrices, assembled from every rank's part.
+// For the .cpp files of this folder only.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@
 
 namespace breast {
 
-/// Places of a part's nodes and pressures in vectors over all ranks.
+/// Positions of a part's nodes and pressures in vectors over all ranks.
 struct Numbering {
   Numbering(const Ranks& ranks, const MeshPart& part, int pressures_per_element);
-  std::vector<PetscInt> node;  ///< of every node of the part
-  PetscInt owned = 0;          ///< nodes
-  PetscInt all_nodes = 0;      ///< of the body
+  std::vector<PetscInt> node;  ///< position of every node of the part
+  PetscInt owned = 0;          ///< number of nodes owned by this rank
+  PetscInt all_nodes = 0;      ///< number of nodes of the body
   PetscInt first_pressure = 0, pressures = 0;
 };
 
@@ -23,15 +23,18 @@ class PartMatrices {
  public:
   explicit PartMatrices(const PartProblem& problem);
 
-  /// Fills all matrices; false on all ranks: a node's block of K is not positive definite.
+  /// Fills all matrices. Returns false on all ranks if the block of K of any node is not positive
+  /// definite.
   bool fill(const SaddleMatrix& matrix, const Constraints& constraints, double weigh,
             double left_over);
 
   const Numbering& numbering() const { return numbering_; }
   Mat stiffness() const { return stiffness_; }
-  /// [K, −(1 − κc)Bᵀ; wB, wcM] in the axes of constrained nodes, nothing along what is held.
+  /// The matrix [K, −(1 − κc)Bᵀ; wB, wcM] in the axes of constrained nodes, zero along constrained
+  /// components.
   Mat whole() const { return whole_; }
-  /// The sparse stand-in for B K⁻¹ Bᵀ + cM (solve/multigrid/pressure_schur.hpp); null: M/μ + cM.
+  /// The sparse approximation of B K⁻¹ Bᵀ + cM (solve/multigrid/pressure_schur.hpp); null if M/μ +
+  /// cM is used instead.
   Mat sparse_schur() const { return schur_; }
 
  private:
@@ -41,7 +44,8 @@ class PartMatrices {
   OwnedMat divergence(const SaddleMatrix& matrix, const Constraints& constraints, double factor);
   OwnedMat compressibility(const SaddleMatrix& matrix, double factor);
   bool fill_schur(const SaddleMatrix& matrix, const Constraints& constraints);
-  /// Per node 3×3: L⁻¹ of its complete diagonal block of K in node axes, zero along what is held.
+  /// For every node the 3×3 matrix L⁻¹, where LLᵀ is the complete diagonal block of K in node axes;
+  /// zero along constrained components.
   bool inverse_roots(const SaddleMatrix& matrix, const Constraints& constraints,
                      std::vector<Mat3>& roots) const;
   OwnedMat element_matrix(PetscInt rows_per_node) const;

@@ -21,7 +21,7 @@ std::shared_ptr<const Term> springs(const HexMesh& mesh, const std::vector<Face>
   return std::make_shared<ElasticSupport>(mesh, faces, stiffness, std::move(surface));
 }
 
-// As Scene adds them for a whole mesh (mechanics/scene.cpp).
+// Adds the terms as Scene does for a whole mesh (mechanics/scene.cpp).
 void add_supports(const MeshPart& part, const MechanicsOptions& options, Problem& problem) {
   const HexMesh& mesh = part.mesh;
   std::vector<std::shared_ptr<const Term>> all;

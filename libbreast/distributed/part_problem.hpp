@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The equilibrium problem of one part of a mesh: the terms of solve/ and mechanics/terms over its own
+// The equilibrium problem of one part of a mesh: the terms of solve/ and mechanics/terms on its own
 // elements and faces, and their sums over all ranks.
 #pragma once
 
@@ -12,12 +12,14 @@
 
 namespace breast {
 
-/// Vectors per node hold all nodes of the part, shared ones with the same value on all their ranks;
-/// vectors per pressure those of its own elements. Every member that returns a sum is collective.
+/// Nodal vectors contain all nodes of the part; a shared node has the same value on all its ranks.
+/// Pressure vectors contain the pressures of the part's own elements. Every member that returns a
+/// sum is collective.
 class PartProblem {
  public:
-  /// `options` with the solver multigrid, whose augmentation suits it. Both references must outlive
-  /// this. Throws a SharedError (input) when mesh and options do not fit.
+  /// Uses `options` with the multigrid solver and the augmentation that suits it. Both references
+  /// must outlive this object. Throws a SharedError (input) if mesh and options do not fit
+  /// together.
   PartProblem(const Ranks& ranks, const MeshPart& part, const MechanicsOptions& options);
 
   const Ranks& ranks() const { return ranks_; }
@@ -30,29 +32,31 @@ class PartProblem {
     return {shape, shape, solid_->rest_pressure()};
   }
 
-  /// Nodal gravity forces of the imaged shape under `gravity` (mm/s²), and the part of them that acts.
+  /// Sets the nodal gravity forces of the imaged shape under `gravity` (mm/s²); set_load sets the
+  /// part of them that acts (0 to 1).
   void set_gravity(const Vec3& gravity);
   void set_load(double part);
-  /// Norm that residuals are compared with, µN.
+  /// Norm of the load with which residuals are compared, µN.
   double load_norm() const { return load_norm_; }
 
-  /// Forces complete at every node of the part; θ of its own elements; energy and extremes of the
-  /// whole body, bad_element numbered as in the whole mesh. What the request fills is of this part
-  /// alone, but the matrix's diagonal, which is complete.
+  /// Evaluates the forces, complete at every node of the part; θ of the part's own elements; and
+  /// energy and extremes of the whole body, with bad_element numbered as in the whole mesh. What
+  /// the request fills belongs to this part alone, except for the diagonal of the matrix, which is
+  /// complete.
   Forces evaluate(const State& state, const Request& request) const;
   Forces forces(const State& state, const Eigen::VectorXd* kappa = nullptr) const;
   Constraints constraints_at(const Eigen::VectorXd& x) const { return problem_->constraints_at(x); }
-  /// Puts sliding nodes back on their surface; false: one has left it on some rank.
+  /// Moves sliding nodes back to their surface; returns false if a node has left it on any rank.
   bool restore(Eigen::VectorXd& x) const;
 
-  /// Sum over the nodes of the body of a · b (3 per node).
+  /// Sum of a · b over the nodes of the body (3 entries per node).
   double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
-  /// ‖r‖ on what is not held, µN.
+  /// Norm of the residual over unconstrained components, µN.
   double free_norm(const Constraints& held, const Forces& forces) const;
   double volume_residual(const Forces& forces) const;
-  /// An element that is turned inside out, as in the whole mesh; −1: none.
+  /// An element that is turned inside out, numbered as in the whole mesh; −1 if there is none.
   int folded_element(const State& state) const;
-  /// Force that rounding the positions alone can make, relative to the load.
+  /// Residual that rounding of the positions alone can cause, relative to the load.
   double rounding(const SaddleMatrix& matrix, const Eigen::VectorXd& x) const;
 
  private:

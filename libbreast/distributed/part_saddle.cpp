@@ -36,7 +36,7 @@ struct PartSaddle::Impl {
 
   void scale(const SaddleMatrix& matrix);
   void schur_solve(const double* q, double* p) const;
-  // This rank's part of a vector of PETSc: `top` in node axes.
+  // This rank's part of a PETSc vector; `top` is in node axes.
   void write(const Constraints& axes, Eigen::VectorXd top, const Eigen::VectorXd& bottom,
              Vec vec) const;
   void read(const Constraints& axes, Vec vec, Eigen::VectorXd& top, Eigen::VectorXd& bottom) const;
@@ -54,7 +54,8 @@ struct PartSaddle::Impl {
   OwnedVec schur_right, schur_left;
 };
 
-// Volumes as forces, so that one norm measures both equations: θκ/h, h the size of an element.
+// Volumes converted to forces, θκ/h with the size h of an element, so that one norm measures both
+// equations.
 void PartSaddle::Impl::scale(const SaddleMatrix& matrix) {
   const Ranks& ranks = problem.ranks();
   space = matrix.space;
@@ -220,7 +221,7 @@ bool PartSaddle::positive_definite() const {
   OwnedVec start, found;
   ask(MatCreateVecs(k, start.fresh(), found.fresh()));
   const Numbering& numbering = m.matrices.numbering();
-  Eigen::VectorXd wave(3L * problem_.part().mesh.nodes());  // an eigenvector of nothing
+  Eigen::VectorXd wave(3L * problem_.part().mesh.nodes());  // a vector that is not an eigenvector
   for (long i = 0; i < wave.size(); ++i) {
     wave[i] = std::sin(2.0 + 5.1 * double(3L * numbering.node[std::size_t(i / 3)] + i % 3));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The sparse stand-in for the pressure's Schur complement over all ranks: 3/2 B D⁻¹ Bᵀ + Σ aₙaₙᵀ / Σ μₑaₙₑ
-// + cM of solve/multigrid/pressure_schur.hpp as GᵀG + cM, four rows of G a node.
+// The sparse approximation of the pressure's Schur complement on several ranks: 3/2 B D⁻¹ Bᵀ + Σ
+// aₙaₙᵀ / Σ μₑaₙₑ + cM of solve/multigrid/pressure_schur.hpp, written as GᵀG + cM with four rows of
+// G per node.
 #include <Eigen/Cholesky>
 #include <cmath>
 

@@ -15,7 +15,7 @@ struct Side4 {
   bool operator<(const Side4& other) const { return nodes < other.nodes; }
 };
 
-// Elements that share a face.
+// Graph of the elements that share a face.
 std::vector<std::pair<int, int>> neighbours(const HexMesh& mesh) {
   std::vector<Side4> sides;
   sides.reserve(std::size_t(mesh.elements()) * 6);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// PETSc's objects owned, its error codes as errors. For the .cpp files of this folder only.
+// Owning handles for PETSc objects, and conversion of PETSc's error codes to errors. For the .cpp
+// files of this folder only.
 #pragma once
 
 #include <petscksp.h>
@@ -10,7 +11,7 @@
 
 namespace breast {
 
-/// Throws Error (failed) for what a call of PETSc returned other than zero.
+/// Throws Error (failed) if a call of PETSc returned a code other than zero.
 inline void ask(PetscErrorCode code) {
   if (code == 0) return;
   const char* text = nullptr;
@@ -18,7 +19,7 @@ inline void ask(PetscErrorCode code) {
   throw failed_error("PETSc: ", text != nullptr ? text : "error", " (code ", int(code), ")");
 }
 
-/// A Mat, Vec, KSP or IS, destroyed with its owner.
+/// A Mat, Vec, KSP or IS that is destroyed with its owner.
 template <class T, PetscErrorCode (*destroy)(T*)>
 class Owned {
  public:
@@ -34,7 +35,7 @@ class Owned {
     if (object_ != nullptr) destroy(&object_);
     object_ = nullptr;
   }
-  /// For calls that make the object; what was there before goes.
+  /// Address for calls that create the object; the previous object is destroyed.
   T* fresh() {
     reset();
     return &object_;

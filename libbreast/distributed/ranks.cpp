@@ -17,7 +17,8 @@ namespace {
 constexpr long most_bytes = 1L << 30;  // of one message: MPI counts in int
 constexpr int tag = 1;
 
-// Reduced on the root and sent to all: a sum made by every rank for itself may differ in its last bit.
+// The sum is reduced on the root and sent to all: a sum computed by every rank for itself could
+// differ in its last bit.
 template <class T>
 T reduce(T mine, MPI_Datatype type, MPI_Op how) {
   T all = mine;
@@ -41,7 +42,7 @@ RankSession::RankSession() {
       PetscInitializeNoArguments() != 0) {
     throw failed_error("MPI or PETSc cannot begin; run the tool under mpirun");
   }
-  // What PETSc has to say becomes an Error.
+  // Messages of PETSc are converted to an Error.
   PetscPopSignalHandler();
   PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr);
 }
@@ -62,7 +63,7 @@ double Ranks::sum(double mine) const {
 long Ranks::sum(long mine) const {
   return reduce(mine, MPI_LONG, MPI_SUM);
 }
-// What MPI makes of the greater of two numbers of which one is none is not said.
+// MPI does not specify the maximum of two values of which one is not a number.
 double Ranks::most(double mine) const {
   const bool good = all(!std::isnan(mine));
   return good ? reduce(mine, MPI_DOUBLE, MPI_MAX) : std::numeric_limits<double>::quiet_NaN();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The processes that solve one problem together: how they begin, add up, exchange and fail.
+// The processes (ranks) that solve one problem together: their start, sums, messages and failures.
 #pragma once
 
 #include <functional>
@@ -9,30 +9,31 @@
 
 namespace breast {
 
-/// MPI and PETSc from construction to destruction; once in a process, before any Ranks.
+/// Keeps MPI and PETSc initialised from construction to destruction; constructed once in a process,
+/// before any Ranks.
 class RankSession {
  public:
-  /// Throws Error (failed) where they cannot begin.
+  /// Throws Error (failed) if MPI or PETSc cannot be initialised.
   RankSession();
   ~RankSession();
   RankSession(const RankSession&) = delete;
   RankSession& operator=(const RankSession&) = delete;
 };
 
-/// An error that all ranks have thrown together.
+/// An error that all ranks throw together.
 class SharedError : public Error {
  public:
   using Error::Error;
 };
 
-/// All ranks of the run. Every member but rank, size, root, send and receive is collective; what is
-/// returned is the same on all, to the last bit.
+/// All ranks of the run. Every member except rank, size, root, send and receive is collective; its
+/// result is identical on all ranks, to the last bit.
 class Ranks {
  public:
   Ranks();
   int rank() const { return rank_; }
   int size() const { return size_; }
-  /// The rank that reads, writes and speaks.
+  /// Whether this is the rank that reads, writes and prints.
   bool root() const { return rank_ == 0; }
 
   double sum(double mine) const;
@@ -41,18 +42,19 @@ class Ranks {
   double least(double mine) const;
   long least(long mine) const;
   bool all(bool mine) const { return least(long(mine)) != 0; }
-  /// Sum over the ranks below this one.
+  /// Sum of `mine` over the ranks below this one.
   long before(long mine) const;
-  /// The root's bytes, on all ranks.
+  /// Replaces `bytes` on all ranks by the root's.
   void broadcast(std::vector<char>& bytes) const;
-  /// Bytes of any number from one rank to another; `receive` waits for them.
+  /// Sends any number of bytes from one rank to another; `receive` waits for them.
   void send(const std::vector<char>& bytes, int to) const;
   std::vector<char> receive(int from) const;
 
-  /// Does `work` on every rank. Where it throws on some, all throw the error of the lowest of them
-  /// as a SharedError. `work` may be collective only where it fails on all ranks or on none.
+  /// Runs `work` on every rank. If it throws on some ranks, all ranks throw the error of the lowest
+  /// of them as a SharedError. `work` may be collective only if it fails either on all ranks or on
+  /// none.
   void together(const std::function<void()>& work) const;
-  /// Ends all ranks at once: for an error of this one that the others do not know of.
+  /// Ends all ranks at once, after an error of this rank of which the others do not know.
   [[noreturn]] void abort(int exit_code) const;
 
  private:

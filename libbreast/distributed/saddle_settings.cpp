@@ -12,16 +12,17 @@ constexpr int restart = 60;
 constexpr double schur_accuracy = 0.1, steps_per_edge = 2;  // as in pressure_schur.cpp
 constexpr int least_steps = 20;
 
-// Unless the user's PETSC_OPTIONS say otherwise.
+// Sets an option unless the user's PETSC_OPTIONS set it.
 void prefer(const char* name, const char* value) {
   PetscBool given = PETSC_FALSE;
   ask(PetscOptionsHasName(nullptr, nullptr, name, &given));
   if (given == PETSC_FALSE) ask(PetscOptionsSetValue(nullptr, name, value));
 }
 
-// As our own levels (docs/methods.md, section 5): Chebyshev polynomials of degree 3 in D⁻¹A over the
-// upper eleven twelfths of the spectrum. Unlike them with aggregates of neighbours' neighbours on the
-// finest level: on the block of 12³ GMRES takes a quarter more iterations, set-up a fifth of the time.
+// The same smoother as in our own multigrid (docs/methods.md, section 5): Chebyshev polynomials of
+// degree 3 in D⁻¹A over the upper eleven twelfths of the spectrum. In contrast to it, the
+// aggregates on the finest level contain neighbours of neighbours: on the block of 12³, GMRES takes
+// a quarter more iterations and the set-up a fifth of the time.
 void prefer_levels() {
   prefer("-breast_fieldsplit_u_ksp_type", "preonly");
   prefer("-breast_fieldsplit_u_pc_type", "gamg");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How PETSc is asked to solve: GMRES split by field, GAMG, conjugate gradients. For the .cpp files of
-// this folder only.
+// Settings of PETSc's solvers: GMRES split by field, GAMG, conjugate gradients. For the .cpp files
+// of this folder only.
 #pragma once
 
 #include <functional>
@@ -9,15 +9,16 @@
 
 namespace breast {
 
-/// Flexible GMRES on `whole` (a nest of 2 × 2), its preconditioner block triangular: GAMG for the
-/// first block, `schur` (from an array of this rank's pressures to another) for the second's Schur
-/// complement. `schur` must outlive the result.
+/// Flexible GMRES for `whole` (a 2 × 2 nested matrix) with a block-triangular preconditioner: GAMG
+/// for the first block and `schur` for the Schur complement of the second. `schur` maps an array of
+/// this rank's pressures to another and must outlive the result.
 OwnedKsp split_gmres(Mat whole, const std::function<void(const double*, double*)>& schur);
-/// Of split_gmres: the solver of the first block.
+/// The solver of the first block of split_gmres.
 KSP first_block(KSP split);
-/// Conjugate gradients to a tenth on the sparse stand-in for the Schur complement.
+/// Conjugate gradients for the sparse approximation of the Schur complement, to a relative residual
+/// of a tenth.
 OwnedKsp schur_gradients(Mat sparse);
-/// Conjugate gradients that keep what they learn of eigenvalues, with the preconditioner of `levels`.
+/// Conjugate gradients that record estimates of eigenvalues, with the preconditioner of `levels`.
 OwnedKsp lanczos(Mat a, KSP levels, int most);
 
 }  // namespace breast

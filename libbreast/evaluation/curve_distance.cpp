@@ -32,7 +32,7 @@ std::map<int, Curve> curves_of(const PolyLines& lines, const std::string& name) 
   return curves;
 }
 
-// Normal of the plane of all that lies on the MLO detector.
+// Normal of the plane of the MLO detector, from all points on it.
 Vec3 detector_normal(const PolyLines& lines, const std::string& name) {
   const auto on_detector = [](const std::string& line) {
     if (line == "curve" || line == "arc" || line == "chord") return true;

@@ -56,8 +56,8 @@ std::vector<Vec3> faces_near(const LabelVolume& labels, const Vec3& point, doubl
   return faces;
 }
 
-/// Mean of the skin's faces hardly farther away than the nearest (half the voxels' longest edge),
-/// so that the steps of thick slices do not decide; the point itself without any.
+/// Mean of the skin's faces that are hardly farther away than the nearest (half the longest edge of
+/// a voxel), so that the steps of thick slices do not matter; the point itself if there are none.
 Vec3 nearest_skin(const LabelVolume& labels, const Vec3& point) {
   const std::vector<Vec3> faces = faces_near(labels, point, 15);
   double nearest = std::numeric_limits<double>::infinity();

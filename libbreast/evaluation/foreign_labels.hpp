@@ -9,13 +9,13 @@
 
 namespace breast {
 
-/// Turns breast tissue outside the region into `other`. The region, on any grid, is where its value
-/// is `code`, or any but 0 when `code` is 0.
+/// Changes breast tissue outside the region to `other`. The region, on any grid, consists of the
+/// voxels with the value `code`, or with any value except 0 if `code` is 0.
 void restrict_breast(LabelVolume& labels, const Volume<float>& region, int code);
 
-/// Nipple of a foreign volume: the point of the skin (patient mm) nearest to the centre of
-/// the voxels of `volume` that hold `code` and are breast in `labels`, which lie on the
-/// same grid; empty without any.
+/// Nipple of another program's volume: the point of the skin (patient mm) nearest to the centre of
+/// the voxels that have the value `code` in `volume` and are breast in `labels`, which has the same
+/// grid; empty if there are none.
 std::optional<Vec3> skin_over_code(const Volume<float>& volume, int code,
                                    const LabelVolume& labels);
 

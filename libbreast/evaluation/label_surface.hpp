@@ -8,7 +8,8 @@
 namespace breast {
 
 /// Voxel faces between the breast's tissues and anything else, two triangles each, in mm LPS. The
-/// faces are flat staircases: distances between such surfaces are good to about half a voxel.
+/// surface has the steps of the voxels: distances between such surfaces are accurate to about half
+/// a voxel.
 TriMesh breast_surface(const LabelVolume& labels);
 
 }  // namespace breast

@@ -100,7 +100,7 @@ Table compare_with_truth(const std::vector<HexMesh>& meshes,
     if (const Landmark* own = first.landmark(point.name); own && point.name == "nipple") {
       prone_error = (landmark_position(first, first.imaged, *own) - prone).norm();
     }
-    // Not to be taken for the tumour a chain puts into its mesh.
+    // Named differently from the tumour that a chain puts into its mesh.
     const std::string shown_as = point.name == "tumour" ? "true-tumour" : point.name;
     std::vector<std::string> row{shown_as, format_fixed(found.moved, 3),
                                  format_fixed(prone_error, 3)};

@@ -15,7 +15,7 @@ namespace breast {
 /// True position of a material point in one posture, mm LPS, and its uncertainty.
 struct TruePosition {
   Vec3 x{0, 0, 0};
-  std::optional<double> own_error;  ///< mm; of the truth's own discretisation
+  std::optional<double> own_error;  ///< own discretisation error of the truth, mm
 };
 
 /// A material point's true positions by posture: "stress_free", "prone",
@@ -31,17 +31,17 @@ struct TrueLandmark {
 /// (input) beginning with `name`.
 std::vector<TrueLandmark> true_landmarks(const Table& table, Side side, const std::string& name);
 
-/// The posture of a mesh: "prone" (imaged), "stress_free", "supine", or when compressed its view in
-/// small letters; empty for anything else.
+/// The posture of a mesh: "prone" (imaged), "stress_free", "supine" or, if compressed, its view in
+/// lower case; empty for anything else.
 std::string posture_of(const HexMesh& mesh);
 
-/// One row per landmark: the true point in the imaged frame is found in the first mesh (outside_mm:
-/// how far it had to move to reach it), then compared with the truth in the posture of each mesh
-/// (POSTURE_error_mm) beside the true displacement from prone (POSTURE_true_mm) and the truth's own
-/// error where it is known (POSTURE_own_error_mm: errors below it are not claimed). All meshes must
-/// be of one topology. The truth's own "tumour" is called "true-tumour". The nipple is also
-/// compared as found from the image (prone_error_mm); of other points prone_error_mm is outside_mm,
-/// since they are taken at their true prone place.
+/// One row per landmark. The true point in the imaged frame is located in the first mesh
+/// (outside_mm: the distance that it was moved to reach the mesh) and compared with the truth in
+/// the posture of each mesh (POSTURE_error_mm), beside the true displacement from prone
+/// (POSTURE_true_mm) and, if known, the truth's own error (POSTURE_own_error_mm), below which
+/// errors have no meaning. All meshes must have the same topology. The truth's own "tumour" is
+/// called "true-tumour". The nipple is also compared as found from the image (prone_error_mm). For
+/// other points, which are taken at their true prone position, prone_error_mm is outside_mm.
 Table compare_with_truth(const std::vector<HexMesh>& meshes,
                          const std::vector<TrueLandmark>& truth);
 

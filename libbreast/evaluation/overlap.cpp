@@ -57,7 +57,8 @@ Counts count_common(const LabelVolume& fine, const LabelVolume& coarse) {
   return total;
 }
 
-/// Body against air on the voxels of `fine` within `coarse`, whatever either holds beyond.
+/// Body against air on the voxels of `fine` inside `coarse`, without the regions that only one of
+/// them covers.
 Overlap body_overlap(const LabelVolume& fine, const LabelVolume& coarse) {
   const Grid& grid = fine.grid;
   double mine = 0, theirs = 0, both = 0;

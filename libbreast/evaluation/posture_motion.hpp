@@ -27,17 +27,19 @@ struct PostureMotion {
   /// wall surface on the midline, notch_height_mm above the imaged nipple.
   double before_notch_before = 0, before_notch_after = 0;
   double ribs_before = 0, ribs_after = 0;  ///< mean distance of tissue from the ribs, mm
-  double ratio = 0;                        ///< median of after over before
-  std::vector<DepthBin> bins;              ///< 0 to 20, 20 to 40, above 40 mm
-  double nearest_moved = 0;                ///< mean motion of tissue within 20 mm of the wall
+  /// Median of the ratio of the distance after to that before.
+  double ratio = 0;
+  std::vector<DepthBin> bins;  ///< 0 to 20, 20 to 40, above 40 mm
+  double nearest_moved = 0;    ///< mean motion of tissue within 20 mm of the wall
 };
 
-/// From nipple to sternal notch along the body in the scan: scans of breasts end below the notch.
+/// Distance along the body from the nipple to the sternal notch in the scan, which is assumed
+/// because scans of breasts end below the notch.
 inline constexpr double notch_height_mm = 140;
 
-/// From mesh.imaged to mesh.points, elements weighted by their volume in the scan. Ribs lie
-/// `muscle_mm` behind the mesh's wall surface. Throws Error (input) without a wall surface or a
-/// nipple.
+/// The motion from mesh.imaged to mesh.points, with elements weighted by their volume in the scan.
+/// The ribs are assumed to lie `muscle_mm` behind the mesh's wall surface. Throws Error (input)
+/// without a wall surface or a nipple.
 PostureMotion posture_motion(const HexMesh& mesh, double muscle_mm);
 
 /// Distance (mm) of a place from the surface, negative inside; the closest point is found by

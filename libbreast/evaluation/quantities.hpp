@@ -14,7 +14,8 @@ namespace breast {
 
 std::vector<Quantity> distance_quantities(const std::string& name, const Distances& distances);
 std::vector<Quantity> fraction_quantities(const PartialVolume& fractions);
-/// Dice and volumes of every tissue present, of breast and body, the walls' and nipples' distance.
+/// Dice coefficient and volume of every tissue present, of breast and body, and the distances of
+/// walls and nipples.
 std::vector<Quantity> label_quantities(const LabelVolume& given, const LabelVolume& truth);
 
 }  // namespace breast

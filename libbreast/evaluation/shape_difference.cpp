@@ -17,7 +17,7 @@ std::string view_word(const HexMesh& mesh) {
   return mesh.contact ? view_name(mesh.contact->view) : "uncompressed";
 }
 
-// Where the other model puts the base's nodes.
+// The positions of the base's nodes in the other model.
 std::vector<Vec3> followed(const HexMesh& base, const HexMesh& other, double bound,
                            double& outside) {
   if (base.side != other.side || view_of(base) != view_of(other)) {

@@ -35,7 +35,7 @@ Distances summary(std::vector<WeightedDistance> samples) {
   return summarise(std::move(samples));
 }
 
-// Both directions count the same, whatever their number of triangles or points.
+// Both directions have the same weight, whatever their number of triangles or points.
 void normalise(std::vector<WeightedDistance>& samples) {
   double total = 0;
   for (const WeightedDistance& s : samples) total += s.weight;

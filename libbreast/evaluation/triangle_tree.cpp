@@ -20,7 +20,7 @@ double squared_distance(const Vec3& point, const Vec3& a, const Vec3& b, const V
   const Vec3 normal = (b - a).cross(c - a);
   const double n2 = normal.squaredNorm();
   if (n2 > 0) {
-    // Inside when the foot of the perpendicular is on the inner side of every edge.
+    // The point is inside if the foot of the perpendicular lies on the inner side of every edge.
     const bool inside = (b - a).cross(point - a).dot(normal) >= 0 &&
                         (c - b).cross(point - b).dot(normal) >= 0 &&
                         (a - c).cross(point - c).dot(normal) >= 0;

@@ -73,7 +73,7 @@ Table truth_table(const Table& imaged, const std::vector<HexMesh>& meshes) {
       const auto pair = pairs.find(posture);
       const bool solved = pair != pairs.end();
       const Vec3 fine = solved ? place(*pair->second.fine, point.name) : Vec3(Vec3::Zero());
-      // The image shows the phantom's own prone shape: that is where a chain sees the point.
+      // The image shows the phantom's own prone shape, in which a chain sees the point.
       const bool keep = !solved || posture == "prone";
       const Vec3 shown = keep ? point.at.at(posture).x : fine;
       for (int d = 0; d < 3; ++d) row.push_back(format_fixed(shown[d], 6));

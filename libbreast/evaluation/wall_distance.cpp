@@ -47,7 +47,7 @@ Eigen::AlignedBox3d breast_box(const LabelVolume& labels) {
   return box;
 }
 
-/// Where the breast's last run along y ends in muscle; NaN where it does not.
+/// The position where the last run of breast along y ends in muscle; NaN if it does not.
 double breast_end(const Sampler& labels, Vec3 p, double to) {
   double end = nan;
   bool inside = false;
@@ -59,7 +59,7 @@ double breast_end(const Sampler& labels, Vec3 p, double to) {
   return end;
 }
 
-/// First muscle along y; NaN without.
+/// The first muscle along y; NaN if there is none.
 double first_muscle(const Sampler& labels, Vec3 p, double to) {
   for (; p[1] < to; p[1] += step) {
     if (labels.at(p) == Tissue::muscle) return p[1] - 0.5 * step;

@@ -10,13 +10,14 @@ namespace breast {
 struct WallDistance {
   Distances distance;          ///< |dy|, mm, over the columns compared
   double bias_mm = 0;          ///< mean of given - true: positive when the given wall is deeper
-  double columns = 0;          ///< compared
+  double columns = 0;          ///< number of compared columns
   double missing_percent = 0;  ///< of the true breast's columns without a wall in the given volume
 };
 
-/// On a lattice of columns along patient y, 2 mm apart in x and z, wherever the true breast has
-/// muscle right behind it: depth at which the true breast ends against the depth at which the given
-/// volume first is muscle (nearest voxels, sampled every 0.2 mm). No columns: all zero.
+/// Compares columns along patient y, 2 mm apart in x and z, wherever the true breast has muscle
+/// directly behind it: the depth at which the true breast ends, and the depth at which the given
+/// volume first is muscle (nearest voxels, sampled every 0.2 mm). Without such columns all values
+/// are zero.
 WallDistance compare_walls(const LabelVolume& given, const LabelVolume& truth);
 
 }  // namespace breast

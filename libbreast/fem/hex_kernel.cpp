@@ -55,7 +55,7 @@ void strain_rows(const Mat3& m, const Eigen::Matrix<double, N, 3>& gradient, Blo
   }
 }
 
-// The parts of ∂r/∂X besides strain: F and ∇N and the volume change with X.
+// The parts of ∂r/∂X other than strain: the change of F, of ∇N and of the volume with X.
 template <int N>
 void add_reference_geometry(const Point<N>& point, const Mat3& s, double weight,
                             Eigen::Matrix<double, 3 * N, 3 * N>& k_x) {
@@ -107,7 +107,7 @@ void hex_kernel(const HexInput<N, P>& in, const HexDemand& demand, HexOutput<N, 
     out.k_x.setZero();
     out.b_x.setZero();
   }
-  // Strain rows of all Gauss points under each other: K becomes one dense product.
+  // The strain rows of all Gauss points are stacked, so that K becomes one dense product.
   thread_local Eigen::Matrix<double, 6 * Q, 3 * N> rows, stiff, reference_rows;
   Eigen::Matrix<double, N, N> geometric = Eigen::Matrix<double, N, N>::Zero();
   Point<N> point;

@@ -23,7 +23,7 @@ struct HexRule {
   static const HexRule& get();
 };
 
-/// What is asked of the kernel.
+/// The quantities requested from the kernel.
 struct HexDemand {
   bool tangent = false;            ///< K and B
   bool reference_tangent = false;  ///< K_X and B_X

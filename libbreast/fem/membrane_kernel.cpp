@@ -45,7 +45,7 @@ struct SurfaceStress {
 
 bool surface_stress(const Law& law, const SkinBehaviour& skin, const Mat2& body,
                     const Mat2& deformed, SurfaceStress& out) {
-  // The skin itself, unstretched, is smaller than the body's shape it is stretched on.
+  // The unstretched skin is smaller than the shape of the body over which it is stretched.
   const double shrink = 1 / ((1 + skin.prestretch) * (1 + skin.prestretch));
   const Mat2 reference = shrink * body;
   const double det_reference = reference.determinant(), det_deformed = deformed.determinant();

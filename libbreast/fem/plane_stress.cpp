@@ -8,7 +8,8 @@ namespace breast {
 
 namespace {
 
-/// Twice differentiable step from x* up to x, over width w to either side of x*; by (x − x*).
+/// Twice differentiable step from x* up to x, over the width w to either side of x*, as a function
+/// of x − x*.
 struct Step {
   double value = 0, slope = 0, bend = 0;
 };
@@ -20,8 +21,9 @@ Step smooth_positive(double over, double width) {
           6 * u * (1 - u) / (2 * width)};
 }
 
-/// The squared stretch that counts in one direction, its derivatives by the squared stretch x of
-/// that direction and y of the other: x, but not below what uniaxial tension along y leaves.
+/// The effective squared stretch in one direction, with its derivatives with respect to the squared
+/// stretch x of that direction and y of the other: x, but not below the value under uniaxial
+/// tension along y.
 struct Effective {
   double value = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 };
@@ -38,7 +40,7 @@ Effective effective(double x, double y, double width) {
           m.bend,          -m.bend * ly, lyy * (1 - m.slope) + m.bend * ly * ly};
 }
 
-/// ψ and its derivatives by the squared principal stretches.
+/// ψ and its derivatives with respect to the squared principal stretches.
 struct Principal {
   double f = 0, f1 = 0, f2 = 0, f11 = 0, f12 = 0, f22 = 0;
 };
@@ -47,7 +49,7 @@ bool relaxed(const Law& law, double width, double c1, double c2, Principal& out)
   const Effective a = effective(c1, c2, width), b = effective(c2, c1, width);
   PlaneStress w;
   if (!plane_stress(law, a.value + b.value, a.value * b.value, w)) return false;
-  // By the effective stretches first: I = a + b, d = ab.
+  // First with respect to the effective stretches: I = a + b, d = ab.
   const double wa = w.fi + b.value * w.fd, wb = w.fi + a.value * w.fd;
   const double waa = w.fii + 2 * b.value * w.fid + b.value * b.value * w.fdd;
   const double wbb = w.fii + 2 * a.value * w.fid + a.value * a.value * w.fdd;
@@ -64,8 +66,9 @@ bool relaxed(const Law& law, double width, double c1, double c2, Principal& out)
   return true;
 }
 
-/// From squared stretches to I and d. Where they are equal the formulas are 0/0 of a smooth
-/// function: the stretches are then moved apart by `apart`, which changes the result by its square.
+/// Conversion from squared stretches to I and d. Where the stretches are equal, the formulas are
+/// 0/0 of a smooth function: the stretches are then moved apart by `apart`, which changes the
+/// result by its square.
 struct Stretches {
   double c1 = 0, c2 = 0, gap = 0;
 };
@@ -104,7 +107,7 @@ bool tension_field(const Law& law, double kept, double width, double i, double d
   PlaneStress full;
   if (!plane_stress(law, i, d, full)) return false;
   const Stretches near = principal_stretches(i, d, apart_for_forces);
-  // Both directions tense: the law itself.
+  // With both directions under tension, ψ is the law itself.
   if (near.c1 >= 1 + width && near.c2 >= 1 / std::sqrt(near.c1) + width) {
     out = full;
     return true;
@@ -118,7 +121,7 @@ bool tension_field(const Law& law, double kept, double width, double i, double d
   const Stretches far = principal_stretches(i, d, apart_for_tangent);
   if (!relaxed(law, width, far.c1, far.c2, p)) return false;
   const double g = far.gap, g2 = g * g, g3 = g2 * g, c1 = far.c1, c2 = far.c2;
-  // Of c1, c2 = I/2 ± √(I²/4 − d).
+  // Derivatives of c1, c2 = I/2 ± √(I²/4 − d).
   slack.fdd = (p.f11 - 2 * p.f12 + p.f22) / g2 - 2 * (p.f1 - p.f2) / g3;
   slack.fid = (-c1 * p.f11 + (c1 + c2) * p.f12 - c2 * p.f22) / g2 + (c1 + c2) * (p.f1 - p.f2) / g3;
   slack.fii = (c1 * c1 * p.f11 - 2 * c1 * c2 * p.f12 + c2 * c2 * p.f22) / g2 -

@@ -85,7 +85,7 @@ void Panel::scale_bar(const Colour& colour) {
        Align::centre);
 }
 
-// Filled annuli: wide lines of many short pieces would show gaps between them.
+// Filled annuli, because wide lines of many short pieces would show gaps between them.
 void Panel::ring(const Vec3& at, double radius, const Colour& colour) {
   constexpr double half_width = 1.3, rim = 1.0;  // pixels
   impl_->front->AddViewProp(annulus(to_pixel(at), radius - half_width - rim,
@@ -107,7 +107,7 @@ void Panel::compass() {
     Vec3 direction;
     const char* letter;
   };
-  // Of each axis the end that is named: patient's left, anterior, superior (LPS).
+  // The named end of each axis: patient's left, anterior, superior (LPS).
   const std::array<Axis, 3> axes = {{{{1, 0, 0}, "L"}, {{0, -1, 0}, "A"}, {{0, 0, 1}, "S"}}};
   const double arm = 30;
   Vec2 low(0, 0);

@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<std::array<int, 4>, 4> quarters = {
     {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}}};
 
-/// Of the upright wall behind a plate's rounded edge, mm.
+/// Height of the upright wall behind a plate's rounded edge, mm.
 constexpr double wall_shown = 15;
 
 class Builder {
@@ -67,7 +67,7 @@ Facets face_facets(const HexMesh& mesh, const std::vector<Vec3>& nodal,
 }
 
 Facets tissue_facets(const HexMesh& mesh, const std::vector<Vec3>& nodal, Tissue tissue) {
-  HexMesh part;  // the elements of that tissue alone: their boundary is what is drawn
+  HexMesh part;  // the elements of that tissue alone, whose boundary is drawn
   part.order = mesh.order;
   std::vector<int> whole;  // element of the mesh
   for (int e = 0; e < mesh.elements(); ++e) {

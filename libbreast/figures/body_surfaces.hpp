@@ -13,11 +13,12 @@ namespace breast {
 /// Faces in a nodal field; a 9-node face becomes four quadrilaterals.
 Facets face_facets(const HexMesh& mesh, const std::vector<Vec3>& nodal,
                    const std::vector<Face>& faces);
-/// Surface of all elements of one tissue, without what lies on the body's boundary.
+/// Surface of all elements of one tissue, without the faces on the boundary of the body.
 Facets tissue_facets(const HexMesh& mesh, const std::vector<Vec3>& nodal, Tissue tissue);
 
-/// A plate with its rounded edge and the bevel behind it, as contact has them: flat from the edge
-/// `length` mm forward, `half_width` mm to either side of its origin.
+/// A plate with its rounded edge and the wall behind it, in the geometry of the contact: the flat
+/// part extends from the edge by `length` mm forwards and by `half_width` mm to either side of its
+/// origin.
 Facets plate_facets(const PlateRecord& plate, double length, double half_width);
 
 /// The sheet sampled on a grid of `fineness` cells per patch; `inside` are cells within the rim.

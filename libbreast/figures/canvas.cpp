@@ -145,7 +145,7 @@ void Panel::values(const Facets& facets, const std::vector<double>& at_points, d
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   vtkProperty* property = actor->GetProperty();
-  // Colours are to be read off the bar: hardly any shading.
+  // The colours are compared with the colour bar, so there is hardly any shading.
   property->SetAmbient(0.75);
   property->SetDiffuse(0.25);
   property->EdgeVisibilityOn();
@@ -321,7 +321,7 @@ vtkSmartPointer<vtkTextActor> words_at(const Vec2& at, const std::string& words,
   property->SetFontFamilyToArial();
   property->SetFontSize(int(std::lround(height * supersampling)));
   property->SetColor(colour.r, colour.g, colour.b);
-  if (colour.r + colour.g + colour.b > 2.4) {  // light words stand on an image
+  if (colour.r + colour.g + colour.b > 2.4) {  // light text is drawn on an image
     property->ShadowOn();
     property->SetShadowOffset(supersampling, -supersampling);
   }
@@ -336,7 +336,8 @@ vtkSmartPointer<vtkTextActor> words_at(const Vec2& at, const std::string& words,
 
 }  // namespace
 
-// What lies in the plane of the picture goes to the front layer, over what is drawn through.
+// Objects in the plane of the picture belong to the front layer, over everything that is drawn
+// through.
 void Panel::text(const Vec2& at, const std::string& words, double height, const Colour& colour,
                  Align align) {
   impl_->front->AddViewProp(words_at(at, words, height, colour, align));

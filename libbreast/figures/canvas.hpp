@@ -21,7 +21,8 @@ struct Colour {
 struct Facets {
   std::vector<Vec3> points;
   std::vector<std::array<int, 4>> quads;
-  std::vector<Vec3> normals;  ///< at the points, for shading; empty: found from the facets
+  /// At the points, for shading; if empty, they are computed from the facets.
+  std::vector<Vec3> normals;
 };
 
 struct Look {
@@ -43,8 +44,8 @@ class Panel {
   explicit Panel(std::unique_ptr<Impl> impl);
   ~Panel();
 
-  /// What is added from here on is drawn over everything else, however deep it lies: marks that
-  /// must be seen through the body.
+  /// Everything added after this call is drawn over everything else, whatever its depth: for marks
+  /// that must be visible through the body.
   void draw_through(bool on);
   void surface(const Facets& facets, const Look& look);
   /// Colours by a value at each point of the facets, from 0 to `high` (figures/colour_scale.hpp).
@@ -56,7 +57,8 @@ class Panel {
   void image(const std::vector<std::uint16_t>& grey, int width, int height, double pixel);
   /// Line lying on an image (z slightly above 0), `width` in pixels.
   void stroke(const std::vector<Vec3>& points, const Colour& colour, double width);
-  /// Many short pieces of line at once; they count for the camera as surfaces do.
+  /// Adds many short line segments at once; like surfaces, they count for the extent of the
+  /// picture.
   void strokes(const std::vector<std::array<Vec3, 2>>& pieces, const Colour& colour, double width);
 
   /// Looks along `direction` with `up` on top and everything added so far in view; `margin` is the
@@ -72,16 +74,17 @@ class Panel {
 
   void text(const Vec2& at, const std::string& words, double height, const Colour& colour,
             Align align = Align::left);
-  /// Words on a light ground, legible over a drawing.
+  /// Adds text on a light background, legible over a drawing.
   void label(const Vec2& at, const std::string& words, double height, const Colour& colour,
              Align align = Align::left);
   void line(const Vec2& from, const Vec2& to, const Colour& colour, double width);
   void path(const std::vector<Vec2>& points, const Colour& colour, double width);
-  /// A hollow circle round a place, with a dark rim; `radius` in pixels.
+  /// Adds a ring around a position, with a dark rim; `radius` in pixels.
   void ring(const Vec3& at, double radius, const Colour& colour);
-  /// An arrow from place to place in the plane of the picture.
+  /// Adds an arrow between two positions in the plane of the picture.
   void arrow(const Vec3& from, const Vec3& to, const Colour& colour);
-  /// Top left, in as many lines as the panel's width asks for; returns their number.
+  /// Adds text at the top left, in as many lines as the width of the panel requires; returns their
+  /// number.
   int caption(const std::string& words);
   void scale_bar(const Colour& colour = {0, 0, 0});  ///< bottom right, a round number of mm
   void compass();                                    ///< bottom left: left, anterior, superior

@@ -11,12 +11,12 @@
 
 namespace breast {
 
-/// Pictures are drawn this many times larger and averaged down: smooth edges
-/// with translucent surfaces.
+/// Pictures are drawn larger by this factor and averaged, for smooth edges also of translucent
+/// surfaces.
 inline constexpr int supersampling = 2;
 
 struct Panel::Impl {
-  vtkNew<vtkRenderer> renderer, front;  ///< the latter over the former, with the same camera
+  vtkNew<vtkRenderer> renderer, front;  ///< `front` is drawn over `renderer` with the same camera
   vtkNew<vtkLightKit> lights, front_lights;
   bool through = false;
   Vec2 pixels{1, 1};

@@ -43,7 +43,7 @@ struct Sight {
   std::string caption;
 };
 
-// All at one scale, that of the largest.
+// All have the same scale, that of the largest.
 void finish(const std::vector<Sight>& sights) {
   double height = 0;
   for (const Sight& sight : sights) {

@@ -33,43 +33,50 @@ struct Figure {
 const std::vector<Figure>& figures() {
   static const std::vector<Figure> list = {
       {"slices",
-       "the scan in three planes with its segmentation's contours (--scan, --labels, mesh "
-       ".vtkhdf)",
+       "the scan in three planes with the contours of its segmentation (from --scan, --labels and "
+       "a mesh .vtkhdf)",
        1800, 760, false, false, draw_slices},
-      {"points", "data points of skin and chest wall (points .vtp of segment)", 1600, 800, false,
-       true, draw_points},
+      {"points", "the data points of skin and chest wall (from points .vtp of segment)", 1600, 800,
+       false, true, draw_points},
       {"geometry",
-       "Hermite sheets with patch lines and rim (geometry .vtkhdf, optionally "
+       "the Hermite sheets with patch lines and rim (from a geometry .vtkhdf and optionally "
        "points .vtp)",
        1600, 800, true, true, draw_geometry},
-      {"mesh", "element edges, front and back (mesh .vtkhdf)", 1600, 800, false, false, draw_mesh},
-      {"tissues", "fibroglandular region and tumour through a translucent skin (mesh .vtkhdf)",
+      {"mesh", "the element edges of a mesh, front and back (from a mesh .vtkhdf)", 1600, 800,
+       false, false, draw_mesh},
+      {"tissues",
+       "the fibroglandular region and the tumour through a translucent skin (from a "
+       "mesh .vtkhdf)",
        1600, 800, false, false, draw_tissues},
       {"outlines",
-       "superimposed shapes, from the scan to other postures (one or more deformed .vtkhdf)", 1600,
-       800, false, false, draw_outlines},
+       "the superimposed shapes of the scan and other postures (from one or more deformed "
+       ".vtkhdf)",
+       1600, 800, false, false, draw_outlines},
       {"postures",
-       "one slice of a breast prone, as predicted in a second posture, and as seen there (deformed .vtkhdf, "
-       "and .vtp of identify --seen)",
+       "one slice of a breast in the prone scan, as predicted in a second posture, and as "
+       "observed there (from a deformed .vtkhdf and the .vtp of identify --seen)",
        1100, 900, false, true, draw_postures},
-      {"compression", "shapes between their plates (one or two compressed .vtkhdf)", 1600, 1060,
-       false, false, draw_compression},
+      {"compression", "the shapes between the plates (from one or two compressed .vtkhdf)", 1600,
+       1060, false, false, draw_compression},
       {"pressure",
-       "contact pressure of paddle and detector on the skin (one or two compressed .vtkhdf)", 1600,
-       1300, false, false, draw_pressure},
-      {"force-thickness", "force of both plates during the compression (compressed .vtkhdf)", 1600,
-       700, false, false, draw_force_thickness},
+       "the contact pressure of paddle and detector on the skin (from one or two compressed "
+       ".vtkhdf)",
+       1600, 1300, false, false, draw_pressure},
+      {"force-thickness",
+       "the force of both plates during the compression (from a compressed "
+       ".vtkhdf)",
+       1600, 700, false, false, draw_force_thickness},
       {"mammogram",
-       "mammograms with axes in mm (one or two .vti), optionally with curve, arc and tumour "
-       "(curve .vtp)",
+       "the mammograms with axes in mm (from one or two .vti), optionally with curve, arc and "
+       "tumour (from a curve .vtp)",
        1600, 1000, false, false, draw_mammogram},
       {"matching",
-       "the column of a CC point in the CC, stress-free and MLO shapes (cc.vtkhdf mlo.vtkhdf, "
-       "or one of them, curve.vtp)",
+       "the column of a CC point in the CC, stress-free and MLO shapes (from cc.vtkhdf and "
+       "mlo.vtkhdf or one of them, and a curve.vtp)",
        1800, 680, false, false, draw_matching},
       {"summary",
-       "the whole chain (mesh reference supine cc mlo .vtkhdf, cc.vti mlo.vti, optionally curve.vtp, "
-       "--scan and --labels)",
+       "the whole chain (from mesh, reference, supine, cc and mlo .vtkhdf, cc.vti and mlo.vti, "
+       "and optionally curve.vtp, --scan and --labels)",
        1500, 1050, false, false, draw_summary},
   };
   return list;

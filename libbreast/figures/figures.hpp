@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The pictures of the pipeline, in the manner of Figs 4 to 7 of Pathmanathan et al. 2008.
+// The pictures of the pipeline, similar to Figs 4 to 7 of Pathmanathan et al. 2008.
 #pragma once
 
 #include <filesystem>
@@ -26,22 +26,22 @@ struct FigureInput {
   std::vector<Mammogram> images;
   std::optional<BreastGeometry> geometry;
   std::vector<TriMesh> surfaces;    ///< data points of segment
-  std::optional<PolyLines> curves;  ///< of cc2mlo
+  std::optional<PolyLines> curves;  ///< curves of cc2mlo
   std::optional<Volume<float>> scan;
-  std::optional<LabelVolume> labels;  ///< of that scan
+  std::optional<LabelVolume> labels;  ///< segmentation of that scan
 };
 
 /// "slices", "points", "geometry", "mesh", "tissues", "outlines", "postures", "compression", "pressure",
 /// "force-thickness", "mammogram", "matching", "summary".
 const std::vector<std::string>& figure_names();
-/// One line for the help on what the figure shows and needs.
+/// One line for the help about the content and the input of the figure.
 std::string figure_summary(const std::string& name);
 /// The content that .vtkhdf and .vtp files must have for this figure.
 bool figure_takes_geometry(const std::string& name);
 bool figure_takes_points(const std::string& name);
 
-/// Draws and writes a PNG. Starts its own display. Throws Error (input) when the figure needs
-/// something that was not given.
+/// Draws a figure and writes it as PNG, on a display of its own. Throws Error (input) if an input
+/// that the figure needs was not given.
 void draw_figure(const std::string& name, const FigureInput& input,
                  const std::filesystem::path& file);
 

@@ -15,7 +15,7 @@ namespace {
 constexpr Colour white{1, 1, 1};
 constexpr double above_image = 1;  // mm
 
-// Image position (u,v) in mm to the hung picture's plane, y up.
+// Converts an image position (u,v) in mm to the plane of the picture as it is hung, y up.
 class Hanging {
  public:
   explicit Hanging(const Mammogram& image)
@@ -39,7 +39,7 @@ struct ImageLine {
   std::vector<Vec2> uv;
 };
 
-/// Lines for whose names `wanted` holds.
+/// The lines whose names satisfy `wanted`.
 std::vector<ImageLine> image_lines(const PolyLines& lines,
                                    const std::function<bool(const std::string&)>& wanted) {
   std::vector<ImageLine> found;
@@ -95,7 +95,7 @@ std::string add_curves(Panel& panel, const Mammogram& image, const PolyLines& cu
   const int count = int(points.size());
   const Vec2 size(hanging.width(), hanging.height());
   double outside = 0;
-  // What lies outside the image is not drawn, but said. Returns its length.
+  // The parts outside the image are not drawn, but reported. Returns their length.
   const auto draw = [&](const ImageLine& line, const Colour& colour, double width) {
     double lost = 0;
     for (const auto& part : parts_inside(line.uv, size, &lost)) {
@@ -197,7 +197,7 @@ std::vector<std::vector<Vec2>> parts_inside(const std::vector<Vec2>& line, const
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const Vec2 &a = line[i], along = line[i + 1] - a;
     all += along.norm();
-    // The piece from t = low to high lies between all four sides.
+    // The segment from t = low to high lies within all four sides.
     double low = 0, high = 1;
     for (int d = 0; d < 2; ++d) {
       for (const double side : {0.0, size[d]}) {

@@ -31,7 +31,7 @@ void add_data_points(Panel& panel, const TriMesh& points) {
   if (!wall.empty()) panel.cloud(thinned(wall), dot_mm, palette::muscle);
 }
 
-// The side nearer to the points' own centre of x decides left or right where no mesh says so.
+// If no mesh states the side, it follows from the centre of the points in x.
 Side side_of(const TriMesh& points) {
   double sum = 0;
   for (const Vec3& x : points.points) sum += x.x();

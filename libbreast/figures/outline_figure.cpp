@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shapes of one breast over each other: where its tissue goes from the scan to another posture.
+// Overlaid shapes of one breast, which show the motion of its tissue from the scan to another
+// posture.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -68,7 +69,7 @@ double moved_mm(const std::vector<Shape>& shapes, std::size_t k, const Landmark&
   return (place_in(shapes[k], landmark) - place_in(shapes.front(), landmark)).norm();
 }
 
-/// Rings at the landmarks' places in every shape, arrows from the first to the last.
+/// Rings at the positions of the landmarks in every shape, and arrows from the first to the last.
 void add_arrows(Panel& panel, const std::vector<Shape>& shapes) {
   for (const Landmark& landmark : shapes.front().mesh->landmarks) {
     const Vec3 from = place_in(shapes.front(), landmark), to = place_in(shapes.back(), landmark);
@@ -79,7 +80,7 @@ void add_arrows(Panel& panel, const std::vector<Shape>& shapes) {
     if (shapes.size() < 2) continue;
     std::string name = landmark.name;
     std::replace(name.begin(), name.end(), '_', ' ');
-    // Past the arrow's head, where the words hide no mark.
+    // Beyond the head of the arrow, where the text hides no mark.
     const Vec2 start = panel.to_pixel(from), tip = panel.to_pixel(to);
     const bool rightwards = tip.x() >= start.x();
     panel.label(tip + Vec2(rightwards ? 12 : -12, 0),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elements that the figures share: colours, views, a breast, its mammogram.
+// Drawing functions that the figures share: colours, views, a breast, its mammogram.
 #pragma once
 
 #include "figures/body_surfaces.hpp"
@@ -31,7 +31,7 @@ struct Camera {
 Camera lateral_view(Side side);  ///< from the body's outer side
 Camera anterior_view();          ///< from the front
 Camera oblique_view(Side side);  ///< from front, lateral and above
-/// Along the plates' edges of a compression, paddle on top: shows both plates edge-on.
+/// The view along the edges of the plates, with the paddle on top, which shows both plates edge-on.
 Camera plate_view(const HexMesh& mesh);
 
 struct BodyStyle {
@@ -45,54 +45,58 @@ void add_body(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
               const BodyStyle& style);
 /// Both plates of the mesh's compression, long enough for the body.
 void add_plates(Panel& panel, const HexMesh& mesh, double opacity);
-/// The border of the mammogram on the detector, seen through the body: its posterior side is where
-/// the image ends. In the pose of the projection's parallel beam.
+/// The border of the mammogram on the detector, visible through the body, in the pose of the
+/// projection's parallel beam. The image ends at its posterior side.
 void add_image_border(Panel& panel, const HexMesh& mesh);
-/// A landmark of the mesh as a sphere; nothing when it has none of that name.
+/// Draws a landmark of the mesh as a sphere; nothing if there is none of that name.
 void add_landmark(Panel& panel, const HexMesh& mesh, const std::vector<Vec3>& nodal,
                   const std::string& name, double radius, const Colour& colour);
-/// "tumour (yellow)", "artificial tumour (yellow)", or nothing for a mesh without one.
+/// "tumour (yellow)", "artificial tumour (yellow)", or an empty text for a mesh without a tumour.
 std::string tumour_words(const HexMesh& mesh);
-/// "MLO (left), 46.2 mm, 91 / 93 N" of a compressed mesh: forces of paddle and detector.
+/// A caption such as "MLO (left), 46.2 mm, 91 / 93 N" for a compressed mesh, with the forces of
+/// paddle and detector.
 std::string compression_caption(const HexMesh& mesh);
 
-/// Hung mammogram with axes in mm; curves of `curves` (nullable) for its view on top. `letter`
-/// begins the caption.
+/// Draws a mammogram in clinical orientation with axes in mm, and over it the curves of `curves`
+/// (may be null) for its view. `letter` begins the caption.
 void add_mammogram(Panel& panel, const Mammogram& image, const PolyLines* curves,
                    const std::string& letter);
-/// The parts of a line within an image of `size` mm; the length of the rest, mm, in `outside_mm`.
+/// The parts of a line inside an image of `size` mm; `outside_mm` receives the length of the rest
+/// in mm.
 std::vector<std::vector<Vec2>> parts_inside(const std::vector<Vec2>& line, const Vec2& size,
                                             double* outside_mm);
-/// Points of all lines of that name.
+/// The points of all lines with that name.
 std::vector<std::vector<Vec3>> named_lines(const PolyLines& lines, const std::string& name);
 
 /// Throws Error (input) naming the figure if fewer files were given.
 void need(bool given, const std::string& figure, const std::string& what);
 
-/// Throws Error (input) without scan and labels.
+/// Throws Error (input) if scan and labels are not given.
 void need_scan(const FigureInput& input, const std::string& figure);
-/// The point all three slices pass through: the tumour, or the middle of the fibroglandular tissue.
+/// The point in which all three slices intersect: the tumour, or the centre of the fibroglandular
+/// tissue.
 Vec3 slices_through(const FigureInput& input);
-/// Width and height in mm that a slice needs to show the breast.
+/// Width and height in mm of the slice that shows the whole breast.
 Vec2 slice_size(const FigureInput& input, SlicePlane plane);
-/// The scan's slice with contours, marks, letters of orientation and scale bar, filling the panel.
+/// Draws the slice of the scan with contours, marks, orientation letters and scale bar, filling the
+/// panel.
 void add_slice(Panel& panel, const FigureInput& input, SlicePlane plane, double mm_per_pixel,
                const std::string& letter);
-/// One row: what the slices' colours mean.
+/// Draws one row with the legend of the slices' colours.
 void add_slice_legend(Panel& panel, const FigureInput& input,
                       const std::vector<SlicePlane>& planes);
 
-/// Shapes of one breast over each other: the scan's, then those of the states.
+/// Overlaid shapes of one breast: that of the scan, then those of the states.
 struct Shape {
   const HexMesh* mesh;
   const std::vector<Vec3>* points;
   std::string name;
 };
 std::vector<Shape> shapes_of(const std::vector<const HexMesh*>& states);
-/// Their silhouettes from the outer side, with arrows from the scan's place of each landmark to that
-/// of the last shape and the distance in mm.
+/// Draws their silhouettes from the lateral side, with an arrow from each landmark's position in
+/// the scan to that in the last shape, and the distance in mm.
 void add_silhouettes(Panel& panel, const std::vector<Shape>& shapes);
-/// A line a shape: its colour, its name, how far its landmarks have moved.
+/// Draws one line per shape with its colour, its name and the displacements of its landmarks.
 void add_shape_legend(Panel& panel, const std::vector<Shape>& shapes);
 
 void draw_slices(Picture& picture, const FigureInput& input);

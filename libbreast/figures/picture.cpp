@@ -61,8 +61,8 @@ Panel& Picture::panel(double left, double bottom, double right, double top) {
 
 namespace {
 
-// To every third of 256 values, black and white among them: the eye cannot tell, and a noisy scan takes
-// two thirds of the bytes.
+// Rounds to every third of 256 values, including black and white: the difference is invisible, and
+// a noisy scan takes two thirds of the bytes.
 unsigned char rounded(double value) {
   constexpr int step = 3;
   return static_cast<unsigned char>(step * int(std::lround(value / step)));

@@ -21,7 +21,7 @@ std::vector<double> facet_values(const HexMesh& mesh) {
   return values;
 }
 
-/// Where the flat of the plate begins: the stand-off's line on the skin.
+/// The beginning of the flat part of the plate: the line of the stand-off on the skin.
 void add_edge_line(Panel& panel, const HexMesh& mesh, const PlateRecord& plate) {
   const Vec3 lateral = plate.normal.cross(plate.anterior);
   double half_width = 0;

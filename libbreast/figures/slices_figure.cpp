@@ -39,7 +39,7 @@ const HexMesh* model_of(const FigureInput& input) {
   return input.meshes.empty() ? nullptr : &input.meshes.front().mesh;
 }
 
-/// The tumour's place in the scan; of the labels where there is no mesh.
+/// The position of the tumour in the scan; taken from the labels if there is no mesh.
 const Vec3* tumour_of(const FigureInput& input) {
   if (const HexMesh* mesh = model_of(input)) {
     const Landmark* landmark = mesh->landmark("tumour");
@@ -49,7 +49,7 @@ const Vec3* tumour_of(const FigureInput& input) {
   return found != input.labels->landmarks.end() ? &found->second : nullptr;
 }
 
-/// The nipple where it lies in the slice, or near it.
+/// The nipple if it lies in the slice or near it.
 const Vec3* nipple_in(const FigureInput& input, SlicePlane plane) {
   const auto found = input.labels->landmarks.find("nipple");
   if (found == input.labels->landmarks.end()) return nullptr;
@@ -58,7 +58,7 @@ const Vec3* nipple_in(const FigureInput& input, SlicePlane plane) {
   return beside < in_plane_mm ? &found->second : nullptr;
 }
 
-/// Three-dimensional places of a slice's drawing: mm of the frame, a little above the image.
+/// Three-dimensional positions for drawing a slice: mm in the frame, a little above the image.
 Vec3 lifted(const Vec2& mm) {
   return {mm.x(), mm.y(), 1};
 }
@@ -69,7 +69,7 @@ void add_lines(Panel& panel, const std::vector<PlaneSegment>& lines, const Colou
   panel.strokes(pieces, colour, line_width);
 }
 
-/// Where the model's own body ends: its cut surface in this plane.
+/// The end of the model's body: its cut surface in this plane.
 std::vector<PlaneSegment> model_end(const HexMesh& mesh, const SliceFrame& frame) {
   const Vec3 normal = frame.right.cross(frame.up);
   std::vector<PlaneSegment> lines;
@@ -89,7 +89,7 @@ void add_letters(Panel& panel, SlicePlane plane) {
   panel.text({0.5 * size.x(), 16}, words.bottom, letters + 3, white, Align::centre);
 }
 
-/// Ticks at the borders where the two other planes cut this one.
+/// Ticks at the borders, where the two other planes intersect this one.
 void add_ticks(Panel& panel, const SliceFrame& frame, const Vec3& through) {
   const Vec2 size = panel.size(), at = panel.to_pixel(lifted(frame.flat(through)));
   constexpr double length = 12;
@@ -193,7 +193,7 @@ void draw_slices(Picture& picture, const FigureInput& input) {
                                        SlicePlane::coronal};
   double across = 0;
   for (const SlicePlane plane : planes) across += slice_size(input, plane).x();
-  // One scale for all: the panels are as wide as what they show.
+  // One scale for all: the width of a panel is that of its content.
   std::vector<Panel*> panels;
   double left = 0, scale = 0;
   for (const SlicePlane plane : planes) {

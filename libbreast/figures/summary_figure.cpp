@@ -12,7 +12,7 @@ namespace {
 
 constexpr BodyStyle body_style{.skin_opacity = 0.3, .inside = true, .gland_opacity = 0.85};
 
-// The shapes by what their files say of themselves, in any order.
+// The shapes, in any order, identified by the state recorded in their files.
 struct Chain {
   const HexMesh *imaged = nullptr, *reference = nullptr, *supine = nullptr, *cc = nullptr,
                 *mlo = nullptr;
@@ -37,7 +37,7 @@ Chain sort_meshes(const FigureInput& input) {
 
 constexpr double legend_height = 0.034, gap = 0.003;
 
-/// Two of the scan's planes at one scale, and below all the row what their colours mean.
+/// Two planes of the scan at one scale, and below them the legend of their colours.
 void add_scan(Picture& picture, const FigureInput& input, double bottom, double right) {
   const std::vector<SlicePlane> planes{SlicePlane::axial, SlicePlane::sagittal};
   const double axial = slice_size(input, planes[0]).x(),

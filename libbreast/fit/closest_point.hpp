@@ -15,9 +15,9 @@ struct SheetFoot {
   double distance = 0;  ///< mm
 };
 
-/// Local minimum of the distance reached from `start`: Newton with the sheet's second derivatives
-/// (Gauss–Newton where they are indefinite), bounds as an active set, step halving. Never increases
-/// the distance, never leaves [0,1]^2.
+/// The local minimum of the distance reached from `start`, by Newton's method with the sheet's
+/// second derivatives (Gauss–Newton where they are indefinite), bounds as an active set, and step
+/// halving. It never increases the distance and never leaves [0,1]^2.
 SheetFoot closest_from(const HermiteSheet& sheet, const Vec3& target, const Vec2& start);
 
 /// Global closest points: seeds from a regular sample of the sheet, then closest_from.

@@ -17,10 +17,10 @@ struct DiscMap {
   int solves = 0;
 };
 
-/// Tutte embedding with mean-value weights (Floater 2003), the border by arc length between the
-/// points nearest to the corners of the (x,z) box, then stretch-minimising reweighting w_ij /=
-/// sigma_j (Yoshizawa 2004) as long as the stretch falls. s runs towards +x, t towards +z. Throws
-/// Error (input) when the border cannot be laid around the square.
+/// Tutte embedding with mean-value weights (Floater 2003). The border is mapped by arc length
+/// between the points nearest to the corners of the (x,z) box. Reweighting w_ij /= sigma_j
+/// (Yoshizawa 2004) then reduces the stretch as long as it falls. s increases towards +x, t towards
+/// +z. Throws Error (input) if the border cannot be mapped to the square.
 DiscMap map_to_square(const DiscSurface& surface, int max_solves = 4);
 
 }  // namespace breast

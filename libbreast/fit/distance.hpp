@@ -9,8 +9,8 @@
 
 namespace breast {
 
-/// Distance (mm) of every query to the nearest point of the triangles. Order
-/// of queries; deterministic.
+/// Distance (mm) of every query to the nearest point of the triangles, in the order of the queries;
+/// deterministic.
 std::vector<double> distances_to_triangles(const std::vector<Vec3>& points,
                                            const std::vector<std::array<int, 3>>& triangles,
                                            const std::vector<Vec3>& queries);

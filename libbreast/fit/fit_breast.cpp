@@ -14,7 +14,7 @@ namespace breast {
 
 namespace {
 
-/// Where the body touches the anterior end of the field of view its skin was not imaged.
+/// Where the body touches the anterior end of the field of view, its skin was not imaged.
 void check_front(const DiscSurface& surface, double front, FitReport& report) {
   double cut = 0, total = 0;
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
@@ -106,7 +106,8 @@ void find_doubts(const BreastRegion& region, const BreastGeometry& geometry, Fit
   const double margin =
       double(std::count(geometry.rim_end.begin(), geometry.rim_end.end(), RimEnd::margin)) /
       double(geometry.rim_end.size());
-  // A breast that goes over into the axilla ends there on ordinary scans: a tenth to a half of the rim on eight of ours.
+  // A breast that continues into the axilla ends there on ordinary scans, along a tenth to a half
+  // of the rim on eight of ours.
   if (margin > 0.5)
     doubt(std::lround(100 * margin),
           " % of the rim lies at the border of the sheet rather than at that of the breast "
@@ -143,7 +144,7 @@ void check_options(const FitOptions& options) {
   check(options.rim.margin, 0.01, 0.3, "rim margin");
 }
 
-/// One fit on its way: what every step finds for the next ones.
+/// The state of a fit, in which every step stores its results for the next ones.
 struct Fit {
   const LabelVolume& labels;
   const FitOptions& options;

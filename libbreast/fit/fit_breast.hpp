@@ -17,11 +17,13 @@ namespace breast {
 
 struct FitOptions {
   int patches_s = 10, patches_t = 10;  ///< per sheet
-  double smoothing = 0;                ///< of the skin sheet (see sheet_fit.hpp); 0: automatic
+  /// Smoothing of the skin sheet (see sheet_fit.hpp); 0: automatic.
+  double smoothing = 0;
   double max_error_mm = 0;  ///< > 0: refine the skin sheet until its largest distance is below
   double target_rms_mm = 0.3;
-  /// Largest distance to aim at: the smoothing is lowered, and up to most_patches a side are used,
-  /// until no point of the skin lies farther from its sheet. Missing it is a doubt, not an error.
+  /// Target for the largest distance: the smoothing is lowered, and up to most_patches per side are
+  /// used, until no point of the skin lies farther from its sheet. Missing the target is a doubt,
+  /// not an error.
   double target_max_mm = 2;
   int most_patches = 10;
   double margin_mm = 25;       ///< skin included beyond the base of the breast
@@ -46,11 +48,12 @@ struct FitReport {
   double body_ml = 0, label_ml = 0;  ///< volume inside the sheets and cut; of the breast's voxels
   Rim rim;
   ThoraxReport thorax;
-  std::vector<std::string> doubts;  ///< what a user should check
+  std::vector<std::string> doubts;  ///< results that the user should check
 };
 
-/// Fits everything. Throws Error (input) when the labels hold no breast that can be bounded this
-/// way, Error (not_converged) when no sheet without folds was found or max_error_mm was not met.
+/// Fits sheets and rim. Throws Error (input) if the labels contain no breast that can be bounded in
+/// this way, and Error (not_converged) if no sheet without folds was found or max_error_mm was not
+/// met.
 BreastGeometry fit_breast(const LabelVolume& labels, const FitOptions& options, FitReport& report,
                           Timer& timer, Progress& progress = no_progress());
 

@@ -15,9 +15,9 @@ struct LineMatrix {
       before;  ///< n of m×m: rows of line l, columns of line l − 1 (0: unused)
 };
 
-/// Solves by Cholesky's method line by line, which overwrites `matrix`. `right` holds n·m values.
-/// False when the matrix is not positive definite. Only Eigen's own kernels are used: a BLAS would
-/// choose others, with other roundings, on another processor.
+/// Solves by Cholesky's method line by line, which overwrites `matrix`; `right` contains n·m
+/// values. Returns false if the matrix is not positive definite. Only Eigen's own kernels are used:
+/// a BLAS would choose other kernels, with other roundings, on another processor.
 bool solve_lines(LineMatrix& matrix, Eigen::VectorXd& right);
 
 }  // namespace breast

@@ -38,9 +38,9 @@ double quantile(std::vector<double>& values, double fraction) {
   return values[n];
 }
 
-/// x of the cleft: where, within the breast's middle heights, the front of the body lies deepest.
-/// Looked for from 15 mm inside the breast's medial end to `reach` beyond it; NaN when the body
-/// goes on receding (no second breast).
+/// The x coordinate of the cleft, where the front of the body lies deepest within the middle
+/// heights of the breast. Sought from 15 mm inside the medial end of the breast to `reach` beyond
+/// it; NaN if the body continues to recede (no second breast).
 double cleft_position(const LabelVolume& labels, const Box& foot, double reach) {
   const double step = 3.0;
   const double medial = -lateral_sign(labels.side);  // direction in x towards the midline
@@ -108,7 +108,7 @@ void smooth_axis(Volume<float>& volume, int axis, double sigma_voxels) {
 
 }  // namespace
 
-// Between the inner four of the field of view's eight corners.
+// Whether x lies between the inner four of the eight corners of the field of view.
 Box field_of_view(const Grid& grid) {
   std::array<std::array<double, 8>, 3> corner{};
   for (int c = 0; c < 8; ++c) {

@@ -18,7 +18,7 @@ struct Box {
 
 /// Location of the breast in a label volume, and the part of the body that its sheets must cover.
 struct BreastRegion {
-  Box foot;     ///< of the breast's own voxels
+  Box foot;     ///< box of the breast's own voxels
   Box crop;     ///< foot box and margin, clipped to the field of view and just past the midline
   Vec3 nipple;  ///< landmark, or the most anterior breast voxel
   bool nipple_known = false;
@@ -31,8 +31,8 @@ BreastRegion find_region(const LabelVolume& labels, double margin_mm);
 /// Largest axis-aligned box inside the (possibly tilted) field of view.
 Box field_of_view(const Grid& grid);
 
-/// Gaussian-smoothed occupancy of some tissues on the voxels around a box,
-/// thick slices interpolated.
+/// Gaussian-smoothed occupancy of some tissues on the voxels around a box, with interpolated slices
+/// if they are thick.
 class OccupancyField {
  public:
   /// `smoothing_mm` is the Gaussian's sigma, at least 0.6 voxels along every axis.

@@ -56,7 +56,8 @@ class ThicknessMap {
   std::vector<double> value_;
 };
 
-/// Thickest place near the nipple, and the centroid of what is joined to it above 0.6 of it.
+/// The thickest position near the nipple, and the centroid of the region connected to it with more
+/// than 0.6 of its thickness.
 struct Core {
   Vec2 centre;
   double thickest;
@@ -99,7 +100,7 @@ double sternal_thickness(const ThicknessMap& map, Side side) {
   return edge[20];
 }
 
-/// How far a ray may go: a rounded square (superellipse), so that the rim has no corners.
+/// Limit of a ray: a rounded square (superellipse), so that the rim has no corners.
 double margin_radius(const Vec2& centre, const Vec2& direction, const RimOptions& options) {
   double low = 0, high = 1.5;
   for (int k = 0; k < 50; ++k) {
@@ -175,7 +176,7 @@ std::vector<double> median_of_five(const std::vector<double>& values) {
   return result;
 }
 
-/// Where a ray from in front meets the wall; empty if it leaves the sheet.
+/// The point at which a ray from the front meets the wall; none if it leaves the sheet.
 std::optional<Vec2> hit_wall(const WallSheet& wall, const Vec3& from, const Vec3& direction) {
   double low = 0, high = 0;
   const double reach = 300, step = 2;
@@ -190,8 +191,8 @@ std::optional<Vec2> hit_wall(const WallSheet& wall, const Vec3& from, const Vec3
   return st;
 }
 
-/// Straight segments of neighbours run the same way round and the strip
-/// between them does not turn over.
+/// Whether neighbouring straight segments have the same sense of rotation and the strip between
+/// them does not fold.
 bool cut_is_simple(const HermiteSheet& skin, const HermiteSheet& wall, const Rim& rim) {
   const std::size_t n = rim.skin.size();
   Vec3 before = Vec3::Zero();

@@ -14,9 +14,10 @@ namespace breast {
 struct RimOptions {
   int rays = 96;
   double least_thickness_mm =
-      0;                      ///< tissue where the body ends; 0: sternal tissue + 5, within 15..30
-  double slope_degrees = 15;  ///< ends where tissue thins less than this ...
-  double slope_below = 0.4;   ///< ... and is below this part of its greatest thickness
+      0;  ///< tissue where the body ends; 0: sternal tissue + 5, within 15..30
+  /// Slope below which the tissue may end, if it is also thinner than slope_below.
+  double slope_degrees = 15;
+  double slope_below = 0.4;  ///< thickness for this, as a fraction of the greatest thickness
   /// Beyond the least thickness the rim continues outwards until the angle between skin and wall is
   /// below `steep_degrees`, or the tissue is thinner than `steep_down_to` of it: a rim on the steep
   /// side of the breast would give elements with an angle of nearly 180 degrees between skin and
@@ -24,19 +25,22 @@ struct RimOptions {
   double steep_degrees = 40;
   double steep_down_to = 0.6;
   double low_pass_degrees = 12;  ///< standard deviation of the smoothing of the rim's log radius
-  int margin_order = 5;          ///< of the superellipse within the sheet's border
-  double margin = 0.035;         ///< of the skin sheet's parameters kept outside the body
+  int margin_order = 5;          ///< order of the superellipse within the sheet's border
+  /// Range of the skin sheet's parameters that is kept outside the body.
+  double margin = 0.035;
 };
 
-/// True where the body may lie: within the superellipse that keeps off the skin sheet's border.
+/// True where the body may lie: within the superellipse that keeps a distance from the border of
+/// the skin sheet.
 bool within_margin(const Vec2& st, const RimOptions& options);
 
 struct Rim {
   Vec2 centre;
   std::vector<Vec2> skin, wall;
   std::vector<RimEnd> end;
-  double wider_mm = 0;            ///< moved outwards by, for the volume's sake
-  double least_thickness_mm = 0;  ///< used
+  /// Distance by which the rim was moved outwards to obtain the volume.
+  double wider_mm = 0;
+  double least_thickness_mm = 0;  ///< thickness that was used
   double greatest_thickness_mm = 0;
   double cut_height_min_mm = 0, cut_height_median_mm = 0, cut_height_max_mm = 0;
   /// Interior angles between cut and skin and between cut and wall, degrees.
@@ -52,19 +56,20 @@ struct RimRays {
   std::vector<RimEnd> end;
   double least_thickness_mm = 0, greatest_thickness_mm = 0;
 };
-/// Polar walk about the centre of the thick part. Throws Error (input) when nothing is thick.
+/// Follows rays from the centre of the thick part outwards. Throws Error (input) if no part is
+/// thick enough.
 RimRays walk_rim(const HermiteSheet& skin, const WallSheet& wall, Side side, const Vec2& nipple_st,
                  const RimOptions& options);
 
-/// The rim through the rays' ends, low-passed and moved outwards along the skin by `wider_mm` (not
-/// beyond the margin); cut directions halfway between the closest wall point and +y, smoothed until
-/// neither the segments cross nor the wall's rim stops being star-shaped. Throws Error (input) when
-/// no such rim exists.
+/// The rim through the ends of the rays, low-passed and moved outwards along the skin by `wider_mm`
+/// (not beyond the margin). The directions of the cut lie halfway between the closest wall point
+/// and +y, and are smoothed until no segments cross and the rim of the wall is star-shaped. Throws
+/// Error (input) if no such rim exists.
 Rim lay_rim(const HermiteSheet& skin, const WallSheet& wall, const RimRays& rays, double wider_mm,
             const RimOptions& options);
 
-/// True when the polygon's angle about `centre` grows from each point to the
-/// next and goes round once.
+/// True if the angle of the polygon about `centre` increases from each point to the next and makes
+/// one turn.
 bool star_shaped(const std::vector<Vec2>& curve, const Vec2& centre);
 Vec2 centroid(const std::vector<Vec2>& curve);
 /// True inside a curve that is star-shaped about `centre`.

@@ -13,7 +13,8 @@ namespace breast {
 namespace {
 
 constexpr double farthest = 20;  // mm
-// Of the volume: what needs no move, and to where and how exactly the rim is moved otherwise.
+// Relative differences of the volume: the one that needs no move, and the target and accuracy of a
+// move.
 constexpr double allowed = 5e-3, aim = 4e-3, good_enough = 1e-3;
 
 void set_rim(const Rim& rim, BreastGeometry& geometry) {
@@ -36,8 +37,9 @@ Rim rim_of_volume(double wanted_ml, const WallSheet& wall, const RimRays& rays,
   if (std::abs(walked) <= allowed) return best;
   const double goal = std::copysign(aim, walked);
   double miss = walked - goal;
-  // Bisection between the rim as walked and the farthest one on the side that helps: the volume
-  // grows with the rim, and a cut that cannot be laid counts as too far.
+  // Bisection between the rim found by the rays and the farthest rim on the side that reduces the
+  // difference: the volume grows with the rim, and a cut that cannot be constructed counts as too
+  // far.
   double near = 0, far = miss > 0 ? -farthest : farthest;
   for (int step = 0; step < 12 && std::abs(miss) > good_enough; ++step) {
     const double middle = step == 0 ? far : 0.5 * (near + far);

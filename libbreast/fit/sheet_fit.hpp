@@ -27,7 +27,7 @@ struct SheetData {
 /// integral over [0,1]^2. Throws Error (failed) when the system is singular.
 HermiteSheet solve_sheet(int nu, int nv, const SheetData& data, double smoothing);
 
-/// Moves every free parameter to the closest point on the sheet (local search) and takes the
+/// Moves every free parameter to the closest point on the sheet (local search) and stores the
 /// sheet's normal there. Returns the weighted root mean square of the free points' distances, mm.
 double project(const HermiteSheet& sheet, SheetData& data);
 
@@ -51,9 +51,9 @@ struct FitOutcome {
   bool reached = false;  ///< target_rms_mm was met
 };
 
-/// Alternates solve_sheet and project. `acceptable(sheet)` vetoes a sheet (folds): the
-/// last acceptable one is returned and smoothing no longer lowered. Throws Error
-/// (not_converged) if none was.
+/// Alternates solve_sheet and project. `acceptable(sheet)` can reject a sheet (because of folds):
+/// the last acceptable one is then returned, and smoothing is not lowered further. Throws Error
+/// (not_converged) if none was acceptable.
 FitOutcome fit_sheet(int nu, int nv, SheetData& data, const FitControl& control,
                      const std::function<bool(const HermiteSheet&)>& acceptable);
 

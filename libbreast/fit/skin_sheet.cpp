@@ -9,8 +9,8 @@ namespace breast {
 
 namespace {
 
-/// 1 inside the sheet, falling to a tenth at its border: what lies there is cropped raggedly and
-/// never part of the body.
+/// 1 inside the sheet, decreasing to a tenth at its border: data there are cropped irregularly and
+/// are never part of the body.
 double border_weight(const Vec2& st) {
   const double distance = std::min(st.minCoeff(), 1 - st.maxCoeff());
   const double x = std::clamp(distance / 0.04, 0.0, 1.0);
@@ -26,7 +26,8 @@ SheetData sheet_data(const DiscSurface& surface, const DiscMap& map, const Vec3&
   data.weights = surface.areas;
   data.tangential.assign(n, 0.1);
   data.fixed.assign(n, 0);
-  // Border points hold their place in both directions, else the sheet shrinks at its edge.
+  // Border points are held in both directions, because the sheet would otherwise shrink at its
+  // edge.
   for (const int b : surface.border) data.tangential[b] = 1, data.fixed[b] = 1;
   data.trusted.assign(n, 0);
   const double areola = 20;  // mm
@@ -37,7 +38,7 @@ SheetData sheet_data(const DiscSurface& surface, const DiscMap& map, const Vec3&
   return data;
 }
 
-/// What the options ask of the sheet; `close_enough` is judged by the largest distance.
+/// The requirements of the options on the sheet; `close_enough` refers to the largest distance.
 FitControl control_of(const FitOptions& options,
                       std::function<bool(const HermiteSheet&, const SheetData&)> close_enough) {
   FitControl control;

@@ -6,10 +6,10 @@
 
 namespace breast {
 
-/// Inserts slices along the axis of widest spacing until it is about that of the others: in every
-/// slice the signed distance to the mask's outline (mm), linear between slices, and back to
-/// occupancy with partial volumes. Without it the skin of a scan with 4 mm slices is a staircase.
-/// Masks with nearly equal spacings come back as they are.
+/// Inserts slices along the axis of widest spacing until its spacing is about that of the others:
+/// the signed distance to the mask's outline (mm) in every slice is interpolated linearly between
+/// slices and converted back to occupancy with partial volumes. Without this, the skin of a scan
+/// with 4 mm slices has steps. Masks with nearly equal spacings are returned unchanged.
 Volume<float> fill_between_slices(const Volume<float>& mask);
 
 }  // namespace breast

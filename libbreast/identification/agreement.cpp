@@ -12,18 +12,20 @@ namespace breast {
 
 namespace {
 
-constexpr double beyond_observer = 4;   // residuals below this many errors of a mark are not judged
-constexpr double beyond_others = 6;     // a landmark left out against the median of all
-constexpr double surely_wrong_mm = 25;  // and no model's error
-constexpr double most_unexplained = 0.6;  // of the rms motion
-constexpr std::size_t few = 5;            // landmarks, of which no median is formed
+constexpr double beyond_observer = 4;  // smaller residuals, in errors of a mark, are not judged
+// Limit for a landmark left out, relative to the median of all.
+constexpr double beyond_others = 6;
+constexpr double surely_wrong_mm = 25;    // errors above this cannot come from the model
+constexpr double most_unexplained = 0.6;  // as a fraction of the rms motion
+constexpr std::size_t few = 5;            // with fewer landmarks no median is formed
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + long(values.size() / 2), values.end());
   return values[values.size() / 2];
 }
 
-// Where two landmarks would be without their marks, in units of their errors from where they were seen.
+// Distances of two landmarks, predicted without their marks, from their observed positions in units
+// of their errors.
 Eigen::VectorXd without_both(const Identified& found, const Eigen::MatrixXd& covariance,
                              std::size_t i, std::size_t k) {
   std::vector<Eigen::Index> rows;

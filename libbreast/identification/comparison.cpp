@@ -10,7 +10,7 @@ namespace breast {
 
 namespace {
 
-// Leaves the mesh in the second posture; why not, where there is none.
+// Puts the mesh into the second posture; returns the reason if there is none.
 std::string take_second_posture(HexMesh& mesh, const MechanicsOptions& mechanics,
                                 const IdentifyOptions& options) {
   MechanicsOptions quiet = mechanics;

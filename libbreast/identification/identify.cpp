@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Directions known better than this are straight.
+// Directions known better than this need no correction for curvature.
 constexpr double bends = 0.15;
 
 Sought sought_of(const IdentifyOptions& options) {
@@ -26,7 +26,7 @@ Sought sought_of(const IdentifyOptions& options) {
   if (sought.names.empty()) sought.names = set_parameters(set);
   for (const std::string& name : sought.names) {
     MaterialSet tried = set;
-    scale_set(tried, name, 1);  // throws for what the set does not have
+    scale_set(tried, name, 1);  // throws if the set does not have it
     if (std::count(sought.names.begin(), sought.names.end(), name) > 1)
       throw input_error("parameter '", name, "' appears twice");
   }
@@ -103,7 +103,7 @@ void Search::tell(const VectorXd& x, const std::optional<VectorXd>& data) const 
   progress_.update("identify", -1, text);
 }
 
-// The point asked for last is not solved again.
+// The most recent point is not solved again.
 const std::optional<VectorXd>& Search::data(const VectorXd& x) {
   if (solved_.size() == x.size() && solved_ == x) return data_;
   data_ = model_.residuals(x);
@@ -128,7 +128,7 @@ MatrixXd Search::jacobian() const {
   return all;
 }
 
-// The middle of the prior, or the next stiffer set that gives a stable body.
+// The centre of the prior, or the next stiffer set that gives a stable body.
 VectorXd Search::start() {
   VectorXd x = VectorXd::Zero(sought_.count());
   if (options_.start.size() == x.size()) x = options_.start;
@@ -175,9 +175,10 @@ void Search::judge(Identified& out) const {
   out.materials = with_factors(options_.mechanics, sought_, out.fit.x).materials;
 }
 
-// Along x = x̂ + z d + z² a + z³ b with z standard normal, d a deviation of a direction left open and a, b what
-// the parameters must move so that the bent model still meets the data: E[(z² a)²] = 3 a², and of b
-// what its linear part does not hold, 6 b².
+// The parameters are x = x̂ + z d + z² a + z³ b with z standard normal, where d is one deviation of
+// a direction left open, and a and b are the motion of the parameters with which the curved model
+// still agrees with the data. Then E[(z² a)²] = 3 a², and the part of b that its linear part does
+// not contain gives 6 b².
 void Search::widen(Identified& out) {
   const Index materials = sought_.materials(), count = sought_.count(),
               data = out.fit.jacobian.rows() - count;
@@ -189,7 +190,7 @@ void Search::widen(Identified& out) {
     if (deviation < bends || model_.pairs() + 2 > options_.max_pairs) return;
     const VectorXd v = found.eigenvectors().col(k);
     const VectorXd d = c.leftCols(materials) * own.ldlt().solve(v) * deviation;
-    std::vector<VectorXd> shift;  // that undoes the bend on either side
+    std::vector<VectorXd> shift;  // change that compensates the curvature on either side
     for (const double side : {1.0, -1.0}) {
       const std::optional<VectorXd>& there = this->data(out.fit.x + side * d);
       if (!there) continue;
@@ -223,7 +224,8 @@ Identified Search::run() {
   const LeastSquaresProblem problem{[&](const VectorXd& x) { return residuals(x); },
                                     [&] { return jacobian(); }};
   out.fit = trust_region(problem, begin, region);
-  // The last point tried may have been refused or worse: the answer's own state is what is kept.
+  // The last trial point may have been refused or worse, so the state of the solution itself is
+  // kept.
   if (solved_ != out.fit.x) residuals(out.fit.x);
   judge(out);
   if (options_.curvature) widen(out);

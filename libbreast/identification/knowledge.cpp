@@ -16,7 +16,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double named = 0.4;  // of the largest weight: smaller ones are not spoken of
+constexpr double named = 0.4;  // fraction of the largest weight; smaller weights are not mentioned
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -25,7 +25,7 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-// 0.08 is "8 %"; from 0.5 on a factor.
+// 0.08 gives "8 %"; from 0.5 on the deviation is given as a factor.
 std::string spread(double deviation) {
   if (deviation < 0.5) return format_fixed(100 * deviation, deviation < 0.02 ? 1 : 0) + " %";
   return "a factor of " + format_fixed(std::exp(deviation), 1) + " either way";

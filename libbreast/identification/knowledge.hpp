@@ -9,12 +9,12 @@
 
 namespace breast {
 
-/// A combination of the logarithms sought that is independent of the others.
+/// A combination of the unknown logarithms that is independent of the others.
 struct KnownDirection {
-  Eigen::VectorXd weights;     ///< unit length, of the material parameters
+  Eigen::VectorXd weights;     ///< unit vector of weights of the material parameters
   double deviation = 0;        ///< standard deviation of the combination
-  double prior_deviation = 0;  ///< the same before the data
-  /// Share of what is known of it that comes from the data: 1 − variance / variance before.
+  double prior_deviation = 0;  ///< the same according to the prior
+  /// Share of the information about it that comes from the data: 1 − variance / prior variance.
   double from_data() const {
     return std::max(0.0, 1 - deviation * deviation / (prior_deviation * prior_deviation));
   }
@@ -29,20 +29,20 @@ std::vector<KnownDirection> directions_of(const std::vector<std::string>& names,
 /// "low_order and wall together known to 8 % ...", "wall against cut not determined by these data ...".
 std::string in_words(const std::vector<std::string>& names, const KnownDirection& direction);
 
-/// How many numbers the data decide: the trace of 1 − covariance · prior⁻¹.
+/// The number of parameters that the data determine: the trace of 1 − covariance · prior⁻¹.
 double decided_by_data(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& prior);
 
-/// Residuals that these rows would have if they were left out: (1 − H)⁻¹ r with their block of the hat
-/// matrix H = J C Jᵀ, C = (JᵀJ)⁻¹. Exact for a linear model.
+/// Residuals of these rows if they were left out: (1 − H)⁻¹ r with their block of the hat matrix H
+/// = J C Jᵀ, C = (JᵀJ)⁻¹. Exact for a linear model.
 Eigen::VectorXd left_out(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& jacobian,
                          const Eigen::MatrixXd& covariance, const std::vector<Eigen::Index>& rows);
 
-/// Test of the whole sum of squares, data and prior, against its distribution: with the right model
-/// and errors it is χ² of as many degrees of freedom as there are data.
+/// Test of the whole sum of squares (data and prior) against its distribution: with the right model
+/// and errors it is χ² with as many degrees of freedom as there are data.
 struct Misfit {
   double chi_squared = 0;
   std::size_t freedom = 0;
-  double probability = 1;  ///< of a worse one
+  double probability = 1;  ///< probability of a larger sum
 };
 Misfit misfit_of(const Eigen::VectorXd& residuals, std::size_t data);
 

@@ -12,7 +12,7 @@ namespace breast {
 
 namespace {
 
-// Women's nipples move 52 to 170 mm (5 to 95 %), those of the largest phantom 190.
+// The nipples of women move by 52 to 170 mm (5 to 95 %), those of the largest phantom by 190 mm.
 constexpr double longest_move = 400, usual_move = 250;
 // Tissue between two landmarks is stretched or shortened less than this.
 constexpr double most_stretch = 5, deviations = 6;
@@ -24,7 +24,7 @@ Vec3 from_ras(const Vec3& x) {
   return {-x.x(), -x.y(), x.z()};
 }
 
-// What people do, the likeliest first.
+// Common mistakes, the most likely first.
 const std::vector<std::pair<std::string, Slip>>& slips() {
   static const std::vector<std::pair<std::string, Slip>> list{
       {"prone and supine seem to be interchanged: interchange the columns",
@@ -41,7 +41,7 @@ const std::vector<std::pair<std::string, Slip>>& slips() {
   return list;
 }
 
-// Only the second posture's.
+// A mistake in the second posture only.
 const std::vector<std::pair<std::string, Slip>>& second_slips() {
   static const std::vector<std::pair<std::string, Slip>> list{
       {"the second posture's coordinates seem to be RAS: change the signs of their x and y",
@@ -61,7 +61,8 @@ bool mostly_inside(const Pairs& pairs, const Locator& body, double outside) {
   return 2 * inside > long(pairs.size());
 }
 
-// Marks of a breast are never all within a few mm: tiny coordinates near the origin are another unit.
+// The marks of a breast are never all within a few mm: tiny coordinates near the origin indicate
+// another unit.
 bool clumped(const Pairs& pairs) {
   constexpr double tiny = 2;  // mm
   return pairs.size() > 2 && std::all_of(pairs.begin(), pairs.end(), [&](const LandmarkPair& p) {
@@ -105,7 +106,7 @@ void check_names(const Pairs& pairs, const std::string& where) {
       throw input_error(where, ": landmark '", pair.name, "' appears twice");
 }
 
-// Tissue hangs together: the distance of two landmarks cannot change without bound.
+// Tissue is continuous, so that the change of the distance between two landmarks is bounded.
 void check_neighbours(const Pairs& pairs, const std::string& where) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {

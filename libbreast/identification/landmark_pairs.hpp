@@ -17,15 +17,16 @@ struct LandmarkPair {
   double observer = 2.5;  ///< rms error of the mark in space, mm
 };
 
-/// Columns prone_x_mm ... supine_z_mm, perhaps landmark (its name), observer_mm (else `observer`) and side
-/// (rows of the other are left out): the phantom's landmarks.tsv is such a table. Throws Error (input)
-/// beginning with the table's name.
+/// Reads pairs from a table with columns prone_x_mm ... supine_z_mm and optionally landmark (its
+/// name), observer_mm (default: `observer`) and side (rows of the other side are left out); the
+/// phantom's landmarks.tsv is such a table. Throws Error (input) with a message that begins with
+/// the table's name.
 std::vector<LandmarkPair> landmark_pairs(const Table& table, Side side, double observer);
 
-/// The pairs as observations of the mesh. Throws Error (input), one line naming the landmark or the
-/// slip that explains most of them: postures exchanged, RAS instead of LPS, metres or centimetres, marks
-/// outside the body by more than `outside` mm, moves no breast makes, names that appear twice, pairs of
-/// landmarks that contradict each other.
+/// The pairs as observations of the mesh. Throws Error (input) with one line that names the
+/// landmark, or the mistake that explains most of them: postures exchanged, RAS instead of LPS,
+/// metres or centimetres, marks more than `outside` mm outside the body, motion that no breast
+/// makes, names that occur twice, pairs of landmarks that contradict each other.
 std::vector<SeenPoint> seen_points(const HexMesh& mesh, const std::vector<LandmarkPair>& pairs,
                                    double outside, const std::string& where);
 

@@ -19,11 +19,12 @@ struct SeenPoint {
   double deviation = 1;  ///< mm, standard deviation of each coordinate
 };
 
-/// The skin as seen: points with unit normals (either way round).
+/// The observed skin: points with unit normals of either sign.
 struct SeenSurface {
   std::vector<Vec3> points, normals;
-  double deviation = 2;  ///< mm, of the distance at one sampled place
-  double reach = 10;     ///< mm along the surface to the next point: beyond is no data
+  double deviation = 2;  ///< standard deviation of the distance at one sampled place, mm
+  /// Largest distance along the surface to the nearest point, mm; farther places have no data.
+  double reach = 10;
 };
 
 /// Force of the paddle at a thickness between the plates of `press`.
@@ -35,7 +36,8 @@ struct Observations {
   std::vector<SeenPoint> points;
   std::optional<SeenSurface> surface;
   std::vector<SeenForce> forces;
-  CompressionOptions press;  ///< of the forces; its target is theirs
+  /// Compression in which the forces were measured; its target is set by theirs.
+  CompressionOptions press;
 
   std::size_t count() const { return 3 * points.size() + forces.size() + (surface ? 1 : 0); }
 };

@@ -11,13 +11,14 @@
 namespace breast {
 
 enum class PriorKind { set, none };
-/// "set" or "none". Throws Error (input) for any other.
+/// "set" or "none". Throws Error (input) for any other name.
 PriorKind prior_from_name(const std::string& name);
 
-/// Covariance of the logarithms of factors on the named parts of a set (material/set_parameter.hpp)
-/// about the set itself: the set's own uncertainty where it has one, 1.1 (a factor of three either way)
-/// where it has none, for the ratio of gland to fat 0.7. `none`: a factor of twenty either way for
-/// each, which only keeps what the data leave open finite.
+/// Covariance of the logarithms of factors on the named parts of a set
+/// (material/set_parameter.hpp), with the set itself as the mean. It is the set's own uncertainty
+/// if it has one; otherwise the standard deviation is 1.1 (a factor of three either way), and 0.7
+/// for the ratio of gland to fat. With `none` it is a factor of twenty either way for each, which
+/// only keeps undetermined parameters finite.
 Eigen::MatrixXd prior_covariance(const MaterialSet& set, const std::vector<std::string>& names,
                                  PriorKind kind);
 

@@ -58,7 +58,7 @@ SecondPosture::SecondPosture(HexMesh mesh, const MechanicsOptions& options,
       seen_(std::move(seen)),
       sought_(std::move(sought)),
       centre_(Vec3::Zero()) {
-  base_.seek_remedy = false;  // the search meets bodies that do not exist, and goes on
+  base_.seek_remedy = false;  // the search tries bodies that do not exist and continues
   base_.estimate = Estimate::none;
   if (seen_.surface) samples_ = skin_samples(mesh_, sample_spacing_mm);
   const std::vector<int> wall = nodes_of(mesh_, mesh_.pectoral_faces);
@@ -137,7 +137,7 @@ Eigen::MatrixXd SecondPosture::jacobian() const {
   const RigidMotion moved = motion(x_);
   const Mat3 rotation = moved.rotation();
   const Eigen::Index materials = sought_.materials();
-  // How the place of a material point answers, mm.
+  // Derivatives of the position of a material point, mm.
   const auto slopes = [&](const Location& at) {
     Eigen::MatrixXd out(3, sought_.count());
     for (Eigen::Index k = 0; k < materials; ++k) {

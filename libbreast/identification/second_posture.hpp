@@ -15,10 +15,10 @@
 
 namespace breast {
 
-/// The unknowns: logarithms of factors on the named parts of the material set and, when asked for,
-/// shift (mm) and turn (degrees) of the rib cage between the postures.
+/// The unknowns: logarithms of factors on the named parts of the material set and, if requested,
+/// shift (mm) and rotation (degrees) of the rib cage between the postures.
 struct Sought {
-  std::vector<std::string> names;  ///< material/set_parameter.hpp
+  std::vector<std::string> names;  ///< names of material/set_parameter.hpp
   bool align = false;
 
   Eigen::Index materials() const { return Eigen::Index(names.size()); }
@@ -34,22 +34,23 @@ MaterialSet set_with_supports(const MechanicsOptions& options);
 
 class SecondPosture {
  public:
-  /// `mesh`: imaged under `imaged_gravity`; `gravity` acts in the second posture (mm/s²). Keeps copies.
+  /// `mesh` was imaged under `imaged_gravity`; `gravity` acts in the second posture (mm/s²). Copies
+  /// are kept.
   SecondPosture(HexMesh mesh, const MechanicsOptions& options, const Vec3& imaged_gravity,
                 const Vec3& gravity, Observations seen, Sought sought);
 
-  /// Predicted minus seen over standard deviation: three of each point, the sampled skin, forces.
-  /// Nothing where there is no stable equilibrium; `reason()` then says why.
+  /// (Predicted − observed) / standard deviation: three values per point, then the sampled skin,
+  /// then the forces. No value if there is no stable equilibrium; `reason()` then states why.
   std::optional<Eigen::VectorXd> residuals(const Eigen::VectorXd& x);
-  /// ∂ residuals / ∂x of the last answer, by the tangent-linear derivatives of both states.
+  /// ∂ residuals / ∂x at the last solution, from the tangent-linear derivatives of both states.
   Eigen::MatrixXd jacobian() const;
 
   const std::string& reason() const { return reason_; }
   const Observations& seen() const { return seen_; }
   const Sought& sought() const { return sought_; }
-  /// The second posture of the last answer, before the rib cage's motion.
+  /// The second posture of the last solution, before the motion of the rib cage is applied.
   const HexMesh& mesh() const { return mesh_; }
-  /// Skin samples that have a point of the surface near them in the last answer.
+  /// Number of skin samples with a point of the surface near them in the last solution.
   std::size_t surface_points() const { return surface_points_; }
   RigidMotion motion(const Eigen::VectorXd& x) const;
   int pairs() const { return pairs_; }
@@ -68,7 +69,7 @@ class SecondPosture {
   Sought sought_;
   std::vector<Location> samples_;
   Vec3 centre_;
-  // Of the last answer.
+  // Data of the last solution.
   Eigen::VectorXd x_;
   std::vector<double> imaged_pressure_;
   std::vector<HexMesh> pressed_;

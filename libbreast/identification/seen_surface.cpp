@@ -12,9 +12,9 @@ namespace breast {
 namespace {
 
 constexpr std::size_t least_points = 50, most_points = 20000;
-constexpr double least_reach = 5, spacings = 3;  // mm, and of the distance between points
+constexpr double least_reach = 5, spacings = 3;  // in mm; multiple of the distance between points
 
-// Per point, the sum of its triangles' area vectors.
+// For every point the sum of the area vectors of its triangles.
 std::vector<Vec3> area_vectors(const TriMesh& surface) {
   std::vector<Vec3> sum(surface.points.size(), Vec3::Zero());
   for (const auto& [a, b, c] : surface.triangles) {

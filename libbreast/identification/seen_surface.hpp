@@ -7,9 +7,9 @@
 
 namespace breast {
 
-/// Points with normals from a triangle surface, or a point set that has normals; of a file of segment --points its
-/// skin. At most 20000 points
-/// are kept, evenly. Throws Error (input) beginning with `where` when there are no normals or fewer
+/// Points with normals from a triangle surface or from a point set that has normals; from a file of
+/// segment --points only the skin is taken. At most 20000 points are kept, evenly distributed.
+/// Throws Error (input) with a message that begins with `where` if there are no normals or fewer
 /// than 50 points.
 SeenSurface seen_surface(const TriMesh& surface, double deviation, const std::string& where);
 

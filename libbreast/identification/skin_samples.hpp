@@ -6,12 +6,12 @@
 
 namespace breast {
 
-/// Middles of skin faces, at least `spacing` mm apart in the scan and away from the skin's rim, where
-/// the surface that was seen goes on and the body does not.
+/// Centres of skin faces at least `spacing` mm apart in the scan and away from the rim of the skin,
+/// where the observed surface continues but the body does not.
 std::vector<Location> skin_samples(const HexMesh& mesh, double spacing);
 
-/// The distance (mm) of x from the surface along its normal, and that normal; nothing where the
-/// nearest point seen lies farther than `reach` along the surface.
+/// The distance (mm) of x from the surface along its normal, and that normal; no value if the
+/// nearest observed point is more than `reach` away along the surface.
 struct SurfaceDistance {
   double value = 0;
   Vec3 normal{0, 0, 1};

@@ -28,7 +28,8 @@ class Subproblem {
   VectorXd step(double radius) const {
     double damping = 0;
     if (!(length(0) <= radius)) {
-      double low = 0, high = slope_.norm() / radius;  // at which the step is surely short enough
+      // Bounds; at the upper one the step is certainly short enough.
+      double low = 0, high = slope_.norm() / radius;
       for (int i = 0; i < 200 && high - low > 1e-12 * high; ++i) {
         damping = 0.5 * (low + high);
         (length(damping) > radius ? low : high) = damping;
@@ -79,8 +80,9 @@ TrustRegionResult trust_region(const LeastSquaresProblem& problem, const VectorX
     for (int tries = 0; !moved; ++tries) {
       const VectorXd d = subproblem.step(radius);
       const double length = d.cwiseQuotient(unit).norm(), fall = promised(d);
-      // Steps this short are no progress: the best lies at the edge of what has an answer, or the residuals
-      // have kinks there (another nearest point of a surface) and nothing finer can be known.
+      // Steps this short are no progress: the best point lies at the limit of points with a
+      // solution, or the residuals have kinks there (another nearest point of a surface), so that
+      // no better point can be found.
       if (tries > 0 && length < shortest) {
         best.converged = !best.at_limit;
         return best;

@@ -17,19 +17,21 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double spacing_mm = 12, least_deviation = 1;  // mm
-// Errors of a segmented wall hang together over this length: so many places tell as much as one.
+// Errors of a segmented wall are correlated over this length, so that this many places count as
+// one.
 constexpr double hangs_together_mm = 30, places_a_datum = (hangs_together_mm / spacing_mm) *
                                                           (hangs_together_mm / spacing_mm);
 constexpr double beyond = 4.685;  // Tukey's constant, in deviations
 constexpr double same_frame_mm = 15;
 constexpr int least_places = 20, most_rounds = 60;
-constexpr double worst_residual_mm = 4;  // of walls that are one and the same
+// Largest residual of two segmentations of the same wall, mm.
+constexpr double worst_residual_mm = 4;
 constexpr const char* names[6] = {"shift to the side",
                                   "shift from front to back",
                                   "shift along the body",
-                                  "turn about the left-right axis",
-                                  "turn about the front-back axis",
-                                  "turn about the body's long axis"};
+                                  "rotation about the left-right axis",
+                                  "rotation about the front-back axis",
+                                  "rotation about the body's long axis"};
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -39,10 +41,10 @@ double median(std::vector<double> values) {
 
 struct Compared {
   std::vector<double> distances;
-  std::vector<Vector6> slopes;  // by shift (mm) and turn (degrees)
+  std::vector<Vector6> slopes;  // derivatives with respect to shift (mm) and rotation (degrees)
 };
 
-// The second wall's places in the first scan, where that has a wall.
+// The places of the second wall in the first scan, where that has a wall.
 Compared compare(const WallMap& wall, const std::vector<Vec3>& places, const RigidMotion& motion) {
   Compared out;
   const Mat3 rotation = motion.rotation();
@@ -58,9 +60,9 @@ Compared compare(const WallMap& wall, const std::vector<Vec3>& places, const Rig
   }
   if (int(out.distances.size()) < least_places) {
     throw input_error(
-        "the chest walls of both scans lie over each other at ", out.distances.size(),
+        "the chest walls of both scans can be compared at ", out.distances.size(),
         " places 12 mm apart, at least ", least_places,
-        " are needed: are both of one patient and side, and in frames that differ by less "
+        " are needed: do both scans show the same patient and side, in frames that differ by less "
         "than a hand along the body?");
   }
   return out;
@@ -93,7 +95,7 @@ std::optional<double> sternum(const std::vector<Vec3>& places, double midline) {
   return median(depths);
 }
 
-// Frames of scans may differ by the table's height and the patient's place on it.
+// The frames of two scans may differ by the height of the table and the patient's position on it.
 Vec3 frames_differ_by(const LabelVolume& first, const LabelVolume& second,
                       const std::vector<Vec3>& first_places,
                       const std::vector<Vec3>& second_places) {
@@ -166,10 +168,10 @@ WallAlignment align_walls(const LabelVolume& first, const LabelVolume& second, c
   }
   if (!(out.residual_mm < worst_residual_mm)) {
     throw input_error(
-        "the chest walls of both scans do not fit over each other: ",
-        format_fixed(out.residual_mm, 1), " mm rms at ", out.places, " places, at most ",
-        worst_residual_mm,
-        " expected: are both of one patient, and their walls right (segment --overlay)?");
+        "the chest walls of both scans do not agree: ", format_fixed(out.residual_mm, 1),
+        " mm rms at ", out.places, " places, at most ", worst_residual_mm,
+        " expected: do both scans show the same patient, and are their chest walls right (segment "
+        "--overlay)?");
   }
   for (int k = 0; k < 6; ++k)
     out.from_walls[std::size_t(k)] = std::max(0.0, 1 - out.covariance(k, k) * information[k]);

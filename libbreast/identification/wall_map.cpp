@@ -15,7 +15,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double surely_seen = 0.5, smoothing_mm = 5, least_tissue_mm = 6;
 
-// Where muscle begins in a column, voxels; not a number without 6 mm of tissue in front of it: there no wall is sought.
+// The voxel at which muscle begins in a column; not a number without 6 mm of tissue in front of it,
+// because no wall is sought there.
 double front_of_muscle(const LabelVolume& labels, int i, int k) {
   const int before = int(std::ceil(least_tissue_mm / labels.grid.spacing[1]));
   for (int j = before; j < labels.grid.size[1]; ++j) {
@@ -28,7 +29,7 @@ double front_of_muscle(const LabelVolume& labels, int i, int k) {
   return nan;
 }
 
-// Mean with Gaussian weights over what is known along one direction.
+// Mean with Gaussian weights along one direction over the columns with a value.
 void smooth(std::vector<double>& field, int count, int stride, int lines, int line_stride,
             double deviation) {
   const int reach = int(std::ceil(2.5 * deviation));

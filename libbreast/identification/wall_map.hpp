@@ -11,11 +11,12 @@ namespace breast {
 
 class WallMap {
  public:
-  /// The front of `muscle` behind tissue on every column whose confidence is above a half, smoothed over 5 mm.
+  /// Takes the front of the muscle behind tissue in every column with a confidence above one half,
+  /// smoothed over 5 mm.
   explicit WallMap(const LabelVolume& labels);
 
-  /// Distance of x behind the wall along its normal, to first order (mm), and that normal, which points to the back;
-  /// nothing where no wall was seen.
+  /// Distance of x behind the wall along its normal, to first order (mm), and that normal, which
+  /// points backwards; no value where the wall was not observed.
   struct Distance {
     double value = 0;
     Vec3 normal{0, 1, 0};
@@ -32,7 +33,7 @@ class WallMap {
 
   Grid grid_;
   int nx_ = 0, nz_ = 0;
-  std::vector<double> depth_;  ///< voxels j; not a number where no wall was seen
+  std::vector<double> depth_;  ///< in voxels j; not a number where the wall was not observed
 };
 
 }  // namespace breast

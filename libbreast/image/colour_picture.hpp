@@ -34,7 +34,7 @@ class ColourPicture {
 
   int width_, height_;
   std::vector<std::uint8_t> rgb_;
-  std::vector<float> coverage_;  ///< 0 to 1, of what is collected
+  std::vector<float> coverage_;  ///< coverage of the collected pixels, 0 to 1
 };
 
 }  // namespace breast

@@ -46,8 +46,8 @@ struct Volume {
   const T& at(int i, int j, int k) const { return voxels[grid.offset(i, j, k)]; }
 };
 
-/// Trilinear interpolation at a patient point; `outside` beyond the outermost voxel centres by more
-/// than half a voxel (within that half voxel the border value is held).
+/// Trilinear interpolation at a patient point; `outside` if the point lies more than half a voxel
+/// beyond the outermost voxel centres (within half a voxel, the border value is used).
 double sample_linear(const Volume<float>& volume, const Vec3& patient, double outside);
 
 }  // namespace breast

@@ -8,7 +8,7 @@
 
 namespace breast {
 
-/// As write_mesh, with the additional arrays, which other readers of the file ignore.
+/// Like write_mesh, with additional arrays, which other readers of the file ignore.
 void write_mesh(const std::filesystem::path& file, const HexMesh& mesh,
                 const Derivatives& derivatives);
 

@@ -8,7 +8,7 @@
 
 namespace breast {
 
-/// `back`, the points of the second image, goes into a group of its own.
+/// `back`, the points of the second image, is written to a group of its own.
 void write_lookup(const std::filesystem::path& file, const MatchLookup& lookup,
                   const MatchLookup* back = nullptr);
 

@@ -8,8 +8,9 @@
 
 namespace breast {
 
-/// Cells: the hexahedra of `points`. CellData tissue (and det_F); PointData displacement_from_scan (and, where there is
-/// one, displacement_from_stress_free); FieldData SPACE = LPS, units, history.
+/// Writes the hexahedra of `points` as cells, with CellData tissue (and det_F), PointData
+/// displacement_from_scan (and displacement_from_stress_free, if there is one), and FieldData SPACE
+/// = LPS, units and history.
 void write_state(const std::filesystem::path& file, const HexMesh& mesh);
 
 }  // namespace breast

@@ -8,8 +8,9 @@
 
 namespace breast {
 
-/// Cells: the tetrahedra, then the boundary's triangles, turned outwards. CellData: tissue (tetrahedra; 0 for
-/// triangles), part (triangles: 0 skin, 1 cut, 2 chest wall; 255 for tetrahedra).
+/// Writes the tetrahedra and then the boundary triangles, turned outwards, as cells. CellData:
+/// tissue (of tetrahedra; 0 for triangles) and part (of triangles: 0 skin, 1 cut, 2 chest wall; 255
+/// for tetrahedra).
 void write_tet_mesh(const std::filesystem::path& file, const TetMesh& mesh);
 
 }  // namespace breast

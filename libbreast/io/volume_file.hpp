@@ -11,15 +11,15 @@
 
 namespace breast {
 
-/// Series found in a DICOM folder, as listed by error messages.
+/// The source of a volume, as described in messages.
 struct VolumeSource {
   std::string description;     ///< "NRRD", "DICOM series 3: T1 TSE, 40 slices"
   std::string content_sha256;  ///< of grid and voxels, the same for NRRD and DICOM of one scan
 };
 
-/// Reads any scalar volume as float. `series` (1-based, 0 = the only one) picks a DICOM series; a folder
-/// with several and series 0 is an input Error listing them. Refuses missing slices, non-uniform
-/// spacing beyond 1 %, non-finite voxels, colour and vector images.
+/// Reads any scalar volume as float. `series` (from 1; 0: the only one) selects a DICOM series; for
+/// a folder with several series and `series` 0, an Error (input) lists them. Refuses missing
+/// slices, spacings that differ by more than 1 %, non-finite voxels, and colour and vector images.
 Volume<float> read_volume(const std::filesystem::path& file, int series = 0,
                           VolumeSource* source = nullptr);
 /// Writes .nrrd (gzip), .nii, .nii.gz or .mha atomically.
@@ -27,12 +27,12 @@ void write_volume(const std::filesystem::path& file, const Volume<float>& volume
 void write_volume(const std::filesystem::path& file, const Volume<std::uint8_t>& volume);
 /// 16-bit signed, for simulated MR.
 void write_volume(const std::filesystem::path& file, const Volume<std::int16_t>& volume);
-/// True for the endings write_volume knows, in any case.
+/// True for the file extensions that write_volume knows, ignoring case.
 bool is_volume_name(const std::filesystem::path& file);
-/// Throws Error (input) when `folder` holds anything but slices write_dicom_series wrote.
+/// Throws Error (input) if `folder` contains anything except slices written by write_dicom_series.
 void check_dicom_folder(const std::filesystem::path& folder);
-/// DICOM MR series, one file per slice, into `folder` (created; complete or absent). An older series of
-/// ours is replaced; throws Error (input) as check_dicom_folder.
+/// Writes a DICOM MR series, one file per slice, into `folder`, which is created completely or not
+/// at all. An older series of libbreast is replaced; throws Error (input) like check_dicom_folder.
 void write_dicom_series(const std::filesystem::path& folder, const Volume<std::int16_t>& volume,
                         const std::string& description);
 

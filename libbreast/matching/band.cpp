@@ -37,13 +37,13 @@ Mat3 jacobian(const HexMesh& mesh, const std::vector<Vec3>& nodal, const ColumnP
   return j;
 }
 
-// Derivative of the projection at a point: how (u,v) change when it moves by d.
+// Derivative of the projection at a point: the change of (u,v) when the point moves by d.
 Vec2 projected(const ViewPose& pose, const Vec3& at, const Vec3& d) {
   constexpr double step = 1e-3;  // mm: exact for the parallel beam, 1e-9 for the cone
   return (pose.project(at + step * d) - pose.project(at - step * d)) / (2 * step);
 }
 
-// Unit vector across the curve at each point; stretches have their own.
+// Unit vector across the curve at each point; separate pieces of a curve have their own.
 std::vector<Vec2> normals(const MatchedCurve& curve) {
   const auto& points = curve.points;
   std::vector<Vec2> normal(points.size(), Vec2(1, 0));

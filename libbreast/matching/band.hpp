@@ -34,7 +34,7 @@ std::vector<Prior> priors_from(const Table& table, const std::string& where);
 
 /// One standard deviation of the curve across itself, by cause, mm.
 struct BandPoint {
-  Vec2 uv;      ///< of the curve, second image
+  Vec2 uv;      ///< point of the curve, second image
   Vec2 normal;  ///< unit, across the curve
   double deviation = 0;
 };
@@ -61,7 +61,7 @@ class BandModel {
   Band band(const MatchedCurve& curve) const;
   /// Priors that are not included, because the meshes have no derivative for them.
   const std::vector<std::string>& without() const { return without_; }
-  std::string what_is_missing() const;  ///< the same as a sentence
+  std::string what_is_missing() const;  ///< the missing priors as a sentence
   /// True if no parameter has a derivative in both files, so that only errors of images and marks
   /// remain and the band says nothing about the model.
   bool counts_marks_only() const { return causes_.empty() && !without_.empty(); }
@@ -73,7 +73,7 @@ class BandModel {
     const NodalField *from = nullptr, *to = nullptr;
     bool turns = false;  ///< the beam turns with the compression
   };
-  /// What one unit of the cause moves a point against its detector, mm.
+  /// Motion in mm of a point relative to its detector per unit of the cause.
   Vec3 moved(const HexMesh& mesh, const ImageFrame& frame, const Vec3& centre,
              const NodalField& field, const ColumnPoint& point, const Vec3& at, bool turns) const;
   /// Shift of a curve point in the second image for one standard deviation of the cause.
@@ -82,7 +82,7 @@ class BandModel {
   const Matcher& matcher_;
   std::vector<Cause> causes_;
   std::vector<std::string> without_;
-  Vec3 from_centre_, to_centre_;  ///< of the two shapes, about which a beam turns
+  Vec3 from_centre_, to_centre_;  ///< centres of the two shapes, about which a beam rotates
   /// mm along each axis of the first and of the second image, by cause.
   std::vector<std::pair<std::string, double>> in_first_, in_second_;
 };
@@ -91,7 +91,7 @@ class BandModel {
 /// there: within ±1.96 for 95 % of true positions if the band is correct.
 double standardised_distance(const Band& band, const Vec2& uv);
 
-/// Middle of a shape's bounding box (mm), about which beam and detector turn with the angle.
+/// Centre of a shape's bounding box (mm), about which beam and detector rotate with the angle.
 Vec3 turning_centre(const std::vector<Vec3>& points);
 
 }  // namespace breast

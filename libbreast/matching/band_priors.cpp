@@ -6,7 +6,8 @@
 
 namespace breast {
 
-// Relative deviations of stiffness are of the natural logarithm: 0.7 is a factor of 2 either way.
+// Relative standard deviations of stiffness refer to the natural logarithm: 0.7 is a factor of 2
+// either way.
 std::vector<Prior> default_priors() {
   const char* moduli = "spread of published in-vivo and ex-vivo moduli: laws seed2008 to mira2018";
   return {

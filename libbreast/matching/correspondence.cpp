@@ -50,7 +50,7 @@ double segment_distance(const Vec2& p, const Vec2& a, const Vec2& b) {
   return (p - a - f * d).norm();
 }
 
-// Largest departure of `middle` from the middle of the straight piece, over image and shapes.
+// Largest distance of `middle` from the middle of the straight segment, over image and shapes.
 double departure(const ColumnPoint& a, const ColumnPoint& middle, const ColumnPoint& b) {
   const auto bend = [](const auto& x, const auto& m, const auto& y) {
     return (m - 0.5 * (x + y)).norm();
@@ -142,8 +142,8 @@ void Matcher::refine(const Ray& ray, const Chord& chord, double from, double to,
                      int depth, std::vector<ColumnPoint>& points) const {
   const ColumnPoint middle = point_on(ray, chord, 0.5 * (from + to));
   const ColumnPoint end = point_on(ray, chord, to);
-  // Within one element the curve is a low polynomial: half its departure at the middle bounds what
-  // is left after one bisection with room to spare.
+  // Within one element the curve is a polynomial of low degree: half its distance from the chord at
+  // the middle is an ample bound of the error after one bisection.
   if (depth < 12 && departure(points.back(), middle, end) > 0.5 * tolerance) {
     refine(ray, chord, from, 0.5 * (from + to), tolerance, depth + 1, points);
     refine(ray, chord, 0.5 * (from + to), to, tolerance, depth + 1, points);

@@ -27,7 +27,7 @@ struct ColumnPoint {
 struct MatchedCurve {
   Vec2 from_uv;                     ///< mm in the first image
   std::vector<ColumnPoint> points;  ///< from paddle to detector; empty in air
-  bool through_back = false;        ///< the column goes on behind the mesh
+  bool through_back = false;        ///< whether the column continues behind the mesh
   double length = 0;                ///< mm of the projected curve
   double chord = 0;                 ///< mm between its ends
   double max_deviation = 0;         ///< mm, largest distance from the straight chord
@@ -54,7 +54,7 @@ class Matcher {
   const HexMesh& to() const { return to_; }
   const ImageFrame& from_frame() const { return from_frame_; }
   const ImageFrame& to_frame() const { return to_frame_; }
-  /// Projection of a landmark; nothing when the mesh has none of that name.
+  /// Projection of a landmark; no value if the mesh has none of that name.
   std::optional<Vec2> from_landmark(std::string_view name) const;
   std::optional<Vec2> to_landmark(std::string_view name) const;
   bool tissue_in_to(const Vec2& uv) const;

@@ -37,7 +37,7 @@ struct MatchResult {
   std::vector<std::vector<Vec2>> arc;
   double nipple_distance = 0;        ///< mm, 0 without a nipple
   std::optional<double> depth_line;  ///< mm, u of the straight rule in the second image
-  std::optional<Band> band;          ///< when asked for
+  std::optional<Band> band;          ///< the band, if requested
   /// Distances from the given position, mm; only with `query.place`, and for arc and line only with
   /// a nipple.
   double place_to_curve = 0, place_to_arc = 0, place_to_line = 0, place_to_chord = 0;
@@ -53,7 +53,7 @@ struct MatchResult {
 MatchResult match_query(const Matcher& matcher, const MatchQuery& query,
                         const BandModel* band = nullptr);
 
-/// All of them, on all cores; in order.
+/// Matches all queries on all cores; the results are in the order of the queries.
 std::vector<MatchResult> match_queries(const Matcher& matcher,
                                        const std::vector<MatchQuery>& queries,
                                        const BandModel* band = nullptr);
@@ -63,7 +63,8 @@ std::vector<MatchResult> match_queries(const Matcher& matcher,
 MatchQuery landmark_query(const Matcher& matcher, const std::string& name);
 /// N × N points distributed over the tissue of the first image, without those in air.
 std::vector<MatchQuery> grid_queries(const Matcher& matcher, int n);
-/// Rows of a table with columns u_mm, v_mm and perhaps name; with `uv_of_pixel`, x_px and y_px.
+/// Queries from a table with columns u_mm, v_mm and optionally name; with `uv_of_pixel`, x_px and
+/// y_px.
 std::vector<MatchQuery> point_queries(
     const Table& table, const std::string& where,
     const std::function<Vec2(const Vec2&)>& uv_of_pixel = nullptr);
@@ -74,13 +75,13 @@ std::vector<MatchQuery> point_queries(
 std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table,
                                       const std::string& where, int& behind);
 
-/// Doubts: columns through the chest wall, how much of the curves lies outside the second image,
-/// points outside the first image or in air. Throws Error (input) when there is nothing to report:
-/// no point, or the only one in air.
+/// Doubts about columns through the chest wall, parts of curves outside the second image, and
+/// points outside the first image or in air. Throws Error (input) if there is nothing to report: no
+/// point, or a single one in air.
 std::vector<std::string> match_doubts(const Matcher& matcher,
                                       const std::vector<MatchResult>& results);
-/// Length, bends and distances of one result: keys from_uv_mm, curve_mm,
-/// inside_image_percent, max_bend_mm, and by the origin of the place model_uv_mm,
+/// Reports length, bends and distances of one result under the keys from_uv_mm, curve_mm,
+/// inside_image_percent, max_bend_mm and, depending on the origin of the position, model_uv_mm,
 /// model_to_curve_mm ..., marked_... or true_...
 void report_match(const MatchResult& result, Report& report);
 /// Mean, 95 % and largest distance of the truth to "curve", "arc", "line", "chord", mm, over the

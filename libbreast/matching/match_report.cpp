@@ -150,7 +150,7 @@ Summary summary_of(const std::vector<MatchResult>& results, double MatchResult::
           values[std::size_t(std::ceil(0.95 * n)) - 1], values.back()};
 }
 
-// How far the curves are from straight: in the second view, and before any compression.
+// Distances of the curves from straight lines, in the second view and before any compression.
 void report_straightness(const std::vector<MatchResult>& results, Report& report) {
   double bend = 0, most = 0, reference = 0, reference_most = 0;
   std::size_t counted = 0;

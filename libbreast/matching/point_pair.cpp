@@ -23,7 +23,8 @@ Vec2 nearest_on_segments(const Vec3& a0, const Vec3& a1, const Vec3& b0, const V
   return {s, t};
 }
 
-// Between two neighbours of a column, which lie in one element but for rounding at a face.
+// Interpolates between two neighbouring points of a column, which lie in one element except for
+// rounding at a face.
 MaterialPoint between(const ColumnPoint& a, const ColumnPoint& b, double f) {
   if (a.element != b.element) return {f < 0.5 ? a.element : b.element, f < 0.5 ? a.local : b.local};
   return {a.element, a.local + f * (b.local - a.local)};

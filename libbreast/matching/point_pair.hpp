@@ -19,8 +19,8 @@ struct PairPoint {
   double residual = 0;         ///< mm between the two, in the MR frame
   double first_to_second = 0;  ///< mm in the second image from its mark to the first mark's curve
   double second_to_first = 0;  ///< mm in the first image from its mark to the second mark's curve
-  /// Middle of the two points in another shape of the mesh (imaged,
-  /// reference, a supine mesh's points).
+  /// Midpoint of the two points in another shape of the mesh (imaged, reference, the points of a
+  /// supine mesh).
   Vec3 position(const HexMesh& mesh, const std::vector<Vec3>& nodal) const;
 };
 
@@ -29,7 +29,7 @@ struct PairPoint {
 PairPoint locate_pair(const Matcher& forward, const Matcher& backward, const Vec2& first,
                       const Vec2& second);
 
-/// Keys spot/residual_mm, spot/imaged, spot/reference, spot/VIEW ...
+/// Reports the keys spot/residual_mm, spot/imaged, spot/reference, spot/VIEW ...
 void report_spot(const PairPoint& pair, const Matcher& forward, Report& report);
 
 }  // namespace breast

@@ -7,8 +7,8 @@
 
 namespace breast {
 
-/// A row for each of fat, fibroglandular, muscle, tumour and skin, for the supports of wall and cut
-/// where the set has them, and for what is known of its uncertainty. Numbers read back exactly.
+/// One row for each of fat, fibroglandular, muscle, tumour and skin, for the supports of wall and
+/// cut if the set has them, and for its uncertainty if that is known. Numbers read back exactly.
 Table material_table(const MaterialSet& set);
 
 }  // namespace breast

@@ -22,7 +22,8 @@ struct LawConstant {
 /// set's uncertainty is of the logarithms of such factors.
 const std::vector<std::string>& set_parameter_names();
 
-/// The constants that a parameter multiplies; none for "wall", "cut" and for what the laws do not have.
+/// The constants that a parameter multiplies; none for "wall", for "cut" and for constants that the
+/// laws do not have.
 std::vector<LawConstant> constants_of(const MaterialSet& set, std::string_view parameter);
 
 /// Names of the parameters that the set has, without "stiffness".

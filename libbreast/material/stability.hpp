@@ -33,9 +33,9 @@ double exponential_bound(double b);
 /// nondecreasing in both invariants, or exponential with −c < exponential_bound(b) ab.
 bool always_elliptic(const Law& law);
 
-/// How far the constants are from losing ellipticity: 1 where no constant works against it, 0 at
-/// the bound. Exponential: 1 − |c|/(exponential_bound(b) ab); convex polynomial: 1 − α11²/(4 α20 α02); otherwise
-/// the weakest relative shear modulus over stretches 0.5–2.
+/// Margin of the constants against loss of ellipticity: 1 if no constant acts against it, 0 at the
+/// bound. Exponential law: 1 − |c|/(exponential_bound(b) ab); convex polynomial: 1 − α11²/(4 α20
+/// α02); otherwise the smallest relative shear modulus over stretches 0.5–2.
 struct EllipticityMargin {
   double value = 0;
   bool every_stretch = false;  ///< proven for all stretches, or only scanned over 0.5–2

@@ -28,10 +28,10 @@ class BackwardSolve {
         loaded_(scene_.problem(Eigen::VectorXd::Zero(3L * mesh.nodes()))),
         inverse_(loaded_.problem, scene_.solid().solver(), fail_fast, found_.timer) {}
 
-  /// Nodal forces (µN); `start` is the first guess, and where held nodes stay.
+  /// Nodal forces (µN); `start` is the initial guess and gives the positions of held nodes.
   Equilibrium run(const Eigen::VectorXd& load, const Eigen::VectorXd& start);
   Equilibrium run(const Vec3& gravity);
-  /// Whether a body is found at once that stays in the imaged shape.
+  /// Whether a body that is stable in the imaged shape is found in one step.
   bool stands(const Vec3& gravity) { return stands_under(scene_.gravity_force(gravity)); }
 
  private:
@@ -41,9 +41,10 @@ class BackwardSolve {
   State guess(const Eigen::VectorXd& reference) const {
     return {reference, imaged_, scene_.solid().rest_pressure()};
   }
-  /// A solve that takes the load from the part `from` to the part `to`.
+  /// A solve that increases the load from the fraction `from` to the fraction `to`.
   NewtonResult solve(State& state, double from = 0, double to = 1);
-  /// From `state` to the full load, in parts when need be; the fraction reached.
+  /// Increases the load from `state` to the full load, in parts if necessary; returns the fraction
+  /// reached.
   double follow(const Eigen::VectorXd& load, State& state);
   bool stays(const State& state);
   bool stands_under(const Eigen::VectorXd& load);
@@ -93,8 +94,9 @@ double BackwardSolve::follow(const Eigen::VectorXd& load, State& state) {
   return path.done;
 }
 
-// Is the imaged shape a stable equilibrium of the unloaded shape found? Of a folded one it is not.
-// The augmentation that suits a multigrid need not hold what incompressibility holds.
+// Whether the imaged shape is a stable equilibrium of the unloaded shape found; not if that shape
+// is folded. The augmentation that suits multigrid does not necessarily preserve volumes as well as
+// incompressibility does.
 bool BackwardSolve::stays(const State& state) {
   Timer::Scope phase(found_.timer, "stability");
   if (inverse_.stable(state, 0)) return true;
@@ -108,9 +110,9 @@ bool BackwardSolve::stands_under(const Eigen::VectorXd& load) {
   return solve(trial).converged && stays(trial);
 }
 
-// Newton's direction always lowers the residual unless ∂R/∂X is singular: where the path of
-// solutions stops for want of a step or of a direction, it ends. Short of any load it may be that
-// steps were too long.
+// Newton's direction always reduces the residual unless ∂R/∂X is singular: if the solution path
+// stops because no step or no direction is found, it ends there. If no load was reached at all, the
+// steps may have been too long.
 void BackwardSolve::judge_end(const State& state, double reached) {
   found_.load_reached = reached;
   found_.stable = reached > 0 ? stays(state) : true;
@@ -139,8 +141,8 @@ void BackwardSolve::judge_end(const State& state, double reached) {
   if (!found_.stable && !fail_fast_) note_instability(inverse_.instability(state), found_);
 }
 
-// Stiffnesses times s under the full load are the same problem as part 1/s of the load: the largest
-// part found, within 10 %, whose body exists and stays in the imaged shape.
+// Stiffnesses times s under the full load are the same problem as the part 1/s of the load. Finds
+// the largest part, within 10 %, for which the body exists and is stable in the imaged shape.
 double BackwardSolve::stable_part(const Eigen::VectorXd& load, double reached, bool stable) {
   if (stable) return reached;
   double low = 0, high = reached;
@@ -152,7 +154,7 @@ double BackwardSolve::stable_part(const Eigen::VectorXd& load, double reached, b
 }
 
 void BackwardSolve::find_needed_stiffness(const Eigen::VectorXd& load) {
-  SolveSummary summary = found_;  // of the state itself; the search only adds to the clock
+  SolveSummary summary = found_;  // summary of the state itself; the search only adds to the time
   const double part = stable_part(load, summary.load_reached, summary.stable);
   summary.timer = found_.timer;
   static_cast<SolveSummary&>(found_) = std::move(summary);

@@ -8,8 +8,9 @@ namespace breast {
 
 namespace {
 
-// With plain invariants the laws resist changes of volume beside the pressure (law 9 with 176 times
-// its shear modulus), which no cycle likes: 630 iterations where isochoric ones take 70.
+// With plain invariants the laws resist changes of volume in addition to the pressure (law 9 with
+// 176 times its shear modulus), which multigrid cycles cannot handle well: 630 iterations instead
+// of 70 with isochoric invariants.
 SolverChoice choice_for(double unknowns, const MechanicsOptions& options) {
   SolverChoice choice = choose_solver(unknowns);
   if (options.invariants == Invariants::plain && choice.direct_fits) {

@@ -11,7 +11,7 @@ namespace breast {
 
 namespace {
 
-/// Three digits: enough to judge by; the report has them all.
+/// Three digits suffice here; the report has all of them.
 std::string brief(double value) {
   char text[32];
   const bool large = std::abs(value) >= 1000 && std::abs(value) < 1e6;
@@ -55,7 +55,7 @@ std::string convergence(const Report& report) {
                  brief(report, "min_det_F"));
 }
 
-/// Phases by cost, those under a hundredth of a second left out.
+/// Phases in the order of their cost, without those below a hundredth of a second.
 std::string cost(const Report& report, const Timer& timer) {
   std::vector<std::pair<double, std::string>> phases;
   for (const auto& [name, seconds] : timer.seconds()) {

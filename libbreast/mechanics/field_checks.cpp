@@ -9,10 +9,11 @@
 namespace breast {
 
 namespace {
-/// Part of the pressures' spread: 8-node elements show 0.3 to 0.42 on every breast, which the filter takes
-/// out of what is reported.
+/// Oscillation relative to the spread of the pressures: 8-node elements have 0.3 to 0.42 on every
+/// breast, which the filter removes from the reported values.
 constexpr double much_oscillation = 0.5;
-/// Part of the skin's area: less is the fold or two at a rim or a plate's edge.
+/// Fraction of the skin's area; below it there are only one or two folds at a rim or at the edge of
+/// a plate.
 constexpr double much_wrinkling = 0.02;
 }  // namespace
 

@@ -25,11 +25,11 @@ class ForwardSolve {
       : mesh_(mesh), scene_(mesh, options), fail_fast_(fail_fast), progress_(progress) {}
 
   Equilibrium run(const Vec3& gravity);
-  /// Whether a stable equilibrium is found at once.
+  /// Whether a stable equilibrium is found in one step.
   bool stands(const Vec3& gravity);
 
  private:
-  // What a solve holds beside its state; freed before results are gathered.
+  // The data of a solve besides its state; freed before results are gathered.
   struct Workspace {
     LoadedProblem loaded;
     SaddleMatrix matrix;
@@ -39,7 +39,7 @@ class ForwardSolve {
   double clock() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  /// A solve that takes the load from the part `from` to the part `to`.
+  /// A solve that increases the load from the fraction `from` to the fraction `to`.
   EquilibriumResult attempt(Workspace& work, State& state, double from = 0, double to = 1);
   EquilibriumResult follow(Workspace& work, const Eigen::VectorXd& load, State& state);
   std::unique_ptr<Workspace> workspace(const Eigen::VectorXd& load);
@@ -75,7 +75,7 @@ EquilibriumResult ForwardSolve::attempt(Workspace& work, State& state, double fr
   return result;
 }
 
-// Follows the load from `state`; on success that is the last equilibrium.
+// Increases the load from `state`; on success, `state` is then the last equilibrium.
 EquilibriumResult ForwardSolve::follow(Workspace& work, const Eigen::VectorXd& load,
                                        State& state) {
   EquilibriumResult result;
@@ -98,9 +98,10 @@ EquilibriumResult ForwardSolve::follow(Workspace& work, const Eigen::VectorXd& l
   return result;
 }
 
-// Whether the equilibrium found is known to be stable. The last factor tells, of a state next to it;
-// where that was shifted or there is none yet, a factor of the state itself does. The augmentation
-// that suits a multigrid need not hold what incompressibility holds.
+// Whether the equilibrium found is known to be stable. The last factor shows this for a
+// neighbouring state; if that factor was shifted, or if there is none yet, a factor of the state
+// itself is computed. The augmentation that suits multigrid does not necessarily preserve volumes
+// as well as incompressibility does.
 bool ForwardSolve::stays(Workspace& work, const State& state) {
   Timer::Scope phase(found_.timer, "stability");
   if (work.solver.factorisations() > 0 && work.solver.positive_definite()) return true;
@@ -117,7 +118,7 @@ bool ForwardSolve::stays(Workspace& work, const State& state) {
                          definite(nearly_incompressible));
 }
 
-// An unstable equilibrium is no answer.
+// An unstable equilibrium is not accepted as a solution.
 void ForwardSolve::judge(Workspace& work, const State& state) {
   found_.stable = stays(work, state);
   if (found_.stable) {

@@ -13,12 +13,12 @@ namespace breast {
 namespace {
 
 constexpr int max_iterations = 25;
-// One factor serves until GMRES needs more iterations than this, whose back-solves cost
-// as much as a factorisation.
+// One factor is used until GMRES needs more iterations than this, because its back-substitutions
+// then cost as much as a factorisation.
 constexpr int factor_worn = 10, levels_worn = 45;
 constexpr double tolerance = inverse_tolerance, volume_tolerance = 1e-11;
 constexpr double near_tolerance = 1e-8, near_volume_tolerance = 1e-9;
-// A volume error of this size counts as much as the whole load when steps are judged.
+// A volume error of this size counts as much as the whole load in the assessment of a step.
 constexpr double typical_strain = 0.05;
 constexpr double largest_growth = 20;  // of the largest det F in a step
 
@@ -41,7 +41,7 @@ class InverseSolver::System final : public NewtonSystem {
   int folded_element() const override { return owner_.problem_.folded_element(state_); }
 
  private:
-  // How far a state is from equilibrium.
+  // Distance of a state from equilibrium.
   struct Distance {
     double force = 0, volume = 0;  // relative to the load; worst |θ_e|/V_e
     double merit = 0;
@@ -120,7 +120,7 @@ bool InverseSolver::System::precondition() {
 bool InverseSolver::System::solve_direction(double accuracy) {
   Timer::Scope phase(owner_.timer_, "solve");
   const double size = std::cbrt(owner_.problem_.space().pressures->volume(0));
-  // The stress-free shape slides on the wall where it is, not where the imaged one is.
+  // The stress-free shape slides on the wall at its own position, not at that of the imaged shape.
   const Constraints moved = owner_.problem_.constraints_at(state_.reference);
   step_ = ReferenceSystem(owner_.matrix_, owner_.tangent_, owner_.solver_, moved, size)
               .solve(-forces_.r, -forces_.theta, accuracy, max_gmres);
@@ -182,7 +182,7 @@ bool InverseSolver::stable(const State& state, double augmentation) {
   const bool stable = problem_.evaluate(state, request).valid &&
                       solver_.factorise(matrix_, problem_.constraints_at(state.x), false).ok &&
                       solver_.positive_definite();
-  // Without a factor nothing is left to precondition with.
+  // Without a factor there is no preconditioner.
   if (!stable || augmentation > 0) last_gmres_ = max_gmres;
   return stable;
 }

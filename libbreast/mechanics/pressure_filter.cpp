@@ -51,7 +51,7 @@ std::vector<double> filter_pressure(const HexMesh& mesh, const std::vector<Vec3>
         right += std::abs(volume[other]) * pressure[other] * basis;
       }
     }
-    // Too few neighbours for a slope: the weak pull on b leaves the weighted mean.
+    // With too few neighbours for a slope, the weak regularisation of b leaves the weighted mean.
     matrix.diagonal().tail<3>().array() += 1e-9 * matrix(0, 0);
     filtered.push_back(matrix.ldlt().solve(right)[0]);
   }

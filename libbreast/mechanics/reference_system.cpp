@@ -13,9 +13,9 @@ ReferenceSystem::ReferenceSystem(const SaddleMatrix& matrix, const ReferenceTang
       moved_(moved),
       weigh_(matrix.kappa.mean() / (100 * size)) {}
 
-// On (w, q) with w = −δX: [−K_X −Bᵀ; −B_X cM], or [−K_Xᵀ B_Xᵀ; B cM] for the transpose; both are
-// near [K −Bᵀ; B cM]. Rows are those of forces at x, columns those of moves of X: what is held
-// differs between them where nodes slide.
+// Acts on (w, q) with w = −δX as [−K_X −Bᵀ; −B_X cM], or as [−K_Xᵀ B_Xᵀ; B cM] for the transpose;
+// both are close to [K −Bᵀ; B cM]. Rows belong to forces at x, columns to displacements of X: the
+// constraints of the two differ where nodes slide.
 Eigen::VectorXd ReferenceSystem::apply(bool transposed, const Eigen::VectorXd& z) const {
   const PressureSpace& space = *matrix_.space;
   const long m = long(space.rows) * space.elements(), n = z.size() - m;

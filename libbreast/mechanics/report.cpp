@@ -26,8 +26,8 @@ void write_landmarks(const HexMesh& mesh, const std::vector<Vec3>& points, Repor
   }
 }
 
-// Law, small-strain modulus and gravity number ρgL/μ of every tissue present; L
-// = cube root of the volume.
+// Law, small-strain modulus and gravity number ρgL/μ of every tissue present, where L is the cube
+// root of the volume.
 void write_materials(const HexMesh& mesh, const MechanicsOptions& options, Report& report) {
   const std::vector<double> volumes = element_volumes(mesh, mesh.imaged);
   std::array<double, n_tissues> volume{};
@@ -70,7 +70,8 @@ void write_field_checks(const SolveSummary& summary, Report& report) {
   report.set("skin/longest_wrinkle_mm", skin.longest_wrinkle_mm);
 }
 
-// Of a solve without a stable answer: what carries the instability and what would mend it.
+// For a solve without a stable solution: the cause of the instability, and the change that would
+// remove it.
 void write_stability(const SolveSummary& summary, Report& report) {
   if (summary.skin_share) report.set("stability/skin_share_percent", 100 * *summary.skin_share);
   if (!summary.remedy) return;
@@ -107,7 +108,7 @@ void write_report(const Equilibrium& summary, const HexMesh& mesh, const Mechani
     report.set("solver/factorisation_gflop", summary.factor_gflop);
     const auto spent = summary.timer.seconds().find("factorisation");
     if (spent != summary.timer.seconds().end() && spent->second > 0 && summary.factor_gflop > 0) {
-      // The last one of backward is timed as the check of stability.
+      // The last factorisation of backward is timed as the check of stability.
       const int timed =
           summary.factorisations - (summary.timer.seconds().count("stability") ? 1 : 0);
       report.set("solver/factorisation_gflop_per_second",

@@ -30,7 +30,7 @@ std::vector<std::pair<int, Vec3>> cut_normals(const HexMesh& mesh) {
   return normals;
 }
 
-// Null where neither says one.
+// Null if neither gives one.
 std::shared_ptr<const LevelSurface> wall_surface(const HexMesh& mesh, const WallOption& wall) {
   if (wall.surface) return wall.surface;
   if (!mesh.geometry || !mesh.geometry->thorax) return nullptr;
@@ -82,8 +82,8 @@ Scene::Scene(const HexMesh& mesh, const MechanicsOptions& options, TangentStorag
   add_wall();
 }
 
-// Along a surface that is held exactly springs need no direction: their normal part is carried by
-// the surface.
+// On a surface with an exact constraint, springs need no direction: the surface carries their
+// normal part.
 void Scene::add_wall() {
   const auto springs = [&](const std::vector<Face>& faces, const SupportStiffness& stiffness,
                            std::shared_ptr<const LevelSurface> surface = nullptr) {

@@ -43,7 +43,7 @@ SkinState state_of(const HexMesh& mesh, const MaterialSet& materials,
     const double beneath = materials.law(mesh.tissue[mesh.skin_faces[f].element]).shear_modulus();
     ++state.faces;
     total += area;
-    // Rounding makes resultants of either sign in a skin at rest.
+    // Rounding gives resultants of either sign in a skin at rest.
     if (!(resultant < -1e-9 * materials.law(Tissue::skin).shear_modulus())) continue;
     const double wrinkle = std::numbers::pi * -resultant / beneath;
     ++state.compressed;

@@ -36,7 +36,8 @@ void note_solver(const SaddleSolver& solver, const SaddleMatrix& matrix, SolveSu
 
 namespace {
 
-// Elements whose law is not proven elliptic and has lost it at the element's centre.
+// Elements with a law that is not proved elliptic and has lost ellipticity at the centre of the
+// element.
 int beyond_stable_range(const Scene& scene, const State& state) {
   const HexMesh& mesh = scene.mesh();
   const HexShape centre = hex_shape(mesh.order, Vec3::Zero());

@@ -11,7 +11,7 @@ namespace breast {
 
 namespace {
 
-/// The numbers after "KIND:"; nothing when the text is of another kind or holds something else.
+/// The numbers after "KIND:"; no value if the text is of another kind or contains anything else.
 std::optional<std::vector<double>> numbers_after(const std::string& kind,
                                                  const std::string& text) {
   if (text.rfind(kind + ":", 0) != 0) return {};

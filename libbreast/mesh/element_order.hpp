@@ -6,8 +6,9 @@
 
 namespace breast {
 
-/// The same body with 27-node elements: new nodes at the trilinear positions of every nodal field,
-/// so that shapes, landmarks and face sets are unchanged. A mesh of order 2 is returned as it is.
+/// The same body with 27-node elements. New nodes have the trilinear positions of every nodal
+/// field, so that shapes, landmarks and face sets are unchanged. A mesh of order 2 is returned
+/// unchanged.
 HexMesh raise_order(const HexMesh& mesh);
 
 }  // namespace breast

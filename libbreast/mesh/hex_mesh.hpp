@@ -90,7 +90,7 @@ enum class SolveStatus {
   unstable,       ///< backward: an equilibrium, but an unstable one
   not_converged,
 };
-/// Name in files and reports, and its inverse, which returns nothing for any other text.
+/// Name of a status in files and reports, and its inverse, which has no value for any other text.
 const char* status_name(SolveStatus status);
 std::optional<SolveStatus> status_from_name(const std::string& name);
 struct SolveRecord {

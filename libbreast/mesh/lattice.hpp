@@ -15,8 +15,8 @@ const int* vtk_nodes(int order);
 /// x(ξ) and J = ∂x/∂ξ of an element whose (order+1)^3 points are in lattice order.
 void evaluate(int order, const Vec3* points, const Vec3& local, Vec3& x, Mat3& jacobian);
 
-/// The local point in the box [-1,1]^3 whose image is nearest to `point`. `fixed` is a coordinate
-/// that stays at its value in `start` (a face), or −1. Returns the squared distance.
+/// The local point in the box [-1,1]^3 with the image nearest to `point`. `fixed` is a coordinate
+/// that keeps its value in `start` (a face), or −1. Returns the squared distance.
 double closest_in_element(int order, const Vec3* points, const Vec3& point, int fixed, Vec3 start,
                           Vec3& local);
 

@@ -27,11 +27,12 @@ class Locator {
   /// Throws Error (input) when `nodal` does not have one finite point per node.
   Locator(const HexMesh& mesh, const std::vector<Vec3>& nodal);
 
-  /// The element containing `point`, or nothing. `hint` is tried first (the element of a
-  /// neighbouring point, for walks along a ray); if the point is strictly inside it, the search
-  /// ends at once.
+  /// The element that contains `point`; no value if there is none. `hint` is tried first (the
+  /// element of a neighbouring point, for walks along a ray); if the point is strictly inside it,
+  /// the search ends at once.
   std::optional<Location> find(const Vec3& point, int hint = -1) const;
-  /// As find, but outside the mesh its nearest point, with the distance moved.
+  /// Like find; for a point outside the mesh, the nearest point of the mesh, with the distance
+  /// moved.
   Location nearest(const Vec3& point) const;
   /// Position of a local point of an element in this field.
   Vec3 position(int element, const Vec3& local) const;

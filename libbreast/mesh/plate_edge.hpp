@@ -4,8 +4,8 @@
 
 namespace breast {
 
-/// How far a plate's rounded edge of radius r lies behind its flat, mm, at s mm beyond where it
-/// starts: r − √(r²−s²). For s ≥ r there is no plate: infinite.
+/// Distance by which a plate's rounded edge of radius r lies behind its flat part, mm, at s mm
+/// beyond the start of the edge: r − √(r²−s²). Infinite for s ≥ r, where there is no plate.
 double edge_recession(double radius, double s);
 
 }  // namespace breast

@@ -11,7 +11,7 @@
 namespace breast {
 
 /// One sentence if the body between the sheets and the labelled breast differ by more than 2 % in
-/// volume, or if more than 5 % of that breast lies outside; otherwise nothing. The volume lost by
+/// volume, or if more than 5 % of that breast lies outside; otherwise no value. The volume lost by
 /// the flat faces of a coarse mesh is not included; too_coarse() reports it.
 std::optional<std::string> mismatch(const BodyMeshReport& body, const TissueReport& tissue);
 

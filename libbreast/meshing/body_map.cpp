@@ -15,7 +15,8 @@ double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// Centroid of the polygon's area, not of its points: unevenly spaced points must not move the pole.
+// The centroid of the polygon's area rather than of its points, because unevenly spaced points must
+// not move the pole.
 Vec2 area_centroid(const std::vector<Vec2>& curve) {
   Vec2 sum = Vec2::Zero();
   double area = 0;
@@ -28,8 +29,8 @@ Vec2 area_centroid(const std::vector<Vec2>& curve) {
   return curve[0] + sum / area;
 }
 
-// The first rim point from which the curve does not run counter-clockwise
-// round the centre; −1: none.
+// The first rim point from which the curve does not run counter-clockwise around the centre; −1 if
+// there is none.
 int star_shaped_at(const std::vector<Vec2>& curve, const Vec2& centre) {
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const Vec2 a = curve[i] - centre, b = curve[(i + 1) % curve.size()] - centre;
@@ -75,8 +76,7 @@ BodyMap::BodyMap(const BreastGeometry& geometry) : geometry_(geometry) {
   choose_start();
 }
 
-// The nipple, when it is nearer to the centre than a third of the way to
-// the rim in every direction.
+// The nipple, if it is closer to the centre than a third of the way to the rim in every direction.
 void BodyMap::choose_pole() {
   skin_pole_ = geometry_.centre;
   double nearest = (geometry_.rim_skin[0] - geometry_.centre).norm();
@@ -132,7 +132,7 @@ Vec3 BodyMap::cut(double height, double u) const {
 
 double BodyMap::volume() const {
   constexpr int around = 256, rings = 48, rows = 8;
-  const Vec3 origin = skin_sheet().position(skin_pole_);  // near the body: less cancellation
+  const Vec3 origin = skin_sheet().position(skin_pole_);  // near the body, for less cancellation
   double six_volumes = 0;
   // Rings of quads from the skin's pole to its rim, down the cut, and back to the wall's pole.
   const auto ring = [&](int r) {

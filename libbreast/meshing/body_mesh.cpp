@@ -29,7 +29,7 @@ void refuse_folded(const HexMesh& mesh) {
                     "--dome, or fit-hermite with more smoothing");
 }
 
-// Skin node nearest to the nipple; −1 when that is on or beyond the rim.
+// The skin node nearest to the nipple; −1 if that node is on or beyond the rim.
 int nipple_node(const Vec3& nipple, const PlacedNodes& nodes) {
   int nearest = -1;
   double best = std::numeric_limits<double>::infinity();
@@ -42,9 +42,10 @@ int nipple_node(const Vec3& nipple, const PlacedNodes& nodes) {
   return nearest >= 0 && nodes.support[nearest] == Support::skin ? nearest : -1;
 }
 
-// The skin node nearest to the nipple goes there and its surroundings follow, so that the landmark
-// lies on every mesh of a geometry: a coarse face would pass several mm beneath a nipple. Given up
-// where it would cost a fifth of the worst element's shape. `held` marks the node.
+// Moves the skin node nearest to the nipple to the nipple, together with its surroundings, so that
+// the landmark lies on every mesh of a geometry: a coarse face would pass several mm beneath the
+// nipple. Not done if it would cost a fifth of the worst element's scaled Jacobian. `held` marks
+// the node.
 void take_node_to_nipple(const BreastGeometry& geometry, const BodyMap& body,
                          const std::vector<int>& connectivity, SmoothOptions smoothing,
                          std::vector<bool>& held, PlacedNodes& nodes) {
@@ -65,8 +66,8 @@ void take_node_to_nipple(const BreastGeometry& geometry, const BodyMap& body,
   }
 }
 
-// The template put into the body. Flat faces get the volume back that they cut off; curved ones do
-// not need it.
+// Places the template in the body. With flat faces, the volume that they cut off is restored;
+// curved faces do not need this.
 PlacedNodes smoothed_nodes(const BreastGeometry& geometry, const BodyMap& body,
                            const BodyMeshOptions& options, const DomeTemplate& dome,
                            BodyMeshReport& report) {

@@ -7,9 +7,9 @@
 
 namespace breast {
 
-/// Weighted by area; from 5 × 5 points of every face to the nearest point of the surface.
-/// `part` is skin, wall or cut; `nodes` holds the corner nodes' places, `mesh` (order 1 or 2) the
-/// same corners first.
+/// Area-weighted distances from 5 × 5 points of every face to the nearest point of the surface.
+/// `part` is skin, wall or cut; `nodes` contains the positions of the corner nodes, and `mesh`
+/// (order 1 or 2) has the same corners first.
 Distances boundary_distance(const BodyMap& body, Hull part, const std::vector<Face>& faces,
                             const PlacedNodes& nodes, const HexMesh& mesh);
 

@@ -15,13 +15,13 @@ namespace {
 
 constexpr int corners = 8, edges_end = 20, faces_end = 26, centre = 26;
 
-// What the boundary node lies on, from the parts of the faces it was met in so far.
+// The surface on which a boundary node lies, from the parts of the faces processed so far.
 Hull meet(std::optional<Hull> before, Hull face) {
   if (!before || *before == face) return face;
   return *before == Hull::wall || face == Hull::wall ? Hull::wall_rim : Hull::skin_rim;
 }
 
-// A boundary node between corners: its part and the corners whose mean it is.
+// A boundary node between corners, with its part and the corners of which it is the mean.
 struct Between {
   std::optional<Hull> part;
   std::vector<int> corner;
@@ -40,7 +40,8 @@ void gather(const HexMesh& mesh, const std::vector<Face>& faces, Hull part,
   }
 }
 
-// From the straight position to the surface, as far off it as the corners are.
+// The displacement from the straight position to the surface, or to the same offset from it as the
+// corners have.
 Vec3 bow_of(const BodyMap& body, const PlacedNodes& nodes, const Between& node,
             const Vec3& straight) {
   std::vector<Vec2> at;
@@ -55,7 +56,7 @@ Vec3 bow_of(const BodyMap& body, const PlacedNodes& nodes, const Between& node,
   return nearest_on_hull(body, *node.part, start, straight - off).x + off - straight;
 }
 
-// Local node on the other side of the element from local face `face`.
+// The local node opposite to the local face `face`.
 int opposite(int node, int face) {
   Vec3 at = hex_node_local(2, node);
   at[face / 2] = -at[face / 2];
@@ -103,7 +104,8 @@ class Bows {
   void place() {
     for (int e = 0; e < mesh_.elements(); ++e) place_element(mesh_.element(e));
   }
-  // Halves the bows of every element that is no longer good enough; false when all are.
+  // Halves the displacements of every element that is no longer good enough; returns false if all
+  // are.
   bool hold_back(const std::vector<Shape>& straight, bool give_up);
   CurveReport report() const;
 
@@ -114,8 +116,8 @@ class Bows {
   HexMesh& mesh_;
   const std::vector<Vec3> straight_;
   std::vector<Vec3> bow_;
-  std::vector<double> share_;  // of its bow that a node takes
-  std::vector<bool> given_;    // the node's bow is its own, not interpolated
+  std::vector<double> share_;  // part of its displacement that a node takes
+  std::vector<bool> given_;    // whether the displacement of the node is its own, not interpolated
 };
 
 void Bows::bow_inside_of_layer() {
@@ -189,7 +191,8 @@ CurveReport curve_boundary(const BodyMap& body, const PlacedNodes& nodes, HexMes
   for (int e = 0; e < mesh.elements(); ++e) straight[e] = shape_of(mesh, e);
   Bows bows(body, nodes, mesh);
   bows.place();
-  // Ends: every round past the halvings leaves at least one more element straight for good.
+  // This terminates: after the halvings, every round leaves at least one more element straight for
+  // good.
   for (int round = 0; bows.hold_back(straight, round >= halvings); ++round) bows.place();
   mesh.imaged = mesh.points;
   return bows.report();

@@ -36,7 +36,7 @@ struct Numbering {
     return j == n ? 3 * n - i : 4 * n - j;
   }
   bool on_perimeter(int i, int j) const { return i == 0 || j == 0 || i == n || j == n; }
-  /// layer 0 is the core's surface, layer m the body's.
+  /// Layer 0 is the surface of the core, layer m that of the body.
   int side(int p, int row, int layer) const {
     const auto [i, j] = perimeter(p);
     if (layer == 0) return core(i, j, row);
@@ -51,9 +51,9 @@ struct Numbering {
   int n, l, core_nodes, shell_nodes;
 };
 
-// A point (i,j) of the n × n square in polar form of the equiangular half cube: u round the
-// square, θ from its axis and θe of the square's edge in the same direction (45° at
-// mid-side, 54.7° at corners).
+// A point (i,j) of the n × n square in the polar form of the equiangular half cube: u around the
+// square, θ from its axis, and θe of the square's edge in the same direction (45° at mid-side,
+// 54.7° at corners).
 struct SquarePolar {
   double u, theta, theta_edge;
 };
@@ -77,7 +77,8 @@ SquarePolar square_polar(int n, double i, double j) {
           elementary::atan(radius / edge)};
 }
 
-// ρ of the top block's edge: its share of the skin's area, less at mid-side than at the corners.
+// The value of ρ at the edge of the top block: its share of the skin's area, smaller at mid-side
+// than at the corners.
 double edge_rho(const DomeSize& s, double theta_edge) {
   const double share = 0.97 / std::sqrt(1 + 4.0 * (s.l - s.k) / s.n);
   return share * elementary::pow(theta_edge / (std::numbers::pi / 4), 0.7);
@@ -101,7 +102,7 @@ HullPlace side_place(const DomeSize& s, const Numbering& number, int p, int row)
 
 std::vector<HullPlace> hull_places(const DomeSize& s, const Numbering& number) {
   std::vector<HullPlace> places(number.core_nodes + std::size_t(s.m) * number.shell_nodes);
-  // Wall first, so that its rim is overwritten by the cut's.
+  // The wall comes first, so that its rim is overwritten by that of the cut.
   for (int j = 0; j <= s.n; ++j) {
     for (int i = 0; i <= s.n; ++i) {
       const SquarePolar polar = square_polar(s.n, i, j);
@@ -159,7 +160,8 @@ void add_core(const DomeSize& s, const Numbering& number, DomeTemplate& dome) {
   }
 }
 
-// Layers round the core: ζ points outwards, so face 5 of the outermost is the body's boundary.
+// Layers around the core: ζ points outwards, so that face 5 of the outermost layer is the boundary
+// of the body.
 void add_layers(const DomeSize& s, const Numbering& number, DomeTemplate& dome) {
   for (int layer = 0; layer < s.m; ++layer) {
     const bool outermost = layer == s.m - 1;
@@ -209,7 +211,7 @@ DomeSize dome_near(int edge) {
     throw input_error("--elements ", edge,
                       ": must be from 4 to 120 (16 gives about 4096 elements)");
   }
-  // Proportions of (10,10,6) with k = 3, which suits real breasts, at every size.
+  // At every size the proportions of (10,10,6) with k = 3, which suits real breasts.
   const double wanted = double(edge) * edge * edge, scale = std::cbrt(wanted / 4000);
   DomeSize best;
   double best_cost = std::numeric_limits<double>::infinity();

@@ -40,7 +40,7 @@ enum class Support : std::uint8_t {
 /// Place of a boundary node on the template's hull.
 struct HullPlace {
   Support support = Support::interior;
-  double u = 0;       ///< round the rim, [0,1); 0 is the core's corner i = j = 0
+  double u = 0;       ///< position around the rim, [0,1); 0 is the core's corner i = j = 0
   double rho = 0;     ///< skin and wall: 0 at the pole, 1 at the rim
   double height = 0;  ///< cut: 0 at the wall, 1 at the skin
 };

@@ -12,7 +12,7 @@ bool is_sheet(Hull part) {
   return part == Hull::skin || part == Hull::wall;
 }
 
-// Columns: derivatives by the parameters; that of the height is 0 on a rim.
+// The columns are the derivatives with respect to the parameters; that of the height is 0 on a rim.
 Eigen::Matrix<double, 3, 2> slopes(const BodyMap& body, Hull part, const Vec2& at) {
   Eigen::Matrix<double, 3, 2> columns;
   if (is_sheet(part)) {

@@ -26,7 +26,8 @@ Vec2 skin_parameters(const BodyMap& body, const PlacedNodes& nodes, int a) {
   return nodes.support[a] == Support::skin ? nodes.st[a] : body.skin(1, nodes.st[a].x());
 }
 
-// Mean over the faces round each skin node of the sheet's height above the face's centre, mm.
+// Mean, over the faces around each skin node, of the sheet's height above the centre of the face,
+// mm.
 std::vector<double> gaps(const BodyMap& body, const DomeTemplate& dome, const PlacedNodes& nodes) {
   std::vector<double> sum(nodes.x.size(), 0.0);
   std::vector<int> uses(nodes.x.size(), 0);

@@ -53,8 +53,8 @@ std::vector<Edge> wall_edges(const DomeTemplate& dome) {
   return unique_edges(std::move(edges));
 }
 
-// Every free node becomes the mean of its neighbours; the others keep their
-// values. values: nodes × d.
+// Every free node becomes the mean of its neighbours; the others keep their values. `values` is
+// nodes × d.
 void graph_laplace(const std::vector<Edge>& edges, const std::vector<bool>& is_free,
                    Eigen::MatrixXd& values) {
   std::vector<int> unknown(is_free.size(), -1);

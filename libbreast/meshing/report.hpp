@@ -12,8 +12,8 @@
 
 namespace breast {
 
-/// Shape, volumes and landmarks of a mesh; under the keys of docs/file-formats.md (elements, min_scaled_jacobian,
-/// volumes_ml, landmarks).
+/// Writes shape, volumes and landmarks of a mesh under the keys of docs/file-formats.md (elements,
+/// min_scaled_jacobian, volumes_ml, landmarks).
 void write_report(const HexMesh& mesh, const MeshQuality& quality, const BodyMeshReport& body,
                   const TissueReport& tissue, Report& report);
 /// Warnings about elements so thin that solves will be slower.

@@ -16,8 +16,8 @@ namespace breast {
 
 namespace {
 
-// Unknowns in mm: three of an inside node; two of a sliding node, along an orthonormal tangent
-// frame at its start, so that all unknowns have one scale.
+// The unknowns in mm: three per inner node, and two per sliding node along an orthonormal tangent
+// frame at its start, so that all unknowns have the same scale.
 using Mat2 = Eigen::Matrix2d;
 using Mat32 = Eigen::Matrix<double, 3, 2>;
 
@@ -96,8 +96,8 @@ class Smoother {
     slopes << point.x_s, point.x_t;
     return slopes;
   }
-  // Inverse of the upper-triangular factor of the slopes = Q R; a rim node
-  // moves along its rim only.
+  // Inverse of the upper-triangular factor R of the slopes = Q R; a rim node moves along its rim
+  // only.
   Mat2 tangent_frame(int a) const {
     Vec3 x;
     const Mat32 slopes = chart(a, start_.st[a], x);
@@ -148,8 +148,8 @@ SmoothReport smooth_nodes(const std::vector<int>& connectivity, const BodyMap& b
   const auto energy = [&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) {
     return smoother.value(at, gradient);
   };
-  // Folds first, with the plain energy and a regularisation that follows the worst corner; then the
-  // p-norm, which works on the worst corners.
+  // First the folds are removed with the plain energy and a regularisation that follows the worst
+  // corner; then the p-norm improves the worst corners.
   smoother.set_sliding_tether(1);
   double worst = smoother.energy().min_det(nodes.x);
   for (int round = 0; round < 8 && worst < 1e-3; ++round) {

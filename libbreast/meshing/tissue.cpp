@@ -86,7 +86,7 @@ double volume_preserving_threshold(const HexMesh& mesh, const std::vector<double
   return std::clamp(threshold, 0.1, 0.7);
 }
 
-// Share of the breast's voxels that lie outside the mesh, from every eighth voxel or so.
+// Share of the breast's voxels outside the mesh, estimated from about every eighth voxel.
 double missed_share(const LabelVolume& labels, const HexMesh& mesh, long long breast_voxels) {
   const Locator locator(mesh, mesh.imaged);
   const int stride = std::max(1, int(std::cbrt(double(breast_voxels) / 40000)));

@@ -16,8 +16,8 @@ namespace breast {
 
 namespace {
 
-constexpr double clearance_mm = 8;                            // to what is no breast in the labels
-constexpr double mesh_clearance_mm = 5, least_clearance_mm = 2;  // to the boundary of the mesh
+constexpr double clearance_mm = 8;                            // distance from labels other than breast
+constexpr double mesh_clearance_mm = 5, least_clearance_mm = 2;  // distances from the boundary of the mesh
 
 struct Region {
   long long voxels = 0;
@@ -57,7 +57,7 @@ bool breast_or_beyond(const LabelVolume& labels, int i, int j, int k) {
   return !labels.grid.contains(i, j, k) || is_breast(labels.at(i, j, k));
 }
 
-// Breast in all 26 directions at the clearance.
+// Whether there is breast in all 26 directions at the clearance.
 bool is_clear(const LabelVolume& labels, int i, int j, int k) {
   const Vec3 reach = clearance_mm * labels.grid.spacing.cwiseInverse();
   for (int d = 0; d < 27; ++d) {
@@ -72,7 +72,7 @@ bool is_clear(const LabelVolume& labels, int i, int j, int k) {
   return true;
 }
 
-// The point and 26 others at this distance round it lie inside the mesh.
+// Whether the point and 26 others at this distance around it lie inside the mesh.
 bool is_inside(const Locator& mesh, const Vec3& at, double clearance) {
   int hint = -1;
   for (int d = 0; d < 27; ++d) {
@@ -84,7 +84,7 @@ bool is_inside(const Locator& mesh, const Vec3& at, double clearance) {
   return true;
 }
 
-// Has a fat neighbour: the point half-way to it is on the edge.
+// Finds a fat neighbour: the point half-way to it lies on the edge of the fibroglandular tissue.
 std::optional<Vec3> edge_point(const LabelVolume& labels, int i, int j, int k) {
   constexpr std::array<std::array<int, 3>, 6> steps = {
       {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
@@ -96,11 +96,11 @@ std::optional<Vec3> edge_point(const LabelVolume& labels, int i, int j, int k) {
   return std::nullopt;
 }
 
-// A place for an artificial tumour.
+// A candidate position for an artificial tumour.
 struct Candidate {
-  double distance;  // mm2 to where one is wanted
+  double distance;  // squared distance from the wanted position, mm²
   Vec3 at;
-  bool clear;  // of what is no breast in the labels
+  bool clear;  // whether it is clear of labels other than breast
 };
 
 void check_radius(double radius, const std::string& where) {

@@ -32,21 +32,22 @@ Tumour parse_tumour(const std::string& text);
 /// First row of a table with columns x_mm y_mm z_mm and maybe radius_mm. Throws Error (input).
 Tumour read_tumour(const std::filesystem::path& file);
 
-/// Centroid of the tumour voxels of other labels in the same frame, radius of the ball of their
-/// volume. Throws Error (input) when they hold none; `name` is used in the error.
+/// Centroid of the tumour voxels of other labels in the same frame, with the radius of the ball of
+/// their volume. Throws Error (input) if there are no such voxels; `name` is used in the message.
 Tumour tumour_of(const LabelVolume& labels, const std::string& name);
 
-/// Landmark nipple: the geometry's nipple, located on the skin faces; node
+/// Adds the landmark nipple: the nipple of the geometry, located on the skin faces; sets
 /// nipple_node. Needs mesh.geometry.
 void add_nipple(HexMesh& mesh);
 
-/// A landmark at the material point nearest to `at` (mm, LPS, imaged shape). Throws Error (input) when it lies more than
-/// `max_moved` mm outside the mesh.
+/// Adds a landmark at the material point nearest to `at` (mm, LPS, imaged shape). Throws Error
+/// (input) if `at` lies more than `max_moved` mm outside the mesh.
 void add_landmark(const std::string& name, const Vec3& at, HexMesh& mesh, double max_moved = 10);
 
-/// Landmark "tumour" (or "artificial_tumour", mesh/landmark_names.hpp) and tumour_node; with a radius, elements at least half inside the ball become
-/// tumour (the element holding the centre always does). Throws Error (input) when the centre lies
-/// more than `max_moved` mm outside the mesh.
+/// Adds the landmark "tumour" (or "artificial_tumour", mesh/landmark_names.hpp) and sets
+/// tumour_node. With a radius, elements with at least half of their volume inside the ball become
+/// tumour, and so does the element that contains the centre. Throws Error (input) if the centre
+/// lies more than `max_moved` mm outside the mesh.
 void add_tumour(const Tumour& tumour, HexMesh& mesh, double max_moved = 10);
 
 }  // namespace breast

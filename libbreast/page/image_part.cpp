@@ -29,7 +29,7 @@ Shown thinned(const HungImage& hung, int skip) {
   return shown;
 }
 
-// Landmarks the page marks, in the image, with the names their mesh gives them.
+// The landmarks that the page marks in the image, with their names in the mesh.
 std::string landmarks_json(const ViewPose& pose, const HexMesh& compressed) {
   std::string list;
   for (const char* name : {"nipple", "tumour"}) {

@@ -22,7 +22,7 @@ Integer packed(double value, double step) {
   return Integer(std::clamp(std::round(value / step), low, high));
 }
 
-// Nodes kept of a grid: every `stride`-th along both axes.
+// The nodes kept from a grid: every `stride`-th along both axes.
 struct Thinned {
   int stride = 1, nu = 0, nv = 0;
   std::vector<std::size_t> nodes;  // of the lookup, v outermost

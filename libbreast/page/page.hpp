@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The interactive page as one HTML file: pointing at either view draws the curve, band and arc in
-// the other, the slice of the MR and the column in the body. No server, no network: everything is
-// inside.
+// the other, the slice of the MR and the column in the body. The file is complete and needs no
+// server or network.
 #pragma once
 
 #include <string>
@@ -23,9 +23,9 @@ struct PageContents {
 
 inline constexpr std::size_t largest_page = 25000000;  ///< bytes
 
-/// Images are shown at most 0.25 mm a pixel. Throws Error (input) when an image is not of its view,
-/// when the lookups are not each other's reverse, when the scan does not cover the breast, and for a page above
-/// largest_page.
+/// Images have pixels of at least 0.25 mm. Throws Error (input) if an image does not belong to its
+/// view, if the lookups are not those of the two directions, if the scan does not cover the breast,
+/// and for a page above largest_page.
 std::string lookup_page(const PageContents& contents);
 
 }  // namespace breast

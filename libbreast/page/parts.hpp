@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts of the page's data, each written as one JavaScript literal.
+// The parts of the page's data, each as one JavaScript literal.
 #pragma once
 
 #include <string>
@@ -15,13 +15,13 @@ namespace breast {
 /// "[1.5,2,3]".
 std::string numbers_json(const std::vector<double>& values);
 
-/// The picture as hung, 16 bits, every n-th pixel so that none is below a quarter millimetre, and
-/// the landmarks of `compressed` in it.
+/// The picture in clinical orientation, 16 bits, with every n-th pixel so that pixels are at least
+/// a quarter millimetre, and the landmarks of `compressed` in it.
 std::string image_json(const Mammogram& image, const HexMesh& compressed);
 
-/// The curves of a grid, only of nodes in tissue, rounded to 0.01 mm; lengths beyond 327 mm from
-/// `middle` (columns) or from the image's corner (curves) are cut there. A grid with more than 14 000 nodes in
-/// tissue is thinned, so that a direction takes at most 7 MB.
+/// The curves of a grid, only for nodes in tissue, rounded to 0.01 mm; lengths more than 327 mm
+/// from `middle` (columns) or from the corner of the image (curves) are limited to that. A grid
+/// with more than 14 000 nodes in tissue is thinned, so that a direction takes at most 7 MB.
 std::string lookup_json(const MatchLookup& lookup, const Vec3& middle);
 
 /// Edges of skin, chest wall and cut in the MR frame, mm, with nipple and tumour.

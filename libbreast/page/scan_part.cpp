@@ -15,7 +15,7 @@ namespace {
 constexpr double margin = 15;  // mm about the breast
 constexpr std::size_t most_voxels = 3000000;
 
-// The box's grid along the patient's axes, coarser where the box is large.
+// The grid of the box along the patient's axes, coarser if the box is large.
 Grid grid_about(const Box& box) {
   for (double coarser = 1;; coarser *= 1.1) {
     Grid grid;

@@ -10,7 +10,8 @@ namespace breast {
 
 namespace {
 
-// Length of the UTF-8 character at the front, with its code; 0 for bytes that are none.
+// Length of the UTF-8 character at the beginning, with its code; 0 if the bytes are not a valid
+// character.
 std::size_t front_character(std::string_view text, std::uint32_t& code) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const std::size_t length = byte(0) < 0x80       ? 1

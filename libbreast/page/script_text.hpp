@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values as JavaScript literals inside an HTML page: texts that cannot end the script, and bytes in base64.
+// Values as JavaScript literals inside an HTML page: text that cannot end the script, and bytes in
+// base64.
 #pragma once
 
 #include <span>
@@ -9,15 +10,16 @@
 
 namespace breast {
 
-/// A text as a JavaScript string. Names come from files that anybody may have written: only letters,
-/// digits and the plainest signs stand as they are, so that no byte can end the string, the line or
-/// the script element. Bytes that are no UTF-8 become U+FFFD.
+/// A text as a JavaScript string. Names may come from files written by anybody, so only letters,
+/// digits and harmless punctuation are kept as they are, and no byte can end the string, the line
+/// or the script element. Bytes that are not valid UTF-8 become U+FFFD.
 std::string script_text(const std::string& text);
 
 /// Bytes in base64, in double quotes.
 std::string script_bytes(std::span<const unsigned char> bytes);
 
-/// The memory of numbers in base64, in double quotes, little-endian on every processor we build for.
+/// The memory of an array of numbers in base64, in double quotes; little-endian on every supported
+/// processor.
 template <class T>
 std::string script_array(const std::vector<T>& values) {
   static_assert(std::is_arithmetic_v<T>);

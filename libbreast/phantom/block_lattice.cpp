@@ -25,7 +25,7 @@ BlockLattice::BlockLattice(const MeshParameters& size)
   nipple = top_shell(c_ / 2, c_ / 2, m_);
 }
 
-// Perimeter of the square, counter-clockwise from the corner (0,0), t in 0..4C.
+// Point on the perimeter of the square, counter-clockwise from the corner (0,0), t in 0..4C.
 int BlockLattice::perimeter_i(int t) const {
   t = ((t % (4 * c_)) + 4 * c_) % (4 * c_);
   if (t < c_) return t;
@@ -66,7 +66,8 @@ int BlockLattice::top_shell(int i, int j, int layer) const {
          1;
 }
 
-// Between a half cube of half width `size` and the half ball through its faces' middles.
+// Interpolates between a half cube of half width `size` and the half ball through the centres of
+// its faces.
 Vec3 BlockLattice::core_place(int i, int j, int k) const {
   constexpr double rounding = 0.6;
   const double size = 0.92 * c_ / (c_ + 2.0 * m_) + 0.04;

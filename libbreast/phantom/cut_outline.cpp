@@ -30,7 +30,7 @@ CutOutline::CutOutline(const HexMesh& mesh) : middle_(Vec3::Zero()), axis_(Vec3:
   for (const Face& face : mesh.pectoral_faces) {
     const std::vector<int> nodes = face_nodes(mesh, face);
     const auto corner = [&](int k) { return mesh.points[std::size_t(nodes[std::size_t(k)])]; };
-    // Out of the body, into the chest.
+    // The direction out of the body into the chest.
     const Vec3 out = 0.5 * (corner(2) - corner(0)).cross(corner(3) - corner(1));
     axis_ -= out;
     middle_ += out.norm() * 0.25 * (corner(0) + corner(1) + corner(2) + corner(3));
@@ -64,7 +64,7 @@ CutOutline::Curve CutOutline::curve_through(const HexMesh& mesh,
   curve.push_back(first);
   for (std::size_t k = 1; k < curve.size(); ++k) {
     if (!(curve[k].azimuth - curve[k - 1].azimuth < widest))
-      throw failed_error("phantom: the cut's outline does not go round the breast");
+      throw failed_error("phantom: the outline of the cut does not enclose the breast");
   }
   return curve;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the cut of a breast lies in a shape that was solved: what is breast, and what the chest beside it.
+// The cut of a breast in a solved shape, which separates the breast from the chest beside it.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,15 @@
 
 namespace breast {
 
-/// The closed curves in which the cut meets wall and skin, as radii and heights over the azimuth about
-/// an axis through the breast's middle on the wall, square to the wall there on average.
+/// The closed curves in which the cut meets wall and skin, as radii and heights over the azimuth
+/// about an axis through the centre of the breast on the wall and perpendicular, on average, to the
+/// wall there.
 class CutOutline {
  public:
-  /// Of mesh.points. Throws Error (failed) when a curve does not go round the axis.
+  /// Takes the shape in mesh.points. Throws Error (failed) if a curve does not enclose the axis.
   explicit CutOutline(const HexMesh& mesh);
-  /// Whether a point in front of the chest wall lies on the breast's side of the cut (extended
-  /// straight outwards), more than `margin` mm from it.
+  /// Whether a point in front of the chest wall lies more than `margin` mm on the breast's side of
+  /// the cut (extended straight outwards).
   bool inside(const Vec3& x, double margin) const;
 
  private:

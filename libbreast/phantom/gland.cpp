@@ -17,10 +17,10 @@ namespace breast {
 
 namespace {
 
-constexpr double reach = 7;  // mm beyond a piece up to which its distance is known
+constexpr double reach = 7;  // largest distance from a piece that is computed, mm
 
-// Where gland may grow: an ellipsoid behind the nipple, drawn towards the upper outer quadrant,
-// 8 mm below the skin and 6 mm off the wall.
+// Region in which gland may grow: an ellipsoid behind the nipple, extended towards the upper outer
+// quadrant, 8 mm below the skin and 6 mm from the wall.
 class Region {
  public:
   Region(const BreastShape& shape, double extent) : shape_(shape) {
@@ -51,7 +51,7 @@ Vec3 perturbed(const Vec3& direction, double amount, RandomStream& stream) {
       .normalized();
 }
 
-// Grows one duct with its branches; a lobule hangs at the end of every twig.
+// Grows one duct with its branches; there is a lobule at the end of every twig.
 class Grower {
  public:
   Grower(const Region& region, RandomStream& stream, std::vector<GlandPiece>& pieces)
@@ -96,7 +96,7 @@ double piece_distance(const GlandPiece& piece, const Vec3& x) {
   return (d - t * along).norm() - piece.radius;
 }
 
-// Pieces per 8 mm bin that may matter within it.
+// For every bin of 8 mm the pieces that may matter within it.
 class Bins {
  public:
   Bins(const std::vector<GlandPiece>& pieces, const Vec3& low, const Vec3& high) : low_(low) {
@@ -176,7 +176,7 @@ GlandField::GlandField(const BreastShape& shape, const GlandParameters& paramete
   calibrate(shape, parameters.fraction);
 }
 
-// Distance to the nearest piece, its margin made irregular by noise of two wavelengths.
+// Distance to the nearest piece, with a margin made irregular by noise of two wavelengths.
 void GlandField::fill(const std::vector<GlandPiece>& pieces) {
   const Vec3 extent(lattice_.size[0], lattice_.size[1], lattice_.size[2]);
   const Bins bins(pieces, lattice_.origin, lattice_.origin + lattice_.spacing * extent);
@@ -223,8 +223,8 @@ double outlined_volume(const BreastShape& shape) {
 
 }  // namespace
 
-// Shifts the margin of the lobes so that, with the main ducts, the wanted share of the breast's
-// volume lies inside.
+// Shifts the margin of the lobes so that lobes and main ducts together fill the required share of
+// the breast's volume.
 void GlandField::calibrate(const BreastShape& shape, double fraction) {
   const double cell = lattice_.spacing * lattice_.spacing * lattice_.spacing,
                breast = outlined_volume(shape);
@@ -272,7 +272,8 @@ double GlandField::distance(const Vec3& x) const {
 Matter GlandField::matter(const Vec3& x) const {
   const double d = distance(x);
   if (d < 0) return Matter::gland;
-  // Cooper's ligaments: thin curved sheets, the zero set of a slow noise, interrupted by another.
+  // Cooper's ligaments: thin curved sheets, the zero set of a slowly varying noise, interrupted by
+  // another noise.
   if (lattice_noise(seed_ + 4, x / 19) > 0.02 &&
       std::abs(lattice_noise(seed_ + 3, x / 15)) < 0.020) {
     return Matter::ligament;

@@ -27,7 +27,7 @@ Grid phantom_grid(const MriParameters& p) {
 
 namespace {
 
-// Tally of the subsamples of one voxel.
+// Counts of the subsamples of one voxel.
 struct Tally {
   double signal = 0;
   std::array<int, n_tissues> tissue{};
@@ -71,7 +71,8 @@ class Imager {
   }
 
  private:
-  // What the rigid body has at a voxel's centre, and whether it has the same above and below.
+  // The matter of the rigid body at the centre of a voxel, and whether it is the same above and
+  // below.
   struct Probe {
     Matter matter = Matter::air;
     Tissue tissue = Tissue::air;
@@ -91,8 +92,8 @@ class Imager {
     tissue = Tissue::air;
     if (skin > 0) return Matter::air;
     if (wall > 0) {
-      // Within the cut whatever is not in the breast is air. The last 3 mm before the cut
-      // hardly move: there the rigid skin is as good.
+      // Within the cut, everything outside the breast is air. The last 3 mm before the cut hardly
+      // move, so that the rigid skin is accurate enough there.
       if (scene_.left->inside_cut(x, 3) || scene_.right->inside_cut(x, 3)) {
         return Matter::air;
       }
@@ -199,7 +200,7 @@ class Imager {
 PhantomImage image_scene(const PhantomScene& scene, Progress& progress, const RigidMotion& moved) {
   PhantomImage image;
   const Grid scanner = phantom_grid(scene.parameters.mri);
-  // Seen from a body that was moved, the scanner's grid is.
+  // For a body that was moved, the grid of the scanner is moved instead.
   Grid seen = scanner;
   seen.origin = moved.origin_of(scanner.origin);
   seen.direction = moved.rotation().transpose() * scanner.direction;
@@ -224,8 +225,8 @@ PhantomImage image_scene(const PhantomScene& scene, Progress& progress, const Ri
 
 namespace {
 
-// The papilla's tip in the image: it stands out of the mesh, turned
-// with the tissue behind it.
+// The tip of the papilla in the image: it protrudes from the mesh and rotates with the tissue
+// behind it.
 Vec3 nipple_tip(const PhantomBreast& breast) {
   const HexMesh& mesh = breast.mesh;
   const Vec3 behind = breast.shape.apex() - 6 * breast.shape.axis();

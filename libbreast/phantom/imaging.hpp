@@ -13,13 +13,13 @@ struct PhantomImage {
   Volume<float> signal;
   std::vector<std::uint8_t> tissue;         ///< majority Tissue per voxel, both breasts
   std::vector<std::uint8_t> side;           ///< 0 rigid body or air, 1 left breast, 2 right breast
-  std::vector<std::uint8_t> gland_percent;  ///< fibroglandular share of the voxel
+  std::vector<std::uint8_t> gland_percent;  ///< fibroglandular percentage of the voxel
 };
 
 /// 512×512×60 voxels of 0.82×0.82×2.5 mm around the chest; coarser by `voxel_factor`.
 Grid phantom_grid(const MriParameters& parameters);
-/// Images the shape in mesh.points, the whole body `moved` in the scanner. Voxels are independent of each other: the
-/// result does not depend on the number of threads.
+/// Images the shape in mesh.points with the whole body `moved` in the scanner. Voxels are
+/// independent of each other, so that the result does not depend on the number of threads.
 PhantomImage image_scene(const PhantomScene& scene, Progress& progress = no_progress(),
                          const RigidMotion& moved = {});
 /// The label volume `segment` should find for one side, cropped to the breast and its surroundings.

@@ -16,7 +16,7 @@ BreastFrames::BreastFrames(const PhantomBreast& breast, const Grid& grid)
       locator_(breast.mesh, breast.mesh.points),
       nipple_(breast.mesh.points[breast.mesh.nipple_node]) {
   const Vec3 margin(16, 16, 16);
-  // Corners of the box in a grid that may be turned against it.
+  // Corners of the box in a grid that may be rotated relative to it.
   const Vec3 low = locator_.lower() - margin, high = locator_.upper() + margin;
   Vec3 a = grid.to_index(low), b = a;
   for (int corner = 1; corner < 8; ++corner) {
@@ -42,7 +42,7 @@ BreastFrames::BreastFrames(const PhantomBreast& breast, const Grid& grid)
     }
 }
 
-// True when a neighbouring voxel lies in the mesh.
+// Whether a neighbouring voxel lies in the mesh.
 bool BreastFrames::touches(int i, int j, int k) const {
   for (int c = std::max(0, k - 1); c <= std::min(size_[2] - 1, k + 1); ++c)
     for (int b = std::max(0, j - 1); b <= std::min(size_[1] - 1, j + 1); ++b)
@@ -70,7 +70,7 @@ bool BreastFrames::at(int i, int j, int k, MaterialFrame& out) const {
   return true;
 }
 
-// Outside the mesh the map is continued linearly from the nearest point of it.
+// Outside the mesh the map is extrapolated linearly from the nearest point of the mesh.
 MaterialFrame BreastFrames::frame(const Location& location, const Vec3& x) const {
   const HexMesh& mesh = breast_.mesh;
   std::array<Vec3, 27> imaged, stress_free;

@@ -37,8 +37,8 @@ Vec2 onto(const Field& field, Vec2 p) {
   return p;
 }
 
-// Follows field = 0 from `p`, at first outwards (+r), until `stop`; the last step ends exactly
-// where `stop` turns positive.
+// Follows field = 0 from `p`, initially outwards (+r), until `stop` is positive; the last step ends
+// exactly where it changes sign.
 Curve follow(const Field& field, Vec2 p, const Field& stop) {
   constexpr double step = 0.5;
   Curve curve = {p};
@@ -110,7 +110,7 @@ Plane meridian_plane(const BreastShape& shape, double azimuth) {
   const double width = rim_width(shape, azimuth);
   const Curve skirt = follow(
       skin, fold, [&](const Vec2& p) { return shape.beyond_fold(point(p), 1.0) - width; });
-  // Feet of fold and rim: straight down to the wall, square to it.
+  // Base points of fold and rim: perpendicular to the wall.
   const Vec2 fold_foot = onto(wall, fold), rim_foot = onto(wall, skirt.back());
   const Curve inner =
       follow(wall, Vec2(0, 0), [&](const Vec2& p) { return p.x() - fold_foot.x(); });
@@ -145,8 +145,8 @@ MeridianMap::MeridianMap(const BreastShape& shape)
   for (const Curve& curve : skin_) fold_height_ += curve[n_inner].y() / n_azimuth;
 }
 
-// Between points of a curve linearly (they are 1-2 mm apart and the mesh's nodes are put back onto
-// the surface afterwards), between azimuths by cubics.
+// Interpolates linearly between points of a curve (they are 1-2 mm apart, and the mesh's nodes are
+// returned to the surface afterwards), and by cubics between azimuths.
 Vec3 MeridianMap::position(const std::vector<Curve>& curves, double parameter,
                            double azimuth) const {
   const double along = parameter <= 1 ? std::max(parameter, 0.0) * n_inner

@@ -25,7 +25,7 @@ BreastParameters kind_breast(const std::string& name) {
     b.radius = 46, b.height = 47, b.shoulder = 12, b.fold = 12;
     b.nipple_radius = 4, b.nipple_height = 4;
   } else if (preset_slides(name)) {
-    // As they hang in the scan.
+    // Shapes as they hang in the scan.
     b.axis_lateral = 4, b.axis_inferior = 2, b.power = 2.1, b.fold = 15, b.flank = 4;
     if (name == "average") {
       b.centre_x = 77, b.radius = 47, b.height = 90, b.shoulder = 40;
@@ -38,8 +38,8 @@ BreastParameters kind_breast(const std::string& name) {
       b.centre_x = 90, b.radius = 65, b.height = 126, b.shoulder = 64, b.fold = 16;
     }
   } else if (name == "paper") {
-    // The paper's tumour moves a third as far as the nipple. Only a place low and medial does so
-    // and still lies far enough in front of the chest wall to be seen in both mammograms.
+    // The paper's tumour moves a third as far as the nipple. Only a low and medial position does so
+    // and lies far enough in front of the chest wall to be visible in both mammograms.
     b.tumour_azimuth = 240;
   } else {
     std::string choices;
@@ -83,8 +83,9 @@ void individualise(BreastParameters& b, RandomStream& stream) {
   b.axis_inferior += stream.uniform(-2, 2);
 }
 
-// Rib cages of different shape, 26 to 37 cm broad and 20 to 28 deep, and bodies that differ from the calibrated set by what women's do:
-// the chain, which knows neither, is to be told what that costs.
+// Rib cages of different shape, 26 to 37 cm broad and 20 to 28 cm deep, and bodies that differ from
+// the calibrated set by as much as women do. The chain knows neither; the presets show the
+// resulting errors.
 void put_on_ribs(PhantomParameters& p) {
   p.torso.sternal_groove = 2;
   p.torso.tilt = 0.22, p.torso.bend = 3e-4;

@@ -23,7 +23,7 @@ void must_converge(const Equilibrium& found, const HexMesh& mesh, std::string_vi
                             found.record.reason);
 }
 
-// Solves and leaves the mesh in that shape.
+// Solves and stores the resulting shape in the mesh.
 SolveSummary take_posture(HexMesh& mesh, Posture posture, const MaterialSet& materials,
                           Progress& progress) {
   MechanicsOptions options;
@@ -151,7 +151,8 @@ Postures solve_breast(PhantomBreast& breast, const PhantomParameters& parameters
     return postures;
   }
   const Postures coarse_postures = solve_postures(coarse, materials, progress);
-  // The coarse displacement is a guess of the imaged shape that saves a solve on the fine mesh.
+  // The displacement of the coarse mesh gives an initial guess of the imaged shape, which saves a
+  // solve on the fine mesh.
   HexMesh& mesh = breast.mesh;
   const Locator locator(coarse, coarse.reference);
 #pragma omp parallel for schedule(dynamic, 256) num_threads(threads())

@@ -33,8 +33,8 @@ Postures solve_sliding_postures(const HexMesh& mesh, const MaterialSet& material
 /// `reference`. The nipple is sought on the skin.
 void carry_landmarks(const HexMesh& from, HexMesh& to);
 
-/// Largest distance (mm) of any landmark to where a mesh of half the resolution puts it: the error
-/// stated for the truth.
+/// Largest distance (mm) of any landmark from its position on a mesh of half the resolution: the
+/// error stated for the truth.
 struct TruthError {
   double prone_mm = 0, supine_mm = 0;
   int elements = 0;  ///< of the coarser mesh
@@ -42,7 +42,8 @@ struct TruthError {
 };
 
 /// Solves the breast, held or sliding, on a mesh of half the resolution and on its own, and compares.
-/// What slides does so on the wall surface of the mesh's geometry where there is one, else on RibSurface.
+/// A sliding breast slides on the wall surface of the mesh's geometry if there is one, otherwise on
+/// RibSurface.
 Postures solve_breast(PhantomBreast& breast, const PhantomParameters& parameters,
                       const MaterialSet& materials, TruthError& error,
                       Progress& progress = no_progress());

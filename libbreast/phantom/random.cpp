@@ -16,7 +16,7 @@ std::uint64_t finalise(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-// Dot product of the lattice point's pseudo-random gradient (one of 12, Perlin 2002) with `d`.
+// Dot product of `d` with the pseudo-random gradient (one of 12, Perlin 2002) of the lattice point.
 double lattice_slope(std::uint64_t seed, std::int64_t i, std::int64_t j, std::int64_t k, double x,
                      double y, double z) {
   const auto key = std::uint64_t(i) * 0x9e3779b97f4a7c15ULL +

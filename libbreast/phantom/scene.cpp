@@ -89,7 +89,7 @@ void assign_gland(const GlandField& gland, HexMesh& mesh) {
 
 namespace {
 
-// The point nearest to `wanted` that lies on the gland's margin.
+// The point on the margin of the gland that is nearest to `wanted`.
 Vec3 margin_point(const PhantomBreast& breast, const Vec3& wanted) {
   Vec3 best = wanted;
   double best_cost = std::numeric_limits<double>::infinity();
@@ -109,7 +109,7 @@ Vec3 margin_point(const PhantomBreast& breast, const Vec3& wanted) {
   return best;
 }
 
-// Farthest-point selection among element centres at least 6 mm inside: an even spread.
+// Farthest-point selection among element centres at least 6 mm inside, for an even distribution.
 std::vector<int> spread_elements(const PhantomBreast& breast, const HexMesh& mesh, int count) {
   std::vector<int> candidates, chosen;
   std::vector<Vec3> centres;

@@ -13,18 +13,18 @@
 
 namespace breast {
 
-/// One breast. `mesh.reference` is stress-free; `mesh.points` = `mesh.imaged` is prone once solved, `mesh.points`
-/// supine after lie_supine().
+/// One breast. `mesh.reference` is stress-free. Once solved, `mesh.imaged` is prone, and
+/// `mesh.points` is prone or, after lie_supine(), supine.
 struct PhantomBreast {
   PhantomBreast(const PhantomParameters& parameters, const Torso& torso, Side side);
   PhantomBreast(const PhantomBreast&) = delete;
   PhantomBreast& operator=(const PhantomBreast&) = delete;
 
-  /// As MeridianMap::inside_cut, of the shape in mesh.points.
+  /// The counterpart of MeridianMap::inside_cut for the shape in mesh.points.
   bool inside_cut(const Vec3& x, double margin) const {
     return supine_cut ? supine_cut->inside(x, margin) : map.inside_cut(x, margin);
   }
-  /// Puts the breast into its supine shape, for imaging and truth; mesh.imaged stays prone.
+  /// Gives the breast its supine shape, for imaging and truth; mesh.imaged remains prone.
   void lie_supine(const std::vector<Vec3>& points);
 
   BreastShape shape;
@@ -44,8 +44,9 @@ struct PhantomScene {
   std::unique_ptr<PhantomBreast> left, right;
 };
 
-/// A body laid down again lies elsewhere: shifted by `shift_mm` in a direction, and turned by `turn_deg` about an axis
-/// through its sternum, that the phantom's seed draws.
+/// The motion of a body that lies down again: shifted by `shift_mm` in a random direction and
+/// rotated by `turn_deg` about a random axis through its sternum, both drawn from the phantom's
+/// seed.
 RigidMotion misalignment(const PhantomScene& scene, double shift_mm, double turn_deg);
 
 /// Tissue and fibroglandular fraction per element from 4³ samples of the gland.

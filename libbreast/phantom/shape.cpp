@@ -16,7 +16,7 @@ namespace breast {
 namespace {
 constexpr double degree = std::numbers::pi / 180;
 
-// Union of two bodies with a fillet that ends where the distances differ by `width`.
+// Union of two bodies with a fillet that ends where their distances differ by `width`.
 double filleted_union(double a, double b, double width) {
   const double overlap = std::max(width - std::abs(a - b), 0.0) / width;
   return std::min(a, b) - overlap * overlap * overlap * width / 6;

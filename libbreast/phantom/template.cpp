@@ -32,7 +32,7 @@ Vec3 stress_free_place(const BlockLattice::Place& place, const BreastShape& shap
   return top + (1 - place.level) * (map.wall(flat, azimuth) - top);
 }
 
-// Newton along the normal onto the zero of a distance.
+// Newton's method along the normal to the zero of a distance function.
 template <class Distance, class Normal>
 Vec3 put_onto(Vec3 x, Distance distance, Normal normal) {
   for (int i = 0; i < 4; ++i) x -= distance(x) * normal(x);

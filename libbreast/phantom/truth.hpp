@@ -21,7 +21,8 @@ TriMesh boundary_surface(const HexMesh& mesh, const std::vector<Vec3>& nodal,
 /// supine. Rows are appended to `table`, whose columns are set when it is empty.
 void add_landmarks(const PhantomBreast& breast, const Postures& postures, Table& table);
 
-/// The tumour's place in the scan (mesh.points) as hexmesh --tumour reads it: x_mm y_mm z_mm.
+/// The position of the tumour in the scan (mesh.points) in the form read by hexmesh --tumour: x_mm
+/// y_mm z_mm.
 Table tumour_place(const HexMesh& mesh);
 
 /// Reports the solve of one breast and the displacements of its nipple and tumour, under "left/" or

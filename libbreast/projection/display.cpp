@@ -8,13 +8,14 @@ namespace breast {
 
 namespace {
 
-// Steeper in the dense tissue than at the skin, as film is.
+// The contrast is steeper in dense tissue than at the skin, as with film.
 constexpr double display_gamma = 2;
-// As bright as muscle is beside fat and gland: what lies there is mostly the pectoral muscle.
+// The brightness of muscle relative to fat and gland, because this region is mostly the pectoral
+// muscle.
 constexpr std::uint16_t unknown_grey = 28000;
-// Where tissue is thinner than between the plates the image fades towards the skin. A little
-// compensation keeps the skin's line visible; more makes a bright seam of it, because rays that graze
-// the skin stay in it for centimetres.
+// Where tissue is thinner than between the plates, the image fades towards the skin. A little
+// compensation keeps the skin line visible; more would make it a bright seam, because rays that
+// graze the skin stay in it for centimetres.
 constexpr double thin_exponent = 0.2;
 // Half width, in pixels, over which the border of the unknown part is softened.
 constexpr int soft_border = 2;
@@ -26,7 +27,7 @@ float at_rank(std::vector<float> values, double rank, float fallback) {
   return *place;
 }
 
-// Between the plates the thickness is one number but for the rounded rim of the breast, which is
+// Between the plates the thickness is constant except at the rounded rim of the breast, which is
 // the smaller part of the image.
 double plate_thickness(const Mammogram& image) {
   std::vector<float> between, all;
@@ -48,8 +49,8 @@ double bright_end(const std::vector<float>& shown) {
   return at_rank(tissue, 0.998, 1);
 }
 
-/// Means over the neighbours of pixels that have both known and unknown ones round them: the border
-/// between the two is no line of steps.
+/// Averages over the neighbours of pixels that have both known and unknown neighbours, so that the
+/// border between the two has no steps.
 void soften_border(const std::vector<std::uint8_t>& unknown, HungImage& hung) {
   const std::vector<std::uint16_t> sharp = hung.grey;
   for (int row = 0; row < hung.height; ++row) {

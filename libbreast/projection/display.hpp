@@ -15,7 +15,7 @@ namespace breast {
 struct HungImage {
   int width = 0, height = 0;
   std::vector<std::uint16_t> grey;
-  double window_high = 0;  ///< compensated path at grey 65535; grey goes with its square
+  double window_high = 0;  ///< compensated path at grey 65535; grey is proportional to its square
 };
 /// The path corrected to the thickness between the plates, so that the thicker tissue behind them
 /// is not saturated: fully where the tissue is thicker, by the fifth root of the ratio where it is

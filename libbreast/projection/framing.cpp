@@ -42,7 +42,7 @@ ImageFrame image_frame(const HexMesh& mesh, Beam beam) {
   frame.pose = view_pose(mesh.side, mesh.contact->angle_deg, mesh.contact->turn_deg);
   ViewPose& pose = frame.pose;
   const double u0 = posterior_edge(mesh, pose.e_u);
-  // v of the tissue that can be seen: elements reaching in front of the edge.
+  // Range of v of the visible tissue: elements that extend in front of the edge.
   double lower = std::numeric_limits<double>::infinity(), upper = -lower;
   for (int e = 0; e < mesh.elements(); ++e) {
     const int* nodes = mesh.element(e);

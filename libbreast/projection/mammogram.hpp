@@ -21,7 +21,7 @@ struct Mammogram {
   double pixel = 0.25;        ///< mm
   double plate_edge_u = 0;    ///< mm, where the plates' flats begin; behind it tissue is thicker
   std::string energy =
-      "fraction";                ///< what `path` is: "fraction" (mm), "20 keV", a spectrum's name
+      "fraction";  ///< the quantity in `path`: "fraction" (mm), "20 keV", or the name of a spectrum
   std::vector<float> path;       ///< line integral (or tissue-weighted mm) per pixel, u fastest
   std::vector<float> thickness;  ///< mm of tissue along each ray
   std::vector<float> fibroglandular;  ///< mm of fibroglandular tissue along each ray
@@ -29,7 +29,7 @@ struct Mammogram {
   /// plates' edge, the missing part of the column between the plates is assumed to be fat; otherwise
   /// the other arrays are 0.
   std::vector<std::uint8_t> through_back;
-  /// Whether nothing is known of a pixel.
+  /// Whether a pixel has no value.
   bool blank(std::size_t pixel) const {
     return through_back[pixel] != 0 && !(thickness[pixel] > 0);
   }

@@ -114,9 +114,9 @@ class Projector {
     sums.mm.muscle += mm.muscle;
   }
 
-  // Midpoint rule with steps of at most half a voxel along every axis of the scan. The chord's
-  // image there is a smooth short curve: a parabola through its two ends and the middle, the only
-  // point for which the element map is inverted.
+  // Midpoint rule with steps of at most half a voxel along every axis of the scan. The image of the
+  // chord in the scan is a short smooth curve, approximated by a parabola through its two ends and
+  // its middle, the only point for which the element map is inverted.
   VoxelTissue::Parts sample_chord(const Ray& ray, const Chord& chord) const {
     const Trilinear& imaged = imaged_[chord.piece];
     Vec3 local = 0.5 * (chord.local_enter + chord.local_leave);
@@ -138,8 +138,8 @@ class Projector {
   const HexMesh& mesh_;
   const ProjectionOptions& options_;
   RayMesh rays_;
-  /// Where the image ends at the plates' edge: their distance, mm. What a column lacks of it goes on
-  /// beyond the mesh.
+  /// If the image ends at the plates' edge: the distance of the plates, mm. The part of it that a
+  /// column lacks is continued beyond the mesh.
   double filled_;
   std::vector<Trilinear> imaged_;
   std::unique_ptr<VoxelTissue> voxels_;

@@ -41,7 +41,8 @@ class RayMesh {
   /// Rays follow `pose`; coordinates are `nodal` (mesh.points of a compressed mesh).
   RayMesh(const HexMesh& mesh, const std::vector<Vec3>& nodal, const ViewPose& pose);
 
-  /// The ray that trace follows: it ends less than 1e-6 mm beside (u,v), see the .cpp.
+  /// The ray that is traced: it ends less than 1e-6 mm beside (u,v), for the reason given in the
+  /// .cpp file.
   Ray ray(const Vec2& uv) const;
   /// Chords of the ray to detector position (u,v) in mm, from the paddle to the detector.
   void trace(const Vec2& uv, std::vector<Chord>& chords) const;

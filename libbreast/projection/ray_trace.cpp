@@ -11,8 +11,8 @@ namespace breast {
 
 namespace {
 
-// Rays pass this far beside the position asked for, so that none runs inside a face of a mesh that
-// is aligned with the pixels (the paper's cuboid in CC is).
+// Rays are displaced by this from the requested position, so that none runs inside a face of a mesh
+// that is aligned with the pixels (as the paper's cuboid is in CC).
 const Vec2 aside(3.7e-7, 7.3e-7);
 
 // Local coordinates of a point of face f at patch coordinates (s,r).
@@ -45,7 +45,7 @@ struct RayMesh::Packet {
   }
 };
 
-// Where one ray crosses the faces of a piece, in order.
+// The crossings of one ray with the faces of a piece, in order.
 struct RayMesh::Crossings {
   struct Crossing {
     double distance;

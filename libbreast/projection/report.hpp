@@ -7,10 +7,12 @@
 
 namespace breast {
 
-/// Image, volumes and landmarks; under the keys of docs/file-formats.md (volumes_ml, thickness_mm, landmarks).
+/// Reports image, volumes and landmarks under the keys of docs/file-formats.md (volumes_ml,
+/// thickness_mm, landmarks).
 void write_report(const HexMesh& mesh, const Mammogram& image, const ProjectionReport& projection,
                   Report& report);
-/// Landmarks behind the image's posterior edge, tissue in voxels without breast label.
+/// Doubts about landmarks behind the posterior edge of the image, and about tissue in voxels
+/// without breast label.
 std::vector<std::string> doubts(const HexMesh& mesh, const Mammogram& image,
                                 const ProjectionReport& projection);
 

@@ -38,7 +38,7 @@ class VoxelTissue {
  private:
   Mat3 to_index_;
   Vec3 offset_;
-  Vec3 last_{0, 0, 0};  ///< largest voxel coordinates asked for
+  Vec3 last_{0, 0, 0};  ///< largest voxel coordinates requested
   std::size_t row_ = 1, slice_ = 1;
   std::vector<Parts> voxels_;  ///< the last of every axis twice, so that each has a neighbour
 };

@@ -20,8 +20,8 @@ struct FatContrast {
   double muscle_ratio = 0;  ///< brightness behind the chest wall relative to fat
 };
 
-/// Computes the first two quantities, which only need the scan and the body: below skin that lies at
-/// most `behind_sternum` mm behind that over the sternum. In front of it there is only breast.
+/// Computes the first two quantities, which only need the scan and the body, from skin at most
+/// `behind_sternum` mm behind that over the sternum (in front of the sternum there is only breast).
 FatContrast contrast_below_skin(const Work& work, double behind_sternum = 0);
 
 /// Evidence of saturated fat: the sum of a score for each of the four quantities, from 0 at the
@@ -31,7 +31,7 @@ FatContrast contrast_below_skin(const Work& work, double behind_sternum = 0);
 double saturation_evidence(const FatContrast& contrast);
 constexpr double most_evidence = 1.3;
 
-/// Why a scan is refused for its contrast: one sentence; empty when fat is bright.
+/// One sentence that states why a scan is refused because of its contrast; empty if fat is bright.
 std::string refusal_of(const FatContrast& contrast);
 
 }  // namespace breast

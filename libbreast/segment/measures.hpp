@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a segmentation measured, as named numbers for the report and for a table.
+// The measured quantities of a segmentation as named numbers, for the report and for a table.
 #pragma once
 
 #include <vector>

@@ -12,8 +12,9 @@ namespace breast {
 /// Cross-section of the breast on the border of the scan's voxels, cm2.
 double cut_by_view_cm2(const Mask& breast);
 
-/// Skin around which, within 10 mm, both principal radii exceed 250 mm, more than 30 mm in front of
-/// the wall: a freely hanging breast has none, one that rests on coil or table does. cm2.
+/// Area of skin (cm2) around which, within 10 mm, both principal radii exceed 250 mm, more than 30
+/// mm in front of the wall. A freely hanging breast has none; one that rests on the coil or the
+/// table has some.
 double flat_skin_cm2(const Work& work);
 
 /// Extents that are within limits for every adult breast.
@@ -22,7 +23,7 @@ struct Extents {
   double front_left_out_percent = 0;
   double lateral_border_mm = 0;  ///< farthest column on the wall from the midline
   double nipple_depth_mm = 0;    ///< from the nipple back to the wall
-  double nipple_in_front_mm = 0;  ///< of the skin over the sternum
+  double nipple_in_front_mm = 0;  ///< distance of the nipple in front of the skin over the sternum
   double volume_ml = 0;
 };
 Extents extents_of(const Work& work, const Vec3& nipple, Side side);

@@ -25,8 +25,9 @@ enum class Contrast {
 
 struct SegmentOptions {
   Side side = Side::left;
-  /// prone or supine. A supine breast spreads beside and behind the front of the chest: what a prone one is known by, that it stands
-  /// in front of the sternum with the nipple foremost, is asked of prone scans only.
+  /// Posture of the patient. A supine breast spreads beside and behind the front of the chest, so
+  /// that the properties by which a prone breast is recognised (it lies in front of the sternum,
+  /// with the nipple foremost) are only required of prone scans.
   Posture posture = Posture::prone;
   std::optional<Volume<float>> wall_labels;  ///< corrected label map, code 4 = behind the wall
   std::vector<Vec3> wall_points;             ///< clicked points on the wall (patient mm)
@@ -41,8 +42,9 @@ struct SegmentOptions {
 struct Segmentation {
   Posture posture = Posture::prone;
   LabelVolume labels;
-  /// Data points: scalar "surface" 0 skin, 1 chest wall; "confidence" [0,1]. Of a supine scan the skin of the whole side with normals,
-  /// and the wall wherever it was seen.
+  /// Data points with the scalars "surface" (0 skin, 1 chest wall) and "confidence" [0,1]. For a
+  /// supine scan they are the skin of the whole side with normals, and the wall wherever it was
+  /// observed.
   TriMesh points;
   double midline_mm = 0;                         ///< patient x of the sternum
   double bias_cv_before = 0, bias_cv_after = 0;  ///< coefficient of variation of fat
@@ -61,10 +63,10 @@ struct Segmentation {
   FatContrast contrast;
   double roll_degrees = 0;          ///< by which the labels' grid is turned against the scan's
   double wall_shift = 0;            ///< standard deviations the wall was moved by
-  double debris_ml = 0;             ///< taken off the skin
-  double beside_ml = 0;             ///< tissue apart from the torso
+  double debris_ml = 0;             ///< volume removed from the skin
+  double beside_ml = 0;             ///< tissue separate from the torso
   double compact_dark_mm = 0;       ///< radius of the largest ball within fibroglandular tissue
-  std::vector<std::string> doubts;  ///< what a user should check
+  std::vector<std::string> doubts;  ///< results that the user should check
 };
 
 /// Throws Error (input) saying which stage failed on this scan and what to try.

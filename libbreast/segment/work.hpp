@@ -33,13 +33,14 @@ Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side);
 /// Interior of the breast: deeper than `skin_depth` mm, more than `wall_margin` mm in front of the
 /// wall.
 Mask interior_of(const Work& work, double skin_depth, double wall_margin);
-/// Within `reach` mm in front of the wall on columns whose confidence is below a half.
+/// Tissue within `reach` mm in front of the wall, in columns with a confidence below one half.
 Mask near_unsure_wall(const Work& work, double reach);
 LabelVolume labels_of(const Work& work, Side side);
 /// Data for surface fitting: skin at voxel faces against air, wall on the breast's columns.
 TriMesh data_points(const Work& work);
-/// The same of a supine side, to be compared with a prediction: all its skin in front of the deepest wall
-/// sought, with outward normals, and the wall on every column where the image shows it.
+/// The same for a supine side, for comparison with a prediction: all its skin in front of the
+/// deepest wall sought, with outward normals, and the wall in every column where the image shows
+/// it.
 TriMesh side_points(const Work& work);
 
 }  // namespace breast

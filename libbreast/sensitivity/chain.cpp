@@ -113,7 +113,7 @@ SensitivityChain::SensitivityChain(const HexMesh& state, const std::vector<doubl
       deformed_(scene_, deformed_state(scene_), contacts_of(state, plates_),
                 present({pressure_, friction_}), "the deformed shape") {}
 
-// −∂R/∂m of both states, and the movement the plates impose.
+// −∂R/∂m of both states, and the motion that the plates impose.
 struct SensitivityChain::Rights {
   ParameterForces imaged, deformed;
   Eigen::MatrixXd imposed;  ///< of x, mm (3 per node)
@@ -162,8 +162,8 @@ std::function<Vec3(int, const Vec3&)> SensitivityChain::velocity_of(
   };
 }
 
-// Change of the force along the paddle's normal, N. A node's force is λ∇g: `along` is δλ ∇g, the
-// rest is ∇g turning as node and plate move.
+// Change of the force along the paddle's normal, N. The force on a node is λ∇g: `along` is δλ ∇g;
+// the rest is the rotation of ∇g as node and plate move.
 double SensitivityChain::paddle_force(const Parameter& parameter, const Imbalance& along,
                                       const Direction& moved) const {
   Vec3 sum = Vec3::Zero();

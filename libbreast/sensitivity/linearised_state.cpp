@@ -13,13 +13,14 @@ namespace {
 
 constexpr double solve_tolerance = 1e-10, refined = 1e-6;
 constexpr int refinements = 3, most_gmres = 100, most_settling = 4;
-// How far a file's state may be from the equilibrium these options have: larger means other options. Where
-// plates press on faces it may be some tenths of a micrometre: which faces get many points depends on the
-// plates' far edges, which the file does not hold.
+// Largest distance of the state in a file from the equilibrium with the given options; a larger
+// distance indicates other options. With plates in surface contact it may be some tenths of a
+// micrometre: the faces that get many points depend on the plates' far edges, which the file does
+// not store.
 constexpr double far_mm = 1e-3, settled = 1e-8;
-// Between plates rounding may keep a hundred times that residual of the load, which is
-// gravity's and small beside the plates'; a step that moves no node by a nanometre then
-// has nothing left to gain.
+// Between plates, rounding may leave a hundred times that residual relative to the load, which is
+// gravity and small beside the plates' forces. A step that moves no node by a nanometre then cannot
+// improve the state.
 constexpr double rounded = 1e-6, still_mm = 1e-6;
 
 Constraints with_contacts(Constraints held, const std::vector<PlateContact>& contacts) {
@@ -45,7 +46,7 @@ LinearisedState::LinearisedState(const Scene& scene, LoadedState state,
   settle(what);
 }
 
-// Fills both tangents; the plates' curvature turns their force as a node slides.
+// Fills both tangents; the curvature of the plates rotates their force as a node slides.
 Forces LinearisedState::assemble() {
   Request request;
   request.matrix = &matrix_;
@@ -60,8 +61,8 @@ Forces LinearisedState::assemble() {
   return forces;
 }
 
-// The state of a file is an equilibrium to its tolerance; only the pressures of 27-node elements,
-// stored as means, need a linear solve. Anything that moves nodes means other options.
+// The state in a file is an equilibrium within its tolerance; only the pressures of 27-node
+// elements, stored as means, require a linear solve. If nodes move, the options differ.
 void LinearisedState::settle(const std::string& what) {
   const double load =
       std::max(scene_.gravity_force(state_.gravity).norm(), scene_.stiffness_force());
@@ -113,7 +114,7 @@ void LinearisedState::refine(const Imbalance& right, Direction& solution) const 
     if (!(step.u.norm() > solve_tolerance * solution.u.norm())) return;
     left = step.u.norm() / solution.u.norm();
   }
-  // A last correction this small leaves nothing a derivative is read for.
+  // A correction this small does not affect the digits for which a derivative is used.
   if (!(left <= refined)) {
     throw failed_error("the linear system of the derivatives was not solved: the last of ",
                        refinements, " refinements still changes it by ", left,

@@ -25,10 +25,9 @@ struct Imbalance {
 
 class LinearisedState {
  public:
-  /// `contacts` are held along their normals; `plates`: their terms where they press on
-  /// faces. `what` names the
-  /// state in messages. Pressures of 27-node elements, which files do not hold in
-  /// full, are recovered. Throws Error (input) if the state is not an equilibrium under these
+  /// `contacts` are held along their normals; `plates` are the terms of plates in surface contact.
+  /// `what` names the state in messages. Pressures of 27-node elements, which files do not store
+  /// completely, are recovered. Throws Error (input) if the state is not an equilibrium under these
   /// options, and Error (failed) if it is an unstable one.
   LinearisedState(const Scene& scene, LoadedState state, std::vector<PlateContact> contacts,
                   const std::vector<std::shared_ptr<const Term>>& plates,

@@ -24,7 +24,8 @@ std::set<Tissue> tissues_of(const HexMesh& mesh) {
   return present;
 }
 
-// Turning towards the axis gravity points along is no turning: the other two are offered.
+// Only rotations towards the two axes perpendicular to gravity are offered, since a rotation
+// towards its own axis changes nothing.
 void add_gravity(const Vec3& gravity, const std::string& prefix, ParameterKind kind,
                  std::vector<Parameter>& all) {
   if (!(gravity.norm() > 0)) return;
@@ -49,7 +50,7 @@ void add_constants(Tissue tissue, const Law& law, std::vector<Parameter>& all) {
   }
 }
 
-// What the set's covariance is about and has no parameter of its own yet.
+// The quantities in the set's covariance that have no parameter of their own yet.
 void add_set_parameters(const HexMesh& state, const MaterialSet& set, std::vector<Parameter>& all) {
   const std::vector<std::string>& known = set_parameter_names();
   for (const std::string& name : set.uncertainty.parameters) {

@@ -17,10 +17,11 @@ namespace breast {
 
 namespace {
 
-// The stresses of W = I1 and W = I2: any law's stress is W1 and W2 of them.
+// The stresses of W = I1 and W = I2: the stress of any law is a combination of them with weights W1
+// and W2.
 const Law unit_i1{LawKind::neo_hookean, {1}}, unit_i2{LawKind::mooney_rivlin, {0, 1}};
 
-// A column that depends on a law: which one, and its slope at given invariants.
+// A column that depends on a law: the law, and its derivative at given invariants.
 struct Column {
   long at = 0;
   const Parameter* parameter = nullptr;
@@ -268,7 +269,7 @@ ParameterForces of_each(const Scene& scene, const LoadedState& state, ParameterK
 
 }  // namespace
 
-// What changes together has the sum of its members' forces.
+// Parameters that change together have the sum of their forces.
 ParameterForces parameter_forces(const Scene& scene, const LoadedState& state, ParameterKind role,
                                  const std::vector<Parameter>& parameters) {
   std::vector<Parameter> single;

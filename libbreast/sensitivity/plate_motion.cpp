@@ -43,7 +43,7 @@ PlatePair recorded_plates(const HexMesh& mesh) {
   plates.detector = recorded_plate(mesh.contact->plates[1], pose, -1);
   plates.initial_thickness = mesh.contact->initial_thickness_mm;
   plates.standoff = mesh.contact->standoff_mm;
-  // The share is all the file says of how far the detector may rise.
+  // The share is the only information in the file about how far the detector may rise.
   plates.detector_rise = mesh.contact->paddle_share < 1 ? std::numeric_limits<double>::infinity() : 0;
   return plates;
 }
@@ -90,8 +90,8 @@ Vec3 plate_velocity(const PlatePair& plates, int k, const Vec3& x, const Paramet
   }
 }
 
-// A plate moving with velocity v at a point and turning with ω: the gap seen from a fixed point
-// changes by −∇g·v, its gradient by ω × ∇g − ∇²g v.
+// For a plate that moves with velocity v at a point and rotates with ω, the gap at a fixed point
+// changes by −∇g·v and its gradient by ω × ∇g − ∇²g v.
 GapSlope gap_slope(const PlatePair& plates, const PlateContact& contact, const Vec3& x,
                    const Parameter& parameter, Side side) {
   const Vec3 velocity = plate_velocity(plates, contact.plate, x, parameter, side);

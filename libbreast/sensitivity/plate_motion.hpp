@@ -31,9 +31,9 @@ std::vector<PlateContact> recorded_contacts(const HexMesh& mesh, const PlatePair
 Vec3 plate_velocity(const PlatePair& plates, int plate, const Vec3& x, const Parameter& parameter,
                     Side side);
 /// Effect of a parameter on one contact at a fixed point: ∂g/∂m and ∂∇g/∂m. The plates move as
-/// rigid bodies: they close by their shares of the thickness (one half each, or the paddle alone if
-/// the detector has reached its highest position), or both move along the anterior axis or against
-/// the beam, or turn about their common anterior mid-line.
+/// rigid bodies. They close by their shares of the thickness (one half each, or the paddle alone if
+/// the detector has reached its highest position); or both move along the anterior axis or against
+/// the beam; or both rotate about their common anterior mid-line.
 GapSlope gap_slope(const PlatePair& plates, const PlateContact& contact, const Vec3& x,
                    const Parameter& parameter, Side side);
 

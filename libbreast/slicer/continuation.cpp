@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values from some grid points to all others: nearly harmonic, by nested iteration. Coarse grids carry the far values,
-// a few sweeps of Gauss-Seidel on each grid smooth what the next coarser one gave.
+// Extrapolation of values from some grid points to all others, nearly harmonic, by nested
+// iteration. Coarse grids carry the values far, and a few sweeps of Gauss-Seidel on each grid
+// smooth the result of the next coarser one.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +23,8 @@ struct GridLevel {
   }
 };
 
-// How many points along each axis become one: two where the points lie dense, one along an axis already as coarse.
+// The number of points along each axis that become one: two on dense axes, one along an axis that
+// is already as coarse.
 std::array<int, 3> merged(const GridLevel& fine) {
   std::array<int, 3> factor{};
   for (std::size_t d = 0; d < 3; ++d) {
@@ -73,7 +75,8 @@ void prolong(const GridLevel& coarse, const std::array<int, 3>& factor, GridLeve
   }
 }
 
-// The mean of the six neighbours, weighted by 1/h²; beyond the border there is none: no flux.
+// The mean of the six neighbours, weighted by 1/h²; there are none beyond the border, where the
+// flux is zero.
 void relax(GridLevel& level, int i, int j, int k) {
   const std::array<int, 3> place{i, j, k};
   std::array<float, 3> sum{0, 0, 0};
@@ -93,7 +96,8 @@ void relax(GridLevel& level, int i, int j, int k) {
   for (std::size_t c = 0; c < 3; ++c) level.value[level.at(i, j, k)][c] = sum[c] / weights;
 }
 
-// Points of one colour of a chessboard do not see each other: any number of threads gives the same values.
+// Points of one colour of a chessboard pattern do not depend on each other, so that the values do
+// not depend on the number of threads.
 void sweep(GridLevel& level, int colour) {
 #pragma omp parallel for schedule(static)
   for (int k = 0; k < level.size[2]; ++k) {
@@ -131,7 +135,7 @@ void continue_field(DisplacementField& field) {
   for (std::size_t n = 0; n < level.value.size(); ++n) {
     if (level.known[n]) continue;
     for (float& v : level.value[n])
-      v = std::round(v * 1024) / 1024;  // finer would only fill the file
+      v = std::round(v * 1024) / 1024;  // more digits would only enlarge the file
   }
   field.vectors = std::move(level.value);
 }

@@ -15,8 +15,8 @@ namespace breast {
 
 namespace {
 
-// Local coordinates of a point in an element's map continued beyond its faces; nothing where Newton fails or the
-// point lies farther off than the element is wide.
+// Local coordinates of a point in an element's map extrapolated beyond its faces; no value if
+// Newton's method fails or if the point is farther away than the width of the element.
 std::optional<Vec3> continued_local(const HexMesh& mesh, const std::vector<Vec3>& nodal,
                                     int element, const Vec3& point) {
   constexpr double farthest = 3, tolerance = 1e-9;
@@ -38,14 +38,14 @@ std::optional<Vec3> continued_local(const HexMesh& mesh, const std::vector<Vec3>
   return std::nullopt;
 }
 
-// Rounded to 2⁻¹³ mm (0.0001 mm): what is beyond is noise that does not compress.
+// Rounded to 2⁻¹³ mm (0.0001 mm), because smaller digits are noise that does not compress.
 std::array<float, 3> as_float(const Vec3& v) {
   constexpr double steps = 8192;
   const auto rounded = [](double x) { return float(std::round(x * steps) / steps); };
   return {rounded(v[0]), rounded(v[1]), rounded(v[2])};
 }
 
-// Fills a field in two passes and remembers which element every grid point of the body lies in.
+// Fills a field in two passes and stores the element that contains every grid point of the body.
 class Sampler {
  public:
   Sampler(const HexMesh& mesh, const std::vector<Vec3>& from, const std::vector<Vec3>& to,
@@ -103,8 +103,8 @@ class Sampler {
     }
   }
 
-  // The mean of what the maps of the elements in the 26 neighbouring grid points say, the nearer the heavier: cells
-  // that the boundary crosses then interpolate as if the body went on.
+  // The mean of the maps of the elements at the 26 neighbouring grid points, with larger weights
+  // for nearer ones: cells crossed by the boundary are then interpolated as if the body continued.
   void continue_from_neighbours(int i, int j, int k) {
     const Grid& grid = field_.grid;
     const Vec3 point = grid.to_patient(Vec3(i, j, k));

@@ -19,10 +19,10 @@ namespace breast {
 
 /// Origin of a grid point's vector.
 enum class FieldPart : std::uint8_t {
-  continued = 0,  ///< harmonic continuation of the rest, no flux through the grid's border
+  continued = 0,  ///< nearly harmonic extrapolation, without flux through the border of the grid
   border =
       1,  ///< outside within one cell of the body: the neighbouring elements' maps beyond their faces
-  body = 2,  ///< the element map itself
+  body = 2,  ///< vector of the element map itself
 };
 
 struct DisplacementField {
@@ -30,23 +30,26 @@ struct DisplacementField {
   std::vector<std::array<float, 3>> vectors;  ///< mm, LPS; i fastest, then j, then k
   std::vector<FieldPart> part;                ///< per grid point
 
-  /// p + u(p), u interpolated trilinearly; beyond the grid's border the border's vector holds.
+  /// p + u(p) with u interpolated trilinearly; beyond the border of the grid, the vector of the
+  /// border is used.
   Vec3 moved(const Vec3& point) const;
 };
 
-/// From the nodal positions `from` to `to` of one mesh. Throws Error (input) where no grid point lies in the body.
+/// The field from the nodal positions `from` to `to` of one mesh. Throws Error (input) if no grid
+/// point lies in the body.
 DisplacementField displacement_field(const HexMesh& mesh, const std::vector<Vec3>& from,
                                      const std::vector<Vec3>& to, const Grid& grid,
                                      Progress& progress = no_progress(),
                                      const std::string& stage = "field");
 
-/// The points of `lattice` (its voxels, and beyond them at the same distances) that cover all `points` of each list
-/// and `margin` mm around. `spacing` mm (0: the lattice's own) sets the distance of grid points along every axis.
+/// The grid that covers all points of each shape and `margin` mm around them. Its points are those
+/// of `lattice` (its voxels, continued at the same distances), or have a distance of `spacing` mm
+/// along every axis if `spacing` is not 0.
 Grid covering_grid(const Grid& lattice, const std::vector<const std::vector<Vec3>*>& shapes,
                    double margin, double spacing);
 
-/// Continues vectors from the grid points whose part is not `continued` to the others: nearly harmonic, by nested
-/// iteration from coarse grids to fine ones.
+/// Extrapolates vectors from the grid points with a part other than `continued` to the others:
+/// nearly harmonic, by nested iteration from coarse grids to fine ones.
 void continue_field(DisplacementField& field);
 
 }  // namespace breast

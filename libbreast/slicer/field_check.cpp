@@ -16,7 +16,8 @@ struct BodyPoint {
   Location location;
 };
 
-// By rejection from the bounding box; the standard's engine, not its distributions, whose values depend on the library.
+// Random points by rejection from the bounding box. Only the engine of the standard library is
+// used, because the values of its distributions depend on the implementation.
 std::vector<BodyPoint> random_points(const Locator& body, int count) {
   std::mt19937_64 engine(20);
   const auto uniform = [&] { return double(engine() >> 11) * 0x1p-53; };

@@ -9,7 +9,7 @@ namespace breast {
 struct FieldCheck {
   int points = 0;                  ///< random points of the body, evenly spread over its volume
   double mean_mm = 0, max_mm = 0;  ///< field, interpolated trilinearly, against the element map
-  double beyond_percent = 0;       ///< of the points, farther than `accuracy_mm` from it
+  double beyond_percent = 0;       ///< percentage of the points with an error above `accuracy_mm`
   double smallest_det = 0;  ///< of ∂(p + u)/∂p over the body's grid cells: above 0, nothing folds
   double outside_into_body_percent =
       0;  ///< of grid points outside the first shape, taken into the second
@@ -23,7 +23,8 @@ FieldCheck check_field(const DisplacementField& field, const HexMesh& mesh,
                        const std::vector<Vec3>& from, const std::vector<Vec3>& to,
                        int count = 1000);
 
-/// Mean and largest distance, mm, of `count` random points of the body to themselves after field and inverse.
+/// Mean and largest distance in mm between `count` random points of the body and their images under
+/// the field followed by its inverse.
 struct RoundTrip {
   double mean_mm = 0, max_mm = 0;
 };

@@ -34,7 +34,7 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-// The element names of a node, its display and its storage, and the classes their ids begin with.
+// The element names of a node, its display and its storage, and the prefixes of their ids.
 struct Tags {
   const char *node, *node_class, *display, *display_class, *storage, *storage_class;
 };

@@ -20,8 +20,9 @@ struct SceneItem {
   std::string description = {};
 };
 
-/// XML of MRML 4.4 and later: a node, its display and its storage an item. The first volume is the background of all
-/// slice views, the second their foreground (faded out); places are LPS in every file.
+/// XML of MRML 4.4 and later: a node, its display and its storage for every item. The first volume
+/// is the background of all slice views, and the second their foreground (faded out); positions are
+/// LPS in every file.
 std::string scene_xml(const std::vector<SceneItem>& items);
 
 }  // namespace breast

@@ -6,8 +6,8 @@
 
 namespace breast {
 
-/// `scan` at p + u(p) for every point p of the field's grid that lies in the body (trilinear), `air` outside it. The
-/// field leads from the shape to be shown to the scan.
+/// The values of `scan` at p + u(p) for every point p of the field's grid that lies in the body
+/// (trilinear), and `air` outside it. The field maps the shape to be shown to the scan.
 Volume<float> warped(const Volume<float>& scan, const DisplacementField& field, float air = 0);
 
 /// The parts of a field as a volume: 0 extrapolated, 1 border, 2 body (FieldPart).

@@ -13,7 +13,7 @@ namespace breast {
 
 namespace {
 
-// Memory this machine could still give, GB; unlimited where it does not say.
+// Memory that this machine could still provide, GB; unlimited if the machine does not say.
 double available_gb() {
   std::ifstream info("/proc/meminfo");
   std::string key, unit;

@@ -19,7 +19,7 @@ struct SolverChoice {
   LinearSolver first = LinearSolver::direct;  ///< the cheaper one
   bool direct_fits = true;                    ///< in half the memory that is available
 };
-/// The direct solver where it fits and is expected to be faster, else multigrid.
+/// The direct solver if it fits and is expected to be faster, otherwise multigrid.
 SolverChoice choose_solver(double unknowns);
 
 }  // namespace breast

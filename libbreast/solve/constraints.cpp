@@ -32,7 +32,7 @@ void Constraints::hold_along(int node, const Vec3& normal, double increment) {
   }
   const double part = rest.norm();
   if (!(part > 1e-6)) return;
-  // The first free axis turns to what is left of the normal, the other follows.
+  // The first free axis is aligned with the remaining part of the normal, and the other follows.
   int first = 0;
   while (before->held[first]) ++first;
   const int second = (first + 1) % 3, third = (first + 2) % 3;

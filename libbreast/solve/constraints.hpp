@@ -18,14 +18,14 @@ struct NodeConstraint {
   Vec3 increment{0, 0, 0};                        ///< mm along the held axes, others ignored
 };
 
-/// At most one constraint a node; imposing on a node again replaces the former.
+/// At most one constraint per node; a new constraint on a node replaces the former.
 class Constraints {
  public:
   explicit Constraints(int nodes) : index_(static_cast<std::size_t>(nodes), -1) {}
 
-  /// All three components, by `increment` (global axes).
+  /// Prescribes all three components as `increment` (global axes).
   void hold(int node, const Vec3& increment = Vec3::Zero());
-  /// Only the component along a unit `normal`; the node slides in the plane.
+  /// Prescribes only the component along a unit `normal`; the node slides in the plane.
   void hold_normal(int node, const Vec3& normal, double increment = 0);
   /// Also holds the component along a unit `normal` of a node that may be held already (a symmetry
   /// plane, a sliding surface). Nothing changes if the normal has no freedom left.
@@ -34,7 +34,7 @@ class Constraints {
   void release(int node);
 
   int nodes() const { return int(index_.size()); }
-  /// Null when the node is free.
+  /// The constraint of a node; null if the node is free.
   const NodeConstraint* at(int node) const {
     return index_[node] < 0 ? nullptr : &list_[index_[node]];
   }

@@ -11,17 +11,17 @@ namespace breast {
 
 namespace {
 
-// A factor is used again once the residual is this small and fell by this factor in the last step.
+// A factor is used again once the residual is this small and fell by this ratio in the last step.
 constexpr double near_enough = 1e-5, gain_wanted = 0.02;
 // Relative residual of the volume equation in a step. Forces are met exactly whatever it is, and
-// volumes gain five digits a step beside Newton's own.
+// volumes gain five digits per step in addition to Newton's convergence.
 constexpr double volume_accuracy = 1e-5;
 constexpr int halvings = 8;
 // Sliding nodes farther from their wall after a step than this (mm) take the body with them, to this
 // accuracy of the volumes.
 constexpr double worth_following = 0.05, following_accuracy = 1e-2;
 
-// Increments that carry what `fixed` holds to its targets, within all `constraints`.
+// Increments that move the components held by `fixed` to their targets, within all `constraints`.
 bool aim(const Constraints& fixed, const Eigen::VectorXd* targets, const Eigen::VectorXd& x,
          Constraints& constraints) {
   if (targets == nullptr) return false;
@@ -40,8 +40,9 @@ bool aim(const Constraints& fixed, const Eigen::VectorXd* targets, const Eigen::
   return most > 1e-12 * std::max(1.0, x.lpNorm<Eigen::Infinity>());
 }
 
-// Whether the last factor may serve another step: the step before went the whole way, without a
-// shift, and brought the state so near that a tangent a little out of date still gains decimals.
+// Whether the last factor may be used for another step: the previous step was a full one without a
+// shift, and brought the state so close to equilibrium that a slightly outdated tangent still gains
+// digits.
 bool factor_serves(const NewtonResult& result) {
   if (result.iterations.empty()) return false;
   const NewtonIteration& last = result.iterations.back();
@@ -80,8 +81,8 @@ class EquilibriumSystem final : public TangentSystem {
   Constraints moving_;  // with the increments still to go
   Timer unused_;
   Timer& timer_;
-  bool away_ = false;    // held components are not at their targets yet
-  bool serves_ = false;  // the last factor serves this step too
+  bool away_ = false;    // whether held components are not yet at their targets
+  bool serves_ = false;  // whether the last factor is used for this step too
 };
 
 bool EquilibriumSystem::reached(double residual) const {
@@ -91,7 +92,8 @@ bool EquilibriumSystem::reached(double residual) const {
          problem_.volume_residual(forces_) <= options_.volume_tolerance;
 }
 
-// The last step's trial has the forces already; a tangent is only made for a factorisation.
+// The trial of the last step already has the forces; a tangent is only computed for a
+// factorisation.
 Balance EquilibriumSystem::assess(const NewtonResult& so_far) {
   const int made = int(so_far.iterations.size());
   if (made == 0 && !put_on_surface()) {
@@ -199,8 +201,8 @@ Factorisation TangentSystem::factorise(const Constraints& constraints, bool may_
 
 NewtonDirection TangentSystem::solve(double volume_accuracy, int restarts) {
   Eigen::VectorXd r = forces_.r;
-  // A factor of an earlier state holds sliding nodes along the normals of that state: the wall's
-  // force, which has turned since, must not count as a force along the wall.
+  // A factor of an earlier state constrains sliding nodes along the normals of that state: the
+  // force of the wall, which has rotated since, must not count as a force along the wall.
   if (problem_.sliding() != nullptr) problem_.constraints_at(state_.x).project(r);
   step_ = solver_.solve(matrix_, r, forces_.theta, volume_accuracy, restarts);
   NewtonDirection direction;
@@ -210,11 +212,11 @@ NewtonDirection TangentSystem::solve(double volume_accuracy, int restarts) {
   return direction;
 }
 
-// A step along the tangents of a curved wall ends off the wall by its square over the radius, which
-// is millimetres where the breast slides by centimetres. Putting only the wall's nodes back would
-// strain their elements; so the body follows them, its volumes kept, in the norm of the tangent: a
-// second-order correction (Nocedal and Wright, Numerical Optimization, section 15.6). False: a node
-// has left the surface.
+// A step along the tangents of a curved wall ends at a distance from the wall of its square divided
+// by the radius, which is millimetres if the breast slides by centimetres. Moving only the wall's
+// nodes back would strain their elements. The body therefore follows them with preserved volumes,
+// in the norm of the tangent: a second-order correction (Nocedal and Wright, Numerical
+// Optimization, section 15.6). Returns false if a node has left the surface.
 bool TangentSystem::follow_surface(double length, State& trial) const {
   const SlidingNodes* sliding = problem_.sliding();
   if (sliding == nullptr) return true;

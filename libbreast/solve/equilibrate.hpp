@@ -34,7 +34,7 @@ struct NewtonOptions {
 /// define the convergence criterion.
 class TangentSystem : public NewtonSystem {
  public:
-  /// All references must outlive this. `state` is moved.
+  /// All references must outlive this object. `state` is changed.
   TangentSystem(const Problem& problem, SaddleSolver& solver, SaddleMatrix& matrix, State& state);
 
   std::optional<Trial> attempt(double length) override;
@@ -49,10 +49,10 @@ class TangentSystem : public NewtonSystem {
  protected:
   /// Compares a trial with the start of the step.
   virtual Appraisal appraise(const State& state, const Forces& forces) const = 0;
-  /// Puts sliding nodes on their surface; false: a node lies beyond it.
+  /// Moves sliding nodes to their surface; returns false if a node lies beyond it.
   bool put_on_surface();
-  /// Puts sliding nodes on their surface and evaluates the forces; false: inadmissible, for the
-  /// reason that `refusal` then gives.
+  /// Moves sliding nodes to their surface and evaluates the forces; returns false if this is
+  /// inadmissible, for the reason given by `refusal`.
   bool look();
   /// Assembles the tangent at the present state, with its forces; false: inadmissible.
   bool assemble();

@@ -8,16 +8,17 @@ namespace breast {
 
 namespace {
 
-/// Fraction of the slope along a step that may be left at its end.
+/// Largest fraction of the initial slope that may remain at the end of a step.
 constexpr double slope_kept = 0.8;
 /// Longest multiple of a shifted step.
 constexpr double longest_slip = 64;
-/// Times more that the slope says by how much to shorten, and the least factor it may say.
+/// Number of further times that the slope determines the shortening of a step, and the smallest
+/// factor that it may give.
 constexpr int most_by_slope = 3;
 constexpr double least_factor = 0.01;
 
 /// Along a direction of negative curvature a shifted step is far too short: it is doubled while the
-/// slope stays as steep as promised.
+/// slope remains as steep as expected.
 double go_further(NewtonSystem& system, const NewtonDirection& direction, Trial& trial) {
   double length = 1;
   while (trial.seen.along < -slope_kept * direction.slope && length < longest_slip) {
@@ -31,8 +32,8 @@ double go_further(NewtonSystem& system, const NewtonDirection& direction, Trial&
 
 bool accepted(const Appraisal& seen, const NewtonDirection& direction, const LineSearchRule& rule) {
   if (rule.any || seen.merit < rule.merit || seen.residual < rule.tolerance) return true;
-  // Along a step of an indefinite tangent (a node slipping over the plate edge) the imbalance may
-  // have to grow: going down in energy is then enough.
+  // In a step with an indefinite tangent (a node slips over the edge of a plate) the imbalance may
+  // have to grow: a decrease of the energy is then sufficient.
   if (rule.downhill_suffices) return seen.along <= slope_kept * direction.slope;
   return rule.flat_suffices && std::abs(seen.along) <= slope_kept * std::abs(direction.slope);
 }

@@ -98,12 +98,12 @@ struct LineSearchRule {
 class NewtonSystem {
  public:
   virtual ~NewtonSystem() = default;
-  /// The present state. `so_far` holds the iterations made.
+  /// Distance of the present state from a solution. `so_far` contains the iterations made.
   virtual Balance assess(const NewtonResult& so_far) = 0;
   virtual NewtonDirection direction(const Balance& now) = 0;
   virtual LineSearchRule rule(const NewtonResult& so_far, const Balance& now,
                               const NewtonDirection& direction) const = 0;
-  /// The state at `length` times the direction; nothing if it is inadmissible. Beyond length 1 the
+  /// The state at `length` times the direction; no value if it is inadmissible. Beyond length 1 the
   /// pressures remain as at 1.
   virtual std::optional<Trial> attempt(double length) = 0;
   virtual void accept(Trial trial) = 0;
@@ -114,7 +114,7 @@ class NewtonSystem {
   virtual int folded_element() const { return -1; }
 };
 
-/// Iterates until the system says that it converged or stops.
+/// Iterates until the system has converged or stops.
 NewtonResult newton(NewtonSystem& system,
                     const std::function<void(const NewtonIteration&)>& watch = {});
 

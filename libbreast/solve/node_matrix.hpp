@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Symmetric sparse matrices with three unknowns per node, whose pattern is built once for many sets
+// Symmetric sparse matrices with three unknowns per node; the pattern is built once for many sets
 // of values.
 #pragma once
 
@@ -43,7 +43,7 @@ class NodePattern {
   std::vector<long> column_start_, row_index_;
 };
 
-/// Where the block (a, b) of each cell goes: computed once per set of cells.
+/// Positions of the block (a, b) of each cell in the matrix, computed once per set of cells.
 class ScatterMap {
  public:
   ScatterMap(const NodePattern& pattern, const Cells& cells);

@@ -26,7 +26,7 @@ struct PackedCells {
 
 class PackedTangent {
  public:
-  /// Starts anew: the next term gets the first part.
+  /// Starts a new pass: the next term gets the first part.
   void begin(int elements) {
     parts_.clear();
     kappa = Eigen::VectorXd::Zero(elements);

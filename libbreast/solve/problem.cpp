@@ -25,7 +25,7 @@ void begin(const Discretisation& space, const State& state, const Request& reque
   }
 }
 
-// A node without stiffness of its own still needs a measure for shifts.
+// A node without stiffness of its own still needs a scale for shifts.
 void bound_diagonal(SaddleMatrix& matrix) {
   const double floor = 1e-3 * matrix.diagonal.cwiseAbs().mean();
   matrix.diagonal = matrix.diagonal.cwiseMax(floor);

@@ -30,22 +30,24 @@ class Problem {
   /// The constraints that do not depend on where the body is.
   const Constraints& constraints() const { return constraints_; }
   void set_constraints(Constraints constraints) { constraints_ = std::move(constraints); }
-  /// Nodes that slide on a surface; null: none.
+  /// Nodes that slide on a surface; null if there are none.
   void set_sliding(std::shared_ptr<const SlidingNodes> sliding) { sliding_ = std::move(sliding); }
   const SlidingNodes* sliding() const { return sliding_.get(); }
-  /// All constraints of an increment at positions x: what is held, and the normals of sliding nodes.
+  /// All constraints of an increment at positions x: the fixed ones, and the normals of sliding
+  /// nodes.
   Constraints constraints_at(const Eigen::VectorXd& x) const;
-  /// Puts sliding nodes back on their surface. −1, or a node that has left it.
+  /// Moves sliding nodes back to their surface. Returns a node that has left it, or −1.
   int restore(Eigen::VectorXd& x) const { return sliding_ ? sliding_->restore(x) : -1; }
   int nodes() const { return space_->nodes(); }
   SaddleMatrix make_matrix() const { return space_->make_matrix(); }
 
-  /// Evaluates all terms in one pass. If the state is invalid, it stops at once and the request's
+  /// Evaluates all terms in one pass. At an invalid state it stops at once, and the request's
   /// targets are undefined.
   Forces evaluate(const State& state, const Request& request) const;
-  /// Without a tangent; `kappa` (per element) may be null.
+  /// The forces without a tangent; `kappa` (per element) may be null.
   Forces forces(const State& state, const Eigen::VectorXd* kappa = nullptr) const;
-  /// Forces and tangent together. False (and forces.valid false) at an inadmissible state.
+  /// Computes forces and tangent together. Returns false (and forces.valid is false) at an
+  /// inadmissible state.
   bool tangent(const State& state, Forces& forces, SaddleMatrix& matrix) const;
 
   /// Norm with which the residual is compared, µN: that of the external load, or its substitute.

@@ -118,7 +118,7 @@ Eigen::VectorXd SaddleSolver::correction(const SaddleMatrix& matrix, const Eigen
   return solve_imposed(matrix, none, theta, imposed, tolerance, gmres_restarts).u;
 }
 
-// `imposed` may be empty: nothing held moves.
+// `imposed` may be empty if no constrained component moves.
 SaddleStep SaddleSolver::solve_imposed(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
                                        const Eigen::VectorXd& theta,
                                        const Eigen::VectorXd& imposed, double tolerance,

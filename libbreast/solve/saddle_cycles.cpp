@@ -10,7 +10,8 @@
 namespace breast {
 
 namespace {
-// GMRES keeps two vectors an iteration; after `restart` it begins again from where it is.
+// GMRES stores two vectors per iteration; after `restart` iterations it restarts from its current
+// result.
 constexpr int restart = 60;
 constexpr double part_of_tolerance = 0.1;
 constexpr int most_lanczos_steps = 100;
@@ -24,7 +25,8 @@ SaddleStep SaddleSolver::solve_by_cycles(const SaddleMatrix& matrix, const Eigen
   const ElementRows& b = matrix.divergence;
   const long n = right.size(), m = theta.size();
   const double left_over = 1 - matrix.kappa[0] * space.compliance[0];
-  // Volumes as forces, so that one norm measures both equations: θκ/h, h the size of an element.
+  // Volumes converted to forces, θκ/h with the size h of an element, so that one norm measures both
+  // equations.
   const double size = std::cbrt(space.mass[0]);
   const double weigh = matrix.kappa.mean() / size;
   const auto free = [&](Eigen::VectorXd v) {
@@ -72,7 +74,7 @@ SaddleStep SaddleSolver::solve_by_cycles(const SaddleMatrix& matrix, const Eigen
 
 bool SaddleSolver::positive_definite() const {
   if (cholesky_ != nullptr || !definite_) return definite_;
-  Eigen::VectorXd start(3L * constraints_.nodes());  // an eigenvector of nothing
+  Eigen::VectorXd start(3L * constraints_.nodes());  // a vector that is not an eigenvector
   for (long i = 0; i < start.size(); ++i) start[i] = std::sin(2.0 + 5.1 * double(i));
   return lowest_eigenvalue([&](const Eigen::VectorXd& v) { return multigrid_.multiply(v); },
                            [&](const Eigen::VectorXd& v) { return multigrid_.cycle(v); }, start,

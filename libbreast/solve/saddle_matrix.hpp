@@ -23,7 +23,8 @@ struct ElementRows {
   Eigen::VectorXd apply_transpose(const Eigen::VectorXd& p) const;  ///< Bᵀ p
 };
 
-/// What does not change with the state: M⁻¹ per element (rows × rows) and c = 1/bulk modulus.
+/// The data that do not change with the state: M⁻¹ per element (rows × rows) and c = 1/bulk
+/// modulus.
 struct PressureSpace {
   int rows = 0;
   std::vector<double> mass, inverse_mass;  ///< per element rows × rows

@@ -77,7 +77,7 @@ Eigen::VectorXd SlidingNodes::way_back(const Eigen::VectorXd& x, const Constrain
     const long at = 3L * node;
     const Vec3 direction = across.segment<3>(at);
     const double rate = direction.dot(gradient.segment<3>(at));
-    // A surface that has turned by more than 60 degrees says nothing to first order.
+    // If the normal has turned by more than 60 degrees, a first-order step is meaningless.
     if (rate > 0.25 * gradient.segment<3>(at).squaredNorm()) {
       moves.segment<3>(at) = -off[at] / rate * direction;
     }

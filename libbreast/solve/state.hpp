@@ -18,7 +18,7 @@ struct Forces {
   int bad_element = -1;  ///< the first one, when not valid and known
   double energy = 0;     ///< nJ
   Eigen::VectorXd r, theta;
-  /// Gradient of the augmented energy, r + κBᵀM⁻¹θ; only when asked for with a κ.
+  /// Gradient of the augmented energy, r + κBᵀM⁻¹θ; only if requested with a κ.
   Eigen::VectorXd augmented;
   double min_det_F = 1, max_det_F = 1, max_volume_error = 0;
 };

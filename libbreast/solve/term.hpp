@@ -30,13 +30,13 @@ class Term {
 
   /// For reports and tests.
   virtual std::string name() const = 0;
-  /// Adds the energy, r and θ of this term, and what the request names. False at an inadmissible
-  /// state, where the contents of `forces` and of the request's targets are undefined.
+  /// Adds the energy, r and θ of this term, and the requested quantities. Returns false at an
+  /// inadmissible state, where the contents of `forces` and of the request's targets are undefined.
   virtual bool add(const State& state, const Request& request, Forces& forces) const = 0;
   /// The nodes whose positions it depends on and whose forces it changes, ascending.
   virtual std::vector<int> nodes() const = 0;
-  /// An element that is not positive in both shapes at its corners and quadrature points; −1: none.
-  /// Terms without elements have none.
+  /// An element that is not positive in both shapes at its corners and quadrature points; −1 if
+  /// there is none, as for terms without elements.
   virtual int folded_element(const State&) const { return -1; }
 };
 

@@ -55,7 +55,8 @@ std::string one_line(std::string text) {
 
 namespace {
 
-// Bytes of the character that begins at `at`, 0 where none does (RFC 3629: no overlong forms, no surrogates).
+// Number of bytes of the character that begins at `at`; 0 if there is no valid one (RFC 3629: no
+// overlong forms, no surrogates).
 std::size_t character(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells of the tables of a study: numbers as text, "-" where there is none, and the text of reports made fit for a cell.
+// Formatting and reading of table cells in a study: numbers as text, "-" for a missing value, and
+// text from reports in a form that fits into a cell.
 #pragma once
 
 #include <optional>
@@ -14,29 +15,30 @@ using Row = std::vector<std::string>;
 
 inline const std::string no_value = "-";
 
-/// Fixed decimals; "-" where there is no number.
+/// The value with a fixed number of decimals; "-" if there is no value.
 std::string fixed_cell(std::optional<double> value, int decimals);
-/// So many significant digits, as printf's %g.
+/// The value with the given number of significant digits, as printf's %g.
 std::string general(double value, int digits = 6);
-/// The text, or "-" for an empty one.
+/// The text, or "-" if it is empty.
 std::string cell_or_dash(const std::string& text);
-/// The number of a cell; nothing for any other text.
+/// The number in a cell; no value for any other text.
 std::optional<double> number_of(const std::string& cell);
 
-/// The cell in the row whose first column is `row`; also found under a column "artificial_COLUMN". "" without one.
+/// The cell of `column` in the row with `row` in its first column; a column "artificial_COLUMN" is
+/// found as well. "" if there is none.
 std::string cell_at(const Table& table, const std::string& row, const std::string& column);
 std::optional<double> number_at(const Table& table, const std::string& row,
                                 const std::string& column);
-/// The table in `file`; nothing where it is absent or empty.
+/// The table in `file`; no value if the file is absent or empty.
 std::optional<Table> table_if_any(const std::string& file);
 
-/// Tabs and line breaks as blanks.
+/// The text with tabs and line breaks replaced by blanks.
 std::string one_line(std::string text);
-/// Bytes that are no UTF-8 as U+FFFD.
+/// The text with bytes that are not valid UTF-8 replaced by U+FFFD.
 std::string valid_utf8(const std::string& bytes);
-/// `parts` with `between` between them.
+/// The elements of `parts`, separated by `between`.
 std::string join(const std::vector<std::string>& parts, const std::string& between);
-/// The pieces between the separators; one empty piece of an empty text.
+/// The parts of the text between the separators; an empty text has one empty part.
 std::vector<std::string> split(const std::string& text, char separator);
 
 }  // namespace breast

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where landmarks are in a shape's file, and how far two shapes lie apart there.
+// Positions of landmarks in the file of a shape, and distances between the landmarks of two shapes.
 #pragma once
 
 #include <filesystem>
@@ -17,22 +17,24 @@ struct PlacedLandmark {
   Vec3 imaged{0, 0, 0}, position{0, 0, 0};  ///< mm, LPS
 };
 using Shape = std::vector<PlacedLandmark>;
-/// Reads the landmarks of a mesh file; throws Error (input) where it cannot be read.
+/// Reads the landmarks of a mesh file; throws Error (input) if it cannot be read.
 using ShapeReader = std::function<Shape(const std::filesystem::path& file)>;
 
-/// "tumour" is also found where it is an artificial one. Throws Error (input) naming the file when it has no such landmark.
+/// Finds a landmark; "tumour" also finds an artificial one. Throws Error (input) naming the file if
+/// it has no such landmark.
 const PlacedLandmark& find_landmark(const Shape& shape, const std::string& name,
                                     const std::filesystem::path& file);
 
-// All in mm and rounded to the 4 decimals of the tables of probe, so that every table of a study says the same number.
-/// From the landmark's imaged place to its place in this shape.
+// All distances are in mm and rounded to the 4 decimals of the tables of probe, so that every table
+// of a study states the same number.
+/// Distance from the landmark's imaged position to its position in this shape.
 double moved(const PlacedLandmark& landmark);
-/// Between a landmark's places in two shapes.
+/// Distance between a landmark's positions in two shapes.
 double apart(const PlacedLandmark& here, const PlacedLandmark& there);
-/// The largest distance of a landmark, nipple or tumour, between two files.
+/// The larger of the distances of nipple and tumour between two files.
 double most_apart(const ShapeReader& read, const std::filesystem::path& file,
                   const std::filesystem::path& base);
-/// Of one landmark.
+/// The distance of one landmark between two files.
 double apart_at(const ShapeReader& read, const std::filesystem::path& file,
                 const std::filesystem::path& base, const std::string& landmark);
 

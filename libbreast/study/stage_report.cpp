@@ -50,7 +50,7 @@ bool has_something(const fs::path& file) {
 StageReport::StageReport() : impl_(std::make_shared<const Impl>(Impl{Json::object()})) {}
 
 StageReport StageReport::parse(const std::string& json, const std::string& name) {
-  constexpr int deepest = 64;  // the reader calls itself for every level
+  constexpr int deepest = 64;  // the parser is recursive
   const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
     if (depth > deepest)
       throw input_error(name, ": not a JSON report: nested more than ", deepest, " deep");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The JSON report of a stage, as the tables and pages of a study read it: what is absent has no value, and is no error.
+// The JSON report of a stage, as read by the tables and pages of a study. An absent entry has no
+// value and is not an error.
 #pragma once
 
 #include <filesystem>
@@ -13,26 +14,31 @@
 
 namespace breast {
 
-/// A report that need not be there: a stage may have been swapped for a program that writes none.
+/// A report that may be absent, because a stage may have been replaced by a program that does not
+/// write one.
 class StageReport {
  public:
-  StageReport();  ///< without a word
-  /// The report in `file`; an empty one where there is no such file or nothing in it. Bytes that are no UTF-8 become U+FFFD.
-  /// Throws Error (input) naming the file when it holds something else than a JSON object.
+  StageReport();  ///< an empty report
+  /// The report in `file`; an empty one if the file is absent or empty. Bytes that are not valid
+  /// UTF-8 become U+FFFD. Throws Error (input) naming the file if it contains anything other than a
+  /// JSON object.
   static StageReport read(const std::filesystem::path& file);
   static StageReport parse(const std::string& json, const std::string& name);
 
   bool empty() const;
-  /// The number at a path of keys, "seconds/total"; nothing when absent, null or no number.
+  /// The number at a path of keys such as "seconds/total"; no value if it is absent, null or not a
+  /// number.
   std::optional<double> number(std::string_view path) const;
-  /// A text as it is, a number or truth value as it stands in the file; "" when absent, null, a list or an object.
+  /// A text, or a number or truth value as written in the file; "" if it is absent, null, a list or
+  /// an object.
   std::string text(std::string_view path) const;
-  std::vector<std::string> texts(std::string_view path) const;  ///< the texts of a list
-  /// The first number of that name at any depth, in the order of the file.
+  std::vector<std::string> texts(std::string_view path) const;  ///< the texts in a list
+  /// The first number with that name at any depth, in the order of the file.
   std::optional<double> first(std::string_view name) const;
-  /// mm LPS: `what` ("imaged", "position") of a landmark; "tumour" is also found where it is an artificial one.
+  /// The position in mm LPS of a landmark; `what` is "imaged" or "position". "tumour" also finds an
+  /// artificial one.
   std::optional<Vec3> place(const std::string& landmark, const std::string& what) const;
-  /// A landmark's key in this report, "" when it has none of that name.
+  /// The key of a landmark in this report; "" if there is none of that name.
   std::string landmark(const std::string& name) const;
 
  private:
@@ -40,10 +46,11 @@ class StageReport {
   std::shared_ptr<const Impl> impl_;
 };
 
-/// Why the solve NAME.vtkhdf, NAME.json has no result: the sentence in its report, or its typed reason; also what a mark
-/// NAME.failed says. Nothing when it has one, or was never tried.
+/// The reason why the solve NAME.vtkhdf, NAME.json has no result: the sentence in its report, its
+/// typed reason, or the text of a file NAME.failed. No value if it has a result or was never tried.
 std::optional<std::string> failure_of(const std::filesystem::path& name);
-/// The same of a change of posture: of NAME itself, or of its stages reference and supine (study/places.hpp).
+/// The same for a change of posture: the reason of NAME itself, or of its stages reference and
+/// supine (study/places.hpp).
 std::optional<std::string> posture_failure_of(const std::filesystem::path& name);
 
 }  // namespace breast

@@ -57,7 +57,7 @@ std::string text_of(const fs::path& file) {
 }
 
 std::string warnings_text(const std::vector<Warning>& warnings) {
-  if (warnings.empty()) return "No stage warned of anything.\n";
+  if (warnings.empty()) return "There were no warnings.\n";
   std::string text = "Warnings: " + std::to_string(warnings.size()) + "; read these first\n";
   for (const Warning& w : warnings) {
     text += "  " + w.stages + ": " + w.text + "\n";
@@ -69,11 +69,11 @@ std::string warnings_text(const std::vector<Warning>& warnings) {
 std::string tumour_text(const StageReport& mesh) {
   const std::string origin = tumour_origin(mesh);
   if (origin == "none") return "No tumour in this case (TUMOUR=x,y,z follows one).\n";
-  if (origin == "artificial") return "THE TUMOUR IS ARTIFICIAL: nobody found it in the scan.\n";
+  if (origin == "artificial") return "THE TUMOUR IS ARTIFICIAL: it was not found in the scan.\n";
   return "Tumour: " + mesh.text("tumour") + ".\n";
 }
 
-// The header and the rows of these names.
+// The header and the rows with these names.
 std::string some_rows(const std::string& tsv, const std::vector<std::string>& names) {
   std::istringstream in(tsv);
   std::string text;
@@ -94,9 +94,8 @@ std::string truth_text(const fs::path& run, const fs::path& phantom) {
             "claimed. Points are the phantom's, found in the chain's mesh.\n" + aligned(truth);
   }
   if (const std::string truth = text_of(run / "truth-cut-fixed.tsv"); !truth.empty()) {
-    text +=
-        "\nThe same with the cut held in the chain, as it is in the truth (mean and largest)\n" +
-        aligned(some_rows(truth, {"mean", "largest"}));
+    text += "\nThe same with a fixed cut in the chain, as in the truth (mean and largest)\n" +
+            aligned(some_rows(truth, {"mean", "largest"}));
   }
   return text;
 }
@@ -127,7 +126,7 @@ std::string pictures_text(const fs::path& run) {
   if (fs::is_directory(run / "figures"))
     for (const auto& entry : fs::directory_iterator(run / "figures"))
       if (entry.path().extension() == ".png") pictures.push_back(entry.path().string());
-  // The slices of the scan come first: what all others are made from.
+  // The slices of the scan come first, because everything else is made from them.
   const auto first = [](const std::string& picture) { return picture.ends_with("/slices.png"); };
   std::sort(pictures.begin(), pictures.end());
   std::stable_partition(pictures.begin(), pictures.end(), first);
@@ -149,7 +148,8 @@ std::string summary_text(const fs::path& run, const SummaryContext& context) {
     for (std::string line; std::getline(lines, line); start = "  ") text += start + line + "\n";
   }
   text +=
-      "\nWith the lateral cut held instead, supine (relative: distance to the case as solved, mm)\n" +
+      "\nWith a fixed lateral cut instead, supine (relative: distance to the case as solved, "
+      "mm)\n" +
       aligned(text_of(run / "cut.tsv"));
   text += truth_text(run, context.phantom) + compression_text(run) + "\n";
   const bool curve = fs::exists(run / "curve.tsv") && fs::file_size(run / "curve.tsv") > 0;

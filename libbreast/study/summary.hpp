@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a finished case says, as text for a terminal.
+// The results of a finished case as text for a terminal.
 #pragma once
 
 #include <filesystem>
@@ -11,22 +11,24 @@
 
 namespace breast {
 
-/// Where a mesh's tumour comes from, as hexmesh reports it: "none", "artificial" or "given".
+/// The origin of a mesh's tumour as reported by hexmesh: "none", "artificial" or "given".
 std::string tumour_origin(const StageReport& mesh);
 
-/// Tab-separated text as columns of equal width, two blanks before each; comments are left out.
+/// Tab-separated text as columns of equal width, each preceded by two blanks; comments are omitted.
 std::string aligned(const std::string& tsv);
-/// Lines of at most `width` bytes, broken after blanks where there are any.
+/// The text in lines of at most `width` bytes, broken at blanks if there are any.
 std::string folded(const std::string& text, std::size_t width);
 
 struct SummaryContext {
   std::vector<Advice> advice;
-  std::filesystem::path phantom;  ///< its report, for the truth's own error; may be empty
+  /// Report of the phantom, for the error of the truth; may be empty.
+  std::filesystem::path phantom;
   std::string
       calibration;  ///< a sentence beside the rows that were fitted to the paper's; may be empty
 };
-/// First what its stages warned of, each warning once, with what to do; then landmark displacements, errors against the truth when
-/// there is one, compressions, the MLO curve, and where the pictures are.
+/// The warnings of the stages, each once and with advice; then landmark displacements, errors
+/// against the truth if there is one, compressions, the MLO curve, and the locations of the
+/// pictures.
 std::string summary_text(const std::filesystem::path& run, const SummaryContext& context);
 
 }  // namespace breast

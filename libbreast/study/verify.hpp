@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run against expected values.
+// Comparison of a run with expected values.
 #pragma once
 
 #include <filesystem>
@@ -9,19 +9,21 @@
 
 namespace breast {
 
-/// "ok", "differs", or "missing" where `computed` is empty: numbers within `tolerance`, other texts equal.
+/// "ok", "differs", or "missing" if `computed` is empty. Numbers must agree within `tolerance`,
+/// other text must be equal.
 std::string verdict_of(const std::string& expected, const std::string& computed,
                        const std::string& tolerance);
 
 struct Verification {
-  Table table;  ///< file, row, column, expected, computed, tolerance, verdict
+  Table table;  ///< columns file, row, column, expected, computed, tolerance, verdict
   int failed = 0;
 };
-/// Rows of `expected`: file (below RUN), row (value of the file's first column; "-" for a report), column (or key of a .json
-/// report), expected, tolerance.
+/// Compares the rows of `expected`, which has the columns file (in the folder RUN), row (value in
+/// the file's first column; "-" for a report), column (or key of a .json report), expected and
+/// tolerance.
 Verification verify(const Table& expected, const std::filesystem::path& run);
-/// The text of a table of expected values with the run's values where they differ; what agrees keeps its value, so that a bound
-/// stays a bound, and comments stay.
+/// The text of a table of expected values, with the values of the run in rows that differ. Rows
+/// that agree keep their value, so that a bound remains a bound, and comments are kept.
 std::string expected_anew(const std::string& text, const std::filesystem::path& run);
 
 }  // namespace breast

@@ -19,7 +19,7 @@ std::regex pattern_of(const std::string& text, const std::string& where) {
   try {
     return std::regex(text, std::regex::extended);
   } catch (const std::regex_error&) {
-    throw input_error(where, ": '", text, "' is no extended regular expression");
+    throw input_error(where, ": '", text, "' is not an extended regular expression");
   }
 }
 
@@ -54,7 +54,7 @@ std::vector<Warning> gather(const std::vector<StageWarnings>& said,
   }
   std::vector<std::regex> patterns;
   for (const Advice& a : advice) patterns.push_back(pattern_of(a.pattern, "advice"));
-  // The advice that a warning has; one without any is a group of its own.
+  // The advice for a warning; a warning without advice is a group of its own.
   std::vector<std::size_t> group(all.size());
   for (std::size_t k = 0; k < all.size(); ++k) {
     group[k] = advice.size() + k;

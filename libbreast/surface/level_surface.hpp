@@ -20,7 +20,7 @@ struct Level {
 class LevelSurface {
  public:
   virtual ~LevelSurface() = default;
-  /// φ, twice continuously differentiable wherever it is known; nothing elsewhere.
+  /// φ at a point, twice continuously differentiable wherever it is defined; no value elsewhere.
   virtual std::optional<Level> at(const Vec3& x) const = 0;
 };
 

@@ -9,7 +9,8 @@
 
 namespace breast {
 
-/// x ↦ centre + R (x − centre) + shift, R the turn about the vector `turn` by its length.
+/// The map x ↦ centre + R (x − centre) + shift, where R is the rotation about the vector `turn` by
+/// its length.
 struct RigidMotion {
   Vec3 centre{0, 0, 0}, shift{0, 0, 0};  ///< mm
   Vec3 turn{0, 0, 0};                    ///< degrees
@@ -22,11 +23,11 @@ struct RigidMotion {
     return Eigen::AngleAxisd(angle, turn.normalized()).toRotationMatrix();
   }
   Vec3 operator()(const Vec3& x) const { return centre + rotation() * (x - centre) + shift; }
-  /// The point that comes to lie at y.
+  /// The point that is mapped to y.
   Vec3 origin_of(const Vec3& y) const {
     return centre + rotation().transpose() * (y - centre - shift);
   }
-  /// First `other`, then this one; about the other's centre.
+  /// The composition of `other` followed by this motion, about the centre of `other`.
   RigidMotion after(const RigidMotion& other) const {
     RigidMotion both;
     both.centre = other.centre;
@@ -35,7 +36,8 @@ struct RigidMotion {
     both.turn = turned.angle() / radians * turned.axis();
     return both;
   }
-  /// Derivative of the place of x by `turn`, mm per degree (the left Jacobian of the rotation group).
+  /// Derivative of the image of x with respect to `turn`, mm per degree (the left Jacobian of the
+  /// rotation group).
   Mat3 by_turn(const Vec3& x) const {
     const double angle = turn.norm() * radians;
     Mat3 left = Mat3::Identity();

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double nearest_axis = 0.25;  // of the radius
 
-/// R and its derivatives by angle and height.
+/// R and its derivatives with respect to angle and height.
 struct Radius {
   double value = 0, a = 0, z = 0, aa = 0, az = 0, zz = 0;
 };
@@ -84,7 +84,7 @@ std::optional<Level> ThoraxSurface::at(const Vec3& x) const {
   const double au = v / square, av = -u / square;
   const double auu = -2 * u * v / (square * square);
   const double auv = (u * u - v * v) / (square * square);
-  // By (u, v, height), then by (x, y, z): u and v are linear in them.
+  // First with respect to (u, v, height), then to (x, y, z): u and v are linear in them.
   const Vec3 gradient(u / rho - r.a * au, v / rho - r.a * av, -r.z);
   const double cube = square * rho;
   Mat3 hessian;

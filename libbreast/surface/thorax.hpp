@@ -48,7 +48,8 @@ struct CubicSpline {
 };
 CubicSpline cubic_spline(double t);
 
-/// Interval of a spline with `count` of them between `low` and `high`, and the place in it, 0 to 1.
+/// The interval of a spline with `count` intervals between `low` and `high`, and the position in
+/// it, 0 to 1.
 struct SplinePlace {
   int interval = 0;
   double t = 0;

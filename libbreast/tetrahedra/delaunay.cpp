@@ -67,7 +67,7 @@ Complex fill(const Surface& surface, const WeldedSurface& welded, double edge) {
                                     parameters::exude(parameters::sliver_bound = sliver_angle));
 }
 
-// Part of the given surface nearest to the middle of each boundary triangle.
+// The part of the given surface that is nearest to the centre of each boundary triangle.
 void add_boundary(const Complex& complex, const Surface& surface, const WeldedSurface& welded,
                   const std::map<Complex::Vertex_handle, int>& number, TetMesh& mesh) {
   Tree tree(faces(surface).begin(), faces(surface).end(), surface);

@@ -15,7 +15,7 @@ struct Entry {
 constexpr Entry table[] = {
     {View::cc, "CC", "cc", 0}, {View::mlo, "MLO", "mlo", 45}, {View::ml, "ML", "ml", 90}};
 
-// A value that is none of the three is an error of the program.
+// A value other than these three is an error in the program.
 const Entry& entry(View view) {
   for (const Entry& known : table) {
     if (known.view == view) return known;

@@ -16,7 +16,7 @@ enum class View : std::uint8_t { cc, mlo, ml };
 std::string view_name(View view);
 /// "cc", "mlo" or "ml", as in names of table columns and postures.
 std::string view_column(View view);
-/// Inverse of view_name; nothing for any other text.
+/// Inverse of view_name; no value for any other text.
 std::optional<View> view_from_name(std::string_view name);
 /// The same; throws Error (input) naming the choices.
 View view_named(std::string_view name);

@@ -227,8 +227,8 @@ TEST_F(IdentifyTool, PairsMarkedInSlicerAreTakenWhicheverWayTheyAreKept) {
   refused_line("--landmarks prone.mrk.json --second-landmarks fewer.mrk.json", "'m11' has no mark of the other posture");
   refused_line("--landmarks prone.mrk.json", "no mark of the other posture");
   refused_line("--landmarks pairs.tsv --second-landmarks supine.mrk.json", "goes with a .mrk.json only");
-  refused_line("--landmarks prone.mrk.json --second-landmarks prone.mrk.json --labels mesh.vtkhdf", "go together");
-  refused_line("--nipple 1,2,3 --second-landmarks supine.mrk.json", "goes with --landmarks");
+  refused_line("--landmarks prone.mrk.json --second-landmarks prone.mrk.json --labels mesh.vtkhdf", "must be given together");
+  refused_line("--nipple 1,2,3 --second-landmarks supine.mrk.json", "needs --landmarks");
 }
 
 TEST_F(IdentifyTool, OfTheNippleAloneItSaysThatMostIsThePrior) {

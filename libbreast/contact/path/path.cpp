@@ -13,19 +13,19 @@ namespace breast {
 
 namespace {
 
-/// Automatic step lengths as parts of the initial thickness: 6 and 8 mm of a typical breast.
+/// Automatic step lengths as fractions of the initial thickness: 6 and 8 mm for a typical breast.
 constexpr double first_part = 0.07, longest_part = 0.095;
 
-/// Steps longer than this part of the longest are given up when they begin badly.
+/// Steps longer than this fraction of the longest are abandoned if they begin badly.
 constexpr double fast_part = 0.3;
 
-/// Plate positions nearer than this are one, mm.
+/// Plate positions closer than this count as equal, mm.
 constexpr double narrowest_bracket = 1e-4;
 
-/// States kept to go back to when the last one turns out to be no equilibrium.
+/// States kept for a return when the last one turns out not to be an equilibrium.
 constexpr std::size_t longest_trail = 3;
 
-/// A converged state that can be returned to.
+/// A converged state to which the path can return.
 struct Waypoint {
   State state;
   ContactMemory memory;
@@ -67,22 +67,22 @@ class Path {
 
   ContactSolver& solver_;
   PlatePair& plates_;
-  std::optional<double> thickness_;          ///< where the path ends at the latest
-  std::vector<CompressionTarget> controls_;  ///< what else ends it
+  std::optional<double> thickness_;          ///< the thickness at which the path ends at the latest
+  std::vector<CompressionTarget> controls_;  ///< the other targets
   const NodalArea& area_;
   const PathOptions& options_;
   Progress& progress_;
   double start_thickness_;
-  double tolerance_;  ///< of the positions on the way
+  double tolerance_;  ///< tolerance of intermediate positions
   PathResult result_;
   Waypoint start_, here_, before_;
   bool have_before_ = false;
-  bool patient_ = false;                 ///< positions that begin badly are solved all the same
-  std::optional<Waypoint> first_haste_;  ///< the state before the first that was not
-  std::deque<Waypoint> trail_;           ///< the last ones before before_
+  bool patient_ = false;                 ///< solves positions that begin badly to the end
+  std::optional<Waypoint> first_haste_;  ///< the state before the first position that was abandoned
+  std::deque<Waypoint> trail_;           ///< the states before before_
 };
 
-/// The target that lies furthest behind a point; null before all of them.
+/// Of the targets passed at a point, the one passed by the most; null before all of them.
 const CompressionTarget* Path::passed(const PathPoint& point) const {
   const CompressionTarget* furthest = nullptr;
   double most = 1 + options_.control_tolerance;
@@ -173,7 +173,7 @@ State Path::predict(double thickness, bool extrapolate) const {
 double Path::next_thickness(double step) const {
   double closing = step;
   for (const CompressionTarget& control : controls_) {
-    // Force grows exponentially: do not overshoot the target by much.
+    // The force grows exponentially: the step should not overshoot the target by much.
     const double now = measure(here_.point, control.kind);
     const double then = have_before_ ? measure(before_.point, control.kind) : 0;
     if (!(then > 0 && now > then)) continue;
@@ -182,7 +182,7 @@ double Path::next_thickness(double step) const {
   }
   if (!thickness_) return here_.thickness - closing;
   const double left = *thickness_ - here_.thickness;
-  // No sliver of a step just before the end.
+  // Avoids a very short step just before the end.
   if (std::abs(left) <= 1.25 * closing) return *thickness_;
   return here_.thickness + std::copysign(closing, left);
 }
@@ -204,7 +204,7 @@ bool Path::march() {
       result_.last_failure = NewtonStop::none;
       return false;
     }
-    // Two refusals in a row: the extrapolation itself may be what folds elements.
+    // After two refusals in a row, the extrapolation itself may be the reason why elements fold.
     const bool extrapolate = failures_in_row % 3 != 2;
     Waypoint reached;
     const bool fail_fast = !patient_ && std::abs(thickness - here_.thickness) > fast_part * longest;
@@ -215,7 +215,7 @@ bool Path::march() {
     if (arrived) {
       const int iterations =
           int(result_.final_step.iterations.size()) - result_.final_step.corrections;
-      // A length that has just been found by halving is used twice before it grows again.
+      // A length that was just found by halving is used twice before it grows again.
       if (iterations < 6 && failures_in_row == 0) step = std::min(longest, 1.4 * step);
       if (iterations > 12) step = std::max(options_.shortest_step, 0.7 * step);
       failures_in_row = 0;
@@ -242,7 +242,8 @@ bool Path::march() {
   return false;
 }
 
-/// Between the last state and one beyond the target; the latter itself where the path could not end before.
+/// Refines the end between the last state and one beyond the target; takes the latter if the path
+/// could not end earlier.
 bool Path::end_at(const CompressionTarget& target, Waypoint reached) {
   const bool between = !options_.may_end || options_.may_end(here_.thickness);
   if (between && measure(here_.point, target.kind) < target.value)
@@ -254,8 +255,9 @@ bool Path::end_at(const CompressionTarget& target, Waypoint reached) {
   return true;
 }
 
-/// Bracketed secant (Illinois) on the thickness between a state before the target and one beyond it;
-/// interpolated states make each solve short. What then lies beyond another target is refined to that.
+/// Bracketed secant method (Illinois) on the thickness between a state before the target and one
+/// beyond it; interpolated initial states keep each solve short. A state that then lies beyond
+/// another target moves the end to that target.
 bool Path::refine_control(const CompressionTarget& target, const Waypoint& before, Waypoint high) {
   Waypoint low = before;
   const auto beyond = [&](const Waypoint& w) {
@@ -271,8 +273,8 @@ bool Path::refine_control(const CompressionTarget& target, const Waypoint& befor
         const Waypoint from = best;
         return refine_control(*other, before, from);
       }
-      // Positions that cannot be told apart with the target between them: a node joins, or the body
-      // snaps through. The nearer one is the answer, and said to be off its target.
+      // The positions are equal, with the target between them: a node comes into contact, or the
+      // body snaps through. The nearer one is returned and said to be off its target.
       if (!met) {
         result_.jump = {measure(low.point, target.kind), measure(high.point, target.kind)};
       }
@@ -312,7 +314,7 @@ void Path::drop_points_beyond_here() {
   }
 }
 
-/// Goes to the waypoint before; false when the start itself is where it stands.
+/// Returns to the previous waypoint; false if the path is at its start.
 bool Path::step_back() {
   if (have_before_) {
     here_ = std::move(before_);
@@ -330,8 +332,8 @@ bool Path::step_back() {
   return true;
 }
 
-/// Once, back to where haste first changed the way: short steps may follow a branch that ends where
-/// a long one goes over to the next.
+/// Returns, once, to where abandoning a position first changed the path: short steps may follow a
+/// branch that ends where a long step passes to the next branch.
 bool Path::be_patient() {
   if (patient_ || !first_haste_) return false;
   patient_ = true;
@@ -342,15 +344,15 @@ bool Path::be_patient() {
   return true;
 }
 
-/// Solves the last state tightly, so that it is an equilibrium to the reported tolerance. Close to
-/// where a path ends or slips a loosely solved state may be none: false, and here_ is the last
-/// waypoint that could be solved tightly. Without any there are no points left.
+/// Solves the last state accurately. Close to where a path ends or slips, a loosely solved state
+/// may not be an equilibrium: then returns false, and here_ is the last waypoint with an accurate
+/// solution; if there is none, no points are left.
 bool Path::finish() {
   for (bool last = true;; last = false) {
     Waypoint reached;
     if (attempt(here_.state, here_.memory, here_.thickness, options_.tolerance, reached)) {
       here_ = std::move(reached);
-      // The tight solve repeats the last point of the path.
+      // The accurate solve repeats the last point of the path.
       const std::size_t n = result_.points.size();
       if (n >= 2 && result_.points[n - 2].thickness == here_.thickness) {
         result_.points.erase(result_.points.end() - 2);
@@ -366,13 +368,13 @@ bool Path::finish() {
 
 PathResult Path::run(State& state) {
   here_ = {state, solver_.memory(), plates_.thickness(), {}};
-  // The state the plates start from: touching nothing, or the end of an earlier path.
+  // The state from which the plates start: without contact, or the end of an earlier path.
   Waypoint first;
   if (attempt(here_.state, here_.memory, here_.thickness, options_.path_tolerance, first)) {
     start_ = here_ = std::move(first);
     result_.reached = march();
     if (!finish() && !result_.points.empty()) {
-      // What was solved loosely led astray: once more from there, every position solved tightly.
+      // The loosely solved states were misleading: repeats the path with accurate solves.
       tolerance_ = options_.tolerance;
       result_.reached = march();
       if (!finish()) result_.reached = false;

@@ -18,7 +18,7 @@ namespace breast {
 /// Step lengths are in mm of thickness; 0 chooses a fraction of the initial thickness.
 struct PathOptions {
   double first_step = 0, longest_step = 0, shortest_step = 0.05;
-  double least_thickness = 2;    ///< at which a path gives up that has no thickness as a target
+  double least_thickness = 2;    ///< smallest thickness of a path without a thickness as target, mm
   double path_tolerance = 1e-4;  ///< residual of intermediate states; the final state is solved to
                                  ///< `tolerance`
   double tolerance = 1e-9;
@@ -27,15 +27,16 @@ struct PathOptions {
   /// Called with the thickness (mm) before each position is solved, to update whatever depends on
   /// it.
   std::function<void(double)> prepare;
-  /// Whether a target that is not a thickness may end the path where the plates are this far apart (mm).
-  /// If empty, it may everywhere.
+  /// Whether a target other than a thickness may end the path when the plates are this far apart
+  /// (mm). If empty, it may do so anywhere.
   std::function<bool(double)> may_end;
 };
 
 struct PathResult {
   bool reached = false;
   CompressionTarget met;  ///< which target was reached
-  /// The target was passed where the path may not end: the quantity at the end, in the target's unit.
+  /// Set if the target was passed where the path may not end: the quantity at the end, in the unit
+  /// of the target.
   std::optional<double> passed_by;
   NewtonStop last_failure = NewtonStop::none;  ///< why the path stopped early
   bool solve_limit = false;                    ///< stopped because of PathOptions::most_solves

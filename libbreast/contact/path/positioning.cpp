@@ -14,18 +14,18 @@ namespace breast {
 
 namespace {
 
-/// The plates bear the weight from this reduction on; where a force ends the path, from an earlier
-/// one. The hand begins to let go of it at this fraction of that.
+/// The plates bear the weight from this reduction on, and from a smaller one if a force ends the
+/// path. The hand begins to release the weight at this fraction of that reduction.
 constexpr double bears_weight = 0.25, bears_weight_before_any_force = 0.1, begins_part = 0.2;
-/// On a path to a small reduction, that fraction of it.
+/// On a path to a small reduction, this fraction of it is used instead.
 constexpr double latest_part = 0.5;
-/// Friction holds the breast against the pull between these fractions of the reduction.
+/// Friction takes over the pull between these fractions of the reduction.
 constexpr double pull_begins_part = 0.6, pull_ends_part = 0.9;
-/// Earlier where another target may end the path before that reduction.
+/// The fractions are smaller if another target may end the path before that reduction.
 constexpr double early_begins_part = 0.4, early_ends_part = 0.7;
-/// The traction of the hand rises over this depth from the edge, mm.
+/// Depth from the edge over which the traction of the hand rises, mm.
 constexpr double pull_ramp_mm = 20;
-/// Tissue nearer to the edge than this is at the edge, mm.
+/// Tissue closer to the edge than this counts as at the edge, mm.
 constexpr double at_edge_mm = 10;
 
 Release release_by(double reduction) {

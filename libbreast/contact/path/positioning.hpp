@@ -32,16 +32,17 @@ struct Grip {
   /// Whether the hand has let go completely at a reduction (a fraction).
   bool gone(double reduction) const { return weight.at(reduction) == 1 && pull.at(reduction) == 1; }
 };
-/// For a compression to a given reduction (a fraction), or, where `may_end_before` it, to the first of this and
-/// other targets: the pull then ends earlier.
+/// For a compression to a given reduction (a fraction). If it may end before, at the first of this
+/// and other targets, the pull ends earlier.
 Grip grip_before(double reduction, bool may_end_before = false);
 /// For a compression to a force or pressure, whose reduction is not known in advance: the hand
 /// releases everything early.
 Grip grip_before_any_force();
 
-/// Nodal forces (µN, 3 per node) that pull the skin in front of the plates' edge away from the chest wall,
-/// `newton` in all: a uniform traction that rises from zero over the 20 mm next to the edge. `x`:
-/// positions, mm. Throws Error (input) when no skin lies in front of the edge.
+/// Nodal forces (µN, 3 per node) that pull the skin in front of the plates' edge away from the
+/// chest wall with a total of `newton`: a uniform traction that rises from zero over the 20 mm next
+/// to the edge. `x` are the positions in mm. Throws Error (input) if no skin lies in front of the
+/// edge.
 Eigen::VectorXd pull_forwards(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate,
                               double newton);
 

@@ -7,7 +7,7 @@ namespace breast {
 
 namespace {
 
-/// A target and its alternatives, one after the other.
+/// A target followed by its alternatives.
 std::vector<CompressionTarget> all_of(const CompressionTarget& target) {
   std::vector<CompressionTarget> all{{target.kind, target.value}};
   all.insert(all.end(), target.or_at.begin(), target.or_at.end());

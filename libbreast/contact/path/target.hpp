@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Targets at which a compression stops, and how far a state of its path is from them.
+// Targets at which a compression stops, and the distance of a state on its path from them.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,12 @@ namespace breast {
 
 enum class TargetKind { thickness, force, pressure, area };
 
-/// Target: thickness between the flat parts of the plates (mm), paddle force (N), paddle force per
-/// contact area (kPa), or the paddle's contact area (cm²).
+/// A target: thickness between the flat parts of the plates (mm), paddle force (N), paddle force
+/// per contact area (kPa), or contact area of the paddle (cm²).
 struct CompressionTarget {
   TargetKind kind = TargetKind::thickness;
   double value = 0;
-  /// Further places to stop: the path ends at the first of all that it reaches.
+  /// Further targets: the path ends at the first one that it reaches.
   std::vector<CompressionTarget> or_at = {};
 };
 
@@ -32,12 +32,12 @@ double measure(const PathPoint& point, TargetKind kind);
 
 enum class StopAt { thickness, reduction, force, pressure, area };
 
-/// A target as it is asked for: mm, %, N, kPa or cm².
+/// A target as given by the user, in mm, %, N, kPa or cm².
 struct CompressionStop {
   StopAt at = StopAt::reduction;
   double value = 50;
 };
-/// The target of a stop for plates that begin `initial` mm apart.
+/// The target that corresponds to a stop for plates with an initial distance of `initial` mm.
 CompressionTarget target_of(const CompressionStop& stop, double initial);
 /// The largest thickness among a target and its alternatives; nothing without any.
 std::optional<double> thickness_in(const CompressionTarget& target);

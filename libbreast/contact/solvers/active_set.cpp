@@ -23,7 +23,8 @@ ActiveSet::ActiveSet(const Problem& body, SaddleSolver& solver, std::vector<int>
   problem_.add(friction_);
 }
 
-// Touching nodes keep their anchor relative to the plate's level, free ones where they are.
+// Touching nodes keep their anchor relative to the level of the plate; free nodes are anchored at
+// their position.
 void ActiveSet::set_terms(const PlatePair& plates) {
   plates_ = plates;
   plate_->set_plates(plates);

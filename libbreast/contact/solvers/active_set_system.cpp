@@ -12,33 +12,34 @@ namespace {
 Vec3 node_vector(const Eigen::VectorXd& field, int node) {
   return field.segment<3>(3L * node);
 }
-/// A node that changed sides this often within one step keeps touching until convergence.
+/// A node that changed its status this often within one step stays in contact until convergence.
 constexpr int most_toggles = 3;
-/// Iterations in which touching nodes may move freely onto the plate.
+/// Number of iterations in which touching nodes may move freely onto the plate.
 constexpr int free_moves = 8;
-/// Pull, relative to the scale times the tolerance, from which on a node is let go.
+/// A node is released if it is pulled with more than this, relative to the scale times the
+/// tolerance.
 constexpr double least_pull = 0.1;
-/// Friction's bounds follow the normal forces once the imbalance is this fraction of their lag.
+/// The friction bounds follow the normal forces once the imbalance is this fraction of their lag.
 constexpr double balance_to_follow = 0.1;
-/// Iterations granted for each with an indefinite tangent: itself and one to settle.
+/// Additional iterations for each one with an indefinite tangent: itself, and one to settle.
 constexpr int slip_allowance = 2;
-/// A solve that may fail fast is given up when the first step has to be shorter than this, or when
-/// after so many iterations the imbalance is still this fraction of the first.
+/// A solve that may fail fast is abandoned if the first step has to be shorter than this, or if
+/// after this many iterations the imbalance is still this fraction of the first.
 constexpr double fast_first_step = 0.2, fast_reduction = 0.5;
 constexpr int fast_iterations = 8;
-/// A step much too long is noticed early: after so many iterations the imbalance is this many times
-/// the first, and more than the last number of the forces.
+/// A step that is much too long is detected early: after hopeless_iterations the imbalance is
+/// hopeless_growth times the first one and more than hopeless_imbalance times the forces.
 constexpr int hopeless_iterations = 6;
 constexpr double hopeless_growth = 4, hopeless_imbalance = 0.1;
 
 }  // namespace
 
-/// Residual and constraint violation at a state with the present touching set.
+/// Residual and constraint violation of a state with the present touching set.
 struct ActiveSet::System::Sweep {
-  double free_norm = 0, scale = 0;  ///< µN: unbalanced force; reaction or load it is compared with
-  double worst_gap = 0;             ///< mm, |distance| over touching nodes
+  double free_norm = 0, scale = 0;  ///< unbalanced force, and the reaction or load with which it is compared, µN
+  double worst_gap = 0;             ///< largest |distance| of touching nodes, mm
   double volume_residual = 0;
-  Eigen::VectorXd gradient;  ///< of the augmented energy, without reactions and touching normals
+  Eigen::VectorXd gradient;  ///< gradient of the augmented energy, without reactions and touching normals
   double relative() const { return free_norm / scale; }
   double merit() const { return relative() + worst_gap; }
 };
@@ -49,7 +50,7 @@ ActiveSet::System::System(ActiveSet& owner, State& state, double tolerance)
       tolerance_(tolerance),
       toggles_(owner.candidates_.size(), 0) {}
 
-/// Force of the plate along its normal, µN: what balances everything else there.
+/// Force of the plate along its normal, µN, which balances all other forces there.
 double ActiveSet::System::pressed(std::size_t c, const State& state, const Forces& forces) const {
   const int node = owner_.candidates_[c];
   const Gap gap =
@@ -91,13 +92,13 @@ bool ActiveSet::System::balanced(const Sweep& sweep) const {
          sweep.volume_residual <= std::max(owner_.options_.volume_tolerance, tolerance_);
 }
 
-/// Changes the memory and lets the terms and the present forces follow.
+/// Changes the memory and updates the terms and the present forces.
 void ActiveSet::System::change(const std::function<void()>& what) {
   const auto of_plates = [&] {
     Forces part;
     part.r = part.augmented = Eigen::VectorXd::Zero(forces_.r.size());
     Request request;
-    request.kappa = &matrix_.kappa;  // asks for the augmented forces too
+    request.kappa = &matrix_.kappa;  // requests the augmented forces too
     owner_.plate_->add(state_, request, part);
     if (owner_.friction_ != nullptr) owner_.friction_->add(state_, request, part);
     return part;
@@ -110,8 +111,8 @@ void ActiveSet::System::change(const std::function<void()>& what) {
   if (forces_.augmented.size() > 0) forces_.augmented += after.augmented - before.augmented;
 }
 
-/// Where the state is balanced well enough for its normal forces to mean something, takes μλ for
-/// the bounds. They do not follow in every iteration: then both could swing for ever.
+/// If the state is balanced well enough for its normal forces to be meaningful, uses μλ as the
+/// bounds. The bounds do not follow in every iteration, because both could then oscillate for ever.
 bool ActiveSet::System::follow_bounds(const Sweep& now) {
   std::vector<double> wanted(owner_.candidates_.size(), 0);
   double lag = 0;
@@ -125,7 +126,7 @@ bool ActiveSet::System::follow_bounds(const Sweep& now) {
   return true;
 }
 
-/// From now on the node's anchor moves with the plate.
+/// The anchor of the node moves with the plate from now on.
 bool ActiveSet::System::touch(std::size_t c) {
   const Vec3 x = node_vector(state_.x, owner_.candidates_[c]);
   const int k = owner_.plates_.nearer(x);
@@ -166,7 +167,7 @@ bool ActiveSet::System::hopeless(const NewtonResult& so_far, const Sweep& now) c
          now.relative() > hopeless_imbalance;
 }
 
-/// Positions too far from the last one show it in the first iterations.
+/// Positions too far from the last one are recognised in the first iterations.
 bool ActiveSet::System::begins_badly(const NewtonResult& so_far, const Sweep& now) const {
   const int made = int(so_far.iterations.size());
   if (made == 1) return so_far.iterations.back().step_length < fast_first_step;
@@ -185,7 +186,7 @@ Balance ActiveSet::System::verdict(const NewtonResult& so_far, const Sweep& now,
   }
   if (made == 1) first_imbalance_ = now.relative();
   hurried_ = owner_.fail_fast_ && begins_badly(so_far, now);
-  // A snap-through ends far from where it began: its iterations do not count against the limit.
+  // A snap-through ends far from its start: its iterations do not count towards the limit.
   const int allowed =
       std::min(options.max_iterations + slip_allowance * so_far.indefinite, options.most_iterations);
   if (made >= allowed || hopeless(so_far, now) || hurried_) {
@@ -209,8 +210,9 @@ Balance ActiveSet::System::assess(const NewtonResult& so_far) {
   return verdict(so_far, now, at_balance && !changed);
 }
 
-// A node sliding on a rounded edge turns its plate force; without that in the tangent Newton loses
-// its quadratic convergence and plate steps collapse.
+// When a node slides on a rounded edge, the direction of its plate force rotates. Without this
+// rotation in the tangent, Newton's method loses its quadratic convergence and the plate steps
+// collapse.
 NewtonDirection ActiveSet::System::direction(const Balance&) {
   change([&] {
     for (std::size_t c = 0; c < owner_.candidates_.size(); ++c) {
@@ -231,11 +233,11 @@ NewtonDirection ActiveSet::System::direction(const Balance&) {
 LineSearchRule ActiveSet::System::rule(const NewtonResult& so_far, const Balance& now,
                                        const NewtonDirection& direction) const {
   const bool early = int(so_far.iterations.size()) < free_moves;
-  // While nodes are being brought onto the plate the balance is bound to get worse: any admissible
-  // step is then taken. Where the edge becomes straight that can alternate for ever; later
-  // iterations must therefore reduce imbalance and gap together. A slipping node offers no
-  // resistance until it turns back, where friction has another sign: with friction no step goes
-  // beyond the place where the slope has turned that much.
+  // While nodes are brought onto the plate the balance necessarily becomes worse, so any admissible
+  // step is taken. Where the edge becomes straight this can alternate for ever; later iterations
+  // must therefore reduce imbalance and gap together. A slipping node offers no resistance until it
+  // turns back, where friction has the opposite sign: with friction, no step goes beyond the point
+  // where the slope has changed by that much.
   LineSearchRule rule;
   rule.merit = now.merit;
   rule.tolerance = tolerance_;
@@ -250,7 +252,7 @@ Appraisal ActiveSet::System::appraise(const State& state, const Forces& forces) 
   return {sweep.relative(), sweep.merit(), along(sweep.gradient)};
 }
 
-// Anchors slide after their nodes; the part across the plate does not matter.
+// Anchors follow their sliding nodes; the component normal to the plate is irrelevant.
 std::vector<NodalContact> ActiveSet::System::finish() {
   std::vector<NodalContact> contacts(owner_.candidates_.size());
   std::size_t entry = 0;

@@ -58,7 +58,7 @@ class AugmentedLagrangian::System final : public TangentSystem {
   }
 
  private:
-  /// Unbalanced force over that of the plates.
+  /// Unbalanced force relative to the force of the plates.
   double relative(const State& state, const Forces& forces, const Constraints& held) const {
     double square = 0;
     for (std::size_t c = 0; c < owner_.candidates_.size(); ++c) {
@@ -146,9 +146,9 @@ ContactStep AugmentedLagrangian::solve(const PlatePair& plates, State& state, do
   plate_->set_plates(plates);
   ContactStep step;
   double last_gap = 1e30;
-  std::size_t first = 0;  // iterations to an equilibrium with the multipliers of before
+  std::size_t first = 0;  // iterations to an equilibrium with the previous multipliers
   for (int update = 0; update < options_.most_updates; ++update) {
-    // Early multipliers are rough; their equilibria need not be sharp.
+    // Early multipliers are inaccurate, so their equilibria need not be accurate.
     const double sharp = std::max(tolerance, update < 2 ? 1e-4 : 1e-6);
     if (!equilibrate(state, sharp, step)) return step;
     if (update == 0) first = step.iterations.size();

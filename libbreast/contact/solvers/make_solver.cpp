@@ -12,10 +12,11 @@ namespace breast {
 namespace {
 
 /// In units of shear modulus times element size: the penalty of the augmented Lagrangian, and the
-/// springs that stand for sticking friction (at 10 kPa and μ = 0.3 they give by about 0.2 mm).
+/// stiffness of the springs that represent sticking friction (at 10 kPa and μ = 0.3 they yield by
+/// about 0.2 mm).
 constexpr double penalty_factor = 10, stick_factor = 100;
 
-/// Skin nodes that nothing holds and that are not on the chest wall.
+/// Skin nodes that are unconstrained and not on the chest wall.
 std::vector<int> candidates(const Scene& scene) {
   const HexMesh& mesh = scene.mesh();
   const std::vector<int> wall = nodes_of(mesh, mesh.pectoral_faces);
@@ -44,7 +45,7 @@ ChosenContact make_contact_solver(ContactMethod method, double friction, const S
   } else if (method == ContactMethod::active_set) {
     ActiveSetOptions options;
     options.friction = of_plates;
-    if (of_plates.present()) options.max_iterations *= 2;  // bounds are followed linearly
+    if (of_plates.present()) options.max_iterations *= 2;  // the bounds converge only linearly
     auto nodes = std::make_unique<ActiveSet>(body, saddle, candidates(scene), options);
     chosen.friction = nodes->friction();
     chosen.solver = std::move(nodes);

@@ -20,7 +20,8 @@ struct ChosenContact {
   std::shared_ptr<FrictionTerm> friction;   ///< of nodes in exact contact; null: none
 };
 
-/// `friction`: Coulomb's coefficient, none for the augmented Lagrangian. `saddle` must outlive the result.
+/// `friction` is Coulomb's coefficient; the augmented Lagrangian has no friction. `saddle` must
+/// outlive the result.
 ChosenContact make_contact_solver(ContactMethod method, double friction, const Scene& scene,
                                   const Problem& body, SaddleSolver& saddle);
 

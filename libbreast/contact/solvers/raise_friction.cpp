@@ -9,14 +9,15 @@ namespace breast {
 
 namespace {
 
-// Friction per area at a corner.
+// Friction per area at a corner node.
 struct CornerFriction {
   int plate = 0;
   Vec3 anchor{0, 0, 0};
   double bound = 0, stick = 0;  // µN/mm², µN/mm³
 };
 
-// Skin faces (of either mesh) whose corners one plate holds. `plate_of`: per corner, −1 none.
+// Skin faces (of either mesh) with all corners held by the same plate. `plate_of`: plate of each
+// corner, −1 for none.
 std::vector<Face> held_faces(const HexMesh& mesh, const std::vector<int>& plate_of) {
   std::vector<Face> held;
   for (const Face& face : mesh.skin_faces) {
@@ -31,7 +32,7 @@ std::vector<Face> held_faces(const HexMesh& mesh, const std::vector<int>& plate_
   return held;
 }
 
-// The mean of the corners a node lies between.
+// The mean of the corners between which a node lies.
 CornerFriction mean_of(const std::vector<int>& corners, const std::map<int, CornerFriction>& at) {
   CornerFriction mean;
   for (const int corner : corners) {
@@ -58,7 +59,7 @@ std::shared_ptr<const Term> raise_friction(const FrictionTerm& coarse, const Hex
     if (own > 0) {
       at[entry.node] = {entry.plate, entry.anchor, entry.bound / own, entry.stick / own};
     } else {
-      entries.push_back(entry);  // a node that is held alone keeps its force to itself
+      entries.push_back(entry);  // a node that is held alone keeps its own force
     }
   }
   const std::vector<Face> faces = held_faces(richer.mesh, plate_of);

@@ -29,7 +29,7 @@ struct ContactStep : NewtonResult {
   Forces forces;  ///< of the final state, plates and friction included
   /// Number of iterations after a first equilibrium, which do not depend on the step of the plates.
   int corrections = 0;
-  bool hurried = false;  ///< abandoned because it began badly
+  bool hurried = false;  ///< abandoned because it began badly (set_fail_fast)
   /// For a state to be reported: relative difference between the friction bounds and those of its
   /// own normal forces.
   double friction_lag = 0;
@@ -38,7 +38,7 @@ struct ContactStep : NewtonResult {
   std::vector<PressedPoint> pressed;   ///< when converged, of faces; empty where nodes touch
   Eigen::VectorXd failed_trial;        ///< positions of the first refused trial of a failed step
 
-  /// Appends the iterations of one of several solves, and takes over its outcome.
+  /// Appends the iterations of one of several solves and adopts its outcome.
   void append(const NewtonResult& part) {
     iterations.insert(iterations.end(), part.iterations.begin(), part.iterations.end());
     indefinite += part.indefinite;
@@ -65,8 +65,8 @@ class ContactSolver {
   /// Finds the equilibrium of `state` with the plates at their present position. On failure `state`
   /// is unspecified and the caller must restore the memory.
   virtual ContactStep solve(const PlatePair& plates, State& state, double tolerance) = 0;
-  /// The problem of the last solve, the plates' terms included; and its constraints at a state: what
-  /// is held, and the normals of touching nodes.
+  /// The problem of the last solve, including the plates' terms; and its constraints at a state:
+  /// those of the body, and the normals of touching nodes.
   virtual const Problem& problem() const = 0;
   virtual Constraints constraints(const State& state) const = 0;
   const std::vector<signed char>& touching() const { return memory_.touching; }

@@ -10,29 +10,31 @@
 namespace breast {
 
 namespace {
-/// Factor on the stiffness of plates that are entered too deeply, and how often at most.
+/// Factor on the stiffness of plates that are penetrated too deeply, and how often it is applied at
+/// most.
 constexpr double stiffer = 4;
 constexpr int most_stiffenings = 12;
-/// Residual of the states between.
+/// Residual of the intermediate states.
 constexpr double between_tolerance = 1e-3;
-/// The tangent has the turning of all forces from this residual on; before, that of points as deep
-/// as allowed, times a little.
+/// Below this residual the tangent includes the rotation of all forces; above it, only of points up
+/// to the allowed depth times this factor.
 constexpr double near_residual = 0.03, turning_depth = 1.2;
-/// Times that points are chosen anew for a tight solution.
+/// Number of times that points are chosen anew for an accurate solution.
 constexpr int most_choices = 4;
-/// Times that the bounds of friction follow the normal forces of a solution, and how near is
-/// near enough; and on the way, where bounds of the position before make the end depend on the steps.
+/// Number of times that the friction bounds follow the normal forces of a solution, and how close
+/// is close enough; and the same for intermediate states, where bounds from the previous position
+/// would make the result depend on the steps.
 constexpr int most_bounds = 12;
 constexpr double bounds_tolerance = 1e-3, way_bounds_tolerance = 0.05;
-/// Iterations granted for each with an indefinite tangent: itself and one to settle.
+/// Additional iterations for each one with an indefinite tangent: itself, and one to settle.
 constexpr int slip_allowance = 2;
-/// A solve that may fail fast is given up when the first step has to be shorter than this, or when
-/// after so many iterations the imbalance is still this fraction of the first.
+/// A solve that may fail fast is abandoned if the first step has to be shorter than this, or if
+/// after this many iterations the imbalance is still this fraction of the first.
 constexpr double fast_first_step = 0.1, fast_reduction = 0.7;
 constexpr int fast_iterations = 12;
 }  // namespace
 
-/// An equilibrium with the plates as stiff as they are.
+/// An equilibrium with the present stiffness of the plates.
 class SurfaceContact::System final : public TangentSystem {
  public:
   System(SurfaceContact& owner, State& state, double tolerance, double depth)
@@ -52,7 +54,7 @@ class SurfaceContact::System final : public TangentSystem {
  private:
   Appraisal appraise(const State& state, const Forces& forces) const override;
   bool begins_badly(const NewtonResult& so_far, double residual) const;
-  /// Unbalanced force over that of the plates.
+  /// Unbalanced force relative to the force of the plates.
   double relative(const Forces& forces, const Constraints& held) const {
     return Problem::free_norm(held, forces) / scale_;
   }
@@ -60,7 +62,7 @@ class SurfaceContact::System final : public TangentSystem {
   SurfaceContact& owner_;
   double tolerance_, depth_, first_ = 0, scale_ = 1;
   bool hurried_ = false;
-  bool simplified_ = false;  // the tangent lacks the turning of the forces
+  bool simplified_ = false;  // whether the tangent lacks the rotation of the forces
 };
 
 Balance SurfaceContact::System::assess(const NewtonResult& so_far) {
@@ -85,15 +87,16 @@ Balance SurfaceContact::System::assess(const NewtonResult& so_far) {
   return now;
 }
 
-/// Positions too far from the last one show it in the first iterations.
+/// Positions too far from the last one are recognised in the first iterations.
 bool SurfaceContact::System::begins_badly(const NewtonResult& so_far, double residual) const {
   const int made = int(so_far.iterations.size());
   if (made == 1) return so_far.iterations.back().step_length < fast_first_step;
   return made == fast_iterations && residual > fast_reduction * first_;
 }
 
-// Where a face rolls over an edge the turning of the plates' forces may make the tangent indefinite.
-// Without it the tangent leads downhill just as well, and no shift is needed.
+// Where a face rolls over an edge, the rotation of the plates' forces may make the tangent
+// indefinite. Without this rotation the tangent leads downhill just as well, and no shift is
+// needed.
 NewtonDirection SurfaceContact::System::direction(const Balance& now) {
   const NewtonDirection none{NewtonStop::indefinite, describe(NewtonStop::indefinite)};
   const double depth = now.residual < near_residual ? std::numeric_limits<double>::infinity()
@@ -165,7 +168,7 @@ bool SurfaceContact::equilibrate(State& state, double tolerance, double depth, C
   return part.converged;
 }
 
-/// Raises the stiffness until no point lies too deep.
+/// Increases the stiffness until no point lies too deep.
 bool SurfaceContact::stiffen(State& state, double allowed, ContactStep& step) {
   const std::size_t before = step.iterations.size();
   for (int k = 0; k < most_stiffenings && pressure_->deepest(state.x) > allowed; ++k) {
@@ -177,8 +180,8 @@ bool SurfaceContact::stiffen(State& state, double allowed, ContactStep& step) {
   return true;
 }
 
-// A tight state has the points that it would choose itself, so that whoever reads it from a file finds
-// the same forces.
+// An accurate state uses the points that it would choose itself, so that a program that reads it
+// from a file finds the same forces.
 ContactStep SurfaceContact::solve(const PlatePair& plates, State& state, double tolerance) {
   pressure_->set_plates(plates);
   set_friction();
@@ -197,7 +200,7 @@ ContactStep SurfaceContact::solve(const PlatePair& plates, State& state, double 
   return step;
 }
 
-/// The nodes that the plates held at the last solve, with the normal forces of then.
+/// The nodes that the plates held in the last solve, with the normal forces of that solve.
 void SurfaceContact::set_friction() {
   if (friction_ == nullptr) return;
   std::vector<FrictionEntry> held;
@@ -211,7 +214,7 @@ void SurfaceContact::set_friction() {
   friction_->set_entries(std::move(held));
 }
 
-/// The bounds of friction follow the state's own normal forces, as nearly as some rounds can make them.
+/// The friction bounds follow the state's own normal forces, as closely as a few rounds allow.
 bool SurfaceContact::follow_friction(State& state, double tolerance, double depth,
                                      ContactStep& step) {
   if (friction_ == nullptr) return true;
@@ -237,7 +240,8 @@ bool SurfaceContact::follow_friction(State& state, double tolerance, double dept
   return true;
 }
 
-/// Anchors slide after their nodes; a node that has just been touched is held where it is.
+/// Anchors follow their sliding nodes; a node that has just come into contact is anchored at its
+/// position.
 void SurfaceContact::move_anchors(const State& state, ContactStep& step) {
   std::vector<Vec3> force(candidates_.size(), Vec3::Zero());
   std::size_t entry = 0;

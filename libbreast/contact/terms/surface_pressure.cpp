@@ -17,19 +17,20 @@ namespace breast {
 
 namespace {
 
-/// Depth over which the pressure sets in, mm.
+/// Depth over which the pressure increases quadratically, mm.
 constexpr double onset = 0.02;
 /// Distance between points where a plate is rounded, mm: a third of the width over which an edge of
-/// 3 mm touches a face at a depth of 0.05 mm, 2 √(2 · 3 · 0.05). With fewer the edge would slip over
-/// them one by one.
+/// 3 mm touches a face at a depth of 0.05 mm, 2 √(2 · 3 · 0.05). With fewer points the edge would
+/// slip from one to the next.
 constexpr double fine_spacing = 0.35;
-/// Faces within this distance of the rounded part may come to lie on it, mm.
+/// Faces within this distance of the rounded part may come into contact with it, mm.
 constexpr double edge_margin = 5;
-/// Cells of 2×2 Gauss points along a side of a face; the first where the plates are flat.
+/// Number of cells of 2×2 Gauss points along a side of a face; the first is used where the plates
+/// are flat.
 constexpr int cells_a_side[] = {6, 12, 20, 32};
 
-/// Under a flat a face is deepest at a node, where no Gauss point is: this fraction of its area belongs
-/// to the nodes there.
+/// Under a flat part a face is deepest at a node, where there is no Gauss point: this fraction of
+/// the face's area belongs to its nodes there.
 constexpr double nodal_part = 0.2;
 
 struct Pressure {
@@ -84,12 +85,12 @@ struct SurfacePressure::Touch {
   const QuadShape& shape;
   Vec3 at{0, 0, 0};
   Gap gap;
-  double area = 0;  ///< of the imaged face, mm²
+  double area = 0;  ///< area on the imaged face, mm²
 };
 
 struct SurfacePressure::FaceResult {
   double energy = 0;
-  Eigen::VectorXd residual;  // empty: untouched
+  Eigen::VectorXd residual;  // empty if nothing touches
   Eigen::MatrixXd matrix;
 };
 
@@ -123,10 +124,10 @@ bool SurfacePressure::choose_points(const Eigen::VectorXd& x) {
 }
 
 int SurfacePressure::rule_for(int face, const Eigen::VectorXd& x) const {
-  const Plate& plate = plates_.paddle;  // the detector's edges are under the paddle's
+  const Plate& plate = plates_.paddle;  // the edges of the detector lie under those of the paddle
   const int* nodes = cells_.cell(face);
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  // Outwards from each of the plate's four edges.
+  // Outward directions of the plate's four edges.
   std::array<double, 4> low, high;
   low.fill(infinity);
   high.fill(-infinity);
@@ -233,7 +234,7 @@ bool SurfacePressure::add(const State& state, const Request& request, Forces& fo
   return true;
 }
 
-/// In face order, whatever the number of threads.
+/// Sums are made in face order, so that they do not depend on the number of threads.
 void SurfacePressure::add_results(const std::vector<FaceResult>& results, const Request& request,
                                   Forces& forces) const {
   const int n = cells_.nodes_per_cell;

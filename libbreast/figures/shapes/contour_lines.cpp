@@ -51,7 +51,7 @@ std::vector<PlaneSegment> contour_lines(const PlaneField& field, double level) {
   std::vector<PlaneSegment> lines;
   for (int row = 0; row + 1 < field.height; ++row) {
     for (int column = 0; column + 1 < field.width; ++column) {
-      // Crossings of the cell's edges, in turn round it: with four of them the cell is a saddle.
+      // Crossings of the cell's edges, in order around it; a cell with four of them is a saddle.
       const std::array<std::array<int, 2>, 4> corner{
           {{column, row}, {column + 1, row}, {column + 1, row + 1}, {column, row + 1}}};
       std::array<Vec2, 4> crossing;

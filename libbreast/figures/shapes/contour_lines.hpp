@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lines of equal value in a plane: values at the points of a square grid, smoothed and contoured.
+// Contour lines in a plane, from values at the points of a square grid that are smoothed and
+// contoured.
 #pragma once
 
 #include <array>
@@ -9,7 +10,7 @@
 
 namespace breast {
 
-/// Values at points (column, row) * pixel, mm; row 0 is the lowest.
+/// Values at the points (column, row) * pixel in mm; row 0 is the lowest.
 struct PlaneField {
   int width = 0, height = 0;
   double pixel = 1;
@@ -22,15 +23,17 @@ struct PlaneField {
         values(std::size_t(columns) * std::size_t(rows), 0) {}
   float& at(int column, int row) { return values[std::size_t(row) * width + column]; }
   float at(int column, int row) const { return values[std::size_t(row) * width + column]; }
-  /// Value of the nearest point; the border's beyond it.
+  /// The value of the nearest point; beyond the border that of the border.
   float near(const Vec2& mm) const;
 };
 
 using PlaneSegment = std::array<Vec2, 2>;
 
-/// Weighted means over neighbours, Gaussian of `sigma_mm`; the border's values continue beyond it.
+/// Gaussian smoothing with standard deviation `sigma_mm`; values beyond the border equal those on
+/// the border.
 PlaneField smoothed(const PlaneField& field, double sigma_mm);
-/// Where the bilinear field crosses the level, in mm: one or two segments a cell.
+/// The lines on which the bilinear field has the value `level`, in mm: one or two segments per
+/// cell.
 std::vector<PlaneSegment> contour_lines(const PlaneField& field, double level);
 
 }  // namespace breast

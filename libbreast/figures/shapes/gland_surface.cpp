@@ -13,8 +13,8 @@ namespace breast {
 
 namespace {
 
-/// Cells along an element's edge; tetrahedra of a cell round its diagonal from corner 0 to 7, corner
-/// k at (k & 1, k >> 1 & 1, k >> 2).
+/// Number of cells along an element's edge, and the tetrahedra of a cell around its diagonal from
+/// corner 0 to 7, where corner k is at (k & 1, k >> 1 & 1, k >> 2).
 constexpr int cells = 3;
 constexpr int side = cells + 1;
 constexpr std::array<std::array<int, 4>, 6> tetrahedra = {
@@ -45,7 +45,7 @@ std::vector<Vec3> nodal_fraction(const HexMesh& mesh) {
   return field;
 }
 
-/// One of an element's cells: mm3 in the scan, and the fraction at its middle.
+/// One cell of an element: its volume in the scan in mm³, and the fraction at its centre.
 struct Cell {
   double volume, fraction;
 };
@@ -126,7 +126,7 @@ class Surface {
     Vec3 place;
   };
 
-  // Corners of neighbours lie at one place of the scan but for rounding.
+  // Corners of neighbouring elements coincide in the scan except for rounding.
   int id_of(const Vec3& imaged) {
     const auto key = [](double x) { return std::llround(x * 1000); };
     return ids_.try_emplace({key(imaged.x()), key(imaged.y()), key(imaged.z())}, int(ids_.size()))
@@ -171,7 +171,8 @@ class Surface {
     const auto& x = facets_.points;
     return (x[std::size_t(b)] - x[std::size_t(a)]).cross(x[std::size_t(c)] - x[std::size_t(a)]);
   }
-  // Normals are means by area, then over neighbours: thin triangles do not show.
+  // Normals are area-weighted means, averaged again over neighbours, so that thin triangles are not
+  // visible.
   void shade() {
     std::vector<Vec3> normals(facets_.points.size(), Vec3::Zero());
     for (const auto& t : facets_.quads) {
@@ -203,7 +204,7 @@ class Surface {
   Facets facets_;
 };
 
-/// Cells of all elements; `volume` is what the fractions sum to.
+/// The cells of all elements; `volume` is the volume to which the fractions sum.
 std::vector<Cell> all_cells(const HexMesh& mesh, const std::vector<Vec3>& field, double& volume) {
   std::vector<Cell> list;
   volume = 0;

@@ -12,7 +12,7 @@ namespace breast {
 namespace {
 
 constexpr double raster_mm = 0.5;
-/// Pixels of the raster a piece of outline: short pieces draw as a row of dots.
+/// Length in raster pixels of a piece of outline; shorter pieces would be drawn as a row of dots.
 constexpr int thinning = 3;
 constexpr int border = 12;  // pixels round the raster
 
@@ -91,7 +91,7 @@ std::vector<std::array<Vec3, 2>> silhouette(const Facets& facets, const Vec3& di
   };
   std::vector<std::array<Vec3, 2>> lines;
   for (const auto& [a, b] : contour_lines(thinned(smoothed(field, thinning * raster_mm)), 0.5)) {
-    // A little longer than they are: wide lines leave gaps where pieces only touch.
+    // Drawn a little longer than they are, because wide lines leave gaps where pieces only touch.
     const Vec2 more = 0.15 * raster_mm * (b - a).stableNormalized();
     lines.push_back({lifted(a - more), lifted(b + more)});
   }

@@ -12,8 +12,8 @@ namespace breast {
 namespace {
 
 constexpr double raster_mm = 0.6;
-/// Labels are averaged over at least this, and over this many voxels in the plane, so that contours do
-/// not follow the voxels' steps.
+/// Labels are averaged over at least this length, and over this many voxels in the plane, so that
+/// contours do not follow the steps of voxels.
 constexpr double smoothing_mm = 0.9, smoothing_voxels = 0.6;
 /// Contours are shown up to this far from the breast.
 constexpr double near_breast_mm = 2.5;
@@ -30,7 +30,8 @@ struct ToIndex {
   Vec3 operator()(const Vec3& x) const { return matrix * x + offset; }
 };
 
-/// Trilinear mean over the eight voxels round a place; those outside count as the nearest inside.
+/// Trilinear interpolation between the eight voxels around a position; voxels outside have the
+/// value of the nearest one inside.
 template <class Value>
 double trilinear(const Grid& grid, const Vec3& index, const Value& value) {
   double sum = 0;
@@ -73,7 +74,7 @@ double smoothing_in(const Grid& grid, const SliceFrame& frame) {
   return std::max(smoothing_mm, smoothing_voxels * coarsest);
 }
 
-/// Those of the lines where the field `near` is above a trace.
+/// The parts of the lines where the field `near` is above a threshold.
 std::vector<PlaneSegment> beside(const PlaneField& near, std::vector<PlaneSegment> lines) {
   constexpr double trace = 0.05;
   std::erase_if(lines, [&](const PlaneSegment& line) {
@@ -125,7 +126,7 @@ ShownBox breast_box(const LabelVolume& labels, double margin) {
       }
     }
   }
-  if (!(box.high.x() >= box.low.x())) throw input_error("labels: no breast in them to show");
+  if (!(box.high.x() >= box.low.x())) throw input_error("labels: there is no breast to show");
   box.low -= Vec3::Constant(margin);
   box.high += Vec3::Constant(margin);
   return box;
@@ -167,7 +168,7 @@ double white_level(const Volume<float>& scan, const LabelVolume& labels) {
   const auto high = sample.begin() + std::ptrdiff_t(0.995 * double(sample.size() - 1));
   std::nth_element(sample.begin(), high, sample.end());
   if (!(*high > 0))
-    throw input_error("scan: dark where the labels have the breast; another scan's?");
+    throw input_error("scan: it is dark where the labels have the breast; is it another scan?");
   return *high;
 }
 

@@ -9,7 +9,8 @@
 
 namespace breast {
 
-/// Centre and half axes (mm) at the height z0; the centre's y goes with z by `slope`.
+/// Centre and half axes (mm) at the height z0; the y coordinate of the centre changes with z by
+/// `slope`.
 struct EllipticCylinder {
   double centre_x = 0, centre_y = 0, z0 = 0, slope = 0;
   double half_width = 0, half_depth = 0;

@@ -75,7 +75,8 @@ Data sheet_data(const BreastGeometry& geometry, const std::vector<Vec3>& rim) {
   return data;
 }
 
-/// First muscle from the front in the columns of voxels beside the breast, where segment saw it.
+/// The first muscle from the front in the columns of voxels beside the breast, where segment
+/// observed it.
 Data label_data(const LabelVolume& labels, const std::vector<Vec3>& rim) {
   Data data;
   const Grid& grid = labels.grid;

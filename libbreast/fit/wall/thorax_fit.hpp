@@ -9,10 +9,11 @@
 namespace breast {
 
 struct ThoraxReport {
-  double half_width_mm = 0, half_depth_mm = 0;  ///< of the ellipse it goes over to away from data
-  std::size_t wall_points = 0;                  ///< wall data beside the breast
-  double wall_mean_mm = 0, wall_p95_mm = 0;     ///< their distances to the surface
-  double sheet_max_mm = 0;  ///< largest distance of the wall sheet within the rim
+  /// Of the ellipse into which the surface blends away from data.
+  double half_width_mm = 0, half_depth_mm = 0;
+  std::size_t wall_points = 0;               ///< wall data beside the breast
+  double wall_mean_mm = 0, wall_p95_mm = 0;  ///< their distances to the surface
+  double sheet_max_mm = 0;                   ///< largest distance of the wall sheet within the rim
 };
 
 /// A surface that coincides with the wall sheet within the rim (to a fraction of a millimetre),

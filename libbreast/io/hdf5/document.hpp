@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An HDF5 file of libbreast in memory: named arrays and attributes. All readers and writers work on
-// itload.cpp and save.cpp alone speak HDF5.
+// this form; only load.cpp and save.cpp use HDF5.
 #pragma once
 
 #include <cstdint>
@@ -40,12 +40,13 @@ struct Document {
 };
 
 /// Reads everything under /VTKHDF and /breast into memory. Throws Error (input), one line naming
-/// file and dataset, for a file that is missing, truncated, altered since it was written, not HDF5,
-/// of another schema, or that holds a non-finite value. `maker` is the tool the message recommends.
+/// file and dataset, for a file that is missing, truncated, changed since it was written, not HDF5
+/// or of another schema, or that contains a non-finite value. `maker` is the tool that the message
+/// recommends.
 Document load_document(const std::filesystem::path& file, const std::string& schema,
                        const std::string& maker);
 
-/// Writes atomically, the same bytes for the same document; refuses non-finite values.
+/// Writes atomically; the same document gives the same bytes. Refuses non-finite values.
 void save_document(const std::filesystem::path& file, const Document& document);
 
 /// SHA-256 of the content: every dataset and attribute except /breast/history, the tool and version

@@ -90,7 +90,7 @@ Array array_of(Bytes values);
 Array array_of(Floats values);
 Array reshaped(Array array, std::vector<std::size_t> shape);
 
-/// /breast attributes every file has, and /breast/history.
+/// The attributes of /breast that every file has, and /breast/history.
 struct FileHeader {
   std::string schema;
   Side side = Side::left;

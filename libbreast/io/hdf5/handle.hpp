@@ -20,7 +20,7 @@ class Handle {
   Handle& operator=(const Handle&) = delete;
   operator hid_t() const { return id_; }
   explicit operator bool() const { return id_ >= 0; }
-  /// Closes now; false when HDF5 could not (data not flushed).
+  /// Closes the identifier; returns false if HDF5 fails to (data not flushed).
   bool close() { return close_(std::exchange(id_, -1)) >= 0; }
 
  private:

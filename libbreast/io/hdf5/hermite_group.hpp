@@ -8,10 +8,11 @@
 
 namespace breast {
 
-/// Whether a geometry holds sheets: that of a phantom's mesh holds the surface to slide on alone.
+/// Whether a geometry contains sheets; the geometry of a phantom's mesh contains only the surface
+/// on which the breast slides.
 bool has_sheets(const BreastGeometry& geometry);
 
-/// Sheets and rim where there are any, and the thorax (thorax_group.hpp).
+/// Reads or writes sheets and rim, if there are any, and the thorax (thorax_group.hpp).
 void put_hermite(Document& document, const BreastGeometry& geometry);
 /// Everything but history, side and content_sha256.
 BreastGeometry get_hermite(Fields& fields);

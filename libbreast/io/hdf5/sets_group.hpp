@@ -9,7 +9,8 @@ namespace breast {
 
 void put_sets(Document& document, const HexMesh& mesh);
 void get_sets(Fields& fields, HexMesh& mesh);
-/// The node sets must be the nodes of the face sets; needs a mesh whose faces passed check_mesh.
+/// Checks that the node sets are the nodes of the face sets; the faces of the mesh must have passed
+/// check_mesh.
 void check_node_sets(Fields& fields, const HexMesh& mesh);
 
 void put_landmarks(Document& document, const HexMesh& mesh);

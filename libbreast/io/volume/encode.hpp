@@ -11,7 +11,7 @@
 
 namespace breast {
 
-/// The type of a voxel, by its name in each format.
+/// The type of a voxel under its name in each format.
 struct VoxelType {
   const char* nrrd;
   const char* meta;
@@ -21,7 +21,8 @@ struct VoxelType {
 /// `voxels`: the values in memory order, little-endian. nifti_bytes throws Error (input) for more than
 /// 32767 voxels along an axis, which the format cannot state.
 std::string nrrd_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels);
-/// The same with notes ("key:=value" lines) and `components` numbers per voxel, which stand together: kind vector.
+/// The same with notes ("key:=value" lines) and `components` adjacent numbers per voxel: kind
+/// vector.
 std::string nrrd_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels,
                        const std::vector<std::pair<std::string, std::string>>& notes,
                        int components);

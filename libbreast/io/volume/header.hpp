@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of a volume's header before a library reads the file; private to io/volume.
 //
-// ITK's readers fill missing data with zeros (NIfTI, MetaImage), do not look at the checksum
-// (NRRD), assume 1 mm and the patient's axes if the header has neither, and abort on axes that are
-// not orthonormal. Voxel size and orientation must not be guessed, since the wrong breast could be
-// taken for the left one.
+// ITK's readers fill missing data with zeros (NIfTI, MetaImage), ignore the checksum (NRRD), assume
+// 1 mm and the patient's axes if the header states neither, and abort on axes that are not
+// orthonormal. Voxel size and orientation must not be guessed, because left and right could be
+// confused.
 #pragma once
 
 #include <filesystem>
@@ -28,10 +28,10 @@ void check_header(const std::filesystem::path& file);
 /// are allowed); throws Error (input) beginning with `name` otherwise, also for values not finite.
 void check_scan_grid(const std::string& name, const Grid& grid);
 
-/// spacing and direction from three axis vectors, whose lengths are the voxel sizes.
+/// Sets spacing and direction from three axis vectors; their lengths are the voxel sizes.
 void set_axes(Grid& grid, const Mat3& axes);
 
-/// The checks for each format.
+/// The checks for the individual formats.
 void check_nifti(const std::filesystem::path& file);
 void check_nrrd(const std::filesystem::path& file);
 void check_meta(const std::filesystem::path& file);
@@ -43,11 +43,11 @@ struct NrrdNotes {
 };
 NrrdNotes nrrd_notes(const std::filesystem::path& file);
 
-/// The file that a header names for its voxels. Throws Error (input) unless it is a regular file
-/// named relative to the header's folder and without "..".
+/// The file that a header names as the one with its voxels. Throws Error (input) unless it is a
+/// regular file named relative to the header's folder and without "..".
 std::filesystem::path detached_data(const std::filesystem::path& header, const std::string& name);
 
-/// Throws Error (input) when there are more than most_voxels, or none.
+/// Throws Error (input) if there are more than most_voxels, or no voxels.
 void check_voxel_count(const std::string& name, double voxels);
 
 /// The numbers of a text such as "(1,0,0)" or "1 0 0"; empty if it contains anything else.

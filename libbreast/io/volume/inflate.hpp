@@ -12,9 +12,9 @@ struct Content {
   bool compressed = false;
 };
 
-/// Reads `file` from byte `start` to its end, through every gzip checksum. Stops, with an Error
-/// (input), where it holds more than `most_bytes`: a small stream can inflate without end. Throws
-/// Error (input) also for a cut or damaged stream.
+/// Reads `file` from byte `start` to its end, through every gzip checksum. Throws Error (input) if
+/// it contains more than `most_bytes`, since a small stream can inflate without end, and for a
+/// truncated or damaged stream.
 Content content_from(const std::filesystem::path& file, std::streamoff start, double most_bytes);
 
 /// The first bytes, at most 600: enough for a header.

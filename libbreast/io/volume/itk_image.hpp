@@ -17,13 +17,13 @@ namespace breast {
 
 /// The ImageIO for a file's extension, or null for an unknown extension.
 itk::ImageIOBase::Pointer image_io_for(const std::filesystem::path& file);
-/// The endings we know, for messages.
+/// The known file extensions, for messages.
 inline constexpr const char* known_endings = ".nrrd .nhdr .nii .nii.gz .mha .mhd";
 
 /// Extracts the description from ITK's messages, without file, line and object address.
 std::string one_line(const itk::ExceptionObject& exception);
 
-/// Silences ITK's warnings and what its readers say on std::cerr for the life of the object.
+/// Silences ITK's warnings and the output of its readers on std::cerr while the object exists.
 class QuietItk {
  public:
   QuietItk();
@@ -39,7 +39,8 @@ class QuietItk {
 /// Runs `read`, which uses ITK, and turns ITK's exceptions into Error (input) about `file`.
 std::string guarded_itk(const std::filesystem::path& file, const std::function<std::string()>& read);
 
-/// An image as bytes and back as a volume: how a reading child process hands it over.
+/// Conversion of an image to bytes and back to a volume, for the transfer from a reading child
+/// process.
 std::string packed_image(const itk::Image<float, 3>& image);
 Volume<float> unpacked_image(std::string_view bytes);
 

@@ -6,7 +6,8 @@
 
 namespace breast {
 
-/// While it lives, VTK's messages are collected instead of printed. Not for concurrent use.
+/// While an object of this class exists, VTK's messages are collected instead of printed. Not for
+/// concurrent use.
 class VtkMessages {
  public:
   VtkMessages();

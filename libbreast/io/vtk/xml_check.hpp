@@ -7,12 +7,13 @@
 
 namespace breast {
 
-/// Throws Error (input) when the file is absent, cut, not a VTK XML file of `type` ("PolyData",
-/// "ImageData"), or has attributes the readers of VTK 9.1 do not survive. Needs VtkMessages alive.
+/// Throws Error (input) if the file is absent, truncated, not a VTK XML file of `type` ("PolyData",
+/// "ImageData"), or has attributes with which the readers of VTK 9.1 crash. Needs an existing
+/// VtkMessages.
 void check_xml(const std::filesystem::path& file, const std::string& type);
 
-/// What VTK wrote, with a comment holding the SHA-256 of all before it in its last lines; check_xml
-/// refuses a file that no longer fits it.
+/// The text written by VTK, with a comment near its end that contains the SHA-256 of everything
+/// before it; check_xml refuses a file that no longer agrees with it.
 std::string sealed_xml(std::string text);
 
 }  // namespace breast

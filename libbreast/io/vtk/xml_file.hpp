@@ -25,8 +25,8 @@ namespace breast {
 /// Reads a .vtp / .vti. Throws Error (input) for missing, truncated, foreign or damaged files.
 vtkSmartPointer<vtkPolyData> read_poly_data(const std::filesystem::path& file);
 vtkSmartPointer<vtkImageData> read_image_data(const std::filesystem::path& file);
-/// Does `read`, which opens `file` through VTK, first in a child process: VTK's readers follow damaged
-/// lengths out of their buffers, and a crash of the child becomes a one-line error here.
+/// Runs `read`, which opens `file` through VTK, first in a child process: VTK's readers follow
+/// damaged lengths out of their buffers, and a crash of the child becomes a one-line error here.
 template <class Read>
 auto read_guarded(const std::filesystem::path& file, const Read& read) {
   in_guarded_child(file.string(), [&] {

@@ -11,14 +11,15 @@ namespace breast {
 
 namespace {
 
-// Of the first step's right-hand side in the preconditioner's norm: landmarks then are within a
-// tenth of what they converge to.
+// Tolerance relative to the right-hand side of the first step in the preconditioner's norm:
+// landmarks are then within a tenth of their converged values.
 constexpr double relative_accuracy = 0.02;
 constexpr int max_iterations = 200;
-// A landmark's error is of second order in the mesh size, and so is what the square of the local
-// strain error does to it: a single linearised step is wrong by half, however fine the mesh. The
-// second step sees that square; a third changes a tenth. Where the first leaves a larger residual
-// than it found (a body near the largest load it bears), the second is not added.
+// The error of a landmark is of second order in the mesh size, and so is the effect on it of the
+// square of the local strain error: a single linearised step is wrong by half, however fine the
+// mesh. The second step includes that square; a third changes the result by a tenth. If the first
+// step leaves a larger residual than it started from (a body near its largest load), the second is
+// not added.
 constexpr int steps = 2;
 
 // Factorises the 8-node problem, which preconditions the richer one.
@@ -59,7 +60,7 @@ ErrorEstimate estimate_error(const Scene& scene, const State& state, const Vec3&
     if (!solved.converged || (estimate.steps > 0 && solved.start >= first_residual)) break;
     step = solved.x;
     correction = problem.moved() + step;
-    // The second step to the accuracy of the first.
+    // The second step is solved to the accuracy of the first.
     if (estimate.steps == 0) {
       first_residual = solved.start;
       limits = {0, relative_accuracy * first_residual, max_iterations - estimate.iterations};

@@ -11,7 +11,7 @@ namespace breast {
 
 namespace {
 
-// Which corners each new node lies between.
+// The corners between which each new node lies.
 std::vector<std::vector<int>> nodes_between(const HexMesh& mesh, int corners) {
   std::vector<std::vector<int>> between(static_cast<std::size_t>(mesh.nodes() - corners));
   for (int e = 0; e < mesh.elements(); ++e) {
@@ -30,8 +30,8 @@ std::vector<std::vector<int>> nodes_between(const HexMesh& mesh, int corners) {
   return between;
 }
 
-// The oscillation of one pressure an element is no part of the richer solution: a tangent that
-// contains it is wrong by the ratio of its size to the shear modulus.
+// The pressure oscillation of elements with one pressure is not part of the richer solution: a
+// tangent that contains it is wrong by the ratio of the oscillation to the shear modulus.
 Eigen::VectorXd smooth_pressure(const Scene& scene, const State& state) {
   const std::vector<double> filtered =
       filter_pressure(scene.mesh(), unflatten(state.x), {state.p.begin(), state.p.end()});
@@ -66,7 +66,7 @@ RicherProblem::RicherProblem(const Scene& coarse, const State& state, const Vec3
   linearise();
 }
 
-// A new node rests on a plate when all corners it lies between do.
+// A new node rests on a plate if all corners between which it lies do.
 void RicherProblem::hold_touching(const std::vector<TouchingNode>& touching) {
   Constraints held = scene_.walls();
   std::vector<const TouchingNode*> at(static_cast<std::size_t>(corners_), nullptr);
@@ -115,8 +115,8 @@ void RicherProblem::linearise() {
   for (Mat3& block : blocks_) block = block.inverse().eval();
 }
 
-// With p ← p − κM⁻¹θ both r and θ change: r by −Bᵀ of that, θ to its part 1 − κc. κc is the same in
-// every element.
+// With p ← p − κM⁻¹θ, r changes by −Bᵀ times this change, and θ becomes its fraction 1 − κc. κc is
+// the same in every element.
 bool RicherProblem::move(const Eigen::VectorXd& v) {
   const PressureSpace& pressures = *problem_.space().pressures;
   state_.x += v;

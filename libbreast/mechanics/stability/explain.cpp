@@ -10,7 +10,8 @@ namespace breast {
 namespace {
 
 constexpr double most_of_it = 0.5;
-// Skin that wrinkles: the law left in compression and the stretch at rest, see SkinBehaviour.
+// Skin that wrinkles: the fraction of the law left in compression and the pre-stretch, see
+// SkinBehaviour.
 constexpr double wrinkled = 0.05, stretched = 0.03;
 
 }  // namespace

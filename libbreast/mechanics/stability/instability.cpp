@@ -11,8 +11,8 @@ namespace {
 
 constexpr double mode_accuracy = 1e-4;
 constexpr int most_steps = 60;
-// mm along a mode whose largest component is 1: central differences of forces over twice this lose
-// the square of it and gain rounding by its inverse.
+// Step in mm along a mode with a largest component of 1: the error of central differences is
+// proportional to its square, and that of rounding to its inverse.
 constexpr double difference = 1e-3;
 
 // vᵀ(∂r/∂x)v of one term, by central differences of its forces.

@@ -11,16 +11,17 @@ namespace breast {
 
 namespace {
 
-// Sizes are logarithms of ratios: 2 %, a third, a hundredfold.
+// Sizes of changes are logarithms of ratios: 2 %, a third, a hundredfold.
 constexpr double smallest = 0.02, usual = 0.3, largest = 4.6;
-// A change is known to this part of itself; another one is better when smaller by as much.
+// A change is determined to this relative accuracy; another one is better only if it is smaller by
+// as much.
 constexpr double resolution = 0.1;
 
 double* stiffness_of(MechanicsOptions& options, Changed what) {
   return what == Changed::wall ? &options.wall.stiffness.tangential : &options.cut.stiffness;
 }
 
-// A candidate and its direction: skin may be too stiff as well as too soft.
+// A candidate and its direction, since skin may be too stiff as well as too soft.
 struct Candidate {
   Changed what;
   double sign = 1;
@@ -46,13 +47,13 @@ class Search {
   Search(const MechanicsOptions& options, const Stands& stands)
       : options_(options), stands_(stands) {}
 
-  /// The smallest size below `bound` that stands; none when not even that one does.
+  /// The smallest size below `bound` that gives a stable solution; none if even `bound` does not.
   std::optional<double> below(const Candidate& candidate, double bound) const {
     const double most = (1 - resolution) * bound;
     if (!stands(candidate, most)) return {};
     return refine(candidate, 0, most);
   }
-  /// The smallest size at all, sought from `guess` on.
+  /// The smallest size of all, searched from `guess` on.
   std::optional<double> from(const Candidate& candidate, double guess) const {
     double fails = 0, does = std::clamp(guess, smallest, largest);
     while (!stands(candidate, does)) {

@@ -36,7 +36,7 @@ struct Remedy {
 /// (e^size − 1) times the usual resistance to sliding.
 MechanicsOptions with_change(const MechanicsOptions& options, Changed what, double size);
 
-/// Whether these options give a stable solution.
+/// Returns whether these options give a stable solution.
 using Stands = std::function<bool(const MechanicsOptions&)>;
 
 /// The smallest change, as a ratio of at most a hundred, that gives a stable solution, to about 10

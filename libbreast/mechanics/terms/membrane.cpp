@@ -40,7 +40,8 @@ class MembraneOf final : public Term {
   std::vector<Volumes, Eigen::aligned_allocator<Volumes>> volume_;  // of skin, per Gauss point
 };
 
-// Of all faces, so that sums are made in face order whatever the number of threads.
+// Results of all faces are kept, so that sums are made in face order whatever the number of
+// threads.
 template <int F>
 struct MembraneOf<F>::Results {
   std::vector<double> matrices, residuals, energies;

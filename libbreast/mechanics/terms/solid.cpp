@@ -27,7 +27,7 @@ SolidOf<N, P>::SolidOf(const HexMesh& mesh, const MechanicsOptions& options,
   if (space_->pattern) scatter_ = std::make_shared<ScatterMap>(*space_->pattern, cells());
 }
 
-// Everything that belongs to the imaged shape: volumes, masses, pressure basis and its mass matrix.
+// All data of the imaged shape: volumes, masses, pressure basis and its mass matrix.
 template <int N, int P>
 void SolidOf<N, P>::set_imaged(const HexMesh& mesh, const MechanicsOptions& options,
                                TangentStorage storage) {

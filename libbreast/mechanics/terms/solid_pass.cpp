@@ -26,7 +26,8 @@ struct SolidOf<N, P>::Chunk {
         energy(element_chunk) {}
 };
 
-// Where one pass puts its results: the request, and this term's own part of what is kept by cells.
+// Destination of the results of a pass: the request, and this term's own part of the data kept by
+// cells.
 template <int N, int P>
 struct SolidOf<N, P>::Targets {
   const Request& request;
@@ -36,13 +37,14 @@ struct SolidOf<N, P>::Targets {
 
 constexpr double condensed_ratio = 1e4;  // of bulk to shear modulus
 
-// κ/μ: for a factor far above the material and far below what rounding forbids; for multigrid
-// cycles, which degrade with it, just enough to keep the matrix positive definite where K is not
-// and to help the pressure (1, 3, 10: 19, 16, 30 iterations on the block of 24³).
+// κ/μ. For a Cholesky factor it is far above the material's and far below the limit set by
+// rounding. For multigrid cycles, which degrade with it, it is just enough to keep the matrix
+// positive definite where K is not and to help the pressure (1, 3, 10: 19, 16, 30 iterations on the
+// block of 24³).
 constexpr double factor_augmentation = 1e3, cycle_augmentation = 3;
 
-// The present stiffness: trace K = (10/3) μ Σ|∇N|² for a linear solid (the
-// pressure term has no trace).
+// The present stiffness, from trace K = (10/3) μ Σ|∇N|² of a linear solid (the pressure term has no
+// trace).
 template <int N, int P>
 double SolidOf<N, P>::shear_of(int e, const HexOutput<N, P>& out) const {
   const double rest = laws_[law_of_[e]].shear_modulus();
@@ -50,10 +52,11 @@ double SolidOf<N, P>::shear_of(int e, const HexOutput<N, P>& out) const {
   return now > rest ? now : rest;
 }
 
-// κ proportional to the present stiffness. With a finite bulk modulus κ/K must be one number, so μ
-// at rest is taken. A factor's κ is then the bulk modulus itself up to condensed_ratio, which makes
-// the matrix the exact tangent without pressures: strong compression stiffens the laws far beyond μ
-// at rest. A κ/μ that is asked for is what it is, but never above the bulk modulus.
+// κ is proportional to the present stiffness. With a finite bulk modulus κ/K must be a single
+// number, so μ at rest is used. A factor then uses the bulk modulus itself as κ, up to
+// condensed_ratio, which makes the matrix the exact tangent without pressures: strong compression
+// stiffens the laws far beyond μ at rest. A κ/μ given explicitly is used as it is, but never above
+// the bulk modulus.
 template <int N, int P>
 double SolidOf<N, P>::kappa_of(int e, const Request& request, double shear) const {
   const bool direct = solver_ == LinearSolver::direct;
@@ -86,7 +89,7 @@ void SolidOf<N, P>::store(int e, int at, const State& state, const Targets& targ
   using Flat = Eigen::Map<Eigen::Matrix<double, 3 * N, 1>>;
   const Flat residual(out.residual.data());
   Flat(chunk.residuals.data() + at * 3 * N) = residual;
-  // Finite bulk modulus: −∂Π/∂p = θ + c M p, p counted from rest.
+  // With a finite bulk modulus, −∂Π/∂p = θ + c M p, where p is relative to the pressure at rest.
   if (bulk_ratio_ > 0) {
     const Eigen::Matrix<double, P, 1> p =
         state.p.segment<P>(long(P) * e) - rest_pressure_.segment<P>(long(P) * e);

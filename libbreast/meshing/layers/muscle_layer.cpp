@@ -32,13 +32,14 @@ std::map<int, Vec3> ways_to_ribs(const HexMesh& mesh, const LevelSurface* wall) 
   return ways;
 }
 
-/// Builds the layer's elements over the chest-wall faces; nodes are made where they are first asked for.
+/// Builds the elements of the layer over the chest-wall faces; nodes are created when they are
+/// first needed.
 class Layer {
  public:
   Layer(double thickness, HexMesh& mesh, const LevelSurface* wall)
       : thickness_(thickness), mesh_(mesh), ways_(ways_to_ribs(mesh, wall)) {}
 
-  /// The element behind one face: its bottom is the face, its top lies on the ribs.
+  /// The element behind one face: its bottom is the face, and its top lies on the ribs.
   int element_behind(const Face& face) {
     const std::vector<int> front = face_nodes(mesh_, face);
     std::vector<int> nodes(std::size_t(mesh_.nodes_per_element()));
@@ -51,13 +52,13 @@ class Layer {
   }
 
  private:
-  /// Which node of the face lies in front of a node of the element.
+  /// The node of the face in front of a node of the element.
   std::size_t place_in_face(const Vec3& local) const {
     Eigen::Index at = 0;
     quad_shape(mesh_.order, local.head<2>()).values.maxCoeff(&at);
     return std::size_t(at);
   }
-  /// The node at this part of the layer's depth behind a node of the wall.
+  /// The node at this fraction of the layer's depth behind a node of the wall.
   int node(int front, double depth) {
     if (depth == 0) return front;
     const auto [entry, fresh] = made_.try_emplace({front, int(2 * depth)}, mesh_.nodes());
@@ -80,7 +81,7 @@ Edge edge_of(const std::vector<int>& nodes, int c) {
   return std::minmax(nodes[std::size_t(c)], nodes[std::size_t((c + 1) % 4)]);
 }
 
-/// How many of the faces share an edge: one at their rim.
+/// The number of faces that share an edge: one at their rim.
 std::map<Edge, int> edge_uses(const HexMesh& mesh, const std::vector<Face>& faces) {
   std::map<Edge, int> uses;
   for (const Face& face : faces) {

@@ -31,7 +31,7 @@ void refuse_thick_layer(double thickness, const BodyMap& body, const DomeTemplat
   }
 }
 
-// Inside nodes of folded elements may move again.
+// Releases the inner nodes of folded elements.
 void release_folded(const DomeTemplate& dome, const PlacedNodes& nodes, std::vector<bool>& held) {
   for (std::size_t e = 0; e < dome.connectivity.size(); e += 8) {
     std::array<Vec3, 8> corners;
@@ -123,16 +123,17 @@ std::vector<int> thin_skin_elements(double thickness, const BodyMap& body, const
         const bool rim = nodes.support[outer] == Support::cut;
         const Vec2 st = rim ? body.skin(1, nodes.st[outer].x()) : nodes.st[outer];
         nodes.x[under] = nodes.x[outer] - thickness * body.skin_sheet().evaluate(st).normal();
-        // At the rim half-way up the skin's first row, or the element below would be flat.
+        // At the rim the node is placed half-way up the first row of the skin, because the element
+        // below would otherwise be flat.
         if (rim) nodes.x[under] += 0.5 * (nodes.x[number(oi, oj, row + 1)] - nodes.x[outer]);
-        // Under an edge of the cuboid the wedge decides where the node may be.
+        // Under an edge of the cuboid, the wedge determines where the node can lie.
         held[under] = (oi != i) + (oj != j) + (top == l) == 1;
       }
     }
   }
   smooth_nodes(dome.connectivity, body, for_cuboid({.evaluations = 120}), held, nodes);
   if (worst_shape(dome.connectivity, nodes.x) <= 0) {
-    release_folded(dome, nodes, held);  // under a sharp nipple the normals of neighbours cross
+    release_folded(dome, nodes, held);  // under a sharp nipple neighbouring normals cross
     smooth_nodes(dome.connectivity, body, for_cuboid({.evaluations = 120}), held, nodes);
   }
   std::vector<int> layer;

@@ -14,7 +14,8 @@ namespace breast {
 
 namespace {
 
-// Per corner, the edges along ξ, η, ζ through it: from the node on the low side to the high side.
+// For every corner the edges along ξ, η, ζ through it, from the node on the low side to the one on
+// the high side.
 constexpr std::array<std::array<std::array<int, 2>, 3>, 8> corner_edges = {{
     {{{0, 1}, {0, 3}, {0, 4}}},
     {{{0, 1}, {1, 2}, {1, 5}}},
@@ -25,8 +26,8 @@ constexpr std::array<std::array<std::array<int, 2>, 3>, 8> corner_edges = {{
     {{{7, 6}, {5, 6}, {2, 6}}},
     {{{7, 6}, {4, 7}, {3, 7}}},
 }};
-// Corners whose Jacobians average to a sample's: the corners themselves, then the 12 mid-edges
-// (along an edge the trilinear map's Jacobian is linear).
+// The corners whose Jacobians average to that of a sample: the corners themselves, then the 12
+// mid-edges (along an edge the Jacobian of the trilinear map is linear).
 constexpr std::array<std::array<int, 2>, 20> samples = {{
     {0, 0}, {1, 1}, {2, 2}, {3, 3}, {4, 4}, {5, 5}, {6, 6}, {7, 7}, {0, 1}, {1, 2},
     {3, 2}, {0, 3}, {4, 5}, {5, 6}, {7, 6}, {4, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7},
@@ -120,7 +121,7 @@ double CornerEnergy::element(const std::vector<Vec3>& x, int e, Vec3* force) con
 double CornerEnergy::evaluate(const std::vector<Vec3>& x, std::vector<Vec3>& gradient) {
   const int elements = int(energies_.size()), nodes = int(x.size());
   gradient.resize(nodes);
-  // A few milliseconds of work are not worth a barrier on a busy machine.
+  // A few milliseconds of work do not justify a barrier on a busy machine.
   const int team = elements < 8000 ? 1 : threads();
 #pragma omp parallel num_threads(team)
   {

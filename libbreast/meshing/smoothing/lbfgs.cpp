@@ -44,7 +44,7 @@ LbfgsResult minimise_lbfgs(
     Eigen::VectorXd direction = two_loop(pairs, gradient);
     if (pairs.empty()) direction *= options.first_step / gradient.cwiseAbs().maxCoeff();
     double slope = direction.dot(gradient);
-    if (!(slope < 0)) {  // lost to rounding: start again from steepest descent
+    if (!(slope < 0)) {  // lost to rounding: restart with steepest descent
       if (pairs.empty()) break;
       pairs.clear();
       continue;

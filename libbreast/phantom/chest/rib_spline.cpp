@@ -20,8 +20,8 @@ double at_sample(int i, int count, double low, double high) {
   return low + (high - low) * i / (samples * count);
 }
 
-/// Weights of the splines at the samples, a row a sample: least squares of them are as good as
-/// interpolation and need no conditions at the ends.
+/// Weights of the splines at the samples, one row per sample: a least-squares fit of the samples is
+/// as accurate as interpolation and needs no end conditions.
 Eigen::MatrixXd weights(int count, double low, double high) {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(samples * count + 1, count + 3);
   for (int i = 0; i < rows.rows(); ++i) {
@@ -32,7 +32,8 @@ Eigen::MatrixXd weights(int count, double low, double high) {
   return rows;
 }
 
-/// Where the ray from the axis meets the ribs. The level is convex along it: Newton from outside.
+/// Intersection of the ray from the axis with the ribs. The level function is convex along it:
+/// Newton's method starts from outside.
 double radius(const RibSurface& ribs, const ThoraxSurface& about, double outside, double angle,
               double height) {
   const Vec3 out(elementary::sin(angle), -elementary::cos(angle), 0);
@@ -47,7 +48,7 @@ double radius(const RibSurface& ribs, const ThoraxSurface& about, double outside
     if (std::abs(step) < 1e-12 * outside) return r;
   }
   throw input_error("phantom torso: at height ", height,
-                    " mm its ribs do not surround the axis; less tilt or bend");
+                    " mm the ribs do not surround the axis; reduce tilt or bend");
 }
 
 }  // namespace

@@ -8,8 +8,9 @@
 
 namespace breast {
 
-/// φ = (f − 1) half_depth with f² the superellipse of TorsoParameters: its gradient is 1 at the front.
-/// Twice continuously differentiable for powers of 2 and above; unknown near the centre of a section.
+/// φ = (f − 1) half_depth, where f² is the superellipse of TorsoParameters; its gradient is 1 at
+/// the front. Twice continuously differentiable for powers of 2 and above; not defined near the
+/// centre of a section.
 class RibSurface final : public LevelSurface {
  public:
   /// Throws Error (input) for a power below 2.

@@ -15,8 +15,8 @@ double smooth_step(double value, double low, double high) {
   return t * t * (3 - 2 * t);
 }
 
-// (f − 1)/|∇f| of the section's superellipse, f homogeneous of degree one
-// about the section's centre.
+// (f − 1)/|∇f| of the section's superellipse, where f is homogeneous of degree one about the centre
+// of the section.
 double Torso::smooth_distance(const Vec3& x) const {
   const double v = x.y() - centre(x.z());
   const double qx = std::abs(x.x()) / p_.half_width, qy = std::abs(v) / p_.half_depth;
@@ -65,15 +65,15 @@ Vec3 Torso::wall_point(double x, double z) const {
   return {x, inside, z};
 }
 
-// 1 in front, 0 at the back, smooth over the flank.
+// 1 in front and 0 at the back, with a smooth transition at the flank.
 double Torso::frontness(const Vec3& x) const {
   return smooth_step(centre(x.z()) - x.y(), -25, 45);
 }
 
 Matter Torso::interior(const Vec3& x, double depth) const {
   const double across = std::abs(x.x());
-  // Pectoralis major: from the sternum to the axilla, thinner below the sixth rib; at the side the
-  // serratus and latissimus, at the back the erector spinae beside the spine.
+  // The muscles: pectoralis major from the sternum to the axilla, thinner below the sixth rib;
+  // serratus and latissimus at the side; the erector spinae beside the spine at the back.
   const double pectoral = smooth_step(across, 4, 22) * smooth_step(x.z(), -75, -25);
   const double front = 2.5 + 2.5 * smooth_step(across, 4, 22) + 6 * pectoral;
   const double back = 9 + 22 * smooth_step(60 - across, 0, 25);

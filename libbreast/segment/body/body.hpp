@@ -25,10 +25,10 @@ struct Body {
   double debris_ml = 0;  ///< removed from the skin: markers and similar objects
   double beside_ml = 0;  ///< tissue separate from the torso that was omitted, such as arms
 };
-/// Otsu on log(I + n0), opening, largest component, closing, filling.
-/// Throws Error (input) when there is no contrast or no air in front.
-/// `side` is the requested breast; it is used if the field of view shows only one. Debris on the skin
-/// is not removed from a supine body, whose nipples cannot be told from it by their position.
+/// Otsu's threshold on log(I + n0), opening, largest component, closing, filling. Throws Error
+/// (input) if there is no contrast or no air in front. `side` is the requested breast, which
+/// matters if the field of view shows only one. Debris on the skin is not removed from a supine
+/// body, because the position of the nipples does not distinguish them from it.
 Body find_body(const Volume<float>& scan, Side side, Posture posture = Posture::prone);
 
 struct TorsoFront {
@@ -38,11 +38,12 @@ struct TorsoFront {
                               ///< notch that of the chest, not of the neck
   bool one_breast = false;    ///< true if the other breast is not in the field of view
 };
-/// The midline is the skin's mirror column; where one breast alone is in view (less than 270 mm of
-/// body and no valley between two) it is the deepest column medial of the breast of `side`.
+/// The midline is the mirror column of the skin. If only one breast is in view (less than 270 mm of
+/// body and no valley between two), it is the deepest column medial to the breast of `side`.
 TorsoFront find_torso(const Mask& body, Side side);
-/// Angle (radians) about the body's long axis by which the grid is turned against the body's mirror
-/// plane; 0 where that explains the skin's asymmetry no better, or one breast alone is in view.
+/// Angle (radians) about the long axis of the body by which the grid is rotated relative to the
+/// body's mirror plane; 0 if a rotation does not explain the skin's asymmetry better, or if only
+/// one breast is in view.
 double body_roll(const Mask& body);
 
 }  // namespace breast

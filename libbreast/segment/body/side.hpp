@@ -6,9 +6,10 @@
 
 namespace breast {
 
-/// If only one breast is in view: distance (mm) by which the skin recedes farther to the patient's
-/// left of its tip than to the right. Medial of a breast lies the sternum, lateral of it the flank,
-/// much farther behind; hence positive for a left breast.
+/// If only one breast is in view: the distance (mm) by which the skin recedes farther on the
+/// patient's left side of its tip than on the right. Medial to a breast lies the sternum, and
+/// lateral to it the flank, much farther behind; the distance is therefore positive for a left
+/// breast.
 double fall_to_the_left(const TorsoFront& torso, const Grid& grid);
 
 /// Throws Error (input) if the only breast in view is clearly the other one, or if the most

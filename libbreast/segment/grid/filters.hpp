@@ -6,7 +6,8 @@
 
 namespace breast {
 
-/// Gaussian of standard deviation `sigma` mm along each axis (cut at 3 sigma, border values held).
+/// Gaussian filter with the standard deviation `sigma` mm along each axis, truncated at 3 sigma;
+/// values beyond the border equal those on the border.
 Volume<float> gaussian(const Volume<float>& volume, double sigma);
 /// Largest value within +-half mm along each axis.
 Volume<float> box_maximum(const Volume<float>& volume, double half);

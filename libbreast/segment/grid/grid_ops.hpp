@@ -14,16 +14,16 @@ using Mask = Volume<std::uint8_t>;
 /// posterior and k to superior. Every voxel keeps its position in the patient.
 Volume<float> in_patient_order(const Volume<float>& volume);
 /// Mean of blocks of factor[0] x factor[1] x factor[2] voxels; incomplete blocks at the far ends
-/// are averaged over what is there.
+/// are averaged over their existing voxels.
 Volume<float> coarsened(const Volume<float>& volume, const std::array<int, 3>& factor);
-/// Grid of coarsened().
+/// The grid of the result of coarsened().
 Grid coarsened_grid(const Grid& grid, const std::array<int, 3>& factor);
-/// Trilinear values of `coarse` at the voxels of `fine`, whose axes are
-/// parallel; border values held.
+/// Trilinear values of `coarse` at the voxels of `fine`, which has parallel axes; values beyond the
+/// border equal those on the border.
 Volume<float> resampled(const Volume<float>& coarse, const Grid& fine);
 
-/// The volume sampled on a grid of the same size turned by `angle` (radians, i towards j) about its
-/// centre; every tissue keeps its place in the patient.
+/// The volume sampled on a grid of the same size rotated by `angle` (radians, i towards j) about
+/// its centre; all tissue keeps its position in the patient.
 Volume<float> rolled(const Volume<float>& volume, double angle, float outside);
 
 }  // namespace breast

@@ -13,9 +13,9 @@ struct Components {
   std::vector<std::uint32_t> label;  ///< per voxel
 };
 Components components(const Mask& mask);
-/// Voxels of every component, by its number; 0 for number 0.
+/// Number of voxels of every component, by the component's number; 0 for number 0.
 std::vector<std::size_t> sizes(const Components& parts);
-/// Largest 6-connected component of mask != 0; all zero when the mask is.
+/// Largest 6-connected component of mask != 0; all zero if the mask is zero everywhere.
 Mask largest_component(const Mask& mask);
 /// Signed distance (mm) to the boundary of mask != 0: negative inside, positive outside.
 Volume<float> signed_distance(const Mask& mask);

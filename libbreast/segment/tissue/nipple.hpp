@@ -13,11 +13,12 @@ struct Nipple {
   double height = 0;        ///< mm from base to tip; 0 on a smooth dome
   double from_extreme = 0;  ///< mm between the tip and the most anterior point of the breast
 };
-/// Starts at the most convex skin point (least body within 6 mm, by a Gaussian): prone within 25 mm of
-/// the most anterior one, supine of the whole breast more than 15 mm from its end. About it the skin's
-/// height over its tangent plane is compared with a quadric through the ring 9-25 mm away: the part
-/// that protrudes by more than half the maximum is the papilla (or the apex of a cone), and its
-/// weighted centre the nipple, to a fraction of a voxel.
+/// Starts from the most convex skin point (least body within 6 mm, by a Gaussian): for a prone scan
+/// within 25 mm of the most anterior point, for a supine scan anywhere on the breast more than 15
+/// mm from its end. Around it, the height of the skin over its tangent plane is compared with a
+/// quadric through the ring 9-25 mm away. The part that protrudes by more than half the maximum is
+/// the papilla (or the apex of a cone), and its weighted centre is the nipple, to a fraction of a
+/// voxel.
 Nipple find_nipple(const Mask& breast, const Mask& body, Posture posture = Posture::prone);
 
 }  // namespace breast

@@ -12,21 +12,22 @@ namespace breast {
 /// Columns in which the wall is sought, and the range of its depth.
 struct WallDomain {
   int first = 0, last = 0;      ///< columns i, inclusive
-  std::vector<double> nearest;  ///< mm per slice: no wall in front of this
-  HeightField deepest;          ///< mm per column: none behind this
-  HeightField skin;  ///< mm: skin of the body run that holds the wall; NaN outside the body
+  std::vector<double> nearest;  ///< smallest depth of the wall, mm, per slice
+  HeightField deepest;          ///< largest depth of the wall, mm, per column
+  HeightField skin;             ///< skin in front of the wall, mm; NaN outside the body
 };
 WallDomain wall_domain(const Mask& body, const TorsoFront& torso, bool left);
 
 struct ChestWall {
-  HeightField depth;        ///< mm, on columns of the domain (all i; NaN outside [first,last])
-  HeightField confidence;   ///< [0,1]: fat index in front less that behind over 0.6, clipped
-  HeightField sigma;        ///< mm: standard deviation of the depth (wall_uncertainty.hpp)
+  /// Depth of the wall, mm, on columns of the domain (all i; NaN outside [first,last]).
+  HeightField depth;
+  HeightField confidence;   ///< (fat index in front − fat index behind) / 0.6, clipped to [0,1]
+  HeightField sigma;        ///< standard deviation of the depth, mm (wall_uncertainty.hpp)
   double muscle_ratio = 0;  ///< brightness of muscle relative to fat
 };
 
-/// `ratio` = intensity / bias. `start` is the surface of an earlier pass, for
-/// its muscle ratio and prior.
+/// Finds the wall. `ratio` is intensity / bias. `start` is the surface of an earlier pass, for its
+/// muscle ratio and prior.
 ChestWall find_chest_wall(const Volume<float>& ratio, const WallDomain& domain,
                           const ChestWall* start);
 /// Moves the wall to the nearest bright-to-dark crossing of (1 + muscle)/2 within 3 mm and smooths.

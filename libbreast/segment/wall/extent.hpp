@@ -13,8 +13,9 @@ struct BreastExtent {
   double least_thickness = 0;         ///< mm; thickness at which the breast ends
   double greatest_thickness = 0;      ///< mm
 };
-/// `skin_distance`: signed distance to air (mm, negative inside). A supine breast slides to where the
-/// wall turns away from the front: there what lies in front of the deepest wall sought is breast too.
+/// `skin_distance` is the signed distance to air (mm, negative inside). A supine breast extends to
+/// where the wall turns away from the front: tissue there in front of the deepest wall sought is
+/// breast too.
 BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const TorsoFront& torso,
                          const Volume<float>& skin_distance, Side side,
                          Posture posture = Posture::prone);

@@ -19,14 +19,14 @@ double apply_wall_labels(ChestWall& wall, const WallDomain& domain, const Grid& 
 /// mm. Throws Error (input) for a point beside the domain.
 void apply_wall_points(ChestWall& wall, const WallDomain& domain, const Grid& grid,
                        const std::vector<Vec3>& points);
-/// Moves the wall to a surface given by its points (patient mm): the mean point of every cell of
-/// 8 mm counts as a clicked one; points beside the domain are passed over. Throws Error (input)
-/// when none is left.
+/// Moves the wall to a surface given by its points (patient mm): the mean point of every cell of 8
+/// mm counts as a clicked one; points outside the domain are ignored. Throws Error (input) if no
+/// point is left.
 void apply_wall_surface(ChestWall& wall, const WallDomain& domain, const Grid& grid,
                         const std::vector<Vec3>& points);
 
 /// Points of a chest-wall surface; of the data points of a segmentation (scalar "surface") only
-/// those marked chest wall. Throws Error (input), calling it `name`, when none is.
+/// those marked as chest wall. Throws Error (input) with the name `name` if there are none.
 std::vector<Vec3> wall_surface_points(const TriMesh& surface, const std::string& name);
 
 }  // namespace breast

@@ -6,10 +6,10 @@
 
 namespace breast {
 
-/// Standard deviation (mm) of every column's depth about the wall found: depths within 12 mm count
-/// with the weight exp(-cost/0.1) of the column's own cost, the neighbours held; never below a
-/// voxel's own sqrt(1/12). Smoothed over 8 mm. Manually corrected columns (confidence 1) are
-/// treated separately by hand_set_sigma().
+/// Standard deviation (mm) of the depth in every column about the wall found. Depths within 12 mm
+/// have the weight exp(-cost/0.1) with the column's own cost, for fixed neighbours; the result is
+/// at least a voxel's own sqrt(1/12), and is smoothed over 8 mm. Manually corrected columns
+/// (confidence 1) are treated separately by hand_set_sigma().
 HeightField wall_sigma(const Volume<float>& ratio, const WallDomain& domain, const ChestWall& wall);
 
 /// Where `after` differs from `before` by more than a quarter of a millimetre the wall was

@@ -7,7 +7,7 @@ BlockPool::Block BlockPool::take(std::size_t size) {
   {
     const std::lock_guard lock(mutex_);
     const auto found = free_.lower_bound(size);
-    // A block more than twice too large is left for who needs it.
+    // A block more than twice too large is left for a request that needs it.
     if (found != free_.end() && found->first <= 2 * size) {
       Block block{found->first, std::move(found->second)};
       free_.erase(found);

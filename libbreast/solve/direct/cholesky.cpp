@@ -56,12 +56,12 @@ class Cholesky::Impl {
 
   std::vector<int> roots_;
   std::unique_ptr<double[]> factor_;
-  std::vector<BlockPool::Block> rest_;  // what a front leaves to its parent
+  std::vector<BlockPool::Block> rest_;  // the contribution of a front to its parent
   BlockPool pool_;
   std::atomic<bool> failed_{false};
 };
 
-// Lower triangle of what the child leaves, into its parent's panel and rest.
+// Adds the lower triangle of the child's contribution to its parent's panel and rest.
 void Cholesky::Impl::add_child(int child, int f) {
   const int from = tree.columns(child), size = tree.height(child) - from;
   const int* place = tree.in_parent.data() + tree.row_start[child] + from;
@@ -122,8 +122,8 @@ bool Cholesky::Impl::factorise(const std::vector<double>& values) {
   return !failed_;
 }
 
-// Going down, a front subtracts its part from the rows behind it: gathered in `carried`, one value
-// per row of every front, and added to the parent's.
+// In the downward sweep, a front subtracts its contribution from the later rows: it is gathered in
+// `carried`, one value per row of every front, and added to the parent's.
 void Cholesky::Impl::down_front(int f, double* x, std::vector<double>& carried) const {
   const int columns = tree.columns(f);
   double* own = carried.data() + tree.row_start[f];

@@ -14,7 +14,8 @@ namespace breast {
 
 class Cholesky {
  public:
-  /// Orders by nested dissection of the node graph (METIS) and analyses.
+  /// Computes the ordering by nested dissection of the node graph (METIS) and the symbolic
+  /// analysis.
   explicit Cholesky(const NodePattern& pattern);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;

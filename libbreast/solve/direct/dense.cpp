@@ -81,7 +81,7 @@ void subtract_tiles(const double* a, int ld, int n, int wide, int k, double* c, 
     const int width = std::min(tile, wide - j);
     for (int i = j; i < n; i += tile) {
       const int height = std::min(tile, (i == j ? j + width : n) - i);
-      // What is left of the tile's rows beside a narrow last column of tiles.
+      // The remaining rows of the tile beside a narrow last column of tiles.
       const int more = std::min(tile, n - i) - width;
       double* to = c + long(j) * ldc + i;
 #pragma omp task default(none) firstprivate(a, ld, i, j, height, width, more, k, to, ldc)

@@ -11,7 +11,7 @@ namespace breast {
 
 namespace {
 
-// Ends CHOLMOD's workspace whatever happens.
+// Frees CHOLMOD's workspace in any case.
 struct Analysis {
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
@@ -120,7 +120,7 @@ void link(FrontTree& tree) {
   }
 }
 
-// Places of rows in the parent, and of matrix values in the panels.
+// Positions of rows in the parent, and of matrix values in the panels.
 void find_places(const NodePattern& pattern, FrontTree& tree) {
   const std::size_t n = std::size_t(tree.unknowns);
   std::vector<int> place(n), at(n);

@@ -8,10 +8,10 @@
 
 namespace breast {
 
-/// When to stop: r = b − A x is measured by √(rᵀ P r), P the preconditioner.
+/// Convergence criterion for r = b − A x, measured by √(rᵀ P r) with the preconditioner P.
 struct ConjugateGradientLimits {
-  double relative = 0;  ///< to its start, P's norm of b
-  double absolute = 0;  ///< or itself
+  double relative = 0;  ///< relative to its initial value, P's norm of b
+  double absolute = 0;  ///< or an absolute value of it
   int iterations = 0;   ///< at most
 };
 

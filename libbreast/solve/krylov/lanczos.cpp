@@ -10,16 +10,16 @@ namespace breast {
 
 namespace {
 
-// By then a start with 1e-6 of an eigenvector a fifth of the spectrum below the others has grown it
-// to all of the lowest Ritz vector.
+// After this many steps, an eigenvector that lies a fifth of the spectrum below the others
+// dominates the lowest Ritz vector even if the start contained only 1e-6 of it.
 constexpr int least_steps = 20;
 
 struct Ritz {
   double value = 0, residual = 0;
 };
 
-// The lowest (or highest) Ritz value of a tridiagonal matrix; beside[i] couples i and i + 1, its
-// last entry the space with what is outside of it.
+// The lowest (or highest) Ritz value of a tridiagonal matrix; beside[i] couples i and i + 1, and
+// its last entry couples the space with its complement.
 Ritz ritz(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside, bool highest) {
   const Eigen::Index n = diagonal.size();
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
@@ -71,7 +71,7 @@ LowestEigenvalue lowest_eigenvalue(const LinearMap& a, const LinearMap& p,
     const Ritz low = ritz(diagonal.head(k + 1), beside.head(k + 1), false);
     lowest.value = low.value;
     lowest.residual = low.residual;
-    // Ritz values only fall; an invariant space has told all it can.
+    // Ritz values can only decrease, and an invariant space gives no further information.
     const bool known = low.value < 0 || (lowest.steps >= least_steps && lowest.positive());
     if (known || !(length > 1e-14 * std::abs(diagonal[0]))) break;
   }

@@ -9,12 +9,12 @@ namespace breast {
 
 namespace {
 
-// A direction of the space searched, and what the map makes of it.
+// A direction of the search space and its image under the map.
 struct Pair {
   Eigen::VectorXd v, av;
 };
 
-// Makes `direction` orthonormal to those in `space` and adds it; leaves it out where nothing is left.
+// Makes `direction` orthonormal to those in `space` and adds it, unless nothing is left of it.
 void add(const LinearMap& a, const Eigen::VectorXd& weight, Eigen::VectorXd direction,
          std::vector<Pair>& space) {
   const auto length = [&] { return std::sqrt(direction.dot(weight.cwiseProduct(direction))); };

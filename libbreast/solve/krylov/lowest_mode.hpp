@@ -15,10 +15,10 @@ struct LowestMode {
   int steps = 0;
 };
 
-/// Of a v = value · diag(weight) v, by conjugate gradients of the Rayleigh quotient (Knyazev 2001,
-/// LOBPCG with one vector), from `start` (not zero), until a step changes the value by less than
-/// `tolerance` of itself or after `most` steps. `p` is symmetric and positive definite and near a⁻¹
-/// of a shifted a; a maps the free part into itself and `p` does; weights are positive.
+/// Solves a v = value · diag(weight) v by conjugate gradients of the Rayleigh quotient (Knyazev
+/// 2001, LOBPCG with one vector) from `start` (not zero), until a step changes the value by less
+/// than `tolerance` of itself or after `most` steps. `p` is symmetric and positive definite and
+/// close to a⁻¹ of a shifted a; both a and `p` map the free part into itself; weights are positive.
 LowestMode lowest_mode(const LinearMap& a, const LinearMap& p, const Eigen::VectorXd& weight,
                        const Eigen::VectorXd& start, double tolerance, int most);
 

@@ -23,7 +23,7 @@ struct Level {
 
   /// False when a diagonal entry is not positive.
   bool prepare();
-  /// x after a Chebyshev polynomial in D⁻¹A, from x; from zero where x is empty.
+  /// Applies a Chebyshev polynomial in D⁻¹A to x as initial guess; an empty x counts as zero.
   void smooth(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
   /// Smoothed interpolation from aggregates; `motions` of this level become those of the next.
   Motions<6> coarsen(const Motions<B>& motions, double threshold);

@@ -130,7 +130,7 @@ BlockMatrix<6, 6> Level<B>::galerkin() const {
     }
     row.flush(ap);
   }
-  // Who interpolates from an aggregate, so that PᵀAP comes out row by row.
+  // The nodes that interpolate from an aggregate, so that PᵀAP is computed row by row.
   std::vector<std::vector<std::pair<int, long>>> users(std::size_t(p.columns));
   for (int i = 0; i < p.rows; ++i) {
     for (long m = p.start[i]; m < p.start[i + 1]; ++m) users[p.column[m]].emplace_back(i, m);
@@ -145,7 +145,8 @@ BlockMatrix<6, 6> Level<B>::galerkin() const {
         sum.at(ap.column[k]).noalias() += p.block[m].transpose() * ap.block[k];
       }
     }
-    // Motions an aggregate does not have (too few nodes, held ones) are unknowns of nothing.
+    // Motions that an aggregate does not have (too few nodes, constrained nodes) are unknowns
+    // without effect.
     Eigen::Matrix<double, 6, 6>& own = sum.at(c);
     for (int k = 0; k < 6; ++k) {
       if (own(k, k) == 0 && own.row(k).isZero(0)) own(k, k) = 1;

@@ -34,7 +34,7 @@ class Multigrid {
   Eigen::VectorXd multiply(const Eigen::VectorXd& v) const;
 
   int levels() const;
-  /// Entries of all levels over those of the finest.
+  /// Number of entries of all levels relative to those of the finest.
   double complexity() const;
 
  private:

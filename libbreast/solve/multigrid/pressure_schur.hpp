@@ -29,12 +29,12 @@ namespace breast {
 
 class PressureSchur {
  public:
-  /// `imposed`: the matrix with its constraints imposed, in node axes. False when a node's block is
-  /// not positive definite: nor is the matrix then.
+  /// `imposed` is the matrix with its constraints imposed, in node axes. Returns false if the block
+  /// of a node is not positive definite, and hence neither is the matrix.
   bool build(const SaddleMatrix& matrix, const NodeMatrix& imposed, const Constraints& constraints);
-  /// S⁻¹ q, about.
+  /// Approximation of S⁻¹ q.
   Eigen::VectorXd solve(const Eigen::VectorXd& q) const;
-  /// Values kept.
+  /// Number of stored values.
   double entries() const { return double(sparse_.block.size()); }
 
  private:

@@ -29,7 +29,7 @@ bool asks(const Table& cases, std::size_t row) {
   return cases.cell(row, "look") != no_value;
 }
 
-// Failed first, then those that ask for a look, then the rest.
+// Failed cases first, then those that should be checked, then the others.
 std::vector<std::size_t> ordered(const Table& cases) {
   std::vector<std::size_t> rows(cases.rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r) rows[r] = r;
@@ -69,7 +69,8 @@ std::string thumbnail(const CohortPages& cohort, const std::filesystem::path& pn
              : "<img loading=\"lazy\" alt=\"" + escaped(text) + "\" src=\"" + jpeg(bytes) + "\">";
 }
 
-// A column's numbers as a row: a dot a case over the grey band of women's mean and deviation.
+// The numbers of a column as a row of dots, one per case, over a grey band for the women's mean and
+// deviation.
 std::string distribution_row(const Table& table, const std::string& column, const Table& women) {
   if (!table.has(column)) return "";
   std::vector<double> values;
@@ -99,8 +100,10 @@ std::string distribution_row(const Table& table, const std::string& column, cons
 
 std::string distributions(const CohortPages& cohort) {
   std::string text =
-      "<h2>Distributions</h2><p>A dot a case; grey: mean and one standard deviation of living women (63 volunteers, prone to supine) where it is "
-      "known.</p>\n<table><tr><th>quantity<th>cases<th>mean<th>sd<th>lowest<th>highest<th>women: mean (sd)<th></tr>\n";
+      "<h2>Distributions</h2><p>One dot per case; grey: mean and one standard deviation of living "
+      "women (63 volunteers, prone to supine) where these are "
+      "known.</p>\n<table><tr><th>quantity<th>cases<th>mean<th>sd<th>lowest<th>highest<th>women: "
+      "mean (sd)<th></tr>\n";
   for (const char* column :
        {"volume_ml", "min_scaled_jacobian", "supine_nipple_mm", "supine_tumour_mm",
         "cc_thickness_mm", "cc_force_N", "mlo_thickness_mm", "mlo_force_N"})
@@ -128,7 +131,7 @@ std::string failed_part(const CohortPages& cohort) {
                             rows + "</table>\n";
 }
 
-// One remark a line.
+// One remark per line.
 std::string lines(const std::string& look) {
   std::string text;
   for (std::size_t at = 0; at < look.size();) {
@@ -185,10 +188,12 @@ std::string contours_page(const CohortPages& cohort) {
   std::string text =
       head("Segmentations of " + cohort.runs.filename().string(), cohort) + "<p>" +
       counted(cohort.cases) +
-      " Contours of the chest wall (green, orange where it is uncertain), the breast (yellow) and its fibroglandular tissue (red) in "
-      "three axial and two sagittal slices of every scan, 0.7 mm a pixel; those that failed or ask for a look first. A click opens all "
-      "sixteen slices. A chest wall in the ribs or in the breast, a breast cut off at its side, or fibroglandular tissue in the coil's "
-      "glare wants a correction (CHEST_WALL=).</p>\n";
+      " Contours of the chest wall (green, orange where it is uncertain), the breast (yellow) and "
+      "its fibroglandular tissue (red) in three axial and two sagittal slices of every scan, 0.7 "
+      "mm per pixel; failed cases and those that should be checked come first. A click opens all "
+      "sixteen slices. A chest wall in the ribs or in the breast, a breast cut off at its side, "
+      "or fibroglandular tissue where the coil overexposes the image needs a correction "
+      "(CHEST_WALL=).</p>\n";
   for (const std::size_t r : ordered(cohort.cases)) {
     const std::string name = cohort.cases.cell(r, "case"), look = cohort.cases.cell(r, "look");
     const std::string kind = !done(cohort.cases, r) ? "bad" : asks(cohort.cases, r) ? "look" : "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pages of a cohort to look through and to send.
+// HTML pages of a cohort: an overview of all cases and the contours of their segmentations.
 #pragma once
 
 #include <filesystem>
@@ -12,9 +12,10 @@
 
 namespace breast {
 
-/// Pictures made small, as bytes of a JPEG; "" where there is none or it cannot be made.
+/// Pictures reduced in size, as the bytes of a JPEG; "" if the picture does not exist or cannot be
+/// reduced.
 struct Thumbnails {
-  bool possible = true;  ///< false: the page says that there are no pictures
+  bool possible = true;  ///< if false, the page says that there are no pictures
   std::function<std::string(const std::filesystem::path& png, int width)> small;
   std::function<std::string(const std::filesystem::path& contours)>
       slices;  ///< five of the slices that segment draws
@@ -22,23 +23,25 @@ struct Thumbnails {
 
 struct CohortPages {
   std::filesystem::path runs;
-  Table cases;                  ///< cohort_table
-  Table cost;                   ///< cohort_cost
-  std::optional<Table> motion;  ///< a row a case
-  Table women;                  ///< quantity, mean, sd of living women
+  Table cases;                  ///< from cohort_table
+  Table cost;                   ///< from cohort_cost
+  std::optional<Table> motion;  ///< one row per case
+  Table women;                  ///< columns quantity, mean, sd, measured on living women
   Thumbnails pictures;
 };
 
-/// A column's numbers: how many, mean, standard deviation, range.
+/// The numbers of a column with their mean, standard deviation and range.
 struct Distribution {
-  std::vector<double> values;  ///< in order
+  std::vector<double> values;  ///< in ascending order
   double mean = 0, sd = 0;
 };
 Distribution distribution_of(std::vector<double> values);
 
-/// Failures first, with reason and log; distributions beside living women's values; then a row and a picture a case.
+/// The overview page: failures first, with reason and log; distributions beside the values of
+/// living women; then a row and a picture for every case.
 std::string cohort_page(const CohortPages& cohort);
-/// The contours of every segmentation, those that failed or ask for a look first.
+/// The page with the contours of every segmentation, beginning with those that failed or should be
+/// checked.
 std::string contours_page(const CohortPages& cohort);
 
 }  // namespace breast

@@ -27,9 +27,9 @@ std::vector<CohortCase> read_cases(const fs::path& runs) {
       one.reason =
           first.find('\t') == std::string::npos ? "" : one_line(first.substr(first.find('\t') + 1));
       if (one.status == "running")
-        one = {
-            one.name, "failed",
-            "ended without a word: killed, out of memory, or its node was lost; or it still runs"};
+        one = {one.name, "failed",
+               "ended without a message: it was killed, ran out of memory, lost its node, or is "
+               "still running"};
     }
     cases.push_back(one);
   }
@@ -145,10 +145,10 @@ CaseCost case_cost(const Table* measured, const Table& assumed, int cores,
   constexpr int enough_cases = 3;
   if (count >= enough_cases)
     return asked(seconds, mb,
-                 message("the dearest of ", count, " cases in cost.tsv: ", int(seconds),
+                 message("the most expensive of ", count, " cases in cost.tsv: ", int(seconds),
                          " seconds, ", int(mb), " MB"));
   const auto known = number_at(assumed, element, "elements");
-  if (!known) throw input_error(assumed.name, ": knows no cost of element '", element, "'");
+  if (!known) throw input_error(assumed.name, ": contains no cost of element '", element, "'");
   const double ratio = std::max(1.0, size / *known);
   seconds = number_at(assumed, element, "cpu_seconds").value_or(0) * std::pow(ratio, 4);
   mb = number_at(assumed, element, "peak_mb").value_or(0) * std::pow(ratio, 3);

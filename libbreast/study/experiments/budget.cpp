@@ -11,7 +11,7 @@ namespace breast {
 
 namespace {
 
-// The chain's stages that a row replaces.
+// The stages of the chain that a row replaces.
 const std::map<std::string, std::vector<std::string>> stages{
     {"chain",
      {"labels", "geometry", "mesh", "reference", "supine", "truth-cc", "truth-mlo", "cc-mammogram",
@@ -32,7 +32,7 @@ std::string cpu_cell(const std::filesystem::path& run, const std::string& row) {
   return format_fixed(total, 2);
 }
 
-// Mean, p95 and largest stand in the column `landmark` of the table of curves.
+// Mean, p95 and largest are in the column `landmark` of the table of curves.
 std::string curve_cell(const std::optional<Table>& curves, const std::string& row) {
   if (!curves) return no_value;
   for (std::size_t r = 0; r < curves->rows.size(); ++r)

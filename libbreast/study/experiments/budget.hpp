@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The error budget: what is left of the errors when one stage is replaced by the truth, and what that stage costs.
+// The error budget: the remaining errors when one stage is replaced by the truth, and the cost of
+// that stage.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +11,11 @@
 
 namespace breast {
 
-/// A row for the chain and every row of RUN/budget/ROW: mean and largest error, mm, of the truth's places in the stress-free
-/// and supine shapes (landmarks.tsv), and of their MLO places from the curve (curves.tsv: mean, 95 %, largest); CPU seconds
-/// of the chain's own stages that the row replaces (chain: all); missing: why a cell is "-".
+/// One row for the chain and for every RUN/budget/ROW. Columns: mean and largest error in mm of the
+/// true positions in the stress-free and supine shapes (landmarks.tsv); distance of their MLO
+/// positions from the curve (curves.tsv: mean, 95 %, largest); CPU seconds of the chain's own
+/// stages that the row replaces (for the chain: of all stages); missing: the reason why a cell is
+/// "-".
 Table budget_table(const std::filesystem::path& run, const std::vector<std::string>& rows);
 
 }  // namespace breast

@@ -11,7 +11,7 @@ namespace {
 
 struct Point {
   std::string name;
-  fs::path reference, supine;  ///< without ending
+  fs::path reference, supine;  ///< without file extension
   StageReport backward, forward;
 };
 

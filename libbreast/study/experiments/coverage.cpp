@@ -12,7 +12,8 @@
 namespace breast {
 
 namespace {
-// Half-widths of the 50 and 95 % bands of a normal distribution, in deviations; z: as the intervals are rounded.
+// Half-widths of the 50 and 95 % bands of a normal distribution, in standard deviations; z is
+// rounded as for the intervals.
 constexpr double half_50 = 0.6744897502, half_95 = 1.9599639845, z = 1.96;
 }  // namespace
 
@@ -54,7 +55,7 @@ BandRows read_band_rows(const std::string& text, const std::string& name) {
     const std::string where = message(name, ", line ", number);
     rows.places.push_back({cells[0], parse_number(cells[2], where), parse_number(cells[3], where)});
   }
-  if (rows.places.empty()) throw input_error(name, ": holds no places");
+  if (rows.places.empty()) throw input_error(name, ": contains no places");
   return rows;
 }
 

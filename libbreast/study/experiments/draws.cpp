@@ -11,7 +11,7 @@ namespace breast {
 
 namespace {
 
-// Sums and largest values by column over the draws of one study, truth and mesh.
+// Sums and largest values of the columns over the draws of one study, truth and mesh.
 struct Draws {
   std::string study, truth, elements;
   int count = 0, alarms = 0;
@@ -23,7 +23,7 @@ std::string share(double part, double whole) {
 }
 
 double number_or_0(const Table& table, std::size_t row, const std::string& column) {
-  return number_of(table.cell(row, column)).value_or(0);  // "-": not asked in this study
+  return number_of(table.cell(row, column)).value_or(0);  // "-" if it is not part of this study
 }
 
 Row draws_row(const Draws& d) {
@@ -127,14 +127,15 @@ Table stability_table(const Table& mechanics, const Table& contact) {
                "seconds", "which"},
               {}};
   std::vector<Outcome> outcomes;
-  Table plain = mechanics;  // a verdict is the contact cases' alone
+  Table plain = mechanics;  // only contact cases have a verdict
   if (plain.has("verdict"))
     plain.columns[std::size_t(plain.column("verdict"))] = "mechanics_verdict";
   add_cases(plain, "", outcomes);
   add_cases(contact, "compression", outcomes);
   for (const Outcome& o : outcomes) {
     const bool reached =
-        o.least_det_F > 0;  // a scene refused before its first state has neither residual nor det F
+        // False for a scene refused before its first state, which has neither residual nor det F.
+        o.least_det_F > 0;
     table.rows.push_back({o.solve, o.outcome, std::to_string(o.cases),
                           reached ? exponential(o.worst_residual) : no_value,
                           reached ? format_fixed(o.least_det_F, 3) : no_value,

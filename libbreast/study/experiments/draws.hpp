@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Studies of many solves, a row a kind: what became of them.
+// Summaries of studies with many solves, one row for each kind of case.
 #pragma once
 
 #include <string>
@@ -9,13 +9,15 @@
 
 namespace breast {
 
-/// Judges the rows of identification_study: one row a study, truth and mesh. Means over its draws; directions known to 5 % and how
-/// many of them meet the truth within 10 % and within two deviations, all directions within two deviations, per cent of
-/// draws that the misfit test at 5 % takes for another model.
+/// Summarises the rows of identification_study, one row per study, truth and mesh: means over the draws;
+/// the number of directions known to 5 %, and the percentages of them within 10 % of the truth and
+/// within two standard deviations; the percentage of all directions within two standard deviations;
+/// and the percentage of draws in which the misfit test at 5 % indicates another model.
 Table identification_table(const std::vector<Table>& studies);
 
-/// One page of the tables of extreme cases: a row a direction (compression: one) and outcome: how many cases, the worst of what
-/// they say, the seconds of all, and the names of those that did not converge or ended otherwise than their case states.
+/// One page with the tables of extreme cases. A row for every direction (for compression only one)
+/// and outcome gives the number of cases, their worst values, the total seconds, and the names of
+/// the cases that did not converge or ended otherwise than their case specifies.
 Table stability_table(const Table& mechanics, const Table& contact);
 
 }  // namespace breast

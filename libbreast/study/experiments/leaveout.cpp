@@ -18,7 +18,8 @@ double seconds_of(const fs::path& folder, const std::vector<std::string>& stages
   double total = 0;
   for (const std::string& stage : stages)
     total += StageReport::read(folder / (stage + ".json")).number("cpu_seconds").value_or(0);
-  // As printed: what is saved is the difference of two cells of the table.
+  // Computed from the printed values, so that the saving is the difference of two cells of the
+  // table.
   return parse_number(format_fixed(total, 1), "seconds");
 }
 const std::vector<std::string> surgery_stages{"reference", "supine"},
@@ -64,11 +65,11 @@ Table leaveout_table(const fs::path& run, const std::vector<std::string>& varian
 std::vector<PartChange> changes(const Table& leaveout, const std::string& question,
                                 const std::vector<std::string>& parts) {
   if (question != "surgery" && question != "matching")
-    throw input_error("'", question, "' is no question: surgery or matching");
+    throw input_error("'", question, "' is not a question; use surgery or matching");
   std::vector<PartChange> list;
   for (const std::string& part : parts) {
     if (question == "surgery" && part == "no-gravity-in-compression")
-      continue;  // no compression in it
+      continue;  // a question without a compression
     list.push_back({part, change_of(leaveout, part, question)});
   }
   std::stable_sort(list.begin(), list.end(), [](const PartChange& a, const PartChange& b) {

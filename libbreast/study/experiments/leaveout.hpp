@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What each part of the model is worth, and the least model that stays within an error.
+// The effect of leaving out parts of the model, and the simplest model that stays within a given
+// error.
 #pragma once
 
 #include <filesystem>
@@ -15,13 +16,15 @@ namespace breast {
 struct CurveGap {
   double mean = 0, most = 0;  ///< mm on the MLO detector
 };
-/// Between the MLO curves of two files.
+/// Distances between the MLO curves of two files.
 using CurveReader =
     std::function<CurveGap(const std::filesystem::path& curve, const std::filesystem::path& base)>;
 
-/// A row for the base and every variant of RUN/studies/leaveout (study/places.hpp). Supine: how far tumour and nipple lie from the base's; CC, MLO:
-/// the same for the tumour; curve: distance of the MLO curve from the base's, mm. CPU seconds of the stages each question
-/// needs, surgery (backward, forward) and matching (backward, both compressions), and what they are less than the base's.
+/// One row for the base and for every variant of RUN/studies/leaveout (study/places.hpp). Supine:
+/// distance of tumour and nipple from their positions in the base; CC, MLO: the same for the
+/// tumour; curve: distance of the MLO curve from that of the base; all in mm. CPU seconds of the
+/// stages that each question needs, surgery (backward, forward) and matching (backward, both
+/// compressions), and the time saved relative to the base.
 Table leaveout_table(const std::filesystem::path& run, const std::vector<std::string>& variants,
                      const ShapeReader& read, const CurveReader& curves);
 
@@ -29,20 +32,24 @@ struct PartChange {
   std::string part;
   double change;  ///< mm
 };
-/// What leaving out each of `parts` changes for a question, smallest first: surgery the supine places of tumour and nipple,
-/// matching the largest distance on the MLO curve. Throws Error (input) for another question.
+/// The change caused by leaving out each of `parts` for a question, smallest first: for surgery in
+/// the supine positions of tumour and nipple, for matching the largest distance on the MLO curve.
+/// Throws Error (input) for another question.
 std::vector<PartChange> changes(const Table& leaveout, const std::string& question,
                                 const std::vector<std::string>& parts);
-/// The parts to do without: smallest change first, while the changes add up to no more than `allowed` mm.
+/// The parts that can be left out: those with the smallest changes, as long as the changes add up
+/// to no more than `allowed` mm.
 std::vector<PartChange> least_model(const std::vector<PartChange>& changes, double allowed);
 
-/// For both questions the parts of least_model(), the sum of their changes, what the variant least-QUESTION really gives, and
-/// whether that keeps the error: changes need not add up.
+/// For both questions: the parts of least_model(), the sum of their changes, the change in the
+/// variant least-QUESTION solved with all of them left out, and whether it stays within the error.
+/// (The changes need not add up.)
 Table recommendation(const std::filesystem::path& run, double allowed,
                      const std::vector<std::string>& parts, const ShapeReader& read,
                      const CurveReader& curves);
 
-/// How far the predicted places move when the chest wall moves by its own standard deviation, mm: the variants of RUN/studies/wall.
+/// The displacement in mm of the predicted positions when the chest wall moves by its own standard
+/// deviation, from the variants of RUN/studies/wall.
 Table wall_table(const std::filesystem::path& run, const std::vector<std::string>& variants);
 
 }  // namespace breast

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What became of every stage of a study's variants.
+// The outcome of every stage in the variants of a study.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,9 @@
 
 namespace breast {
 
-/// A row a report FOLDER/VARIANT/STAGE.json: its status, why it ended early, elements, CPU seconds, and for a shape that was
-/// found how far its landmarks are from their imaged places, mm.
+/// One row per report FOLDER/VARIANT/STAGE.json: its status, the reason if it ended early,
+/// elements, CPU seconds and, if a shape was found, the distance of its landmarks from their imaged
+/// positions in mm.
 Table outcomes_table(const std::filesystem::path& folder, const std::vector<std::string>& landmarks,
                      const std::vector<std::string>& variants, const ShapeReader& read);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A block between plates, by CalculiX and by ours.
+// Comparison of a block pressed between plates with CalculiX's solution of the same scene.
 #pragma once
 
 #include <string>
@@ -8,17 +8,17 @@
 
 namespace breast {
 
-/// What CalculiX said of a scene.
+/// The result of CalculiX for a scene.
 struct PressedByCalculix {
   std::string scene;
-  double gap_percent = 0;  ///< asked for, of the block's height
-  double reached = 0;      ///< part of the plates' way, 0 to 1
-  std::string force_N;     ///< on the upper plate, as printed
+  double gap_percent = 0;  ///< requested gap, in per cent of the block's height
+  double reached = 0;      ///< fraction of the plates' motion that was reached, 0 to 1
+  std::string force_N;     ///< force on the upper plate, as printed
   int iterations = 0;
   double cpu_s = 0;
 };
-/// One row beside `ours`, what bench_pressed_block printed: its last row is the state asked for, its seconds and iterations
-/// are those of all rows.
+/// One row that compares it with `ours`, the output of bench_pressed_block: the last row of that
+/// output is the requested state; its seconds and iterations are the sums over all rows.
 Table pressed_table(const PressedByCalculix& theirs, const Table& ours);
 
 }  // namespace breast

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Text, tables and pictures of pages that can be sent: every byte of input is escaped, nothing is fetched, no script runs.
+// HTML text, tables and pictures for self-contained pages: all input is escaped, nothing is
+// fetched, and no script runs.
 #pragma once
 
 #include <filesystem>
@@ -9,20 +10,20 @@
 
 namespace breast {
 
-/// With & < > " ' as entities, and bytes that are no UTF-8 as U+FFFD.
+/// The text with & < > " ' as entities and bytes that are not valid UTF-8 as U+FFFD.
 std::string escaped(const std::string& text);
 std::string base64(const std::string& bytes);
 
-/// A page up to its first heading. `title` is escaped here.
+/// The beginning of a page, up to its first heading. `title` is escaped by this function.
 std::string page_head(const std::string& title, const std::string& style);
 inline const std::string page_end = "</body></html>\n";
 
-/// Tab-separated text as a table; numbers stand to the right; cells "fails", "differs", "missing" and "failed" stand out; comments
-/// are left out. "" of a text without a row.
+/// Tab-separated text as an HTML table. Numbers are right-aligned; cells "fails", "differs",
+/// "missing" and "failed" are highlighted; comments are omitted. "" if the text has no row.
 std::string html_table(const std::string& tsv);
-/// Of a file; "" where it is absent.
+/// The HTML table of a file; "" if the file is absent.
 std::string html_table_of(const std::filesystem::path& file);
-/// The picture inline, with its caption; "" where the file is absent.
+/// The picture inline, with its caption; "" if the file is absent.
 std::string html_figure(const std::filesystem::path& png, const std::string& caption);
 
 }  // namespace breast

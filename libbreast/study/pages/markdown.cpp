@@ -29,7 +29,7 @@ std::string markdown_table(const std::string& tsv, const std::string& name) {
     for (std::size_t c = 0; c < cells.size(); ++c) text += "---|";
     text += "\n";
   }
-  if (text.empty()) throw input_error(name, ": holds no table");
+  if (text.empty()) throw input_error(name, ": contains no table");
   return text;
 }
 
@@ -82,7 +82,7 @@ std::vector<fs::path> files_of(const fs::path& source) {
   return files;
 }
 
-// What the pattern's group finds first; "" without a hit.
+// The first match of the pattern's group; "" without a match.
 std::string stated(const fs::path& source, const std::string& pattern) {
   const std::regex wanted(pattern, std::regex::extended);
   for (const fs::path& file : files_of(source)) {

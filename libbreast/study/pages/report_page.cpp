@@ -64,7 +64,7 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& ending
   return files;
 }
 
-// Tables and plots of a slow target, when it was run.
+// Tables and plots of a slow target, if it was run.
 std::string extra(const std::string& title, const std::string& text, std::vector<fs::path> files) {
   std::erase_if(files, [](const fs::path& file) { return !has_something(file); });
   if (files.empty()) return "";
@@ -82,7 +82,7 @@ std::vector<fs::path> both(const fs::path& folder) {
 }
 
 std::string warnings_box(const std::vector<Warning>& warnings) {
-  if (warnings.empty()) return "<p>No stage warned of anything.</p>\n";
+  if (warnings.empty()) return "<p>There were no warnings.</p>\n";
   std::string text = "<div class=warnings><h2>Warnings: " + std::to_string(warnings.size()) +
                      "; read these first</h2>\n<ul>\n";
   for (const Warning& w : warnings) {
@@ -92,7 +92,7 @@ std::string warnings_box(const std::vector<Warning>& warnings) {
   return text + "</ul></div>\n";
 }
 
-// The header, and the rows of these names.
+// The header and the rows with these names.
 std::string truth_rows(const fs::path& file) {
   const std::vector<std::string> names{"nipple", "tumour", "mean", "largest"};
   std::istringstream in(read_text(file));
@@ -106,7 +106,7 @@ std::string truth_rows(const fs::path& file) {
   return text;
 }
 
-// A number with a point in four digits, everything else as it stands.
+// A number with a decimal point with four digits; any other text unchanged.
 std::string short_number(const std::string& value) {
   const auto number = number_of(value);
   return number && value.find('.') != std::string::npos ? general(*number, 4) : cell_or_dash(value);
@@ -130,7 +130,7 @@ std::string compression_table(const fs::path& run) {
 
 struct Words {
   bool tumour = false;
-  std::string in_4, in_6;  ///< what a caption says of it
+  std::string in_4, in_6;  ///< text in the caption
 };
 Words words_of(const std::string& origin) {
   if (origin == "none") return {};
@@ -182,7 +182,7 @@ std::string figures(const fs::path& run, const Words& words) {
   return text + picture("mlo-matching", "7c. The same tissue stress-free and in the MLO breast.");
 }
 
-// CPU seconds of every solve behind Tables III to VI, from their reports.
+// CPU seconds of all solves for Tables III to VI, from their reports.
 double solved_again(const fs::path& run) {
   std::vector<fs::path> files = files_in(run / "scaled", ".json");
   std::error_code ignored;
@@ -213,8 +213,9 @@ std::string paper_tables(const fs::path& run, const std::string& calibrated) {
     text +=
         section("Table " + title) +
         note(
-            "Prone to supine displacements, mm, when the stiffness of this tissue is scaled; <i>rel</i>: distance from the 100 % row. The "
-            "paper's figure and the difference stand beside ours; <i>estimate</i>: of the discretisation error at the landmarks." +
+            "Displacements from prone to supine, mm, when the stiffness of this tissue is scaled; "
+            "<i>rel</i>: distance from the 100 % row. The paper's value and the difference stand "
+            "beside ours; <i>estimate</i>: estimated discretisation error at the landmarks." +
             (calibrated.empty() ? "" : " Row of 100 %: " + calibrated + "."));
     if (has_something(printed))
       text +=
@@ -224,8 +225,9 @@ std::string paper_tables(const fs::path& run, const std::string& calibrated) {
   }
   return text + section("The paper's conclusions, in numbers") +
          note(
-             "Slopes are d ln u / d ln s between the rows of 90 and 110 %. The paper's text rounds its slope of -0.61 to &ldquo;10 % changes ... "
-             "approximately 10 %&rdquo;; its own rows say 6 to 7 %.") +
+             "Slopes are d ln u / d ln s between the rows of 90 and 110 %. The text of the paper "
+             "rounds its slope of -0.61 to &ldquo;10 % changes ... approximately 10 %&rdquo;; its "
+             "own rows give 6 to 7 %.") +
          html_table_of(tables / "conclusions.tsv");
 }
 
@@ -236,15 +238,16 @@ std::string own_tables(const fs::path& run, const std::string& calibrated) {
     text +=
         section("Table VII, ours: every slope from one solve") +
         note(
-            "Tangent-linear derivatives of the converged state (<i>tangent</i>) against the rows of Tables III to VI solved again "
-            "(<i>resolved</i>: three-point derivative in ln s). <i>Step error</i> is what the finite steps of the solved rows cost; the two "
-            "agree when they differ by no more than twice that. Cost: " +
+            "Tangent-linear derivatives of the converged state (<i>tangent</i>), compared with "
+            "the rows of Tables III to VI solved again (<i>resolved</i>: three-point derivative "
+            "in ln s). <i>Step error</i> is the error of the finite steps between these rows; the "
+            "two agree if they differ by at most twice that. Cost: " +
             fixed_cell(
                 StageReport::read(run / (fs::exists(run / "slopes.json") ? "slopes.json"
                                                                          : "base-sensitivity.json"))
                     .number("cpu_seconds"),
                 2) +
-            " CPU seconds for all, against " + format_fixed(solved_again(run), 0) +
+            " CPU seconds for all slopes, and " + format_fixed(solved_again(run), 0) +
             " for the solves of the tables.") +
         html_table_of(tables / "table7.tsv");
   }
@@ -252,18 +255,22 @@ std::string own_tables(const fs::path& run, const std::string& calibrated) {
     text +=
         section("Table VIII, ours: do the conclusions survive another stiffness?") +
         note(
-            "The same conclusions on the same mesh, slopes from one solve each. <i>columns</i>: Table II's second-order constants taken as a11, "
-            "a20, a02 instead of the printed a20, a02, a11. <i>mira2018</i>: identified in vivo, ten times softer, so that gravity matters ten "
-            "times more; where the imaged shape has no stress-free body under it, no conclusion can be drawn and the reason stands there. "
-            "<i>mira2018-x10</i>: the same set ten times as stiff.") +
+            "The same conclusions on the same mesh, with slopes from one solve each. "
+            "<i>columns</i>: Table II's second-order constants taken as a11, a20, a02 instead of "
+            "the printed a20, a02, a11. <i>mira2018</i>: identified in vivo, ten times softer, so "
+            "that gravity matters ten times more; if the imaged shape has no stress-free body "
+            "with this set, no conclusion can be drawn and the reason is given. "
+            "<i>mira2018-x10</i>: the same set with ten times the stiffness.") +
         html_table_of(tables / "table8.tsv");
   }
   if (has_something(tables / "findings.tsv")) {
     text +=
-        section("How much of the figures is numerical") +
+        section("Numerical part of the results") +
         note(
-            "The default with one choice at a time made as in the paper, and all of them (as printed), against the finest solution (27-node "
-            "elements): plain instead of isochoric invariants, cuboid instead of dome, skin as a layer of elements instead of a membrane." +
+            "The default model with one choice at a time made as in the paper, and with all of "
+            "them (as printed), compared with the finest solution (27-node elements). The choices "
+            "are plain instead of isochoric invariants, cuboid instead of dome, and skin as a "
+            "layer of elements instead of a membrane." +
             (calibrated.empty() ? "" : " Default and as printed: " + calibrated + ".")) +
         html_table_of(tables / "findings.tsv");
   }
@@ -273,16 +280,18 @@ std::string own_tables(const fs::path& run, const std::string& calibrated) {
 std::string slow_targets(const fs::path& run, const fs::path& runs) {
   return extra(
              "Leaving parts out",
-             "Change at the landmarks and on the MLO curve against the full model, and the CPU seconds saved; then the least model that stays "
-             "within the error asked for, and what it gives.",
+             "Change at the landmarks and on the MLO curve relative to the full model, and the "
+             "CPU seconds saved; then the simplest model that stays within the given error, and "
+             "its actual change.",
              {run / "leaveout/table.tsv", run / "leaveout/recommendation.tsv"}) +
          extra("Error against run time", "Landmark error (mm) against CPU seconds.",
                both(run / "cost")) +
          extra(
              "Error budget",
-             "What is left of the errors (mm) when one stage of the chain is replaced by the phantom's truth, and that stage's CPU seconds.",
+             "Errors (mm) that remain when one stage of the chain is replaced by the phantom's "
+             "truth, and the CPU seconds of that stage.",
              both(run / "budget")) +
-         extra("Stability", "Extreme cases: each converges, or stops with the reason given.",
+         extra("Stability", "Extreme cases: each converges, or stops with a reason.",
                {runs / "stability/summary.tsv", runs / "stability/mechanics.tsv",
                 runs / "stability/contact.tsv"}) +
          extra("Independent solver", "The same scene in CalculiX.",
@@ -304,7 +313,7 @@ std::string cost_table_of(const fs::path& run) {
   return text + "</table>\n";
 }
 
-// Words without their folders: a page that is sent says nothing of this machine.
+// Words without the folders in them, because a page that is sent must not describe this machine.
 std::string without_folders(const std::string& text) {
   std::string shown, word;
   for (const char c : text) {
@@ -351,12 +360,12 @@ std::string report_page(const fs::path& run, const ReportContext& context) {
   html += warnings_box(warnings_of(run, context.advice));
   if (origin == "artificial")
     html +=
-        "<p class=bad><b>The tumour of this case is artificial: nobody found it in the scan.</b> Every figure and table below follows that "
-        "point.</p>\n";
-  html += html_figure(
-      run / "figures/slices.png",
-      "The scan in three planes" + (words.tumour ? " through" + words.in_6 : std::string()) +
-          " with the contours of its segmentation; check these before all that follows.");
+        "<p class=bad><b>The tumour of this case is artificial: it was not found in the scan.</b> "
+        "Every figure and table below follows that point.</p>\n";
+  html += html_figure(run / "figures/slices.png",
+                      "The scan in three planes" +
+                          (words.tumour ? " through" + words.in_6 : std::string()) +
+                          " with the contours of its segmentation; check these before all that follows.");
   html += html_figure(
       run / "figures/summary.png",
       "The chain: the scan, the silhouettes of the postures, CC and MLO compression, simulated mammograms" +
@@ -366,7 +375,8 @@ std::string report_page(const fs::path& run, const ReportContext& context) {
   if (has_something(run / "truth.tsv"))
     html +=
         note(
-            "Errors against the phantom's truth, mm, the mean and the largest over all its landmarks below:") +
+            "Errors against the phantom's truth, mm; the mean and the largest are over all its "
+            "landmarks:") +
         html_table(truth_rows(run / "truth.tsv"));
   html += motion_section(run) + section("Compression") + compression_table(run) +
           figures(run, words) + paper_tables(run, calibrated) + own_tables(run, calibrated) +

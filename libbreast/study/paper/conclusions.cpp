@@ -33,7 +33,8 @@ namespace {
 using SlopeOf = std::function<std::string(std::size_t tissue, const std::string& landmark)>;
 const std::array<std::string, 3> tissues{"fat", "fibroglandular", "skin"};
 
-// More than three times the second, and that more than the third; in size.
+// Whether the first is more than three times the second and the second larger than the third, in
+// magnitude.
 std::string in_order(const std::array<std::string, 3>& slopes) {
   std::array<double, 3> size{};
   for (std::size_t t = 0; t < size.size(); ++t) {
@@ -97,7 +98,7 @@ Table conclusions_from_slopes(const std::optional<Table>& slopes, const Table& s
 Table judge(const Table& conclusions, const std::vector<JudgedModel>& models) {
   Table table{{"conclusion", "lowest", "highest"}, {}};
   for (const JudgedModel& model : models)
-    model.values.column("value");  // refuses a table of something else
+    model.values.column("value");  // throws for a table of another kind
   for (const JudgedModel& model : models)
     table.columns.insert(table.columns.end(), {model.name, model.name + "_verdict"});
   for (std::size_t r = 0; r < conclusions.rows.size(); ++r) {

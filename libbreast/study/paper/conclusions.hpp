@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The paper's conclusions in numbers, and whether they hold for several models.
+// The paper's conclusions as numbers, and whether they hold for several models.
 #pragma once
 
 #include <array>
@@ -13,30 +13,36 @@
 
 namespace breast {
 
-/// The row of a table of `sensitivity` for a landmark (the tumour's also where it is an artificial one) and a parameter.
+/// The row for a landmark and a parameter in a table of `sensitivity`; for the tumour also that of
+/// an artificial tumour.
 std::optional<std::size_t> slope_row_of(const Table& slopes, const std::string& landmark,
                                         const std::string& parameter);
-/// Its slope with so many decimals, "-" without one.
+/// The slope in that row with the given number of decimals; "-" if there is none.
 std::string slope_cell(const Table& slopes, const std::string& landmark,
                        const std::string& parameter, int decimals);
 
-// A row a conclusion: its name (pipelines/paper/conclusions.tsv) and value, "-" without a solution: slopes d ln u / d ln s of
-// nipple and tumour by each tissue, whether their order is the paper's, and per cent of change by a stiff tumour.
-/// From the rows of 90 and 110 per cent of Tables III, IV and V and those of Table VI, columns PREFIXnipple_mm, PREFIXtumour_mm.
+// The tables have one row per conclusion: its name (pipelines/paper/conclusions.tsv) and its value,
+// "-" without a solution. Values are the slopes d ln u / d ln s of nipple and tumour with respect
+// to each tissue, whether their order is that of the paper, and the change in per cent caused by a
+// stiff tumour.
+/// From the rows of 90 and 110 per cent of Tables III, IV and V and the rows of Table VI, columns
+/// PREFIXnipple_mm and PREFIXtumour_mm.
 Table conclusions_from_rows(const std::array<Table, 4>& tables, const std::string& prefix);
-/// From slopes as `sensitivity --table` wrote them (nothing: no solution), and Table VI.
+/// From slopes written by `sensitivity --table` (no value: no solution), and from Table VI.
 Table conclusions_from_slopes(const std::optional<Table>& slopes, const Table& stiff);
 
 struct JudgedModel {
   std::string name;
-  Table values;  ///< conclusion, value
+  Table values;  ///< columns conclusion, value
 };
-/// The conclusions' bounds, and for every model its value and verdict: holds, fails, not evaluated. Throws Error (input) naming
-/// a table of values without its columns.
+/// The bounds of the conclusions, and for every model its value and verdict: holds, fails, not
+/// evaluated. Throws Error (input) naming a table of values that lacks these columns.
 Table judge(const Table& conclusions, const std::vector<JudgedModel>& models);
 
-/// Table VIII: first whether each set of `sets` has a stress-free body and the supine displacements of nipple and tumour, then
-/// judge() of the paper, of RUN and of the sets, the variants of RUN/studies/table8 (study/places.hpp). `third`: the paper's Table III.
+/// Table VIII. The first rows state whether each set of `sets` has a stress-free body, and the
+/// supine displacements of nipple and tumour; the other rows are judge() applied to the paper, to
+/// RUN and to the sets, which are the variants of RUN/studies/table8 (study/places.hpp). `third` is
+/// the paper's Table III.
 Table survival_table(const Table& conclusions, const Table& third, const std::filesystem::path& run,
                      const ShapeReader& read, const std::vector<std::string>& sets,
                      const std::string& calibrated);

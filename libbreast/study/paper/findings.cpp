@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// mm from the landmark's imaged place.
+// Distance in mm from the landmark's imaged position.
 double moved_in(const fs::path& file, const std::string& landmark) {
   const StageReport report = StageReport::read(file);
   const auto from = report.place(landmark, "imaged"), to = report.place(landmark, "position");
@@ -89,8 +89,9 @@ std::string calibration_note(const fs::path& truth, const std::string& side) {
   const auto moves = [&](const std::string& landmark) {
     return fixed_cell(report.number(side + "/landmarks/" + landmark + "/distance_mm"), 2);
   };
-  return "calibrated to this row: size and tumour of the preset \"paper\" were fitted so that this chain moves nipple and tumour as the "
-         "paper's does (8.8 and 3.0 mm supine); the phantom's own truth moves " +
+  return "calibrated to this row: size and tumour of the preset \"paper\" were fitted so that "
+         "this chain moves nipple and tumour by as much as the paper (8.8 and 3.0 mm supine); the "
+         "phantom's own truth moves " +
          moves("nipple") + " and " + moves("tumour") + " mm";
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far numerical choices move the paper's figures, and which of ours were fitted to the paper's.
+// The effect of numerical choices on the paper's results, and the comparison with results to which
+// the phantom was fitted.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +11,18 @@
 
 namespace breast {
 
-/// A row for the paper, the case as solved and every variant of RUN/studies/findings (study/places.hpp) (the last one is the finest): displacements
-/// of nipple and tumour from the imaged place, stress-free and supine, mm; the supine ones against the finest, per cent; the
-/// solve's own error estimate of the supine landmarks, mm; slopes by fat.
+/// One row for the paper, the case as solved, and every variant of RUN/studies/findings
+/// (study/places.hpp), of which the last is the finest. Columns: displacements of nipple and tumour
+/// from the imaged position, stress-free and supine, mm; the difference of the supine displacements
+/// from the finest, per cent; the solver's own error estimate at the supine landmarks, mm; slopes
+/// with respect to fat.
 Table findings_table(const std::filesystem::path& run, const std::vector<std::string>& variants);
 
-/// A sentence for a phantom whose preset was fitted to the answer of the chain; "" for any other. `truth`: report of phantom.
+/// A sentence for a phantom with a preset that was fitted to results of the chain; "" for any other
+/// phantom. `truth` is the report of phantom.
 std::string calibration_note(const std::filesystem::path& truth, const std::string& side);
-/// Motions from the prone shape, mm: the paper, as printed, as solved, the truth (`landmarks`: the phantom's table).
+/// Motion from the prone shape in mm: in the paper, with the model as printed, as solved, and in
+/// the truth (`landmarks`, the phantom's table).
 Table calibration_table(const std::filesystem::path& run, const std::filesystem::path& truth,
                         const std::string& side, const Table& landmarks);
 

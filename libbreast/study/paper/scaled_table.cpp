@@ -35,7 +35,7 @@ Table scaled_table(const Table& paper, const std::filesystem::path& prefix,
     for (const std::string& column : {quantity, "paper_" + quantity, "difference_" + quantity})
       table.columns.push_back(column);
   table.columns.insert(table.columns.end(), {"estimate_mm", "remark"});
-  // The displacements are relative to the base: without one no row has any.
+  // The displacements are relative to the base, so that without a base no row has any.
   const bool has_base = std::filesystem::exists(base);
   const Shape base_shape = has_base ? read(base) : Shape{};
   for (std::size_t r = 0; r < paper.rows.size(); ++r) {

@@ -26,7 +26,8 @@ SlopeComparison compare_slopes(const TangentSlope& tangent, const ResolvedPlaces
   };
   const double near = slope_of(0, 1), wide = slope_of(2, 3);
   const double ratio =
-      s[2] * s[3] / (s[0] * s[1]);  // the error of the formula goes with the product of its steps
+      // The error of the formula is proportional to the product of its steps.
+      s[2] * s[3] / (s[0] * s[1]);
   const Vec3 derivative = parabola_slope<Vec3>(s[0], s[1], r.base, r.places[0], r.places[1]);
   SlopeComparison result;
   result.resolved = near;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Slopes d ln u / d ln s of displacement u by stiffness s: out of one tangent-linear solve, and out of solving again.
+// Slopes d ln u / d ln s of the displacement u with respect to the stiffness s, from one
+// tangent-linear solve and from solving again.
 #pragma once
 
 #include <array>
@@ -17,10 +18,12 @@ Value parabola_slope(double a, double b, const Value& f0, const Value& fa, const
   return (fa - f0) * (b / (a * (b - a))) - (fb - f0) * (a / (b * (b - a)));
 }
 
-/// d ln u / d ln s between two rows at stiffness `low` and `high`, per cent; both displacements must be positive.
+/// d ln u / d ln s between two rows with stiffness `low` and `high` in per cent; both displacements
+/// must be positive.
 double slope_between(double low, double u_low, double high, double u_high);
 
-/// The places of one landmark, mm: at 100 per cent, and at four stiffnesses s = percent / 100, the two near ones first.
+/// The positions of one landmark in mm, at 100 per cent and at four stiffnesses s = percent / 100,
+/// the two near ones first.
 struct ResolvedPlaces {
   Vec3 imaged{0, 0, 0}, base{0, 0, 0};
   std::array<double, 4> stiffness{};
@@ -28,12 +31,12 @@ struct ResolvedPlaces {
 };
 struct TangentSlope {
   double slope = 0;          ///< d ln u / d ln s
-  Vec3 derivative{0, 0, 0};  ///< of the landmark's place by ln s, mm
+  Vec3 derivative{0, 0, 0};  ///< derivative of the landmark's position with respect to ln s, mm
 };
 struct SlopeComparison {
   double resolved = 0;    ///< three-point derivative through the near steps
-  double difference = 0;  ///< tangent less resolved
-  /// What the near steps cost: the same formula through the far ones, and the orders of both.
+  double difference = 0;  ///< tangent minus resolved
+  /// Error of the near steps, from the same formula with the far steps and the orders of both.
   double step_error = 0;
   double vector_percent =
       0;  ///< distance of both derivatives of the place, per cent of the resolved one's length
@@ -41,9 +44,10 @@ struct SlopeComparison {
 };
 SlopeComparison compare_slopes(const TangentSlope& tangent, const ResolvedPlaces& resolved);
 
-/// Table VII: every slope of the tables of `sensitivity` against Tables III to VI solved again. `base`: supine report of the
-/// 100 per cent state; `scaled`: folder of the variants TISSUE-PERCENT. Steps 90, 110 and 50, 200 per cent; of the tumour 150,
-/// 200 and 200, 500, one-sided. "not evaluated" where one of them has no solution.
+/// Table VII: every slope in the tables of `sensitivity`, compared with Tables III to VI solved
+/// again. `base` is the supine report of the 100 per cent state, `scaled` the folder of the
+/// variants TISSUE-PERCENT. The steps are 90, 110 and 50, 200 per cent; for the tumour they are
+/// 150, 200 and 200, 500, one-sided. "not evaluated" if any of these has no solution.
 Table slopes_table(const std::filesystem::path& base, const std::filesystem::path& scaled,
                    const Table& slopes, const Table& tumour_slopes);
 
