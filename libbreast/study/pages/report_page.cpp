@@ -278,19 +278,17 @@ std::string own_tables(const fs::path& run, const std::string& calibrated) {
 }
 
 std::string slow_targets(const fs::path& run, const fs::path& runs) {
-  return extra(
-             "Leaving parts out",
-             "Change at the landmarks and on the MLO curve relative to the full model, and the "
-             "CPU seconds saved; then the simplest model that stays within the given error, and "
-             "its actual change.",
-             {run / "leaveout/table.tsv", run / "leaveout/recommendation.tsv"}) +
+  return extra("Leaving parts out",
+               "Change at the landmarks and on the MLO curve relative to the full model, and the "
+               "CPU seconds saved; then the simplest model that stays within the given error, and "
+               "its actual change.",
+               {run / "leaveout/table.tsv", run / "leaveout/recommendation.tsv"}) +
          extra("Error against run time", "Landmark error (mm) against CPU seconds.",
                both(run / "cost")) +
-         extra(
-             "Error budget",
-             "Errors (mm) that remain when one stage of the chain is replaced by the phantom's "
-             "truth, and the CPU seconds of that stage.",
-             both(run / "budget")) +
+         extra("Error budget",
+               "Errors (mm) that remain when one stage of the chain is replaced by the phantom's "
+               "truth, and the CPU seconds of that stage.",
+               both(run / "budget")) +
          extra("Stability", "Extreme cases: each converges, or stops with a reason.",
                {runs / "stability/summary.tsv", runs / "stability/mechanics.tsv",
                 runs / "stability/contact.tsv"}) +
@@ -362,10 +360,10 @@ std::string report_page(const fs::path& run, const ReportContext& context) {
     html +=
         "<p class=bad><b>The tumour of this case is artificial: it was not found in the scan.</b> "
         "Every figure and table below follows that point.</p>\n";
-  html += html_figure(run / "figures/slices.png",
-                      "The scan in three planes" +
-                          (words.tumour ? " through" + words.in_6 : std::string()) +
-                          " with the contours of its segmentation; check these before all that follows.");
+  html += html_figure(
+      run / "figures/slices.png",
+      "The scan in three planes" + (words.tumour ? " through" + words.in_6 : std::string()) +
+          " with the contours of its segmentation; check these before all that follows.");
   html += html_figure(
       run / "figures/summary.png",
       "The chain: the scan, the silhouettes of the postures, CC and MLO compression, simulated mammograms" +
@@ -373,11 +371,10 @@ std::string report_page(const fs::path& run, const ReportContext& context) {
   html += section("Landmarks") + html_table_of(run / "displacements.tsv");
   if (!calibrated.empty()) html += note("Supine: " + calibrated + ".");
   if (has_something(run / "truth.tsv"))
-    html +=
-        note(
-            "Errors against the phantom's truth, mm; the mean and the largest are over all its "
-            "landmarks:") +
-        html_table(truth_rows(run / "truth.tsv"));
+    html += note(
+                "Errors against the phantom's truth, mm; the mean and the largest are over all its "
+                "landmarks:") +
+            html_table(truth_rows(run / "truth.tsv"));
   html += motion_section(run) + section("Compression") + compression_table(run) +
           figures(run, words) + paper_tables(run, calibrated) + own_tables(run, calibrated) +
           slow_targets(run, context.runs);
