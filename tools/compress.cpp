@@ -29,8 +29,9 @@ void declare(Tool& tool, Choices& c) {
       "Loads the stress-free breast with gravity, places two rigid plates with rounded edges so "
       "that they just touch it, and closes them to a thickness, a reduction, a force, a mean "
       "pressure or a contact area; if several are given, the first one that is reached ends the "
-      "compression. With --image-edge the plates are placed as in the clinic: their edge is close "
-      "to the chest wall and parallel to it, element faces penetrate the plates by at most 0.05 "
+      "compression. With --image-edge, which is the default for a breast that slides on its chest "
+      "wall, the plates are placed as in the clinic: their edge is close to the chest wall and "
+      "parallel to it, element faces penetrate the plates by at most 0.05 "
       "mm, and friction holds the breast, which a hand supports until the plates grip it. "
       "Otherwise contact is enforced exactly at the nodes, without a penalty; worst_gap_mm in "
       "the report is the depth to which faces penetrate a rounded edge between nodes. Unless "
@@ -100,7 +101,8 @@ void declare(Tool& tool, Choices& c) {
       "the rounded edge starts; auto is 5 for CC and 0 for MLO and ML, and in a mesh with a layer "
       "of muscle the edge for MLO and ML lies behind its front by 0.8 of its thickness. This "
       "changes the defaults of --turn, --edge-radius, --contact-points, --friction, "
-      "--positioning and --pull as stated there");
+      "--positioning and --pull as stated there (default: auto for a breast that slides on its "
+      "chest wall, unless --standoff is given; otherwise the plates stand as --standoff says)");
   tool.text(
       c.turn, "--turn", "auto|DEG",
       "turn the plates' edge by this angle towards the breast's side, about the patient's long "
@@ -182,6 +184,9 @@ void run_compress(Choices c, Run& run) {
                          read_mesh(c.reference, {.reference = true}));
   const HexMesh& mesh = mechanics.mesh();
   take_from_mammogram(c, mesh.side, run.report());
+  // A breast that slides lies limp between plates that stand far in front of its chest wall.
+  const bool slides = mechanics.options().wall.kind == WallKind::slide;
+  if (slides && c.image_edge.empty() && !c.plates.standoff) c.image_edge = "auto";
   const CompressionOptions options = compression_options(c, parse_gravity(c.gravity), muscle_thickness(mesh));
   if (c.plates.standoff) {
     run.progress().note(

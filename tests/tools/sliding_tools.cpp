@@ -53,14 +53,16 @@ TEST_F(SlidingTools, WholeChainWithWhatTheMaterialSetSays) {
   EXPECT_LT(backward.number("closure_mm"), 1e-8);
   EXPECT_LE(backward.number("newton_iterations"), 15);
   ASSERT_EQ(run("forward reference.vtkhdf supine.vtkhdf --report s.json" + soft), 0) << said_.err;
-  const HexMesh supine = read_mesh(folder_ / "supine.vtkhdf", {.reference = true, .geometry = true});
+  const HexMesh supine =
+      read_mesh(folder_ / "supine.vtkhdf", {.reference = true, .geometry = true});
   double slid = 0, off = 0;
   for (const int node : nodes_of(supine, supine.pectoral_faces)) {
     const auto before = supine.geometry->thorax->at(supine.imaged[std::size_t(node)]),
                after = supine.geometry->thorax->at(supine.points[std::size_t(node)]);
     ASSERT_TRUE(before && after);
     off = std::max(off, std::abs(after->value - before->value));
-    slid = std::max(slid, (supine.points[std::size_t(node)] - supine.imaged[std::size_t(node)]).norm());
+    slid = std::max(slid,
+                    (supine.points[std::size_t(node)] - supine.imaged[std::size_t(node)]).norm());
   }
   EXPECT_GT(slid, 2);
   EXPECT_LT(off, 1e-9);
@@ -73,10 +75,17 @@ TEST_F(SlidingTools, WholeChainWithWhatTheMaterialSetSays) {
     supports += parameter == "wall" || parameter == "cut";
   }
   EXPECT_GE(supports, 2);
-  ASSERT_EQ(run("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 20 --report c.json" + soft),
-            0)
+  ASSERT_EQ(
+      run("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 20 --report c.json" + soft), 0)
       << said_.err;
   EXPECT_LT(report("c.json").number("force_balance"), 1e-6);
+  EXPECT_EQ(report("c.json").text("contact_points"), "surface") << "the clinic's plates";
+  ASSERT_EQ(run("compress reference.vtkhdf far.vtkhdf --view CC --reduction 5 --standoff 10 "
+                "--report f.json" +
+                soft),
+            0)
+      << said_.err;
+  EXPECT_EQ(report("f.json").text("contact_points"), "nodes");
   ASSERT_EQ(run("population supine.vtkhdf --table motion.tsv --summary mean.tsv"), 0) << said_.err;
   EXPECT_NEAR(read_table(folder_ / "motion.tsv").number(0, "nipple_moved_mm"),
               report("s.json").number("landmarks/nipple/distance_mm"), 0.06);
@@ -86,8 +95,9 @@ TEST_F(SlidingTools, ACalibratedSetIsReadByTheOtherTools) {
   write_text(folder_ / "women.tsv",
              "quantity\tmean\tsd\nnipple_lateral_mm\t6\t3\nnipple_posterior_mm\t5\t3\n"
              "ribs_change_mm\t-1\t1\n");
-  const std::string line = "calibrate-softness mesh.vtkhdf --pressed mesh.vtkhdf --women women.tsv "
-                           "--set set.tsv --expected 20,50,100,0.05,0.05 --reduction 10 ";
+  const std::string line =
+      "calibrate-softness mesh.vtkhdf --pressed mesh.vtkhdf --women women.tsv "
+      "--set set.tsv --expected 20,50,100,0.05,0.05 --reduction 10 ";
   ASSERT_EQ(run(line + "--expected-ln-sd 0.2 --report k.json"), 0) << said_.err;
   EXPECT_GT(report("k.json").number("softness/wall"), 0.01);
   EXPECT_LT(report("k.json").number("softness/wall_ln_sd"), 0.2);
@@ -104,9 +114,10 @@ TEST_F(SlidingTools, AnotherSupportThanTheStressFreeShapeHadIsAWarning) {
   ASSERT_EQ(run("forward r.vtkhdf s.vtkhdf --wall slide:0.02"), 0) << said_.err;
   EXPECT_EQ(said_.err.find("was solved with"), std::string::npos) << said_.err;
   ASSERT_EQ(run("forward r.vtkhdf s.vtkhdf"), 0) << said_.err;
-  EXPECT_NE(said_.err.find("r.vtkhdf was solved with --wall slide:0.02 --cut free, but this run uses "
-                           "--wall held"),
-            std::string::npos)
+  EXPECT_NE(
+      said_.err.find("r.vtkhdf was solved with --wall slide:0.02 --cut free, but this run uses "
+                     "--wall held"),
+      std::string::npos)
       << said_.err;
 }
 
@@ -129,7 +140,8 @@ TEST_F(SlidingTools, RefusalsNameTheRemedy) {
   EXPECT_EQ(run("backward mesh.vtkhdf r.vtkhdf --skin-compression 5"), 2);
   EXPECT_NE(said_.err.find("pre-stretch"), std::string::npos) << said_.err;
   ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf"), 0) << said_.err;
-  EXPECT_EQ(run("export-deck reference.vtkhdf o.inp --wall slide --bulk-ratio 100 --without-skin"), 2);
+  EXPECT_EQ(run("export-deck reference.vtkhdf o.inp --wall slide --bulk-ratio 100 --without-skin"),
+            2);
   EXPECT_NE(said_.err.find("--wall held"), std::string::npos) << said_.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "r.vtkhdf"));
 }
