@@ -8,7 +8,8 @@
 
 namespace breast {
 
-/// Ascending; exact for polynomials of degree 2n − 1. n = 2 or 3.
+/// Points in ascending order with their weights, exact for polynomials of degree 2n − 1; n = 2 or
+/// 3.
 struct GaussLine {
   std::vector<double> at, weight;
 };

@@ -9,9 +9,9 @@
 
 namespace breast {
 
-/// Rows from the top. Chest wall at the left edge for a left breast and at the right edge for a
-/// right one; lateral (CC) or superior (MLO, ML) at the top; dense is bright. Columns that leave
-/// through the back are an even grey, with a soft border of two pixels.
+/// The image in rows from the top. The chest wall is at the left edge for a left breast and at the
+/// right edge for a right one; lateral (CC) or superior (MLO, ML) is at the top; dense tissue is
+/// bright. Columns that leave through the back are an even grey, with a soft border of two pixels.
 struct HungImage {
   int width = 0, height = 0;
   std::vector<std::uint16_t> grey;

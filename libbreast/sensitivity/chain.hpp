@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives of a deformed breast through the chain backward → forward or compress: the
-// stress-free shape changes with every parameter so that the imaged shape remains the same.
+// stress-free shape changes with every parameter so that the imaged shape remains the same. See
 // docs/methods.md.
 #pragma once
 
@@ -34,9 +34,10 @@ struct LandmarkGradient {
 
 class SensitivityChain {
  public:
-  /// `state` is a converged forward or compress result with its reference (order 1, or 2 for q2p1),
-  /// `imaged_pressure` the mean pressures (Pa) backward found. The set of touching nodes is kept:
-  /// where it is about to change, derivatives are one-sided. Must not outlive `state`.
+  /// `state` is a converged result of forward or compress with its reference (order 1, or 2 for
+  /// q2p1); `imaged_pressure` contains the mean pressures (Pa) found by backward. The set of
+  /// touching nodes is fixed: where it is about to change, derivatives are one-sided. `state` must
+  /// outlive this object.
   SensitivityChain(const HexMesh& state, const std::vector<double>& imaged_pressure,
                    const Vec3& imaged_gravity, const MechanicsOptions& options);
 
