@@ -30,7 +30,8 @@ void apply_displacement(HexMesh& mesh, const std::vector<Vec3>& displacement);
 struct NodeDifference {
   double mean_mm = 0, max_mm = 0;
   int worst_node = 0;
-  double largest_displacement_mm = 0;  ///< largest displacement of the second shape from the reference
+  /// Largest displacement of the second shape from the reference.
+  double largest_displacement_mm = 0;
 };
 NodeDifference node_difference(const HexMesh& mesh, const HexMesh& other);
 

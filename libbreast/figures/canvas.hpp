@@ -88,8 +88,9 @@ class Panel {
   /// Adds text at the top left, in as many lines as the width of the panel requires; returns their
   /// number.
   int caption(const std::string& words);
-  void scale_bar(const Colour& colour = {0, 0, 0});  ///< at the bottom right, with a round number of mm
-  void compass();                                    ///< bottom left: left, anterior, superior
+  /// At the bottom right, with a round number of mm.
+  void scale_bar(const Colour& colour = {0, 0, 0});
+  void compass();  ///< bottom left: left, anterior, superior
 
  private:
   std::unique_ptr<Impl> impl_;

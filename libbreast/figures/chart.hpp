@@ -12,7 +12,8 @@ namespace breast {
 /// One axis; a logarithmic axis needs 0 < low.
 struct Axis {
   std::string title;
-  double low = 0, high = 1;  ///< values at the start and the end; the axis runs backwards if low > high
+  /// Values at the start and the end; the axis runs backwards if low > high.
+  double low = 0, high = 1;
   bool logarithmic = false;
 };
 

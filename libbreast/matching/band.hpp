@@ -84,7 +84,7 @@ class BandModel {
   std::vector<Cause> causes_;
   std::vector<std::string> without_;
   Vec3 from_centre_, to_centre_;  ///< centres of the two shapes, about which a beam rotates
-  /// mm along each axis of the first and of the second image, by cause.
+  /// Standard deviations in mm along each axis of the first and of the second image, by cause.
   std::vector<std::pair<std::string, double>> in_first_, in_second_;
 };
 

@@ -41,7 +41,8 @@ struct MatchResult {
   /// Distances from the given position, mm; only with `query.place`, and for arc and line only with
   /// a nipple.
   double place_to_curve = 0, place_to_arc = 0, place_to_line = 0, place_to_chord = 0;
-  double place_standardised = 0;  ///< distance across the curve divided by the standard deviation of the band
+  /// Distance across the curve divided by the standard deviation of the band.
+  double place_standardised = 0;
   /// Whether a true position is known and the point is not in air.
   bool judged() const {
     return query.place && query.origin == PlaceOrigin::truth && !curve.in_air();
@@ -92,8 +93,8 @@ void report_match(const MatchResult& result, Report& report);
 /// number of queries with each status (statuses/matched, statuses/behind_image ...), and
 /// inside_image_percent of all curves together.
 void report_truth(const std::vector<MatchResult>& results, Report& report);
-/// Rows "mean", "p95" and "largest" of the distances to the truth, and below "mean" of in_band_50
-/// and in_band_95 the percentages, at the end of a curve_table.
+/// Appends to a curve_table the rows "mean", "p95" and "largest" of the distances from the truth;
+/// in the row "mean", the columns in_band_50 and in_band_95 contain the percentages.
 void add_truth_summary(const std::vector<MatchResult>& results, Table& table);
 
 }  // namespace breast

@@ -15,7 +15,7 @@ struct GaussLine {
 };
 GaussLine gauss_line(int n);
 
-/// n² and n³ points, the first coordinate fastest.
+/// Products with n² and n³ points; the first coordinate varies fastest.
 struct GaussSquarePoint {
   Vec2 at;
   double weight;

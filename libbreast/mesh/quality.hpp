@@ -21,7 +21,7 @@ double scaled_jacobian(const Vec3* corners);
 double scaled_jacobian(const HexMesh& mesh, const std::vector<Vec3>& nodal, int element);
 std::vector<double> scaled_jacobians(const HexMesh& mesh, const std::vector<Vec3>& nodal);
 
-/// Per element, mm³ (exact for order 1; 3³ Gauss points for order 2).
+/// Volume of every element, mm³ (exact for order 1; 3³ Gauss points for order 2).
 std::vector<double> element_volumes(const HexMesh& mesh, const std::vector<Vec3>& nodal);
 double mesh_volume(const HexMesh& mesh, const std::vector<Vec3>& nodal);
 

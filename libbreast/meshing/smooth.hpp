@@ -31,8 +31,9 @@ inline SmoothOptions for_cuboid(SmoothOptions options) {
 }
 
 struct SmoothReport {
-  double before = 0, after = 0;  ///< minimum scaled Jacobian before smoothing and of the mesh that is kept
-  bool kept = false;             ///< whether the smoothed mesh is kept
+  /// Minimum scaled Jacobian before smoothing and of the mesh that is kept.
+  double before = 0, after = 0;
+  bool kept = false;  ///< whether the smoothed mesh is kept
   int evaluations = 0;
 };
 

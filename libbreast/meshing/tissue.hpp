@@ -13,7 +13,8 @@ struct TissueReport {
   std::array<double, n_tissues> volume{};  ///< mm³ per tissue, of whole elements
   double fibroglandular_volume = 0;        ///< mm³ by element fractions
   double gland_threshold = 0.5;            ///< smallest fraction of a fibroglandular element
-  double outside_fraction = 0;             ///< part of the mesh's volume in voxels that are not breast
+  /// Part of the mesh's volume in voxels that are not breast.
+  double outside_fraction = 0;
   double missed_fraction = 0;   ///< part of the segmented breast's volume outside the mesh
   double segmented_volume = 0;  ///< mm³ of breast voxels (fat, fibroglandular, skin, tumour)
 };

@@ -18,8 +18,8 @@ struct HungImage {
   double window_high = 0;  ///< compensated path at grey 65535; grey is proportional to its square
 };
 /// The path corrected to the thickness between the plates, so that the thicker tissue behind them
-/// is not saturated: fully where the tissue is thicker, by the fifth root of the ratio where it is
-/// thinner (towards the skin). Same unit and order as `path`.
+/// is not saturated. Where the tissue is thicker the correction is complete; where it is thinner
+/// (towards the skin) it is the fifth root of the ratio. Same unit and order as `path`.
 std::vector<float> compensated_path(const Mammogram& image);
 HungImage hang(const Mammogram& image);
 

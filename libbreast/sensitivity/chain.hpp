@@ -27,7 +27,8 @@ struct Response {
 struct LandmarkGradient {
   std::string name;
   std::vector<Vec3> by_parameter;  ///< mm, in the parameters' order
-  /// d(distance from the imaged point)/d ln(stiffness of the element), mm.
+  /// Derivative of the distance from the imaged point with respect to ln(stiffness of the element),
+  /// mm.
   std::vector<double> by_element;
   double seconds = 0;
 };
@@ -74,8 +75,8 @@ class SensitivityChain {
   LinearisedState deformed_;
 };
 
-/// d ln|u| of a landmark's displacement from its imaged position, per unit of the parameter whose
-/// derivative of position (mm) is `slope`.
+/// Derivative of ln|u|, where u is a landmark's displacement from its imaged position, per unit of
+/// a parameter with respect to which the position has the derivative `slope` (mm).
 double displacement_elasticity(const HexMesh& mesh, const Landmark& landmark, const Vec3& slope);
 
 }  // namespace breast

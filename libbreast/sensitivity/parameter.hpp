@@ -58,7 +58,8 @@ Parameter set_parameter(const HexMesh& state, const MaterialSet& set, const std:
 /// words separated by commas. Throws Error (input) naming the choices.
 std::vector<Parameter> pick_parameters(const std::vector<Parameter>& all, const std::string& list);
 
-/// d gravity / d angle (mm/s² per degree) when `gravity` turns towards patient axis `axis`.
+/// Derivative of gravity with respect to the angle (mm/s² per degree) when `gravity` rotates
+/// towards the patient axis `axis`.
 Vec3 turned_gravity(const Vec3& gravity, int axis);
 
 }  // namespace breast

@@ -12,7 +12,8 @@ struct LbfgsOptions {
   int evaluations = 260;
   int memory = 12;
   double first_step = 0.1;  ///< largest component of the first step, in units of the unknowns
-  double relative_decrease = 1e-6;  ///< stop if ten iterations together reduce the energy by less than this fraction
+  /// Stop if ten iterations together reduce the energy by less than this fraction.
+  double relative_decrease = 1e-6;
 };
 struct LbfgsResult {
   int evaluations = 0, iterations = 0;
