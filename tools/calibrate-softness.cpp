@@ -33,16 +33,16 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Finds the stiffness of fat and fibroglandular tissue (with separate factors for the "
-      "linear and the quadratic terms of the law), the stiffness of the skin, and the "
-      "resistance to sliding along the chest wall and at the cut with which the breasts of a "
-      "cohort move from prone to supine as women's breasts do on average. The data are the "
-      "lateral and posterior displacement of the nipple and the change of the tissue's distance "
-      "from the ribs. The nipple's displacement along the long axis of the body is not used, "
-      "because it depends on the position of the arms. A further breast is compressed between "
-      "plates (CC), whose mean pressure should match the clinical one. The fit is by least "
-      "squares in the logarithms, with a prior of a factor of three about --expected; the "
-      "remaining uncertainty is written with the set as a covariance.");
+      "Calibrates a material set so that the breasts of a cohort move from prone to supine as "
+      "women's breasts do on average. The parameters are the stiffness of fat and fibroglandular "
+      "tissue (with separate factors for the linear and the quadratic terms of the law), the "
+      "stiffness of the skin, and the resistance to sliding along the chest wall and at the cut. "
+      "The data are the lateral and posterior displacement of the nipple and the change of the "
+      "tissue's distance from the ribs. The nipple's displacement along the long axis of the body "
+      "is not used, because it depends on the position of the arms. A further breast is "
+      "compressed between plates (CC), and the mean pressure should agree with the clinical one. "
+      "The fit is by least squares in the logarithms, with a prior of a factor of three about "
+      "--expected; the remaining uncertainty is written with the set as a covariance.");
   tool.cite("Pathmanathan et al. 2008, equation (9) and Table II, scaled");
   tool.output_file(c.set, "--set", "OUT.tsv", "the material set found").required("--set");
   tool.inputs(c.cohort, "MESH.vtkhdf", "meshes of breasts imaged prone (hexmesh)");

@@ -20,13 +20,12 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Finds the size of a phantom's breast, and the distance of its tumour from the breast's "
-      "axis, for which the nipple and the tumour are displaced by given distances between the "
-      "prone and the supine shape and between the prone and the stress-free shape. The fit is "
-      "by least squares with BOBYQA (NLopt) on a coarse phantom mesh. The tool prints the "
-      "parameters to put into the preset with the bounds of the search, and warns of a "
-      "parameter that lies on a bound. The displacements are those that the chain would report, "
-      "which are --gain times the phantom's (measured once).");
+      "Fits a phantom to given displacements of its nipple and tumour from the prone to the "
+      "supine and to the stress-free shape. The parameters are the size of the breast and the "
+      "position of the tumour. The displacements are those of the chain, which are --gain times "
+      "the phantom's (a ratio that is measured once). The fit is by least squares with BOBYQA "
+      "(NLopt) on a coarse phantom mesh. The tool prints the parameters for the preset with the "
+      "bounds of the search, and warns if a parameter lies on a bound.");
   tool.cite("Pathmanathan et al. 2008, Tables III and IV: 8.8 and 3.0 mm, 4.5 and 1.6 mm")
       .cite("Powell 2009, The BOBYQA algorithm, DAMTP 2009/NA06; Johnson, NLopt");
   tool.choice(c.preset, "--preset", preset_names(), "kind of breast");

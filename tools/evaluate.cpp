@@ -50,14 +50,14 @@ int main(int argc, char** argv) {
   bool curves = false;
   Tool tool("evaluate", "agreement of a segmentation or a surface with the truth");
   tool.describe(
-          "Compares two label volumes, two surfaces or point sets (.vtp), or a label volume and "
-          "a surface, and prints a table of quantities and values to stdout. For two label "
-          "volumes these are the Dice coefficient and the volume of every tissue, of the breast "
+          "Compares two label volumes, two surfaces or point sets (.vtp), or a label volume and a "
+          "surface, and prints a table of quantities and values to stdout. For two label volumes, "
+          "the table contains the Dice coefficient and the volume of every tissue, of the breast "
           "(fat, fibroglandular tissue, skin and tumour together) and of the body (everything "
-          "but air, where both volumes have voxels); the distance between the chest walls along "
-          "y where the true breast has muscle behind it; and the distances between the breasts' "
-          "surfaces (accurate to half a voxel) and between the nipples. In the other cases they "
-          "are the distances between the surfaces.")
+          "except air, where both volumes have voxels). It also contains the distance between the "
+          "chest walls along y, where the true breast has muscle behind it, and the distances "
+          "between the breasts' surfaces (accurate to half a voxel) and between the nipples. "
+          "Otherwise, the table contains the distances between the surfaces.")
       .cite("Dice 1945, Ecology 26(3):297-302");
   tool.input(given_file, "GIVEN",
              "label volume (.vtkhdf, .seg.nrrd, .nrrd, .nii, .mha) or surface (.vtp)");

@@ -120,14 +120,14 @@ int main(int argc, char** argv) {
             "matched curves of all points of a mammogram, as a file and as an "
             "interactive page");
   tool.describe(
-      "Does for a grid of points over the first image what cc2mlo does for one point, and "
-      "writes one HDF5 file with the status of each point, its curve in the second image "
-      "with its standard deviation, and its column of tissue in the MR frame. --both-ways adds "
-      "the curves in the first image for points of the second. --page writes one HTML file that "
-      "needs neither a server nor a network: pointing at either image draws the curve, band and "
-      "arc in the other, the column in the body and, with --scan, the MR slices that it "
-      "crosses. The page contains no file names and nothing of the scan's header, but it does "
-      "show images of the breast: give it only to those who may see the scan.");
+      "Matches a grid of points over the first image, each in the same way as cc2mlo matches one "
+      "point. The results are written to one HDF5 file: the status of each point, its curve in "
+      "the second image with its standard deviation, and its column of tissue in the MR frame. "
+      "--both-ways adds the curves in the first image for points of the second. --page writes one "
+      "HTML file that needs neither a server nor a network: pointing at either image draws the "
+      "curve, band and arc in the other, the column in the body and, with --scan, the MR slices "
+      "that it crosses. The page contains no file names and no header data of the scan, but it "
+      "does show images of the breast: give it only to those who may see the scan.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), section IV-A");
   tool.input(choices.from, "CC.vtkhdf", "compression of the first image");
   tool.input(choices.to, "MLO.vtkhdf", "compression of the same mesh in another view");

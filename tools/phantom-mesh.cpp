@@ -26,13 +26,14 @@ struct Choices {
 
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Meshes the breast that `phantom` images, with the same shape, fibroglandular tissue, "
-      "materials and landmarks, by 8-node elements: 4280 at level 1, 34240 at level 2 (eight "
-      "times as many as in the chain's mesh), and a tenth more if the breast slides. The prone and "
-      "supine shapes are solved as in the phantom: held at the wall and the cut, or sliding on the "
-      "ribs, which are then the chest-wall surface of the mesh. `compress` continues from "
-      "the prone mesh, for a sliding breast with the set of --set; the difference between two levels "
-      "estimates the error of the finer one (truth-table).");
+      "Meshes the same breast as `phantom`, with the same shape, fibroglandular tissue, materials "
+      "and landmarks, but with 8-node elements: 4280 at level 1, and 34240 at level 2 (eight "
+      "times as many as in the chain's mesh); a sliding breast has a tenth more. The prone and "
+      "supine shapes are solved as in the phantom. The breast is either fixed at the wall and the "
+      "cut, or it slides on the ribs, which are then the chest-wall surface of the mesh. "
+      "`compress` continues from the prone mesh; for a sliding breast, give it the set written by "
+      "--set. The difference between two levels estimates the error of the finer one "
+      "(truth-table).");
   tool.output(c.mesh, "PRONE.vtkhdf", "the prone mesh with its stress-free reference");
   tool.output_file(c.supine, "--supine", "SUPINE.vtkhdf", "write the supine shape to this file");
   tool.choice(c.preset, "--preset", preset_names(), "kind of breast, as in phantom");

@@ -37,10 +37,11 @@ void declare(Tool& tool, Choices& c) {
       "breast's extent on it, fat, fibroglandular tissue, skin and nipple. Everything behind "
       "the chest wall is labelled muscle, and the rest of the body is labelled other.");
   tool.describe(
-      "For a supine scan (--posture supine), the second posture of identify, skin and chest wall are what "
-      "matters: --points then contains the skin of the whole side with normals, and the wall wherever it was "
-      "seen. The breast, spread over the side of the chest, is labelled as far as the wall was sought; beyond "
-      "the side of the rib cage its end is arbitrary.");
+      "A supine scan (--posture supine) is the second posture for identify, which needs its skin "
+      "and chest wall. --points then contains the skin of the whole side with normals, and the "
+      "chest wall wherever it was found. The breast, spread over the side of the chest, is "
+      "labelled as far as the chest wall was sought; beyond the side of the rib cage its end is "
+      "arbitrary.");
   tool.cite("Pathmanathan et al. 2008, section II-A; Li et al., IEEE TPAMI 28:119 (2006)");
   tool.input(c.scan, "MR", "scan: .nrrd, .nii, .nii.gz, .mha, or a DICOM folder");
   tool.output(

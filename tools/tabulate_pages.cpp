@@ -178,8 +178,10 @@ std::vector<TabulateKind> page_kinds() {
        2, 2, key},
       {"place", "REPORT.json LANDMARK [imaged|position]", "position x,y,z of a landmark in mm", 2,
        3, place},
-      {"truth", "TRUTH.tsv", "rows of a table of errors against the truth that a page shows", 1, 1,
-       [](const Request& r) { return truth_summary(r.table(0)).text(); }},
+      {"truth", "TRUTH.tsv",
+       "mean, largest, nipple and tumour of a table of errors against the "
+       "truth",
+       1, 1, [](const Request& r) { return truth_summary(r.table(0)).text(); }},
       {"pages", "fill|check PAGE.md...",
        "tables between the marks of pages, written again (fill) or compared (check)", 2, any_number,
        pages},

@@ -14,8 +14,8 @@
 
 namespace breast {
 
-/// Notes and lines are delayed for the first seconds, so that a run that fails at once on bad input
-/// prints only one line, the error.
+/// Delays notes and lines for the first seconds, so that a run that fails at once because of bad
+/// input prints only one line, the error.
 class StderrProgress final : public Progress {
  public:
   StderrProgress(std::string tool, bool quiet);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Running another tool of the installation for part of a tool's work.
+// Execution of another tool of the installation as part of a tool's work.
 #pragma once
 
 #include <string>
@@ -13,8 +13,9 @@ namespace breast {
 /// the option that needs it.
 void require_sibling(const std::string& tool, const std::string& what);
 
-/// Runs the program `tool` from the folder of the running one, silently, and returns its report. It
-/// ends with the caller. Throws Error with its reason (input for bad input, otherwise failed).
+/// Runs the program `tool` from the folder of the running one, without output, and returns its
+/// report. The program ends if the caller does. Throws Error with the program's reason (input for
+/// bad input, otherwise failed).
 Report run_sibling(const std::string& tool, const std::vector<std::string>& arguments);
 
 }  // namespace breast

@@ -9,15 +9,15 @@
 
 namespace breast {
 
-/// The rate is that of the second half of the time since the stage began, so that changes of the
-/// rate are followed.
+/// Uses the rate of the second half of the time since the stage began, so that changes of the rate
+/// are followed.
 class TimeLeft {
  public:
   /// Remaining seconds of `stage`, of which `fraction` is done at the time `now` (seconds of any
-  /// monotonic clock). Nothing while too little is known (less than 2 s or 2 % of progress), for a
-  /// fraction that is below 0, 1 or not finite, and for a stage that takes less than 10 s in all.
+  /// monotonic clock). No value if too little is known (less than 2 s or 2 % of progress), for a
+  /// fraction that is below 0, 1 or not finite, and for a stage that takes less than 10 s in total.
   /// Another stage starts a new estimate, unless its fraction continues from the end of the last
-  /// one, in which case both are treated as one stage.
+  /// one; both are then treated as one stage.
   std::optional<double> update(std::string_view stage, double fraction, double now);
 
  private:

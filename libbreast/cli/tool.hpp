@@ -37,8 +37,8 @@ class Run {
   Progress& progress() { return progress_; }
   Report& report() { return report_; }
   Timer& timer() { return timer_; }
-  /// Provenance for an output: the inputs' histories, then this command. Pass (file name, sha,
-  /// history) of every input read.
+  /// Provenance for an output: the histories of the inputs, followed by this command. Pass the file
+  /// name, SHA-256 and history of every input.
   struct Input {
     std::filesystem::path file;
     std::string sha256;
@@ -47,7 +47,7 @@ class Run {
   History history(const std::vector<Input>& inputs) const;
   /// A warning for the user, on stderr and in the report under "warnings".
   void warn(const std::string& text);
-  /// Data for stdout (tables); nothing else goes there.
+  /// Prints data (tables) on stdout, which has no other content.
   void print(const std::string& text);
   double seconds() const;  ///< since the tool started
   /// The text collected by print(), which is shown only if the tool succeeds, so that stdout never
@@ -81,7 +81,8 @@ class Tool {
                const std::string& help);  ///< one or more; only as the last positional
   Tool& output(std::filesystem::path& value, const std::string& placeholder,
                const std::string& help, const std::vector<std::string>& more_endings = {});
-  /// A positional that is not (always) a file: a name, or a choice the tool resolves itself.
+  /// A positional argument that is not (always) a file: a name, or a choice that the tool resolves
+  /// itself.
   Tool& word(std::string& value, const std::string& placeholder, const std::string& help);
   /// One or more values; only as the last positional argument.
   Tool& words(std::vector<std::string>& values, const std::string& placeholder,
@@ -118,8 +119,8 @@ class Tool {
   /// Checks across arguments, run after parsing and before any file is opened; throw input_error.
   Tool& check(std::function<void()> rule);
 
-  /// Parses, checks, runs. Every Error becomes one line on stderr and its exit code; --report is
-  /// written in success and in failure (with status and reason).
+  /// Parses, checks and runs. Every Error becomes one line on stderr and its exit code; --report is
+  /// written in case of success and of failure (with status and reason).
   int main(int argc, char** argv, const std::function<void(Run&)>& body);
 
  private:

@@ -9,9 +9,9 @@
 
 namespace breast {
 
-/// Candidates for the last of `words` (the words after `breast`, the last one incomplete), to be
-/// filtered by its beginning; empty if a file name is expected. The tools themselves are asked for
-/// their options.
+/// Candidates for the last of `words` (the words after `breast`, the last one incomplete), not yet
+/// filtered by its beginning; empty if a file name is expected. Options are obtained from the tools
+/// themselves.
 std::vector<std::string> completions(const Installation& installation,
                                      const std::vector<std::string>& words);
 

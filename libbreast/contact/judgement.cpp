@@ -223,10 +223,9 @@ std::vector<Judgement> judge_path(const PathResult& path, bool stable) {
   }
   if (path.passed_by) {
     list.push_back({"ends_past_target",
-                    message("the ", target_name(path.met.kind), " is ", *path.passed_by, 
-      ", beyond its target of ",
-                            path.met.value, 
-      ": the hand that lifts the breast had not let go earlier"),
+                    message("the ", target_name(path.met.kind), " is ", *path.passed_by,
+                            ", beyond its target of ", path.met.value,
+                            ": the hand that lifts the breast had not let go earlier"),
                     true});
   }
   const double lag = path.final_step.friction_lag;

@@ -23,10 +23,10 @@ inline void write_text(const std::filesystem::path& target, std::string_view tex
 /// /dev/stdout.
 bool is_stream(const std::filesystem::path& target);
 
-/// A folder of results. Files are written into temporary() (hidden, beside the target); commit()
-/// moves them into the target, with `last` as the last one and after the target's old `last` was
-/// removed, so that readers that wait for `last` never see an incomplete result. Without a commit
-/// the temporary folder is removed.
+/// A folder of results. Files are written into temporary() (hidden, beside the target). commit()
+/// first removes the target's old `last`, then moves the files into the target, and finally moves
+/// `last`: readers that wait for `last` never see an incomplete result. Without a commit the
+/// temporary folder is removed.
 class AtomicFolder {
  public:
   /// Creates temporary(); throws Error (input) if this is not possible, or if the target contains a
@@ -37,8 +37,8 @@ class AtomicFolder {
   AtomicFolder& operator=(const AtomicFolder&) = delete;
 
   const std::filesystem::path& temporary() const { return temporary_; }
-  /// Throws Error (failed) naming the target, or Error (input) when it holds another program's file
-  /// of the same name.
+  /// Moves the files. Throws Error (failed) naming the target, or Error (input) if the target
+  /// contains another program's file of the same name.
   void commit();
 
  private:
@@ -48,8 +48,8 @@ class AtomicFolder {
 
 /// Removes `.NAME.part-PID` files of processes that no longer run; PID is digits and nothing else.
 void remove_stale_parts(const std::filesystem::path& target);
-/// Whole file as text; throws Error (input) naming the file, also when it is no regular file (a
-/// device or pipe may never end) or is larger than `most_bytes`.
+/// The whole file as text. Throws Error (input) naming the file, also if it is not a regular file
+/// (a device or pipe may never end) or is larger than `most_bytes`.
 std::string read_text(const std::filesystem::path& source,
                       std::uintmax_t most_bytes = std::uintmax_t(1) << 32);
 

@@ -15,8 +15,9 @@ struct WeightedDistance {
   double distance, weight = 1;
 };
 
-/// Weighted mean, the least distance that 95 % of the weight does not exceed, and the largest. All
-/// are zero if the weights sum to zero. The order of the samples does not matter.
+/// The weighted mean, the smallest distance that is not exceeded by 95 % of the weight, and the
+/// largest distance. All are zero if the weights sum to zero. The order of the samples does not
+/// matter.
 Distances summarise(std::vector<WeightedDistance> samples);
 /// The same for distances of equal weight.
 Distances summarise(const std::vector<double>& distances);

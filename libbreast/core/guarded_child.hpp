@@ -8,11 +8,11 @@
 
 namespace breast {
 
-/// Runs `work` in a child process with limits on time and memory, its stdout and stderr silenced, and
-/// returns the bytes it returned. An Error of the child is thrown here with the same message and
+/// Runs `work` in a child process with limits on time and memory and without output, and returns
+/// the bytes that `work` returned. An Error of the child is thrown here with the same message and
 /// kind; lack of memory, a crash of the child and a run time of more than `seconds` become Error
-/// (input) beginning with `name`. Nothing else that the child does affects this process. The child
-/// may use `memory_mb` more than this process has.
+/// (input) beginning with `name`. Nothing else that the child does affects this process.
+/// `memory_mb` is the memory that the child may use in addition to that of this process.
 std::string in_guarded_child(const std::string& name, const std::function<std::string()>& work,
                              double seconds = 300, double memory_mb = 3072);
 

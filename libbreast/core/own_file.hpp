@@ -9,15 +9,16 @@
 
 namespace breast {
 
-/// The word that libbreast writes into files whose format does not name their maker: the comment of
-/// a NRRD or MetaImage header, the description of a NIfTI header and the comment of a gzip stream,
-/// a text chunk of a PNG, the manufacturer of a DICOM file, the first lines of a deck or page.
+/// The word that libbreast writes into files of formats that do not name their maker: the comment
+/// of a NRRD or MetaImage header, the description of a NIfTI header, the comment of a gzip stream,
+/// a text chunk of a PNG, the manufacturer of a DICOM file, and the first lines of an input file or
+/// page.
 inline constexpr std::string_view maker_mark = "libbreast";
 
-/// True when a file's content says that this toolkit wrote it, or when it is empty. HDF5: the seal,
-/// or the units that every file of libbreast states; VTK XML: the seal or a history; JSON: a
-/// report's first key; tables: the closing line "# rows N"; everything else: maker_mark where the
-/// format has a place for it. False also for a file that cannot be read.
+/// True if the content of a file shows that libbreast wrote it, or if it is empty. The criterion is
+/// for HDF5 the seal, or the units stated in every file of libbreast; for VTK XML the seal or a
+/// history; for JSON the first key of a report; for tables the closing line "# rows N"; for other
+/// formats maker_mark, if the format has a place for it. False also for a file that cannot be read.
 bool written_by_us(const std::filesystem::path& file);
 
 /// Throws Error (input) if a file exists at `target` that was not written by libbreast. `label` is

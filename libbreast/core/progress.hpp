@@ -14,7 +14,7 @@ class Progress {
   /// `fraction` in [0,1] of the current stage, negative when unknown; `detail` is short
   /// ("step 4, residual 3e-7, 42 % reduction").
   virtual void update(std::string_view stage, double fraction, std::string_view detail) = 0;
-  /// A remark the user should see once (a warning, a choice taken).
+  /// A remark that the user should see once (a warning, a decision).
   virtual void note(std::string_view text) = 0;
 };
 

@@ -42,7 +42,7 @@ struct HistoryEntry {
 /// All commands that led to a file, oldest first, each once.
 using History = std::vector<HistoryEntry>;
 
-/// Union of histories in order of first appearance, then `entry`.
+/// The union of histories in the order of first appearance, followed by `entry`.
 History extend_history(const std::vector<const History*>& inputs, const HistoryEntry& entry);
 
 }  // namespace breast

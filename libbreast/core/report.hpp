@@ -39,7 +39,7 @@ class Report {
   void copy(std::string_view path, const Report& from);
 
   bool contains(std::string_view path) const;
-  /// Throws Error (failed) when absent or not a number.
+  /// The number at `path`. Throws Error (failed) if it is absent or not a number.
   double number(std::string_view path) const;
   std::string text(std::string_view path) const;
 
@@ -76,7 +76,7 @@ class Timer {
     return found == seconds_.end() ? 0.0 : found->second;
   }
   void add(const std::string& phase, double seconds) { seconds_[phase] += seconds; }
-  /// Counts `seconds` of phase `from` as phase `to`.
+  /// Moves `seconds` from phase `from` to phase `to`.
   void move(const std::string& from, const std::string& to, double seconds) {
     seconds_[from] -= seconds;
     seconds_[to] += seconds;

@@ -9,10 +9,10 @@ namespace breast {
 
 class TemporaryFolder {
  public:
-  /// Creates an empty folder in the system's place for temporary files; throws Error (failed) if
+  /// Creates an empty folder in the system's folder for temporary files; throws Error (failed) if
   /// that is not possible.
   TemporaryFolder();
-  /// Removes it with all that is in it.
+  /// Removes the folder with all its contents.
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

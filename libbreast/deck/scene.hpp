@@ -37,18 +37,18 @@ struct DeckScene {
   int elements() const { return int(tissue.size()); }
 };
 
-/// `options.bulk_ratio` must be given, since these programs have no exact incompressibility. They
-/// have no membrane skin either: it is omitted if `without_skin`, and refused otherwise (as are
-/// plain invariants). Throws Error (input).
+/// Makes the scene. `options.bulk_ratio` must be given, since these programs cannot solve exactly
+/// incompressible problems. They have no membrane skin either: it is omitted if `without_skin` is
+/// set, and otherwise refused (as are plain invariants). Throws Error (input).
 DeckScene deck_scene(const HexMesh& mesh, const MechanicsOptions& options, const Vec3& gravity,
                      bool without_skin);
 
 /// The loads without those on held nodes, which do no work (programs differ in whether they include
-/// them in the total force of the supports).
+/// them in the total support force).
 std::vector<Vec3> free_load(const DeckScene& scene);
 
-/// The deck's nodes as nodes of the mesh: all of an 8-node mesh; of a 27-node mesh the corners and
-/// mid-edges, in order of number.
+/// The nodes of the mesh that are exported: all nodes of an 8-node mesh, and the corners and
+/// mid-edges of a 27-node mesh, in the order of their numbers.
 std::vector<int> deck_nodes(const HexMesh& mesh);
 
 }  // namespace breast

@@ -10,11 +10,11 @@
 
 namespace breast {
 
-/// Explicit little endian. `tag` as 0xGGGGEEEE, `vr` the two letters of its type; an element given
-/// again replaces the first.
+/// Builds a data set in explicit little endian. `tag` has the form 0xGGGGEEEE and `vr` is the two
+/// letters of its type; an element that is given again replaces the first.
 class DatasetBuilder {
  public:
-  /// Padded to even length as its type asks.
+  /// Adds text, padded to even length as required for its type.
   DatasetBuilder& text(std::uint32_t tag, const char* vr, std::string value);
   DatasetBuilder& number(std::uint32_t tag, double value);  ///< DS, as many digits as it holds
   DatasetBuilder& unsigned_short(std::uint32_t tag, std::uint16_t value);
@@ -22,9 +22,10 @@ class DatasetBuilder {
   DatasetBuilder& words(std::uint32_t tag, std::string_view bytes);  ///< OW, 16-bit values
   DatasetBuilder& sequence(std::uint32_t tag, const std::vector<DatasetBuilder>& items);
 
-  /// The elements in order of tag.
+  /// Returns the encoded elements in the order of their tags.
   std::string bytes() const;
-  /// A whole file: preamble, meta information by the set's SOP class and instance, the set.
+  /// Returns a whole file: preamble, meta information with the set's SOP class and instance, and
+  /// the set.
   std::string file() const;
 
  private:
@@ -37,7 +38,8 @@ class DatasetBuilder {
 DatasetBuilder code_item(const std::string& value, const std::string& scheme,
                          const std::string& meaning);
 
-/// A UID from text: same text, same UID ("2.25." is the branch for such numbers, PS3.5 B.2).
+/// A UID derived from text; the same text gives the same UID ("2.25." is the root of such numbers,
+/// PS3.5 B.2).
 std::string uid_from(const std::string& text);
 
 }  // namespace breast

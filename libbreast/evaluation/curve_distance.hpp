@@ -7,11 +7,11 @@
 
 namespace breast {
 
-/// Distances (mm) of the points of every line "curve" of `given` to the line "curve" of `truth` for
-/// the same query, and back, measured in the plane of the detector: displacements along the beam
-/// are ignored. The beam is the normal of the plane of truth's lines "curve", "arc" and its markers
-/// in MLO. Throws Error (input) naming `given_name` or `truth_name` when there is no curve for a
-/// query, or truth's points do not span a plane.
+/// Distances (mm) between the lines "curve" of `given` and of `truth` for the same query, in both
+/// directions, measured in the plane of the detector: displacements along the beam are ignored. The
+/// beam is the normal of the plane of truth's lines "curve" and "arc" and its markers in MLO.
+/// Throws Error (input) naming `given_name` or `truth_name` if there is no curve for a query, or if
+/// truth's points do not span a plane.
 struct CurveComparison {
   Distances both;
   int curves = 0;

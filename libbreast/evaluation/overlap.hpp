@@ -20,9 +20,9 @@ struct LabelOverlap {
   Overlap body;                           ///< everything but air, where both volumes have voxels
 };
 
-/// Truth may lie on another grid: each voxel of the finer grid is compared with the nearest voxel
-/// of the other, and the volumes are those of each volume's own grid, so that truth beyond the
-/// given volume's edge counts against it.
+/// Compares two label volumes, which may have different grids: each voxel of the finer grid is
+/// compared with the nearest voxel of the other. The volumes are those of each volume's own grid,
+/// so that truth beyond the edge of the given volume counts against it.
 LabelOverlap compare_labels(const LabelVolume& given, const LabelVolume& truth);
 
 }  // namespace breast

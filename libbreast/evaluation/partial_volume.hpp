@@ -15,9 +15,10 @@ struct PartialVolume {
   double given_ml = 0;  ///< the given volume's own sum of fractions
 };
 
-/// `fraction`: true share of fibroglandular tissue per voxel, 0 to 1 or 0 to 255, counted where
-/// `truth` is breast. The overlap of a voxel with the tissue is its fraction, so Dice = 2 sum(f
-/// over given) / (voxels given + sum(f)); the ceiling takes the voxels with the largest fractions.
+/// Agreement with `fraction`, the true fraction of fibroglandular tissue per voxel (0 to 1 or 0 to
+/// 255), counted where `truth` is breast. The overlap of a voxel with the tissue is its fraction,
+/// so that Dice = 2 sum(f over given) / (voxels given + sum(f)). The ceiling is the Dice
+/// coefficient of the voxels with the largest fractions.
 PartialVolume compare_fractions(const LabelVolume& given, const LabelVolume& truth,
                                 const Volume<float>& fraction);
 

@@ -13,9 +13,9 @@ struct SurfaceComparison {
   Distances both;        ///< all samples together; max is the Hausdorff distance
 };
 
-/// Samples are the centres of triangles weighted by area, or the points of a point set (no
-/// triangles), each with its distance to the nearest triangle (point) of the other. Throws Error
-/// (input) when either is empty.
+/// Distances between two surfaces. The samples are the centres of triangles, weighted by area, or
+/// the points of a point set (no triangles), each with its distance to the nearest triangle (or
+/// point) of the other surface. Throws Error (input) if either is empty.
 SurfaceComparison compare_surfaces(const TriMesh& given, const TriMesh& truth);
 
 }  // namespace breast

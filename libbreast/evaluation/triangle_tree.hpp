@@ -14,9 +14,10 @@ double squared_distance(const Vec3& point, const Vec3& a, const Vec3& b, const V
 
 class TriangleTree {
  public:
-  /// A mesh without triangles is searched by its points. Keeps no reference to the mesh.
+  /// Builds the tree; a mesh without triangles is searched by its points. Keeps no reference to the
+  /// mesh.
   explicit TriangleTree(const TriMesh& mesh);
-  /// mm to the nearest triangle.
+  /// Distance to the nearest triangle, mm.
   double distance(const Vec3& point) const;
 
  private:

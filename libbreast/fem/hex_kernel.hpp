@@ -54,7 +54,7 @@ struct HexOutput {
   double gradient_square = 0;               ///< Σ_q w Σ_a |∇_x N_a|²: measures stiffness
 };
 
-/// Fills `out`. Always returns r, θ and B; K and the reference derivatives on demand.
+/// Fills `out`: always r, θ and B; K and the reference derivatives if requested.
 template <int N, int P>
 void hex_kernel(const HexInput<N, P>& in, const HexDemand& demand, HexOutput<N, P>& out);
 

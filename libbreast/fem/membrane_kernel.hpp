@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kernel of the skin as a membrane on a boundary face, with a law in plane stress and no
-// thickness in the mesh. Energy ∫ t √det a_imaged f(I, d) dξ with I = A^{αβ}a_{αβ}, d = det a/det
-// A, incompressible: I1 = I + 1/d, I2 = d + I/d.
+// thickness in the mesh. The energy is ∫ t √det a_imaged f(I, d) dξ with I = A^{αβ}a_{αβ} and d =
+// det a/det A; for incompressible skin, I1 = I + 1/d and I2 = d + I/d.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,13 +39,13 @@ struct MembraneOutput {
   Eigen::Matrix<double, 3 * N, 3 * N> k, k_x;
 };
 
-/// Only `tangent` and `reference_tangent` of the demand matter here.
+/// Of the demand, only `tangent` and `reference_tangent` are used.
 template <int N>
 void membrane_kernel(const MembraneInput<N>& in, const HexDemand& demand, MembraneOutput<N>& out);
 
-/// Principal resultants (Pa·mm: force per length of the deformed face) at the centre
-/// of the face, the smaller first; negative presses the skin together. Not-a-number
-/// where the law is out of range.
+/// Principal resultants (Pa·mm: force per length of the deformed face) at the centre of the face,
+/// the smaller one first; a negative one compresses the skin. Not a number if the law is out of
+/// range.
 template <int N>
 Vec2 membrane_resultants(const MembraneInput<N>& in);
 

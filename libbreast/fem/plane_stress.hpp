@@ -12,15 +12,15 @@ struct PlaneStress {
   double f = 0, fi = 0, fd = 0, fii = 0, fid = 0, fdd = 0;
 };
 
-/// W(I + 1/d, d + I/d). False (and undefined) where the law is out of range.
+/// Evaluates W(I + 1/d, d + I/d). Returns false (and undefined values) if the law is out of range.
 bool plane_stress(const Law& law, double i, double d, PlaneStress& out);
 
-/// The relaxed energy of Pipkin (IMA J. Appl. Math. 36, 1986): where a principal stretch falls below
-/// the one of uniaxial tension, skin wrinkles instead of being pressed together and the other
-/// stretch alone counts; where both are below 1 it is slack. The transition is twice continuously
-/// differentiable over `width` (in squared stretches) to either side; above, it is the law itself;
-/// `kept` of the law remains everywhere, so that slack skin still has a stiffness.
-/// `kept` 0 gives the relaxed energy alone.
+/// The relaxed energy of Pipkin (IMA J. Appl. Math. 36, 1986). Where a principal stretch falls
+/// below that of uniaxial tension, skin wrinkles instead of being compressed, and only the other
+/// stretch counts; where both are below 1 it is slack. The transition is twice continuously
+/// differentiable over `width` (in squared stretches) to either side; above it, the energy is the
+/// law itself. The fraction `kept` of the law remains everywhere, so that slack skin still has a
+/// stiffness; `kept` 0 gives the relaxed energy alone.
 bool tension_field(const Law& law, double kept, double width, double i, double d,
                    PlaneStress& out);
 

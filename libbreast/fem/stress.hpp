@@ -12,7 +12,8 @@ namespace breast {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Voigt order 11, 22, 33, 12, 23, 13; stresses plain, strains with doubled shear: δS = tangent δE.
+/// In Voigt order 11, 22, 33, 12, 23, 13, with plain stresses and strains with doubled shear: δS =
+/// tangent δE.
 struct Stress {
   double energy = 0;  ///< Pa
   Vector6 s = Vector6::Zero();
@@ -23,7 +24,7 @@ Vector6 to_voigt(const Mat3& a);
 Mat3 from_voigt(const Vector6& v);
 
 /// W and its derivatives at C = FᵀF, with the invariants of C (plain) or of J^(−2/3) C (isochoric).
-/// False where the law is out of range.
+/// Returns false if the law is out of range.
 bool law_stress(const Law& law, bool isochoric, const Mat3& c, double det_f, bool with_tangent,
                 Stress& out);
 

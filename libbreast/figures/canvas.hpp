@@ -36,8 +36,8 @@ struct Look {
 
 enum class Align { left, centre, right };
 
-/// One view. Add things, then choose the camera, then the overlay (pixels from the panel's lower
-/// left corner, before supersampling).
+/// One view. Add objects first, then choose the camera, then add overlays (in pixels from the
+/// panel's lower left corner, before supersampling).
 class Panel {
  public:
   struct Impl;
@@ -48,23 +48,25 @@ class Panel {
   /// that must be visible through the body.
   void draw_through(bool on);
   void surface(const Facets& facets, const Look& look);
-  /// Colours by a value at each point of the facets, from 0 to `high` (figures/colour_scale.hpp).
+  /// Draws facets with colours that represent a value at each point, from 0 to `high`
+  /// (figures/colour_scale.hpp).
   void values(const Facets& facets, const std::vector<double>& at_points, double high);
   void sphere(const Vec3& centre, double radius, const Colour& colour);
   void cloud(const std::vector<Vec3>& points, double radius, const Colour& colour);
   void tube(const std::vector<Vec3>& points, double radius, const Colour& colour);
-  /// Grey image in the plane z = 0, rows from the top, lower left pixel centre at (0,0), pixel mm.
+  /// Draws a grey image in the plane z = 0: rows from the top, the lower left pixel centred at
+  /// (0,0), pixels of `pixel` mm.
   void image(const std::vector<std::uint16_t>& grey, int width, int height, double pixel);
-  /// Line lying on an image (z slightly above 0), `width` in pixels.
+  /// Draws a line on an image (z slightly above 0), `width` in pixels.
   void stroke(const std::vector<Vec3>& points, const Colour& colour, double width);
   /// Adds many short line segments at once; like surfaces, they count for the extent of the
   /// picture.
   void strokes(const std::vector<std::array<Vec3, 2>>& pieces, const Colour& colour, double width);
 
-  /// Looks along `direction` with `up` on top and everything added so far in view; `margin` is the
-  /// fraction of the panel left free around it.
+  /// Looks along `direction` with `up` on top, such that everything added so far is visible;
+  /// `margin` is the fraction of the panel left free around it.
   void look_along(const Vec3& direction, const Vec3& up, double margin = 0.12);
-  /// The same with a given centre and height of the view in mm.
+  /// The same with the given centre and height of the view in mm.
   void look_along(const Vec3& direction, const Vec3& up, const Vec3& centre, double height_mm);
   double height_mm() const;  ///< of the view
   void set_height_mm(double height);
@@ -86,8 +88,9 @@ class Panel {
   /// Adds text at the top left, in as many lines as the width of the panel requires; returns their
   /// number.
   int caption(const std::string& words);
-  void scale_bar(const Colour& colour = {0, 0, 0});  ///< bottom right, a round number of mm
-  void compass();                                    ///< bottom left: left, anterior, superior
+  /// At the bottom right, with a round number of mm.
+  void scale_bar(const Colour& colour = {0, 0, 0});
+  void compass();  ///< bottom left: left, anterior, superior
 
  private:
   std::unique_ptr<Impl> impl_;

@@ -9,10 +9,11 @@
 
 namespace breast {
 
-/// One axis. A logarithmic one needs 0 < low.
+/// One axis; a logarithmic axis needs 0 < low.
 struct Axis {
   std::string title;
-  double low = 0, high = 1;  ///< values at the start and the end; low > high runs backwards
+  /// Values at the start and the end; the axis runs backwards if low > high.
+  double low = 0, high = 1;
   bool logarithmic = false;
 };
 
@@ -20,11 +21,11 @@ class Chart {
  public:
   /// Draws frame, ticks and titles.
   Chart(Panel& panel, const Axis& across, const Axis& upwards);
-  /// Horizontal band of values.
+  /// Draws a horizontal band of values.
   void band(double low, double high, const Colour& colour, const std::string& label);
   /// Points outside the axes are omitted, with the segments that lead to them.
   void curve(const std::vector<Vec2>& points, const Colour& colour, double width, bool dashed);
-  /// One line of the legend, from the top.
+  /// Adds one line to the legend, from the top.
   void legend(const std::string& words, const Colour& colour, bool dashed);
   void frame();
 

@@ -9,13 +9,14 @@
 
 namespace breast {
 
-/// Light to dark with even steps in lightness, legible in grey; `t` in [0,1].
+/// Colours from light to dark with even steps in lightness, legible in grey; `t` in [0,1].
 Colour heat(double t);
 
-/// The smallest of `steps` (in [1, 10)) times a power of ten that is not below `value` > 0.
+/// The smallest number, of the form step times a power of ten with a step from `steps` (in [1,
+/// 10)), that is at least `value` > 0.
 double round_up(double value, const std::vector<double>& steps = {1, 2, 5});
 
-/// Vertical bar from 0 to `high` along the panel's right side, titled.
+/// Draws a vertical bar from 0 to `high` along the right side of the panel, with a title.
 void colour_bar(Panel& panel, double high, const std::string& title);
 
 }  // namespace breast

@@ -48,7 +48,7 @@ struct Rim {
   double wall_angle_min = 0, wall_angle_median = 0, wall_angle_max = 0;
 };
 
-/// Where rays from the centre of the thick part end (see RimOptions).
+/// The ends of rays from the centre of the thick part (see RimOptions).
 struct RimRays {
   Vec2 centre;
   std::vector<Vec2> direction;  ///< unit, in the skin's parameters

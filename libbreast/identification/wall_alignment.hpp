@@ -21,7 +21,7 @@ struct WallAlignment {
   double left_out_percent = 0;  ///< percentage of places left out as too far apart for the same surface
   int places = 0;               ///< number of compared places, 12 mm apart
   std::array<double, 3>
-      laid_over{};  ///< mm, of which the scans' frames differ by more than a patient moves
+      laid_over{};  ///< initial shift of the second frame in mm; 0 if the frames differ by no more than a patient moves
   double deviation(int k) const { return std::sqrt(covariance(k, k)); }
   /// Sentences such as "shift along the body not determined by the walls: 2.3 mm, 1 % of it from
   /// them", one for each component of shift and rotation.

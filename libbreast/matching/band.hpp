@@ -14,7 +14,7 @@ namespace breast {
 
 /// Nodal derivative of a shape with respect to one parameter, mm per unit of the parameter.
 using NodalField = std::vector<Vec3>;
-/// By parameter name (HexMesh::derivatives, tool sensitivity).
+/// Derivatives by parameter name (HexMesh::derivatives, tool sensitivity).
 using DerivativeFields = std::map<std::string, NodalField>;
 
 /// Standard deviation of a parameter, in the unit of its derivative (1 for a relative change,
@@ -26,13 +26,13 @@ struct Prior {
 };
 /// The default priors; see the table in band_priors.cpp for values and sources.
 std::vector<Prior> default_priors();
-/// The same with their sources as one paragraph, for help texts.
+/// The default priors with their sources as one paragraph, for help texts.
 std::string default_priors_text();
-/// Columns parameter, standard_deviation; further columns are kept as unit
-/// and source when so named.
+/// Reads a table with columns parameter and standard_deviation; columns named unit and source are
+/// kept.
 std::vector<Prior> priors_from(const Table& table, const std::string& where);
 
-/// One standard deviation of the curve across itself, by cause, mm.
+/// A point of the band, with the standard deviation across the curve, mm.
 struct BandPoint {
   Vec2 uv;      ///< point of the curve, second image
   Vec2 normal;  ///< unit, across the curve
@@ -45,14 +45,15 @@ struct Band {
 };
 inline constexpr double half_width_50 = 0.6744897502, half_width_95 = 1.9599639845;
 
-/// Linear propagation: a parameter moves the point that the column holds at fixed place in the
-/// first image by y' = π[x'_to − (∂x_to/∂ξ)(∂x_from/∂ξ)⁻¹ x'_from] in the second; its part across
-/// the curve counts. Parameters of the breast act on both shapes together; those of a compression
-/// ("thickness", "angle", "standoff", "detector") are independent in the two; with "angle" the
-/// detector turns about the middle of the shape. "repositioning" (mm) shifts the breast in each image,
-/// "chain" is the chain's own error in the second. The priors "picking" and "alignment_from" (mm)
-/// are errors of the mark along each axis of the first image, "marking" and "alignment_to" of what
-/// is compared with it in the second.
+/// Linear propagation. If a parameter changes, the projection in the second image of the point that
+/// is projected to a fixed position in the first moves by y' = π[x'_to − (∂x_to/∂ξ)(∂x_from/∂ξ)⁻¹
+/// x'_from]; only the component across the curve counts. Parameters of the breast act on both
+/// shapes together; those of a compression ("thickness", "angle", "standoff", "detector") are
+/// independent in the two. With "angle" the detector rotates about the centre of the shape.
+/// "repositioning" (mm) shifts the breast in each image, and "chain" is the chain's own error in
+/// the second. The priors "picking" and "alignment_from" (mm) are errors of the mark along each
+/// axis of the first image, "marking" and "alignment_to" errors of the position that is compared
+/// with the curve in the second.
 class BandModel {
  public:
   /// Keeps references. Throws Error (input) for a field that does not have a vector per node.
@@ -83,7 +84,7 @@ class BandModel {
   std::vector<Cause> causes_;
   std::vector<std::string> without_;
   Vec3 from_centre_, to_centre_;  ///< centres of the two shapes, about which a beam rotates
-  /// mm along each axis of the first and of the second image, by cause.
+  /// Standard deviations in mm along each axis of the first and of the second image, by cause.
   std::vector<std::pair<std::string, double>> in_first_, in_second_;
 };
 

@@ -11,10 +11,10 @@
 namespace breast {
 
 /// Replaces the priors of the parameters of a set by its covariance of logarithms: stiffness of fat
-/// (low_order, quadratic, stiffness), fibroglandular tissue (gland), skin, wall and cut. Parameters
-/// that vary together become causes that do not: for each eigenvector of the covariance the fields
-/// get the combination of derivatives and `priors` its deviation, under the name "materials_1", the
-/// widest first. Throws Error (input) when a file lacks a derivative.
+/// (low_order, quadratic, stiffness), fibroglandular tissue (gland), skin, wall and cut. Correlated
+/// parameters become independent causes: for each eigenvector of the covariance, the fields get the
+/// corresponding combination of derivatives and `priors` its standard deviation, under the names
+/// "materials_1" and so on, the widest first. Throws Error (input) if a file lacks a derivative.
 void use_covariance(const std::vector<std::string>& parameters, const Eigen::MatrixXd& covariance,
                     DerivativeFields& from, DerivativeFields& to, std::vector<Prior>& priors);
 

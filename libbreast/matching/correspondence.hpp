@@ -32,22 +32,22 @@ struct MatchedCurve {
   double chord = 0;                 ///< mm between its ends
   double max_deviation = 0;         ///< mm, largest distance from the straight chord
   /// The same for the stress-free column in space, mm: the bending of a column by the first
-  /// compression, before the second view bends and projects it again.
+  /// compression alone, before it is projected in the second view.
   double reference_deviation = 0;
   double behind_image = 0;  ///< mm of the curve that lie behind the second image's posterior edge
   double inside_image = 0;  ///< mm of the curve that lie in the second image
   bool in_air() const { return points.empty(); }
 };
 
-/// Both meshes must be compressions of one mesh (connectivity, imaged shape,
-/// side) in different views.
+/// Follows columns from one compression to another. Both meshes must be compressions of one mesh
+/// (connectivity, imaged shape, side) in different views.
 class Matcher {
  public:
   /// Keeps references. Throws Error (input) naming the first difference.
   Matcher(const HexMesh& from, const HexMesh& to, Beam beam = Beam::parallel);
 
-  /// `tolerance` mm: the polyline's largest distance from the true curve, in the second image and
-  /// in every shape. At least 64 points.
+  /// `tolerance` is the largest distance in mm of the polyline from the true curve, in the second
+  /// image and in every shape. The polyline has at least 64 points.
   MatchedCurve match(const Vec2& from_uv, double tolerance = 0.05) const;
 
   const HexMesh& from() const { return from_; }
@@ -60,15 +60,15 @@ class Matcher {
   bool tissue_in_to(const Vec2& uv) const;
   bool tissue_in_from(const Vec2& uv) const;
 
-  /// The radiologist's arc: points of the second image at the same distance from its nipple as
-  /// `from_uv` has from that of the first. Only the parts inside the image of the breast, posterior
-  /// of the nipple. Empty without a nipple.
+  /// The arc used by radiologists: the points of the second image at the same distance from its
+  /// nipple as `from_uv` has from that of the first. Only the parts inside the image of the breast
+  /// and posterior to the nipple are returned; empty without a nipple.
   std::vector<std::vector<Vec2>> nipple_arc(const Vec2& from_uv) const;
   /// Radius of that arc, mm; 0 without a nipple.
   double nipple_distance(const Vec2& from_uv) const;
-  /// The other rule, a straight line at the same depth behind the nipple along the chest-wall
-  /// normal (u) as in the first image: u of that line in the second image; nothing without a
-  /// nipple.
+  /// The other rule: a straight line at the same depth behind the nipple, along the chest-wall
+  /// normal (u), as in the first image. Returns u of that line in the second image; no value
+  /// without a nipple.
   std::optional<double> nipple_depth_line(const Vec2& from_uv) const;
 
  private:

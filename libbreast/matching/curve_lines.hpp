@@ -18,9 +18,9 @@ namespace breast {
 /// position; of columns, their projection), all in the patient frame.
 PolyLines curve_lines(const Matcher& matcher, const std::vector<MatchResult>& results);
 
-/// One row per query, with "-" for missing values. The columns of the queried point have the first
-/// view's name (cc_u_mm), those of its position in the second view the prefix of its origin:
-/// model_u_mm, marked_u_mm or true_u_mm.
+/// One row per query, with "-" for missing values. Columns about the queried point begin with the
+/// name of the first view (cc_u_mm); columns about its position in the second view begin with the
+/// origin of that position: model_u_mm, marked_u_mm or true_u_mm.
 Table curve_table(const Matcher& matcher, const std::vector<MatchResult>& results);
 
 }  // namespace breast

@@ -20,8 +20,8 @@ enum class LookupStatus : std::uint8_t {
   behind_image = 3
 };
 
-/// Node (i,j) of the grid is the point (i,j) · pitch of the first image; its curve has `samples`
-/// points, equally far apart in the column. Arrays run over j, i, sample; 0 in air.
+/// Node (i,j) of the grid is the point (i,j) · pitch of the first image. Its curve has `samples`
+/// points at equal distances in the column. Arrays run over j, i and sample, and contain 0 in air.
 struct MatchLookup {
   View from_view = View::cc, to_view = View::mlo;
   Side side = Side::left;
@@ -39,7 +39,8 @@ struct MatchLookup {
   std::size_t node(int i, int j) const { return std::size_t(j) * std::size_t(nu) + std::size_t(i); }
 };
 
-/// Throws Error (input) for a pitch that is not positive or gives more than a million nodes.
+/// Computes the curves of a grid. Throws Error (input) for a pitch that is not positive or gives
+/// more than a million nodes.
 MatchLookup match_lookup(const Matcher& matcher, const BandModel* band, double pitch,
                          int samples = 25, Progress& progress = no_progress());
 

@@ -26,7 +26,7 @@ struct MatchQuery {
   std::string landmark;       ///< name when the point is a landmark's projection, else empty
   std::optional<Vec2> place;  ///< its position in the second image, if known
   PlaceOrigin origin = PlaceOrigin::model;
-  /// The true nipple in both images, with which the usual rules are then evaluated.
+  /// The true nipple in both images, from which arc and line are then computed.
   std::optional<std::pair<Vec2, Vec2>> nipples = std::nullopt;
 };
 
@@ -41,8 +41,9 @@ struct MatchResult {
   /// Distances from the given position, mm; only with `query.place`, and for arc and line only with
   /// a nipple.
   double place_to_curve = 0, place_to_arc = 0, place_to_line = 0, place_to_chord = 0;
-  double place_standardised = 0;  ///< distance across the curve over the band's deviation
-  /// A true place is known, and the point is not in air.
+  /// Distance across the curve divided by the standard deviation of the band.
+  double place_standardised = 0;
+  /// Whether a true position is known and the point is not in air.
   bool judged() const {
     return query.place && query.origin == PlaceOrigin::truth && !curve.in_air();
   }
@@ -68,10 +69,10 @@ std::vector<MatchQuery> grid_queries(const Matcher& matcher, int n);
 std::vector<MatchQuery> point_queries(
     const Table& table, const std::string& where,
     const std::function<Vec2(const Vec2&)>& uv_of_pixel = nullptr);
-/// Rows of a table of true positions: landmark, side and FROM_x_mm, FROM_y_mm, FROM_z_mm, TO_x_mm
-/// ... with the views' names in lower case (cc_x_mm, mlo_x_mm). A landmark "nipple" serves arc and
-/// line. Rows of the other breast are left out, and those whose true position lies behind the first
-/// image's posterior edge, which are counted in `behind`.
+/// Queries from a table of true positions: landmark, side and FROM_x_mm, FROM_y_mm, FROM_z_mm,
+/// TO_x_mm ... with the views' names in lower case (cc_x_mm, mlo_x_mm). A landmark "nipple" is used
+/// for arc and line. Rows of the other breast are left out, and so are rows with a true position
+/// behind the posterior edge of the first image, which are counted in `behind`.
 std::vector<MatchQuery> truth_queries(const Matcher& matcher, const Table& table,
                                       const std::string& where, int& behind);
 
@@ -84,16 +85,16 @@ std::vector<std::string> match_doubts(const Matcher& matcher,
 /// inside_image_percent, max_bend_mm and, depending on the origin of the position, model_uv_mm,
 /// model_to_curve_mm ..., marked_... or true_...
 void report_match(const MatchResult& result, Report& report);
-/// Mean, 95 % and largest distance of the truth to "curve", "arc", "line", "chord", mm, over the
-/// results that have a true place: keys truth/points, truth/curve/mean_mm ..., and what part
-/// of them the bands hold: truth/in_band_50_percent, truth/in_band_95_percent. Of two curves or
-/// more also how far they are from straight, in the second image and as stress-free columns:
-/// straightness/bend_mean_mm, straightness/reference_bend_mean_mm ... Of every status the number of
-/// queries that have it: statuses/matched, statuses/behind_image ...; inside_image_percent of all
-/// curves together.
+/// Reports, over the results with a true position, the mean, 95 % and largest distance of the truth
+/// from "curve", "arc", "line" and "chord" in mm (keys truth/points, truth/curve/mean_mm ...) and
+/// the percentages inside the bands (truth/in_band_50_percent, truth/in_band_95_percent). For two
+/// or more curves it also reports how far they are from straight, in the second image and as
+/// stress-free columns (straightness/bend_mean_mm, straightness/reference_bend_mean_mm ...), the
+/// number of queries with each status (statuses/matched, statuses/behind_image ...), and
+/// inside_image_percent of all curves together.
 void report_truth(const std::vector<MatchResult>& results, Report& report);
-/// Rows "mean", "p95" and "largest" of the distances to the truth, and below "mean" of in_band_50
-/// and in_band_95 the percentages, at the end of a curve_table.
+/// Appends to a curve_table the rows "mean", "p95" and "largest" of the distances from the truth;
+/// in the row "mean", the columns in_band_50 and in_band_95 contain the percentages.
 void add_truth_summary(const std::vector<MatchResult>& results, Table& table);
 
 }  // namespace breast

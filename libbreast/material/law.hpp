@@ -22,8 +22,8 @@ struct LawValue {
 enum class LawKind { polynomial, exponential, neo_hookean, mooney_rivlin, yeoh };
 
 /// One law with its constants (Pa, except b).
-/// polynomial (eq. 9): α10, α01, α20, α02, α11; exponential (eq. 10): a, b, c;
-/// neo_hookean: α10 (= μ/2); mooney_rivlin: α10, α01; yeoh: c1, c2, c3 in (I1−3).
+/// Constants of each law: polynomial (eq. 9): α10, α01, α20, α02, α11; exponential (eq. 10): a, b,
+/// c; neo_hookean: α10 (= μ/2); mooney_rivlin: α10, α01; yeoh: c1, c2, c3 in (I1−3).
 struct Law {
   LawKind kind = LawKind::neo_hookean;
   std::vector<double> constants;

@@ -16,10 +16,11 @@ struct LawConstant {
   std::size_t constant = 0;
 };
 
-/// "low_order" (constants linear in the invariants, of all tissues but skin), "quadratic" (their other
-/// stiffness constants), "stiffness" (both together), "gland" (all stiffness constants of fibroglandular
-/// tissue and tumour, so the ratio of gland to fat), "skin", "wall" and "cut". The covariance of a
-/// set's uncertainty is of the logarithms of such factors.
+/// A parameter: "low_order" (constants linear in the invariants, of all tissues except skin),
+/// "quadratic" (their other stiffness constants), "stiffness" (both together), "gland" (all
+/// stiffness constants of fibroglandular tissue and tumour, and hence the ratio of gland to fat),
+/// "skin", "wall" or "cut". The covariance of a set's uncertainty refers to the logarithms of such
+/// factors.
 const std::vector<std::string>& set_parameter_names();
 
 /// The constants that a parameter multiplies; none for "wall", for "cut" and for constants that the

@@ -24,9 +24,9 @@ struct StableRange {
 };
 StableRange stable_range(const Law& law, double low = 0.3, double high = 3.0);
 
-/// Least of e^{b(λ²+2/λ−3)}/λ² over uniaxial stretches λ: the exponential law keeps every shear stiff
-/// while ab e^{b(I1−3)} + cλ² > 0 on the weakest plane, that is while −c < exponential_bound(b) ab.
-/// 0.929 at b = 4.4, 0.743 at b = 1. `b` > 0.
+/// The smallest value of e^{b(λ²+2/λ−3)}/λ² over uniaxial stretches λ, for `b` > 0: 0.929 at b =
+/// 4.4, 0.743 at b = 1. The exponential law keeps every shear modulus positive while ab e^{b(I1−3)}
+/// + cλ² > 0 on the weakest plane, that is, while −c < exponential_bound(b) ab.
 double exponential_bound(double b);
 
 /// True where a closed condition proves ellipticity at every isochoric stretch: convex and

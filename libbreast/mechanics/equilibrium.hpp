@@ -34,7 +34,7 @@ struct SolveSummary {
   /// along the lowest mode of the tangent.
   std::optional<double> skin_share;
   int newton_iterations = 0, factorisations = 0, steps = 0;
-  int linear_iterations = 0;  ///< of all Newton steps: see SaddleStep, ReferenceStep
+  int linear_iterations = 0;  ///< linear iterations of all Newton steps: see SaddleStep, ReferenceStep
   double residual = 0;        ///< relative to the load
   double min_det_F = 0, max_volume_error = 0;
   long long unknowns = 0;
@@ -55,8 +55,8 @@ struct SolveSummary {
   bool converged() const { return record.status == SolveStatus::converged; }
 };
 
-/// Arrays per node or element of the mesh that was solved. If not converged: the last valid state,
-/// or empty.
+/// The result as arrays per node or element of the mesh that was solved. If not converged, they are
+/// those of the last valid state, or empty.
 struct Equilibrium : SolveSummary {
   std::vector<Vec3> reference;  ///< stress-free shape
   std::vector<Vec3> points;     ///< the shape found; for backward the stress-free shape
@@ -67,8 +67,8 @@ struct Equilibrium : SolveSummary {
   std::vector<double> contact_pressure;   ///< kPa per node, compress only
 };
 
-/// Stores the state in the mesh on which it was solved, replacing the previous state; this is what
-/// a file then shows.
+/// Stores the state in the mesh on which it was solved, replacing the previous state, for writing
+/// to a file.
 void store(const Equilibrium& equilibrium, HexMesh& mesh);
 
 }  // namespace breast

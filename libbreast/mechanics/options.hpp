@@ -66,7 +66,7 @@ std::string describe_model(const MechanicsOptions& options);
 /// The boundary conditions as on a command line: "--wall held --cut free".
 std::string support_options(const MechanicsOptions& options);
 
-/// "none" | "step" | "q2". Throws Error (input) for any other.
+/// Parses "none", "step" or "q2". Throws Error (input) for any other name.
 Estimate estimate_from_name(const std::string& name);
 const char* element_name(Element element);
 const char* invariants_name(Invariants invariants);

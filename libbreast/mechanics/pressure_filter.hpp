@@ -22,7 +22,7 @@ struct PressureQuality {
   double checkerboard = 0;
   double least = 0, greatest = 0;  ///< filtered, Pa
 };
-/// Of every tissue present.
+/// The quality of the pressures in every tissue present.
 std::map<Tissue, PressureQuality> pressure_quality(const HexMesh& mesh,
                                                    const std::vector<Vec3>& nodal,
                                                    const std::vector<double>& pressure,

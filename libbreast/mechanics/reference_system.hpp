@@ -19,7 +19,7 @@ namespace breast {
 struct ReferenceStep {
   Eigen::VectorXd x, p;
   int iterations = 0;   ///< of GMRES
-  double residual = 0;  ///< relative; not finite when it broke down
+  double residual = 0;  ///< relative residual; not finite if GMRES broke down
 };
 
 class ReferenceSystem {

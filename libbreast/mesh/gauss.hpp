@@ -8,13 +8,14 @@
 
 namespace breast {
 
-/// Ascending; exact for polynomials of degree 2n − 1. n = 2 or 3.
+/// Points in ascending order with their weights, exact for polynomials of degree 2n − 1; n = 2 or
+/// 3.
 struct GaussLine {
   std::vector<double> at, weight;
 };
 GaussLine gauss_line(int n);
 
-/// n² and n³ points, the first coordinate fastest.
+/// Products with n² and n³ points; the first coordinate varies fastest.
 struct GaussSquarePoint {
   Vec2 at;
   double weight;

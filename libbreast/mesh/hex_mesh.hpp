@@ -16,8 +16,8 @@
 
 namespace breast {
 
-/// A face of the boundary: element and its local face in VTK order of the hexahedron:
-/// 0 −ξ, 1 +ξ, 2 −η, 3 +η, 4 −ζ, 5 +ζ.
+/// A face of the boundary: its element, and its local face in the VTK order of the hexahedron: 0
+/// −ξ, 1 +ξ, 2 −η, 3 +η, 4 −ζ, 5 +ζ.
 struct Face {
   int element = 0;
   int local = 0;
@@ -39,7 +39,7 @@ struct Landmark {
 
 enum class SkinModel : std::uint8_t { none = 0, membrane = 1, layer = 2 };
 
-/// Per-plate result of compress (file group /breast/contact).
+/// Result of compress for one plate (file group /breast/contact).
 struct PlateRecord {
   std::string name;             ///< "paddle" or "detector"
   Vec3 normal{0, 0, 1};         ///< unit, from the plate into the gap

@@ -12,7 +12,7 @@ namespace breast::lattice {
 /// VTK node number of each lattice point, ξ fastest; 8 entries for order 1, 27 for order 2.
 const int* vtk_nodes(int order);
 
-/// x(ξ) and J = ∂x/∂ξ of an element whose (order+1)^3 points are in lattice order.
+/// Computes x(ξ) and J = ∂x/∂ξ of an element with its (order+1)^3 points in lattice order.
 void evaluate(int order, const Vec3* points, const Vec3& local, Vec3& x, Mat3& jacobian);
 
 /// The local point in the box [-1,1]^3 with the image nearest to `point`. `fixed` is a coordinate

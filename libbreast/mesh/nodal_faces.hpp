@@ -9,7 +9,8 @@
 
 namespace breast {
 
-/// Per node of the mesh, mm²: the area ∫ N_a dA over the faces, and the area vector ∫ N_a n dA.
+/// For every node of the mesh, in mm²: the area ∫ N_a dA over the faces, and the area vector ∫ N_a
+/// n dA.
 struct NodalFaces {
   std::vector<double> area;
   std::vector<Vec3> vector;

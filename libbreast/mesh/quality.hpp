@@ -9,10 +9,10 @@
 
 namespace breast {
 
-/// Scaled Jacobian of a hexahedron from its 8 corners (VTK order), in [-1,1]; 1 is a brick.
-/// Minimum over the corners and the centre of det(edges)/(product of their lengths), as
-/// Verdict and VTK define it (Stimpson et al., The Verdict Library Reference Manual,
-/// SAND2007, "hex scaled Jacobian").
+/// Scaled Jacobian of a hexahedron from its 8 corners (VTK order), in [-1,1]; 1 is a brick. It is
+/// the minimum over the corners and the centre of det(edges)/(product of their lengths), as defined
+/// by Verdict and VTK (Stimpson et al., The Verdict Library Reference Manual, SAND2007, "hex scaled
+/// Jacobian").
 double scaled_jacobian(const Vec3* corners);
 
 /// Scaled Jacobian of one element and of all elements in the given nodal field. For order 2 it is
@@ -21,13 +21,13 @@ double scaled_jacobian(const Vec3* corners);
 double scaled_jacobian(const HexMesh& mesh, const std::vector<Vec3>& nodal, int element);
 std::vector<double> scaled_jacobians(const HexMesh& mesh, const std::vector<Vec3>& nodal);
 
-/// Per element, mm³ (exact for order 1; 3³ Gauss points for order 2).
+/// Volume of every element, mm³ (exact for order 1; 3³ Gauss points for order 2).
 std::vector<double> element_volumes(const HexMesh& mesh, const std::vector<Vec3>& nodal);
 double mesh_volume(const HexMesh& mesh, const std::vector<Vec3>& nodal);
 
 struct MeshQuality {
   double min_scaled_jacobian = 0, median_scaled_jacobian = 0;
-  int worst_element = -1;  ///< of the scaled Jacobian
+  int worst_element = -1;  ///< element with the worst scaled Jacobian
   /// Smallest and largest det ∂x/∂ξ (mm³) over the 27 lattice points and the Gauss points (2³, or
   /// 3³ for order 2) of all elements. A brick of volume V has V/8.
   double min_det = 0, max_det = 0;

@@ -9,14 +9,15 @@
 
 namespace breast {
 
-/// values: n; gradients: 3 × n (rows d/dξ, d/dη, d/dζ). n = 8 (order 1) or 27 (order 2).
+/// `values` has n entries and `gradients` is 3 × n (rows d/dξ, d/dη, d/dζ), with n = 8 (order 1) or
+/// 27 (order 2).
 struct HexShape {
   Eigen::VectorXd values;
   Eigen::Matrix3Xd gradients;
 };
 HexShape hex_shape(int order, const Vec3& local);
 
-/// values: n; gradients: 2 × n. n = 4 (order 1) or 9 (order 2).
+/// `values` has n entries and `gradients` is 2 × n, with n = 4 (order 1) or 9 (order 2).
 struct QuadShape {
   Eigen::VectorXd values;
   Eigen::Matrix2Xd gradients;

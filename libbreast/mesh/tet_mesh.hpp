@@ -21,7 +21,7 @@ struct TetMesh {
   History history;
 };
 
-/// mm³ of one tetrahedron.
+/// Volume of one tetrahedron, mm³.
 inline double tetrahedron_volume(const TetMesh& mesh, std::size_t t) {
   const auto& c = mesh.tetrahedra[t];
   const Vec3& a = mesh.points[c[0]];

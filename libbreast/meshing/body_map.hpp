@@ -9,21 +9,21 @@
 
 namespace breast {
 
-/// u ∈ [0,1) runs once around the rim (equal steps of u are equal lengths of rim, averaged over
-/// skin and wall); ρ ∈ [0,1] from the pole (skin: geometry.centre; wall: its rim's centroid) to the
-/// rim.
+/// The coordinate u ∈ [0,1) makes one turn around the rim; equal steps of u are equal lengths of
+/// rim, averaged over skin and wall. ρ ∈ [0,1] runs from the pole (skin: geometry.centre; wall: the
+/// centroid of its rim) to the rim.
 class BodyMap {
  public:
-  /// Keeps a reference to the geometry. Throws Error (input) when the rim is not star-shaped about
-  /// its pole, or too short.
+  /// Keeps a reference to the geometry. Throws Error (input) if the rim is not star-shaped about
+  /// its pole, or is too short.
   explicit BodyMap(const BreastGeometry& geometry);
 
   Vec2 skin(double rho, double u) const;  ///< (s,t) on the skin sheet
   Vec2 wall(double rho, double u) const;  ///< (s,t) on the wall sheet
   /// Point of the cut surface: height 0 on the wall's rim, 1 on the skin's.
   Vec3 cut(double height, double u) const;
-  /// mm³ inside skin, cut and wall (of a fine triangulation); negative when
-  /// the sheets are inside out.
+  /// Volume in mm³ inside skin, cut and wall (of a fine triangulation); negative if the sheets are
+  /// inside out.
   double volume() const;
   /// Columns ∂x/∂u and ∂x/∂height of the cut.
   Eigen::Matrix<double, 3, 2> cut_slopes(double height, double u) const;
@@ -39,8 +39,8 @@ class BodyMap {
 
   const BreastGeometry& geometry_;
   Vec2 skin_pole_, wall_pole_;
-  double start_ = 0;                ///< of u, as a share of the rim from its first point
-  std::vector<double> cumulative_;  ///< u at each rim point, first 0; last entry 1 closes the curve
+  double start_ = 0;                ///< start of u, as a fraction of the rim from its first point
+  std::vector<double> cumulative_;  ///< u at each rim point, beginning with 0; the last entry 1 closes the curve
 };
 
 }  // namespace breast

@@ -12,19 +12,19 @@ namespace breast {
 struct BodyMeshOptions {
   DomeSize size = {};     ///< m = 0: cuboid
   int order = 1;          ///< 2: 27-node elements whose boundary nodes lie on the surfaces
-  double skin_layer = 0;  ///< mm; > 0: the outermost layer of elements has this thickness
+  double skin_layer = 0;  ///< thickness of the outermost layer of elements in mm, if > 0
   SmoothOptions smoothing = {};
 };
 
 struct BodyMeshReport {
-  double placed_scaled_jacobian = 0;    ///< minimum before smoothing
-  double smoothed_scaled_jacobian = 0;  ///< minimum after
+  double placed_scaled_jacobian = 0;    ///< minimum scaled Jacobian before smoothing
+  double smoothed_scaled_jacobian = 0;  ///< minimum scaled Jacobian after smoothing
   int evaluations = 0;
   double body_volume = 0;  ///< mm³ inside the sheets, cut and wall
   double mesh_volume = 0;  ///< mm³
   double skin_shift = 0;   ///< mm, largest shift of a skin node off its sheet to keep the volume
   CurveReport curved;      ///< order 2 only
-  Distances skin_distance, wall_distance, cut_distance;  ///< of the mesh's boundary
+  Distances skin_distance, wall_distance, cut_distance;  ///< distances of the mesh's boundary
 };
 
 /// Returns a mesh in its imaged shape with connectivity, face sets, scaled_jacobian, template and

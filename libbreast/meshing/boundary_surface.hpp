@@ -7,9 +7,9 @@
 
 namespace breast {
 
-/// The closed boundary of `points`, two triangles per face (eight for order 2), turned outwards;
-/// scalar "part": 0 skin, 1 cut, 2 chest wall. Nodes on the line between two parts occur once in
-/// each, so that every point has one part.
+/// The closed boundary in the shape `points` with outward normals, two triangles per face (eight
+/// for order 2); scalar "part": 0 skin, 1 cut, 2 chest wall. Nodes on the line between two parts
+/// occur once in each, so that every point belongs to one part.
 TriMesh boundary_surface(const HexMesh& mesh);
 
 }  // namespace breast

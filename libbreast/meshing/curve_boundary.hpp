@@ -10,7 +10,7 @@ struct CurveReport {
   int nodes = 0;           ///< boundary nodes between corners
   double largest_bow = 0;  ///< mm, from the straight face to the surface
   int held_back =
-      0;  ///< of them, nodes not fully on the surface, because an element would fold or be badly
+      0;  ///< number of these nodes not fully on the surface, because an element would fold or be badly shaped
           ///< shaped
   double largest_gap = 0;  ///< mm, largest remaining distance of such a node from the surface
 };

@@ -10,20 +10,20 @@
 
 namespace breast {
 
-/// Core of n × n × l elements standing on the chest wall, m layers around its four sides
-/// and its top; the lowest k rows of the sides' outer faces are the cut, the rest of the
-/// outer faces is skin. n²l + m(n²+4nl) elements. m = 0 is the cuboid: the core's own
-/// faces are the body's boundary.
+/// A core of n × n × l elements on the chest wall, and m layers around its four sides and its top.
+/// The lowest k rows of the sides' outer faces form the cut, and the other outer faces the skin.
+/// There are n²l + m(n²+4nl) elements. m = 0 is the cuboid, on which the core's own faces are the
+/// boundary of the body.
 struct DomeSize {
   int n = 10, l = 10, m = 6, k = 3;
   int elements() const { return n * n * l + m * (n * n + 4 * n * l); }
 };
 
-/// The best-proportioned dome with a number of elements near edge³.
+/// The dome with the best proportions among those with about edge³ elements.
 DomeSize dome_near(int edge);
-/// n, l, m, k as given by --dome: whole numbers, m at least 1. Throws Error (input).
+/// Parses n, l, m, k as given by --dome: integers, m at least 1. Throws Error (input).
 DomeSize dome_of(const std::vector<double>& numbers);
-/// The paper's cuboid of edge³ elements; a quarter of its rows of side faces are the cut.
+/// The paper's cuboid of edge³ elements, in which a quarter of the rows of side faces form the cut.
 DomeSize cuboid_size(int edge);
 /// Throws Error (input) unless n ≥ 2, l ≥ 2, m ≥ 0, 1 ≤ k < l and the size is
 /// below 2 million elements.
@@ -37,7 +37,7 @@ enum class Support : std::uint8_t {
   cut,       ///< on the cut surface, its two rims included
 };
 
-/// Place of a boundary node on the template's hull.
+/// Position of a boundary node on the hull of the template.
 struct HullPlace {
   Support support = Support::interior;
   double u = 0;       ///< position around the rim, [0,1); 0 is the core's corner i = j = 0

@@ -18,13 +18,14 @@ struct HullPoint {
   Vec3 x;  ///< mm
 };
 
-/// Point of the part at these parameters.
+/// The point of the part at these parameters.
 HullPoint hull_point(const BodyMap& body, Hull part, const Vec2& at);
 /// Position of a boundary node of the template on the part.
 HullPoint hull_point_of_node(const BodyMap& body, Hull part, const PlacedNodes& nodes, int node);
 /// Weighted mean of parameters, where u is averaged along the shorter way around the rim.
 Vec2 mean_parameters(Hull part, const std::vector<Vec2>& at, const std::vector<double>& weights);
-/// The part's point nearest to `x`, by Gauss-Newton from `start` (which is near: half a face away).
+/// The point of the part that is nearest to `x`, by Gauss-Newton from `start`, which must be close
+/// (half a face away).
 HullPoint nearest_on_hull(const BodyMap& body, Hull part, const Vec2& start, const Vec3& x);
 
 }  // namespace breast

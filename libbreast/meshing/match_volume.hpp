@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Volume correction of a mesh: flat faces on a curved skin lose volume, and a shift of the skin
-// nodes restores it and hence the weight.
+// Volume correction of a mesh: flat faces on a curved skin lose volume; a shift of the skin nodes
+// restores the volume and hence the weight.
 #pragma once
 
 #include "meshing/place.hpp"
 
 namespace breast {
 
-/// Shifts skin nodes (not the rim) along the sheet's normal in proportion to the gap between sheet
-/// and faces round them, so that the mesh has the volume `wanted` (mm³), as far as the skin causes
-/// the difference: the factor is at most the two thirds that a paraboloid needs, and the volume
-/// lost by the polygonal rim is not recovered. Returns the largest shift in mm.
+/// Shifts skin nodes (not the rim) along the sheet's normal, in proportion to the gap between the
+/// sheet and the adjacent faces, so that the mesh has the volume `wanted` (mm³). Only the part of
+/// the difference caused by the skin is corrected: the factor is at most the two thirds needed for
+/// a paraboloid, and the volume lost at the polygonal rim is not restored. Returns the largest
+/// shift in mm.
 double match_volume(double wanted, const BodyMap& body, const DomeTemplate& dome,
                     const std::vector<bool>& held, PlacedNodes& nodes);
 

@@ -13,13 +13,13 @@ namespace breast {
 /// Node positions and the surface on which each node may slide.
 struct PlacedNodes {
   std::vector<Vec3> x;           ///< mm
-  std::vector<Support> support;  ///< skin, wall and cut nodes slide in st
+  std::vector<Support> support;  ///< surface of each node; skin, wall and cut nodes slide in st
   std::vector<Vec2> st;          ///< skin, wall: the sheet's (s,t); cut: (u, height)
 };
 
-/// Places boundary nodes on the hull; the nodes of the wall's disc and then the interior nodes
-/// follow from a Laplace equation with graph weights. Throws Error (failed) when a system cannot be
-/// solved. Rim heights are 0 (wall) and 1 (skin) exactly.
+/// Places boundary nodes on the hull. The nodes of the wall's disc, and then the interior nodes,
+/// follow from a Laplace equation with graph weights. Throws Error (failed) if a system cannot be
+/// solved. Heights on the rims are exactly 0 (wall) and 1 (skin).
 inline bool on_rim(double height) {
   return height <= 0 || height >= 1;
 }

@@ -9,13 +9,14 @@
 
 namespace breast {
 
-/// Millimetres from 0 (no skin) to 10. Throws Error (input).
+/// Parses a thickness in mm from 0 (no skin) to 10. Throws Error (input).
 double parse_skin_thickness(const std::string& text);
 
-/// Thickness measured by segmentation; throws Error (input) when neither file has one.
+/// Thickness measured by the segmentation; throws Error (input) if neither file contains one.
 double measured_skin_thickness(const LabelVolume& labels, const BreastGeometry& geometry);
 
-/// Membrane of one thickness on every skin face (cut faces carry none); 0 removes the skin.
+/// Sets a membrane of uniform thickness on every skin face (cut faces have none); 0 removes the
+/// skin.
 void set_membrane_skin(double thickness, HexMesh& mesh);
 
 }  // namespace breast

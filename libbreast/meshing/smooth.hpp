@@ -7,10 +7,11 @@
 
 namespace breast {
 
-/// E = Σ_corners ((1−θ)|A|²/(3 χ^{2/3}) + θ (det²A + 1)/(2 χ))^p + tether, A = corner edges / h, χ
-/// = ½(det A + √(ε² + det²A)): Garanzha et al., Foldover-free maps in 50 lines of code, ACM TOG
-/// 40(4), 2021. h is the edge of a cube of the mean element volume. p = 8 measured on four real and
-/// phantom breasts: worst scaled Jacobian .57-.73, with p = 4 .43-.70.
+/// The energy is E = Σ_corners ((1−θ)|A|²/(3 χ^{2/3}) + θ (det²A + 1)/(2 χ))^p + tether, where A
+/// contains the corner's edges divided by h, χ = ½(det A + √(ε² + det²A)), and h is the edge of a
+/// cube with the mean element volume (Garanzha et al., Foldover-free maps in 50 lines of code, ACM
+/// TOG 40(4), 2021). On four real and phantom breasts, the worst scaled Jacobian was .57-.73 with p
+/// = 8 and .43-.70 with p = 4.
 struct SmoothOptions {
   double theta = 0.2;
   int power = 8;
@@ -30,18 +31,18 @@ inline SmoothOptions for_cuboid(SmoothOptions options) {
 }
 
 struct SmoothReport {
-  double before = 0, after = 0;  ///< minimum scaled Jacobian; after is of the mesh kept
-  bool kept = false;             ///< the smoothed mesh was better
+  /// Minimum scaled Jacobian before smoothing and of the mesh that is kept.
+  double before = 0, after = 0;
+  bool kept = false;  ///< whether the smoothed mesh is kept
   int evaluations = 0;
 };
 
-/// Smallest scaled Jacobian; when an element is folded (between its
-/// corners too), a negative number.
+/// Smallest scaled Jacobian; a negative number if an element is folded, also between its corners.
 double worst_shape(const std::vector<int>& connectivity, const std::vector<Vec3>& x);
 
-/// Moves inside nodes in space, skin, wall and cut nodes in their parameters, rim nodes along
-/// their rim. Nodes in `held` (may be empty) are not moved. Of the meshes before and after, keeps
-/// the one with the larger minimum scaled Jacobian.
+/// Moves inner nodes in space; skin, wall and cut nodes in the parameters of their surfaces; and
+/// rim nodes along their rim. Nodes in `held` (may be empty) are not moved. Of the meshes before
+/// and after, the one with the larger minimum scaled Jacobian is kept.
 SmoothReport smooth_nodes(const std::vector<int>& connectivity, const BodyMap& body,
                           const SmoothOptions& options, const std::vector<bool>& held,
                           PlacedNodes& nodes);

@@ -18,18 +18,20 @@ struct Tumour {
   bool artificial = false;  ///< not found in the scan: its landmark is called artificial_tumour
 };
 
-/// The tumour of the labels (landmark "tumour", else centroid of tumour voxels), else an artificial
-/// one on the edge of the fibroglandular region and inside the mesh, nearest to the region's upper
-/// outer part (centroid + 0.7 rms radius laterally and superiorly): at least 8 mm from skin and
-/// chest wall of the labels and 5 mm from the boundary of the mesh; if there is no such point, 5 or
-/// 2 mm from that boundary only. The mesh only excludes points outside it, so that meshes of one
-/// geometry share the imaged point. Nothing when no edge of fibroglandular tissue lies inside.
+/// The tumour of the labels (landmark "tumour", otherwise the centroid of tumour voxels), otherwise
+/// an artificial one. The artificial tumour lies on the edge of the fibroglandular region and
+/// inside the mesh, as close as possible to the upper outer part of the region (centroid + 0.7 rms
+/// radius laterally and superiorly). It is at least 8 mm from skin and chest wall of the labels and
+/// 5 mm from the boundary of the mesh; if there is no such point, it is only 5 or 2 mm from that
+/// boundary. The mesh only excludes points outside it, so that meshes of one geometry share the
+/// imaged point. No value if no edge of fibroglandular tissue lies inside the mesh.
 std::optional<Tumour> automatic_tumour(const LabelVolume& labels, const HexMesh& mesh);
 
 /// Parses "x,y,z" or "x,y,z:radius" (mm). Throws Error (input).
 Tumour parse_tumour(const std::string& text);
 
-/// First row of a table with columns x_mm y_mm z_mm and maybe radius_mm. Throws Error (input).
+/// Reads the first row of a table with columns x_mm y_mm z_mm and optionally radius_mm. Throws
+/// Error (input).
 Tumour read_tumour(const std::filesystem::path& file);
 
 /// Centroid of the tumour voxels of other labels in the same frame, with the radius of the ball of

@@ -8,9 +8,9 @@
 
 namespace breast {
 
-/// The closed curves in which the cut meets wall and skin, as radii and heights over the azimuth
-/// about an axis through the centre of the breast on the wall and perpendicular, on average, to the
-/// wall there.
+/// The closed curves in which the cut meets wall and skin, described by radius and height as
+/// functions of the azimuth. The axis passes through the centre of the breast on the wall and has
+/// the direction of the mean normal of the wall.
 class CutOutline {
  public:
   /// Takes the shape in mesh.points. Throws Error (failed) if a curve does not enclose the axis.
@@ -23,7 +23,7 @@ class CutOutline {
   struct Corner {
     double azimuth = 0, radius = 0, height = 0;
   };
-  using Curve = std::vector<Corner>;  ///< by azimuth, which covers more than −π to π
+  using Curve = std::vector<Corner>;  ///< in the order of the azimuth, with some overlap beyond −π and π
 
   Corner place_of(const Vec3& x) const;
   Curve curve_through(const HexMesh& mesh, const std::vector<int>& nodes) const;

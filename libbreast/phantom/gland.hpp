@@ -13,16 +13,16 @@ namespace breast {
 struct GlandPiece {
   Vec3 from, to;
   double radius = 0;
-  bool duct = false;  ///< a main duct, whose width the calibration leaves alone
+  bool duct = false;  ///< a main duct; the calibration does not change its width
 };
 
 /// Grows the tree of one breast (serial, a few thousand pieces).
 std::vector<GlandPiece> grow_gland(const BreastShape& shape, const GlandParameters& parameters,
                                    std::uint64_t seed);
 
-/// Signed distance to the gland on a 0.8 mm lattice, with an irregular margin; the
-/// margin is shifted so that the gland takes exactly the wanted fraction of the breast
-/// above the chest's fat layer.
+/// Signed distance to the gland on a 0.8 mm lattice, with an irregular margin. The margin is
+/// shifted so that the gland fills exactly the required fraction of the breast above the chest's
+/// fat layer.
 class GlandField {
  public:
   GlandField(const BreastShape& shape, const GlandParameters& parameters, std::uint64_t seed);

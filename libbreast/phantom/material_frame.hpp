@@ -16,12 +16,12 @@ struct MaterialFrame {
   Vec3 at(const Vec3& x) const { return stress_free + gradient * (x - imaged); }
 };
 
-/// Finds the frame of every voxel in or next to one breast: in the mesh, within one voxel of it, or
-/// at the nipple (which stands out of the mesh).
+/// Finds the frame of every voxel that belongs to a breast: in the mesh, within one voxel of it, or
+/// in the nipple (which protrudes from the mesh).
 class BreastFrames {
  public:
   BreastFrames(const PhantomBreast& breast, const Grid& grid);
-  /// False where the voxel does not belong to this breast.
+  /// Returns false if the voxel does not belong to this breast.
   bool at(int i, int j, int k, MaterialFrame& frame) const;
 
  private:

@@ -10,9 +10,9 @@
 
 namespace breast {
 
-/// Skin and wall curves at 64 azimuths, interpolated smoothly between. Each runs in two pieces of
-/// equal arc-length steps: parameter 0 at the axis, 1 at the fold (the middle of the fillet between
-/// breast and chest), 2 at the rim where the cut stands.
+/// Skin and wall curves at 64 azimuths, interpolated smoothly between them. Each curve has two
+/// parts with equal steps of arc length: the parameter is 0 at the axis, 1 at the fold (the middle
+/// of the fillet between breast and chest) and 2 at the rim where the cut begins.
 class MeridianMap {
  public:
   /// Throws Error (input) when the breast's outline cannot be followed to the chest.

@@ -26,8 +26,8 @@ struct TorsoParameters {
 struct BreastParameters {
   double centre_x = 80;  ///< lateral distance of the axis' foot from the midline
   double centre_z = -2;
-  double axis_lateral = 10;  ///< degrees the axis points laterally
-  double axis_inferior = 5;  ///< degrees the axis points downwards
+  double axis_lateral = 10;  ///< lateral inclination of the axis, degrees
+  double axis_inferior = 5;  ///< downward inclination of the axis, degrees
   double radius = 54;        ///< mean radius at the base
   double height = 82;        ///< chest wall to nipple base along the axis
   double shoulder = 18;      ///< height up to which the breast is a cylinder, a dome above
@@ -39,13 +39,13 @@ struct BreastParameters {
   double flank = 0;  ///< mm by which the cut lies farther from the fold at the side
   double unevenness = 1.0;      ///< amplitude of the skin's slow undulation
   double nipple_radius = 5.5, nipple_height = 5;
-  double tumour_level = 0.55;  ///< the tumour's place along the axis, of the height
-  double tumour_aside = 0.45;  ///< its distance from the axis, of the radius
+  double tumour_level = 0.55;  ///< position of the tumour along the axis, relative to the height
+  double tumour_aside = 0.45;  ///< distance of the tumour from the axis, relative to the radius
   double tumour_azimuth = 45;  ///< degrees from lateral towards superior: upper outer quadrant
 };
 
 struct GlandParameters {
-  double fraction = 0.14;  ///< of the breast's volume
+  double fraction = 0.14;  ///< volume of the gland as a fraction of the breast's
   int lobes = 18;
   double extent = 0.72;  ///< radius of the gland's region relative to the breast's
 };
@@ -75,7 +75,7 @@ struct BodyParameters {
   std::string materials = "seed2008";
   std::vector<std::string> scale = {};  ///< TISSUE=PERCENT of the set
   bool slides = false;
-  double wall_percent = 100, cut_percent = 100;  ///< of the set's supports, where the breast slides
+  double wall_percent = 100, cut_percent = 100;  ///< stiffness of wall and cut in percent of the set's, for sliding breasts
 };
 
 struct PhantomParameters {
@@ -99,20 +99,20 @@ bool preset_slides(const std::string& name);
 /// The phantom of a preset; the seed also varies left against right by a few per cent, as in every
 /// woman. Throws Error (input) on another name or an unusable value.
 PhantomParameters phantom_preset(const std::string& name, std::uint64_t seed);
-/// The same with another breast than the preset's, before left and right are varied.
+/// The same with the given breast instead of the preset's, before left and right are varied.
 PhantomParameters phantom_preset(const std::string& name, std::uint64_t seed,
                                  const BreastParameters& breast);
 /// The breast of a preset before left and right are varied. "paper" is kind_breast("paper") as
 /// calibrated (tools/calibrate.cpp; the command stands beside the values in parameters.cpp).
 BreastParameters preset_breast(const std::string& name);
-/// The same before any calibration: where the calibration starts.
+/// The same before any calibration, from which the calibration starts.
 BreastParameters kind_breast(const std::string& name);
-/// `breast` as a whole `size` times as large: radius, height and shoulder.
+/// `breast` scaled by `size`: radius, height and shoulder.
 BreastParameters resized(BreastParameters breast, double size);
-/// The material set of a body, scaled; with supports of wall and cut where it slides. Throws Error
-/// (input) for a set that is unknown, and for one without supports where the body slides.
+/// The material set of a body with its scaling; with supports of wall and cut if it slides. Throws
+/// Error (input) for an unknown set, and for a set without supports if the body slides.
 MaterialSet body_materials(const BodyParameters& body);
-/// Fewer elements, for tests.
+/// Mesh parameters with fewer elements, for tests.
 MeshParameters coarse_mesh(const PhantomParameters& parameters);
 /// Writes every parameter under "parameters/".
 void write_parameters(const PhantomParameters& parameters, Report& report);

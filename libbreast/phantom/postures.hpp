@@ -12,13 +12,14 @@ struct Postures {
   std::vector<Vec3> stress_free, supine;  ///< nodal positions
   std::vector<double> pressure;           ///< Pa per element, of the prone shape
   SolveSummary prone, supine_solve;
-  double imaged_gap = 0;  ///< mm between `imaged` as loaded and `points` as solved
+  /// Distance in mm between the shape `imaged` used for the load and the solution `points`.
+  double imaged_gap = 0;
 };
 
-/// Wall and cut are fixed. As everywhere in the chain, gravity forces and skin thickness are those
-/// of the imaged (prone) shape; the prone shape is therefore solved repeatedly with the forces of
-/// its own result until they agree to 1e-4 mm (`imaged_gap`). mesh.imaged is the first guess of the
-/// prone shape. Throws Error (not converged) naming the side and the posture.
+/// Solves a breast with fixed wall and cut. As everywhere in the chain, gravity forces and skin
+/// thickness are those of the imaged (prone) shape; the prone shape is therefore solved repeatedly
+/// with the forces of its own result until they agree to 1e-4 mm (`imaged_gap`). mesh.imaged is the
+/// initial guess of the prone shape. Throws Error (not converged) naming the side and the posture.
 Postures solve_postures(HexMesh& mesh, const MaterialSet& materials,
                         Progress& progress = no_progress());
 
@@ -37,7 +38,7 @@ void carry_landmarks(const HexMesh& from, HexMesh& to);
 /// error stated for the truth.
 struct TruthError {
   double prone_mm = 0, supine_mm = 0;
-  int elements = 0;  ///< of the coarser mesh
+  int elements = 0;  ///< number of elements of the coarser mesh
   double worst() const { return prone_mm > supine_mm ? prone_mm : supine_mm; }
 };
 

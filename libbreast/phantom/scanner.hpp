@@ -7,13 +7,13 @@
 
 namespace breast {
 
-/// Smooth receive sensitivity of a breast coil with elements around both breasts;
-/// brightest over darkest voxel (99th over 1st percentile) within the breasts is `bias`.
-/// Median 1 within the breasts.
+/// Smooth receive sensitivity of a breast coil with elements around both breasts. Within the
+/// breasts its median is 1, and the ratio of the brightest to the darkest voxel (99th to 1st
+/// percentile) is `bias`.
 Volume<float> coil_sensitivity(const PhantomImage& image, double bias, std::uint64_t seed);
 
-/// signal × sensitivity × texture with Rician noise of standard deviation noise_percent of the
-/// median fat signal in each quadrature channel; 16 bit, fat about 1000.
+/// The image: signal × sensitivity × texture with Rician noise of standard deviation noise_percent
+/// of the median fat signal in each quadrature channel; 16 bit, fat about 1000.
 Volume<std::int16_t> scan(const PhantomImage& image, const MriParameters& parameters,
                           std::uint64_t seed);
 

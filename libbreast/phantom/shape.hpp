@@ -22,8 +22,8 @@ class BreastShape {
      ///< of the nipple
   /// Unit radial direction at azimuth φ about the axis (0 = towards patient left, 90° superior).
   Vec3 radial(double azimuth) const;
-  /// (r, φ, h) of a stress-free point: distance from the axis, azimuth,
-  /// height above the foot's plane.
+  /// The coordinates (r, φ, h) of a stress-free point: distance from the axis, azimuth, and height
+  /// above the plane of the axis' foot.
   Vec3 cylindrical(const Vec3& x) const;
   Vec3 at(double r, double azimuth, double h) const {
     return foot_ + r * radial(azimuth) + h * axis();
@@ -31,7 +31,7 @@ class BreastShape {
 
   /// Approximate signed distance (mm) to the skin of breast and chest, without nipple; < 0 inside.
   double skin_distance(const Vec3& x) const;
-  /// The same including the nipple, as shown in the image.
+  /// The same distance including the nipple, as shown in the image.
   double outline(const Vec3& x) const;
   /// Distance to the nipple's body, negative inside.
   double nipple_distance(const Vec3& x) const;

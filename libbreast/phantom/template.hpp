@@ -9,9 +9,9 @@
 
 namespace breast {
 
-/// Stress-free mesh: points = imaged = reference; order 1, or 2 with curved edges. Skin, pectoral
-/// and cut faces are set, tissues are left to the caller. The nipple node is where the axis meets
-/// the skin. Throws Error (input) when an element is folded or `core` is odd.
+/// The stress-free mesh: points = imaged = reference, of order 1, or of order 2 with curved edges.
+/// Skin, pectoral and cut faces are set; tissues are left to the caller. The nipple node lies where
+/// the axis meets the skin. Throws Error (input) if an element is folded or `core` is odd.
 HexMesh phantom_mesh(const BreastShape& shape, const MeridianMap& map, const MeshParameters& size);
 
 }  // namespace breast

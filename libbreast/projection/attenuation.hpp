@@ -8,7 +8,7 @@
 
 namespace breast {
 
-/// mm of each tissue along one ray.
+/// Thickness in mm of each tissue along one ray.
 struct TissuePath {
   double fat = 0, fibroglandular = 0, skin = 0, tumour = 0, muscle = 0;
   double total() const { return fat + fibroglandular + skin + tumour + muscle; }
@@ -26,7 +26,8 @@ class Energy {
   /// Pathmanathan et al. 2008, chosen from the proportions of fat, fibroglandular tissue and air in
   /// a column).
   Energy() = default;
-  /// Line integral −ln Σ w exp(−Σ μ mm) / Σ w, one weight and one row of coefficients an energy.
+  /// The line integral −ln Σ w exp(−Σ μ mm) / Σ w, with one weight and one row of coefficients per
+  /// energy.
   Energy(std::string name, const std::vector<double>& weights,
          const std::vector<Attenuation>& attenuation);
 

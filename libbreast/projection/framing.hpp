@@ -10,12 +10,12 @@ namespace breast {
 enum class Beam { parallel, cone };
 inline constexpr double source_distance_mm = 650;  ///< source to detector, cone beam
 
-/// Detector pose and image extent. They follow from the mesh and its compression record alone,
-/// never from the pixel size, so that every tool finds the same (u,v). The posterior edge u = 0 is
-/// the most anterior point of the chest-wall and cut surfaces: as in the paper, the image then
-/// shows no column that leaves the mesh through its back. Landmarks are not considered: a machine
-/// does not know where the tumour is, and an image enlarged to show it would hide that it may be
-/// missed. The detector plane is that of its plate.
+/// Detector pose and image extent. They follow only from the mesh and its compression record, not
+/// from the pixel size, so that every tool finds the same (u,v). The posterior edge u = 0 is the
+/// most anterior point of the chest-wall and cut surfaces: as in the paper, no column of the image
+/// then leaves the mesh through its back. Landmarks are not considered: an X-ray unit does not know
+/// where the tumour is, and an image enlarged to show it would hide that it may be missed. The
+/// detector plane is that of its plate.
 struct ImageFrame {
   ViewPose pose;
   View view = View::cc;
@@ -23,7 +23,8 @@ struct ImageFrame {
   double plate_edge_u = 0;       ///< mm, where the plates' flats begin
 };
 
-/// Throws Error (input) when the mesh has no compression record or lies wholly behind u = 0.
+/// Computes the framing. Throws Error (input) if the mesh has no compression record or lies
+/// completely behind u = 0.
 ImageFrame image_frame(const HexMesh& compressed, Beam beam = Beam::parallel);
 
 }  // namespace breast

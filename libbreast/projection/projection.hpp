@@ -16,8 +16,9 @@ struct ProjectionOptions {
   double pixel = 0.25;  ///< mm
   Beam beam = Beam::parallel;
   Energy energy{};
-  /// Labels in which points of the ray, mapped to the imaged shape, are looked up, so that the
-  /// image has the detail of the scan; null: one tissue per element, as in the paper's Fig. 6.
+  /// Labels in which the tissue at points of the ray, mapped to the imaged shape, is looked up, so
+  /// that the image has the detail of the scan; null: one tissue per element, as in the paper's
+  /// Fig. 6.
   const LabelVolume* labels = nullptr;
 };
 
@@ -28,7 +29,7 @@ struct ProjectionReport {
   double unlabelled =
       0;  ///< part of the path in voxels labelled air, muscle or other (taken as fat)
   int muscle_columns = 0;  ///< pixels that show muscle
-  int back_columns = 0;  ///< pixels whose column leaves through the back; not in the volumes
+  int back_columns = 0;  ///< pixels with a column that leaves through the back; not included in the volumes
 };
 
 /// Throws Error (input) for a mesh without compression record or an image

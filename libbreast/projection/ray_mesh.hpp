@@ -38,7 +38,7 @@ using ChordPacket = std::array<std::vector<Chord>, packet_rays>;
 /// Neighbouring pieces share their faces, so chords follow each other without gap or overlap.
 class RayMesh {
  public:
-  /// Rays follow `pose`; coordinates are `nodal` (mesh.points of a compressed mesh).
+  /// `pose` defines the rays; `nodal` are the coordinates (mesh.points of a compressed mesh).
   RayMesh(const HexMesh& mesh, const std::vector<Vec3>& nodal, const ViewPose& pose);
 
   /// The ray that is traced: it ends less than 1e-6 mm beside (u,v), for the reason given in the
@@ -46,16 +46,16 @@ class RayMesh {
   Ray ray(const Vec2& uv) const;
   /// Chords of the ray to detector position (u,v) in mm, from the paddle to the detector.
   void trace(const Vec2& uv, std::vector<Chord>& chords) const;
-  /// The same for the rays to (u + k step, v), k = 0 ... count − 1 (at most packet_rays), together:
-  /// several times faster. Stops at the border of the table of candidates; returns how many rays
-  /// were followed (at least one).
+  /// The same for the rays to (u + k step, v), k = 0 ... count − 1 (at most packet_rays), together,
+  /// which is several times faster. Stops at the border of the table of candidates; returns the
+  /// number of rays that were followed (at least one).
   int trace(const Vec2& uv, double step, int count, ChordPacket& chords) const;
   /// Whether a column meets the chest wall or the cut surface and thus continues in tissue outside
   /// the mesh.
   bool leaves_through_back(const std::vector<Chord>& chords) const;
 
   int element(int piece) const { return piece / pieces_per_element_; }
-  /// Piece coordinates to those of its element.
+  /// Converts coordinates of a piece to those of its element.
   Vec3 element_local(int piece, const Vec3& local) const;
   const Trilinear& piece(int p) const { return pieces_[p]; }
   int pieces() const { return int(pieces_.size()); }

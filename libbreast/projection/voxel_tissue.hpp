@@ -12,9 +12,9 @@
 namespace breast {
 
 /// Tissues are interpolated trilinearly between voxels, fibroglandular tissue by its volume
-/// fraction: a nearest-voxel look-up shows the voxel grid as a pattern in the mammogram. Voxels
-/// labelled air, muscle or other lie inside the mesh only where mesh and labels disagree by part of
-/// a voxel: taken as fat, and counted.
+/// fraction, because a nearest-voxel look-up would show the voxel grid as a pattern in the
+/// mammogram. Voxels labelled air, muscle or other lie inside the mesh only where mesh and labels
+/// disagree by part of a voxel; they are taken as fat and counted.
 class VoxelTissue {
  public:
   /// Fractions of fibroglandular tissue, skin, tumour, and unlabelled voxels; fat is the remainder

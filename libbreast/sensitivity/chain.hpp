@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives of a deformed breast through the chain backward → forward or compress: the
-// stress-free shape changes with every parameter so that the imaged shape remains the same.
+// stress-free shape changes with every parameter so that the imaged shape remains the same. See
 // docs/methods.md.
 #pragma once
 
@@ -27,16 +27,18 @@ struct Response {
 struct LandmarkGradient {
   std::string name;
   std::vector<Vec3> by_parameter;  ///< mm, in the parameters' order
-  /// d(distance from the imaged point)/d ln(stiffness of the element), mm.
+  /// Derivative of the distance from the imaged point with respect to ln(stiffness of the element),
+  /// mm.
   std::vector<double> by_element;
   double seconds = 0;
 };
 
 class SensitivityChain {
  public:
-  /// `state` is a converged forward or compress result with its reference (order 1, or 2 for q2p1),
-  /// `imaged_pressure` the mean pressures (Pa) backward found. The set of touching nodes is kept:
-  /// where it is about to change, derivatives are one-sided. Must not outlive `state`.
+  /// `state` is a converged result of forward or compress with its reference (order 1, or 2 for
+  /// q2p1); `imaged_pressure` contains the mean pressures (Pa) found by backward. The set of
+  /// touching nodes is fixed: where it is about to change, derivatives are one-sided. `state` must
+  /// outlive this object.
   SensitivityChain(const HexMesh& state, const std::vector<double>& imaged_pressure,
                    const Vec3& imaged_gravity, const MechanicsOptions& options);
 
@@ -73,8 +75,8 @@ class SensitivityChain {
   LinearisedState deformed_;
 };
 
-/// d ln|u| of a landmark's displacement from its imaged position, per unit of the parameter whose
-/// derivative of position (mm) is `slope`.
+/// Derivative of ln|u|, where u is a landmark's displacement from its imaged position, per unit of
+/// a parameter with respect to which the position has the derivative `slope` (mm).
 double displacement_elasticity(const HexMesh& mesh, const Landmark& landmark, const Vec3& slope);
 
 }  // namespace breast

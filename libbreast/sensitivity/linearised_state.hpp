@@ -38,19 +38,20 @@ class LinearisedState {
   /// Norm of the unbalanced force, relative to the load or the plates' force.
   double residual() const { return residual_; }
 
-  /// (δx, δp) of K δx − Bᵀ δp = force, B δx + cM δp = volume; δx is `imposed` (3 per node) along the
-  /// plates' normals where it is given, held components do not move.
+  /// Solves K δx − Bᵀ δp = force, B δx + cM δp = volume for (δx, δp). Along the plates' normals δx
+  /// is `imposed` (3 per node), if that is given; held components do not move.
   Direction solve(const Imbalance& right, const Eigen::VectorXd* imposed = nullptr) const;
-  /// (λ, μ) of the transposed system K λ + Bᵀ μ = force, −B λ + cM μ = volume.
+  /// Solves the transposed system K λ + Bᵀ μ = force, −B λ + cM μ = volume for (λ, μ).
   Direction solve_transposed(const Imbalance& right) const;
-  /// K δx − Bᵀ δp and B δx + cM δp, of all components.
+  /// The products K δx − Bᵀ δp and B δx + cM δp, for all components.
   Imbalance apply(const Direction& change) const;
 
   /// Effect of moving the stress-free shape by δX at fixed x: K_X δX, B_X δX.
   Imbalance of_reference(const Eigen::VectorXd& change) const;
   /// Its transpose: K_Xᵀ λ + B_Xᵀ μ.
   Eigen::VectorXd of_reference_transposed(const Direction& weights) const;
-  /// (δX, δp) that keeps x in equilibrium: K_X δX − Bᵀ δp = force, B_X δX + cM δp = volume.
+  /// Solves for (δX, δp) that keeps x in equilibrium: K_X δX − Bᵀ δp = force, B_X δX + cM δp =
+  /// volume.
   Direction solve_reference(const Imbalance& right) const;
   Direction solve_reference_transposed(const Imbalance& right) const;
 

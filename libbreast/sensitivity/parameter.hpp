@@ -13,11 +13,11 @@ namespace breast {
 enum class ParameterKind {
   scale,           ///< all stiffness constants of a tissue, relative
   constant,        ///< one constant of a tissue's law, relative
-  density,         ///< of all tissues, relative
-  tissue_density,  ///< of one tissue, relative
+  density,         ///< density of all tissues, relative
+  tissue_density,  ///< density of one tissue, relative
   gravity,         ///< direction of the state's gravity, turned towards an axis, degrees
-  imaged_gravity,  ///< direction of the scan's gravity, likewise
-  skin_thickness,  ///< of a membrane, relative
+  imaged_gravity,  ///< direction of the scan's gravity, turned towards an axis, degrees
+  skin_thickness,  ///< thickness of a membrane skin, relative
   wall_support,    ///< stiffness of the springs along or under the chest wall, relative
   cut_support,     ///< stiffness of the springs at the cut, relative
   together,        ///< a common factor on all `members`, relative
@@ -32,9 +32,9 @@ struct Parameter {
   ParameterKind kind = ParameterKind::scale;
   Tissue tissue = Tissue::fat;
   std::size_t constant = 0;  ///< index into Law::constants
-  int axis = 0;              ///< for gravity: the patient axis towards which it turns
+  int axis = 0;              ///< for gravity: the patient axis towards which it is turned
   double value = 1;          ///< present value of a constant
-  std::vector<Parameter> members = {};  ///< for together
+  std::vector<Parameter> members = {};  ///< the members of `together`
 
   /// Unit of the parameter: "1" for a relative change (derivative with respect to the logarithm),
   /// "degree" or "mm".
@@ -54,11 +54,12 @@ std::vector<Parameter> all_parameters(const HexMesh& state, const MechanicsOptio
 /// without members if nothing in the mesh depends on it. Throws Error (input) for an unknown name.
 Parameter set_parameter(const HexMesh& state, const MaterialSet& set, const std::string& name);
 
-/// "main" (all but single constants and single densities), "all", or names and those words
-/// separated by commas. Throws Error (input) naming the choices.
+/// Parses "main" (all except single constants and single densities), "all", or names and those
+/// words separated by commas. Throws Error (input) naming the choices.
 std::vector<Parameter> pick_parameters(const std::vector<Parameter>& all, const std::string& list);
 
-/// d gravity / d angle (mm/s² per degree) when `gravity` turns towards patient axis `axis`.
+/// Derivative of gravity with respect to the angle (mm/s² per degree) when `gravity` rotates
+/// towards the patient axis `axis`.
 Vec3 turned_gravity(const Vec3& gravity, int axis);
 
 }  // namespace breast

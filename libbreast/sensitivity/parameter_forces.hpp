@@ -22,7 +22,7 @@ struct ParameterForces {
   Eigen::MatrixXd volume;  ///< ∂θ/∂m, mm³ (with a finite bulk modulus only)
 };
 
-/// `role`: which gravity the state carries, ParameterKind::gravity or imaged_gravity.
+/// `role` is the gravity of the state: ParameterKind::gravity or imaged_gravity.
 ParameterForces parameter_forces(const Scene& scene, const LoadedState& state, ParameterKind role,
                                  const std::vector<Parameter>& parameters);
 

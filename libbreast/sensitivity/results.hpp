@@ -10,7 +10,8 @@
 namespace breast {
 
 struct SensitivityResults {
-  /// landmark, parameter, per (its unit), derivative dx dy dz (mm), dlnu, seconds.
+  /// Table with columns landmark, parameter, per (its unit), derivative dx dy dz (mm), dlnu,
+  /// seconds.
   Table table;
   Derivatives arrays;
 };

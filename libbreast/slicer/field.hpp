@@ -21,7 +21,7 @@ namespace breast {
 enum class FieldPart : std::uint8_t {
   continued = 0,  ///< nearly harmonic extrapolation, without flux through the border of the grid
   border =
-      1,  ///< outside within one cell of the body: the neighbouring elements' maps beyond their faces
+      1,  ///< within one cell outside the body: extrapolation of the adjacent elements' maps
   body = 2,  ///< vector of the element map itself
 };
 

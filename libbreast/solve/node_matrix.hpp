@@ -12,10 +12,10 @@
 
 namespace breast {
 
-/// Lower triangle in compressed columns, kept both by node (blocks of 3×3) and by unknown.
+/// The lower triangle in compressed columns, stored both by node (blocks of 3×3) and by unknown.
 class NodePattern {
  public:
-  /// Every node of a cell couples with every other.
+  /// Builds the pattern in which every node of a cell couples with every other.
   NodePattern(int nodes, const Cells& cells);
 
   int nodes() const { return nodes_; }

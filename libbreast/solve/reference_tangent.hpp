@@ -26,7 +26,8 @@ class ReferenceTangent {
   /// Starts a new pass, in which the next term gets the first part. The memory of an earlier pass
   /// is reused.
   void begin() { used_ = 0; }
-  /// The part of the next term, over `cells`, which must outlive this; its values are undefined.
+  /// The part of the next term, over `cells`, which must outlive this object; its values are
+  /// undefined.
   CellMatrices& next(const Cells& cells);
 
   Eigen::VectorXd apply(const Eigen::VectorXd& v) const;            ///< (∂r/∂X) v

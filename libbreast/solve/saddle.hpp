@@ -36,14 +36,14 @@ inline constexpr int gmres_restarts = 6;
 
 struct Factorisation {
   bool ok = false;
-  double shift = 0;  ///< added, relative to SaddleMatrix::diagonal; 0: K + κBᵀM⁻¹B was definite
+  double shift = 0;  ///< multiple of SaddleMatrix::diagonal that was added; 0 if K + κBᵀM⁻¹B was definite
   int attempts = 0;  ///< numerical factorisations
 };
 
 struct SaddleStep {
   Eigen::VectorXd u, p;  ///< increments, global axes
-  int iterations = 0;    ///< of the conjugate gradients on the pressure, or of GMRES
-  bool solved = true;    ///< to the tolerance
+  int iterations = 0;    ///< iterations of the conjugate gradients on the pressure, or of GMRES
+  bool solved = true;    ///< whether the tolerance was reached
 };
 
 class SaddleSolver {
@@ -66,8 +66,9 @@ class SaddleSolver {
   SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
                    const Eigen::VectorXd& theta, double tolerance = 1e-6,
                    int restarts = gmres_restarts) const;
-  /// The change of positions that is smallest in the norm of K, moves held components by `imposed`
-  /// (3 per node, in the span of the constraints) and changes the volumes by −theta.
+  /// The change of positions that is smallest in the norm of K among those that move held
+  /// components by `imposed` (3 per node, in the span of the constraints) and change the volumes by
+  /// −theta.
   Eigen::VectorXd correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
                              const Eigen::VectorXd& theta, double tolerance) const;
 

@@ -10,7 +10,7 @@
 
 namespace breast {
 
-/// Dense rows per element against its nodes: B, and its sibling ∂θ/∂X.
+/// Dense rows of every element with respect to its nodes: B, and similarly ∂θ/∂X.
 struct ElementRows {
   const Cells* cells = nullptr;
   int rows = 0;                ///< pressures per element: 1 or 4

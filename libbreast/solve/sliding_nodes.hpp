@@ -17,14 +17,14 @@
 
 namespace breast {
 
-/// The level of a wall node of the imaged shape, at `place` (mm). Throws Error (input) where the
-/// surface is not known there.
+/// The level of a wall node of the imaged shape at `place` (mm). Throws Error (input) if the
+/// surface is not defined there.
 Level level_at_wall_node(const LevelSurface& surface, int node, const Vec3& place);
 
 class SlidingNodes {
  public:
-  /// `nodes` ascending; `imaged` (3 per node, mm) gives the levels. Throws Error (input) for a node
-  /// where the surface is not known.
+  /// `nodes` are in ascending order; `imaged` (3 per node, mm) gives the levels. Throws Error
+  /// (input) for a node at which the surface is not defined.
   SlidingNodes(std::shared_ptr<const LevelSurface> surface, std::vector<int> nodes,
                const Eigen::VectorXd& imaged);
 
@@ -32,8 +32,8 @@ class SlidingNodes {
   /// Adds to `all` the constraint that no node leaves its level, to first order at x. False if a
   /// node is beyond the surface.
   bool hold(const Eigen::VectorXd& x, Constraints& all) const;
-  /// Puts the nodes back on their levels along the gradient; −1, or a node that has left the part
-  /// of space where the surface is known.
+  /// Moves the nodes back to their levels along the gradient. Returns −1, or a node that has left
+  /// the region in which the surface is defined.
   int restore(Eigen::VectorXd& x) const;
   /// The displacements (3 per node, mm), within the constraints `held`, that return the nodes to
   /// their levels to first order; empty if a node is beyond the surface.

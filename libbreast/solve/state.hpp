@@ -15,7 +15,7 @@ struct State {
 /// Energy and its derivatives at a state, summed over terms: r = ∂Π/∂x (µN), θ = −∂Π/∂p (mm³).
 struct Forces {
   bool valid = false;    ///< false: a folded element or a law out of range; nothing else is set
-  int bad_element = -1;  ///< the first one, when not valid and known
+  int bad_element = -1;  ///< the first invalid element, if it is known; otherwise −1
   double energy = 0;     ///< nJ
   Eigen::VectorXd r, theta;
   /// Gradient of the augmented energy, r + κBᵀM⁻¹θ; only if requested with a κ.

@@ -20,11 +20,13 @@ struct SheetPoint {
   Vec3 normal() const;     ///< unit x_s × x_t
 };
 
-/// One tensor-product bicubic Hermite sheet over [0,1]^2 with nu × nv patches (methods: sheets).
-/// In patch coordinates ξ,η ∈ [0,1]:
-///   x = Σ H0iH0j x + H1iH0j S1 x_1 + H0iH1j S2 x_2 + H1iH1j S1S2 x_12,
-/// H00 = 1−3ξ²+2ξ³, H10 = ξ(ξ−1)², H01 = ξ²(3−2ξ), H11 = ξ²(ξ−1). Scale factors S are per node, so the
-/// sheet is C1 across patches of equal parameter width.
+/// One tensor-product bicubic Hermite sheet over [0,1]^2 with nu × nv patches (docs/methods.md,
+/// section 2). In patch coordinates ξ,η ∈ [0,1],
+///
+///     x = Σ H0iH0j x + H1iH0j S1 x_1 + H0iH1j S2 x_2 + H1iH1j S1S2 x_12
+///
+/// with H00 = 1−3ξ²+2ξ³, H10 = ξ(ξ−1)², H01 = ξ²(3−2ξ), H11 = ξ²(ξ−1). The scale factors S belong
+/// to nodes, so that the sheet is C1 across patches of equal parameter width.
 struct HermiteSheet {
   struct Node {
     Vec3 x = Vec3::Zero(), x_1 = Vec3::Zero(), x_2 = Vec3::Zero(), x_12 = Vec3::Zero();
@@ -49,9 +51,11 @@ struct BreastGeometry {
   Side side = Side::left;
   HermiteSheet skin;
   HermiteSheet wall;
-  /// The wall and the thorax around it, to slide on; files of earlier versions have none.
+  /// The surface of the chest wall and the thorax around it, on which the breast slides; absent in
+  /// files of earlier versions.
   std::optional<ThoraxSurface> thorax;
-  /// Closed curves, same number of points (≥ 32, first not repeated), counter-clockwise in (s,t).
+  /// Closed curves with the same number of points (≥ 32, first not repeated), counter-clockwise in
+  /// (s,t).
   std::vector<Vec2> rim_skin, rim_wall;
   std::vector<RimEnd> rim_end;
   Vec2 centre{0.5, 0.5};  ///< pole of the polar rim description in the skin's (s,t)

@@ -11,10 +11,10 @@
 
 namespace breast {
 
-/// φ(x) = ρ − R(θ, z), where ρ and θ are the distance from the axis and the angle about it (0 to the
-/// front, positive to the patient's left), and R is a uniform bicubic B-spline: φ is twice
-/// continuously differentiable, positive outside the thorax. Known between the ends of angle and
-/// height, and not near the axis, where ρ < R/4.
+/// The level function is φ(x) = ρ − R(θ, z), where ρ and θ are the distance from the axis and the
+/// angle about it (0 to the front, positive to the patient's left), and R is a uniform bicubic
+/// B-spline. φ is twice continuously differentiable and positive outside the thorax. It is defined
+/// between the ends of angle and height, except near the axis, where ρ < R/4.
 struct ThoraxSurface final : LevelSurface {
   Vec3 origin{0, 0, 0};  ///< a point of the axis, mm; heights count from its z
   double slope = 0;      ///< of the axis: dy/dz, mm per mm
@@ -33,7 +33,7 @@ struct ThoraxSurface final : LevelSurface {
 /// layer of muscle.
 ThoraxSurface surface_behind(const ThoraxSurface& front, double depth);
 
-/// Coordinates about the axis: outwards from it to the patient's left and to the front, and upwards.
+/// Coordinates relative to the axis: to the patient's left, to the front, and upwards.
 struct AxisPlace {
   double left = 0, front = 0, height = 0;
 };

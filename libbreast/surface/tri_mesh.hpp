@@ -21,8 +21,8 @@ struct TriMesh {
   std::string content_sha256;  ///< filled by the reader
 };
 
-/// One or more polylines with named scalars per point (curve.vtp). A line of one point is a marker;
-/// files hold markers before lines.
+/// One or more polylines with named scalars per point (curve.vtp). A line with one point is a
+/// marker; files contain markers before lines.
 struct PolyLines {
   std::vector<Vec3> points;
   std::vector<std::vector<int>> lines;

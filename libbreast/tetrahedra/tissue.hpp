@@ -7,8 +7,8 @@
 
 namespace breast {
 
-/// Every tetrahedron takes the tissue of the hexahedron (of `points`) that holds its centroid, or
-/// of the nearest one.
+/// Gives every tetrahedron the tissue of the hexahedron (in the shape `points`) that contains its
+/// centroid, or of the nearest one.
 void copy_tissue(const HexMesh& hexahedra, TetMesh& mesh);
 
 }  // namespace breast

@@ -13,8 +13,8 @@ struct WeldedSurface {
   std::vector<std::vector<int>> seams;  ///< closed lines between two parts, first node repeated
 };
 
-/// Joins points at exactly the same place. Throws Error (input) unless every edge belongs to two
-/// triangles that run along it in opposite ways.
+/// Joins points with exactly the same position. Throws Error (input) unless every edge belongs to
+/// two triangles that traverse it in opposite directions.
 WeldedSurface weld(const TriMesh& surface);
 
 }  // namespace breast

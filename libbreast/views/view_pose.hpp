@@ -6,12 +6,13 @@
 
 namespace breast {
 
-/// Beam and image axes: n from paddle to detector, e_u = anterior (0,-1,0), e_v = n × e_u. Parallel
-/// projection of patient point x: (u,v) = ((x−origin)·e_u, (x−origin)·e_v). Cone: the point source
-/// stands source_distance above the detector's chest-wall edge at (0, source_v).
+/// Beam and image axes: n from paddle to detector, e_u = anterior (0,-1,0), e_v = n × e_u. The
+/// parallel projection of a patient point x is (u,v) = ((x−origin)·e_u, (x−origin)·e_v). For a cone
+/// beam, the point source lies source_distance above the detector's chest-wall edge at (0,
+/// source_v).
 struct ViewPose {
   Vec3 n{0, 0, -1}, e_u{0, -1, 0}, e_v{-1, 0, 0};
-  /// mm, LPS, on the detector plane; image (u,v) = (0,0) is pixel (0,0)'s centre.
+  /// Origin on the detector plane, mm LPS: the centre of pixel (0,0), where (u,v) = (0,0).
   Vec3 origin{0, 0, 0};
   double angle_deg = 0, turn_deg = 0;
   double source_distance = 0;  ///< mm from detector to point source; 0 = parallel beam
@@ -21,8 +22,8 @@ struct ViewPose {
   Vec3 on_detector(const Vec2& uv) const { return origin + uv.x() * e_u + uv.y() * e_v; }
   Vec2 project(const Vec3& patient) const;
 };
-/// n = (s sin θ, 0, −cos θ), s = lateral_sign(side), e_u = (0, −1, 0); both then turned about the
-/// patient's long axis by `turn_deg`, so that e_u points to (s sin ψ, −cos ψ, 0).
+/// The pose with n = (s sin θ, 0, −cos θ), s = lateral_sign(side) and e_u = (0, −1, 0), both then
+/// rotated about the patient's long axis by `turn_deg`, so that e_u becomes (s sin ψ, −cos ψ, 0).
 ViewPose view_pose(Side side, double angle_deg, double turn_deg = 0);
 
 }  // namespace breast

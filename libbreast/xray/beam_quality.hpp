@@ -8,9 +8,10 @@
 
 namespace breast {
 
-/// "fraction"; a number of keV: monoenergetic; "W/Rh:28" or "Mo/Mo:28": tube spectrum at 22-35 kV
-/// seen by an energy-integrating detector (weight = photons times energy); anything else: a file,
-/// TSV with columns energy_keV and weight (of the detector's signal). Throws Error (input).
+/// Parses "fraction", a number of keV (monoenergetic), or "W/Rh:28" or "Mo/Mo:28" (tube spectrum at
+/// 22-35 kV and an energy-integrating detector: weight = photons times energy). Any other text is
+/// the name of a TSV file with columns energy_keV and weight (of the detector's signal). Throws
+/// Error (input).
 Energy parse_energy(const std::string& text);
 
 }  // namespace breast

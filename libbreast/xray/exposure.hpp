@@ -16,10 +16,11 @@ struct Exposure {
   std::uint64_t seed = 1;
 };
 
-/// Scatter is the primary radiation that passed tissue, spread by exp(−|x|/8 mm) along each image
-/// axis; noise is Poisson, its stream fixed by seed and row (the same for any number of threads).
-/// `path` becomes −ln of the detected signal, at least 0. Throws Error (input) for a tissue
-/// fraction image (it has no photons) and for a scatter fraction outside [0, 0.9].
+/// Adds scatter and noise. Scatter is the primary radiation that passed tissue, spread by
+/// exp(−|x|/8 mm) along each image axis. Noise is Poisson noise with a stream fixed by seed and
+/// row, so that it does not depend on the number of threads. `path` becomes −ln of the detected
+/// signal, at least 0. Throws Error (input) for a tissue fraction image (it has no photons) and for
+/// a scatter fraction outside [0, 0.9].
 void expose(Mammogram& image, const Exposure& exposure);
 
 }  // namespace breast

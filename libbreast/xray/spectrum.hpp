@@ -21,14 +21,15 @@ struct Spectrum {
 
 /// Unfiltered spectrum at 22-35 kV. Throws Error (input) outside this range.
 Spectrum anode_spectrum(Anode anode, double kv);
-/// The spectrum behind `mm` of a chemical element (atomic number z, density of the solid).
+/// The spectrum behind a filter of `mm` of a chemical element (atomic number z, density of the
+/// solid).
 Spectrum filtered(const Spectrum& spectrum, int z, double mm);
 
 /// The spectrum behind `mm` of dry air of 1.205e-3 g/cm³.
 Spectrum behind_air(const Spectrum& spectrum, double mm);
 
-/// "W/Rh:28" or "Mo/Mo:26": 0.05 mm rhodium or 0.03 mm molybdenum, 1 mm beryllium window,
-/// 600 mm air, kV peak.
+/// Parses "W/Rh:28" or "Mo/Mo:26": peak voltage in kV, 0.05 mm rhodium or 0.03 mm molybdenum, 1 mm
+/// beryllium window, 600 mm air.
 Spectrum named_spectrum(const std::string& name);
 /// Whether the text has the form ANODE/FILTER:KV.
 bool names_spectrum(const std::string& text);

@@ -22,7 +22,7 @@ struct WallSheet {
     return {(p.x() - box.low.x()) / (box.high.x() - box.low.x()),
             (p.z() - box.low.z()) / (box.high.z() - box.low.z())};
   }
-  /// mm in front of the wall along y (negative behind).
+  /// Distance in front of the wall along y, mm (negative behind).
   double height_above(const Vec3& p) const { return sheet.position(parameter(p)).y() - p.y(); }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Typed access to a Document: getters that check presence, type and shape, and
-// setters that mirror them.
+// Typed access to a Document: getters that check presence, type and shape, and the corresponding
+// setters.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace breast {
 
-/// The beginning and end of messages about one file: input errors when reading, failures when
-/// writing.
+/// Creates the errors about one file with a common beginning and end of the message: input errors
+/// when reading, failures when writing.
 struct Complaint {
   ErrorKind kind = ErrorKind::input;
   std::string file;
@@ -32,11 +32,12 @@ class Fields {
 
   bool has(const std::string& path) const { return document_.datasets.contains(path); }
   bool has_attribute(const std::string& path) const { return document_.attributes.contains(path); }
-  /// True when any dataset or attribute lies under the group.
+  /// Whether any dataset or attribute lies under the group.
   bool has_group(const std::string& path) const;
   const Complaint& complain() const { return complain_; }
 
-  // Datasets of the given shape; `any` leaves that extent open. Large ones are moved out.
+  // Datasets of the given shape; `any` leaves an extent open. Large ones are moved out of the
+  // document.
   static constexpr std::size_t any = std::size_t(-1);
   using Shape = std::vector<std::size_t>;
   Bytes bytes(const std::string& path, const Shape& shape);
@@ -49,16 +50,18 @@ class Fields {
   /// searches fail, are refused with their index.
   std::vector<Vec3> places(const std::string& path, std::size_t count = any);
   static constexpr double farthest_mm = 1e6;
-  /// Integers in [low, high), refused by index and value otherwise.
+  /// Integers in [low, high); others are refused with their index and value.
   std::vector<int> indices(const std::string& path, const Shape& shape, long low, long high);
 
-  /// Presence and shape only; the dataset stays in place.
+  /// Checks presence and shape only; the dataset stays in place.
   void require(const std::string& path, const Shape& shape);
-  /// The same for integers in [low, high), refused by index and value; returns them.
+  /// The same for integers in [low, high), which are returned; others are refused with their index
+  /// and value.
   const Integers& check_range(const std::string& path, const Shape& shape, std::int64_t low,
                               std::int64_t high);
 
-  /// A name that tables and reports can hold: not empty, no control character, no '/'.
+  /// Checks that a name is suitable for tables and reports: not empty, no control character, no
+  /// '/'.
   void check_name(const std::string& path, std::size_t index, const std::string& name) const;
 
   // Attributes.

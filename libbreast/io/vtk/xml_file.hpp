@@ -35,7 +35,8 @@ auto read_guarded(const std::filesystem::path& file, const Read& read) {
   });
   return read();
 }
-/// Writes atomically, zlib-compressed, inline base64 (a cut file is then never well-formed XML).
+/// Writes atomically, with zlib compression and inline base64, so that a truncated file is never
+/// well-formed XML.
 void write_xml(const std::filesystem::path& file, vtkPolyData* data);
 void write_xml(const std::filesystem::path& file, vtkImageData* data);
 void write_xml(const std::filesystem::path& file, vtkUnstructuredGrid* data);
@@ -46,12 +47,12 @@ void add_space(vtkFieldData* fields);
 void add_numbers(vtkFieldData* fields, const std::string& name, const std::vector<double>& values);
 void add_history(vtkFieldData* fields, const History& history);
 
-/// `where` begins the message of the Error (input) thrown when the field is
-/// absent or not as expected.
+/// Text of a field. The message of the Error (input) thrown if the field is absent or not as
+/// expected begins with `where`.
 std::string text_field(vtkFieldData* fields, const std::string& name, const std::string& where);
 std::vector<double> number_field(vtkFieldData* fields, const std::string& name, int count,
                                  const std::string& where);
-/// Empty when the file has none (another program's file).
+/// The history of the file; empty if it has none (another program's file).
 History history_field(vtkFieldData* fields, const std::string& where);
 /// Refuses a file of libbreast with another schema; a file of another program without a schema
 /// passes if `required` is false.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The linearised, nearly incompressible problem with 27-node elements at a solution with 8-node
-// elements, which estimate_error solves. Its terms are those of the scene on the richer mesh; its
-// tangent is kept by cells in single precision, since an estimate needs two digits.
+// elements, which estimate_error solves. Its terms are those of the scene on the richer mesh. Its
+// tangent is stored per cell in single precision, which is sufficient for an estimate with two
+// digits.
 #pragma once
 
 #include <vector>
@@ -13,9 +14,9 @@ namespace breast {
 
 class RicherProblem {
  public:
-  /// κ/μ of a step, whose pressures are δp = −κM⁻¹(θ + Bδu). It is close to the material's, so that
-  /// few conjugate-gradient iterations are needed; the pressures of the next step remove the
-  /// remaining volume error.
+  /// κ/μ of a step, in which the pressures are δp = −κM⁻¹(θ + Bδu). It is close to the material's
+  /// ratio, so that few conjugate-gradient iterations are needed; the pressures of the next step
+  /// remove the remaining volume error.
   static constexpr double augmentation = 5;
 
   RicherProblem(const Scene& coarse, const State& state, const Vec3& gravity,
@@ -24,7 +25,7 @@ class RicherProblem {
   RicherProblem& operator=(const RicherProblem&) = delete;
 
   const HexMesh& mesh() const { return mesh_; }
-  /// False when an element is folded at its Gauss points.
+  /// False if an element is folded at its Gauss points.
   bool valid() const { return valid_; }
   /// −r − κBᵀM⁻¹θ on free components.
   const Eigen::VectorXd& right_hand_side() const { return right_; }
@@ -46,14 +47,14 @@ class RicherProblem {
 
   int corners_ = 0;
   HexMesh mesh_;
-  std::vector<std::vector<int>> between_;  // corners of every node that is not one
+  std::vector<std::vector<int>> between_;  // corners between which every other node lies
   Scene scene_;
   Problem problem_;
   State state_;            // 4 pressures per element
-  Eigen::VectorXd start_;  // positions between those of the corners
-  Constraints held_;       // at the state linearised about
+  Eigen::VectorXd start_;  // initial positions, interpolated from the corners
+  Constraints held_;       // constraints at the state of the linearisation
   PackedTangent tangent_;
-  std::vector<Mat3> blocks_;  // inverse, of nodes between corners
+  std::vector<Mat3> blocks_;  // inverse blocks of the nodes between corners
   Eigen::VectorXd right_;
   bool valid_ = true;
 };

@@ -6,16 +6,17 @@
 
 namespace breast {
 
-/// Dome: moves the hull inwards by `thickness` (mm, along the sheet's normal; at the rim down the
-/// cut), smooths the inside below it, and puts one layer of elements between the moved and the old
-/// hull; its elements come last. Faces of the template are updated; the layer's edge at the rim
-/// joins the cut. Returns the elements of the layer. Throws Error (input) when the layer takes half
-/// of the cut's height.
+/// For a dome: moves the hull inwards by `thickness` (mm, along the sheet's normal; at the rim down
+/// the cut), smooths the inner nodes, and inserts one layer of elements between the moved and the
+/// old hull, as the last elements. The faces of the template are updated; the edge of the layer at
+/// the rim joins the cut. Returns the elements of the layer. Throws Error (input) if the layer
+/// takes half of the cut's height.
 std::vector<int> add_skin_layer(double thickness, const BodyMap& body, DomeTemplate& dome,
                                 PlacedNodes& nodes);
 
-/// Cuboid: the outermost elements become `thickness` thick, so that their number stays n²l as in
-/// the paper. Along the cuboid's edges they are wedges with a flat outer corner. Returns them.
+/// For a cuboid: the outermost elements get the given thickness, so that the number of elements
+/// remains n²l as in the paper. Along the edges of the cuboid they are wedges with a flat outer
+/// corner. Returns these elements.
 std::vector<int> thin_skin_elements(double thickness, const BodyMap& body, const DomeTemplate& dome,
                                     PlacedNodes& nodes);
 

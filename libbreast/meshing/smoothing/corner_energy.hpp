@@ -16,12 +16,13 @@ class CornerEnergy {
     double epsilon = 1e-6;   ///< regularisation of det A near and below 0
     bool mid_edges = false;  ///< also sample at the 12 mid-edges, which flat corners (180°) need
   };
-  /// connectivity: 8 per element, VTK order. The target edge is that of the mean element of `x`.
+  /// `connectivity` has 8 nodes per element in VTK order. The target edge is that of the mean
+  /// element of `x`.
   CornerEnergy(const std::vector<int>& connectivity, const std::vector<Vec3>& x);
 
   void set(const Parameters& parameters) { parameters_ = parameters; }
   double edge() const { return edge_; }  ///< mm
-  /// Σ over samples; gradient per node (1/mm). Independent of the number of threads.
+  /// Sum over samples, with the gradient per node (1/mm). Independent of the number of threads.
   double evaluate(const std::vector<Vec3>& x, std::vector<Vec3>& gradient);
   /// Smallest determinant over the samples, relative to edge³.
   double min_det(const std::vector<Vec3>& x) const;
@@ -32,8 +33,8 @@ class CornerEnergy {
   const std::vector<int>& connectivity_;
   Parameters parameters_;
   double edge_ = 1;
-  std::vector<int> first_, uses_;  ///< node → its places in the connectivity
-  std::vector<Vec3> forces_;       ///< per place in the connectivity
+  std::vector<int> first_, uses_;  ///< positions of every node in the connectivity
+  std::vector<Vec3> forces_;       ///< one per position in the connectivity
   std::vector<double> energies_;   ///< per element
 };
 

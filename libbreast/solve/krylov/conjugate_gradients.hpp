@@ -10,9 +10,9 @@ namespace breast {
 
 /// Convergence criterion for r = b − A x, measured by √(rᵀ P r) with the preconditioner P.
 struct ConjugateGradientLimits {
-  double relative = 0;  ///< relative to its initial value, P's norm of b
-  double absolute = 0;  ///< or an absolute value of it
-  int iterations = 0;   ///< at most
+  double relative = 0;  ///< bound relative to the initial value, which is P's norm of b
+  double absolute = 0;  ///< absolute bound
+  int iterations = 0;   ///< largest number of iterations
 };
 
 struct ConjugateGradientResult {

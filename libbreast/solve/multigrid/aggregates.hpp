@@ -12,7 +12,8 @@ namespace breast {
 
 struct Aggregates {
   int count = 0;
-  std::vector<int> of;  ///< aggregate of every node; −1: tied to nothing, left to the smoother
+  /// Aggregate of every node; −1 for a node without couplings, which is left to the smoother.
+  std::vector<int> of;
 };
 
 /// Couplings a multigrid should respect: |A_ij|² > threshold² |A_ii| |A_jj| (Frobenius norms).
@@ -44,7 +45,7 @@ StrongCouplings strong_couplings(const BlockMatrix<B, B>& a, double threshold) {
   return out;
 }
 
-/// Neighbourhoods first, then the nodes left between them.
+/// Aggregates neighbourhoods first, then the nodes left between them.
 Aggregates aggregate(const StrongCouplings& couplings);
 
 }  // namespace breast
