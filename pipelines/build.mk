@@ -14,6 +14,7 @@ else
 SOURCES := $(shell find $(addprefix $(ROOT),libbreast tools cmake) $(PIPELINES)/materials -type f -not -name '.*') \
   $(ROOT)CMakeLists.txt $(ROOT)CMakePresets.json
 endif
+$(eval PRESET_BUILD ?= $(default_PRESET_BUILD))
 
 # `make -n` and `make -q` only plan: they take the programs as they are, where make would build an included file first.
 letters := $(filter-out -%,$(firstword $(MAKEFLAGS)))
@@ -21,7 +22,7 @@ planning := $(findstring n,$(letters))$(findstring q,$(letters))
 ifdef INSTALLED
 else ifneq ($(planning),)
 -include $(wildcard $(ROOT)build/built-$(PRESET_BUILD).mk)
-else ifneq ($(filter-out help setup clean where settings package,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
+else ifneq ($(filter-out help setup clean where settings package,$(goals)),)
 include $(ROOT)build/built-$(PRESET_BUILD).mk
 endif
 

@@ -12,11 +12,10 @@ else
   # A patient's scan gets no tumour that nobody found: TUMOUR=x,y,z names one, TUMOUR=auto makes an artificial one.
   TUMOUR ?= none
 endif
-# A run belongs to one scan and one side: another is refused before it overwrites anything (pipelines/scan-identity.sh).
+# A run belongs to one scan and one side: another is refused before it overwrites anything.
 scan := $(if $(TRUTH),phantom:$(PRESET),$(MR))
-ifneq ($(filter-out help setup build check package clean calibrate cohort cohort-table cohort-script population calibrate-invivo identification,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
-  mixed_up := $(shell $(PIPELINES)/scan-identity.sh check $(RUN) $(SIDE) $(scan))
-  $(if $(mixed_up),$(error $(mixed_up)))
+ifneq ($(filter-out help setup build check package clean calibrate cohort cohort-table cohort-script population calibrate-invivo identification,$(goals)),)
+  $(call ask,check $(RUN) $(SIDE) $(scan))
 endif
 # The preset `paper` was fitted to the answer of this chain: the rows it was fitted to say so (tabulate).
 export CALIBRATED := $(if $(TRUTH),$(if $(filter paper,$(PRESET)),$(PHANTOM_MR:.nrrd=.json) $(SIDE)))
@@ -42,7 +41,7 @@ $(PHANTOM_MR) $(PHANTOM_TRUTH)/landmarks.tsv $(PHANTOM_TRUTH)/tumour-$(SIDE).tsv
 	  --report $(basename $(PHANTOM_MR)).json $(share)
 	@$(call record,phantom)
 
-# The scan alone: what cases of one phantom share (pipelines/cohort.sh).
+# The scan alone: what cases of one phantom share (cohort.mk).
 .PHONY: phantom-scan
 phantom-scan: $(if $(TRUTH),$(MR))
 

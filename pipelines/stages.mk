@@ -19,7 +19,7 @@ fixed_labels = --points $1/points.vtp $(if $(filter $(RUN),$1),$(contours))
 options_labels = --side $(SIDE) $(addprefix --series ,$(SERIES)) $(addprefix --chest-wall ,$(CHEST_WALL)) $($1@segment)
 # Contours to judge the result by; a program in the place of segment need not draw them.
 contours = $(if $(filter $(BIN)/segment,$(SEGMENT)),--overlay $(RUN)/contours.png)
-before_labels = $(if $(filter $(RUN),$1),@$(PIPELINES)/scan-identity.sh record $(RUN) $(SIDE) $(scan))
+before_labels = $(if $(filter $(RUN),$1),@$(CASES) record $(RUN) $(SIDE) $(scan) --quiet)
 
 program_geometry = $(FIT_HERMITE)
 reads_geometry := labels

@@ -136,23 +136,6 @@ std::string numbers(const Request& r) {
   return "";
 }
 
-// "; did you mean X?" for the makefile, whatever the letters' case.
-std::string suggestion(const Request& r) {
-  const auto upper = [](std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
-      return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : char(c);
-    });
-    return text;
-  };
-  std::vector<std::string> candidates;
-  for (const std::string& candidate : r.rest(1)) candidates.push_back(upper(candidate));
-  const std::string near = nearest(upper(r.word(0)), candidates);
-  const auto found = std::find(candidates.begin(), candidates.end(), near);
-  return near.empty()
-             ? ""
-             : "; did you mean " + r.word(1 + std::size_t(found - candidates.begin())) + "?";
-}
-
 }  // namespace
 
 std::vector<TabulateKind> page_kinds() {
@@ -175,12 +158,17 @@ std::vector<TabulateKind> page_kinds() {
        place},
       {"truth", "TRUTH.tsv", "rows of a table of errors against the truth, as a page shows them", 1,
        1, [](const Request& r) { return truth_summary(r.table(0)).text(); }},
+      {"truth-rows", "RUN...", "the errors of runs against their truth, a row a posture", 1,
+       any_number,
+       [](const Request& r) {
+         std::vector<fs::path> runs;
+         for (const std::string& word : r.words) runs.push_back(folder_of(word));
+         return truth_of_postures(runs).text();
+       }},
       {"pages", "fill|check PAGE.md...",
        "the tables between the marks of pages, written anew or compared", 2, any_number, pages},
       {"numbers", "NUMBERS.tsv", "whether the numbers that pages state are those of their sources",
        1, 1, numbers},
-      {"nearest", "WORD CANDIDATE...", "the candidate that a slip of the fingers turned into WORD",
-       2, any_number, suggestion},
   };
 }
 

@@ -59,9 +59,10 @@ std::string judged(const Request& r) {
 }
 
 std::string conclusions_rows(const Request& r) {
-  return conclusions_from_rows({r.table(0), r.table(1), r.table(2), r.table(3)},
-                               r.words.size() > 4 ? r.word(4) : "")
-      .text();
+  const bool printed = r.words.size() > 2;
+  if (printed && r.word(2) != "as-printed")
+    throw input_error("conclusions: '", r.word(2), "' is not as-printed");
+  return judged_tables(r.table(0), r.word(1), printed).text();
 }
 
 std::string calibration(const Request& r) {
@@ -112,7 +113,7 @@ std::string pressed(const Request& r) {
 std::vector<TabulateKind> table_kinds() {
   return {
       {"scaled", "PAPER.tsv PREFIX BASE.vtkhdf",
-       "one of Tables III to VI, ours from PREFIX-PERCENT-supine.vtkhdf beside the paper's", 3, 3,
+       "one of Tables III to VI, ours from PREFIX-PERCENT/supine.vtkhdf beside the paper's", 3, 3,
        [](const Request& r) {
          return scaled_table(r.table(0), r.word(1), r.word(2), read_shape, calibrated_words(r))
              .text();
@@ -124,21 +125,18 @@ std::vector<TabulateKind> table_kinds() {
        [](const Request& r) {
          return slopes_table(r.word(0), r.word(1), r.table(2), r.table(3)).text();
        }},
-      {"conclusions", "TABLE3 TABLE4 TABLE5 TABLE6 [PREFIX]",
-       "values of the paper's conclusions, from rows of 90 and 110 per cent", 4, 5,
-       conclusions_rows},
-      {"conclusions-of-slopes", "SLOPES.tsv TABLE6.tsv",
-       "the same from slopes (an empty file: no solution)", 2, 2,
-       [](const Request& r) {
-         return conclusions_from_slopes(table_if_any(r.word(0)), r.table(1)).text();
-       }},
+      {"conclusions", "CONCLUSIONS.tsv TABLES [as-printed]",
+       "whether the paper's conclusions hold for its own rows of Tables III to VI in the folder TABLES, as printed, and for ours",
+       2, 3, conclusions_rows},
       {"judge", "CONCLUSIONS.tsv NAME=VALUES.tsv...",
        "whether the conclusions hold for each of these values", 2, any_number, judged},
       {"survival", "CONCLUSIONS.tsv RUN SET...",
-       "Table VIII, the conclusions under the material sets of RUN/variants", 3, any_number,
+       "Table VIII, the conclusions under the material sets of RUN/studies/table8", 3, any_number,
        [](const Request& r) {
-         return survival_table(r.table(0), read_table(r.own("paper/table3.tsv")), r.word(1),
-                               read_shape, r.rest(2), calibrated_words(r))
+         return survival_table(
+                    r.table(0),
+                    {read_table(r.own("paper/table3.tsv")), read_table(r.own("paper/table6.tsv"))},
+                    r.word(1), read_shape, r.rest(2), calibrated_words(r))
              .text();
        }},
       {"findings", "RUN VARIANT...",
@@ -149,8 +147,8 @@ std::vector<TabulateKind> table_kinds() {
       {"budget", "RUN ROW...",
        "what is left of the errors when one stage is the truth's (RUN/budget/ROW)", 2, any_number,
        [](const Request& r) { return budget_table(r.word(0), r.rest(1)).text(); }},
-      {"convergence", "FOLDER N...",
-       "compressed shapes FOLDER/N-CC, N-MLO against those of the last N", 2, any_number,
+      {"convergence", "FOLDER N...", "compressed shapes FOLDER/N against those of the last N", 2,
+       any_number,
        [](const Request& r) { return convergence_table(r.word(0), r.rest(1), read_shape).text(); }},
       {"cost", "FOLDER FINEST POINT...",
        "error against run time of the points ELEMENT-TEMPLATE-N[-SOLVER]", 3, any_number,
@@ -160,8 +158,8 @@ std::vector<TabulateKind> table_kinds() {
       {"accuracy", "FOLDER POINT MM [COARSER]",
        "a point's row of the ladder of ACCURACY, without header; nothing where it has no solution",
        3, 4, accuracy},
-      {"leaveout", "RUN VARIANT...", "what each variant of RUN/leaveout changes, mm, and saves, s",
-       2, any_number,
+      {"leaveout", "RUN VARIANT...",
+       "what each variant of RUN/studies/leaveout changes, mm, and saves, s", 2, any_number,
        [](const Request& r) {
          return leaveout_table(r.word(0), r.rest(1), read_shape, curve_gap).text();
        }},
@@ -169,15 +167,16 @@ std::vector<TabulateKind> table_kinds() {
        "the parts to leave out while their changes add up to no more than MM", 4, any_number,
        least},
       {"recommendation", "RUN MM PART...",
-       "those parts, the sum, and what RUN/leaveout/least-QUESTION really gives", 3, any_number,
+       "those parts, the sum, and what RUN/studies/leaveout/least-QUESTION really gives", 3,
+       any_number,
        [](const Request& r) {
          return recommendation(r.word(0), parse_number(r.word(1), "recommendation: MM"), r.rest(2),
                                read_shape, curve_gap)
              .text();
        }},
       {"wall", "RUN VARIANT...",
-       "how far places move when the chest wall moves by its own deviation (RUN/wall/VARIANT)", 2,
-       any_number, [](const Request& r) { return wall_table(r.word(0), r.rest(1)).text(); }},
+       "how far places move when the chest wall moves by its own deviation (RUN/studies/wall/VARIANT)",
+       2, any_number, [](const Request& r) { return wall_table(r.word(0), r.rest(1)).text(); }},
       {"coverage", "ROWS.tsv...",
        "how many true places the band holds, with the 95 % interval of that figure", 1, any_number,
        coverage_rows},

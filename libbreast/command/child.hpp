@@ -16,6 +16,8 @@ namespace breast {
 /// process's terminal and alone receives its interrupts, and ends when this process does. Returns
 /// its exit code, or 128 plus the signal number if a signal ended it.
 int run_child(const std::vector<std::string>& words);
+/// The same, its output added to the file `log`.
+int run_child_into(const std::vector<std::string>& words, const std::filesystem::path& log);
 
 /// The same without showing the output, which is returned.
 struct Captured {

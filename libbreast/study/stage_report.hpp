@@ -40,10 +40,14 @@ class StageReport {
   std::shared_ptr<const Impl> impl_;
 };
 
-/// Why the solve NAME.vtkhdf, NAME.json has no result: the sentence in its report, or its typed reason; also what a mark
-/// NAME.failed says. Nothing when it has one, or was never tried.
+/// Where a variant of a study has its stages, STAGE.json and STAGE.vtkhdf: a folder of its own.
+std::filesystem::path variant_of(const std::filesystem::path& run, const std::string& study,
+                                 const std::string& variant);
+
+/// Why the solve NAME.vtkhdf, NAME.json has no result: the sentence in its report, or its typed reason. Nothing when it has one, or
+/// was never tried.
 std::optional<std::string> failure_of(const std::filesystem::path& name);
-/// The same of a change of posture: of NAME itself, or of its stages reference and supine (study/places.hpp).
-std::optional<std::string> posture_failure_of(const std::filesystem::path& name);
+/// The same of a variant's change of posture: its stages reference and supine.
+std::optional<std::string> posture_failure_of(const std::filesystem::path& variant);
 
 }  // namespace breast

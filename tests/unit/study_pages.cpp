@@ -52,13 +52,14 @@ TEST(StageReports, SayWhyASolveHasNoResult) {
       folder / "x.json",
       R"({"status": "unstable", "reason": "buckled", "explanation": "It would\nnot stay."})");
   EXPECT_EQ(failure_of(folder / "x"), "It would not stay.");
-  EXPECT_EQ(posture_failure_of(folder / "x"), "It would not stay.");
+  std::filesystem::create_directories(folder / "v");
+  std::filesystem::copy_file(folder / "x.json", folder / "v/reference.json");
+  EXPECT_EQ(posture_failure_of(folder / "v"), "It would not stay.");
   write_text(folder / "x.vtkhdf", "x");
   EXPECT_FALSE(failure_of(folder / "x")) << "a state kept in spite of its status is a result";
-  write_text(folder / "y-supine.json", R"({"status": "not_converged", "reason": "line_search"})");
+  std::filesystem::create_directories(folder / "y");
+  write_text(folder / "y/supine.json", R"({"status": "not_converged", "reason": "line_search"})");
   EXPECT_EQ(posture_failure_of(folder / "y"), "line_search");
-  write_text(folder / "z.failed", "as the mark says\n");
-  EXPECT_EQ(failure_of(folder / "z"), "as the mark says");
 }
 
 TEST(Cells, Utf8AndColumns) {

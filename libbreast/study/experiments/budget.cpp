@@ -4,7 +4,6 @@
 #include <map>
 
 #include "study/cells.hpp"
-#include "study/places.hpp"
 #include "study/stage_report.hpp"
 
 namespace breast {
@@ -42,7 +41,7 @@ std::string curve_cell(const std::optional<Table>& curves, const std::string& ro
 }
 
 std::string missing(const std::filesystem::path& run, const std::string& row) {
-  const std::filesystem::path solves = variant_of(run, "budget", "budget", row);
+  const std::filesystem::path solves = variant_of(run, "budget", row);
   std::vector<std::string> said;
   if (row == "compression") said.push_back("stress-free, supine: not solved in this row");
   for (const std::string shape : {"reference", "supine", "cc", "mlo"}) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/experiments/cost.hpp"
 
-#include "study/places.hpp"
-
 namespace breast {
 
 namespace fs = std::filesystem;
@@ -20,8 +18,7 @@ fs::path with(const fs::path& name, const char* ending) {
 }
 
 Point read_point(const fs::path& folder, const std::string& name) {
-  const fs::path reference = stage_of(folder / name, "reference"),
-                 supine = stage_of(folder / name, "supine");
+  const fs::path reference = folder / name / "reference", supine = folder / name / "supine";
   return {name, reference, supine, StageReport::read(with(reference, ".json")),
           StageReport::read(with(supine, ".json"))};
 }
@@ -100,13 +97,9 @@ Table convergence_table(const fs::path& folder, const std::vector<std::string>& 
                "its estimate", "nipple", "forces, N"},
               {}};
   for (const std::string& n : meshes) {
-    Row row{n + " (" + StageReport::read(stage_of(folder / n, "mesh") + ".json").text("elements") +
-            ")"};
-    for (const std::string view : {"CC", "MLO"}) {
-      const bool own = fs::is_directory(folder / n);
-      const std::string stage = own ? (view == "CC" ? "cc" : "mlo") : view;
-      const fs::path name = stage_of(folder / n, stage),
-                     finest = stage_of(folder / meshes.back(), stage) + ".vtkhdf";
+    Row row{n + " (" + StageReport::read(folder / n / "mesh.json").text("elements") + ")"};
+    for (const std::string view : {"cc", "mlo"}) {
+      const fs::path name = folder / n / view, finest = folder / meshes.back() / (view + ".vtkhdf");
       if (!fs::exists(with(name, ".vtkhdf"))) {
         row.insert(row.end(), 4, no_value);
         continue;

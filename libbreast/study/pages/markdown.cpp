@@ -73,6 +73,40 @@ Table truth_summary(const Table& truth) {
 
 namespace {
 
+Row posture_row(const Table& truth, const std::string& run, const std::string& posture) {
+  const auto value = [&](const char* row, const char* quantity) {
+    return number_at(truth, row, posture + quantity);
+  };
+  const auto moved = value("mean", "_true_mm"), error = value("mean", "_error_mm");
+  const bool both = moved && error && *moved > 0;
+  return {run,
+          posture,
+          fixed_cell(moved, 1),
+          fixed_cell(error, 1),
+          fixed_cell(value("largest", "_error_mm"), 1),
+          both ? format_fixed(100 * *error / *moved, 0) : no_value,
+          fixed_cell(value("mean", "_own_error_mm"), 2),
+          fixed_cell(value("largest", "_own_error_mm"), 2)};
+}
+
+}  // namespace
+
+Table truth_of_postures(const std::vector<fs::path>& runs) {
+  Table table{{"case", "shape", "moved_mm", "error_mm", "largest_mm", "error_percent",
+               "own_error_mm", "largest_own_mm"},
+              {}};
+  for (const fs::path& run : runs) {
+    const fs::path compressed = run / "truth-compressed.tsv";
+    const Table truth = read_table(fs::exists(compressed) ? compressed : run / "truth.tsv");
+    for (const std::string posture : {"stress_free", "supine", "cc", "mlo"})
+      if (truth.has(posture + "_error_mm"))
+        table.rows.push_back(posture_row(truth, run.filename(), posture));
+  }
+  return table;
+}
+
+namespace {
+
 std::vector<fs::path> files_of(const fs::path& source) {
   if (!fs::is_directory(source)) return {source};
   std::vector<fs::path> files;

@@ -2,6 +2,7 @@
 // Generated tables in the pages of docs/, and the numbers these pages state.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,6 +20,10 @@ std::string with_tables(const std::string& page, const std::string& name,
 
 /// Errors against the truth, as the page shows them: mean, largest, nipple and the true tumour.
 Table truth_summary(const Table& truth);
+/// The chains' errors against their phantoms' truth, a row a posture of every run: means and largest over the landmarks, how far the
+/// truth moved from the scan, the chain's error, the same in per cent of the motion, and the truth's own error. Of RUN's
+/// truth-compressed.tsv, or truth.tsv where nothing was compressed.
+Table truth_of_postures(const std::vector<std::filesystem::path>& runs);
 
 /// Rows of docs/numbers.tsv whose number is another in the page than in its source, a sentence each. Patterns are extended
 /// regular expressions whose one group is the number; a source may be a folder.

@@ -35,10 +35,18 @@ struct JudgedModel {
 /// a table of values without its columns.
 Table judge(const Table& conclusions, const std::vector<JudgedModel>& models);
 
+/// What the paper prints.
+struct PaperTables {
+  Table third, sixth;
+};
+
+/// judge() of Tables III to VI in `tables`: of the paper's own rows, as printed (tableN-as-printed.tsv, where asked for), and ours.
+Table judged_tables(const Table& conclusions, const std::filesystem::path& tables, bool printed);
+
 /// Table VIII: first whether each set of `sets` has a stress-free body and the supine displacements of nipple and tumour, then
-/// judge() of the paper, of RUN and of the sets, the variants of RUN/studies/table8 (study/places.hpp). `third`: the paper's Table III.
-Table survival_table(const Table& conclusions, const Table& third, const std::filesystem::path& run,
-                     const ShapeReader& read, const std::vector<std::string>& sets,
-                     const std::string& calibrated);
+/// judge() of the paper, of RUN and of the sets, the variants SET and SET-tumour-PERCENT of RUN/studies/table8.
+Table survival_table(const Table& conclusions, const PaperTables& paper,
+                     const std::filesystem::path& run, const ShapeReader& read,
+                     const std::vector<std::string>& sets, const std::string& calibrated);
 
 }  // namespace breast
