@@ -5,7 +5,7 @@
 # An installation (pipelines/installed.mk) has its programs: nothing is set up or built. What it cannot make are targets that
 # build programs, or read or write the source tree.
 source_goals := check fuzz release-check faults full-disk whole-tools clean-root slurm setup build package validation validation-page \
-  stability% compare calibrate-invivo budget band-check band-truth matching page-check
+  stability% compare calibrate calibrate-invivo identification budget band-check band-truth matching page-check
 ifdef INSTALLED
 SOURCES :=
 of_the_source_tree := $(filter $(source_goals),$(MAKECMDGOALS))

@@ -110,9 +110,3 @@ $(RUN)/truth-compressed.tsv: $(TRUTH_TABLE) $(addprefix $(RUN)/,mesh.vtkhdf refe
 	@mv $@.part $@
 truth: $(RUN)/truth-compressed.tsv
 	@cat $<
-
-# How the preset `paper` was found: motions of the paper's Tables III and IV for a chain that moves the
-# nipple 1.28 and the tumour 1.39 times as far as the phantom does (PAPER=1, measured on a phantom near the one
-# found). Prints the values that stand in libbreast/phantom/parameters.cpp.
-calibrate: $(CALIBRATE)
-	$(CALIBRATE) --preset paper --gain 1.28,1.39 --evaluations 24 $(share)

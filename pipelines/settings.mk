@@ -70,20 +70,12 @@ ifneq ($(LANDMARKS)$(SUPINE),)
   override MATERIALS := $(RUN)/identified.tsv
 endif
 # Parts of the model to do without; what each is worth: studies/leaveout.tsv.
-leave_out = $(filter $1,$(LEAVE_OUT))
-ifneq ($(call leave_out,no-skin),)
-  override HEXMESH_OPTIONS += --skin 0
-endif
-ifneq ($(call leave_out,no-backward),)
-  override PRONE := --gravity 0,0,0
-endif
-ifneq ($(call leave_out,no-gravity-in-compression),)
-  override COMPRESS_OPTIONS += --gravity off
-endif
-ifneq ($(call leave_out,no-gland),)
-  whole_set := $(or $(wildcard $(MATERIALS)),$(PIPELINES)/materials/$(MATERIALS).tsv)
-  override MATERIALS := $(RUN)/fat-only.tsv
-endif
+left_out = $(if $(filter $1,$(LEAVE_OUT)),$2,$3)
+override HEXMESH_OPTIONS += $(call left_out,no-skin,--skin 0)
+override PRONE := $(call left_out,no-backward,--gravity 0$(comma)0$(comma)0,$(PRONE))
+override COMPRESS_OPTIONS += $(call left_out,no-gravity-in-compression,--gravity off)
+whole_set := $(call left_out,no-gland,$(or $(wildcard $(MATERIALS)),$(PIPELINES)/materials/$(MATERIALS).tsv))
+override MATERIALS := $(call left_out,no-gland,$(RUN)/fat-only.tsv,$(MATERIALS))
 
 # Options every program gets: its JSON report beside its first output, its share of the cores.
 share = --threads $$($(PIPELINES)/threads.sh)

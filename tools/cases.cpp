@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "cases/attempt.hpp"
 #include "cases/case_file.hpp"
 #include "cases/case_run.hpp"
 #include "cases/cohort_files.hpp"
@@ -112,6 +113,14 @@ std::string run(const Words& words) {
   return "";
 }
 
+std::string attempt_stage(const Words& words) {
+  std::vector<fs::path> inputs;
+  for (const std::string& input : split(words[1], ' '))
+    if (!input.empty()) inputs.push_back(input);
+  attempt(words[0], inputs, rest(words, 2));
+  return "";
+}
+
 std::string any_done(const Words& words) {
   const Table table = read_table(words[0]);
   for (std::size_t r = 0; r < table.rows.size(); ++r)
@@ -150,6 +159,9 @@ std::vector<Kind> kinds_for(SlurmRequest& slurm) {
       {"check", "RUN SIDE SCAN",
        "refuses a scan, phantom:PRESET or side that is not the one RUN was made of", 3, check},
       {"record", "RUN SIDE SCAN", "remembers them in RUN/.scan", 3, record},
+      {"attempt", "STAGE.json 'INPUT...' -- COMMAND...",
+       "a stage of a variant, which may have no solution: then its report says why", 3,
+       attempt_stage},
       {"run", "STATUS LOG KIND -- COMMAND...",
        "runs a case of a cohort and keeps what became of it in the file STATUS", 4, run},
       {"any-done", "TABLE.tsv", "fails when no case of a cohort's table is done", 1, any_done},

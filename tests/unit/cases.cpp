@@ -6,6 +6,7 @@
 #include <chrono>
 #include <functional>
 
+#include "cases/attempt.hpp"
 #include "cases/case_file.hpp"
 #include "cases/case_run.hpp"
 #include "cases/cohort_files.hpp"
@@ -154,6 +155,26 @@ TEST(CaseRuns, KeepWhatBecameOfTheCase) {
   EXPECT_TRUE(is_done(status));
   EXPECT_FALSE(run_case({status, log, false, {"sh", "-c", "kill -TERM $$"}}));
   EXPECT_NE(read_text(status).find("stopped by a signal"), std::string::npos);
+}
+
+TEST(Attempts, KeepTheReasonOfASolveThatEndsEarly) {
+  const ScratchFolder folder;
+  const fs::path report = folder / "supine.json";
+  const std::string file = report.string();
+  const auto solve = [&](const std::string& script, const std::vector<fs::path>& inputs = {}) {
+    return reason([&] { attempt(report, inputs, {"sh", "-c", script}); });
+  };
+  write_text(folder / "supine.vtkhdf", "of an earlier attempt");
+  EXPECT_EQ(solve("echo '{\"reason\": \"folded\"}' > " + file + "; exit 3"), "");
+  EXPECT_NE(read_text(report).find("folded"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "supine.vtkhdf"));
+  EXPECT_NE(solve("exit 3").find("exit code 3"), std::string::npos) << "not even a report";
+  EXPECT_NE(solve("echo x > " + file + "; exit 2").find("exit code 2"), std::string::npos);
+  EXPECT_EQ(solve("true"), "");
+  EXPECT_NE(read_text(report).find("\"ok\""), std::string::npos) << "of somebody else's program";
+  write_text(folder / "reference.json", "no body");
+  EXPECT_EQ(solve("exit 1", {folder / "reference.vtkhdf"}), "");
+  EXPECT_EQ(read_text(report), "no body") << "what needed it has the same reason";
 }
 
 StudyBase base() {
