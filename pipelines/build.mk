@@ -8,8 +8,7 @@ source_goals := check fuzz release-check faults full-disk whole-tools clean-root
   stability% compare calibrate calibrate-invivo identification budget band-check band-truth matching page-check
 ifdef INSTALLED
 SOURCES :=
-of_the_source_tree := $(filter $(source_goals),$(MAKECMDGOALS))
-$(if $(of_the_source_tree),$(error $(firstword $(of_the_source_tree)): needs the source tree of libbreast, which is not installed))
+$(call refuse_goals,$(INSTALLED),$(source_goals),needs the source tree of libbreast$(comma) which is not installed)
 else
 SOURCES := $(shell find $(addprefix $(ROOT),libbreast tools cmake) $(PIPELINES)/materials -type f -not -name '.*') \
   $(ROOT)CMakeLists.txt $(ROOT)CMakePresets.json

@@ -70,10 +70,14 @@ $(foreach v,$(program_settings),$(eval $v ?= $(BIN)/$(default_$v)))
 # that $(shell) leaves alone, or why not. Before the first build there is no such program: make builds it and reads everything anew.
 goals = $(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))
 line_end := $(shell printf '\036')
-answer = $(if $(filter 0,$(.SHELLSTATUS)),$(eval $(subst $(line_end),$(newline),$1)),$(error $(filter-out cases:,$1)$(call outdated)))
-ask = $(if $(wildcard $(CASES)),$(if $(filter-out help setup build clean settings,$(goals)),$(call answer,$(shell $(CASES) $1 --quiet 2>&1))))
-outdated = $(if $(if $(INSTALLED),,$(shell find $(SOURCES) -newer $(CASES))),; the programs are older than their sources: make -f $(PIPELINE) build)
+answer = $(if $(filter 0,$(.SHELLSTATUS)),$(eval $(subst $(line_end),$(newline),$1)),$(error $(filter-out cases:,$1)$(outdated)))
+asking = $(if $(wildcard $(CASES)),$(filter-out help setup build clean settings,$(goals)))
+ask = $(if $(asking),$(call answer,$(shell $(CASES) $1 --quiet 2>&1)))
+older = $(if $(INSTALLED),,$(shell find $(SOURCES) -newer $(CASES)))
+outdated = $(if $(older),; the programs are older than their sources: make -f $(PIPELINE) build)
 
+# $(call refuse_goals,WHERE,GOALS,WHY): where something stands in WHERE, the first of these goals that is asked for is refused.
+refuse_goals = $(if $1,$(foreach goal,$(firstword $(filter $2,$(MAKECMDGOALS))),$(error $(goal): $3)))
 # $(call among,SETTING,CHOICES): every word of it is one of them.
 none_of = $(foreach w,$(filter-out $3,$2),$(error $1: '$w' is none of $3$(call suggest,$w,$3)))
 among = $(call none_of,$1,$($1),$2)

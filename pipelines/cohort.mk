@@ -13,15 +13,13 @@ COHORT_RUNS := $(RUNS)/cohort-$(notdir $(patsubst %/,%,$(if $(filter . .. %/. %/
 
 # CASE, its file, and what it is of, a line each: a file, because ten thousand do not fit a command line.
 CASE_LIST := $(COHORT_RUNS)/.cases
-$(COHORT_RUNS)/.folder:
+$(CASE_LIST): FORCE
 	@mkdir -p $(@D)
-	@touch $@
-$(CASE_LIST): FORCE | $(COHORT_RUNS)/.folder
 	@$(CASES) list $(COHORT) $(case_settings) --quiet > $@.part && mv $@.part $@
 
 # Always entered: the case's own make decides what is out of date. Its exit code is kept, not passed on.
 cohort_make = $(MAKE) -f $(PIPELINE) COHORT= CLUSTER= RUNS=$(COHORT_RUNS)
-$(COHORT_CASES:%=$(COHORT_RUNS)/%.status): $(COHORT_RUNS)/%.status: FORCE | $(COHORT_RUNS)/.folder
+$(COHORT_CASES:%=$(COHORT_RUNS)/%.status): $(COHORT_RUNS)/%.status: FORCE | $(CASE_LIST)
 	@$(CASES) run $@ $(COHORT_RUNS)/$*.log $(kind_$*) --quiet -- $(cohort_make) CASE_FILE=$(file_$*) CASE=$* summary
 
 # The table of what has ended so far, and its pages.
@@ -30,22 +28,19 @@ cohort-table: $(CASE_LIST)
 	@$(cohort_results)
 
 ifeq ($(CLUSTER),slurm)
-# The make command of a task, a word a line. Programs are taken as they are: no task builds anything.
+# The make of a task takes programs as they are: no task builds anything.
 task_make = make -f $(PIPELINE) -o $(ROOT)build/built-$(PRESET_BUILD).mk -o $(ROOT)build/.packages
-task_settings = $(foreach v,$(filter-out COHORT RUNS CASE CASE_FILE CLUSTER% RESUME,$(given)),$(newline)$v=$(value $v))
-task_command = $(subst $(space)$(newline),$(newline),$(subst $(space),$(newline),$(task_make))$(task_settings))
+task_settings = $(foreach v,$(filter-out COHORT RUNS CASE CASE_FILE CLUSTER% RESUME,$(given)),'$v=$(value $v)')
 slurm = $(CASES) $1 $(COHORT_RUNS) $(COHORT) --quiet --cost $(PIPELINES)/cohort-cost.tsv --elements $(ELEMENTS) \
   $(addprefix --element=,$(ELEMENT)) $(addprefix --partition=,$(CLUSTER_PARTITION)) $(addprefix --account=,$(CLUSTER_ACCOUNT)) \
   $(addprefix --time=,$(CLUSTER_TIME)) $(addprefix --memory=,$(CLUSTER_MEMORY)) --cores $(CLUSTER_CORES) \
-  $(if $(CLUSTER_OPTIONS),'--options=$(CLUSTER_OPTIONS)') $(if $(RESUME),--resume)
-$(COHORT_RUNS)/.command: FORCE | $(COHORT_RUNS)/.folder
-	@$(if $(planning),,$(file > $@,$(task_command))):
-cohort: $(CASE_LIST) $(COHORT_RUNS)/.command
+  $(if $(CLUSTER_OPTIONS),'--options=$(CLUSTER_OPTIONS)') $(if $(RESUME),--resume) -- $(task_make) $(task_settings)
+cohort: $(CASE_LIST)
 	@$(call slurm,submit)
-cohort-script: $(CASE_LIST) $(COHORT_RUNS)/.command
+cohort-script: $(CASE_LIST)
 	@$(call slurm,script)
 else
-cohort: $(COHORT_CASES:%=$(COHORT_RUNS)/%.status) $(CASE_LIST)
+cohort: $(COHORT_CASES:%=$(COHORT_RUNS)/%.status)
 	@$(cohort_results)
 	@$(CASES) any-done $(COHORT_RUNS)/cohort.tsv --quiet
 cohort-script:

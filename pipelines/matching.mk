@@ -19,5 +19,5 @@ $(RUN)/matching-true-mesh.tsv: $(TRUTH_TABLE) $(CC2MLO)
 	$(CC2MLO) $(TRUTH_AT)-coarse-cc.vtkhdf $(TRUTH_AT)-coarse-mlo.vtkhdf $(basename $@).vtp \
 	  --truth $(TRUTH_TABLE) --table $@ $(common)
 matching: $(RUN)/matching.tsv $(RUN)/matching-true-mesh.tsv
-	@for table in $^; do echo "$$table"; grep -E '^(query|-)' $$table | cut -f2,15-18,21,22; done
+	@for table in $(basename $^); do echo "$$table.tsv"; cat $$table-summary.tsv; done
 .PHONY: matching

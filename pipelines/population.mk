@@ -2,7 +2,7 @@
 # Every breast of pipelines/invivo/cohort.tsv is solved from the scan to the supine shape, and a table compares the motion of its
 # tissue with that of living women (pipelines/invivo/women.tsv). Cases of scans take part when POPULATION_SCANS names the scan's file.
 #   make population                                the table, and the figure of motion against depth
-#   make calibrate-invivo                          pipelines/materials/invivo.tsv from the calibration half of the cohort (tests/bench/calibrate.mk)
+# The calibration half of the cohort is for `make calibrate-invivo` (tests/bench/calibrate.mk).
 POPULATION_RUNS := $(RUNS)/population
 population_files = $(patsubst %,$(POPULATION_RUNS)/%/$2.vtkhdf,$1)
 population_both = $(population_calibration) $(population_judging)

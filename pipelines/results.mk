@@ -55,5 +55,5 @@ $(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(F)/cc-points.png $(F)/ml
 	@$(call record,report)
 	@echo "$@"
 $(RUN)/report.pdf: $(RUN)/report.html
-	$(PIPELINES)/print.sh "$(CHROMIUM)" $< $@
+	$(tabulate) pdf '$(CHROMIUM)' $< $@
 	@echo "$@"

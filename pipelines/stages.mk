@@ -124,8 +124,7 @@ $(call case_rules,$(RUN),$(STAGES))
 # Without gland: the set with the fibroglandular law replaced by fat's.
 $(RUN)/fat-only.tsv: $(or $(whole_set),$(MATERIAL_TABLE))
 	@mkdir -p $(@D)
-	awk -F'\t' -v OFS='\t' '$$1 == "fat" { fat = $$0 } $$1 == "fibroglandular" { $$0 = fat; $$1 = "fibroglandular" } { print }' $< > $@.part
-	@mv $@.part $@
+	$(call table,$(tabulate) set fat-only $<)
 
 # The same with the lateral cut held: what this boundary condition changes at the landmarks.
 cut-fixed_settings := $(BACKWARD) $(FORWARD) $(MECHANICS)

@@ -63,9 +63,7 @@ $(TABLES)/findings.tsv: $(RUN)/slopes.tsv $(call results,findings,$(findings_var
 SETS := $(filter-out %-100 %-1000 %-2000,$(table8_variants))
 $(RUN)/columns.tsv: $(PIPELINES)/materials/seed2008.tsv
 	@mkdir -p $(@D)
-	$(call table,awk -F'\t' -v OFS='\t' '/^#/ { print; next } $$1 == "tissue" { for (i = 1; i <= NF; i++) at[$$i] = i; print; next } \
-	  { first = $$at["a20_Pa"]; second = $$at["a02_Pa"]; third = $$at["a11_Pa"]; \
-	    $$at["a11_Pa"] = first; $$at["a20_Pa"] = second; $$at["a02_Pa"] = third; print }' $<)
+	$(call table,$(tabulate) set columns $<)
 $(TABLES)/table8.tsv: $(PIPELINES)/paper/conclusions.tsv $(PAPER_TABLES:%=$(TABLES)/table%.tsv) $(RUN)/slopes.tsv \
   $(call results,table8,$(SETS),slopes) $(call results,table8,$(filter-out $(SETS),$(table8_variants)),supine) $(TABULATE)
 	$(call table,$(tabulate) survival $< $(RUN) $(SETS))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // cases: what the pipeline knows of cases before anything runs, and how those of a cohort are run.
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 
@@ -8,11 +9,13 @@
 #include "cases/case_file.hpp"
 #include "cases/case_run.hpp"
 #include "cases/cohort_files.hpp"
+#include "cases/ladder.hpp"
 #include "cases/make_text.hpp"
 #include "cases/scan_identity.hpp"
 #include "cases/slurm.hpp"
 #include "cases/variants.hpp"
 #include "cli/declaration.hpp"
+#include "cli/library_words.hpp"
 #include "cli/tool.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -121,6 +124,13 @@ std::string attempt_stage(const Words& words) {
   return "";
 }
 
+std::string ladder(const Words& words) {
+  dprintf(message_descriptor(), "%s",
+          climb({words[0], words[1], split(words[2], ' '), split(words[3], ' '), rest(words, 4)})
+              .c_str());
+  return "";
+}
+
 std::string any_done(const Words& words) {
   const Table table = read_table(words[0]);
   for (std::size_t r = 0; r < table.rows.size(); ++r)
@@ -143,6 +153,7 @@ std::vector<Kind> kinds_for(SlurmRequest& slurm) {
     return [&slurm, make](const Words& words) {
       slurm.runs = words[0];
       slurm.cohort = words[1];
+      slurm.command = rest(words, 2);
       slurm.program = fs::read_symlink("/proc/self/exe");
       return make(slurm);
     };
@@ -162,13 +173,17 @@ std::vector<Kind> kinds_for(SlurmRequest& slurm) {
       {"attempt", "STAGE.json 'INPUT...' -- COMMAND...",
        "a stage of a variant, which may have no solution: then its report says why", 3,
        attempt_stage},
+      {"ladder", "RUN MM 'POINT...' 'TABULATE...' -- MAKE...",
+       "solves points of the study `cost` until one's estimated error is below MM: RUN/accuracy.mk",
+       5, ladder},
       {"run", "STATUS LOG KIND -- COMMAND...",
        "runs a case of a cohort and keeps what became of it in the file STATUS", 4, run},
       {"any-done", "TABLE.tsv", "fails when no case of a cohort's table is done", 1, any_done},
-      {"script", "RUNS COHORT", "the script of the job array that `submit` would give to Slurm", 2,
-       of_cluster(slurm_plan)},
-      {"submit", "RUNS COHORT", "gives the cases of RUNS/.cases to Slurm, then their table", 2,
-       of_cluster(submit_to_slurm)},
+      {"script", "RUNS COHORT -- MAKE...",
+       "the script of the job array that `submit` would give to Slurm", 2, of_cluster(slurm_plan)},
+      {"submit", "RUNS COHORT -- MAKE...",
+       "gives the cases of RUNS/.cases to Slurm, each a run of the command MAKE, then their table",
+       2, of_cluster(submit_to_slurm)},
       {"task", "FOLDER OFFSET", "within that array: runs the case of this task", 2, task},
       {"table", "FOLDER COHORT", "within the last job: makes the table", 2, table},
   };

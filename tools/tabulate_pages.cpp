@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is said of a case, of a report, and in the pages of docs/.
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,8 +10,10 @@
 #include <thread>
 
 #include "cli/declaration.hpp"
+#include "command/child.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 #include "study/cells.hpp"
 #include "study/pages/markdown.hpp"
 #include "study/pages/report_page.hpp"
@@ -67,6 +70,25 @@ std::string report(const Request& r) {
   return report_page(run, context);
 }
 
+// Printed by a headless Chromium with a profile of its own. Its sandbox stays on wherever it can; it refuses to start with it as
+// root. The page itself forbids scripts (its content security policy; Chromium 156 prints nothing when told to switch them off),
+// and no network is reachable.
+std::string pdf(const Request& r) {
+  const TemporaryFolder work;
+  const fs::path made = work / "out.pdf";
+  std::vector<std::string> words{"timeout", "120", r.word(0), "--headless"};
+  if (geteuid() == 0) words.push_back("--no-sandbox");
+  words.insert(words.end(),
+               {"--proxy-server=127.0.0.1:9", "--disable-gpu", "--disable-dev-shm-usage",
+                "--user-data-dir=" + (work / "profile").string(), "--no-pdf-header-footer",
+                "--print-to-pdf=" + made.string(), "file://" + fs::canonical(r.word(1)).string()});
+  const Captured said = capture_child(words);
+  if (said.exit_code != 0 || !fs::exists(made) || fs::file_size(made) == 0)
+    throw failed_error(r.word(0), " made no PDF of ", r.word(1), ": ", one_line(said.err));
+  write_text(r.word(2), read_text(made));
+  return "";
+}
+
 std::string verified(const Request& r) {
   const Verification result = verify(r.table(0), r.word(1));
   if (result.failed == 0) return result.table.text();
@@ -103,15 +125,53 @@ std::string warnings(const Request& r) {
   return table.text();
 }
 
+const std::string runs_of_tables = "docs/tables/runs.tsv";
+
+// Of the source tree this program is run in; what is not committed is said.
+std::string commit_here() {
+  const Captured said = capture_child({"git", "describe", "--always", "--dirty", "--exclude", "*"});
+  if (said.exit_code != 0) throw failed_error("git describe: ", one_line(said.err));
+  return one_line(said.out.substr(0, said.out.find('\n')));
+}
+
+// Of a run: as its report says, or when it wrote its table.
+std::string date_of(const fs::path& file) {
+  if (file.extension() == ".json") {
+    const std::string date = StageReport::read(file).text("date");
+    if (date.empty()) throw input_error(file.string(), ": has no date of a run");
+    return date.substr(0, date.find('T'));
+  }
+  struct stat state {};
+  if (stat(file.c_str(), &state) != 0) throw input_error(file.string(), ": does not exist");
+  std::tm utc{};
+  gmtime_r(&state.st_mtim.tv_sec, &utc);
+  char date[16];
+  std::strftime(date, sizeof date, "%Y-%m-%d", &utc);
+  return date;
+}
+
+std::string made(const Request& r) {
+  const std::string date = date_of(r.word(1));
+  const Table runs =
+      table_if_any(runs_of_tables).value_or(Table{{"table", "date", "commit", "machine"}, {}});
+  write_text(runs_of_tables, with_run(runs, r.word(0), date, commit_here(),
+                                      std::to_string(std::thread::hardware_concurrency()) +
+                                          " cores, " + processor())
+                                 .text());
+  return "";
+}
+
 std::string pages(const Request& r) {
   const bool fill = r.word(0) == "fill";
   if (!fill && r.word(0) != "check")
     throw input_error("pages: '", r.word(0), "' is neither fill nor check");
+  const Table runs = table_if_any(runs_of_tables).value_or(Table{{"table"}, {}});
   std::string all;
   for (const std::string& name : r.rest(1)) {
     const std::string page = read_text(name);
-    const std::string filled =
-        with_tables(page, name, [](const std::string& file) { return read_text(file); });
+    const std::string filled = with_tables(
+        page, name, [](const std::string& file) { return read_text(file); },
+        [&](const std::string& file) { return run_line(runs, file); });
     all += page;
     if (filled == page) continue;
     if (!fill)
@@ -123,7 +183,7 @@ std::string pages(const Request& r) {
   if (fill) return "";
   for (const auto& entry : fs::directory_iterator("docs/tables")) {
     const std::string file = entry.path().generic_string();
-    if (entry.path().extension() == ".tsv" &&
+    if (entry.path().extension() == ".tsv" && file != runs_of_tables &&
         all.find("<!-- table " + file + " -->") == std::string::npos)
       throw failed_error(file, ": stands in no page");
   }
@@ -145,6 +205,8 @@ std::vector<TabulateKind> page_kinds() {
       {"report", "RUN RUNS",
        "one self-contained HTML page of a finished case; RUNS holds stability/ and compare/", 2, 2,
        report},
+      {"pdf", "CHROMIUM PAGE.html OUT.pdf", "that page as PDF, printed by the program CHROMIUM", 3,
+       3, pdf},
       {"warnings", "RUN", "what the stages warned of, each warning once, and what to do", 1, 1,
        warnings},
       {"verify", "EXPECTED.tsv RUN", "a run against expected values; exit code 1 where one differs",
@@ -165,6 +227,10 @@ std::vector<TabulateKind> page_kinds() {
          for (const std::string& word : r.words) runs.push_back(folder_of(word));
          return truth_of_postures(runs).text();
        }},
+      {"made", "TABLE.tsv RESULT",
+       "notes in docs/tables/runs.tsv the date, commit and machine of the run that a table of the pages was made from; RESULT is one of "
+       "its reports or tables",
+       2, 2, made},
       {"pages", "fill|check PAGE.md...",
        "the tables between the marks of pages, written anew or compared", 2, any_number, pages},
       {"numbers", "NUMBERS.tsv", "whether the numbers that pages state are those of their sources",

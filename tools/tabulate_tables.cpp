@@ -13,6 +13,7 @@
 #include "study/experiments/leaveout.hpp"
 #include "study/experiments/outcomes.hpp"
 #include "study/experiments/pressed.hpp"
+#include "study/paper/changed_set.hpp"
 #include "study/paper/conclusions.hpp"
 #include "study/paper/findings.hpp"
 #include "study/paper/scaled_table.hpp"
@@ -77,7 +78,11 @@ std::string calibration(const Request& r) {
 std::string accuracy(const Request& r) {
   const auto row = accuracy_row(r.word(0), r.word(1), r.words.size() > 3 ? r.word(3) : "",
                                 parse_number(r.word(2), "accuracy: MM"), read_shape);
-  return row ? join(*row, "\t") + "\n" : "";
+  if (!row) return "";
+  std::vector<std::string> columns;
+  for (std::size_t c = 0; c < row->size(); ++c) columns.push_back(std::to_string(c));
+  const std::string with_header = Table{columns, {*row}}.text();
+  return with_header.substr(with_header.find('\n') + 1);
 }
 
 std::string least(const Request& r) {
@@ -98,7 +103,7 @@ std::string coverage_rows(const Request& r) {
 std::string identification(const Request& r) {
   std::vector<Table> studies;
   for (const std::string& file : r.words) studies.push_back(read_table(file));
-  return identification_table(studies).closed_text();
+  return identification_table(studies).text();
 }
 
 std::string pressed(const Request& r) {
@@ -120,6 +125,8 @@ std::vector<TabulateKind> table_kinds() {
        }},
       {"constants", "PAPER.tsv MATERIALS.tsv", "Table II, the constants used beside the paper's", 2,
        2, [](const Request& r) { return constants_table(r.table(0), r.table(1)).text(); }},
+      {"set", "fat-only|columns MATERIALS.tsv", "a material set as a study changes it", 2, 2,
+       [](const Request& r) { return changed_set(r.table(1), r.word(0)).text(); }},
       {"slopes", "SUPINE.json SCALED SLOPES.tsv TUMOUR-SLOPES.tsv",
        "Table VII, slopes from one solve against solving again", 4, 4,
        [](const Request& r) {

@@ -8,9 +8,9 @@
 
 namespace breast {
 
-/// Runs the stage `command`, which writes the report STAGE.json and the files of that name. Where it does not converge (exit 3) its
-/// report says why and is the result; where one of `inputs` was not found for such a reason, that input's report becomes this one's.
-/// Either way nothing else of the stage is left. Throws Error (failed) for any other failure.
+/// Runs the stage `command`, which writes the report STAGE.json and the files of that name. Where it does not converge (exit 3)
+/// its report says why and is the result; where one of `inputs` was not found for such a reason, that input's report becomes this
+/// one's. Either way nothing else of the stage is left. Throws Error (failed) for any other failure.
 void attempt(const std::filesystem::path& report, const std::vector<std::filesystem::path>& inputs,
              const std::vector<std::string>& command);
 

@@ -16,8 +16,8 @@ struct CaseFile {
   bool has(const std::string& key) const;
 };
 
-/// `known`: the keys that a case may have. Throws Error (input) naming file and line for anything but KEY = VALUE, an unknown key, a
-/// key that stands there twice, and a value that holds what make or a shell would read as code. '#' begins a comment. Files named
+/// `known`: the keys that a case may have. Throws Error (input) naming file and line for anything but KEY = VALUE, an unknown key,
+/// a key that stands there twice, and a value that holds what make or a shell would read as code. '#' begins a comment. Files named
 /// *.mk are makefiles of version 0.1.
 CaseFile read_case_file(const std::filesystem::path& file, const std::vector<std::string>& known);
 /// The same from the bytes of the file `name`.

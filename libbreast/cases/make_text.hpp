@@ -7,7 +7,8 @@
 
 namespace breast {
 
-/// $(shell) turns line breaks into blanks: this byte, which no name or value may hold, stands for them (pipelines/check-settings.mk).
+/// $(shell) turns line breaks into blanks: this byte, which no name or value may hold, stands for them
+/// (pipelines/check-settings.mk).
 inline constexpr char make_line_end = '\x1e';
 
 /// "NAME := VALUE", ended.

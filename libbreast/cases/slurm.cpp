@@ -43,15 +43,14 @@ std::string text_of(const std::vector<SlurmCase>& cases) {
   return text;
 }
 
-// The make of the pipeline as the file `command` keeps it, no longer one for Slurm.
-Words command_of(const fs::path& list, const Words& more) {
-  Words words = lines_of(list);
+// The make of the pipeline, no longer one for Slurm.
+Words command_of(Words words, const Words& more) {
   words.push_back("CLUSTER=");
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
-Words case_command(const fs::path& list, const fs::path& runs, const SlurmCase& one) {
-  return command_of(list, {"COHORT=", "RUNS=" + runs.string(), "CASE_FILE=" + one.file,
+Words case_command(const Words& make, const fs::path& runs, const SlurmCase& one) {
+  return command_of(make, {"COHORT=", "RUNS=" + runs.string(), "CASE_FILE=" + one.file,
                            "CASE=" + one.name, "summary"});
 }
 
@@ -197,7 +196,7 @@ std::vector<SlurmCase> wanted_cases(const SlurmRequest& request) {
   leave_make();
   std::erase_if(cases, [&](const SlurmCase& one) {
     if (!is_done(request.runs / (one.name + ".status"))) return false;
-    Words words = case_command(request.runs / ".command", request.runs, one);
+    Words words = case_command(request.command, request.runs, one);
     words.insert(words.begin() + 1, "-q");
     return capture_child(words).exit_code == 0;
   });
@@ -218,7 +217,7 @@ std::string submit_to_slurm(const SlurmRequest& request) {
   const CaseCost cost = dearest_case(request, all);
   const fs::path folder = next_folder(request.runs);
   fs::create_directories(folder);
-  fs::copy_file(request.runs / ".command", folder / "command");
+  write_text(folder / "command", join(request.command, "\n") + "\n");
   write_text(folder / "cases", text_of(wanted));
   write_text(folder / "array.sh", array_script(request, folder, cost));
   // The table takes a second or two a case.
@@ -260,7 +259,7 @@ std::string run_slurm_task(const fs::path& folder, int offset) {
   dprintf(STDOUT_FILENO, "%s on %s, job %s, start %d\n", one.name.c_str(), node,
           of_environment("SLURM_JOB_ID").c_str(), starts);
   run_case({status, runs / (one.name + ".log"), one.kind == "phantom",
-            case_command(folder / "command", runs, one)});
+            case_command(lines_of(folder / "command"), runs, one)});
   const std::string said = read_text(status);
   if (!is_done(status)) throw failed_error(one.name, ": ", one_line(said));
   return said;
@@ -270,7 +269,7 @@ int run_slurm_table(const fs::path& folder, const std::string& cohort) {
   leave_make();
   const fs::path runs = folder.parent_path().parent_path();
   return run_child(
-      command_of(folder / "command",
+      command_of(lines_of(folder / "command"),
                  {"COHORT=" + cohort, "RUNS=" + runs.parent_path().string(), "cohort-table"}));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A cohort on Slurm: one job array over its cases, several where the site's MaxArraySize is smaller, then a job that makes the table.
+// A cohort on Slurm: one job array over its cases, several where the site's MaxArraySize is smaller, then a job that makes the
+// table.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +14,10 @@ namespace breast {
 /// What sbatch is asked for; time and memory come from measured cost where they are empty.
 struct SlurmRequest {
   std::filesystem::path
-      runs;  ///< the cohort's, with .cases (CASE, FILE, KIND a line) and .command (a word a line)
-  std::filesystem::path cohort;   ///< the folder of its case files
-  std::filesystem::path program;  ///< that runs a task: cases
+      runs;  ///< the cohort's, with .cases (CASE, FILE, KIND a line)
+  std::filesystem::path cohort;      ///< the folder of its case files
+  std::filesystem::path program;     ///< that runs a task: cases
+  std::vector<std::string> command;  ///< the make of a case but for its own settings
   std::string partition, account, time, memory, options;
   int cores = 1;
   bool resume = false;         ///< only the cases that are missing or out of date

@@ -16,7 +16,7 @@ inline constexpr std::string_view maker_mark = "libbreast";
 
 /// True when a file's content says that this toolkit wrote it, or when it is empty. HDF5: the seal,
 /// or the units that every file of libbreast states; VTK XML: the seal or a history; JSON: a
-/// report's first key; tables: the closing line "# rows N"; everything else: maker_mark where the
+/// report's first key; tables: the closing line (table.hpp); everything else: maker_mark where the
 /// format has a place for it. False also for a file that cannot be read.
 bool written_by_us(const std::filesystem::path& file);
 

@@ -91,8 +91,9 @@ void report_match(const MatchResult& result, Report& report);
 /// queries that have it: statuses/matched, statuses/behind_image ...; inside_image_percent of all
 /// curves together.
 void report_truth(const std::vector<MatchResult>& results, Report& report);
-/// Rows "mean", "p95" and "largest" of the distances to the truth, and below "mean" of in_band_50
-/// and in_band_95 the percentages, at the end of a curve_table.
-void add_truth_summary(const std::vector<MatchResult>& results, Table& table);
+/// Rows mean, p95 and largest of the distances to the truth, mm; mean has the percentages in the bands.
+Table truth_statistics(const std::vector<MatchResult>& results);
+/// The same at the end of a curve_table, for people; the percentages stand in in_band_50 and in_band_95.
+void add_statistics(const Table& statistics, Table& table);
 
 }  // namespace breast

@@ -31,6 +31,7 @@ $(foreach p,$(identification_parts),$(eval $(call identification_rows,$p)))
 identification: $(identification_parts:%=$(IDENTIFICATION_RUNS)/%.tsv) $(TABULATE)
 	$(tabulate) identification $(identification_parts:%=$(IDENTIFICATION_RUNS)/%.tsv) > docs/tables/identification.tsv.part
 	@mv docs/tables/identification.tsv.part docs/tables/identification.tsv
+	@$(tabulate) made docs/tables/identification.tsv $<
 	@$(tabulate) pages fill $(PAGES_WITH_TABLES)
 	@cat docs/tables/identification.tsv
 .PHONY: identification

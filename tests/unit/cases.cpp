@@ -10,6 +10,7 @@
 #include "cases/case_file.hpp"
 #include "cases/case_run.hpp"
 #include "cases/cohort_files.hpp"
+#include "cases/ladder.hpp"
 #include "cases/make_text.hpp"
 #include "cases/scan_identity.hpp"
 #include "cases/slurm.hpp"
@@ -177,6 +178,26 @@ TEST(Attempts, KeepTheReasonOfASolveThatEndsEarly) {
   EXPECT_EQ(read_text(report), "no body") << "what needed it has the same reason";
 }
 
+TEST(Ladders, EndAtTheFirstRungThatIsGoodEnough) {
+  const ScratchFolder folder;
+  // A judge that prints the point's row: the first has no solution, the last is good enough.
+  const fs::path judge = folder / "judge";
+  write_text(judge,
+             "#!/bin/sh\ncase $3 in\n*-4) ;;\n*-8) printf '%s\\t%s\\tyes\\n' $3 \"$5\" ;;\n"
+             "*) printf '%s\\t%s\\tno\\n' $3 \"$5\" ;;\nesac\n");
+  fs::permissions(judge, fs::perms::owner_all);
+  const auto up = [&](const std::vector<std::string>& points) {
+    return climb({folder.path(), "0.5", points, {judge.string()}, {"true"}});
+  };
+  EXPECT_EQ(up({"q1p0-dome-4", "q2p1-dome-6", "q1p0-dome-8", "q1p0-dome-10"}),
+            "point\telements\tstress_free_estimate_mm\tsupine_estimate_mm\tcpu_s\tmeets\n"
+            "q2p1-dome-6\t\tno\nq1p0-dome-8\tq2p1-dome-6\tyes\n");
+  EXPECT_EQ(read_text(folder / "accuracy.mk"), "ELEMENTS := 8\nELEMENT := q1p0\n");
+  EXPECT_NE(up({"q2p1-dome-6"}).find("not met"), std::string::npos);
+  EXPECT_EQ(read_text(folder / "accuracy.mk"), "ELEMENTS := 6\nELEMENT := q2p1\n");
+  EXPECT_NE(reason([&] { up({"q1p0-dome-4"}); }).find("no mesh of the ladder"), std::string::npos);
+}
+
 StudyBase base() {
   return {"run",
           {"mesh", "reference", "supine", "cc"},
@@ -237,7 +258,8 @@ TEST(Variants, AreRefusedByColumnStageAndRow) {
   const auto refused = [](const std::string& table) { return reason([&] { expanded(table); }); };
   EXPECT_EQ(
       refused("variant\tstarts_at\tmechanic\nx\tmesh\t-\n"),
-      "own.tsv: 'mechanic' is none of variant starts_at ends_at from given if hexmesh mechanics materials; did you mean mechanics?");
+      "own.tsv: 'mechanic' is none of variant starts_at ends_at from given if hexmesh mechanics "
+      "materials; did you mean mechanics?");
   EXPECT_NE(refused("variant\tstarts_at\nx\trefference\n").find("did you mean reference?"),
             std::string::npos);
   EXPECT_EQ(refused("variant\tstarts_at\nx\t-\n"),

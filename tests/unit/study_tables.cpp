@@ -17,6 +17,7 @@
 #include "study/experiments/leaveout.hpp"
 #include "study/experiments/outcomes.hpp"
 #include "study/experiments/pressed.hpp"
+#include "study/paper/changed_set.hpp"
 #include "study/paper/conclusions.hpp"
 #include "study/paper/findings.hpp"
 #include "study/paper/scaled_table.hpp"
@@ -156,6 +157,17 @@ TEST(ScaledTable, PutsThePapersRowBesideOursAndDashesWhereThereIsNoSolution) {
   EXPECT_EQ(none.cell(2, "tumour_mm"), "-") << "not even the base has a solution";
 }
 
+TEST(ChangedSets, ExchangeWhatTheirNamesSay) {
+  const Table set = table_of(
+      "tissue\tlaw\ta20_Pa\ta02_Pa\ta11_Pa\nfat\tp\t1\t2\t3\nfibroglandular\tp\t4\t5\t6\n");
+  EXPECT_EQ(changed_set(set, "columns").text(),
+            "tissue\tlaw\ta20_Pa\ta02_Pa\ta11_Pa\nfat\tp\t2\t3\t1\nfibroglandular\tp\t5\t6\t4\n");
+  EXPECT_EQ(changed_set(set, "fat-only").text(),
+            "tissue\tlaw\ta20_Pa\ta02_Pa\ta11_Pa\nfat\tp\t1\t2\t3\nfibroglandular\tp\t1\t2\t3\n");
+  EXPECT_THROW(changed_set(set, "fat"), Error);
+  EXPECT_THROW(changed_set(table_of("tissue\ta20_Pa\nfat\t1\n"), "fat-only"), Error);
+}
+
 TEST(Coverage, OfOneSampleIsWilsonsAndOfManyTheScatterOfTheirOwn) {
   const Share one = coverage({45}, {50});
   EXPECT_NEAR(one.percent, 90, 1e-12);
@@ -246,8 +258,8 @@ TEST(Budget, SaysWhyACellIsMissing) {
   write_text(folder / "mesh.json", R"({"cpu_seconds": 1})");
   write_text(folder / "budget/chain/landmarks.tsv",
              "landmark\tstress_free_error_mm\tsupine_error_mm\nmean\t0.5\t1.2345\nlargest\t1\t2\n");
-  write_text(folder / "budget/chain/curves.tsv",
-             "query\tlandmark\ttrue_to_curve_mm\n0\tmean\t3\n1\tp95\t4\n");
+  write_text(folder / "budget/chain/curves-summary.tsv",
+             "statistic\ttrue_to_curve_mm\nmean\t3\np95\t4\n");
   write_text(
       folder / "studies/budget/tissue/cc.json",
       R"({"status": "not_converged", "reason": "folded", "explanation": "An element folds."})");

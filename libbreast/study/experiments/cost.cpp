@@ -91,33 +91,42 @@ std::optional<Row> accuracy_row(const fs::path& folder, const std::string& point
              meets ? "yes" : "no"};
 }
 
+namespace {
+
+// Of one view of a mesh: how far tumour and nipple lie from the finest mesh's, the estimate of the former, forces, status.
+Row converging_view(const fs::path& name, const fs::path& finest, const ShapeReader& read) {
+  if (!fs::exists(with(name, ".vtkhdf"))) return Row(6, no_value);
+  const StageReport report = StageReport::read(with(name, ".json"));
+  const auto to_finest = [&](const char* landmark) {
+    return fs::exists(finest)
+               ? format_fixed(apart_at(read, with(name, ".vtkhdf"), finest, landmark), 2)
+               : no_value;
+  };
+  const auto estimate =
+      report.number("landmarks/" + report.landmark("tumour") + "/error_estimate_mm");
+  return {to_finest("tumour"),
+          fixed_cell(estimate, 2),
+          to_finest("nipple"),
+          fixed_cell(report.number("force_N"), 1),
+          fixed_cell(report.number("detector_force_N"), 1),
+          fixed_cell(report.number("reduction_percent"), 0)};
+}
+
+}  // namespace
+
 Table convergence_table(const fs::path& folder, const std::vector<std::string>& meshes,
                         const ShapeReader& read) {
-  Table table{{"N (elements)", "CC tumour", "its estimate", "nipple", "forces, N", "MLO tumour",
-               "its estimate", "nipple", "forces, N"},
-              {}};
+  Table table{{"N", "elements"}, {}};
+  for (const std::string view : {"CC", "MLO"})
+    for (const char* quantity : {"tumour_mm", "tumour_estimate_mm", "nipple_mm", "paddle_N",
+                                 "detector_N", "reduction_percent"})
+      table.columns.push_back(view + "_" + quantity);
   for (const std::string& n : meshes) {
-    Row row{n + " (" + StageReport::read(folder / n / "mesh.json").text("elements") + ")"};
+    Row row{n, cell_or_dash(StageReport::read(folder / n / "mesh.json").text("elements"))};
     for (const std::string view : {"cc", "mlo"}) {
-      const fs::path name = folder / n / view, finest = folder / meshes.back() / (view + ".vtkhdf");
-      if (!fs::exists(with(name, ".vtkhdf"))) {
-        row.insert(row.end(), 4, no_value);
-        continue;
-      }
-      const StageReport report = StageReport::read(with(name, ".json"));
-      std::string forces = fixed_cell(report.number("force_N"), 1) + " / " +
-                           fixed_cell(report.number("detector_force_N"), 1);
-      if (report.text("status") != "converged")
-        forces += ", stopped at " + fixed_cell(report.number("reduction_percent"), 1) + " %";
-      const auto to_finest = [&](const char* landmark) {
-        return fs::exists(finest)
-                   ? format_fixed(apart_at(read, with(name, ".vtkhdf"), finest, landmark), 2)
-                   : no_value;
-      };
-      const auto estimate =
-          report.number("landmarks/" + report.landmark("tumour") + "/error_estimate_mm");
-      row.insert(row.end(),
-                 {to_finest("tumour"), fixed_cell(estimate, 2), to_finest("nipple"), forces});
+      const Row cells =
+          converging_view(folder / n / view, folder / meshes.back() / (view + ".vtkhdf"), read);
+      row.insert(row.end(), cells.begin(), cells.end());
     }
     table.rows.push_back(row);
   }

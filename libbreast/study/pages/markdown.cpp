@@ -19,10 +19,11 @@ std::string markdown_table(const std::string& tsv, const std::string& name) {
   std::string text;
   for (std::string line; std::getline(in, line);) {
     if (line.starts_with('#')) continue;
+    if (line.empty() || line == "\r") continue;
     const Row cells = split(line, '\t');
     const bool header = text.empty();
     text += "|";
-    for (const std::string& cell : cells) text += " " + cell + " |";
+    for (const std::string& cell : cells) text += " " + cell_or_dash(cell) + " |";
     text += "\n";
     if (!header) continue;
     text += "|";
@@ -34,7 +35,8 @@ std::string markdown_table(const std::string& tsv, const std::string& name) {
 }
 
 std::string with_tables(const std::string& page, const std::string& name,
-                        const std::function<std::string(const std::string& file)>& read) {
+                        const std::function<std::string(const std::string& file)>& read,
+                        const std::function<std::string(const std::string& file)>& run_of) {
   const std::string begin = "<!-- table ", close = " -->", end = "<!-- end of table -->";
   std::istringstream in(page);
   std::string text, inside;
@@ -48,15 +50,39 @@ std::string with_tables(const std::string& page, const std::string& name,
       inside.clear();
       continue;
     }
-    text += "\n" + markdown_table(read(inside), inside) + "\n";
+    text += "\n" + markdown_table(read(inside), inside) + "\n" + run_of(inside) + "\n\n";
   }
   if (!inside.empty())
     throw input_error(name, ": the table ", inside, " has no end; close it with ", end);
   return text;
 }
 
+std::string run_line(const Table& runs, const std::string& file) {
+  const std::string table = fs::path(file).filename(), date = cell_at(runs, table, "date");
+  if (date.empty() || date == no_value) return "Run: not recorded.";
+  if (date == "none") return "Not from a run.";
+  return "Run: " + date + ", commit " + cell_at(runs, table, "commit") + ", " +
+         cell_at(runs, table, "machine") + ".";
+}
+
+Table with_run(const Table& runs, const std::string& file, const std::string& date,
+               const std::string& commit, const std::string& machine) {
+  Table table = runs;
+  const Row row{fs::path(file).filename(), date, commit, machine};
+  const auto known = std::find_if(table.rows.begin(), table.rows.end(),
+                                  [&](const Row& other) { return other.front() == row.front(); });
+  if (known != table.rows.end())
+    *known = row;
+  else
+    table.rows.push_back(row);
+  std::sort(table.rows.begin(), table.rows.end());
+  return table;
+}
+
 Table truth_summary(const Table& truth) {
-  Table table{{"landmark", "imaged error", "stress-free error", "of", "supine error", "of"}, {}};
+  Table table{{"landmark", "imaged_error_mm", "stress_free_error_mm", "stress_free_moved_mm",
+               "supine_error_mm", "supine_moved_mm"},
+              {}};
   for (std::size_t r = 0; r < truth.rows.size(); ++r) {
     const std::string& landmark = truth.rows[r].front();
     if (landmark != "mean" && landmark != "largest" && landmark != "nipple" &&

@@ -15,8 +15,17 @@ namespace breast {
 std::string markdown_table(const std::string& tsv, const std::string& name);
 /// The page with FILE (tab-separated) as Markdown between its lines `<!-- table FILE -->` and `<!-- end of table -->`. Throws Error
 /// (input) naming the page where a table has no end, or the table that holds no row.
+/// Below each table stands what `run_of` says of the run that made it.
 std::string with_tables(const std::string& page, const std::string& name,
-                        const std::function<std::string(const std::string& file)>& read);
+                        const std::function<std::string(const std::string& file)>& read,
+                        const std::function<std::string(const std::string& file)>& run_of);
+
+/// What docs/tables/runs.tsv (table, date, commit, machine) says of the run that made a table: one line; that nothing was recorded
+/// where it has no row, or no cell.
+std::string run_line(const Table& runs, const std::string& file);
+/// The same with the row of `file` set.
+Table with_run(const Table& runs, const std::string& file, const std::string& date,
+               const std::string& commit, const std::string& machine);
 
 /// Errors against the truth, as the page shows them: mean, largest, nipple and the true tumour.
 Table truth_summary(const Table& truth);

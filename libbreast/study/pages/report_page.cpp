@@ -146,14 +146,17 @@ std::string figures(const fs::path& run, const Words& words) {
   text +=
       picture("geometry", "4b. The fitted cubic-Hermite sheets and the rim where the body ends.");
   text += picture("mesh", "4c. The hexahedral mesh from the front, and its back surface (dark).");
-  text += picture("tissues", "4d. Fibroglandular tissue (violet; the surface that encloses its volume)" +
-                                 words.in_4 + " through the translucent skin.");
-  text += picture("outlines",
-                  "The shapes in the scan, stress-free and supine, superimposed; arrows from the scan to "
-                  "supine, lengths in space.");
+  text += picture("tissues",
+                  "4d. Fibroglandular tissue (violet; the surface that encloses its volume)" +
+                      words.in_4 + " through the translucent skin.");
+  text += picture(
+      "outlines",
+      "The shapes in the scan, stress-free and supine, superimposed; arrows from the scan to "
+      "supine, lengths in space.");
   text += section("Figure 5: mammographic compression");
-  text += picture("cc-compression", "5a, b. Before and after CC compression, with the plates; orange: the border "
-                                    "of the image on the detector.");
+  text += picture("cc-compression",
+                  "5a, b. Before and after CC compression, with the plates; orange: the border "
+                  "of the image on the detector.");
   text += picture("mlo-compression", "5c, d. MLO compression, two views.");
   text += picture(
       "pressure",
@@ -163,12 +166,13 @@ std::string figures(const fs::path& run, const Words& words) {
   text +=
       picture("cc-mammogram", "6a. CC" + (words.tumour ? "; the yellow ring is" + words.in_6 : "") +
                                   ". White ring: nipple.");
-  text += picture("mlo-mammogram",
-                  "6b. MLO" +
-                      (words.tumour ? "; the computed curve, the place the model gives" +
-                                          words.in_6 + " (ring) and the arc of equal nipple distance"
-                                    : "") +
-                      ".");
+  text +=
+      picture("mlo-mammogram",
+              "6b. MLO" +
+                  (words.tumour ? "; the computed curve, the place the model gives" + words.in_6 +
+                                      " (ring) and the arc of equal nipple distance"
+                                : "") +
+                  ".");
   text += picture("cc-points", "6c. A selection of CC points.") +
           picture("mlo-curves", "6d. Their curves in MLO.");
   if (words.tumour) text += section("Figure 7: the column of the tumour's pixel");
@@ -344,10 +348,10 @@ std::string report_page(const fs::path& run, const ReportContext& context) {
     html +=
         "<p class=bad><b>The tumour of this case is artificial: nobody found it in the scan.</b> Every figure and table below follows that "
         "point.</p>\n";
-  html += html_figure(run / "figures/slices.png",
-                      "The scan in three planes" +
-                          (words.tumour ? " through" + words.in_6 : std::string()) +
-                          " with the contours of its segmentation; check these before all that follows.");
+  html += html_figure(
+      run / "figures/slices.png",
+      "The scan in three planes" + (words.tumour ? " through" + words.in_6 : std::string()) +
+          " with the contours of its segmentation; check these before all that follows.");
   html += html_figure(
       run / "figures/summary.png",
       "The chain: the scan, the silhouettes of the postures, CC and MLO compression, simulated mammograms" +

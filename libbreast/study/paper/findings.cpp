@@ -91,9 +91,9 @@ std::string calibration_note(const fs::path& truth, const std::string& side) {
 
 Table calibration_table(const fs::path& run, const fs::path& truth, const std::string& side,
                         const Table& landmarks) {
-  Table table{
-      {"", "nipple, supine", "tumour, supine", "nipple, stress-free", "tumour, stress-free", ""},
-      {{"the paper", "8.8", "3.0", "4.5", "1.6", ""}}};
+  Table table{{"model", "supine_nipple_mm", "supine_tumour_mm", "stress_free_nipple_mm",
+               "stress_free_tumour_mm", "remark"},
+              {{"the paper", "8.8", "3.0", "4.5", "1.6", ""}}};
   const auto add = [&](const std::string& name, const fs::path& supine, const fs::path& reference,
                        const std::string& remark) {
     table.rows.push_back({name, format_fixed(moved_in(supine, "nipple"), 2),
