@@ -10,9 +10,9 @@ ifneq ($(planning),)
 # A plan solves nothing: it shows the mesh chosen last, or the default where none was chosen yet.
 -include $(wildcard $(RUN)/accuracy.mk)
 else
-$(RUN)/accuracy.mk: $(RUN)/labels.vtkhdf $(RUN)/geometry.vtkhdf $(PIPELINES)/accuracy.sh $(TABULATE) \
+$(RUN)/accuracy.mk: $(RUN)/labels.vtkhdf $(RUN)/geometry.vtkhdf $(TABULATE) \
   $(HEXMESH) $(BACKWARD) $(FORWARD) $(call changed,accuracy)
-	+$(PIPELINES)/accuracy.sh $(RUN) $(ACCURACY) "$(tabulate)" "$(ACCURACY_LADDER)" $(MAKE) -f $(PIPELINE) ACCURACY=
+	+$(CASES) ladder $(RUN) $(ACCURACY) '$(strip $(ACCURACY_LADDER))' '$(tabulate)' --quiet -- $(MAKE) -f $(PIPELINE) ACCURACY=
 	@$(call record,accuracy)
 include $(RUN)/accuracy.mk
 endif

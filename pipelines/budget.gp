@@ -25,7 +25,7 @@ stage(row) = row eq 'chain' ? "nothing\n(the chain)" : row eq 'segmentation' ? "
 array name[3] = ['stress_free_mean_mm', 'supine_mean_mm', 'curve_mean_mm']
 array title_of[3] = ['stress-free', 'supine', 'MLO place to curve']
 array colour[3] = [0x4c78a8, 0xf58518, 0x54a24b]
-missing(k) = strcol(name[k]) eq '-'
+missing(k) = strcol(name[k]) eq ''
 height(k) = missing(k) ? 0 : real(strcol(name[k]))
 array chain[3]
 do for [k=1:3] {

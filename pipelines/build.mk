@@ -5,15 +5,15 @@
 # An installation (pipelines/installed.mk) has its programs: nothing is set up or built. What it cannot make are targets that
 # build programs, or read or write the source tree.
 source_goals := check fuzz release-check faults full-disk whole-tools clean-root slurm setup build package validation validation-page \
-  stability% compare calibrate-invivo budget band-check band-truth matching page-check
+  stability% compare calibrate calibrate-invivo identification budget band-check band-truth matching page-check
 ifdef INSTALLED
 SOURCES :=
-of_the_source_tree := $(filter $(source_goals),$(MAKECMDGOALS))
-$(if $(of_the_source_tree),$(error $(firstword $(of_the_source_tree)): needs the source tree of libbreast, which is not installed))
+$(call refuse_goals,$(INSTALLED),$(source_goals),needs the source tree of libbreast$(comma) which is not installed)
 else
 SOURCES := $(shell find $(addprefix $(ROOT),libbreast tools cmake) $(PIPELINES)/materials -type f -not -name '.*') \
   $(ROOT)CMakeLists.txt $(ROOT)CMakePresets.json
 endif
+$(eval PRESET_BUILD ?= $(default_PRESET_BUILD))
 
 # `make -n` and `make -q` only plan: they take the programs as they are, where make would build an included file first.
 letters := $(filter-out -%,$(firstword $(MAKEFLAGS)))
@@ -21,7 +21,7 @@ planning := $(findstring n,$(letters))$(findstring q,$(letters))
 ifdef INSTALLED
 else ifneq ($(planning),)
 -include $(wildcard $(ROOT)build/built-$(PRESET_BUILD).mk)
-else ifneq ($(filter-out help setup clean where settings package,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
+else ifneq ($(filter-out help setup clean where settings package,$(goals)),)
 include $(ROOT)build/built-$(PRESET_BUILD).mk
 endif
 

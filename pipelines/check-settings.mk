@@ -49,18 +49,37 @@ check_name = $(call refuse_blanks,$1)$(call refuse_strange,$1,$(filter-out $(may
   $(filter TUMOUR,$1),,$(call refuse_dash,$1))
 check_setting = $(if $(filter undefined default,$(origin $1)),,$(if $(filter $1,$(words_settings)),$(call \
   refuse_strange,$1,$(shell_characters)),$(call check_name,$1)))
+# Programs of the pipeline's own, built or installed.
+BUILD := $(ROOT)build/release
+BIN := $(or $(INSTALLED),$(BUILD)/bin)
+# "; did you mean X?" where a slip of the fingers may be meant, and something is built yet: $(call suggest,WORD,CANDIDATES).
+suggest = $(if $(wildcard $(BIN)/cases),$(shell $(BIN)/cases nearest $1 $2 --quiet))
+
 # Names given on the command line that are no settings.
 given := $(filter-out -% .% MAKE% GNUMAKEFLAGS,$(foreach v,$(.VARIABLES),$(if $(findstring command,$(origin $v)),$v)))
 unknown := $(filter-out $(known_settings),$(given))
 ifneq ($(unknown),)
   bad_name := $(call strange,unknown,$(name_characters))
-  $(error $(firstword $(unknown)): no such setting$(if $(bad_name),,$(shell $(PIPELINES)/suggest.sh $(firstword $(unknown)) \
-    $(known_settings))); `make -f Makefile.pipeline help` lists them)
+  $(error $(firstword $(unknown)): no such setting$(if $(bad_name),,$(call suggest,$(firstword $(unknown)),$(known_settings))); \
+    `make -f Makefile.pipeline help` lists them)
 endif
 $(foreach v,$(filter-out share $(if $(findstring command,$(origin CHROMIUM)),,CHROMIUM),$(known_settings)),$(call check_setting,$v))
+$(foreach v,$(program_settings),$(eval $v ?= $(BIN)/$(default_$v)))
 
+# What is not make's business it asks the program `cases`: $(call ask,ARGUMENTS). The answer is lines of make, between them a byte
+# that $(shell) leaves alone, or why not. Before the first build there is no such program: make builds it and reads everything anew.
+goals = $(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))
+line_end := $(shell printf '\036')
+answer = $(if $(filter 0,$(.SHELLSTATUS)),$(eval $(subst $(line_end),$(newline),$1)),$(error $(filter-out cases:,$1)$(outdated)))
+asking = $(if $(wildcard $(CASES)),$(filter-out help setup build clean settings,$(goals)))
+ask = $(if $(asking),$(call answer,$(shell $(CASES) $1 --quiet 2>&1)))
+older = $(if $(INSTALLED),,$(shell find $(SOURCES) -newer $(CASES)))
+outdated = $(if $(older),; the programs are older than their sources: make -f $(PIPELINE) build)
+
+# $(call refuse_goals,WHERE,GOALS,WHY): where something stands in WHERE, the first of these goals that is asked for is refused.
+refuse_goals = $(if $1,$(foreach goal,$(firstword $(filter $2,$(MAKECMDGOALS))),$(error $(goal): $3)))
 # $(call among,SETTING,CHOICES): every word of it is one of them.
-none_of = $(foreach w,$(filter-out $3,$2),$(error $1: '$w' is none of $3$(shell $(PIPELINES)/suggest.sh $w $3)))
+none_of = $(foreach w,$(filter-out $3,$2),$(error $1: '$w' is none of $3$(call suggest,$w,$3)))
 among = $(call none_of,$1,$($1),$2)
 # A plain number: nothing is left without its digits and one point.
 without = $(if $2,$(call without,$(subst $(firstword $2),,$1),$(wordlist 2,99,$2)),$1)

@@ -19,44 +19,5 @@ $(RUN)/matching-true-mesh.tsv: $(TRUTH_TABLE) $(CC2MLO)
 	$(CC2MLO) $(TRUTH_AT)-coarse-cc.vtkhdf $(TRUTH_AT)-coarse-mlo.vtkhdf $(basename $@).vtp \
 	  --truth $(TRUTH_TABLE) --table $@ $(common)
 matching: $(RUN)/matching.tsv $(RUN)/matching-true-mesh.tsv
-	@for table in $^; do echo "$$table"; grep -E '^(query|-)' $$table | cut -f2,15-18,21,22; done
+	@for table in $(basename $^); do echo "$$table.tsv"; cat $$table-summary.tsv; done
 .PHONY: matching
-
-# The band against solving the chain again with parameters drawn from its priors, on a coarse mesh of the case.
-BAND_SAMPLES ?= 220
-$(RUN)/band-check-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH)
-	$(HEXMESH) $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $@ --elements 8 --tumour none $(common)
-# $(call bench,NAME): builds the benchmark program NAME, one recipe at a time.
-bench = flock $(BUILD)/.bench $(SHELL) -c 'cmake -B $(BUILD) -DBREAST_BENCH=ON && cmake --build $(BUILD) --target $1' > $(RUN)/.$1.log
-$(RUN)/band-samples.tsv: $(RUN)/band-check-mesh.vtkhdf tests/bench/band_check.cpp $(COMPRESS)
-	$(call bench,band_check)
-	$(BIN)/band_check $< 1 $(BAND_SAMPLES) > $@.part
-	@mv $@.part $@
-band-check: $(RUN)/band-samples.tsv
-	@$(tabulate) coverage $<
-.PHONY: band-check
-
-# The band of the chain from the MR scan against the phantom's true body: its places as they are (band-nominal), and
-# moved by parameters drawn from the priors along the true body's own derivatives (band-drawn; BAND_DRAWS of them).
-BAND_DRAWS ?= 400
-BAND_PLACES ?= 150
-truth_support := $(if $(body_slides),--materials $(TRUTH_SET),--cut fixed)
-TRUE_SENSITIVITIES := $(foreach view,cc mlo,$(TRUTH_AT)-coarse-$(view)-sensitivity.vtkhdf)
-$(TRUE_SENSITIVITIES): %-sensitivity.vtkhdf: %.vtkhdf $(TRUTH_AT)-coarse.vtkhdf $(SENSITIVITY)
-	$(SENSITIVITY) $(TRUTH_AT)-coarse.vtkhdf $< $@ --posture prone $(truth_support) --table $(basename $@).tsv $(common)
-band_bodies := $(RUN)/truth-cc-sensitivity.vtkhdf $(RUN)/truth-mlo-sensitivity.vtkhdf $(TRUE_SENSITIVITIES)
-# $(call band_rows,COUNT,SPREAD)
-band_rows = $(BIN)/band_truth $(band_bodies) 1 $1 $(BAND_PLACES) $2 $(band_set)
-$(RUN)/band-nominal.tsv $(RUN)/band-drawn.tsv &: $(band_bodies) tests/truth/band_truth.cpp
-	$(call bench,band_truth)
-	$(call band_rows,1,0) > $(RUN)/band-nominal.tsv.part
-	$(call band_rows,$(BAND_DRAWS),1) > $(RUN)/band-drawn.tsv.part
-	@for rows in nominal drawn; do mv $(RUN)/band-$$rows.tsv.part $(RUN)/band-$$rows.tsv; done
-band-truth: $(RUN)/band-nominal.tsv $(RUN)/band-drawn.tsv
-	@$(tabulate) coverage $^
-.PHONY: band-truth
-
-# What they cost, on an idle machine: a 0.1 mm image, one curve, the full grid.
-mammo-times: $(addprefix $(RUN)/,cc-sensitivity.vtkhdf mlo-sensitivity.vtkhdf labels.vtkhdf)
-	@tests/bench/mammo-times.sh $(BIN) $(RUN)
-.PHONY: mammo-times

@@ -12,11 +12,10 @@ else
   # A patient's scan gets no tumour that nobody found: TUMOUR=x,y,z names one, TUMOUR=auto makes an artificial one.
   TUMOUR ?= none
 endif
-# A run belongs to one scan and one side: another is refused before it overwrites anything (pipelines/scan-identity.sh).
+# A run belongs to one scan and one side: another is refused before it overwrites anything.
 scan := $(if $(TRUTH),phantom:$(PRESET),$(MR))
-ifneq ($(filter-out help setup build check package clean calibrate cohort cohort-table cohort-script population calibrate-invivo identification,$(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))),)
-  mixed_up := $(shell $(PIPELINES)/scan-identity.sh check $(RUN) $(SIDE) $(scan))
-  $(if $(mixed_up),$(error $(mixed_up)))
+ifneq ($(filter-out help setup build check package clean calibrate cohort cohort-table cohort-script population calibrate-invivo identification,$(goals)),)
+  $(call ask,check $(RUN) $(SIDE) $(scan))
 endif
 # The preset `paper` was fitted to the answer of this chain: the rows it was fitted to say so (tabulate).
 export CALIBRATED := $(if $(TRUTH),$(if $(filter paper,$(PRESET)),$(PHANTOM_MR:.nrrd=.json) $(SIDE)))
@@ -28,11 +27,8 @@ landmarks := $(if $(no_tumour),,tumour$(comma))nipple
 CURVE := $(if $(no_tumour),,$(RUN)/curve.vtp)
 # What asks where the tumour goes.
 need_tumour := tables table3 table4 table5 table6 table7 table8 findings fig7 leaveout wall-sensitivity band
-ifneq ($(no_tumour),)
-ifneq ($(filter $(need_tumour),$(MAKECMDGOALS)),)
-  $(error $(firstword $(filter $(need_tumour),$(MAKECMDGOALS))): needs a tumour to follow. Name its place with TUMOUR=x,y,z (patient LPS, mm), a table or labels; or TUMOUR=auto for an artificial one)
-endif
-endif
+$(call refuse_goals,$(no_tumour),$(need_tumour),needs a tumour to follow. Name its place with TUMOUR=x$(comma)y$(comma)z (patient LPS$(comma) \
+  mm)$(comma) a table or labels; or TUMOUR=auto for an artificial one)
 
 phantom_record := $(RUNS)/phantom/.$(PRESET).settings
 phantom_settings := $(PHANTOM) $(PRESET) $(PHANTOM_OPTIONS)
@@ -42,20 +38,19 @@ $(PHANTOM_MR) $(PHANTOM_TRUTH)/landmarks.tsv $(PHANTOM_TRUTH)/tumour-$(SIDE).tsv
 	  --report $(basename $(PHANTOM_MR)).json $(share)
 	@$(call record,phantom)
 
-# The scan alone: what cases of one phantom share (pipelines/cohort.sh).
+# The scan alone: what cases of one phantom share (cohort.mk).
 .PHONY: phantom-scan
 phantom-scan: $(if $(TRUTH),$(MR))
 
 # What these say of a chain is said by the phantom's own body: of a scan there is none, the printed model is that of held
 # breasts, and some hold theirs.
 body_slides := $(filter $(sliding_presets),$(PRESET))
-truth_goals := $(filter truth matching band-truth budget,$(MAKECMDGOALS))
-held_goals := $(filter budget band-check calibrate,$(MAKECMDGOALS))
-$(if $(TRUTH),,$(if $(truth_goals),$(error $(firstword $(truth_goals)): a scan has no truth; leave MR out, PRESET=NAME names a phantom)))
-$(if $(body_slides),$(if $(held_goals),$(error $(firstword $(held_goals)): holds the breast at its wall, where preset $(PRESET) slides; give \
-  PRESET=paper or leave PRESET out)))
-$(if $(body_slides),$(if $(PAPER),$(if $(truth_goals),$(error $(firstword $(truth_goals)): with PAPER=1 the breast is held at its wall, where \
-  preset $(PRESET) slides; leave one of the two out))))
+of_truth := truth matching band-truth budget
+$(call refuse_goals,$(if $(TRUTH),,scan),$(of_truth),a scan has no truth; leave MR out$(comma) PRESET=NAME names a phantom)
+$(call refuse_goals,$(body_slides),budget band-check calibrate,holds the breast at its wall$(comma) where preset $(PRESET) slides; give \
+  PRESET=paper or leave PRESET out)
+$(call refuse_goals,$(if $(PAPER),$(body_slides)),$(of_truth),with PAPER=1 the breast is held at its wall$(comma) where preset $(PRESET) \
+  slides; leave one of the two out)
 
 # Compressed truth of the phantom: the same body (its cut held, or sliding on its ribs with its own supports) on meshes of two
 # levels (phantom-mesh), whose distance is the truth's own error: 4280 and 34240 elements where the cut is held, 900 and 2176
@@ -111,9 +106,3 @@ $(RUN)/truth-compressed.tsv: $(TRUTH_TABLE) $(addprefix $(RUN)/,mesh.vtkhdf refe
 	@mv $@.part $@
 truth: $(RUN)/truth-compressed.tsv
 	@cat $<
-
-# How the preset `paper` was found: motions of the paper's Tables III and IV for a chain that moves the
-# nipple 1.28 and the tumour 1.39 times as far as the phantom does (PAPER=1, measured on a phantom near the one
-# found). Prints the values that stand in libbreast/phantom/parameters.cpp.
-calibrate: $(CALIBRATE)
-	$(CALIBRATE) --preset paper --gain 1.28,1.39 --evaluations 24 $(share)

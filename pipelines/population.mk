@@ -2,7 +2,7 @@
 # Every breast of pipelines/invivo/cohort.tsv is solved from the scan to the supine shape, and a table compares the motion of its
 # tissue with that of living women (pipelines/invivo/women.tsv). Cases of scans take part when POPULATION_SCANS names the scan's file.
 #   make population                                the table, and the figure of motion against depth
-#   make calibrate-invivo                          pipelines/materials/invivo.tsv from the calibration half of the cohort
+# The calibration half of the cohort is for `make calibrate-invivo` (tests/bench/calibrate.mk).
 POPULATION_RUNS := $(RUNS)/population
 population_files = $(patsubst %,$(POPULATION_RUNS)/%/$2.vtkhdf,$1)
 population_both = $(population_calibration) $(population_judging)
@@ -22,10 +22,6 @@ $(call population_files,$(name),mesh) $(call population_files,$(name),supine): F
 endef
 $(call read_table,$(PIPELINES)/invivo/cohort.tsv)
 $(call each_row,breast)
-# The breast that is pressed is the phantom large, as held in the paper's mode.
-pressed := $(call population_files,large-left,mesh)
-$(pressed): FORCE
-	@+$(MAKE) -f $(PIPELINE) RUNS=$(POPULATION_RUNS) CASE=large-left SIDE=left PRESET=large ELEMENTS=$(POPULATION_ELEMENTS) TUMOUR=none $@
 endif
 
 population_compare = $(POPULATION_TOOL) $(call population_files,$1,supine) --women $(PIPELINES)/invivo/women.tsv \
@@ -35,12 +31,4 @@ population: $(call population_files,$(population_both),supine) $(POPULATION_TOOL
 	$(call population_compare,$(population_judging),judging)
 	gnuplot -e "table='$(POPULATION_RUNS)/judging.tsv'; picture='$(POPULATION_RUNS)/motion.png'" $(PIPELINES)/population.gp
 	@cat $(POPULATION_RUNS)/judging.tsv
-calibrate-invivo: $(call population_files,$(population_calibration),mesh) $(pressed) $(CALIBRATE_SOFTNESS)
-	$(CALIBRATE_SOFTNESS) $(call population_files,$(population_calibration),mesh) --pressed $(pressed) \
-	  --women $(PIPELINES)/invivo/women.tsv --set $(POPULATION_RUNS)/invivo.tsv --report $(POPULATION_RUNS)/calibration.json $(share)
-	@{ echo '# Calibrated to the motion of living women (pipelines/invivo/women.tsv) and a paddle pressure of 10 kPa by'; \
-	  echo '# make calibrate-invivo on: $(population_calibration). Table II of Pathmanathan et al. 2008, scaled.'; \
-	  cat $(POPULATION_RUNS)/invivo.tsv; } > $(PIPELINES)/materials/invivo.tsv.part
-	@mv $(PIPELINES)/materials/invivo.tsv.part $(PIPELINES)/materials/invivo.tsv
-	@cat $(PIPELINES)/materials/invivo.tsv
-.PHONY: population calibrate-invivo
+.PHONY: population

@@ -61,5 +61,5 @@ $(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(if $(slides),$(RUN)/popu
 	@$(call record,report)
 	@echo "$@"
 $(RUN)/report.pdf: $(RUN)/report.html
-	$(PIPELINES)/print.sh "$(CHROMIUM)" $< $@
+	$(tabulate) pdf '$(CHROMIUM)' $< $@
 	@echo "$@"

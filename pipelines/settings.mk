@@ -1,22 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Values of the settings (settings.tsv), each to be given on the command line: make -f Makefile.pipeline MATERIALS=wellman
-# A case file gives them one a line, KEY = VALUE; the command line overrides it. It is data: pipelines/case-file.sh checks
-# every key and value, and nothing in it is executed.
+# A case file gives them one a line, KEY = VALUE; the command line overrides it. It is data: `cases` checks every key and value, and
+# nothing in it is executed.
 ifneq ($(CASE_FILE),)
-  blank_byte := $(shell printf '\037')
-  case_lines := $(shell $(PIPELINES)/case-file.sh '$(CASE_FILE)' $(case_settings))
-  $(if $(filter !%,$(case_lines)),$(error $(subst $(blank_byte),$(space),$(patsubst !%,%,$(filter !%,$(case_lines))))))
-  # KEY=VALUE as an assignment: the value holds no dollar sign and no hash.
-  $(foreach line,$(case_lines),$(eval $(subst $(blank_byte),$(space),$(subst =, := ,$(firstword $(subst =,= ,$(line))))$(patsubst \
-    $(firstword $(subst =,= ,$(line)))%,%,$(line)))))
+  $(call ask,read $(CASE_FILE) $(case_settings))
   $(foreach v,$(path_settings) $(name_settings),$(call check_setting,$v))
 endif
-
-# ---- programs: any stage can be somebody else's -------------------------------------------------------
-BUILD := $(ROOT)build/release
-BIN := $(or $(INSTALLED),$(BUILD)/bin)
 $(foreach v,$(filter-out $(program_settings),$(known_settings)),$(if $(default_$v),$(eval $v ?= $(default_$v))))
-$(foreach v,$(program_settings),$(eval $v ?= $(BIN)/$(default_$v)))
 
 # Every table, verdict and page is made by tabulate, from reports, tables and shapes.
 tabulate = $(TABULATE) --quiet --pipelines $(PIPELINES)
@@ -80,20 +70,12 @@ ifneq ($(LANDMARKS)$(SUPINE),)
   override MATERIALS := $(RUN)/identified.tsv
 endif
 # Parts of the model to do without; what each is worth: studies/leaveout.tsv.
-leave_out = $(filter $1,$(LEAVE_OUT))
-ifneq ($(call leave_out,no-skin),)
-  override HEXMESH_OPTIONS += --skin 0
-endif
-ifneq ($(call leave_out,no-backward),)
-  override PRONE := --gravity 0,0,0
-endif
-ifneq ($(call leave_out,no-gravity-in-compression),)
-  override COMPRESS_OPTIONS += --gravity off
-endif
-ifneq ($(call leave_out,no-gland),)
-  whole_set := $(or $(wildcard $(MATERIALS)),$(PIPELINES)/materials/$(MATERIALS).tsv)
-  override MATERIALS := $(RUN)/fat-only.tsv
-endif
+left_out = $(if $(filter $1,$(LEAVE_OUT)),$2,$3)
+override HEXMESH_OPTIONS += $(call left_out,no-skin,--skin 0)
+override PRONE := $(call left_out,no-backward,--gravity 0$(comma)0$(comma)0,$(PRONE))
+override COMPRESS_OPTIONS += $(call left_out,no-gravity-in-compression,--gravity off)
+whole_set := $(call left_out,no-gland,$(or $(wildcard $(MATERIALS)),$(PIPELINES)/materials/$(MATERIALS).tsv))
+override MATERIALS := $(call left_out,no-gland,$(RUN)/fat-only.tsv,$(MATERIALS))
 
 # Options every program gets: its JSON report beside its first output, its share of the cores.
 share = --threads $$($(PIPELINES)/threads.sh)

@@ -3,7 +3,7 @@
 # ($(RUN)); a variant is a folder that has some and takes the others from where it comes from (pipelines/studies.mk).
 #   $(call case_rules,DIR,STAGES)   the rules of these stages in DIR, whose settings are the variables DIR@ATTRIBUTE
 # In the case STAGE.vtkhdf is the target and a failed stage fails make. In a variant STAGE.json is: a solve that ends
-# early is a result with its reason (pipelines/attempt.sh).
+# early is a result with its reason (`cases attempt`).
 STAGES := labels geometry mesh reference supine cc mlo cc-mammogram mlo-mammogram curve slopes
 
 # ---- what a stage is: $1 is the folder it is made in -------------------------------------------------------
@@ -19,7 +19,7 @@ fixed_labels = --points $1/points.vtp $(if $(filter $(RUN),$1),$(contours))
 options_labels = --side $(SIDE) $(addprefix --series ,$(SERIES)) $(addprefix --chest-wall ,$(CHEST_WALL)) $($1@segment)
 # Contours to judge the result by; a program in the place of segment need not draw them.
 contours = $(if $(filter $(BIN)/segment,$(SEGMENT)),--overlay $(RUN)/contours.png)
-before_labels = $(if $(filter $(RUN),$1),@$(PIPELINES)/scan-identity.sh record $(RUN) $(SIDE) $(scan))
+before_labels = $(if $(filter $(RUN),$1),@$(CASES) record $(RUN) $(SIDE) $(scan) --quiet)
 
 program_geometry = $(FIT_HERMITE)
 reads_geometry := labels
@@ -86,7 +86,7 @@ placed = $(if $(findstring {tumour},$2),$(if $(no_tumour),$(error $1: needs a tu
   {tumour},$$($(tabulate) place $(call home,$($1@from),mesh)/mesh.json tumour),$2),$2)
 # A variant's solve may end early; one that waits for another variant (column `if`) ends with it.
 inputs_of = $(foreach s,$(reads_$2),$(call file_of,$1,$s))
-attempt = $(if $(filter $(RUN),$1),,$(PIPELINES)/attempt.sh $1/$2.json "$(strip $(call inputs_of,$1,$2) $(addsuffix /supine.vtkhdf,$($1@if)))")
+attempt = $(if $(filter $(RUN),$1),,$(CASES) attempt $1/$2.json '$(strip $(call inputs_of,$1,$2) $(addsuffix /supine.vtkhdf,$($1@if)))' --quiet --)
 run_stage = $(strip $(call attempt,$1,$2) $(program_$2) $(scan_$2) $(call inputs_of,$1,$2) $(addprefix $1/,$(firstword $(or $(writes_$2),$2.vtkhdf))) \
   $(fixed_$2) $(call placed,$1,$(options_$2)) --report $1/$2.json $(share))
 settings_of = $(program_$2) $(scan_$2) $(options_$2)
@@ -124,8 +124,7 @@ $(call case_rules,$(RUN),$(STAGES))
 # Without gland: the set with the fibroglandular law replaced by fat's.
 $(RUN)/fat-only.tsv: $(or $(whole_set),$(MATERIAL_TABLE))
 	@mkdir -p $(@D)
-	awk -F'\t' -v OFS='\t' '$$1 == "fat" { fat = $$0 } $$1 == "fibroglandular" { $$0 = fat; $$1 = "fibroglandular" } { print }' $< > $@.part
-	@mv $@.part $@
+	$(call table,$(tabulate) set fat-only $<)
 
 # The same with the lateral cut held: what this boundary condition changes at the landmarks.
 cut-fixed_settings := $(BACKWARD) $(FORWARD) $(MECHANICS)

@@ -27,7 +27,7 @@ TABLE_FILES := $(if $(no_tumour),,$(foreach m,$(BOTH),$(foreach n,$(PAPER_TABLES
 tables: $(TABLE_FILES)
 	@for table in $(TABLES)/conclusions.tsv $(if $(PAPER),,$(TABLES)/table8.tsv $(TABLES)/findings.tsv); do echo; cat $$table; done
 .PHONY: table2 table3 table4 table5 table6 table7 table8 tables findings
-$(TABLE_FILES) $(TABLES)/.conclusions-paper.values: | $(TABLES)/.
+$(TABLE_FILES): | $(TABLES)/.
 $(TABLES)/.:
 	@mkdir -p $@
 
@@ -45,16 +45,9 @@ $(TABLES)/table2.tsv: $(PIPELINES)/paper/table2.tsv $(MATERIAL_TABLE) $(TABULATE
 	$(call table,$(tabulate) constants $< $(MATERIAL_TABLE))
 	@$(call record,table2)
 
-# The conclusions in numbers: from the paper's own rows, as printed, and as the case is solved.
-conclusion_values = $(addprefix $(TABLES)/.conclusions-,$(addsuffix .values,paper $(BOTH)))
-$(TABLES)/.conclusions-paper.values: prefix := paper_
-$(TABLES)/.conclusions-paper.values $(TABLES)/.conclusions-own.values: $(PAPER_TABLES:%=$(TABLES)/table%.tsv)
-$(TABLES)/.conclusions-printed.values: $(PAPER_TABLES:%=$(TABLES)/table%-as-printed.tsv)
-$(conclusion_values): $(TABULATE)
-	@$(call table,$(tabulate) conclusions $(filter %.tsv,$^) $(prefix))
-$(TABLES)/conclusions.tsv: $(PIPELINES)/paper/conclusions.tsv $(conclusion_values) $(TABULATE)
-	$(call table,$(tabulate) judge $< paper=$(TABLES)/.conclusions-paper.values \
-	  $(if $(PAPER),,as_printed=$(TABLES)/.conclusions-printed.values) ours=$(TABLES)/.conclusions-own.values)
+# The conclusions: from the paper's own rows, as printed, and as the case is solved.
+$(TABLES)/conclusions.tsv: $(PIPELINES)/paper/conclusions.tsv $(foreach m,$(BOTH),$(PAPER_TABLES:%=$(TABLES)/table%$(ending_$m).tsv)) $(TABULATE)
+	$(call table,$(tabulate) conclusions $< $(TABLES) $(if $(PAPER),,as-printed))
 
 # Table VII, ours: all slopes from one solve of `sensitivity` on the base state, against the rows solved again.
 $(TABLES)/table7.tsv: $(RUN)/slopes.tsv $(call results,scaled,tumour-100,slopes) $(foreach n,$(PAPER_TABLES),$(call rows_of,scaled,$(tissue_$n))) \
@@ -70,22 +63,7 @@ $(TABLES)/findings.tsv: $(RUN)/slopes.tsv $(call results,findings,$(findings_var
 SETS := $(filter-out %-100 %-1000 %-2000,$(table8_variants))
 $(RUN)/columns.tsv: $(PIPELINES)/materials/seed2008.tsv
 	@mkdir -p $(@D)
-	$(call table,awk -F'\t' -v OFS='\t' '/^#/ { print; next } $$1 == "tissue" { for (i = 1; i <= NF; i++) at[$$i] = i; print; next } \
-	  { first = $$at["a20_Pa"]; second = $$at["a02_Pa"]; third = $$at["a11_Pa"]; \
-	    $$at["a11_Pa"] = first; $$at["a20_Pa"] = second; $$at["a02_Pa"] = third; print }' $<)
-# $(call set_rules,SET): its rows of Table VI, and its conclusions.
-define set_rules
-$(call study_dir,table8/$1-tumour).tsv: $(PIPELINES)/paper/table6.tsv $(call results,table8,$(filter $1-tumour-%,$(table8_variants)),supine) \
-  $(TABULATE)
-	grep -E '^(stiffness|100	|1000	|2000	)' $$< > $$@.rows
-	$$(call table,$$(tabulate) scaled $$@.rows $$(basename $$@) $$(basename $$@)-100/supine.vtkhdf)
-	@rm -f $$@.rows
-$(call study_dir,table8/$1)/.values: $(call results,table8,$1,slopes) $(call study_dir,table8/$1-tumour).tsv $(TABULATE)
-	@$$(call table,$$(tabulate) conclusions-of-slopes $$(@D)/slopes.tsv $$(call study_dir,table8/$1-tumour).tsv)
-endef
-$(foreach set,$(SETS),$(eval $(call set_rules,$(set))))
-$(TABLES)/.ours.values: $(RUN)/slopes.tsv $(TABLES)/table6.tsv $(TABULATE)
-	@$(call table,$(tabulate) conclusions-of-slopes $(wordlist 1,2,$^))
-$(TABLES)/table8.tsv: $(PIPELINES)/paper/conclusions.tsv $(TABLES)/.conclusions-paper.values $(TABLES)/.ours.values \
-  $(SETS:%=$(call study_dir,table8)/%/.values) $(TABULATE)
+	$(call table,$(tabulate) set columns $<)
+$(TABLES)/table8.tsv: $(PIPELINES)/paper/conclusions.tsv $(PAPER_TABLES:%=$(TABLES)/table%.tsv) $(RUN)/slopes.tsv \
+  $(call results,table8,$(SETS),slopes) $(call results,table8,$(filter-out $(SETS),$(table8_variants)),supine) $(TABULATE)
 	$(call table,$(tabulate) survival $< $(RUN) $(SETS))

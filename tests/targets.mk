@@ -80,5 +80,9 @@ $(STABILITY)/contact.tsv: $(COMPRESS) tests/fixtures/contact_cases.hpp tests/ben
 $(STABILITY)/summary.tsv: $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv $(TABULATE)
 	$(call table,$(tabulate) stability $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv)
 
-include $(ROOT)tests/bench/compare.mk
+# $(call bench,NAME): builds the benchmark program NAME, one recipe at a time.
+bench = flock $(BUILD)/.bench $(SHELL) -c 'cmake -B $(BUILD) -DBREAST_BENCH=ON && cmake --build $(BUILD) --target $1' > $(RUN)/.$1.log
+
+include $(addprefix $(ROOT)tests/bench/,compare.mk bands.mk identification.mk calibrate.mk)
+include $(ROOT)tests/truth/budget.mk
 include $(ROOT)tests/validation.mk

@@ -12,20 +12,27 @@ validation-page:
 # Of docs/validation/slicer.md, from the default case.
 slicer-table: slicer
 	cp $(RUN)/slicer-fields.tsv $(TABLES_OF_PAGE)/slicer-fields.tsv
+	$(tabulate) made $(TABLES_OF_PAGE)/slicer-fields.tsv $(RUN)/slicer.json
 	$(tabulate) pages fill $(PAGES_WITH_TABLES)
 .PHONY: validation validation-page slicer-table
+
+# Below a table the page says of which run it is: $(call made_by,REPORT.json), whose date it has.
+made_by = $(tabulate) made $@ $1
 
 # How the compressed shapes converge with the mesh (studies/convergence.tsv).
 $(TABLES_OF_PAGE)/compression-convergence.tsv: $(call results,convergence,$(convergence_variants),cc mlo) $(TABULATE)
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) convergence $(call study_dir,convergence) $(convergence_variants))
+	$(call made_by,$<)
 
 # What the preset was fitted to, beside what its truth moves: the chain as solved and as printed.
 $(TABLES_OF_PAGE)/calibration.tsv: $(RUN)/displacements.tsv $(base_printed) $(PHANTOM_MR) $(TABULATE)
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) calibration $(RUN) $(PHANTOM_MR:.nrrd=.json) $(SIDE))
+	$(call made_by,$(RUN)/supine.json)
 
 # Errors against the truth, as the summary has them.
 $(TABLES_OF_PAGE)/truth.tsv: $(RUN)/truth.tsv $(TABULATE)
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) truth $<)
+	$(call made_by,$(RUN)/supine.json)

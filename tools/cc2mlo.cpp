@@ -5,16 +5,17 @@
 
 #include "cc2mlo_options.hpp"
 #include "core/error.hpp"
+#include "core/own_file.hpp"
 #include "core/table.hpp"
 #include "io/derivative_file.hpp"
 #include "io/mammogram_dicom.hpp"
 #include "io/mesh_file.hpp"
 #include "io/picture_file.hpp"
 #include "io/surface_file.hpp"
-#include "material/law.hpp"
 #include "matching/band_materials.hpp"
 #include "matching/curve_lines.hpp"
 #include "matching/point_pair.hpp"
+#include "material/law.hpp"
 
 using namespace breast;
 
@@ -80,6 +81,24 @@ std::optional<BandModel> band_model(const MatchChoices& choices, const Matcher& 
   return band;
 }
 
+// Against a truth the statistics end the printed table, and have a file of their own beside a written one: a column of that is of
+// one kind.
+void print_or_write(Table table, const std::vector<MatchResult>& results,
+                    const MatchChoices& choices, Run& run) {
+  const bool judged = !choices.question.truth.empty();
+  if (choices.table.empty()) {
+    if (judged) add_statistics(truth_statistics(results), table);
+    run.print(table.text());
+    return;
+  }
+  write_table(choices.table, table);
+  if (!judged) return;
+  const std::filesystem::path summary =
+      choices.table.parent_path() / (choices.table.stem().string() + "-summary.tsv");
+  check_replaceable(summary, "--table");
+  write_table(summary, truth_statistics(results));
+}
+
 void run_match(const MatchChoices& choices, Run& run) {
   const HexMesh from = read_mesh(choices.from, {.contact = true});
   const HexMesh to = read_mesh(choices.to, {.contact = true});
@@ -112,9 +131,7 @@ void run_match(const MatchChoices& choices, Run& run) {
   PolyLines lines = curve_lines(matcher, results);
   lines.history = run.history({{choices.from, from.content_sha256, &from.history},
                                {choices.to, to.content_sha256, &to.history}});
-  Table table = curve_table(matcher, results);
-  if (!choices.question.truth.empty()) add_truth_summary(results, table);
-  choices.table.empty() ? run.print(table.text()) : write_table(choices.table, table);
+  print_or_write(curve_table(matcher, results), results, choices, run);
   if (!choices.curve_table.empty()) {
     write_table(choices.curve_table, curve_points_table(matcher, results, patient));
   }

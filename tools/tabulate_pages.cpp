@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Texts and pages about a case, values of reports, and tables in the pages of docs/.
+#include <sys/stat.h>
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,8 +11,10 @@
 #include <thread>
 
 #include "cli/declaration.hpp"
+#include "command/child.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 #include "study/cells.hpp"
 #include "study/pages/markdown.hpp"
 #include "study/pages/report_page.hpp"
@@ -67,6 +71,25 @@ std::string report(const Request& r) {
   return report_page(run, context);
 }
 
+// Printed by a headless Chromium with a profile of its own. Its sandbox stays on wherever it can; it refuses to start with it as
+// root. The page itself forbids scripts (its content security policy; Chromium 156 prints nothing when told to switch them off),
+// and no network is reachable.
+std::string pdf(const Request& r) {
+  const TemporaryFolder work;
+  const fs::path made = work / "out.pdf";
+  std::vector<std::string> words{"timeout", "120", r.word(0), "--headless"};
+  if (geteuid() == 0) words.push_back("--no-sandbox");
+  words.insert(words.end(),
+               {"--proxy-server=127.0.0.1:9", "--disable-gpu", "--disable-dev-shm-usage",
+                "--user-data-dir=" + (work / "profile").string(), "--no-pdf-header-footer",
+                "--print-to-pdf=" + made.string(), "file://" + fs::canonical(r.word(1)).string()});
+  const Captured said = capture_child(words);
+  if (said.exit_code != 0 || !fs::exists(made) || fs::file_size(made) == 0)
+    throw failed_error(r.word(0), " made no PDF of ", r.word(1), ": ", one_line(said.err));
+  write_text(r.word(2), read_text(made));
+  return "";
+}
+
 std::string verified(const Request& r) {
   const Verification result = verify(r.table(0), r.word(1));
   if (result.failed == 0) return result.table.text();
@@ -103,15 +126,53 @@ std::string warnings(const Request& r) {
   return table.text();
 }
 
+const std::string runs_of_tables = "docs/tables/runs.tsv";
+
+// Of the source tree this program is run in; what is not committed is said.
+std::string commit_here() {
+  const Captured said = capture_child({"git", "describe", "--always", "--dirty", "--exclude", "*"});
+  if (said.exit_code != 0) throw failed_error("git describe: ", one_line(said.err));
+  return one_line(said.out.substr(0, said.out.find('\n')));
+}
+
+// Of a run: as its report says, or when it wrote its table.
+std::string date_of(const fs::path& file) {
+  if (file.extension() == ".json") {
+    const std::string date = StageReport::read(file).text("date");
+    if (date.empty()) throw input_error(file.string(), ": has no date of a run");
+    return date.substr(0, date.find('T'));
+  }
+  struct stat state {};
+  if (stat(file.c_str(), &state) != 0) throw input_error(file.string(), ": does not exist");
+  std::tm utc{};
+  gmtime_r(&state.st_mtim.tv_sec, &utc);
+  char date[16];
+  std::strftime(date, sizeof date, "%Y-%m-%d", &utc);
+  return date;
+}
+
+std::string made(const Request& r) {
+  const std::string date = date_of(r.word(1));
+  const Table runs =
+      table_if_any(runs_of_tables).value_or(Table{{"table", "date", "commit", "machine"}, {}});
+  write_text(runs_of_tables, with_run(runs, r.word(0), date, commit_here(),
+                                      std::to_string(std::thread::hardware_concurrency()) +
+                                          " cores, " + processor())
+                                 .text());
+  return "";
+}
+
 std::string pages(const Request& r) {
   const bool fill = r.word(0) == "fill";
   if (!fill && r.word(0) != "check")
     throw input_error("pages: '", r.word(0), "' is neither fill nor check");
+  const Table runs = table_if_any(runs_of_tables).value_or(Table{{"table"}, {}});
   std::string all;
   for (const std::string& name : r.rest(1)) {
     const std::string page = read_text(name);
-    const std::string filled =
-        with_tables(page, name, [](const std::string& file) { return read_text(file); });
+    const std::string filled = with_tables(
+        page, name, [](const std::string& file) { return read_text(file); },
+        [&](const std::string& file) { return run_line(runs, file); });
     all += page;
     if (filled == page) continue;
     if (!fill)
@@ -123,7 +184,7 @@ std::string pages(const Request& r) {
   if (fill) return "";
   for (const auto& entry : fs::directory_iterator("docs/tables")) {
     const std::string file = entry.path().generic_string();
-    if (entry.path().extension() == ".tsv" &&
+    if (entry.path().extension() == ".tsv" && file != runs_of_tables &&
         all.find("<!-- table " + file + " -->") == std::string::npos)
       throw failed_error(file, ": stands in no page");
   }
@@ -134,23 +195,6 @@ std::string numbers(const Request& r) {
   const std::vector<std::string> wrong = wrong_numbers(r.table(0));
   if (!wrong.empty()) throw failed_error(join(wrong, "; "));
   return "";
-}
-
-// Returns "; did you mean X?" for the makefile, ignoring case.
-std::string suggestion(const Request& r) {
-  const auto upper = [](std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
-      return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : char(c);
-    });
-    return text;
-  };
-  std::vector<std::string> candidates;
-  for (const std::string& candidate : r.rest(1)) candidates.push_back(upper(candidate));
-  const std::string near = nearest(upper(r.word(0)), candidates);
-  const auto found = std::find(candidates.begin(), candidates.end(), near);
-  return near.empty()
-             ? ""
-             : "; did you mean " + r.word(1 + std::size_t(found - candidates.begin())) + "?";
 }
 
 }  // namespace
@@ -164,6 +208,8 @@ std::vector<TabulateKind> page_kinds() {
       {"report", "RUN RUNS",
        "one self-contained HTML page of a finished case; RUNS contains stability/ and compare/", 2,
        2, report},
+      {"pdf", "CHROMIUM PAGE.html OUT.pdf", "that page as a PDF file, printed by CHROMIUM", 3, 3,
+       pdf},
       {"warnings", "RUN", "warnings of the stages, each once, with advice", 1, 1, warnings},
       {"verify", "EXPECTED.tsv RUN",
        "comparison of a run with expected values; exit code 1 if "
@@ -182,15 +228,22 @@ std::vector<TabulateKind> page_kinds() {
        "mean, largest, nipple and tumour of a table of errors against the "
        "truth",
        1, 1, [](const Request& r) { return truth_summary(r.table(0)).text(); }},
+      {"truth-rows", "RUN...", "errors of runs against their truth, one row per posture", 1,
+       any_number,
+       [](const Request& r) {
+         std::vector<fs::path> runs;
+         for (const std::string& word : r.words) runs.push_back(folder_of(word));
+         return truth_of_postures(runs).text();
+       }},
+      {"made", "TABLE.tsv RESULT",
+       "record in docs/tables/runs.tsv of the date, commit and machine of the run from which a table "
+       "of the pages was made; RESULT is one of its reports or tables",
+       2, 2, made},
       {"pages", "fill|check PAGE.md...",
        "tables between the marks of pages, written again (fill) or compared (check)", 2, any_number,
        pages},
       {"numbers", "NUMBERS.tsv", "whether the numbers in pages agree with their sources", 1, 1,
        numbers},
-      {"nearest", "WORD CANDIDATE...",
-       "candidate that is most similar to WORD, for messages "
-       "about typing errors",
-       2, any_number, suggestion},
   };
 }
 

@@ -13,6 +13,7 @@
 #include "study/experiments/leaveout.hpp"
 #include "study/experiments/outcomes.hpp"
 #include "study/experiments/pressed.hpp"
+#include "study/paper/changed_set.hpp"
 #include "study/paper/conclusions.hpp"
 #include "study/paper/findings.hpp"
 #include "study/paper/scaled_table.hpp"
@@ -59,9 +60,10 @@ std::string judged(const Request& r) {
 }
 
 std::string conclusions_rows(const Request& r) {
-  return conclusions_from_rows({r.table(0), r.table(1), r.table(2), r.table(3)},
-                               r.words.size() > 4 ? r.word(4) : "")
-      .text();
+  const bool printed = r.words.size() > 2;
+  if (printed && r.word(2) != "as-printed")
+    throw input_error("conclusions: '", r.word(2), "' is not as-printed");
+  return judged_tables(r.table(0), r.word(1), printed).text();
 }
 
 std::string calibration(const Request& r) {
@@ -76,7 +78,11 @@ std::string calibration(const Request& r) {
 std::string accuracy(const Request& r) {
   const auto row = accuracy_row(r.word(0), r.word(1), r.words.size() > 3 ? r.word(3) : "",
                                 parse_number(r.word(2), "accuracy: MM"), read_shape);
-  return row ? join(*row, "\t") + "\n" : "";
+  if (!row) return "";
+  std::vector<std::string> columns;
+  for (std::size_t c = 0; c < row->size(); ++c) columns.push_back(std::to_string(c));
+  const std::string with_header = Table{columns, {*row}}.text();
+  return with_header.substr(with_header.find('\n') + 1);
 }
 
 std::string least(const Request& r) {
@@ -97,7 +103,7 @@ std::string coverage_rows(const Request& r) {
 std::string identification(const Request& r) {
   std::vector<Table> studies;
   for (const std::string& file : r.words) studies.push_back(read_table(file));
-  return identification_table(studies).closed_text();
+  return identification_table(studies).text();
 }
 
 std::string pressed(const Request& r) {
@@ -112,7 +118,7 @@ std::string pressed(const Request& r) {
 std::vector<TabulateKind> table_kinds() {
   return {
       {"scaled", "PAPER.tsv PREFIX BASE.vtkhdf",
-       "one of Tables III to VI: our results from PREFIX-PERCENT-supine.vtkhdf beside the paper's",
+       "one of Tables III to VI: our results from PREFIX-PERCENT/supine.vtkhdf beside the paper's",
        3, 3,
        [](const Request& r) {
          return scaled_table(r.table(0), r.word(1), r.word(2), read_shape, calibrated_words(r))
@@ -120,26 +126,26 @@ std::vector<TabulateKind> table_kinds() {
        }},
       {"constants", "PAPER.tsv MATERIALS.tsv", "Table II: the constants used beside the paper's", 2,
        2, [](const Request& r) { return constants_table(r.table(0), r.table(1)).text(); }},
+      {"set", "fat-only|columns MATERIALS.tsv", "a material set as a study changes it", 2, 2,
+       [](const Request& r) { return changed_set(r.table(1), r.word(0)).text(); }},
       {"slopes", "SUPINE.json SCALED SLOPES.tsv TUMOUR-SLOPES.tsv",
        "Table VII: slopes from one solve compared with solving again", 4, 4,
        [](const Request& r) {
          return slopes_table(r.word(0), r.word(1), r.table(2), r.table(3)).text();
        }},
-      {"conclusions", "TABLE3 TABLE4 TABLE5 TABLE6 [PREFIX]",
-       "values of the paper's conclusions, from the rows of 90 and 110 per cent", 4, 5,
-       conclusions_rows},
-      {"conclusions-of-slopes", "SLOPES.tsv TABLE6.tsv",
-       "values of the paper's conclusions, from slopes (an empty file means no solution)", 2, 2,
-       [](const Request& r) {
-         return conclusions_from_slopes(table_if_any(r.word(0)), r.table(1)).text();
-       }},
+      {"conclusions", "CONCLUSIONS.tsv TABLES [as-printed]",
+       "whether the paper's conclusions hold for its own rows of Tables III to VI in the folder "
+       "TABLES, for ours as printed, and for ours",
+       2, 3, conclusions_rows},
       {"judge", "CONCLUSIONS.tsv NAME=VALUES.tsv...",
        "whether the conclusions hold for each of these sets of values", 2, any_number, judged},
       {"survival", "CONCLUSIONS.tsv RUN SET...",
-       "Table VIII: the conclusions with the material sets of RUN/variants", 3, any_number,
+       "Table VIII: the conclusions with the material sets of RUN/studies/table8", 3, any_number,
        [](const Request& r) {
-         return survival_table(r.table(0), read_table(r.own("paper/table3.tsv")), r.word(1),
-                               read_shape, r.rest(2), calibrated_words(r))
+         return survival_table(
+                    r.table(0),
+                    {read_table(r.own("paper/table3.tsv")), read_table(r.own("paper/table6.tsv"))},
+                    r.word(1), read_shape, r.rest(2), calibrated_words(r))
              .text();
        }},
       {"findings", "RUN VARIANT...",
@@ -165,7 +171,7 @@ std::vector<TabulateKind> table_kinds() {
        3, 4, accuracy},
       {"leaveout", "RUN VARIANT...",
        "change in mm and time saved in s by each variant of "
-       "RUN/leaveout",
+       "RUN/studies/leaveout",
        2, any_number,
        [](const Request& r) {
          return leaveout_table(r.word(0), r.rest(1), read_shape, curve_gap).text();
@@ -174,7 +180,8 @@ std::vector<TabulateKind> table_kinds() {
        "parts of the model that can be left out while their changes add up to no more than MM", 4,
        any_number, least},
       {"recommendation", "RUN MM PART...",
-       "those parts, the sum of their changes, and the change in RUN/leaveout/least-QUESTION", 3,
+       "those parts, the sum of their changes, and the change in RUN/studies/leaveout/least-QUESTION",
+       3,
        any_number,
        [](const Request& r) {
          return recommendation(r.word(0), parse_number(r.word(1), "recommendation: MM"), r.rest(2),
@@ -183,7 +190,7 @@ std::vector<TabulateKind> table_kinds() {
        }},
       {"wall", "RUN VARIANT...",
        "motion of positions when the chest wall moves by its own standard deviation "
-       "(RUN/wall/VARIANT)",
+       "(RUN/studies/wall/VARIANT)",
        2, any_number, [](const Request& r) { return wall_table(r.word(0), r.rest(1)).text(); }},
       {"coverage", "ROWS.tsv...",
        "percentage of true positions inside the band, with its 95 % interval", 1, any_number,

@@ -74,6 +74,18 @@ int run_child(const std::vector<std::string>& words) {
   return run(words, -1, -1);
 }
 
+int run_child_to(const std::vector<std::string>& words, int out, int err) {
+  return run(words, out, err);
+}
+
+int run_child_into(const std::vector<std::string>& words, const fs::path& log) {
+  const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (file < 0) throw failed_error(log.string(), ": ", std::strerror(errno));
+  const int code = run(words, file, file);
+  close(file);
+  return code;
+}
+
 Captured capture_child(const std::vector<std::string>& words) {
   const TemporaryFolder folder;
   const fs::path out = folder / "out", err = folder / "err";

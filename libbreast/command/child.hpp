@@ -16,6 +16,10 @@ namespace breast {
 /// process's terminal and alone receives its interrupts, and ends when this process does. Returns
 /// its exit code, or 128 plus the signal number if a signal ended it.
 int run_child(const std::vector<std::string>& words);
+/// The same with its output where the descriptors lead (-1: where this process's does).
+int run_child_to(const std::vector<std::string>& words, int out, int err);
+/// The same, its output added to the file `log`.
+int run_child_into(const std::vector<std::string>& words, const std::filesystem::path& log);
 
 /// The same without showing the output, which is returned.
 struct Captured {

@@ -8,6 +8,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/table.hpp"
 
 namespace breast {
 
@@ -41,14 +42,6 @@ Ends ends_of(const fs::path& file, std::uintmax_t size) {
   const std::uintmax_t last = std::min<std::uintmax_t>(size, tail_bytes);
   read(ends.tail, size - last, last);
   return ends;
-}
-
-// "# rows N" as the last line.
-bool closes_table(std::string_view tail) {
-  if (!tail.ends_with('\n')) return false;
-  tail.remove_suffix(1);
-  const std::size_t line = tail.rfind('\n');
-  return line != std::string_view::npos && tail.substr(line + 1).starts_with("# rows ");
 }
 
 bool begins_report(std::string_view head) {

@@ -17,7 +17,7 @@ inline constexpr std::string_view maker_mark = "libbreast";
 
 /// True if the content of a file shows that libbreast wrote it, or if it is empty. The criterion is
 /// for HDF5 the seal, or the units stated in every file of libbreast; for VTK XML the seal or a
-/// history; for JSON the first key of a report; for tables the closing line "# rows N"; for other
+/// history; for JSON the first key of a report; for tables the closing line (table.hpp); for other
 /// formats maker_mark, if the format has a place for it. False also for a file that cannot be read.
 bool written_by_us(const std::filesystem::path& file);
 

@@ -31,6 +31,10 @@ bool is_non_finite(const std::string& cell) {
   const bool number = end.ec == std::errc() && end.ptr == cell.data() + cell.size();
   return number && !std::isfinite(value);
 }
+// Only a table of one column has lines of nothing, which are skipped where it is read.
+std::string written_cell(const std::string& cell, std::size_t columns) {
+  return cell == empty_cell && columns > 1 ? "" : cell;
+}
 // Whatever the column, also one that is not used: a table of ours has no such cell.
 void refuse_non_finite(const std::string& cell, const std::string& where) {
   if (is_non_finite(cell)) throw input_error(where, ": '", cell, "' is not finite");
@@ -50,7 +54,8 @@ void check_reads_back(const Table& table, const std::string& text) {
     const auto [ours, theirs] =
         std::mismatch(table.rows.begin(), table.rows.end(), read.rows.begin(), read.rows.end());
     if (ours != table.rows.end() && !ours->empty()) {
-      reason = message("row ", ours - table.rows.begin() + 1, ", '", ours->front(), "', reads back as another");
+      reason = message("row ", ours - table.rows.begin() + 1, ", '", ours->front(),
+                       "', reads back as another");
     }
   } catch (const Error& error) {
     reason = error.what();
@@ -99,15 +104,26 @@ std::string Table::text() const {
   Table written = *this;
   for (auto& row : written.rows)
     for (std::string& cell : row)
-      if (is_non_finite(cell)) cell = "-";
+      if (cell.empty() || is_non_finite(cell)) cell = empty_cell;
   std::string out = join_tabs(columns);
-  for (const auto& row : written.rows) out += join_tabs(row);
+  for (std::vector<std::string> row : written.rows) {
+    for (std::string& cell : row) cell = written_cell(cell, columns.size());
+    out += join_tabs(row);
+  }
   check_reads_back(written, out);
   return out;
 }
 
 std::string Table::closed_text() const {
-  return text() + rows_line + std::to_string(rows.size()) + "\n";
+  return text() + std::string(table_end);
+}
+
+bool closes_table(std::string_view tail) {
+  if (tail.ends_with("\n\r\n") && !tail.ends_with("\r\n\r\n")) return true;
+  if (!tail.ends_with('\n')) return false;
+  tail.remove_suffix(1);
+  const std::size_t line = tail.rfind('\n');
+  return line != std::string_view::npos && tail.substr(line + 1).starts_with(rows_line);
 }
 
 Table parse_table(const std::string& text, const std::string& name) {
@@ -130,6 +146,7 @@ Table parse_table(const std::string& text, const std::string& name) {
     }
     for (std::size_t c = 0; c < cells.size(); ++c) {
       refuse_non_finite(cells[c], message(name, ": line ", number, ", ", table.columns[c]));
+      if (cells[c].empty()) cells[c] = empty_cell;
     }
     table.rows.push_back(std::move(cells));
   }
@@ -138,7 +155,7 @@ Table parse_table(const std::string& text, const std::string& name) {
     throw input_error(name, ": has ", table.rows.size(), " rows, but its last line states ",
                       promised);
   }
-  table.counted = !promised.empty();
+  table.closed = !promised.empty() || closes_table(text);
   return table;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/types.hpp"
@@ -16,8 +17,7 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 
   std::string name = "table";  ///< of the file it came from, for errors
-  bool counted = false;        ///< true if read with its closing line "# rows N", so that nothing
-                               ///< was truncated
+  bool closed = false;  ///< true if read with its closing line, so that nothing was truncated
 
   /// Index of a column; throws Error (input) beginning with the table's name and listing the
   /// existing columns if there is none.
@@ -30,10 +30,18 @@ struct Table {
   Vec3 point(std::size_t row, const std::string& prefix) const;
   std::string text() const;         ///< throws Error (failed) naming a row that would read back
                                     ///< differently
-  std::string closed_text() const;  ///< text() and the line "# rows N", as in every file we write
+  std::string closed_text() const;  ///< text() and table_end, as in every file we write
 };
-/// Lines starting with '#' are comments; "# rows N" closes a table written by libbreast, and N is
-/// checked, so that a table truncated at the end of a line is refused. Throws Error (input) with
+/// The last line of a table written by libbreast is empty and, alone in the file, ends with a carriage return: other programs skip
+/// it, and a table that was truncated, at the end of a line too, lacks it.
+inline constexpr std::string_view table_end = "\r\n";
+/// Whether the end of a file closes a table: with that line, or with "# rows N" as earlier versions did.
+bool closes_table(std::string_view tail);
+/// A cell without a value: in a file it is empty, which other programs take for no number; "-", as people and older versions write
+/// it, is read as the same.
+inline constexpr std::string_view empty_cell = "-";
+
+/// Lines starting with '#' are comments. "# rows N" closes a table of an older version, and N is checked. Throws Error (input) with
 /// the line number, also for a cell that is nan or inf.
 Table read_table(const std::filesystem::path& file);
 /// The same from a text; `name` is used in errors.

@@ -34,10 +34,11 @@ std::vector<std::string> summary(const Table& table, const std::string& label, b
 }  // namespace
 
 std::vector<TrueLandmark> true_landmarks(const Table& table, Side side, const std::string& name) {
-  if (!table.counted) {
-    throw input_error(name,
-                      ": does not end with its number of rows ('# rows N'); it is truncated or "
-                      "old: write it again (phantom --truth, truth-table)");
+  if (!table.closed) {
+    throw input_error(
+        name,
+        ": does not end as a table of libbreast does (docs/file-formats.md); it is truncated or "
+        "of another program: write it again (phantom --truth, truth-table)");
   }
   const auto side_of = [&](const std::string& text) {
     try {

@@ -35,9 +35,9 @@ std::vector<std::string> match_doubts(const Matcher& matcher,
   const ImageFrame &from = matcher.from_frame(), &to = matcher.to_frame();
   if (results.size() == 1 && results[0].curve.in_air()) {
     const Vec2& uv = results[0].query.from_uv;
-    throw input_error(view_name(from.view), " point (", format_fixed(uv.x(), 2), ", ", format_fixed(uv.y(), 2),
-                      ") mm lies in air; the image spans 0-", format_fixed(from.width, 1), " x 0-",
-                      format_fixed(from.height, 1), " mm");
+    throw input_error(view_name(from.view), " point (", format_fixed(uv.x(), 2), ", ",
+                      format_fixed(uv.y(), 2), ") mm lies in air; the image spans 0-",
+                      format_fixed(from.width, 1), " x 0-", format_fixed(from.height, 1), " mm");
   }
   const auto count = [&](const char* status) {
     return std::count_if(results.begin(), results.end(),
@@ -58,15 +58,14 @@ std::vector<std::string> match_doubts(const Matcher& matcher,
       });
       which = std::to_string(partly) + all + "curves leave the " + view_name(to.view) + " image: ";
     }
-    doubts.push_back(message(which, format_fixed(lengths.outside(), 1), " of ",
-                             format_fixed(lengths.curves, 1), " mm of curve (",
-                             std::lround(100 - lengths.inside_percent()), " %) lie outside the ",
-                             view_name(to.view),
-                             " image, behind its posterior edge: the spot may not be seen there"));
+    doubts.push_back(message(
+        which, format_fixed(lengths.outside(), 1), " of ", format_fixed(lengths.curves, 1),
+        " mm of curve (", std::lround(100 - lengths.inside_percent()), " %) lie outside the ",
+        view_name(to.view), " image, behind its posterior edge: the spot may not be seen there"));
   }
-  const auto behind_first =
-      std::count_if(results.begin(), results.end(),
-                    [](const auto& result) { return result.query.from_uv.x() < 0; });
+  const auto behind_first = std::count_if(results.begin(), results.end(), [](const auto& result) {
+    return result.query.from_uv.x() < 0;
+  });
   if (behind_first > 0 && results.size() == 1) {
     doubts.push_back(message("the point lies ", format_fixed(-results[0].query.from_uv.x(), 1),
                              " mm beyond the posterior edge of the ", view_name(from.view),
@@ -207,26 +206,37 @@ void report_truth(const std::vector<MatchResult>& results, Report& report) {
   summarise("line", &MatchResult::place_to_line);
 }
 
-void add_truth_summary(const std::vector<MatchResult>& results, Table& table) {
-  const auto set = [&](std::vector<std::string>& row, const char* column, double value) {
-    row[std::size_t(table.column(column))] = format_fixed(value, 4);
-  };
+Table truth_statistics(const std::vector<MatchResult>& results) {
+  Table table{{"statistic", "true_to_curve_mm", "true_to_chord_mm", "true_to_arc_mm",
+               "true_to_line_mm", "in_band_50_percent", "in_band_95_percent"},
+              {}};
   const Coverage coverage = coverage_of(results);
+  const bool nipple = has_nipple(results);
   for (const auto& [name, value] : {std::pair{"mean", &Summary::mean},
                                     {"p95", &Summary::p95},
                                     {"largest", &Summary::largest}}) {
-    std::vector<std::string> row(table.columns.size(), "-");
-    row[std::size_t(table.column("landmark"))] = name;
-    set(row, "true_to_curve_mm", summary_of(results, &MatchResult::place_to_curve).*value);
-    set(row, "true_to_chord_mm", summary_of(results, &MatchResult::place_to_chord).*value);
-    if (has_nipple(results)) {
-      set(row, "true_to_arc_mm", summary_of(results, &MatchResult::place_to_arc).*value);
-      set(row, "true_to_line_mm", summary_of(results, &MatchResult::place_to_line).*value);
-    }
-    if (coverage.counted > 0 && name == std::string("mean")) {
-      set(row, "in_band_50", coverage.percent_50());
-      set(row, "in_band_95", coverage.percent_95());
-    }
+    const auto distance = [&, value = value](bool known, double MatchResult::*of) {
+      return known ? format_fixed(summary_of(results, of).*value, 4) : std::string(empty_cell);
+    };
+    const bool band = coverage.counted > 0 && name == std::string("mean");
+    table.rows.push_back({name, distance(true, &MatchResult::place_to_curve),
+                          distance(true, &MatchResult::place_to_chord),
+                          distance(nipple, &MatchResult::place_to_arc),
+                          distance(nipple, &MatchResult::place_to_line),
+                          band ? format_fixed(coverage.percent_50(), 4) : std::string(empty_cell),
+                          band ? format_fixed(coverage.percent_95(), 4) : std::string(empty_cell)});
+  }
+  return table;
+}
+
+void add_statistics(const Table& statistics, Table& table) {
+  const std::vector<std::string> columns{"landmark",       "true_to_curve_mm", "true_to_chord_mm",
+                                         "true_to_arc_mm", "true_to_line_mm",  "in_band_50",
+                                         "in_band_95"};
+  for (const std::vector<std::string>& cells : statistics.rows) {
+    std::vector<std::string> row(table.columns.size(), std::string(empty_cell));
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      row[std::size_t(table.column(columns[c]))] = cells[c];
     table.rows.push_back(std::move(row));
   }
 }

@@ -6,7 +6,6 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "study/cells.hpp"
-#include "study/places.hpp"
 
 namespace breast {
 
@@ -116,12 +115,11 @@ std::optional<Vec3> StageReport::place(const std::string& landmark, const std::s
   return place;
 }
 
+fs::path variant_of(const fs::path& run, const std::string& study, const std::string& variant) {
+  return run / "studies" / study / variant;
+}
+
 std::optional<std::string> failure_of(const fs::path& name) {
-  const fs::path mark = name.string() + ".failed";
-  if (fs::exists(mark)) {
-    const std::string said = read_text(mark);
-    return one_line(said.substr(0, said.find_last_not_of('\n') + 1));
-  }
   if (fs::exists(name.string() + ".vtkhdf")) return {};
   const StageReport report = StageReport::read(name.string() + ".json");
   if (report.empty()) return {};
@@ -130,10 +128,9 @@ std::optional<std::string> failure_of(const fs::path& name) {
   return one_line(!sentence.empty() ? sentence : !reason.empty() ? reason : report.text("status"));
 }
 
-std::optional<std::string> posture_failure_of(const fs::path& name) {
-  if (auto failure = failure_of(name)) return failure;
+std::optional<std::string> posture_failure_of(const fs::path& variant) {
   for (const char* shape : {"reference", "supine"})
-    if (auto failure = failure_of(stage_of(name, shape))) return failure;
+    if (auto failure = failure_of(variant / shape)) return failure;
   return {};
 }
 

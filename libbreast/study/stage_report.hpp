@@ -46,11 +46,14 @@ class StageReport {
   std::shared_ptr<const Impl> impl_;
 };
 
-/// The reason why the solve NAME.vtkhdf, NAME.json has no result: the sentence in its report, its
-/// typed reason, or the text of a file NAME.failed. No value if it has a result or was never tried.
+/// The folder in which a variant of a study has its stages, STAGE.json and STAGE.vtkhdf.
+std::filesystem::path variant_of(const std::filesystem::path& run, const std::string& study,
+                                 const std::string& variant);
+
+/// The reason why the solve NAME.vtkhdf, NAME.json has no result: the sentence in its report, or its
+/// typed reason. No value if it has a result or was never tried.
 std::optional<std::string> failure_of(const std::filesystem::path& name);
-/// The same for a change of posture: the reason of NAME itself, or of its stages reference and
-/// supine (study/places.hpp).
-std::optional<std::string> posture_failure_of(const std::filesystem::path& name);
+/// The same for a variant's change of posture: the reason of its stages reference and supine.
+std::optional<std::string> posture_failure_of(const std::filesystem::path& variant);
 
 }  // namespace breast

@@ -16,10 +16,10 @@ from .errors import BreastError
 def read_table(file: str | os.PathLike[str], pandas: bool | None = None) -> Any:
     """A table of the toolkit; the header's names carry the units (nipple_mm).
 
-    Columns of numbers become float64 or int64, '-' (does not apply) NaN in them; all others are texts.
+    Columns of numbers become float64 or int64, a cell that is empty or '-' (does not apply) NaN in them; all others are texts.
 
     Args:
-        file: a .tsv file; lines that begin with # are comments, and "# rows N" at its end is checked.
+        file: a .tsv file; lines that begin with # are comments, and "# rows N" at the end of an older version's is checked.
         pandas: True a DataFrame, False a structured array, None a DataFrame where pandas is installed.
 
     Raises:
@@ -74,11 +74,11 @@ def _columns(path: Path) -> dict[str, np.ndarray]:
 
 def _typed(path: Path, name: str, cells: list[str]) -> np.ndarray:
     try:
-        numbers = [math.nan if cell == "-" else float(cell) for cell in cells]
+        numbers = [math.nan if cell in ("", "-") else float(cell) for cell in cells]
     except ValueError:
         return np.array(cells, dtype=str)
     for row, (cell, number) in enumerate(zip(cells, numbers), 1):
-        if cell != "-" and not math.isfinite(number):
+        if cell not in ("", "-") and not math.isfinite(number):
             raise BreastError(f"row {row}, {name}: '{cell}' is not finite", path)
     if cells and all(re.fullmatch(r"-?[0-9]{1,18}", cell) for cell in cells):
         return np.array([int(cell) for cell in cells], dtype=np.int64)

@@ -31,8 +31,9 @@ check_all() {
     [ -s "$whole/$file" ] || fail "make all leaves $file"
   done
   ! grep -q differs "$whole/tables/table7.tsv" || { cat "$whole/tables/table7.tsv"; fail "slopes in one solve agree with solving again"; }
+  tests/tools/tables.py "$work/whole" || fail "every table loads in other programs"
   ! run RUNS="$work/whole" share='--threads 1' -n all | grep -E 'release/bin|\.sh ' || fail "a second make all does nothing"
-  pass "all: every figure and table, expected values met, slopes agree, nothing left to do"
+  pass "all: every figure and table, tables load without options, expected values met, slopes agree, nothing left to do"
 }
 
 killed_files=(displacements.tsv curve.tsv tables/table3.tsv tables/table3-as-printed.tsv tables/findings.tsv)
@@ -88,6 +89,7 @@ check_cohort() {
     $1 == "second" && $2 == "failed" && $NF ~ /no-such-scan/ { bad = 1 } END { exit !(good && bad) }' "$table" ||
     { cat "$table"; fail "one case done, one failed with its reason"; }
   local runs=$work/runs/cohort-patients
+  tests/tools/tables.py "$runs" || fail "every table of a cohort loads in other programs"
   [ -s "$runs/first/contours.png" ] && grep -q 'data:image/jpeg' "$runs/contours.html" || fail "the contours of the segmentation"
   grep -q 'no-such-scan' "$runs/cohort.html" && grep -q '^nipple_moved_mm' "$runs/women.tsv" && ! grep -qF "$work" "$runs/cohort.html" ||
     fail "the page of the cohort"

@@ -103,7 +103,7 @@ pass "scans whose names differ have different run folders"
 mkdir -p "$work/A/DICOM" "$work/B/DICOM"
 echo slice-a > "$work/A/DICOM/1"; echo slice-b > "$work/B/DICOM/1"
 run=$work/runs/DICOM-left
-pipelines/scan-identity.sh record "$run" left "$work/A/DICOM"
+"$bin/cases" record "$run" left "$work/A/DICOM" --quiet
 plan MR="$work/A/DICOM" chain || { cat "$work/err"; fail "the same scan goes on in its run"; }
 touch -d 2001-01-01 "$work/A/DICOM/1"
 plan MR="$work/A/DICOM" chain || fail "a touched scan is still the same"
@@ -125,9 +125,9 @@ refused "a cohort's case with code in its name" "refused" -- COHORT="$work/cohor
 cohort; printf 'MR = x.nrrd\n' > "$work/cohort/a/case.txt"; printf 'PRESET = small\n' > "$work/cohort/b.case"
 plan COHORT="$work/cohort" cohort || { cat "$work/err"; fail "a cohort of good cases is planned"; }
 printf 'case\tstatus\na\tfailed\nb\tfailed\n' > "$work/t.tsv"
-! pipelines/cohort.sh any-done "$work/t.tsv" 2> /dev/null || fail "a cohort whose cases all fail fails"
+! "$bin/cases" any-done "$work/t.tsv" --quiet 2> /dev/null || fail "a cohort whose cases all fail fails"
 printf 'case\tstatus\na\tfailed\nb\tdone\n' > "$work/t.tsv"
-pipelines/cohort.sh any-done "$work/t.tsv" || fail "one case done is enough"
+"$bin/cases" any-done "$work/t.tsv" --quiet || fail "one case done is enough"
 pass "cohorts: names once, a scan in every case, failure when all fail"
 
 # A study is data: columns, stages and rows are known, and nothing in it is code.
@@ -182,7 +182,7 @@ for page in cohort contours; do
 done
 printf '#!/bin/sh\necho "make: *** No rule to make target '"'/secret/place/x.nrrd'"', needed by '"'$runs/n/labels.vtkhdf'"'.  Stop."; exit 2\n' > "$work/missing.sh"
 chmod +x "$work/missing.sh"
-pipelines/cohort.sh run "$runs/n.status" "$runs/n.log" scan "$work/missing.sh"
+"$bin/cases" run "$runs/n.status" "$runs/n.log" scan --quiet -- "$work/missing.sh"
 [ "$(cat "$runs/n.status")" = "$(printf "failed\t'x.nrrd', which a setting names, does not exist")" ] || { cat "$runs/n.status"; fail "a reason names no folder"; }
 pass "pages of a cohort escape every name, failures first, and name no folder"
 

@@ -44,7 +44,7 @@ TEST_F(Tabulate, AVerdictThatDiffersFailsAndNamesTheValue) {
   EXPECT_EQ(good.exit_code, 0) << good.err;
   EXPECT_EQ(
       good.out,
-      "file\trow\tcolumn\texpected\tcomputed\ttolerance\tverdict\na.json\t-\tforce_N\t100\t103.25\t5\tok\n");
+      "file\trow\tcolumn\texpected\tcomputed\ttolerance\tverdict\na.json\t\tforce_N\t100\t103.25\t5\tok\n");
   EXPECT_EQ(good.err, "");
   write_text(folder_ / "expected.tsv",
              "file\trow\tcolumn\texpected\ttolerance\na.json\t-\tforce_N\t100\t1\n");

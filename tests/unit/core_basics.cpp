@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // SHA-256 against published vectors; tables, numbers, reports, histories, atomic files.
-#include <gtest/gtest.h>
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -67,9 +67,15 @@ TEST(Provenance, HistoriesMergeInOrderWithoutRepeats) {
 TEST(Tables, CutAtALineEndIsRefused) {
   const Table whole{{"name", "x_mm"}, {{"nipple", "1"}, {"tumour", "2"}}};
   const std::string text = whole.closed_text();
-  EXPECT_TRUE(parse_table(text, "t.tsv").counted);
-  const std::string without_end = text.substr(0, text.rfind("# rows"));
-  EXPECT_FALSE(parse_table(without_end, "t.tsv").counted);
+  EXPECT_TRUE(parse_table(text, "t.tsv").closed);
+  for (std::size_t length = text.find('\n') + 1; length < text.size(); ++length) {
+    if (text[length - 1] != '\n' && text[length - 1] != '\r') continue;
+    EXPECT_FALSE(parse_table(text.substr(0, length), "t.tsv").closed) << length;
+  }
+  EXPECT_FALSE(parse_table("name\tx_mm\r\nnipple\t1\r\n\r\n", "t.tsv").closed)
+      << "every line of another program's ends so";
+  EXPECT_TRUE(parse_table("name\tx_mm\nnipple\t1\n# rows 1\n", "t.tsv").closed)
+      << "of an older version";
   for (const std::string cut : {"name\tx_mm\nnipple\t1\n# rows 2\n", "name\tx_mm\n# rows x\n"}) {
     try {
       parse_table(cut, "t.tsv");
@@ -101,7 +107,7 @@ TEST(Tables, WhatWouldReadBackOtherwiseIsNotWritten) {
   EXPECT_NE(reason({header, {{"a", "1"}, {"b\tc", "2"}}}), "");
   EXPECT_NE(reason({header, {{"a\nb", "1"}}}), "");
   EXPECT_NE(reason({header, {{"a", "1\r"}}}), "");
-  EXPECT_EQ((Table{header, {{"a", "-inf"}}}.text()), "name\tx_mm\na\t-\n");  // no such number
+  EXPECT_EQ((Table{header, {{"a", "-inf"}}}.text()), "name\tx_mm\na\t\n");  // no such number
   EXPECT_NE(reason({header, {{"a", "1", "2"}}}), "");
   EXPECT_NE(reason({header, {{"a", "1"}, {"# rows 1", "2"}}}), "");
   EXPECT_NE(reason({header, {{"#1", "2"}}}).find("row 1, '#1'"), std::string::npos);
@@ -140,7 +146,7 @@ TEST(AtomicFolders, TheLastFileStandsForTheWhole) {
 TEST(Tables, RoundTripAndRefusals) {
   const Table table = parse_table("# by hand\nname\tx_mm\r\nnipple\t1.5\n\ntumour\t\n", "t.tsv");
   ASSERT_EQ(table.rows.size(), 2u);
-  EXPECT_EQ(table.rows[1][1], "");
+  EXPECT_EQ(table.rows[1][1], "-");
   EXPECT_EQ(table.column("x_mm"), 1);
   EXPECT_EQ(table.text(), "name\tx_mm\nnipple\t1.5\ntumour\t\n");
   EXPECT_THROW(table.column("y_mm"), Error);
@@ -357,6 +363,9 @@ TEST(OwnFiles, AreKnownByTheirContent) {
   };
   EXPECT_TRUE(ours(""));
   EXPECT_TRUE(ours("a\tb\n1\t2\n# rows 1\n"));
+  EXPECT_TRUE(ours("a\tb\n1\t2\n\r\n"));
+  EXPECT_FALSE(ours("a\tb\n1\t2\n\n"));
+  EXPECT_FALSE(ours("a\tb\r\n1\t2\r\n\r\n")) << "a table of Windows that ends with an empty line";
   EXPECT_TRUE(ours("{\n  \"tool\": \"segment\"\n}\n"));
   EXPECT_TRUE(ours("NRRD0004\n# written by libbreast\n"));
   EXPECT_TRUE(ours("** Written by libbreast.\n"));

@@ -52,13 +52,14 @@ TEST(StageReports, SayWhyASolveHasNoResult) {
       folder / "x.json",
       R"({"status": "unstable", "reason": "buckled", "explanation": "It would\nnot stay."})");
   EXPECT_EQ(failure_of(folder / "x"), "It would not stay.");
-  EXPECT_EQ(posture_failure_of(folder / "x"), "It would not stay.");
+  std::filesystem::create_directories(folder / "v");
+  std::filesystem::copy_file(folder / "x.json", folder / "v/reference.json");
+  EXPECT_EQ(posture_failure_of(folder / "v"), "It would not stay.");
   write_text(folder / "x.vtkhdf", "x");
   EXPECT_FALSE(failure_of(folder / "x")) << "a state kept in spite of its status is a result";
-  write_text(folder / "y-supine.json", R"({"status": "not_converged", "reason": "line_search"})");
+  std::filesystem::create_directories(folder / "y");
+  write_text(folder / "y/supine.json", R"({"status": "not_converged", "reason": "line_search"})");
   EXPECT_EQ(posture_failure_of(folder / "y"), "line_search");
-  write_text(folder / "z.failed", "as the mark says\n");
-  EXPECT_EQ(failure_of(folder / "z"), "as the mark says");
 }
 
 TEST(Cells, Utf8AndColumns) {
@@ -116,15 +117,30 @@ TEST(Markdown, FillsTablesBetweenTheirMarks) {
   const auto read = [](const std::string& file) {
     return file == "t.tsv" ? std::string("a\tb\n1\t2\n# rows 1\n") : std::string("# none\n");
   };
+  const auto run = [](const std::string&) { return std::string("Run: not recorded."); };
   const std::string filled =
-      with_tables("x\n<!-- table t.tsv -->\nold\n<!-- end of table -->\ny\n", "page", read);
+      with_tables("x\n<!-- table t.tsv -->\nold\n<!-- end of table -->\ny\n", "page", read, run);
   EXPECT_EQ(
       filled,
-      "x\n<!-- table t.tsv -->\n\n| a | b |\n|---|---|\n| 1 | 2 |\n\n<!-- end of table -->\ny\n");
-  EXPECT_EQ(with_tables(filled, "page", read), filled) << "filling again changes nothing";
-  EXPECT_THROW(with_tables("<!-- table t.tsv -->\nold\n", "page", read), Error) << "without an end";
-  EXPECT_THROW(with_tables("<!-- table u.tsv -->\n<!-- end of table -->\n", "page", read), Error)
+      "x\n<!-- table t.tsv -->\n\n| a | b |\n|---|---|\n| 1 | 2 |\n\nRun: not recorded.\n\n<!-- end of table -->\ny\n");
+  EXPECT_EQ(with_tables(filled, "page", read, run), filled) << "filling again changes nothing";
+  EXPECT_THROW(with_tables("<!-- table t.tsv -->\nold\n", "page", read, run), Error)
+      << "without an end";
+  EXPECT_THROW(with_tables("<!-- table u.tsv -->\n<!-- end of table -->\n", "page", read, run),
+               Error)
       << "a table without a row";
+}
+
+TEST(Markdown, SaysOfWhichRunATableIs) {
+  const Table none{{"table", "date", "commit", "machine"}, {}};
+  EXPECT_EQ(run_line(none, "docs/tables/t.tsv"), "Run: not recorded.");
+  const Table one = with_run(none, "docs/tables/t.tsv", "2026-11-23", "abc1234", "2 cores, X");
+  EXPECT_EQ(run_line(one, "docs/tables/t.tsv"), "Run: 2026-11-23, commit abc1234, 2 cores, X.");
+  const Table two =
+      with_run(with_run(one, "a.tsv", "none", "-", "-"), "t.tsv", "2026-11-24", "d", "y");
+  EXPECT_EQ(run_line(two, "a.tsv"), "Not from a run.");
+  EXPECT_EQ(two.rows.size(), 2u) << "a table has one run, the last";
+  EXPECT_EQ(run_line(two, "t.tsv"), "Run: 2026-11-24, commit d, y.");
 }
 
 TEST(Markdown, NumbersOfPagesAreThoseOfTheirSources) {

@@ -17,6 +17,7 @@
 #include "study/experiments/leaveout.hpp"
 #include "study/experiments/outcomes.hpp"
 #include "study/experiments/pressed.hpp"
+#include "study/paper/changed_set.hpp"
 #include "study/paper/conclusions.hpp"
 #include "study/paper/findings.hpp"
 #include "study/paper/scaled_table.hpp"
@@ -107,10 +108,12 @@ TEST(Conclusions, OfRowsAndOfSlopesAreTheSameNumbers) {
       << "no solution";
 }
 
-// Shapes without files: the nipple stands `shift` mm beyond its imaged place.
+// Shapes without files, named by file or by folder and file: the nipple stands `shift` mm beyond its imaged place.
 ShapeReader shapes(const std::map<std::string, double>& shifts) {
   return [shifts](const std::filesystem::path& file) -> Shape {
-    const double shift = shifts.at(file.filename());
+    const std::string place = file.parent_path().filename() / file.filename();
+    const auto own = shifts.find(place);
+    const double shift = own == shifts.end() ? shifts.at(file.filename()) : own->second;
     return {{"nipple", Vec3(1, 0, 0), Vec3(1 + shift, 0, 0)},
             {"artificial_tumour", Vec3(0, 0, 0), Vec3(0, shift / 2, 0)}};
   };
@@ -118,14 +121,16 @@ ShapeReader shapes(const std::map<std::string, double>& shifts) {
 
 TEST(ScaledTable, PutsThePapersRowBesideOursAndDashesWhereThereIsNoSolution) {
   const ScratchFolder folder;
-  for (const char* file : {"fat-50-supine.vtkhdf", "supine.vtkhdf"}) write_text(folder / file, "x");
-  write_text(folder / "supine.json", R"({"error_estimate_mm": 0.1234})");
-  write_text(folder / "fat-10-reference.json",
+  for (const char* variant : {"fat-10", "fat-50", "soft-10", "soft-50", "soft-100"})
+    std::filesystem::create_directories(folder / variant);
+  for (const char* file : {"fat-50/supine.vtkhdf", "base.vtkhdf"}) write_text(folder / file, "x");
+  write_text(folder / "base.json", R"({"error_estimate_mm": 0.1234})");
+  write_text(folder / "fat-10/reference.json",
              R"({"status": "not_converged", "reason": "line_search"})");
   const Table paper = table_of(
       "stiffness_percent\ttumour_mm\ttumour_rel_mm\tnipple_mm\tnipple_rel_mm\n10\t9\t6\t21\t12\n50\t4\t1\t12\t4\n100\t3\t0\t8\t0\n");
-  const auto read = shapes({{"fat-50-supine.vtkhdf", 12.34}, {"supine.vtkhdf", 8.5}});
-  const Table table = scaled_table(paper, folder / "fat", folder / "supine.vtkhdf", read, "fitted");
+  const auto read = shapes({{"supine.vtkhdf", 12.34}, {"base.vtkhdf", 8.5}});
+  const Table table = scaled_table(paper, folder / "fat", folder / "base.vtkhdf", read, "fitted");
   EXPECT_EQ(table.cell(0, "nipple_mm"), "-");
   EXPECT_EQ(table.cell(0, "paper_nipple_mm"), "21");
   EXPECT_EQ(table.cell(1, "nipple_mm"), "12.340");
@@ -135,21 +140,32 @@ TEST(ScaledTable, PutsThePapersRowBesideOursAndDashesWhereThereIsNoSolution) {
   EXPECT_EQ(table.cell(1, "remark"), "-");
   EXPECT_EQ(table.cell(2, "estimate_mm"), "0.123");
   EXPECT_EQ(table.cell(2, "remark"), "fitted");
-  std::filesystem::remove(folder / "fat-50-supine.vtkhdf");
-  EXPECT_THROW(scaled_table(paper, folder / "fat", folder / "supine.vtkhdf", read, ""), Error)
+  std::filesystem::remove(folder / "fat-50/supine.vtkhdf");
+  EXPECT_THROW(scaled_table(paper, folder / "fat", folder / "base.vtkhdf", read, ""), Error)
       << "missing, and no reason given";
-  std::filesystem::create_directories(folder / "fat-50");
   write_text(folder / "fat-50/supine.json",
              R"({"status": "unstable", "explanation": "It buckles."})");
   EXPECT_EQ(
-      scaled_table(paper, folder / "fat", folder / "supine.vtkhdf", read, "").cell(1, "nipple_mm"),
+      scaled_table(paper, folder / "fat", folder / "base.vtkhdf", read, "").cell(1, "nipple_mm"),
       "-")
-      << "a variant that is a folder";
+      << "its report says why";
   for (const char* percent : {"10", "50", "100"})
-    write_text(folder / ("soft-" + std::string(percent) + ".failed"), "none\n");
+    write_text(folder / ("soft-" + std::string(percent) + "/reference.json"),
+               R"({"status": "not_converged", "reason": "none"})");
   const Table none =
-      scaled_table(paper, folder / "soft", folder / "soft-100-supine.vtkhdf", read, "");
+      scaled_table(paper, folder / "soft", folder / "soft-100/supine.vtkhdf", read, "");
   EXPECT_EQ(none.cell(2, "tumour_mm"), "-") << "not even the base has a solution";
+}
+
+TEST(ChangedSets, ExchangeWhatTheirNamesSay) {
+  const Table set = table_of(
+      "tissue\tlaw\ta20_Pa\ta02_Pa\ta11_Pa\nfat\tp\t1\t2\t3\nfibroglandular\tp\t4\t5\t6\n");
+  EXPECT_EQ(changed_set(set, "columns").text(),
+            "tissue\tlaw\ta20_Pa\ta02_Pa\ta11_Pa\nfat\tp\t2\t3\t1\nfibroglandular\tp\t5\t6\t4\n");
+  EXPECT_EQ(changed_set(set, "fat-only").text(),
+            "tissue\tlaw\ta20_Pa\ta02_Pa\ta11_Pa\nfat\tp\t1\t2\t3\nfibroglandular\tp\t1\t2\t3\n");
+  EXPECT_THROW(changed_set(set, "fat"), Error);
+  EXPECT_THROW(changed_set(table_of("tissue\ta20_Pa\nfat\t1\n"), "fat-only"), Error);
 }
 
 TEST(Coverage, OfOneSampleIsWilsonsAndOfManyTheScatterOfTheirOwn) {
@@ -204,18 +220,21 @@ TEST(Cost, ASolveCarriesTheErrorOfItsStart) {
 TEST(Cost, RowsOfPointsAndTheLadder) {
   const ScratchFolder folder;
   for (const std::string point : {"q1p0-dome-4", "q2p1-dome-6-direct"}) {
-    for (const std::string shape : {"-reference", "-supine"}) {
+    std::filesystem::create_directories(folder / point);
+    for (const std::string shape : {"/reference", "/supine"}) {
       write_text(folder / (point + shape + ".vtkhdf"), "x");
       write_text(
           folder / (point + shape + ".json"),
           R"({"elements": 68, "unknowns": 300, "newton_iterations": 5, "error_estimate_mm": 0.1, "seconds": {"total": 1.5}, "cpu_seconds": 1.25, "peak_mb": 20.4})");
     }
   }
-  write_text(folder / "q1p0-dome-8.failed", "no body\n");
-  const auto read = shapes({{"q1p0-dome-4-reference.vtkhdf", 4},
-                            {"q1p0-dome-4-supine.vtkhdf", 8},
-                            {"q2p1-dome-6-direct-reference.vtkhdf", 4.5},
-                            {"q2p1-dome-6-direct-supine.vtkhdf", 8.25}});
+  std::filesystem::create_directories(folder / "q1p0-dome-8");
+  write_text(folder / "q1p0-dome-8/reference.json",
+             R"({"status": "not_converged", "reason": "no body"})");
+  const auto read = shapes({{"q1p0-dome-4/reference.vtkhdf", 4},
+                            {"q1p0-dome-4/supine.vtkhdf", 8},
+                            {"q2p1-dome-6-direct/reference.vtkhdf", 4.5},
+                            {"q2p1-dome-6-direct/supine.vtkhdf", 8.25}});
   const Table table = cost_table(folder.path(), "q2p1-dome-6-direct",
                                  {"q1p0-dome-4", "q2p1-dome-6-direct", "q1p0-dome-8"}, read);
   EXPECT_EQ(join(table.rows[0], " "),
@@ -234,15 +253,15 @@ TEST(Cost, RowsOfPointsAndTheLadder) {
 TEST(Budget, SaysWhyACellIsMissing) {
   const ScratchFolder folder;
   std::filesystem::create_directories(folder / "budget/chain");
-  std::filesystem::create_directories(folder / "budget/tissue");
+  std::filesystem::create_directories(folder / "studies/budget/tissue");
   write_text(folder / "labels.json", R"({"cpu_seconds": 2.5})");
   write_text(folder / "mesh.json", R"({"cpu_seconds": 1})");
   write_text(folder / "budget/chain/landmarks.tsv",
              "landmark\tstress_free_error_mm\tsupine_error_mm\nmean\t0.5\t1.2345\nlargest\t1\t2\n");
-  write_text(folder / "budget/chain/curves.tsv",
-             "query\tlandmark\ttrue_to_curve_mm\n0\tmean\t3\n1\tp95\t4\n");
+  write_text(folder / "budget/chain/curves-summary.tsv",
+             "statistic\ttrue_to_curve_mm\nmean\t3\np95\t4\n");
   write_text(
-      folder / "budget/tissue/cc.json",
+      folder / "studies/budget/tissue/cc.json",
       R"({"status": "not_converged", "reason": "folded", "explanation": "An element folds."})");
   const Table table = budget_table(folder.path(), {"tissue"});
   EXPECT_EQ(join(table.rows[0], " "), "chain 0.500 1.000 1.234 2.000 3.000 4.000 - 3.50 -");

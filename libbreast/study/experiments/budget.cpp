@@ -4,7 +4,6 @@
 #include <map>
 
 #include "study/cells.hpp"
-#include "study/places.hpp"
 #include "study/stage_report.hpp"
 
 namespace breast {
@@ -32,17 +31,8 @@ std::string cpu_cell(const std::filesystem::path& run, const std::string& row) {
   return format_fixed(total, 2);
 }
 
-// Mean, p95 and largest are in the column `landmark` of the table of curves.
-std::string curve_cell(const std::optional<Table>& curves, const std::string& row) {
-  if (!curves) return no_value;
-  for (std::size_t r = 0; r < curves->rows.size(); ++r)
-    if (curves->cell(r, "landmark") == row)
-      return fixed_cell(number_of(curves->cell(r, "true_to_curve_mm")), 3);
-  return no_value;
-}
-
 std::string missing(const std::filesystem::path& run, const std::string& row) {
-  const std::filesystem::path solves = variant_of(run, "budget", "budget", row);
+  const std::filesystem::path solves = variant_of(run, "budget", row);
   std::vector<std::string> said;
   if (row == "compression") said.push_back("stress-free, supine: not solved in this row");
   for (const std::string shape : {"reference", "supine", "cc", "mlo"}) {
@@ -66,14 +56,15 @@ Table budget_table(const std::filesystem::path& run, const std::vector<std::stri
   for (const std::string& name : all) {
     const std::filesystem::path folder = run / "budget" / name;
     const auto landmarks = table_if_any(folder / "landmarks.tsv"),
-               curves = table_if_any(folder / "curves.tsv");
+               curves = table_if_any(folder / "curves-summary.tsv");
     Row row{name};
     for (const std::string shape : {"stress_free", "supine"})
       for (const std::string which : {"mean", "largest"})
         row.push_back(landmarks ? fixed_cell(number_at(*landmarks, which, shape + "_error_mm"), 3)
                                 : no_value);
     for (const std::string which : {"mean", "p95", "largest"})
-      row.push_back(curve_cell(curves, which));
+      row.push_back(curves ? fixed_cell(number_at(*curves, which, "true_to_curve_mm"), 3)
+                           : no_value);
     row.insert(row.end(), {cpu_cell(run, name), missing(run, name)});
     table.rows.push_back(row);
   }

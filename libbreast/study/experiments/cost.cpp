@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/experiments/cost.hpp"
 
-#include "study/places.hpp"
-
 namespace breast {
 
 namespace fs = std::filesystem;
@@ -20,8 +18,7 @@ fs::path with(const fs::path& name, const char* ending) {
 }
 
 Point read_point(const fs::path& folder, const std::string& name) {
-  const fs::path reference = stage_of(folder / name, "reference"),
-                 supine = stage_of(folder / name, "supine");
+  const fs::path reference = folder / name / "reference", supine = folder / name / "supine";
   return {name, reference, supine, StageReport::read(with(reference, ".json")),
           StageReport::read(with(supine, ".json"))};
 }
@@ -94,37 +91,42 @@ std::optional<Row> accuracy_row(const fs::path& folder, const std::string& point
              meets ? "yes" : "no"};
 }
 
+namespace {
+
+// Of one view of a mesh: how far tumour and nipple lie from the finest mesh's, the estimate of the former, forces, status.
+Row converging_view(const fs::path& name, const fs::path& finest, const ShapeReader& read) {
+  if (!fs::exists(with(name, ".vtkhdf"))) return Row(6, no_value);
+  const StageReport report = StageReport::read(with(name, ".json"));
+  const auto to_finest = [&](const char* landmark) {
+    return fs::exists(finest)
+               ? format_fixed(apart_at(read, with(name, ".vtkhdf"), finest, landmark), 2)
+               : no_value;
+  };
+  const auto estimate =
+      report.number("landmarks/" + report.landmark("tumour") + "/error_estimate_mm");
+  return {to_finest("tumour"),
+          fixed_cell(estimate, 2),
+          to_finest("nipple"),
+          fixed_cell(report.number("force_N"), 1),
+          fixed_cell(report.number("detector_force_N"), 1),
+          fixed_cell(report.number("reduction_percent"), 0)};
+}
+
+}  // namespace
+
 Table convergence_table(const fs::path& folder, const std::vector<std::string>& meshes,
                         const ShapeReader& read) {
-  Table table{{"N (elements)", "CC tumour", "its estimate", "nipple", "forces, N", "MLO tumour",
-               "its estimate", "nipple", "forces, N"},
-              {}};
+  Table table{{"N", "elements"}, {}};
+  for (const std::string view : {"CC", "MLO"})
+    for (const char* quantity : {"tumour_mm", "tumour_estimate_mm", "nipple_mm", "paddle_N",
+                                 "detector_N", "reduction_percent"})
+      table.columns.push_back(view + "_" + quantity);
   for (const std::string& n : meshes) {
-    Row row{n + " (" + StageReport::read(stage_of(folder / n, "mesh") + ".json").text("elements") +
-            ")"};
-    for (const std::string view : {"CC", "MLO"}) {
-      const bool own = fs::is_directory(folder / n);
-      const std::string stage = own ? (view == "CC" ? "cc" : "mlo") : view;
-      const fs::path name = stage_of(folder / n, stage),
-                     finest = stage_of(folder / meshes.back(), stage) + ".vtkhdf";
-      if (!fs::exists(with(name, ".vtkhdf"))) {
-        row.insert(row.end(), 4, no_value);
-        continue;
-      }
-      const StageReport report = StageReport::read(with(name, ".json"));
-      std::string forces = fixed_cell(report.number("force_N"), 1) + " / " +
-                           fixed_cell(report.number("detector_force_N"), 1);
-      if (report.text("status") != "converged")
-        forces += ", stopped at " + fixed_cell(report.number("reduction_percent"), 1) + " %";
-      const auto to_finest = [&](const char* landmark) {
-        return fs::exists(finest)
-                   ? format_fixed(apart_at(read, with(name, ".vtkhdf"), finest, landmark), 2)
-                   : no_value;
-      };
-      const auto estimate =
-          report.number("landmarks/" + report.landmark("tumour") + "/error_estimate_mm");
-      row.insert(row.end(),
-                 {to_finest("tumour"), fixed_cell(estimate, 2), to_finest("nipple"), forces});
+    Row row{n, cell_or_dash(StageReport::read(folder / n / "mesh.json").text("elements"))};
+    for (const std::string view : {"cc", "mlo"}) {
+      const Row cells =
+          converging_view(folder / n / view, folder / meshes.back() / (view + ".vtkhdf"), read);
+      row.insert(row.end(), cells.begin(), cells.end());
     }
     table.rows.push_back(row);
   }

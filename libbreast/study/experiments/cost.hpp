@@ -20,7 +20,7 @@ namespace breast {
 /// estimated.
 std::optional<double> carried_estimate(const StageReport& backward, const StageReport& forward);
 
-/// One row per point ELEMENT-TEMPLATE-N[-SOLVER] of the variants FOLDER/POINT (study/places.hpp).
+/// One row per point ELEMENT-TEMPLATE-N[-SOLVER] of the variants FOLDER/POINT.
 /// error_mm: the largest distance of tumour or nipple from the point `finest`; estimate_mm: the
 /// solver's own estimate; "-": no solution, or no estimate.
 Table cost_table(const std::filesystem::path& folder, const std::string& finest,

@@ -5,7 +5,6 @@
 
 #include "core/error.hpp"
 #include "study/cells.hpp"
-#include "study/places.hpp"
 #include "study/stage_report.hpp"
 
 namespace breast {
@@ -46,7 +45,7 @@ Table leaveout_table(const fs::path& run, const std::vector<std::string>& varian
               {{"base", "0", "0", "0", "0", "0", "0", force(run), format_fixed(surgery, 1), "0",
                 format_fixed(matching, 1), "0"}}};
   for (const std::string& variant : variants) {
-    const fs::path at = variant_of(run, "leaveout", "leaveout", variant);
+    const fs::path at = variant_of(run, "leaveout", variant);
     const auto gap = [&](const char* shape, const char* landmark) {
       return format_fixed(apart_at(read, at / shape, run / shape, landmark), 3);
     };
@@ -127,7 +126,7 @@ Table wall_table(const fs::path& run, const std::vector<std::string>& variants) 
   table.rows.push_back(start("as found", run));
   table.rows.back().resize(table.columns.size(), "0");
   for (const std::string& variant : variants) {
-    const fs::path folder = variant_of(run, "wall", "wall", variant);
+    const fs::path folder = variant_of(run, "wall", variant);
     Row row = start(variant, folder);
     const std::vector<std::pair<std::string, std::string>> places{
         {"supine", "tumour"}, {"supine", "nipple"}, {"cc", "tumour"}, {"mlo", "tumour"}};

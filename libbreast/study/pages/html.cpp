@@ -69,7 +69,7 @@ std::string html_table(const std::string& tsv) {
   std::istringstream in(tsv);
   std::string text;
   for (std::string line; std::getline(in, line);) {
-    if (line.starts_with('#')) continue;
+    if (line.empty() || line == "\r" || line.starts_with('#')) continue;
     Row cells = split(line, '\t');
     if (text.empty()) {
       text = "<table><tr>\n";

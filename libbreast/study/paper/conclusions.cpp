@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "study/cells.hpp"
+#include "study/paper/scaled_table.hpp"
 #include "study/paper/slopes.hpp"
-#include "study/places.hpp"
 #include "study/stage_report.hpp"
 
 namespace breast {
@@ -115,18 +115,50 @@ Table judge(const Table& conclusions, const std::vector<JudgedModel>& models) {
   return table;
 }
 
-Table survival_table(const Table& conclusions, const Table& third, const std::filesystem::path& run,
-                     const ShapeReader& read, const std::vector<std::string>& sets,
-                     const std::string& calibrated) {
-  const auto at = [&](const std::string& set) {
-    return variant_of(run, "table8", "variants", set);
+namespace {
+
+// Tables III to VI: NAME ends with what makes it another model's.
+std::array<Table, 4> scaled_tables(const std::filesystem::path& tables, const std::string& ending) {
+  const auto number = [&](const char* n) {
+    return read_table(tables / ("table" + std::string(n) + ending + ".tsv"));
   };
-  const bool folders = std::filesystem::is_directory(run / "studies/table8");
+  return {number("3"), number("4"), number("5"), number("6")};
+}
+
+// Rows of a tumour as stiff, ten and twenty times as stiff: what conclusions() asks of Table VI.
+Table stiff_rows(const Table& sixth, const std::filesystem::path& prefix, const ShapeReader& read) {
+  Table wanted{sixth.columns, {}};
+  wanted.name = sixth.name;
+  for (const Row& row : sixth.rows)
+    if (row.front() == "100" || row.front() == "1000" || row.front() == "2000")
+      wanted.rows.push_back(row);
+  return scaled_table(wanted, prefix, prefix.string() + "-100/supine.vtkhdf", read, "");
+}
+
+}  // namespace
+
+Table judged_tables(const Table& conclusions, const std::filesystem::path& tables, bool printed) {
+  const std::array<Table, 4> own = scaled_tables(tables, "");
+  std::vector<JudgedModel> models{{"paper", conclusions_from_rows(own, "paper_")}};
+  if (printed)
+    models.push_back(
+        {"as_printed", conclusions_from_rows(scaled_tables(tables, "-as-printed"), "")});
+  models.push_back({"ours", conclusions_from_rows(own, "")});
+  return judge(conclusions, models);
+}
+
+Table survival_table(const Table& conclusions, const PaperTables& paper,
+                     const std::filesystem::path& run, const ShapeReader& read,
+                     const std::vector<std::string>& sets, const std::string& calibrated) {
+  const auto at = [&](const std::string& set) { return variant_of(run, "table8", set); };
+  const std::array<Table, 4> own = scaled_tables(run / "tables", "");
   std::vector<JudgedModel> models{
-      {"paper", read_table(run / "tables/.conclusions-paper.values")},
-      {"ours", read_table(run / (folders ? "tables/.ours.values" : "variants/.ours.values"))}};
+      {"paper", conclusions_from_rows(own, "paper_")},
+      {"ours", conclusions_from_slopes(table_if_any(run / "slopes.tsv"), own[3])}};
   for (const std::string& set : sets)
-    models.push_back({set, read_table(folders ? at(set) / ".values" : at("." + set + ".values"))});
+    models.push_back(
+        {set, conclusions_from_slopes(table_if_any(at(set) / "slopes.tsv"),
+                                      stiff_rows(paper.sixth, at(set + "-tumour"), read))});
   const Table judged = judge(conclusions, models);
   Table table{judged.columns, {}};
   Row body{"stress-free body of the imaged shape", "-", "-", "-", "", "yes", ""};
@@ -142,15 +174,13 @@ Table survival_table(const Table& conclusions, const Table& third, const std::fi
     Row row{"supine displacement of the " + landmark + ", mm",
             "-",
             "-",
-            cell_at(third, "100", landmark + "_mm"),
+            cell_at(paper.third, "100", landmark + "_mm"),
             "",
             shown(run / "supine.vtkhdf"),
             calibrated};
     for (const std::string& set : sets)
-      row.insert(
-          row.end(),
-          {posture_failure_of(at(set)) ? no_value : shown(stage_of(at(set), "supine") + ".vtkhdf"),
-           ""});
+      row.insert(row.end(),
+                 {posture_failure_of(at(set)) ? no_value : shown(at(set) / "supine.vtkhdf"), ""});
     table.rows.push_back(row);
   }
   table.rows.insert(table.rows.end(), judged.rows.begin(), judged.rows.end());

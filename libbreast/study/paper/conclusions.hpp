@@ -39,12 +39,20 @@ struct JudgedModel {
 /// evaluated. Throws Error (input) naming a table of values that lacks these columns.
 Table judge(const Table& conclusions, const std::vector<JudgedModel>& models);
 
+/// Tables of the paper that the conclusions refer to.
+struct PaperTables {
+  Table third, sixth;
+};
+
+/// judge() applied to Tables III to VI in the folder `tables`: to the paper's own rows, to ours as
+/// printed (tableN-as-printed.tsv, if `printed`), and to ours.
+Table judged_tables(const Table& conclusions, const std::filesystem::path& tables, bool printed);
+
 /// Table VIII. The first rows state whether each set of `sets` has a stress-free body, and the
 /// supine displacements of nipple and tumour; the other rows are judge() applied to the paper, to
-/// RUN and to the sets, which are the variants of RUN/studies/table8 (study/places.hpp). `third` is
-/// the paper's Table III.
-Table survival_table(const Table& conclusions, const Table& third, const std::filesystem::path& run,
-                     const ShapeReader& read, const std::vector<std::string>& sets,
-                     const std::string& calibrated);
+/// RUN and to the sets, which are the variants SET and SET-tumour-PERCENT of RUN/studies/table8.
+Table survival_table(const Table& conclusions, const PaperTables& paper,
+                     const std::filesystem::path& run, const ShapeReader& read,
+                     const std::vector<std::string>& sets, const std::string& calibrated);
 
 }  // namespace breast

@@ -4,7 +4,6 @@
 #include "core/error.hpp"
 #include "study/cells.hpp"
 #include "study/paper/conclusions.hpp"
-#include "study/places.hpp"
 #include "study/stage_report.hpp"
 
 namespace breast {
@@ -55,21 +54,17 @@ Table findings_table(const fs::path& run, const std::vector<std::string>& varian
                "supine_nipple_mm", "supine_tumour_mm", "nipple_from_finest_percent",
                "tumour_from_finest_percent", "estimate_mm", "fat_slope_nipple", "fat_slope_tumour"},
               {{"paper", "4096", "4.5", "1.6", "8.78", "3.03", "-", "-", "-", "-0.607", "-0.705"}}};
-  const auto at = [&](const std::string& variant) {
-    return variant_of(run, "findings", "variants", variant);
-  };
+  const auto at = [&](const std::string& variant) { return variant_of(run, "findings", variant); };
   const auto stage = [&](const std::string& variant, const char* name) {
-    return stage_of(at(variant), name);
+    return (at(variant) / name).string();
   };
   Finest finest;
   if (!posture_failure_of(at(variants.back()))) {
     const fs::path supine = stage(variants.back(), "supine") + ".json";
     finest = {moved_in(supine, "nipple"), moved_in(supine, "tumour")};
   }
-  table.rows.push_back(
-      finding("default", run / "reference.json", run / "supine.json",
-              read_table(run / (fs::exists(run / "slopes.tsv") ? "slopes.tsv" : "base-slopes.tsv")),
-              finest));
+  table.rows.push_back(finding("default", run / "reference.json", run / "supine.json",
+                               read_table(run / "slopes.tsv"), finest));
   for (const std::string& variant : variants) {
     if (posture_failure_of(at(variant))) {
       table.rows.push_back(Row(table.columns.size(), no_value));
@@ -97,9 +92,9 @@ std::string calibration_note(const fs::path& truth, const std::string& side) {
 
 Table calibration_table(const fs::path& run, const fs::path& truth, const std::string& side,
                         const Table& landmarks) {
-  Table table{
-      {"", "nipple, supine", "tumour, supine", "nipple, stress-free", "tumour, stress-free", ""},
-      {{"the paper", "8.8", "3.0", "4.5", "1.6", ""}}};
+  Table table{{"model", "supine_nipple_mm", "supine_tumour_mm", "stress_free_nipple_mm",
+               "stress_free_tumour_mm", "remark"},
+              {{"the paper", "8.8", "3.0", "4.5", "1.6", ""}}};
   const auto add = [&](const std::string& name, const fs::path& supine, const fs::path& reference,
                        const std::string& remark) {
     table.rows.push_back({name, format_fixed(moved_in(supine, "nipple"), 2),
@@ -107,9 +102,9 @@ Table calibration_table(const fs::path& run, const fs::path& truth, const std::s
                           format_fixed(moved_in(reference, "nipple"), 2),
                           format_fixed(moved_in(reference, "tumour"), 2), remark});
   };
-  const fs::path printed = variant_of(run, "findings", "variants", "as-printed");
-  add("as printed in the paper", stage_of(printed, "supine") + ".json",
-      stage_of(printed, "reference") + ".json", "calibrated to this row");
+  const fs::path printed = variant_of(run, "findings", "as-printed");
+  add("as printed in the paper", printed / "supine.json", printed / "reference.json",
+      "calibrated to this row");
   add("default chain", run / "supine.json", run / "reference.json",
       "calibrated to this row, by the same fit");
   const StageReport report = StageReport::read(truth);

@@ -5,7 +5,6 @@
 
 #include "core/error.hpp"
 #include "study/cells.hpp"
-#include "study/places.hpp"
 #include "study/stage_report.hpp"
 
 namespace breast {
@@ -42,7 +41,7 @@ Table scaled_table(const Table& paper, const std::filesystem::path& prefix,
     const std::string percent = paper.rows[r].front();
     const bool whole = percent == "100";
     const std::string name = whole ? std::filesystem::path(base).replace_extension().string()
-                                   : stage_of(prefix.string() + "-" + percent, "supine");
+                                   : prefix.string() + "-" + percent + "/supine";
     const std::filesystem::path file = name + ".vtkhdf";
     Row row{percent};
     std::string estimate = no_value;

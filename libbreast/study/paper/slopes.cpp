@@ -7,7 +7,6 @@
 #include "core/error.hpp"
 #include "study/cells.hpp"
 #include "study/paper/conclusions.hpp"
-#include "study/places.hpp"
 #include "study/stage_report.hpp"
 
 namespace breast {
@@ -56,7 +55,7 @@ Row slope_row(const std::string& tissue, const std::string& landmark, const Stag
   ResolvedPlaces resolved{*imaged, *base, {}, {}};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const StageReport report =
-        StageReport::read(stage_of(scaled / (tissue + "-" + steps[i]), "supine") + ".json");
+        StageReport::read(scaled / (tissue + "-" + steps[i]) / "supine.json");
     const auto place = report.place(landmark, "position");
     if (!place)
       return {tissue, landmark,       format_fixed(tangent.slope, 5), "-", "-", "-",
@@ -83,7 +82,7 @@ Table slopes_table(const std::filesystem::path& base, const std::filesystem::pat
                "vector_difference_percent", "verdict"},
               {}};
   const StageReport own = StageReport::read(base),
-                    stiff = StageReport::read(stage_of(scaled / "tumour-100", "supine") + ".json");
+                    stiff = StageReport::read(scaled / "tumour-100/supine.json");
   for (const std::string tissue : {"fat", "fibroglandular", "skin", "tumour"})
     for (const std::string landmark : {"tumour", "nipple"})
       table.rows.push_back(tissue == "tumour"

@@ -26,7 +26,7 @@ $(call budget_row,backward)/reference.json $(call budget_row,compression)/cc.jso
 	@$(truth_report)
 
 # What is left of the errors, empty where a shape was not found: $(call unless_missing,SHAPES,COMMAND).
-unless_missing = if [ -e $(firstword $1) ] && [ -e $(lastword $1) ]; then $2; else : > $@; fi
+unless_missing = if [ -e $(firstword $1) ] && [ -e $(lastword $1) ]; then $2; else rm -f $(basename $@)-summary.tsv; : > $@; fi
 budget_curves = $(call unless_missing,$1,$(CC2MLO) $1 $(basename $@).vtp --truth $(TRUTH_TABLE) --table $@ $(common))
 budget_landmarks = $(call unless_missing,$1,$(PROBE) $1 --truth $(TRUTH_TABLE) > $@.part; mv $@.part $@)
 $(BUDGET_ROWS:%=$(BUDGET)/%/curves.tsv): $(BUDGET)/%/curves.tsv: $(call budget_row,%)/cc.json $(call budget_row,%)/mlo.json $(TRUTH_TABLE) $(CC2MLO)

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/case_file.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "cases/make_text.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr std::size_t most_bytes = 65536;
+constexpr const char* blanks = " \t\r\v\f";
+
+bool blank(char c) {
+  return std::string_view(blanks).find(c) != std::string_view::npos;
+}
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+struct Line {
+  std::string key, value;
+  bool of_makefile = false;  ///< := or ?=
+};
+
+// A comment begins at a '#' with a blank before it.
+std::string without_comment(const std::string& value) {
+  for (std::size_t at = 0; at + 1 < value.size(); ++at)
+    if (blank(value[at]) && value[at + 1] == '#') return value.substr(0, at);
+  return value;
+}
+
+std::optional<Line> split_line(const std::string& line) {
+  const std::size_t equals = line.find('=');
+  if (equals == std::string::npos || equals == 0) return {};
+  const bool of_makefile = line[equals - 1] == ':' || line[equals - 1] == '?';
+  Line split{trimmed(line.substr(0, equals - (of_makefile ? 1 : 0))), line.substr(equals + 1),
+             of_makefile};
+  const bool letters =
+      !split.key.empty() && std::all_of(split.key.begin(), split.key.end(), [](char c) {
+        return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
+      });
+  if (!letters) return {};
+  split.value = trimmed(without_comment(trimmed(split.value)));
+  return split;
+}
+
+void check_value(const Line& line, const std::string& at) {
+  if (!code_in(line.value).empty())
+    throw input_error(at, ": ", line.key,
+                      " holds a character that make or a shell would read as code; give a name "
+                      "without it, or a link of such a name");
+  if (std::any_of(line.value.begin(), line.value.end(),
+                  [](unsigned char c) { return c < ' ' || c == 0x7f; }))
+    throw input_error(at, ": ", line.key, " holds a control character");
+}
+
+}  // namespace
+
+bool CaseFile::has(const std::string& key) const {
+  return std::any_of(settings.begin(), settings.end(),
+                     [&](const auto& setting) { return setting.first == key; });
+}
+
+CaseFile parse_case_file(const std::string& text, const std::string& name,
+                         const std::vector<std::string>& known) {
+  const std::string what = "case file " + name;
+  if (text.size() > most_bytes) throw input_error(what, ": is larger than 64 kB");
+  CaseFile found;
+  bool of_makefile = false;
+  std::istringstream in(text);
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    const std::string at = message(what, ", line ", number);
+    const std::string content = trimmed(line);
+    if (content.empty() || content.front() == '#') continue;
+    const std::optional<Line> split = split_line(content);
+    if (!split)
+      throw input_error(at,
+                        ": is not KEY = VALUE (a case file is data; nothing in it is executed)");
+    if (std::find(known.begin(), known.end(), split->key) == known.end())
+      throw input_error(at, ": ", split->key, " is no setting of a case",
+                        suggestion(split->key, known));
+    if (found.has(split->key)) throw input_error(at, ": ", split->key, " stands there twice");
+    check_value(*split, at);
+    of_makefile = of_makefile || split->of_makefile;
+    found.settings.emplace_back(split->key, split->value);
+  }
+  if (!of_makefile) return found;
+  if (!name.ends_with(".mk"))
+    throw input_error(what, ": := and ?= are of makefiles; write KEY = VALUE");
+  found.warning = name + ": := and ?= will not be read by the next version; write KEY = VALUE";
+  return found;
+}
+
+CaseFile read_case_file(const std::filesystem::path& file, const std::vector<std::string>& known) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none))
+    throw input_error("case file ", file.string(), ": is not a file that can be read");
+  if (std::filesystem::file_size(file, none) > most_bytes)
+    throw input_error("case file ", file.string(), ": is larger than 64 kB");
+  return parse_case_file(read_text(file), file.string(), known);
+}
+
+}  // namespace breast

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/make_text.hpp"
+
+#include <algorithm>
+
+#include "cli/declaration.hpp"
+
+namespace breast {
+
+std::string make_assignment(const std::string& name, const std::string& value) {
+  return name + " := " + value + make_line_end;
+}
+
+std::string make_addition(const std::string& name, const std::string& value) {
+  return name + " += " + value + make_line_end;
+}
+
+std::string code_in(const std::string& text) {
+  const std::size_t at = text.find_first_of("$`;&|<>(){}[]*?!\"'\\^#");
+  return at == std::string::npos ? "" : text.substr(at, 1);
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
+  const auto upper = [](std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
+      return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : char(c);
+    });
+    return text;
+  };
+  std::vector<std::string> raised;
+  for (const std::string& candidate : candidates) raised.push_back(upper(candidate));
+  const std::string near = nearest(upper(word), raised);
+  const auto found = std::find(raised.begin(), raised.end(), near);
+  return near.empty() ? ""
+                      : "; did you mean " + candidates[std::size_t(found - raised.begin())] + "?";
+}
+
+}  // namespace breast

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// cases: what the pipeline knows of cases before anything runs, and how those of a cohort are run.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+
+#include "cases/attempt.hpp"
+#include "cases/case_file.hpp"
+#include "cases/case_run.hpp"
+#include "cases/cohort_files.hpp"
+#include "cases/ladder.hpp"
+#include "cases/make_text.hpp"
+#include "cases/scan_identity.hpp"
+#include "cases/slurm.hpp"
+#include "cases/variants.hpp"
+#include "cli/declaration.hpp"
+#include "cli/library_words.hpp"
+#include "cli/tool.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "study/cells.hpp"
+
+using namespace breast;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+struct Kind {
+  std::string name, arguments, help;
+  std::size_t least;
+  std::function<std::string(const Words&)> make;
+};
+
+Words rest(const Words& words, std::size_t first) {
+  return {words.begin() + long(first), words.end()};
+}
+
+// Kinds in the order of their use: reading, refusing, running.
+
+std::string read(const Words& words) {
+  const CaseFile file = read_case_file(words[0], rest(words, 1));
+  std::string text;
+  for (const auto& [key, value] : file.settings) text += make_assignment(key, value);
+  return text + (file.warning.empty() ? "" : "$(warning warning: " + file.warning + ")");
+}
+
+std::string cohort(const Words& words) {
+  std::string text;
+  for (const CohortEntry& one : cohort_entries(words[0], rest(words, 1)))
+    text += make_addition("COHORT_CASES", one.name) +
+            make_assignment("file_" + one.name, one.file) +
+            make_assignment("kind_" + one.name, one.phantom ? "phantom" : "scan");
+  return text;
+}
+
+std::string list(const Words& words) {
+  std::string text;
+  for (const CohortEntry& one : cohort_entries(words[0], rest(words, 1)))
+    text += one.name + "\t" + one.file + "\t" + (one.phantom ? "phantom" : "scan") + "\n";
+  return text;
+}
+
+std::string check(const Words& words) {
+  const std::string reason = mixed_up(words[0], words[1], words[2]);
+  if (!reason.empty()) throw input_error(reason);
+  return "";
+}
+
+std::string record(const Words& words) {
+  remember_scan(words[0], words[1], words[2]);
+  return "";
+}
+
+// NAME=VALUE after a mark: "@hexmesh=--elements 8".
+std::pair<std::string, std::string> named_value(const std::string& word, std::size_t from) {
+  const std::size_t equals = word.find('=');
+  if (equals == std::string::npos) throw input_error("variants: '", word, "' is not NAME=VALUE");
+  return {word.substr(from, equals - from), word.substr(equals + 1)};
+}
+
+std::string variants(const Words& words) {
+  StudyBase base;
+  base.run = words[0];
+  base.stages = split(words[1], ' ');
+  base.ends_at = words[2];
+  Words tables;
+  for (const std::string& word : rest(words, 3)) {
+    if (word.starts_with('@')) {
+      const auto [name, value] = named_value(word, 1);
+      base.attributes.push_back(name);
+      base.of_case[name] = value;
+    } else if (word.starts_with('{')) {
+      const auto [name, value] = named_value(word, 1);
+      base.placeholders[name] = value;
+    } else {
+      tables.push_back(word);
+    }
+  }
+  Studies studies(base);
+  for (const std::string& word : tables) {
+    const auto [name, value] = named_value(word, 0);
+    const std::size_t at = value.find('@');
+    const std::string file = value.substr(0, at);
+    studies.add(name, read_text(file), file, at == std::string::npos ? "" : value.substr(at + 1));
+  }
+  return studies.text();
+}
+
+std::string run(const Words& words) {
+  if (!run_case({words[0], words[1], words[2] == "phantom", rest(words, 3)}))
+    throw failed_error(words[0], ": stopped by a signal");
+  return "";
+}
+
+std::string attempt_stage(const Words& words) {
+  std::vector<fs::path> inputs;
+  for (const std::string& input : split(words[1], ' '))
+    if (!input.empty()) inputs.push_back(input);
+  attempt(words[0], inputs, rest(words, 2));
+  return "";
+}
+
+std::string ladder(const Words& words) {
+  dprintf(message_descriptor(), "%s",
+          climb({words[0], words[1], split(words[2], ' '), split(words[3], ' '), rest(words, 4)})
+              .c_str());
+  return "";
+}
+
+std::string any_done(const Words& words) {
+  const Table table = read_table(words[0]);
+  for (std::size_t r = 0; r < table.rows.size(); ++r)
+    if (table.cell(r, "status") == "done") return "";
+  throw failed_error("every case failed: see ", words[0]);
+}
+
+std::string task(const Words& words) {
+  return run_slurm_task(words[0], int(parse_number(words[1], "task: OFFSET")));
+}
+
+std::string table(const Words& words) {
+  const int code = run_slurm_table(words[0], words[1]);
+  if (code != 0) throw failed_error("the table could not be made: make ended with ", code);
+  return "";
+}
+
+std::vector<Kind> kinds_for(SlurmRequest& slurm) {
+  const auto of_cluster = [&slurm](auto make) {
+    return [&slurm, make](const Words& words) {
+      slurm.runs = words[0];
+      slurm.cohort = words[1];
+      slurm.command = rest(words, 2);
+      slurm.program = fs::read_symlink("/proc/self/exe");
+      return make(slurm);
+    };
+  };
+  return {
+      {"read", "FILE KEY...", "a case file as assignments of make; the keys are those it may have",
+       1, read},
+      {"cohort", "COHORT KEY...", "the case files of a folder as assignments of make", 1, cohort},
+      {"list", "COHORT KEY...", "the same as lines CASE, FILE and KIND, scan or phantom", 1, list},
+      {"variants", "RUN STAGES ENDS_AT @ATTRIBUTE=VALUE... {NAME=VALUE... STUDY=FILE.tsv[@ROW]...",
+       "the rows of studies as assignments of make (docs/file-formats.md)", 3, variants},
+      {"nearest", "WORD CANDIDATE...", "the candidate that a slip of the fingers turned into WORD",
+       2, [](const Words& words) { return suggestion(words[0], rest(words, 1)); }},
+      {"check", "RUN SIDE SCAN",
+       "refuses a scan, phantom:PRESET or side that is not the one RUN was made of", 3, check},
+      {"record", "RUN SIDE SCAN", "remembers them in RUN/.scan", 3, record},
+      {"attempt", "STAGE.json 'INPUT...' -- COMMAND...",
+       "a stage of a variant, which may have no solution: then its report says why", 3,
+       attempt_stage},
+      {"ladder", "RUN MM 'POINT...' 'TABULATE...' -- MAKE...",
+       "solves points of the study `cost` until one's estimated error is below MM: RUN/accuracy.mk",
+       5, ladder},
+      {"run", "STATUS LOG KIND -- COMMAND...",
+       "runs a case of a cohort and keeps what became of it in the file STATUS", 4, run},
+      {"any-done", "TABLE.tsv", "fails when no case of a cohort's table is done", 1, any_done},
+      {"script", "RUNS COHORT -- MAKE...",
+       "the script of the job array that `submit` would give to Slurm", 2, of_cluster(slurm_plan)},
+      {"submit", "RUNS COHORT -- MAKE...",
+       "gives the cases of RUNS/.cases to Slurm, each a run of the command MAKE, then their table",
+       2, of_cluster(submit_to_slurm)},
+      {"task", "FOLDER OFFSET", "within that array: runs the case of this task", 2, task},
+      {"table", "FOLDER COHORT", "within the last job: makes the table", 2, table},
+  };
+}
+
+const Kind& kind_called(const std::vector<Kind>& kinds, const std::string& name) {
+  Words names;
+  for (const Kind& kind : kinds) {
+    if (kind.name == name) return kind;
+    names.push_back(kind.name);
+  }
+  throw input_error("'", name, "' is nothing that cases does", suggestion(name, names));
+}
+
+void declare_slurm(Tool& tool, SlurmRequest& slurm, std::string& cost) {
+  tool.text(slurm.partition, "--partition", "NAME", "of the cluster, for script and submit");
+  tool.text(slurm.account, "--account", "NAME", "to be charged");
+  tool.text(slurm.time, "--time", "TIME",
+            "of a case, minutes or as sbatch takes it; otherwise from measured cost");
+  tool.text(slurm.memory, "--memory", "MB", "of a case; otherwise from measured cost");
+  tool.integer(slurm.cores, "--cores", "N", "of a case", 1, 1024);
+  tool.text(slurm.options, "--options", "OPTIONS", "for sbatch, as they are");
+  tool.flag(slurm.resume, "--resume", "submit only the cases that are missing or out of date");
+  tool.number(slurm.elements, "--elements", "N",
+              "ELEMENTS of every case whose file asks for no more");
+  tool.text(slurm.element, "--element", "NAME", "ELEMENT of every case, q1p0 or q2p1");
+  tool.text(cost, "--cost", "FILE.tsv", "what a case costs until some have been measured");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  SlurmRequest slurm;
+  const std::vector<Kind> kinds = kinds_for(slurm);
+  std::string name, cost = "pipelines/cohort-cost.tsv";
+  Words words;
+  Tool tool("cases", "cases, cohorts and studies for the pipeline: reads, checks, runs");
+  tool.describe(
+      "Does for Makefile.pipeline what is not make's business: reads case files and studies as data, refuses a second patient's scan in a run's "
+      "folder, runs the cases of a cohort and gives them to Slurm. The makefile calls it; nobody else has to.");
+  for (const Kind& kind : kinds)
+    tool.describe(kind.name + " " + kind.arguments + ": " + kind.help + ".");
+  tool.word(name, "KIND", "what to do, from the list above");
+  tool.words(words, "ARGUMENT", "of that kind: files, folders and names");
+  declare_slurm(tool, slurm, cost);
+  tool.check([&] {
+    const Kind& kind = kind_called(kinds, name);
+    if (words.size() < kind.least)
+      throw input_error(name, ": has ", words.size(), " arguments and needs ", kind.least,
+                        "; usage: cases ", name, " ", kind.arguments);
+  });
+  tool.example("cases list patients MR SIDE PRESET", "the cases of a cohort");
+  tool.example("cases check runs/scan-left left scan.nrrd", "whether that folder is of this scan");
+  return tool.main(argc, argv, [&](Run& run) {
+    slurm.cost = cost;
+    run.report().set("kind", name);
+    run.print(kind_called(kinds, name).make(words));
+  });
+}
