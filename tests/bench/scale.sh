@@ -26,7 +26,7 @@ difference() { # ONE OTHER: largest difference of a coordinate, mm
 a, b = (h5py.File(f)["VTKHDF/Points"][:] for f in sys.argv[1:])
 print(f"{abs(a - b).max():.1g}")' "$1" "$2"
 }
-printf 'solve\telements\tunknowns\tNewton\tset-ups\tGMRES\ta step\tCPU s\twall s\tMB\tfrom serial, mm\n'
+printf 'solve\telements\tunknowns\tnewton_iterations\tset_ups\tgmres_iterations\tgmres_a_step\tcpu_s\twall_s\tpeak_mb\tfrom_serial_mm\n'
 for what in "$@"; do
   IFS=: read -r n tools ranks <<< "$what::"
   case "$tools" in '' | both) tools="forward backward" ;; esac
@@ -36,12 +36,12 @@ for what in "$@"; do
     if [ "${SERIAL:-yes}" = yes ]; then
       "$bin/$tool" block.vtkhdf serial.vtkhdf --gravity 0,0,-9810 --estimate none --threads 1 --solver multigrid \
         --quiet --report serial.json
-      row "$tool" serial.json -
+      row "$tool" serial.json ""
     fi
     for count in ${ranks:-1 2}; do
       mpirun --oversubscribe -n "$count" "$bin/$tool-mpi" block.vtkhdf "$count.vtkhdf" --gravity 0,0,-9810 --quiet \
         --report "$count.json"
-      far=-
+      far=
       [ "${SERIAL:-yes}" != yes ] || far=$(difference serial.vtkhdf "$count.vtkhdf")
       row "$tool-mpi, $count" "$count.json" "$far"
     done

@@ -11,8 +11,8 @@
 
 namespace breast {
 
-/// One row for the paper, the case as solved, and every variant of RUN/studies/findings
-///, of which the last is the finest. Columns: displacements of nipple and tumour
+/// One row for the paper, the case as solved, and every variant of RUN/studies/findings,
+/// of which the last is the finest. Columns: displacements of nipple and tumour
 /// from the imaged position, stress-free and supine, mm; the difference of the supine displacements
 /// from the finest, per cent; the solver's own error estimate at the supine landmarks, mm; slopes
 /// with respect to fat.
