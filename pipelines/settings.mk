@@ -57,8 +57,6 @@ else
   HEXMESH_OPTIONS ?= --elements $(ELEMENTS) $(addprefix --muscle ,$(filter-out 0,$(MUSCLE)))
   # An empty ELEMENT is the programs' default. ACCURACY=MM chooses ELEMENTS and ELEMENT.
   MECHANICS ?= --materials $(MATERIALS) $(addprefix --element ,$(ELEMENT))
-  # Soft tissue that slides lies limp between plates that stand far in front of the chest wall.
-  COMPRESS_OPTIONS ?= $(if $(slides),--image-edge auto)
 endif
 # Where the plates stop: at the first of these.
 STOPS = --reduction $(REDUCTION) $(addprefix --pressure ,$(PRESSURE))
