@@ -78,9 +78,8 @@ outdated = $(if $(older),; the programs are older than their sources: make -f $(
 
 # $(call refuse_goals,WHERE,GOALS,WHY): where something stands in WHERE, the first of these goals that is asked for is refused.
 refuse_goals = $(if $1,$(foreach goal,$(firstword $(filter $2,$(MAKECMDGOALS))),$(error $(goal): $3)))
-# $(call among,SETTING,CHOICES): every word of it is one of them.
-none_of = $(foreach w,$(filter-out $3,$2),$(error $1: '$w' is none of $3$(call suggest,$w,$3)))
-among = $(call none_of,$1,$($1),$2)
+# $(call among,SETTING,CHOICES): every word of it is one of them (of none where `cases` was not asked for them).
+among = $(if $2,$(foreach w,$(filter-out $2,$($1)),$(error $1: '$w' is none of $2$(call suggest,$w,$2))))
 # A plain number: nothing is left without its digits and one point.
 without = $(if $2,$(call without,$(subst $(firstword $2),,$1),$(wordlist 2,99,$2)),$1)
 plain_number = $(if $(filter-out .,$(call without,$($1),0 1 2 3 4 5 6 7 8 9)),$(error $1: '$($1)' is not a number))

@@ -17,7 +17,7 @@ slicer-table: slicer
 .PHONY: validation validation-page slicer-table
 
 # Below a table the page says of which run it is: $(call made_by,REPORT.json), whose date it has.
-made_by = $(tabulate) made $@ $1
+made_by = flock $(TABLES_OF_PAGE) $(tabulate) made $@ $1
 
 # How the compressed shapes converge with the mesh (studies/convergence.tsv).
 $(TABLES_OF_PAGE)/compression-convergence.tsv: $(call results,convergence,$(convergence_variants),cc mlo) $(TABULATE)
