@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cases: what the pipeline knows of cases before anything runs, and how those of a cohort are run.
+// cases: reading and checking of cases before anything runs, and running of a cohort's cases.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -159,33 +159,38 @@ std::vector<Kind> kinds_for(SlurmRequest& slurm) {
     };
   };
   return {
-      {"read", "FILE KEY...", "a case file as assignments of make; the keys are those it may have",
-       1, read},
-      {"cohort", "COHORT KEY...", "the case files of a folder as assignments of make", 1, cohort},
-      {"list", "COHORT KEY...", "the same as lines CASE, FILE and KIND, scan or phantom", 1, list},
+      {"read", "FILE KEY...",
+       "prints the settings of a case file as assignments for make; KEY are the allowed keys", 1,
+       read},
+      {"cohort", "COHORT KEY...", "prints the case files of a folder as assignments for make", 1,
+       cohort},
+      {"list", "COHORT KEY...",
+       "prints one line per case file of a folder: CASE, FILE and KIND (scan or phantom)", 1, list},
       {"variants", "RUN STAGES ENDS_AT @ATTRIBUTE=VALUE... {NAME=VALUE... STUDY=FILE.tsv[@ROW]...",
-       "the rows of studies as assignments of make (docs/file-formats.md)", 3, variants},
-      {"nearest", "WORD CANDIDATE...", "the candidate that a slip of the fingers turned into WORD",
-       2, [](const Words& words) { return suggestion(words[0], rest(words, 1)); }},
+       "prints the rows of studies as assignments for make (docs/file-formats.md)", 3, variants},
+      {"nearest", "WORD CANDIDATE...",
+       "prints the candidate that is most similar to WORD, for messages about typing errors", 2,
+       [](const Words& words) { return suggestion(words[0], rest(words, 1)); }},
       {"check", "RUN SIDE SCAN",
-       "refuses a scan, phantom:PRESET or side that is not the one RUN was made of", 3, check},
-      {"record", "RUN SIDE SCAN", "remembers them in RUN/.scan", 3, record},
+       "fails if the folder RUN was made from another scan, phantom:PRESET or side", 3, check},
+      {"record", "RUN SIDE SCAN", "records scan and side in RUN/.scan", 3, record},
       {"attempt", "STAGE.json 'INPUT...' -- COMMAND...",
-       "a stage of a variant, which may have no solution: then its report says why", 3,
+       "runs a stage of a variant; if it has no solution, the report gives the reason", 3,
        attempt_stage},
       {"ladder", "RUN MM 'POINT...' 'TABULATE...' -- MAKE...",
-       "solves points of the study `cost` until one's estimated error is below MM: RUN/accuracy.mk",
+       "solves points of the study `cost` until the estimated error is below MM, and writes RUN/accuracy.mk",
        5, ladder},
       {"run", "STATUS LOG KIND -- COMMAND...",
-       "runs a case of a cohort and keeps what became of it in the file STATUS", 4, run},
-      {"any-done", "TABLE.tsv", "fails when no case of a cohort's table is done", 1, any_done},
+       "runs a case of a cohort and writes its outcome to the file STATUS", 4, run},
+      {"any-done", "TABLE.tsv", "fails if no case in the table of a cohort was completed", 1,
+       any_done},
       {"script", "RUNS COHORT -- MAKE...",
-       "the script of the job array that `submit` would give to Slurm", 2, of_cluster(slurm_plan)},
+       "prints the script of the job array that `submit` would submit", 2, of_cluster(slurm_plan)},
       {"submit", "RUNS COHORT -- MAKE...",
-       "gives the cases of RUNS/.cases to Slurm, each a run of the command MAKE, then their table",
+       "submits to Slurm the cases in RUNS/.cases, each as a run of the command MAKE, and a job that makes their table",
        2, of_cluster(submit_to_slurm)},
-      {"task", "FOLDER OFFSET", "within that array: runs the case of this task", 2, task},
-      {"table", "FOLDER COHORT", "within the last job: makes the table", 2, table},
+      {"task", "FOLDER OFFSET", "runs the case of one task; called by the job array", 2, task},
+      {"table", "FOLDER COHORT", "makes the table; called by the last job", 2, table},
   };
 }
 
@@ -195,22 +200,26 @@ const Kind& kind_called(const std::vector<Kind>& kinds, const std::string& name)
     if (kind.name == name) return kind;
     names.push_back(kind.name);
   }
-  throw input_error("'", name, "' is nothing that cases does", suggestion(name, names));
+  throw input_error("'", name, "' is not an action of cases", suggestion(name, names));
 }
 
 void declare_slurm(Tool& tool, SlurmRequest& slurm, std::string& cost) {
-  tool.text(slurm.partition, "--partition", "NAME", "of the cluster, for script and submit");
-  tool.text(slurm.account, "--account", "NAME", "to be charged");
-  tool.text(slurm.time, "--time", "TIME",
-            "of a case, minutes or as sbatch takes it; otherwise from measured cost");
-  tool.text(slurm.memory, "--memory", "MB", "of a case; otherwise from measured cost");
-  tool.integer(slurm.cores, "--cores", "N", "of a case", 1, 1024);
-  tool.text(slurm.options, "--options", "OPTIONS", "for sbatch, as they are");
+  tool.text(slurm.partition, "--partition", "NAME", "partition of the cluster");
+  tool.text(slurm.account, "--account", "NAME", "account to be charged");
+  tool.text(
+      slurm.time, "--time", "TIME",
+      "time limit of a case, in minutes or as sbatch accepts it (default: from the measured cost)");
+  tool.text(slurm.memory, "--memory", "MB", "memory of a case (default: from the measured cost)");
+  tool.integer(slurm.cores, "--cores", "N", "cores of a case", 1, 1024);
+  tool.text(slurm.options, "--options", "OPTIONS",
+            "further options of sbatch, passed on unchanged");
   tool.flag(slurm.resume, "--resume", "submit only the cases that are missing or out of date");
-  tool.number(slurm.elements, "--elements", "N",
-              "ELEMENTS of every case whose file asks for no more");
-  tool.text(slurm.element, "--element", "NAME", "ELEMENT of every case, q1p0 or q2p1");
-  tool.text(cost, "--cost", "FILE.tsv", "what a case costs until some have been measured");
+  tool.number(
+      slurm.elements, "--elements", "N",
+      "number of elements along an edge (ELEMENTS) of the cases whose files do not ask for more");
+  tool.text(slurm.element, "--element", "NAME", "element (ELEMENT) of every case, q1p0 or q2p1");
+  tool.text(cost, "--cost", "FILE.tsv",
+            "table of the cost of a case, used until cases of this cohort have been measured");
 }
 
 }  // namespace
@@ -220,14 +229,16 @@ int main(int argc, char** argv) {
   const std::vector<Kind> kinds = kinds_for(slurm);
   std::string name, cost = "pipelines/cohort-cost.tsv";
   Words words;
-  Tool tool("cases", "cases, cohorts and studies for the pipeline: reads, checks, runs");
+  Tool tool("cases",
+            "reading, checking and running of cases, cohorts and studies for the pipeline");
   tool.describe(
-      "Does for Makefile.pipeline what is not make's business: reads case files and studies as data, refuses a second patient's scan in a run's "
-      "folder, runs the cases of a cohort and gives them to Slurm. The makefile calls it; nobody else has to.");
+      "Performs the work of Makefile.pipeline that is not a matter of make: it reads case files and studies as data, refuses "
+      "a scan in a folder that belongs to another one, runs the cases of a cohort, and submits them to Slurm. It is called "
+      "by the makefile and is not meant to be called by hand.");
   for (const Kind& kind : kinds)
     tool.describe(kind.name + " " + kind.arguments + ": " + kind.help + ".");
-  tool.word(name, "KIND", "what to do, from the list above");
-  tool.words(words, "ARGUMENT", "of that kind: files, folders and names");
+  tool.word(name, "KIND", "action, from the list above");
+  tool.words(words, "ARGUMENT", "arguments of the action: files, folders and names");
   declare_slurm(tool, slurm, cost);
   tool.check([&] {
     const Kind& kind = kind_called(kinds, name);
@@ -235,8 +246,9 @@ int main(int argc, char** argv) {
       throw input_error(name, ": has ", words.size(), " arguments and needs ", kind.least,
                         "; usage: cases ", name, " ", kind.arguments);
   });
-  tool.example("cases list patients MR SIDE PRESET", "the cases of a cohort");
-  tool.example("cases check runs/scan-left left scan.nrrd", "whether that folder is of this scan");
+  tool.example("cases list patients MR SIDE PRESET", "list the cases of a cohort");
+  tool.example("cases check runs/scan-left left scan.nrrd",
+               "check that this folder was made from this scan");
   return tool.main(argc, argv, [&](Run& run) {
     slurm.cost = cost;
     run.report().set("kind", name);
