@@ -5,6 +5,7 @@
 #include "distributed/load_steps.hpp"
 #include "distributed/part_inverse.hpp"
 #include "mechanics/inverse_system.hpp"
+#include "mechanics/solution.hpp"
 
 namespace breast {
 

@@ -4,6 +4,7 @@
 #include "distributed/distributed.hpp"
 #include "distributed/load_steps.hpp"
 #include "distributed/part_equilibrium.hpp"
+#include "mechanics/solution.hpp"
 
 namespace breast {
 
