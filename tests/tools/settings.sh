@@ -175,7 +175,7 @@ printf 'done\t\n' > "$runs/b.status"
 printf 'running\t\n' > "$runs/lost.status"
 tabulate cohort "$runs" false > /dev/null || fail "the results of a cohort with hostile names"
 cut -f1,2 "$runs/cohort.tsv" | paste -s -d, | grep -q '^case.status,a<img src=x>.failed,lost.failed,never.failed,b.done$' || { cat "$runs/cohort.tsv"; fail "failures come first"; }
-grep -q '^lost.*without a word' "$runs/cohort.tsv" && grep -q '^never.*never started' "$runs/cohort.tsv" || fail "a case that left no word is failed"
+grep -q '^lost.*without a message' "$runs/cohort.tsv" && grep -q '^never.*never started' "$runs/cohort.tsv" || fail "a case that left no message is failed"
 for page in cohort contours; do
   ! grep -qi '<script\|<img src=x' "$runs/$page.html" && grep -q '&lt;script&gt;' "$runs/$page.html" || fail "no name is markup in $page.html"
   ! grep -qF "$work" "$runs/$page.html" || fail "$page.html names no folder"
