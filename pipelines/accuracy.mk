@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# ACCURACY=MM: the cheapest mesh and element whose error at the landmarks, stress-free and supine, is said to be below
-# MM. ELEMENTS and ELEMENT come from a makefile of two lines, which make brings up to date before anything else; each
-# rung of the ladder, in the order of what they were measured to cost (docs/validation/mechanics.md), is a row of
-# pipelines/studies/cost.tsv.
+# ACCURACY=MM selects the cheapest mesh and element whose estimated error at the landmarks, stress-free and supine, is below
+# MM. ELEMENTS and ELEMENT come from a makefile of two lines, which make brings up to date before anything else. The meshes
+# tried are rows of pipelines/studies/cost.tsv, in the order of their measured cost (docs/validation/mechanics.md).
 ifneq ($(strip $(ACCURACY)),)
 accuracy_settings = $(ACCURACY) $(ACCURACY_LADDER) $(MATERIALS) $(SUPPORT)
 accuracy_record = $(RUN)/.accuracy.settings
 ifneq ($(planning),)
-# A plan solves nothing: it shows the mesh chosen last, or the default where none was chosen yet.
+# A plan solves nothing: it shows the mesh chosen last, or the default if none has been chosen.
 -include $(wildcard $(RUN)/accuracy.mk)
 else
 $(RUN)/accuracy.mk: $(RUN)/labels.vtkhdf $(RUN)/geometry.vtkhdf $(TABULATE) \

@@ -2,8 +2,8 @@
 # Set-up and build, done before make looks at the stages: make remakes an included file first and then
 # starts again, so that the programs' own times decide which stages are out of date. (As ordinary
 # prerequisites, programs that a build leaves untouched would look older than the build.)
-# An installation (pipelines/installed.mk) has its programs: nothing is set up or built. What it cannot make are targets that
-# build programs, or read or write the source tree.
+# An installation (pipelines/installed.mk) contains its programs: nothing is set up or built. It cannot make the targets that
+# build programs or that read or write the source tree.
 source_goals := check fuzz release-check faults full-disk whole-tools clean-root slurm setup build package validation validation-page \
   stability% compare calibrate calibrate-invivo identification budget band-check band-truth matching page-check
 ifdef INSTALLED
@@ -15,7 +15,7 @@ SOURCES := $(shell find $(addprefix $(ROOT),libbreast tools cmake) $(PIPELINES)/
 endif
 $(eval PRESET_BUILD ?= $(default_PRESET_BUILD))
 
-# `make -n` and `make -q` only plan: they take the programs as they are, where make would build an included file first.
+# `make -n` and `make -q` only plan: they use the programs as they are, whereas make would build an included file first.
 letters := $(filter-out -%,$(firstword $(MAKEFLAGS)))
 planning := $(findstring n,$(letters))$(findstring q,$(letters))
 ifdef INSTALLED

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Settings (settings.tsv) are looked at before make or a shell expands them: unknown names, values that are none of the choices,
-# and file names with characters that make or a shell would read as code are refused in one line, before anything runs.
+# Settings (settings.tsv) are checked before make or a shell expands them: unknown names, values that are not among the choices,
+# and file names with characters that make or a shell would interpret as code are refused in one line, before anything runs.
 comma := ,
 empty :=
 space := $(empty) $(empty)
@@ -49,13 +49,14 @@ check_name = $(call refuse_blanks,$1)$(call refuse_strange,$1,$(filter-out $(may
   $(filter TUMOUR,$1),,$(call refuse_dash,$1))
 check_setting = $(if $(filter undefined default,$(origin $1)),,$(if $(filter $1,$(words_settings)),$(call \
   refuse_strange,$1,$(shell_characters)),$(call check_name,$1)))
-# Programs of the pipeline's own, built or installed.
+# Programs of libbreast, either built or installed.
 BUILD := $(ROOT)build/release
 BIN := $(or $(INSTALLED),$(BUILD)/bin)
-# "; did you mean X?" where a slip of the fingers may be meant, and something is built yet: $(call suggest,WORD,CANDIDATES).
+# The text "; did you mean X?" if WORD may be a misspelling of a candidate: $(call suggest,WORD,CANDIDATES). It is empty before
+# the first build.
 suggest = $(if $(wildcard $(BIN)/cases),$(shell $(BIN)/cases nearest $1 $2 --quiet))
 
-# Names given on the command line that are no settings.
+# Names given on the command line that are not settings.
 given := $(filter-out -% .% MAKE% GNUMAKEFLAGS,$(foreach v,$(.VARIABLES),$(if $(findstring command,$(origin $v)),$v)))
 unknown := $(filter-out $(known_settings),$(given))
 ifneq ($(unknown),)
@@ -66,8 +67,9 @@ endif
 $(foreach v,$(filter-out share $(if $(findstring command,$(origin CHROMIUM)),,CHROMIUM),$(known_settings)),$(call check_setting,$v))
 $(foreach v,$(program_settings),$(eval $v ?= $(BIN)/$(default_$v)))
 
-# What is not make's business it asks the program `cases`: $(call ask,ARGUMENTS). The answer is lines of make, between them a byte
-# that $(shell) leaves alone, or why not. Before the first build there is no such program: make builds it and reads everything anew.
+# Case files, cohorts and studies are read by the program `cases`, which make calls with $(call ask,ARGUMENTS). The answer consists
+# of lines of make, separated by a byte that $(shell) does not change, or it is an error message. Before the first build the
+# program does not exist and is not called: make builds it first and then reads all makefiles again.
 goals = $(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))
 line_end := $(shell printf '\036')
 answer = $(if $(filter 0,$(.SHELLSTATUS)),$(eval $(subst $(line_end),$(newline),$1)),$(error $(filter-out cases:,$1)$(outdated)))
@@ -76,14 +78,15 @@ ask = $(if $(asking),$(call answer,$(shell $(CASES) $1 --quiet 2>&1)))
 older = $(if $(INSTALLED),,$(shell find $(SOURCES) -newer $(CASES)))
 outdated = $(if $(older),; the programs are older than their sources: make -f $(PIPELINE) build)
 
-# $(call refuse_goals,WHERE,GOALS,WHY): where something stands in WHERE, the first of these goals that is asked for is refused.
+# $(call refuse_goals,CONDITION,GOALS,WHY): if CONDITION is not empty, the first of these goals on the command line is refused.
 refuse_goals = $(if $1,$(foreach goal,$(firstword $(filter $2,$(MAKECMDGOALS))),$(error $(goal): $3)))
-# $(call among,SETTING,CHOICES): every word of it is one of them (of none where `cases` was not asked for them).
+# $(call among,SETTING,CHOICES): every word of the setting must be one of the choices. An empty list of choices is not checked:
+# before the first build, `cases` cannot be asked for it.
 among = $(if $2,$(foreach w,$(filter-out $2,$($1)),$(error $1: '$w' is none of $2$(call suggest,$w,$2))))
-# A plain number: nothing is left without its digits and one point.
+# A plain number: nothing remains after its digits and one point are removed.
 without = $(if $2,$(call without,$(subst $(firstword $2),,$1),$(wordlist 2,99,$2)),$1)
 plain_number = $(if $(filter-out .,$(call without,$($1),0 1 2 3 4 5 6 7 8 9)),$(error $1: '$($1)' is not a number))
-# Called when all settings have their values; paths and option texts are looked at by the programs.
+# Called when all settings have their values; paths and option texts are checked by the programs.
 define check_values
 $(foreach v,$(known_settings),$(if $(filter number,$(choices_$v)),$(call plain_number,$v),$(if $(choices_$v),$(call among,$v,$(choices_$v)))))
 $(if $(wildcard $(MATERIALS)),,$(call among,MATERIALS,$(material_sets)))

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The patient's own material set from a second posture: landmarks (LANDMARKS=pairs.tsv, or marks of 3D Slicer, PRONE.mrk.json,SUPINE.mrk.json)
-# or a supine scan (SUPINE=scan, or SUPINE=phantom, the phantom's own) or both. The chain runs with it; landmarks.tsv says how far each
-# landmark is from where it was seen with this set, with Table II (seed2008) and with the set expected, and figures/postures.png
-# shows both postures. Everything of the second scan lies in RUN/second.
+# The patient's own material set is identified from a second posture: from landmarks (LANDMARKS=pairs.tsv, or marks of 3D Slicer,
+# PRONE.mrk.json,SUPINE.mrk.json), from a supine scan (SUPINE=scan, or SUPINE=phantom for that of the phantom), or from both. The
+# chain runs with this set. landmarks.tsv contains the distance of each landmark from its observed position with this set, with
+# Table II (seed2008) and with the prior set; figures/postures.png shows both postures. All files of the second scan are in
+# RUN/second.
 IDENTIFY ?= $(BIN)/identify
 ifneq ($(LANDMARKS)$(SUPINE),)
 landmark_files := $(subst $(comma), ,$(LANDMARKS))
@@ -31,7 +32,7 @@ $(RUN)/second/labels.vtkhdf $(RUN)/second/points.vtp &: $(supine_scan) $(SEGMENT
 second_scan := $(RUN)/second/points.vtp $(RUN)/second/labels.vtkhdf $(RUN)/labels.vtkhdf
 second_skin := --surface $(RUN)/second/points.vtp --labels $(RUN)/labels.vtkhdf --second-labels $(RUN)/second/labels.vtkhdf \
   --seen $(RUN)/second/seen.vtp --second $(RUN)/second/predicted.vtkhdf
-# A phantom's supine landmarks judge what was identified without them.
+# The supine landmarks of a phantom are used to judge the set, which was identified without them.
 second_judge := $(if $(supine_truth),$(if $(LANDMARKS),,--judge $(supine_truth)))
 second_states := $(RUN)/second/predicted.vtkhdf $(RUN)/second/seen.vtp
 $(RUN)/figures/postures.png: $(RUN)/second/predicted.vtkhdf $(RUN)/second/seen.vtp $(RENDER)

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# From view to view, judged: derivatives of the compressed shapes for the band, and the matched curves of the
-# phantom's landmarks against their true places (target `truth` makes these, many minutes).
+# Evaluation of the matching between views: derivatives of the compressed shapes for the band, and the matched curves of the
+# phantom's landmarks compared with their true positions (made by the target `truth`, which takes many minutes).
 SENSITIVITY ?= $(BIN)/sensitivity
 BAND_STATES := cc mlo truth-cc truth-mlo
 $(BAND_STATES:%=$(RUN)/%-sensitivity.vtkhdf): $(RUN)/%-sensitivity.vtkhdf: $(RUN)/%.vtkhdf $(RUN)/reference.vtkhdf $(SENSITIVITY)
 	$(SENSITIVITY) $(RUN)/reference.vtkhdf $< $@ $(PRONE) $(MECHANICS) $(SUPPORT) \
 	  --table $(basename $@).tsv $(common)
 
-# What the material set leaves open stands in the place of the priors of softness and supports, where the set says it.
+# If the material set contains uncertainties, they replace the priors of softness and supports.
 set_file = $(or $(wildcard $(MATERIALS)),$(wildcard $(PIPELINES)/materials/$(MATERIALS).tsv))
 band_set = $(if $(set_file),$(shell grep -q '^[a-z_]*	uncertainty	' $(set_file) && echo $(MATERIALS)))
 # matching.tsv: the chain from the MR; matching-true-mesh.tsv: the true body on as many elements as the chain's.

@@ -1,31 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The phantom: a breast MR with known truth. Its stress-free shape is solved to prone on a template and
-# a mesh the chain never uses.
+# The phantom is a breast MR with known truth. Its prone shape is computed from its stress-free shape on a template and a mesh
+# that the chain never uses.
 PHANTOM_MR := $(RUNS)/phantom/$(PRESET).nrrd
 PHANTOM_TRUTH := $(RUNS)/phantom/$(PRESET)-truth
 ifndef MR
   MR := $(PHANTOM_MR)
   TRUTH := $(PHANTOM_TRUTH)/landmarks.tsv
-  # The paper puts its tumour where it likes, on the gland's margin; ours is the phantom's, whose way is known.
+  # The paper places its tumour freely, at the margin of the gland; ours is the phantom's, whose displacement is known.
   TUMOUR ?= $(PHANTOM_TRUTH)/tumour-$(SIDE).tsv
 else
-  # A patient's scan gets no tumour that nobody found: TUMOUR=x,y,z names one, TUMOUR=auto makes an artificial one.
+  # No tumour is added to a patient's scan by default: TUMOUR=x,y,z names one, TUMOUR=auto makes an artificial one.
   TUMOUR ?= none
 endif
-# A run belongs to one scan and one side: another is refused before it overwrites anything.
+# A run belongs to one scan and one side: another scan or side is refused before it overwrites anything.
 scan := $(if $(TRUTH),phantom:$(PRESET),$(MR))
 ifneq ($(filter-out help setup build check package clean calibrate cohort cohort-table cohort-script population calibrate-invivo identification,$(goals)),)
   $(call ask,check $(RUN) $(SIDE) $(scan))
 endif
-# The preset `paper` was fitted to the answer of this chain: the rows it was fitted to say so (tabulate).
+# The preset `paper` was fitted to results of this chain; tabulate marks the rows to which it was fitted.
 export CALIBRATED := $(if $(TRUTH),$(if $(filter paper,$(PRESET)),$(PHANTOM_MR:.nrrd=.json) $(SIDE)))
-# The tumour as hexmesh is told, unless HEXMESH_OPTIONS names another; no_tumour: none, so that the chain ends with the
-# curves of all CC points and their page instead of one curve.
+# `tumour` is the option that gives hexmesh the tumour, unless HEXMESH_OPTIONS names another. If `no_tumour` is not empty, there is
+# no tumour, and the chain ends with the curves of all CC points and their page instead of one curve.
 tumour = $(if $(findstring --tumour,$(HEXMESH_OPTIONS)),,--tumour $(TUMOUR))
 no_tumour := $(findstring --tumour none,$(HEXMESH_OPTIONS)$(tumour))
 landmarks := $(if $(no_tumour),,tumour$(comma))nipple
 CURVE := $(if $(no_tumour),,$(RUN)/curve.vtp)
-# What asks where the tumour goes.
+# Targets that need the displacement of the tumour.
 need_tumour := tables table3 table4 table5 table6 table7 table8 findings fig7 leaveout wall-sensitivity band
 $(call refuse_goals,$(no_tumour),$(need_tumour),needs a tumour to follow. Name its place with TUMOUR=x$(comma)y$(comma)z (patient LPS$(comma) \
   mm)$(comma) a table or labels; or TUMOUR=auto for an artificial one)
@@ -38,12 +38,12 @@ $(PHANTOM_MR) $(PHANTOM_TRUTH)/landmarks.tsv $(PHANTOM_TRUTH)/tumour-$(SIDE).tsv
 	  --report $(basename $(PHANTOM_MR)).json $(share)
 	@$(call record,phantom)
 
-# The scan alone: what cases of one phantom share (cohort.mk).
+# Makes only the scan, which all cases of one phantom share (cohort.mk).
 .PHONY: phantom-scan
 phantom-scan: $(if $(TRUTH),$(MR))
 
-# What these say of a chain is said by the phantom's own body: of a scan there is none, the printed model is that of held
-# breasts, and some hold theirs.
+# These targets compare a chain with the true body of the phantom. A scan has no such body; the model as printed in the paper is
+# that of a breast held at its chest wall, and some targets hold it there.
 body_slides := $(filter $(sliding_presets),$(PRESET))
 of_truth := truth matching band-truth budget
 $(call refuse_goals,$(if $(TRUTH),,scan),$(of_truth),a scan has no truth; leave MR out$(comma) PRESET=NAME names a phantom)
@@ -53,11 +53,11 @@ $(call refuse_goals,$(if $(PAPER),$(body_slides)),$(of_truth),with PAPER=1 the b
   slides; leave one of the two out)
 
 # Compressed truth of the phantom: the same body (its cut held, or sliding on its ribs with its own supports) on meshes of two
-# levels (phantom-mesh), whose distance is the truth's own error: 4280 and 34240 elements where the cut is held, 900 and 2176
-# where friction makes every step dear. The finer plates stand where the coarser's do.
-# Many minutes, so a target of its own; TRUTH_TABLE is a truth for probe --truth.
-# In CC the plates stand 20 mm in front of the wall: this body goes on below its fold, and a detector nearer to the wall, raised
-# as it is, presses that skin into a pleat (docs/validation/truth-sliding.md).
+# levels (phantom-mesh), whose distance is the truth's own error: 4280 and 34240 elements if the cut is held, 900 and 2176
+# elements if friction makes every step expensive. The plates have the same positions on both meshes.
+# This takes many minutes and is therefore a separate target; TRUTH_TABLE is a truth for probe --truth.
+# In CC the plates start 20 mm in front of the chest wall: this body continues below its inframammary fold, and a raised detector
+# nearer to the wall would press the skin there into a pleat (docs/validation/truth-sliding.md).
 TRUTH_AT := $(PHANTOM_TRUTH)/$(SIDE)
 TRUTH_COARSE ?= $(if $(body_slides),0.5,1)
 TRUTH_FINE ?= $(if $(body_slides),0.75,2)
@@ -65,7 +65,7 @@ TRUTH_SET := $(TRUTH_AT)-set.tsv
 truth_edge_cc := 20
 truth_edge_mlo := auto
 truth_body = $(if $(body_slides),--materials $(TRUTH_SET) --image-edge $(truth_edge_$1),--cut fixed)
-# What is the same body of PHANTOM_OPTIONS.
+# The part of PHANTOM_OPTIONS that describes the same body.
 truth_alike = $(filter --seed=% --materials=% --coarse=%,$(subst --seed ,--seed=,$(subst --materials ,--materials=,$(subst \
   --coarse ,--coarse=,$(strip $(PHANTOM_OPTIONS))))))
 TRUTH_TABLE := $(PHANTOM_TRUTH)/$(SIDE)-compressed.tsv
@@ -89,7 +89,7 @@ $(TRUTH_AT)-coarse-$1.vtkhdf: $(TRUTH_AT)-coarse.vtkhdf $(TRUTH_SET) $(COMPRESS)
 	@$$(call record,truth-$1)
 $(TRUTH_AT)-fine-$1.vtkhdf: $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-coarse-$1.vtkhdf $(COMPRESS)
 	$$(call truth_compress,$1) --view $2 $$(call same_plates,$(TRUTH_AT)-coarse-$1.json)
-# The chain between plates as far apart and at the same place as the truth's.
+# The chain, compressed between plates with the distance and position of those of the truth.
 $(RUN)/truth-$1.vtkhdf: $(RUN)/reference.vtkhdf $(TRUTH_TABLE) $(COMPRESS)
 	$(COMPRESS) $$< $$@ --view $2 $$(call same_plates,$(TRUTH_AT)-fine-$1.json) \
 	  --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) $(SUPPORT) $$(common)

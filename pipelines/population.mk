@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Every breast of pipelines/invivo/cohort.tsv is solved from the scan to the supine shape, and a table compares the motion of its
-# tissue with that of living women (pipelines/invivo/women.tsv). Cases of scans take part when POPULATION_SCANS names the scan's file.
+# tissue with that of living women (pipelines/invivo/women.tsv). Cases with a scan are included if POPULATION_SCANS names its file.
 #   make population                                the table, and the figure of motion against depth
-# The calibration half of the cohort is for `make calibrate-invivo` (tests/bench/calibrate.mk).
+# The calibration half of the cohort is used by `make calibrate-invivo` (tests/bench/calibrate.mk).
 POPULATION_RUNS := $(RUNS)/population
 population_files = $(patsubst %,$(POPULATION_RUNS)/%/$2.vtkhdf,$1)
 population_both = $(population_calibration) $(population_judging)
 ifneq ($(filter population calibrate-invivo,$(MAKECMDGOALS)),)
-# One phantom serves both its sides: cases run one after the other.
+# Both sides share one phantom; therefore the cases run one after the other.
 .NOTPARALLEL:
 population_calibration :=
 population_judging :=

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What people look at: the page of both views, the run for 3D Slicer, expected values, and one self-contained report.
+# Results for people: the page of both views, the run for 3D Slicer, expected values, and one self-contained report.
 
 # ---- pointing at either view draws curve, band and arc in the other -----------------------------------------
-# A page is easily sent on: voxels of a patient's scan are in it only with PAGE_SCAN=yes; a phantom's may be seen by all.
+# A page is easily forwarded. It therefore contains voxels of a patient's scan only with PAGE_SCAN=yes; a phantom may be shown.
 PAGE_SCAN ?= $(if $(TRUTH),yes,no)
 page_scan := $(if $(filter yes,$(PAGE_SCAN)),--scan $(MR) $(if $(SERIES),--series $(SERIES)))
 # With friction or a wall on springs there are no derivatives yet: the page then shows curves without bands.
@@ -14,7 +14,7 @@ $(RUN)/lookup.h5 $(RUN)/page.html &: $(page_states) $(RUN)/cc.vti $(RUN)/mlo.vti
 	  --from-image $(RUN)/cc.vti --to-image $(RUN)/mlo.vti $(page_scan) --report $(RUN)/lookup.json $(share)
 	@$(call record,lookup)
 page: $(RUN)/page.html
-# In a headless browser (Debian package chromium, not installed by setup).
+# The PDF is printed by a headless browser (Debian package chromium, which setup does not install).
 page-check: $(RUN)/page.html $(CC2MLO)
 	tests/page/check.sh $(BIN) $(RUN) $(RUN)
 
@@ -43,13 +43,13 @@ report: $(RUN)/report.html $(if $(CHROMIUM),$(RUN)/report.pdf)
 	@$(if $(CHROMIUM),,echo "report: no PDF: chromium is not installed (apt-get install chromium); any browser prints the page" >&2)
 all: figures tables $(if $(EXPECTED),verify) report
 .PHONY: page page-check slicer verify report all
-# What the slow targets left behind is embedded with its date. Named as prerequisites they would be solved anew where a
-# program is newer; so the page remembers which files they were, of when.
+# Results of the slow targets are embedded with their dates. As prerequisites they would be solved again whenever a program is
+# newer; therefore the page records these files and their dates instead.
 REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/*.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png $(RUN)/budget/*.tsv $(RUN)/budget/*.png \
   $(RUNS)/stability/*.tsv $(RUNS)/compare/all.tsv $(RUNS)/compare/pressed.tsv $(addprefix $(RUNS)/population/,judging.tsv motion.png))
 report_settings = $(foreach file,$(REPORT_EXTRAS),$(file) $(shell stat -c %Y $(file)))
 report_record = $(RUN)/report.settings
-# How the breast moved beside living women, where its wall slides.
+# The motion of the breast compared with living women, if the breast slides on its chest wall.
 $(RUN)/population.tsv: $(RUN)/supine.vtkhdf $(PIPELINES)/invivo/women.tsv $(POPULATION_TOOL)
 	$(POPULATION_TOOL) $< --women $(word 2,$^) --table $(RUN)/motion.tsv --summary $@ --report $(RUN)/population.json --quiet
 $(F)/motion.png: $(RUN)/population.tsv $(PIPELINES)/population.gp

@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The chain, every stage once: what it reads, its program, its settings. A case is a folder that has all stages
-# ($(RUN)); a variant is a folder that has some and takes the others from where it comes from (pipelines/studies.mk).
+# The stages of the chain, each defined once: the files it reads, its program, its settings. A case is a folder with all stages
+# ($(RUN)); a variant is a folder with some stages, which takes the others from the folder it starts from (pipelines/studies.mk).
 #   $(call case_rules,DIR,STAGES)   the rules of these stages in DIR, whose settings are the variables DIR@ATTRIBUTE
-# In the case STAGE.vtkhdf is the target and a failed stage fails make. In a variant STAGE.json is: a solve that ends
-# early is a result with its reason (`cases attempt`).
+# In the case, the target is STAGE.vtkhdf, and make fails if a stage fails. In a variant, the target is STAGE.json: a solve that
+# ends early is a result, and its report states the reason (`cases attempt`).
 STAGES := labels geometry mesh reference supine cc mlo cc-mammogram mlo-mammogram curve slopes
 
 # ---- what a stage is: $1 is the folder it is made in -------------------------------------------------------
-# reads_STAGE      the stages whose files it takes, in the order of its arguments; also_STAGE: those it waits for beside them
-# writes_STAGE     its file, where that is not STAGE.vtkhdf, and what is made with it; needs_STAGE: other files it depends on
+# reads_STAGE      the stages whose files it reads, in the order of its arguments; also_STAGE: further stages it depends on
+# writes_STAGE     its file, if not STAGE.vtkhdf, and files made with it; needs_STAGE: other files it depends on
 # fixed_STAGE      arguments that follow from the stage; options_STAGE: its settings
 program_labels = $(SEGMENT)
-# The scan stands where the others name their stages' files; it is a setting too.
+# The first stage reads the scan, where the others read the files of stages; the scan is also a setting.
 scan_labels = $(MR)
 needs_labels = $(MR_FILES) $(CHEST_WALL)
 writes_labels := labels.vtkhdf points.vtp
 fixed_labels = --points $1/points.vtp $(if $(filter $(RUN),$1),$(contours))
 options_labels = --side $(SIDE) $(addprefix --series ,$(SERIES)) $(addprefix --chest-wall ,$(CHEST_WALL)) $($1@segment)
-# Contours to judge the result by; a program in the place of segment need not draw them.
+# Contours for checking the result; a program that replaces segment need not draw them.
 contours = $(if $(filter $(BIN)/segment,$(SEGMENT)),--overlay $(RUN)/contours.png)
 before_labels = $(if $(filter $(RUN),$1),@$(CASES) record $(RUN) $(SIDE) $(scan) --quiet)
 
@@ -33,7 +33,7 @@ options_mesh = $($1@hexmesh) $(if $(findstring --tumour,$($1@hexmesh)),,--tumour
 program_reference = $(BACKWARD)
 reads_reference := mesh
 options_reference = $($1@prone) $(mechanics)
-# What all solves share: law and element, and what holds the breast.
+# Options of all solves: law, element and supports of the breast.
 mechanics = $($1@mechanics) $(support)
 support = $(addprefix --wall ,$($1@wall)) $(addprefix --cut ,$($1@cut))
 needs_reference = $(or $(wildcard $($1@materials)),$(filter $(RUN)/%,$($1@materials)))
@@ -44,7 +44,7 @@ fixed_supine := --posture supine
 options_supine = $(mechanics)
 needs_supine = $(needs_reference)
 
-# The two views: compress, then project; plates as far apart as the case asks, or where the phantom's truth has them.
+# The two views: compression, then projection. The plates have the distance that the case asks for, or their true positions.
 define view_stages
 program_$1 = $$(COMPRESS)
 reads_$1 := reference
@@ -67,7 +67,7 @@ reads_curve := cc mlo
 writes_curve := curve.vtp curve.tsv
 fixed_curve = --landmark tumour --table $1/curve.tsv
 
-# Slopes d ln u / d ln s of the prone-to-supine motion by the stiffness of tissues.
+# Slopes d ln u / d ln s of the prone-to-supine displacement u with respect to the stiffness factors s of the tissues.
 
 program_slopes = $(SENSITIVITY)
 reads_slopes := reference supine
@@ -76,21 +76,21 @@ fixed_slopes = --table $1/slopes.tsv
 options_slopes = $($1@prone) $(mechanics) --parameters $($1@slopes)
 
 # ---- the rules ---------------------------------------------------------------------------------------------
-# Where DIR has a stage from: itself, or where it comes from. Its file; and the target that makes it.
+# The folder from which DIR takes a stage (DIR or the folder it starts from), the file of the stage, and the target that makes it.
 home = $(if $(filter $2,$($1@stages)),$1,$(call home,$($1@from),$2))
 file_of = $(call home,$1,$2)/$2.vtkhdf
 made_in = $(if $(filter $(RUN),$1),$(addprefix $1/,$(or $(writes_$2),$2.vtkhdf)),$1/$2.json)
 target_of = $(firstword $(call made_in,$(call home,$1,$2),$2))
-# A tumour where the mesh it comes from has it: {tumour} among the options.
+# {tumour} in the options is the position of the tumour in the mesh from which the variant starts.
 placed = $(if $(findstring {tumour},$2),$(if $(no_tumour),$(error $1: needs a tumour to follow, TUMOUR=x$(comma)y$(comma)z))$(subst \
   {tumour},$$($(tabulate) place $(call home,$($1@from),mesh)/mesh.json tumour),$2),$2)
-# A variant's solve may end early; one that waits for another variant (column `if`) ends with it.
+# The solve of a variant may end early. A variant that depends on another one (column `if`) then ends for the same reason.
 inputs_of = $(foreach s,$(reads_$2),$(call file_of,$1,$s))
 attempt = $(if $(filter $(RUN),$1),,$(CASES) attempt $1/$2.json '$(strip $(call inputs_of,$1,$2) $(addsuffix /supine.vtkhdf,$($1@if)))' --quiet --)
 run_stage = $(strip $(call attempt,$1,$2) $(program_$2) $(scan_$2) $(call inputs_of,$1,$2) $(addprefix $1/,$(firstword $(or $(writes_$2),$2.vtkhdf))) \
   $(fixed_$2) $(call placed,$1,$(options_$2)) --report $1/$2.json $(share))
 settings_of = $(program_$2) $(scan_$2) $(options_$2)
-# A folder's name may hold a comma: it is no argument in what is expanded later.
+# The name of a folder may contain a comma; it must not separate arguments when the text is expanded later.
 define stage_rule
 $(call made_in,$1,$2) $(if $(word 2,$(call made_in,$1,$2)),&): $(foreach s,$(reads_$2) $(also_$2),$(call target_of,$1,$s)) \
   $(program_$2) $(needs_$2) $(if $(findstring {tumour},$(options_$2)),$(call target_of,$($1@from),mesh)) \
@@ -121,12 +121,12 @@ MATERIAL_FILE := $(call needs_reference,$(RUN))
 MATERIAL_TABLE := $(or $(MATERIAL_FILE),$(PIPELINES)/materials/$(MATERIALS).tsv)
 $(call case_rules,$(RUN),$(STAGES))
 
-# Without gland: the set with the fibroglandular law replaced by fat's.
+# The model without gland uses the set in which the law of fat replaces that of fibroglandular tissue.
 $(RUN)/fat-only.tsv: $(or $(whole_set),$(MATERIAL_TABLE))
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) set fat-only $<)
 
-# The same with the lateral cut held: what this boundary condition changes at the landmarks.
+# The same with the lateral cut held, which shows the effect of this boundary condition at the landmarks.
 cut-fixed_settings := $(BACKWARD) $(FORWARD) $(MECHANICS)
 $(RUN)/reference-cut-fixed.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD) $(MATERIAL_FILE) $(call changed,cut-fixed)
 	$(BACKWARD) $< $@ --posture prone $(MECHANICS) --cut fixed $(common)

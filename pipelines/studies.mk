@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# A study is a table, pipelines/studies/NAME.tsv (its columns: pipelines/studies/README.md); each row is a variant of the case, the folder
-# RUN/studies/NAME/VARIANT with a .json report of every stage it makes (stages.mk). One more experiment is one more line. One's own:
-#   make -f Makefile.pipeline STUDY=softer.tsv study      solves every row; RUN/studies/softer.tsv says what became of each
+# A study is a table, pipelines/studies/NAME.tsv, whose columns are described in pipelines/studies/README.md. Each row is a variant
+# of the case: the folder RUN/studies/NAME/VARIANT, with a .json report of every stage that it makes (stages.mk). A further
+# experiment needs only a further row. A study in a file of the user:
+#   make -f Makefile.pipeline STUDY=softer.tsv study      solves every row; RUN/studies/softer.tsv lists the results
 # `cases` reads and checks the tables; nothing in them is executed.
 study_dir = $(RUN)/studies/$1
-# $(call results,STUDY,VARIANTS,STAGES): their reports.
+# $(call results,STUDY,VARIANTS,STAGES): the reports of these stages.
 results = $(foreach v,$2,$(foreach s,$3,$(call study_dir,$1/$v)/$s.json))
 placeholders := ELEMENTS MATERIALS RUN PRINTED_HEXMESH PRINTED_MECHANICS FINDINGS_FINEST BUDGET_HEXMESH
 BUDGET_HEXMESH = --elements $(BUDGET_FINER) $(subst --elements $(ELEMENTS),,$(HEXMESH_OPTIONS))
@@ -15,7 +16,7 @@ study_name := $(subst $(comma),_,$(basename $(notdir $(STUDY))))
 study_file := $(if $(filter $(study_name),$(studies)),,$(STUDY))
 $(if $(study_file),$(if $(wildcard $(study_file)),,$(error STUDY: '$(STUDY)' is neither a file nor one of $(studies))))
 all_studies := $(studies) scaled-as-printed $(if $(study_file),$(study_name))
-# The rows of Tables III to VI once more, as the paper printed them.
+# The rows of Tables III to VI are solved a second time, with the model as printed in the paper.
 tables_of_studies := $(join $(studies:%=%=),$(own_studies)) scaled-as-printed=$(PIPELINES)/studies/scaled.tsv@findings/as-printed \
   $(addprefix $(study_name)=,$(study_file))
 variant_dirs :=

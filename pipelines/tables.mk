@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The paper's Tables II to VI: prone-to-supine displacements of tumour and nipple when one tissue's stiffness
-# is scaled. Each row is a backward and a forward solve (studies/scaled.tsv); each table puts the paper's row beside ours. The
+# The paper's Tables II to VI: prone-to-supine displacements of tumour and nipple if the stiffness of one tissue
+# is scaled. Each row is a backward and a forward solve (studies/scaled.tsv); each table shows the paper's values and ours. The
 # paper's data set is private: with the phantom the rows are comparable, with a scan only the trends are. Every table is made
 # twice: with the case's own mesh and mechanics (tableN.tsv), and as printed in the paper (tableN-as-printed.tsv).
-# Table VII and VIII are ours: slopes in one solve, and the conclusions under other material sets.
+# Tables VII and VIII are not in the paper: slopes from one solve, and the conclusions under other material sets.
 TABLES := $(RUN)/tables
 PAPER_TABLES := 3 4 5 6
 tissue_3 := fat
 tissue_4 := fibroglandular
 tissue_5 := skin
 tissue_6 := tumour
-# The rows of a table that are solved: all but the case itself, whose 100 per cent Table VI has on a mesh of its own.
+# The rows of a table that are solved: all except the case itself. Table VI has a mesh of its own, on which 100 per cent is solved.
 rows_of = $(call results,$1,$(filter $2-%,$(filter-out tumour-mesh,$(scaled_variants))),supine)
 BOTH := own $(if $(PAPER),,printed)
 ending_printed := -as-printed
@@ -31,7 +31,7 @@ $(TABLE_FILES): | $(TABLES)/.
 $(TABLES)/.:
 	@mkdir -p $@
 
-# $(call table_rules,MODEL,NUMBER,TISSUE): relative displacements of Table VI refer to its own mesh.
+# $(call table_rules,MODEL,NUMBER,TISSUE): the relative displacements in Table VI refer to its own mesh.
 define table_rules
 table$2: $(TABLES)/table$2$(ending_$1).tsv
 $(TABLES)/table$2$(ending_$1).tsv: $(PIPELINES)/paper/table$2.tsv $(call rows_of,scaled$(ending_$1),$3) $(base_$1) $(TABULATE)
@@ -45,21 +45,22 @@ $(TABLES)/table2.tsv: $(PIPELINES)/paper/table2.tsv $(MATERIAL_TABLE) $(TABULATE
 	$(call table,$(tabulate) constants $< $(MATERIAL_TABLE))
 	@$(call record,table2)
 
-# The conclusions: from the paper's own rows, as printed, and as the case is solved.
+# The conclusions, from three models: the values of the paper, the model as printed, and the case as solved.
 $(TABLES)/conclusions.tsv: $(PIPELINES)/paper/conclusions.tsv $(foreach m,$(BOTH),$(PAPER_TABLES:%=$(TABLES)/table%$(ending_$m).tsv)) $(TABULATE)
 	$(call table,$(tabulate) conclusions $< $(TABLES) $(if $(PAPER),,as-printed))
 
-# Table VII, ours: all slopes from one solve of `sensitivity` on the base state, against the rows solved again.
+# Table VII (not in the paper): all slopes from one solve of `sensitivity` on the base state, compared with the rows solved again.
 $(TABLES)/table7.tsv: $(RUN)/slopes.tsv $(call results,scaled,tumour-100,slopes) $(foreach n,$(PAPER_TABLES),$(call rows_of,scaled,$(tissue_$n))) \
   $(TABULATE)
 	$(call table,$(tabulate) slopes $(RUN)/supine.json $(call study_dir,scaled) $< $(call study_dir,scaled/tumour-100)/slopes.tsv)
 	@cat $@
 
-# How much of the paper's own figures is numerical, against the finest solution (about FINDINGS_FINEST^3 27-node elements).
+# The numerical part of the paper's values, from comparison with the finest solution (about FINDINGS_FINEST^3 27-node elements).
 $(TABLES)/findings.tsv: $(RUN)/slopes.tsv $(call results,findings,$(findings_variants),slopes) $(TABULATE)
 	$(call table,$(tabulate) findings $(RUN) $(findings_variants))
 
-# Table VIII, ours: the paper's conclusions on the case's mesh under the sets of studies/table8.tsv, slopes from one solve each.
+# Table VIII (not in the paper): the paper's conclusions on the mesh of the case with the sets of studies/table8.tsv; the slopes of
+# each set come from one solve.
 SETS := $(filter-out %-100 %-1000 %-2000,$(table8_variants))
 $(RUN)/columns.tsv: $(PIPELINES)/materials/seed2008.tsv
 	@mkdir -p $(@D)

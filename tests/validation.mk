@@ -16,7 +16,8 @@ slicer-table: slicer
 	$(tabulate) pages fill $(PAGES_WITH_TABLES)
 .PHONY: validation validation-page slicer-table
 
-# Below a table the page says of which run it is: $(call made_by,REPORT.json), whose date it has.
+# Records the run from which a table was made, which the page states below the table: $(call made_by,REPORT.json). The date is that
+# of the report.
 made_by = flock $(TABLES_OF_PAGE) $(tabulate) made $@ $1
 
 # How the compressed shapes converge with the mesh (studies/convergence.tsv).
@@ -25,13 +26,13 @@ $(TABLES_OF_PAGE)/compression-convergence.tsv: $(call results,convergence,$(conv
 	$(call table,$(tabulate) convergence $(call study_dir,convergence) $(convergence_variants))
 	$(call made_by,$<)
 
-# What the preset was fitted to, beside what its truth moves: the chain as solved and as printed.
+# The displacements to which the preset was fitted and those of its truth, with those of the chain as solved and as printed.
 $(TABLES_OF_PAGE)/calibration.tsv: $(RUN)/displacements.tsv $(base_printed) $(PHANTOM_MR) $(TABULATE)
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) calibration $(RUN) $(PHANTOM_MR:.nrrd=.json) $(SIDE))
 	$(call made_by,$(RUN)/supine.json)
 
-# Errors against the truth, as the summary has them.
+# Errors against the truth, as in the summary.
 $(TABLES_OF_PAGE)/truth.tsv: $(RUN)/truth.tsv $(TABULATE)
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) truth $<)

@@ -81,8 +81,8 @@ std::optional<BandModel> band_model(const MatchChoices& choices, const Matcher& 
   return band;
 }
 
-// Against a truth the statistics end the printed table, and have a file of their own beside a written one: a column of that is of
-// one kind.
+// With a truth, a printed table ends with its statistics. A written table has them in a separate
+// file, so that each of its columns contains one kind of value.
 void print_or_write(Table table, const std::vector<MatchResult>& results,
                     const MatchChoices& choices, Run& run) {
   const bool judged = !choices.question.truth.empty();

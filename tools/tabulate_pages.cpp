@@ -71,9 +71,10 @@ std::string report(const Request& r) {
   return report_page(run, context);
 }
 
-// Printed by a headless Chromium with a profile of its own. Its sandbox stays on wherever it can; it refuses to start with it as
-// root. The page itself forbids scripts (its content security policy; Chromium 156 prints nothing when told to switch them off),
-// and no network is reachable.
+// A headless Chromium with a temporary profile prints the page. Its sandbox remains on unless this
+// process runs as root, since Chromium then refuses to start with it. Scripts are forbidden by the
+// content security policy of the page itself, because Chromium 156 prints nothing if they are
+// switched off by an option. No network is reachable.
 std::string pdf(const Request& r) {
   const TemporaryFolder work;
   const fs::path made = work / "out.pdf";
@@ -128,14 +129,15 @@ std::string warnings(const Request& r) {
 
 const std::string runs_of_tables = "docs/tables/runs.tsv";
 
-// Of the source tree this program is run in; what is not committed is said.
+// The commit of the source tree in which this program runs, marked if there are uncommitted
+// changes.
 std::string commit_here() {
   const Captured said = capture_child({"git", "describe", "--always", "--dirty", "--exclude", "*"});
   if (said.exit_code != 0) throw failed_error("git describe: ", one_line(said.err));
   return one_line(said.out.substr(0, said.out.find('\n')));
 }
 
-// Of a run: as its report says, or when it wrote its table.
+// The date of a run: that in its report, or the date on which its table was written.
 std::string date_of(const fs::path& file) {
   if (file.extension() == ".json") {
     const std::string date = StageReport::read(file).text("date");

@@ -34,7 +34,7 @@ void attempt(const fs::path& report, const std::vector<fs::path>& inputs,
   }
   constexpr int not_converged = 3;
   const int code = run_child_to(command, -1, message_descriptor());
-  // A program of somebody else's need not write a report.
+  // A program that is not part of libbreast may write no report.
   if (code == 0 && !holds_something(report)) write_text(report, "{\n  \"status\": \"ok\"\n}\n");
   if (code != 0 && !(code == not_converged && holds_something(report)))
     throw failed_error(command.front(), " ended with exit code ", code);

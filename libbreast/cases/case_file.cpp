@@ -29,10 +29,10 @@ std::string trimmed(const std::string& text) {
 
 struct Line {
   std::string key, value;
-  bool of_makefile = false;  ///< := or ?=
+  bool of_makefile = false;  ///< assigned with := or ?=
 };
 
-// A comment begins at a '#' with a blank before it.
+// A comment in a value begins at a '#' that follows a blank.
 std::string without_comment(const std::string& value) {
   for (std::size_t at = 0; at + 1 < value.size(); ++at)
     if (blank(value[at]) && value[at + 1] == '#') return value.substr(0, at);

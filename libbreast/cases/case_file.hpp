@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Case files: the settings of a patient, KEY = VALUE a line, as data. Nothing in them is executed.
+// Case files contain the settings of one patient, one KEY = VALUE per line. They are read as data;
+// nothing in them is executed.
 #pragma once
 
 #include <filesystem>
@@ -11,16 +12,19 @@ namespace breast {
 
 struct CaseFile {
   std::vector<std::pair<std::string, std::string>> settings;  ///< in the order of the file
-  std::string warning;  ///< of a makefile of version 0.1, whose := and ?= are read as =; else ""
+  std::string warning;  ///< if := or ?= of a makefile of version 0.1 was read as =; otherwise ""
 
   bool has(const std::string& key) const;
 };
 
-/// `known`: the keys that a case may have. Throws Error (input) naming file and line for anything but KEY = VALUE, an unknown key,
-/// a key that stands there twice, and a value that holds what make or a shell would read as code. '#' begins a comment. Files named
-/// *.mk are makefiles of version 0.1.
+/// Reads a case file; `known` lists the keys that it may contain. A '#' at the start of a line or
+/// after a blank begins a comment. Files named *.mk are makefiles of version 0.1, in which := and
+/// ?= are read as =. Throws Error (input) if the file cannot be read or is larger than 64 kB, and,
+/// naming the file and the line, for a line that is not KEY = VALUE, for an unknown or repeated
+/// key, and for a value with a control character or one that make or a shell would interpret as
+/// code.
 CaseFile read_case_file(const std::filesystem::path& file, const std::vector<std::string>& known);
-/// The same from the bytes of the file `name`.
+/// The same for the content `text` of a file called `name`.
 CaseFile parse_case_file(const std::string& text, const std::string& name,
                          const std::vector<std::string>& known);
 

@@ -24,14 +24,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A line of a log longer than this is no sentence.
+// A reason is cut to this number of bytes: a longer line of a log is not a sentence.
 constexpr std::size_t longest_reason = 2000;
 
 bool from_make(const std::string& line) {
   return line.starts_with("make") || line.starts_with("set-up");
 }
 
-// "forward: no body of this shape ..."
+// Messages of programs begin with the name of the program: "forward: no body of this shape ...".
 bool from_program(const std::string& line) {
   const std::size_t colon = line.find(": ");
   return colon != std::string::npos && colon > 0 &&
@@ -55,7 +55,8 @@ void remove_all(std::string& text, const std::string& part) {
     text.erase(at, part.size());
 }
 
-/// Held until it is destroyed; another process waits for it.
+/// An exclusive lock on a file, held until destruction. If another process holds the lock, the
+/// constructor prints `says` and waits.
 class FileLock {
  public:
   explicit FileLock(const fs::path& file, const std::string& says = "")
@@ -86,7 +87,7 @@ void say(const CaseRun& run, const std::string& status, const std::string& reaso
   write_text(run.status, status + "\t" + reason + "\n");
 }
 
-// The exit code of the case, its phantom's scan first.
+// Runs the case and returns its exit code. The scan of a phantom is made first.
 int run_commands(const CaseRun& run) {
   if (run.phantom) {
     const FileLock alone(run.status.parent_path() / ".phantoms.lock");

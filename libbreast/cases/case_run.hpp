@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A case of a cohort as a process: its status while it runs and when it has ended, and why it failed.
+// A case of a cohort, run as a process: its status during and after the run, and the reason if it
+// fails.
 #pragma once
 
 #include <filesystem>
@@ -8,21 +9,27 @@
 
 namespace breast {
 
-/// Why a make failed, from what it printed: the file that make misses, else the last line a program printed before make's own
-/// "*** [...] Error", else make's. Without folders: the reason is the same wherever the case was run.
+/// The reason why a make failed, found in its output `log`: the file for which make has no rule;
+/// otherwise the last message of a program; otherwise the last line. Folders are removed from it,
+/// among them `runs`, so that the reason does not depend on the place where the case was run.
 std::string reason_of(const std::string& log, const std::filesystem::path& runs);
 
 struct CaseRun {
-  std::filesystem::path status;  ///< RUNS/CASE.status: "running", then "done", or "failed" and why
-  std::filesystem::path log;     ///< what the commands print
-  bool phantom = false;  ///< cases of one phantom share its scan, which only one of them may make
-  std::vector<std::string> command;  ///< the make of the case; its last word is the target
+  /// RUNS/CASE.status, which contains "running", then "done" or "failed" with the reason.
+  std::filesystem::path status;
+  std::filesystem::path log;  ///< output of the commands
+  /// True if the scan is a phantom's. Cases of one phantom share its scan, which only one of them
+  /// may make.
+  bool phantom = false;
+  std::vector<std::string> command;  ///< make command of the case; its last word is the target
 };
-/// Runs it and keeps the outcome in the status. False where a signal stopped it. One process a case: another waits until it has
-/// ended, because a task that a cluster starts again must not meet itself.
+/// Runs the case and writes its outcome to the status file. Returns false if a signal stopped the
+/// case, otherwise true, also if the case failed. Only one process at a time works on a case: a
+/// second one waits for the first, because a cluster may start a task again before its first run
+/// has ended. Throws Error (failed) if the lock file or the log cannot be opened.
 bool run_case(const CaseRun& run);
 
-/// Whether a status says done.
+/// True if the status file exists and says that the case is done.
 bool is_done(const std::filesystem::path& status);
 
 }  // namespace breast

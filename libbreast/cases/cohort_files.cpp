@@ -22,7 +22,7 @@ bool is_inner_case(const fs::path& file) {
   return file.filename() == "case.txt" || file.filename() == "case.mk";
 }
 
-// Hidden files and folders are none of a cohort.
+// Hidden files and folders do not belong to a cohort.
 std::vector<fs::path> visible(const fs::path& folder) {
   std::vector<fs::path> found;
   std::error_code none;

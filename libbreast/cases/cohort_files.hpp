@@ -9,15 +9,16 @@
 namespace breast {
 
 struct CohortEntry {
-  std::string name;  ///< of the case and of its folder below the cohort's runs
-  std::string file;  ///< its case file
-  bool phantom = false;
+  std::string name;      ///< of the case, and of its folder below the runs of the cohort
+  std::string file;      ///< path of its case file
+  bool phantom = false;  ///< true if the case file names no MR scan
 };
 
-/// COHORT/*.case and COHORT/*/case.txt (and, as version 0.1 called them, *.mk and */case.mk), in the order of their paths. Throws
-/// Error (input) where there is none, where a name below COHORT holds what make or a shell would read as code, where two cases have
-/// one name, and for every case file that is refused or names neither MR nor PRESET: a slip in MR would run the phantom as that
-/// patient.
+/// The cases of a cohort, sorted by the paths of their files: COHORT/*.case and COHORT/*/case.txt,
+/// and the names that version 0.1 used, *.mk and */case.mk. `known` lists the keys of case files.
+/// Throws Error (input) if there is no case, if a path below COHORT contains a character that is
+/// refused, if two cases have the same name, or if any case file is refused or names neither MR nor
+/// PRESET: a phantom would otherwise be run under the name of the patient whose MR was left out.
 std::vector<CohortEntry> cohort_entries(const std::filesystem::path& cohort,
                                         const std::vector<std::string>& known);
 

@@ -11,11 +11,11 @@ namespace breast {
 
 namespace {
 
-// A point's row of the table; "" where it has no solution.
+// Solves a point and returns its row of the table, or "" if the point has no solution.
 std::string tried(const Ladder& ladder, const std::string& point, const std::string& coarser) {
   std::vector<std::string> solve = ladder.make;
   solve.push_back((ladder.run / "studies/cost" / point / "supine.json").string());
-  // What make says is for the user to see; stdout is a table's.
+  // The user should see the output of make, but stdout is reserved for the table.
   if (run_child_to(solve, message_descriptor(), message_descriptor()) != 0)
     throw failed_error("accuracy: ", point, " could not be made");
   std::vector<std::string> judge = ladder.tabulate;

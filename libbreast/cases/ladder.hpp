@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Up a ladder of meshes, cheapest first, until the estimated error is met.
+// Solves the meshes of a ladder, the cheapest first, until the estimated error is small enough.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,17 @@
 namespace breast {
 
 struct Ladder {
-  std::filesystem::path run;
-  std::string wanted_mm;
-  std::vector<std::string> points;    ///< ELEMENT-TEMPLATE-N, rows of pipelines/studies/cost.tsv
-  std::vector<std::string> tabulate;  ///< the command that judges a point (its kind accuracy)
-  std::vector<std::string> make;      ///< the command that solves one
+  std::filesystem::path run;  ///< folder of the case
+  std::string wanted_mm;      ///< largest accepted estimate of the error, mm
+  /// Meshes ELEMENT-TEMPLATE-N of the ladder, which are rows of pipelines/studies/cost.tsv.
+  std::vector<std::string> points;
+  std::vector<std::string> tabulate;  ///< command `tabulate`, whose kind `accuracy` judges a point
+  std::vector<std::string> make;      ///< command that solves a point, without its target
 };
-/// Writes RUN/accuracy.tsv, what was tried, and RUN/accuracy.mk, the ELEMENTS and ELEMENT chosen: the first rung that is good
-/// enough, else the last that has a solution. What there is to say; throws Error (not converged) where none could be solved.
+/// Writes RUN/accuracy.tsv, a table of the points tried, and RUN/accuracy.mk, the ELEMENTS and
+/// ELEMENT chosen: those of the first point that meets `wanted_mm`, or otherwise of the last point
+/// that has a solution. Returns the table, followed by a remark if no point meets `wanted_mm`.
+/// Throws Error (not converged) if no point has a solution, and Error (failed) if a command fails.
 std::string climb(const Ladder& ladder);
 
 }  // namespace breast

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lines for make: what the makefile asks for while it is read, it takes as assignments.
+// Text for make: the makefile calls the tool `cases` while it is read, and evaluates the answer as
+// assignments.
 #pragma once
 
 #include <string>
@@ -7,19 +8,20 @@
 
 namespace breast {
 
-/// $(shell) turns line breaks into blanks: this byte, which no name or value may hold, stands for them
-/// (pipelines/check-settings.mk).
+/// Replaces the line break in answers to make, because $(shell) turns line breaks into blanks
+/// (pipelines/check-settings.mk). No name or value may contain this byte.
 inline constexpr char make_line_end = '\x1e';
 
-/// "NAME := VALUE", ended.
+/// The text "NAME := VALUE", ended by make_line_end.
 std::string make_assignment(const std::string& name, const std::string& value);
-/// "NAME += VALUE", ended.
+/// The text "NAME += VALUE", ended by make_line_end.
 std::string make_addition(const std::string& name, const std::string& value);
 
-/// The first character of `text` that is code to a shell or to make; "" without one.
+/// The first character of `text` that a shell or make would interpret as code; "" if there is none.
 std::string code_in(const std::string& text);
 
-/// "; did you mean X?" for the candidate that a slip of the fingers turned into `word`, whatever the letters' case; "" without one.
+/// The text "; did you mean X?" for the candidate X of which `word` is probably a misspelling;
+/// upper and lower case are not distinguished. Returns "" if no candidate is near enough.
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace breast

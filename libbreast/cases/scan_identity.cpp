@@ -66,7 +66,7 @@ std::string stamp_of(const std::string& scan) {
   return hash_of_text(all);
 }
 
-// As `sha256sum` lists files, so that records of older versions count.
+// Hashes are listed in the format of `sha256sum`, so that records of older versions remain valid.
 std::string content_of(const std::string& scan) {
   if (is_phantom(scan)) return scan;
   if (!fs::is_directory(scan)) return hash_of_text(hash_of_file(scan) + "  -\n");

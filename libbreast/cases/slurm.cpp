@@ -23,7 +23,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// A word of a shell's command, whatever it holds.
+// A word quoted for a shell, whatever characters it contains.
 std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -43,7 +43,8 @@ std::string text_of(const std::vector<SlurmCase>& cases) {
   return text;
 }
 
-// The make of the pipeline, no longer one for Slurm.
+// The make command of the pipeline with CLUSTER empty: within a job, make runs the case itself
+// instead of submitting it to Slurm.
 Words command_of(Words words, const Words& more) {
   words.push_back("CLUSTER=");
   words.insert(words.end(), more.begin(), more.end());
@@ -54,7 +55,7 @@ Words case_command(const Words& make, const fs::path& runs, const SlurmCase& one
                            "CASE=" + one.name, "summary"});
 }
 
-// The makes we start are none of the one that started us.
+// A make started here must not act as a sub-make of the make that started this program.
 void leave_make() {
   for (const char* name : {"MAKEFLAGS", "MFLAGS", "MAKEOVERRIDES", "MAKELEVEL"}) unsetenv(name);
 }
@@ -98,7 +99,7 @@ fs::path next_folder(const fs::path& runs) {
   return runs / ".slurm" / std::to_string(number);
 }
 
-// How many tasks an array may have.
+// The largest number of tasks in a job array: the site's setting, or Slurm's default if unknown.
 std::size_t largest_array() {
   constexpr std::size_t usual = 1001;
   Captured said;
@@ -113,7 +114,7 @@ std::size_t largest_array() {
              : usual;
 }
 
-// The number of the job.
+// Submits a job and returns its number.
 std::string sbatch(const SlurmRequest& request, const Words& options, const Words& script) {
   Words words{"sbatch", "--parsable"};
   words.insert(words.end(), options.begin(), options.end());
@@ -220,7 +221,7 @@ std::string submit_to_slurm(const SlurmRequest& request) {
   write_text(folder / "command", join(request.command, "\n") + "\n");
   write_text(folder / "cases", text_of(wanted));
   write_text(folder / "array.sh", array_script(request, folder, cost));
-  // The table takes a second or two a case.
+  // The table takes one or two seconds per case; 30 minutes and 6 seconds per case are requested.
   write_text(folder / "table.sh",
              job_script(request, folder,
                         {request.runs.filename().string() + "-table",
@@ -251,11 +252,11 @@ std::string run_slurm_task(const fs::path& folder, int offset) {
   const SlurmCase& one = cases[std::size_t(*task) + std::size_t(offset)];
   const fs::path runs = folder.parent_path().parent_path(), status = runs / (one.name + ".status");
   const std::string cores = of_environment("SLURM_CPUS_PER_TASK");
-  setenv("OMP_NUM_THREADS", cores.empty() ? "1" : cores.c_str(), 1);  // also what nproc says
+  setenv("OMP_NUM_THREADS", cores.empty() ? "1" : cores.c_str(), 1);  // nproc prints it, too
   char node[256] = "";
   gethostname(node, sizeof node - 1);
   const int starts = int(number_in(of_environment("SLURM_RESTART_COUNT")).value_or(0)) + 1;
-  // At once, and not at the end: the node may be lost.
+  // Printed at the start, because nothing could be printed at the end if the node were lost.
   dprintf(STDOUT_FILENO, "%s on %s, job %s, start %d\n", one.name.c_str(), node,
           of_environment("SLURM_JOB_ID").c_str(), starts);
   run_case({status, runs / (one.name + ".log"), one.kind == "phantom",

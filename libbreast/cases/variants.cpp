@@ -34,7 +34,7 @@ void check_among(const std::string& where, const Words& given, const Words& know
                         suggestion(word, known));
 }
 
-// A row is named by its first cell: what is missing is told better than by the number of a line.
+// The error names a row by its first cell, which tells the user more than the number of its line.
 void check_cells(const std::string& lines, const std::string& file) {
   std::istringstream in(lines);
   std::size_t columns = 0;
@@ -55,7 +55,7 @@ struct Studies::Row {
   std::size_t number;
   std::string study, from;
 
-  // Empty where it is "-" or has no column.
+  // The text of a cell; "" if it is "-" or if the table has no such column.
   std::string cell(const std::string& column) const {
     if (!table.has(column)) return "";
     const std::string& text = table.cell(number, column);

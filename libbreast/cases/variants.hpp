@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A study as data: a table whose rows are variants of a case, and the variables of make that they become.
+// Studies as data: the rows of a table are variants of a case, which are converted to variables of
+// make.
 #pragma once
 
 #include <map>
@@ -10,27 +11,32 @@
 
 namespace breast {
 
-/// What the rows of a study start from. pipelines/stages.mk has the attributes: DIR@stages, DIR@hexmesh, DIR@mechanics, ...
+/// The case from which the rows of a study start. Its attributes are the variables DIR@hexmesh,
+/// DIR@mechanics, ... of pipelines/stages.mk.
 struct StudyBase {
-  std::string run;                  ///< the case's folder; variants are RUN/studies/STUDY/VARIANT
-  std::vector<std::string> stages;  ///< of the chain, in order
-  std::string ends_at;              ///< what a row without `ends_at` asks for
-  std::vector<std::string> attributes;         ///< columns that hold options
-  std::map<std::string, std::string> of_case;  ///< the case's own
-  std::map<std::string, std::string>
-      placeholders;  ///< {NAME} in a cell; {tumour} stays for the stage to fill in
+  std::string run;                  ///< folder of the case; variants are RUN/studies/STUDY/VARIANT
+  std::vector<std::string> stages;  ///< all stages of the chain, in order
+  std::string ends_at;              ///< stages at which a row without `ends_at` ends
+  std::vector<std::string> attributes;         ///< names of the columns with options
+  std::map<std::string, std::string> of_case;  ///< attributes of the case
+  /// The text that replaces {NAME} in a cell. The placeholder {tumour} remains in the text, and the
+  /// stage replaces it.
+  std::map<std::string, std::string> placeholders;
 };
 
-/// The rows of studies as lines of make, in the order in which they are added: a row may come from one of an earlier study.
+/// Converts the rows of studies to lines of make. The order in which studies are added matters,
+/// since a row may start from a row of an earlier study.
 class Studies {
  public:
   explicit Studies(StudyBase base);
-  /// The rows of the table as variants of `from`, the case or STUDY/VARIANT. Throws Error (input) naming the table's file and the
-  /// row for a column, stage or name that is none, for a character that make or a shell would read as code, and where a row comes
-  /// from none above.
+  /// Adds the rows of the table `text` as variants of `from`: STUDY/VARIANT, or the case if empty.
+  /// Throws Error (input), naming `file` and where possible the row, for an unknown column or
+  /// stage, for a name that is not valid or occurs twice, for a character that make or a shell
+  /// would interpret as code, and for a row whose `from` is not a row above it.
   void add(const std::string& study, const std::string& text, const std::string& file,
            const std::string& from = "");
-  /// STUDY_variants and variant_dirs; DIR@from, DIR@given, DIR@stages, DIR@ends_at, DIR@if and DIR@ATTRIBUTE.
+  /// The lines of all rows added: STUDY_variants and variant_dirs, and for the folder DIR of every
+  /// variant DIR@from, DIR@given, DIR@stages, DIR@ends_at, DIR@if and DIR@ATTRIBUTE.
   const std::string& text() const { return text_; }
 
  private:
@@ -43,7 +49,7 @@ class Studies {
   std::string named(const std::string& cell) const;
 
   StudyBase base_;
-  std::map<std::string, Attributes> known_;  ///< by folder
+  std::map<std::string, Attributes> known_;  ///< attributes of the case and all variants, by folder
   std::string text_;
 };
 

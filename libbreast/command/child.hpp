@@ -16,9 +16,11 @@ namespace breast {
 /// process's terminal and alone receives its interrupts, and ends when this process does. Returns
 /// its exit code, or 128 plus the signal number if a signal ended it.
 int run_child(const std::vector<std::string>& words);
-/// The same with its output where the descriptors lead (-1: where this process's does).
+/// The same, with the output written to the descriptors `out` and `err` (-1: to those of this
+/// process).
 int run_child_to(const std::vector<std::string>& words, int out, int err);
-/// The same, its output added to the file `log`.
+/// The same, with the output appended to the file `log`. Throws Error (failed) if it cannot be
+/// opened.
 int run_child_into(const std::vector<std::string>& words, const std::filesystem::path& log);
 
 /// The same without showing the output, which is returned.

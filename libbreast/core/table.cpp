@@ -31,11 +31,13 @@ bool is_non_finite(const std::string& cell) {
   const bool number = end.ec == std::errc() && end.ptr == cell.data() + cell.size();
   return number && !std::isfinite(value);
 }
-// Only a table of one column has lines of nothing, which are skipped where it is read.
+// The text of a cell in a file. In a table of one column an empty cell would be an empty line,
+// which is skipped when the table is read; it is therefore written as "-".
 std::string written_cell(const std::string& cell, std::size_t columns) {
   return cell == empty_cell && columns > 1 ? "" : cell;
 }
-// Whatever the column, also one that is not used: a table of ours has no such cell.
+// Refused in every column, also in one that is not used: no table written by libbreast has such a
+// cell.
 void refuse_non_finite(const std::string& cell, const std::string& where) {
   if (is_non_finite(cell)) throw input_error(where, ": '", cell, "' is not finite");
 }
@@ -44,8 +46,8 @@ std::string join_tabs(const std::vector<std::string>& cells) {
   for (std::size_t c = 0; c < cells.size(); ++c) line += (c == 0 ? "" : "\t") + cells[c];
   return line + "\n";
 }
-// What is read from `text` must be the table: a tab or line break in a name, or a name that begins with '#', would
-// otherwise move or drop cells without a word.
+// What is read from `text` must be the table: a tab or line break in a name, or a name that begins
+// with '#', would otherwise move or drop cells without a word.
 void check_reads_back(const Table& table, const std::string& text) {
   std::string reason = "its rows or columns change";
   try {

@@ -32,17 +32,21 @@ struct Table {
                                     ///< differently
   std::string closed_text() const;  ///< text() and table_end, as in every file we write
 };
-/// The last line of a table written by libbreast is empty and, alone in the file, ends with a carriage return: other programs skip
-/// it, and a table that was truncated, at the end of a line too, lacks it.
+/// The last line of a table written by libbreast. It is empty, so that other programs skip it, and
+/// it is the only line of the file that ends with CR LF, so that a table truncated at the end of
+/// another line is recognised, too.
 inline constexpr std::string_view table_end = "\r\n";
-/// Whether the end of a file closes a table: with that line, or with "# rows N" as earlier versions did.
+/// True if `tail`, the end of a file, contains the closing line of a table: table_end, or the line
+/// "# rows N" of earlier versions.
 bool closes_table(std::string_view tail);
-/// A cell without a value: in a file it is empty, which other programs take for no number; "-", as people and older versions write
-/// it, is read as the same.
+/// A cell without a value, as a Table contains it. In a file the cell is empty, which other
+/// programs read as a missing number; "-", which people and older versions write, is read as the
+/// same.
 inline constexpr std::string_view empty_cell = "-";
 
-/// Lines starting with '#' are comments. "# rows N" closes a table of an older version, and N is checked. Throws Error (input) with
-/// the line number, also for a cell that is nan or inf.
+/// Reads a table. Lines starting with '#' are comments; "# rows N" closes a table of an older
+/// version, and N is checked. Throws Error (input) with the line number, also for a cell that is
+/// nan or inf.
 Table read_table(const std::filesystem::path& file);
 /// The same from a text; `name` is used in errors.
 Table parse_table(const std::string& text, const std::string& name);

@@ -93,11 +93,11 @@ void report_match(const MatchResult& result, Report& report);
 /// number of queries with each status (statuses/matched, statuses/behind_image ...), and
 /// inside_image_percent of all curves together.
 void report_truth(const std::vector<MatchResult>& results, Report& report);
-/// Rows mean, p95 and largest of the distances from the truth in mm; the row mean also contains the
-/// percentages of true places in the bands.
+/// A table of the distances from the truth, mm, with the rows mean, p95 and largest. The row mean
+/// also contains the percentages of true places inside the bands.
 Table truth_statistics(const std::vector<MatchResult>& results);
-/// Appends these rows to a curve_table, for people to read; the percentages are in the columns
-/// in_band_50 and in_band_95.
+/// Appends these rows to a curve_table that is printed for people to read; the percentages are in
+/// the columns in_band_50 and in_band_95.
 void add_statistics(const Table& statistics, Table& table);
 
 }  // namespace breast

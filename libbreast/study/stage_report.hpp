@@ -46,14 +46,16 @@ class StageReport {
   std::shared_ptr<const Impl> impl_;
 };
 
-/// The folder in which a variant of a study has its stages, STAGE.json and STAGE.vtkhdf.
+/// The folder RUN/studies/STUDY/VARIANT, which contains STAGE.json and STAGE.vtkhdf for every stage
+/// of a variant.
 std::filesystem::path variant_of(const std::filesystem::path& run, const std::string& study,
                                  const std::string& variant);
 
-/// The reason why the solve NAME.vtkhdf, NAME.json has no result: the sentence in its report, or its
-/// typed reason. No value if it has a result or was never tried.
+/// The reason why the solve NAME.vtkhdf, NAME.json has no result: the sentence in its report or,
+/// without a sentence, its typed reason. No value if it has a result or was never tried.
 std::optional<std::string> failure_of(const std::filesystem::path& name);
-/// The same for a variant's change of posture: the reason of its stages reference and supine.
+/// The same for the change of posture of a variant, which fails if its stage reference or its stage
+/// supine does.
 std::optional<std::string> posture_failure_of(const std::filesystem::path& variant);
 
 }  // namespace breast

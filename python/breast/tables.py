@@ -16,10 +16,10 @@ from .errors import BreastError
 def read_table(file: str | os.PathLike[str], pandas: bool | None = None) -> Any:
     """A table of the toolkit; the header's names carry the units (nipple_mm).
 
-    Columns of numbers become float64 or int64, a cell that is empty or '-' (does not apply) NaN in them; all others are texts.
+    Columns of numbers become float64 or int64, and an empty cell or '-' (no value) in them becomes NaN. All other columns are text.
 
     Args:
-        file: a .tsv file; lines that begin with # are comments, and "# rows N" at the end of an older version's is checked.
+        file: a .tsv file; lines that begin with # are comments; N in "# rows N", the last line of older tables, is checked.
         pandas: True a DataFrame, False a structured array, None a DataFrame where pandas is installed.
 
     Raises:

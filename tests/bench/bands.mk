@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What the bands of the matched curves are worth, by programs that no installation has.
+# Checks of the bands of the matched curves, with benchmark programs that are not installed.
 
-# The band against solving the chain again with parameters drawn from its priors, on a coarse mesh of the case.
+# The band is compared with repeated solves of the chain with parameters drawn from the priors, on a coarse mesh of the case.
 BAND_SAMPLES ?= 220
 $(RUN)/band-check-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH)
 	$(HEXMESH) $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $@ --elements 8 --tumour none $(common)
@@ -13,8 +13,9 @@ band-check: $(RUN)/band-samples.tsv
 	@$(tabulate) coverage $<
 .PHONY: band-check
 
-# The band of the chain from the MR scan against the phantom's true body: its places as they are (band-nominal), and
-# moved by parameters drawn from the priors along the true body's own derivatives (band-drawn; BAND_DRAWS of them).
+# The band of the chain from the MR scan is compared with the true body of the phantom: with its points at their true positions
+# (band-nominal), and with its points displaced along the derivatives of the true body by parameters drawn from the priors
+# (band-drawn, with BAND_DRAWS draws).
 BAND_DRAWS ?= 400
 BAND_PLACES ?= 150
 truth_support := $(if $(body_slides),--materials $(TRUTH_SET),--cut fixed)
@@ -33,7 +34,7 @@ band-truth: $(RUN)/band-nominal.tsv $(RUN)/band-drawn.tsv
 	@$(tabulate) coverage $^
 .PHONY: band-truth
 
-# What they cost, on an idle machine: a 0.1 mm image, one curve, the full grid.
+# The cost of a 0.1 mm image, of one curve, and of the full grid, measured on an idle machine.
 mammo-times: $(addprefix $(RUN)/,cc-sensitivity.vtkhdf mlo-sensitivity.vtkhdf labels.vtkhdf)
 	@tests/bench/mammo-times.sh $(BIN) $(RUN)
 .PHONY: mammo-times

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# How the preset `paper` and the material set `invivo`, which stand in the source tree, were found.
+# Calibration of the preset `paper` and of the material set `invivo`, which are part of the source tree.
 
-# How the preset `paper` was found: motions of the paper's Tables III and IV for a chain that moves the
-# nipple 1.28 and the tumour 1.39 times as far as the phantom does (PAPER=1, measured on a phantom near the one
-# found). Prints the values that stand in libbreast/phantom/parameters.cpp.
+# The preset `paper` is fitted to the displacements in Tables III and IV of the paper. The fit assumes that the chain displaces the
+# nipple 1.28 times and the tumour 1.39 times as far as the phantom does; these factors were measured with PAPER=1 on a phantom
+# close to the fitted one. The target prints the values that are in libbreast/phantom/parameters.cpp.
 calibrate: $(CALIBRATE)
 	$(CALIBRATE) --preset paper --gain 1.28,1.39 --evaluations 24 $(share)
 
 ifneq ($(filter calibrate-invivo,$(MAKECMDGOALS)),)
-# The breast that is pressed is the phantom large, as held in the paper's mode.
+# The compressed breast is the phantom `large`, held at its chest wall as in the paper.
 pressed := $(call population_files,large-left,mesh)
 $(pressed): FORCE
 	@+$(MAKE) -f $(PIPELINE) RUNS=$(POPULATION_RUNS) CASE=large-left SIDE=left PRESET=large ELEMENTS=$(POPULATION_ELEMENTS) TUMOUR=none $@

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# identify against truths it does not know (tests/bench/identification_study.cpp), on coarse meshes of two phantoms; bodies with other
-# laws on a finer one:
-#   make identification                            docs/tables/identification.tsv, about 10 minutes of one processor
+# The program identify is tested against truths that it does not know (tests/bench/identification_study.cpp), on coarse meshes of
+# two phantoms; bodies with other laws are on a finer mesh:
+#   make identification                            docs/tables/identification.tsv, about 10 minutes on one processor
 IDENTIFICATION_RUNS := $(RUNS)/identification
 define identification_case
 $(IDENTIFICATION_RUNS)/$1-$2/mesh.vtkhdf: FORCE
@@ -13,10 +13,10 @@ $(eval $(call identification_case,average,8))
 $(eval $(call identification_case,slim,8))
 $(eval $(call identification_case,average,10))
 endif
-# STUDY-PHANTOM-FIRST-COUNT: draws of a study on a phantom's mesh.
+# STUDY-PHANTOM-FIRST-COUNT: COUNT draws of a study, from number FIRST, on the mesh of a phantom.
 identification_parts := same-average-1-20 same-slim-21-20 misaligned-average-1-5 other-average-1-5 surface-average-1-2
 identification_part = $(word $1,$(subst -, ,$2))
-# The mesh of the truths that are on another one.
+# The finer mesh, for studies whose truth is on another mesh than the identification.
 identification_finer = $(if $(filter other surface,$(call identification_part,1,$1)),$(IDENTIFICATION_RUNS)/$(call identification_part,2,$1)-10/mesh.vtkhdf)
 define identification_rows
 $(IDENTIFICATION_RUNS)/$1.tsv: $(IDENTIFICATION_RUNS)/$(call identification_part,2,$1)-8/mesh.vtkhdf $(call identification_finer,$1) \

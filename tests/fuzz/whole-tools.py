@@ -7,7 +7,7 @@ than 0 to 3, when a failure says anything but one line, takes over 10 s of proce
 one that waits for ever), or over 1 GB (4 GB under sanitizers), leaves a file it was not asked for, or a sanitizer
 speaks, also in the process that reads for it. Findings are kept, with what was said, in INPUTS/findings, and a row a
 format is added to INPUTS/fuzz.tsv (columns of docs/tables/fuzz.tsv); exit 1 when there is a finding.
-Case files are read for make (libbreast/cases), so this is where they are fuzzed: `make -n` plans the
+Case files are read on behalf of make (libbreast/cases) and are fuzzed here: `make -n` plans the
 chain of a damaged one. No more than the standard library is needed.
 """
 import base64, glob, gzip, hashlib, os, random, re, shutil, signal, subprocess, sys, time

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""tables.py FILE|FOLDER...: every .tsv there loads as other programs load it, without options (pandas.read_csv(file, sep='\\t')).
+"""tables.py FILE|FOLDER...: checks that other programs load every .tsv file without options (pandas.read_csv(file, sep='\\t')).
 
-With the csv module, and with pandas where it is installed: the first line is the header, its names are different and not empty; every
-line has as many cells; a column whose name ends with a unit holds numbers or nothing, and so does every column that is mostly numbers.
+The files are read with the csv module and, if it is installed, with pandas. The first line must be the header, whose names must be
+distinct and not empty. Every line must have as many cells as the header. A column whose name ends with a unit must contain only
+numbers and empty cells, and so must every column in which most cells are numbers. Exit code 1 if a file violates this.
 """
 import csv
 import os
@@ -16,7 +17,7 @@ except ImportError:
     pandas = None
 
 UNIT = re.compile(r'_(mm|mm2|cm2|ml|N|kPa|Pa|percent|s|seconds|mb|deg)$')
-# Columns of values of every kind, one a line: what is looked up by its name, not calculated with.
+# Columns with values of several kinds, which a reader looks up by name (None: all columns of the file).
 MIXED = {'verify.tsv': {'expected', 'computed', 'tolerance'}, 'table8.tsv': None}
 
 
@@ -29,7 +30,7 @@ def is_number(cell):
 
 
 def numeric_columns(file, header, rows):
-    """Names of the columns of numbers; a problem where one holds a word."""
+    """The names of the columns of numbers, and a problem for each such column that contains a word."""
     mixed = MIXED.get(os.path.basename(file), set())
     found, problems = [], []
     for c, name in enumerate(header):
@@ -76,7 +77,7 @@ def tables_in(place):
         return
     for folder, _, names in os.walk(place):
         for name in sorted(names):
-            # An empty file stands for a result that there is not.
+            # An empty file marks a result that does not exist.
             if name.endswith('.tsv') and os.path.getsize(os.path.join(folder, name)) > 0:
                 yield os.path.join(folder, name)
 

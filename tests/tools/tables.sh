@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tables.sh BIN: the tables of docs/, and of tools on a small phantom, load in other programs without options (tables.py); those of a
-# whole run are looked at by reproduce.sh.
+# tables.sh BIN checks that other programs load the tables of docs/, and tables that the tools write for a small phantom, without
+# options (tables.py). reproduce.sh checks the tables of a whole run.
 set -euo pipefail
 bin=$(realpath "$1")
 cd "$(dirname "$0")/../.."
@@ -12,7 +12,7 @@ trap 'rm -rf "$work"' EXIT
 "$bin/probe" "$work/mesh.vtkhdf" "$work/supine.vtkhdf" --truth "$work/truth/landmarks.tsv" > "$work/truth.tsv"
 "$bin/laws" seed2008 --curves > "$work/laws.tsv"
 tests/tools/tables.py "$work" docs/tables
-# What it is there to find.
+# The check must find these faults.
 printf 'a_mm\tb\n1\tx\n# rows 1\n' > "$work/bad.tsv"
 ! tests/tools/tables.py "$work/bad.tsv" > "$work/said" || { echo "FAILED: a line that is no row is found"; exit 1; }
 printf 'a_mm\tb\n1\tx\n-\ty\n' > "$work/bad.tsv"

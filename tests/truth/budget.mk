@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The error budget of the chain: each stage's result replaced in turn by the phantom's truth (studies/budget.tsv), what is left
-# of the errors at the truth's places (stress-free, supine, MLO curve), and what the stage costs. The row `chain` has
-# nothing replaced; compressed between plates that stand as the truth's. Why a cell is empty stands in the last column.
+# The error budget of the chain: the result of each stage is replaced in turn by the truth of the phantom (studies/budget.tsv). The
+# table lists the errors that remain at the true positions (stress-free, supine, MLO curve) and the cost of the stage. In the row
+# `chain` nothing is replaced. The breast is compressed between plates at the positions of the truth. The last column states why a
+# cell is empty.
 BUDGET := $(RUN)/budget
 BUDGET_ROWS := $(budget_variants)
 budget_row = $(call study_dir,budget/$1)
@@ -9,7 +10,8 @@ budget: $(BUDGET)/budget.tsv $(BUDGET)/budget.png
 	@cat $<
 .PHONY: budget
 
-# What is given: the truth's labels and mesh, and the chain's mesh deformed as the true body. Their reports say where they are from.
+# The files taken from the truth: its labels, its mesh, and the mesh of the chain deformed as the true body. Their reports name
+# `truth` as their tool.
 truth_report = printf '{\n  "tool": "truth",\n  "status": "ok",\n  "reason": ""\n}\n' > $@
 $(foreach row,segmentation tissue,$(call budget_row,$(row))/labels.json): $(PHANTOM_MR)
 	@mkdir -p $(@D)
@@ -25,7 +27,7 @@ $(call budget_row,backward)/reference.json $(call budget_row,compression)/cc.jso
 	$(call bench,follow_shape) && $(BIN)/follow_shape $< $(subst -reference,,$(TRUTH_AT)-fine-$(basename $(@F))).vtkhdf $(basename $@).vtkhdf > $(basename $@)-outside.tsv
 	@$(truth_report)
 
-# What is left of the errors, empty where a shape was not found: $(call unless_missing,SHAPES,COMMAND).
+# The remaining errors; the file is empty if a shape was not found: $(call unless_missing,SHAPES,COMMAND).
 unless_missing = if [ -e $(firstword $1) ] && [ -e $(lastword $1) ]; then $2; else rm -f $(basename $@)-summary.tsv; : > $@; fi
 budget_curves = $(call unless_missing,$1,$(CC2MLO) $1 $(basename $@).vtp --truth $(TRUTH_TABLE) --table $@ $(common))
 budget_landmarks = $(call unless_missing,$1,$(PROBE) $1 --truth $(TRUTH_TABLE) > $@.part; mv $@.part $@)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the pipeline knows of cases before it runs: case files, whose scan a folder holds, cohorts, studies, and scripts for Slurm.
+// What the pipeline reads before it runs a case: case files, the record of the scan to which a
+// folder belongs, cohorts, studies, and scripts for Slurm.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -180,7 +181,8 @@ TEST(Attempts, KeepTheReasonOfASolveThatEndsEarly) {
 
 TEST(Ladders, EndAtTheFirstRungThatIsGoodEnough) {
   const ScratchFolder folder;
-  // A judge that prints the point's row: the first has no solution, the last is good enough.
+  // A stub of tabulate that prints the row of a point: the first has no solution, the last meets
+  // the bound.
   const fs::path judge = folder / "judge";
   write_text(judge,
              "#!/bin/sh\ncase $3 in\n*-4) ;;\n*-8) printf '%s\\t%s\\tyes\\n' $3 \"$5\" ;;\n"
@@ -289,7 +291,8 @@ TEST(Slurm, ScriptsAskForWhatTheLargestCaseNeeds) {
   request.runs = folder.path();
   request.program = "/opt/it's/cases";
   request.cost = folder / "cost.tsv";
-  // cost.tsv of the cohort itself counts once three cases are done; here it is the assumed one.
+  // The measured cost.tsv of a cohort is used only after three cases are done; here the assumed one
+  // is.
   fs::rename(folder / "cost.tsv", folder / "assumed.tsv");
   request.cost = folder / "assumed.tsv";
   const std::string plan = slurm_plan(request);

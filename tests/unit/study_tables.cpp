@@ -108,7 +108,8 @@ TEST(Conclusions, OfRowsAndOfSlopesAreTheSameNumbers) {
       << "no solution";
 }
 
-// Shapes without files, named by file or by folder and file: the nipple stands `shift` mm beyond its imaged place.
+// Shapes without files, named by file or by folder and file: the nipple is `shift` mm beyond its
+// imaged position.
 ShapeReader shapes(const std::map<std::string, double>& shifts) {
   return [shifts](const std::filesystem::path& file) -> Shape {
     const std::string place = file.parent_path().filename() / file.filename();

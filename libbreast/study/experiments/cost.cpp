@@ -93,7 +93,9 @@ std::optional<Row> accuracy_row(const fs::path& folder, const std::string& point
 
 namespace {
 
-// Of one view of a mesh: how far tumour and nipple lie from the finest mesh's, the estimate of the former, forces, status.
+// The cells of one view of a mesh: distance of the tumour from its position on the finest mesh and
+// the estimate of this distance, mm; distance of the nipple, mm; forces of paddle and detector, N;
+// reduction of the thickness, per cent.
 Row converging_view(const fs::path& name, const fs::path& finest, const ShapeReader& read) {
   if (!fs::exists(with(name, ".vtkhdf"))) return Row(6, no_value);
   const StageReport report = StageReport::read(with(name, ".json"));

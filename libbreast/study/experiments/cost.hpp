@@ -35,8 +35,9 @@ std::optional<Row> accuracy_row(const std::filesystem::path& folder, const std::
                                 const std::string& coarser, double wanted, const ShapeReader& read);
 
 /// Convergence of compressed shapes with the mesh. One row per mesh, the variant FOLDER/N with its
-/// stages cc and mlo: distance in mm of tumour and nipple from those of the last N, forces of
-/// paddle and detector, and the solver's own error estimate at the tumour. "-": not reached.
+/// stages cc and mlo: distance in mm of tumour and nipple from those of the last N, the solver's
+/// own error estimate at the tumour, mm, forces of paddle and detector, N, and reduction of the
+/// thickness, per cent. "-": not reached.
 Table convergence_table(const std::filesystem::path& folder, const std::vector<std::string>& meshes,
                         const ShapeReader& read);
 

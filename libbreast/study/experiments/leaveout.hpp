@@ -20,11 +20,11 @@ struct CurveGap {
 using CurveReader =
     std::function<CurveGap(const std::filesystem::path& curve, const std::filesystem::path& base)>;
 
-/// One row for the base and for every variant of RUN/studies/leaveout. Supine:
-/// distance of tumour and nipple from their positions in the base; CC, MLO: the same for the
-/// tumour; curve: distance of the MLO curve from that of the base; all in mm. CPU seconds of the
-/// stages that each question needs, surgery (backward, forward) and matching (backward, both
-/// compressions), and the time saved relative to the base.
+/// One row for the base and for every variant of RUN/studies/leaveout. Supine: distance of tumour
+/// and nipple from their positions in the base; CC, MLO: the same for the tumour; curve: distance
+/// of the MLO curve from that of the base; all in mm. CPU seconds of the stages that each question
+/// needs, surgery (backward, forward) and matching (backward, both compressions), and the time
+/// saved relative to the base.
 Table leaveout_table(const std::filesystem::path& run, const std::vector<std::string>& variants,
                      const ShapeReader& read, const CurveReader& curves);
 

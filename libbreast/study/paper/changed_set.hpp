@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Material sets as the studies change them.
+// Material sets with the changes that the studies make.
 #pragma once
 
 #include <string>
@@ -8,9 +8,10 @@
 
 namespace breast {
 
-/// `fat-only`: the fibroglandular law is fat's. `columns`: Table II's second-order constants as Samani and Plewes are sometimes
-/// quoted, its three columns standing for a11, a20, a02 instead of a20, a02, a11. Throws Error (input) for any other name, and where
-/// the set has no such row or column.
+/// A copy of `set` with one change. `fat-only`: fibroglandular tissue has the law of fat.
+/// `columns`: the three columns of second-order constants in Table II, a20, a02 and a11, are taken
+/// for a11, a20 and a02, as Samani and Plewes are sometimes quoted. Throws Error (input) for any
+/// other change, and if the set lacks a row or column that the change needs.
 Table changed_set(const Table& set, const std::string& change);
 
 }  // namespace breast

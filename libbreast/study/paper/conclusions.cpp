@@ -117,7 +117,8 @@ Table judge(const Table& conclusions, const std::vector<JudgedModel>& models) {
 
 namespace {
 
-// Tables III to VI: NAME ends with what makes it another model's.
+// Tables III to VI of one model; `ending` distinguishes the names of its files from those of other
+// models.
 std::array<Table, 4> scaled_tables(const std::filesystem::path& tables, const std::string& ending) {
   const auto number = [&](const char* n) {
     return read_table(tables / ("table" + std::string(n) + ending + ".tsv"));
@@ -125,7 +126,7 @@ std::array<Table, 4> scaled_tables(const std::filesystem::path& tables, const st
   return {number("3"), number("4"), number("5"), number("6")};
 }
 
-// Rows of a tumour as stiff, ten and twenty times as stiff: what conclusions() asks of Table VI.
+// The rows of Table VI that the conclusions need: a tumour with 1, 10 and 20 times its stiffness.
 Table stiff_rows(const Table& sixth, const std::filesystem::path& prefix, const ShapeReader& read) {
   Table wanted{sixth.columns, {}};
   wanted.name = sixth.name;

@@ -39,13 +39,14 @@ struct JudgedModel {
 /// evaluated. Throws Error (input) naming a table of values that lacks these columns.
 Table judge(const Table& conclusions, const std::vector<JudgedModel>& models);
 
-/// Tables of the paper that the conclusions refer to.
+/// Tables III and VI of the paper, to which the conclusions refer.
 struct PaperTables {
   Table third, sixth;
 };
 
-/// judge() applied to Tables III to VI in the folder `tables`: to the paper's own rows, to ours as
-/// printed (tableN-as-printed.tsv, if `printed`), and to ours.
+/// judge() applied to Tables III to VI in the folder `tables`: to the values of the paper, to our
+/// values for the model as printed (tableN-as-printed.tsv, only if `printed`), and to our values
+/// for the case.
 Table judged_tables(const Table& conclusions, const std::filesystem::path& tables, bool printed);
 
 /// Table VIII. The first rows state whether each set of `sets` has a stress-free body, and the

@@ -11,11 +11,11 @@
 
 namespace breast {
 
-/// One row for the paper, the case as solved, and every variant of RUN/studies/findings,
-/// of which the last is the finest. Columns: displacements of nipple and tumour
-/// from the imaged position, stress-free and supine, mm; the difference of the supine displacements
-/// from the finest, per cent; the solver's own error estimate at the supine landmarks, mm; slopes
-/// with respect to fat.
+/// One row for the paper, the case as solved, and every variant of RUN/studies/findings, of which
+/// the last has the finest mesh. Columns: displacements of nipple and tumour from the imaged
+/// position, stress-free and supine, mm; the difference of the supine displacements from the
+/// finest, per cent; the solver's own error estimate at the supine landmarks, mm; slopes with
+/// respect to fat.
 Table findings_table(const std::filesystem::path& run, const std::vector<std::string>& variants);
 
 /// A sentence for a phantom with a preset that was fitted to results of the chain; "" for any other
