@@ -162,7 +162,8 @@ Table parse_table(const std::string& text, const std::string& name) {
 }
 
 Table read_table(const std::filesystem::path& file) {
-  return parse_table(read_text(file), file.string());
+  constexpr std::uintmax_t most_bytes = 16 << 20;  // one of tabs takes 32 bytes of memory a byte
+  return parse_table(read_text(file, most_bytes), file.string());
 }
 
 void write_table(const std::filesystem::path& file, const Table& table) {

@@ -52,8 +52,18 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
 }
 
+// Words take sixteen times their bytes, and results of a million nodes have short lines.
+void check_lines(const std::string& name, const std::string& text) {
+  constexpr std::size_t longest = 65536;
+  for (std::size_t from = 0, end = 0; from < text.size(); from = end + 1) {
+    end = std::min(text.find('\n', from), text.size());
+    if (end - from > longest) throw input_error(name, ": a line of more than ", longest, " bytes");
+  }
+}
+
 // CalculiX cgx format, ASCII: blocks headed by "100CL" (time in columns 12–24) and "-4  DISP".
 std::vector<Vec3> read_frd(const std::string& name, const std::string& text, int nodes) {
+  check_lines(name, text);
   NodeValues values(name, nodes);
   std::istringstream in(text);
   double time = 0;
@@ -83,6 +93,7 @@ std::vector<Vec3> read_frd(const std::string& name, const std::string& text, int
 // Lines of a node number and three values, separated by commas or blanks; any other line that is
 // not blank starts a new block, whose values count only if they follow.
 std::vector<Vec3> read_lines(const std::string& name, const std::string& text, int nodes) {
+  check_lines(name, text);
   NodeValues values(name, nodes);
   std::istringstream in(text);
   bool fresh = true;

@@ -21,6 +21,8 @@ namespace fs = std::filesystem;
 constexpr std::uint32_t undefined_length = 0xffffffff;
 constexpr std::uint32_t item = 0xfffee000, item_end = 0xfffee00d, sequence_end = 0xfffee0dd;
 constexpr std::uint32_t pixel_data = 0x7fe00010;
+// Of a slice a few hundred; a file of zeros is one of empty elements, eight bytes each.
+constexpr int most_tags = 200000;
 
 class Walker {
  public:
@@ -67,6 +69,7 @@ class Walker {
     return std::bit_cast<T>(bytes);
   }
   std::uint32_t take_tag() {
+    if (++tags_ > most_tags) throw broken("has more elements than any image");
     const std::uint32_t group = take<std::uint16_t>();
     return group << 16 | take<std::uint16_t>();
   }
@@ -146,6 +149,7 @@ class Walker {
   const fs::path& file_;
   std::ifstream& in_;
   std::uint64_t size_, position_ = 0;
+  int tags_ = 0;
 };
 
 /// Uncompressed pixel data must be as long as rows, columns and bits say.

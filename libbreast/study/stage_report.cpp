@@ -49,13 +49,17 @@ bool has_something(const fs::path& file) {
 StageReport::StageReport() : impl_(std::make_shared<const Impl>(Impl{Json::object()})) {}
 
 StageReport StageReport::parse(const std::string& json, const std::string& name) {
-  constexpr int deepest = 64;  // the parser is recursive
-  const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
+  constexpr int deepest = 64;       // the parser is recursive
+  constexpr int most_keys = 20000;  // the keys of an object are searched one by one
+  int keys = 0;
+  const auto within = [&](int depth, Json::parse_event_t event, Json&) {
     if (depth > deepest)
       throw input_error(name, ": not a JSON report: nested more than ", deepest, " deep");
+    if (event == Json::parse_event_t::key && ++keys > most_keys)
+      throw input_error(name, ": not a JSON report: more than ", most_keys, " keys");
     return true;
   };
-  Impl impl{Json::parse(valid_utf8(json), shallow, false)};
+  Impl impl{Json::parse(valid_utf8(json), within, false)};
   if (!impl.root.is_object())
     throw input_error(name, ": not a JSON report; remove it, or run its stage again");
   StageReport report;
@@ -64,7 +68,8 @@ StageReport StageReport::parse(const std::string& json, const std::string& name)
 }
 
 StageReport StageReport::read(const fs::path& file) {
-  return has_something(file) ? parse(read_text(file), file.string()) : StageReport();
+  constexpr std::uintmax_t most_bytes = 16 << 20;
+  return has_something(file) ? parse(read_text(file, most_bytes), file.string()) : StageReport();
 }
 
 bool StageReport::empty() const {

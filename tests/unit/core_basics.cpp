@@ -92,6 +92,19 @@ TEST(Tables, CutAtALineEndIsRefused) {
   }
 }
 
+// A cell takes 32 bytes of memory and more, a tab one of the file.
+TEST(Tables, FilesLargerThanAnyTableAreRefused) {
+  const ScratchFolder folder;
+  write_text(folder / "t.tsv", "a\n1\n");
+  std::filesystem::resize_file(folder / "t.tsv", std::uintmax_t(17) << 20);
+  try {
+    read_table(folder / "t.tsv");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("at most"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Tables, WhatWouldReadBackOtherwiseIsNotWritten) {
   const auto reason = [](const Table& table) {
     try {

@@ -319,6 +319,21 @@ TEST_F(Results, LastBlockOfALogCounts) {
   EXPECT_FALSE(result.reaction);
 }
 
+// Every word of a line takes sixteen times its bytes.
+TEST_F(Results, EndlessLinesAreRefused) {
+  for (const char* name : {"long.log", "long.dat", "long.frd"}) {
+    std::string line;
+    for (int n = 0; n < 100000; ++n) line += " 1";
+    try {
+      read_deck_result(write(name, line), 2);
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      EXPECT_NE(std::string(error.what()).find("a line of more than"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST_F(Results, IncompleteOnesAreRefused) {
   const auto kind_of = [&](const std::string& name, const std::string& text, int nodes) {
     try {

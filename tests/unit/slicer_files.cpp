@@ -2,6 +2,8 @@
 // Segmentations and points of 3D Slicer: as written by us, as Slicer saves them, and what is refused.
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/own_file.hpp"
@@ -161,6 +163,14 @@ TEST(MarkupFiles, DamagedFilesAreRefused) {
       says(refusal(points_json("{\"coordinateSystem\":\"XYZ\",\"controlPoints\":[]}")), "XYZ"));
   EXPECT_TRUE(
       says(refusal(points_json("{\"coordinateUnits\":\"um\",\"controlPoints\":[]}")), "um"));
+  const std::string deep = std::string(100, '[') + std::string(100, ']');
+  EXPECT_TRUE(says(refusal(points_json("{\"controlPoints\":" + deep + "}")), "nested"));
+  std::string keys;
+  for (int n = 0; n < 200000; ++n) keys += "\"k" + std::to_string(n) + "\":0,";
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_TRUE(says(refusal(points_json("{" + keys + "\"controlPoints\":[]}")), "no points"));
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(seconds.count(), 10);  // sought one by one, they take minutes
   for (const char* position : {"[1,2]", "[1,2,\"x\"]", "[1,2,1e300]", "3", "null"}) {
     EXPECT_TRUE(says(
         refusal(points_json("{\"controlPoints\":[{\"position\":" + std::string(position) + "}]}")),

@@ -41,6 +41,9 @@ TEST(StageReports, AnswerNothingWhereNothingIs) {
   EXPECT_THROW(StageReport::parse("[1]", "r"), Error);
   EXPECT_THROW(StageReport::parse("{\"a\": ", "r"), Error);
   EXPECT_THROW(StageReport::parse(std::string(100000, '['), "r"), Error);
+  std::string keys = "{\"a\": 1";
+  for (int n = 0; n < 30000; ++n) keys += ", \"k" + std::to_string(n) + "\": 0";
+  EXPECT_THROW(StageReport::parse(keys + "}", "r"), Error) << "sought one by one";
   EXPECT_EQ(StageReport::parse("{\"a\": \"caf\xe9\"}", "r").text("a"), "caf\xEF\xBF\xBD")
       << "another program's Latin-1";
 }

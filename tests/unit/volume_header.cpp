@@ -13,6 +13,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/report.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/volume_file.hpp"
 
@@ -251,6 +252,21 @@ TEST(VolumeHeaders, AGzipBombStopsAtWhatTheHeaderAnnounces) {
   EXPECT_LT(seconds.count(), 0.5);
 }
 
+// A line is read as far as a header's lines may reach, not to the end of the file.
+TEST(VolumeHeaders, AFileWithoutLineEndsDoesNotFillMemory) {
+  const ScratchFolder folder;
+  constexpr std::uintmax_t gigabyte = std::uintmax_t(1) << 30;
+  constexpr double some_mb = 100;
+  const double before = peak_memory_mb();
+  const std::pair<const char*, const char*> files[] = {{"a.nrrd", "NRRD0005\n"}, {"a.mha", "ObjectType = Image\n"}};
+  for (const auto& [name, head] : files) {
+    write_text(folder / name, head);
+    fs::resize_file(folder / name, gigabyte);  // a hole: the disk holds none of it
+    EXPECT_NE(error_of(folder / name), "accepted") << name;
+  }
+  EXPECT_LT(peak_memory_mb() - before, some_mb);
+}
+
 class DicomHeaders : public testing::Test {
  protected:
   void SetUp() override { write_dicom_series(folder_ / "scan", small_volume(), "T1"); }
@@ -271,6 +287,13 @@ class DicomHeaders : public testing::Test {
   }
   ScratchFolder folder_;
 };
+
+// Zeros are elements without content, eight bytes each, and every one costs a seek.
+TEST_F(DicomHeaders, OfEndlessElements) {
+  std::string bytes = read_text(slice(2)).substr(0, 132);
+  write_text(slice(2), bytes.append(std::size_t(8) << 20, '\0'));
+  expect("more elements than any image");
+}
 
 TEST_F(DicomHeaders, WithoutPixelSpacing) {
   change(std::string("\x28\0\x30\0", 4), std::string("\x28\0\x31\0", 4));

@@ -14,6 +14,7 @@ namespace breast {
 namespace fs = std::filesystem;
 
 using Json = nlohmann::ordered_json;
+using ReadJson = nlohmann::json;  // an ordered one searches an object's keys one by one
 
 namespace {
 
@@ -27,12 +28,22 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-std::string text_of(const Json& object, const char* key, const std::string& otherwise) {
+// A value of a few bytes takes tens of them in memory: one file of 16 MB of brackets would take more than a gigabyte.
+ReadJson parsed(const std::string& text, const std::string& name) {
+  constexpr int deepest = 64;
+  const auto shallow = [&](int depth, ReadJson::parse_event_t, ReadJson&) {
+    if (depth > deepest) throw input_error(name, ": nested more than ", deepest, " deep");
+    return true;
+  };
+  return ReadJson::parse(text, shallow, false);
+}
+
+std::string text_of(const ReadJson& object, const char* key, const std::string& otherwise) {
   const auto found = object.find(key);
   return found != object.end() && found->is_string() ? found->get<std::string>() : otherwise;
 }
 
-Vec3 place_of(const Json& point, bool ras, const std::string& where) {
+Vec3 place_of(const ReadJson& point, bool ras, const std::string& where) {
   constexpr double farthest_mm = 1e6;
   const auto position = point.find("position");
   if (position == point.end() || !position->is_array() || position->size() != 3) {
@@ -40,7 +51,7 @@ Vec3 place_of(const Json& point, bool ras, const std::string& where) {
   }
   Vec3 at;
   for (std::size_t d = 0; d < 3; ++d) {
-    const Json& number = (*position)[d];
+    const ReadJson& number = (*position)[d];
     at[int(d)] = number.is_number() ? number.get<double>() : std::nan("");
     if (!(std::abs(at[int(d)]) <= farthest_mm)) {
       throw input_error(where, ": position is not three numbers of mm");
@@ -49,7 +60,7 @@ Vec3 place_of(const Json& point, bool ras, const std::string& where) {
   return ras ? Vec3(-at[0], -at[1], at[2]) : at;
 }
 
-void add_points(const Json& markups, const std::string& where, std::vector<MarkupPoint>& points) {
+void add_points(const ReadJson& markups, const std::string& where, std::vector<MarkupPoint>& points) {
   const std::string space = text_of(markups, "coordinateSystem", "LPS");
   if (space != "LPS" && space != "RAS") {
     throw input_error(where, ": coordinateSystem '", space, "': LPS or RAS are read");
@@ -59,7 +70,7 @@ void add_points(const Json& markups, const std::string& where, std::vector<Marku
   const auto list = markups.find("controlPoints");
   if (list == markups.end() || !list->is_array()) return;
   for (std::size_t n = 0; n < list->size(); ++n) {
-    const Json& point = (*list)[n];
+    const ReadJson& point = (*list)[n];
     const std::string here = where + ", point " + std::to_string(n);
     if (!point.is_object()) throw input_error(here, ": is not an object");
     if (text_of(point, "positionStatus", "defined") != "defined") continue;  // not placed yet
@@ -87,15 +98,15 @@ bool is_markups_name(const fs::path& file) {
 }
 
 std::vector<MarkupPoint> read_markups(const fs::path& file) {
-  constexpr std::uintmax_t most_bytes = 64 << 20;
-  const Json root = Json::parse(read_text(file, most_bytes), nullptr, false);
+  constexpr std::uintmax_t most_bytes = 16 << 20;
+  const ReadJson root = parsed(read_text(file, most_bytes), file.string());
   const auto lists = root.is_object() ? root.find("markups") : root.end();
   if (root.is_discarded() || !root.is_object() || lists == root.end() || !lists->is_array()) {
     throw input_error(file.string(),
                       ": is not a markups file of 3D Slicer (JSON with a list 'markups')");
   }
   std::vector<MarkupPoint> points;
-  for (const Json& markups : *lists) {
+  for (const ReadJson& markups : *lists) {
     if (!markups.is_object()) throw input_error(file.string(), ": 'markups' contains no object");
     add_points(markups, file.string(), points);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <istream>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -19,6 +20,16 @@ void check_header(const fs::path& file) {
   if (name.ends_with(".nii") || name.ends_with(".nii.gz")) check_nifti(file);
   if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) check_nrrd(file);
   if (name.ends_with(".mha") || name.ends_with(".mhd")) check_meta(file);
+}
+
+bool next_line(std::istream& in, std::string& line, std::size_t longest) {
+  constexpr int end = std::istream::traits_type::eof();
+  line.clear();
+  for (int c = 0; line.size() <= longest && (c = in.get()) != end;) {
+    if (c == '\n') return true;
+    line.push_back(char(c));
+  }
+  return !line.empty();
 }
 
 void set_axes(Grid& grid, const Mat3& axes) {

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <map>
 #include <string>
 
@@ -49,6 +50,10 @@ std::filesystem::path detached_data(const std::filesystem::path& header, const s
 
 /// Throws Error (input) if there are more than most_voxels, or no voxels.
 void check_voxel_count(const std::string& name, double voxels);
+
+/// The next line without its '\n'; false at the end. Of a line longer than `longest` no more than one byte beyond that is
+/// read, so that a file without line ends does not fill memory.
+bool next_line(std::istream& in, std::string& line, std::size_t longest);
 
 /// The numbers of a text such as "(1,0,0)" or "1 0 0"; empty if it contains anything else.
 std::vector<double> header_numbers(std::string text);

@@ -36,7 +36,7 @@ MetaHeader header_of(const fs::path& file) {
   constexpr std::size_t longest = 4096;
   MetaHeader header;
   std::string line;
-  for (int n = 0; n < most_lines && std::getline(in, line); ++n) {
+  for (int n = 0; n < most_lines && next_line(in, line, longest); ++n) {
     if (line.ends_with('\r')) line.pop_back();
     const auto equals = line.find('=');
     if (equals == std::string::npos || equals == 0 || line.size() > longest) break;

@@ -47,21 +47,25 @@ struct NrrdHeader {
 NrrdHeader header_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw input_error(file.string(), ": cannot be opened");
-  constexpr std::size_t most_lines = 10000, longest = 65536;
+  constexpr std::size_t most_lines = 10000, longest = 65536, most_bytes = 1 << 24;
   NrrdHeader header;
   std::string line;
-  if (!std::getline(in, line) || !line.starts_with("NRRD")) {
+  if (!next_line(in, line, longest) || !line.starts_with("NRRD")) {
     throw input_error(file.string(), ": no NRRD header");
   }
-  for (std::size_t n = 0; n < most_lines && std::getline(in, line); ++n) {
+  std::size_t bytes = 0;
+  for (std::size_t n = 0; n < most_lines && next_line(in, line, longest); ++n) {
+    if (line.size() > longest)
+      throw input_error(file.string(), ": header line ", n + 2, " is endless");
+    bytes += line.size();
+    if (bytes > most_bytes)
+      throw input_error(file.string(), ": a header of more than ", most_bytes, " bytes");
     if (line.ends_with('\r')) line.pop_back();
     if (line.empty()) {
       header.ended = true;
       header.data_at = in.tellg();
       break;
     }
-    if (line.size() > longest)
-      throw input_error(file.string(), ": header line ", n + 2, " is endless");
     const auto colon = line.find(": "), note = line.find(":=");
     if (line.starts_with('#')) continue;
     if (note < colon) header.notes[line.substr(0, note)] = line.substr(note + 2);
