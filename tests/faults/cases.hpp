@@ -14,6 +14,8 @@
 #include "fixtures/run_tool.hpp"
 #include "fixtures/shapes.hpp"
 #include "fixtures/synthetic_scan.hpp"
+#include "io/markups_file.hpp"
+#include "io/segmentation_file.hpp"
 #include "io/volume_file.hpp"
 
 namespace breast::faults {
@@ -123,6 +125,8 @@ inline void write_more_inputs(const std::filesystem::path& folder) {
   labels.grid = grid;
   labels.tissue = tiny.voxels;
   write_labels(folder / "tiny_labels.vtkhdf", labels);
+  write_segmentation(folder / "tiny.seg.nrrd", labels);
+  write_markups(folder / "points.mrk.json", {"points", false, {1, 0, 0}, {{"tumour", {14, 30, 12}}, {"nipple", {0, 0, 0}}}});
   Volume<std::int16_t> slices(grid);
   std::copy(tiny.voxels.begin(), tiny.voxels.end(), slices.voxels.begin());
   write_dicom_series(folder / "tiny_series", slices, "T1");

@@ -10,6 +10,8 @@
 #include "io/geometry_file.hpp"
 #include "io/hdf5/packed.hpp"
 #include "io/label_file.hpp"
+#include "io/markups_file.hpp"
+#include "io/segmentation_file.hpp"
 #include "io/volume_file.hpp"
 
 namespace breast {
@@ -23,6 +25,9 @@ Document load_document(const std::filesystem::path& file, const std::string&, co
 }
 int threads() {
   return 1;
+}
+Volume<float> read_volume(const std::filesystem::path&, int, VolumeSource*) {
+  return {};
 }
 
 namespace {
@@ -72,7 +77,7 @@ constexpr const char* poly_data = R"(<?xml version="1.0"?>
 
 void write_seeds(const std::filesystem::path& folder) {
   for (const char* name : {"nrrd", "nifti", "meta", "dicom", "table", "materials", "report", "mesh",
-                           "labels", "geometry", "results", "vtk"}) {
+                           "labels", "geometry", "results", "vtk", "segmentation", "markups"}) {
     std::filesystem::create_directories(folder / name);
   }
   write_volume(folder / "nrrd/seed.nrrd", volume());
@@ -93,6 +98,8 @@ void write_seeds(const std::filesystem::path& folder) {
   write_mesh(folder / "mesh/seed", mesh, derivatives);
   write_labels(folder / "labels/seed", labels());
   write_geometry(folder / "geometry/seed", samples::geometry());
+  write_segmentation(folder / "segmentation/seed.seg.nrrd", labels());
+  write_markups(folder / "markups/seed.mrk.json", {"points", false, {1, 0, 0}, {{"tumour", {1, -2.5, 3}}, {"nipple", {0, 1, 0}}}});
   write_text(folder / "vtk/poly", poly_data);
   write_text(folder / "results/log", "2*Step = 1\n*Time = 1\n*Data = u\n1,0,0,0\n2,0,0,1\n");
   write_text(folder / "results/frd",

@@ -4,9 +4,10 @@
 tool that reads it, COUNT times a format (default 2000). BIN holds the programs (built under sanitizers: build/asan/bin),
 INPUTS the files that the program fault_inputs wrote. A run is a finding when it ends by a signal or with another exit code
 than 0 to 3, when a failure says anything but one line, takes over 10 s of processor time (or 120 s of the clock, for
-one that waits for ever), or over 1 GB (4 GB under sanitizers), leaves a file it was not asked for, or a sanitizer
-speaks, also in the process that reads for it. Findings are kept, with what was said, in INPUTS/findings, and a row a
-format is added to INPUTS/fuzz.tsv (columns of docs/tables/fuzz.tsv); exit 1 when there is a finding.
+one that waits for ever; BREAST_WAIT_S sets another limit, for machines with other work), or over 1 GB (4 GB under
+sanitizers), leaves a file it was not asked for, or a sanitizer speaks, also in the process that reads for it. Findings
+are kept, with what was said, in INPUTS/findings, and a row a format is added to INPUTS/fuzz.tsv (columns of
+docs/tables/fuzz.tsv); exit 1 when there is a finding.
 Case files are read on behalf of make (libbreast/cases) and are fuzzed here: `make -n` plans the
 chain of a damaged one. No more than the standard library is needed.
 """
@@ -17,7 +18,7 @@ COUNT = int(sys.argv[3]) if len(sys.argv) > 3 else 2000
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SANITIZED = b'__asan_init' in open(os.path.join(BIN, 'probe'), 'rb').read()
 MOST_KB = (4 if SANITIZED else 1) * 1024 * 1024
-HANG_S, WAIT_S = 10, 120
+HANG_S, WAIT_S = 10, int(os.environ.get('BREAST_WAIT_S', '120'))
 
 NUMBERS = [b'0', b'-1', b'1e308', b'-1e-308', b'nan', b'inf', b'2147483648', b'18446744073709551615', b'99999999999', b'1e9',
            b'0.0000001', b'', b'x']
@@ -126,6 +127,9 @@ FORMATS = {
     'labels': (inputs('tiny_labels.vtkhdf'), hdf5, 'evaluate BAD IN/tiny_labels.vtkhdf'),
     'geometry': (inputs('geometry.vtkhdf'), hdf5, 'hexmesh BAD IN/labels.vtkhdf out.vtkhdf --elements 4'),
     'nrrd': (inputs('tiny.nrrd', 'tiny_gzip.nrrd'), damaged_text, 'evaluate IN/tiny_labels.vtkhdf BAD'),
+    'segmentation': (inputs('tiny.seg.nrrd'), damaged_text, 'evaluate IN/tiny_labels.vtkhdf BAD'),
+    'markups': (inputs('points.mrk.json'), damaged_text, 'hexmesh IN/geometry.vtkhdf IN/labels.vtkhdf out.vtkhdf --elements 4 '
+                                                         '--accept-mismatch --tumour BAD'),
     'nifti': (inputs('tiny.nii'), damaged_bytes, 'evaluate IN/tiny_labels.vtkhdf BAD'),
     'nifti_gz': (inputs('tiny.nii.gz'), gzipped, 'evaluate IN/tiny_labels.vtkhdf BAD'),
     'meta': (inputs('tiny.mha'), damaged_text, 'evaluate IN/tiny_labels.vtkhdf BAD'),
@@ -146,7 +150,7 @@ FORMATS = {
 
 
 def ending(name):
-    return '.nii.gz' if name.endswith('.nii.gz') else os.path.splitext(name)[1]
+    return next((e for e in ('.nii.gz', '.seg.nrrd', '.mrk.json') if name.endswith(e)), os.path.splitext(name)[1])
 
 
 def command(line, bad, work):
