@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The program identify is tested against truths that it does not know (tests/bench/identification_study.cpp), on coarse meshes of
 # two phantoms; bodies with other laws are on a finer mesh:
-#   make identification                            docs/tables/identification.tsv, about 10 minutes on one processor
+#   make identification           docs/tables/identification.tsv and identification-cost.tsv, about 25 minutes on one processor
 IDENTIFICATION_RUNS := $(RUNS)/identification
 define identification_case
 $(IDENTIFICATION_RUNS)/$1-$2/mesh.vtkhdf: FORCE
@@ -11,7 +11,7 @@ ifneq ($(filter identification,$(MAKECMDGOALS)),)
 .NOTPARALLEL:
 $(eval $(call identification_case,average,8))
 $(eval $(call identification_case,slim,8))
-$(eval $(call identification_case,average,10))
+$(foreach n,10 12 16 20,$(eval $(call identification_case,average,$n)))
 endif
 # STUDY-PHANTOM-FIRST-COUNT: COUNT draws of a study, from number FIRST, on the mesh of a phantom.
 identification_parts := same-average-1-20 same-slim-21-20 misaligned-average-1-5 other-average-1-5 surface-average-1-2
@@ -28,10 +28,23 @@ $(IDENTIFICATION_RUNS)/$1.tsv: $(IDENTIFICATION_RUNS)/$(call identification_part
 	@mv $$@.part $$@
 endef
 $(foreach p,$(identification_parts),$(eval $(call identification_rows,$p)))
-identification: $(identification_parts:%=$(IDENTIFICATION_RUNS)/%.tsv) $(TABULATE)
-	$(tabulate) identification $(identification_parts:%=$(IDENTIFICATION_RUNS)/%.tsv) > docs/tables/identification.tsv.part
-	@mv docs/tables/identification.tsv.part docs/tables/identification.tsv
-	@$(tabulate) made docs/tables/identification.tsv $<
+# Error beside cost: one draw of each of the other laws, identified on coarser and finer meshes; the truths are on the finest.
+identification_costs := 8 10 12 16
+$(identification_costs:%=$(IDENTIFICATION_RUNS)/cost-%.tsv): $(IDENTIFICATION_RUNS)/cost-%.tsv: $(IDENTIFICATION_RUNS)/average-%/mesh.vtkhdf \
+  $(IDENTIFICATION_RUNS)/average-20/mesh.vtkhdf tests/bench/identification_study.cpp
+	@mkdir -p $(RUN)
+	$(call bench,identification_study)
+	OMP_NUM_THREADS=1 $(BIN)/identification_study other $< 1 1 $(word 2,$^) > $@.part
+	@mv $@.part $@
+# $(call identification_table,NAME,PARTS): docs/tables/NAME.tsv.
+define identification_table
+docs/tables/$1.tsv: $(2:%=$(IDENTIFICATION_RUNS)/%.tsv) $(TABULATE)
+	$$(call table,$$(tabulate) identification $$(filter %.tsv,$$^))
+	@$$(tabulate) made $$@ $$<
+endef
+$(eval $(call identification_table,identification,$(identification_parts)))
+$(eval $(call identification_table,identification-cost,$(identification_costs:%=cost-%)))
+identification: docs/tables/identification.tsv docs/tables/identification-cost.tsv
 	@$(tabulate) pages fill $(PAGES_WITH_TABLES)
-	@cat docs/tables/identification.tsv
+	@cat $^
 .PHONY: identification
