@@ -121,7 +121,7 @@ void draw_matching(Picture& picture, const FigureInput& input) {
     const std::string tumour = tumour_words(*cc);
     shapes.push_back(
         {*cc, cc->points, "column in CC",
-         "CC: the column of tissue above the pixel (green)" + (tumour.empty() ? "" : ", " + tumour),
+         "CC: tissue above the pixel (green)" + (tumour.empty() ? "" : ", " + tumour),
          plate_view(*cc)});
   }
   shapes.push_back({any,
