@@ -5,6 +5,7 @@
 #include "command/child.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "study/stage_report.hpp"
 
 namespace breast {
 
@@ -14,11 +15,6 @@ namespace {
 
 fs::path with_ending(fs::path file, const char* ending) {
   return file.replace_extension(ending);
-}
-
-bool holds_something(const fs::path& file) {
-  std::error_code none;
-  return fs::is_regular_file(file, none) && fs::file_size(file, none) > 0;
 }
 
 }  // namespace
@@ -35,8 +31,8 @@ void attempt(const fs::path& report, const std::vector<fs::path>& inputs,
   constexpr int not_converged = 3;
   const int code = run_child_to(command, -1, message_descriptor());
   // A program that is not part of libbreast may write no report.
-  if (code == 0 && !holds_something(report)) write_text(report, "{\n  \"status\": \"ok\"\n}\n");
-  if (code != 0 && !(code == not_converged && holds_something(report)))
+  if (code == 0 && !has_something(report)) write_text(report, "{\n  \"status\": \"ok\"\n}\n");
+  if (code != 0 && !(code == not_converged && has_something(report)))
     throw failed_error(command.front(), " ended with exit code ", code);
 }
 

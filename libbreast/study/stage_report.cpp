@@ -39,12 +39,12 @@ const Json* first_number(const Json& entry, const std::string& name) {
   return nullptr;
 }
 
+}  // namespace
+
 bool has_something(const fs::path& file) {
   std::error_code ignored;
   return fs::is_regular_file(file, ignored) && fs::file_size(file, ignored) > 0;
 }
-
-}  // namespace
 
 StageReport::StageReport() : impl_(std::make_shared<const Impl>(Impl{Json::object()})) {}
 

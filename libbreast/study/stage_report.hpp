@@ -46,6 +46,9 @@ class StageReport {
   std::shared_ptr<const Impl> impl_;
 };
 
+/// True for a regular file that is not empty: a result that was written.
+bool has_something(const std::filesystem::path& file);
+
 /// The folder RUN/studies/STUDY/VARIANT, which contains STAGE.json and STAGE.vtkhdf for every stage
 /// of a variant.
 std::filesystem::path variant_of(const std::filesystem::path& run, const std::string& study,

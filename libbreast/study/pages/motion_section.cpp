@@ -5,11 +5,12 @@
 
 #include "study/cells.hpp"
 #include "study/pages/html.hpp"
+#include "study/stage_report.hpp"
 
 namespace breast {
 
 std::string motion_section(const std::filesystem::path& run) {
-  if (!std::filesystem::exists(run / "population.tsv")) return "";
+  if (!has_something(run / "population.tsv")) return "";
   const Table all = read_table(run / "population.tsv");
   std::string text =
       "<h2>This breast beside living women</h2>\n"

@@ -49,11 +49,6 @@ std::string dated(const fs::path& file) {
   return text;
 }
 
-bool has_something(const fs::path& file) {
-  std::error_code ignored;
-  return fs::is_regular_file(file, ignored) && fs::file_size(file, ignored) > 0;
-}
-
 std::vector<fs::path> files_in(const fs::path& folder, const std::string& ending) {
   std::vector<fs::path> files;
   std::error_code ignored;
