@@ -162,8 +162,8 @@ Table parse_table(const std::string& text, const std::string& name) {
 }
 
 Table read_table(const std::filesystem::path& file) {
-  constexpr std::uintmax_t most_bytes = 16
-                                        << 20;  // a table of tabs needs 32 bytes of memory per byte
+  // A table of tabs needs 32 bytes of memory per byte.
+  constexpr std::uintmax_t most_bytes = 16 << 20;
   return parse_table(read_text(file, most_bytes), file.string());
 }
 
