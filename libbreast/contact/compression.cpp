@@ -22,6 +22,10 @@ namespace breast {
 
 namespace {
 
+/// Where faces touch, a force, mean pressure or area that ends the compression is reached within this
+/// part of it: the contact area of faces changes by whole nodes, about one hundredth of the area each.
+constexpr double faces_control_tolerance = 5e-3;
+
 /// The contact solver needs a Cholesky factor.
 MechanicsOptions by_factor(MechanicsOptions mechanics) {
   mechanics.solver = SolverOption::direct;
@@ -106,7 +110,8 @@ bool Compression::load_with(const Eigen::VectorXd& load, const char* name, State
 CompressionTarget Compression::target() const {
   const double initial = found_.plates.initial_thickness;
   CompressionTarget target = target_of({options_.stop_at, options_.target}, initial);
-  for (const CompressionStop& stop : options_.or_at) target.or_at.push_back(target_of(stop, initial));
+  for (const CompressionStop& stop : options_.or_at)
+    target.or_at.push_back(target_of(stop, initial));
   return target;
 }
 
@@ -120,6 +125,7 @@ Grip Compression::grip() const {
 /// If the breast is lifted, its weight returns while the plates grip it.
 PathOptions Compression::path_options() {
   PathOptions path = options_.path;
+  if (options_.method == ContactMethod::surface) path.control_tolerance = faces_control_tolerance;
   if (options_.positioning == Positioning::hanging) return path;
   path.prepare = [this, grip = grip()](double thickness) {
     const double reduction = 1 - thickness / found_.plates.initial_thickness;
@@ -141,10 +147,10 @@ bool Compression::has_let_go(const State& state) {
   const double weight = hand.weight.at(reduction), pull = hand.pull.at(reduction);
   if (weight == 1 && (pull == 1 || !(options_.pull_N > 0))) return true;
   found_.load_reached = weight;
-  const std::string still = message(
-      "the compression ends at a reduction of ", 100 * reduction,
-      " %, at which the hand still carries ", 100 * (1 - weight),
-      " % of the breast's weight and pulls with ", (1 - pull) * options_.pull_N, " N");
+  const std::string still =
+      message("the compression ends at a reduction of ", 100 * reduction,
+              " %, at which the hand still carries ", 100 * (1 - weight),
+              " % of the breast's weight and pulls with ", (1 - pull) * options_.pull_N, " N");
   if (found_.path.reached) {
     found_.reason_id = "ends_before_grip";
     found_.record.reason =

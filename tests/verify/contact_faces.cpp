@@ -41,11 +41,11 @@ class PressedFaces {
     contact_ = std::make_unique<SurfaceContact>(mesh_, faces, body_, solver_, settings);
     state = scene_.at_rest(flatten(mesh_.reference));
   }
-  PathResult close_to(double thickness) {
+  PathResult close_to(double thickness, const PathOptions& path = {}) {
     const auto area = [&](const State&) {
       return std::vector<double>(contact_->candidates().size(), 1.0);
     };
-    return follow_path(*contact_, plates, state, {TargetKind::thickness, thickness}, area, {});
+    return follow_path(*contact_, plates, state, {TargetKind::thickness, thickness}, area, path);
   }
   const HexMesh& mesh() const { return mesh_; }
   const std::vector<int>& candidates() const { return contact_->candidates(); }
@@ -199,6 +199,33 @@ TEST(ContactFaces, FrictionHoldsWithinItsBound) {
     if (contact.tangential.norm() > 0.99 * friction * contact.normal) ++slipping;
   }
   EXPECT_GT(slipping, 0);
+}
+
+// Where a step of the plates begins before they touch, friction holds the nodes from where they were
+// when they were touched, and not from the end of the step.
+TEST(ContactFaces, FrictionHoldsFromWhereANodeWasTouched) {
+  constexpr double side = 30, gap = 2.5;
+  const HexMesh mesh = fixtures::standing_block(Vec3(side, side, side), {3, 3, 3});
+  const auto spread = [&](double friction, double step) {
+    PlatePair plates = fixtures::wide_plates(0, side + gap);
+    plates.detector_rise = 0;
+    PressedFaces block(mesh, seed2008(), fixtures::mirror_planes(mesh), plates,
+                       touchable_faces(mesh), friction);
+    PathOptions path;
+    path.first_step = path.longest_step = step;
+    EXPECT_TRUE(block.close_to(side - gap, path).reached);
+    double widest = 0;
+    for (int node = 0; node < mesh.nodes(); ++node) {
+      if (mesh.reference[std::size_t(node)].z() < side - 1e-9) continue;
+      widest = std::max(widest, block.state.x[3L * node] - side);
+    }
+    return widest;
+  };
+  const double smooth = spread(0, 2 * gap), held = spread(2, 0.1 * gap),
+               at_once = spread(2, 2 * gap);
+  EXPECT_LT(held, 0.3 * smooth);
+  // Half of the step is made before the nodes are touched.
+  EXPECT_LT(at_once - held, 0.6 * (smooth - held));
 }
 
 }  // namespace breast

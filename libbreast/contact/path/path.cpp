@@ -289,7 +289,8 @@ bool Path::refine_control(const CompressionTarget& target, const Waypoint& befor
     State guess{low.state.reference, (1 - w) * low.state.x + w * high.state.x,
                 (1 - w) * low.state.p + w * high.state.p};
     Waypoint middle;
-    if (!attempt(guess, w < 0.5 ? low.memory : high.memory, thickness, tolerance_, middle)) {
+    // From the state before: friction would keep the memory of one beyond the target.
+    if (!attempt(guess, low.memory, thickness, tolerance_, middle)) {
       here_ = low;
       return false;
     }

@@ -18,8 +18,8 @@ inline constexpr double contact_volume_accuracy = 1e-4;
 
 /// The forces of the plates on one candidate.
 struct NodalContact {
-  int plate = -1;       ///< 0 paddle, 1 detector; −1: touches neither
-  double normal = 0;         ///< along the plate's normal there, µN
+  int plate = -1;     ///< 0 paddle, 1 detector; −1: touches neither
+  double normal = 0;  ///< along the plate's normal there, µN
   /// Perpendicular to that normal, µN: friction and, for a face on a rounded edge, the contribution
   /// of the pressure beside the node.
   Vec3 tangential{0, 0, 0};
@@ -33,7 +33,7 @@ struct ContactStep : NewtonResult {
   /// For a state to be reported: relative difference between the friction bounds and those of its
   /// own normal forces.
   double friction_lag = 0;
-  double worst_penetration = 0;  ///< mm, over all candidates
+  double worst_penetration = 0;        ///< mm, over all candidates
   std::vector<NodalContact> contacts;  ///< per candidate, when converged
   std::vector<PressedPoint> pressed;   ///< when converged, of faces; empty where nodes touch
   Eigen::VectorXd failed_trial;        ///< positions of the first refused trial of a failed step
@@ -53,9 +53,11 @@ struct ContactMemory {
   std::vector<signed char> touching;  ///< −1 free, 0 touches the paddle, 1 the detector
   std::vector<double> multipliers;    ///< µN per unit gap gradient
   double penalty = 0;                 ///< µN/mm; augmented Lagrangian only
-  std::vector<Vec3> anchors;          ///< points at which friction holds the nodes, mm; with
-                                      ///< friction only
-  std::vector<double> bounds;         ///< largest friction forces, µN; with friction only
+  /// Points at which friction holds the nodes, relative to the plate's shift, and the positions of
+  /// free nodes, mm; with friction only.
+  std::vector<Vec3> anchors;
+  std::vector<double> bounds;  ///< largest friction forces, µN; with friction only
+  PlatePair plates;  ///< of the last solution; with friction between faces and plates only
 };
 
 /// Solver for one plate position: an ActiveSet, or another method for comparison.

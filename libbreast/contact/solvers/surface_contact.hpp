@@ -50,6 +50,7 @@ class SurfaceContact : public ContactSolver {
   std::vector<NodalContact> nodal_contacts(const Eigen::VectorXd& x) const;
   void set_friction();
   bool follow_friction(State& state, double tolerance, double depth, ContactStep& step);
+  void hold(std::size_t c, int plate, const State& state);
   void move_anchors(const State& state, ContactStep& step);
 
   Problem problem_;
