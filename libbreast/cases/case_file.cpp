@@ -4,28 +4,17 @@
 #include <algorithm>
 #include <optional>
 #include <sstream>
-#include <string_view>
 
 #include "cases/make_text.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/trimmed.hpp"
 
 namespace breast {
 
 namespace {
 
 constexpr std::size_t most_bytes = 65536;
-constexpr const char* blanks = " \t\r\v\f";
-
-bool blank(char c) {
-  return std::string_view(blanks).find(c) != std::string_view::npos;
-}
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 struct Line {
   std::string key, value;
@@ -35,7 +24,7 @@ struct Line {
 // A comment in a value begins at a '#' that follows a blank.
 std::string without_comment(const std::string& value) {
   for (std::size_t at = 0; at + 1 < value.size(); ++at)
-    if (blank(value[at]) && value[at + 1] == '#') return value.substr(0, at);
+    if ((value[at] == ' ' || value[at] == '\t') && value[at + 1] == '#') return value.substr(0, at);
   return value;
 }
 
