@@ -4,7 +4,6 @@
 # chain runs with this set. landmarks.tsv contains the distance of each landmark from its observed position with this set, with
 # Table II (seed2008) and with the prior set; figures/postures.png shows both postures. All files of the second scan are in
 # RUN/second.
-IDENTIFY ?= $(BIN)/identify
 ifneq ($(LANDMARKS)$(SUPINE),)
 landmark_files := $(subst $(comma), ,$(LANDMARKS))
 second_marks := $(if $(LANDMARKS),--landmarks $(firstword $(landmark_files)) $(addprefix --second-landmarks ,$(word 2,$(landmark_files))))

@@ -151,7 +151,7 @@ $(RUN)/truth.tsv $(RUN)/truth-cut-fixed.tsv:
 endif
 
 $(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(RUN)/cut.tsv \
-  $(if $(TRUTH),$(RUN)/truth.tsv $(if $(filter $(sliding_presets),$(PRESET)),,$(RUN)/truth-cut-fixed.tsv)) $(FIGURES) \
+  $(if $(TRUTH),$(RUN)/truth.tsv $(if $(body_slides),,$(RUN)/truth-cut-fixed.tsv)) $(FIGURES) \
   $(TABULATE) $(PIPELINES)/advice.tsv
 	@$(call table,$(tabulate) summary $(RUN) $(if $(TRUTH),$(PHANTOM_MR:.nrrd=.json)))
 	@cat $@

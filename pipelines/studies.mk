@@ -20,7 +20,7 @@ all_studies := $(studies) scaled-as-printed $(if $(study_file),$(study_name))
 tables_of_studies := $(join $(studies:%=%=),$(own_studies)) scaled-as-printed=$(PIPELINES)/studies/scaled.tsv@findings/as-printed \
   $(addprefix $(study_name)=,$(study_file))
 variant_dirs :=
-$(call ask,variants $(RUN) '$(STAGES)' 'supine $(if $(no_tumour),cc mlo,curve)' $(foreach a,$(ATTRIBUTES),'@$a=$(strip $($(RUN)@$a))') \
+$(call ask,$(CASES) variants $(RUN) '$(STAGES)' 'supine $(if $(no_tumour),cc mlo,curve)' $(foreach a,$(ATTRIBUTES),'@$a=$(strip $($(RUN)@$a))') \
   '{tumour={tumour}' $(foreach p,$(placeholders),'{$p=$(strip $($p))') $(tables_of_studies))
 $(foreach d,$(variant_dirs),$(call case_rules,$d,$(filter-out $($d@given),$($d@stages))))
 
