@@ -14,6 +14,11 @@ planning := $(findstring n,$(letters))$(findstring q,$(letters))
 without_settings := help settings $(if $(INSTALLED),,setup build package)
 wanted := $(filter-out $(without_settings),$(goals))
 ready := $(and $(wanted),$(wildcard $(BIN)/cases))
+# Names given on the command line. Until their values have been checked, no recipe gets them: make would expand them first.
+given := $(filter-out -% .% MAKE% GNUMAKEFLAGS,$(foreach v,$(.VARIABLES),$(if $(findstring command,$(origin $v)),$v)))
+ifeq ($(ready),)
+unexport $(given)
+endif
 
 ifdef INSTALLED
 SOURCES :=

@@ -44,8 +44,6 @@ else
 cohort: $(COHORT_CASES:%=$(COHORT_RUNS)/%.status)
 	@$(cohort_results)
 	@$(CASES) any-done $(COHORT_RUNS)/cohort.tsv --quiet
-cohort-script:
-	$(error cohort-script: is for CLUSTER=slurm)
 endif
 .PHONY: cohort cohort-table cohort-script
 endif

@@ -15,10 +15,7 @@ $(file): $(patsubst $(RUN)/CURVE,$(CURVE),$(addprefix $(RUN)/,$(cell_files))) \
 endef
 $(call ask,$(CASES) rows $(PIPELINES)/figures.tsv picture)
 FIGURES += $(if $(SUPINE),$(F)/postures.png)
-fig4: $(fig4)
-fig5: $(fig5)
-fig6: $(fig6)
-fig7: $(fig7)
+$(foreach n,4 5 6 7,$(eval fig$n: $(fig$n)))
 .PHONY: fig4 fig5 fig6 fig7
 
 # Figs 6c and 6d show several points: a grid of them in the CC view.

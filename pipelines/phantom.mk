@@ -7,13 +7,16 @@ export CALIBRATED := $(if $(TRUTH),$(if $(filter paper,$(PRESET)),$(PHANTOM_MR:.
 landmarks := $(if $(no_tumour),,tumour$(comma))nipple
 CURVE := $(if $(no_tumour),,$(RUN)/curve.vtp)
 
-phantom_record := $(RUNS)/phantom/.$(PRESET).settings
+# $(call phantom_scan,NAME,OPTIONS,FILES): the scan RUNS/phantom/NAME.nrrd, its truth NAME-truth, and more files made with it.
 phantom_settings := $(PHANTOM) $(PRESET) $(PHANTOM_OPTIONS)
-$(PHANTOM_MR) $(PHANTOM_TRUTH)/landmarks.tsv $(PHANTOM_TRUTH)/tumour-$(SIDE).tsv &: $(PHANTOM) $(call changed,phantom)
-	@mkdir -p $(dir $(PHANTOM_MR))
-	$(PHANTOM) $(PHANTOM_MR) --preset $(PRESET) --truth $(PHANTOM_TRUTH) $(PHANTOM_OPTIONS) \
-	  --report $(basename $(PHANTOM_MR)).json $(share)
-	@$(call record,phantom)
+define phantom_scan
+$(RUNS)/phantom/$1.nrrd $(RUNS)/phantom/$1-truth/landmarks.tsv $3 &: $(PHANTOM) $(call stale,$(RUNS)/phantom/.$1.settings,$(phantom_settings))
+	@mkdir -p $$(@D)
+	$(PHANTOM) $(RUNS)/phantom/$1.nrrd --preset $(PRESET) $2 --truth $(RUNS)/phantom/$1-truth $(PHANTOM_OPTIONS) \
+	  --report $(RUNS)/phantom/$1.json $$(share)
+	@$$(call note,$(RUNS)/phantom/.$1.settings,$(phantom_settings))
+endef
+$(eval $(call phantom_scan,$(PRESET),,$(PHANTOM_TRUTH)/tumour-$(SIDE).tsv))
 
 # Makes only the scan, which all cases of one phantom share (cohort.mk).
 .PHONY: phantom-scan
@@ -69,7 +72,6 @@ same_plates = --thickness $$($(tabulate) key $1 thickness_mm) --edge-at $$($(tab
   --middle-at $$($(tabulate) key $1 middle_at_mm) --turn $$($(tabulate) key $1 turn_deg)
 $(RUN)/truth-compressed.tsv: $(TRUTH_TABLE) $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf \
   truth-cc.vtkhdf truth-mlo.vtkhdf) $(PROBE)
-	$(PROBE) $(filter %.vtkhdf,$^) --truth $< > $@.part
-	@mv $@.part $@
+	$(call table,$(PROBE) $(filter %.vtkhdf,$^) --truth $<)
 truth: $(RUN)/truth-compressed.tsv
 	@cat $<

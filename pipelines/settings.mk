@@ -15,8 +15,7 @@ ask = $(call answer,$(shell $1 --quiet 2>&1))
 outdated = $(if $(if $(INSTALLED),,$(shell find $(SOURCES) -newer $(BIN)/cases)),; the programs are older than their sources: make -f $(PIPELINE) build)
 quoted = '$(subst ','\'',$1)'
 
-# Names given on the command line, with their values before any expansion.
-given := $(filter-out -% .% MAKE% GNUMAKEFLAGS,$(foreach v,$(.VARIABLES),$(if $(findstring command,$(origin $v)),$v)))
+# What is given on the command line is passed on with its values before any expansion.
 $(call ask,$(BIN)/cases settings $(PIPELINES) $(BIN) $(if $(INSTALLED),installed,built) $(call quoted,$(goals)) \
   $(foreach v,$(given),$(call quoted,$v=$(value $v))))
 

@@ -48,6 +48,8 @@ void Goals::check(const CaseKind& kind, const std::string& preset) const {
   refuse("held", kind.body_slides,
          "holds the breast at its wall, but the phantom " + preset +
              " slides there; give PRESET=paper or leave PRESET out");
+  refuse("slurm", !kind.slurm,
+         "prints what would be submitted to Slurm, and CLUSTER is not slurm; give CLUSTER=slurm");
   refuse("truth", kind.printed && kind.body_slides,
          "with PAPER=1 the breast is held at its wall, but the phantom " + preset +
              " slides there; leave PAPER or PRESET out");

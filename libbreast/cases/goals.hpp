@@ -15,6 +15,7 @@ struct CaseKind {
   bool has_tumour = false;   ///< there is a tumour to follow
   bool body_slides = false;  ///< the body of the phantom slides on the chest wall
   bool printed = false;      ///< the model as printed in the paper (PAPER=1)
+  bool slurm = false;        ///< cohorts are submitted to Slurm (CLUSTER=slurm)
 };
 
 class Goals {

@@ -64,7 +64,8 @@ class Decisions {
     decide_scan();
     decide_folder();
     decide_model();
-    goals_.check({request_.installed, phantom_, has_tumour_, body_slides_, printed()},
+    goals_.check({request_.installed, phantom_, has_tumour_, body_slides_, printed(),
+                  value("CLUSTER") == "slurm"},
                  value("PRESET"));
     if (goals_.about_case()) refuse_another_scan();
     derive_sets();

@@ -43,6 +43,7 @@ constexpr const char* settings_table =
     "HEXMESH_OPTIONS\ttext\tcase\t-\t-\t-\n"
     "COMPRESS_OPTIONS\ttext\tcase\t-\t-\t-\n"
     "FORWARD\tprogram\tcommand\tforward\t-\t-\n"
+    "CLUSTER\tname\tcommand\tlocal\tlocal slurm\t-\n"
     "CHROMIUM\twords\tcommand\t-\t-\t-\n"
     "CASE_FILE\tname\tcommand\t-\t-\t-\n"
     "COST_POINTS\twords\tcommand\t-\trows:cost\t-\n"
@@ -56,7 +57,7 @@ class CaseSettings : public testing::Test {
     write_text(pipelines() / "settings.tsv", settings_table);
     write_text(pipelines() / "goals.tsv",
                "goal\tneeds\ntables\tpaper tumour\ntruth\ttruth\nbudget\tpaper truth held source\n"
-               "cohort\tany\n");
+               "cohort\tany\ncohort-script\tslurm any\n");
     write_text(pipelines() / "materials/invivo.tsv", "tissue\tc\nfat\t1\nwall\t2\n");
     write_text(pipelines() / "materials/seed2008.tsv", "tissue\tc\nfat\t1\n");
     write_text(pipelines() / "studies/cost.tsv", "variant\tstarts_at\nfine\tmesh\n");
@@ -216,6 +217,8 @@ TEST_F(CaseSettings, ATargetIsRefusedIfTheCaseCannotHaveIt) {
             std::string::npos);
   EXPECT_NE(refused("truth", {{"PRESET", "average"}, {"PAPER", "1"}}).find("with PAPER=1"),
             std::string::npos);
+  EXPECT_NE(refused("cohort-script", {}).find("give CLUSTER=slurm"), std::string::npos);
+  EXPECT_EQ(refused("cohort-script", {{"CLUSTER", "slurm"}}), "");
   request_.installed = true;
   EXPECT_NE(refused("budget", {}).find("needs the source tree"), std::string::npos);
 }
