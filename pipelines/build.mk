@@ -20,6 +20,9 @@ ifeq ($(ready),)
 unexport $(given)
 endif
 
+.PHONY: FORCE
+FORCE:
+
 ifdef INSTALLED
 SOURCES :=
 else
@@ -41,10 +44,9 @@ endef
 $(ROOT)build/cases.mk: $(ROOT)build/.packages FORCE
 	$(call build,cases)
 	@echo "# Written when the program that checks the settings was first built." > $@
-.PHONY: setup build FORCE
+.PHONY: setup build
 setup: $(ROOT)build/.packages
 build: ;
-FORCE:
 -include $(wildcard $(ROOT)tests/package.mk)
 
 ifneq ($(planning),)
