@@ -30,7 +30,7 @@ SOURCES := $(shell find $(addprefix $(ROOT),libbreast tools cmake) $(PIPELINES)/
   $(ROOT)CMakeLists.txt $(ROOT)CMakePresets.json
 PRESET_BUILD ?= release
 build_presets := release debug asan package bench ci
-$(if $(filter-out $(build_presets),$(value PRESET_BUILD)),$(error PRESET_BUILD: '$(value PRESET_BUILD)' is none of the presets $(build_presets)))
+$(if $(filter-out $(build_presets),$(value PRESET_BUILD)),$(error PRESET_BUILD: '$(value PRESET_BUILD)' is not a preset of CMakePresets.json; give one of $(build_presets)))
 
 $(ROOT)build/.packages: $(PIPELINES)/packages.txt $(PIPELINES)/setup.sh
 	@mkdir -p $(@D)

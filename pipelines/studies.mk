@@ -14,7 +14,7 @@ own_studies := $(sort $(wildcard $(PIPELINES)/studies/*.tsv))
 studies := $(basename $(notdir $(own_studies)))
 study_name := $(subst $(comma),_,$(basename $(notdir $(STUDY))))
 study_file := $(if $(filter $(study_name),$(studies)),,$(STUDY))
-$(if $(study_file),$(if $(wildcard $(study_file)),,$(error STUDY: '$(STUDY)' is neither a file nor one of $(studies))))
+$(if $(study_file),$(if $(wildcard $(study_file)),,$(error STUDY: '$(STUDY)' is neither a file nor one of the studies $(studies); give STUDY=FILE.tsv or one of these names)))
 all_studies := $(studies) scaled-as-printed $(if $(study_file),$(study_name))
 # The rows of Tables III to VI are solved a second time, with the model as printed in the paper.
 tables_of_studies := $(join $(studies:%=%=),$(own_studies)) scaled-as-printed=$(PIPELINES)/studies/scaled.tsv@findings/as-printed \
@@ -32,5 +32,5 @@ $(foreach s,$(all_studies),$(eval $(call study_rule,$s)))
 
 .PHONY: study
 study: $(addprefix $(call study_dir,),$(addsuffix .tsv,$(study_name)))
-	$(if $(STUDY),,$(error study: name a table of variants, STUDY=FILE.tsv, or one of $(studies)))
+	$(if $(STUDY),,$(error study: no study is named; give a table of variants with STUDY=FILE.tsv$(comma) or one of $(studies)))
 	@cat $<

@@ -45,12 +45,13 @@ std::optional<Line> split_line(const std::string& line) {
 
 void check_value(const Line& line, const std::string& at) {
   if (!code_in(line.value).empty())
-    throw input_error(at, ": ", line.key,
-                      " holds a character that make or a shell would read as code; give a name "
-                      "without it, or a link of such a name");
+    throw input_error(at, ": ", line.key, " contains the character ", code_in(line.value),
+                      ", which make or a shell would read as code; give a name without it, or a "
+                      "link that has such a name (ln -s)");
   if (std::any_of(line.value.begin(), line.value.end(),
                   [](unsigned char c) { return c < ' ' || c == 0x7f; }))
-    throw input_error(at, ": ", line.key, " holds a control character");
+    throw input_error(at, ": the value of ", line.key,
+                      " contains a control character; write the line again in a text editor");
 }
 
 }  // namespace
@@ -63,7 +64,8 @@ bool CaseFile::has(const std::string& key) const {
 CaseFile parse_case_file(const std::string& text, const std::string& name,
                          const std::vector<std::string>& known) {
   const std::string what = "case file " + name;
-  if (text.size() > most_bytes) throw input_error(what, ": is larger than 64 kB");
+  if (text.size() > most_bytes)
+    throw input_error(what, " has ", text.size(), " bytes and may not be larger than 64 kB");
   CaseFile found;
   bool of_makefile = false;
   std::istringstream in(text);
@@ -74,29 +76,36 @@ CaseFile parse_case_file(const std::string& text, const std::string& name,
     if (content.empty() || content.front() == '#') continue;
     const std::optional<Line> split = split_line(content);
     if (!split)
-      throw input_error(at,
-                        ": is not KEY = VALUE (a case file is data; nothing in it is executed)");
+      throw input_error(
+          at, ": this line is not KEY = VALUE; a case file is data, and nothing in it is executed");
     if (std::find(known.begin(), known.end(), split->key) == known.end())
       throw input_error(at, ": ", split->key, " is no setting of a case",
                         suggestion(split->key, known));
-    if (found.has(split->key)) throw input_error(at, ": ", split->key, " stands there twice");
+    if (found.has(split->key))
+      throw input_error(at, ": ", split->key,
+                        " is given for the second time; remove one of the two lines");
     check_value(*split, at);
     of_makefile = of_makefile || split->of_makefile;
     found.settings.emplace_back(split->key, split->value);
   }
   if (!of_makefile) return found;
   if (!name.ends_with(".mk"))
-    throw input_error(what, ": := and ?= are of makefiles; write KEY = VALUE");
-  found.warning = name + ": := and ?= will not be read by the next version; write KEY = VALUE";
+    throw input_error(
+        what, " contains := or ?=, which only makefiles of version 0.1 may; write KEY = VALUE");
+  found.warning =
+      name + " contains := or ?=, which the next version will not read; write KEY = VALUE";
   return found;
 }
 
 CaseFile read_case_file(const std::filesystem::path& file, const std::vector<std::string>& known) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none))
-    throw input_error("case file ", file.string(), ": is not a file that can be read");
-  if (std::filesystem::file_size(file, none) > most_bytes)
-    throw input_error("case file ", file.string(), ": is larger than 64 kB");
+    throw input_error("case file ", file.string(),
+                      " does not exist or is not a file that can be read; check CASE_FILE");
+  const auto bytes = std::filesystem::file_size(file, none);
+  if (bytes > most_bytes)
+    throw input_error("case file ", file.string(), " has ", bytes,
+                      " bytes and may not be larger than 64 kB");
   return parse_case_file(read_text(file), file.string(), known);
 }
 
