@@ -23,14 +23,12 @@ endif
 .PHONY: FORCE
 FORCE:
 
-ifdef INSTALLED
-SOURCES :=
-else
+ifndef INSTALLED
 SOURCES := $(shell find $(addprefix $(ROOT),libbreast tools cmake) $(PIPELINES)/materials -type f -not -name '.*') \
   $(ROOT)CMakeLists.txt $(ROOT)CMakePresets.json
 PRESET_BUILD ?= release
-build_presets := release debug asan package bench ci
-$(if $(filter-out $(build_presets),$(value PRESET_BUILD)),$(error PRESET_BUILD: '$(value PRESET_BUILD)' is not a preset of CMakePresets.json; give one of $(build_presets)))
+presets := release debug asan package bench ci
+$(if $(filter-out $(presets),$(value PRESET_BUILD)),$(error PRESET_BUILD: '$(value PRESET_BUILD)' is none of $(presets)))
 
 $(ROOT)build/.packages: $(PIPELINES)/packages.txt $(PIPELINES)/setup.sh
 	@mkdir -p $(@D)

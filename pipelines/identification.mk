@@ -11,7 +11,6 @@ ifneq ($(SUPINE),)
 PHANTOM_SUPINE := $(RUNS)/phantom/$(PRESET)-supine.nrrd
 supine_scan := $(if $(filter phantom,$(SUPINE)),$(PHANTOM_SUPINE),$(SUPINE))
 ifeq ($(SUPINE),phantom)
-$(if $(TRUTH),,$(error SUPINE: phantom is the supine scan of a phantom$(comma) but MR=$(MR) is a patient; name the supine scan of this patient with SUPINE=FILE))
 supine_truth := $(PHANTOM_SUPINE:.nrrd=-truth)/landmarks.tsv
 $(eval $(call phantom_scan,$(PRESET)-supine,--posture supine --misalign 4$(comma)2))
 endif

@@ -10,7 +10,8 @@ CURVE := $(if $(no_tumour),,$(RUN)/curve.vtp)
 # $(call phantom_scan,NAME,OPTIONS,FILES): the scan RUNS/phantom/NAME.nrrd, its truth NAME-truth, and more files made with it.
 phantom_settings := $(PHANTOM) $(PRESET) $(PHANTOM_OPTIONS)
 define phantom_scan
-$(RUNS)/phantom/$1.nrrd $(RUNS)/phantom/$1-truth/landmarks.tsv $3 &: $(PHANTOM) $(call stale,$(RUNS)/phantom/.$1.settings,$(phantom_settings))
+$(RUNS)/phantom/$1.nrrd $(RUNS)/phantom/$1-truth/landmarks.tsv $3 &: $(PHANTOM) \
+  $(call stale,$(RUNS)/phantom/.$1.settings,$(phantom_settings))
 	@mkdir -p $$(@D)
 	$(PHANTOM) $(RUNS)/phantom/$1.nrrd --preset $(PRESET) $2 --truth $(RUNS)/phantom/$1-truth $(PHANTOM_OPTIONS) \
 	  --report $(RUNS)/phantom/$1.json $$(share)

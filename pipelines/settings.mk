@@ -12,7 +12,8 @@ endef
 line_end := $(shell printf '\036')
 answer = $(if $(filter 0,$(.SHELLSTATUS)),$(eval $(subst $(line_end),$(newline),$1)),$(error $(filter-out cases:,$1)$(outdated)))
 ask = $(call answer,$(shell $1 --quiet 2>&1))
-outdated = $(if $(if $(INSTALLED),,$(shell find $(SOURCES) -newer $(BIN)/cases)),; the programs are older than their sources: make -f $(PIPELINE) build)
+outdated = $(if $(if $(INSTALLED),,$(shell find $(SOURCES) -newer $(BIN)/cases)),; \
+  the programs are older than their sources: make -f $(PIPELINE) build)
 quoted = '$(subst ','\'',$1)'
 
 # What is given on the command line is passed on with its values before any expansion.

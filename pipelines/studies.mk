@@ -14,7 +14,7 @@ own_studies := $(sort $(wildcard $(PIPELINES)/studies/*.tsv))
 studies := $(basename $(notdir $(own_studies)))
 study_name := $(subst $(comma),_,$(basename $(notdir $(STUDY))))
 study_file := $(if $(filter $(study_name),$(studies)),,$(STUDY))
-$(if $(study_file),$(if $(wildcard $(study_file)),,$(error STUDY: '$(STUDY)' is neither a file nor one of the studies $(studies); give STUDY=FILE.tsv or one of these names)))
+$(if $(study_file),$(if $(wildcard $(study_file)),,$(error STUDY: '$(STUDY)' is neither a file nor one of the studies $(studies))))
 all_studies := $(studies) scaled-as-printed $(if $(study_file),$(study_name))
 # The rows of Tables III to VI are solved a second time, with the model as printed in the paper.
 tables_of_studies := $(join $(studies:%=%=),$(own_studies)) scaled-as-printed=$(PIPELINES)/studies/scaled.tsv@findings/as-printed \

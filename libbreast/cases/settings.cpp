@@ -245,6 +245,9 @@ void Decisions::refuse_another_scan() const {
 // the prior, and the chain runs with the set that `identify` finds.
 void Decisions::derive_sets() {
   if (value("LANDMARKS").empty() && value("SUPINE").empty()) return;
+  if (value("SUPINE") == "phantom" && !phantom_)
+    throw input_error("SUPINE: phantom is the supine scan of a phantom, but MR=", value("MR"),
+                      " is the scan of a patient; name the supine scan of this patient");
   set("prior_set", value("MATERIALS"));
   values_["MATERIALS"] = value("RUN") + "/identified.tsv";
   line("override MATERIALS := " + value("MATERIALS"));

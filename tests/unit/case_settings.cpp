@@ -192,6 +192,9 @@ TEST_F(CaseSettings, SetsAndPartsAreExchangedForTheCase) {
   EXPECT_TRUE(has_line({{"LANDMARKS", "a.tsv"}}, "prior_set := invivo"));
   EXPECT_TRUE(
       has_line({{"LANDMARKS", "a.tsv"}}, "override MATERIALS := runs/average/identified.tsv"));
+  EXPECT_NE(refusal({{"SUPINE", "phantom"}, {"MR", "x.nrrd"}}).find("SUPINE: phantom is"),
+            std::string::npos);
+  EXPECT_EQ(refusal({{"SUPINE", "phantom"}}), "");
   const SettingsRequest::Values without{{"LEAVE_OUT", "no-skin no-gland"}};
   EXPECT_TRUE(has_line(without, "override HEXMESH_OPTIONS += --skin 0"));
   EXPECT_TRUE(has_line(without, "override MATERIALS := runs/average/fat-only.tsv"));
