@@ -2,37 +2,63 @@
 # Set-up and build, done before make looks at the stages: make remakes an included file first and then
 # starts again, so that the programs' own times decide which stages are out of date. (As ordinary
 # prerequisites, programs that a build leaves untouched would look older than the build.)
-# An installation (pipelines/installed.mk) contains its programs: nothing is set up or built. It cannot make the targets that
-# build programs or that read or write the source tree.
-source_goals := check fuzz release-check faults full-disk whole-tools clean-root slurm setup build package validation validation-page \
-  stability% compare calibrate calibrate-invivo identification budget band-check band-truth matching page-check
-ifdef INSTALLED
-SOURCES :=
-$(call refuse_goals,$(INSTALLED),$(source_goals),needs the source tree of libbreast$(comma) which is not installed)
-else
-SOURCES := $(shell find $(addprefix $(ROOT),libbreast tools cmake) $(PIPELINES)/materials -type f -not -name '.*') \
-  $(ROOT)CMakeLists.txt $(ROOT)CMakePresets.json
-endif
-$(eval PRESET_BUILD ?= $(default_PRESET_BUILD))
-
+# An installation (pipelines/installed.mk) contains its programs: nothing is set up or built.
+BUILD := $(ROOT)build/release
+BIN := $(or $(INSTALLED),$(BUILD)/bin)
+goals = $(or $(MAKECMDGOALS),$(.DEFAULT_GOAL))
 # `make -n` and `make -q` only plan: they use the programs as they are, whereas make would build an included file first.
 letters := $(filter-out -%,$(firstword $(MAKEFLAGS)))
 planning := $(findstring n,$(letters))$(findstring q,$(letters))
-ifdef INSTALLED
-else ifneq ($(planning),)
--include $(wildcard $(ROOT)build/built-$(PRESET_BUILD).mk)
-else ifneq ($(filter-out help setup clean where settings package,$(goals)),)
-include $(ROOT)build/built-$(PRESET_BUILD).mk
+# The settings are checked by the program `cases` before make or a shell expands them and before anything is computed. These
+# targets have no settings; for all others `cases` is built first, alone, and then the makefiles are read from the beginning.
+without_settings := help settings $(if $(INSTALLED),,setup build package)
+wanted := $(filter-out $(without_settings),$(goals))
+ready := $(and $(wanted),$(wildcard $(BIN)/cases))
+# Names given on the command line. Until their values have been checked, no recipe gets them: make would expand them first.
+given := $(filter-out -% .% MAKE% GNUMAKEFLAGS,$(foreach v,$(.VARIABLES),$(if $(findstring command,$(origin $v)),$v)))
+ifeq ($(ready),)
+unexport $(given)
 endif
+
+.PHONY: FORCE
+FORCE:
+
+ifndef INSTALLED
+SOURCES := $(shell find $(addprefix $(ROOT),libbreast tools cmake) $(PIPELINES)/materials -type f -not -name '.*') \
+  $(ROOT)CMakeLists.txt $(ROOT)CMakePresets.json
+PRESET_BUILD ?= release
+presets := release debug asan package bench ci
+$(if $(filter-out $(presets),$(value PRESET_BUILD)),$(error PRESET_BUILD: '$(value PRESET_BUILD)' is none of $(presets)))
 
 $(ROOT)build/.packages: $(PIPELINES)/packages.txt $(PIPELINES)/setup.sh
 	@mkdir -p $(@D)
 	$(PIPELINES)/setup.sh
 	@touch $@
+# $(call build,TARGET)
+define build
+(cd $(or $(ROOT),.) && cmake --preset $(PRESET_BUILD) > build/configure.log 2>&1 || { cat build/configure.log >&2; exit 1; })
+cmake --build $(BUILD) --target $1 -j $$(nproc)
+endef
+$(ROOT)build/cases.mk: $(ROOT)build/.packages FORCE
+	$(call build,cases)
+	@echo "# Written when the program that checks the settings was first built." > $@
+.PHONY: setup build
+setup: $(ROOT)build/.packages
+build: ;
+-include $(wildcard $(ROOT)tests/package.mk)
 
-ifeq ($(planning)$(INSTALLED),)
+ifneq ($(planning),)
+-include $(wildcard $(ROOT)build/built-$(PRESET_BUILD).mk)
+# The plan of a first run ends with `cases`, which is needed to plan the rest.
+$(if $(ready),,$(wanted)): $(ROOT)build/cases.mk
+else
 $(ROOT)build/built-$(PRESET_BUILD).mk: $(ROOT)build/.packages $(SOURCES)
-	(cd $(or $(ROOT),.) && cmake --preset $(PRESET_BUILD) > build/configure.log 2>&1 || { cat build/configure.log >&2; exit 1; })
-	cmake --build $(BUILD) --target programs -j $$(nproc)
+	$(call build,programs)
 	@echo "# Written when the programs in $(BUILD) were last built." > $@
+ifneq ($(if $(ready),,$(wanted)),)
+include $(ROOT)build/cases.mk
+else ifneq ($(filter-out help setup clean where settings package,$(goals)),)
+include $(ROOT)build/built-$(PRESET_BUILD).mk
+endif
+endif
 endif

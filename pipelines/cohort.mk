@@ -8,9 +8,8 @@ ifneq ($(COHORT),)
 # Defines COHORT_CASES, and for each case CASE its case file (file_CASE) and its kind, scan or phantom (kind_CASE). Every case file
 # must be readable and name its scan or preset.
 COHORT_CASES :=
-$(call ask,cohort $(COHORT) $(case_settings))
+$(call ask,$(CASES) cohort $(COHORT) $(case_settings))
 COHORT_RUNS := $(RUNS)/cohort-$(notdir $(patsubst %/,%,$(if $(filter . .. %/. %/..,$(COHORT)),$(abspath $(COHORT)),$(COHORT))))
-.DEFAULT_GOAL := cohort
 
 # The list of cases contains one line per case: CASE, its case file, and its kind. It is a file, because ten thousand cases do not
 # fit on a command line.
@@ -45,8 +44,6 @@ else
 cohort: $(COHORT_CASES:%=$(COHORT_RUNS)/%.status)
 	@$(cohort_results)
 	@$(CASES) any-done $(COHORT_RUNS)/cohort.tsv --quiet
-cohort-script:
-	$(error cohort-script: is for CLUSTER=slurm)
 endif
 .PHONY: cohort cohort-table cohort-script
 endif

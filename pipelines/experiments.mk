@@ -7,7 +7,6 @@
 # question, the least model that stays within LEAVEOUT_MM, solved and measured.
 LEAVEOUT := $(RUN)/leaveout
 LEAVEOUT_VARIANTS ?= $(leaveout_variants)
-$(call among,LEAVEOUT_VARIANTS,$(leaveout_variants))
 LEAVEOUT_PARTS := $(filter no-%,$(leaveout_variants))
 LEAVEOUT_QUESTIONS := surgery matching
 leaveout: $(LEAVEOUT)/table.tsv $(LEAVEOUT)/recommendation.tsv
@@ -54,9 +53,6 @@ band: $(RUN)/band.tsv
 # The error is the landmarks' distance to the finest solution (COST_FINEST) of the same geometry, stress-free and supine.
 COST := $(RUN)/cost
 COST_POINTS ?= $(cost_variants)
-$(call among,COST_POINTS,$(cost_variants))
-$(call among,COST_FINEST,$(cost_variants))
-$(call among,ACCURACY_LADDER,$(cost_variants))
 cost: $(COST)/cost.tsv $(COST)/cost.png
 	@cat $<
 $(COST)/cost.tsv: $(call results,cost,$(sort $(COST_POINTS) $(COST_FINEST)),supine) $(TABULATE)

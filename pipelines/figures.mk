@@ -5,21 +5,17 @@ FIGURES :=
 on_scan = --scan $(MR) --labels $(RUN)/labels.vtkhdf $(addprefix --series ,$(SERIES))
 $(foreach n,4 5 6 7,$(eval fig$n :=))
 define picture
-file := $(F)/$(call cell,picture).png
-FIGURES += $(if $(filter all $(if $(no_tumour),,tumour),$(call cell,of)),$(file))
-$(foreach p,$(call text,$(call cell,panels)),$(eval $p += $(file)))
-$(file): figure := $(call cell,figure) $(if $(call cell,scan),$(on_scan))
-$(file): $(patsubst $(RUN)/CURVE,$(CURVE),$(addprefix $(RUN)/,$(call text,$(call cell,files)))) \
-  $(if $(call cell,scan),$(RUN)/labels.vtkhdf) $(RENDER)
+file := $(F)/$(cell_picture).png
+FIGURES += $(if $(filter all $(if $(no_tumour),,tumour),$(cell_of)),$(file))
+$(foreach p,$(cell_panels),$(eval $p += $(file)))
+$(file): figure := $(cell_figure) $(if $(cell_scan),$(on_scan))
+$(file): $(patsubst $(RUN)/CURVE,$(CURVE),$(addprefix $(RUN)/,$(cell_files))) \
+  $(if $(cell_scan),$(RUN)/labels.vtkhdf) $(RENDER)
 	@mkdir -p $(@D) && $(RENDER) $(filter-out %/labels.vtkhdf,$(filter %.vtkhdf %.vtp %.vti,$^)) --figure $(figure) -o $@
 endef
-$(call read_table,$(PIPELINES)/figures.tsv)
-$(call each_row,picture)
+$(call ask,$(CASES) rows $(PIPELINES)/figures.tsv picture)
 FIGURES += $(if $(SUPINE),$(F)/postures.png)
-fig4: $(fig4)
-fig5: $(fig5)
-fig6: $(fig6)
-fig7: $(fig7)
+$(foreach n,4 5 6 7,$(eval fig$n: $(fig$n)))
 .PHONY: fig4 fig5 fig6 fig7
 
 # Figs 6c and 6d show several points: a grid of them in the CC view.

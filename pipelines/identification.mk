@@ -4,7 +4,6 @@
 # chain runs with this set. landmarks.tsv contains the distance of each landmark from its observed position with this set, with
 # Table II (seed2008) and with the prior set; figures/postures.png shows both postures. All files of the second scan are in
 # RUN/second.
-IDENTIFY ?= $(BIN)/identify
 ifneq ($(LANDMARKS)$(SUPINE),)
 landmark_files := $(subst $(comma), ,$(LANDMARKS))
 second_marks := $(if $(LANDMARKS),--landmarks $(firstword $(landmark_files)) $(addprefix --second-landmarks ,$(word 2,$(landmark_files))))
@@ -12,15 +11,8 @@ ifneq ($(SUPINE),)
 PHANTOM_SUPINE := $(RUNS)/phantom/$(PRESET)-supine.nrrd
 supine_scan := $(if $(filter phantom,$(SUPINE)),$(PHANTOM_SUPINE),$(SUPINE))
 ifeq ($(SUPINE),phantom)
-$(if $(TRUTH),,$(error SUPINE: phantom is the second scan of a phantom, not of MR=$(MR); name the patient's supine scan))
 supine_truth := $(PHANTOM_SUPINE:.nrrd=-truth)/landmarks.tsv
-phantom-supine_record := $(RUNS)/phantom/.$(PRESET)-supine.settings
-phantom-supine_settings := $(PHANTOM) $(PRESET) $(PHANTOM_OPTIONS)
-$(PHANTOM_SUPINE) $(supine_truth) &: $(PHANTOM) $(call changed,phantom-supine)
-	@mkdir -p $(dir $(PHANTOM_SUPINE))
-	$(PHANTOM) $(PHANTOM_SUPINE) --preset $(PRESET) --posture supine --misalign 4,2 --truth $(PHANTOM_SUPINE:.nrrd=-truth) \
-	  $(PHANTOM_OPTIONS) --report $(PHANTOM_SUPINE:.nrrd=.json) $(share)
-	@$(call record,phantom-supine)
+$(eval $(call phantom_scan,$(PRESET)-supine,--posture supine --misalign 4$(comma)2))
 endif
 second-labels_record := $(RUN)/second/.labels.settings
 second-labels_settings := $(SEGMENT) $(supine_scan) --side $(SIDE)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Evaluation of the matching between views: derivatives of the compressed shapes for the band, and the matched curves of the
 # phantom's landmarks compared with their true positions (made by the target `truth`, which takes many minutes).
-SENSITIVITY ?= $(BIN)/sensitivity
 BAND_STATES := cc mlo truth-cc truth-mlo
 $(BAND_STATES:%=$(RUN)/%-sensitivity.vtkhdf): $(RUN)/%-sensitivity.vtkhdf: $(RUN)/%.vtkhdf $(RUN)/reference.vtkhdf $(SENSITIVITY)
 	$(SENSITIVITY) $(RUN)/reference.vtkhdf $< $@ $(PRONE) $(MECHANICS) $(SUPPORT) \

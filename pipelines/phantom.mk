@@ -1,56 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The phantom is a breast MR with known truth. Its prone shape is computed from its stress-free shape on a template and a mesh
 # that the chain never uses.
-PHANTOM_MR := $(RUNS)/phantom/$(PRESET).nrrd
-PHANTOM_TRUTH := $(RUNS)/phantom/$(PRESET)-truth
-ifndef MR
-  MR := $(PHANTOM_MR)
-  TRUTH := $(PHANTOM_TRUTH)/landmarks.tsv
-  # The paper places its tumour freely, at the margin of the gland; ours is the phantom's, whose displacement is known.
-  TUMOUR ?= $(PHANTOM_TRUTH)/tumour-$(SIDE).tsv
-else
-  # No tumour is added to a patient's scan by default: TUMOUR=x,y,z names one, TUMOUR=auto makes an artificial one.
-  TUMOUR ?= none
-endif
-# A run belongs to one scan and one side: another scan or side is refused before it overwrites anything.
-scan := $(if $(TRUTH),phantom:$(PRESET),$(MR))
-ifneq ($(filter-out help setup build check package clean calibrate cohort cohort-table cohort-script population calibrate-invivo identification,$(goals)),)
-  $(call ask,check $(RUN) $(SIDE) $(scan))
-endif
 # The preset `paper` was fitted to results of this chain; tabulate marks the rows to which it was fitted.
 export CALIBRATED := $(if $(TRUTH),$(if $(filter paper,$(PRESET)),$(PHANTOM_MR:.nrrd=.json) $(SIDE)))
-# `tumour` is the option that gives hexmesh the tumour, unless HEXMESH_OPTIONS names another. If `no_tumour` is not empty, there is
-# no tumour, and the chain ends with the curves of all CC points and their page instead of one curve.
-tumour = $(if $(findstring --tumour,$(HEXMESH_OPTIONS)),,--tumour $(TUMOUR))
-no_tumour := $(findstring --tumour none,$(HEXMESH_OPTIONS)$(tumour))
+# Without a tumour, the chain ends with the curves of all CC points and their page instead of one curve.
 landmarks := $(if $(no_tumour),,tumour$(comma))nipple
 CURVE := $(if $(no_tumour),,$(RUN)/curve.vtp)
-# Targets that need the displacement of the tumour.
-need_tumour := tables table3 table4 table5 table6 table7 table8 findings fig7 leaveout wall-sensitivity band
-$(call refuse_goals,$(no_tumour),$(need_tumour),needs a tumour to follow. Name its place with TUMOUR=x$(comma)y$(comma)z (patient LPS$(comma) \
-  mm)$(comma) a table or labels; or TUMOUR=auto for an artificial one)
 
-phantom_record := $(RUNS)/phantom/.$(PRESET).settings
+# $(call phantom_scan,NAME,OPTIONS,FILES): the scan RUNS/phantom/NAME.nrrd, its truth NAME-truth, and more files made with it.
 phantom_settings := $(PHANTOM) $(PRESET) $(PHANTOM_OPTIONS)
-$(PHANTOM_MR) $(PHANTOM_TRUTH)/landmarks.tsv $(PHANTOM_TRUTH)/tumour-$(SIDE).tsv &: $(PHANTOM) $(call changed,phantom)
-	@mkdir -p $(dir $(PHANTOM_MR))
-	$(PHANTOM) $(PHANTOM_MR) --preset $(PRESET) --truth $(PHANTOM_TRUTH) $(PHANTOM_OPTIONS) \
-	  --report $(basename $(PHANTOM_MR)).json $(share)
-	@$(call record,phantom)
+define phantom_scan
+$(RUNS)/phantom/$1.nrrd $(RUNS)/phantom/$1-truth/landmarks.tsv $3 &: $(PHANTOM) \
+  $(call stale,$(RUNS)/phantom/.$1.settings,$(phantom_settings))
+	@mkdir -p $$(@D)
+	$(PHANTOM) $(RUNS)/phantom/$1.nrrd --preset $(PRESET) $2 --truth $(RUNS)/phantom/$1-truth $(PHANTOM_OPTIONS) \
+	  --report $(RUNS)/phantom/$1.json $$(share)
+	@$$(call note,$(RUNS)/phantom/.$1.settings,$(phantom_settings))
+endef
+$(eval $(call phantom_scan,$(PRESET),,$(PHANTOM_TRUTH)/tumour-$(SIDE).tsv))
 
 # Makes only the scan, which all cases of one phantom share (cohort.mk).
 .PHONY: phantom-scan
 phantom-scan: $(if $(TRUTH),$(MR))
-
-# These targets compare a chain with the true body of the phantom. A scan has no such body; the model as printed in the paper is
-# that of a breast held at its chest wall, and some targets hold it there.
-body_slides := $(filter $(sliding_presets),$(PRESET))
-of_truth := truth matching band-truth budget
-$(call refuse_goals,$(if $(TRUTH),,scan),$(of_truth),a scan has no truth; leave MR out$(comma) PRESET=NAME names a phantom)
-$(call refuse_goals,$(body_slides),budget band-check calibrate,holds the breast at its wall$(comma) where preset $(PRESET) slides; give \
-  PRESET=paper or leave PRESET out)
-$(call refuse_goals,$(if $(PAPER),$(body_slides)),$(of_truth),with PAPER=1 the breast is held at its wall$(comma) where preset $(PRESET) \
-  slides; leave one of the two out)
 
 # Compressed truth of the phantom: the same body (its cut held, or sliding on its ribs with its own supports) on meshes of two
 # levels (phantom-mesh), whose distance is the truth's own error: 4280 and 34240 elements if the cut is held, 900 and 2176
@@ -102,7 +73,6 @@ same_plates = --thickness $$($(tabulate) key $1 thickness_mm) --edge-at $$($(tab
   --middle-at $$($(tabulate) key $1 middle_at_mm) --turn $$($(tabulate) key $1 turn_deg)
 $(RUN)/truth-compressed.tsv: $(TRUTH_TABLE) $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf \
   truth-cc.vtkhdf truth-mlo.vtkhdf) $(PROBE)
-	$(PROBE) $(filter %.vtkhdf,$^) --truth $< > $@.part
-	@mv $@.part $@
+	$(call table,$(PROBE) $(filter %.vtkhdf,$^) --truth $<)
 truth: $(RUN)/truth-compressed.tsv
 	@cat $<

@@ -11,17 +11,16 @@ ifneq ($(filter population calibrate-invivo,$(MAKECMDGOALS)),)
 .NOTPARALLEL:
 population_calibration :=
 population_judging :=
-scan_file = $(firstword $(foreach s,$(POPULATION_SCANS),$(if $(filter $1,$(call without_ending,$(notdir $s))),$s)))
+scan_file = $(firstword $(foreach s,$(POPULATION_SCANS),$(if $(filter $1.%,$(notdir $s)),$s)))
 define breast
-name := $(call cell,case)
-source := $(if $(call cell,scan),$(addprefix MR=,$(call scan_file,$(call cell,scan))),PRESET=$(call cell,preset))
-population_$(call cell,use) += $(if $(source),$(name))
-$(call population_files,$(name),mesh) $(call population_files,$(name),supine): breast := CASE=$(name) SIDE=$(call cell,side) $(source) MATERIALS=$(POPULATION_MATERIALS)
+name := $(cell_case)
+source := $(if $(cell_scan),$(addprefix MR=,$(call scan_file,$(cell_scan))),PRESET=$(cell_preset))
+population_$(cell_use) += $(if $(source),$(name))
+$(call population_files,$(name),mesh) $(call population_files,$(name),supine): breast := CASE=$(name) SIDE=$(cell_side) $(source) MATERIALS=$(POPULATION_MATERIALS)
 $(call population_files,$(name),mesh) $(call population_files,$(name),supine): FORCE
 	@+$(MAKE) -f $(PIPELINE) RUNS=$(POPULATION_RUNS) $(breast) ELEMENTS=$(POPULATION_ELEMENTS) TUMOUR=none $@
 endef
-$(call read_table,$(PIPELINES)/invivo/cohort.tsv)
-$(call each_row,breast)
+$(call ask,$(CASES) rows $(PIPELINES)/invivo/cohort.tsv breast)
 endif
 
 population_compare = $(POPULATION_TOOL) $(call population_files,$1,supine) --women $(PIPELINES)/invivo/women.tsv \

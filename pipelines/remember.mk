@@ -10,5 +10,3 @@ stale = $(if $(subst x$(strip $(file < $1))x,,x$(strip $2)x),FORCE)
 note = printf '%s\n' '$(subst ','\'',$(strip $2))' > $1
 changed = $(call stale,$(call record_file,$1),$($1_settings))
 record = $(call note,$(call record_file,$1),$($1_settings))
-.PHONY: FORCE
-FORCE:

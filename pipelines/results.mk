@@ -33,9 +33,8 @@ slicer: $(RUN)/slicer/scene.mrml
 EXPECTED ?= $(wildcard $(PIPELINES)/expected/$(CASE)$(if $(PAPER),-as-printed).tsv)
 verify: $(RUN)/verify.tsv
 $(RUN)/verify.tsv: $(EXPECTED) $(TABULATE) $(RUN)/summary.txt $(TABLE_FILES)
-	$(if $(EXPECTED),,$(error no expected values for case $(CASE): name a file with EXPECTED=))
-	@$(tabulate) verify $(EXPECTED) $(RUN) > $@.part
-	@mv $@.part $@
+	$(if $(EXPECTED),,$(error verify: there are no expected values of the case $(CASE); name a file of them with EXPECTED=FILE.tsv))
+	@$(call table,$(tabulate) verify $(EXPECTED) $(RUN))
 	@cat $@
 
 CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)

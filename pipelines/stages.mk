@@ -82,7 +82,8 @@ file_of = $(call home,$1,$2)/$2.vtkhdf
 made_in = $(if $(filter $(RUN),$1),$(addprefix $1/,$(or $(writes_$2),$2.vtkhdf)),$1/$2.json)
 target_of = $(firstword $(call made_in,$(call home,$1,$2),$2))
 # {tumour} in the options is the position of the tumour in the mesh from which the variant starts.
-placed = $(if $(findstring {tumour},$2),$(if $(no_tumour),$(error $1: needs a tumour to follow, TUMOUR=x$(comma)y$(comma)z))$(subst \
+placed = $(if $(findstring {tumour},$2),$(if $(no_tumour),$(error $1: this variant needs a tumour to follow$(comma) \
+  and the case has none; name its place with TUMOUR=x$(comma)y$(comma)z (mm)))$(subst \
   {tumour},$$($(tabulate) place $(call home,$($1@from),mesh)/mesh.json tumour),$2),$2)
 # The solve of a variant may end early. A variant that depends on another one (column `if`) then ends for the same reason.
 inputs_of = $(foreach s,$(reads_$2),$(call file_of,$1,$s))
@@ -151,7 +152,7 @@ $(RUN)/truth.tsv $(RUN)/truth-cut-fixed.tsv:
 endif
 
 $(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(RUN)/cut.tsv \
-  $(if $(TRUTH),$(RUN)/truth.tsv $(if $(filter $(sliding_presets),$(PRESET)),,$(RUN)/truth-cut-fixed.tsv)) $(FIGURES) \
+  $(if $(TRUTH),$(RUN)/truth.tsv $(if $(body_slides),,$(RUN)/truth-cut-fixed.tsv)) $(FIGURES) \
   $(TABULATE) $(PIPELINES)/advice.tsv
 	@$(call table,$(tabulate) summary $(RUN) $(if $(TRUTH),$(PHANTOM_MR:.nrrd=.json)))
 	@cat $@

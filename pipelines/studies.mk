@@ -14,13 +14,13 @@ own_studies := $(sort $(wildcard $(PIPELINES)/studies/*.tsv))
 studies := $(basename $(notdir $(own_studies)))
 study_name := $(subst $(comma),_,$(basename $(notdir $(STUDY))))
 study_file := $(if $(filter $(study_name),$(studies)),,$(STUDY))
-$(if $(study_file),$(if $(wildcard $(study_file)),,$(error STUDY: '$(STUDY)' is neither a file nor one of $(studies))))
+$(if $(study_file),$(if $(wildcard $(study_file)),,$(error STUDY: '$(STUDY)' is neither a file nor one of the studies $(studies))))
 all_studies := $(studies) scaled-as-printed $(if $(study_file),$(study_name))
 # The rows of Tables III to VI are solved a second time, with the model as printed in the paper.
 tables_of_studies := $(join $(studies:%=%=),$(own_studies)) scaled-as-printed=$(PIPELINES)/studies/scaled.tsv@findings/as-printed \
   $(addprefix $(study_name)=,$(study_file))
 variant_dirs :=
-$(call ask,variants $(RUN) '$(STAGES)' 'supine $(if $(no_tumour),cc mlo,curve)' $(foreach a,$(ATTRIBUTES),'@$a=$(strip $($(RUN)@$a))') \
+$(call ask,$(CASES) variants $(RUN) '$(STAGES)' 'supine $(if $(no_tumour),cc mlo,curve)' $(foreach a,$(ATTRIBUTES),'@$a=$(strip $($(RUN)@$a))') \
   '{tumour={tumour}' $(foreach p,$(placeholders),'{$p=$(strip $($p))') $(tables_of_studies))
 $(foreach d,$(variant_dirs),$(call case_rules,$d,$(filter-out $($d@given),$($d@stages))))
 
@@ -32,5 +32,5 @@ $(foreach s,$(all_studies),$(eval $(call study_rule,$s)))
 
 .PHONY: study
 study: $(addprefix $(call study_dir,),$(addsuffix .tsv,$(study_name)))
-	$(if $(STUDY),,$(error study: name a table of variants, STUDY=FILE.tsv, or one of $(studies)))
+	$(if $(STUDY),,$(error study: no study is named; give a table of variants with STUDY=FILE.tsv$(comma) or one of $(studies)))
 	@cat $<

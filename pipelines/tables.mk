@@ -17,9 +17,7 @@ ending_printed := -as-printed
 base_own := $(RUN)/supine.vtkhdf
 base_printed := $(call study_dir,findings/as-printed)/supine.json
 
-table2: $(TABLES)/table2.tsv
-table7: $(TABLES)/table7.tsv
-table8: $(TABLES)/table8.tsv
+$(foreach n,2 7 8,$(eval table$n: $(TABLES)/table$n.tsv))
 findings: $(TABLES)/findings.tsv
 	@cat $<
 TABLE_FILES := $(if $(no_tumour),,$(foreach m,$(BOTH),$(foreach n,$(PAPER_TABLES),$(TABLES)/table$n$(ending_$m).tsv)) \

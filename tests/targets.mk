@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Targets of the source tree alone, which an installation has not: tests, extreme cases, what takes hours before a release, the
 # Debian package. Makefile.pipeline includes it.
-.PHONY: check fuzz release-check faults full-disk whole-tools slurm package clean-root stability stability-mechanics stability-contact
+.PHONY: check fuzz release-check faults full-disk whole-tools slurm clean-root stability stability-mechanics stability-contact
 check:
 	cmake --build $(BUILD) -j $$(nproc)
 	OPENBLAS_THREAD_TIMEOUT=4 ctest --test-dir $(BUILD) --output-on-failure --no-tests=error -j $$(nproc)
@@ -46,13 +46,7 @@ slurm:
 	cmake --build $(BUILD) -j $$(nproc) --target programs
 	tests/tools/slurm.sh $(BUILD)
 
-# build/package/libbreast_VERSION_ARCHITECTURE.deb: programs for every x86-64 processor, built apart from those of this machine.
-# clean-root (root, network, debootstrap) installs it in an empty Debian 12 and runs the demonstration there.
-package: $(ROOT)build/.packages
-	cmake --preset package > build/package.log 2>&1 || { cat build/package.log >&2; exit 1; }
-	cmake --build build/package -j $$(nproc)
-	cd build/package && cpack -G DEB > cpack.log || { cat cpack.log >&2; exit 1; }
-	@ls build/package/libbreast_*.deb
+# Installs the package in an empty Debian 12 and runs the demonstration there; needs root, network and debootstrap.
 clean-root: package
 	tests/tools/clean-root.sh build/package/libbreast_*.deb
 

@@ -2,6 +2,7 @@
 // cases: reading and checking of cases before anything runs, and running of a cohort's cases.
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <functional>
 
@@ -12,6 +13,7 @@
 #include "cases/ladder.hpp"
 #include "cases/make_text.hpp"
 #include "cases/scan_identity.hpp"
+#include "cases/settings.hpp"
 #include "cases/slurm.hpp"
 #include "cases/variants.hpp"
 #include "cli/declaration.hpp"
@@ -41,13 +43,6 @@ Words rest(const Words& words, std::size_t first) {
 
 // Kinds in the order of their use: reading, refusing, running.
 
-std::string read(const Words& words) {
-  const CaseFile file = read_case_file(words[0], rest(words, 1));
-  std::string text;
-  for (const auto& [key, value] : file.settings) text += make_assignment(key, value);
-  return text + (file.warning.empty() ? "" : "$(warning warning: " + file.warning + ")");
-}
-
 std::string cohort(const Words& words) {
   std::string text;
   for (const CohortEntry& one : cohort_entries(words[0], rest(words, 1)))
@@ -64,12 +59,6 @@ std::string list(const Words& words) {
   return text;
 }
 
-std::string check(const Words& words) {
-  const std::string reason = mixed_up(words[0], words[1], words[2]);
-  if (!reason.empty()) throw input_error(reason);
-  return "";
-}
-
 std::string record(const Words& words) {
   remember_scan(words[0], words[1], words[2]);
   return "";
@@ -78,8 +67,25 @@ std::string record(const Words& words) {
 // NAME=VALUE after a mark: "@hexmesh=--elements 8".
 std::pair<std::string, std::string> named_value(const std::string& word, std::size_t from) {
   const std::size_t equals = word.find('=');
-  if (equals == std::string::npos) throw input_error("variants: '", word, "' is not NAME=VALUE");
+  if (equals == std::string::npos) throw input_error("'", word, "' is not NAME=VALUE");
   return {word.substr(from, equals - from), word.substr(equals + 1)};
+}
+
+std::string settings(const Words& words) {
+  SettingsRequest request;
+  request.pipelines = words[0];
+  request.programs = words[1];
+  request.installed = words[2] == "installed";
+  for (const std::string& goal : split(words[3], ' '))
+    if (!goal.empty()) request.goals.push_back(goal);
+  for (const std::string& word : rest(words, 4)) request.command_line.insert(named_value(word, 0));
+  for (char** word = environ; *word != nullptr; ++word)
+    if (std::strchr(*word, '=') != nullptr) request.environment.insert(named_value(*word, 0));
+  return settings_for_make(request);
+}
+
+std::string rows(const Words& words) {
+  return rows_for_make(read_table(words[0]), words[1]);
 }
 
 std::string variants(const Words& words) {
@@ -159,9 +165,13 @@ std::vector<Kind> kinds_for(SlurmRequest& slurm) {
     };
   };
   return {
-      {"read", "FILE KEY...",
-       "prints the settings of a case file as assignments for make; KEY are the allowed keys", 1,
-       read},
+      {"settings", "PIPELINES PROGRAMS installed|built 'GOAL...' NAME=VALUE...",
+       "prints all settings as assignments for make, completed from the case file, the environment and the defaults; "
+       "fails if a setting, a value, a target or the scan of the folder RUN is refused",
+       4, settings},
+      {"rows", "TABLE.tsv TEMPLATE",
+       "prints, for every row, its cells as variables of make cell_COLUMN, and evaluates the variable TEMPLATE",
+       2, rows},
       {"cohort", "COHORT KEY...", "prints the case files of a folder as assignments for make", 1,
        cohort},
       {"list", "COHORT KEY...",
@@ -171,8 +181,6 @@ std::vector<Kind> kinds_for(SlurmRequest& slurm) {
       {"nearest", "WORD CANDIDATE...",
        "prints the candidate that is most similar to WORD, for messages about typing errors", 2,
        [](const Words& words) { return suggestion(words[0], rest(words, 1)); }},
-      {"check", "RUN SIDE SCAN",
-       "fails if the folder RUN was made from another scan, phantom:PRESET or side", 3, check},
       {"record", "RUN SIDE SCAN", "records scan and side in RUN/.scan", 3, record},
       {"attempt", "STAGE.json 'INPUT...' -- COMMAND...",
        "runs a stage of a variant; if it has no solution, the report gives the reason", 3,
@@ -247,8 +255,8 @@ int main(int argc, char** argv) {
                         "; usage: cases ", name, " ", kind.arguments);
   });
   tool.example("cases list patients MR SIDE PRESET", "list the cases of a cohort");
-  tool.example("cases check runs/scan-left left scan.nrrd",
-               "check that this folder was made from this scan");
+  tool.example("cases record runs/scan-left left scan.nrrd",
+               "record that this folder was made from this scan");
   return tool.main(argc, argv, [&](Run& run) {
     slurm.cost = cost;
     run.report().set("kind", name);

@@ -4,28 +4,17 @@
 #include <algorithm>
 #include <optional>
 #include <sstream>
-#include <string_view>
 
 #include "cases/make_text.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/trimmed.hpp"
 
 namespace breast {
 
 namespace {
 
 constexpr std::size_t most_bytes = 65536;
-constexpr const char* blanks = " \t\r\v\f";
-
-bool blank(char c) {
-  return std::string_view(blanks).find(c) != std::string_view::npos;
-}
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 struct Line {
   std::string key, value;
@@ -35,7 +24,7 @@ struct Line {
 // A comment in a value begins at a '#' that follows a blank.
 std::string without_comment(const std::string& value) {
   for (std::size_t at = 0; at + 1 < value.size(); ++at)
-    if (blank(value[at]) && value[at + 1] == '#') return value.substr(0, at);
+    if ((value[at] == ' ' || value[at] == '\t') && value[at + 1] == '#') return value.substr(0, at);
   return value;
 }
 
@@ -56,12 +45,13 @@ std::optional<Line> split_line(const std::string& line) {
 
 void check_value(const Line& line, const std::string& at) {
   if (!code_in(line.value).empty())
-    throw input_error(at, ": ", line.key,
-                      " holds a character that make or a shell would read as code; give a name "
-                      "without it, or a link of such a name");
+    throw input_error(at, ": ", line.key, " contains the character ", code_in(line.value),
+                      ", which make or a shell would read as code; give a name without it, or a "
+                      "link that has such a name (ln -s)");
   if (std::any_of(line.value.begin(), line.value.end(),
                   [](unsigned char c) { return c < ' ' || c == 0x7f; }))
-    throw input_error(at, ": ", line.key, " holds a control character");
+    throw input_error(at, ": the value of ", line.key,
+                      " contains a control character; write the line again in a text editor");
 }
 
 }  // namespace
@@ -74,7 +64,8 @@ bool CaseFile::has(const std::string& key) const {
 CaseFile parse_case_file(const std::string& text, const std::string& name,
                          const std::vector<std::string>& known) {
   const std::string what = "case file " + name;
-  if (text.size() > most_bytes) throw input_error(what, ": is larger than 64 kB");
+  if (text.size() > most_bytes)
+    throw input_error(what, " has ", text.size(), " bytes and may not be larger than 64 kB");
   CaseFile found;
   bool of_makefile = false;
   std::istringstream in(text);
@@ -85,29 +76,36 @@ CaseFile parse_case_file(const std::string& text, const std::string& name,
     if (content.empty() || content.front() == '#') continue;
     const std::optional<Line> split = split_line(content);
     if (!split)
-      throw input_error(at,
-                        ": is not KEY = VALUE (a case file is data; nothing in it is executed)");
+      throw input_error(
+          at, ": this line is not KEY = VALUE; a case file is data, and nothing in it is executed");
     if (std::find(known.begin(), known.end(), split->key) == known.end())
       throw input_error(at, ": ", split->key, " is no setting of a case",
                         suggestion(split->key, known));
-    if (found.has(split->key)) throw input_error(at, ": ", split->key, " stands there twice");
+    if (found.has(split->key))
+      throw input_error(at, ": ", split->key,
+                        " is given for the second time; remove one of the two lines");
     check_value(*split, at);
     of_makefile = of_makefile || split->of_makefile;
     found.settings.emplace_back(split->key, split->value);
   }
   if (!of_makefile) return found;
   if (!name.ends_with(".mk"))
-    throw input_error(what, ": := and ?= are of makefiles; write KEY = VALUE");
-  found.warning = name + ": := and ?= will not be read by the next version; write KEY = VALUE";
+    throw input_error(
+        what, " contains := or ?=, which only makefiles of version 0.1 may; write KEY = VALUE");
+  found.warning =
+      name + " contains := or ?=, which the next version will not read; write KEY = VALUE";
   return found;
 }
 
 CaseFile read_case_file(const std::filesystem::path& file, const std::vector<std::string>& known) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none))
-    throw input_error("case file ", file.string(), ": is not a file that can be read");
-  if (std::filesystem::file_size(file, none) > most_bytes)
-    throw input_error("case file ", file.string(), ": is larger than 64 kB");
+    throw input_error("case file ", file.string(),
+                      " does not exist or is not a file that can be read; check CASE_FILE");
+  const auto bytes = std::filesystem::file_size(file, none);
+  if (bytes > most_bytes)
+    throw input_error("case file ", file.string(), " has ", bytes,
+                      " bytes and may not be larger than 64 kB");
   return parse_case_file(read_text(file), file.string(), known);
 }
 

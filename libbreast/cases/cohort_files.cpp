@@ -56,7 +56,7 @@ void check_name(const fs::path& file, const fs::path& cohort) {
       '?');
   throw input_error("COHORT: ", shown,
                     ": a name with such characters is refused; use letters, digits, points, dashes "
-                    "and underscores");
+                    "and underscores (each ? is such a character)");
 }
 
 std::string case_name(const fs::path& file) {
@@ -69,15 +69,18 @@ std::vector<CohortEntry> cohort_entries(const fs::path& cohort,
                                         const std::vector<std::string>& known) {
   const std::vector<fs::path> files = case_files(cohort);
   if (files.empty())
-    throw input_error("COHORT=", cohort.string(),
-                      " holds no case: none of *.case */case.txt *.mk */case.mk");
+    throw input_error(
+        "COHORT=", cohort.string(),
+        " holds no case; a case is a file *.case or */case.txt (in version 0.1 *.mk or "
+        "*/case.mk)");
   for (const fs::path& file : files) check_name(file, cohort);
   std::map<std::string, fs::path> named;
   for (const fs::path& file : files) {
     const auto [other, is_new] = named.emplace(case_name(file), file);
     if (!is_new)
       throw input_error("COHORT=", cohort.string(), ": two case files are called ", other->first,
-                        ": ", other->second.string(), " ", file.string());
+                        ": ", other->second.string(), " and ", file.string(),
+                        "; rename one of them");
   }
   std::vector<CohortEntry> entries;
   std::string problems;
@@ -88,7 +91,8 @@ std::vector<CohortEntry> cohort_entries(const fs::path& cohort,
     try {
       const CaseFile read = read_case_file(file, known);
       if (!read.has("MR") && !read.has("PRESET"))
-        problem("case file " + file.string() + ": names neither MR nor PRESET");
+        problem("case file " + file.string() +
+                ": names neither MR nor PRESET; add MR = SCAN, or PRESET = NAME for a phantom");
       entries.push_back({case_name(file), file.string(), !read.has("MR")});
     } catch (const Error& error) {
       problem(error.what());

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cli/declaration.hpp"
+#include "core/error.hpp"
 
 namespace breast {
 
@@ -13,6 +14,22 @@ std::string make_assignment(const std::string& name, const std::string& value) {
 
 std::string make_addition(const std::string& name, const std::string& value) {
   return name + " += " + value + make_line_end;
+}
+
+std::string rows_for_make(const Table& table, const std::string& name) {
+  std::string text;
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    for (const std::string& column : table.columns) {
+      const std::string& cell = table.cell(r, column);
+      if (!code_in(cell).empty())
+        throw input_error(table.name, ": the cell '", cell, "' of the column ", column,
+                          " contains the character ", code_in(cell),
+                          ", which make would read as code; write it without this character");
+      text += make_assignment("cell_" + column, cell == empty_cell ? "" : cell);
+    }
+    text += "$(eval $(value " + name + "))" + make_line_end;
+  }
+  return text;
 }
 
 std::string code_in(const std::string& text) {

@@ -6,16 +6,23 @@
 #include <string>
 #include <vector>
 
+#include "core/table.hpp"
+
 namespace breast {
 
 /// Replaces the line break in answers to make, because $(shell) turns line breaks into blanks
-/// (pipelines/check-settings.mk). No name or value may contain this byte.
+/// (pipelines/settings.mk). No name or value may contain this byte.
 inline constexpr char make_line_end = '\x1e';
 
 /// The text "NAME := VALUE", ended by make_line_end.
 std::string make_assignment(const std::string& name, const std::string& value);
 /// The text "NAME += VALUE", ended by make_line_end.
 std::string make_addition(const std::string& name, const std::string& value);
+
+/// For every row of a table the assignments cell_COLUMN := CELL, empty where the cell has no value,
+/// and an evaluation of the variable `name`, whose text refers to them. Throws Error (input),
+/// naming the table, for a character that make would interpret as code.
+std::string rows_for_make(const Table& table, const std::string& name);
 
 /// The first character of `text` that a shell or make would interpret as code; "" if there is none.
 std::string code_in(const std::string& text);

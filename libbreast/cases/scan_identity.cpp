@@ -36,7 +36,10 @@ std::string hash_of_file(const fs::path& file) {
   std::vector<char> piece(std::size_t(1) << 20);
   while (in.read(piece.data(), std::streamsize(piece.size())) || in.gcount() > 0)
     hash.update(piece.data(), std::size_t(in.gcount()));
-  if (!in.eof()) throw input_error(file.string(), ": cannot be read");
+  if (!in.eof())
+    throw input_error(
+        file.string(),
+        ": this file of the scan could not be read to its end; check the file and the disk");
   return hash.hex();
 }
 
@@ -52,7 +55,9 @@ std::vector<fs::path> files_below(const fs::path& folder) {
 
 std::string state_of(const fs::path& file) {
   struct stat state {};
-  if (stat(file.c_str(), &state) != 0) throw input_error(file.string(), ": ", std::strerror(errno));
+  if (stat(file.c_str(), &state) != 0)
+    throw input_error(file.string(), ": this file of the scan cannot be read (",
+                      std::strerror(errno), "); check its name and permissions");
   return message(state.st_dev, " ", state.st_ino, " ", state.st_size, " ", state.st_mtim.tv_sec,
                  ".", state.st_mtim.tv_nsec, " ", state.st_ctim.tv_sec, ".", state.st_ctim.tv_nsec,
                  "\n");
@@ -90,15 +95,15 @@ std::string mixed_up(const fs::path& run, const std::string& side, const std::st
   if ((!is_phantom(scan) && !fs::exists(scan)) || !fs::exists(file)) return "";
   const std::string record = read_text(file), held = remembered(record, "side");
   if (held != side)
-    return message(
-        run.string(), " holds the ", held,
-        " breast of its scan: name this run otherwise, CASE=NAME, or remove that folder");
+    return message(run.string(), " holds the ", held,
+                   " breast of its scan, and the run asked for is of the ", side,
+                   " one; give it another folder with CASE=NAME, or remove the folder");
   if (remembered(record, "stamp") == stamp_of(scan) ||
       remembered(record, "content") == content_of(scan))
     return "";
   return message(run.string(),
-                 " holds the run of another scan: name this one otherwise, CASE=NAME, or remove "
-                 "that folder if the scan itself was replaced");
+                 " holds the run of another scan; give this one another folder with CASE=NAME, or "
+                 "remove the folder if the scan itself was replaced");
 }
 
 void remember_scan(const fs::path& run, const std::string& side, const std::string& scan) {

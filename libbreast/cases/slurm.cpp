@@ -135,9 +135,10 @@ std::string submit_arrays(const SlurmRequest& request, const fs::path& folder, s
       jobs += ":" + sbatch(request, {message("--array=0-", count - 1)},
                            {folder / "array.sh", std::to_string(offset)});
     } catch (const Error& error) {
-      throw failed_error(error.what(), "; sbatch took ", offset, " of ", total, " cases",
-                         jobs.empty() ? "" : " (jobs" + jobs + ")",
-                         "; once they have ended, the same with --resume gives the rest");
+      throw failed_error(
+          error.what(), "; sbatch accepted ", offset, " of ", total, " cases",
+          jobs.empty() ? "" : " (jobs" + jobs + ")",
+          "; when they have ended, submit the others by the same command with --resume");
     }
   }
   return jobs;
@@ -147,7 +148,8 @@ void check_sbatch() {
   for (const std::string& folder : split(of_environment("PATH"), ':'))
     if (access((fs::path(folder) / "sbatch").c_str(), X_OK) == 0) return;
   throw failed_error(
-      "sbatch is not there: this machine submits no jobs to Slurm; without --slurm the cases run here");
+      "the program sbatch was not found in PATH, so that no job can be submitted to Slurm from this "
+      "machine; install slurm-client, or run the cases on this machine without --slurm");
 }
 
 }  // namespace
@@ -156,7 +158,10 @@ std::vector<SlurmCase> slurm_cases(const fs::path& list) {
   std::vector<SlurmCase> cases;
   for (const std::string& line : lines_of(list)) {
     const Words cells = split(line, '\t');
-    if (cells.size() != 3) throw input_error(list.string(), ": '", line, "' is no case");
+    if (cells.size() != 3)
+      throw input_error(list.string(), ": the line '", line, "' is no case: it has ", cells.size(),
+                        " cells, and CASE, FILE and KIND are needed; remove the file and start the "
+                        "cohort again");
     cases.push_back({cells[0], cells[1], cells[2]});
   }
   return cases;
@@ -247,8 +252,9 @@ std::string run_slurm_task(const fs::path& folder, int offset) {
   const std::string given = of_environment("SLURM_ARRAY_TASK_ID");
   const auto task = number_in(given);
   if (!task || *task < 0 || std::size_t(*task) + std::size_t(offset) >= cases.size())
-    throw input_error("task '", given, "': is none of the ", cases.size(), " cases of ",
-                      folder.string());
+    throw input_error("SLURM_ARRAY_TASK_ID: task '", given, "' with the offset ", offset,
+                      " is none of the ", cases.size(), " cases listed in ",
+                      (folder / "cases").string(), "; submit the cohort again");
   const SlurmCase& one = cases[std::size_t(*task) + std::size_t(offset)];
   const fs::path runs = folder.parent_path().parent_path(), status = runs / (one.name + ".status");
   const std::string cores = of_environment("SLURM_CPUS_PER_TASK");

@@ -30,7 +30,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
 void check_among(const std::string& where, const Words& given, const Words& known) {
   for (const std::string& word : given)
     if (std::find(known.begin(), known.end(), word) == known.end())
-      throw input_error(where, ": '", word, "' is none of ", join(known, " "),
+      throw input_error(where, ": '", word, "' is none of ", join(known, ", "),
                         suggestion(word, known));
 }
 
@@ -44,7 +44,7 @@ void check_cells(const std::string& lines, const std::string& file) {
     if (columns == 0) columns = cells.size();
     if (cells.size() != columns)
       throw input_error(file, ": ", cells.front(), " has ", cells.size(), " cells and not ",
-                        columns, "; write - for an empty one");
+                        columns, "; separate cells by one tab, and write - for an empty one");
   }
 }
 
@@ -85,8 +85,11 @@ void Studies::add(const std::string& study, const std::string& text, const std::
   for (const auto& [name, value] : base_.placeholders) names.push_back(name);
   for (const std::string& name : names) replace_all(bare, "{" + name + "}", "");
   if (const std::string code = code_in(bare); !code.empty())
-    throw input_error(file, ": the character ", code,
-                      " may not stand in a study; {NAME} is one of ", join(names, " "));
+    throw input_error(
+        file, ": the character ", code,
+        " may not stand in a study, because make or a shell would read it as code; write the cell "
+        "without it ({NAME} is one of ",
+        join(names, ", "), ")");
   check_cells(bare, file);
   const Table table = parse_table(text, file);
   Words columns{"variant", "starts_at", "ends_at", "from", "given", "if"};
@@ -118,15 +121,19 @@ void Studies::add_row(const Row& row) {
                     given = row.cell("given"), only_if = row.cell("if");
   const std::string dir = folder(row.study, name);
   if (!plain_for_make(name) || name.find('/') != std::string::npos || known_.count(dir) != 0)
-    row.fault("is no name of a row of its own");
+    row.fault(
+        "is no name of a row of its own; give each row another name of letters, digits, points, dashes and underscores");
   if (start.empty())
-    row.fault("does not say at which stage it starts_at: " + join(base_.stages, " "));
+    row.fault("does not say in the column starts_at at which stage it begins; write one of " +
+              join(base_.stages, ", "));
   check_among(row.table.name, words_of(start + " " + ends + " " + given), base_.stages);
   const std::string origin = !from_cell.empty()  ? folder(row.study, from_cell)
                              : !row.from.empty() ? folder(row.study, row.from)
                                                  : base_.run;
   const auto from = known_.find(origin);
-  if (from == known_.end()) row.fault("comes from '" + from_cell + "', which no row above is");
+  if (from == known_.end())
+    row.fault("comes from '" + from_cell +
+              "', and no row above has this name; write the row from which it comes above it");
 
   Attributes own;
   for (const std::string& attribute : base_.attributes)

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The character sets shell_characters and name_characters of pipelines/check-settings.mk.
+// The characters that are refused in names by cases/settings_table.hpp.
 const std::string refused = "$`;&|<>(){}[]*?!\"'\\^#=:%~";
 
 // Length of the valid UTF-8 character at `at`, 0 when there is none.

@@ -9,7 +9,7 @@
 namespace breast {
 
 /// True for a path that make and a shell read as a plain name: no blank, no control character, none
-/// of the characters that pipelines/check-settings.mk refuses, no dash in front, and valid UTF-8.
+/// of the characters that `cases settings` refuses in names, no dash in front, and valid UTF-8.
 bool plain_for_make(const std::string& path);
 
 /// `name` with every character that is not plain replaced by an underscore.

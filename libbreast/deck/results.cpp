@@ -7,6 +7,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/trimmed.hpp"
 #include "deck/scene.hpp"
 #include "deck/serendipity.hpp"
 
@@ -46,10 +47,10 @@ class NodeValues {
   std::vector<Vec3> values_;
 };
 
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r+");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
+// Other programs also write the sign of positive numbers, which parse_number does not accept.
+std::string number_text(const std::string& field) {
+  const std::string text = trimmed(field);
+  return text.starts_with('+') ? text.substr(1) : text;
 }
 
 // Words take sixteen times their bytes, and results of a million nodes have short lines.
@@ -70,7 +71,7 @@ std::vector<Vec3> read_frd(const std::string& name, const std::string& text, int
   bool in_block = false, found = false;
   for (std::string line; std::getline(in, line);) {
     if (line.compare(0, 7, "  100CL") == 0 && line.size() >= 24) {
-      time = parse_number(trimmed(line.substr(12, 12)), name + ", time");
+      time = parse_number(number_text(line.substr(12, 12)), name + ", time");
     } else if (line.compare(0, 9, " -4  DISP") == 0) {
       values.clear();
       in_block = found = true;
@@ -78,9 +79,9 @@ std::vector<Vec3> read_frd(const std::string& name, const std::string& text, int
       in_block = false;
     } else if (in_block && line.compare(0, 3, " -1") == 0) {
       if (line.size() < 49) throw input_error(name, ": truncated line: '", line, "'");
-      values.set(trimmed(line.substr(3, 10)),
-                 {trimmed(line.substr(13, 12)), trimmed(line.substr(25, 12)),
-                  trimmed(line.substr(37, 12))});
+      values.set(number_text(line.substr(3, 10)),
+                 {number_text(line.substr(13, 12)), number_text(line.substr(25, 12)),
+                  number_text(line.substr(37, 12))});
     }
   }
   if (!found || !(time > 1 - 1e-6)) {
@@ -111,7 +112,7 @@ std::vector<Vec3> read_lines(const std::string& name, const std::string& text, i
     }
     if (fresh) values.clear();
     fresh = false;
-    values.set(words[0], {trimmed(words[1]), trimmed(words[2]), trimmed(words[3])});
+    values.set(words[0], {number_text(words[1]), number_text(words[2]), number_text(words[3])});
   }
   return values.complete();
 }
@@ -125,7 +126,7 @@ std::optional<Vec3> read_total_force(const std::string& name, const std::string&
   for (int k = 0; k < 3; ++k) {
     std::string word;
     in >> word;
-    force[k] = parse_number(trimmed(word), name + ", total force");
+    force[k] = parse_number(number_text(word), name + ", total force");
   }
   return force;
 }

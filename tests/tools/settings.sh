@@ -92,6 +92,23 @@ grep -q 'warning: .*old.mk' "$work/err" || fail "and warned of"
 [ ! -e "$bait" ] || fail "nothing in a case file is executed"
 pass "case files are data: checked by key and value, never executed"
 
+# A tree without programs, and a cmake that only delivers the one that is asked for.
+fresh=$work/fresh
+mkdir -p "$fresh"/{libbreast,tools,cmake,build/release/bin} "$work/fake"
+cp -r Makefile.pipeline pipelines CMakeLists.txt CMakePresets.json "$fresh"
+touch "$fresh/build/.packages"
+printf '#!/bin/sh\necho "$*" >> "%s/asked"\ncase "$*" in *"--target cases"*) cp "%s/cases" build/release/bin ;; esac\n' "$work" "$bin" > "$work/fake/cmake"
+chmod +x "$work/fake/cmake"
+case_file "MRI = $work/scan.nrrd"
+for setting in "CASE_FILE=$work/bad.case" SIDES=right "MR=\$(shell touch $bait)"; do
+  rm -f "$fresh/build/release/bin/cases" "$work/asked"
+  ! (cd "$fresh" && PATH=$work/fake:$PATH make -f Makefile.pipeline "$setting" chain > "$work/out" 2> "$work/err") || fail "$setting is refused before the first build"
+  grep -q -- '--target cases' "$work/asked" && ! grep -q -- '--target programs' "$work/asked" || { cat "$work/asked"; fail "$setting: cases alone is built"; }
+  [ "$(grep -c '\*\*\*' "$work/err")" -eq 1 ] || { cat "$work/err"; fail "$setting is refused in one line"; }
+done
+[ ! -e "$bait" ] || fail "nothing is executed before cases has checked it"
+pass "before the first build, cases alone is built, and what it refuses builds nothing else"
+
 for pair in "pat.001.nrrd pat.002.nrrd" "1.2.840.113619.2.5 1.2.840.113619.7.9" "x.nii.gz y.nii.gz"; do
   read -r first second <<< "$pair"
   one=$(make -f Makefile.pipeline -n MR="$work/$first" --eval='print: ; $(info $(RUN))' print 2> /dev/null)

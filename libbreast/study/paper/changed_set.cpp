@@ -13,7 +13,9 @@ std::vector<std::string>& row_of(Table& set, const std::string& tissue) {
   const std::size_t column = std::size_t(set.column("tissue"));
   const auto found = std::find_if(set.rows.begin(), set.rows.end(),
                                   [&](const auto& row) { return row[column] == tissue; });
-  if (found == set.rows.end()) throw input_error(set.name, ": has no row of ", tissue);
+  if (found == set.rows.end())
+    throw input_error(set.name, ": has no row for the tissue ", tissue,
+                      ", which this change needs; add one, or use a set that has it (seed2008)");
   return *found;
 }
 
@@ -35,7 +37,7 @@ Table changed_set(const Table& set, const std::string& change) {
       changed.rows[r][second] = set.rows[r][third];
     }
   } else {
-    throw input_error("'", change, "' is no change of a set: fat-only or columns");
+    throw input_error("'", change, "' is not a change of a material set; give fat-only or columns");
   }
   return changed;
 }
