@@ -35,7 +35,7 @@ phantom_settings := $(PHANTOM) $(PRESET) $(PHANTOM_OPTIONS)
 $(PHANTOM_MR) $(PHANTOM_TRUTH)/landmarks.tsv $(PHANTOM_TRUTH)/tumour-$(SIDE).tsv &: $(PHANTOM) $(call changed,phantom)
 	@mkdir -p $(dir $(PHANTOM_MR))
 	$(PHANTOM) $(PHANTOM_MR) --preset $(PRESET) --truth $(PHANTOM_TRUTH) $(PHANTOM_OPTIONS) \
-	  --report $(basename $(PHANTOM_MR)).json $(share)
+	  --report $(basename $(PHANTOM_MR)).json $(alone)
 	@$(call record,phantom)
 
 # Makes only the scan, which all cases of one phantom share (cohort.mk).

@@ -76,6 +76,8 @@ override COMPRESS_OPTIONS += $(call left_out,no-gravity-in-compression,--gravity
 whole_set := $(call left_out,no-gland,$(or $(wildcard $(MATERIALS)),$(PIPELINES)/materials/$(MATERIALS).tsv))
 override MATERIALS := $(call left_out,no-gland,$(RUN)/fat-only.tsv,$(MATERIALS))
 
-# Options of every program: its JSON report next to its first output, and its share of the cores.
+# Options of every program: its JSON report next to its first output, and its share of the cores. A stage for which all others wait
+# has every core, unless this make is one of several (a case of a cohort).
 share = --threads $$($(PIPELINES)/threads.sh)
+alone = --threads $$($(PIPELINES)/threads.sh $(if $(filter 0,$(MAKELEVEL)),alone))
 common = --report $(basename $@).json $(share)
