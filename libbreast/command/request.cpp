@@ -51,8 +51,7 @@ void declare_options(Declaration& d, PipelineRequest& r, const std::string& jobs
              [&r](const std::string& value) { r.runs = value; });
   runs.default_text = r.runs;
   d.options.push_back(runs);
-  Argument jobs = option(ArgumentKind::integer, "--jobs", "N",
-                         jobs_help,
+  Argument jobs = option(ArgumentKind::integer, "--jobs", "N", jobs_help,
                          [&r](const std::string& value) { r.jobs = std::stoi(value); });
   jobs.names = {"-j", "--jobs"};
   jobs.low = 1;
