@@ -88,7 +88,7 @@ placed = $(if $(findstring {tumour},$2),$(if $(no_tumour),$(error $1: needs a tu
 inputs_of = $(foreach s,$(reads_$2),$(call file_of,$1,$s))
 attempt = $(if $(filter $(RUN),$1),,$(CASES) attempt $1/$2.json '$(strip $(call inputs_of,$1,$2) $(addsuffix /supine.vtkhdf,$($1@if)))' --quiet --)
 # All others wait for the first stages of the case.
-threads_of = $(if $(filter $(addprefix $(RUN)@,labels geometry mesh),$1@$2),$(alone),$(share))
+threads_of = $(if $(filter $(addprefix $(RUN)@,labels geometry mesh reference),$1@$2),$(alone),$(share))
 run_stage = $(strip $(call attempt,$1,$2) $(program_$2) $(scan_$2) $(call inputs_of,$1,$2) $(addprefix $1/,$(firstword $(or $(writes_$2),$2.vtkhdf))) \
   $(fixed_$2) $(call placed,$1,$(options_$2)) --report $1/$2.json $(call threads_of,$1,$2))
 settings_of = $(program_$2) $(scan_$2) $(options_$2)
