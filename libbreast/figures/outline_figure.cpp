@@ -52,8 +52,7 @@ std::string wall_words(const HexMesh& mesh) {
   if (!mesh.geometry || !mesh.geometry->thorax) return "";
   const bool muscle =
       std::find(mesh.tissue.begin(), mesh.tissue.end(), Tissue::muscle) != mesh.tissue.end();
-  return muscle ? "ribs: back of the muscle, on which the breast slides"
-                : "chest wall, on which the breast slides";
+  return muscle ? "ribs: back of the muscle" : "chest wall";
 }
 
 /// The wall surface at a height, as a line.
