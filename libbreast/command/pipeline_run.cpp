@@ -60,6 +60,10 @@ std::vector<std::string> settings_for_make(const PipelineRequest& r, const std::
   if (!r.scan.empty())
     words.push_back((r.command == "cohort" ? "COHORT=" : "MR=") + name_for_make(r.scan, links));
   if (!r.side.empty() && r.settings.count("SIDE") == 0) words.push_back("SIDE=" + r.side);
+  // The report of the demonstration is that of its own phantom; make's default for a report is the paper's, with its tables.
+  if (r.command == "demo" && r.target == "report" &&
+      r.settings.count("PRESET") + r.settings.count("PAPER") == 0)
+    words.push_back("PRESET=average");
   for (const auto& [name, value] : r.settings) {
     std::error_code none;
     const bool file = path_settings.count(name) != 0 && fs::exists(value, none);

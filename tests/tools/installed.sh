@@ -51,6 +51,7 @@ said "Usage: breast compress " breast help compress
 said "  breast compress reference.vtkhdf" breast compress --help
 said "--side left|right" breast help run
 said "REDUCTION=P" breast help settings
+said "average/report.html" breast demo --target report --dry-run
 said "laws (libbreast) " breast laws --version
 said "fibroglandular" breast laws seed2008
 refused "did you mean 'compress'?" breast compres
