@@ -140,6 +140,10 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
   constexpr double step = 20, letters = 14;
   const Vec2 low = panel.to_pixel({0, 0, 0}),
              high = panel.to_pixel({hanging.width(), hanging.height(), 0});
+  // Muscle at the edge may be as white as the paper.
+  for (const auto& [a, b] :
+       {std::pair(low, Vec2(low.x(), high.y())), std::pair(Vec2(high.x(), low.y()), high)})
+    panel.line(a, b, palette::ink, 1);
   for (double u = 0; u <= hanging.width(); u += step) {
     const Vec2 at(panel.to_pixel(hanging.at({u, 0}, 0)).x(), low.y());
     panel.line(at, at - Vec2(0, 6), palette::ink, 1);
@@ -173,7 +177,7 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
       first != back.end()) {
     const bool blank = image.blank(std::size_t(first - back.begin()));
     const double chest = hanging.left() ? low.x() + 6 : high.x() - 6;
-    panel.text({chest, low.y() + 14}, blank ? "even grey: chest wall" : "behind the model: fat",
+    panel.text({chest, low.y() + 14}, blank ? "even grey: unknown" : "behind the model: fat",
                letters - 2, {0.85, 0.85, 0.85}, hanging.left() ? Align::left : Align::right);
   }
   const std::string top = image.view == View::cc ? "lateral" : "superior";
