@@ -245,8 +245,7 @@ TEST(Projection, NoColumnOfTheImageLeavesThroughTheBack) {
     const Mammogram image = project_mammogram(mesh, {.pixel = 1}, &report);
     EXPECT_EQ(report.back_columns, 0) << view_name(view);
     EXPECT_EQ(image.thickness[std::size_t(image.width) - 1], 0) << view_name(view);  // air in front
-    EXPECT_GT(*std::max_element(image.thickness.begin(), image.thickness.end()), 20)
-        << view_name(view);
+    EXPECT_GT(*std::max_element(image.thickness.begin(), image.thickness.end()), 20) << view_name(view);
   }
 }
 
@@ -255,24 +254,21 @@ TEST(Projection, NoColumnOfTheImageLeavesThroughTheBack) {
 HexMesh block_cut_below(bool thicker_front) {
   HexMesh mesh = facing_block();
   if (thicker_front) {
-    for (auto* field : {&mesh.points, &mesh.imaged, &mesh.reference}) {
+    for (auto* field : {&mesh.points, &mesh.imaged, &mesh.reference})
       for (Vec3& x : *field) x.z() *= x.y() > -1e-9 ? 22.5 / 40 : 1.5;
-    }
   }
   add_contact(mesh, View::cc);
   mesh.contact->thickness_mm = 50;
   mesh.contact->ends_image = true;
   mesh.skin_faces.clear(), mesh.cut_faces.clear(), mesh.pectoral_faces.clear();
   for (const Face& face : boundary_faces(mesh)) {
-    const Vec3 at = element_position(mesh, mesh.points, face.element, Vec3::Zero());
-    Vec3 middle = Vec3::Zero();
-    for (const int node : face_nodes(mesh, face)) middle += 0.25 * mesh.points[node];
-    const bool below = at.y() > -15 && middle.z() < 1e-9;
+    double height = 0;
+    for (const int node : face_nodes(mesh, face)) height = std::max(height, mesh.points[node].z());
+    const bool below = height < 1e-9 && element_position(mesh, mesh.points, face.element, Vec3::Zero()).y() > -15;
     (below ? mesh.cut_faces : mesh.skin_faces).push_back(face);
   }
   for (int e = 0; e < mesh.elements(); ++e) {
-    if (element_position(mesh, mesh.points, e, Vec3::Zero()).y() > -15)
-      mesh.tissue[std::size_t(e)] = Tissue::muscle;
+    if (element_position(mesh, mesh.points, e, Vec3::Zero()).y() > -15) mesh.tissue[std::size_t(e)] = Tissue::muscle;
   }
   return mesh;
 }
@@ -302,7 +298,6 @@ TEST(Projection, BeyondTheCutTheBodyIsAsThickAsInFrontOfIt) {
   const Mammogram image = project_mammogram(block_cut_below(false), {.pixel = 0.5});
   const std::size_t muscle = pixel_at(image, 7), breast = pixel_at(image, 30);
   EXPECT_EQ(image.through_back[muscle], 1);
-  EXPECT_FALSE(image.blank(muscle));
   EXPECT_NEAR(image.thickness[breast], 40, 1e-4);
   EXPECT_NEAR(image.thickness[muscle], 40, 1e-4);
   EXPECT_NEAR(image.path[muscle], 40, 1e-4);
