@@ -19,6 +19,7 @@ if(EXISTS ${PROJECT_SOURCE_DIR}/python/breast)
   install(DIRECTORY python/breast DESTINATION lib/python3/dist-packages
     FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN py.typed)
 endif()
-install(CODE "set(pages \"${PROJECT_SOURCE_DIR}/docs/man\")
+install(CODE "set(tools ${programs})
+set(pages \"${PROJECT_SOURCE_DIR}/docs/man\")
 set(destination \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/man/man1\")
 include(\"${PROJECT_SOURCE_DIR}/cmake/install_man.cmake\")")

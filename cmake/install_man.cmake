@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# At installation: the manual pages of `pages` into `destination`, that of the tool NAME as breast-NAME, which is how it is called when
+# At installation: the manual pages of `tools`, which lie in `pages`, into `destination`, that of the tool NAME as breast-NAME, which is how it is called when
 # installed; compressed without a time, so that the same pages are the same bytes.
 find_program(GZIP_PROGRAM gzip REQUIRED)
 file(MAKE_DIRECTORY ${destination})
 file(GLOB files ${pages}/*.1)
 foreach(file ${files})
   get_filename_component(name ${file} NAME_WE)
+  list(FIND tools "${name}" place)
+  if(place EQUAL -1 AND NOT name STREQUAL "breast")
+    continue()
+  endif()
   file(READ ${file} text)
   if(NOT name STREQUAL "breast")
     string(TOUPPER ${name} upper)

@@ -88,8 +88,10 @@ placed = $(if $(findstring {tumour},$2),$(if $(no_tumour),$(error $1: this varia
 # The solve of a variant may end early. A variant that depends on another one (column `if`) then ends for the same reason.
 inputs_of = $(foreach s,$(reads_$2),$(call file_of,$1,$s))
 attempt = $(if $(filter $(RUN),$1),,$(CASES) attempt $1/$2.json '$(strip $(call inputs_of,$1,$2) $(addsuffix /supine.vtkhdf,$($1@if)))' --quiet --)
+# All others wait for the first stages of the case.
+threads_of = $(if $(filter $(addprefix $(RUN)@,labels geometry mesh reference),$1@$2),$(alone),$(share))
 run_stage = $(strip $(call attempt,$1,$2) $(program_$2) $(scan_$2) $(call inputs_of,$1,$2) $(addprefix $1/,$(firstword $(or $(writes_$2),$2.vtkhdf))) \
-  $(fixed_$2) $(call placed,$1,$(options_$2)) --report $1/$2.json $(share))
+  $(fixed_$2) $(call placed,$1,$(options_$2)) --report $1/$2.json $(call threads_of,$1,$2))
 settings_of = $(program_$2) $(scan_$2) $(options_$2)
 # The name of a folder may contain a comma; it must not separate arguments when the text is expanded later.
 define stage_rule
@@ -127,13 +129,14 @@ $(RUN)/fat-only.tsv: $(or $(whole_set),$(MATERIAL_TABLE))
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) set fat-only $<)
 
-# The same with the lateral cut held, which shows the effect of this boundary condition at the landmarks.
+# The same with the lateral cut held, which shows the effect of this boundary condition at the landmarks;
+# the discretisation error is that of the other solution.
 cut-fixed_settings := $(BACKWARD) $(FORWARD) $(MECHANICS)
 $(RUN)/reference-cut-fixed.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD) $(MATERIAL_FILE) $(call changed,cut-fixed)
-	$(BACKWARD) $< $@ --posture prone $(MECHANICS) --cut fixed $(common)
+	$(BACKWARD) $< $@ --posture prone $(MECHANICS) --cut fixed --estimate none $(common)
 	@$(call record,cut-fixed)
 $(RUN)/supine-cut-fixed.vtkhdf: $(RUN)/reference-cut-fixed.vtkhdf $(FORWARD)
-	$(FORWARD) $< $@ --posture supine $(MECHANICS) --cut fixed $(common)
+	$(FORWARD) $< $@ --posture supine $(MECHANICS) --cut fixed --estimate none $(common)
 
 # Tables come from stdout; a rename makes them complete or absent: $(call table,COMMAND).
 table = $1 > $@.part && mv $@.part $@
@@ -151,7 +154,8 @@ $(RUN)/truth.tsv $(RUN)/truth-cut-fixed.tsv:
 	$(call table,$(PROBE) $(filter %.vtkhdf,$^) --truth $(TRUTH))
 endif
 
-$(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(RUN)/cut.tsv \
+# (A breast that slides is held by springs at its cut: there a held cut would be another model.)
+$(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(if $(slides),,$(RUN)/cut.tsv) \
   $(if $(TRUTH),$(RUN)/truth.tsv $(if $(body_slides),,$(RUN)/truth-cut-fixed.tsv)) $(FIGURES) \
   $(TABULATE) $(PIPELINES)/advice.tsv
 	@$(call table,$(tabulate) summary $(RUN) $(if $(TRUTH),$(PHANTOM_MR:.nrrd=.json)))

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Threads for one recipe: cores divided by the jobs make runs at once (read from MAKEFLAGS).
+# threads.sh [alone]: threads for one recipe: cores divided by the jobs make runs at once (read from MAKEFLAGS); with `alone`, all cores.
 cores=$(nproc)
 jobs=$(sed -n 's/.*-j\([0-9][0-9]*\).*/\1/p' <<< "${MAKEFLAGS:-}")
+[ "${1:-}" != alone ] || jobs=1
 threads=$((cores / ${jobs:-1}))
 echo $((threads > 0 ? threads : 1))

@@ -22,8 +22,8 @@ void declare(Tool& tool, Choices& c) {
   tool.describe(
       "Fits a phantom to given displacements of its nipple and tumour from the prone to the "
       "supine and to the stress-free shape. The parameters are the size of the breast and the "
-      "position of the tumour. The displacements are those of the chain, which are --gain times "
-      "the phantom's (a ratio that is measured once). The fit is by least squares with BOBYQA "
+      "position of the tumour. The given displacements are results of the chain; --gain is their "
+      "ratio to the phantom's own displacements, which is measured once. The fit is by least squares with BOBYQA "
       "(NLopt) on a coarse phantom mesh. The tool prints the parameters for the preset with the "
       "bounds of the search, and warns if a parameter lies on a bound.");
   tool.cite("Pathmanathan et al. 2008, Tables III and IV: 8.8 and 3.0 mm, 4.5 and 1.6 mm")
@@ -42,7 +42,8 @@ void declare(Tool& tool, Choices& c) {
   tool.integer(c.evaluations, "--evaluations", "N", "largest number of trial breasts", 4, 1000);
   tool.check([&c] {
     if (!preset_slides(c.preset)) return;
-    throw input_error("--preset ", c.preset, ": its breasts slide on their ribs, and trial breasts here are held; ",
+    throw input_error("--preset ", c.preset,
+                      ": its breasts slide on their ribs, and trial breasts here are held; ",
                       "choose paper, flat, small, large or pendulous");
   });
   tool.example("calibrate --preset paper --gain 1.28,1.39",
@@ -68,8 +69,8 @@ void run_calibrate(const Choices& c, Run& run) {
   const std::array values = {found.size, found.tumour_aside, found.tumour_level};
   for (std::size_t k = 0; k < values.size(); ++k) {
     const FittedParameter& fitted = fitted_parameters()[k];
-    table.rows.push_back({fitted.name, "-", format_fixed(values[k], 4),
-                          format_number(fitted.low), format_number(fitted.high)});
+    table.rows.push_back({fitted.name, "-", format_fixed(values[k], 4), format_number(fitted.low),
+                          format_number(fitted.high)});
     run.report().set(fitted.name, values[k]);
   }
   for (const std::string& bound : found.on_bounds()) run.warn(bound);

@@ -83,8 +83,8 @@ void declare_match(Tool& tool, MatchChoices& choices) {
       choices.question.truth, "--truth", "FILE",
       "TSV of true positions with columns landmark, side, cc_x_mm ... mlo_z_mm (truth-table). "
       "The table then has one row per landmark with the distances of its true position from the "
-      "curve, chord, arc and line; their mean, 95th percentile and maximum, and the share of landmarks "
-      "inside the bands follow, with --table in OUT-summary.tsv");
+      "curve, chord, arc and line. Their mean, 95th percentile and maximum, and the share of landmarks "
+      "inside the bands, are printed below it; with --table they are a table of their own, OUT-summary.tsv");
   tool.integer(choices.question.grid, "--grid", "N",
                "use N x N points over the tissue of the first image", 0, 200);
   tool.flag(choices.band, "--band",

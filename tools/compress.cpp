@@ -98,9 +98,9 @@ void declare(Tool& tool, Choices& c) {
       c.image_edge, "--image-edge", "auto|MM",
       "place the plates as in the clinic: distance from the most anterior point of the chest "
       "wall behind the breast, or of the muscle in front of it, to the edge of the image, where "
-      "the rounded edge starts; auto is 5 for CC and 0 for MLO and ML, and in a mesh with a layer "
-      "of muscle the edge for MLO and ML lies behind its front by 0.8 of its thickness. This "
-      "changes the defaults of --turn, --edge-radius, --contact-points, --friction, "
+      "the rounded edge starts. auto is 5 for CC and 0 for MLO and ML; if the mesh has a layer of "
+      "muscle, the edge for MLO and ML lies behind the front of the muscle by 0.8 of the muscle's "
+      "thickness. This option changes the defaults of --turn, --edge-radius, --contact-points, --friction, "
       "--positioning and --pull as stated there (default: auto for a breast that slides on its "
       "chest wall, unless --standoff is given; otherwise the plates stand as --standoff says)");
   tool.text(
@@ -187,7 +187,8 @@ void run_compress(Choices c, Run& run) {
   // A breast that slides lies limp between plates that stand far in front of its chest wall.
   const bool slides = mechanics.options().wall.kind == WallKind::slide;
   if (slides && c.image_edge.empty() && !c.plates.standoff) c.image_edge = "auto";
-  const CompressionOptions options = compression_options(c, parse_gravity(c.gravity), muscle_thickness(mesh));
+  const CompressionOptions options =
+      compression_options(c, parse_gravity(c.gravity), muscle_thickness(mesh));
   if (c.plates.standoff) {
     run.progress().note(
         "--standoff will be removed in a later version; use --image-edge to "

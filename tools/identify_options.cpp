@@ -14,8 +14,9 @@ void IdentifyChoices::check() const {
         "--force-thickness");
   }
   if (labels.empty() != second_labels.empty())
-    throw input_error("--labels and --second-labels must be given together, because the chest "
-                      "walls of both scans are compared");
+    throw input_error(
+        "--labels and --second-labels must be given together, because the chest "
+        "walls of both scans are compared");
   if (!second_landmarks.empty() && landmarks.empty())
     throw input_error("--second-landmarks needs --landmarks");
   if (!seen.empty() && surface.empty()) throw input_error("--seen needs --surface");
@@ -61,7 +62,8 @@ void declare_data(Tool& tool, IdentifyChoices& c) {
       "forces of a paddle: columns thickness_mm, force_N, optionally sd_N (default: a tenth of "
       "the force plus 0.5 N); each row costs one compression per trial");
   tool.number(c.observer, "--observer-error", "MM",
-              "rms distance in space between an observer's mark of a landmark and its position", 0.01, 100);
+              "rms distance in space between an observer's mark of a landmark and its position",
+              0.01, 100);
   tool.number(c.surface_error, "--surface-error", "MM",
               "standard deviation of the skin's distance at one of the sample points, which are "
               "12 mm apart",
@@ -106,9 +108,9 @@ void declare_identify(Tool& tool, IdentifyChoices& c) {
   tool.describe(
       "With --labels and --second-labels, the motion of the rib cage between the scans is first "
       "found from their chest walls (a rigid motion; places that do not fit are left out). The "
-      "components that the walls do not determine are reported and remain unknowns. Landmarks are "
-      "then compared in the frame of the mesh: the errors of this solution, each landmark also "
-      "when it is left out, beside the errors of other sets (--compare).");
+      "components that the walls do not determine are reported and remain unknowns. The table of "
+      "landmarks is then in the frame of the mesh. For every landmark it gives the error of this "
+      "solution, that of a solution without this landmark, and those of the sets in --compare.");
   tool.input(c.mesh, "MESH.vtkhdf",
              "mesh of the breast imaged prone, with its wall surface (hexmesh)");
   tool.output(c.set, "OUT.tsv", "the material set found, with its covariance");
@@ -139,9 +141,10 @@ void declare_identify(Tool& tool, IdentifyChoices& c) {
   tool.example(
       "identify mesh.vtkhdf patient.tsv --landmarks pairs.tsv --align --table landmarks.tsv",
       "from landmarks marked prone and supine");
-  tool.example("identify mesh.vtkhdf patient.tsv --surface supine-skin.vtp --labels labels.vtkhdf --second-labels "
-               "supine-labels.vtkhdf --compare seed2008 --compare invivo --table landmarks.tsv",
-               "from the skin of a supine scan, with rib cages registered by their chest walls");
+  tool.example(
+      "identify mesh.vtkhdf patient.tsv --surface supine-skin.vtp --labels labels.vtkhdf --second-labels "
+      "supine-labels.vtkhdf --compare seed2008 --compare invivo --table landmarks.tsv",
+      "from the skin of a supine scan, with rib cages registered by their chest walls");
   tool.example("identify mesh.vtkhdf patient.tsv --nipple 158,-9,13",
                "from the nipple alone; as the output says, the result is mostly determined by the "
                "prior");

@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
       "--curves the tool prints the nominal uniaxial, equibiaxial and pure-shear stress against "
       "stretch, and the simple-shear stress against shear, in Pa.");
   tool.word(c.set, "NAME|FILE",
-            "material set: seed2008, wellman, victre, mira2018, or a TSV file of the same columns");
+            "material set: invivo, seed2008, wellman, victre, mira2018, or a TSV file of the same columns");
   tool.texts(c.scale, "--scale", "TISSUE=PERCENT",
              "scale the stiffness of one tissue to this percentage of the set's");
   tool.flag(c.curves, "--curves", "print stress curves instead of the summary");

@@ -52,13 +52,6 @@ void add_file(const std::filesystem::path& file, const std::string& figure, Figu
   }
 }
 
-std::string figure_list() {
-  std::string list;
-  for (const std::string& name : figure_names())
-    list += " --figure " + name + " draws " + figure_summary(name) + ".";
-  return list;
-}
-
 void run_render(const Choices& choices, Run& run) {
   FigureInput input;
   for (const auto& file : choices.files) add_file(file, choices.figure, input);
@@ -80,8 +73,9 @@ int main(int argc, char** argv) {
   tool.describe(
       "Draws one figure without a screen: the tool starts and stops an X server of its own "
       "(Xvfb), whatever DISPLAY says. All views are parallel projections with a scale bar in mm; "
-      "L, A and S mark the patient's left, anterior and superior directions." +
-      figure_list());
+      "L, A and S mark the patient's left, anterior and superior directions. The figures, and the files that each needs, are:");
+  for (const std::string& name : figure_names())
+    tool.describe(name + ": " + figure_summary(name) + ".");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Figs 4 to 7");
   tool.inputs(choices.files, "FILE",
               "meshes (.vtkhdf), mammograms (.vti), points or curves (.vtp)");

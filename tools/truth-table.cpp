@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
       "resolutions (phantom-mesh, compress). The finer meshes give the true positions; the "
       "distance of a landmark between the two resolutions is stated as the error of the truth. "
       "For second-order convergence this is about three times the error of the finer mesh; "
-      "nothing is subtracted. The result can be given to probe --truth. The prone positions "
+      "the positions are not corrected for it. The result can be given to probe --truth. The prone positions "
       "remain those of the image; their error is the larger of the distance between the "
       "resolutions and their distance from the finer mesh.");
   tool.input(landmarks, "LANDMARKS.tsv",
@@ -60,10 +60,9 @@ int main(int argc, char** argv) {
       most = std::max(most, mesh.elements());
       fewest = std::min(fewest, mesh.elements());
       if (!mesh.contact) continue;
-      run.report().set(
-          view_name(mesh.contact->view) + (mesh.elements() == fewest ? "/coarse" : "/fine") +
-              "/thickness_mm",
-          mesh.contact->thickness_mm);
+      run.report().set(view_name(mesh.contact->view) +
+                           (mesh.elements() == fewest ? "/coarse" : "/fine") + "/thickness_mm",
+                       mesh.contact->thickness_mm);
     }
     run.report().set("elements", most);
     run.report().set("coarse_elements", fewest);

@@ -39,8 +39,8 @@ class PatientViews {
   AlignedView from_, to_;
 };
 
-/// One row per point of every curve: query, stretch, depth_mm, to_u_mm, to_v_mm with the second
-/// view's name, deviation_mm ("-" without band), and with `views` the curve and both edges of the
+/// One row per point of every curve: query, stretch, depth_mm, TO_u_mm and TO_v_mm (TO is the name of the
+/// second view), deviation_mm ("-" without band), and with `views` the curve and both edges of the
 /// 95 % band in pixels of the patient's second image.
 Table curve_points_table(const Matcher& matcher, const std::vector<MatchResult>& results,
                          const PatientViews* views);

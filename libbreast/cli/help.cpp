@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include "cli/declaration.hpp"
@@ -105,10 +106,19 @@ std::string upper(std::string text) {
   return text;
 }
 
+// An installed tool lies in libexec/breast, where no shell finds it: it is called through the command `breast`.
+std::string call_prefix() {
+  std::error_code unknown;
+  const std::filesystem::path folder =
+      std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();
+  return folder.filename() == "breast" && folder.parent_path().filename() == "libexec" ? "breast "
+                                                                                       : "";
+}
+
 }  // namespace
 
 std::string synopsis(const Declaration& tool) {
-  std::string line = tool.name;
+  std::string line = call_prefix() + tool.name;
   for (const Argument& argument : tool.positionals) line += " " + usage(argument);
   for (const Argument& argument : tool.options) {
     if (argument.required) line += " " + usage(argument);
@@ -152,14 +162,16 @@ std::string remarks(const Argument& argument) {
 
 std::string help_text(const Declaration& tool) {
   std::ostringstream out;
-  out << tool.name << " - " << tool.summary << "\n\nUsage: " << synopsis(tool) << "\n";
+  const std::string prefix = call_prefix();
+  out << prefix << tool.name << " - " << tool.summary << "\n\nUsage: " << synopsis(tool) << "\n";
   for (const std::string& paragraph : tool.paragraphs) out << "\n" << wrap(paragraph, 0) << "\n";
   list_text(out, "Arguments", tool.positionals);
   list_text(out, "Options", tool.options);
   list_text(out, "Common options", tool.common);
   if (!tool.examples.empty()) out << "\nExamples:\n";
   for (const auto& example : tool.examples) {
-    out << "  " << example.command << "\n      " << wrap(example.explanation, 6) << "\n";
+    out << "  " << (example.command.starts_with(tool.name + " ") ? prefix : "") << example.command
+        << "\n      " << wrap(example.explanation, 6) << "\n";
   }
   out << "\nExit codes:\n";
   for (const ExitCode& exit : exit_codes) out << "  " << exit.code << "  " << exit.meaning << "\n";
@@ -220,9 +232,14 @@ std::string help_completion(const Declaration& tool) {
   std::string text;
   for (const auto* list : {&tool.options, &tool.common}) {
     for (const Argument& argument : *list) {
-      const bool file = argument.kind == ArgumentKind::input || argument.kind == ArgumentKind::output || argument.kind == ArgumentKind::folder;
-      text += argument.label() + (argument.kind == ArgumentKind::flag ? "\tflag\t" : file ? "\tfile\t" : "\tvalue\t");
-      for (const std::string& choice : argument.choices) text += (text.back() == '\t' ? "" : " ") + choice;
+      const bool file = argument.kind == ArgumentKind::input ||
+                        argument.kind == ArgumentKind::output ||
+                        argument.kind == ArgumentKind::folder;
+      text += argument.label() + (argument.kind == ArgumentKind::flag ? "\tflag\t"
+                                  : file                              ? "\tfile\t"
+                                                                      : "\tvalue\t");
+      for (const std::string& choice : argument.choices)
+        text += (text.back() == '\t' ? "" : " ") + choice;
       text += "\n";
     }
   }

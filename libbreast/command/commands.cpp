@@ -97,7 +97,11 @@ std::string overview(const Installation& installation) {
   return "breast - " + breast_declaration().summary +
          "\n\nUsage: breast COMMAND|TOOL [ARGUMENT]...\n\nCommands:\n" + aligned(commands, "  ") +
          "\nTools:\n" + aligned(installation.tools, "  ") +
-         "\nExamples:\n  breast demo\n  breast run scan.nrrd --side left TUMOUR=-60,-40,12\n  breast help compress\n";
+         "\nThe chain, which `run` makes: segment, fit-hermite, hexmesh, backward, forward, compress (CC, MLO), project-mammogram, cc2mlo.\n"
+         "\nExamples:\n  breast demo\n  breast run scan.nrrd --side left TUMOUR=-60,-40,12\n  breast help compress\n"
+         "\nDocumentation: " +
+         installation.documentation().string() +
+         "; manual pages: man breast, man breast-compress\n";
 }
 
 std::string unknown_command(const Installation& installation, const std::string& given) {

@@ -67,7 +67,8 @@ std::vector<std::string> completions(const Installation& installation,
   if (options.wants_value) return options.choices;
   if (words.back().starts_with("-")) return options.names;
   // A setting begins with a capital; anything else is a file.
-  if (!is_pipeline_command(command) || !std::isupper((unsigned char)(words.back() + " ")[0])) return {};
+  if (!is_pipeline_command(command) || !std::isupper((unsigned char)(words.back() + " ")[0]))
+    return {};
   std::vector<std::string> settings = pipeline_settings(installation);
   for (std::string& setting : settings) setting += "=";
   return settings;

@@ -11,6 +11,12 @@ namespace breast {
 
 namespace fs = std::filesystem;
 
+fs::path Installation::documentation() const {
+  const fs::path folder = pipeline.parent_path();
+  return fs::exists(folder / "pipelines/installed.mk") ? folder.parent_path() / "doc/libbreast"
+                                                       : folder / "docs";
+}
+
 bool Installation::has(const std::string& name) const {
   return std::any_of(tools.begin(), tools.end(),
                      [&](const ToolEntry& t) { return t.name == name; });

@@ -60,6 +60,10 @@ std::vector<std::string> settings_for_make(const PipelineRequest& r, const std::
   if (!r.scan.empty())
     words.push_back((r.command == "cohort" ? "COHORT=" : "MR=") + name_for_make(r.scan, links));
   if (!r.side.empty() && r.settings.count("SIDE") == 0) words.push_back("SIDE=" + r.side);
+  // The report of the demonstration is that of its own phantom; make's default for a report is the paper's, with its tables.
+  if (r.command == "demo" && r.target == "report" &&
+      r.settings.count("PRESET") + r.settings.count("PAPER") == 0)
+    words.push_back("PRESET=average");
   for (const auto& [name, value] : r.settings) {
     std::error_code none;
     const bool file = path_settings.count(name) != 0 && fs::exists(value, none);
@@ -144,6 +148,10 @@ int make_and_show(const std::vector<std::string>& words, const std::string& run)
   }
   if (words.back() == "summary" && before && before == written(table)) print(read_text(table));
   print("Results: " + run + "\n");
+  if (words.back() == "summary") {
+    print(
+        "More: the same command with --target report (one page for reading and printing), page (both views, interactive) or slicer\n");
+  }
   return 0;
 }
 
@@ -155,8 +163,23 @@ std::vector<std::string> pipeline_settings(const Installation& installation) {
   return {std::istream_iterator<std::string>(words), {}};
 }
 
+// The help of the makefile, in an installation without what needs the source tree, and with the command that is called there.
 std::string settings_help(const Installation& installation) {
-  return read_text(installation.pipeline.parent_path() / "pipelines/help.txt");
+  const fs::path pipelines = installation.pipeline.parent_path() / "pipelines";
+  std::istringstream lines(read_text(pipelines / "help.txt"));
+  if (!fs::exists(pipelines / "installed.mk")) return lines.str();
+  std::string text =
+      "breast run SCAN --side left|right [--target TARGET] [SETTING=VALUE]...\n"
+      "breast demo [--target TARGET] [SETTING=VALUE]...                minutes are for 2 cores\n";
+  bool source = false;
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    if (line.starts_with("targets that need the source tree")) source = true;
+    if (!source) text += line + "\n";
+    if (line.empty()) source = false;
+  }
+  return text;
 }
 
 int run_pipeline(const Installation& installation, const std::string& command,

@@ -43,7 +43,7 @@ Argument positional(const std::string& placeholder, const std::string& help, std
   return argument;
 }
 
-void declare_options(Declaration& d, PipelineRequest& r) {
+void declare_options(Declaration& d, PipelineRequest& r, const std::string& jobs_help) {
   Argument runs =
       option(ArgumentKind::text, "--runs", "DIR",
              "folder in which every run has a folder of its own; it is created if it does not "
@@ -51,13 +51,12 @@ void declare_options(Declaration& d, PipelineRequest& r) {
              [&r](const std::string& value) { r.runs = value; });
   runs.default_text = r.runs;
   d.options.push_back(runs);
-  Argument jobs = option(ArgumentKind::integer, "--jobs", "N",
-                         "number of stages that may run at the same time; they share the cores",
+  Argument jobs = option(ArgumentKind::integer, "--jobs", "N", jobs_help,
                          [&r](const std::string& value) { r.jobs = std::stoi(value); });
   jobs.names = {"-j", "--jobs"};
   jobs.low = 1;
   jobs.high = 64;
-  jobs.default_text = "1";
+  jobs.default_text = std::to_string(r.jobs);
   d.options.push_back(jobs);
   d.options.push_back(option(ArgumentKind::flag, "--dry-run", "",
                              "print the commands without running them",
@@ -71,6 +70,12 @@ void declare_target(Declaration& d, PipelineRequest& r) {
                            [&r](const std::string& value) { r.target = value; });
   target.default_text = r.target;
   d.options.push_back(target);
+}
+
+// Of one case, two stages can run side by side most of the time, such as the compressions in both views.
+void declare_case_options(Declaration& d, PipelineRequest& r) {
+  r.jobs = 2;
+  declare_options(d, r, "number of stages that may run at the same time; they share the cores");
 }
 
 void declare_run(Declaration& d, PipelineRequest& r) {
@@ -93,7 +98,7 @@ void declare_run(Declaration& d, PipelineRequest& r) {
              [&r](const std::string& value) { r.side = value; });
   side.choices = {"left", "right"};
   d.options.push_back(side);
-  declare_options(d, r);
+  declare_case_options(d, r);
   declare_target(d, r);
   d.examples = {{"breast run scan.nrrd --side left", "results in ./runs/scan-left"},
                 {"breast run 'my scans/patient 1' --side right TUMOUR=-60,-40,12 --runs /data/runs",
@@ -107,7 +112,7 @@ void declare_demo(Declaration& d, PipelineRequest& r) {
       "the table of landmark displacements, the errors against the phantom's truth, and where "
       "the pictures are. SETTING=value changes a setting that `breast help settings` lists, "
       "such as PRESET=paper."};
-  declare_options(d, r);
+  declare_case_options(d, r);
   declare_target(d, r);
   d.examples = {{"breast demo", "results in ./runs/average"},
                 {"breast demo PRESET=small ELEMENTS=6 'PHANTOM_OPTIONS=--coarse 2'",
@@ -157,7 +162,7 @@ void declare_cohort(Declaration& d, PipelineRequest& r) {
       "segmentation (contours.html). File names in a case file are relative to the current "
       "folder. SETTING=value applies to all cases and overrides their files."};
   d.positionals.push_back(positional("DIR", "folder of case files", r.scan));
-  declare_options(d, r);
+  declare_options(d, r, "number of cases that may run at the same time; they share the cores");
   declare_cluster(d, r);
   d.examples = {{"breast cohort patients --jobs 4", "results in ./runs/cohort-patients"},
                 {"breast cohort patients --slurm --partition long --resume",

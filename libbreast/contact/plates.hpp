@@ -43,7 +43,7 @@ struct Plate {
   double tilt_slope = 0;   ///< rise into the gap per mm anterior
   double edge_radius = 0;  ///< mm
 
-  /// Signed distance. Inside the plate it is measured to the flat, from which the point entered.
+  /// Signed distance. Inside the plate it is measured to the flat, through which the point entered.
   Gap gap(const Vec3& x) const;
   /// Distance by which the plate must retreat along the beam so that the point lies outside, mm; 0
   /// if it already does.

@@ -56,7 +56,7 @@ vtkSmartPointer<vtkActor2D> annulus(const Vec2& centre, double inner, double out
 }  // namespace
 
 int Panel::caption(const std::string& words) {
-  constexpr double letter_width = 8.4, line_height = 22;
+  constexpr double letter_width = 9.0, line_height = 22;
   const auto room = std::size_t(std::max(12.0, (size().x() - 14) / letter_width));
   std::istringstream stream(words);
   std::vector<std::string> lines(1);

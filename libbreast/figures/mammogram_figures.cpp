@@ -65,9 +65,8 @@ bool is_place(const std::string& line) {
 }
 
 bool of_artificial_tumour(const PolyLines& lines) {
-  return std::any_of(lines.line_names.begin(), lines.line_names.end(), [](const auto& name) {
-    return name.starts_with("model's artificial");
-  });
+  return std::any_of(lines.line_names.begin(), lines.line_names.end(),
+                     [](const auto& name) { return name.starts_with("model's artificial"); });
 }
 
 Colour query_colour(int query, int count) {
@@ -141,6 +140,10 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
   constexpr double step = 20, letters = 14;
   const Vec2 low = panel.to_pixel({0, 0, 0}),
              high = panel.to_pixel({hanging.width(), hanging.height(), 0});
+  // Muscle at the edge may be as white as the paper.
+  for (const auto& [a, b] :
+       {std::pair(low, Vec2(low.x(), high.y())), std::pair(Vec2(high.x(), low.y()), high)})
+    panel.line(a, b, palette::ink, 1);
   for (double u = 0; u <= hanging.width(); u += step) {
     const Vec2 at(panel.to_pixel(hanging.at({u, 0}, 0)).x(), low.y());
     panel.line(at, at - Vec2(0, 6), palette::ink, 1);
@@ -160,7 +163,8 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
              Align::centre);
   panel.text({x + 10 * outward, low.y() - 18}, "v (mm)", letters, palette::ink, align);
   const Vec2 edge(panel.to_pixel(hanging.at({image.plate_edge_u, 0}, 0)).x(), low.y());
-  if (image.plate_edge_u > 0) {
+  // Where the image begins at the plates, they need no mark.
+  if (image.plate_edge_u > 1) {
     for (double y = low.y(); y < high.y(); y += 9) {
       panel.line({edge.x(), y}, {edge.x(), std::min(y + 3, high.y())}, {0.7, 0.7, 0.7}, 1);
     }
@@ -168,12 +172,12 @@ void axis_ticks(Panel& panel, const Mammogram& image, const Hanging& hanging) {
                {0.85, 0.85, 0.85}, align);
   }
   const auto& back = image.through_back;
-  if (const auto first = std::find_if(back.begin(), back.end(), [](auto flag) { return flag != 0; });
+  if (const auto first =
+          std::find_if(back.begin(), back.end(), [](auto flag) { return flag != 0; });
       first != back.end()) {
     const bool blank = image.blank(std::size_t(first - back.begin()));
     const double chest = hanging.left() ? low.x() + 6 : high.x() - 6;
-    panel.text({chest, low.y() + 14},
-               blank ? "even grey: chest wall" : "back: fat assumed",
+    panel.text({chest, low.y() + 14}, blank ? "even grey: unknown" : "behind the model: fat",
                letters - 2, {0.85, 0.85, 0.85}, hanging.left() ? Align::left : Align::right);
   }
   const std::string top = image.view == View::cc ? "lateral" : "superior";
@@ -211,7 +215,8 @@ std::vector<std::vector<Vec2>> parts_inside(const std::vector<Vec2>& line, const
     if (!(high > low)) continue;
     kept += (high - low) * along.norm();
     const Vec2 start = a + low * along, end = a + high * along;
-    if (parts.empty() || low > 0 || (parts.back().back() - start).norm() > 1e-9) parts.push_back({start});
+    if (parts.empty() || low > 0 || (parts.back().back() - start).norm() > 1e-9)
+      parts.push_back({start});
     parts.back().push_back(end);
   }
   if (outside_mm != nullptr) *outside_mm = all - kept;

@@ -18,6 +18,7 @@ namespace {
 constexpr std::array<Colour, 4> colours = {
     {{0.15, 0.35, 0.70}, {0.85, 0.40, 0.10}, {0.20, 0.55, 0.30}, {0.55, 0.30, 0.60}}};
 constexpr Colour wall_colour{0.35, 0.20, 0.18};
+constexpr Colour muscle_colour{0.80, 0.25, 0.35};
 constexpr double line_pixels = 3, thin_pixels = 1.5, letters = 17;
 constexpr double ring_pixels = 6;
 constexpr double dot_mm = 0.7;
@@ -43,6 +44,15 @@ void add_section(Panel& panel, const Shape& shape, double height, const Colour& 
   add(shape.mesh->skin_faces, line_pixels);
   add(shape.mesh->pectoral_faces, line_pixels);
   add(shape.mesh->cut_faces, thin_pixels);
+}
+
+/// The name of the surface on which the breast slides; empty if there is none. With muscle in the mesh it is the back of the
+/// muscle, otherwise the chest wall, which is its front.
+std::string wall_words(const HexMesh& mesh) {
+  if (!mesh.geometry || !mesh.geometry->thorax) return "";
+  const bool muscle =
+      std::find(mesh.tissue.begin(), mesh.tissue.end(), Tissue::muscle) != mesh.tissue.end();
+  return muscle ? "ribs: back of the muscle" : "chest wall";
 }
 
 /// The wall surface at a height, as a line.
@@ -104,17 +114,20 @@ void add_seen(Panel& panel, const TriMesh& seen, double height) {
     (on_wall ? wall : skin).push_back(at);
   }
   if (!skin.empty()) panel.cloud(skin, dot_mm, colours[2]);
-  if (!wall.empty()) panel.cloud(wall, dot_mm, wall_colour);
+  if (!wall.empty()) panel.cloud(wall, dot_mm, muscle_colour);
+}
+
+/// A line of a legend at height y; returns the height of the next one.
+double add_name(Panel& panel, double y, const std::string& name, const Colour& colour) {
+  constexpr double row = 24, left = 18;
+  panel.line({left, y}, {left + 26, y}, colour, 4);
+  panel.text({left + 34, y}, name, letters - 1, palette::ink);
+  return y - row;
 }
 
 void add_names(Panel& panel, const std::vector<std::pair<std::string, Colour>>& names) {
-  constexpr double row = 24, text_height = 17, left = 18;
   double y = panel.size().y() - 62;
-  for (const auto& [name, colour] : names) {
-    panel.line({left, y + 6}, {left + 26, y + 6}, colour, 4);
-    panel.text({left + 34, y}, name, text_height, palette::ink);
-    y -= row;
-  }
+  for (const auto& [name, colour] : names) y = add_name(panel, y, name, colour);
 }
 
 }  // namespace
@@ -140,10 +153,9 @@ void add_silhouettes(Panel& panel, const std::vector<Shape>& shapes) {
   add_arrows(panel, shapes);
 }
 
-void add_shape_legend(Panel& panel, const std::vector<Shape>& shapes) {
-  constexpr double row = 24, left = 18;
+double add_shape_legend(Panel& panel, const std::vector<Shape>& shapes) {
   double y = panel.size().y() - 50;
-  for (std::size_t k = 0; k < shapes.size(); ++k, y -= row) {
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
     std::string words = shapes[k].name;
     for (const Landmark& landmark : shapes[k].mesh->landmarks) {
       if (k == 0) continue;
@@ -151,9 +163,9 @@ void add_shape_legend(Panel& panel, const std::vector<Shape>& shapes) {
       std::replace(name.begin(), name.end(), '_', ' ');
       words += ", " + name + " moved " + format_fixed(moved_mm(shapes, k, landmark), 0) + " mm";
     }
-    panel.line({left, y}, {left + 26, y}, colour_of(k), 4);
-    panel.text({left + 34, y}, words, letters - 1, palette::ink);
+    y = add_name(panel, y, words, colour_of(k));
   }
+  return y;
 }
 
 void draw_postures(Picture& picture, const FigureInput& input) {
@@ -170,10 +182,14 @@ void draw_postures(Picture& picture, const FigureInput& input) {
   add_arrows(slice, {{&mesh, &mesh.imaged, ""}, {&mesh, &mesh.points, ""}});
   slice.look_along(Vec3(0, 0, 1), Vec3(0, -1, 0), 0.16);
   slice.caption("transverse section through the nipple as predicted, seen from below");
-  add_names(slice, {{"as scanned prone, with the nipple", colours[0]},
-                    {posture_of(mesh.gravity) + " as predicted", colours[1]},
-                    {"skin as seen in the second scan", colours[2]},
-                    {"chest wall of both scans", wall_colour}});
+  std::vector<std::pair<std::string, Colour>> names{
+      {"as scanned prone; thin: end of the model", colours[0]},
+      {posture_of(mesh.gravity) + " as predicted", colours[1]},
+      {"skin as seen in the second scan", colours[2]},
+      {"front of the muscle as seen in the second scan", muscle_colour}};
+  if (const std::string wall = wall_words(mesh); !wall.empty())
+    names.emplace_back(wall, wall_colour);
+  add_names(slice, names);
   slice.scale_bar();
   slice.compass();
 }
@@ -195,7 +211,10 @@ void draw_outlines(Picture& picture, const FigureInput& input) {
   slice.look_along(Vec3(0, 0, 1), Vec3(0, -1, 0), 0.16);
   add_arrows(slice, shapes);
   slice.caption("(a) transverse section through the nipple as scanned, seen from below");
-  add_shape_legend(slice, shapes);
+  double below = add_shape_legend(slice, shapes);
+  if (const std::string wall = wall_words(first); !wall.empty())
+    below = add_name(slice, below, wall, wall_colour);
+  slice.text({18, below}, "thin: where the model ends", letters - 1, palette::ink);
   slice.scale_bar();
   slice.compass();
 

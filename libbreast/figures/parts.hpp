@@ -96,8 +96,9 @@ std::vector<Shape> shapes_of(const std::vector<const HexMesh*>& states);
 /// Draws their silhouettes from the lateral side, with an arrow from each landmark's position in
 /// the scan to that in the last shape, and the distance in mm.
 void add_silhouettes(Panel& panel, const std::vector<Shape>& shapes);
-/// Draws one line per shape with its colour, its name and the displacements of its landmarks.
-void add_shape_legend(Panel& panel, const std::vector<Shape>& shapes);
+/// Draws one line per shape with its colour, its name and the displacements of its landmarks. Returns the
+/// height of the line below.
+double add_shape_legend(Panel& panel, const std::vector<Shape>& shapes);
 
 void draw_slices(Picture& picture, const FigureInput& input);
 void draw_points(Picture& picture, const FigureInput& input);

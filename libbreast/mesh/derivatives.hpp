@@ -11,7 +11,8 @@
 namespace breast {
 
 struct Derivatives {
-  /// ∂points/∂parameter per node, for each parameter: mm per relative change, degree or mm.
+  /// ∂points/∂parameter per node, for each parameter: mm per unit of the parameter, which is a relative
+  /// change, a degree or a mm.
   std::map<std::string, std::vector<Vec3>> position;
   /// ∂(displacement of a landmark, mm)/∂(ln stiffness of the element), for each landmark.
   std::map<std::string, std::vector<double>> influence;

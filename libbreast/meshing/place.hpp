@@ -17,13 +17,14 @@ struct PlacedNodes {
   std::vector<Vec2> st;          ///< skin, wall: the sheet's (s,t); cut: (u, height)
 };
 
-/// Places boundary nodes on the hull. The nodes of the wall's disc, and then the interior nodes,
-/// follow from a Laplace equation with graph weights. Throws Error (failed) if a system cannot be
-/// solved. Heights on the rims are exactly 0 (wall) and 1 (skin).
+/// Whether a point of the cut lies on a rim: heights there are exactly 0 (wall) or 1 (skin).
 inline bool on_rim(double height) {
   return height <= 0 || height >= 1;
 }
 
+/// Places boundary nodes on the hull. The nodes of the wall's disc, and then the interior nodes,
+/// follow from a Laplace equation with graph weights. Throws Error (failed) if a system cannot be
+/// solved.
 PlacedNodes place_nodes(const DomeTemplate& dome, const BodyMap& body);
 
 }  // namespace breast

@@ -19,8 +19,8 @@ std::string numbers_json(const std::vector<double>& values);
 /// a quarter millimetre, and the landmarks of `compressed` in it.
 std::string image_json(const Mammogram& image, const HexMesh& compressed);
 
-/// The curves of a grid, only for nodes in tissue, rounded to 0.01 mm; lengths more than 327 mm
-/// from `middle` (columns) or from the corner of the image (curves) are limited to that. A grid
+/// The curves of a grid, only for nodes in tissue, rounded to 0.01 mm; coordinates are limited to
+/// 327 mm from `middle` (columns) or from the corner of the image (curves). A grid
 /// with more than 14 000 nodes in tissue is thinned, so that a direction takes at most 7 MB.
 std::string lookup_json(const MatchLookup& lookup, const Vec3& middle);
 

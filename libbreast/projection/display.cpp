@@ -40,13 +40,19 @@ double plate_thickness(const Mammogram& image) {
   return at_rank(between.empty() ? all : between, 0.75, 1);
 }
 
-// A few bright pixels (a tumour, a fold) must not darken the rest.
-double bright_end(const std::vector<float>& shown) {
-  std::vector<float> tissue;
-  for (const float value : shown) {
-    if (value > 0) tissue.push_back(value);
+// How much brighter than the breast the pectoral muscle may be; what lies beyond is white.
+constexpr float muscle_room = 1.15f;
+
+// A few bright pixels (a tumour, a fold) must not darken the rest, nor must the muscle at the back of an oblique view.
+double bright_end(const Mammogram& image, const std::vector<float>& shown) {
+  std::vector<float> breast, all;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (!(shown[i] > 0)) continue;
+    all.push_back(shown[i]);
+    if (image.through_back[i] == 0) breast.push_back(shown[i]);
   }
-  return at_rank(tissue, 0.998, 1);
+  const float end = at_rank(all, 0.998, 1);
+  return breast.empty() ? end : std::min(end, muscle_room * at_rank(breast, 0.998, 1));
 }
 
 /// Averages over the neighbours of pixels that have both known and unknown neighbours, so that the
@@ -57,8 +63,8 @@ void soften_border(const std::vector<std::uint8_t>& unknown, HungImage& hung) {
     for (int column = 0; column < hung.width; ++column) {
       int count = 0, flagged = 0;
       long sum = 0;
-      for (int r = std::max(0, row - soft_border); r <= std::min(hung.height - 1, row + soft_border);
-           ++r) {
+      for (int r = std::max(0, row - soft_border);
+           r <= std::min(hung.height - 1, row + soft_border); ++r) {
         for (int c = std::max(0, column - soft_border);
              c <= std::min(hung.width - 1, column + soft_border); ++c) {
           const std::size_t at = std::size_t(r) * hung.width + c;
@@ -91,7 +97,7 @@ HungImage hang(const Mammogram& image) {
   hung.width = image.width;
   hung.height = image.height;
   const std::vector<float> shown = compensated_path(image);
-  hung.window_high = bright_end(shown);
+  hung.window_high = bright_end(image, shown);
   hung.grey.resize(image.path.size());
   std::vector<std::uint8_t> unknown(image.path.size(), 0);  // hung
   // e_v points away from lateral (CC) and from superior (MLO) on the left

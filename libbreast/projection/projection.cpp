@@ -61,16 +61,42 @@ class Projector {
   RowSums row(int v, Mammogram& image) const {
     RowSums sums;
     ChordPacket chords;
+    std::vector<TissuePath> behind(std::size_t(image.width));
     for (int u = 0; u < image.width;) {
       const int rays = rays_.trace(image.pixel * Vec2(u, v), image.pixel,
                                    std::min(packet_rays, image.width - u), chords);
-      for (int k = 0; k < rays; ++k, ++u) pixel(u, v, chords[k], image, sums);
+      for (int k = 0; k < rays; ++k, ++u)
+        pixel(u, v, chords[k], image, behind[std::size_t(u)], sums);
     }
+    if (filled_ > 0) continue_backwards(v, behind, image);
     return sums;
   }
 
  private:
-  void pixel(int u, int v, const std::vector<Chord>& chords, Mammogram& image,
+  // Columns that leave through the back lack the tissue behind the mesh. They are continued with fat to the thickness of the
+  // tissue in front of them in the same row, so that skin and brightness continue, too; at most to the distance of the plates.
+  void continue_backwards(int v, const std::vector<TissuePath>& behind, Mammogram& image) const {
+    double front = 0;
+    for (int u = image.width - 1; u >= 0; --u) {
+      const std::size_t at = std::size_t(v) * image.width + u;
+      if (image.through_back[at] == 0) {
+        front = image.thickness[at];
+        continue;
+      }
+      TissuePath mm = behind[std::size_t(u)];
+      mm.fat += std::max(0.0, std::min(filled_, front) - mm.total());
+      record(at, mm, image);
+    }
+  }
+
+  void record(std::size_t at, const TissuePath& mm, Mammogram& image) const {
+    image.path[at] = float(std::max(0.0, options_.energy.path(mm)));
+    image.thickness[at] = float(mm.total());
+    image.fibroglandular[at] = float(mm.fibroglandular);
+  }
+
+  // Records the tissue of a pixel, or, if its column leaves through the back, stores it in `behind`.
+  void pixel(int u, int v, const std::vector<Chord>& chords, Mammogram& image, TissuePath& behind,
              RowSums& sums) const {
     if (chords.empty()) return;
     const std::size_t at = std::size_t(v) * image.width + u;
@@ -101,12 +127,12 @@ class Projector {
         add_element_tissue(mesh_.tissue[rays_.element(chord.piece)], chord.leave - chord.enter, mm);
       }
     }
-    if (back) mm.fat += std::max(0.0, filled_ - mm.total());
-    image.path[at] = float(std::max(0.0, options_.energy.path(mm)));
-    image.thickness[at] = float(mm.total());
-    image.fibroglandular[at] = float(mm.fibroglandular);
     if (mm.muscle > 0) ++sums.muscle;
-    if (back) return;
+    if (back) {
+      behind = mm;
+      return;
+    }
+    record(at, mm, image);
     sums.mm.fat += mm.fat;
     sums.mm.fibroglandular += mm.fibroglandular;
     sums.mm.skin += mm.skin;
@@ -138,8 +164,8 @@ class Projector {
   const HexMesh& mesh_;
   const ProjectionOptions& options_;
   RayMesh rays_;
-  /// If the image ends at the plates' edge: the distance of the plates, mm. The part of it that a
-  /// column lacks is continued beyond the mesh.
+  /// If the image ends at the plates' edge: the distance of the plates, mm, the largest thickness to which a
+  /// column is continued beyond the mesh.
   double filled_;
   std::vector<Trilinear> imaged_;
   std::unique_ptr<VoxelTissue> voxels_;

@@ -18,8 +18,8 @@ struct Trilinear {
   static Trilinear through(const std::array<Vec3, 8>& corners);
   Vec3 at(const Vec3& local) const;
   Mat3 jacobian(const Vec3& local) const;  ///< columns ∂x/∂ξ, ∂x/∂η, ∂x/∂ζ
-  /// Newton from `guess` to a residual of `tolerance` mm; false (and
-  /// `guess` returned) when it fails.
+  /// Finds the local coordinates of x by Newton's method to a residual of `tolerance` mm, starting from
+  /// those in `local`. Returns false, and leaves `local` as it was, if it fails.
   bool invert(const Vec3& x, double tolerance, Vec3& local) const;
   double volume() const;  ///< mm³, exact; negative when inside out
 };

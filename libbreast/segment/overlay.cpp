@@ -16,7 +16,22 @@ namespace breast {
 namespace {
 
 constexpr double pixel = 0.7;  // mm
-constexpr int tile_width = 500, tile_height = 360;
+constexpr int tile_width = 500, tile_height = 360, legend_height = 34;
+const cv::Scalar white_ink{255, 255, 255}, nipple_colour{255, 120, 0};
+// Contours, blue first.
+const cv::Vec3b wall_found{0, 220, 0}, wall_assumed{0, 140, 255}, breast_outline{0, 230, 230},
+    gland_outline{60, 60, 255};
+
+void write(cv::Mat& image, const std::string& words, const cv::Point& at) {
+  cv::putText(image, words, at, cv::FONT_HERSHEY_SIMPLEX, 0.5, white_ink, 1, cv::LINE_AA);
+}
+
+/// Where a direction points in the patient: L, P, S or R, A, I.
+std::string side_of(const Vec3& direction) {
+  Vec3::Index axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  return std::string(1, (direction[axis] > 0 ? "LPS" : "RAI")[axis]);
+}
 
 /// One plane: fixed index along `normal`, image columns along u, rows along v (drawn downwards, or
 /// upwards when `flip`).
@@ -72,6 +87,11 @@ struct Painter {
       }
     }
     outline(image, tissue, place);
+    const auto towards = [&](int axis, double sign) {
+      return side_of(sign * labels.grid.direction.col(axis));
+    };
+    write(image, towards(plane.u, -1), {6, tile_height / 2});
+    write(image, towards(plane.v, plane.flip ? 1 : -1), {tile_width / 2, 18});
     return image;
   }
 
@@ -86,18 +106,34 @@ struct Painter {
           if (here == other || here < 0 || other < 0) continue;
           auto& dot = image.at<cv::Vec3b>(row, column);
           if (here == int(Tissue::muscle) || other == int(Tissue::muscle)) {
-            dot = confidence(place(row, column)) > 0.5 ? cv::Vec3b(0, 220, 0)
-                                                       : cv::Vec3b(0, 140, 255);
+            dot = confidence(place(row, column)) > 0.5 ? wall_found : wall_assumed;
           } else if (inside(here) != inside(other)) {
-            dot = {0, 230, 230};
+            dot = breast_outline;
           } else if (here == int(Tissue::fibroglandular) || other == int(Tissue::fibroglandular)) {
-            dot = {60, 60, 255};
+            dot = gland_outline;
           }
         }
       }
     }
   }
 };
+
+void add_legend(cv::Mat strip) {
+  const auto colour = [](const cv::Vec3b& c) { return cv::Scalar(c[0], c[1], c[2]); };
+  const std::pair<const char*, cv::Scalar> entries[] = {
+      {"breast", colour(breast_outline)},
+      {"fibroglandular tissue", colour(gland_outline)},
+      {"chest wall, found in the image", colour(wall_found)},
+      {"chest wall, assumed (confidence below 0.5)", colour(wall_assumed)}};
+  int x = 12;
+  for (const auto& [words, ink] : entries) {
+    cv::line(strip, {x, 17}, {x + 24, 17}, ink, 2);
+    write(strip, words, {x + 32, 22});
+    x += 80 + 9 * int(std::string(words).size());
+  }
+  cv::drawMarker(strip, {x + 12, 17}, nipple_colour, cv::MARKER_CROSS, 14, 2);
+  write(strip, "nipple, at most 12 mm from the slice", {x + 32, 22});
+}
 
 }  // namespace
 
@@ -125,7 +161,7 @@ void write_overlay(const std::filesystem::path& file, const Volume<float>& scan,
   const Vec3 centre = 0.5 * (low + top);
   constexpr int across = 4;
   const Plane planes[3] = {{2, 0, 1, false}, {0, 1, 2, true}, {1, 0, 2, true}};
-  cv::Mat page(4 * tile_height, across * tile_width, CV_8UC3, cv::Scalar(0, 0, 0));
+  cv::Mat page(4 * tile_height + legend_height, across * tile_width, CV_8UC3, cv::Scalar(0, 0, 0));
   int tile = 0;
   for (int row = 0; row < 4; ++row) {
     const Plane& plane = planes[std::max(0, row - 1)];
@@ -139,8 +175,7 @@ void write_overlay(const std::filesystem::path& file, const Volume<float>& scan,
       const char* name = plane.normal == 2   ? "axial "
                          : plane.normal == 0 ? "sagittal "
                                              : "coronal ";
-      cv::putText(image, name + std::to_string(int(slice)), {6, 18}, cv::FONT_HERSHEY_SIMPLEX, 0.5,
-                  {255, 255, 255});
+      write(image, name + std::to_string(int(slice)), {6, 18});
       const auto nipple = labels.landmarks.find("nipple");
       if (nipple != labels.landmarks.end()) {
         const Vec3 index = grid.to_index(nipple->second);
@@ -150,12 +185,13 @@ void write_overlay(const std::filesystem::path& file, const Volume<float>& scan,
           const double v = (index[plane.v] - centre[plane.v]) * grid.spacing[plane.v] / pixel +
                            0.5 * tile_height;
           cv::drawMarker(image, cv::Point(int(u), int(plane.flip ? tile_height - 1 - v : v)),
-                         {255, 120, 0}, cv::MARKER_CROSS, 14, 2);
+                         nipple_colour, cv::MARKER_CROSS, 14, 2);
         }
       }
       image.copyTo(page(cv::Rect(n * tile_width, row * tile_height, tile_width, tile_height)));
     }
   }
+  add_legend(page(cv::Rect(0, 4 * tile_height, across * tile_width, legend_height)));
   std::vector<uchar> png;
   cv::imencode(".png", page, png);
   write_bytes(file, marked_png({reinterpret_cast<const char*>(png.data()), png.size()}));

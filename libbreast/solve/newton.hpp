@@ -86,7 +86,7 @@ struct LineSearchRule {
   double tolerance = 0;        ///< residual of a solution
   int most_halvings = 6;       ///< before the direction is given up
   bool any = false;            ///< accept every admissible length
-  bool flat_suffices = false;  ///< accept an end at which the energy is flatter along the direction
+  bool flat_suffices = false;  ///< accept a step at whose end the energy is flatter along the direction
   /// The tangent was shifted and the body may snap through: a decrease of energy suffices, and a
   /// step is doubled as long as the slope stays as steep as predicted.
   bool downhill_suffices = false;

@@ -59,8 +59,8 @@ class Problem {
   }
   /// The same where the constraints at the positions are known.
   static double free_norm(const Constraints& held, const Forces& forces);
-  /// Worst |θ| of an element over its volume in the imaged shape: zero in a solution, where a
-  /// compressible body still has a volume error.
+  /// Worst |θ| of an element over its volume in the imaged shape: zero in a solution,
+  /// also of a compressible body, whose volume does change.
   double volume_residual(const Forces& forces) const;
   /// An element that is not positive in both shapes at its corners and quadrature points; −1: none.
   /// A state with such an element is not accepted.

@@ -88,10 +88,12 @@ std::string some_rows(const std::string& tsv, const std::vector<std::string>& na
 std::string truth_text(const fs::path& run, const fs::path& phantom) {
   std::string text;
   if (const std::string truth = text_of(run / "truth.tsv"); !truth.empty()) {
-    text += "\nError against the phantom's truth (mm). The truth's own error is " +
-            fixed_cell(StageReport::read(phantom).number("error_estimate_mm"), 3) +
-            " mm; smaller errors are not\n" +
-            "claimed. Points are the phantom's, found in the chain's mesh.\n" + aligned(truth);
+    text +=
+        "\nError against the phantom's truth (mm). The truth's own error is " +
+        fixed_cell(StageReport::read(phantom).number("error_estimate_mm"), 3) +
+        " mm; smaller errors are not\n" +
+        "claimed. Points are the phantom's, found in the chain's mesh; truth.tsv has every one of them.\n" +
+        aligned(some_rows(truth, {"nipple", "true-tumour", "mean", "largest"}));
   }
   if (const std::string truth = text_of(run / "truth-cut-fixed.tsv"); !truth.empty()) {
     text += "\nThe same with a fixed cut in the chain, as in the truth (mean and largest)\n" +
@@ -147,10 +149,11 @@ std::string summary_text(const fs::path& run, const SummaryContext& context) {
     std::string start = "  supine: ";
     for (std::string line; std::getline(lines, line); start = "  ") text += start + line + "\n";
   }
-  text +=
-      "\nWith a fixed lateral cut instead, supine (relative: distance to the case as solved, "
-      "mm)\n" +
-      aligned(text_of(run / "cut.tsv"));
+  if (const std::string cut = text_of(run / "cut.tsv"); !cut.empty()) {
+    text +=
+        "\nWith a fixed lateral cut instead, supine (relative: distance to the case as solved, mm)\n" +
+        aligned(cut);
+  }
   text += truth_text(run, context.phantom) + compression_text(run) + "\n";
   const bool curve = fs::exists(run / "curve.tsv") && fs::file_size(run / "curve.tsv") > 0;
   const std::string at = run.string();

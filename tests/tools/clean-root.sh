@@ -51,7 +51,7 @@ user() { chroot --userspec=user:user "$root" env -i PATH=/usr/bin:/bin HOME=/hom
 inside install -d -o user -g user "$folder"
 user 'breast --version && breast list' > "$work/list" || { cat "$work/list"; fail "breast list"; }
 [ "$(wc -l < "$work/list")" -gt 20 ] || fail "breast list names the tools"
-user 'breast help compress' | grep -q '^Usage: compress' || fail "breast help compress"
+user 'breast help compress' | grep -q '^Usage: breast compress' || fail "breast help compress"
 ! user 'breast compres' 2> "$work/err" || fail "an unknown command is refused"
 grep -q "did you mean 'compress'" "$work/err" && [ "$(wc -l < "$work/err")" -eq 1 ] || { cat "$work/err"; fail "in one line, with the nearest name"; }
 echo "ok: breast --version, list, help; an unknown command"

@@ -47,9 +47,11 @@ grep -q "^version: $(sed 's/.* //' "$work/out")\$" "$prefix/share/doc/libbreast/
 said "segment " breast list
 [ "$(wc -l < "$work/out")" -eq "$(ls "$prefix/libexec/breast" | wc -l)" ] || fail "breast list names what is installed"
 ! grep -qE '^[a-z0-9-]+ *$' "$work/out" || { cat "$work/out"; fail "every tool has its summary"; }
-said "Usage: compress " breast help compress
+said "Usage: breast compress " breast help compress
+said "  breast compress reference.vtkhdf" breast compress --help
 said "--side left|right" breast help run
 said "REDUCTION=P" breast help settings
+said "average/report.html" breast demo --target report --dry-run
 said "laws (libbreast) " breast laws --version
 said "fibroglandular" breast laws seed2008
 refused "did you mean 'compress'?" breast compres

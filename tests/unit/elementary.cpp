@@ -83,6 +83,11 @@ TEST(Elementary, SpecialValues) {
   EXPECT_EQ(elementary::pow(0, 0), 1);
   EXPECT_EQ(elementary::pow(0, 2), 0);
   EXPECT_EQ(elementary::pow(2, 10), 1024);
+  for (const double x : {1e-300, 0.1, 2.0 / 3, 1.7, 12345.678, 1e200}) {
+    EXPECT_EQ(elementary::pow(x, 1), x);
+    EXPECT_EQ(elementary::pow(x, 0.5), std::sqrt(x));
+    EXPECT_NEAR(elementary::pow(x, 0.5) / elementary::pow(x, std::nextafter(0.5, 1)), 1, 1e-12);
+  }
   EXPECT_EQ(elementary::pow(2, 2000), infinity);
   EXPECT_TRUE(std::isnan(elementary::pow(-2, 0.5)));
   EXPECT_EQ(elementary::sin(0), 0);

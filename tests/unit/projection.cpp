@@ -249,31 +249,38 @@ TEST(Projection, NoColumnOfTheImageLeavesThroughTheBack) {
   }
 }
 
-// The block's hindmost 15 mm are muscle, and its lower faces there belong to the cut: between plates 50 mm
-// apart what lacks of those columns is fat.
-TEST(Projection, MuscleIsShownAndColumnsGoOnBeyondTheCut) {
+// The block's hindmost 15 mm are muscle, and its lower faces there belong to the cut. With `thicker_front` the block is 60 mm thick
+// in front of the muscle, which is 40 mm thick 7 mm behind its posterior edge.
+HexMesh block_cut_below(bool thicker_front) {
   HexMesh mesh = facing_block();
+  if (thicker_front) {
+    for (auto* field : {&mesh.points, &mesh.imaged, &mesh.reference})
+      for (Vec3& x : *field) x.z() *= x.y() > -1e-9 ? 22.5 / 40 : 1.5;
+  }
   add_contact(mesh, View::cc);
   mesh.contact->thickness_mm = 50;
+  mesh.contact->ends_image = true;
   mesh.skin_faces.clear(), mesh.cut_faces.clear(), mesh.pectoral_faces.clear();
   for (const Face& face : boundary_faces(mesh)) {
-    const Vec3 at = element_position(mesh, mesh.points, face.element, Vec3::Zero());
-    Vec3 middle = Vec3::Zero();
-    for (const int node : face_nodes(mesh, face)) middle += 0.25 * mesh.points[node];
-    const bool below = at.y() > -15 && middle.z() < 1e-9;
+    double height = 0;
+    for (const int node : face_nodes(mesh, face)) height = std::max(height, mesh.points[node].z());
+    const bool below = height < 1e-9 && element_position(mesh, mesh.points, face.element, Vec3::Zero()).y() > -15;
     (below ? mesh.cut_faces : mesh.skin_faces).push_back(face);
   }
   for (int e = 0; e < mesh.elements(); ++e) {
-    if (element_position(mesh, mesh.points, e, Vec3::Zero()).y() > -15)
-      mesh.tissue[std::size_t(e)] = Tissue::muscle;
+    if (element_position(mesh, mesh.points, e, Vec3::Zero()).y() > -15) mesh.tissue[std::size_t(e)] = Tissue::muscle;
   }
+  return mesh;
+}
+
+std::size_t pixel_at(const Mammogram& image, double u) {
+  return std::size_t(image.height / 2) * std::size_t(image.width) + std::size_t(u / image.pixel);
+}
+
+// Between plates 50 mm apart what lacks of those columns is fat.
+TEST(Projection, MuscleIsShownAndColumnsGoOnBeyondTheCut) {
   ProjectionReport report;
-  const auto pixel_at = [](const Mammogram& image, double u) {
-    return std::size_t(image.height / 2) * std::size_t(image.width) +
-           std::size_t(u / image.pixel);
-  };
-  mesh.contact->ends_image = true;
-  const Mammogram image = project_mammogram(mesh, {.pixel = 0.5}, &report);
+  const Mammogram image = project_mammogram(block_cut_below(true), {.pixel = 0.5}, &report);
   const std::size_t muscle = pixel_at(image, 7), breast = pixel_at(image, 30);
   EXPECT_EQ(image.through_back[muscle], 1);
   EXPECT_FALSE(image.blank(muscle));
@@ -281,9 +288,19 @@ TEST(Projection, MuscleIsShownAndColumnsGoOnBeyondTheCut) {
   EXPECT_NEAR(image.path[muscle], 40 + 0.5 * 10, 1e-4);
   EXPECT_NEAR(image.fibroglandular[muscle], 0, 1e-6);
   EXPECT_EQ(image.through_back[breast], 0);
-  EXPECT_NEAR(image.thickness[breast], 40, 1e-4);
+  EXPECT_NEAR(image.thickness[breast], 60, 1e-4);
   EXPECT_NEAR(report.muscle_columns * 0.25, 15 * 80, 0.05 * 15 * 80);
   EXPECT_EQ(report.volumes.muscle, 0);  // of columns that go on beyond the mesh nothing is summed
+}
+
+// Where the breast in front does not reach both plates, its continuation does not either: no step at the end of the model.
+TEST(Projection, BeyondTheCutTheBodyIsAsThickAsInFrontOfIt) {
+  const Mammogram image = project_mammogram(block_cut_below(false), {.pixel = 0.5});
+  const std::size_t muscle = pixel_at(image, 7), breast = pixel_at(image, 30);
+  EXPECT_EQ(image.through_back[muscle], 1);
+  EXPECT_NEAR(image.thickness[breast], 40, 1e-4);
+  EXPECT_NEAR(image.thickness[muscle], 40, 1e-4);
+  EXPECT_NEAR(image.path[muscle], 40, 1e-4);
 }
 
 TEST(Projection, TheFrameDoesNotDependOnTheTumour) {

@@ -18,8 +18,9 @@ namespace breast {
 struct ActiveSetOptions {
   int max_iterations = 30;    ///< if there is no snap-through
   int most_iterations = 150;  ///< if there is one
-  /// In the first sweeps violated nodes are added and pulling nodes dropped together; later,
-  /// pulling nodes are dropped only at convergence, which cannot cycle.
+  /// Number of first iterations in which nodes that penetrate a plate are added to the set and nodes in
+  /// tension are removed at the same time. Later, nodes in tension are removed only at convergence, so
+  /// that the set cannot cycle.
   int free_sweeps = 12;
   double gap_tolerance = 1e-8;  ///< mm
   double volume_tolerance = 1e-9;

@@ -21,15 +21,15 @@ struct VoxelType {
 /// `voxels`: the values in memory order, little-endian. nifti_bytes throws Error (input) for more than
 /// 32767 voxels along an axis, which the format cannot state.
 std::string nrrd_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels);
-/// The same with notes ("key:=value" lines) and `components` adjacent numbers per voxel: kind
-/// vector.
+/// The same with notes ("key:=value" lines) and with `components` adjacent numbers per voxel, which NRRD
+/// calls an axis of kind "vector".
 std::string nrrd_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels,
                        const std::vector<std::pair<std::string, std::string>>& notes,
                        int components);
 std::string meta_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels);
 std::string nifti_bytes(const Grid& grid, const VoxelType& type, std::string_view voxels);
 
-/// Compresses to one gzip stream, with the maker's mark as its comment; identical content gives
+/// Compresses to one gzip stream, whose comment names libbreast as its writer; identical content gives
 /// identical bytes.
 std::string gzip_bytes(std::string_view content);
 

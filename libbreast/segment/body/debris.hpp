@@ -6,15 +6,15 @@
 
 namespace breast {
 
-/// Removes from the body the structures that an opening by a disc of 3.5 mm in the axial slices
-/// removes and that protrude by more than 2 mm, except near the most anterior point of each half
-/// (the nipples, which look similar). Returns the removed volume, ml. `midline` is the column
+/// Removes from the body structures that protrude from the skin by more than 2 mm and are so thin that a
+/// morphological opening of the axial slices (disc of 3.5 mm) erases them, except near the most anterior
+/// point of each half (the nipples, which look similar). Returns the removed volume, ml. `midline` is the column
 /// between the halves.
 double remove_debris(Mask& body, int midline);
 
 /// Removes from the body, from its border inwards by at most 25 mm, voxels dimmer than 0.15 of the
 /// brightest tissue within 15 mm: ghosts of the heart beside the body that exceed the threshold.
-/// Skin is brighter; dark chest is filled in again afterwards.
+/// Skin is brighter than that; the dark interior of the chest is filled in again afterwards.
 void remove_ghosts(Mask& body, const Volume<float>& scan);
 
 }  // namespace breast

@@ -10,8 +10,9 @@
 namespace breast {
 
 /// Summarises the rows of identification_study, one row per study, truth and mesh: means over the draws;
-/// the number of directions known to 5 %, and the percentages of them within 10 % of the truth and
-/// within two standard deviations; the percentage of all directions within two standard deviations;
+/// the number of directions in the space of parameters that the data determine to within 5 %, and the
+/// percentages of these directions in which the result lies within 10 % of the truth and within two
+/// standard deviations of it; the latter percentage for all directions;
 /// and the percentage of draws in which the misfit test at 5 % indicates another model.
 Table identification_table(const std::vector<Table>& studies);
 

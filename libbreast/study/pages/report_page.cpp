@@ -89,7 +89,7 @@ std::string warnings_box(const std::vector<Warning>& warnings) {
 
 // The header and the rows with these names.
 std::string truth_rows(const fs::path& file) {
-  const std::vector<std::string> names{"nipple", "tumour", "mean", "largest"};
+  const std::vector<std::string> names{"nipple", "true-tumour", "mean", "largest"};
   std::istringstream in(read_text(file));
   std::string text;
   for (std::string line; std::getline(in, line);) {
