@@ -9,23 +9,15 @@ CURVE := $(if $(no_tumour),,$(RUN)/curve.vtp)
 
 # $(call phantom_scan,NAME,OPTIONS,FILES): the scan RUNS/phantom/NAME.nrrd, its truth NAME-truth, and more files made with it.
 phantom_settings := $(PHANTOM) $(PRESET) $(PHANTOM_OPTIONS)
-<<<<<<< HEAD
 define phantom_scan
 $(RUNS)/phantom/$1.nrrd $(RUNS)/phantom/$1-truth/landmarks.tsv $3 &: $(PHANTOM) \
   $(call stale,$(RUNS)/phantom/.$1.settings,$(phantom_settings))
 	@mkdir -p $$(@D)
 	$(PHANTOM) $(RUNS)/phantom/$1.nrrd --preset $(PRESET) $2 --truth $(RUNS)/phantom/$1-truth $(PHANTOM_OPTIONS) \
-	  --report $(RUNS)/phantom/$1.json $$(share)
+	  --report $(RUNS)/phantom/$1.json $$(alone)
 	@$$(call note,$(RUNS)/phantom/.$1.settings,$(phantom_settings))
 endef
 $(eval $(call phantom_scan,$(PRESET),,$(PHANTOM_TRUTH)/tumour-$(SIDE).tsv))
-=======
-$(PHANTOM_MR) $(PHANTOM_TRUTH)/landmarks.tsv $(PHANTOM_TRUTH)/tumour-$(SIDE).tsv &: $(PHANTOM) $(call changed,phantom)
-	@mkdir -p $(dir $(PHANTOM_MR))
-	$(PHANTOM) $(PHANTOM_MR) --preset $(PRESET) --truth $(PHANTOM_TRUTH) $(PHANTOM_OPTIONS) \
-	  --report $(basename $(PHANTOM_MR)).json $(alone)
-	@$(call record,phantom)
->>>>>>> 9a8bf54c97a49037bf954fddf2bf28411e4f7724
 
 # Makes only the scan, which all cases of one phantom share (cohort.mk).
 .PHONY: phantom-scan

@@ -283,13 +283,12 @@ bool Path::refine_control(const CompressionTarget& target, const Waypoint& befor
       here_ = best;
       return true;
     }
-    const double t = f_low / (f_low - f_high);
-    const double thickness = low.thickness + t * (high.thickness - low.thickness);
-    const double w = (thickness - low.thickness) / (high.thickness - low.thickness);
+    const double w = f_low / (f_low - f_high);
+    const double thickness = low.thickness + w * (high.thickness - low.thickness);
     State guess{low.state.reference, (1 - w) * low.state.x + w * high.state.x,
                 (1 - w) * low.state.p + w * high.state.p};
     Waypoint middle;
-    // From the state before: friction would keep the memory of one beyond the target.
+    // Friction would remember a state beyond the target: its memory is not used.
     if (!attempt(guess, low.memory, thickness, tolerance_, middle)) {
       here_ = low;
       return false;
