@@ -115,7 +115,7 @@ void check_asked(const std::vector<Segment>& segments, const TissueCodes& codes,
   const std::string there = listed(names_of(segments));
   for (const auto& [asked, tissue] : codes.names) {
     const bool found = std::any_of(segments.begin(), segments.end(),
-                                   [&](const Segment& s) { return s.name == asked; });
+                                   [&, &asked = asked](const Segment& s) { return s.name == asked; });
     if (!found) {
       throw input_error(name, ": has no segment '", asked,
                         "', which --code names; its segments are ", there);
@@ -123,7 +123,7 @@ void check_asked(const std::vector<Segment>& segments, const TissueCodes& codes,
   }
   for (const auto& [value, tissue] : codes.values) {
     const bool found = std::any_of(segments.begin(), segments.end(),
-                                   [&](const Segment& s) { return s.value == value; });
+                                   [&, &value = value](const Segment& s) { return s.value == value; });
     if (!found && value != 0) {
       throw input_error(name, ": no segment has the value ", value,
                         ", which --code names; its segments are ", there);
