@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -53,7 +54,12 @@ int ranks_main(Tool& tool, int argc, char** argv,
   if (asks(argc, argv)) return tool.main(argc, argv, [](Run&) {});
   // This precedes the start of MPI, because it may restart the program.
   sleep_when_waiting(argv);
-  const RankSession session;
+  std::optional<RankSession> session;
+  try {
+    session.emplace();
+  } catch (const Error& error) {
+    return tool.main(argc, argv, [&error](Run&) { throw Error(error); });
+  }
   const Ranks ranks;
   std::vector<char*> arguments(argv, argv + argc);
   int voice = STDERR_FILENO;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "distributed/ranks.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -34,9 +36,22 @@ void in_pieces(char* data, std::size_t size, const Pass& pass) {
   }
 }
 
+// Open MPI prints 20 to 50 lines and leaves its folder behind if it runs out of file descriptors while it starts.
+void check_descriptors() {
+  constexpr rlim_t least = 64;  // measured: 16 for one process, 20 for each of three
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= least) return;
+  throw failed_error("the limit on open files is ", limit.rlim_cur,
+                     " (ulimit -n): MPI needs at least ", least);
+}
+
 }  // namespace
 
 RankSession::RankSession() {
+  check_descriptors();
+  // A process without mpirun would start a daemon of Open MPI, which outlives it and removes its folder
+  // in TMPDIR only later.
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   int given = 0;
   if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given) != MPI_SUCCESS ||
       PetscInitializeNoArguments() != 0) {

@@ -13,7 +13,8 @@ namespace breast {
 /// before any Ranks.
 class RankSession {
  public:
-  /// Throws Error (failed) if MPI or PETSc cannot be initialised.
+  /// Throws Error (failed) if MPI or PETSc cannot be initialised, or if the limit on open files is
+  /// too small for them.
   RankSession();
   ~RankSession();
   RankSession(const RankSession&) = delete;
