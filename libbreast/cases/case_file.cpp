@@ -59,12 +59,19 @@ void check_value(const Line& line, const std::string& at) {
     throw input_error(at, ": ", line.key,
                       " holds a character that make or a shell would read as code; give a name "
                       "without it, or a link of such a name");
-  if (std::any_of(line.value.begin(), line.value.end(),
-                  [](unsigned char c) { return c < ' ' || c == 0x7f; }))
-    throw input_error(at, ": ", line.key, " holds a control character");
+  if (has_control(line.value)) throw input_error(at, ": ", line.key, " holds a control character");
 }
 
 }  // namespace
+
+std::string setting_in(const std::string& text, const std::string& key) {
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    const std::optional<Line> split = split_line(trimmed(line));
+    if (split && split->key == key) return split->value;
+  }
+  return "";
+}
 
 bool CaseFile::has(const std::string& key) const {
   return std::any_of(settings.begin(), settings.end(),
