@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ranks_main.hpp"
 
+#include <errno.h>
 #include <fcntl.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,11 +12,14 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/library_words.hpp"
 #include "core/parallel.hpp"
 
 namespace breast {
 
 namespace {
+
+bool starting = false;  ///< MPI
 
 bool asks(int argc, char** argv) {
   return std::any_of(argv + std::min(argc, 1), argv + argc, [](const char* argument) {
@@ -56,7 +61,10 @@ int ranks_main(Tool& tool, int argc, char** argv,
   sleep_when_waiting(argv);
   std::optional<RankSession> session;
   try {
+    const LibraryWords held;  // what Open MPI says of its failures is many lines
+    starting = true;
     session.emplace();
+    starting = false;
   } catch (const Error& error) {
     return tool.main(argc, argv, [&error](Run&) { throw Error(error); });
   }
@@ -92,3 +100,15 @@ int ranks_main(Tool& tool, int argc, char** argv,
 }
 
 }  // namespace breast
+
+// Open MPI ends a process in which it cannot start by this function, after words that are held back.
+extern "C" [[noreturn]] void _exit(int code) {
+  if (breast::starting) {
+    dprintf(breast::message_descriptor(),
+            "%s: MPI cannot start: is there space in TMPDIR, and memory?\n",
+            program_invocation_short_name);
+    code = 1;
+  }
+  syscall(SYS_exit_group, code);
+  __builtin_unreachable();
+}
