@@ -12,8 +12,10 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/last_words.hpp"
 #include "cli/library_words.hpp"
 #include "core/parallel.hpp"
+#include "core/temporary_folder.hpp"
 
 namespace breast {
 
@@ -66,6 +68,7 @@ int ranks_main(Tool& tool, int argc, char** argv,
     session.emplace();
     starting = false;
   } catch (const Error& error) {
+    starting = false;
     return tool.main(argc, argv, [&error](Run&) { throw Error(error); });
   }
   const Ranks ranks;
@@ -103,10 +106,11 @@ int ranks_main(Tool& tool, int argc, char** argv,
 
 // Open MPI ends a process in which it cannot start by this function, after words that are held back.
 extern "C" [[noreturn]] void _exit(int code) {
-  if (breast::starting) {
+  if (breast::starting && !breast::has_ended()) {
     dprintf(breast::message_descriptor(),
             "%s: MPI cannot start: is there space in TMPDIR, and memory?\n",
             program_invocation_short_name);
+    breast::remove_leftovers();
     code = 1;
   }
   syscall(SYS_exit_group, code);

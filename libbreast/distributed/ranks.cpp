@@ -45,13 +45,23 @@ void check_descriptors() {
                      " (ulimit -n): MPI needs at least ", least);
 }
 
+// Whether neither mpirun nor srun started this process.
+bool alone() {
+  const auto names = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"};
+  return std::none_of(names.begin(), names.end(),
+                      [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
 }  // namespace
 
 RankSession::RankSession() {
   check_descriptors();
-  // A process without mpirun would start a daemon of Open MPI, which outlives it and removes its folder
-  // in TMPDIR only later.
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  if (alone()) {
+    // Open MPI would start a daemon, which outlives this process and removes its folder later, or never.
+    folder_.emplace();
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    setenv("OMPI_MCA_orte_tmpdir_base", folder_->path().c_str(), 0);
+  }
   int given = 0;
   if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given) != MPI_SUCCESS ||
       PetscInitializeNoArguments() != 0) {

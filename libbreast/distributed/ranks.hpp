@@ -3,9 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 
 namespace breast {
 
@@ -19,6 +21,9 @@ class RankSession {
   ~RankSession();
   RankSession(const RankSession&) = delete;
   RankSession& operator=(const RankSession&) = delete;
+
+ private:
+  std::optional<TemporaryFolder> folder_;  ///< of Open MPI, in a process without mpirun
 };
 
 /// An error that all ranks throw together.
