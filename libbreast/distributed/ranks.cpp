@@ -63,12 +63,13 @@ RankSession::RankSession() {
     setenv("OMPI_MCA_orte_tmpdir_base", folder_->path().c_str(), 0);
   }
   int given = 0;
+  // PETSc's handlers would replace those that say why a program ends.
   if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given) != MPI_SUCCESS ||
+      PetscOptionsSetValue(nullptr, "-no_signal_handler", "true") != 0 ||
       PetscInitializeNoArguments() != 0) {
     throw failed_error("MPI or PETSc cannot begin; run the tool under mpirun");
   }
   // Messages of PETSc are converted to an Error.
-  PetscPopSignalHandler();
   PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr);
 }
 
