@@ -8,8 +8,8 @@ check:
 	tests/tools/docs-current.sh $(BIN)
 	tests/tools/pipeline.sh
 	tests/tools/reproduce.sh
+	tests/fuzz/run.sh inputs=2000
 
-# Needs clang and libclang-rt-14-dev, which nothing else does.
 fuzz:
 	tests/fuzz/run.sh $(or $(MINUTES),5)
 

@@ -2,6 +2,7 @@
 // breast: all tools and the pipeline under one name.
 #include <cstdio>
 #include <filesystem>
+#include <new>
 
 #include "breast_tools.hpp"
 #include "command/child.hpp"
@@ -56,9 +57,9 @@ int run(const Installation& installation, const std::string& command,
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   std::string who = "breast";
   try {
+    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     const Installation installation =
         find_installation(std::filesystem::read_symlink("/proc/self/exe"), built_tools());
     if (words.empty()) throw input_error("give a command or a tool; `breast help` lists them");
@@ -67,6 +68,9 @@ int main(int argc, char** argv) {
   } catch (const Error& error) {
     std::fprintf(stderr, "%s: %s\n", who.c_str(), error.what());
     return error.exit_code();
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "%s: out of memory\n", who.c_str());
+    return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", who.c_str(), error.what());
     return 1;

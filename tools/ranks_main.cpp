@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ranks_main.hpp"
 
+#include <errno.h>
 #include <fcntl.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "cli/last_words.hpp"
+#include "cli/library_words.hpp"
 #include "core/parallel.hpp"
+#include "core/temporary_folder.hpp"
 
 namespace breast {
 
 namespace {
+
+bool starting = false;  ///< MPI
 
 bool asks(int argc, char** argv) {
   return std::any_of(argv + std::min(argc, 1), argv + argc, [](const char* argument) {
@@ -53,7 +61,16 @@ int ranks_main(Tool& tool, int argc, char** argv,
   if (asks(argc, argv)) return tool.main(argc, argv, [](Run&) {});
   // This precedes the start of MPI, because it may restart the program.
   sleep_when_waiting(argv);
-  const RankSession session;
+  std::optional<RankSession> session;
+  try {
+    const LibraryWords held;  // what Open MPI says of its failures is many lines
+    starting = true;
+    session.emplace();
+    starting = false;
+  } catch (const Error& error) {
+    starting = false;
+    return tool.main(argc, argv, [&error](Run&) { throw Error(error); });
+  }
   const Ranks ranks;
   std::vector<char*> arguments(argv, argv + argc);
   int voice = STDERR_FILENO;
@@ -86,3 +103,16 @@ int ranks_main(Tool& tool, int argc, char** argv,
 }
 
 }  // namespace breast
+
+// Open MPI ends a process in which it cannot start by this function, after words that are held back.
+extern "C" [[noreturn]] void _exit(int code) {
+  if (breast::starting && !breast::has_ended()) {
+    dprintf(breast::message_descriptor(),
+            "%s: MPI cannot start: is there space in TMPDIR, and memory?\n",
+            program_invocation_short_name);
+    breast::remove_leftovers();
+    code = 1;
+  }
+  syscall(SYS_exit_group, code);
+  __builtin_unreachable();
+}

@@ -48,13 +48,21 @@ void check_value(const Line& line, const std::string& at) {
     throw input_error(at, ": ", line.key, " contains the character ", code_in(line.value),
                       ", which make or a shell would read as code; give a name without it, or a "
                       "link that has such a name (ln -s)");
-  if (std::any_of(line.value.begin(), line.value.end(),
-                  [](unsigned char c) { return c < ' ' || c == 0x7f; }))
+  if (has_control(line.value))
     throw input_error(at, ": the value of ", line.key,
                       " contains a control character; write the line again in a text editor");
 }
 
 }  // namespace
+
+std::string setting_in(const std::string& text, const std::string& key) {
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    const std::optional<Line> split = split_line(trimmed(line));
+    if (split && split->key == key) return split->value;
+  }
+  return "";
+}
 
 bool CaseFile::has(const std::string& key) const {
   return std::any_of(settings.begin(), settings.end(),

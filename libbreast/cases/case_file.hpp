@@ -27,5 +27,8 @@ CaseFile read_case_file(const std::filesystem::path& file, const std::vector<std
 /// The same for the content `text` of a file called `name`.
 CaseFile parse_case_file(const std::string& text, const std::string& name,
                          const std::vector<std::string>& known);
+/// The value of `key` in the text of a case file that read_case_file accepted before; "" if it is
+/// not there.
+std::string setting_in(const std::string& text, const std::string& key);
 
 }  // namespace breast

@@ -37,6 +37,11 @@ std::string code_in(const std::string& text) {
   return at == std::string::npos ? "" : text.substr(at, 1);
 }
 
+bool has_control(const std::string& text) {
+  return std::any_of(text.begin(), text.end(),
+                     [](unsigned char c) { return c < ' ' || c == 0x7f; });
+}
+
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
   const auto upper = [](std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {

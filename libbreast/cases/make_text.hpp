@@ -27,6 +27,9 @@ std::string rows_for_make(const Table& table, const std::string& name);
 /// The first character of `text` that a shell or make would interpret as code; "" if there is none.
 std::string code_in(const std::string& text);
 
+/// True if `text` has a control character, of which make_line_end is one.
+bool has_control(const std::string& text);
+
 /// The text "; did you mean X?" for the candidate X of which `word` is probably a misspelling;
 /// upper and lower case are not distinguished. Returns "" if no candidate is near enough.
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);

@@ -8,6 +8,7 @@
 #include <regex>
 #include <sstream>
 
+#include "cases/case_file.hpp"
 #include "cases/case_run.hpp"
 #include "command/child.hpp"
 #include "core/atomic_file.hpp"
@@ -168,16 +169,14 @@ std::vector<SlurmCase> slurm_cases(const fs::path& list) {
 }
 
 CaseCost dearest_case(const SlurmRequest& request, const std::vector<SlurmCase>& cases) {
-  const std::regex elements(R"(^\s*ELEMENTS\s*=\s*([0-9]+))"),
-      quadratic(R"(^\s*ELEMENT\s*=\s*q2p1)");
+  constexpr double most_elements = 64;  // hexmesh refuses more
   double size = request.elements;
   std::string element = request.element.empty() ? "q1p0" : request.element;
   for (const SlurmCase& one : cases) {
-    for (const std::string& line : lines_of(one.file)) {
-      std::smatch found;
-      if (std::regex_search(line, found, elements)) size = std::max(size, std::stod(found[1]));
-      if (std::regex_search(line, quadratic)) element = "q2p1";
-    }
+    const std::string text = read_text(one.file);
+    if (const auto asked = number_in(setting_in(text, "ELEMENTS")))
+      size = std::max(size, std::min(*asked, most_elements));
+    if (setting_in(text, "ELEMENT") == "q2p1") element = "q2p1";
   }
   const auto measured = table_if_any(request.runs / "cost.tsv");
   return case_cost(measured ? &*measured : nullptr, read_table(request.cost), request.cores,

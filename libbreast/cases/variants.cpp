@@ -39,8 +39,11 @@ void check_cells(const std::string& lines, const std::string& file) {
   std::istringstream in(lines);
   std::size_t columns = 0;
   for (std::string line; std::getline(in, line);) {
+    if (line.ends_with('\r')) line.pop_back();
     if (line.empty()) continue;
     const Words cells = split(line, '\t');
+    if (std::any_of(cells.begin(), cells.end(), has_control))
+      throw input_error(file, ": ", cells.front(), " holds a control character");
     if (columns == 0) columns = cells.size();
     if (cells.size() != columns)
       throw input_error(file, ": ", cells.front(), " has ", cells.size(), " cells and not ",
@@ -126,7 +129,8 @@ void Studies::add_row(const Row& row) {
   if (start.empty())
     row.fault("does not say in the column starts_at at which stage it begins; write one of " +
               join(base_.stages, ", "));
-  check_among(row.table.name, words_of(start + " " + ends + " " + given), base_.stages);
+  check_among(row.table.name, {start}, base_.stages);
+  check_among(row.table.name, words_of(ends + " " + given), base_.stages);
   const std::string origin = !from_cell.empty()  ? folder(row.study, from_cell)
                              : !row.from.empty() ? folder(row.study, row.from)
                                                  : base_.run;

@@ -18,6 +18,7 @@ namespace breast {
 namespace {
 
 pid_t program = 0;
+volatile sig_atomic_t ended = 0;
 
 [[noreturn]] void end_unhandled() {
   try {
@@ -49,6 +50,7 @@ void end_crashed(int fault) {
 void end_with(const char* reason) noexcept {
   // A child process that was forked to read or to draw prints nothing: its parent does.
   if (getpid() != program) _exit(1);
+  ended = 1;
   const int user = message_descriptor();
   const auto put = [user](const char* part) {
     const ssize_t written = write(user, part, std::strlen(part));
@@ -67,6 +69,10 @@ void end_with(const char* reason) noexcept {
   put("\n");
   remove_leftovers();
   _exit(1);
+}
+
+bool has_ended() noexcept {
+  return ended != 0;
 }
 
 bool have_last_words() {

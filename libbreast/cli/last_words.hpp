@@ -15,5 +15,7 @@ bool have_last_words();
 /// Prints `NAME: reason` and the last line that a library printed, removes temporary folders, and
 /// ends the process with exit code 1. Neither allocates nor locks.
 [[noreturn]] void end_with(const char* reason) noexcept;
+/// True once end_with has printed the last line of this process.
+bool has_ended() noexcept;
 
 }  // namespace breast

@@ -35,7 +35,8 @@ fs::path part_of(const fs::path& target) {
 // may come only then.
 class Descriptor {
  public:
-  Descriptor(const fs::path& file, int flags) : id_(::open(file.c_str(), flags | O_CLOEXEC, 0666)) {}
+  Descriptor(const fs::path& file, int flags)
+      : id_(::open(file.c_str(), flags | O_CLOEXEC, 0666)) {}
   ~Descriptor() {
     if (id_ >= 0) ::close(id_);
   }
@@ -47,6 +48,28 @@ class Descriptor {
 
  private:
   int id_;
+};
+
+// A file to be renamed, which is removed on every other way out, also when memory runs out.
+class Part {
+ public:
+  explicit Part(const fs::path& name)
+      : name_(name), file_(name, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW), left_(bool(file_)) {}
+  ~Part() {
+    if (left_) ::unlink(name_.c_str());
+  }
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+  Descriptor& file() { return file_; }
+  bool rename(const fs::path& target) {
+    left_ = std::rename(name_.c_str(), target.c_str()) != 0;
+    return !left_;
+  }
+
+ private:
+  const fs::path& name_;
+  Descriptor file_;
+  bool left_;
 };
 
 // All of `bytes`, in as many writes as it takes; returns how many went through, with errno set when
@@ -87,7 +110,8 @@ bool holds(int descriptor, std::string_view bytes) {
     const ssize_t now = ::pread(descriptor, piece.data(), piece.size(), off_t(at));
     if (now < 0 && errno == EINTR) continue;
     if (now < 0) return false;
-    same = now > 0 && bytes.substr(at, std::size_t(now)) == std::string_view(piece).substr(0, std::size_t(now));
+    same = now > 0 && bytes.substr(at, std::size_t(now)) ==
+                          std::string_view(piece).substr(0, std::size_t(now));
     at += std::size_t(now);
   }
   if (!same) errno = EIO;
@@ -121,19 +145,15 @@ bool is_stream(const fs::path& target) {
 void write_bytes(const fs::path& target, std::string_view bytes) {
   if (is_stream(target)) return write_through(target, bytes);
   remove_stale_parts(target);
-  const fs::path part = part_of(target);
+  const fs::path name = part_of(target);
   std::error_code ignored;
-  fs::remove(part, ignored);
-  Descriptor file(part, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW);
-  const bool opened = bool(file);
-  const std::size_t done = opened ? write_all(file.id(), bytes) : 0;
-  const bool whole = opened && done == bytes.size() && fsync(file.id()) == 0 &&
+  fs::remove(name, ignored);
+  Part part(name);
+  Descriptor& file = part.file();
+  const std::size_t done = file ? write_all(file.id(), bytes) : 0;
+  const bool whole = file && done == bytes.size() && fsync(file.id()) == 0 &&
                      holds(file.id(), bytes) && file.close();
-  if (!whole || std::rename(part.c_str(), target.c_str()) != 0) {
-    const Error error = cannot_write(target, done, bytes.size());
-    if (opened) fs::remove(part, ignored);
-    throw error;
-  }
+  if (!whole || !part.rename(target)) throw cannot_write(target, done, bytes.size());
   flush_folder(target);
 }
 
@@ -182,7 +202,8 @@ void remove_stale_parts(const fs::path& target) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(prefix)) continue;
     std::string owner_text = name.substr(prefix.size());
-    if (owner_text.ends_with("-old")) owner_text.resize(owner_text.size() - 4);  // write_dicom_series
+    if (owner_text.ends_with("-old"))
+      owner_text.resize(owner_text.size() - 4);  // write_dicom_series
     const bool number = !owner_text.empty() && owner_text.size() < 10 &&
                         owner_text.find_first_not_of("0123456789") == std::string::npos;
     if (!number) continue;  // somebody else's, such as .scan.nrrd.part-notes

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -54,12 +55,12 @@ void limit_memory([[maybe_unused]] double memory_mb) {
 #endif
 }
 
-void limit(double seconds, double memory_mb) {
+void limit(double cpu_seconds, double memory_mb) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // no child outlives a killed tool
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
-  const auto cpu = rlim_t(seconds) + 1;
-  const rlimit time{cpu, cpu};
+  const auto cpu = rlim_t(cpu_seconds) + 1;
+  const rlimit time{cpu, cpu + 1};  // SIGXCPU, then SIGKILL
   setrlimit(RLIMIT_CPU, &time);
   limit_memory(memory_mb);
   for (const int fault : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) signal(fault, SIG_DFL);
@@ -67,9 +68,9 @@ void limit(double seconds, double memory_mb) {
   if (null >= 0) dup2(null, STDERR_FILENO), dup2(null, STDOUT_FILENO);
 }
 
-[[noreturn]] void child(int descriptor, const std::function<std::string()>& work, double seconds,
-                        double memory_mb) {
-  limit(seconds, memory_mb);
+[[noreturn]] void child(int descriptor, const std::function<std::string()>& work,
+                        double cpu_seconds, double memory_mb) {
+  limit(cpu_seconds, memory_mb);
   try {
     send(descriptor, result, work());
   } catch (const Error& error) {
@@ -107,7 +108,8 @@ bool receive(int descriptor, double seconds, std::string& answer) {
 }  // namespace
 
 std::string in_guarded_child(const std::string& name, const std::function<std::string()>& work,
-                             double seconds, double memory_mb) {
+                             double seconds, double memory_mb, double cpu_seconds) {
+  cpu_seconds = std::min(cpu_seconds, seconds);
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) {
     throw failed_error(name, ": no pipe to a reading process (", std::strerror(errno), ")");
@@ -119,7 +121,7 @@ std::string in_guarded_child(const std::string& name, const std::function<std::s
     close(ends[1]);
     throw failed_error(name, ": no process to read it (", std::strerror(reason), ")");
   }
-  if (process == 0) child(ends[1], work, seconds, memory_mb);
+  if (process == 0) child(ends[1], work, cpu_seconds, memory_mb);
   close(ends[1]);
   std::string answer;
   const auto end = [&](bool late) {
@@ -139,6 +141,9 @@ std::string in_guarded_child(const std::string& name, const std::function<std::s
   }
   const int status = end(!in_time);
   if (!in_time) throw input_error(name, ": reading it takes more than ", seconds, " s: damaged");
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+    throw input_error(name, ": reading it takes more than ", cpu_seconds,
+                      " s of processor time: damaged");
   if (answer.empty() || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     const std::string how =
         WIFSIGNALED(status) ? message(" (signal ", WTERMSIG(status), ")") : std::string();

@@ -12,8 +12,10 @@ namespace breast {
 /// the bytes that `work` returned. An Error of the child is thrown here with the same message and
 /// kind; lack of memory, a crash of the child and a run time of more than `seconds` become Error
 /// (input) beginning with `name`. Nothing else that the child does affects this process.
-/// `memory_mb` is the memory that the child may use in addition to that of this process.
+/// `memory_mb` is the memory that the child may use in addition to that of this process. `cpu_seconds`
+/// limits its processor time, which unlike `seconds` does not depend on other work of the machine.
 std::string in_guarded_child(const std::string& name, const std::function<std::string()>& work,
-                             double seconds = 300, double memory_mb = 3072);
+                             double seconds = 300, double memory_mb = 3072,
+                             double cpu_seconds = 300);
 
 }  // namespace breast

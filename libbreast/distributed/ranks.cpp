@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "distributed/ranks.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -34,16 +36,40 @@ void in_pieces(char* data, std::size_t size, const Pass& pass) {
   }
 }
 
+// Open MPI prints 20 to 50 lines and leaves its folder behind if it runs out of file descriptors while it starts.
+void check_descriptors() {
+  constexpr rlim_t least = 64;  // measured: 16 for one process, 20 for each of three
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= least) return;
+  throw failed_error("the limit on open files is ", limit.rlim_cur,
+                     " (ulimit -n): MPI needs at least ", least);
+}
+
+// Whether neither mpirun nor srun started this process.
+bool alone() {
+  const auto names = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"};
+  return std::none_of(names.begin(), names.end(),
+                      [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
 }  // namespace
 
 RankSession::RankSession() {
+  check_descriptors();
+  if (alone()) {
+    // Open MPI would start a daemon, which outlives this process and removes its folder later, or never.
+    folder_.emplace();
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    setenv("OMPI_MCA_orte_tmpdir_base", folder_->path().c_str(), 0);
+  }
   int given = 0;
+  // PETSc's handlers would replace those that say why a program ends.
   if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given) != MPI_SUCCESS ||
+      PetscOptionsSetValue(nullptr, "-no_signal_handler", "true") != 0 ||
       PetscInitializeNoArguments() != 0) {
     throw failed_error("MPI or PETSc cannot begin; run the tool under mpirun");
   }
   // Messages of PETSc are converted to an Error.
-  PetscPopSignalHandler();
   PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr);
 }
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 
 namespace breast {
 
@@ -13,11 +15,15 @@ namespace breast {
 /// before any Ranks.
 class RankSession {
  public:
-  /// Throws Error (failed) if MPI or PETSc cannot be initialised.
+  /// Throws Error (failed) if MPI or PETSc cannot be initialised, or if the limit on open files is
+  /// too small for them.
   RankSession();
   ~RankSession();
   RankSession(const RankSession&) = delete;
   RankSession& operator=(const RankSession&) = delete;
+
+ private:
+  std::optional<TemporaryFolder> folder_;  ///< of Open MPI, in a process without mpirun
 };
 
 /// An error that all ranks throw together.

@@ -114,16 +114,18 @@ void check_asked(const std::vector<Segment>& segments, const TissueCodes& codes,
                  const std::string& name) {
   const std::string there = listed(names_of(segments));
   for (const auto& [asked, tissue] : codes.names) {
-    const bool found = std::any_of(segments.begin(), segments.end(),
-                                   [&](const Segment& s) { return s.name == asked; });
+    const bool found =
+        std::any_of(segments.begin(), segments.end(),
+                    [&, &asked = asked](const Segment& s) { return s.name == asked; });
     if (!found) {
       throw input_error(name, ": has no segment '", asked,
                         "', which --code names; its segments are ", there);
     }
   }
   for (const auto& [value, tissue] : codes.values) {
-    const bool found = std::any_of(segments.begin(), segments.end(),
-                                   [&](const Segment& s) { return s.value == value; });
+    const bool found =
+        std::any_of(segments.begin(), segments.end(),
+                    [&, &value = value](const Segment& s) { return s.value == value; });
     if (!found && value != 0) {
       throw input_error(name, ": no segment has the value ", value,
                         ", which --code names; its segments are ", there);

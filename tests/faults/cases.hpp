@@ -36,6 +36,10 @@ inline const std::vector<Case>& cases() {
       {"hexmesh", "hexmesh geometry.vtkhdf labels.vtkhdf out.vtkhdf --elements 4 --accept-mismatch --surface out.vtp"},
       {"backward", "backward cap.vtkhdf out.vtkhdf"},
       {"forward", "forward cap_reference.vtkhdf out.vtkhdf"},
+      {"backward_mpi", "backward-mpi cap.vtkhdf out.vtkhdf", 8},
+      {"forward_mpi", "forward-mpi cap_reference.vtkhdf out.vtkhdf", 8},
+      {"breast", "breast list"},
+      {"cases", "cases record out left scan.nrrd"},
       {"sensitivity", "sensitivity cap_reference.vtkhdf cap_supine.vtkhdf out.vtkhdf --table out.tsv"},
       {"difference", "difference supine.vtkhdf supine.vtkhdf supine.vtkhdf out.vtkhdf"},
       {"compress", "compress pressed.vtkhdf out.vtkhdf --view CC --reduction 5"},
@@ -64,6 +68,8 @@ inline const std::vector<Case>& cases() {
       {"phantom_mesh", "phantom-mesh out.vtkhdf --preset small --level 1", 0},
       {"phantom", "phantom out.nrrd --preset small --coarse 8 --truth out --dicom out-series", 0},
       {"calibrate", "calibrate --preset small --evaluations 4", 0},
+      {"calibrate_softness", "calibrate-softness pressed.vtkhdf --pressed pressed.vtkhdf --women women.tsv --set out.tsv "
+                             "--expected 20,50,100,0.05,0.05 --expected-ln-sd 0.2 --reduction 10", 0},
   };
   return list;
 }
@@ -99,6 +105,8 @@ inline void write_inputs(const std::filesystem::path& folder) {
              "landmark\tside\tstress_free_x_mm\tstress_free_y_mm\tstress_free_z_mm\tprone_x_mm\tprone_y_mm\t"
              "prone_z_mm\tsupine_x_mm\tsupine_y_mm\tsupine_z_mm\nnipple\tleft\t0\t0\t0\t0\t0\t0\t0\t0\t0\n"
              "tumour\tleft\t14\t30\t12\t14\t30\t12\t14\t30\t12\n# rows 2\n");
+  write_text(folder / "women.tsv", "quantity\tmean\tsd\nnipple_lateral_mm\t6\t3\nnipple_posterior_mm\t5\t3\n"
+                                   "ribs_change_mm\t-1\t1\n");
   for (const char* line : {
            "backward cap.vtkhdf cap_reference.vtkhdf",
            "forward cap_reference.vtkhdf cap_supine.vtkhdf",

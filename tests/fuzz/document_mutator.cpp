@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mutations of packed documents (io/hdf5/packed.hpp) that stay documents: bytes changed blindly nearly always break the packing, and
-// nothing behind it is tried. Linked into the targets whose input is a document.
+// nothing behind it is tried. Other inputs are mutated as libFuzzer does it.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -14,6 +14,8 @@
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 
 namespace breast {
+
+bool is_document_target();  // targets.cpp
 
 namespace {
 
@@ -112,6 +114,7 @@ void mutate_entry(Entries& list, Random& random) {
 }  // namespace breast
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
+  if (!breast::is_document_target()) return LLVMFuzzerMutate(data, size, most);
   breast::Random random(seed);
   constexpr std::size_t blind_one_in = 16;
   if (breast::below(random, blind_one_in) == 0) return LLVMFuzzerMutate(data, size, most);

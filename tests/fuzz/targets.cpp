@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // libFuzzer targets for our own checks of every format: anything but an Error (input) is a crash.
-// Compiled once a target, with FUZZ_TARGET its name. Meshes, labels and geometries are fuzzed behind
+// One program, which is the target that the environment variable FUZZ_TARGET names. Meshes, labels and geometries are fuzzed behind
 // HDF5, which reads in a child process: their inputs are packed documents (io/hdf5/packed.hpp).
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <map>
+#include <sstream>
 #include <string>
 
+#include "cases/case_file.hpp"
+#include "cases/make_text.hpp"
+#include "cases/variants.hpp"
 #include "core/error.hpp"
 #include "core/report.hpp"
 #include "core/table.hpp"
@@ -50,42 +56,72 @@ std::filesystem::path as_file(const std::string& ending) {
   return file;
 }
 
-[[maybe_unused]] void nrrd() {
+void nrrd() {
   check_nrrd(as_file(".nrrd"));
 }
-[[maybe_unused]] void nifti() {
+void nifti() {
   check_nifti(as_file(".nii"));
 }
-[[maybe_unused]] void meta() {
+void meta() {
   check_meta(as_file(".mha"));
 }
-[[maybe_unused]] void segmentation() {
+void segmentation() {
   labels_of(read_segmentation(as_file(".seg.nrrd")), {}, std::nullopt, "input");
 }
-[[maybe_unused]] void markups() {
+void markups() {
   point_named(read_markups(as_file(".mrk.json")), "tumour", "input");
 }
-[[maybe_unused]] void dicom() {
+void dicom() {
   read_mammogram_header(as_file(".dcm"));
 }
-[[maybe_unused]] void table() {
+void table() {
   const Table read = parse_table(input, "input");
   for (std::size_t row = 0; row < read.rows.size(); ++row) read.number(row, read.columns.front());
 }
-[[maybe_unused]] void materials() {
+// What make is given may hold nothing that it would read as code.
+void plain(const std::string& value) {
+  if (has_control(value) || !code_in(value).empty()) throw failed_error("code passes");
+}
+void case_file() {
+  static const std::vector<std::string> keys{
+      "MR", "SIDE", "PRESET", "ELEMENTS", "ELEMENT", "HEXMESH_OPTIONS", "LEAVE_OUT"};
+  const bool old = !input.empty() && input[0] == ':';
+  const CaseFile read =
+      parse_case_file(input.substr(old ? 1 : 0), old ? "input.mk" : "input.case", keys);
+  for (const auto& [key, value] : read.settings) {
+    plain(value);
+    if (setting_in(input.substr(old ? 1 : 0), key) != value) throw failed_error("read as another");
+  }
+}
+void study() {
+  Studies studies({"run",
+                   {"mesh", "reference", "supine", "cc"},
+                   "supine cc",
+                   {"hexmesh", "mechanics", "materials"},
+                   {{"hexmesh", "-e 16"}, {"mechanics", "--materials seed"}, {"materials", "seed"}},
+                   {{"RUN", "run"}}});
+  studies.add("own", input, "input");
+  std::istringstream lines(studies.text());
+  for (std::string line; std::getline(lines, line, make_line_end);) {
+    const std::size_t equals = line.find(" := "), plus = line.find(" += ");
+    if (std::min(equals, plus) == std::string::npos) throw failed_error("no line of make");
+    plain(line);
+  }
+}
+void materials() {
   load_materials(as_file(".tsv").string());
 }
-[[maybe_unused]] void report() {
+void report() {
   const Report read = Report::parse(input, "input");
   Report::parse(read.json(), "again");
 }
-[[maybe_unused]] void mesh() {
+void mesh() {
   read_derivatives("input", read_mesh("input"));
 }
-[[maybe_unused]] void labels() {
+void labels() {
   read_labels("input");
 }
-[[maybe_unused]] void geometry() {
+void geometry() {
   read_geometry("input");
 }
 #ifdef FUZZ_VTK
@@ -94,7 +130,7 @@ void vtk() {
   check_xml(as_file(".vtp"), "PolyData");
 }
 #endif
-[[maybe_unused]] void results() {
+void results() {
   constexpr int nodes = 8;
   const char* const endings[] = {".frd", ".dat", ".log"};
   const std::size_t which = input.empty() ? 0 : std::uint8_t(input[0]) % 3;
@@ -102,7 +138,38 @@ void vtk() {
   read_deck_result(as_file(endings[which]), nodes);
 }
 
+struct Target {
+  void (*check)();
+  bool document = false;  ///< its input is a packed document
+};
+const std::map<std::string, Target> targets{
+    {"nrrd", {nrrd}},
+    {"nifti", {nifti}},
+    {"meta", {meta}},
+    {"segmentation", {segmentation}},
+    {"markups", {markups}},
+    {"dicom", {dicom}},
+    {"table", {table}},
+    {"materials", {materials}},
+    {"report", {report}},
+    {"mesh", {mesh, true}},
+    {"labels", {labels, true}},
+    {"geometry", {geometry, true}},
+    {"results", {results}},
+    {"case", {case_file}},
+    {"study", {study}},
+#ifdef FUZZ_VTK
+    {"vtk", {vtk}},
+#endif
+};
+Target chosen{};
+
 }  // namespace
+
+// For document_mutator.cpp.
+bool is_document_target() {
+  return chosen.document;
+}
 
 // In place of io/hdf5/load.cpp: the document HDF5 would have handed over.
 Document load_document(const std::filesystem::path&, const std::string&, const std::string&) {
@@ -138,10 +205,21 @@ int threads() {
 
 }  // namespace breast
 
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  const char* const name = std::getenv("FUZZ_TARGET");
+  const auto found = breast::targets.find(name == nullptr ? "" : name);
+  if (found == breast::targets.end()) {
+    std::fprintf(stderr, "FUZZ_TARGET: there is no such target\n");
+    std::exit(2);
+  }
+  breast::chosen = found->second;
+  return 0;
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   breast::input.assign(reinterpret_cast<const char*>(data), size);
   try {
-    breast::FUZZ_TARGET();
+    breast::chosen.check();
   } catch (const breast::Error& error) {
     // A run of another program may be unfinished; nothing here may fail otherwise.
     if (error.kind() == breast::ErrorKind::failed) std::abort();

@@ -2,6 +2,7 @@
 // forward-mpi and backward-mpi against forward and backward, on one process and on several; what they
 // refuse, every process together.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -123,6 +124,29 @@ TEST_F(MpiTools, RefusalsAreOneLineAndNothingIsWritten) {
     EXPECT_EQ(run_on(3, line), 2) << line << "\n" << said_.err;
     EXPECT_EQ(own_lines(line.substr(0, line.find(' '))), 1) << line << "\n" << said_.err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.vtkhdf")) << line;
+  }
+}
+
+// Open MPI itself would say 26 lines, and leave its folder in TMPDIR.
+TEST_F(MpiTools, FewOpenFilesEndInOneLineAndLeaveNothing) {
+  fixtures::BlockSettings settings;
+  settings.elements = {1, 1, 2};
+  write_mesh(folder_ / "block.vtkhdf", fixtures::block(settings));
+  const ScratchFolder temporary;
+  for (const auto& [files, exit_code] :
+       {std::pair{4, 1}, std::pair{6, 1}, std::pair{20, 1}, std::pair{64, 0}}) {
+    for (const char* tool : {"forward-mpi", "backward-mpi"}) {
+      const ToolResult said =
+          run_tool(tool, {"block.vtkhdf", "out.vtkhdf", "--gravity", "0,0,-9810", "--quiet"},
+                   folder_.path(), [&, &files = files] {
+                     setenv("TMPDIR", temporary.path().c_str(), 1);
+                     const rlimit limit{rlim_t(files), rlim_t(files)};
+                     setrlimit(RLIMIT_NOFILE, &limit);
+                   });
+      EXPECT_EQ(said.exit_code, exit_code) << tool << ", " << files << " files: " << said.err;
+      EXPECT_EQ(said.error_lines(), exit_code) << tool << ", " << files << " files: " << said.err;
+      EXPECT_TRUE(std::filesystem::is_empty(temporary.path())) << tool << ", " << files << " files";
+    }
   }
 }
 

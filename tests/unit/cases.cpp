@@ -274,6 +274,11 @@ TEST(Variants, AreRefusedByColumnStageAndRow) {
   EXPECT_EQ(
       refused("variant\tstarts_at\tfrom\nx\tmesh\n"),
       "own.tsv: x has 2 cells and not 3; separate cells by one tab, and write - for an empty one");
+  EXPECT_EQ(refused("variant\tstarts_at\nx\tmesh cc\n"),
+            "own.tsv: 'mesh cc' is none of mesh, reference, supine, cc");
+  // The byte that ends a line of make would begin another assignment.
+  EXPECT_EQ(refused("variant\tstarts_at\tmechanics\nx\tmesh\ta\x1eSHELL := b\r\n"),
+            "own.tsv: x holds a control character");
   for (const std::string name : {"x", "a/b", "a b", "-"})
     EXPECT_NE(refused("variant\tstarts_at\nx\tmesh\n" + name + "\tmesh\n")
                   .find("is no name of a row of its own"),
@@ -306,6 +311,14 @@ TEST(Slurm, ScriptsAskForWhatTheLargestCaseNeeds) {
   EXPECT_NE(plan.find("ELEMENTS=32"), std::string::npos) << plan;
   EXPECT_NE(plan.find("'/opt/it'\\''s/cases' task "), std::string::npos) << plan;
   EXPECT_EQ(plan.find("--partition"), std::string::npos);
+  // As large as a case file may be: blanks, and more elements than hexmesh makes.
+  write_text(folder / "a.case", std::string(60000, ' ') +
+                                    "\nELEMENT=q2p1\n  ELEMENTS = " + std::string(400, '9') + "\n");
+  write_text(folder / "assumed.tsv",
+             "element\telements\tcpu_seconds\tpeak_mb\nq1p0\t16\t200\t380\nq2p1\t64\t600\t380\n");
+  EXPECT_NE(slurm_plan(request).find("\n#SBATCH --time=35\n"), std::string::npos);
+  write_text(folder / "a.case", "ELEMENTS = 1e9\n");
+  EXPECT_NE(slurm_plan(request).find("q1p0, ELEMENTS=64: "), std::string::npos);
   request.partition = "long";
   request.time = "2:00:00";
   const std::string asked = slurm_plan(request);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <functional>
@@ -142,6 +143,29 @@ TEST_F(HostileMesh, GiantChunksAreRefused) {
     H5Pclose(layout);
   });
   EXPECT_NE(text.find("chunks"), std::string::npos) << text;
+}
+
+// The list of a group's members, whose tree names itself as its neighbour: HDF5 follows it for ever, or
+// until memory ends.
+TEST_F(HostileMesh, AGroupThatNeverEndsTakesLittleMemoryAndTime) {
+  std::string bytes = read_text(file_);
+  bytes.resize(bytes.rfind("libbreast sha256"));
+  constexpr std::size_t level = 5, neighbour = 16, address_bytes = 8;
+  int changed = 0;
+  for (std::size_t at = bytes.find("TREE"); at != std::string::npos;
+       at = bytes.find("TREE", at + 1)) {
+    if (bytes[at + level - 1] != 0 || bytes[at + level] != 0) continue;  // a group's, and a leaf
+    for (std::size_t k = 0; k < address_bytes; ++k) bytes[at + neighbour + k] = char(at >> (8 * k));
+    ++changed;
+  }
+  ASSERT_GT(changed, 0);
+  write_bytes(file_, bytes);
+  rusage before{}, used{};
+  getrusage(RUSAGE_CHILDREN, &before);
+  EXPECT_NE(complaint([&] { read_mesh(file_); }), "accepted");
+  getrusage(RUSAGE_CHILDREN, &used);
+  EXPECT_LT(used.ru_maxrss, 1024 * 1024) << "kB";
+  EXPECT_LT(used.ru_utime.tv_sec + used.ru_stime.tv_sec - before.ru_utime.tv_sec, 10);
 }
 
 // Without its seal, damage reaches HDF5: whatever that does, one line comes out of it.

@@ -2,6 +2,7 @@
 // The only file that speaks HDF5 for reading.
 #include <hdf5.h>
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <new>
@@ -62,6 +63,19 @@ std::string stored_text(const char* text, std::size_t size) {
 constexpr std::size_t most_bytes = std::size_t(1) << 30, most_chunk_bytes = std::size_t(1) << 28;
 // Deflate reaches at most 1032:1 (zlib's own statement).
 constexpr std::size_t most_inflation = 1100;
+
+// What HDF5 may take for a file of that size: the values twice, as they are and packed. A damaged list of
+// members, which has no end, would otherwise take gigabytes or minutes.
+struct Budget {
+  double memory_mb, cpu_seconds;
+};
+Budget budget_of(std::size_t file_bytes) {
+  constexpr double base_mb = 512, most_mb = 3072, mb = 1 << 20;
+  constexpr double base_seconds = 5, mb_a_second = 100;
+  const double memory =
+      std::min(most_mb, base_mb + 2.0 * double(most_inflation) * double(file_bytes) / mb);
+  return {memory, base_seconds + (memory - base_mb) / mb_a_second};
+}
 
 class Loader {
  public:
@@ -156,7 +170,8 @@ class Loader {
     const Handle layout(H5Dget_create_plist(dataset), H5Pclose);
     const H5D_layout_t kind = layout ? H5Pget_layout(layout) : H5D_LAYOUT_ERROR;
     if (kind == H5D_VIRTUAL || (kind == H5D_CONTIGUOUS && H5Pget_external_count(layout) != 0)) {
-      throw source_.refuse("dataset ", path, " keeps its values in another file, which is not read");
+      throw source_.refuse("dataset ", path,
+                           " keeps its values in another file, which is not read");
     }
     if (kind != H5D_COMPACT && kind != H5D_CONTIGUOUS && kind != H5D_CHUNKED) {
       throw source_.refuse("dataset ", path, " has an unknown layout");
@@ -332,11 +347,15 @@ Document load_document(const fs::path& file, const std::string& schema, const st
     std::string content = read_text(file);
     check_seal(content, source.name, source.advice);
     const std::lock_guard lock(hdf5_mutex());
-    Document document = unpacked(in_guarded_child(source.name, [&] {
+    constexpr double longest_s = 300;
+    const auto work = [&] {
       const Document parsed = parse(source, content);
       check_schema(source, parsed, schema);
       return packed(parsed);
-    }));
+    };
+    const Budget budget = budget_of(content.size());
+    Document document = unpacked(
+        in_guarded_child(source.name, work, longest_s, budget.memory_mb, budget.cpu_seconds));
     check_all_finite(source, document);
     return document;
   } catch (const std::bad_alloc&) {
@@ -346,11 +365,14 @@ Document load_document(const fs::path& file, const std::string& schema, const st
 
 bool reads_back(const std::string& name, std::string& image, const Document& document) {
   std::set<std::string> groups;
-  for (const auto& [path, array] : document.datasets) groups.insert(path.substr(0, path.find_first_of("/@", 1)));
-  for (const auto& [path, array] : document.attributes) groups.insert(path.substr(0, path.find_first_of("/@", 1)));
+  for (const auto& [path, array] : document.datasets)
+    groups.insert(path.substr(0, path.find_first_of("/@", 1)));
+  for (const auto& [path, array] : document.attributes)
+    groups.insert(path.substr(0, path.find_first_of("/@", 1)));
   const Document found = parse({name, ""}, image, groups);
   const auto equal = [](const auto& a, const auto& b) {
-    return a.first == b.first && a.second.shape == b.second.shape && a.second.values == b.second.values;
+    return a.first == b.first && a.second.shape == b.second.shape &&
+           a.second.values == b.second.values;
   };
   const auto same = [&](const auto& a, const auto& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), equal);

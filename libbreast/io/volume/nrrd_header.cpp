@@ -222,7 +222,9 @@ void check_data(const fs::path& file, const NrrdHeader& header, double needed) {
 NrrdNotes nrrd_notes(const fs::path& file) {
   const NrrdHeader header = header_of(file);
   const std::vector<double> dimension = header_numbers(header.field("dimension"));
-  return {dimension.size() == 1 ? int(dimension.front()) : 0, header.notes};
+  constexpr double most_axes = 16;  // of the format; another number is left to check_nrrd
+  const bool known = dimension.size() == 1 && dimension[0] >= 1 && dimension[0] <= most_axes;
+  return {known ? int(dimension[0]) : 0, header.notes};
 }
 
 void check_nrrd(const fs::path& file) {
