@@ -14,9 +14,6 @@ $(RUN)/lookup.h5 $(RUN)/page.html &: $(page_states) $(RUN)/cc.vti $(RUN)/mlo.vti
 	  --from-image $(RUN)/cc.vti --to-image $(RUN)/mlo.vti $(page_scan) --report $(RUN)/lookup.json $(share)
 	@$(call record,lookup)
 page: $(RUN)/page.html
-# The PDF is printed by a headless browser (Debian package chromium, which setup does not install).
-page-check: $(RUN)/page.html $(CC2MLO)
-	tests/page/check.sh $(BIN) $(RUN) $(RUN)
 
 # ---- 3D Slicer: images, labels, shapes, displacement fields, points and scene.mrml, which opens them ---------
 slicer_settings := $(EXPORT_SLICER) $(MR) $(SLICER_OPTIONS)
@@ -37,11 +34,12 @@ $(RUN)/verify.tsv: $(EXPECTED) $(TABULATE) $(RUN)/summary.txt $(TABLE_FILES)
 	@$(call table,$(tabulate) verify $(EXPECTED) $(RUN))
 	@cat $@
 
+# The PDF is printed by a headless browser (Debian package chromium, which setup does not install).
 CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
 report: $(RUN)/report.html $(if $(CHROMIUM),$(RUN)/report.pdf)
 	@$(if $(CHROMIUM),,echo "report: no PDF: chromium is not installed (apt-get install chromium); any browser prints the page" >&2)
 all: figures tables $(if $(EXPECTED),verify) report
-.PHONY: page page-check slicer verify report all
+.PHONY: page slicer verify report all
 # Results of the slow targets are embedded with their dates. As prerequisites they would be solved again whenever a program is
 # newer; therefore the page records these files and their dates instead.
 REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/*.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png $(RUN)/budget/*.tsv $(RUN)/budget/*.png \

@@ -30,8 +30,7 @@ PRINTED_MECHANICS = --materials $(MATERIALS) --invariants plain --element q1p0
 # The plates stop at the first of these limits.
 STOPS = --reduction $(REDUCTION) $(addprefix --pressure ,$(PRESSURE))
 
-# Options of every program: its JSON report next to its first output, and its share of the cores. A stage for which all others wait
-# has every core, unless this make is one of several (a case of a cohort).
+# Options of every program: its report and its share of the cores. Where all others wait, a stage has all (but not in a cohort).
 share = --threads $$($(PIPELINES)/threads.sh)
 alone = --threads $$($(PIPELINES)/threads.sh $(if $(filter 0,$(MAKELEVEL)),alone))
 common = --report $(basename $@).json $(share)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Targets of the source tree alone, which an installation has not: tests, extreme cases, what takes hours before a release, the
 # Debian package. Makefile.pipeline includes it.
-.PHONY: check fuzz release-check faults full-disk whole-tools slurm clean-root stability stability-mechanics stability-contact
+.PHONY: check page-check fuzz release-check faults full-disk whole-tools slurm clean-root stability stability-mechanics stability-contact
 check:
 	cmake --build $(BUILD) -j $$(nproc)
 	OPENBLAS_THREAD_TIMEOUT=4 ctest --test-dir $(BUILD) --output-on-failure --no-tests=error -j $$(nproc)
@@ -9,6 +9,9 @@ check:
 	tests/tools/pipeline.sh
 	tests/tools/reproduce.sh
 	tests/fuzz/run.sh inputs=2000
+
+page-check: $(RUN)/page.html $(CC2MLO)
+	tests/page/check.sh $(BIN) $(RUN) $(RUN)
 
 fuzz:
 	tests/fuzz/run.sh $(or $(MINUTES),5)
