@@ -130,7 +130,7 @@ $(RUN)/fat-only.tsv: $(or $(whole_set),$(MATERIAL_TABLE))
 	$(call table,$(tabulate) set fat-only $<)
 
 # The same with the lateral cut held, which shows the effect of this boundary condition at the landmarks;
-# the discretisation error is that of the other solution.
+# its discretisation error is not estimated again.
 cut-fixed_settings := $(BACKWARD) $(FORWARD) $(MECHANICS)
 $(RUN)/reference-cut-fixed.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD) $(MATERIAL_FILE) $(call changed,cut-fixed)
 	$(BACKWARD) $< $@ --posture prone $(MECHANICS) --cut fixed --estimate none $(common)

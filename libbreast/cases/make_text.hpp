@@ -19,7 +19,7 @@ std::string make_assignment(const std::string& name, const std::string& value);
 /// The text "NAME += VALUE", ended by make_line_end.
 std::string make_addition(const std::string& name, const std::string& value);
 
-/// For every row of a table the assignments cell_COLUMN := CELL, empty where the cell has no value,
+/// Returns, for every row of a table, the assignments cell_COLUMN := CELL, empty without a value,
 /// and an evaluation of the variable `name`, whose text refers to them. Throws Error (input),
 /// naming the table, for a character that make would interpret as code.
 std::string rows_for_make(const Table& table, const std::string& name);

@@ -22,8 +22,8 @@ namespace breast {
 
 namespace {
 
-/// Where faces touch, a force, mean pressure or area that ends the compression is reached within this
-/// part of it: the contact area of faces changes by whole nodes, about one hundredth of the area each.
+/// Relative tolerance of a force, mean pressure or area at which the compression ends, if faces touch
+/// the plates: their contact area changes by whole nodes, each about one hundredth of the area.
 constexpr double faces_control_tolerance = 5e-3;
 
 /// The contact solver needs a Cholesky factor.

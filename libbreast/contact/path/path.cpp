@@ -288,7 +288,7 @@ bool Path::refine_control(const CompressionTarget& target, const Waypoint& befor
     State guess{low.state.reference, (1 - w) * low.state.x + w * high.state.x,
                 (1 - w) * low.state.p + w * high.state.p};
     Waypoint middle;
-    // Friction would remember a state beyond the target: its memory is not used.
+    // The memory of a state beyond the target is not used, because friction would keep it.
     if (!attempt(guess, low.memory, thickness, tolerance_, middle)) {
       here_ = low;
       return false;
