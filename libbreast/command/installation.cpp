@@ -11,10 +11,13 @@ namespace breast {
 
 namespace fs = std::filesystem;
 
+bool Installation::is_package() const {
+  return fs::exists(pipeline.parent_path() / "pipelines/installed.mk");
+}
+
 fs::path Installation::documentation() const {
   const fs::path folder = pipeline.parent_path();
-  return fs::exists(folder / "pipelines/installed.mk") ? folder.parent_path() / "doc/libbreast"
-                                                       : folder / "docs";
+  return is_package() ? folder.parent_path() / "doc/libbreast" : folder / "docs";
 }
 
 bool Installation::has(const std::string& name) const {

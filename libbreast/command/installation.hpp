@@ -18,6 +18,8 @@ struct Installation {
   std::vector<ToolEntry> tools;    ///< those of the build that are there, by name
 
   std::filesystem::path tool(const std::string& name) const { return programs / name; }
+  /// Whether this is an installed package, which lacks what needs the source tree.
+  bool is_package() const;
   /// Folder of the documentation.
   std::filesystem::path documentation() const;
   bool has(const std::string& name) const;
