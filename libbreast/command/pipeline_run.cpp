@@ -165,8 +165,7 @@ std::vector<std::string> pipeline_settings(const Installation& installation) {
 
 // The help of the makefile, in an installation without what needs the source tree, and with the command that is called there.
 std::string settings_help(const Installation& installation) {
-  std::istringstream lines(
-      read_text(installation.pipeline.parent_path() / "pipelines/help.txt"));
+  std::istringstream lines(read_text(installation.pipeline.parent_path() / "pipelines/help.txt"));
   if (!installation.is_package()) return lines.str();
   std::string text =
       "breast run SCAN --side left|right [--target TARGET] [SETTING=VALUE]...\n"
