@@ -144,7 +144,7 @@ void declare(Tool& tool, Choices& c) {
             "fixed: only the paddle moves; a number: the detector rises by so much and the paddle "
             "does the rest");
   tool.number(c.friction, "--friction", "MU",
-              "coefficient of Coulomb friction between skin and plates (default: 0.3 with "
+              "coefficient of Coulomb friction between skin and plates (default: 0.15 with "
               "--image-edge, otherwise 0)",
               0, 2);
   tool.number(c.plate_step, "--plate-step", "MM",

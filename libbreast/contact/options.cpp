@@ -15,7 +15,7 @@ namespace {
 constexpr double edge_radius = 15, image_edge_radius = 3;
 /// Default friction coefficient of skin on plates that are placed by the edge of the image. Without
 /// friction a breast that slides on the chest wall is squeezed out from between the plates.
-constexpr double image_edge_friction = 0.3;
+constexpr double image_edge_friction = 0.15;
 /// Default force with which a hand pulls such a breast forwards until friction holds it, N.
 constexpr double image_edge_pull = 30;
 /// Default distance from the chest wall to the edge of the image, mm. The oblique view shows muscle:

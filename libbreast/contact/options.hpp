@@ -32,7 +32,7 @@ struct CompressionChoices {
 };
 /// `gravity` in mm/s², LPS; `muscle_mm` is the thickness of the mesh's layer of muscle. Plates that
 /// are placed by the edge of the image have the clinical defaults: parallel to the chest wall, with
-/// an edge radius of 3 mm, surface contact with a friction coefficient of 0.3, and a lifted breast
+/// an edge radius of 3 mm, surface contact with a friction coefficient of 0.15, and a lifted breast
 /// pulled forwards by 30 N. Throws Error (input) for an unknown view or detector, and for a
 /// reduction below 1 percent, which is probably a fraction given by mistake.
 CompressionOptions compression_options(const CompressionChoices& choices, const Vec3& gravity,

@@ -15,11 +15,11 @@
 using namespace breast;
 
 TEST(Friction, SticksBelowTheBoundAndSlipsOnIt) {
-  const Friction friction{0.3, 1e6};
+  const Friction friction{0.3, 3e-4};
   const Vec3 anchor(1, 2, 3), normal = Vec3(1, 2, -2).normalized();
   const Vec3 along = normal.unitOrthogonal();
   const auto at = [&](const Vec3& x, const Vec3& from, double bound) {
-    return friction_force(x, from, normal, bound, friction.stick);
+    return friction_force(x, from, normal, bound, friction.stick(bound));
   };
   const FrictionForce sticks = at(anchor + 1e-4 * along + 5 * normal, anchor, 300);
   EXPECT_FALSE(sticks.slips);
@@ -28,7 +28,7 @@ TEST(Friction, SticksBelowTheBoundAndSlipsOnIt) {
   EXPECT_TRUE(slips.slips);
   EXPECT_LT((slips.force + 300 * along).norm(), 1e-9);
   // After the slip the anchor lies where the spring holds exactly the bound.
-  const Vec3 slid = anchor + 1e-2 * along + slips.force / friction.stick;
+  const Vec3 slid = anchor + 1e-2 * along + slips.force / friction.stick(300);
   EXPECT_LT((at(anchor + 1e-2 * along, slid, 300).force - slips.force).norm(), 1e-6);
   EXPECT_EQ(at(anchor + along, anchor, friction.bound(-5)).force, Vec3(0, 0, 0));
 }

@@ -35,7 +35,7 @@ TEST(ContactOptions, AnImageEdgeBringsTheClinicsPlates) {
   EXPECT_EQ(cc.plates.edge_radius, 3);
   EXPECT_FALSE(cc.plates.turn_deg);
   EXPECT_EQ(cc.plates.image_edge, 5);
-  EXPECT_EQ(cc.friction, 0.3);
+  EXPECT_EQ(cc.friction, 0.15);
   EXPECT_EQ(cc.pull_N, 30);
   choices.view = "MLO";
   EXPECT_EQ(options_of(choices).plates.image_edge, 0);

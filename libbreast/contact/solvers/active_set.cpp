@@ -35,7 +35,7 @@ void ActiveSet::set_terms(const PlatePair& plates) {
     plate_->entry(c).multiplier = k < 0 ? 0 : memory_.multipliers[c];
     if (friction_ == nullptr || k < 0) continue;
     held.push_back({candidates_[c], k, memory_.anchors[c] + plates.plate(k).shift(),
-                    memory_.bounds[c], options_.friction.stick});
+                    memory_.bounds[c], options_.friction.stick(memory_.bounds[c])});
   }
   if (friction_ == nullptr) return;
   friction_->set_plates(plates);

@@ -265,11 +265,10 @@ std::vector<NodalContact> ActiveSet::System::finish() {
     contacts[c].plate = k;
     contacts[c].normal = pressed(c, state_, forces_);
     if (!rubs()) continue;
-    contacts[c].tangential =
-        owner_.friction_->at(owner_.friction_->entries()[entry++], state_.x).force;
-    owner_.memory_.anchors[c] = node_vector(state_.x, owner_.candidates_[c]) +
-                                contacts[c].tangential / owner_.options_.friction.stick -
-                                owner_.plates_.plate(k).shift();
+    const FrictionEntry& held = owner_.friction_->entries()[entry++];
+    contacts[c].tangential = owner_.friction_->at(held, state_.x).force;
+    owner_.memory_.anchors[c] =
+        owner_.friction_->next_anchor(held, state_.x) - owner_.plates_.plate(k).shift();
   }
   return contacts;
 }

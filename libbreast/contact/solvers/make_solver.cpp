@@ -11,10 +11,8 @@ namespace breast {
 
 namespace {
 
-/// In units of shear modulus times element size: the penalty of the augmented Lagrangian, and the
-/// stiffness of the springs that represent sticking friction (at 10 kPa and μ = 0.3 they yield by
-/// about 0.2 mm).
-constexpr double penalty_factor = 10, stick_factor = 100;
+/// The penalty of the augmented Lagrangian in units of shear modulus times element size.
+constexpr double penalty_factor = 10;
 
 /// Skin nodes that are unconstrained and not on the chest wall.
 std::vector<int> candidates(const Scene& scene) {
@@ -32,8 +30,7 @@ std::vector<int> candidates(const Scene& scene) {
 
 ChosenContact make_contact_solver(ContactMethod method, double friction, const Scene& scene,
                                   const Problem& body, SaddleSolver& saddle) {
-  const double stiffness = scene.stiffest() * scene.element_size();
-  const Friction of_plates{friction, stick_factor * stiffness};
+  const Friction of_plates{friction};
   ChosenContact chosen;
   if (method == ContactMethod::surface) {
     SurfaceContactOptions options;
@@ -51,7 +48,7 @@ ChosenContact make_contact_solver(ContactMethod method, double friction, const S
     chosen.solver = std::move(nodes);
   } else {
     AugmentedLagrangianOptions options;
-    options.penalty = penalty_factor * stiffness;
+    options.penalty = penalty_factor * scene.stiffest() * scene.element_size();
     chosen.solver = std::make_unique<AugmentedLagrangian>(body, saddle, candidates(scene), options);
   }
   return chosen;

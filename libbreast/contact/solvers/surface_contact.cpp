@@ -21,11 +21,11 @@ constexpr double between_tolerance = 1e-3;
 constexpr double near_residual = 0.03, turning_depth = 1.2;
 /// Number of times that points are chosen anew for an accurate solution.
 constexpr int most_choices = 4;
-/// Number of times that the friction bounds follow the normal forces of a solution, and how close
-/// is close enough; and the same for intermediate states, where bounds from the previous position
-/// would make the result depend on the steps.
+/// How closely the friction bounds follow the normal forces of a solution, and the same for
+/// intermediate states, where bounds from the previous position would make the result depend on the
+/// steps. They follow once the imbalance is the third fraction of their lag, at most so many times.
+constexpr double bounds_tolerance = 1e-3, way_bounds_tolerance = 0.05, balance_to_follow = 0.1;
 constexpr int most_bounds = 12;
-constexpr double bounds_tolerance = 1e-3, way_bounds_tolerance = 0.05;
 /// Additional iterations for each one with an indefinite tangent: itself, and one to settle.
 constexpr int slip_allowance = 2;
 /// A solve that may fail fast is abandoned if the first step has to be shorter than this, or if
@@ -45,6 +45,9 @@ class SurfaceContact::System final : public TangentSystem {
 
   bool begin() { return look(); }
   bool hurried() const { return hurried_; }
+  double friction_lag() const { return lag_; }
+  /// Number of iterations before the friction bounds changed; −1: they did not.
+  int before_follow() const { return before_follow_; }
 
   Balance assess(const NewtonResult& so_far) override;
   NewtonDirection direction(const Balance& now) override;
@@ -54,13 +57,16 @@ class SurfaceContact::System final : public TangentSystem {
  private:
   Appraisal appraise(const State& state, const Forces& forces) const override;
   bool begins_badly(const NewtonResult& so_far, double residual) const;
+  double residual() const { return relative(forces_, problem_.constraints_at(state_.x)); }
+  bool follow_bounds(double residual);
   /// Unbalanced force relative to the force of the plates.
   double relative(const Forces& forces, const Constraints& held) const {
     return Problem::free_norm(held, forces) / scale_;
   }
 
   SurfaceContact& owner_;
-  double tolerance_, depth_, first_ = 0, scale_ = 1;
+  double tolerance_, depth_, first_ = 0, scale_ = 1, lag_ = 0;
+  int followed_ = 0, before_follow_ = -1;
   bool hurried_ = false;
   bool simplified_ = false;  // whether the tangent lacks the rotation of the forces
 };
@@ -70,7 +76,12 @@ Balance SurfaceContact::System::assess(const NewtonResult& so_far) {
   scale_ = std::max({plates.plate_forces(state_.x, 0).norm(),
                      plates.plate_forces(state_.x, 1).norm(), problem_.load_norm(), 1e-30});
   Balance now;
-  now.residual = now.merit = relative(forces_, problem_.constraints_at(state_.x));
+  now.residual = residual();
+  if (follow_bounds(now.residual)) {
+    now.residual = residual();
+    if (before_follow_ < 0) before_follow_ = int(so_far.iterations.size());
+  }
+  now.merit = now.residual;
   const SurfaceContactOptions& options = owner_.options_;
   now.converged = now.residual <= tolerance_ && problem_.volume_residual(forces_) <=
                                                     std::max(tolerance_, options.volume_tolerance);
@@ -85,6 +96,33 @@ Balance SurfaceContact::System::assess(const NewtonResult& so_far) {
     now.reason = describe(now.stop);
   }
   return now;
+}
+
+/// If the state is balanced well enough for its normal forces to be meaningful, the friction bounds
+/// follow them.
+bool SurfaceContact::System::follow_bounds(double residual) {
+  if (owner_.friction_ == nullptr || residual > std::max(tolerance_, balance_to_follow))
+    return false;
+  Bounds bounds = owner_.bounds_at(state_.x);
+  lag_ = bounds.lag;
+  const bool on_the_way = tolerance_ > owner_.options_.way_tolerance;
+  const bool close = lag_ <= (on_the_way ? way_bounds_tolerance : bounds_tolerance);
+  if (close || residual > std::max(tolerance_, balance_to_follow * lag_)) return false;
+  if (++followed_ > most_bounds) return false;
+  Request request;
+  request.kappa = &matrix_.kappa;  // requests the augmented forces too
+  const auto friction = [&] {
+    Forces part;
+    part.r = part.augmented = Eigen::VectorXd::Zero(forces_.r.size());
+    owner_.friction_->add(state_, request, part);
+    return part;
+  };
+  const Forces before = friction();
+  owner_.adopt(std::move(bounds), state_);
+  const Forces after = friction();
+  forces_.r += after.r - before.r;
+  if (forces_.augmented.size() > 0) forces_.augmented += after.augmented - before.augmented;
+  return true;
 }
 
 /// Positions too far from the last one are recognised in the first iterations.
@@ -163,6 +201,10 @@ bool SurfaceContact::equilibrate(State& state, double tolerance, double depth, C
   step.append(part);
   step.forces = system.forces();
   step.hurried = system.hurried();
+  step.friction_lag = system.friction_lag();
+  if (system.before_follow() >= 0) {
+    step.corrections += int(part.iterations.size()) - system.before_follow();
+  }
   if (!part.converged && step.failed_trial.size() == 0) step.failed_trial = system.refused();
   return part.converged;
 }
@@ -173,7 +215,6 @@ bool SurfaceContact::stiffen(State& state, double allowed, ContactStep& step) {
   for (int k = 0; k < most_stiffenings && pressure_->deepest(state.x) > allowed; ++k) {
     memory_.penalty *= stiffer;
     if (!equilibrate(state, between_tolerance, allowed, step)) return false;
-    if (!follow_friction(state, between_tolerance, allowed, step)) return false;
   }
   step.corrections += int(step.iterations.size() - before);
   return true;
@@ -196,7 +237,6 @@ ContactStep SurfaceContact::solve(const PlatePair& plates, State& state, double 
   if (!stiffen(state, allowed, step)) return step;
   for (int k = 0; k < most_choices; ++k) {
     if (!equilibrate(state, tolerance, allowed, step)) return step;
-    if (!follow_friction(state, tolerance, allowed, step)) return step;
     if (on_the_way || !pressure_->choose_points(state.x)) break;
   }
   finish(state, step);
@@ -211,42 +251,30 @@ void SurfaceContact::set_friction() {
     const int k = memory_.touching[c];
     if (k < 0 || !(memory_.bounds[c] > 0)) continue;
     held.push_back({candidates_[c], k, memory_.anchors[c] + pressure_->plates().plate(k).shift(),
-                    memory_.bounds[c], options_.friction.stick});
+                    memory_.bounds[c], options_.friction.stick(memory_.bounds[c])});
   }
   friction_->set_plates(pressure_->plates());
   friction_->set_entries(std::move(held));
 }
 
-/// The friction bounds follow the state's own normal forces, as closely as a few rounds allow.
-bool SurfaceContact::follow_friction(State& state, double tolerance, double depth,
-                                     ContactStep& step) {
-  if (friction_ == nullptr) return true;
-  const bool accurate = tolerance <= options_.way_tolerance;
-  const double enough = accurate ? bounds_tolerance : way_bounds_tolerance;
-  for (int round = 0; round < most_bounds; ++round) {
-    double lag = 0, size = 0;
-    const std::vector<NodalContact> contacts = nodal_contacts(state.x);
-    std::vector<double> bounds(contacts.size(), 0);
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      const int k = contacts[c].plate;
-      if (k >= 0 && (accurate || memory_.touching[c] == k)) {
-        bounds[c] = options_.friction.bound(contacts[c].normal);
-      }
-      lag = std::hypot(lag, bounds[c] - memory_.bounds[c]);
-      size = std::hypot(size, bounds[c]);
-    }
-    step.friction_lag = size > 0 ? lag / size : 0;
-    if (step.friction_lag <= enough) return true;
-    // On the way, friction acts on newly touched nodes only from the next position on. Solving again
-    // with it at once took up to half as many iterations more and changed the end by 0.1 mm.
-    if (accurate) {
-      for (std::size_t c = 0; c < contacts.size(); ++c) hold(c, contacts[c].plate, state);
-    }
-    memory_.bounds = std::move(bounds);
-    set_friction();
-    if (!equilibrate(state, tolerance, depth, step)) return false;
+/// The bounds that the normal forces of these positions allow, and how far the present ones lag.
+SurfaceContact::Bounds SurfaceContact::bounds_at(const Eigen::VectorXd& x) const {
+  Bounds bounds{nodal_contacts(x), std::vector<double>(candidates_.size(), 0)};
+  double lag = 0, size = 0;
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    const NodalContact& contact = bounds.contacts[c];
+    if (contact.plate >= 0) bounds.values[c] = options_.friction.bound(contact.normal);
+    lag = std::hypot(lag, bounds.values[c] - memory_.bounds[c]);
+    size = std::hypot(size, bounds.values[c]);
   }
-  return true;
+  bounds.lag = size > 0 ? lag / size : 0;
+  return bounds;
+}
+
+void SurfaceContact::adopt(Bounds bounds, const State& state) {
+  for (std::size_t c = 0; c < candidates_.size(); ++c) hold(c, bounds.contacts[c].plate, state);
+  memory_.bounds = std::move(bounds.values);
+  set_friction();
 }
 
 /// Anchors a node that has come into contact with a plate since the last solution at the place on
@@ -266,27 +294,28 @@ void SurfaceContact::hold(std::size_t c, int plate, const State& state) {
 
 /// Anchors follow their sliding nodes; free nodes are anchored at their position.
 void SurfaceContact::move_anchors(const State& state, ContactStep& step) {
-  std::vector<Vec3> force(candidates_.size(), Vec3::Zero());
   std::size_t entry = 0;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    const Vec3 place = state.x.segment<3>(3L * candidates_[c]);
+    Vec3 force = Vec3::Zero(), anchor = place;
     if (entry < friction_->entries().size() && friction_->entries()[entry].node == candidates_[c]) {
-      force[c] = friction_->at(friction_->entries()[entry++], state.x).force;
+      const FrictionEntry& held = friction_->entries()[entry++];
+      force = friction_->at(held, state.x).force;
+      anchor = friction_->next_anchor(held, state.x);
     }
     const int k = step.contacts[c].plate;
-    const Vec3 place = state.x.segment<3>(3L * candidates_[c]);
     memory_.bounds[c] = 0;
     if (k < 0) {
       memory_.anchors[c] = place;
       continue;
     }
-    step.contacts[c].tangential += force[c];
-    step.pressed.push_back({k, place, force[c]});
+    step.contacts[c].tangential += force;
+    step.pressed.push_back({k, place, force});
     memory_.bounds[c] = options_.friction.bound(step.contacts[c].normal);
     if (memory_.touching[c] != k) {
       hold(c, k, state);
     } else {
-      memory_.anchors[c] =
-          place + force[c] / options_.friction.stick - pressure_->plates().plate(k).shift();
+      memory_.anchors[c] = anchor - pressure_->plates().plate(k).shift();
     }
   }
   memory_.plates = pressure_->plates();

@@ -44,12 +44,20 @@ class SurfaceContact : public ContactSolver {
 
  private:
   class System;
+  /// The plates' forces on the candidates, the friction that they allow (µN), and the relative
+  /// difference between this and memory_.bounds.
+  struct Bounds {
+    std::vector<NodalContact> contacts;
+    std::vector<double> values;
+    double lag = 0;
+  };
   bool equilibrate(State& state, double tolerance, double depth, ContactStep& step);
   bool stiffen(State& state, double allowed, ContactStep& step);
   void finish(const State& state, ContactStep& step);
   std::vector<NodalContact> nodal_contacts(const Eigen::VectorXd& x) const;
   void set_friction();
-  bool follow_friction(State& state, double tolerance, double depth, ContactStep& step);
+  Bounds bounds_at(const Eigen::VectorXd& x) const;
+  void adopt(Bounds bounds, const State& state);
   void hold(std::size_t c, int plate, const State& state);
   void move_anchors(const State& state, ContactStep& step);
 

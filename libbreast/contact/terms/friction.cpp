@@ -29,6 +29,12 @@ FrictionForce friction_force(const Vec3& x, const Vec3& anchor, const Vec3& norm
   return friction;
 }
 
+Vec3 FrictionTerm::next_anchor(const FrictionEntry& entry, const Eigen::VectorXd& x) const {
+  const Vec3 place = x.segment<3>(3L * entry.node);
+  if (!(entry.stick > 0)) return place;
+  return place + at(entry, x).force / entry.stick;
+}
+
 void FrictionTerm::set_entries(std::vector<FrictionEntry> entries) {
   entries_ = std::move(entries);
   cells_.nodes_per_cell = 1;

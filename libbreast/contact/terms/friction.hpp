@@ -24,11 +24,16 @@ struct FrictionForce {
 
 struct Friction {
   double coefficient = 0;  ///< μ; 0: none
-  double stick = 0;        ///< stiffness of the anchor springs, µN/mm per node
+  /// Slip at which friction is fully developed, mm: the anchor springs of a node have the stiffness
+  /// bound/slip. With one stiffness for all nodes, the slip would depend on material, mesh and
+  /// pressure.
+  double slip = 0.5;
 
   bool present() const { return coefficient > 0; }
   /// Largest friction force under this normal force, µN; zero in tension.
   double bound(double pressed) const { return pressed > 0 ? coefficient * pressed : 0; }
+  /// Stiffness of a node's spring, µN/mm, for the largest friction force `bound`, µN.
+  double stick(double bound) const { return bound / slip; }
 };
 
 /// `x` and `anchor`: positions of the node and its anchor, mm; `normal`: unit normal of the plate
@@ -39,10 +44,10 @@ FrictionForce friction_force(const Vec3& x, const Vec3& anchor, const Vec3& norm
 /// A node that is held by the friction of a plate.
 struct FrictionEntry {
   int node = 0;
-  int plate = 0;           ///< 0 paddle, 1 detector
-  Vec3 anchor{0, 0, 0};    ///< mm, where the plate is now
-  double bound = 0;        ///< µN
-  double stick = 0;        ///< µN/mm
+  int plate = 0;         ///< 0 paddle, 1 detector
+  Vec3 anchor{0, 0, 0};  ///< mm, where the plate is now
+  double bound = 0;      ///< µN
+  double stick = 0;      ///< µN/mm
 };
 
 /// The tangent neglects the rotation of the plate's normal with the node: it is exact on a flat
@@ -55,6 +60,8 @@ class FrictionTerm final : public Term {
   const std::vector<FrictionEntry>& entries() const { return entries_; }
   const PlatePair& plates() const { return plates_; }
   FrictionForce at(const FrictionEntry& entry, const Eigen::VectorXd& x) const;
+  /// Where the node is anchored after the solution x, mm: behind a slipping node by its full slip.
+  Vec3 next_anchor(const FrictionEntry& entry, const Eigen::VectorXd& x) const;
 
   /// Change of the forces on the nodes (µN, 3 per node) while the plates move and carry the anchors
   /// with them by velocity(plate, x), mm per unit; bounds and slipping nodes are kept.
