@@ -129,6 +129,10 @@ inline void write_more_inputs(const std::filesystem::path& folder) {
   Volume<std::uint8_t> tiny(grid);
   for (std::size_t v = 0; v < tiny.voxels.size(); ++v) tiny.voxels[v] = std::uint8_t(v % 6);
   for (const char* name : {"tiny.nrrd", "tiny.nii", "tiny.nii.gz", "tiny.mha"}) write_volume(folder / name, tiny);
+  std::string raw = read_text(folder / "tiny.nrrd");
+  raw.erase(raw.find("\n\n") + 2);
+  raw.replace(raw.find("encoding: gzip"), std::string("encoding: gzip").size(), "encoding: raw");
+  write_text(folder / "tiny_raw.nrrd", raw + std::string(tiny.voxels.begin(), tiny.voxels.end()));
   LabelVolume labels;
   labels.grid = grid;
   labels.tissue = tiny.voxels;
