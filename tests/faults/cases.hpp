@@ -65,7 +65,7 @@ inline const std::vector<Case>& cases() {
       {"render_mesh", "render mesh.vtkhdf --figure mesh -o out.png", 0},
       {"tabulate", "tabulate wall . back front"},
       {"truth_table", "truth-table landmarks.tsv out.tsv cc.vtkhdf fine_cc.vtkhdf"},
-      {"phantom_mesh", "phantom-mesh out.vtkhdf --preset small --level 1", 0},
+      {"phantom_mesh", "phantom-mesh out.vtkhdf --preset small --level 0.5 --coarse 8", 0},
       {"phantom", "phantom out.nrrd --preset small --coarse 8 --truth out --dicom out-series", 0},
       {"calibrate", "calibrate --preset small --evaluations 4", 0},
       {"calibrate_softness", "calibrate-softness pressed.vtkhdf --pressed pressed.vtkhdf --women women.tsv --set out.tsv "
