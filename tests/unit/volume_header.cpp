@@ -295,6 +295,11 @@ TEST_F(DicomHeaders, OfEndlessElements) {
   expect("more elements than any image");
 }
 
+// Another reader takes the text of an unknown kind for a length, and asks for a gigabyte.
+TEST_F(DicomHeaders, OfAnUnknownKind) {
+  change(std::string("\x08\0\x60\0CS", 6), std::string("\x08\0\x60\0KS", 6), 2, 2);
+  expect("no element where one must be");
+}
 TEST_F(DicomHeaders, WithoutPixelSpacing) {
   change(std::string("\x28\0\x30\0", 4), std::string("\x28\0\x31\0", 4));
   expect("states no pixel spacing");
