@@ -24,7 +24,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 SANITIZED = b'__asan_init' in open(os.path.join(BIN, 'probe'), 'rb').read()
 MOST_KB = (4 if SANITIZED else 1) * 1024 * 1024
 PARTLY = os.path.exists(os.path.join(BIN, 'released-objects.txt'))
-HANG_S, WAIT_S = 10, int(os.environ.get('BREAST_WAIT_S', '120'))
+HANG_S, WAIT_S = 60 if SANITIZED else 10, int(os.environ.get('BREAST_WAIT_S', '120'))
 
 NUMBERS = [b'0', b'-1', b'1e308', b'-1e-308', b'nan', b'inf', b'2147483648', b'18446744073709551615', b'99999999999', b'1e9',
            b'0.0000001', b'', b'x']

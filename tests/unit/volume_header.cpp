@@ -101,6 +101,9 @@ TEST_P(MetaHeaders, AreRefused) {
 INSTANTIATE_TEST_SUITE_P(
     Lines, MetaHeaders,
     testing::Values(
+        Header{"dimensions", "NDims", "NDims = 18446744073709551615", "NDims"},
+        Header{"two_sizes", "DimSize", "DimSize = 6 5", "NDims"},
+        Header{"contradiction", "DimSize", "DimSize = 6 5 4\nDimSize = 6 5 3", "DimSize twice"},
         Header{"no_matrix", "TransformMatrix", "", "orientation"},
         Header{"sheared", "TransformMatrix", "TransformMatrix = 1 0.01 0 0 1 0 0 0 1",
                "orthonormal"},
