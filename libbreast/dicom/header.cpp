@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 
 #include "core/error.hpp"
 
@@ -21,8 +22,18 @@ namespace fs = std::filesystem;
 constexpr std::uint32_t undefined_length = 0xffffffff;
 constexpr std::uint32_t item = 0xfffee000, item_end = 0xfffee00d, sequence_end = 0xfffee0dd;
 constexpr std::uint32_t pixel_data = 0x7fe00010;
+// Value representations (PS3.5 table 6.2-1) with a length of 32 bits after two empty bytes, and
+// those with a length of 16 bits.
+constexpr std::string_view long_kinds = "OB OD OF OL OV OW SQ SV UC UN UR UT UV";
+constexpr std::string_view short_kinds =
+    "AE AS AT CS DA DS DT FD FL IS LO LT PN SH SL SS ST TM UI UL US";
 // Of a slice a few hundred; a file of zeros is one of empty elements, eight bytes each.
 constexpr int most_tags = 200000;
+
+bool is_among(std::string_view kinds, const std::string& name) {
+  const auto at = kinds.find(name);
+  return at != std::string_view::npos && at % 3 == 0;  // not across two of them
+}
 
 class Walker {
  public:
@@ -108,13 +119,11 @@ class Walker {
     if (explicit_vr) {
       const auto vr = take<std::array<char, 2>>();
       const std::string name(vr.begin(), vr.end());
-      if (vr[0] < 'A' || vr[0] > 'Z' || vr[1] < 'A' || vr[1] > 'Z')
-        throw broken("no element where one must be");
+      const bool is_long = is_among(long_kinds, name);
+      // Readers differ in where the length of an unknown kind stands: GDCM takes the value for a
+      // length of up to 4 GB.
+      if (!is_long && !is_among(short_kinds, name)) throw broken("no element where one must be");
       unknown_vr = name == "UN";
-      static constexpr const char* long_form[] = {"OB", "OD", "OF", "OL", "OV", "OW", "SQ",
-                                                  "SV", "UC", "UN", "UR", "UT", "UV"};
-      bool is_long = false;
-      for (const char* other : long_form) is_long = is_long || name == other;
       if (is_long) position_ += 2;
       length = is_long ? take<std::uint32_t>() : take<std::uint16_t>();
     } else {

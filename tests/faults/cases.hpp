@@ -65,7 +65,7 @@ inline const std::vector<Case>& cases() {
       {"render_mesh", "render mesh.vtkhdf --figure mesh -o out.png", 0},
       {"tabulate", "tabulate wall . back front"},
       {"truth_table", "truth-table landmarks.tsv out.tsv cc.vtkhdf fine_cc.vtkhdf"},
-      {"phantom_mesh", "phantom-mesh out.vtkhdf --preset small --level 1", 0},
+      {"phantom_mesh", "phantom-mesh out.vtkhdf --preset small --level 0.5 --coarse 8", 0},
       {"phantom", "phantom out.nrrd --preset small --coarse 8 --truth out --dicom out-series", 0},
       {"calibrate", "calibrate --preset small --evaluations 4", 0},
       {"calibrate_softness", "calibrate-softness pressed.vtkhdf --pressed pressed.vtkhdf --women women.tsv --set out.tsv "
@@ -129,6 +129,10 @@ inline void write_more_inputs(const std::filesystem::path& folder) {
   Volume<std::uint8_t> tiny(grid);
   for (std::size_t v = 0; v < tiny.voxels.size(); ++v) tiny.voxels[v] = std::uint8_t(v % 6);
   for (const char* name : {"tiny.nrrd", "tiny.nii", "tiny.nii.gz", "tiny.mha"}) write_volume(folder / name, tiny);
+  std::string raw = read_text(folder / "tiny.nrrd");
+  raw.erase(raw.find("\n\n") + 2);
+  raw.replace(raw.find("encoding: gzip"), std::string("encoding: gzip").size(), "encoding: raw");
+  write_text(folder / "tiny_raw.nrrd", raw + std::string(tiny.voxels.begin(), tiny.voxels.end()));
   LabelVolume labels;
   labels.grid = grid;
   labels.tissue = tiny.voxels;

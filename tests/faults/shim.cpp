@@ -5,7 +5,9 @@
 //                      with "+" every later one, too. KIND is output, allocation, loss (the bytes written to a file are
 //                      lost without a word) or damage (one of them arrives as another); N = 0 only counts.
 //   BREAST_FAULT_MARK  file: gets one line "failed CALL" a failure, and at the end "counted N"
-// A program that takes longer than ten minutes hangs, and ends by SIGALRM. Counted from main() on, in the program and the processes it forks together. Standard error works always.
+// A program that takes longer than ten minutes of processor time hangs and ends by SIGXCPU; after half an hour it waits for
+// ever and ends by SIGALRM. Counted from main() on, in the program and the processes it forks together. Standard error works
+// always.
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -15,6 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
@@ -103,8 +106,11 @@ void read_plan() {
   if (shared == MAP_FAILED) return;
   plan.counter = new (shared) std::atomic<long>(0);
   plan.kind = wanted;
-  constexpr unsigned hang_s = 600;  // of the clock, and the machine may be busy
-  alarm(hang_s);
+  constexpr rlim_t hang_s = 600;
+  constexpr unsigned waiting_s = 1800;
+  const rlimit hang{hang_s, RLIM_INFINITY};
+  setrlimit(RLIMIT_CPU, &hang);
+  alarm(waiting_s);
 }
 
 using Main = int (*)(int, char**, char**);

@@ -27,7 +27,7 @@ case "$how_long" in
   inputs=*) until=-runs=${how_long#inputs=} ;;
   *) until=-max_total_time=$((how_long * 60 / $#)) ;;
 esac
-[ -s "$build/fuzz.tsv" ] || printf 'format\tthrough\tinputs\tfindings\tslowest_s\tmost_MB\n' > "$build/fuzz.tsv"
+[ -s "$build/fuzz.tsv" ] || printf 'format\tthrough\tinputs\taccepted_percent\tfindings\tslowest_s\tmost_MB\n' > "$build/fuzz.tsv"
 status=0
 for target in "$@"; do
   export FUZZ_TARGET=$target
@@ -45,7 +45,7 @@ for target in "$@"; do
     $1 == "stat::number_of_executed_units:" { inputs = $2 }
     $1 == "stat::slowest_unit_time_sec:" { slowest = $2 }
     $1 == "stat::peak_rss_mb:" { most = $2 }
-    END { print target "\tour checks, ASan and UBSan\t" inputs + 0 "\t" found "\t" slowest + 0 "\t" most + 0 }' \
+    END { print target "\tour checks, ASan and UBSan\t" inputs + 0 "\t-\t" found "\t" slowest + 0 "\t" most + 0 }' \
     "$build/$target.log" | tee -a "$build/fuzz.tsv"
 done
 exit $status

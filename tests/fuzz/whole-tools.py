@@ -2,26 +2,36 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """whole-tools.py BIN INPUTS [COUNT [FORMAT...]]: damages small valid files of every format and gives each to the
 tool that reads it, COUNT times a format (default 2000). BIN holds the programs (built under sanitizers: build/asan/bin),
-INPUTS the files that the program fault_inputs wrote. A run is a finding when it ends by a signal or with another exit code
-than 0 to 3, when a failure says anything but one line, takes over 10 s of processor time (or 120 s of the clock, for
-one that waits for ever; BREAST_WAIT_S sets another limit, for machines with other work), or over 1 GB (4 GB under
-sanitizers), leaves a file it was not asked for, or a sanitizer speaks, also in the process that reads for it. Findings
-are kept, with what was said, in INPUTS/findings, and a row a format is added to INPUTS/fuzz.tsv (columns of
-docs/tables/fuzz.tsv); exit 1 when there is a finding.
+INPUTS the files that the program fault_inputs wrote. The whole files come first, and each must be accepted: a refusal would
+keep every damaged one from the reader. A run is a finding when it ends by a signal or with another exit code than 0 to 3,
+when a failure says anything but one line, takes over 10 s of processor time (or 120 s of the clock, for one that waits for
+ever; BREAST_WAIT_S sets another limit, for machines with other work), or over 1 GB (4 GB under sanitizers), leaves a file it
+was not asked for, or a sanitizer speaks, also in the process that reads for it. Findings are kept, with what was said, in
+INPUTS/findings, and a row a format is added to INPUTS/fuzz.tsv (columns of docs/tables/fuzz.tsv); exit 1 when there is a
+finding.
 Case files are read on behalf of make (libbreast/cases) and are fuzzed here: `make -n` plans the
-chain of a damaged one. No more than the standard library is needed.
+chain of a damaged one, with the programs in BIN and, for those it has not, of build/release. What share of
+the damaged files was accepted is a column of the table: near 0 or 100, the damage reaches too little or changes nothing. A file
+whose program was not built is left out with a line, and the row does not name that program. SIGTERM ends a campaign early: the
+row says how many inputs there were. BIN/released-objects.txt, where there is one, states which objects of these programs are
+without sanitizers. No more than the standard library is needed.
 """
-import base64, glob, gzip, hashlib, os, random, re, shutil, signal, subprocess, sys, time
+import base64, glob, gzip, hashlib, os, random, re, shutil, signal, struct, subprocess, sys, time, zlib
 
 BIN, INPUTS = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 COUNT = int(sys.argv[3]) if len(sys.argv) > 3 else 2000
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SANITIZED = b'__asan_init' in open(os.path.join(BIN, 'probe'), 'rb').read()
 MOST_KB = (4 if SANITIZED else 1) * 1024 * 1024
-HANG_S, WAIT_S = 10, int(os.environ.get('BREAST_WAIT_S', '120'))
+PARTLY = os.path.exists(os.path.join(BIN, 'released-objects.txt'))
+HANG_S, WAIT_S = 60 if SANITIZED else 10, int(os.environ.get('BREAST_WAIT_S', '120'))
 
 NUMBERS = [b'0', b'-1', b'1e308', b'-1e-308', b'nan', b'inf', b'2147483648', b'18446744073709551615', b'99999999999', b'1e9',
            b'0.0000001', b'', b'x']
+COMMANDS = [b'$(shell touch executed)', b'`touch executed`', b'$$(touch executed)', b';touch executed;', b'$(file > executed)',
+            b'\n\ttouch executed\n', b'$(eval x != touch executed)', b'\n-include executed\n', b'| touch executed', b'$(MAKE)',
+            b"'; touch executed #", b'\nX != touch executed\n']
+VALUES = [0.0, -1.0, 1e308, -1e300, 1e-300, 1e9, float('nan'), float('inf')]
 BYTES = [b'\x00', b'\xff', b'\x7f', b'\x80', b'\n', b'"', b'<', b'\xe2\x80\xa8']
 
 
@@ -79,10 +89,28 @@ def damaged_bytes(r, data):
     return bytes(data)
 
 
+def damaged_values(r, data, kind):
+    """A few of the numbers between 0.001 and 10000 in it, that is, coordinates, stated in the right form."""
+    data, size = bytearray(data), struct.calcsize(kind)
+    for _ in range(r.choice([1, 1, 4, 64])):
+        for _ in range(100):  # other bytes are no numbers
+            at = size * r.randrange(max(len(data) // size, 1))
+            if at + size > len(data):
+                break
+            value, = struct.unpack_from(kind, data, at)
+            if 1e-3 < abs(value) < 1e4:
+                other = r.choice(VALUES + [-value, 1.01 * value, 1.5 * value, value + 5])
+                other = float('inf') if kind == '<f' and abs(other) > 3e38 else other
+                struct.pack_into(kind, data, at, other)
+                break
+    return bytes(data)
+
+
 def hdf5(r, data):
     """The bytes before the checksum of ours, which is then right again, or is left out."""
     mark = data.rfind(b'libbreast sha256')
-    body = damaged_bytes(r, data[:mark] if mark >= 0 else data)
+    body = data[:mark] if mark >= 0 else data
+    body = damaged_values(r, body, '<d') if r.random() < 0.4 else damaged_bytes(r, body)
     return body + b'libbreast sha256' + hashlib.sha256(body).hexdigest().encode() if r.random() < 0.7 else body
 
 
@@ -92,72 +120,129 @@ def gzipped(r, data):
     return gzip.compress(damaged_bytes(r, gzip.decompress(data)), 1)
 
 
+def halves(words):
+    """The two base64 texts of a compressed array: its sizes, and its blocks."""
+    end = words.find(b'=')
+    end = len(words) if end < 0 else len(words) - len(words[end:].lstrip(b'='))
+    return words[:end], words[end:]
+
+
+def other_values(r, words, kind):
+    """A compressed array with other values in it, packed again into one block."""
+    first, rest = (base64.b64decode(half) for half in halves(words))
+    values, at = b'', 0
+    for size in struct.unpack('<%dI' % (len(first) // 4), first)[3:]:
+        values += zlib.decompress(rest[at:at + size])
+        at += size
+    packed = zlib.compress(damaged_values(r, values, kind))
+    sizes = struct.pack('<4I', 1, len(values), 0, len(packed))
+    return base64.b64encode(sizes) + base64.b64encode(packed)
+
+
 def vtk_xml(r, data):
-    """Text, or one of the compressed arrays: its sizes or its bytes; without the checksum of ours, or with a right one."""
+    """Text, or one of the compressed arrays: its values, its sizes or its bytes; without the checksum of ours."""
     data = re.sub(rb'<!-- sha256.*?-->\n?', b'', data, flags=re.S)
     arrays = [m.span(1) for m in re.finditer(rb'>\s*([A-Za-z0-9+/=]{16,})\s*<', data)]
-    if arrays and r.random() < 0.6:
-        a, b = r.choice(arrays)
-        words = data[a:b]
-        head = words.find(b'=') + 1
-        while 0 < head < len(words) and words[head:head + 1] == b'=':
-            head += 1
-        try:
-            head = head or len(words)
-            first, rest = base64.b64decode(words[:head]), words[head:]
-            if r.random() < 0.5 and rest:
-                rest = base64.b64encode(damaged_bytes(r, base64.b64decode(rest)))
-            else:
-                first = damaged_bytes(r, first)
-            data = data[:a] + base64.b64encode(first) + rest + data[b:]
-        except Exception:
-            data = damaged_bytes(r, data)
-    else:
-        data = damaged_text(r, data)
-    return data
+    if not arrays or r.random() < 0.4:
+        return damaged_text(r, data)
+    a, b = r.choice(arrays)
+    way = r.randrange(3)
+    try:
+        if way == 0:
+            array = other_values(r, data[a:b], '<d' if data[:a].rfind(b'Float64') > data[:a].rfind(b'<DataArray') else '<f')
+        else:
+            texts = list(halves(data[a:b]))
+            texts[way - 1] = base64.b64encode(damaged_bytes(r, base64.b64decode(texts[way - 1])))
+            array = b''.join(texts)
+    except (ValueError, struct.error, zlib.error):  # no such array
+        return damaged_bytes(r, data)
+    return data[:a] + array + data[b:]
 
 
-def inputs(*names):
-    return [os.path.join(INPUTS, n) for n in names]
+def case_text(r, data):
+    """Text, also with what make or a shell would run."""
+    for _ in range(r.choice([0, 1, 2])):
+        at = r.randrange(len(data) + 1)
+        data = data[:at] + r.choice(COMMANDS) + data[at:]
+    return data if r.random() < 0.3 else damaged_text(r, data)
 
 
-# format -> (seeds, damage, tool and arguments; BAD is the damaged file, an IN/NAME a whole one)
+LABELS = 'evaluate IN/tiny_labels.vtkhdf BAD'
+HEXMESH = 'hexmesh %s IN/labels.vtkhdf out.vtkhdf --elements 4 --accept-mismatch'
+DECK = 'export-deck IN/cap_reference.vtkhdf out.vtkhdf --read-back BAD'
+MATERIALS = os.path.join(ROOT, 'pipelines/materials/')
+# format -> damage and (seed, tool and its arguments, in how many of so many inputs): BAD is the damaged file, IN/NAME a whole one,
+# FOLDER a copy of the seed's folder with the damaged file in it, RUN a run of the pipeline, of which it is a part.
 FORMATS = {
-    'mesh': (inputs('mesh.vtkhdf', 'cc.vtkhdf', 'cap_supine.vtkhdf'), hdf5, 'probe BAD'),
-    'labels': (inputs('tiny_labels.vtkhdf'), hdf5, 'evaluate BAD IN/tiny_labels.vtkhdf'),
-    'geometry': (inputs('geometry.vtkhdf'), hdf5, 'hexmesh BAD IN/labels.vtkhdf out.vtkhdf --elements 4'),
-    'nrrd': (inputs('tiny.nrrd', 'tiny_gzip.nrrd'), damaged_text, 'evaluate IN/tiny_labels.vtkhdf BAD'),
-    'segmentation': (inputs('tiny.seg.nrrd'), damaged_text, 'evaluate IN/tiny_labels.vtkhdf BAD'),
-    'markups': (inputs('points.mrk.json'), damaged_text, 'hexmesh IN/geometry.vtkhdf IN/labels.vtkhdf out.vtkhdf --elements 4 '
-                                                         '--accept-mismatch --tumour BAD'),
-    'nifti': (inputs('tiny.nii'), damaged_bytes, 'evaluate IN/tiny_labels.vtkhdf BAD'),
-    'nifti_gz': (inputs('tiny.nii.gz'), gzipped, 'evaluate IN/tiny_labels.vtkhdf BAD'),
-    'meta': (inputs('tiny.mha'), damaged_text, 'evaluate IN/tiny_labels.vtkhdf BAD'),
-    'dicom_series': (inputs('tiny_series/slice_0002.dcm'), damaged_bytes, 'segment SERIES out.nrrd --side left'),
-    'dicom_mammogram': (inputs('cc.dcm'), damaged_bytes,
-                        'cc2mlo IN/cc.vtkhdf IN/mlo.vtkhdf out.vtp --point 20,37 --cc-image BAD --mlo-image IN/mlo.dcm'),
-    'vti': (inputs('cc.vti'), vtk_xml, 'match-lookup IN/cc.vtkhdf IN/mlo.vtkhdf out.h5 --pitch 40 --page out.html --from-image '
-                                       'BAD --to-image IN/mlo.vti'),
-    'vtp': (inputs('skin.vtp', 'curve.vtp'), vtk_xml, 'evaluate IN/tiny_labels.vtkhdf BAD'),
-    'table': (inputs('landmarks.tsv'), damaged_text, 'truth-table BAD out.tsv IN/cc.vtkhdf IN/fine_cc.vtkhdf'),
-    'materials': ([os.path.join(ROOT, 'pipelines/materials', n) for n in ('seed2008.tsv', 'victre.tsv')], damaged_text,
-                  'laws BAD'),
-    'calculix_frd': (inputs('result.frd'), damaged_text, 'export-deck IN/cap_reference.vtkhdf out.vtkhdf --read-back BAD'),
-    'calculix_dat': (inputs('result.dat'), damaged_text, 'export-deck IN/cap_reference.vtkhdf out.vtkhdf --read-back BAD'),
-    'febio_log': (inputs('result.log'), damaged_text, 'export-deck IN/cap_reference.vtkhdf out.vtkhdf --read-back BAD'),
-    'case_file': (inputs('patient.case'), damaged_text, 'MAKE'),
+    'mesh': (hdf5, [(n, 'probe BAD', 1) for n in ('mesh.vtkhdf', 'cc.vtkhdf', 'cap_supine.vtkhdf')]),
+    'labels': (hdf5, [('tiny_labels.vtkhdf', 'evaluate BAD IN/tiny_labels.vtkhdf', 1)]),
+    'geometry': (hdf5, [('geometry.vtkhdf', HEXMESH % 'BAD', 1)]),
+    'nrrd': (damaged_text, [('tiny.nrrd', LABELS, 15), ('tiny_raw.nrrd', LABELS, 15),
+                            ('scan.nrrd', 'segment BAD out.nrrd --side left', 1)]),
+    'segmentation': (damaged_text, [('tiny.seg.nrrd', LABELS, 1)]),
+    'markups': (damaged_text, [('points.mrk.json', HEXMESH % 'IN/geometry.vtkhdf' + ' --tumour BAD', 1)]),
+    'nifti': (damaged_bytes, [('tiny.nii', LABELS, 1)]),
+    'nifti_gz': (gzipped, [('tiny.nii.gz', LABELS, 1)]),
+    'meta': (damaged_text, [('tiny.mha', LABELS, 1)]),
+    'dicom_series': (damaged_bytes, [('tiny_series/slice_0002.dcm', 'evaluate IN/tiny_labels.vtkhdf FOLDER', 30),
+                                     ('series/slice_0015.dcm', 'segment FOLDER out.nrrd --side left', 1)]),
+    'dicom_mammogram': (damaged_bytes, [('cc.dcm', 'cc2mlo IN/cc.vtkhdf IN/mlo.vtkhdf out.vtp --point 20,37 --cc-image BAD '
+                                                   '--mlo-image IN/mlo.dcm', 1)]),
+    'vti': (vtk_xml, [('cc.vti', 'match-lookup IN/cc.vtkhdf IN/mlo.vtkhdf out.h5 --pitch 40 --page out.html --from-image '
+                                 'BAD --to-image IN/mlo.vti', 1)]),
+    'vtp': (vtk_xml, [('skin.vtp', LABELS, 1), ('curve.vtp', 'export-slicer RUN out --no-fields', 1)]),
+    'table': (damaged_text, [('landmarks.tsv', 'truth-table BAD out.tsv IN/cc.vtkhdf IN/fine_cc.vtkhdf', 1)]),
+    'materials': (damaged_text, [(MATERIALS + n, 'laws BAD', 1) for n in ('seed2008.tsv', 'victre.tsv')]),
+    'calculix_frd': (damaged_text, [('result.frd', DECK, 1)]),
+    'calculix_dat': (damaged_text, [('result.dat', DECK, 1)]),
+    'febio_log': (damaged_text, [('result.log', DECK, 1)]),
+    'case_file': (case_text, [('patient.case', 'make', 1)]),
 }
+
+
+def built(program):
+    return os.path.exists(os.path.join(BIN, 'cases' if program == 'make' else program))
 
 
 def ending(name):
     return next((e for e in ('.nii.gz', '.seg.nrrd', '.mrk.json') if name.endswith(e)), os.path.splitext(name)[1])
 
 
-def command(line, bad, work):
-    if line == 'MAKE':  # planned only; a file called executed would show that something in it ran
-        return ['make', '-C', ROOT, '-f', 'Makefile.pipeline', '-n', 'RUNS=' + work + '/runs', 'CASE_FILE=' + bad, 'chain']
-    words = line.replace('IN/', INPUTS + '/').replace('BAD', bad).replace('SERIES', work + '/series').split()
+def folder_with(work, name, files, bad, place):
+    """The folder `name` with copies of `files`, and the damaged one at `place`."""
+    folder = os.path.join(work, name)
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    for file in files:
+        shutil.copy(file, folder)
+    shutil.move(bad, os.path.join(folder, place))
+    return folder
+
+
+def command(line, seed, bad, work):
+    if line == 'make':  # planned only; a file called executed would show that something in it ran
+        os.symlink(INPUTS + '/scan.nrrd', work + '/out/scan.nrrd')
+        return ['make', '-f', ROOT + '/Makefile.pipeline', '-n', 'RUNS=' + work + '/runs', 'CASE_FILE=' + bad, 'chain']
+    if 'FOLDER' in line:
+        files = glob.glob(os.path.dirname(seed) + '/*')
+        line = line.replace('FOLDER', folder_with(work, 'series', files, bad, os.path.basename(seed)))
+    if 'RUN' in line:
+        files = [INPUTS + '/labels.vtkhdf', INPUTS + '/mesh.vtkhdf']
+        line = line.replace('RUN', folder_with(work, 'run', files, bad, os.path.basename(seed)))
+    words = line.replace('IN/', INPUTS + '/').replace('BAD', bad).split()
     return [os.path.join(BIN, words[0])] + words[1:] + ['--quiet', '--threads', '1']
+
+
+def all_programs(work):
+    """A folder of what the pipeline needs: the programs in BIN, and of build/release what is not there."""
+    folder = work + '/bin'
+    os.makedirs(folder)
+    for place in (BIN, ROOT + '/build/release/bin'):
+        for program in glob.glob(place + '/*'):
+            link = os.path.join(folder, os.path.basename(program))
+            if not os.path.lexists(link):
+                os.symlink(program, link)
+    return folder
 
 
 def run(words, work):
@@ -167,6 +252,8 @@ def run(words, work):
                        UBSAN_OPTIONS='print_stacktrace=1:log_path=%s/logs/ubsan' % work)
     for name in ('MAKEFLAGS', 'MFLAGS', 'MAKELEVEL'):
         environment.pop(name, None)
+    if words[0] == 'make':
+        environment['INSTALLED'] = work + '/bin'
     with open(work + '/err', 'wb') as err:
         start = time.time()
         child = subprocess.Popen(words, cwd=work + '/out', stdout=subprocess.DEVNULL, stderr=err, env=environment,
@@ -208,79 +295,90 @@ def complaint(name, code, err, kilobytes, work):
             return 'executed'
     elif code != 0 and (err.count(b'\n') != 1 or not err.endswith(b'\n') or any(c < 32 for c in err[:-1])):
         return 'says more or less than one clean line'
-    allowed = ('out.vtkhdf', 'out.h5', 'out.html', 'out.vtp', 'out.nrrd', 'out.tsv') if code == 0 else ()
-    left = [n for n in os.listdir(work + '/out') if n not in allowed] + os.listdir(work + '/tmp')
+    allowed = ('out', 'out.vtkhdf', 'out.h5', 'out.html', 'out.vtp', 'out.nrrd', 'out.tsv') if code == 0 else ()
+    left = [n for n in os.listdir(work + '/out') if n not in allowed + ('scan.nrrd',)] + os.listdir(work + '/tmp')
     return 'left ' + ' '.join(left) if left else ''
 
 
 def add_row(cells):
     """To the table of this campaign, which is made with its header when it is not there."""
     file = os.path.join(INPUTS, 'fuzz.tsv')
-    cells[1] += ', ASan and UBSan' if SANITIZED else ', release build'
     with open(file, 'a') as out:
         if out.tell() == 0:
-            out.write('format\tthrough\tinputs\tfindings\tslowest_s\tmost_MB\n')
+            out.write('format\tthrough\tinputs\taccepted_percent\tfindings\tslowest_s\tmost_MB\n')
         out.write('\t'.join(map(str, cells)) + '\n')
 
 
-def series(work, bad):
-    shutil.rmtree(work + '/series', ignore_errors=True)
-    shutil.copytree(INPUTS + '/tiny_series', work + '/series')
-    shutil.move(bad, work + '/series/slice_0002.dcm')
+def keep(stem, file_ending, content, wrong, err, work):
+    os.makedirs(os.path.dirname(stem), exist_ok=True)
+    with open(stem + file_ending, 'wb') as out:
+        out.write(content)
+    with open(stem + '.txt', 'wb') as note:
+        note.write(wrong.encode() + b'\n' + err)
+        for log in glob.glob(work + '/logs/*'):
+            note.write(open(log, 'rb').read())
 
 
 def fuzz(name, work):
-    seeds, damage, line = FORMATS[name]
-    seeds = [s for s in seeds if os.path.exists(s)]
-    program = line.split()[0]
-    if not seeds or (program != 'MAKE' and not os.path.exists(os.path.join(BIN, program))):
-        print('%-16s skipped: %s' % (name, 'no seed' if not seeds else program + ' is not built'))
+    damage, ways = FORMATS[name]
+    ways = [(os.path.join(INPUTS, seed), line, weight) for seed, line, weight in ways]
+    for seed, line, _ in ways:
+        if not os.path.exists(seed) or not built(line.split()[0]):
+            print('%-16s without %s: %s' % (name, os.path.basename(seed), 'no such file' if built(line.split()[0]) else
+                                            'the program that reads it is not built'))
+    ways = [way for way in ways if os.path.exists(way[0]) and built(way[1].split()[0])]
+    if not ways:
         return 0
-    data = {s: open(s, 'rb').read() for s in seeds}
-    found, accepted, slowest, most = {}, 0, 0.0, 0
+    data = {seed: open(seed, 'rb').read() for seed, _, _ in ways}
+    found, accepted, damaged_ones, slowest, most = {}, 0, 0, 0.0, 0
     start = time.time()
-    for n in range(COUNT):
+    n = 0
+    while n < COUNT and not stopped:
         r = random.Random('%s %d' % (name, n))
-        seed = r.choice(seeds)
+        whole = n < len(ways)
+        seed, line, _ = ways[n] if whole else r.choices(ways, [weight for _, _, weight in ways])[0]
+        content = data[seed] if whole else damage(r, data[seed])
         bad = work + '/bad' + ending(seed)
         with open(bad, 'wb') as out:
-            out.write(damage(r, data[seed]) if n > 0 else data[seed])
+            out.write(content)
         for folder in ('out', 'tmp', 'logs'):
             shutil.rmtree(work + '/' + folder, ignore_errors=True)
             os.makedirs(work + '/' + folder)
-        kept = open(bad, 'rb').read()
-        if 'SERIES' in line:
-            series(work, bad)
-        code, err, kilobytes, seconds = run(command(line, bad, work), work)
+        code, err, kilobytes, seconds = run(command(line, seed, bad, work), work)
         wrong = complaint(name, code, err, kilobytes, work)
-        accepted += code == 0
+        if whole and code != 0:
+            wrong = wrong or 'the whole file %s is refused' % os.path.basename(seed)
+        if content != data[seed]:
+            damaged_ones += 1
+            accepted += code == 0
         slowest, most = max(slowest, seconds), max(most, kilobytes)
-        if n == 0 and code not in (0, 2):
-            wrong = wrong or 'the whole file ends with %s' % code
         if wrong:
             kind = re.sub(r'[0-9a-fx]{6,}|\d+', '#', wrong)[:120]
             found[kind] = found.get(kind, 0) + 1
             if found[kind] <= 5:
-                folder = os.path.join(INPUTS, 'findings')
-                os.makedirs(folder, exist_ok=True)
-                stem = os.path.join(folder, '%s-%d' % (name, n))
-                open(stem + ending(seed), 'wb').write(kept)
-                with open(stem + '.txt', 'wb') as note:
-                    note.write(wrong.encode() + b'\n' + err)
-                    for log in glob.glob(work + '/logs/*'):
-                        note.write(open(log, 'rb').read())
-    print('%-16s %5d inputs, %5d accepted, %d findings, slowest %.1f s, most %d MB, %.0f s in all' %
-          (name, COUNT, accepted, sum(found.values()), slowest, most // 1024, time.time() - start), flush=True)
-    add_row([name, 'whole tool: ' + program.replace('MAKE', 'make'), COUNT, sum(found.values()), '%.1f' % slowest,
-             most // 1024])
+                keep(os.path.join(INPUTS, 'findings', '%s-%d' % (name, n)), ending(seed), content, wrong, err, work)
+        n += 1
+    percent = '%.1f' % (100 * accepted / max(damaged_ones, 1))
+    print('%-16s %5d inputs, %s %% of the damaged accepted, %d findings, slowest %.1f s, most %d MB, %.0f s in all' %
+          (name, n, percent, sum(found.values()), slowest, most // 1024, time.time() - start), flush=True)
+    programs = ', '.join(dict.fromkeys(line.split()[0] for _, line, _ in ways))
+    how = 'release build' if not SANITIZED else 'readers under ASan and UBSan' if PARTLY else 'ASan and UBSan'
+    add_row([name, 'whole tool: %s, %s' % (programs, how), n, percent, sum(found.values()), '%.1f' % slowest, most // 1024])
     for kind, times in sorted(found.items()):
         print('    %d x %s' % (times, kind), flush=True)
     return len(found)
 
 
+def stop(*_):
+    stopped.append(True)
+
+
+stopped = []
+signal.signal(signal.SIGTERM, stop)
 work = os.path.join(os.environ.get('TMPDIR', '/tmp'), 'breast-whole-%d' % os.getpid())
 os.makedirs(work)
 try:
-    sys.exit(1 if sum([fuzz(name, work) for name in sys.argv[4:] or FORMATS]) else 0)
+    all_programs(work)
+    sys.exit(1 if sum([fuzz(name, work) for name in sys.argv[4:] or FORMATS if not stopped]) else 0)
 finally:
     shutil.rmtree(work, ignore_errors=True)

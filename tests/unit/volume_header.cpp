@@ -101,6 +101,9 @@ TEST_P(MetaHeaders, AreRefused) {
 INSTANTIATE_TEST_SUITE_P(
     Lines, MetaHeaders,
     testing::Values(
+        Header{"dimensions", "NDims", "NDims = 18446744073709551615", "NDims"},
+        Header{"two_sizes", "DimSize", "DimSize = 6 5", "NDims"},
+        Header{"contradiction", "DimSize", "DimSize = 6 5 4\nDimSize = 6 5 3", "DimSize twice"},
         Header{"no_matrix", "TransformMatrix", "", "orientation"},
         Header{"sheared", "TransformMatrix", "TransformMatrix = 1 0.01 0 0 1 0 0 0 1",
                "orthonormal"},
@@ -295,6 +298,11 @@ TEST_F(DicomHeaders, OfEndlessElements) {
   expect("more elements than any image");
 }
 
+// Another reader takes the text of an unknown kind for a length, and asks for a gigabyte.
+TEST_F(DicomHeaders, OfAnUnknownKind) {
+  change(std::string("\x08\0\x60\0CS", 6), std::string("\x08\0\x60\0KS", 6), 2, 2);
+  expect("no element where one must be");
+}
 TEST_F(DicomHeaders, WithoutPixelSpacing) {
   change(std::string("\x28\0\x30\0", 4), std::string("\x28\0\x31\0", 4));
   expect("states no pixel spacing");

@@ -43,7 +43,11 @@ MetaHeader header_of(const fs::path& file) {
     const std::string key = line.substr(0, line.find_last_not_of(" \t", equals - 1) + 1);
     const auto value = line.find_first_not_of(" \t", equals + 1);
     const auto last = line.find_last_not_of(" \t");
-    header.fields[key] = value == std::string::npos ? "" : line.substr(value, last + 1 - value);
+    const std::string text = value == std::string::npos ? "" : line.substr(value, last + 1 - value);
+    // Another reader may take the other one.
+    if (!header.fields.emplace(key, text).second && header.fields[key] != text) {
+      throw input_error(file.string(), ": states ", key, " twice");
+    }
     if (key == "ElementDataFile") {
       header.ended = true;
       header.data_at = double(in.tellg());
@@ -96,6 +100,12 @@ void check_orientation(const fs::path& file, const MetaHeader& header) {
 void check_meta(const fs::path& file) {
   const MetaHeader header = header_of(file);
   const std::vector<double> sizes = header_numbers(header.field({"DimSize"}));
+  // MetaIO makes loops of this number, whatever it is.
+  const std::string dimensions = header.field({"NDims"});
+  if (dimensions != "3" || sizes.size() != 3) {
+    throw input_error(file.string(), ": NDims ", dimensions, " and ", sizes.size(),
+                      " sizes (DimSize): a volume has three");
+  }
   double voxels = sizes.empty() ? 0 : 1;
   for (const double size : sizes) voxels *= size >= 1 ? size : 0;
   check_voxel_count(file.string(), voxels);
