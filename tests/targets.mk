@@ -34,7 +34,7 @@ full-disk:
 	$(BUILD)/tests/tools_killed_writer
 
 # Programs that read the formats of tests/fuzz/whole-tools.py.
-readers := probe evaluate laws export-deck match-lookup segment hexmesh cc2mlo truth-table
+readers := cases export-slicer probe evaluate laws export-deck match-lookup segment hexmesh cc2mlo truth-table
 SANITIZED := build/asan
 whole-tools:
 	cmake --build $(BUILD) -j $$(nproc) --target programs fault_inputs
