@@ -23,7 +23,7 @@ namespace {
 
 constexpr double depth_limit =
     45;  // mm behind the sternal skin: no fat for the first bias estimate
-constexpr double least_roll = 0.1;    // radians: less is the asymmetry of people
+constexpr double least_roll = 0.1;  // radians: less is the asymmetry of people
 // Skin of a supine breast lies in front of and beside the sternum's; by this much a breast hangs prone.
 constexpr double spread_behind = 40, hanging = 45;  // mm
 constexpr double wall_clearance = 2;  // mm in front of the wall used for the later ones
@@ -285,8 +285,8 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   work = on_scan_grid(work, own, options.side);
   work.extent = find_extent(work.wall, work.domain, work.torso, work.skin_distance, options.side,
                             options.posture);
-  work.breast =
-      breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent, options.side);
+  work.breast = breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent,
+                              options.side, options.posture);
   work.skin = skin_thickness(work.brightness, work.breast, work.skin_distance);
   const Mask interior = interior_of(work, darkened_by_skin(work), work.scan.grid.spacing[1]);
   work.gland = find_fibroglandular(work.ratio, interior, near_unsure_wall(work, 8),
