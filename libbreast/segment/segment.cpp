@@ -315,15 +315,17 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
                             options.posture);
   work.breast = breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent,
                               options.side, options.posture);
-  separate_tissue(work, options.interior, result.bias_cv_after);
-  if (work.gland.gland_ratio > darkest_gland_in_bias &&
-      1 - work.gland.fat_fraction > least_gland_in_bias) {
+  separate_tissue(work, Interior::threshold, result.bias_cv_after);
+  const bool bright_gland = work.gland.gland_ratio > darkest_gland_in_bias &&
+                            1 - work.gland.fat_fraction > least_gland_in_bias;
+  if (bright_gland) {
     const Volume<float> gland = gaussian(work.gland.fraction, 1);
     refine_bias(coarse, &gland);
     divide_by_bias(work, coarse.bias);
     result.bias_cv_after = coarse.bias.fat_cv_after;
-    separate_tissue(work, options.interior, result.bias_cv_after);
   }
+  if (bright_gland || options.interior != Interior::threshold)
+    separate_tissue(work, options.interior, result.bias_cv_after);
   const Volume<float> inside_gland = signed_distance(work.gland.lobes);
   result.compact_dark_mm =
       std::max(0.0f, -*std::min_element(inside_gland.voxels.begin(), inside_gland.voxels.end()));
