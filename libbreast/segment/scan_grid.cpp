@@ -113,6 +113,15 @@ HeightField on_columns(const HeightField& field, const Grid& from, const Grid& t
 
 }  // namespace
 
+void divide_by_bias(Work& work, const BiasField& bias) {
+  const Volume<float> log_bias = resampled(bias.log_bias, work.scan.grid);
+  work.ratio = work.brightness = work.scan;
+  for (std::size_t n = 0; n < log_bias.voxels.size(); ++n) {
+    work.brightness.voxels[n] /= elementary::exp(log_bias.voxels[n]);
+    work.ratio.voxels[n] = work.body.mask.voxels[n] ? work.brightness.voxels[n] : 0;
+  }
+}
+
 Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side) {
   Work fine;
   fine.scan = cropped(scan, side_box(coarse, scan.grid, side));
@@ -121,12 +130,7 @@ Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side) {
   fine.body = coarse.body;
   fine.body.mask = fine_body(coarse, fine.scan);
   fine.skin_distance = signed_distance(fine.body.mask);
-  const Volume<float> log_bias = resampled(coarse.bias.log_bias, grid);
-  fine.ratio = fine.brightness = fine.scan;
-  for (std::size_t n = 0; n < log_bias.voxels.size(); ++n) {
-    fine.brightness.voxels[n] /= elementary::exp(log_bias.voxels[n]);
-    fine.ratio.voxels[n] = fine.body.mask.voxels[n] ? fine.brightness.voxels[n] : 0;
-  }
+  divide_by_bias(fine, coarse.bias);
   // Depths count from the first voxel of each grid.
   const double shift = working.to_index(grid.origin)[1] * working.spacing[1];
   fine.torso.midline = std::clamp(

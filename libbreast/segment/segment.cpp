@@ -23,15 +23,20 @@ namespace {
 
 constexpr double depth_limit =
     45;  // mm behind the sternal skin: no fat for the first bias estimate
-constexpr double least_roll = 0.1;    // radians: less is the asymmetry of people
+constexpr double least_roll = 0.1;  // radians: less is the asymmetry of people
 // Skin of a supine breast lies in front of and beside the sternum's; by this much a breast hangs prone.
 constexpr double spread_behind = 40, hanging = 45;  // mm
 constexpr double wall_clearance = 2;  // mm in front of the wall used for the later ones
+// Gland brighter than this share of fat has in part been taken for dim fat, and much of it lowers the bias around it,
+// which is then estimated again without it. A little (strands, vessels) does not.
+constexpr double darkest_gland_in_bias = 0.5, least_gland_in_bias = 0.1;
 
 /// Bias on a grid halved in plane, and the ratio on the working grid. `limit` gives the depth (mm)
-/// per column up to which there may be fat.
+/// per column up to which there may be fat; where there is `gland` (its share, may be null) there is
+/// none.
 template <class Limit>
-void correct_bias(Work& work, bool again, const BiasSettings& settings, const Limit& limit) {
+void correct_bias(Work& work, bool again, const BiasSettings& settings, const Limit& limit,
+                  const Volume<float>* gland = nullptr) {
   const std::array<int, 3> half{2, 2, 1};
   const Volume<float> coarse = coarsened(work.scan, half);
   Volume<float> distance = resampled(work.skin_distance, coarse.grid);
@@ -45,6 +50,12 @@ void correct_bias(Work& work, bool again, const BiasSettings& settings, const Li
             distance.at(i, j, k) < 0 && (2 * j + 0.5) * work.scan.grid.spacing[1] < depth;
       }
     }
+  }
+  if (gland) {
+    constexpr float least_share = 0.1f;
+    const Volume<float> share = resampled(*gland, grid);
+    for (std::size_t n = 0; n < share.voxels.size(); ++n)
+      if (share.voxels[n] > least_share) allowed.voxels[n] = 0;
   }
   const Volume<float> previous = work.bias.log_bias;
   work.bias = fat_bias(coarse, allowed, distance, settings, again ? &previous : nullptr);
@@ -105,6 +116,17 @@ void find_wall(Work& work, const SegmentOptions& options, Progress& progress, Ti
   }
   hand_set_sigma(work.wall, found);
   if (options.wall_shift != 0) shift_wall(work.wall, work.domain, options.wall_shift);
+}
+
+/// The final bias of the working grid, from the fat in front of the wall.
+void refine_bias(Work& work, const Volume<float>* gland = nullptr) {
+  correct_bias(
+      work, true, {.refined = true},
+      [&](int i, int k) {
+        return std::isnan(work.wall.depth.at(i, k)) ? work.torso.cleft[k] + 10
+                                                    : work.wall.depth.at(i, k) - wall_clearance;
+      },
+      gland);
 }
 
 void summarise(Segmentation& result, const Work& work) {
@@ -217,6 +239,14 @@ double darkened_by_skin(const Work& work) {
   return work.skin > 0 ? std::min(3.0, work.skin + 0.75 * (spacing[0] + spacing[1])) : 3.0;
 }
 
+/// Skin, fat and gland of the breast.
+void separate_tissue(Work& work, Interior by, double fat_cv) {
+  work.skin = skin_thickness(work.brightness, work.breast, work.skin_distance);
+  const Mask interior = interior_of(work, darkened_by_skin(work), work.scan.grid.spacing[1]);
+  work.gland = find_fibroglandular(work.ratio, interior, near_unsure_wall(work, 8),
+                                   work.wall.muscle_ratio, fat_cv, by);
+}
+
 /// A contrast in which fat is not the bright tissue: refused, or reported where the user answers
 /// for it.
 void judge_contrast(Segmentation& result, const SegmentOptions& options) {
@@ -269,10 +299,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   find_wall(work, options, progress, timer);
   {
     const Timer::Scope phase(timer, "bias");
-    correct_bias(work, true, {.refined = true}, [&](int i, int k) {
-      return std::isnan(work.wall.depth.at(i, k)) ? work.torso.cleft[k] + 10
-                                                  : work.wall.depth.at(i, k) - wall_clearance;
-    });
+    refine_bias(work);
     result.bias_cv_before = work.bias.fat_cv_before;
     result.bias_cv_after = work.bias.fat_cv_after;
     result.bias_range = work.bias.range;
@@ -282,15 +309,23 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   }
   const Timer::Scope phase(timer, "tissue");
   progress.update("tissue", 0.8, "");
-  work = on_scan_grid(work, own, options.side);
+  Work coarse = std::move(work);
+  work = on_scan_grid(coarse, own, options.side);
   work.extent = find_extent(work.wall, work.domain, work.torso, work.skin_distance, options.side,
                             options.posture);
-  work.breast =
-      breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent, options.side);
-  work.skin = skin_thickness(work.brightness, work.breast, work.skin_distance);
-  const Mask interior = interior_of(work, darkened_by_skin(work), work.scan.grid.spacing[1]);
-  work.gland = find_fibroglandular(work.ratio, interior, near_unsure_wall(work, 8),
-                                   work.wall.muscle_ratio, result.bias_cv_after, options.interior);
+  work.breast = breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent,
+                              options.side, options.posture);
+  separate_tissue(work, Interior::threshold, result.bias_cv_after);
+  const bool bright_gland = work.gland.gland_ratio > darkest_gland_in_bias &&
+                            1 - work.gland.fat_fraction > least_gland_in_bias;
+  if (bright_gland) {
+    const Volume<float> gland = gaussian(work.gland.fraction, 1);
+    refine_bias(coarse, &gland);
+    divide_by_bias(work, coarse.bias);
+    result.bias_cv_after = coarse.bias.fat_cv_after;
+  }
+  if (bright_gland || options.interior != Interior::threshold)
+    separate_tissue(work, options.interior, result.bias_cv_after);
   const Volume<float> inside_gland = signed_distance(work.gland.lobes);
   result.compact_dark_mm =
       std::max(0.0f, -*std::min_element(inside_gland.voxels.begin(), inside_gland.voxels.end()));

@@ -30,6 +30,9 @@ struct Work {
 /// working grid was coarser, the border of the body is determined again on the finer voxels.
 Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side);
 
+/// Brightness and ratio from the scan, and a bias on any grid.
+void divide_by_bias(Work& work, const BiasField& bias);
+
 /// Interior of the breast: deeper than `skin_depth` mm, more than `wall_margin` mm in front of the
 /// wall.
 Mask interior_of(const Work& work, double skin_depth, double wall_margin);

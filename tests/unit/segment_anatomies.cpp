@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "evaluation/overlap.hpp"
 #include "fixtures/synthetic_scan.hpp"
 #include "segment/quality.hpp"
@@ -15,6 +16,7 @@
 namespace breast {
 namespace {
 
+using testing::ScanOfRoundChest;
 using testing::ScanWithNeck;
 using testing::SyntheticScan;
 
@@ -84,6 +86,66 @@ TEST(Neck, BreastEndsBelowAThickUpperChest) {
   EXPECT_GT(cranial_end(result.labels), SyntheticScan::radius - 15);
   EXPECT_LT(cranial_end(result.labels), SyntheticScan::radius + 22);
   EXPECT_LT(wall_error(result.labels, truth, 60)[0], 2);
+}
+
+/// Volumes of the left breast (ml): true, found, and common to both.
+struct Volumes {
+  double truth = 0, found = 0, common = 0;
+};
+
+Volumes volumes_of(const ScanOfRoundChest& truth) {
+  const LabelVolume labels = run(truth.image()).labels;
+  const auto found_at = [&](const Vec3& p) {
+    const Vec3 at = labels.grid.to_index(p);
+    const std::array<int, 3> n{int(std::lround(at[0])), int(std::lround(at[1])),
+                               int(std::lround(at[2]))};
+    return labels.grid.contains(n[0], n[1], n[2]) &&
+           is_breast(Tissue(labels.tissue[labels.grid.offset(n[0], n[1], n[2])]));
+  };
+  Volumes volumes;
+  const double ml = truth.grid.voxel_volume() / mm3_per_ml;
+  for (int k = 0; k < truth.grid.size[2]; ++k) {
+    for (int j = 0; j < truth.grid.size[1]; ++j) {
+      for (int i = 0; i < truth.grid.size[0]; ++i) {
+        const Vec3 p = truth.grid.to_patient(Vec3(i, j, k));
+        const bool is = p[0] > 0 && truth.in_breast(p), found = found_at(p);
+        volumes.truth += is * ml;
+        volumes.found += found * ml;
+        volumes.common += (is && found) * ml;
+      }
+    }
+  }
+  return volumes;
+}
+
+void expect_whole(const Volumes& volumes) {
+  EXPECT_NEAR(volumes.found / volumes.truth, 1, 0.02);
+  EXPECT_GT(2 * volumes.common / (volumes.found + volumes.truth), 0.95);
+}
+
+/// Thickest 125 mm beside the midline, where the wall falls back by 35 degrees and more: a column at
+/// the end of what it covers would cut off an eighth of it.
+TEST(Extent, BreastAtTheSideOfABroadChest) {
+  ScanOfRoundChest truth;
+  truth.centre = 125;
+  truth.half_chest = 185;
+  expect_whole(volumes_of(truth));
+}
+
+/// Hangs up to 32 mm below the fold under it.
+TEST(Extent, BreastThatHangsOverItsFold) {
+  ScanOfRoundChest truth;
+  truth.sag = 1;
+  expect_whole(volumes_of(truth));
+}
+
+/// Both at once.
+TEST(Extent, BreastAtTheSideThatHangsOver) {
+  ScanOfRoundChest truth;
+  truth.centre = 125;
+  truth.half_chest = 185;
+  truth.sag = 0.6;
+  expect_whole(volumes_of(truth));
 }
 
 struct Judged {

@@ -136,7 +136,8 @@ WallDomain wall_domain(const Mask& body, const TorsoFront& torso, bool left) {
   // Trim columns without any body (air beside the patient).
   const auto empty = [&](int i) {
     for (int k = 0; k < grid.size[2]; ++k) {
-      if (!std::isnan(domain.skin.at(i, k))) return false;
+      for (int j = 0; j * grid.spacing[1] <= domain.deepest.at(i, k); ++j)
+        if (body.at(i, j, k)) return false;
     }
     return true;
   };

@@ -128,8 +128,7 @@ void end_cranially(std::vector<std::uint8_t>& columns, const HeightField& thickn
       const double here = mean_thickness(thickness, grid, i, k);
       if (!columns[std::size_t(k) * nx + i] || !columns[std::size_t(k + ahead) * nx + i] ||
           !(here < 0.5 * greatest) ||
-          !(here - mean_thickness(thickness, grid, i, k + ahead) <
-            slope * ahead * grid.spacing[2]))
+          !(here - mean_thickness(thickness, grid, i, k + ahead) < slope * ahead * grid.spacing[2]))
         continue;
       for (int c = k; c < nz; ++c) columns[std::size_t(c) * nx + i] = 0;
       break;
@@ -188,6 +187,9 @@ BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const 
 
 namespace {
 
+constexpr double overhang_behind =
+    20;  // mm behind the sternum's skin to which a breast may hang over
+
 /// Columns in which a part hangs over: body in front of at least 4 mm of air in front of the
 /// trunk's skin, and more than a column or two of it (ghosts of the chest's movement are not).
 std::vector<std::uint8_t> overhanging(const Mask& body, const WallDomain& domain,
@@ -199,7 +201,7 @@ std::vector<std::uint8_t> overhanging(const Mask& body, const WallDomain& domain
   for (int k = 0; k < nz; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
       if (!on_side(i, torso, side)) continue;
-      const double skin = domain.skin.at(i, k), limit = torso.cleft[k] + 20;
+      const double skin = domain.skin.at(i, k), limit = torso.cleft[k] + overhang_behind;
       const double end = std::isnan(skin) ? limit : std::min(skin, limit);
       int j = std::clamp(int(end / grid.spacing[1]), 0, grid.size[1] - 1);
       int air = 0;
@@ -214,10 +216,68 @@ std::vector<std::uint8_t> overhanging(const Mask& body, const WallDomain& domain
   return columns;
 }
 
+/// Distances (mm) to the chest wall under the breast and to the rest of the wall.
+struct WallDistances {
+  Volume<float> covered, bare;
+};
+
+WallDistances wall_distances(const Grid& grid, const ChestWall& wall, const WallDomain& domain,
+                             const BreastExtent& extent) {
+  Mask covered(grid), bare(grid);
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      Mask& part = extent.columns[std::size_t(k) * grid.size[0] + i] ? covered : bare;
+      for (int j = 0; j < grid.size[1]; ++j)
+        part.at(i, j, k) = j * grid.spacing[1] >= wall.depth.at(i, k);
+    }
+  }
+  return {signed_distance(covered), signed_distance(bare)};
+}
+
+/// First voxel of the body in a column from the front; the number of rows if there is none.
+int first_of_body(const Mask& body, int i, int k) {
+  int j = 0;
+  while (j < body.grid.size[1] && !body.at(i, j, k)) ++j;
+  return j;
+}
+
+/// Where the chest turns to the side, or a breast lies over its fold, a column through the end of
+/// the breast cuts off what stands on the wall before it. That is added in front of folds (air
+/// between it and the trunk), with what hangs there clear of the wall; elsewhere only when it is
+/// more of the breast than the end of a column against that of a normal usually makes.
+void add_beside_columns(Mask& breast, const Mask& body, const ChestWall& wall,
+                        const WallDomain& domain, const TorsoFront& torso,
+                        const BreastExtent& extent, Side side) {
+  constexpr double usual_share = 0.08;
+  const Grid& grid = breast.grid;
+  const WallDistances distance = wall_distances(grid, wall, domain, extent);
+  const auto whole = std::count(breast.voxels.begin(), breast.voxels.end(), 1);
+  std::vector<std::size_t> beside;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = domain.first; i <= domain.last; ++i) {
+      if (!on_side(i, torso, side)) continue;
+      const int first = first_of_body(body, i, k);
+      const bool fold = !(first * grid.spacing[1] > domain.skin.at(i, k) - 1);
+      for (int j = first; j < grid.size[1] && j * grid.spacing[1] < wall.depth.at(i, k); ++j) {
+        const std::size_t n = grid.offset(i, j, k);
+        if (!body.voxels[n] || breast.voxels[n]) continue;
+        const bool stands_on = distance.covered.voxels[n] < distance.bare.voxels[n];
+        const bool hangs = fold && distance.bare.voxels[n] > extent.least_thickness &&
+                           j * grid.spacing[1] < torso.cleft[k] + overhang_behind;
+        if (hangs || (fold && stands_on)) breast.voxels[n] = 1;
+        if (stands_on && !fold) beside.push_back(n);
+      }
+    }
+  }
+  if (double(beside.size()) < usual_share * double(whole)) return;
+  for (const std::size_t n : beside) breast.voxels[n] = 1;
+}
+
 }  // namespace
 
 Mask breast_voxels(const Mask& body, const ChestWall& wall, const WallDomain& domain,
-                   const TorsoFront& torso, const BreastExtent& extent, Side side) {
+                   const TorsoFront& torso, const BreastExtent& extent, Side side,
+                   Posture posture) {
   const Grid& grid = body.grid;
   Mask breast(grid);
   const std::vector<std::uint8_t> overhang = overhanging(body, domain, torso, side);
@@ -229,12 +289,14 @@ Mask breast_voxels(const Mask& body, const ChestWall& wall, const WallDomain& do
       for (int j = 0; j < grid.size[1]; ++j) {
         const double depth = j * grid.spacing[1];
         if (!body.at(i, j, k) || !(depth < wall.depth.at(i, k))) continue;
-        const bool hangs =
-            overhang[column] && (std::isnan(skin) || depth < skin) && depth < torso.cleft[k] + 20;
+        const bool hangs = overhang[column] && (std::isnan(skin) || depth < skin) &&
+                           depth < torso.cleft[k] + overhang_behind;
         breast.at(i, j, k) = extent.columns[column] || hangs;
       }
     }
   }
+  if (posture == Posture::prone)
+    add_beside_columns(breast, body, wall, domain, torso, extent, side);
   return largest_component(breast);
 }
 

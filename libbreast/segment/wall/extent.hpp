@@ -21,8 +21,10 @@ BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const 
                          Posture posture = Posture::prone);
 
 /// Voxels of the breast: those in front of the wall in the columns of the extent, and overhanging
-/// parts beyond it.
+/// parts beyond it. In front of folds, and everywhere if the columns would cut off more than 8 %
+/// of a prone breast, also the tissue whose nearest point of the wall the breast covers.
 Mask breast_voxels(const Mask& body, const ChestWall& wall, const WallDomain& domain,
-                   const TorsoFront& torso, const BreastExtent& extent, Side side);
+                   const TorsoFront& torso, const BreastExtent& extent, Side side,
+                   Posture posture = Posture::prone);
 
 }  // namespace breast
