@@ -67,7 +67,8 @@ std::vector<PressedPoint> pressed_points(const PlatePair& plates, const Eigen::V
 void record_pressure(const HexMesh& mesh, const Eigen::VectorXd& x, const ContactSolver& solver,
                      CompressionResult& result) {
   const ContactStep& step = result.path.final_step;
-  const std::vector<double> area = nodal_faces(mesh, contact_faces(mesh, !step.pressed.empty()), x).area;
+  const std::vector<double> area =
+      nodal_faces(mesh, contact_faces(mesh, !step.pressed.empty()), x).area;
   for (std::size_t c = 0; c < step.contacts.size(); ++c) {
     const NodalContact& contact = step.contacts[c];
     if (contact.plate < 0 || !(contact.normal > 0)) continue;
@@ -140,14 +141,12 @@ void record_profile(const HexMesh& mesh, const Eigen::VectorXd& x, const Contact
   }
 }
 
-ContactRecord record_of(const CompressionOptions& options, const CompressionResult& result,
-                        double stiffness) {
+ContactRecord record_of(const CompressionOptions& options, const CompressionResult& result) {
   const PlatePair& plates = result.plates;
   ContactRecord record;
   record.view = options.view;
   record.angle_deg = options.angle_deg;
   record.turn_deg = result.pose.turn_deg;
-  record.surface_stiffness = stiffness;
   record.ends_image = options.plates.image_edge.has_value();
   record.thickness_mm = plates.thickness();
   record.initial_thickness_mm = plates.initial_thickness;
@@ -167,12 +166,15 @@ ContactRecord record_of(const CompressionOptions& options, const CompressionResu
 void record_compression(const Scene& scene, const CompressionOptions& options, const State& state,
                         const ContactSolver& solver, const SurfaceContact* surface,
                         const Vec3& weight, CompressionResult& result) {
-  const double surface_stiffness = surface != nullptr ? surface->pressure().stiffness() : 0;
   const FrictionTerm* friction = surface != nullptr ? surface->friction().get() : nullptr;
   const HexMesh& mesh = scene.mesh();
   result.contact_pressure.assign(std::size_t(mesh.nodes()), 0);
   result.places.assign(2, {});
-  ContactRecord record = record_of(options, result, surface_stiffness);
+  ContactRecord record = record_of(options, result);
+  if (surface != nullptr) {
+    record.surface_stiffness = surface->pressure().stiffness();
+    record.face_rules = surface->pressure().face_rules();
+  }
   const std::vector<PressedPoint> points =
       pressed_points(result.plates, state.x, solver, result.path.final_step);
   const std::vector<Face> faces = free_boundary_faces(mesh, scene.walls());

@@ -70,7 +70,13 @@ std::shared_ptr<SurfacePressure> recorded_pressure(const Scene& scene, const Pla
   pressure->set_plates(plates);
   pressure->set_stiffness(mesh.contact->surface_stiffness);
   pressure->set_turning_depth(std::numeric_limits<double>::infinity());
-  pressure->choose_points(flatten(mesh.points));
+  if (mesh.contact->face_rules.empty()) {
+    pressure->choose_points(flatten(mesh.points));
+  } else if (!pressure->set_face_rules(mesh.contact->face_rules)) {
+    throw input_error("contact record: the ", mesh.contact->face_rules.size(),
+                      " entries of face_rules are not those of the ", touchable_faces(mesh).size(),
+                      " faces that plates can touch");
+  }
   return pressure;
 }
 

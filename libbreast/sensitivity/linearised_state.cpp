@@ -15,8 +15,8 @@ constexpr double solve_tolerance = 1e-10, refined = 1e-6;
 constexpr int refinements = 3, most_gmres = 100, most_settling = 4;
 // Largest distance of the state in a file from the equilibrium with the given options; a larger
 // distance indicates other options. With plates in surface contact it may be some tenths of a
-// micrometre: the faces that get many points depend on the plates' far edges, which the file does
-// not store.
+// micrometre in files without face_rules: the faces that get many points depend on the plates' far
+// edges, which the file does not store.
 constexpr double far_mm = 1e-3, settled = 1e-8;
 // Between plates, rounding may leave a hundred times that residual relative to the load, which is
 // gravity and small beside the plates' forces. A step that moves no node by a nanometre then cannot

@@ -180,7 +180,7 @@ Outcome press_faces(const Inputs& in, const HexMesh& near, const Parameter& para
   const PlatePair before = recorded_plates(near);
   auto pressure = std::make_shared<SurfacePressure>(near, touchable_faces(near), body.space());
   pressure->set_plates(before);
-  pressure->choose_points(flatten(near.points));
+  EXPECT_TRUE(pressure->set_face_rules(near.contact->face_rules));
   pressure->set_plates(in.plates);
   pressure->set_stiffness(near.contact->surface_stiffness);
   pressure->set_turning_depth(std::numeric_limits<double>::infinity());

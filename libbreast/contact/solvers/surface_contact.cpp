@@ -220,8 +220,7 @@ bool SurfaceContact::stiffen(State& state, double allowed, ContactStep& step) {
   return true;
 }
 
-// An accurate state uses the points that it would choose itself, so that a program that reads it
-// from a file finds the same forces.
+// An accurate state uses at least the points that it would choose itself.
 ContactStep SurfaceContact::solve(const PlatePair& plates, State& state, double tolerance) {
   pressure_->set_plates(plates);
   if (friction_ != nullptr && memory_.anchors.empty()) {
@@ -237,7 +236,7 @@ ContactStep SurfaceContact::solve(const PlatePair& plates, State& state, double 
   if (!stiffen(state, allowed, step)) return step;
   for (int k = 0; k < most_choices; ++k) {
     if (!equilibrate(state, tolerance, allowed, step)) return step;
-    if (on_the_way || !pressure_->choose_points(state.x)) break;
+    if (on_the_way || !pressure_->choose_points(state.x, true)) break;
   }
   finish(state, step);
   return step;

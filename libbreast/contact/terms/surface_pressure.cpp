@@ -116,11 +116,21 @@ SurfacePressure::SurfacePressure(const HexMesh& mesh, const std::vector<Face>& f
 
 SurfacePressure::~SurfacePressure() = default;
 
-bool SurfacePressure::choose_points(const Eigen::VectorXd& x) {
+bool SurfacePressure::choose_points(const Eigen::VectorXd& x, bool keep_finer) {
   std::vector<int> chosen;
-  for (int f = 0; f < cells_.count(); ++f) chosen.push_back(rule_for(f, x));
+  for (int f = 0; f < cells_.count(); ++f) {
+    chosen.push_back(std::max(rule_for(f, x), keep_finer ? chosen_[std::size_t(f)] : 0));
+  }
   chosen.swap(chosen_);
   return chosen != chosen_;
+}
+
+bool SurfacePressure::set_face_rules(const std::vector<int>& rules) {
+  const bool known = rules.size() == chosen_.size() && std::ranges::all_of(rules, [&](int rule) {
+                       return rule >= 0 && rule < int(rules_.size());
+                     });
+  if (known) chosen_ = rules;
+  return known;
 }
 
 int SurfacePressure::rule_for(int face, const Eigen::VectorXd& x) const {

@@ -37,8 +37,12 @@ class SurfacePressure final : public Term {
   double stiffness() const { return stiffness_; }
   /// Chooses the quadrature points of every face for plates and positions near these; until the
   /// next call the forces are a smooth function of the positions. Returns true if the points
-  /// changed.
-  bool choose_points(const Eigen::VectorXd& x);
+  /// changed. `keep_finer`: no face gets fewer points than it has, so that repeated choices end.
+  bool choose_points(const Eigen::VectorXd& x, bool keep_finer = false);
+  /// Per face, the number of its set of points: 0 is the coarsest.
+  const std::vector<int>& face_rules() const { return chosen_; }
+  /// Uses these sets; returns false if they are not of these faces.
+  bool set_face_rules(const std::vector<int>& rules);
   /// In the tangent, the rotation of the forces on a rounded edge is taken as if no point lay
   /// deeper than this, mm: far from a solution the depth does not determine the force.
   void set_turning_depth(double depth) { turning_depth_ = depth; }

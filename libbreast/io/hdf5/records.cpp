@@ -122,6 +122,10 @@ void put_contact(Document& document, const ContactRecord& contact) {
   for (const auto& [name, member] : plate_columns) {
     sets[plates_group + "/" + name] = array_of(column(contact.plates, member));
   }
+  if (!contact.face_rules.empty()) {
+    sets[contact_group + "/face_rules"] =
+        array_of(Integers(contact.face_rules.begin(), contact.face_rules.end()));
+  }
   if (!contact.friction.empty()) {
     Integers nodes, plates;
     for (const FrictionRecord& held : contact.friction) {
@@ -195,6 +199,9 @@ ContactRecord get_contact(Fields& fields) {
   for (const auto& [name, member] : plate_columns) {
     const Doubles list = fields.doubles(plates_group + "/" + name, {names.size()});
     for (std::size_t p = 0; p < names.size(); ++p) contact.plates[p].*member = list[p];
+  }
+  if (fields.has(contact_group + "/face_rules")) {
+    contact.face_rules = fields.indices(contact_group + "/face_rules", {Fields::any}, 0, int_limit);
   }
   if (fields.has(friction_group + "/node")) contact.friction = get_friction(fields);
   contact.path_thickness_mm = fields.doubles(contact_group + "/path_thickness_mm", {Fields::any});
