@@ -45,7 +45,7 @@ for target in "$@"; do
     $1 == "stat::number_of_executed_units:" { inputs = $2 }
     $1 == "stat::slowest_unit_time_sec:" { slowest = $2 }
     $1 == "stat::peak_rss_mb:" { most = $2 }
-    END { print target "\tour checks, ASan and UBSan\t" inputs + 0 "\t-\t" found "\t" slowest + 0 "\t" most + 0 }' \
+    END { print target "\tour checks, ASan and UBSan\t" inputs + 0 "\t\t" found "\t" slowest + 0 "\t" most + 0 }' \
     "$build/$target.log" | tee -a "$build/fuzz.tsv"
 done
 exit $status
