@@ -27,13 +27,13 @@ phantom-scan: $(if $(TRUTH),$(MR))
 # levels (phantom-mesh), whose distance is the truth's own error: 4280 and 34240 elements if the cut is held, 900 and 2176
 # elements if friction makes every step expensive. The plates have the same positions on both meshes.
 # This takes many minutes and is therefore a separate target; TRUTH_TABLE is a truth for probe --truth.
-# In CC the plates start 20 mm in front of the chest wall: this body continues below its inframammary fold, and a raised detector
-# nearer to the wall would press the skin there into a pleat (docs/validation/truth-sliding.md).
+# In CC the plates start 20 mm in front of the chest wall and hold by more friction: this body continues below its inframammary
+# fold, where a raised detector nearer to the wall would press the skin into a pleat (docs/validation/truth-sliding.md).
 TRUTH_AT := $(PHANTOM_TRUTH)/$(SIDE)
 TRUTH_COARSE ?= $(if $(body_slides),0.5,1)
 TRUTH_FINE ?= $(if $(body_slides),0.75,2)
 TRUTH_SET := $(TRUTH_AT)-set.tsv
-truth_edge_cc := 20
+truth_edge_cc := 20 --friction 0.3
 truth_edge_mlo := auto
 truth_body = $(if $(body_slides),--materials $(TRUTH_SET) --image-edge $(truth_edge_$1),--cut fixed)
 # The part of PHANTOM_OPTIONS that describes the same body.
@@ -63,7 +63,7 @@ $(TRUTH_AT)-fine-$1.vtkhdf: $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-coarse-$1.vtkhdf
 # The chain, compressed between plates with the distance and position of those of the truth.
 $(RUN)/truth-$1.vtkhdf: $(RUN)/reference.vtkhdf $(TRUTH_TABLE) $(COMPRESS)
 	$(COMPRESS) $$< $$@ --view $2 $$(call same_plates,$(TRUTH_AT)-fine-$1.json) \
-	  --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) $(SUPPORT) $$(common)
+	  $(if $(body_slides),$(wordlist 2,3,$(truth_edge_$1))) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) $(SUPPORT) $$(common)
 endef
 $(eval $(call truth_view,cc,CC))
 $(eval $(call truth_view,mlo,MLO))

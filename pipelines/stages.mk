@@ -48,7 +48,7 @@ needs_supine = $(needs_reference)
 define view_stages
 program_$1 = $$(COMPRESS)
 reads_$1 := reference
-fixed_$1 = --view $2 $$(if $$($$1@plates),$$(call same_plates,$$(TRUTH_AT)-fine-$1.json))
+fixed_$1 = --view $2 $$(if $$($$1@plates),$$(call same_plates,$$(TRUTH_AT)-fine-$1.json) $$(if $$(body_slides),$$(wordlist 2,3,$$(truth_edge_$1))))
 options_$1 = $$(if $$($$1@plates),,$$(STOPS)) --at-least $$(AT_LEAST) $$($$1@compress) $$(mechanics)
 needs_$1 = $$(needs_reference) $$(if $$($$1@plates),$$(TRUTH_TABLE))
 
