@@ -228,8 +228,8 @@ TEST(ContactFaces, FrictionHoldsFromWhereANodeWasTouched) {
   EXPECT_LT(at_once - held, 0.6 * (smooth - held));
 }
 
-// What friction could hold with a tenth of its bound slips by a small part of the slip at which it
-// is fully developed, however soft the tissue begins and however fine the mesh is.
+// A coefficient of 2 holds every touched node within the slip at which friction is fully developed,
+// however soft the tissue is at small strains and however fine the mesh is.
 TEST(ContactFaces, FrictionHoldsSoftTissueThatStiffens) {
   constexpr double side = 30;
   MechanicsOptions soft = seed2008();

@@ -21,10 +21,13 @@ constexpr double between_tolerance = 1e-3;
 constexpr double near_residual = 0.03, turning_depth = 1.2;
 /// Number of times that points are chosen anew for an accurate solution.
 constexpr int most_choices = 4;
-/// How closely the friction bounds follow the normal forces of a solution, and the same for
-/// intermediate states, where bounds from the previous position would make the result depend on the
-/// steps. They follow once the imbalance is the third fraction of their lag, at most so many times.
-constexpr double bounds_tolerance = 1e-3, way_bounds_tolerance = 0.05, balance_to_follow = 0.1;
+/// Relative difference that may remain between the friction bounds and the normal forces of a
+/// solution, and of an intermediate state, where bounds from the previous position would make the
+/// result depend on the steps.
+constexpr double bounds_tolerance = 1e-3, way_bounds_tolerance = 0.05;
+/// The bounds are changed once the imbalance is this fraction of that difference, and at most this
+/// often in one solve.
+constexpr double balance_to_follow = 0.1;
 constexpr int most_bounds = 12;
 /// Additional iterations for each one with an indefinite tangent: itself, and one to settle.
 constexpr int slip_allowance = 2;
