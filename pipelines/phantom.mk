@@ -70,7 +70,7 @@ $(eval $(call truth_view,mlo,MLO))
 $(TRUTH_TABLE): $(PHANTOM_TRUTH)/landmarks.tsv $(TRUTH_MESHES) $(TRUTH_TABLE_TOOL)
 	$(TRUTH_TABLE_TOOL) $< $@ $(TRUTH_MESHES) $(common)
 same_plates = --thickness $$($(tabulate) key $1 thickness_mm) --edge-at $$($(tabulate) key $1 edge_at_mm) \
-  --middle-at $$($(tabulate) key $1 middle_at_mm) --turn $$($(tabulate) key $1 turn_deg)
+  --middle-at $$($(tabulate) key $1 middle_at_mm) --turn $$($(tabulate) key $1 turn_deg) --lean $$($(tabulate) key $1 lean_deg)
 $(RUN)/truth-compressed.tsv: $(TRUTH_TABLE) $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf \
   truth-cc.vtkhdf truth-mlo.vtkhdf) $(PROBE)
 	$(call table,$(PROBE) $(filter %.vtkhdf,$^) --truth $<)

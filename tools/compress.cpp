@@ -99,14 +99,20 @@ void declare(Tool& tool, Choices& c) {
       "place the plates as in the clinic: distance from the most anterior point of the chest "
       "wall behind the breast, or of the muscle in front of it, to the edge of the image, where "
       "the rounded edge starts. auto is 5 for CC and 0 for MLO and ML; if the mesh has a layer of "
-      "muscle, the edge for MLO and ML lies behind the front of the muscle by 0.8 of the muscle's "
-      "thickness. This option changes the defaults of --turn, --edge-radius, --contact-points, --friction, "
+      "muscle, the edge for MLO and ML lies behind the front of the muscle by 1.25 times the muscle's "
+      "thickness. This option changes the defaults of --turn, --lean, --edge-radius, --contact-points, --friction, "
       "--positioning and --pull as stated there (default: auto for a breast that slides on its "
       "chest wall, unless --standoff is given; otherwise the plates stand as --standoff says)");
   tool.text(
       c.turn, "--turn", "auto|DEG",
       "turn the plates' edge by this angle towards the breast's side, about the patient's long "
       "axis; auto makes it parallel to the chest wall behind the breast (default: auto with "
+      "--image-edge, otherwise 0)");
+  tool.text(
+      c.lean, "--lean", "auto|DEG",
+      "turn the plates' edge by this angle about the beam, with its upper end backwards, as when "
+      "the upper corner of the detector lies in the axilla; auto is 0 for CC, and for MLO and ML 4 "
+      "degrees more than the angle of an edge parallel to the chest wall (default: auto with "
       "--image-edge, otherwise 0)");
   tool.choice(
       c.contact_points, "--contact-points", {"surface", "nodes"},
@@ -163,6 +169,7 @@ void declare(Tool& tool, Choices& c) {
     parse_gravity(c.gravity);
     parse_detector(c.detector);
     if (!c.turn.empty()) parse_turn(c.turn);
+    if (!c.lean.empty()) parse_lean(c.lean);
     if (!c.image_edge.empty()) parse_image_edge(c.image_edge, view_named(c.view), 0);
   });
 }

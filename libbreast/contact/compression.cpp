@@ -295,7 +295,9 @@ void Compression::judge_against_practice() {
 void Compression::place(const State& upright) {
   const std::vector<Vec3> points = unflatten(upright.x);
   const double turn = options_.plates.turn_deg.value_or(wall_turn_deg(mesh_, points));
-  found_.pose = view_pose(mesh_.side, options_.angle_deg, turn);
+  const ViewPose parallel = view_pose(mesh_.side, options_.angle_deg, turn);
+  const double lean = options_.plates.lean_deg.value_or(muscle_lean_deg(mesh_, points, parallel));
+  found_.pose = view_pose(mesh_.side, options_.angle_deg, turn, lean);
   found_.plates = place_plates(mesh_, points, found_.pose, options_.plates);
   upright_ = upright.x;
   note_stage("upright", upright);
@@ -322,8 +324,10 @@ bool Compression::lift(State& state) {
 
 void Compression::say_where_plates_stand() const {
   const double initial = found_.plates.initial_thickness;
-  progress_.note(message("T0 ", initial, " mm, plates' edge ", found_.plates.standoff,
-                         " mm in front of the wall and turned by ", found_.pose.turn_deg,
+  const double standoff = found_.plates.standoff;
+  progress_.note(message("T0 ", initial, " mm, plates' edge ", std::abs(standoff), " mm ",
+                         standoff < 0 ? "behind the front" : "in front", " of the wall, turned by ",
+                         found_.pose.turn_deg, " and leaning by ", found_.pose.lean_deg,
                          " degrees, edge radius ", found_.plates.paddle.edge_radius, " mm"));
   if (options_.stop_at == StopAt::thickness && !(options_.target < initial)) {
     throw input_error("thickness ", options_.target, " mm is too large: the breast is only ",

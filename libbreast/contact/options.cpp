@@ -20,7 +20,16 @@ constexpr double image_edge_friction = 0.15;
 constexpr double image_edge_pull = 30;
 /// Default distance from the chest wall to the edge of the image, mm. The oblique view shows muscle:
 /// in a mesh with a layer of muscle the edge lies behind its front by this fraction of its thickness.
-constexpr double edge_cc = 5, edge_in_muscle = 0.8;
+constexpr double edge_cc = 5, edge_in_muscle = 1.25;
+}  // namespace
+
+namespace {
+std::optional<double> parse_angle(const char* option, const std::string& text, double most) {
+  if (text == "auto") return std::nullopt;
+  const std::optional<double> angle = number_in(text);
+  if (angle && std::abs(*angle) <= most) return angle;
+  throw input_error(option, " ", text, ": give 'auto' or degrees from ", -most, " to ", most);
+}
 }  // namespace
 
 double parse_detector(const std::string& text) {
@@ -40,11 +49,11 @@ double parse_image_edge(const std::string& text, View view, double muscle_mm) {
 }
 
 std::optional<double> parse_turn(const std::string& text) {
-  constexpr double most = 90;
-  if (text == "auto") return std::nullopt;
-  const std::optional<double> turn = number_in(text);
-  if (turn && std::abs(*turn) <= most) return turn;
-  throw input_error("--turn ", text, ": give 'auto' or degrees from ", -most, " to ", most);
+  return parse_angle("--turn", text, 90);
+}
+
+std::optional<double> parse_lean(const std::string& text) {
+  return parse_angle("--lean", text, 45);
 }
 
 std::vector<CompressionStop> CompressionChoices::stops() const {
@@ -84,6 +93,7 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   }
   options.plates.edge_radius = c.edge_radius.value_or(clinical ? image_edge_radius : edge_radius);
   options.plates.turn_deg = parse_turn(!c.turn.empty() ? c.turn : clinical ? "auto" : "0");
+  options.plates.lean_deg = parse_lean(!c.lean.empty() ? c.lean : clinical ? "auto" : "0");
   const bool plain = !clinical || c.contact == "al";
   const std::string points = !c.contact_points.empty() ? c.contact_points
                              : plain                   ? "nodes"

@@ -18,10 +18,12 @@ double parse_image_edge(const std::string& text, View view, double muscle_mm);
 /// Angle (degrees) by which the plates' edge is turned; no value for "auto", for which it follows
 /// from the chest wall. Throws Error (input) for anything else.
 std::optional<double> parse_turn(const std::string& text);
+/// Angle (degrees) by which the plates' edge leans; as parse_turn.
+std::optional<double> parse_lean(const std::string& text);
 
 /// The compression options as given on a command line.
 struct CompressionChoices {
-  std::string view = "CC", contact = "active-set", detector = "raised", image_edge, turn;
+  std::string view = "CC", contact = "active-set", detector = "raised", image_edge, turn, lean;
   std::string contact_points, positioning;  ///< empty: the default of compression_options
   std::optional<double> angle, thickness, reduction, force, pressure, area, plate_step;
   std::optional<double> friction, edge_radius, pull;

@@ -134,6 +134,15 @@ Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const View
   plate.far_edge = plate.edge_start + 2 * depth + 20;
   return plate;
 }
+
+/// Sum of the areas of the chest wall's faces as vectors out of the body, mm².
+Vec3 towards_ribs(const HexMesh& mesh, const std::vector<Vec3>& x) {
+  Vec3 outward = Vec3::Zero();
+  for (const Vec3& part : nodal_faces(mesh, mesh.pectoral_faces, flatten(x)).vector)
+    outward += part;
+  return outward;
+}
+
 /// Skin behind the footprint may extend beyond T0: this is the thickness at which nothing is
 /// penetrated.
 double touching_thickness(const HexMesh& mesh, const std::vector<Vec3>& x, PlatePair pair) {
@@ -251,6 +260,7 @@ PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const Vi
   const Plate plate = place_in_plane(mesh, x, pose, options, wall_point);
   PlatePair pair = paddle_and_detector(plate);
   pair.wall_point = wall_point;
+  pair.angle_axis = pose.angle_axis;
   pair.standoff = plate.edge_start - wall_point;
   pair.detector_rise = options.detector_rise;
   pair.paddle.tilt_slope = std::tan(options.tilt_deg * std::numbers::pi / 180);
@@ -286,12 +296,22 @@ PlatePair start_from(const PlatePair& placed, const HexMesh& mesh, const std::ve
 
 double wall_turn_deg(const HexMesh& mesh, const std::vector<Vec3>& x) {
   constexpr double most = 45;
-  Vec3 outward = Vec3::Zero();  // outward direction of the body, towards the ribs
-  for (const Vec3& part : nodal_faces(mesh, mesh.pectoral_faces, flatten(x)).vector)
-    outward += part;
+  const Vec3 outward = towards_ribs(mesh, x);
   if (!(outward.head<2>().norm() > 0)) return 0;
   const double turn = std::atan2(-lateral_sign(mesh.side) * outward.x(), outward.y());
   return std::clamp(turn * 180 / std::numbers::pi, -most, most);
+}
+
+double muscle_lean_deg(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose) {
+  constexpr double beyond_parallel = 4, most = 25, least_angle = 20;
+  if (std::abs(pose.angle_deg) < least_angle) return 0;
+  const Vec3 forwards = -towards_ribs(mesh, x);
+  const ViewPose upright = view_pose(mesh.side, pose.angle_deg, pose.turn_deg);
+  Vec3 upwards = upright.e_v;
+  if (upwards.z() < 0) upwards = -upwards;
+  if (!(forwards.norm() > 0)) return 0;
+  const double parallel = std::atan2(forwards.dot(upwards), forwards.dot(upright.e_u));
+  return std::clamp(parallel * 180 / std::numbers::pi + beyond_parallel, 0.0, most);
 }
 
 }  // namespace breast

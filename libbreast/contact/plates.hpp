@@ -79,6 +79,9 @@ struct PlateOptions {
   /// Angle by which the edge is turned towards the breast's side about the patient's long axis; if
   /// absent, the edge is made parallel to the chest wall behind the breast.
   std::optional<double> turn_deg = 0;
+  /// Angle by which the edge is turned about the beam, with its upper end backwards; if absent,
+  /// the edge is inclined so that an oblique image shows the muscle from above.
+  std::optional<double> lean_deg = 0;
   double edge_radius = 15;
   double tilt_deg = 0;  ///< of the paddle about the lateral axis; positive narrows the gap
                         ///< anteriorly
@@ -97,6 +100,7 @@ struct PlatePair {
   double underside = 0;           ///< h of the lower end of the body as it hangs over the detector
   double wall_point = 0;          ///< a of the most anterior pectoral or cut point
   double standoff = 0;
+  Vec3 angle_axis{0, -1, 0};                                       ///< ViewPose::angle_axis
   double paddle_start = 0, detector_start = 0;                     ///< levels at T0
   double detector_rise = std::numeric_limits<double>::infinity();  ///< mm, as in PlateOptions
 
@@ -119,6 +123,10 @@ PlatePair paddle_and_detector(const Plate& plate);
 /// Angle (degrees) that makes the plates' edge parallel to the chest wall behind the breast: that
 /// of the mean normal of the wall in the shape `x`, at most 45 in either direction.
 double wall_turn_deg(const HexMesh& mesh, const std::vector<Vec3>& x);
+/// Angle (degrees, 0 to 25) about the beam of `pose` by which the edge of oblique plates leans: 4
+/// degrees more than if it were parallel to the chest wall, so that its upper end lies in the axilla
+/// behind the muscle and its lower end in front of the fold. 0 for a beam from head to foot.
+double muscle_lean_deg(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose);
 
 /// Places the plates about the shape `x` (node positions of the gravity-loaded body, mm, LPS). They
 /// close on the mid-plane of mesh.reference within the same footprint: in the upright posture the

@@ -23,6 +23,7 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
   const PlateRecord& detector = contact.plates[1];
   report.set("edge_at_mm", detector.origin.dot(detector.anterior));
   report.set("turn_deg", contact.turn_deg);
+  report.set("lean_deg", contact.lean_deg);
   report.set("contact_points", contact.surface_stiffness > 0 ? "surface" : "nodes");
   if (contact.surface_stiffness > 0) {
     report.set("surface_stiffness_Pa_per_mm", contact.surface_stiffness);

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "figures/parts.hpp"
+#include "mesh/compressed_pose.hpp"
 #include "mesh/plate_edge.hpp"
 
 namespace breast {
@@ -74,7 +75,7 @@ void compression_row(Picture& picture, const HexMesh& mesh, double bottom, doubl
   add_body(right, mesh, mesh.points, {.edges = true});
   add_plates(right, mesh, 0.25);
   add_image_border(right, mesh);
-  const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg, mesh.contact->turn_deg);
+  const ViewPose pose = compressed_pose(mesh);
   finish({{left, view, name(0) + "stress-free, plates touching"},
           {middle, view, name(1) + compression_caption(mesh)},
           {right,

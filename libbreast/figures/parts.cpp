@@ -9,6 +9,7 @@
 #include "core/table.hpp"
 #include "core/units.hpp"
 #include "figures/shapes/gland_surface.hpp"
+#include "mesh/compressed_pose.hpp"
 #include "mesh/landmark_names.hpp"
 #include "projection/framing.hpp"
 
@@ -27,7 +28,7 @@ Camera oblique_view(Side side) {
 }
 
 Camera plate_view(const HexMesh& mesh) {
-  const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg, mesh.contact->turn_deg);
+  const ViewPose pose = compressed_pose(mesh);
   // Along the plates' edge, a little from the front and above, so that the plates show their faces;
   // from the patient's outer side, which in CC is where the technician stands.
   Vec3 along = pose.e_v;

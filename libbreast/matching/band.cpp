@@ -126,11 +126,14 @@ Vec3 BandModel::moved(const HexMesh& mesh, const ImageFrame& frame, const Vec3& 
   Vec3 moved = element_position(mesh, field, point.element, point.local);
   if (turns) {
     constexpr double step = 0.5;  // degrees
-    const double angle = frame.pose.angle_deg;
-    const Vec3 axis_slope = (view_pose(mesh.side, angle + step, frame.pose.turn_deg).e_v -
-                             view_pose(mesh.side, angle - step, frame.pose.turn_deg).e_v) /
-                            (2 * step);
-    moved += (at - centre).dot(axis_slope) * frame.pose.e_v;
+    const ViewPose& pose = frame.pose;
+    const auto turned = [&](double by) {
+      return view_pose(mesh.side, pose.angle_deg + by, pose.turn_deg, pose.lean_deg);
+    };
+    const ViewPose more = turned(step), less = turned(-step);
+    const Vec3 from_centre = (at - centre) / (2 * step);
+    moved += from_centre.dot(more.e_u - less.e_u) * pose.e_u +
+             from_centre.dot(more.e_v - less.e_v) * pose.e_v;
   }
   return moved;
 }

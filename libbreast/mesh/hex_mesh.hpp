@@ -64,6 +64,8 @@ struct ContactRecord {
   /// Angle by which the plates' edge is turned towards the breast's side about the patient's long
   /// axis.
   double turn_deg = 0;
+  /// Angle by which it is turned about the beam, with its upper end backwards.
+  double lean_deg = 0;
   /// Whether the image ends at the plates' edge, as in the clinic, or at the chest wall.
   bool ends_image = false;
   /// Stiffness of the plates against faces, Pa/mm; 0: exact contact at nodes.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "mesh/compressed_pose.hpp"
 
 namespace breast {
 
@@ -39,7 +40,7 @@ ImageFrame image_frame(const HexMesh& mesh, Beam beam) {
   }
   ImageFrame frame;
   frame.view = mesh.contact->view;
-  frame.pose = view_pose(mesh.side, mesh.contact->angle_deg, mesh.contact->turn_deg);
+  frame.pose = compressed_pose(mesh);
   ViewPose& pose = frame.pose;
   const double u0 = posterior_edge(mesh, pose.e_u);
   // Range of v of the visible tissue: elements that extend in front of the edge.

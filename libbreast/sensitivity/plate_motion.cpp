@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "views/view_pose.hpp"
+#include "mesh/compressed_pose.hpp"
 
 namespace breast {
 
@@ -37,10 +37,11 @@ PlatePair recorded_plates(const HexMesh& mesh) {
   if (!mesh.contact || mesh.contact->plates.size() != 2) {
     throw input_error("the state has no record of two plates; make it with compress");
   }
-  const ViewPose pose = view_pose(mesh.side, mesh.contact->angle_deg, mesh.contact->turn_deg);
+  const ViewPose pose = compressed_pose(mesh);
   PlatePair plates;
   plates.paddle = recorded_plate(mesh.contact->plates[0], pose, 1);
   plates.detector = recorded_plate(mesh.contact->plates[1], pose, -1);
+  plates.angle_axis = pose.angle_axis;
   plates.initial_thickness = mesh.contact->initial_thickness_mm;
   plates.standoff = mesh.contact->standoff_mm;
   // The share is the only information in the file about how far the detector may rise.
@@ -61,11 +62,11 @@ std::vector<PlateContact> recorded_contacts(const HexMesh& mesh, const PlatePair
 }
 
 namespace {
-// About the common anterior mid-line of the plates: dn/dθ of n = (s sin θ, 0, −cos θ) is ω × n with
-// ω = s e_u.
+// About a horizontal line through the middle of the plates' edges: dn/dθ of n = (s sin θ, 0, −cos θ)
+// is ω × n with ω = s times the axis of the angle.
 Vec3 plate_turn(const PlatePair& plates, const Parameter& parameter, Side side) {
   if (parameter.kind != ParameterKind::angle) return Vec3::Zero();
-  return lateral_sign(side) * std::numbers::pi / 180 * plates.paddle.anterior;
+  return lateral_sign(side) * std::numbers::pi / 180 * plates.angle_axis;
 }
 }  // namespace
 

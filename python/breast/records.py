@@ -80,6 +80,7 @@ class Contact:
         view: CC, MLO or ML.
         angle_deg: beam angle from cranio-caudal, degrees.
         turn_deg: by which the plates' edge is turned about the patient's long axis, degrees.
+        lean_deg: by which it is turned about the beam, with its upper end backwards, degrees.
         thickness_mm, initial_thickness_mm: gap between the flats now, and extent of the breast before.
         reduction_percent, standoff_mm: see the tool compress.
         ends_image: whether the image ends at the plates' edge.
@@ -93,6 +94,7 @@ class Contact:
     view: str
     angle_deg: float
     turn_deg: float
+    lean_deg: float
     thickness_mm: float
     initial_thickness_mm: float
     reduction_percent: float
@@ -138,7 +140,7 @@ def read_contact(document: Document, nodes: int) -> Contact | None:
     if stiffness < 0:
         raise document.refuse(f"attribute {group}@surface_stiffness is {stiffness} Pa/mm, must be 0 or more")
     return Contact(
-        document.text(f"{group}@view", ("CC", "MLO", "ML")), number("angle_deg"), number("turn_deg", 0.0),
+        document.text(f"{group}@view", ("CC", "MLO", "ML")), number("angle_deg"), number("turn_deg", 0.0), number("lean_deg", 0.0),
         number("thickness_mm"), number("initial_thickness_mm"), number("reduction_percent"), number("standoff_mm"),
         number("ends_image", 0.0) != 0, share, stiffness, _plates(document), _friction(document, nodes), _path(document))
 

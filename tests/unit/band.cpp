@@ -36,9 +36,10 @@ const HexMesh& body() {
 
 // A compression with three parameters, zero at the expected state: a stiffness that bends both
 // shapes, and the thickness of each.
-HexMesh shape(View view, double stiffness, double thickness) {
+HexMesh shape(View view, double stiffness, double thickness, double lean_deg = 0) {
   const double lambda = 0.6 + thickness / 90;
   HexMesh mesh = squashed(body(), view, lambda);
+  mesh.contact->lean_deg = lean_deg;
   for (Vec3& x : mesh.points) {
     const double s = 1 + stiffness;
     x += Vec3(3 * std::sin(x.z() / 15), 4 * s * std::sin((x.z() + x.x()) / 20), s * x.y() / 25);
@@ -58,7 +59,8 @@ NodalField difference(View view, double stiffness, double thickness) {
 }
 
 struct Scene {
-  HexMesh cc = shape(View::cc, 0, 0), mlo = shape(View::mlo, 0, 0);
+  explicit Scene(double lean_deg = 0) : mlo(shape(View::mlo, 0, 0, lean_deg)) {}
+  HexMesh cc = shape(View::cc, 0, 0), mlo;
   Matcher matcher{cc, mlo};
   DerivativeFields from{{"fat", difference(View::cc, 1e-4, 0)},
                         {"thickness", difference(View::cc, 0, 1e-4)}},
@@ -125,8 +127,10 @@ TEST(Band, LinearPropagationIsTheDerivativeOfTheCurve) {
 
 // A shape that turns with its detector, about the same axis, has the same image: what is left is
 // the motion along the beam where the curve bends.
-TEST(Band, TheDetectorTurnsWithTheAngle) {
-  const Scene scene;
+class TurningBand : public testing::TestWithParam<double> {};
+
+TEST_P(TurningBand, TheDetectorTurnsWithTheAngle) {
+  const Scene scene(GetParam());
   const MatchedCurve curve =
       scene.matcher.match(*scene.matcher.from_landmark("nipple") + Vec2(-30, 8), 0.001);
   const auto turning = [](const HexMesh& mesh) {
@@ -148,6 +152,8 @@ TEST(Band, TheDetectorTurnsWithTheAngle) {
   const Band moved = BandModel(scene.matcher, still, to, {{"angle", 1, "degree", ""}}).band(curve);
   EXPECT_GT(moved.by_cause.at("angle in CC"), 0.01);
 }
+
+INSTANTIATE_TEST_SUITE_P(Lean, TurningBand, testing::Values(0.0, 15.0));
 
 TEST(Band, PickingIsTheDerivativeByTheMark) {
   const Scene scene;

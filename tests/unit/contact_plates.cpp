@@ -160,6 +160,47 @@ TEST(Plates, TheEdgeOfTheImageLiesAlongTheWall) {
   }
 }
 
+// The block tipped forwards at its upper end, as a chest wall that recedes towards the neck.
+TEST(Plates, TheEdgeOfObliquePlatesLeansWithTheWallAndATriangleMore) {
+  for (const Side side : {Side::left, Side::right}) {
+    for (const double angle : {45.0, 90.0}) {
+      SCOPED_TRACE(testing::Message() << side_name(side) << " " << angle);
+      HexMesh mesh = fixtures::standing_block({50, 60, 40}, {5, 6, 4});
+      mesh.side = side;
+      const ViewPose level = view_pose(side, angle);
+      const double tip = 10 * std::numbers::pi / 180;
+      const Vec3 axis = -lateral_sign(side) * level.n;
+      for (Vec3& x : mesh.points) x = Eigen::AngleAxisd(tip, axis) * x;
+      mesh.reference = mesh.imaged = mesh.points;
+      const double lean = muscle_lean_deg(mesh, mesh.points, level);
+      EXPECT_NEAR(lean, 14, 1e-9);
+      const ViewPose pose = view_pose(side, angle, 0, lean);
+      EXPECT_LT((pose.n - level.n).norm(), 1e-12);
+      EXPECT_GT(pose.e_u.z(), 0);
+      EXPECT_NEAR(pose.e_u.dot(level.e_u), std::cos(lean * std::numbers::pi / 180), 1e-12);
+      EXPECT_LT((pose.e_v - pose.n.cross(pose.e_u)).norm(), 1e-12);
+    }
+  }
+}
+
+TEST(Plates, TheEdgeOfCraniocaudalPlatesDoesNotLean) {
+  const HexMesh mesh = fixtures::standing_block({50, 60, 40}, {5, 6, 4});
+  EXPECT_EQ(muscle_lean_deg(mesh, mesh.points, view_pose(mesh.side, 0)), 0);
+}
+
+// The beam's direction and the image's axes as functions of the angle have one axis of rotation.
+TEST(Plates, ALargerAngleTurnsLeaningPlatesAboutTheAxisOfTheirPose) {
+  for (const Side side : {Side::left, Side::right}) {
+    const ViewPose pose = view_pose(side, 45, 20, 12);
+    constexpr double step = 1e-4;
+    const Vec3 turn = lateral_sign(side) * step * std::numbers::pi / 180 * pose.angle_axis;
+    const ViewPose more = view_pose(side, 45 + step, 20, 12);
+    EXPECT_LT((more.n - pose.n - turn.cross(pose.n)).norm(), 1e-11);
+    EXPECT_LT((more.e_u - pose.e_u - turn.cross(pose.e_u)).norm(), 1e-11);
+    EXPECT_LT((more.e_v - pose.e_v - turn.cross(pose.e_v)).norm(), 1e-11);
+  }
+}
+
 // Points of the cut are tissue: an edge of the image is measured from the chest wall alone.
 TEST(Plates, TheEdgeOfTheImageDoesNotSeeTheCut) {
   HexMesh mesh = fixtures::standing_block({50, 60, 40}, {5, 6, 4});

@@ -47,15 +47,18 @@ struct Outcome {
 };
 
 // Both plates turned by `degrees` of beam angle about their mid-line.
-PlatePair turned(PlatePair plates, Side side, double angle, double degrees) {
-  const ViewPose pose = view_pose(side, angle + degrees);
+PlatePair turned(PlatePair plates, const HexMesh& mesh, double degrees) {
+  const ContactRecord& contact = *mesh.contact;
+  const ViewPose pose = view_pose(mesh.side, contact.angle_deg + degrees, contact.turn_deg, contact.lean_deg);
   const Vec3 centre = 0.5 * (plates.paddle.origin() + plates.detector.origin());
   for (Plate* plate : {&plates.paddle, &plates.detector}) {
     const Vec3 arm = plate->origin() - centre;
     const Vec3 origin = centre + arm.dot(plate->n) * pose.n + arm.dot(plate->anterior) * pose.e_u +
                         arm.dot(plate->lateral) * pose.e_v;
     plate->n = pose.n;
+    plate->anterior = pose.e_u;
     plate->lateral = pose.e_v;
+    plate->edge_start = plate->mid_depth = origin.dot(pose.e_u);
     plate->level = origin.dot(pose.n);
     plate->lateral_centre = origin.dot(pose.e_v);
   }
@@ -78,7 +81,7 @@ Inputs changed(Inputs in, const Parameter& parameter, double by) {
       in.plates.detector.level -= by;
       break;
     case ParameterKind::angle:
-      in.plates = turned(in.plates, in.mesh.side, in.mesh.contact->angle_deg, by);
+      in.plates = turned(in.plates, in.mesh, by);
       break;
     default:
       ADD_FAILURE() << parameter.name;
@@ -126,10 +129,11 @@ Outcome press(const Inputs& in, const HexMesh& near) {
   return out;
 }
 
-/// A view, and how far the detector rises, mm.
+/// A view, how far the detector rises (mm), and by how many degrees the plates lean.
 struct Machine {
   View view;
   double detector_rise;
+  double lean_deg = 0;
 };
 
 class CompressedSensitivity : public testing::TestWithParam<Machine> {};
@@ -143,6 +147,7 @@ TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
   compression.view = GetParam().view;
   compression.angle_deg = view_angle_deg(GetParam().view);
   compression.plates.detector_rise = GetParam().detector_rise;
+  compression.plates.lean_deg = GetParam().lean_deg;
   compression.target = 35;
   ASSERT_TRUE(fixtures::compress_into(mesh, compression, in.options).converged());
   in.plates = recorded_plates(mesh);
@@ -257,9 +262,11 @@ INSTANTIATE_TEST_SUITE_P(Skin, PressedFacesSensitivity, testing::Values(0.0, 0.3
 constexpr double raised = std::numeric_limits<double>::infinity();
 INSTANTIATE_TEST_SUITE_P(
     Machines, CompressedSensitivity,
-    testing::Values(Machine{View::cc, raised}, Machine{View::mlo, raised}, Machine{View::cc, 0.0}),
+    testing::Values(Machine{View::cc, raised}, Machine{View::mlo, raised}, Machine{View::cc, 0.0},
+                    Machine{View::mlo, raised, 12}),
     [](const auto& test) {
-      return view_name(test.param.view) + (std::isinf(test.param.detector_rise) ? "" : "_detector_fixed");
+      return view_name(test.param.view) + (std::isinf(test.param.detector_rise) ? "" : "_detector_fixed") +
+             (test.param.lean_deg > 0 ? "_leaning" : "");
     });
 
 }  // namespace

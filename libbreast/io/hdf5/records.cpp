@@ -112,6 +112,7 @@ void put_contact(Document& document, const ContactRecord& contact) {
   }
   document.attributes[contact_group + "@paddle_share"] = array_of(contact.paddle_share);
   document.attributes[contact_group + "@turn_deg"] = array_of(contact.turn_deg);
+  document.attributes[contact_group + "@lean_deg"] = array_of(contact.lean_deg);
   document.attributes[contact_group + "@ends_image"] = array_of(contact.ends_image ? 1.0 : 0.0);
   document.attributes[contact_group + "@surface_stiffness"] = array_of(contact.surface_stiffness);
   auto& sets = document.datasets;
@@ -178,6 +179,9 @@ ContactRecord get_contact(Fields& fields) {
   // Plates of earlier versions were not turned and touched nodes.
   if (fields.has_attribute(contact_group + "@turn_deg")) {
     contact.turn_deg = fields.number(contact_group + "@turn_deg");
+  }
+  if (fields.has_attribute(contact_group + "@lean_deg")) {
+    contact.lean_deg = fields.number(contact_group + "@lean_deg");
   }
   if (fields.has_attribute(contact_group + "@ends_image")) {
     contact.ends_image = fields.number(contact_group + "@ends_image") != 0;
