@@ -154,7 +154,7 @@ void declare(Tool& tool, Choices& c) {
               "--image-edge, otherwise 0)",
               0, 2);
   tool.number(c.plate_step, "--plate-step", "MM",
-              "longest step by which the plates close (default: 0.095 of the initial thickness)",
+              "longest step by which the plates close (default: 0.07 of the initial thickness)",
               0.1, 1000);
   tool.choice(c.contact, "--contact", {"active-set", "al"},
               "contact algorithm: exact active set, or the paper's augmented Lagrangian");

@@ -127,13 +127,17 @@ PathOptions Compression::path_options() {
   PathOptions path = options_.path;
   if (options_.method == ContactMethod::surface) path.control_tolerance = faces_control_tolerance;
   if (options_.positioning == Positioning::hanging) return path;
-  path.prepare = [this, grip = grip()](double thickness) {
+  const Grip hand = grip();
+  path.prepare = [this, hand](double thickness) {
     const double reduction = 1 - thickness / found_.plates.initial_thickness;
-    body_.set_load(grip.weight.at(reduction) * load_ + (1 - grip.pull.at(reduction)) * pull_);
+    body_.set_load(hand.weight.at(reduction) * load_ + (1 - hand.pull.at(reduction)) * pull_);
   };
+  for (const double reduction : {hand.weight.ends, hand.pull.begins, hand.pull.ends}) {
+    path.corners.push_back((1 - reduction) * found_.plates.initial_thickness);
+  }
   if (!thickness_in(target())) return path;
-  path.may_end = [this, grip = grip()](double thickness) {
-    return grip.gone(1 - thickness / found_.plates.initial_thickness);
+  path.may_end = [this, hand](double thickness) {
+    return hand.gone(1 - thickness / found_.plates.initial_thickness);
   };
   return path;
 }

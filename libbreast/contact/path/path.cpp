@@ -6,6 +6,7 @@
 #include <deque>
 #include <optional>
 
+#include "contact/path/next_position.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 
@@ -13,8 +14,9 @@ namespace breast {
 
 namespace {
 
-/// Automatic step lengths as fractions of the initial thickness: 6 and 8 mm for a typical breast.
-constexpr double first_part = 0.07, longest_part = 0.095;
+/// Automatic length of the first and the longest step as a fraction of the initial thickness: 6 mm
+/// for a typical breast.
+constexpr double longest_part = 0.07;
 
 /// Steps longer than this fraction of the longest are abandoned if they begin badly.
 constexpr double fast_part = 0.3;
@@ -39,8 +41,7 @@ class Path {
        const NodalArea& area, const PathOptions& options, Progress& progress)
       : solver_(solver),
         plates_(plates),
-        thickness_(thickness_in(target)),
-        controls_(others_than_thickness(target)),
+        stops_{thickness_in(target), others_than_thickness(target), options.corners},
         area_(area),
         options_(options),
         progress_(progress),
@@ -61,14 +62,12 @@ class Path {
   bool be_patient();
   void drop_points_beyond_here();
   State predict(double thickness, bool extrapolate) const;
-  double next_thickness(double step) const;
   PathPoint force_point(const State& state, const ContactStep& step, double thickness) const;
   void tell(const PathPoint& point) const;
 
   ContactSolver& solver_;
   PlatePair& plates_;
-  std::optional<double> thickness_;          ///< the thickness at which the path ends at the latest
-  std::vector<CompressionTarget> controls_;  ///< the other targets
+  PathStops stops_;
   const NodalArea& area_;
   const PathOptions& options_;
   Progress& progress_;
@@ -86,7 +85,7 @@ class Path {
 const CompressionTarget* Path::passed(const PathPoint& point) const {
   const CompressionTarget* furthest = nullptr;
   double most = 1 + options_.control_tolerance;
-  for (const CompressionTarget& control : controls_) {
+  for (const CompressionTarget& control : stops_.controls) {
     const double part = measure(point, control.kind) / control.value;
     if (part >= most) most = part, furthest = &control;
   }
@@ -119,9 +118,9 @@ PathPoint Path::force_point(const State& state, const ContactStep& step, double 
 
 void Path::tell(const PathPoint& point) const {
   double fraction = -1;
-  if (thickness_ && start_thickness_ != *thickness_)
-    fraction = (start_thickness_ - point.thickness) / (start_thickness_ - *thickness_);
-  for (const CompressionTarget& control : controls_)
+  if (stops_.end && start_thickness_ != *stops_.end)
+    fraction = (start_thickness_ - point.thickness) / (start_thickness_ - *stops_.end);
+  for (const CompressionTarget& control : stops_.controls)
     fraction = std::max(fraction, std::min(1.0, measure(point, control.kind) / control.value));
   progress_.update(
       "compress", fraction,
@@ -170,36 +169,20 @@ State Path::predict(double thickness, bool extrapolate) const {
           here_.state.p + ratio * (here_.state.p - before_.state.p)};
 }
 
-double Path::next_thickness(double step) const {
-  double closing = step;
-  for (const CompressionTarget& control : controls_) {
-    // The force grows exponentially: the step should not overshoot the target by much.
-    const double now = measure(here_.point, control.kind);
-    const double then = have_before_ ? measure(before_.point, control.kind) : 0;
-    if (!(then > 0 && now > then)) continue;
-    const double growth = std::log(now / then) / (before_.thickness - here_.thickness);
-    closing = std::min(closing, std::max(0.5, std::log(1.15 * control.value / now) / growth));
-  }
-  if (!thickness_) return here_.thickness - closing;
-  const double left = *thickness_ - here_.thickness;
-  // Avoids a very short step just before the end.
-  if (std::abs(left) <= 1.25 * closing) return *thickness_;
-  return here_.thickness + std::copysign(closing, left);
-}
-
 bool Path::march() {
   const double size = plates_.initial_thickness;
-  double step = options_.first_step > 0 ? options_.first_step : first_part * size;
+  double step = options_.first_step > 0 ? options_.first_step : longest_part * size;
   const double longest = options_.longest_step > 0 ? options_.longest_step : longest_part * size;
   int failures_in_row = 0;
   result_.jump.reset();
   while (result_.solves < options_.most_solves) {
-    if (thickness_ && here_.thickness == *thickness_) {
-      result_.met = {TargetKind::thickness, *thickness_};
+    if (stops_.end && here_.thickness == *stops_.end) {
+      result_.met = {TargetKind::thickness, *stops_.end};
       return true;
     }
-    const double thickness = next_thickness(step);
-    if (!thickness_ && !(thickness > options_.least_thickness)) {
+    const double thickness = next_thickness(
+        step, here_.point, have_before_ ? &before_.point : nullptr, stops_);
+    if (!stops_.end && !(thickness > options_.least_thickness)) {
       result_.failed_thickness = thickness;
       result_.last_failure = NewtonStop::none;
       return false;

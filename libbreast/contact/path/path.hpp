@@ -27,6 +27,9 @@ struct PathOptions {
   /// Called with the thickness (mm) before each position is solved, to update whatever depends on
   /// it.
   std::function<void(double)> prepare;
+  /// Thicknesses (mm, decreasing) that a closing path does not step across, because the load that
+  /// `prepare` sets has a corner there.
+  std::vector<double> corners;
   /// Whether a target other than a thickness may end the path when the plates are this far apart
   /// (mm). If empty, it may do so anywhere.
   std::function<bool(double)> may_end;
