@@ -15,6 +15,13 @@ constexpr double much_oscillation = 0.5;
 /// Fraction of the skin's area; below it there are only one or two folds at a rim or at the edge of
 /// a plate.
 constexpr double much_wrinkling = 0.02;
+/// Wrinkles as long as the breast is deep: the formula holds for skin on an infinitely deep body.
+constexpr double longest_meaningful_mm = 100;
+
+std::string length_of_wrinkles(double mm) {
+  if (mm > longest_meaningful_mm) return message("longer than ", longest_meaningful_mm, " mm");
+  return message("up to ", std::round(mm), " mm");
+}
 }  // namespace
 
 void check_fields(const Scene& scene, Equilibrium& equilibrium) {
@@ -40,8 +47,8 @@ void check_fields(const Scene& scene, Equilibrium& equilibrium) {
     equilibrium.doubts.push_back(
         message("the skin is compressed enough to wrinkle over two elements or more on ",
                 std::round(1000 * equilibrium.skin.wrinkling_share) / 10,
-                " % of its area (wrinkles up to ", std::round(equilibrium.skin.longest_wrinkle_mm),
-                " mm): the folds there depend on the mesh"));
+                " % of its area (wrinkles ", length_of_wrinkles(equilibrium.skin.longest_wrinkle_mm),
+                "): the folds there depend on the mesh"));
   }
 }
 

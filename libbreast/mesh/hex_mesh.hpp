@@ -70,8 +70,8 @@ struct ContactRecord {
   bool ends_image = false;
   /// Stiffness of the plates against faces, Pa/mm; 0: exact contact at nodes.
   double surface_stiffness = 0;
-  /// Which of its sets of points every touchable face was integrated with; empty in files that lack
-  /// it.
+  /// The number of the set of quadrature points of every face that may touch; empty in files that
+  /// lack it.
   std::vector<int> face_rules;
   double thickness_mm = 0, reduction_percent = 0, initial_thickness_mm = 0, standoff_mm = 0;
   std::vector<PlateRecord> plates;

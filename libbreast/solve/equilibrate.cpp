@@ -217,6 +217,23 @@ NewtonDirection TangentSystem::solve(double volume_accuracy, int restarts) {
 // nodes back would strain their elements. The body therefore follows them with preserved volumes,
 // in the norm of the tangent: a second-order correction (Nocedal and Wright, Numerical
 // Optimization, section 15.6). Returns false if a node has left the surface.
+void TangentSystem::change(const std::vector<const Term*>& terms,
+                           const std::function<void()>& what) {
+  const auto of_terms = [&] {
+    Forces part;
+    part.r = part.augmented = Eigen::VectorXd::Zero(forces_.r.size());
+    Request request;
+    request.kappa = &matrix_.kappa;  // requests the augmented forces too
+    for (const Term* term : terms) term->add(state_, request, part);
+    return part;
+  };
+  const Forces before = of_terms();
+  what();
+  const Forces after = of_terms();
+  forces_.r += after.r - before.r;
+  if (forces_.augmented.size() > 0) forces_.augmented += after.augmented - before.augmented;
+}
+
 bool TangentSystem::follow_surface(double length, State& trial) const {
   const SlidingNodes* sliding = problem_.sliding();
   if (sliding == nullptr) return true;

@@ -60,6 +60,8 @@ class TangentSystem : public NewtonSystem {
   Factorisation factorise(const Constraints& constraints, bool may_shift = true);
   /// Solves for the direction with the present forces and the last factor.
   NewtonDirection solve(double volume_accuracy, int restarts);
+  /// Makes a change that alters only the forces of these terms, and updates the forces.
+  void change(const std::vector<const Term*>& terms, const std::function<void()>& what);
   double along(const Eigen::VectorXd& gradient) const { return step_.u.dot(gradient); }
 
   const Problem& problem_;

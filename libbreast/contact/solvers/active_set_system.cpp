@@ -94,21 +94,12 @@ bool ActiveSet::System::balanced(const Sweep& sweep) const {
 
 /// Changes the memory and updates the terms and the present forces.
 void ActiveSet::System::change(const std::function<void()>& what) {
-  const auto of_plates = [&] {
-    Forces part;
-    part.r = part.augmented = Eigen::VectorXd::Zero(forces_.r.size());
-    Request request;
-    request.kappa = &matrix_.kappa;  // requests the augmented forces too
-    owner_.plate_->add(state_, request, part);
-    if (owner_.friction_ != nullptr) owner_.friction_->add(state_, request, part);
-    return part;
-  };
-  const Forces before = of_plates();
-  what();
-  owner_.set_terms(PlatePair(owner_.plates_));
-  const Forces after = of_plates();
-  forces_.r += after.r - before.r;
-  if (forces_.augmented.size() > 0) forces_.augmented += after.augmented - before.augmented;
+  std::vector<const Term*> terms = {owner_.plate_.get()};
+  if (owner_.friction_ != nullptr) terms.push_back(owner_.friction_.get());
+  TangentSystem::change(terms, [&] {
+    what();
+    owner_.set_terms(PlatePair(owner_.plates_));
+  });
 }
 
 /// If the state is balanced well enough for its normal forces to be meaningful, uses μλ as the

@@ -112,19 +112,7 @@ bool SurfaceContact::System::follow_bounds(double residual) {
   const bool close = lag_ <= (on_the_way ? way_bounds_tolerance : bounds_tolerance);
   if (close || residual > std::max(tolerance_, balance_to_follow * lag_)) return false;
   if (++followed_ > most_bounds) return false;
-  Request request;
-  request.kappa = &matrix_.kappa;  // requests the augmented forces too
-  const auto friction = [&] {
-    Forces part;
-    part.r = part.augmented = Eigen::VectorXd::Zero(forces_.r.size());
-    owner_.friction_->add(state_, request, part);
-    return part;
-  };
-  const Forces before = friction();
-  owner_.adopt(std::move(bounds), state_);
-  const Forces after = friction();
-  forces_.r += after.r - before.r;
-  if (forces_.augmented.size() > 0) forces_.augmented += after.augmented - before.augmented;
+  change({owner_.friction_.get()}, [&] { owner_.adopt(std::move(bounds), state_); });
   return true;
 }
 
