@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "contact/path/next_position.hpp"
+#include "contact/path/path_point.hpp"
 #include "core/error.hpp"
-#include "core/units.hpp"
 
 namespace breast {
 
@@ -20,6 +20,10 @@ constexpr double longest_part = 0.07;
 
 /// Steps longer than this fraction of the longest are abandoned if they begin badly.
 constexpr double fast_part = 0.3;
+
+/// Largest residual of the states among which a force, pressure or area is sought: faces may lie
+/// deeper in the plates before, and forces and areas of such states differ by several per cent.
+constexpr double sought_tolerance = 1e-6;
 
 /// Plate positions closer than this count as equal, mm.
 constexpr double narrowest_bracket = 1e-4;
@@ -54,6 +58,7 @@ class Path {
   const CompressionTarget* passed(const PathPoint& point) const;
   bool march();
   bool end_at(const CompressionTarget& target, Waypoint reached);
+  bool sharpen_before(const CompressionTarget& target, Waypoint& high);
   bool refine_control(const CompressionTarget& target, const Waypoint& before, Waypoint high);
   bool attempt(const State& guess, const ContactMemory& memory, double thickness, double tolerance,
                Waypoint& reached);
@@ -61,8 +66,8 @@ class Path {
   bool step_back();
   bool be_patient();
   void drop_points_beyond_here();
+  void drop_repeated_point();
   State predict(double thickness, bool extrapolate) const;
-  PathPoint force_point(const State& state, const ContactStep& step, double thickness) const;
   void tell(const PathPoint& point) const;
 
   ContactSolver& solver_;
@@ -90,30 +95,6 @@ const CompressionTarget* Path::passed(const PathPoint& point) const {
     if (part >= most) most = part, furthest = &control;
   }
   return furthest;
-}
-
-PathPoint Path::force_point(const State& state, const ContactStep& step, double thickness) const {
-  PathPoint point;
-  point.thickness = thickness;
-  point.iterations = int(step.iterations.size());
-  const std::vector<double> area = area_(state);
-  double paddle_area = 0;
-  for (std::size_t c = 0; c < step.contacts.size(); ++c) {
-    const NodalContact& contact = step.contacts[c];
-    if (contact.plate < 0) continue;
-    const Vec3 x = state.x.segment<3>(3L * solver_.candidates()[c]);
-    const Plate& plate = plates_.plate(contact.plate);
-    const double along =
-        (contact.normal * plate.gap(x).gradient + contact.tangential).dot(plate.normal());
-    (contact.plate == 0 ? point.paddle_N : point.detector_N) += along / micronewton_per_newton;
-    if (contact.plate == 0 && contact.normal > 0) paddle_area += area[c];
-  }
-  point.area_cm2 = paddle_area / mm2_per_cm2;
-  if (paddle_area > 0) {
-    point.pressure_kPa =
-        point.paddle_N * micronewton_per_newton / paddle_area / pascal_per_kilopascal;
-  }
-  return point;
 }
 
 void Path::tell(const PathPoint& point) const {
@@ -154,7 +135,8 @@ bool Path::attempt(const State& guess, const ContactMemory& memory, double thick
     result_.failed_trial = step.failed_trial;
     return false;
   }
-  const PathPoint point = force_point(state, step, thickness);
+  PathPoint point = path_point(solver_, plates_, state, step, area_(state));
+  point.thickness = thickness;  // to the last digit, as the path compares it
   tell(point);
   result_.final_step = std::move(step);
   reached = {std::move(state), solver_.memory(), thickness, point};
@@ -228,14 +210,35 @@ bool Path::march() {
 /// Refines the end between the last state and one beyond the target; takes the latter if the path
 /// could not end earlier.
 bool Path::end_at(const CompressionTarget& target, Waypoint reached) {
-  const bool between = !options_.may_end || options_.may_end(here_.thickness);
-  if (between && measure(here_.point, target.kind) < target.value)
-    return refine_control(target, here_, std::move(reached));
+  if (sharpen_before(target, reached)) return refine_control(target, here_, std::move(reached));
   result_.met = target;
   result_.passed_by = measure(reached.point, target.kind);
   before_ = std::move(here_);
   here_ = std::move(reached);
   return true;
+}
+
+/// Solves the last state accurately, and those before it until one lies before the target; `high`
+/// becomes the first accurate one beyond it. Returns false if there is none before the target at
+/// which the path may end.
+bool Path::sharpen_before(const CompressionTarget& target, Waypoint& high) {
+  const auto may_end_here = [&] {
+    return (!options_.may_end || options_.may_end(here_.thickness)) &&
+           measure(here_.point, target.kind) < target.value;
+  };
+  while (may_end_here()) {
+    Waypoint sharp;
+    const double tolerance = std::min(tolerance_, sought_tolerance);
+    if (!attempt(here_.state, here_.memory, here_.thickness, tolerance, sharp)) return true;
+    drop_repeated_point();
+    if (measure(sharp.point, target.kind) < target.value) {
+      here_ = std::move(sharp);
+      return true;
+    }
+    high = std::move(sharp);
+    if (!step_back()) return false;
+  }
+  return false;
 }
 
 /// Bracketed secant method (Illinois) on the thickness between a state before the target and one
@@ -272,7 +275,8 @@ bool Path::refine_control(const CompressionTarget& target, const Waypoint& befor
                 (1 - w) * low.state.p + w * high.state.p};
     Waypoint middle;
     // The memory of a state beyond the target is not used, because friction would keep it.
-    if (!attempt(guess, low.memory, thickness, tolerance_, middle)) {
+    const double tolerance = std::min(tolerance_, sought_tolerance);
+    if (!attempt(guess, low.memory, thickness, tolerance, middle)) {
       here_ = low;
       return false;
     }
@@ -294,6 +298,14 @@ bool Path::refine_control(const CompressionTarget& target, const Waypoint& befor
 void Path::drop_points_beyond_here() {
   while (!result_.points.empty() && result_.points.back().thickness != here_.thickness) {
     result_.points.pop_back();
+  }
+}
+
+/// An accurate solve repeats the last point of the path.
+void Path::drop_repeated_point() {
+  const std::size_t n = result_.points.size();
+  if (n >= 2 && result_.points[n - 2].thickness == result_.points[n - 1].thickness) {
+    result_.points.erase(result_.points.end() - 2);
   }
 }
 
@@ -335,11 +347,7 @@ bool Path::finish() {
     Waypoint reached;
     if (attempt(here_.state, here_.memory, here_.thickness, options_.tolerance, reached)) {
       here_ = std::move(reached);
-      // The accurate solve repeats the last point of the path.
-      const std::size_t n = result_.points.size();
-      if (n >= 2 && result_.points[n - 2].thickness == here_.thickness) {
-        result_.points.erase(result_.points.end() - 2);
-      }
+      drop_repeated_point();
       return last;
     }
     if (!step_back()) {
