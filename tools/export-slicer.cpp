@@ -94,7 +94,7 @@ void run_export(const Choices& c, Run& run) {
   std::vector<SceneItem> items;
   {
     const Timer::Scope phase(run.timer(), "write");
-    items = write_shapes(folder.temporary(), slicer_run, run.history(slicer_run.inputs));
+    items = write_shapes(folder.temporary(), slicer_run, run.history(slicer_run.inputs()));
   }
   if (!c.no_fields) {
     const FieldOptions options{c.spacing.value_or(0)};

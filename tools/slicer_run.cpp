@@ -55,10 +55,21 @@ void read_scan(const fs::path& file, int series, SlicerRun& result) {
   VolumeSource source;
   result.scan = read_volume(file, series, &source);
   check_lineage(result, file, source.content_sha256);
-  result.inputs.push_back({file, source.content_sha256, nullptr});
+  result.scan_file = file;
+  result.scan_sha256 = source.content_sha256;
 }
 
 }  // namespace
+
+std::vector<Run::Input> SlicerRun::inputs() const {
+  std::vector<Run::Input> list{{labels_file, labels.content_sha256, &labels.history}};
+  if (curve) list.push_back({curve_file, curve->content_sha256, &curve->history});
+  if (scan) list.push_back({scan_file, scan_sha256, nullptr});
+  for (const RunState& state : states) {
+    list.push_back({state.file, state.mesh.content_sha256, &state.mesh.history});
+  }
+  return list;
+}
 
 SlicerRun read_run(const fs::path& folder, const fs::path& scan, int series, Run& run) {
   if (!fs::is_directory(folder)) {
@@ -73,9 +84,8 @@ SlicerRun read_run(const fs::path& folder, const fs::path& scan, int series, Run
     }
   }
   SlicerRun result;
-  const fs::path labels = folder / "labels.vtkhdf";
-  result.labels = read_labels(labels);
-  result.inputs.push_back({labels, result.labels.content_sha256, &result.labels.history});
+  result.labels_file = folder / "labels.vtkhdf";
+  result.labels = read_labels(result.labels_file);
   for (const Kind& kind : kinds) {
     const fs::path file = folder / (std::string(kind.file) + ".vtkhdf");
     if (!fs::is_regular_file(file)) continue;
@@ -85,12 +95,9 @@ SlicerRun read_run(const fs::path& folder, const fs::path& scan, int series, Run
   }
   if (const fs::path curve = folder / "curve.vtp"; fs::is_regular_file(curve)) {
     result.curve = read_polylines(curve);
-    result.inputs.push_back({curve, result.curve->content_sha256, &result.curve->history});
+    result.curve_file = curve;
   }
   if (!scan.empty()) read_scan(scan, series, result);
-  for (const RunState& state : result.states) {
-    result.inputs.push_back({state.file, state.mesh.content_sha256, &state.mesh.history});
-  }
   return result;
 }
 

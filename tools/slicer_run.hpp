@@ -27,9 +27,12 @@ struct SlicerRun {
   std::vector<RunState> states;  ///< prone first, then the other available states
   std::optional<PolyLines> curve;
   std::optional<Volume<float>> scan;
-  std::vector<Run::Input> inputs;
+  std::filesystem::path labels_file, curve_file, scan_file;
+  std::string scan_sha256;
 
   const RunState& prone() const { return states.front(); }
+  /// What was read; it points into this object, and is therefore made anew for every caller.
+  std::vector<Run::Input> inputs() const;
 };
 
 /// Reads labels and mesh, and reference, supine, cc, mlo and curve.vtp if they exist; `scan` may be

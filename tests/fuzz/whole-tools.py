@@ -13,14 +13,16 @@ Case files are read on behalf of make (libbreast/cases) and are fuzzed here: `ma
 chain of a damaged one, with the programs in BIN and, for those it has not, of build/release. What share of
 the damaged files was accepted is a column of the table: near 0 or 100, the damage reaches too little or changes nothing. A file
 whose program was not built is left out with a line, and the row does not name that program. SIGTERM ends a campaign early: the
-row says how many inputs there were. BIN/released-objects.txt, where there is one, states which objects of these programs are
-without sanitizers. No more than the standard library is needed.
+row says how many inputs there were; BREAST_FIRST_INPUT=n continues it, with the damage of the n-th input and after.
+BIN/released-objects.txt, where there is one, states which objects of these programs are without sanitizers. No more than the
+standard library is needed.
 """
 import base64, glob, gzip, hashlib, os, random, re, shutil, signal, struct, subprocess, sys, time, zlib
 
 BIN, INPUTS = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 COUNT = int(sys.argv[3]) if len(sys.argv) > 3 else 2000
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+FIRST = int(os.environ.get('BREAST_FIRST_INPUT', '0'))
 SANITIZED = b'__asan_init' in open(os.path.join(BIN, 'probe'), 'rb').read()
 MOST_KB = (4 if SANITIZED else 1) * 1024 * 1024
 PARTLY = os.path.exists(os.path.join(BIN, 'released-objects.txt'))
@@ -334,7 +336,7 @@ def fuzz(name, work):
     start = time.time()
     n = 0
     while n < COUNT and not stopped:
-        r = random.Random('%s %d' % (name, n))
+        r = random.Random('%s %d' % (name, FIRST + n))
         whole = n < len(ways)
         seed, line, _ = ways[n] if whole else r.choices(ways, [weight for _, _, weight in ways])[0]
         content = data[seed] if whole else damage(r, data[seed])
@@ -356,7 +358,7 @@ def fuzz(name, work):
             kind = re.sub(r'[0-9a-fx]{6,}|\d+', '#', wrong)[:120]
             found[kind] = found.get(kind, 0) + 1
             if found[kind] <= 5:
-                keep(os.path.join(INPUTS, 'findings', '%s-%d' % (name, n)), ending(seed), content, wrong, err, work)
+                keep(os.path.join(INPUTS, 'findings', '%s-%d' % (name, FIRST + n)), ending(seed), content, wrong, err, work)
         n += 1
     percent = '%.1f' % (100 * accepted / max(damaged_ones, 1))
     print('%-16s %5d inputs, %s %% of the damaged accepted, %d findings, slowest %.1f s, most %d MB, %.0f s in all' %

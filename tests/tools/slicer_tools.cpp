@@ -25,8 +25,10 @@
 #include "fixtures/chain_files.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
+#include "io/label_file.hpp"
 #include "io/markups_file.hpp"
 #include "io/segmentation_file.hpp"
+#include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
 
 namespace breast {
@@ -64,6 +66,10 @@ class SlicerExport : public ::testing::Test {
     folder_ = new ScratchFolder;
     fs::create_directory(at() / "run");
     fixtures::write_chain(at() / "run", 6);
+    LabelVolume labels = read_labels(at() / "run/labels.vtkhdf");
+    labels.history = {{"segment", "test", "segment scan.nrrd", {}}};
+    fs::remove(at() / "run/labels.vtkhdf");
+    write_labels(at() / "run/labels.vtkhdf", labels);
     said_ = run_line("export-slicer run out --spacing 2 --report report.json --threads 1", at());
   }
   static void TearDownTestSuite() { delete folder_; }
@@ -100,6 +106,15 @@ TEST_F(SlicerExport, SceneNamesFilesThatAreThere) {
     const std::string name = entry.path().filename().string();
     EXPECT_TRUE(files.count(name) || name == "scene.mrml" || name.ends_with("-part.nrrd")) << name;
   }
+}
+
+// What the labels alone know must come along: their history was once read from an object that was gone.
+TEST_F(SlicerExport, ShapesKeepTheHistoryOfLabelsAndMesh) {
+  std::set<std::string> tools;
+  for (const HistoryEntry& entry : read_surface(at() / "out/prone-skin.vtp").history) {
+    tools.insert(entry.tool);
+  }
+  EXPECT_EQ(tools, (std::set<std::string>{"segment", "hexmesh", "export-slicer"}));
 }
 
 TEST_F(SlicerExport, ItkMovesPointsAsTheMeshDoes) {

@@ -331,6 +331,37 @@ TEST(VtkFiles, DamageNeverCrashes) {
   expect_unsealed_damage_survived(folder / "m.vti", [](const auto& file) { read_mammogram(file); });
 }
 
+// VTK would allocate what the header of a compressed array states: here 2^32 - 1 blocks, a block that exceeds the file,
+// one that its few bytes cannot become, and one with fewer bytes than the points take.
+TEST(VtkFiles, ImpossibleCompressionHeadersAreRefusedBeforeVtk) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder / "surface.vtp";
+  write_surface(file, some_surface());
+  std::string text = read_text(file);
+  const auto seal = text.find("<!-- sha256");
+  text.erase(seal, text.find("-->", seal) + 3 - seal);
+  const auto points = text.find("<DataArray", text.find("<Points>"));
+  const auto at = text.find_first_not_of(" \n", text.find('>', points) + 1);
+  const auto refusal = [&](const std::string& header) {
+    const std::string damaged = text.substr(0, at) + header + text.substr(at + header.size());
+    std::ofstream(file) << damaged;
+    try {
+      read_surface(file);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(refusal(text.substr(at, 4)), "accepted");  // the seal alone is gone
+  EXPECT_NE(refusal("/////wCAAABgAAAAQAAAAA==").find("more blocks than it has bytes"),
+            std::string::npos);
+  EXPECT_NE(refusal("AQAAAACAAABgAAAA/////w==").find("blocks longer than its text"),
+            std::string::npos);
+  EXPECT_NE(refusal("AQAAAACAAP8AAAAAMAAAAA==").find("larger than their bytes can become"),
+            std::string::npos);
+  EXPECT_NE(refusal("AQAAAACAAAAQAAAAMAAAAA==").find("fewer bytes than values"), std::string::npos);
+}
+
 TEST(VtkFiles, AFailedWriteLeavesTheOldFile) {
   const ScratchFolder folder;
   write_mammogram(folder / "m.vti", some_mammogram());

@@ -12,6 +12,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/provenance.hpp"
+#include "io/vtk/array_check.hpp"
 
 namespace breast {
 
@@ -33,9 +34,9 @@ std::string sha_of(std::string_view text) {
 
 // VTK's parser accepts a cut file up to a point and then reads what is not there, and
 // follows damaged compression headers out of its buffers, so frame and seal are checked
-// before VTK sees the file.
-void check_frame(const fs::path& file, const std::string& type) {
-  const std::string text = read_text(file);
+// before VTK sees the file. Returns its text.
+std::string check_frame(const fs::path& file, const std::string& type) {
+  std::string text = read_text(file);
   const std::string_view head = std::string_view(text).substr(0, 4096);
   if (head.find("<VTKFile") == std::string_view::npos) {
     throw input_error(file.string(), ": not a VTK XML file (no <VTKFile> in its first 4096 bytes)");
@@ -50,7 +51,7 @@ void check_frame(const fs::path& file, const std::string& type) {
                       " bytes)");
   }
   const auto seal = text.rfind(seal_open);
-  if (seal == std::string::npos) return;  // another program's file
+  if (seal == std::string::npos) return text;  // another program's file
   const std::string rest = text.substr(seal + seal_open.size());
   const std::string expected = sha_of(std::string_view(text).substr(0, seal));
   if (rest.compare(0, 64, expected) != 0 || rest.compare(64, seal_close.size(), seal_close) != 0) {
@@ -58,6 +59,7 @@ void check_frame(const fs::path& file, const std::string& type) {
                       ": damaged or changed since it was written (its sha256 line does not "
                       "match; delete that line if the change was intended)");
   }
+  return text;
 }
 
 bool one_of(const char* value, std::initializer_list<std::string_view> choices) {
@@ -127,7 +129,7 @@ std::string sealed_xml(std::string text) {
 }
 
 void check_xml(const fs::path& file, const std::string& type) {
-  check_frame(file, type);
+  const std::string text = check_frame(file, type);
   vtkNew<vtkXMLDataParser> parser;
   parser->SetFileName(file.c_str());
   if (parser->Parse() != 1 || parser->GetRootElement() == nullptr) {
@@ -141,6 +143,8 @@ void check_xml(const fs::path& file, const std::string& type) {
   if (!bad.empty()) {
     throw input_error(file.string(), ": damaged (a ", bad, " element has impossible attributes)");
   }
+  const std::string wrong = impossible_array(parser->GetRootElement(), text);
+  if (!wrong.empty()) throw input_error(file.string(), ": damaged (an array has ", wrong, ")");
 }
 
 }  // namespace breast
