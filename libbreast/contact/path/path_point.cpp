@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/path/path_point.hpp"
+
+#include "core/units.hpp"
+
+namespace breast {
+
+PathPoint path_point(const ContactSolver& solver, const PlatePair& plates, const State& state,
+                     const ContactStep& step, const std::vector<double>& area) {
+  PathPoint point;
+  point.thickness = plates.thickness();
+  point.iterations = int(step.iterations.size());
+  double paddle_area = 0;
+  for (std::size_t c = 0; c < step.contacts.size(); ++c) {
+    const NodalContact& contact = step.contacts[c];
+    if (contact.plate < 0) continue;
+    const Vec3 x = state.x.segment<3>(3L * solver.candidates()[c]);
+    const Plate& plate = plates.plate(contact.plate);
+    const double along =
+        (contact.normal * plate.gap(x).gradient + contact.tangential).dot(plate.normal());
+    (contact.plate == 0 ? point.paddle_N : point.detector_N) += along / micronewton_per_newton;
+    if (contact.plate == 0 && contact.normal > 0) paddle_area += area[c];
+  }
+  point.area_cm2 = paddle_area / mm2_per_cm2;
+  if (paddle_area > 0) {
+    point.pressure_kPa =
+        point.paddle_N * micronewton_per_newton / paddle_area / pascal_per_kilopascal;
+  }
+  return point;
+}
+
+}  // namespace breast

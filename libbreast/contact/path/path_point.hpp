@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Forces, area and mean pressure of the plates in a converged state of the path.
+#pragma once
+
+#include <vector>
+
+#include "contact/path/target.hpp"
+#include "contact/plates.hpp"
+#include "contact/solvers/solver.hpp"
+
+namespace breast {
+
+/// `area`: deformed area (mm²) of every candidate of the solver; the paddle's contact area is that
+/// of the candidates on which it presses.
+PathPoint path_point(const ContactSolver& solver, const PlatePair& plates, const State& state,
+                     const ContactStep& step, const std::vector<double>& area);
+
+}  // namespace breast
