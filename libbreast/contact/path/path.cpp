@@ -21,8 +21,8 @@ constexpr double longest_part = 0.07;
 /// Steps longer than this fraction of the longest are abandoned if they begin badly.
 constexpr double fast_part = 0.3;
 
-/// Largest residual of the states among which a force, pressure or area is sought: faces may lie
-/// deeper in the plates before, and forces and areas of such states differ by several per cent.
+/// Largest residual of the states among which a force, pressure or area is sought: with faces as deep
+/// in the plates as on the way, they would differ by several per cent.
 constexpr double sought_tolerance = 1e-6;
 
 /// Plate positions closer than this count as equal, mm.
@@ -58,15 +58,15 @@ class Path {
   const CompressionTarget* passed(const PathPoint& point) const;
   bool march();
   bool end_at(const CompressionTarget& target, Waypoint reached);
+  bool end_at_thickness();
+  bool sharpen(Waypoint& sharp);
   bool sharpen_before(const CompressionTarget& target, Waypoint& high);
-  bool refine_control(const CompressionTarget& target, const Waypoint& before, Waypoint high);
+  bool refine_control(const CompressionTarget& target, Waypoint high);
   bool attempt(const State& guess, const ContactMemory& memory, double thickness, double tolerance,
                Waypoint& reached);
   bool finish();
   bool step_back();
   bool be_patient();
-  void drop_points_beyond_here();
-  void drop_repeated_point();
   State predict(double thickness, bool extrapolate) const;
   void tell(const PathPoint& point) const;
 
@@ -158,10 +158,7 @@ bool Path::march() {
   int failures_in_row = 0;
   result_.jump.reset();
   while (result_.solves < options_.most_solves) {
-    if (stops_.end && here_.thickness == *stops_.end) {
-      result_.met = {TargetKind::thickness, *stops_.end};
-      return true;
-    }
+    if (stops_.end && here_.thickness == *stops_.end) return end_at_thickness();
     const double thickness = next_thickness(
         step, here_.point, have_before_ ? &before_.point : nullptr, stops_);
     if (!stops_.end && !(thickness > options_.least_thickness)) {
@@ -210,11 +207,31 @@ bool Path::march() {
 /// Refines the end between the last state and one beyond the target; takes the latter if the path
 /// could not end earlier.
 bool Path::end_at(const CompressionTarget& target, Waypoint reached) {
-  if (sharpen_before(target, reached)) return refine_control(target, here_, std::move(reached));
+  if (sharpen_before(target, reached)) return refine_control(target, std::move(reached));
   result_.met = target;
   result_.passed_by = measure(reached.point, target.kind);
   before_ = std::move(here_);
   here_ = std::move(reached);
+  return true;
+}
+
+/// Solves the last state more accurately.
+bool Path::sharpen(Waypoint& sharp) {
+  const double tolerance = std::min(tolerance_, sought_tolerance);
+  if (!attempt(here_.state, here_.memory, here_.thickness, tolerance, sharp)) return false;
+  drop_repeated_point(result_.points);
+  return true;
+}
+
+/// Ends at the last state, unless its accurate solution lies beyond another target.
+bool Path::end_at_thickness() {
+  Waypoint sharp;
+  if (!stops_.controls.empty() && sharpen(sharp)) {
+    const CompressionTarget* target = passed(sharp.point);
+    if (target != nullptr && step_back()) return end_at(*target, std::move(sharp));
+    here_ = std::move(sharp);
+  }
+  result_.met = {TargetKind::thickness, *stops_.end};
   return true;
 }
 
@@ -228,9 +245,7 @@ bool Path::sharpen_before(const CompressionTarget& target, Waypoint& high) {
   };
   while (may_end_here()) {
     Waypoint sharp;
-    const double tolerance = std::min(tolerance_, sought_tolerance);
-    if (!attempt(here_.state, here_.memory, here_.thickness, tolerance, sharp)) return true;
-    drop_repeated_point();
+    if (!sharpen(sharp)) return true;
     if (measure(sharp.point, target.kind) < target.value) {
       here_ = std::move(sharp);
       return true;
@@ -244,8 +259,8 @@ bool Path::sharpen_before(const CompressionTarget& target, Waypoint& high) {
 /// Bracketed secant method (Illinois) on the thickness between a state before the target and one
 /// beyond it; interpolated initial states keep each solve short. A state that then lies beyond
 /// another target moves the end to that target.
-bool Path::refine_control(const CompressionTarget& target, const Waypoint& before, Waypoint high) {
-  Waypoint low = before;
+bool Path::refine_control(const CompressionTarget& target, Waypoint high) {
+  Waypoint low = here_;
   const auto beyond = [&](const Waypoint& w) {
     return measure(w.point, target.kind) - target.value;
   };
@@ -257,13 +272,13 @@ bool Path::refine_control(const CompressionTarget& target, const Waypoint& befor
       const CompressionTarget* other = passed(best.point);
       if (met && other != nullptr && other != &target) {
         const Waypoint from = best;
-        return refine_control(*other, before, from);
+        return refine_control(*other, from);
       }
-      // The positions are equal, with the target between them: a node comes into contact, or the
-      // body snaps through. The nearer one is returned and said to be off its target.
-      if (!met) {
+      // The positions are equal, with the target between them: a node comes into contact, so that
+      // only the area changes, or the body snaps through, which is said.
+      const double force = std::abs(low.point.paddle_N - high.point.paddle_N);
+      if (!met && force > options_.control_tolerance * best.point.paddle_N)
         result_.jump = {measure(low.point, target.kind), measure(high.point, target.kind)};
-      }
       result_.met = target;
       before_ = low;
       here_ = best;
@@ -295,20 +310,6 @@ bool Path::refine_control(const CompressionTarget& target, const Waypoint& befor
   return false;
 }
 
-void Path::drop_points_beyond_here() {
-  while (!result_.points.empty() && result_.points.back().thickness != here_.thickness) {
-    result_.points.pop_back();
-  }
-}
-
-/// An accurate solve repeats the last point of the path.
-void Path::drop_repeated_point() {
-  const std::size_t n = result_.points.size();
-  if (n >= 2 && result_.points[n - 2].thickness == result_.points[n - 1].thickness) {
-    result_.points.erase(result_.points.end() - 2);
-  }
-}
-
 /// Returns to the previous waypoint; false if the path is at its start.
 bool Path::step_back() {
   if (have_before_) {
@@ -318,7 +319,7 @@ bool Path::step_back() {
   } else {
     return false;
   }
-  drop_points_beyond_here();
+  drop_points_beyond(here_.thickness, result_.points);
   have_before_ = !trail_.empty() && trail_.back().state.x.size() > 0;
   if (have_before_) {
     before_ = std::move(trail_.back());
@@ -335,7 +336,7 @@ bool Path::be_patient() {
   here_ = *first_haste_;
   have_before_ = false;
   trail_.clear();
-  drop_points_beyond_here();
+  drop_points_beyond(here_.thickness, result_.points);
   return true;
 }
 
@@ -347,7 +348,7 @@ bool Path::finish() {
     Waypoint reached;
     if (attempt(here_.state, here_.memory, here_.thickness, options_.tolerance, reached)) {
       here_ = std::move(reached);
-      drop_repeated_point();
+      drop_repeated_point(result_.points);
       return last;
     }
     if (!step_back()) {

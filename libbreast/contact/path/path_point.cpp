@@ -29,4 +29,13 @@ PathPoint path_point(const ContactSolver& solver, const PlatePair& plates, const
   return point;
 }
 
+void drop_points_beyond(double thickness, std::vector<PathPoint>& points) {
+  while (!points.empty() && points.back().thickness != thickness) points.pop_back();
+}
+
+void drop_repeated_point(std::vector<PathPoint>& points) {
+  const std::size_t n = points.size();
+  if (n >= 2 && points[n - 2].thickness == points[n - 1].thickness) points.erase(points.end() - 2);
+}
+
 }  // namespace breast

@@ -15,4 +15,9 @@ namespace breast {
 PathPoint path_point(const ContactSolver& solver, const PlatePair& plates, const State& state,
                      const ContactStep& step, const std::vector<double>& area);
 
+/// Drops the last points up to one of this thickness (mm).
+void drop_points_beyond(double thickness, std::vector<PathPoint>& points);
+/// Drops the last but one of two points of equal thickness: an accurate solve repeats a point.
+void drop_repeated_point(std::vector<PathPoint>& points);
+
 }  // namespace breast

@@ -22,7 +22,7 @@ constexpr double latest_part = 0.5;
 /// Friction takes over the pull between these fractions of the reduction.
 constexpr double pull_begins_part = 0.6, pull_ends_part = 0.9;
 /// The fractions are smaller if another target may end the path before that reduction.
-constexpr double early_begins_part = 0.4, early_ends_part = 0.7;
+constexpr double early_begins_part = 0.5, early_ends_part = 0.8;
 /// Depth from the edge over which the traction of the hand rises, mm.
 constexpr double pull_ramp_mm = 20;
 /// Tissue closer to the edge than this counts as at the edge, mm.
