@@ -103,6 +103,15 @@ TEST_F(CompressTool, PlacesThePlatesByTheEdgeOfTheImage) {
   EXPECT_FALSE(mesh.contact->friction.empty());
 }
 
+// On the way, faces lie deeper in the plates and the force is smaller.
+TEST_F(CompressTool, EndsAtTheForceThatWasAskedFor) {
+  const ToolResult good = compress(
+      {"CC", "--reduction", "25", "--force", "2000", "--image-edge", "8", "--turn", "5"});
+  ASSERT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_NEAR(report().number("force_N"), 2000, 0.005 * 2000);
+  EXPECT_LT(report().number("reduction_percent"), 25);
+}
+
 TEST_F(CompressTool, RefusesTwoPlacesForTheEdge) {
   const ToolResult result =
       compress({"CC", "--reduction", "25", "--image-edge", "auto", "--standoff", "5"});

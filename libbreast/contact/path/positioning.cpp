@@ -25,6 +25,8 @@ constexpr double pull_begins_part = 0.6, pull_ends_part = 0.9;
 constexpr double early_begins_part = 0.5, early_ends_part = 0.8;
 /// Depth from the edge over which the traction of the hand rises, mm.
 constexpr double pull_ramp_mm = 20;
+/// Difference of reductions that counts as none.
+constexpr double rounding = 1e-9;
 /// Tissue closer to the edge than this counts as at the edge, mm.
 constexpr double at_edge_mm = 10;
 
@@ -35,7 +37,9 @@ Release release_by(double reduction) {
 }  // namespace
 
 double Release::at(double reduction) const {
-  return std::clamp((reduction - begins) / (ends - begins), 0.0, 1.0);
+  // A path that stops at `ends` has its reduction from a thickness, with rounding.
+  if (reduction >= ends - rounding) return 1;
+  return std::max(0.0, (reduction - begins) / (ends - begins));
 }
 
 Grip grip_before(double reduction, bool may_end_before) {
