@@ -5,19 +5,23 @@
 #include <vtkRenderWindow.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
+#include <vtk_glew.h>
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/own_file.hpp"
 #include "figures/canvas.hpp"
 #include "figures/canvas_impl.hpp"
+#include "figures/drawing_memory.hpp"
 
 namespace breast {
 
 struct Picture::Impl {
+  DrawingMemory memory;
   int width = 0, height = 0;
   std::vector<std::unique_ptr<Panel>> panels;
   vtkSmartPointer<vtkRenderWindow> window;
@@ -94,6 +98,8 @@ vtkSmartPointer<vtkImageData> averaged(vtkUnsignedCharArray* pixels, int width, 
 
 void Picture::save(const std::filesystem::path& file) {
   impl_->window->Render();
+  // VTK asks OpenGL for errors in debug builds only, and draws on.
+  if (impl_->memory.refused() || glGetError() == GL_OUT_OF_MEMORY) throw std::bad_alloc();
   vtkNew<vtkUnsignedCharArray> pixels;
   const int w = impl_->width * supersampling, h = impl_->height * supersampling;
   impl_->window->GetPixelData(0, 0, w - 1, h - 1, 0, pixels);
