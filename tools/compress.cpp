@@ -153,9 +153,11 @@ void declare(Tool& tool, Choices& c) {
               "coefficient of Coulomb friction between skin and plates (default: 0.15 with "
               "--image-edge, otherwise 0)",
               0, 2);
-  tool.number(c.plate_step, "--plate-step", "MM",
-              "longest step by which the plates close (default: 0.07 of the initial thickness)",
-              0.1, 1000);
+  tool.number(
+      c.plate_step, "--plate-step", "MM",
+      "longest step by which the plates close (default: 0.07 of the initial thickness, 0.03 in MLO and ML "
+      "with friction)",
+      0.1, 1000);
   tool.choice(c.contact, "--contact", {"active-set", "al"},
               "contact algorithm: exact active set, or the paper's augmented Lagrangian");
   declare_mechanics(tool, c.mechanics);

@@ -14,10 +14,6 @@ namespace breast {
 
 namespace {
 
-/// Automatic length of the first and the longest step as a fraction of the initial thickness: 6 mm
-/// for a typical breast.
-constexpr double longest_part = 0.07;
-
 /// Steps longer than this fraction of the longest are abandoned if they begin badly.
 constexpr double fast_part = 0.3;
 
@@ -153,8 +149,9 @@ State Path::predict(double thickness, bool extrapolate) const {
 
 bool Path::march() {
   const double size = plates_.initial_thickness;
-  double step = options_.first_step > 0 ? options_.first_step : longest_part * size;
-  const double longest = options_.longest_step > 0 ? options_.longest_step : longest_part * size;
+  const double automatic = options_.longest_part * size;
+  double step = options_.first_step > 0 ? options_.first_step : automatic;
+  const double longest = options_.longest_step > 0 ? options_.longest_step : automatic;
   int failures_in_row = 0;
   result_.jump.reset();
   while (result_.solves < options_.most_solves) {

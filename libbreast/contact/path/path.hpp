@@ -15,9 +15,10 @@
 
 namespace breast {
 
-/// Step lengths are in mm of thickness; 0 chooses a fraction of the initial thickness.
+/// Step lengths are in mm of thickness; 0 chooses `longest_part` of the initial thickness.
 struct PathOptions {
   double first_step = 0, longest_step = 0, shortest_step = 0.05;
+  double longest_part = 0.07;    ///< about 7 mm for a typical breast
   double least_thickness = 2;    ///< smallest thickness of a path without a thickness as target, mm
   double path_tolerance = 1e-4;  ///< residual of intermediate states; the final state is solved to
                                  ///< `tolerance`
