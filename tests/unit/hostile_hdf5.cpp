@@ -77,6 +77,26 @@ TEST_F(HostileMesh, ValuesOfAnotherFileAreNotRead) {
   EXPECT_NE(text.find("another file"), std::string::npos) << text;
 }
 
+// HDF5 1.10 copies as many bytes as the shape asks for, whatever the header of the dataset says it holds.
+TEST_F(HostileMesh, AShortCompactDatasetIsNotReadBeyondItsEnd) {
+  constexpr hsize_t count = 1000;
+  after([&](hid_t h5) {
+    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_layout(layout, H5D_COMPACT);
+    add(h5, "/breast/notes", layout, count);
+    H5Pclose(layout);
+  });
+  std::string bytes = read_text(file_);
+  const std::string header{char(3), char(0), char(count % 256),
+                           char(count / 256)};  // version, compact, size
+  const std::size_t at = bytes.find(header);
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 2] = bytes[at + 3] = 1;
+  write_text(file_, bytes);
+  const std::string text = complaint([&] { read_mesh(file_); });
+  EXPECT_NE(text.find("states 1000 values in 257 bytes"), std::string::npos) << text;
+}
+
 TEST_F(HostileMesh, VirtualDatasetsAreNotRead) {
   const std::string text = after([&](hid_t h5) {
     const hsize_t count = 10;

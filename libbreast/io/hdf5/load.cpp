@@ -154,15 +154,24 @@ class Loader {
     const std::vector<std::size_t> shape = shape_of(space, path);
     std::size_t values = 1;
     for (const std::size_t n : shape) values *= n;
-    const hsize_t stored = H5Dget_storage_size(dataset);
+    check_size(dataset, type, values, path);
+    Array array = read_values(path, shape, type, read);
+    document.datasets[path] = std::move(array);
+  }
+
+  // What is stored must suffice for the values: HDF5 reads beyond the end of a compact dataset that is too short.
+  void check_size(const Handle& set, const Handle& type, hsize_t values, const std::string& path) {
+    const hsize_t stored = H5Dget_storage_size(set);
     if (values > 0 && stored == 0) {
       throw source_.refuse("dataset ", path, " was declared but never written");
     }
-    if (values > most_inflation * std::min<hsize_t>(stored, file_bytes_)) {
+    const Handle layout(H5Dget_create_plist(set), H5Pclose);
+    const bool packed = H5Pget_layout(layout) == H5D_CHUNKED;
+    const std::size_t width = std::max<std::size_t>(type ? H5Tget_size(type) : 0, 1);
+    if (values >
+        (packed ? most_inflation * std::min<hsize_t>(stored, file_bytes_) : stored / width)) {
       throw source_.refuse("dataset ", path, " states ", values, " values in ", stored, " bytes");
     }
-    Array array = read_values(path, shape, type, read);
-    document.datasets[path] = std::move(array);
   }
 
   // Values lie in this file, in chunks of a size that fits, behind filters every HDF5 has.
