@@ -23,27 +23,30 @@ using namespace breast;
 
 namespace {
 
-std::optional<Tumour> choose_tumour(const MeshChoices& choices, const LabelVolume& labels,
-                                    const HexMesh& mesh, Run& run) {
-  if (choices.tumour == "none") return std::nullopt;
-  if (choices.tumour == "auto") {
-    std::optional<Tumour> found = automatic_tumour(labels, mesh);
-    if (!found) {
-      run.warn(
-          "there is no edge of fibroglandular tissue inside the mesh, so that no artificial "
-          "tumour was placed; give a position with --tumour x,y,z");
-    }
-    return found;
-  }
-  if (!std::filesystem::exists(choices.tumour)) return parse_tumour(choices.tumour);
-  if (std::filesystem::path(choices.tumour).extension() == ".tsv")
-    return read_tumour(choices.tumour);
-  if (is_markups_name(choices.tumour)) {
-    const MarkupPoint point =
-        point_named(read_markups(choices.tumour), "tumour", "--tumour " + choices.tumour);
+/// What --tumour names; nothing for "none" and "auto".
+std::optional<Tumour> given_tumour(const std::string& given) {
+  if (given == "none" || given == "auto") return std::nullopt;
+  if (!std::filesystem::exists(given)) return parse_tumour(given);
+  if (std::filesystem::path(given).extension() == ".tsv") return read_tumour(given);
+  if (is_markups_name(given)) {
+    const MarkupPoint point = point_named(read_markups(given), "tumour", "--tumour " + given);
     return Tumour{point.at, 0, "point of 3D Slicer", false};
   }
-  return tumour_of(read_tissues(choices.tumour, {}), choices.tumour);
+  return tumour_of(read_tissues(given, {}), given);
+}
+
+std::optional<Tumour> made_tumour(const LabelVolume& labels, const HexMesh& mesh, Run& run) {
+  std::optional<Tumour> made = automatic_tumour(labels, mesh);
+  if (!made) {
+    run.warn(
+        "there is no edge of fibroglandular tissue inside the mesh, so that no artificial "
+        "tumour was placed; give a position with --tumour x,y,z");
+    return made;
+  }
+  run.warn(
+      "the tumour is artificial: it was not found in the scan. It is named artificial_tumour; "
+      "give the position of a real one with --tumour x,y,z, or --tumour none");
+  return made;
 }
 
 std::vector<MarkupPoint> named_points(const std::filesystem::path& file) {
@@ -123,6 +126,7 @@ void run_hexmesh(const MeshChoices& choices, Run& run) {
   const LabelVolume& labels = input.labels;
   std::vector<MarkupPoint> points;
   if (!choices.landmarks.empty()) points = named_points(choices.landmarks);
+  std::optional<Tumour> tumour = given_tumour(choices.tumour);
   const double skin_mm = choices.skin == "measured" ? measured_skin_thickness(labels, geometry)
                                                     : parse_skin_thickness(choices.skin);
   BodyMeshReport body;
@@ -139,15 +143,10 @@ void run_hexmesh(const MeshChoices& choices, Run& run) {
   judge_agreement(choices, body, tissue, run);
   if (choices.skin_as == "membrane") set_membrane_skin(skin_mm, mesh);
   add_nipple(mesh);
-  if (const auto tumour = choose_tumour(choices, labels, mesh, run)) {
+  if (choices.tumour == "auto") tumour = made_tumour(labels, mesh, run);
+  if (tumour) {
     add_tumour(*tumour, mesh);
     run.report().set("tumour", tumour->origin);
-    if (tumour->artificial) {
-      run.warn(
-          "the tumour is artificial: it was not found in the scan. It is named "
-          "artificial_tumour; give the position of a real one with --tumour x,y,z, or --tumour "
-          "none");
-    }
   }
   add_points(points, choices.landmarks.filename().string(), mesh);
   add_muscle(choices, labels, mesh, run);
