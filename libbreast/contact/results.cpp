@@ -7,6 +7,7 @@
 
 #include "contact/penetration.hpp"
 #include "contact/skin_area.hpp"
+#include "contact/touching_area.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "mesh/nodal.hpp"
@@ -179,6 +180,7 @@ void record_compression(const Scene& scene, const CompressionOptions& options, c
   const std::vector<PressedPoint> points =
       pressed_points(result.plates, state.x, solver, result.path.final_step);
   const std::vector<Face> faces = free_boundary_faces(mesh, scene.walls());
+  const std::vector<Face> touchable = contact_faces(mesh, surface != nullptr);
   Vec3 total = Vec3::Zero();  // force of both plates on the body, µN
   if (friction != nullptr) {
     for (const FrictionEntry& held : friction->entries()) {
@@ -188,7 +190,9 @@ void record_compression(const Scene& scene, const CompressionOptions& options, c
   for (int k = 0; k < 2; ++k) {
     const Plate& plate = result.plates.plate(k);
     record.plates.push_back(pose_of(mesh, plate, faces, state.x));
-    total += record_plate(points, k, plate, record.plates.back(), result.places[std::size_t(k)]);
+    PressedPlace& place = result.places[std::size_t(k)];
+    total += record_plate(points, k, plate, record.plates.back(), place);
+    place.touching_cm2 = touching_area(mesh, touchable, state.x, plate) / mm2_per_cm2;
   }
   result.thickness_mm = record.thickness_mm;
   result.reduction_percent = record.reduction_percent;
