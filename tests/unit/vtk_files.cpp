@@ -362,6 +362,33 @@ TEST(VtkFiles, ImpossibleCompressionHeadersAreRefusedBeforeVtk) {
   EXPECT_NE(refusal("AQAAAACAAAAQAAAAMAAAAA==").find("fewer bytes than values"), std::string::npos);
 }
 
+// VTK 9.1 would store the second text beyond the end of an array of one.
+TEST(VtkFiles, MoreTextsThanDeclaredAreRefusedBeforeVtk) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder / "mammogram.vti";
+  Mammogram image = some_mammogram();
+  image.history = {{"project-mammogram", "1.0", "first", {}}, {"project-mammogram", "1.0", "second", {}}};
+  write_mammogram(file, image);
+  std::string text = read_text(file);
+  const auto seal = text.find("<!-- sha256");
+  text.erase(seal, text.find("-->", seal) + 3 - seal);
+  const std::string declared = "Name=\"history\" NumberOfTuples=\"";
+  const auto at = text.find(declared);
+  ASSERT_NE(at, std::string::npos);
+  const auto refusal = [&](char texts) {
+    text[at + declared.size()] = texts;
+    write_text(file, text);
+    try {
+      read_mammogram(file);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(refusal(text[at + declared.size()]), "accepted");
+  EXPECT_NE(refusal('1').find("more texts than it declares"), std::string::npos);
+}
+
 TEST(VtkFiles, AFailedWriteLeavesTheOldFile) {
   const ScratchFolder folder;
   write_mammogram(folder / "m.vti", some_mammogram());

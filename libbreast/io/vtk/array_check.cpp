@@ -2,6 +2,7 @@
 #include "io/vtk/array_check.hpp"
 
 #include <vtkXMLDataElement.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -16,7 +17,8 @@ namespace {
 using Size = std::uint64_t;
 
 constexpr std::size_t words_before_sizes =
-    3;                            // number of blocks, size of a block, size of the last
+    3;  // number of blocks, size of a block, size of the last
+constexpr Size most_text_block = Size(1) << 24;
 constexpr Size small_bytes = 64;  // beyond what a format's limit gives for a few bytes
 
 /// How the compressed arrays of a file are written.
@@ -25,6 +27,7 @@ struct Form {
   bool big_endian = false;
   std::size_t word = sizeof(std::uint32_t);
   Size expansion = 1;  ///< bytes that one compressed byte can become at most
+  bool zlib = false;
 };
 
 std::string_view attribute(vtkXMLDataElement* element, const char* name) {
@@ -38,9 +41,8 @@ Form form_of(vtkXMLDataElement* root, std::string_view text) {
   form.big_endian = attribute(root, "byte_order") == "BigEndian";
   if (attribute(root, "header_type") == "UInt64") form.word = sizeof(std::uint64_t);
   const std::string_view compressor = attribute(root, "compressor");
-  form.expansion = compressor == "vtkZLibDataCompressor"  ? 1032
-                   : compressor == "vtkLZ4DataCompressor" ? 256
-                                                          : 10000;
+  form.zlib = compressor == "vtkZLibDataCompressor";
+  form.expansion = form.zlib ? 1032 : compressor == "vtkLZ4DataCompressor" ? 256 : 10000;
   return form;
 }
 
@@ -87,26 +89,58 @@ std::string_view inline_text(vtkXMLDataElement* array, std::string_view text) {
   return text.substr(first, end - first);
 }
 
-/// Bytes that the values of an array take; 0 when the file does not state how many it has.
-Size least_bytes(vtkXMLDataElement* array, Size tuples) {
+/// What the tags of an array state. Without a number of values they state 0.
+struct Declared {
+  Size values = 0;
+  Size width = 0;      ///< bytes of a value; 0 for texts and bits
+  bool texts = false;  ///< of a number that the array itself states, as in field data
+};
+
+Declared declared_by(vtkXMLDataElement* array, Size tuples) {
   if (array->GetAttribute("NumberOfTuples") != nullptr) {
     tuples = std::strtoull(array->GetAttribute("NumberOfTuples"), nullptr, 10);
   }
   const char* stated = array->GetAttribute("NumberOfComponents");
   const Size components = stated == nullptr ? 1 : std::strtoull(stated, nullptr, 10);
   const std::string_view type = attribute(array, "type");
-  const Size width = type.ends_with("64")   ? 8
-                     : type.ends_with("32") ? 4
-                     : type.ends_with("16") ? 2
-                     : type.ends_with("t8") ? 1
-                                            : 0;  // texts and bits
+  Declared declared;
+  declared.texts = type == "String" && array->GetAttribute("NumberOfTuples") != nullptr;
+  declared.width = type.ends_with("64")   ? 8
+                   : type.ends_with("32") ? 4
+                   : type.ends_with("16") ? 2
+                   : type.ends_with("t8") ? 1
+                                          : 0;
+  if (__builtin_mul_overflow(tuples, components, &declared.values)) declared.values = ~Size(0);
+  return declared;
+}
+
+Size least_bytes(const Declared& declared) {
   Size bytes = 0;
-  const bool too_many = __builtin_mul_overflow(tuples, components, &bytes) ||
-                        __builtin_mul_overflow(bytes, width, &bytes);
+  const bool too_many = __builtin_mul_overflow(declared.values, declared.width, &bytes);
   return too_many ? ~Size(0) : bytes;
 }
 
-std::string wrong_with(std::string_view coded, const Form& form, Size least) {
+/// Texts in an array, each of which ends with a zero. `sizes` is its compression header.
+Size texts_in(std::string_view coded, const Form& form, const std::vector<Size>& sizes) {
+  constexpr std::size_t coded_group = 4, plain_group = 3;  // of base64
+  const std::size_t header =
+      (sizes.size() * form.word + plain_group - 1) / plain_group * coded_group;
+  const std::vector<std::uint8_t> packed =
+      decoded(coded.substr(std::min(header, coded.size())), coded.size());
+  std::vector<std::uint8_t> block(sizes[1]);
+  Size texts = 0;
+  std::size_t at = 0;
+  for (std::size_t k = words_before_sizes; k < sizes.size(); at += sizes[k++]) {
+    uLongf length = block.size();
+    if (at + sizes[k] > packed.size() ||
+        uncompress(block.data(), &length, packed.data() + at, sizes[k]) != Z_OK)
+      break;
+    texts += Size(std::count(block.begin(), block.begin() + std::ptrdiff_t(length), 0));
+  }
+  return texts;
+}
+
+std::string wrong_with(std::string_view coded, const Form& form, const Declared& declared) {
   const Size stored = coded.size() / 4 * 3 + 3;  // at most
   const std::vector<Size> start = words_of(decoded(coded, words_before_sizes * form.word), form);
   if (start.size() < words_before_sizes) return "no compression header";
@@ -126,7 +160,11 @@ std::string wrong_with(std::string_view coded, const Form& form, Size least) {
     return "blocks larger than their bytes can become";
   }
   const Size whole = full * block + (blocks == 0 ? 0 : last);
-  return whole < least ? "fewer bytes than values" : "";
+  if (whole < least_bytes(declared)) return "fewer bytes than values";
+  if (!declared.texts || !form.zlib) return {};
+  if (block > most_text_block) return "texts in a block of more than 16 MB";
+  // VTK 9.1 stores every text that it finds, beyond the end of its array.
+  return texts_in(coded, form, sizes) > declared.values ? "more texts than it declares" : "";
 }
 
 std::string first_wrong(vtkXMLDataElement* element, const Form& form, Size tuples) {
@@ -137,7 +175,7 @@ std::string first_wrong(vtkXMLDataElement* element, const Form& form, Size tuple
     if (name == "DataArray" || name == "Array") {
       // Without a format, VTK takes an array for text.
       if (attribute(child, "format") == "binary") {
-        wrong = wrong_with(inline_text(child, form.text), form, least_bytes(child, tuples));
+        wrong = wrong_with(inline_text(child, form.text), form, declared_by(child, tuples));
       }
     } else {
       const bool of_points = name == "PointData" || name == "Points";
