@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 
 #include "core/atomic_file.hpp"
@@ -331,26 +332,34 @@ TEST(VtkFiles, DamageNeverCrashes) {
   expect_unsealed_damage_survived(folder / "m.vti", [](const auto& file) { read_mammogram(file); });
 }
 
+std::string unsealed(const std::filesystem::path& file) {
+  std::string text = read_text(file);
+  const auto seal = text.find("<!-- sha256");
+  return text.erase(seal, text.find("-->", seal) + 3 - seal);
+}
+
+std::string complaint(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
 // VTK would allocate what the header of a compressed array states: here 2^32 - 1 blocks, a block that exceeds the file,
 // one that its few bytes cannot become, and one with fewer bytes than the points take.
 TEST(VtkFiles, ImpossibleCompressionHeadersAreRefusedBeforeVtk) {
   const ScratchFolder folder;
   const std::filesystem::path file = folder / "surface.vtp";
   write_surface(file, some_surface());
-  std::string text = read_text(file);
-  const auto seal = text.find("<!-- sha256");
-  text.erase(seal, text.find("-->", seal) + 3 - seal);
+  std::string text = unsealed(file);
   const auto points = text.find("<DataArray", text.find("<Points>"));
   const auto at = text.find_first_not_of(" \n", text.find('>', points) + 1);
   const auto refusal = [&](const std::string& header) {
     const std::string damaged = text.substr(0, at) + header + text.substr(at + header.size());
     std::ofstream(file) << damaged;
-    try {
-      read_surface(file);
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return complaint([&] { read_surface(file); });
   };
   EXPECT_EQ(refusal(text.substr(at, 4)), "accepted");  // the seal alone is gone
   EXPECT_NE(refusal("/////wCAAABgAAAAQAAAAA==").find("more blocks than it has bytes"),
@@ -369,21 +378,14 @@ TEST(VtkFiles, MoreTextsThanDeclaredAreRefusedBeforeVtk) {
   Mammogram image = some_mammogram();
   image.history = {{"project-mammogram", "1.0", "first", {}}, {"project-mammogram", "1.0", "second", {}}};
   write_mammogram(file, image);
-  std::string text = read_text(file);
-  const auto seal = text.find("<!-- sha256");
-  text.erase(seal, text.find("-->", seal) + 3 - seal);
+  std::string text = unsealed(file);
   const std::string declared = "Name=\"history\" NumberOfTuples=\"";
   const auto at = text.find(declared);
   ASSERT_NE(at, std::string::npos);
   const auto refusal = [&](char texts) {
     text[at + declared.size()] = texts;
     write_text(file, text);
-    try {
-      read_mammogram(file);
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return complaint([&] { read_mammogram(file); });
   };
   EXPECT_EQ(refusal(text[at + declared.size()]), "accepted");
   EXPECT_NE(refusal('1').find("more texts than it declares"), std::string::npos);
