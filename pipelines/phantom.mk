@@ -37,7 +37,7 @@ truth_edge_cc := 20 --friction 0.3
 truth_edge_mlo := auto
 # At 49.5 % an element of the finer mesh folds in MLO, where this body has touched itself.
 truth_reduction_cc = $(REDUCTION)
-truth_reduction_mlo = $(if $(and $(body_slides),$(filter 50,$(REDUCTION))),45,$(REDUCTION))
+truth_reduction_mlo = $(if $(and $(body_slides),$(filter 50,$(REDUCTION))),48,$(REDUCTION))
 truth_body = $(if $(body_slides),--materials $(TRUTH_SET) --image-edge $(truth_edge_$1),--cut fixed)
 # The part of PHANTOM_OPTIONS that describes the same body.
 truth_alike = $(filter --seed=% --materials=% --coarse=%,$(subst --seed ,--seed=,$(subst --materials ,--materials=,$(subst \
