@@ -198,7 +198,7 @@ std::optional<Judgement> judge_target(const CompressionTarget& met, double reach
   return Judgement{"off_target",
                    message("the ", target_name(met.kind), " ends at ", shown(reached), ", ",
                            shown(100 * off), " % from its target of ", shown(met.value),
-                           ": the contact area changes by whole nodes"),
+                           ": the contact area changes by parts of a face"),
                    off > far_off};
 }
 

@@ -27,7 +27,6 @@ struct PressedPlace {
   double edge_part = 0;         ///< share of the normal force that acts on the rounded edge
   /// Normal force behind the edge of the image, in the first 20 mm in front of it, and beyond, N.
   double behind_edge_N = 0, first_20mm_N = 0, beyond_20mm_N = 0;
-  double touching_cm2 = 0;  ///< area of the faces that touch (contact/touching_area.hpp)
 };
 
 /// Quantities that are judged besides the contact record.

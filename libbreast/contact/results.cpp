@@ -62,9 +62,7 @@ std::vector<PressedPoint> pressed_points(const PlatePair& plates, const Eigen::V
 }
 
 /// Pressure at the nodes, kPa: the force of a node divided by the area of the surrounding faces
-/// that may touch. The area of all nodes under pressure is the contact area; single points of a
-/// face between nodes at rest on a plate would not define it, because they are nanometres inside or
-/// outside the plate.
+/// that may touch.
 void record_pressure(const HexMesh& mesh, const Eigen::VectorXd& x, const ContactSolver& solver,
                      CompressionResult& result) {
   const ContactStep& step = result.path.final_step;
@@ -77,22 +75,16 @@ void record_pressure(const HexMesh& mesh, const Eigen::VectorXd& x, const Contac
     const double pressure = contact.normal / area[std::size_t(node)] / pascal_per_kilopascal;
     result.contact_pressure[std::size_t(node)] = pressure;
     PlateRecord& record = result.contact->plates[std::size_t(contact.plate)];
-    record.area_cm2 += area[std::size_t(node)] / mm2_per_cm2;
     if (!(pressure > record.peak_kPa)) continue;
     const Vec3 at = x.segment<3>(3L * node);
     record.peak_kPa = pressure;
     result.places[std::size_t(contact.plate)].peak_at = at;
     result.places[std::size_t(contact.plate)].peak_to_wall_mm = distance_to_wall(mesh, x, at);
   }
-  for (PlateRecord& record : result.contact->plates) {
-    if (!(record.area_cm2 > 0)) continue;
-    record.mean_kPa = record.force_N * micronewton_per_newton / (record.area_cm2 * mm2_per_cm2) /
-                      pascal_per_kilopascal;
-  }
 }
 
-/// Fills force, area and mean pressure of a plate, and the position of the force along its depth.
-/// Returns the force on the body, µN.
+/// Fills force and mean pressure of a plate of known contact area, and the position of the force along
+/// its depth. Returns the force on the body, µN.
 Vec3 record_plate(const std::vector<PressedPoint>& points, int k, const Plate& plate,
                   PlateRecord& record, PressedPlace& place) {
   Vec3 force = Vec3::Zero();
@@ -107,6 +99,9 @@ Vec3 record_plate(const std::vector<PressedPoint>& points, int k, const Plate& p
   }
   const double pressing = force.dot(record.normal);
   record.force_N = pressing / micronewton_per_newton;
+  if (record.area_cm2 > 0) {
+    record.mean_kPa = pressing / (record.area_cm2 * mm2_per_cm2) / pascal_per_kilopascal;
+  }
   if (pressing > 0) place.edge_part = place.behind_edge_N / record.force_N;
   return force;
 }
@@ -190,9 +185,9 @@ void record_compression(const Scene& scene, const CompressionOptions& options, c
   for (int k = 0; k < 2; ++k) {
     const Plate& plate = result.plates.plate(k);
     record.plates.push_back(pose_of(mesh, plate, faces, state.x));
+    record.plates.back().area_cm2 = touching_area(mesh, touchable, state.x, plate) / mm2_per_cm2;
     PressedPlace& place = result.places[std::size_t(k)];
     total += record_plate(points, k, plate, record.plates.back(), place);
-    place.touching_cm2 = touching_area(mesh, touchable, state.x, plate) / mm2_per_cm2;
   }
   result.thickness_mm = record.thickness_mm;
   result.reduction_percent = record.reduction_percent;

@@ -15,8 +15,8 @@ namespace breast {
 inline constexpr double touching_mm = 0.1;
 
 /// Area (mm²) of those faces, in the shape `x` (3 per node), that touch the plate or are inside it. The
-/// area of all nodes under pressure includes half of every face at the rim and is therefore larger; both
-/// converge to the same value.
+/// area of all nodes under pressure would include half of every face at the rim: on a mesh of 1068
+/// elements it is 80 % larger.
 double touching_area(const HexMesh& mesh, const std::vector<Face>& faces, const Eigen::VectorXd& x,
                      const Plate& plate);
 

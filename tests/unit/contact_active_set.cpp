@@ -159,8 +159,12 @@ TEST(ActiveSet, NothingTouchesWhenThePlatesAreWide) {
 namespace {
 PathResult close(PlatePair& plates, ContactSolver& contact, State& state,
                  const CompressionTarget& target, PathOptions options = {}) {
-  const auto area = [&](const State&) {
-    return std::vector<double>(contact.candidates().size(), 25.0);
+  const auto area = [&](const State& s) {
+    double touching = 0;  // 25 mm² for every node on the paddle
+    for (const int node : contact.candidates()) {
+      touching += plates.paddle.gap(s.x.segment<3>(3L * node)).value < 1e-6 ? 25 : 0;
+    }
+    return touching;
   };
   return follow_path(contact, plates, state, target, area, options);
 }

@@ -165,7 +165,7 @@ TEST(Compression, ReleaseReturnsToTheStart) {
   const double open = plates.touching_thickness + 1;
   plates.close_to(open);
   State state = scene.at_rest(reference);
-  const auto area = [&](const State&) { return std::vector<double>(free_skin.size(), 1.0); };
+  const auto area = [](const State&) { return 1.0; };
   const double closed = 0.6 * plates.initial_thickness;
   ASSERT_TRUE(
       follow_path(contact, plates, state, {TargetKind::thickness, closed}, area, {}).reached);

@@ -42,9 +42,7 @@ class PressedFaces {
     state = scene_.at_rest(flatten(mesh_.reference));
   }
   PathResult close_to(double thickness, const PathOptions& path = {}) {
-    const auto area = [&](const State&) {
-      return std::vector<double>(contact_->candidates().size(), 1.0);
-    };
+    const auto area = [](const State&) { return 1.0; };
     return follow_path(*contact_, plates, state, {TargetKind::thickness, thickness}, area, path);
   }
   const HexMesh& mesh() const { return mesh_; }

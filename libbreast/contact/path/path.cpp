@@ -38,7 +38,7 @@ struct Waypoint {
 class Path {
  public:
   Path(ContactSolver& solver, PlatePair& plates, const CompressionTarget& target,
-       const NodalArea& area, const PathOptions& options, Progress& progress)
+       const PaddleArea& area, const PathOptions& options, Progress& progress)
       : solver_(solver),
         plates_(plates),
         stops_{thickness_in(target), others_than_thickness(target), options.corners},
@@ -69,7 +69,7 @@ class Path {
   ContactSolver& solver_;
   PlatePair& plates_;
   PathStops stops_;
-  const NodalArea& area_;
+  const PaddleArea& area_;
   const PathOptions& options_;
   Progress& progress_;
   double start_thickness_;
@@ -381,7 +381,7 @@ PathResult Path::run(State& state) {
 }  // namespace
 
 PathResult follow_path(ContactSolver& solver, PlatePair& plates, State& state,
-                       const CompressionTarget& target, const NodalArea& area,
+                       const CompressionTarget& target, const PaddleArea& area,
                        const PathOptions& options, Progress& progress) {
   return Path(solver, plates, target, area, options, progress).run(state);
 }

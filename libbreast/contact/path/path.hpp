@@ -59,15 +59,15 @@ struct PathResult {
                                                      ///< indefinite
 };
 
-/// Returns the area (mm²) of the deformed skin that belongs to each node, for the mean pressure
+/// Returns the area (mm²) over which a state touches the paddle where it stands, for the mean pressure
 /// along the path.
-using NodalArea = std::function<std::vector<double>(const State&)>;
+using PaddleArea = std::function<double(const State&)>;
 
 /// Moves the plates from their present position to the target; `state` ends as the last valid
 /// equilibrium, with the plates at its thickness. Initially `state` must be in equilibrium or touch
 /// nothing.
 PathResult follow_path(ContactSolver& solver, PlatePair& plates, State& state,
-                       const CompressionTarget& target, const NodalArea& area,
+                       const CompressionTarget& target, const PaddleArea& area,
                        const PathOptions& options, Progress& progress = no_progress());
 
 }  // namespace breast

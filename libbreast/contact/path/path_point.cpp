@@ -6,11 +6,10 @@
 namespace breast {
 
 PathPoint path_point(const ContactSolver& solver, const PlatePair& plates, const State& state,
-                     const ContactStep& step, const std::vector<double>& area) {
+                     const ContactStep& step, double paddle_area) {
   PathPoint point;
   point.thickness = plates.thickness();
   point.iterations = int(step.iterations.size());
-  double paddle_area = 0;
   for (std::size_t c = 0; c < step.contacts.size(); ++c) {
     const NodalContact& contact = step.contacts[c];
     if (contact.plate < 0) continue;
@@ -19,7 +18,6 @@ PathPoint path_point(const ContactSolver& solver, const PlatePair& plates, const
     const double along =
         (contact.normal * plate.gap(x).gradient + contact.tangential).dot(plate.normal());
     (contact.plate == 0 ? point.paddle_N : point.detector_N) += along / micronewton_per_newton;
-    if (contact.plate == 0 && contact.normal > 0) paddle_area += area[c];
   }
   point.area_cm2 = paddle_area / mm2_per_cm2;
   if (paddle_area > 0) {

@@ -10,10 +10,9 @@
 
 namespace breast {
 
-/// `area`: deformed area (mm²) of every candidate of the solver; the paddle's contact area is that
-/// of the candidates on which it presses.
+/// `paddle_area`: area (mm²) that touches the paddle.
 PathPoint path_point(const ContactSolver& solver, const PlatePair& plates, const State& state,
-                     const ContactStep& step, const std::vector<double>& area);
+                     const ContactStep& step, double paddle_area);
 
 /// Drops the last points up to one of this thickness (mm).
 void drop_points_beyond(double thickness, std::vector<PathPoint>& points);
