@@ -117,8 +117,10 @@ int main(int argc, char** argv) {
       "ellipticity (1 if no constant acts against it, 0 where the law is refused). With "
       "--curves the tool prints the nominal uniaxial, equibiaxial and pure-shear stress against "
       "stretch, and the simple-shear stress against shear, in Pa.");
-  tool.word(c.set, "NAME|FILE",
-            "material set: invivo, seed2008, wellman, victre, mira2018, or a TSV file of the same columns");
+  tool.word(
+      c.set, "NAME|FILE",
+      "material set: invivo, seed2008, wellman, victre, mira2018, phantom2026, or a TSV file of the "
+      "same columns");
   tool.texts(c.scale, "--scale", "TISSUE=PERCENT",
              "scale the stiffness of one tissue to this percentage of the set's");
   tool.flag(c.curves, "--curves", "print stress curves instead of the summary");

@@ -79,7 +79,7 @@ struct MaterialSet {
   const Law& law(Tissue t) const { return laws[static_cast<std::size_t>(t)]; }
 };
 
-/// Named set ("seed2008", "wellman", "victre", "mira2018") or a TSV file of the same columns.
+/// Named set (one of material_set_names()) or a TSV file of the same columns.
 MaterialSet load_materials(const std::string& name_or_file);
 /// The names of the embedded sets, in alphabetical order.
 std::vector<std::string> material_set_names();

@@ -84,12 +84,12 @@ void individualise(BreastParameters& b, RandomStream& stream) {
 }
 
 // Rib cages of different shape, 26 to 37 cm broad and 20 to 28 cm deep, and bodies that differ from
-// the calibrated set by as much as women do. The chain knows neither; the presets show the
+// a calibrated set by as much as women do. The chain knows neither; the presets show the
 // resulting errors.
 void put_on_ribs(PhantomParameters& p) {
   p.torso.sternal_groove = 2;
   p.torso.tilt = 0.22, p.torso.bend = 3e-4;
-  p.body.materials = "invivo";
+  p.body.materials = "phantom2026";
   p.body.slides = true;
   p.mesh.skirt = 4;
   if (p.preset == "average") {

@@ -132,8 +132,8 @@ TEST(Stability, MarginOfTheConstants) {
 }
 
 TEST(Materials, EmbeddedSetsLoadAndScale) {
-  EXPECT_EQ(material_set_names(),
-            (std::vector<std::string>{"invivo", "mira2018", "seed2008", "victre", "wellman"}));
+  EXPECT_EQ(material_set_names(), (std::vector<std::string>{"invivo", "mira2018", "phantom2026",
+                                                            "seed2008", "victre", "wellman"}));
   for (const std::string& name : material_set_names()) {
     MaterialSet set = load_materials(name);
     for (const Law& law : set.laws) EXPECT_GT(law.shear_modulus(), 0) << name;
@@ -160,7 +160,8 @@ TEST(MaterialTable, ReadsBackAsWritten) {
     const TemporaryFolder folder;
     write_table(folder.path() / "set.tsv", material_table(set));
     const MaterialSet back = load_materials((folder.path() / "set.tsv").string());
-    for (const Tissue tissue : {Tissue::fat, Tissue::fibroglandular, Tissue::skin, Tissue::tumour}) {
+    for (const Tissue tissue :
+         {Tissue::fat, Tissue::fibroglandular, Tissue::skin, Tissue::tumour}) {
       EXPECT_EQ(back.law(tissue).kind, set.law(tissue).kind) << name;
       EXPECT_EQ(back.law(tissue).constants, set.law(tissue).constants) << name;
     }

@@ -124,9 +124,9 @@ TEST(RibSpline, IsTheRibSurfaceWhereBreastsSlide) {
 
 TEST(BodyMaterials, ASlidingBreastNeedsSupportsAndTheyAreScaled) {
   BodyParameters body;
-  body.materials = "invivo", body.slides = true, body.wall_percent = 120, body.cut_percent = 50;
+  body.materials = "phantom2026", body.slides = true, body.wall_percent = 120, body.cut_percent = 50;
   body.scale = {"fat=90"};
-  const MaterialSet set = body_materials(body), plain = load_materials("invivo");
+  const MaterialSet set = body_materials(body), plain = load_materials("phantom2026");
   EXPECT_NEAR(*set.wall_support, 1.2 * *plain.wall_support, 1e-15);
   EXPECT_NEAR(*set.cut_support, 0.5 * *plain.cut_support, 1e-15);
   EXPECT_NEAR(set.law(Tissue::fat).shear_modulus(), 0.9 * plain.law(Tissue::fat).shear_modulus(),
