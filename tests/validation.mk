@@ -14,6 +14,23 @@ slicer-table: slicer
 	cp $(RUN)/slicer-fields.tsv $(TABLES_OF_PAGE)/slicer-fields.tsv
 	$(tabulate) made $(TABLES_OF_PAGE)/slicer-fields.tsv $(RUN)/slicer.json
 	$(tabulate) pages fill $(PAGES_WITH_TABLES)
+# Of docs/validation/sliding.md: the cohort between plates, and how the compressed shape depends on the mesh, on friction and on the
+# length of the steps (tests/bench/plates.tsv), of the preset average by 50 %.
+compression-tables: $(TABULATE)
+	@+$(MAKE) -f $(PIPELINE) PRESSURE= compressed-population > /dev/null
+	cp $(POPULATION_RUNS)/compressed.tsv $(TABLES_OF_PAGE)/compression-cohort.tsv
+	@+$(MAKE) -f $(PIPELINE) PRESSURE= PRESET=average STUDY=tests/bench/plates.tsv study > /dev/null
+	@+$(MAKE) -f $(PIPELINE) PRESSURE= PRESET=average plates-tables
+.PHONY: compression-tables plates-tables
+plates = $(tabulate) plates $(call study_dir,plates)
+plates-tables:
+	$(plates) next 10 12 16 20 25 31 > $(TABLES_OF_PAGE)/compression-mesh.tsv
+	$(plates) 12 friction-0.1 12 friction-0.2 friction-0.3 > $(TABLES_OF_PAGE)/compression-friction.tsv
+	$(plates) 16 half-cc half-mlo > $(TABLES_OF_PAGE)/compression-steps.tsv
+	for name in mesh friction steps; do \
+	  $(tabulate) made $(TABLES_OF_PAGE)/compression-$$name.tsv $(call study_dir,plates/10)/cc.json; done
+	$(tabulate) made $(TABLES_OF_PAGE)/compression-cohort.tsv $(POPULATION_RUNS)/average-left/cc.json
+	$(tabulate) pages fill $(PAGES_WITH_TABLES)
 .PHONY: validation validation-page slicer-table
 
 # Records the run from which a table was made, which the page states below the table: $(call made_by,REPORT.json). The date is that

@@ -7,6 +7,7 @@
 #include "io/surface_file.hpp"
 #include "study/cells.hpp"
 #include "study/experiments/budget.hpp"
+#include "study/experiments/compressions.hpp"
 #include "study/experiments/cost.hpp"
 #include "study/experiments/coverage.hpp"
 #include "study/experiments/draws.hpp"
@@ -160,6 +161,21 @@ std::vector<TabulateKind> table_kinds() {
        "distances of the compressed shapes FOLDER/N-CC and N-MLO from those of the last N", 2,
        any_number,
        [](const Request& r) { return convergence_table(r.word(0), r.rest(1), read_shape).text(); }},
+      {"compressions", "REPORT.json...",
+       "breasts between plates, one row per report of compress: forces, pressure, coverage and "
+       "penetration",
+       1, any_number,
+       [](const Request& r) {
+         const std::vector<std::string> reports = r.rest(0);
+         return compressions_table({reports.begin(), reports.end()}).text();
+       }},
+      {"plates", "FOLDER BASE|next VARIANT...",
+       "the same for variants of one compression, FOLDER/VARIANT/{cc,mlo}, with the distances of "
+       "tumour and nipple from those of the variant BASE or of the next one",
+       3, any_number,
+       [](const Request& r) {
+         return plates_table(r.word(0), r.word(1), r.rest(2), read_shape).text();
+       }},
       {"cost", "FOLDER FINEST POINT...",
        "error against run time for the points ELEMENT-TEMPLATE-N[-SOLVER]", 3, any_number,
        [](const Request& r) {

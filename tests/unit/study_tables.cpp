@@ -11,6 +11,7 @@
 #include "study/cohort/cohort_page.hpp"
 #include "study/cohort/cohort_table.hpp"
 #include "study/experiments/budget.hpp"
+#include "study/experiments/compressions.hpp"
 #include "study/experiments/cost.hpp"
 #include "study/experiments/coverage.hpp"
 #include "study/experiments/draws.hpp"
@@ -344,6 +345,32 @@ TEST(Outcomes, SayWhatBecameOfEveryStageOfAVariant) {
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_EQ(join(table.rows[0], " "), "soft reference converged - 68 1.50 4.0000 2.0000");
   EXPECT_EQ(join(table.rows[1], " "), "soft supine not_converged line_search - - - -");
+}
+
+TEST(Plates, RowsSayWhatTheReportsDoAndDashesWhereTheySayNothing) {
+  const ScratchFolder folder;
+  for (const std::string variant : {"coarse", "fine"}) {
+    std::filesystem::create_directories(folder / variant);
+    write_text(folder / (variant + "/cc.vtkhdf"), "x");
+    write_text(folder / (variant + "/cc.json"),
+               R"({"view": "CC", "status": "converged", "elements": 68, "force_N": 80, "pressure_kPa": 9.96,
+                   "newton_iterations": 150, "plates": {"paddle": {"force_N": 80, "force_behind_edge_N": 10},
+                   "detector": {"force_N": 0, "force_behind_edge_N": 0}}})");
+  }
+  const Table plates =
+      plates_table(folder.path(), "next", {"coarse", "fine", "absent"},
+                   shapes({{"coarse/cc.vtkhdf", 4}, {"fine/cc.vtkhdf", 3}}));
+  ASSERT_EQ(plates.rows.size(), 2u);
+  EXPECT_EQ(plates.cell(0, "view") + " " + plates.cell(0, "paddle_behind_edge_percent") + " " +
+                plates.cell(0, "detector_behind_edge_percent") + " " +
+                plates.cell(0, "mean_pressure_kPa"),
+            "CC 12.5 - 10.0");
+  EXPECT_EQ(plates.cell(0, "tumour_mm") + " " + plates.cell(0, "nipple_mm"), "0.50 1.00");
+  EXPECT_EQ(plates.cell(1, "nipple_mm"), "-") << "the next variant has no shape";
+  const Table breasts = compressions_table({folder / "fine/cc.json", folder / "absent/mlo.json"});
+  ASSERT_EQ(breasts.rows.size(), 2u);
+  EXPECT_EQ(breasts.cell(0, "breast") + " " + breasts.cell(0, "paddle_N"), "fine 80.0");
+  EXPECT_EQ(breasts.cell(1, "view") + " " + breasts.cell(1, "status"), "mlo -");
 }
 
 TEST(Pressed, PutsCalculixBesideTheSumOfOurSteps) {
