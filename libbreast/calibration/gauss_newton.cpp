@@ -22,12 +22,12 @@ class Iteration {
     if (!first)
       throw not_converged_error("least squares: the model has no solution at the starting point");
     best_.residuals = *first;
-    best_.jacobian = differences();
+    take_differences();
   }
 
   LeastSquares run() {
     for (int i = 0; i < options_.max_iterations && !best_.converged; ++i) step();
-    best_.jacobian = differences();
+    if (!exact_) take_differences();
     best_.covariance = (best_.jacobian.transpose() * best_.jacobian)
                            .ldlt()
                            .solve(MatrixXd::Identity(best_.x.size(), best_.x.size()));
@@ -59,29 +59,43 @@ class Iteration {
     return jacobian;
   }
 
+  void take_differences() {
+    best_.jacobian = differences();
+    exact_ = true;
+  }
+
+  // A small step, or one that leads nowhere, is the end only if the Jacobian is one of differences:
+  // after a few of Broyden's updates it may point anywhere.
   void step() {
     const MatrixXd& j = best_.jacobian;
     VectorXd d = -(j.transpose() * j).ldlt().solve(j.transpose() * best_.residuals);
+    const bool was_exact = exact_, small = d.cwiseAbs().maxCoeff() < options_.tolerance;
+    if (small && !was_exact) return take_differences();
+    if (small) {
+      best_.converged = true;
+      return;
+    }
     d *= std::min(1.0, options_.largest_step / d.cwiseAbs().maxCoeff());
     for (int halvings = 0; halvings < 5; ++halvings, d *= 0.5) {
       const std::optional<VectorXd> found = at(best_.x + d);
       if (!found) continue;
       const VectorXd surprise = *found - best_.residuals - best_.jacobian * d;
       best_.jacobian += surprise * d.transpose() / d.squaredNorm();  // Broyden's update
+      exact_ = false;
       if (found->squaredNorm() < best_.residuals.squaredNorm()) {
         best_.x += d;
         best_.residuals = *found;
-        best_.converged = d.cwiseAbs().maxCoeff() < options_.tolerance;
         return;
       }
     }
-    best_.converged = d.cwiseAbs().maxCoeff() < options_.tolerance;
-    if (!best_.converged) best_.jacobian = differences();
+    take_differences();
+    best_.converged = was_exact && d.cwiseAbs().maxCoeff() < options_.tolerance;
   }
 
   const Residuals& residuals_;
   GaussNewtonOptions options_;
   LeastSquares best_;
+  bool exact_ = false;  ///< the Jacobian is that of differences at the present point
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ struct GaussNewtonOptions {
   double difference = 0.15;  ///< step of the difference quotients
   double largest_step = 0.7;  ///< of any parameter in one iteration
   double tolerance = 0.02;    ///< largest change of a parameter at the end
-  int max_iterations = 12;
+  int max_iterations = 20;
 };
 
 struct LeastSquares {
@@ -29,10 +29,10 @@ struct LeastSquares {
   bool converged = false;
 };
 
-/// Gauss–Newton iterations with a Jacobian from difference quotients at the start and at the end,
-/// and Broyden's updates in between. Steps are halved until the sum of squares falls. The residuals
-/// must contain a prior for every parameter that the data may not determine. Throws Error (not
-/// converged) if the model has no solution at the start.
+/// Gauss–Newton iterations with a Jacobian from difference quotients at the start, at the end and
+/// where steps lead nowhere, and Broyden's updates in between. Steps are halved until the sum of
+/// squares falls. The residuals must contain a prior for every parameter that the data may not
+/// determine. Throws Error (not converged) if the model has no solution at the start.
 LeastSquares gauss_newton(const Residuals& residuals, Eigen::VectorXd start,
                           const GaussNewtonOptions& options = {});
 

@@ -58,6 +58,20 @@ TEST(GaussNewton, FindsTheLeastSquaresAndTheirCovariance) {
   EXPECT_NEAR(inverse(0, 0), 3 * 1.5 * 1.5 * 100, 10);
 }
 
+TEST(GaussNewton, DoesNotEndWhereOnlyItsJacobianIsWorn) {
+  // Rosenbrock's valley: Broyden's updates point across it, and halved steps then lead nowhere.
+  const Residuals valley = [](const Eigen::VectorXd& x) -> std::optional<Eigen::VectorXd> {
+    return Eigen::Vector2d(10 * (x[1] - x[0] * x[0]), 1 - x[0]);
+  };
+  GaussNewtonOptions options;
+  options.max_iterations = 60;
+  for (const Eigen::Vector2d& start : {Eigen::Vector2d(-0.5, 1), Eigen::Vector2d(-0.5, 4)}) {
+    const LeastSquares fit = gauss_newton(valley, start, options);
+    EXPECT_TRUE(fit.converged);
+    EXPECT_LT((fit.x - Eigen::Vector2d(1, 1)).norm(), 0.1) << fit.x.transpose();
+  }
+}
+
 TEST(GaussNewton, AModelWithoutAnAnswerShortensTheStepAndIsNamedAtTheStart) {
   const Residuals halved = [](const Eigen::VectorXd& x) -> std::optional<Eigen::VectorXd> {
     if (x[0] > 2.2) return {};
