@@ -271,7 +271,7 @@ bool Path::refine_control(const CompressionTarget& target, Waypoint high) {
         const Waypoint from = best;
         return refine_control(*other, from);
       }
-      // The positions are equal, with the target between them: a node comes into contact, so that
+      // The positions are equal, with the target between them: a point comes into contact, so that
       // only the area changes, or the body snaps through, which is said.
       const double force = std::abs(low.point.paddle_N - high.point.paddle_N);
       if (!met && force > options_.control_tolerance * best.point.paddle_N)
