@@ -14,12 +14,19 @@ slicer-table: slicer
 	cp $(RUN)/slicer-fields.tsv $(TABLES_OF_PAGE)/slicer-fields.tsv
 	$(tabulate) made $(TABLES_OF_PAGE)/slicer-fields.tsv $(RUN)/slicer.json
 	$(tabulate) pages fill $(PAGES_WITH_TABLES)
+# Of docs/validation/sliding.md: the judging half of the cohort beside living women.
+population-table: population
+	cp $(POPULATION_RUNS)/judging.tsv $(TABLES_OF_PAGE)/sliding.tsv
+	$(tabulate) made $(TABLES_OF_PAGE)/sliding.tsv $(POPULATION_RUNS)/judging.json
+	$(tabulate) pages fill $(PAGES_WITH_TABLES)
+.PHONY: population-table
+
 # Of docs/validation/sliding.md: the cohort between plates, and how the compressed shape depends on the mesh, on friction and on the
 # length of the steps (tests/bench/plates.tsv), of the preset average by 50 %.
 compression-tables: $(TABULATE)
-	@+$(MAKE) -f $(PIPELINE) PRESSURE= compressed-population > /dev/null
+	@+$(MAKE) -f $(PIPELINE) PRESSURE= compressed-population
 	cp $(POPULATION_RUNS)/compressed.tsv $(TABLES_OF_PAGE)/compression-cohort.tsv
-	@+$(MAKE) -f $(PIPELINE) PRESSURE= PRESET=average STUDY=tests/bench/plates.tsv study > /dev/null
+	@+$(MAKE) -f $(PIPELINE) PRESSURE= PRESET=average STUDY=tests/bench/plates.tsv study
 	@+$(MAKE) -f $(PIPELINE) PRESSURE= PRESET=average plates-tables
 .PHONY: compression-tables plates-tables
 plates = $(tabulate) plates $(call study_dir,plates)
