@@ -8,6 +8,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "fixtures/complaint.hpp"
 #include "fixtures/samples.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/geometry_file.hpp"
@@ -258,17 +259,12 @@ TEST(MeshFile, NeedsAreRefusedByTheToolThatMakesThem) {
   HexMesh mesh = samples::block(2, 1);
   mesh.tissue.assign(8, Tissue::fat);
   write_mesh(folder / "mesh.vtkhdf", mesh);
-  const auto complaint = [&](const MeshNeeds& needs) {
-    try {
-      read_mesh(folder / "mesh.vtkhdf", needs);
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+  const auto refused = [&](const MeshNeeds& needs) {
+    return fixtures::complaint([&] { read_mesh(folder / "mesh.vtkhdf", needs); });
   };
-  EXPECT_NE(complaint({true, false, false}).find("backward"), std::string::npos);
-  EXPECT_NE(complaint({false, true, false}).find("hexmesh"), std::string::npos);
-  EXPECT_NE(complaint({false, false, true}).find("compress"), std::string::npos);
+  EXPECT_NE(refused({true, false, false}).find("backward"), std::string::npos);
+  EXPECT_NE(refused({false, true, false}).find("hexmesh"), std::string::npos);
+  EXPECT_NE(refused({false, false, true}).find("compress"), std::string::npos);
 }
 
 TEST(MeshFile, WriterRefusesWhatNoReaderWouldTake) {

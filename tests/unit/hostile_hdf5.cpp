@@ -13,6 +13,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/guarded_child.hpp"
+#include "fixtures/complaint.hpp"
 #include "fixtures/samples.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/derivative_file.hpp"
@@ -26,16 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string complaint(const std::function<void()>& read) {
-  try {
-    read();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-    return error.what();
-  }
-  return "accepted";
-}
+using fixtures::complaint;
 
 class HostileMesh : public testing::Test {
  protected:

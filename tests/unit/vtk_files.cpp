@@ -10,6 +10,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "fixtures/complaint.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/mammogram_file.hpp"
 #include "io/surface_file.hpp"
@@ -334,14 +335,7 @@ TEST(VtkFiles, DamageNeverCrashes) {
   expect_unsealed_damage_survived(folder / "m.vti", [](const auto& file) { read_mammogram(file); });
 }
 
-std::string complaint(const std::function<void()>& read) {
-  try {
-    read();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "accepted";
-}
+using fixtures::complaint;
 
 // VTK would allocate what the header of a compressed array states: here 2^32 - 1 blocks, a block that exceeds the file,
 // one that its few bytes cannot become, and one with fewer bytes than the points take.
