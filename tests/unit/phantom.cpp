@@ -129,6 +129,7 @@ TEST(BodyMaterials, ASlidingBreastNeedsSupportsAndTheyAreScaled) {
   const MaterialSet set = body_materials(body), plain = load_materials("phantom2026");
   EXPECT_NEAR(*set.wall_support, 1.2 * *plain.wall_support, 1e-15);
   EXPECT_NEAR(*set.cut_support, 0.5 * *plain.cut_support, 1e-15);
+  EXPECT_EQ(set.uncertainty.parameters.size(), 5u) << "band-truth draws bodies from it";
   EXPECT_NEAR(set.law(Tissue::fat).shear_modulus(), 0.9 * plain.law(Tissue::fat).shear_modulus(),
               1e-9);
   body.materials = "seed2008";
