@@ -125,8 +125,8 @@ bool InverseSolver::System::solve_direction(double accuracy) {
   step_ = ReferenceSystem(owner_.matrix_, owner_.tangent_, owner_.solver_, moved, size)
               .solve(-forces_.r, -forces_.theta, accuracy, max_gmres);
   owner_.last_gmres_ = step_.iterations;
-  // Newton's method converges with directions as rough as this; a direct solver behind it may be asked
-  // for better ones.
+  // Newton's method converges with directions as rough as 0.5; where a direct solver can take over,
+  // it does so earlier.
   return step_.residual < (owner_.fail_fast_ ? 0.1 : 0.5);
 }
 
