@@ -70,11 +70,14 @@ class Iteration {
     const MatrixXd& j = best_.jacobian;
     VectorXd d = -(j.transpose() * j).ldlt().solve(j.transpose() * best_.residuals);
     const bool was_exact = exact_, small = d.cwiseAbs().maxCoeff() < options_.tolerance;
-    if (small && !was_exact) return take_differences();
     if (small) {
-      best_.converged = true;
+      if (was_exact)
+        best_.converged = true;
+      else
+        take_differences();
       return;
     }
+    const MatrixXd before = best_.jacobian;
     d *= std::min(1.0, options_.largest_step / d.cwiseAbs().maxCoeff());
     for (int halvings = 0; halvings < 5; ++halvings, d *= 0.5) {
       const std::optional<VectorXd> found = at(best_.x + d);
@@ -88,8 +91,10 @@ class Iteration {
         return;
       }
     }
-    take_differences();
-    best_.converged = was_exact && d.cwiseAbs().maxCoeff() < options_.tolerance;
+    if (!was_exact) return take_differences();
+    best_.jacobian = before;  // of differences at this point, which need not be computed again
+    exact_ = true;
+    best_.converged = d.cwiseAbs().maxCoeff() < options_.tolerance;
   }
 
   const Residuals& residuals_;

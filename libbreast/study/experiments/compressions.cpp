@@ -57,8 +57,17 @@ const std::vector<Column> coverage_columns{
 const std::vector<std::string> edge_columns{"paddle_behind_edge_percent",
                                             "detector_behind_edge_percent"};
 
-void add_edges(const StageReport& report, Row& row) {
+// What both tables state: forces and pressure, the part behind the edge, and the solution.
+void add_press_columns(Table& table) {
+  add_columns(press_columns, table);
+  table.columns.insert(table.columns.end(), edge_columns.begin(), edge_columns.end());
+  add_columns(solution_columns, table);
+}
+
+void add_press_cells(const StageReport& report, Row& row) {
+  add_cells(press_columns, report, row);
   for (const char* plate : {"paddle", "detector"}) row.push_back(behind_edge(report, plate));
+  add_cells(solution_columns, report, row);
 }
 
 std::string distance(const fs::path& here, const fs::path& there, const char* landmark,
@@ -72,18 +81,14 @@ std::string distance(const fs::path& here, const fs::path& there, const char* la
 Table compressions_table(const std::vector<fs::path>& reports) {
   Table table{{"breast", "view", "status"}, {}};
   add_columns(breast_columns, table);
-  add_columns(press_columns, table);
-  table.columns.insert(table.columns.end(), edge_columns.begin(), edge_columns.end());
-  add_columns(solution_columns, table);
+  add_press_columns(table);
   add_columns(coverage_columns, table);
   for (const fs::path& file : reports) {
     const StageReport report = StageReport::read(file);
     Row row{file.parent_path().filename(), view_of(report, file),
             cell_or_dash(one_line(report.text("status")))};
     add_cells(breast_columns, report, row);
-    add_cells(press_columns, report, row);
-    add_edges(report, row);
-    add_cells(solution_columns, report, row);
+    add_press_cells(report, row);
     add_cells(coverage_columns, report, row);
     table.rows.push_back(row);
   }
@@ -93,9 +98,7 @@ Table compressions_table(const std::vector<fs::path>& reports) {
 Table plates_table(const fs::path& folder, const std::string& base,
                    const std::vector<std::string>& variants, const ShapeReader& read) {
   Table table{{"view", "variant", "elements"}, {}};
-  add_columns(press_columns, table);
-  table.columns.insert(table.columns.end(), edge_columns.begin(), edge_columns.end());
-  add_columns(solution_columns, table);
+  add_press_columns(table);
   table.columns.insert(table.columns.end(), {"tumour_mm", "nipple_mm"});
   for (const std::string view : {"cc", "mlo"})
     for (std::size_t k = 0; k < variants.size(); ++k) {
@@ -103,9 +106,7 @@ Table plates_table(const fs::path& folder, const std::string& base,
       const StageReport report = StageReport::read(file);
       if (report.empty()) continue;
       Row row{view_of(report, file), variants[k], fixed_cell(report.number("elements"), 0)};
-      add_cells(press_columns, report, row);
-      add_edges(report, row);
-      add_cells(solution_columns, report, row);
+      add_press_cells(report, row);
       const std::string& other =
           base == "next" ? variants[std::min(k + 1, variants.size() - 1)] : base;
       for (const char* landmark : {"tumour", "nipple"})
