@@ -135,6 +135,7 @@ PathOptions Compression::path_options() {
   for (const double reduction : {hand.weight.ends, hand.pull.begins, hand.pull.ends}) {
     path.corners.push_back((1 - reduction) * found_.plates.initial_thickness);
   }
+  path.slipping_below = (1 - hand.pull.begins) * found_.plates.initial_thickness;
   if (!thickness_in(target())) return path;
   path.may_end = [this, hand](double thickness) {
     return hand.gone(1 - thickness / found_.plates.initial_thickness);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "contact/compression.hpp"
+#include "contact/path/positioning.hpp"
 #include "contact/skin_area.hpp"
 #include "contact/solvers/active_set.hpp"
 #include "core/units.hpp"
@@ -334,6 +335,28 @@ TEST(Compression, APulledBreastEndsFurtherForward) {
   EXPECT_GT(b.stages.back().past_edge_mm, a.stages.back().past_edge_mm);
   EXPECT_LT(b.force_balance, 1e-7);
   EXPECT_NEAR(a.weight_N, b.weight_N, 1e-9);
+}
+
+// Where the hand lets go the breast slips back, along a straight line in every step.
+TEST(Compression, StepsAreShortOnceTheHandLetsGo) {
+  HexMesh mesh = stress_free_breast();
+  CompressionOptions options = clinical(StopAt::reduction, 30);
+  options.pull_N = 20;
+  options.path.slipping_part = 0.02;
+  const CompressionResult found = fixtures::compress_into(mesh, options, mechanics());
+  ASSERT_EQ(found.record.status, SolveStatus::converged) << found.record.reason;
+  const double size = found.plates.initial_thickness;
+  const Release pull = grip_before(0.3).pull;
+  double early = 0, late = 0;
+  const std::vector<PathPoint>& points = found.path.points;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const double from = 1 - points[k - 1].thickness / size, to = 1 - points[k].thickness / size;
+    double& longest = from > pull.begins - 1e-6 ? late : early;
+    longest = std::max(longest, to - from);
+  }
+  EXPECT_GT(early, 0.04);
+  EXPECT_GT(late, 0.01);
+  EXPECT_LT(late, 0.0251) << "a last step may be a quarter longer";
 }
 
 // A target that the plates reach while a hand still carries the breast is no compression.

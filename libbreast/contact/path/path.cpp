@@ -52,6 +52,7 @@ class Path {
 
  private:
   const CompressionTarget* passed(const PathPoint& point) const;
+  double longest_step() const;
   bool march();
   bool end_at(const CompressionTarget& target, Waypoint reached);
   bool end_at_thickness();
@@ -147,15 +148,21 @@ State Path::predict(double thickness, bool extrapolate) const {
           here_.state.p + ratio * (here_.state.p - before_.state.p)};
 }
 
+/// From the present position, mm.
+double Path::longest_step() const {
+  if (options_.longest_step > 0) return options_.longest_step;
+  const bool slipping = here_.thickness <= options_.slipping_below;
+  return (slipping ? options_.slipping_part : options_.longest_part) * plates_.initial_thickness;
+}
+
 bool Path::march() {
-  const double size = plates_.initial_thickness;
-  const double automatic = options_.longest_part * size;
-  double step = options_.first_step > 0 ? options_.first_step : automatic;
-  const double longest = options_.longest_step > 0 ? options_.longest_step : automatic;
+  double step = options_.first_step > 0 ? options_.first_step : longest_step();
   int failures_in_row = 0;
   result_.jump.reset();
   while (result_.solves < options_.most_solves) {
     if (stops_.end && here_.thickness == *stops_.end) return end_at_thickness();
+    const double longest = longest_step();
+    step = std::min(step, longest);
     const double thickness = next_thickness(
         step, here_.point, have_before_ ? &before_.point : nullptr, stops_);
     if (!stops_.end && !(thickness > options_.least_thickness)) {
