@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "evaluation/posture_motion.hpp"
+#include "evaluation/spread.hpp"
 #include "io/mesh_file.hpp"
 
 using namespace breast;
@@ -22,7 +23,13 @@ struct Choices {
   double muscle = 8;
 };
 
-using Quantities = std::vector<std::pair<std::string, double>>;
+/// A value of one breast. In a mean over breasts, a range of depths counts by the fraction of the
+/// breast that lies in it, since as many of a woman's landmarks do.
+struct Quantity {
+  std::string name;
+  double value = 0, weight = 1;
+};
+using Quantities = std::vector<Quantity>;
 
 Quantities quantities_of(const PostureMotion& m) {
   Quantities list{{"nipple_moved_mm", m.nipple_moved},
@@ -39,10 +46,11 @@ Quantities quantities_of(const PostureMotion& m) {
   const char* names[] = {"0_20", "20_40", "above_40"};
   for (std::size_t k = 0; k < m.bins.size(); ++k) {
     const std::string name = names[k];
-    list.emplace_back("moved_" + name + "_mm", m.bins[k].moved);
-    list.emplace_back("change_" + name + "_mm", m.bins[k].change);
+    list.push_back({"volume_" + name + "_percent", 100 * m.bins[k].fraction});
+    list.push_back({"moved_" + name + "_mm", m.bins[k].moved, m.bins[k].fraction});
+    list.push_back({"change_" + name + "_mm", m.bins[k].change, m.bins[k].fraction});
   }
-  list.emplace_back("moved_near_wall_mm", m.nearest_moved);
+  list.push_back({"moved_near_wall_mm", m.nearest_moved});
   return list;
 }
 
@@ -58,17 +66,13 @@ Table summary_of(const std::vector<Quantities>& cases, const Choices& c) {
                "within_one_sd"},
               {}};
   for (std::size_t q = 0; q < cases.front().size(); ++q) {
-    double sum = 0, square = 0, low = cases[0][q].second, high = low;
-    for (const Quantities& one : cases) {
-      const double value = one[q].second;
-      sum += value, square += value * value;
-      low = std::min(low, value), high = std::max(high, value);
-    }
-    const double n = double(cases.size()), mean = sum / n;
-    const double sd = n > 1 ? std::sqrt(std::max(0.0, (square - n * mean * mean) / (n - 1))) : 0;
-    const std::string name = cases.front()[q].first;
-    std::vector<std::string> row{name, format_fixed(mean, decimals), format_fixed(sd, decimals),
-                                 format_fixed(low, decimals), format_fixed(high, decimals)};
+    std::vector<Weighted> values;
+    for (const Quantities& one : cases) values.push_back({one[q].value, one[q].weight});
+    const Spread found = spread(values);
+    const std::string& name = cases.front()[q].name;
+    std::vector<std::string> row{name, format_fixed(found.mean, decimals),
+                                 format_fixed(found.sd, decimals), format_fixed(found.low, decimals),
+                                 format_fixed(found.high, decimals)};
     const auto known = women_row.find(name);
     if (known == women_row.end()) {
       row.insert(row.end(), {"-", "-", "-"});
@@ -76,7 +80,7 @@ Table summary_of(const std::vector<Quantities>& cases, const Choices& c) {
       const double centre = women.number(known->second, "mean"),
                    spread = women.number(known->second, "sd");
       row.insert(row.end(), {format_number(centre), format_number(spread),
-                             std::abs(mean - centre) <= spread ? "yes" : "no"});
+                             std::abs(found.mean - centre) <= spread ? "yes" : "no"});
     }
     table.rows.push_back(row);
   }
@@ -96,9 +100,9 @@ void run_population(const Choices& c, Run& run) {
     const std::string folder = file.parent_path().filename().string();
     std::vector<std::string> row{folder.empty() ? file.stem().string() : folder,
                                  std::string(side_name(mesh.side))};
-    for (const auto& [name, value] : cases.back()) {
-      if (table.rows.empty()) table.columns.push_back(name);
-      row.push_back(format_fixed(value, decimals));
+    for (const Quantity& one : cases.back()) {
+      if (table.rows.empty()) table.columns.push_back(one.name);
+      row.push_back(format_fixed(one.value, decimals));
     }
     table.rows.push_back(row);
   }
@@ -129,7 +133,9 @@ int main(int argc, char** argv) {
       "the axes of the body, and of the tissue as a volume-weighted function of its distance "
       "from the rib cage in the scan. The ribs are assumed to lie behind the chest-wall surface "
       "by the thickness of the muscle. The table has one row per breast; --summary gives the "
-      "mean, standard deviation and range, beside the values of --women.");
+      "mean, standard deviation and range, beside the values of --women. In the means of tissue "
+      "at some distance from the ribs, a breast counts by the fraction of it that lies there, as "
+      "it does in means over landmarks.");
   tool.inputs(c.meshes, "FILE.vtkhdf", "deformed meshes (forward) that have a chest-wall surface");
   tool.output_file(c.table, "--table", "OUT.tsv",
                    "table with one row per breast (default: stdout)");

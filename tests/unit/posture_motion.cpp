@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "evaluation/spread.hpp"
 #include "fixtures/block.hpp"
 
 namespace breast {
@@ -39,6 +40,20 @@ HexMesh slab() {
   mesh.geometry.emplace().thorax = cylinder();
   mesh.landmarks.push_back({"nipple", mesh.imaged.front(), 0, Vec3(1, 0, 0), 0});
   return mesh;
+}
+
+TEST(Spread, CountsEveryValueByItsWeight) {
+  const Spread equal = spread({{1}, {2}, {6}});
+  EXPECT_NEAR(equal.mean, 3, 1e-15);
+  EXPECT_NEAR(equal.sd, std::sqrt(7.0), 1e-14);
+  // A weight of two is a value that occurs twice; one without weight does not exist.
+  const Spread weighted = spread({{1, 2}, {4, 1}, {100, 0}});
+  EXPECT_NEAR(weighted.mean, 2, 1e-15);
+  EXPECT_NEAR(weighted.sd, 2, 1e-14);
+  EXPECT_EQ(weighted.low, 1);
+  EXPECT_EQ(weighted.high, 4);
+  EXPECT_EQ(spread({{5, 0.1}}).sd, 0);
+  EXPECT_EQ(spread({{5, 0}}).mean, 0);
 }
 
 TEST(PostureMotion, DistancesFromACylinder) {
