@@ -30,6 +30,12 @@ Row support_row(const char* where, double stiffness) {
   return {{"tissue", where}, {"law", "support"}, {"support_kPa_per_mm", format_number(stiffness)}};
 }
 
+/// Without the rounding errors of its division.
+double correlation(double value) {
+  constexpr double digits = 1e12;
+  return std::clamp(std::round(digits * value) / digits, -1.0, 1.0);
+}
+
 void add_uncertainty(const SoftnessUncertainty& known, std::vector<Row>& rows) {
   for (std::size_t i = 0; i < known.parameters.size(); ++i) {
     Row row{{"tissue", known.parameters[i]}, {"law", "uncertainty"}};
@@ -38,7 +44,7 @@ void add_uncertainty(const SoftnessUncertainty& known, std::vector<Row>& rows) {
     for (std::size_t j = 0; j < known.parameters.size(); ++j) {
       const double scale = sd * std::sqrt(known.covariance(j, j));
       row["correlation_" + known.parameters[j]] =
-          format_number(scale > 0 ? std::clamp(known.covariance(i, j) / scale, -1.0, 1.0) : double(i == j));
+          format_number(scale > 0 ? correlation(known.covariance(i, j) / scale) : double(i == j));
     }
     rows.push_back(row);
   }
@@ -53,6 +59,7 @@ Table material_table(const MaterialSet& set) {
     rows.push_back(law_row(set, tissue));
   if (set.wall_support) rows.push_back(support_row("wall", *set.wall_support));
   if (set.cut_support) rows.push_back(support_row("cut", *set.cut_support));
+  if (set.sternum_support) rows.push_back(support_row("sternum", *set.sternum_support));
   add_uncertainty(set.uncertainty, rows);
   Table table{{"tissue", "law", "density_g_per_mm3", "a10_Pa", "a01_Pa", "a20_Pa", "a02_Pa",
                "a11_Pa", "c1_Pa", "c2_Pa", "c3_Pa", "a_Pa", "b", "c_Pa", "compression_percent",
