@@ -24,7 +24,7 @@ struct Choices {
 
   Choices() {
     const Softness& s = data.expected;
-    expected = {100 * s.low_order, 100 * s.quadratic, 100 * s.skin, s.wall, s.cut};
+    expected = {100 * s.low_order, 100 * s.quadratic, 100 * s.skin, s.wall, s.cut, s.sternum};
     pressure = {data.pressure.mean, data.pressure.sd};
     press.reduction = 50;
     press.image_edge = "auto";
@@ -36,7 +36,8 @@ void declare(Tool& tool, Choices& c) {
       "Calibrates a material set so that the breasts of a cohort move from prone to supine as "
       "women's breasts do on average. The parameters are the stiffness of fat and fibroglandular "
       "tissue (with separate factors for the linear and the quadratic terms of the law), the "
-      "stiffness of the skin, and the resistance to sliding along the chest wall and at the cut. "
+      "stiffness of the skin, the resistance to sliding along the chest wall, and the stiffness of "
+      "the cut around the breast and towards the sternum. "
       "The data are the lateral and posterior displacement of the nipple and the change of the "
       "tissue's distance from the ribs. The nipple's displacement along the long axis of the body "
       "is not used, because it depends on the position of the arms. A further breast is "
@@ -52,8 +53,8 @@ void declare(Tool& tool, Choices& c) {
   tool.input_file(c.pressed, "--pressed", "MESH.vtkhdf", "mesh of the breast to compress")
       .required("--pressed");
   tool.text(c.from, "--from", "NAME|FILE", "material set whose constants are scaled");
-  tool.numbers(c.expected, "--expected", "LOW,QUADRATIC,SKIN,WALL,CUT", 5,
-               "centre of the prior: the first three in percent, the last two in kPa/mm");
+  tool.numbers(c.expected, "--expected", "LOW,QUADRATIC,SKIN,WALL,CUT,STERNUM", 6,
+               "centre of the prior: the first three in percent, the others in kPa/mm");
   tool.number(c.data.expected_ln_sd, "--expected-ln-sd", "LN",
               "standard deviation of the prior, in the logarithm", 0.01, 10);
   tool.numbers(c.pressure, "--pressure", "MEAN,SD", 2,
@@ -128,7 +129,7 @@ void run_calibration(const Choices& c, Run& run) {
   data.pressure.mean = c.pressure[0], data.pressure.sd = c.pressure[1];
   data.press = compression_options(c.press, posture_gravity(Posture::upright));
   data.expected = {c.expected[0] / 100, c.expected[1] / 100, c.expected[2] / 100, c.expected[3],
-                   c.expected[4]};
+                   c.expected[4], c.expected[5]};
   for (const std::filesystem::path& file : c.cohort) data.cohort.push_back(prone_mesh(file));
   data.pressed = prone_mesh(c.pressed);
   MaterialSet base = load_materials(c.from);

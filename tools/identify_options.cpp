@@ -117,7 +117,7 @@ void declare_identify(Tool& tool, IdentifyChoices& c) {
   declare_data(tool, c);
   tool.text(
       c.parameters, "--parameters", "LIST",
-      "parameters to identify, from low_order, quadratic, gland, skin, wall, cut, and stiffness "
+      "parameters to identify, from low_order, quadratic, gland, skin, wall, cut, sternum, and stiffness "
       "for the first two together (default: all that the set has, except stiffness)");
   tool.choice(c.prior, "--prior", {"set", "none"},
               "prior: the covariance of the material set, or nearly none");

@@ -14,18 +14,20 @@
 
 namespace breast {
 
-const std::array<const char*, 5>& Softness::names() {
-  static constexpr std::array<const char*, 5> list{"low_order", "quadratic", "skin", "wall", "cut"};
+const std::array<const char*, 6>& Softness::names() {
+  static constexpr std::array<const char*, 6> list{"low_order", "quadratic", "skin",
+                                                   "wall",      "cut",       "sternum"};
   return list;
 }
 
 Eigen::VectorXd Softness::logarithms() const {
-  const std::array<double, 5> all = values();
-  return Eigen::Map<const Eigen::VectorXd>(all.data(), 5).array().log();
+  const std::array<double, 6> all = values();
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), all.size()).array().log();
 }
 
 Softness Softness::from_logarithms(const Eigen::VectorXd& x) {
-  return {std::exp(x[0]), std::exp(x[1]), std::exp(x[2]), std::exp(x[3]), std::exp(x[4])};
+  return {std::exp(x[0]), std::exp(x[1]), std::exp(x[2]),
+          std::exp(x[3]), std::exp(x[4]), std::exp(x[5])};
 }
 
 MaterialSet softened(const MaterialSet& base, const Softness& s) {
@@ -44,6 +46,7 @@ MaterialSet softened(const MaterialSet& base, const Softness& s) {
   skin = skin.scaled(s.skin);
   set.wall_support = s.wall;
   set.cut_support = s.cut;
+  set.sternum_support = s.sternum;
   return set;
 }
 
@@ -107,8 +110,8 @@ double rounded(double value, int digits = 3) {
 }
 
 Softness rounded(const Softness& s) {
-  return {rounded(s.low_order), rounded(s.quadratic), rounded(s.skin), rounded(s.wall),
-          rounded(s.cut)};
+  return {rounded(s.low_order), rounded(s.quadratic), rounded(s.skin),
+          rounded(s.wall),      rounded(s.cut),       rounded(s.sternum)};
 }
 
 Eigen::MatrixXd rounded(const Eigen::MatrixXd& covariance) {
@@ -144,7 +147,8 @@ SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& da
     const Softness s = Softness::from_logarithms(x);
     const std::optional<std::vector<double>> values = model(softened(base, s), data);
     std::string said = message("low order ", s.low_order, ", quadratic ", s.quadratic, ", skin ",
-                               s.skin, ", wall ", s.wall, ", cut ", s.cut, ":");
+                               s.skin, ", wall ", s.wall, ", cut ", s.cut,
+                               ", sternum ", s.sternum, ":");
     if (!values) said += " no equilibrium";
     Eigen::VectorXd r(Eigen::Index(out.wanted.size()) + x.size());
     for (std::size_t k = 0; values && k < out.wanted.size(); ++k) {

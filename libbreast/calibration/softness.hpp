@@ -17,12 +17,12 @@ namespace breast {
 /// The unknowns: factors on a material set, and supports in kPa/mm.
 struct Softness {
   double low_order = 0.03;  ///< on the constants of polynomial laws that are linear in I1 and I2
-  double quadratic = 0.3;   ///< on the other constants
+  double quadratic = 0.1;   ///< on the other constants
   double skin = 1;          ///< on the law of skin
-  double wall = 0.01, cut = 0.01;
+  double wall = 0.01, cut = 0.01, sternum = 0.1;
 
-  static const std::array<const char*, 5>& names();
-  std::array<double, 5> values() const { return {low_order, quadratic, skin, wall, cut}; }
+  static const std::array<const char*, 6>& names();
+  std::array<double, 6> values() const { return {low_order, quadratic, skin, wall, cut, sternum}; }
   Eigen::VectorXd logarithms() const;
   static Softness from_logarithms(const Eigen::VectorXd& x);
 };
@@ -45,7 +45,7 @@ struct SoftnessData {
   double muscle_mm = 8;
   Observed lateral, posterior, ribs_change;  ///< means over `women` women
   int women = 63;
-  Observed pressure{"pressure_kPa", 10, 2.5};  ///< of the paddle on `pressed`
+  Observed pressure{"pressure_kPa", 10, 5};  ///< of the paddle on `pressed`
   CompressionOptions press;                    ///< how `pressed` is compressed
   Softness expected;                           ///< centre of the prior
   double expected_ln_sd = 1.1;                 ///< a factor of three either way

@@ -129,6 +129,7 @@ MeshPart cut_out(const Whole& whole, int rank) {
   HexMesh& own = part.mesh;
   own.order = mesh.order;
   own.skin_model = mesh.skin_model;
+  own.side = mesh.side;
   own.imaged = picked(mesh.imaged, part.nodes);
   if (!mesh.reference.empty()) own.reference = picked(mesh.reference, part.nodes);
   own.tissue = picked(mesh.tissue, part.elements);
@@ -184,6 +185,7 @@ std::vector<char> packed(const Whole& whole, const MeshPart& part) {
   const HexMesh& own = part.mesh;
   out.put(own.order);
   out.put(own.skin_model);
+  out.put(own.side);
   out.put(own.imaged);
   out.put(own.reference);
   out.put(own.tissue);
@@ -218,6 +220,7 @@ MeshPart unpacked(const std::vector<char>& bytes) {
   HexMesh& own = part.mesh;
   in.get(own.order);
   in.get(own.skin_model);
+  in.get(own.side);
   in.get(own.imaged);
   in.get(own.reference);
   in.get(own.tissue);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "mechanics/cut_springs.hpp"
 #include "mechanics/terms/elastic_support.hpp"
 #include "mechanics/terms/membrane.hpp"
 #include "mesh/nodal.hpp"
@@ -32,9 +33,8 @@ void add_supports(const MeshPart& part, const MechanicsOptions& options, Problem
   if (options.wall.kind == WallKind::slide && along > 0) {
     all.push_back(springs(mesh, mesh.pectoral_faces, {along, along}));
   }
-  const double at_cut = options.cut.stiffness;
-  if (options.cut.kind == Cut::spring)
-    all.push_back(springs(mesh, mesh.cut_faces, {at_cut, at_cut}));
+  const CutSprings at_cut = springs_at_cut(mesh, options.cut);
+  all.insert(all.end(), {at_cut.around, at_cut.sternal});
   for (const auto& term : all) {
     if (term) problem.add(term);
   }

@@ -31,9 +31,12 @@ double coordinate_deviation(double rms_mm) {
 
 MaterialSet set_with_supports(const MechanicsOptions& options) {
   MaterialSet set = options.materials;
-  set.wall_support.reset(), set.cut_support.reset();
+  set.wall_support.reset(), set.cut_support.reset(), set.sternum_support.reset();
   if (options.wall.kind == WallKind::slide) set.wall_support = options.wall.stiffness.tangential;
-  if (options.cut.kind == Cut::spring) set.cut_support = options.cut.stiffness;
+  if (options.cut.kind == Cut::spring) {
+    set.cut_support = options.cut.stiffness;
+    set.sternum_support = options.cut.sternal;
+  }
   return set;
 }
 
@@ -45,6 +48,7 @@ MechanicsOptions with_factors(const MechanicsOptions& options, const Sought& sou
     scale_set(out.materials, sought.names[std::size_t(k)], std::exp(x[k]));
   if (out.materials.wall_support) out.wall.stiffness.tangential = *out.materials.wall_support;
   if (out.materials.cut_support) out.cut.stiffness = *out.materials.cut_support;
+  out.cut.sternal = out.materials.sternum_support;
   return out;
 }
 

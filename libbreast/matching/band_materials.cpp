@@ -39,7 +39,8 @@ void use_covariance(const std::vector<std::string>& parameters, const Eigen::Mat
                     DerivativeFields& from, DerivativeFields& to, std::vector<Prior>& priors) {
   static const std::map<std::string, std::string> prior_of{
       {"low_order", "fat"}, {"quadratic", "fat"}, {"stiffness", "fat"}, {"gland", "fibroglandular"},
-      {"skin", "skin"},     {"wall", "wall"},     {"cut", "cut"}};
+      {"skin", "skin"},     {"wall", "wall"},     {"cut", "cut"},
+      {"sternum", "sternum"}};
   for (const std::string& parameter : parameters) {
     const auto known = prior_of.find(parameter);
     if (known == prior_of.end()) continue;

@@ -19,6 +19,7 @@ std::vector<Prior> default_priors() {
        "resistance to sliding on the chest wall; assumed, as for the "
        "stiffness"},
       {"cut", 0.7, "relative", "support by the tissue beside the breast; assumed likewise"},
+      {"sternum", 0.7, "relative", "attachment to the sternum; assumed likewise"},
       {"skin_thickness", 0.2, "relative",
        "0.5-2.0 mm, mean 1.45: Huang et al., Med Phys 35:1199, 2008"},
       {"density", 0.03, "relative", "fat 0.93 to gland 1.04 g/cm3: Hammerstein 1979"},

@@ -60,7 +60,7 @@ void check_skin(const SkinBehaviour& skin, const std::string& where);
 
 /// Uncertainty left by the data from which a set was identified: covariance of the natural
 /// logarithms of "low_order" (the constants of polynomial laws that are linear in the invariants),
-/// "quadratic" (the others), "skin", "wall" and "cut". Empty for published sets.
+/// "quadratic" (the others), "skin", "wall", "cut" and "sternum". Empty for published sets.
 struct SoftnessUncertainty {
   std::vector<std::string> parameters;
   Eigen::MatrixXd covariance;  ///< parameters²
@@ -73,8 +73,9 @@ struct MaterialSet {
   std::array<double, n_tissues> density;  ///< g/mm^3
   SkinBehaviour skin;
   /// Resistance to sliding at the chest wall and stiffness at the cut, kPa/mm, with which the set
-  /// was identified; if absent, the wall is fixed and the cut free.
-  std::optional<double> wall_support, cut_support;
+  /// was identified; if absent, the wall is fixed and the cut free. Stiffness of the cut towards the
+  /// sternum; if absent, as elsewhere.
+  std::optional<double> wall_support, cut_support, sternum_support;
   SoftnessUncertainty uncertainty;
   const Law& law(Tissue t) const { return laws[static_cast<std::size_t>(t)]; }
 };

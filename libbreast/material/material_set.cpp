@@ -41,16 +41,20 @@ void read_skin(const Table& table, std::size_t row, const std::string& where, Sk
   check_skin(skin, where);
 }
 
-/// Rows "wall" and "cut" with the law "support".
+/// Rows "wall", "cut" and "sternum" with the law "support".
 bool read_support(const Table& table, std::size_t row, const std::string& name, MaterialSet& set) {
   if (table.cell(row, "law") != "support") return false;
   const std::string where = table.cell(row, "tissue");
   const double stiffness = table.number(row, "support_kPa_per_mm");
-  if ((where != "wall" && where != "cut") || !(stiffness >= 0 && stiffness <= 1e6)) {
+  std::optional<double>* const support = where == "wall"      ? &set.wall_support
+                                         : where == "cut"     ? &set.cut_support
+                                         : where == "sternum" ? &set.sternum_support
+                                                              : nullptr;
+  if (support == nullptr || !(stiffness >= 0 && stiffness <= 1e6)) {
     throw input_error("materials ", name, ", support of ", where, ": ", stiffness,
-                      " kPa/mm; 'wall' and 'cut' take 0 to 1e6");
+                      " kPa/mm; 'wall', 'cut' and 'sternum' take 0 to 1e6");
   }
-  (where == "wall" ? set.wall_support : set.cut_support) = stiffness;
+  *support = stiffness;
   return true;
 }
 

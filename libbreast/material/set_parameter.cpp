@@ -36,11 +36,19 @@ void add_constants(const MaterialSet& set, Tissue tissue, std::size_t first, std
 
 constexpr std::size_t all = 99;
 
+/// Null for a parameter that is none of a support.
+template <class Set>
+auto* support_in(Set& set, std::string_view parameter) {
+  if (parameter == "wall") return &set.wall_support;
+  if (parameter == "cut") return &set.cut_support;
+  return parameter == "sternum" ? &set.sternum_support : nullptr;
+}
+
 }  // namespace
 
 const std::vector<std::string>& set_parameter_names() {
   static const std::vector<std::string> names{"low_order", "quadratic", "stiffness", "gland",
-                                              "skin",      "wall",      "cut"};
+                                              "skin",      "wall",      "cut",       "sternum"};
   return names;
 }
 
@@ -61,9 +69,10 @@ std::vector<LawConstant> constants_of(const MaterialSet& set, std::string_view p
 std::vector<std::string> set_parameters(const MaterialSet& set) {
   std::vector<std::string> names;
   for (const std::string& name : set_parameter_names()) {
-    const bool there = name == "wall"  ? set.wall_support.value_or(0) > 0
-                       : name == "cut" ? set.cut_support.value_or(0) > 0
-                                       : name != "stiffness" && !constants_of(set, name).empty();
+    const std::optional<double>* support = support_in(set, name);
+    const bool there = support != nullptr
+                           ? support->value_or(0) > 0
+                           : name != "stiffness" && !constants_of(set, name).empty();
     if (there) names.push_back(name);
   }
   return names;
@@ -73,14 +82,13 @@ void scale_set(MaterialSet& set, std::string_view parameter, double factor) {
   const std::vector<LawConstant> constants = constants_of(set, parameter);
   for (const LawConstant& at : constants)
     set.laws[std::size_t(at.tissue)].constants[at.constant] *= factor;
-  if (parameter == "wall" && set.wall_support) {
-    *set.wall_support *= factor;
-  } else if (parameter == "cut" && set.cut_support) {
-    *set.cut_support *= factor;
+  std::optional<double>* support = support_in(set, parameter);
+  if (support != nullptr && *support) {
+    **support *= factor;
   } else if (constants.empty()) {
     throw input_error("materials ", set.name, ": no '", std::string(parameter),
                       "' to scale; choose one that the set has of low_order, quadratic, "
-                      "stiffness, gland, skin, wall and cut");
+                      "stiffness, gland, skin, wall, cut and sternum");
   }
 }
 

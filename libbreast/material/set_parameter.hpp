@@ -19,12 +19,12 @@ struct LawConstant {
 /// A parameter: "low_order" (constants linear in the invariants, of all tissues except skin),
 /// "quadratic" (their other stiffness constants), "stiffness" (both together), "gland" (all
 /// stiffness constants of fibroglandular tissue and tumour, and hence the ratio of gland to fat),
-/// "skin", "wall" or "cut". The covariance of a set's uncertainty refers to the logarithms of such
-/// factors.
+/// "skin", "wall", "cut" or "sternum" (the cut towards it). The covariance of a set's uncertainty
+/// refers to the logarithms of such factors.
 const std::vector<std::string>& set_parameter_names();
 
-/// The constants that a parameter multiplies; none for "wall", for "cut" and for constants that the
-/// laws do not have.
+/// The constants that a parameter multiplies; none for "wall", "cut" and "sternum", and for constants
+/// that the laws do not have.
 std::vector<LawConstant> constants_of(const MaterialSet& set, std::string_view parameter);
 
 /// Names of the parameters that the set has, without "stiffness".

@@ -107,8 +107,7 @@ void Scene::add_wall() {
     const double along = wall.stiffness.tangential;
     if (along > 0) wall_springs_ = springs(mesh_.pectoral_faces, {along, along});
   }
-  const double at_cut = options_.cut.stiffness;
-  if (options_.cut.kind == Cut::spring) cut_springs_ = springs(mesh_.cut_faces, {at_cut, at_cut});
+  cut_springs_ = springs_at_cut(mesh_, options_.cut);
 }
 
 long Scene::unknowns() const {
@@ -149,7 +148,9 @@ LoadedProblem Scene::problem(const Eigen::VectorXd& force) const {
   loaded.problem.add(solid_);
   if (membrane_) loaded.problem.add(membrane_);
   if (wall_springs_) loaded.problem.add(wall_springs_);
-  if (cut_springs_) loaded.problem.add(cut_springs_);
+  for (const auto& springs : {cut_springs_.around, cut_springs_.sternal}) {
+    if (springs) loaded.problem.add(springs);
+  }
   loaded.problem.set_sliding(sliding_);
   loaded.problem.add(loaded.load);
   loaded.set_load(force);
@@ -158,7 +159,7 @@ LoadedProblem Scene::problem(const Eigen::VectorXd& force) const {
 
 Vec3 Scene::force_of_springs(const State& state) const {
   Vec3 sum = Vec3::Zero();
-  for (const auto& springs : {wall_springs_, cut_springs_}) {
+  for (const auto& springs : {wall_springs_, cut_springs_.around, cut_springs_.sternal}) {
     if (springs) sum += springs->force_on_body(state);
   }
   return sum;

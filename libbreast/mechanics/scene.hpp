@@ -13,8 +13,8 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "mechanics/cut_springs.hpp"
 #include "mechanics/terms/dead_load.hpp"
-#include "mechanics/terms/elastic_support.hpp"
 #include "mechanics/terms/solid.hpp"
 #include "solve/problem.hpp"
 
@@ -47,7 +47,8 @@ class Scene {
   const Solid& solid() const { return *solid_; }
   /// Springs at the chest wall and at the cut; null where there are none.
   const ElasticSupport* wall_springs() const { return wall_springs_.get(); }
-  const ElasticSupport* cut_springs() const { return cut_springs_.get(); }
+  const ElasticSupport* cut_springs() const { return cut_springs_.around.get(); }
+  const ElasticSupport* sternal_springs() const { return cut_springs_.sternal.get(); }
   /// Force of all springs on the body, µN.
   Vec3 force_of_springs(const State& state) const;
   /// The constraints that do not depend on where the body is.
@@ -77,7 +78,8 @@ class Scene {
   MechanicsOptions options_;
   std::shared_ptr<const Solid> solid_;
   std::shared_ptr<const Term> membrane_;
-  std::shared_ptr<const ElasticSupport> wall_springs_, cut_springs_;
+  std::shared_ptr<const ElasticSupport> wall_springs_;
+  CutSprings cut_springs_;
   std::shared_ptr<const SlidingNodes> sliding_;
   Constraints walls_;
 };

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "mechanics/terms/elastic_support.hpp"
@@ -38,8 +39,11 @@ enum class Cut {
 struct CutOption {
   Cut kind = Cut::free;
   double stiffness = 0;  ///< kPa/mm; spring only
+  /// Stiffness where the cut faces the sternum, kPa/mm; as elsewhere if absent.
+  std::optional<double> sternal = {};
 
-  CutOption(Cut how = Cut::free, double springs = 0) : kind(how), stiffness(springs) {}
+  CutOption(Cut how = Cut::free, double springs = 0, std::optional<double> at_sternum = {})
+      : kind(how), stiffness(springs), sternal(at_sternum) {}
 };
 
 /// Resistance to sliding when none is given, kPa/mm.
@@ -50,7 +54,8 @@ inline constexpr double usual_sliding_stiffness = 0.01;
 /// stiffness is a third of the normal one, as for a thin layer of incompressible elastic tissue
 /// with free sides (E/h normal, G/h = E/3h tangential). Throws Error (input) for anything else.
 WallOption parse_wall(const std::string& text);
-/// "free", "fixed", "roller" or "spring:STIFFNESS" in kPa/mm. Throws Error (input) otherwise.
+/// "free", "fixed", "roller", "spring:STIFFNESS" or "spring:STIFFNESS,STERNAL" in kPa/mm, where the
+/// second number is the stiffness towards the sternum. Throws Error (input) otherwise.
 CutOption parse_cut(const std::string& text);
 
 /// The option's text as on a command line.

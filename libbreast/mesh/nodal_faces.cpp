@@ -22,7 +22,8 @@ std::vector<QuadPoint> quad_rule(int order) {
 }  // namespace
 
 NodalFaces nodal_faces(const HexMesh& mesh, const std::vector<Face>& faces,
-                       const Eigen::VectorXd& x) {
+                       const Eigen::VectorXd& x,
+                       const std::function<double(const Vec3& normal)>& weight) {
   NodalFaces spread{std::vector<double>(std::size_t(mesh.nodes()), 0),
                     std::vector<Vec3>(std::size_t(mesh.nodes()), Vec3::Zero())};
   const std::vector<QuadPoint> rule = quad_rule(mesh.order);
@@ -36,9 +37,10 @@ NodalFaces nodal_faces(const HexMesh& mesh, const std::vector<Face>& faces,
         a2 += point.shape.gradients(1, Eigen::Index(k)) * position;
       }
       const Vec3 dA = point.weight * a1.cross(a2);
+      const double area = (weight ? weight(dA.normalized()) : 1) * dA.norm();
       for (std::size_t k = 0; k < nodes.size(); ++k) {
         const double share = point.shape.values[Eigen::Index(k)];
-        spread.area[std::size_t(nodes[k])] += share * dA.norm();
+        spread.area[std::size_t(nodes[k])] += share * area;
         spread.vector[std::size_t(nodes[k])] += share * dA;
       }
     }

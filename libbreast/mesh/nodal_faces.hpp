@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "mesh/hex_mesh.hpp"
@@ -15,8 +16,10 @@ struct NodalFaces {
   std::vector<double> area;
   std::vector<Vec3> vector;
 };
-/// Nodal areas in the shape `x` (3 per node).
+/// Nodal areas in the shape `x` (3 per node). `weight` multiplies the areas, but not the area
+/// vectors, by a function of the outward unit normal.
 NodalFaces nodal_faces(const HexMesh& mesh, const std::vector<Face>& faces,
-                       const Eigen::VectorXd& x);
+                       const Eigen::VectorXd& x,
+                       const std::function<double(const Vec3& normal)>& weight = {});
 
 }  // namespace breast

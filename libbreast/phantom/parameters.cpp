@@ -147,6 +147,7 @@ MaterialSet body_materials(const BodyParameters& body) {
   }
   *set.wall_support *= body.wall_percent / 100;
   *set.cut_support *= body.cut_percent / 100;
+  if (set.sternum_support) *set.sternum_support *= body.cut_percent / 100;
   return set;
 }
 

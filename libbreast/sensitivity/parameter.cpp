@@ -80,7 +80,7 @@ std::string Parameter::per() const {
 bool Parameter::relative() const {
   return kind <= ParameterKind::tissue_density || kind == ParameterKind::skin_thickness ||
          kind == ParameterKind::wall_support || kind == ParameterKind::cut_support ||
-         kind == ParameterKind::together;
+         kind == ParameterKind::sternum_support || kind == ParameterKind::together;
 }
 
 bool Parameter::of_plates() const {
@@ -108,7 +108,10 @@ std::vector<Parameter> all_parameters(const HexMesh& state, const MechanicsOptio
   if (options.wall.kind != WallKind::held && options.wall.stiffness.tangential > 0) {
     all.push_back({"wall", ParameterKind::wall_support});
   }
-  if (options.cut.kind == Cut::spring) all.push_back({"cut", ParameterKind::cut_support});
+  if (options.cut.kind == Cut::spring) {
+    all.push_back({"cut", ParameterKind::cut_support});
+    if (options.cut.sternal) all.push_back({"sternum", ParameterKind::sternum_support});
+  }
   add_set_parameters(state, options.materials, all);
   add_gravity(state.gravity, "gravity_", ParameterKind::gravity, all);
   add_gravity(imaged_gravity, "imaged_gravity_", ParameterKind::imaged_gravity, all);
@@ -131,6 +134,7 @@ Parameter set_parameter(const HexMesh& state, const MaterialSet& set, const std:
   Parameter sum{name, ParameterKind::together};
   if (name == "wall") sum.members.push_back({name, ParameterKind::wall_support});
   if (name == "cut") sum.members.push_back({name, ParameterKind::cut_support});
+  if (name == "sternum") sum.members.push_back({name, ParameterKind::sternum_support});
   const std::set<Tissue> present = tissues_of(state);
   for (const LawConstant& at : constants_of(set, name)) {
     if (!present.contains(at.tissue)) continue;

@@ -58,10 +58,12 @@ TEST(ContactOptions, WallAndDetectorAreReadOrRefusedInWords) {
   EXPECT_EQ(parse_wall("spring:3,0").stiffness.tangential, 0);
   EXPECT_EQ(parse_cut("roller").kind, Cut::roller);
   EXPECT_EQ(parse_cut("spring:0.005").stiffness, 0.005);
+  EXPECT_FALSE(parse_cut("spring:0.005").sternal);
+  EXPECT_EQ(parse_cut("spring:0.005,0.1").sternal, 0.1);
   for (const char* text : {"held", "slide:0.02", "spring:3,0.5"}) {
     EXPECT_EQ(describe(parse_wall(text)), text);
   }
-  for (const char* text : {"free", "fixed", "roller", "spring:0.005"}) {
+  for (const char* text : {"free", "fixed", "roller", "spring:0.005", "spring:0.005,0.1"}) {
     EXPECT_EQ(describe(parse_cut(text)), text);
   }
   EXPECT_TRUE(std::isinf(parse_detector("raised")));
@@ -72,7 +74,7 @@ TEST(ContactOptions, WallAndDetectorAreReadOrRefusedInWords) {
                           "slide:1,1"}) {
     EXPECT_THROW(parse_wall(bad), Error) << bad;
   }
-  for (const char* bad : {"", "held", "spring", "spring:0", "spring:-1", "spring:1,1"}) {
+  for (const char* bad : {"", "held", "spring", "spring:0", "spring:-1", "spring:1,0", "spring:1,", "spring:1,1,1"}) {
     EXPECT_THROW(parse_cut(bad), Error) << bad;
   }
   for (const char* bad : {"", "-1", "nan", "inf", "up", "3mm"}) {

@@ -87,7 +87,7 @@ TEST(GaussNewton, AModelWithoutAnAnswerShortensTheStepAndIsNamedAtTheStart) {
 TEST(Softness, ScalesLinearAndQuadraticTermsApart) {
   const MaterialSet base = load_materials("seed2008");
   Softness s;
-  s.low_order = 0.5, s.quadratic = 0.1, s.skin = 2, s.wall = 0.03, s.cut = 0.04;
+  s.low_order = 0.5, s.quadratic = 0.1, s.skin = 2, s.wall = 0.03, s.cut = 0.04, s.sternum = 0.05;
   const MaterialSet set = softened(base, s);
   const std::vector<double>&was = base.law(Tissue::fat).constants, &is = set.law(Tissue::fat).constants;
   EXPECT_NEAR(is[0], 0.5 * was[0], 1e-12);
@@ -95,6 +95,7 @@ TEST(Softness, ScalesLinearAndQuadraticTermsApart) {
   for (int k = 2; k < 5; ++k) EXPECT_NEAR(is[k], 0.1 * was[k], 1e-12);
   EXPECT_EQ(set.wall_support, 0.03);
   EXPECT_EQ(set.cut_support, 0.04);
+  EXPECT_EQ(set.sternum_support, 0.05);
   EXPECT_THROW(softened(load_materials("victre"), s), Error);
   const Softness back = Softness::from_logarithms(s.logarithms());
   EXPECT_NEAR(back.quadratic, 0.1, 1e-15);

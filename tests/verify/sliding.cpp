@@ -9,9 +9,11 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "fixtures/block.hpp"
 #include "fixtures/elastic_scene.hpp"
 #include "fixtures/in_place.hpp"
 #include "fixtures/sliding_cap.hpp"
+#include "mechanics/cut_springs.hpp"
 #include "mesh/nodal.hpp"
 
 namespace breast {
@@ -175,6 +177,48 @@ TEST(Sliding, PlaneWallEqualsRollers) {
   ASSERT_TRUE(equilibrate(rollers.problem, solver, matrix, state).converged);
   EXPECT_LT(worst_distance(slid.points, unflatten(state.x)), 1e-9);
   EXPECT_GT(worst_distance(slid.points, mesh.reference), 1);
+}
+
+// A block moved by d: each face pulls it back by its area times its stiffness, and a face turned by
+// 45 degrees from the sternum by half of each.
+TEST(CutSprings, FacesTowardsTheSternumHaveAStiffnessOfTheirOwn) {
+  constexpr double around = 0.01, sternal = 0.2, size = 60;
+  for (const Side side : {Side::left, Side::right}) {
+    for (const double degrees : {0.0, 45.0}) {
+      fixtures::BlockSettings settings;
+      settings.size = Vec3::Constant(size);
+      HexMesh mesh = fixtures::block(settings);
+      const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, Vec3::UnitZ());
+      for (Vec3& x : mesh.imaged) x = (turn * x).eval();
+      mesh.side = side;
+      mesh.cut_faces = boundary_faces(mesh);
+      const CutSprings springs = springs_at_cut(mesh, CutOption(Cut::spring, around, sternal));
+      const CutSprings uniform = springs_at_cut(mesh, CutOption(Cut::spring, around));
+      ASSERT_EQ(uniform.sternal, nullptr);
+      const Vec3 moved(1, -2, 0.5);
+      State state{flatten(mesh.imaged), flatten(mesh.imaged), {}};
+      for (int node = 0; node < mesh.nodes(); ++node) state.x.segment<3>(3L * node) += moved;
+      // One face looks at the sternum, or two do by half.
+      const double face = size * size * pascal_per_kilopascal;
+      EXPECT_LT((springs.sternal->force_on_body(state) + sternal * face * moved).norm(), 1e-6);
+      EXPECT_LT((springs.around->force_on_body(state) + 5 * around * face * moved).norm(), 1e-6);
+      EXPECT_LT((uniform.around->force_on_body(state) + 6 * around * face * moved).norm(), 1e-6);
+    }
+  }
+}
+
+TEST(CutSprings, TheSternumHoldsTheMedialSideOfASupineBreast) {
+  HexMesh loose = cap_on_sphere(), attached = loose;
+  MechanicsOptions options = soft(20, slide(sphere(), 0.02));
+  options.cut = CutOption(Cut::spring, 0.01, 0.01);
+  ASSERT_TRUE(fixtures::forward_into(loose, supine, options).converged());
+  HexMesh uniform = cap_on_sphere();
+  options.cut.sternal.reset();
+  ASSERT_TRUE(fixtures::forward_into(uniform, supine, options).converged());
+  EXPECT_LT(worst_distance(loose.points, uniform.points), 1e-9);
+  options.cut.sternal = 0.5;
+  ASSERT_TRUE(fixtures::forward_into(attached, supine, options).converged());
+  EXPECT_GT(worst_distance(attached.points, uniform.points), 0.01);
 }
 
 TEST(Sliding, StiffSupportEqualsAHeldWall) {

@@ -128,7 +128,10 @@ MechanicsOptions with_change(const MechanicsOptions& options, Changed what, doub
     }
     return out;
   }
-  if (what == Changed::cut) out.cut.kind = Cut::spring;
+  if (what == Changed::cut) {
+    out.cut.kind = Cut::spring;
+    if (out.cut.sternal) *out.cut.sternal *= factor;
+  }
   double& stiffness = *stiffness_of(out, what);
   stiffness = stiffness > 0 ? factor * stiffness : (factor - 1) * usual_sliding_stiffness;
   return out;
