@@ -121,6 +121,22 @@ TEST_F(HostileMesh, AttributesThatLeaveTheirMessageAreRefused) {
   EXPECT_NE(damaged(space + 1, "\x08").find(values_longer), std::string::npos);
 }
 
+// As h5py writes a text.
+TEST_F(HostileMesh, AnAttributeOfVariableLengthIsRead) {
+  const std::string text = after([](hid_t h5) {
+    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(type, H5T_VARIABLE);
+    const hid_t notes = H5Acreate_by_name(h5, "/breast", "notes", type, space, H5P_DEFAULT,
+                                          H5P_DEFAULT, H5P_DEFAULT);
+    const char* words = "edited by hand";
+    H5Awrite(notes, type, &words);
+    H5Aclose(notes);
+    H5Sclose(space);
+    H5Tclose(type);
+  });
+  EXPECT_EQ(text, "accepted");
+}
+
 TEST_F(HostileMesh, VirtualDatasetsAreNotRead) {
   const std::string text = after([&](hid_t h5) {
     const hsize_t count = 10;

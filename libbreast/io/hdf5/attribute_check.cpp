@@ -38,6 +38,26 @@ Size bytes_of_values(std::string_view space, Size one, Size most) {
   return bytes;
 }
 
+/// Bytes that the description of a datatype takes at least; 0 for one that is neither number nor text.
+Size bytes_of_type(std::string_view type, bool inner = false) {
+  enum Class : Size { fixed_point = 0, floating_point = 1, string = 3, variable_length = 9 };
+  constexpr Size head = 8;
+  switch (integer(type, 0, 1) & 15) {
+    case fixed_point:
+      return head + 4;
+    case floating_point:
+      return head + 12;
+    case string:
+      return head;
+    case variable_length: {
+      const Size of = inner || type.size() < head ? 0 : bytes_of_type(type.substr(head), true);
+      return of == 0 ? 0 : head + of;
+    }
+    default:
+      return 0;
+  }
+}
+
 /// The message of one attribute, whose parts follow each other: name, datatype, dataspace, values.
 std::string wrong_attribute(std::string_view message) {
   const Size version = integer(message, 0, 1);
@@ -52,11 +72,8 @@ std::string wrong_attribute(std::string_view message) {
   if (values_at > message.size() || type < least_type || space < least_space)
     return "an attribute is longer than its message";
   if (name == 0 || message[begin + name - 1] != '\0') return "the name of an attribute has no end";
-  enum Class : Size { fixed_point = 0, floating_point = 1, string = 3 };
-  const Size kind = integer(message, type_at, 1) & 15;
-  const Size described = kind == fixed_point ? 12 : kind == floating_point ? 20 : least_type;
-  if (kind != fixed_point && kind != floating_point && kind != string)
-    return "an attribute is neither number nor text";
+  const Size described = bytes_of_type(message.substr(type_at, type));
+  if (described == 0) return "an attribute is neither number nor text";
   const Size one = integer(message, type_at + 4, 4), left = message.size() - values_at;
   if (type < described || bytes_of_values(message.substr(space_at, space), one, left) > left)
     return "the values of an attribute are longer than its message";
