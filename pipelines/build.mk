@@ -27,7 +27,7 @@ ifndef INSTALLED
 SOURCES := $(shell find $(addprefix $(ROOT),libbreast tools cmake) $(PIPELINES)/materials -type f -not -name '.*') \
   $(ROOT)CMakeLists.txt $(ROOT)CMakePresets.json
 PRESET_BUILD ?= release
-presets := release debug asan package bench ci
+presets := release debug asan readers package bench ci
 $(if $(filter-out $(presets),$(value PRESET_BUILD)),$(error PRESET_BUILD: '$(value PRESET_BUILD)' is none of $(presets)))
 
 $(ROOT)build/.packages: $(PIPELINES)/packages.txt $(PIPELINES)/setup.sh

@@ -33,12 +33,12 @@ full-disk:
 	$(BUILD)/tests/tools_full_disk
 	$(BUILD)/tests/tools_killed_writer
 
-# Programs that read the formats of tests/fuzz/whole-tools.py.
+# Programs that read the formats of tests/fuzz/whole-tools.py, and of which what reads is sanitized.
 readers := cases export-slicer probe evaluate laws export-deck match-lookup segment hexmesh cc2mlo truth-table
-SANITIZED := build/asan
+SANITIZED := build/readers
 whole-tools:
 	cmake --build $(BUILD) -j $$(nproc) --target programs fault_inputs
-	cmake --preset asan > /dev/null
+	cmake --preset readers > /dev/null
 	cmake --build $(SANITIZED) -j $$(nproc) --target $(readers)
 	rm -rf build/whole-tools
 	$(BUILD)/tests/fault_inputs build/whole-tools

@@ -12,6 +12,7 @@
 #include "segment/grid/filters.hpp"
 #include "segment/grid/itk_filters.hpp"
 #include "segment/plausibility.hpp"
+#include "segment/tissue/compact_gland.hpp"
 #include "segment/tissue/skin_thickness.hpp"
 #include "segment/wall/wall_input.hpp"
 #include "segment/wall/wall_uncertainty.hpp"
@@ -31,12 +32,17 @@ constexpr double wall_clearance = 2;  // mm in front of the wall used for the la
 // which is then estimated again without it. A little (strands, vessels) does not.
 constexpr double darkest_gland_in_bias = 0.5, least_gland_in_bias = 0.1;
 
+/// Gland that misled the estimate of the bias, which is then made again.
+struct MisleadingGland {
+  Volume<float> share;  ///< where no fat is sought; empty when none misleads
+  DimTissue compact;    ///< what was missed for being compact; its share is empty when nothing was
+};
+
 /// Bias on a grid halved in plane, and the ratio on the working grid. `limit` gives the depth (mm)
-/// per column up to which there may be fat; where there is `gland` (its share, may be null) there is
-/// none.
+/// per column up to which there may be fat; there is none in `gland` (may be null).
 template <class Limit>
 void correct_bias(Work& work, bool again, const BiasSettings& settings, const Limit& limit,
-                  const Volume<float>* gland = nullptr) {
+                  const MisleadingGland* gland = nullptr) {
   const std::array<int, 3> half{2, 2, 1};
   const Volume<float> coarse = coarsened(work.scan, half);
   Volume<float> distance = resampled(work.skin_distance, coarse.grid);
@@ -51,14 +57,18 @@ void correct_bias(Work& work, bool again, const BiasSettings& settings, const Li
       }
     }
   }
+  DimTissue dim;
   if (gland) {
     constexpr float least_share = 0.1f;
-    const Volume<float> share = resampled(*gland, grid);
+    const Volume<float> share = resampled(gland->share, grid);
     for (std::size_t n = 0; n < share.voxels.size(); ++n)
       if (share.voxels[n] > least_share) allowed.voxels[n] = 0;
+    const auto& [compact, step] = gland->compact;
+    if (!compact.voxels.empty()) dim = {resampled(compact, grid), step};
   }
   const Volume<float> previous = work.bias.log_bias;
-  work.bias = fat_bias(coarse, allowed, distance, settings, again ? &previous : nullptr);
+  work.bias = fat_bias(coarse, allowed, distance, settings, again ? &previous : nullptr,
+                       dim.share.voxels.empty() ? nullptr : &dim);
   const Volume<float> fine = resampled(work.bias.log_bias, work.scan.grid);
   work.ratio = work.scan;
   for (std::size_t n = 0; n < fine.voxels.size(); ++n) {
@@ -119,7 +129,7 @@ void find_wall(Work& work, const SegmentOptions& options, Progress& progress, Ti
 }
 
 /// The final bias of the working grid, from the fat in front of the wall.
-void refine_bias(Work& work, const Volume<float>* gland = nullptr) {
+void refine_bias(Work& work, const MisleadingGland* gland = nullptr) {
   correct_bias(
       work, true, {.refined = true},
       [&](int i, int k) {
@@ -247,6 +257,35 @@ void separate_tissue(Work& work, Interior by, double fat_cv) {
                                    work.wall.muscle_ratio, fat_cv, by);
 }
 
+/// Compact gland of which much was taken for dim fat; nothing where there is none.
+DimTissue missed_gland(const Work& work, const Mask& interior) {
+  constexpr double most_missed = 0.2;
+  DimTissue gland = compact_gland(work.scan, interior);
+  double all = 0, missed = 0;
+  for (std::size_t n = 0; n < interior.voxels.size(); ++n) {
+    all += gland.share.voxels[n];
+    missed += work.gland.lobes.voxels[n] ? 0 : gland.share.voxels[n];
+  }
+  return missed > most_missed * all ? gland : DimTissue{};
+}
+
+/// Much bright gland, or compact gland that was missed.
+MisleadingGland misleading_gland(const Work& work) {
+  constexpr double reach = 4;  // mm beyond compact gland, whose blocks are as wide
+  const Mask interior = interior_of(work, darkened_by_skin(work), work.scan.grid.spacing[1]);
+  MisleadingGland gland{{}, missed_gland(work, interior)};
+  const bool compact = !gland.compact.share.voxels.empty();
+  const bool bright = work.gland.gland_ratio > darkest_gland_in_bias &&
+                      1 - work.gland.fat_fraction > least_gland_in_bias;
+  if (!bright && !compact) return gland;
+  gland.share = gaussian(work.gland.fraction, 1);
+  if (!compact) return gland;
+  const Volume<float> around = gaussian(gland.compact.share, reach);
+  for (std::size_t n = 0; n < around.voxels.size(); ++n)
+    gland.share.voxels[n] = std::max(gland.share.voxels[n], around.voxels[n]);
+  return gland;
+}
+
 /// A contrast in which fat is not the bright tissue: refused, or reported where the user answers
 /// for it.
 void judge_contrast(Segmentation& result, const SegmentOptions& options) {
@@ -316,15 +355,14 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   work.breast = breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent,
                               options.side, options.posture);
   separate_tissue(work, Interior::threshold, result.bias_cv_after);
-  const bool bright_gland = work.gland.gland_ratio > darkest_gland_in_bias &&
-                            1 - work.gland.fat_fraction > least_gland_in_bias;
-  if (bright_gland) {
-    const Volume<float> gland = gaussian(work.gland.fraction, 1);
+  const MisleadingGland gland = misleading_gland(work);
+  const bool again = !gland.share.voxels.empty();
+  if (again) {
     refine_bias(coarse, &gland);
     divide_by_bias(work, coarse.bias);
     result.bias_cv_after = coarse.bias.fat_cv_after;
   }
-  if (bright_gland || options.interior != Interior::threshold)
+  if (again || options.interior != Interior::threshold)
     separate_tissue(work, options.interior, result.bias_cv_after);
   const Volume<float> inside_gland = signed_distance(work.gland.lobes);
   result.compact_dark_mm =

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """whole-tools.py BIN INPUTS [COUNT [FORMAT...]]: damages small valid files of every format and gives each to the
-tool that reads it, COUNT times a format (default 2000). BIN holds the programs (built under sanitizers: build/asan/bin),
+tool that reads it, COUNT times a format (default 2000). BIN holds the programs (of the preset readers: build/readers/bin),
 INPUTS the files that the program fault_inputs wrote. The whole files come first, and each must be accepted: a refusal would
 keep every damaged one from the reader. A run is a finding when it ends by a signal or with another exit code than 0 to 3,
 when a failure says anything but one line, takes over 10 s of processor time (or 120 s of the clock, for one that waits for

@@ -89,6 +89,54 @@ TEST_F(HostileMesh, AShortCompactDatasetIsNotReadBeyondItsEnd) {
   EXPECT_NE(text.find("states 1000 values in 257 bytes"), std::string::npos) << text;
 }
 
+// HDF5 1.10 copies from beyond an attribute's message, and from beyond its memory, when a length in it is damaged. The
+// message: version, 0, lengths of name, datatype and dataspace (2 bytes each), and these, in multiples of 8 bytes.
+TEST_F(HostileMesh, AttributesThatLeaveTheirMessageAreRefused) {
+  const std::string fine = after([](hid_t h5) {
+    const hsize_t count = 3;
+    const hid_t space = H5Screate_simple(1, &count, nullptr);
+    const hid_t notes = H5Acreate_by_name(h5, "/breast", "notes", H5T_NATIVE_DOUBLE, space,
+                                          H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const double values[] = {1, 2, 3};
+    H5Awrite(notes, H5T_NATIVE_DOUBLE, values);
+    H5Aclose(notes);
+    H5Sclose(space);
+  });
+  EXPECT_EQ(fine, "accepted");
+  const std::string whole = read_text(file_);
+  const std::size_t name = whole.find(std::string("notes\0\0\0", 8));
+  ASSERT_NE(name, std::string::npos);
+  const auto damaged = [&](std::size_t at, const std::string& bytes) {
+    write_text(file_, std::string(whole).replace(at, bytes.size(), bytes));
+    return complaint([&] { read_mesh(file_); });
+  };
+  const std::size_t type = name + 8, space = type + 24;  // a double takes 20 bytes
+  const std::string longest = "\xff\xff", longer = "is longer than its message",
+                    values_longer = "values of an attribute are longer";
+  for (const std::size_t length : {name - 6, name - 4, name - 2})
+    EXPECT_NE(damaged(length, longest).find(longer), std::string::npos) << length - name;
+  EXPECT_NE(damaged(name + 5, "x").find("has no end"), std::string::npos);
+  EXPECT_NE(damaged(type + 4, longest).find(values_longer), std::string::npos);
+  EXPECT_NE(damaged(space + 8, "\x04").find(values_longer), std::string::npos);
+  EXPECT_NE(damaged(space + 1, "\x08").find(values_longer), std::string::npos);
+}
+
+// As h5py writes a text.
+TEST_F(HostileMesh, AnAttributeOfVariableLengthIsRead) {
+  const std::string text = after([](hid_t h5) {
+    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(type, H5T_VARIABLE);
+    const hid_t notes = H5Acreate_by_name(h5, "/breast", "notes", type, space, H5P_DEFAULT,
+                                          H5P_DEFAULT, H5P_DEFAULT);
+    const char* words = "edited by hand";
+    H5Awrite(notes, type, &words);
+    H5Aclose(notes);
+    H5Sclose(space);
+    H5Tclose(type);
+  });
+  EXPECT_EQ(text, "accepted");
+}
+
 TEST_F(HostileMesh, VirtualDatasetsAreNotRead) {
   const std::string text = after([&](hid_t h5) {
     const hsize_t count = 10;

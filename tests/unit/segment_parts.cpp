@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nipple, debris, ghosts and skin thickness, each on a body made for it.
+// Nipple, debris, ghosts, skin thickness and compact gland, each on a body made for it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 
+#include "core/units.hpp"
+#include "fixtures/synthetic_scan.hpp"
 #include "segment/body/debris.hpp"
 #include "segment/grid/itk_filters.hpp"
+#include "segment/segment.hpp"
+#include "segment/tissue/compact_gland.hpp"
 #include "segment/tissue/nipple.hpp"
 #include "segment/tissue/skin_thickness.hpp"
 
@@ -131,6 +137,100 @@ TEST(Debris, DimGhostBesideTheBodyGoes) {
     scan.voxels[n] = clean.voxels[n] ? 1000.f : body.voxels[n] ? 80.f : 5.f;
   remove_ghosts(body, scan);
   EXPECT_EQ(body.voxels, clean.voxels);
+}
+
+/// A cube of fat under a coil's sensitivity, fivefold in 80 mm, times `brightness(p)`.
+template <class Brightness>
+Volume<float> cube_of_fat(const Brightness& brightness) {
+  Volume<float> scan;
+  scan.grid.size = {40, 40, 20};
+  scan.grid.spacing = Vec3(2, 2, 4);
+  scan.grid.origin = Vec3(-39, -39, -38);
+  scan.voxels.resize(scan.grid.voxels());
+  for (int k = 0; k < 20; ++k) {
+    for (int j = 0; j < 40; ++j) {
+      for (int i = 0; i < 40; ++i) {
+        const Vec3 p = scan.grid.to_patient(Vec3(i, j, k));
+        scan.at(i, j, k) = float(200 * std::pow(5.0, -p[1] / 80) * brightness(p));
+      }
+    }
+  }
+  return scan;
+}
+
+DimTissue compact_in(const Volume<float>& scan) {
+  Mask all(scan.grid);
+  std::fill(all.voxels.begin(), all.voxels.end(), 1);
+  return compact_gland(scan, all);
+}
+
+double ml_of(const DimTissue& gland) {
+  double sum = 0;
+  for (const float share : gland.share.voxels) sum += share;
+  return sum * gland.share.grid.voxel_volume() / mm3_per_ml;
+}
+
+// 10 %: a fifth of a block of 4 mm all round a ball of 50 mm.
+TEST(CompactGland, IsFoundByItsEdge) {
+  constexpr double radius = 25;
+  for (const double brightness : {0.5, 0.6, 0.7}) {
+    const DimTissue found =
+        compact_in(cube_of_fat([&](const Vec3& p) { return p.norm() < radius ? brightness : 1; }));
+    EXPECT_NEAR(ml_of(found) / (4.18879 * std::pow(radius, 3) / mm3_per_ml), 1, 0.1) << brightness;
+    EXPECT_NEAR(found.step, -std::log(brightness), 0.15) << brightness;
+  }
+}
+
+TEST(CompactGland, WhatDarkensSlowlyIsTheCoil) {
+  const auto field = [](const Vec3& p) {
+    return 1 - 0.4 * std::exp(-p.squaredNorm() / (2 * 18 * 18));
+  };
+  EXPECT_EQ(ml_of(compact_in(cube_of_fat(field))), 0);
+}
+
+// Cells of 5 mm, each with another share of fat in it: no one brightness is the gland's.
+TEST(CompactGland, WithFatInItIsLeftToTheFat) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0.2, 1);
+  std::array<std::array<std::array<double, 16>, 16>, 16> cells;
+  for (auto& plane : cells)
+    for (auto& row : plane)
+      for (double& cell : row) cell = share(random);
+  const auto mixed = [&](const Vec3& p) {
+    const auto cell = [&](int d) { return std::size_t((p[d] + 40) / 5); };
+    return p.norm() < 30 ? 1 - 0.5 * cells[cell(0)][cell(1)][cell(2)] : 1;
+  };
+  EXPECT_EQ(ml_of(compact_in(cube_of_fat(mixed))), 0);
+}
+
+/// Volume of fibroglandular tissue that is found of a gland of 38 % of the breast without fat in it, over its own.
+double compact_volume_found(double brightness) {
+  testing::SyntheticScan truth;
+  truth.gland_scale = 0.65;
+  const Volume<float> scan = truth.image_of([&](const Vec3& p) {
+    return !truth.behind_wall(p) && truth.in_gland(p) && truth.in_body(p) ? brightness
+                                                                          : truth.signal(p);
+  });
+  Timer timer;
+  const Segmentation result = segment_breast(scan, {}, no_progress(), timer);
+  const Grid& grid = result.labels.grid;
+  double found = 0, there = 0;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const Vec3 p = grid.to_patient(Vec3(i, j, k));
+        there += p[0] > 0 && !truth.behind_wall(p) && truth.in_gland(p);
+        found += result.labels.fibroglandular_fraction[grid.offset(i, j, k)];
+      }
+    }
+  }
+  return found / there;
+}
+
+// Of 0.6 a fifth was found, of 0.7 nothing. 7 %: a third of a voxel all round.
+TEST(CompactGland, IsNotTakenForDimFat) {
+  for (const double brightness : {0.6, 0.7})
+    EXPECT_NEAR(compact_volume_found(brightness), 1, 0.07) << brightness;
 }
 
 }  // namespace

@@ -7,9 +7,11 @@
 #include <mutex>
 #include <new>
 #include <set>
+#include <string_view>
 
 #include "core/atomic_file.hpp"
 #include "core/guarded_child.hpp"
+#include "io/hdf5/attribute_check.hpp"
 #include "io/hdf5/document.hpp"
 #include "io/hdf5/handle.hpp"
 #include "io/hdf5/packed.hpp"
@@ -79,7 +81,7 @@ Budget budget_of(std::size_t file_bytes) {
 
 class Loader {
  public:
-  Loader(const Source& source, std::size_t file_bytes) : source_(source), file_bytes_(file_bytes) {}
+  Loader(const Source& source, std::string_view file) : source_(source), file_(file) {}
 
   void load_group(const Handle& parent, const std::string& path, int depth) {
     if (depth > 8) throw source_.refuse("group ", path, " is nested too deeply");
@@ -108,9 +110,8 @@ class Loader {
     const std::string child = path + "/" + name;
     if (link.type != H5L_TYPE_HARD) throw source_.refuse(child, " is a link, must be a dataset");
     H5O_info_t object{};
-    if (H5Oget_info_by_name(group, name, &object, H5P_DEFAULT) < 0) {
+    if (H5Oget_info_by_name(group, name, &object, H5P_DEFAULT) < 0)
       throw source_.refuse(child, " cannot be read");
-    }
     if (!visited_.insert(object.addr).second) {
       throw source_.refuse(child, " is a second link to an object that has another name already");
     }
@@ -131,10 +132,10 @@ class Loader {
     H5Sget_simple_extent_dims(space, extent.data(), nullptr);
     std::vector<std::size_t> shape(extent.begin(), extent.begin() + rank);
     std::size_t count = 1;
-    const std::size_t limit = most_inflation * file_bytes_;
+    const std::size_t limit = most_inflation * file_.size();
     for (const std::size_t n : shape) {
       if (n != 0 && count > limit / n) {
-        throw source_.refuse(path, " states more values than a file of ", file_bytes_,
+        throw source_.refuse(path, " states more values than a file of ", file_.size(),
                              " bytes can hold");
       }
       count *= n;
@@ -169,7 +170,7 @@ class Loader {
     const bool packed = H5Pget_layout(layout) == H5D_CHUNKED;
     const std::size_t width = std::max<std::size_t>(type ? H5Tget_size(type) : 0, 1);
     if (values >
-        (packed ? most_inflation * std::min<hsize_t>(stored, file_bytes_) : stored / width)) {
+        (packed ? most_inflation * std::min<hsize_t>(stored, file_.size()) : stored / width)) {
       throw source_.refuse("dataset ", path, " states ", values, " values in ", stored, " bytes");
     }
   }
@@ -220,9 +221,10 @@ class Loader {
 
   void load_attributes(const Handle& group, const std::string& path) {
     H5O_info_t info{};
-    if (H5Oget_info(group, &info) < 0 || info.num_attrs > 1000) {
+    if (H5Oget_info(group, &info) < 0 || info.num_attrs > 1000)
       throw source_.refuse("attributes of group ", path, " cannot be read");
-    }
+    const std::string wrong = wrong_attributes(file_, info.addr);
+    if (!wrong.empty()) throw source_.refuse("group ", path, " is damaged: ", wrong);
     for (hsize_t i = 0; i < info.num_attrs; ++i) {
       const Handle attribute(
           H5Aopen_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, H5P_DEFAULT, H5P_DEFAULT),
@@ -277,7 +279,7 @@ class Loader {
   Texts read_fixed_texts(const std::string& path, std::size_t count, const Handle& type,
                          const Read& read) {
     const std::size_t width = H5Tget_size(type);
-    if (width == 0 || width > 1100 * file_bytes_ / (count + 1)) {
+    if (width == 0 || width > 1100 * file_.size() / (count + 1)) {
       throw source_.refuse("dataset ", path, " states texts longer than the file");
     }
     std::vector<char> buffer(count * width);
@@ -308,7 +310,8 @@ class Loader {
   }
 
   const Source& source_;
-  std::size_t file_bytes_, spent_ = 0;
+  std::string_view file_;
+  std::size_t spent_ = 0;
   std::set<haddr_t> visited_;
 };
 
@@ -316,12 +319,10 @@ void check_schema(const Source& source, const Document& document, const std::str
   const auto found = document.attributes.find("/breast@schema");
   const Texts* texts =
       found == document.attributes.end() ? nullptr : std::get_if<Texts>(&found->second.values);
-  if (!texts || texts->size() != 1) {
+  if (!texts || texts->size() != 1)
     throw source.refuse("attribute schema of group /breast is missing, must be '", schema, "'");
-  }
-  if (texts->front() != schema) {
+  if (texts->front() != schema)
     throw source.refuse("has schema '", texts->front(), "', must be '", schema, "'");
-  }
 }
 
 // The part HDF5 does, whose 1.10 parser can crash on damage: in a child process.
@@ -334,11 +335,10 @@ Document parse(const Source& source, std::string& content,
   H5Pset_file_image(access, content.data(), content.size());
   const Handle h5(H5Fopen("in memory", H5F_ACC_RDONLY, access), H5Fclose);
   if (!h5) throw source.refuse("HDF5 cannot open it (truncated or damaged)");
-  Loader loader(source, content.size());
+  Loader loader(source, content);
   for (const std::string& group : groups) {
-    if (H5Lexists(h5, group.c_str(), H5P_DEFAULT) <= 0) {
+    if (H5Lexists(h5, group.c_str(), H5P_DEFAULT) <= 0)
       throw source.refuse("group ", group, " is missing: this is not a file of libbreast");
-    }
     H5L_info_t link{};
     if (H5Lget_info(h5, group.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD) {
       throw source.refuse(group, " is a link, must be a group");

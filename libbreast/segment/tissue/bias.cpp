@@ -19,6 +19,10 @@ constexpr float seed_drop = 0.35f;  // seeds: log intensity this close to the lo
 constexpr float fat_low = -2.2f, fat_sure = -0.8f, fat_high = 0.35f;
 constexpr float least_scatter = 0.045f, most_scatter = 0.10f;
 constexpr float far_below = -1e4f;
+constexpr float surely_dim = 0.9f;  // share of a voxel: no fat in it
+// A wrong step between fat and dim tissue is mostly followed by the field, which is smooth but runs through both;
+// a third of it is left to be seen.
+constexpr float hidden_by_field = 3;
 
 /// Gaussian of a width far above the voxel size, on a grid as coarse as that width allows.
 Volume<float> wide_gaussian(const Volume<float>& volume, double sigma) {
@@ -82,6 +86,31 @@ float fat_weight(float residual, float scatter) {
   return std::min(1.0f, (residual - fat_low * scatter) / ((fat_sure - fat_low) * scatter));
 }
 
+/// By how much fat is brighter (log, over `field`) than dim tissue where both are near: each one's mean within
+/// about `sigma`. Over the field, because fat and dim tissue do not lie equally near to the coil.
+float step_between(const Volume<float>& logs, const Volume<float>& field, const Volume<float>& fat,
+                   const Volume<float>& dim, double sigma) {
+  const auto mean_of = [&](const Volume<float>& weight, Volume<float>& support) {
+    Volume<float> mean = weight;
+    for (std::size_t n = 0; n < mean.voxels.size(); ++n)
+      mean.voxels[n] *= weight.voxels[n] > 0 ? logs.voxels[n] - field.voxels[n] : 0;
+    mean = wide_gaussian(mean, sigma);
+    support = wide_gaussian(weight, sigma);
+    for (std::size_t n = 0; n < mean.voxels.size(); ++n)
+      mean.voxels[n] /= std::max(support.voxels[n], 1e-6f);
+    return mean;
+  };
+  Volume<float> near_fat, near_dim;
+  const Volume<float> of_fat = mean_of(fat, near_fat), of_dim = mean_of(dim, near_dim);
+  double sum = 0, total = 0;
+  for (std::size_t n = 0; n < logs.voxels.size(); ++n) {
+    const double both = double(near_fat.voxels[n]) * near_dim.voxels[n];
+    sum += both * (of_fat.voxels[n] - of_dim.voxels[n]);
+    total += both;
+  }
+  return total > 0 ? float(sum / total) : 0;
+}
+
 double variation(const std::vector<double>& values) {
   if (values.size() < 2) return 0;
   double mean = 0, square = 0;
@@ -95,14 +124,17 @@ double variation(const std::vector<double>& values) {
 
 BiasField fat_bias(const Volume<float>& scan, const Mask& allowed,
                    const Volume<float>& skin_distance, const BiasSettings& settings,
-                   const Volume<float>* previous) {
+                   const Volume<float>* previous, const DimTissue* dim) {
   const std::size_t count = scan.voxels.size();
   Volume<float> logs(scan.grid, far_below);
   Mask core(scan.grid);
+  Volume<float> dim_core(scan.grid);
   for (std::size_t n = 0; n < count; ++n) {
-    core.voxels[n] =
-        allowed.voxels[n] && -skin_distance.voxels[n] > settings.core && scan.voxels[n] > 0;
+    if (!(-skin_distance.voxels[n] > settings.core && scan.voxels[n] > 0)) continue;
+    core.voxels[n] = allowed.voxels[n];
+    dim_core.voxels[n] = dim && dim->share.voxels[n] > surely_dim && !core.voxels[n];
     if (core.voxels[n]) logs.voxels[n] = elementary::log(scan.voxels[n]);
+    if (dim_core.voxels[n] > 0) logs.voxels[n] = elementary::log(scan.voxels[n]) + float(dim->step);
   }
   Volume<float> fat(scan.grid);
   {
@@ -119,16 +151,27 @@ BiasField fat_bias(const Volume<float>& scan, const Mask& allowed,
         "suppression?");
   }
   BiasField field;
+  const auto smooth = [&] {
+    Volume<float> weight = fat;
+    for (std::size_t n = 0; n < count; ++n) weight.voxels[n] += dim_core.voxels[n];
+    field.log_bias = smooth_inside(logs, weight, settings.sigma);
+  };
   for (int pass = 0; pass < 4; ++pass) {
-    field.log_bias = smooth_inside(logs, fat, settings.sigma);
-    const float scatter = settings.refined && pass > 0 ? scatter_of(logs, field.log_bias, fat)
-                                                       : most_scatter;
+    smooth();
+    const float scatter =
+        settings.refined && pass > 0 ? scatter_of(logs, field.log_bias, fat) : most_scatter;
     for (std::size_t n = 0; n < count; ++n) {
       const float residual = logs.voxels[n] - field.log_bias.voxels[n];
       fat.voxels[n] = core.voxels[n] ? fat_weight(residual, scatter) : 0;
     }
+    if (!dim) continue;
+    const float more =
+        hidden_by_field * step_between(logs, field.log_bias, fat, dim_core, settings.sigma);
+    for (std::size_t n = 0; n < count; ++n) {
+      if (dim_core.voxels[n] > 0) logs.voxels[n] += more;
+    }
   }
-  field.log_bias = smooth_inside(logs, fat, settings.sigma);
+  smooth();
   std::vector<double> before, after;
   for (std::size_t n = 0; n < count; ++n) {
     if (!(fat.voxels[n] > 0)) continue;

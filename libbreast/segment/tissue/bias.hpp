@@ -22,12 +22,20 @@ struct BiasSettings {
   bool refined = false;
 };
 
+/// Tissue of one brightness that is no fat, with a closed edge: fat that is dimmer by a constant. Where it
+/// fills much of a breast, fat alone says nothing about the bias in its midst.
+struct DimTissue {
+  Volume<float> share;  ///< of a voxel
+  double step = 0;      ///< log of the brightness of fat over its own, first estimate
+};
+
 /// `allowed` marks tissue that may be fat (in front of the depth limit or of the chest wall);
 /// `skin_distance` (mm) is the depth below the body's surface. `previous` (may be null) is an
 /// earlier estimate, by which the scan is divided before fat is sought, so that the window can be
-/// wide enough to include fat around compact fibroglandular tissue. All are on one grid.
+/// wide enough to include fat around compact fibroglandular tissue. `dim` (may be null) lies
+/// outside `allowed`. All are on one grid.
 BiasField fat_bias(const Volume<float>& scan, const Mask& allowed,
                    const Volume<float>& skin_distance, const BiasSettings& settings,
-                   const Volume<float>* previous);
+                   const Volume<float>* previous, const DimTissue* dim = nullptr);
 
 }  // namespace breast
