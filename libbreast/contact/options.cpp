@@ -20,7 +20,7 @@ constexpr double image_edge_friction = 0.15;
 constexpr double image_edge_pull = 30;
 /// Automatic longest step, as a fraction of the initial thickness, between inclined plates that hold
 /// the breast by friction, once the hand lets it go: along these it slips for longer than in CC.
-constexpr double slipping_part = 0.015;
+constexpr double slipping_part = 0.02;
 /// Default distance from the chest wall to the edge of the image, mm. The oblique view shows muscle:
 /// in a mesh with a layer of muscle the edge lies behind its front by this fraction of its thickness.
 constexpr double edge_cc = 5, edge_in_muscle = 1.25;
