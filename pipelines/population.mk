@@ -7,7 +7,7 @@
 POPULATION_RUNS := $(RUNS)/population
 population_files = $(patsubst %,$(POPULATION_RUNS)/%/$2.vtkhdf,$1)
 population_both = $(population_calibration) $(population_judging)
-ifneq ($(filter population population-table compressed-population calibrate-invivo,$(MAKECMDGOALS)),)
+ifneq ($(filter population population-table compressed-population calibrate-invivo calibrate-invivo-sternum,$(MAKECMDGOALS)),)
 # Both sides share one phantom; therefore the cases run one after the other.
 .NOTPARALLEL:
 population_calibration :=

@@ -19,12 +19,13 @@ struct Choices {
   std::string from = "seed2008";
   SoftnessData data;  // with its defaults
   std::vector<double> expected, pressure;
+  std::optional<double> sternum;
   double kept = 5, smoothing = 0.02, prestretch = 3;
   CompressionChoices press;
 
   Choices() {
     const Softness& s = data.expected;
-    expected = {100 * s.low_order, 100 * s.quadratic, 100 * s.skin, s.wall, s.cut, s.sternum};
+    expected = {100 * s.low_order, 100 * s.quadratic, 100 * s.skin, s.wall, s.cut};
     pressure = {data.pressure.mean, data.pressure.sd};
     press.reduction = 50;
     press.image_edge = "auto";
@@ -36,8 +37,8 @@ void declare(Tool& tool, Choices& c) {
       "Calibrates a material set so that the breasts of a cohort move from prone to supine as "
       "women's breasts do on average. The parameters are the stiffness of fat and fibroglandular "
       "tissue (with separate factors for the linear and the quadratic terms of the law), the "
-      "stiffness of the skin, the resistance to sliding along the chest wall, and the stiffness of "
-      "the cut around the breast and towards the sternum. "
+      "stiffness of the skin, and the resistance to sliding along the chest wall and at the cut "
+      "(with --sternum, also at the cut towards the sternum). "
       "The data are the lateral and posterior displacement of the nipple and the change of the "
       "tissue's distance from the ribs. The nipple's displacement along the long axis of the body "
       "is not used, because it depends on the position of the arms. A further breast is "
@@ -53,8 +54,12 @@ void declare(Tool& tool, Choices& c) {
   tool.input_file(c.pressed, "--pressed", "MESH.vtkhdf", "mesh of the breast to compress")
       .required("--pressed");
   tool.text(c.from, "--from", "NAME|FILE", "material set whose constants are scaled");
-  tool.numbers(c.expected, "--expected", "LOW,QUADRATIC,SKIN,WALL,CUT,STERNUM", 6,
-               "centre of the prior: the first three in percent, the others in kPa/mm");
+  tool.numbers(c.expected, "--expected", "LOW,QUADRATIC,SKIN,WALL,CUT", 5,
+               "centre of the prior: the first three in percent, the last two in kPa/mm");
+  tool.number(c.sternum, "--sternum", "KPA_PER_MM",
+              "centre of the prior of the cut's stiffness towards the sternum (default: the cut is "
+              "alike all around)",
+              1e-4, 100);
   tool.number(c.data.expected_ln_sd, "--expected-ln-sd", "LN",
               "standard deviation of the prior, in the logarithm", 0.01, 10);
   tool.numbers(c.pressure, "--pressure", "MEAN,SD", 2,
@@ -106,8 +111,9 @@ void report_found(const SoftnessFound& found, Run& run) {
     run.report().set("data/" + wanted.quantity + "/wanted", wanted.mean);
     run.report().set("data/" + wanted.quantity + "/sd", wanted.sd);
   }
-  for (std::size_t k = 0; k < Softness::names().size(); ++k) {
-    const std::string name = Softness::names()[k];
+  const std::vector<std::string> names = found.softness.names();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const std::string& name = names[k];
     const double value = found.softness.values()[k],
                  sd = std::sqrt(found.fit.covariance(Eigen::Index(k), Eigen::Index(k)));
     table.rows.push_back(
@@ -129,7 +135,7 @@ void run_calibration(const Choices& c, Run& run) {
   data.pressure.mean = c.pressure[0], data.pressure.sd = c.pressure[1];
   data.press = compression_options(c.press, posture_gravity(Posture::upright));
   data.expected = {c.expected[0] / 100, c.expected[1] / 100, c.expected[2] / 100, c.expected[3],
-                   c.expected[4], c.expected[5]};
+                   c.expected[4], c.sternum};
   for (const std::filesystem::path& file : c.cohort) data.cohort.push_back(prone_mesh(file));
   data.pressed = prone_mesh(c.pressed);
   MaterialSet base = load_materials(c.from);

@@ -14,20 +14,27 @@
 
 namespace breast {
 
-const std::array<const char*, 6>& Softness::names() {
-  static constexpr std::array<const char*, 6> list{"low_order", "quadratic", "skin",
-                                                   "wall",      "cut",       "sternum"};
+std::vector<std::string> Softness::names() const {
+  std::vector<std::string> list{"low_order", "quadratic", "skin", "wall", "cut"};
+  if (sternum) list.push_back("sternum");
+  return list;
+}
+
+std::vector<double> Softness::values() const {
+  std::vector<double> list{low_order, quadratic, skin, wall, cut};
+  if (sternum) list.push_back(*sternum);
   return list;
 }
 
 Eigen::VectorXd Softness::logarithms() const {
-  const std::array<double, 6> all = values();
-  return Eigen::Map<const Eigen::VectorXd>(all.data(), all.size()).array().log();
+  const std::vector<double> all = values();
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), Eigen::Index(all.size())).array().log();
 }
 
 Softness Softness::from_logarithms(const Eigen::VectorXd& x) {
-  return {std::exp(x[0]), std::exp(x[1]), std::exp(x[2]),
-          std::exp(x[3]), std::exp(x[4]), std::exp(x[5])};
+  Softness s{std::exp(x[0]), std::exp(x[1]), std::exp(x[2]), std::exp(x[3]), std::exp(x[4])};
+  if (x.size() > 5) s.sternum = std::exp(x[5]);
+  return s;
 }
 
 MaterialSet softened(const MaterialSet& base, const Softness& s) {
@@ -110,8 +117,10 @@ double rounded(double value, int digits = 3) {
 }
 
 Softness rounded(const Softness& s) {
-  return {rounded(s.low_order), rounded(s.quadratic), rounded(s.skin),
-          rounded(s.wall),      rounded(s.cut),       rounded(s.sternum)};
+  Softness out{rounded(s.low_order), rounded(s.quadratic), rounded(s.skin), rounded(s.wall),
+               rounded(s.cut)};
+  if (s.sternum) out.sternum = rounded(*s.sternum);
+  return out;
 }
 
 Eigen::MatrixXd rounded(const Eigen::MatrixXd& covariance) {
@@ -147,8 +156,9 @@ SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& da
     const Softness s = Softness::from_logarithms(x);
     const std::optional<std::vector<double>> values = model(softened(base, s), data);
     std::string said = message("low order ", s.low_order, ", quadratic ", s.quadratic, ", skin ",
-                               s.skin, ", wall ", s.wall, ", cut ", s.cut,
-                               ", sternum ", s.sternum, ":");
+                               s.skin, ", wall ", s.wall, ", cut ", s.cut);
+    if (s.sternum) said += message(", sternum ", *s.sternum);
+    said += ":";
     if (!values) said += " no equilibrium";
     Eigen::VectorXd r(Eigen::Index(out.wanted.size()) + x.size());
     for (std::size_t k = 0; values && k < out.wanted.size(); ++k) {
@@ -167,7 +177,7 @@ SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& da
   out.materials = softened(base, out.softness);
   for (Law& law : out.materials.laws)
     for (double& constant : law.constants) constant = rounded(constant, 5);
-  for (const char* name : Softness::names()) out.materials.uncertainty.parameters.push_back(name);
+  out.materials.uncertainty.parameters = out.softness.names();
   out.materials.uncertainty.covariance = rounded(out.fit.covariance);
   return out;
 }

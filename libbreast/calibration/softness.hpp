@@ -2,7 +2,7 @@
 // Fit of stiffness and supports to the average motion of women's breasts.
 #pragma once
 
-#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,15 +17,13 @@ namespace breast {
 /// The unknowns: factors on a material set, and supports in kPa/mm.
 struct Softness {
   double low_order = 0.03;  ///< on the constants of polynomial laws that are linear in I1 and I2
-  double quadratic = 0.1;   ///< on the other constants
+  double quadratic = 0.3;   ///< on the other constants
   double skin = 1;          ///< on the law of skin
   double wall = 0.01, cut = 0.01;
-  /// Skin of 20 kPa, 2 mm thick, and superficial fascia of 120 kPa (Mira 2018), 0.5 mm thick, in a cut
-  /// of 10 mm, over the 50 mm to the other side of the sternum.
-  double sternum = 0.2;
+  std::optional<double> sternum = {};  ///< of the cut towards it; absent: as elsewhere
 
-  static const std::array<const char*, 6>& names();
-  std::array<double, 6> values() const { return {low_order, quadratic, skin, wall, cut, sternum}; }
+  std::vector<std::string> names() const;
+  std::vector<double> values() const;
   Eigen::VectorXd logarithms() const;
   static Softness from_logarithms(const Eigen::VectorXd& x);
 };
@@ -48,7 +46,7 @@ struct SoftnessData {
   double muscle_mm = 8;
   Observed lateral, posterior, ribs_change;  ///< means over `women` women
   int women = 63;
-  Observed pressure{"pressure_kPa", 10, 5};  ///< of the paddle on `pressed`
+  Observed pressure{"pressure_kPa", 10, 2.5};  ///< of the paddle on `pressed`
   CompressionOptions press;                    ///< how `pressed` is compressed
   Softness expected;                           ///< centre of the prior
   double expected_ln_sd = 1.1;                 ///< a factor of three either way

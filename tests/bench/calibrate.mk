@@ -7,18 +7,27 @@
 calibrate: $(CALIBRATE)
 	$(CALIBRATE) --preset paper --gain 1.28,1.39 --evaluations 24 $(share)
 
-ifneq ($(filter calibrate-invivo,$(MAKECMDGOALS)),)
+ifneq ($(filter calibrate-invivo calibrate-invivo-sternum,$(MAKECMDGOALS)),)
 # The compressed breast is the phantom `large`, held at its chest wall as in the paper.
 pressed := $(call population_files,large-left,mesh)
 $(pressed): FORCE
 	@+$(MAKE) -f $(PIPELINE) RUNS=$(POPULATION_RUNS) CASE=large-left SIDE=left PRESET=large ELEMENTS=$(POPULATION_ELEMENTS) TUMOUR=none $@
 endif
-calibrate-invivo: $(call population_files,$(population_calibration),mesh) $(pressed) $(CALIBRATE_SOFTNESS)
+# $(call calibrate_set,NAME,OPTIONS)
+define calibrate_set
 	$(CALIBRATE_SOFTNESS) $(call population_files,$(population_calibration),mesh) --pressed $(pressed) \
-	  --women $(PIPELINES)/invivo/women.tsv --set $(POPULATION_RUNS)/invivo.tsv --report $(POPULATION_RUNS)/calibration.json $(share)
+	  --women $(PIPELINES)/invivo/women.tsv --set $(POPULATION_RUNS)/$1.tsv --report $(POPULATION_RUNS)/calibration-$1.json $2 $(share)
 	@{ echo '# Calibrated to the motion of living women (pipelines/invivo/women.tsv) and a paddle pressure of 10 kPa by'; \
-	  echo '# make calibrate-invivo on: $(population_calibration). Table II of Pathmanathan et al. 2008, scaled.'; \
-	  cat $(POPULATION_RUNS)/invivo.tsv; } > $(PIPELINES)/materials/invivo.tsv.part
-	@mv $(PIPELINES)/materials/invivo.tsv.part $(PIPELINES)/materials/invivo.tsv
-	@cat $(PIPELINES)/materials/invivo.tsv
-.PHONY: calibrate-invivo
+	  echo '# make calibrate-$1 on: $(population_calibration). Table II of Pathmanathan et al. 2008, scaled.'; \
+	  cat $(POPULATION_RUNS)/$1.tsv; } > $(PIPELINES)/materials/$1.tsv.part
+	@mv $(PIPELINES)/materials/$1.tsv.part $(PIPELINES)/materials/$1.tsv
+	@cat $(PIPELINES)/materials/$1.tsv
+endef
+calibrate-invivo calibrate-invivo-sternum: $(call population_files,$(population_calibration),mesh) $(pressed) $(CALIBRATE_SOFTNESS)
+calibrate-invivo:
+	$(call calibrate_set,invivo,)
+# The cut is attached to the sternum. The centre of its prior: skin of 20 kPa, 2 mm thick, and superficial fascia of 120 kPa (Mira
+# 2018), 0.5 mm thick, in a cut of 10 mm, over the 50 mm to the other side of the sternum.
+calibrate-invivo-sternum:
+	$(call calibrate_set,invivo-sternum,--sternum 0.2 --expected 3$(comma)10$(comma)100$(comma)0.01$(comma)0.01 --pressure 10$(comma)5)
+.PHONY: calibrate-invivo calibrate-invivo-sternum

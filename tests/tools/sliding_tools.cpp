@@ -97,7 +97,7 @@ TEST_F(SlidingTools, ACalibratedSetIsReadByTheOtherTools) {
              "ribs_change_mm\t-1\t1\n");
   const std::string line =
       "calibrate-softness mesh.vtkhdf --pressed mesh.vtkhdf --women women.tsv "
-      "--set set.tsv --expected 20,50,100,0.05,0.05,0.1 --reduction 10 ";
+      "--set set.tsv --expected 20,50,100,0.05,0.05 --sternum 0.1 --reduction 10 ";
   ASSERT_EQ(run(line + "--expected-ln-sd 0.2 --report k.json"), 0) << said_.err;
   EXPECT_GT(report("k.json").number("softness/wall"), 0.01);
   EXPECT_LT(report("k.json").number("softness/wall_ln_sd"), 0.2);

@@ -132,7 +132,7 @@ TEST(Stability, MarginOfTheConstants) {
 }
 
 TEST(Materials, EmbeddedSetsLoadAndScale) {
-  EXPECT_EQ(material_set_names(), (std::vector<std::string>{"invivo", "mira2018", "phantom2026",
+  EXPECT_EQ(material_set_names(), (std::vector<std::string>{"invivo", "invivo-sternum", "mira2018", "phantom2026",
                                                             "seed2008", "victre", "wellman"}));
   for (const std::string& name : material_set_names()) {
     MaterialSet set = load_materials(name);
