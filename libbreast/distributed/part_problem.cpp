@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "mechanics/cut_springs.hpp"
+#include "mechanics/terms/cut_springs.hpp"
 #include "mechanics/terms/elastic_support.hpp"
 #include "mechanics/terms/membrane.hpp"
 #include "mesh/nodal.hpp"

@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "mechanics/cut_springs.hpp"
+#include "mechanics/terms/cut_springs.hpp"
 #include "mechanics/terms/dead_load.hpp"
 #include "mechanics/terms/solid.hpp"
 #include "solve/problem.hpp"

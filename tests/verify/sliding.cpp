@@ -13,7 +13,7 @@
 #include "fixtures/elastic_scene.hpp"
 #include "fixtures/in_place.hpp"
 #include "fixtures/sliding_cap.hpp"
-#include "mechanics/cut_springs.hpp"
+#include "mechanics/terms/cut_springs.hpp"
 #include "mesh/nodal.hpp"
 
 namespace breast {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mechanics/cut_springs.hpp"
+#include "mechanics/terms/cut_springs.hpp"
 
 #include <algorithm>
 #include <functional>
