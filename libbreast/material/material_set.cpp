@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Material sets: the embedded tables of pipelines/materials, or a file of the same columns.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -146,6 +147,7 @@ MaterialSet load_materials(const std::string& name_or_file) {
 std::vector<std::string> material_set_names() {
   std::vector<std::string> names;
   for (const EmbeddedTable& table : embedded_materials()) names.emplace_back(table.name);
+  std::sort(names.begin(), names.end());  // not as their files, whose ending comes after a hyphen
   return names;
 }
 
