@@ -20,8 +20,8 @@ constexpr double block_mm = 4;  // wide enough for noise and thin strands to ave
 // Change of log brightness from block to block that no coil makes: 3 % per mm.
 constexpr double least_edge = 0.12;
 constexpr double usual_changes = 3;  // of the median change, which a strong bias raises
-// An edge's own change is not known; what the sensitivity does across it is taken to be nothing, with this weight
-// beside that of changes known.
+// Across an edge the change of the coil's sensitivity is unknown. It is assumed to be zero, with this weight
+// relative to the changes that are known.
 constexpr double edge_weight = 0.1;
 constexpr double least_step = 0.2;    // log brightness of fat over gland
 constexpr double least_part_ml = 5;   // smaller glands do not mislead the estimate of the bias
@@ -64,7 +64,7 @@ Blocks blocks_of(const Volume<float>& scan, const Mask& interior) {
 }
 
 /// Marks the links that change too much for a coil, alone or, where an edge crosses a block, with the next link in
-/// line; the smaller part of such a pair is no edge.
+/// line. Of such a pair, a link with only a small part of the change is not marked.
 void mark_edges(std::vector<Link>& links, double limit) {
   constexpr double of_pair = 5.0 / 3, least_part = 0.25;
   std::map<std::pair<std::size_t, int>, Link*> starting;  // by block and axis
