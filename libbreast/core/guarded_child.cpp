@@ -55,8 +55,13 @@ void limit_memory([[maybe_unused]] double memory_mb) {
 #endif
 }
 
+// No child outlives a killed tool, not even one whose tool was killed before it asked for the signal.
+void die_with(pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);
+}
+
 void limit(double cpu_seconds, double memory_mb) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // no child outlives a killed tool
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
   const auto cpu = rlim_t(cpu_seconds) + 1;
@@ -114,14 +119,18 @@ std::string in_guarded_child(const std::string& name, const std::function<std::s
   if (pipe2(ends, O_CLOEXEC) != 0) {
     throw failed_error(name, ": no pipe to a reading process (", std::strerror(errno), ")");
   }
-  const pid_t process = fork();
+  const pid_t parent = getpid(), process = fork();
   if (process < 0) {
     const int reason = errno;
     close(ends[0]);
     close(ends[1]);
     throw failed_error(name, ": no process to read it (", std::strerror(reason), ")");
   }
-  if (process == 0) child(ends[1], work, cpu_seconds, memory_mb);
+  if (process == 0) {
+    die_with(parent);
+    close(ends[0]);  // so that a write to a reader that is gone ends, and does not wait for ever
+    child(ends[1], work, cpu_seconds, memory_mb);
+  }
   close(ends[1]);
   std::string answer;
   const auto end = [&](bool late) {

@@ -12,7 +12,6 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/guarded_child.hpp"
 #include "fixtures/complaint.hpp"
 #include "fixtures/samples.hpp"
 #include "fixtures/scratch_folder.hpp"
@@ -302,37 +301,6 @@ TEST(Locating, CoordinatesThatOverflowAreAnErrorNotAnIndex) {
   const Locator locator(mesh, mesh.points);
   EXPECT_THROW(locator.nearest(Vec3(-1e203, 0, 0)), Error);
   EXPECT_THROW(nearest_on_faces(mesh, mesh.points, mesh.skin_faces, Vec3(-1e203, 0, 0)), Error);
-}
-
-TEST(GuardedChild, HandsOverResultsErrorsAndDeaths) {
-  EXPECT_EQ(in_guarded_child("file", [] { return std::string(5'000'000, 'x'); }).size(),
-            5'000'000u);
-  EXPECT_EQ(in_guarded_child("file", [] { return std::string(); }), "");
-  EXPECT_EQ(complaint([] {
-              in_guarded_child("file", []() -> std::string { throw input_error("file: is bad"); });
-            }),
-            "file: is bad");
-  EXPECT_THROW(
-      in_guarded_child("file", []() -> std::string { throw failed_error("disk: is full"); }),
-      Error);
-  for (const int fault : {SIGSEGV, SIGABRT, SIGFPE, SIGKILL}) {
-    const std::string text = complaint([&] {
-      in_guarded_child("file", [&]() -> std::string {
-        raise(fault);
-        return "";
-      });
-    });
-    EXPECT_NE(text.find("file: damaged"), std::string::npos) << text;
-  }
-  EXPECT_NE(complaint([] {
-              in_guarded_child(
-                  "file",
-                  []() -> std::string {
-                    while (true) pause();
-                  },
-                  0.5);
-            }).find("0.5 s"),
-            std::string::npos);
 }
 
 }  // namespace
