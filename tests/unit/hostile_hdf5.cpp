@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <functional>
 #include <random>
@@ -243,6 +244,53 @@ TEST_F(HostileMesh, DamageBehindTheSealIsSurvived) {
     refused += complaint([&] { read_mesh(file_); }) != "accepted";
   }
   EXPECT_GT(refused, 50);
+}
+
+// HDF5 1.10 would copy what lies behind its buffer.
+TEST_F(HostileMesh, ChunksThatHoldLessThanTheirShapeAsksForAreRefused) {
+  const HexMesh mesh = samples::full_mesh(10);
+  write_mesh(file_, mesh);
+  const std::string text = after([&](hid_t h5) {
+    const char* points = "/VTKHDF/Points";
+    H5Ldelete(h5, points, H5P_DEFAULT);
+    const hsize_t shape[2] = {mesh.points.size(), 3};
+    const hid_t space = H5Screate_simple(2, shape, nullptr), layout = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_chunk(layout, 2, shape);
+    H5Pset_deflate(layout, 2);
+    const hid_t set =
+        H5Dcreate2(h5, points, H5T_IEEE_F64LE, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    const std::vector<double> half(3 * mesh.points.size() / 2, 1.0);
+    std::vector<unsigned char> packed(compressBound(8 * half.size()));
+    uLongf bytes = packed.size();
+    compress(packed.data(), &bytes, reinterpret_cast<const unsigned char*>(half.data()),
+             8 * half.size());
+    const hsize_t origin[2] = {0, 0};
+    EXPECT_GE(H5Dwrite_chunk(set, H5P_DEFAULT, 0, origin, bytes, packed.data()), 0);
+    H5Dclose(set);
+    H5Pclose(layout);
+    H5Sclose(space);
+  });
+  EXPECT_NE(text.find("/VTKHDF/Points is damaged: chunk 0 holds fewer than"), std::string::npos)
+      << text;
+}
+
+// A byte of the file turns numbers of 8 bytes into such of 12; the chunks remain as they were.
+TEST_F(HostileMesh, TypesWiderThanTheirChunksAreRefused) {
+  write_mesh(file_, samples::full_mesh(10));
+  after([](hid_t) {});  // which drops the seal
+  const std::string whole = read_text(file_),
+                    type("\x11\x20\x3f\x00\x08\x00\x00\x00\x00\x00\x40", 11);
+  int chunked = 0;
+  for (std::size_t at = whole.find(type); at != std::string::npos; at = whole.find(type, at + 1)) {
+    std::string bad = whole;
+    bad[at + 4] = 12;
+    bad[at + 9] = 8;  // the first bit of the number: 8 bytes of 12
+    write_text(file_, bad);
+    const std::string text = complaint([&] { read_mesh(file_); });
+    EXPECT_EQ(text.find("crashed"), std::string::npos) << text;
+    chunked += text.find("bytes of its shape and type") != std::string::npos;
+  }
+  EXPECT_GT(chunked, 0);
 }
 
 TEST_F(HostileMesh, PlacesOfNoBodyAreRefused) {

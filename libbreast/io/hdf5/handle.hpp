@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// HDF5 identifiers that close themselves; included by load.cpp and save.cpp only.
+// HDF5 identifiers that close themselves; included by what reads and writes HDF5 only.
 #pragma once
 
 #include <hdf5.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The only file that speaks HDF5 for reading.
+// HDF5 bytes -> Document; with chunk_check.cpp, all that speaks HDF5 for reading.
 #include <hdf5.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "core/atomic_file.hpp"
 #include "core/guarded_child.hpp"
 #include "io/hdf5/attribute_check.hpp"
+#include "io/hdf5/chunk_check.hpp"
 #include "io/hdf5/document.hpp"
 #include "io/hdf5/handle.hpp"
 #include "io/hdf5/packed.hpp"
@@ -61,8 +62,8 @@ std::string stored_text(const char* text, std::size_t size) {
   return out;
 }
 
-// What all values of a file may take in memory, and one chunk of a dataset before it is inflated.
-constexpr std::size_t most_bytes = std::size_t(1) << 30, most_chunk_bytes = std::size_t(1) << 28;
+// What all values of a file may take in memory.
+constexpr std::size_t most_bytes = std::size_t(1) << 30;
 // Deflate reaches at most 1032:1 (zlib's own statement).
 constexpr std::size_t most_inflation = 1100;
 
@@ -175,7 +176,7 @@ class Loader {
     }
   }
 
-  // Values lie in this file, in chunks of a size that fits, behind filters every HDF5 has.
+  // Values lie in this file, and chunks of them hold as many bytes as HDF5 will read.
   void check_storage(const Handle& dataset, const Handle& type, const std::string& path) {
     const Handle layout(H5Dget_create_plist(dataset), H5Pclose);
     const H5D_layout_t kind = layout ? H5Pget_layout(layout) : H5D_LAYOUT_ERROR;
@@ -186,28 +187,9 @@ class Loader {
     if (kind != H5D_COMPACT && kind != H5D_CONTIGUOUS && kind != H5D_CHUNKED) {
       throw source_.refuse("dataset ", path, " has an unknown layout");
     }
-    for (int n = 0; n < H5Pget_nfilters(layout); ++n) {
-      unsigned flags = 0, setting = 0;
-      std::size_t settings = 0;
-      const H5Z_filter_t filter =
-          H5Pget_filter2(layout, unsigned(n), &flags, &settings, nullptr, 0, nullptr, &setting);
-      if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE &&
-          filter != H5Z_FILTER_FLETCHER32) {
-        throw source_.refuse("dataset ", path, " is compressed by filter ", filter,
-                             "; deflate, shuffle and fletcher32 are read");
-      }
-    }
     if (kind != H5D_CHUNKED) return;
-    hsize_t chunk[H5S_MAX_RANK] = {};
-    const int rank = H5Pget_chunk(layout, H5S_MAX_RANK, chunk);
-    std::size_t bytes = type ? H5Tget_size(type) : 0;
-    for (int d = 0; d < rank; ++d) {
-      if (chunk[d] == 0 || bytes > most_chunk_bytes / chunk[d]) {
-        throw source_.refuse("dataset ", path, " has chunks of more than ", most_chunk_bytes,
-                             " bytes");
-      }
-      bytes *= std::size_t(chunk[d]);
-    }
+    const std::string wrong = wrong_chunks(dataset, layout, type ? H5Tget_size(type) : 0, file_);
+    if (!wrong.empty()) throw source_.refuse("dataset ", path, " ", wrong);
   }
 
   // Counts what a dataset or attribute will take against the whole file's budget.
