@@ -31,9 +31,9 @@ StopReason surroundings(const HexMesh& mesh, const Eigen::VectorXd& x, int eleme
       plates.paddle.edge_start - centre(mesh, x, element).dot(plates.paddle.anterior);
   const bool at_edge = std::abs(behind) <= std::max(10.0, 1.5 * plates.paddle.edge_radius);
   if (on_wall && at_edge) {
-    return {"between_edge_and_wall", "pinched between the plate edge and the held chest wall"};
+    return {"between_edge_and_wall", "pinched between the plate edge and the chest wall"};
   }
-  if (on_wall) return {"on_chest_wall", "on the held chest wall"};
+  if (on_wall) return {"on_chest_wall", "on the chest wall"};
   if (at_edge) return {"at_plate_edge", "pinched at the plate edge"};
   if (behind > 0) return {"behind_plates", "behind the plates"};
   return {"between_plates", "between the plates"};

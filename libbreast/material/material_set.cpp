@@ -9,6 +9,7 @@
 #include "core/units.hpp"
 #include "material/embedded.hpp"
 #include "material/law.hpp"
+#include "material/set_parameter.hpp"
 #include "material/stability.hpp"
 
 namespace breast {
@@ -47,10 +48,7 @@ bool read_support(const Table& table, std::size_t row, const std::string& name, 
   if (table.cell(row, "law") != "support") return false;
   const std::string where = table.cell(row, "tissue");
   const double stiffness = table.number(row, "support_kPa_per_mm");
-  std::optional<double>* const support = where == "wall"      ? &set.wall_support
-                                         : where == "cut"     ? &set.cut_support
-                                         : where == "sternum" ? &set.sternum_support
-                                                              : nullptr;
+  std::optional<double>* const support = support_in(set, where);
   if (support == nullptr || !(stiffness >= 0 && stiffness <= 1e6)) {
     throw input_error("materials ", name, ", support of ", where, ": ", stiffness,
                       " kPa/mm; 'wall', 'cut' and 'sternum' take 0 to 1e6");

@@ -36,15 +36,21 @@ void add_constants(const MaterialSet& set, Tissue tissue, std::size_t first, std
 
 constexpr std::size_t all = 99;
 
-/// Null for a parameter that is none of a support.
 template <class Set>
-auto* support_in(Set& set, std::string_view parameter) {
+auto* support_of(Set& set, std::string_view parameter) {
   if (parameter == "wall") return &set.wall_support;
   if (parameter == "cut") return &set.cut_support;
   return parameter == "sternum" ? &set.sternum_support : nullptr;
 }
 
 }  // namespace
+
+std::optional<double>* support_in(MaterialSet& set, std::string_view parameter) {
+  return support_of(set, parameter);
+}
+const std::optional<double>* support_in(const MaterialSet& set, std::string_view parameter) {
+  return support_of(set, parameter);
+}
 
 const std::vector<std::string>& set_parameter_names() {
   static const std::vector<std::string> names{"low_order", "quadratic", "stiffness", "gland",

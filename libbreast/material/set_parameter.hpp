@@ -2,6 +2,7 @@
 // Parameters that scale the stiffness of a whole material set.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,11 @@ const std::vector<std::string>& set_parameter_names();
 /// The constants that a parameter multiplies; none for "wall", "cut" and "sternum", and for constants
 /// that the laws do not have.
 std::vector<LawConstant> constants_of(const MaterialSet& set, std::string_view parameter);
+
+/// The support that a parameter multiplies ("wall", "cut", "sternum"), which the set may lack; null for
+/// any other name.
+std::optional<double>* support_in(MaterialSet& set, std::string_view parameter);
+const std::optional<double>* support_in(const MaterialSet& set, std::string_view parameter);
 
 /// Names of the parameters that the set has, without "stiffness".
 std::vector<std::string> set_parameters(const MaterialSet& set);

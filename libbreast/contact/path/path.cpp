@@ -152,7 +152,9 @@ State Path::predict(double thickness, bool extrapolate) const {
 double Path::longest_step() const {
   if (options_.longest_step > 0) return options_.longest_step;
   const bool slipping = here_.thickness <= options_.slipping_below;
-  return (slipping ? options_.slipping_part : options_.longest_part) * plates_.initial_thickness;
+  const double part = slipping ? std::min(options_.slipping_part, options_.longest_part)
+                               : options_.longest_part;
+  return part * plates_.initial_thickness;
 }
 
 bool Path::march() {

@@ -17,9 +17,9 @@ constexpr std::size_t most_chunk_bytes = std::size_t(1) << 28;
 
 /// How many bytes a zlib stream inflates to, counted up to the first piece beyond `most`; none if it is damaged.
 std::optional<std::size_t> inflated_bytes(std::string_view packed, std::size_t most) {
+  std::vector<unsigned char> piece(std::size_t(1) << 16);
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) throw failed_error("zlib cannot be started");
-  std::vector<unsigned char> piece(std::size_t(1) << 16);
   stream.next_in = reinterpret_cast<unsigned char*>(const_cast<char*>(packed.data()));
   stream.avail_in = unsigned(packed.size());
   int code = Z_OK;
