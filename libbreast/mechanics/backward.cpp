@@ -189,7 +189,7 @@ Equilibrium BackwardSolve::run(const Vec3& gravity) {
     find_needed_stiffness(load);
     find_remedy(scene_.mesh(), scene_.options(), [&](const MechanicsOptions& changed) {
       return BackwardSolve(scene_.mesh(), changed, false, no_progress()).stands(gravity);
-    }, found_);
+    }, progress_, found_);
   }
   return finish(state);
 }

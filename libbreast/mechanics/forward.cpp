@@ -168,7 +168,7 @@ Equilibrium ForwardSolve::run(const Vec3& gravity) {
   if (!found_.converged()) {
     find_remedy(mesh_, scene_.options(), [&](const MechanicsOptions& changed) {
       return ForwardSolve(mesh_, changed, false, no_progress()).stands(gravity);
-    }, found_);
+    }, progress_, found_);
   }
   if (result.indefinite > 0) {
     found_.doubts.push_back(message("the tangent was indefinite in ", result.indefinite,

@@ -9,7 +9,7 @@ namespace breast {
 
 namespace {
 
-constexpr double most_of_it = 0.5;
+constexpr double most_of_it = 0.5, unknown_fraction = -1;
 // Skin that wrinkles: the fraction of the law left in compression and the pre-stretch, see
 // SkinBehaviour.
 constexpr double wrinkled = 0.05, stretched = 0.03;
@@ -26,9 +26,14 @@ void note_instability(const Instability& instability, SolveSummary& summary) {
               "compression");
 }
 
-void find_remedy(const HexMesh& mesh, const MechanicsOptions& options, const Stands& stands,
-                 SolveSummary& summary) {
+void find_remedy(const HexMesh& mesh, const MechanicsOptions& options, const Stands& solves,
+                 Progress& progress, SolveSummary& summary) {
   if (!options.seek_remedy || mesh.nodes() > most_nodes_for_remedy) return;
+  int solved = 0;
+  const Stands stands = [&](const MechanicsOptions& changed) {
+    progress.update("remedy", unknown_fraction, message("solve ", ++solved));
+    return solves(changed);
+  };
   summary.remedy = smallest_remedy(mesh, options, stands, summary.stiffness_factor_needed);
   if (summary.remedy) {
     summary.record.reason +=

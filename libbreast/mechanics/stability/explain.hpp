@@ -3,6 +3,7 @@
 // change that would give a stable solution.
 #pragma once
 
+#include "core/progress.hpp"
 #include "mechanics/equilibrium.hpp"
 #include "mechanics/stability/instability.hpp"
 #include "mechanics/stability/remedy.hpp"
@@ -13,12 +14,12 @@ namespace breast {
 /// of compressed skin.
 void note_instability(const Instability& instability, SolveSummary& summary);
 
-/// Finds the smallest change that gives a stable solution and adds it to the reason, also whether
+/// Finds the smallest change that gives a stable solution (tried by `stands`) and adds it to the reason, also whether
 /// wrinkling skin would suffice where compressed skin buckles. It solves about twenty times and is
 /// therefore skipped for meshes of more than `most_nodes_for_remedy` nodes and if the options do
 /// not ask for it.
 inline constexpr int most_nodes_for_remedy = 30000;
 void find_remedy(const HexMesh& mesh, const MechanicsOptions& options, const Stands& stands,
-                 SolveSummary& summary);
+                 Progress& progress, SolveSummary& summary);
 
 }  // namespace breast
