@@ -14,10 +14,10 @@ namespace breast {
 /// of compressed skin.
 void note_instability(const Instability& instability, SolveSummary& summary);
 
-/// Finds the smallest change that gives a stable solution (tried by `stands`) and adds it to the reason, also whether
-/// wrinkling skin would suffice where compressed skin buckles. It solves about twenty times and is
-/// therefore skipped for meshes of more than `most_nodes_for_remedy` nodes and if the options do
-/// not ask for it.
+/// Finds the smallest change that gives a stable solution and adds it to the reason, also whether
+/// wrinkling skin would suffice where compressed skin buckles. `stands` solves with one change; it is
+/// called about twenty times, so that the search is skipped for meshes of more than
+/// `most_nodes_for_remedy` nodes and if the options do not ask for it.
 inline constexpr int most_nodes_for_remedy = 30000;
 void find_remedy(const HexMesh& mesh, const MechanicsOptions& options, const Stands& stands,
                  Progress& progress, SolveSummary& summary);
