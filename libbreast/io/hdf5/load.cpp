@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// HDF5 bytes -> Document; with chunk_check.cpp, all that speaks HDF5 for reading.
+// HDF5 bytes -> Document; with check/chunk_check.cpp, all that speaks HDF5 for reading.
 #include <hdf5.h>
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 #include "core/atomic_file.hpp"
 #include "core/guarded_child.hpp"
-#include "io/hdf5/attribute_check.hpp"
-#include "io/hdf5/chunk_check.hpp"
+#include "io/hdf5/check/attribute_check.hpp"
+#include "io/hdf5/check/chunk_check.hpp"
 #include "io/hdf5/document.hpp"
 #include "io/hdf5/handle.hpp"
 #include "io/hdf5/packed.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/hdf5/attribute_check.hpp"
+#include "io/hdf5/check/attribute_check.hpp"
 
 #include <vector>
 

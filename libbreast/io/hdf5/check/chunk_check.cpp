@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/hdf5/chunk_check.hpp"
+#include "io/hdf5/check/chunk_check.hpp"
 
 #include <zlib.h>
 
