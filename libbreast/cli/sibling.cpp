@@ -2,7 +2,6 @@
 #include "cli/sibling.hpp"
 
 #include <fcntl.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +12,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/guarded_child.hpp"
 #include "core/temporary_folder.hpp"
 
 namespace breast {
@@ -27,8 +27,7 @@ fs::path sibling(const std::string& tool) {
 
 // In the child: only calls that are safe between fork and exec.
 [[noreturn]] void become(char* const* argv, pid_t parent, int nowhere) {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(127);
+  die_with_parent(parent, SIGTERM);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
   execv(argv[0], argv);

@@ -2,7 +2,6 @@
 #include "command/child.hpp"
 
 #include <fcntl.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,6 +11,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/guarded_child.hpp"
 #include "core/temporary_folder.hpp"
 
 namespace breast {
@@ -29,8 +29,7 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 
 // In the child: only calls that are safe between fork and exec.
 [[noreturn]] void begin_child(char* const* argv, pid_t parent, int out, int err) {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(127);
+  die_with_parent(parent, SIGTERM);
   signal(SIGINT, SIG_DFL);
   signal(SIGQUIT, SIG_DFL);
   if (out >= 0) dup2(out, STDOUT_FILENO);

@@ -55,12 +55,6 @@ void limit_memory([[maybe_unused]] double memory_mb) {
 #endif
 }
 
-// No child outlives a killed tool, not even one whose tool was killed before it asked for the signal.
-void die_with(pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(1);
-}
-
 void limit(double cpu_seconds, double memory_mb) {
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
@@ -112,6 +106,12 @@ bool receive(int descriptor, double seconds, std::string& answer) {
 
 }  // namespace
 
+void die_with_parent(pid_t parent, int signal) {
+  constexpr int nobody_reads_it = 127;
+  prctl(PR_SET_PDEATHSIG, signal);
+  if (getppid() != parent) _exit(nobody_reads_it);
+}
+
 std::string in_guarded_child(const std::string& name, const std::function<std::string()>& work,
                              double seconds, double memory_mb, double cpu_seconds) {
   cpu_seconds = std::min(cpu_seconds, seconds);
@@ -127,8 +127,8 @@ std::string in_guarded_child(const std::string& name, const std::function<std::s
     throw failed_error(name, ": no process to read it (", std::strerror(reason), ")");
   }
   if (process == 0) {
-    die_with(parent);
-    close(ends[0]);  // so that a write to a reader that is gone ends, and does not wait for ever
+    die_with_parent(parent, SIGKILL);
+    close(ends[0]);  // otherwise a write would wait for ever once the parent, its only reader, is gone
     child(ends[1], work, cpu_seconds, memory_mb);
   }
   close(ends[1]);

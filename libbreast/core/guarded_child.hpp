@@ -3,6 +3,8 @@
 // damaged file.
 #pragma once
 
+#include <sys/types.h>
+
 #include <functional>
 #include <string>
 
@@ -17,5 +19,9 @@ namespace breast {
 std::string in_guarded_child(const std::string& name, const std::function<std::string()>& work,
                              double seconds = 300, double memory_mb = 3072,
                              double cpu_seconds = 300);
+
+/// In any child, after fork: it is sent `signal` when its parent ends, and ends at once if the parent has already ended.
+/// `parent` is the parent's getpid(), taken before fork. Safe between fork and exec.
+void die_with_parent(pid_t parent, int signal);
 
 }  // namespace breast

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,6 +15,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "core/guarded_child.hpp"
 
 namespace breast {
 
@@ -50,8 +50,7 @@ void check_installed() {
 
 // In the child: only calls that are safe between fork and exec.
 [[noreturn]] void become_server(pid_t parent, int number_pipe, int log) {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(1);
+  die_with_parent(parent, SIGTERM);
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
   dup2(number_pipe, 3);

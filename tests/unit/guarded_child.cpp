@@ -47,10 +47,10 @@ TEST(GuardedChild, HandsOverResultsErrorsAndDeaths) {
             std::string::npos);
 }
 
-// The child has lost the signal that would end it, as one has whose tool died before it asked for
-// it; what it sends is more than a pipe holds.
+// A tool may die before its child has asked to be killed with it. The child here cancels that request,
+// which has the same effect, and sends more than a pipe holds.
 TEST(GuardedChild, EndsWhenItsToolIsGone) {
-  int alive[2];  // at its end when no process holds the other side any more
+  int alive[2];  // ends when no process holds its write end any more
   ASSERT_EQ(pipe(alive), 0);
   const pid_t tool = fork();
   if (tool == 0) {

@@ -274,7 +274,7 @@ TEST_F(HostileMesh, ChunksThatHoldLessThanTheirShapeAsksForAreRefused) {
       << text;
 }
 
-// A byte of the file turns numbers of 8 bytes into such of 12; the chunks remain as they were.
+// The type is changed from 8-byte to 12-byte numbers, while the chunks remain as they were.
 TEST_F(HostileMesh, TypesWiderThanTheirChunksAreRefused) {
   write_mesh(file_, samples::full_mesh(10));
   after([](hid_t) {});  // which drops the seal

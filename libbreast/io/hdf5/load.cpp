@@ -150,7 +150,9 @@ class Loader {
     const Handle space(H5Dget_space(dataset), H5Sclose);
     const Handle type(H5Dget_type(dataset), H5Tclose);
     check_storage(dataset, type, path);
+    // Chunks are inflated to be counted, so only once the values are known to fit in memory.
     const auto read = [&](hid_t memory, void* data) {
+      check_chunks(dataset, type, path);
       return H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
     };
     const std::vector<std::size_t> shape = shape_of(space, path);
@@ -176,7 +178,7 @@ class Loader {
     }
   }
 
-  // Values lie in this file, and chunks of them hold as many bytes as HDF5 will read.
+  // Values lie in this file, in chunks of a size that fits, behind filters every HDF5 has.
   void check_storage(const Handle& dataset, const Handle& type, const std::string& path) {
     const Handle layout(H5Dget_create_plist(dataset), H5Pclose);
     const H5D_layout_t kind = layout ? H5Pget_layout(layout) : H5D_LAYOUT_ERROR;
@@ -188,6 +190,14 @@ class Loader {
       throw source_.refuse("dataset ", path, " has an unknown layout");
     }
     if (kind != H5D_CHUNKED) return;
+    const std::string wrong = wrong_layout(layout, type ? H5Tget_size(type) : 0);
+    if (!wrong.empty()) throw source_.refuse("dataset ", path, " ", wrong);
+  }
+
+  // Chunks hold as many bytes as HDF5 will copy from them.
+  void check_chunks(const Handle& dataset, const Handle& type, const std::string& path) {
+    const Handle layout(H5Dget_create_plist(dataset), H5Pclose);
+    if (H5Pget_layout(layout) != H5D_CHUNKED) return;
     const std::string wrong = wrong_chunks(dataset, layout, type ? H5Tget_size(type) : 0, file_);
     if (!wrong.empty()) throw source_.refuse("dataset ", path, " ", wrong);
   }

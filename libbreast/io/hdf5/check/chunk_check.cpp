@@ -45,15 +45,15 @@ std::vector<H5Z_filter_t> filters_of(hid_t layout) {
   return filters;
 }
 
-/// Bytes of a stored chunk once its filters are undone, the last of them first; `skipped` has the bits of those that
-/// were not applied to it. None if it is damaged.
+/// How many bytes a stored chunk holds once its filters are undone; none if it is damaged. Bit n of `skipped` says that
+/// filter n was not applied to this chunk.
 std::optional<std::size_t> unfiltered_bytes(std::string_view stored,
                                             const std::vector<H5Z_filter_t>& filters,
                                             unsigned skipped, std::size_t most) {
   constexpr std::size_t checksum = 4;
   std::size_t bytes = stored.size();
   bool inflated = false;
-  for (std::size_t n = filters.size(); n-- > 0;) {
+  for (std::size_t n = filters.size(); n-- > 0;) {  // the last filter is undone first
     if ((skipped >> n & 1) != 0) continue;
     if (filters[n] == H5Z_FILTER_FLETCHER32) {
       if (bytes < checksum) return {};
@@ -83,17 +83,22 @@ std::size_t chunk_bytes(hid_t layout, std::size_t value_bytes) {
 
 }  // namespace
 
-std::string wrong_chunks(hid_t dataset, hid_t layout, std::size_t value_bytes,
-                         std::string_view file) {
-  const std::vector<H5Z_filter_t> filters = filters_of(layout);
-  for (const H5Z_filter_t filter : filters) {
+std::string wrong_layout(hid_t layout, std::size_t value_bytes) {
+  for (const H5Z_filter_t filter : filters_of(layout)) {
     if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE &&
         filter != H5Z_FILTER_FLETCHER32)
       return message("is compressed by filter ", filter,
                      "; deflate, shuffle and fletcher32 are read");
   }
+  if (chunk_bytes(layout, value_bytes) == 0)
+    return message("has chunks of more than ", most_chunk_bytes, " bytes");
+  return {};
+}
+
+std::string wrong_chunks(hid_t dataset, hid_t layout, std::size_t value_bytes,
+                         std::string_view file) {
+  const std::vector<H5Z_filter_t> filters = filters_of(layout);
   const std::size_t wanted = chunk_bytes(layout, value_bytes);
-  if (wanted == 0) return message("has chunks of more than ", most_chunk_bytes, " bytes");
   const Handle space(H5Dget_space(dataset), H5Sclose);
   hsize_t count = 0;
   if (H5Dget_num_chunks(dataset, space, &count) < 0)
