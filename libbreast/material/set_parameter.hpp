@@ -20,7 +20,7 @@ struct LawConstant {
 /// A parameter: "low_order" (constants linear in the invariants, of all tissues except skin),
 /// "quadratic" (their other stiffness constants), "stiffness" (both together), "gland" (all
 /// stiffness constants of fibroglandular tissue and tumour, and hence the ratio of gland to fat),
-/// "skin", "wall", "cut" or "sternum" (the cut towards it). The covariance of a set's uncertainty
+/// "skin", "wall", "cut" or "sternum" (the attachment to it). The covariance of a set's uncertainty
 /// refers to the logarithms of such factors.
 const std::vector<std::string>& set_parameter_names();
 

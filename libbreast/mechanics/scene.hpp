@@ -48,7 +48,7 @@ class Scene {
   /// Springs at the chest wall and at the cut; null where there are none.
   const ElasticSupport* wall_springs() const { return wall_springs_.get(); }
   const ElasticSupport* cut_springs() const { return cut_springs_.around.get(); }
-  const ElasticSupport* sternal_springs() const { return cut_springs_.sternal.get(); }
+  const Tether* sternal_attachment() const { return cut_springs_.sternal.get(); }
   /// Force of all springs on the body, µN.
   Vec3 force_of_springs(const State& state) const;
   /// The constraints that do not depend on where the body is.

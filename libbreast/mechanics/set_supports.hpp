@@ -7,8 +7,7 @@
 namespace breast {
 
 /// If the material set of `options` has supports, the breast slides on the chest wall against them
-/// and the cut has springs, which may be stiffer towards the sternum; otherwise wall and cut are
-/// unchanged.
+/// and the cut has springs and may be attached to the sternum; otherwise wall and cut are unchanged.
 inline void take_supports_of_set(MechanicsOptions& options) {
   const MaterialSet& set = options.materials;
   if (set.wall_support) options.wall = WallOption(WallKind::slide, {0, *set.wall_support});

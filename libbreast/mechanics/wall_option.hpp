@@ -39,7 +39,7 @@ enum class Cut {
 struct CutOption {
   Cut kind = Cut::free;
   double stiffness = 0;  ///< kPa/mm; spring only
-  /// Stiffness where the cut faces the sternum, kPa/mm; as elsewhere if absent.
+  /// Stiffness of an attachment to the sternum, which only pulls, kPa/mm; none if absent.
   std::optional<double> sternal = {};
 
   CutOption(Cut how = Cut::free, double springs = 0, std::optional<double> at_sternum = {})
@@ -55,7 +55,7 @@ inline constexpr double usual_sliding_stiffness = 0.01;
 /// with free sides (E/h normal, G/h = E/3h tangential). Throws Error (input) for anything else.
 WallOption parse_wall(const std::string& text);
 /// "free", "fixed", "roller", "spring:STIFFNESS" or "spring:STIFFNESS,STERNAL" in kPa/mm, where the
-/// second number is the stiffness towards the sternum. Throws Error (input) otherwise.
+/// second number is the stiffness of an attachment to the sternum. Throws Error (input) otherwise.
 CutOption parse_cut(const std::string& text);
 
 /// The option's text as on a command line.

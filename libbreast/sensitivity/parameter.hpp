@@ -20,7 +20,7 @@ enum class ParameterKind {
   skin_thickness,  ///< thickness of a membrane skin, relative
   wall_support,    ///< stiffness of the springs along or under the chest wall, relative
   cut_support,     ///< stiffness of the springs at the cut, relative
-  sternum_support, ///< stiffness of the springs at the cut towards the sternum, relative
+  sternum_support, ///< stiffness of the attachment of the cut to the sternum, relative
   together,        ///< a common factor on all `members`, relative
   thickness,       ///< distance between the plates, which close on their mid-plane, mm
   standoff,        ///< both plates' edges moved away from the chest wall, mm

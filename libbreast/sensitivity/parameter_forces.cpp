@@ -254,7 +254,7 @@ ParameterForces of_each(const Scene& scene, const LoadedState& state, ParameterK
     } else if (parameter.kind == ParameterKind::cut_support) {
       out.force.col(long(i)) += scene.cut_springs()->forces(state.state);
     } else if (parameter.kind == ParameterKind::sternum_support) {
-      out.force.col(long(i)) += scene.sternal_springs()->forces(state.state);
+      out.force.col(long(i)) += scene.sternal_attachment()->forces(state.state);
     } else if (parameter.kind == ParameterKind::density) {
       out.force.col(long(i)) -= scene.gravity_force(state.gravity);
     } else if (parameter.kind == ParameterKind::tissue_density) {

@@ -93,6 +93,10 @@ TEST(Softness, ScalesLinearAndQuadraticTermsApart) {
   EXPECT_NEAR(is[0], 0.5 * was[0], 1e-12);
   EXPECT_NEAR(is[1], 0.5 * was[1], 1e-12);
   for (int k = 2; k < 5; ++k) EXPECT_NEAR(is[k], 0.1 * was[k], 1e-12);
+  const MaterialSet stiff = softened(base, s, 5);
+  const std::vector<double>&gland = stiff.law(Tissue::fibroglandular).constants,
+                           &muscle = stiff.law(Tissue::muscle).constants;
+  for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(muscle[k], 5 * gland[k], 1e-9);
   EXPECT_EQ(set.wall_support, 0.03);
   EXPECT_EQ(set.cut_support, 0.04);
   EXPECT_EQ(set.sternum_support, 0.05);

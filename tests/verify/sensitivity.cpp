@@ -124,6 +124,14 @@ TEST(Sensitivity, OnAWallToSlideOn) {
   in.options.wall = fixtures::slide(fixtures::sphere(), 0.02);
   in.options.cut = CutOption(Cut::spring, 0.01, 0.03);
   in.options.materials.skin = {0.05, 0.02, 0.03};
+  // Away from the sternum, so that the attachment to it pulls.
+  in.gravity.x() += 4000 * lateral_sign(in.mesh.side);
+  const Outcome base = solve_chain(in);
+  const SensitivityChain chain(base.mesh, base.imaged_pressure, in.imaged_gravity, in.options);
+  const auto sternum = pick_parameters(all_parameters(base.mesh, in.options, in.imaged_gravity), "sternum");
+  double most = 0;
+  for (const Vec3& by : chain.tangent(sternum)[0].position) most = std::max(most, by.norm());
+  EXPECT_GT(most, 1e-3);
   expect_all_match(in, "fat,skin,skin.a,skin.b,density,skin_thickness,wall,cut,sternum,gravity_x");
   expect_adjoint_matches(in, true);
 }

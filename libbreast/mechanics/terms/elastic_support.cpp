@@ -11,14 +11,13 @@ namespace breast {
 
 ElasticSupport::ElasticSupport(const HexMesh& mesh, const std::vector<Face>& faces,
                                const SupportStiffness& stiffness,
-                               std::shared_ptr<const LevelSurface> surface,
-                               const std::function<double(const Vec3& normal)>& factor)
+                               std::shared_ptr<const LevelSurface> surface)
     : surface_(std::move(surface)) {
   if (!(stiffness.normal > 0 && stiffness.tangential >= 0)) {
     throw input_error("springs of ", stiffness.normal, " and ", stiffness.tangential,
                       " kPa/mm: the first must be above 0, the second 0 or more");
   }
-  const NodalFaces spread = nodal_faces(mesh, faces, flatten(mesh.imaged), factor);
+  const NodalFaces spread = nodal_faces(mesh, faces, flatten(mesh.imaged));
   cells_.nodes_per_cell = 1;
   cells_.nodes = nodes_of(mesh, faces);
   for (int i = 0; i < cells_.count(); ++i) {

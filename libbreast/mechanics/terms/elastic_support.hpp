@@ -9,7 +9,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <vector>
 
 #include "mesh/hex_mesh.hpp"
@@ -26,13 +25,11 @@ struct SupportStiffness {
 class ElasticSupport final : public Term {
  public:
   /// Springs at the nodes of `faces`, each with its share of the imaged area. Without a surface
-  /// every node has its own plane, with the mean normal of the imaged faces there. `factor`
-  /// multiplies the stiffness by a function of the outward normal of a face. Throws Error (input)
-  /// unless normal > 0 and tangential ≥ 0, and for a node beyond the surface.
+  /// every node has its own plane, with the mean normal of the imaged faces there. Throws Error
+  /// (input) unless normal > 0 and tangential ≥ 0, and for a node beyond the surface.
   ElasticSupport(const HexMesh& mesh, const std::vector<Face>& faces,
                  const SupportStiffness& stiffness,
-                 std::shared_ptr<const LevelSurface> surface = nullptr,
-                 const std::function<double(const Vec3& normal)>& factor = {});
+                 std::shared_ptr<const LevelSurface> surface = nullptr);
 
   std::string name() const override { return "elastic support"; }
   bool add(const State& state, const Request& request, Forces& forces) const override;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// An attachment by skin and fascia as a term: it pulls tissue back that moves away from it, but does
+// not push tissue that moves towards it, since a loose sheet bears no compression.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "mesh/hex_mesh.hpp"
+#include "solve/term.hpp"
+
+namespace breast {
+
+/// Per area of the imaged faces the energy is s ψ(d), where d = (X − x)·m is the distance by which
+/// tissue has moved from its stress-free place X against the direction m of the attachment, and
+///
+///     ψ' = 0 for d ≤ 0,   d² / 2w for 0 < d < w,   d − w/2 beyond:
+///
+/// stress-free tissue is without force, and the stiffness rises from zero to s over the width w.
+/// ψ is convex, so that an attachment cannot itself make a body unstable.
+class Tether final : public Term {
+ public:
+  /// The width w, mm.
+  static constexpr double toe_mm = 1;
+
+  /// At the nodes of `faces`, each with its share of the imaged area; `stiffness` s in kPa/mm > 0,
+  /// `towards` the unit vector m. `factor` multiplies s by a function of the outward normal of a
+  /// face. Throws Error (input) for another stiffness.
+  Tether(const HexMesh& mesh, const std::vector<Face>& faces, double stiffness, const Vec3& towards,
+         const std::function<double(const Vec3& normal)>& factor);
+
+  std::string name() const override { return "attachment"; }
+  bool add(const State& state, const Request& request, Forces& forces) const override;
+  std::vector<int> nodes() const override { return cells_.nodes; }
+  /// Contribution to r (µN, 3 per node).
+  Eigen::VectorXd forces(const State& state) const;
+  /// Force of the attachment on the body, µN.
+  Vec3 force_on_body(const State& state) const;
+
+ private:
+  /// ψ and its derivatives at the i-th node, times its stiffness.
+  struct Pull {
+    double energy = 0, force = 0, stiffness = 0;
+  };
+  Pull pull(const State& state, int i) const;
+
+  Cells cells_;  // one node each
+  Vec3 towards_;
+  std::vector<double> stiffness_;  // µN/mm
+};
+
+}  // namespace breast
