@@ -38,7 +38,7 @@ void declare(Tool& tool, Choices& c) {
       "women's breasts do on average. The parameters are the stiffness of fat and fibroglandular "
       "tissue (with separate factors for the linear and the quadratic terms of the law), the "
       "stiffness of the skin, and the resistance to sliding along the chest wall and at the cut "
-      "(with --sternum, also at the cut towards the sternum). "
+      "(with --sternum, also of an attachment to the sternum). "
       "The data are the lateral and posterior displacement of the nipple and the change of the "
       "tissue's distance from the ribs. The nipple's displacement along the long axis of the body "
       "is not used, because it depends on the position of the arms. A further breast is "
@@ -57,8 +57,7 @@ void declare(Tool& tool, Choices& c) {
   tool.numbers(c.expected, "--expected", "LOW,QUADRATIC,SKIN,WALL,CUT", 5,
                "centre of the prior: the first three in percent, the last two in kPa/mm");
   tool.number(c.sternum, "--sternum", "KPA_PER_MM",
-              "centre of the prior of the cut's stiffness towards the sternum (default: the cut is "
-              "alike all around)",
+              "centre of the prior of the stiffness of an attachment to the sternum (default: none)",
               1e-4, 100);
   tool.number(c.data.expected_ln_sd, "--expected-ln-sd", "LN",
               "standard deviation of the prior, in the logarithm", 0.01, 10);
@@ -70,6 +69,9 @@ void declare(Tool& tool, Choices& c) {
             "position of the plates, as in compress");
   tool.number(c.data.muscle_mm, "--muscle", "MM", "thickness of the muscle in front of the ribs", 0,
               50);
+  tool.number(c.data.muscle_stiffness, "--muscle-stiffness", "FACTOR",
+              "stiffness of muscle relative to fibroglandular tissue (default: the law of the set)",
+              0.1, 1000);
   tool.number(c.kept, "--skin-compression", "PERCENT",
               "share of the skin's stiffness that remains in compression", 0.1, 100);
   tool.number(c.smoothing, "--skin-smoothing", "WIDTH",

@@ -37,8 +37,11 @@ Softness Softness::from_logarithms(const Eigen::VectorXd& x) {
   return s;
 }
 
-MaterialSet softened(const MaterialSet& base, const Softness& s) {
+MaterialSet softened(const MaterialSet& base, const Softness& s, std::optional<double> muscle) {
   MaterialSet set = base;
+  if (muscle) {
+    set.laws[std::size_t(Tissue::muscle)] = base.law(Tissue::fibroglandular).scaled(*muscle);
+  }
   for (const Tissue tissue :
        {Tissue::fat, Tissue::fibroglandular, Tissue::tumour, Tissue::muscle, Tissue::other}) {
     Law& law = set.laws[std::size_t(tissue)];
@@ -154,7 +157,7 @@ SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& da
   int evaluations = 0;
   const Residuals residuals = [&](const Eigen::VectorXd& x) -> std::optional<Eigen::VectorXd> {
     const Softness s = Softness::from_logarithms(x);
-    const std::optional<std::vector<double>> values = model(softened(base, s), data);
+    const std::optional<std::vector<double>> values = model(softened(base, s, data.muscle_stiffness), data);
     std::string said = message("low order ", s.low_order, ", quadratic ", s.quadratic, ", skin ",
                                s.skin, ", wall ", s.wall, ", cut ", s.cut);
     if (s.sternum) said += message(", sternum ", *s.sternum);
@@ -174,7 +177,7 @@ SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& da
   out.softness = rounded(Softness::from_logarithms(out.fit.x));
   for (std::size_t k = 0; k < out.wanted.size(); ++k)
     out.found.push_back(out.wanted[k].mean + out.fit.residuals[Eigen::Index(k)] * out.wanted[k].sd);
-  out.materials = softened(base, out.softness);
+  out.materials = softened(base, out.softness, data.muscle_stiffness);
   for (Law& law : out.materials.laws)
     for (double& constant : law.constants) constant = rounded(constant, 5);
   out.materials.uncertainty.parameters = out.softness.names();

@@ -20,7 +20,7 @@ struct Softness {
   double quadratic = 0.3;   ///< on the other constants
   double skin = 1;          ///< on the law of skin
   double wall = 0.01, cut = 0.01;
-  std::optional<double> sternum = {};  ///< of the cut towards it; absent: as elsewhere
+  std::optional<double> sternum = {};  ///< the attachment to it; absent: none
 
   std::vector<std::string> names() const;
   std::vector<double> values() const;
@@ -28,9 +28,11 @@ struct Softness {
   static Softness from_logarithms(const Eigen::VectorXd& x);
 };
 
-/// `base` scaled by these factors, with these supports. Throws Error (input) when fat or
+/// `base` scaled by these factors, with these supports. With `muscle`, muscle has the law of
+/// fibroglandular tissue times this factor, otherwise its own. Throws Error (input) when fat or
 /// fibroglandular tissue has no polynomial law of equation (9).
-MaterialSet softened(const MaterialSet& base, const Softness& softness);
+MaterialSet softened(const MaterialSet& base, const Softness& softness,
+                     std::optional<double> muscle = {});
 
 /// A mean over women, mm or kPa, and the standard deviation among them.
 struct Observed {
@@ -44,6 +46,7 @@ struct SoftnessData {
   std::vector<HexMesh> cohort;  ///< imaged prone, with wall surfaces
   HexMesh pressed;
   double muscle_mm = 8;
+  std::optional<double> muscle_stiffness = {};  ///< relative to fibroglandular tissue
   Observed lateral, posterior, ribs_change;  ///< means over `women` women
   int women = 63;
   Observed pressure{"pressure_kPa", 10, 2.5};  ///< of the paddle on `pressed`
