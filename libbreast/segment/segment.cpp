@@ -257,16 +257,18 @@ void separate_tissue(Work& work, Interior by, double fat_cv) {
                                    work.wall.muscle_ratio, fat_cv, by);
 }
 
-/// Compact gland of which much was taken for dim fat; nothing where there is none.
+/// Compact gland of which much was taken for dim fat, or which fills so much of the breast that the estimate of the bias
+/// follows it although it is told apart; nothing where there is none.
 DimTissue missed_gland(const Work& work, const Mask& interior) {
-  constexpr double most_missed = 0.2;
+  constexpr double most_missed = 0.2, most_of_breast = 0.25;
   DimTissue gland = compact_gland(work.scan, interior);
-  double all = 0, missed = 0;
+  double all = 0, missed = 0, breast = 0;
   for (std::size_t n = 0; n < interior.voxels.size(); ++n) {
+    breast += interior.voxels[n];
     all += gland.share.voxels[n];
     missed += work.gland.lobes.voxels[n] ? 0 : gland.share.voxels[n];
   }
-  return missed > most_missed * all ? gland : DimTissue{};
+  return missed > most_missed * all || all > most_of_breast * breast ? gland : DimTissue{};
 }
 
 /// Much bright gland, or compact gland that was missed.

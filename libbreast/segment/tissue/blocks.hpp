@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The interior of a breast in blocks of a few millimetres, and where brightness jumps between them.
+#pragma once
+
+#include <vector>
+
+#include "segment/grid/grid_ops.hpp"
+
+namespace breast {
+
+/// Blocks of about 4 mm, wide enough for noise and thin strands to average out.
+struct Blocks {
+  Volume<float> level;      ///< mean log brightness of the voxels in the interior
+  std::vector<int> number;  ///< per block, or -1 where less than half of it is interior
+  int count = 0;            ///< of numbered blocks
+};
+
+/// Two neighbouring blocks.
+struct BlockLink {
+  std::size_t from, to;  ///< places in `Blocks::level`
+  int axis;
+  double change;      ///< of log brightness from the first to the second
+  double coil = 0;    ///< of which the coil's sensitivity has this part (`coil_trend`)
+  bool edge = false;  ///< the rest is more than a coil makes
+  double jump() const { return change - coil; }
+};
+
+/// `scan` is brightness as scanned, on the grid of `interior`.
+Blocks blocks_of(const Volume<float>& scan, const Mask& interior);
+
+/// All links between numbered neighbours.
+std::vector<BlockLink> links_of(const Blocks& blocks);
+
+}  // namespace breast
