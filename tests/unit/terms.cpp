@@ -15,6 +15,7 @@
 #include "fixtures/wide_plates.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/terms/membrane.hpp"
+#include "mechanics/terms/tether.hpp"
 #include "mesh/element_order.hpp"
 #include "solve/problem.hpp"
 
@@ -77,6 +78,18 @@ Case term_of_scene(const std::string& name, Element element = Element::q1p0, dou
   for (const auto& term : loaded.problem.terms()) {
     if (term->name() == name) out.term = term;
   }
+  return out;
+}
+
+// Nodes that it does not pull, that it begins to pull, and that it pulls with its full stiffness.
+Case attachment() {
+  Case out = body(Element::q1p0, 0, Invariants::isochoric, false);
+  const Vec3 towards = Vec3(0.6, -0.3, 0.8).normalized();
+  for (int n = 0; n < out.mesh.nodes(); ++n) {
+    out.state.x.segment<3>(3L * n) -= 0.7 * (n % 4 - 1) * towards;
+  }
+  out.term = std::make_shared<Tether>(out.mesh, out.mesh.pectoral_faces, 0.2, towards,
+                                      [](const Vec3&) { return 1.0; });
   return out;
 }
 
@@ -165,6 +178,7 @@ const std::vector<Named>& all_terms() {
        [] { return term_of_scene("elastic support", Element::q1p0, 0, Invariants::isochoric, true); }},
       {"dead_load", [] { return term_of_scene("dead load"); }},
       {"elastic_support", [] { return term_of_scene("elastic support"); }},
+      {"attachment", [] { return attachment(); }},
       {"plate_multiplier", [] { return plate(0); }},
       {"plate_penalty", [] { return plate(2e4); }},
       {"plates_on_faces", [] { return faces(false); }},
