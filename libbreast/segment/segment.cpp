@@ -25,11 +25,13 @@ namespace {
 constexpr double depth_limit =
     45;  // mm behind the sternal skin: no fat for the first bias estimate
 constexpr double least_roll = 0.1;  // radians: less is the asymmetry of people
-// Skin of a supine breast lies in front of and beside the sternum's; by this much a breast hangs prone.
+// Skin of a supine breast lies in front of and beside the sternum's; by this much a breast hangs
+// prone.
 constexpr double spread_behind = 40, hanging = 45;  // mm
 constexpr double wall_clearance = 2;  // mm in front of the wall used for the later ones
-// Gland brighter than this share of fat has in part been taken for dim fat, and much of it lowers the bias around it,
-// which is then estimated again without it. A little (strands, vessels) does not.
+// Gland brighter than this share of fat has in part been taken for dim fat, and much of it lowers
+// the bias around it, which is then estimated again without it. A little (strands, vessels) does
+// not.
 constexpr double darkest_gland_in_bias = 0.5, least_gland_in_bias = 0.1;
 
 /// Gland that misled the estimate of the bias, which is then made again.
@@ -257,8 +259,8 @@ void separate_tissue(Work& work, Interior by, double fat_cv) {
                                    work.wall.muscle_ratio, fat_cv, by);
 }
 
-/// Compact gland of which much was taken for dim fat, or which fills so much of the breast that the estimate of the bias
-/// follows it although it is told apart; nothing where there is none.
+/// Compact gland that misleads the estimate of the bias: of which much was taken for dim fat, or
+/// which fills much of the breast. Nothing where there is none.
 DimTissue missed_gland(const Work& work, const Mask& interior) {
   constexpr double most_missed = 0.2, most_of_breast = 0.25;
   DimTissue gland = compact_gland(work.scan, interior);

@@ -13,8 +13,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/units.hpp"
-#include "fixtures/synthetic_scan.hpp"
+#include "fixtures/compact_gland.hpp"
 #include "segment/quality.hpp"
 #include "segment/segment.hpp"
 
@@ -46,28 +45,15 @@ std::string flags_of(const Segmentation& result) {
 
 void run(const Case& a) {
   const testing::SyntheticScan truth = breast_of(a);
-  const Volume<float> scan = truth.image_of([&](const Vec3& p) {
-    return !truth.behind_wall(p) && truth.in_gland(p) && truth.in_body(p) ? a.brightness
-                                                                          : truth.signal(p);
-  });
+  const Volume<float> scan = testing::scan_of_compact_gland(truth, a.brightness);
   std::printf("%g\t%g\t%g\t%g\t%g\t", a.scale, a.brightness, a.bias, a.noise, a.voxel);
   try {
     Timer timer;
     const Segmentation result = segment_breast(scan, {}, no_progress(), timer);
-    const Grid& grid = result.labels.grid;
-    double found = 0, there = 0;
-    for (int k = 0; k < grid.size[2]; ++k) {
-      for (int j = 0; j < grid.size[1]; ++j) {
-        for (int i = 0; i < grid.size[0]; ++i) {
-          const Vec3 p = grid.to_patient(Vec3(i, j, k));
-          there += p[0] > 0 && !truth.behind_wall(p) && truth.in_gland(p) && truth.in_body(p);
-          found += result.labels.fibroglandular_fraction[grid.offset(i, j, k)];
-        }
-      }
-    }
-    const double ml = grid.voxel_volume() / mm3_per_ml;
-    std::printf("%.1f\t%.1f\t%+.1f\t%s\n", there * ml, found * ml, 100 * (found / there - 1),
-                flags_of(result).c_str());
+    const testing::GlandVolume volume = testing::compact_gland_volume(truth, result.labels);
+    std::printf("%.1f\t%.1f\t", volume.true_ml, volume.found_ml);
+    if (volume.true_ml > 0) std::printf("%+.1f", 100 * (volume.found_ml / volume.true_ml - 1));
+    std::printf("\t%s\n", flags_of(result).c_str());
   } catch (const Error& error) {
     std::printf("\t\t\trefused: %s\n", error.what());
   }
@@ -76,12 +62,13 @@ void run(const Case& a) {
 
 const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases{
-      {0, 1},           {0.4, 0.5},       {0.4, 0.6},           {0.4, 0.7},           {0.4, 0.8},
-      {0.5, 0.5},       {0.5, 0.6},       {0.5, 0.7},           {0.5, 0.8},           {0.65, 0.5},
-      {0.65, 0.6},      {0.65, 0.7},      {0.65, 0.8},          {0.78, 0.5},          {0.78, 0.6},
-      {0.78, 0.7},      {0.78, 0.8},      {0.65, 0.6, 1},       {0.65, 0.7, 1},       {0.65, 0.7, 2},
-      {0.65, 0.6, 10},  {0.65, 0.7, 10},  {0.65, 0.7, 5, 0.05}, {0.65, 0.7, 5, 0.02, 3},
-      {0.5, 0.7, 10},   {0.78, 0.7, 2},   {0.78, 0.7, 10}};
+      {0, 1},          {0.4, 0.5},      {0.4, 0.6},           {0.4, 0.7},
+      {0.4, 0.8},      {0.5, 0.5},      {0.5, 0.6},           {0.5, 0.7},
+      {0.5, 0.8},      {0.65, 0.5},     {0.65, 0.6},          {0.65, 0.7},
+      {0.65, 0.8},     {0.78, 0.5},     {0.78, 0.6},          {0.78, 0.7},
+      {0.78, 0.8},     {0.65, 0.6, 1},  {0.65, 0.7, 1},       {0.65, 0.7, 2},
+      {0.65, 0.6, 10}, {0.65, 0.7, 10}, {0.65, 0.7, 5, 0.05}, {0.65, 0.7, 5, 0.02, 3},
+      {0.5, 0.7, 10},  {0.78, 0.7, 2},  {0.78, 0.7, 10}};
   return cases;
 }
 
@@ -95,7 +82,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: bench_compact_gland [SCALE BRIGHTNESS [BIAS] [NOISE] [VOXEL]]\n");
     return 2;
   }
-  std::printf("scale\tbrightness\tbias\tnoise\tvoxel_mm\ttrue_ml\tfound_ml\terror_percent\tflags\n");
+  std::printf(
+      "scale\tbrightness\tbias\tnoise\tvoxel_mm\ttrue_ml\tfound_ml\terror_percent\tflags\n");
   if (values.empty()) {
     for (const breast::Case& a : breast::all_cases()) breast::run(a);
     return 0;

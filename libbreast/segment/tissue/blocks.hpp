@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The interior of a breast in blocks of a few millimetres, and where brightness jumps between them.
+// The interior of a breast in blocks of a few millimetres, and how brightness changes between them.
 #pragma once
 
 #include <vector>
@@ -20,9 +20,7 @@ struct BlockLink {
   std::size_t from, to;  ///< places in `Blocks::level`
   int axis;
   double change;      ///< of log brightness from the first to the second
-  double coil = 0;    ///< of which the coil's sensitivity has this part (`coil_trend`)
-  bool edge = false;  ///< the rest is more than a coil makes
-  double jump() const { return change - coil; }
+  bool edge = false;  ///< it is more than a coil makes
 };
 
 /// `scan` is brightness as scanned, on the grid of `interior`.

@@ -21,7 +21,8 @@ std::array<double, degree + 1> legendre(double t) {
   return p;
 }
 
-/// Place of every block in [-1, 1]^3, the box of the numbered ones.
+/// The bounding box of the numbered blocks, mapped to [-1, 1]³, on which the polynomials are
+/// defined.
 class Box {
  public:
   explicit Box(const Blocks& blocks) : grid_(blocks.level.grid) {
@@ -58,8 +59,8 @@ class Box {
   std::array<int, 3> first_, last_{};
 };
 
-/// Least sum of absolute differences, by least squares whose weights are their reciprocals; below `sure` (the noise
-/// of a link) squares.
+/// The coefficients with the least sum of absolute differences, by iteratively reweighted least
+/// squares. Differences below `sure`, the noise of a link, count as squares.
 Terms least_absolute(const std::vector<Terms>& rows, const std::vector<BlockLink>& links) {
   constexpr double sure = 0.01;
   constexpr int passes = 30;
@@ -83,15 +84,15 @@ Terms least_absolute(const std::vector<Terms>& rows, const std::vector<BlockLink
 
 }  // namespace
 
-std::vector<double> coil_trend(const Blocks& blocks, std::vector<BlockLink>& links) {
+std::vector<double> coil_trend(const Blocks& blocks) {
   std::vector<double> trend(blocks.number.size(), 0);
+  const std::vector<BlockLink> links = links_of(blocks);
   if (links.empty()) return trend;
   const Box box(blocks);
   std::vector<Terms> rows(links.size());
   for (std::size_t n = 0; n < links.size(); ++n)
     rows[n] = box.terms_at(links[n].to) - box.terms_at(links[n].from);
   const Terms found = least_absolute(rows, links);
-  for (std::size_t n = 0; n < links.size(); ++n) links[n].coil = rows[n].dot(found);
   double mean = 0;
   for (std::size_t n = 0; n < trend.size(); ++n) {
     if (blocks.number[n] < 0) continue;

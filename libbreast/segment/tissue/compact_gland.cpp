@@ -14,46 +14,52 @@ namespace breast {
 
 namespace {
 
-// Change of log brightness from block to block beyond the coil's: 3 % per mm.
+// Change of log brightness from block to block that is not the coil's: 3 % per mm.
 constexpr double least_edge = 0.12;
-constexpr double usual_jumps = 3;  // of the median, which noise and strands raise
-constexpr double least_step = 0.12;    // log brightness of fat over gland
+constexpr double usual_changes = 3;   // of the median, which noise and strands raise
+constexpr double least_step = 0.12;   // log brightness of fat over gland
 constexpr double least_part_ml = 5;   // smaller glands do not mislead the estimate of the bias
 constexpr double least_closed = 0.6;  // share of a part's boundary that must be an edge
 constexpr double most_crossed = 0.1;  // share of the links inside it that may be one
 
-/// Marks the links that jump, alone or, where an edge crosses a block, with the next link in line. Of such a pair, a
-/// link with only a small part of the jump is not marked.
+/// Divides the brightness of the blocks by the sensitivity of the coil.
+void remove_coil_trend(Blocks& blocks) {
+  const std::vector<double> coil = coil_trend(blocks);
+  for (std::size_t n = 0; n < coil.size(); ++n) blocks.level.voxels[n] -= float(coil[n]);
+}
+
+/// Marks the links that change too much, alone or, where an edge crosses a block, with the next
+/// link in line. Of such a pair, a link with only a small part of the change is not marked.
 void mark_edges(std::vector<BlockLink>& links) {
   constexpr double of_pair = 5.0 / 3, least_part = 0.25;
   if (links.empty()) return;
-  std::vector<double> jumps;
-  for (const BlockLink& link : links) jumps.push_back(std::abs(link.jump()));
-  const auto middle = jumps.begin() + std::ptrdiff_t(jumps.size() / 2);
-  std::nth_element(jumps.begin(), middle, jumps.end());
-  const double limit = std::max(least_edge, usual_jumps * *middle);
+  std::vector<double> changes;
+  for (const BlockLink& link : links) changes.push_back(std::abs(link.change));
+  const auto middle = changes.begin() + std::ptrdiff_t(changes.size() / 2);
+  std::nth_element(changes.begin(), middle, changes.end());
+  const double limit = std::max(least_edge, usual_changes * *middle);
   std::map<std::pair<std::size_t, int>, BlockLink*> starting;  // by block and axis
   for (BlockLink& link : links) starting[{link.from, link.axis}] = &link;
   for (BlockLink& link : links) {
-    if (std::abs(link.jump()) > limit) link.edge = true;
+    if (std::abs(link.change) > limit) link.edge = true;
     const auto next = starting.find({link.to, link.axis});
     if (next == starting.end()) continue;
     BlockLink& other = *next->second;
-    const double both = std::abs(link.jump() + other.jump());
+    const double both = std::abs(link.change + other.change);
     if (!(both > of_pair * limit)) continue;
     for (BlockLink* one : {&link, &other})
-      one->edge = one->edge || std::abs(one->jump()) > least_part * both;
+      one->edge = one->edge || std::abs(one->change) > least_part * both;
   }
 }
 
-/// Log brightness of fat, which is the brightest, over that of every block, both over the coil's sensitivity.
-std::vector<double> steps_below_fat(const Blocks& blocks, const std::vector<double>& coil) {
+/// Log brightness of fat, which is the brightest, over that of every block.
+std::vector<double> steps_below_fat(const Blocks& blocks) {
   constexpr double fat = 0.95;
   std::vector<double> steps(blocks.number.size(), 0), levels;
   for (std::size_t n = 0; n < steps.size(); ++n) {
     if (blocks.number[n] < 0) continue;
-    steps[n] = coil[n] - blocks.level.voxels[n];
-    levels.push_back(-steps[n]);
+    steps[n] = -blocks.level.voxels[n];
+    levels.push_back(blocks.level.voxels[n]);
   }
   if (levels.empty()) return steps;
   const auto place = levels.begin() + std::ptrdiff_t(fat * double(levels.size() - 1));
@@ -82,7 +88,8 @@ Mask inner_blocks(const Mask& dim) {
   return inner;
 }
 
-/// Takes from `dim` the parts that are small, whose boundary is no edge, or whose inside edges cross.
+/// Takes from `dim` the parts that are small, whose boundary is no edge, or whose inside edges
+/// cross.
 void keep_enclosed(Mask& dim, const std::vector<BlockLink>& links) {
   struct Count {
     double boundary = 0, closed = 0, inner = 0, crossed = 0;
@@ -113,28 +120,34 @@ void keep_enclosed(Mask& dim, const std::vector<BlockLink>& links) {
     dim.voxels[n] = parts.label[n] != 0 && kept(parts.label[n]);
 }
 
+/// Mean of the values of the blocks in `mask`; 0 if there are none.
+double mean_in(const Mask& mask, const std::vector<double>& values) {
+  double sum = 0, count = 0;
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    if (mask.voxels[n]) sum += values[n], count += 1;
+  }
+  return sum / std::max(count, 1.0);
+}
+
 }  // namespace
 
 DimTissue compact_gland(const Volume<float>& scan, const Mask& interior) {
   DimTissue gland{Volume<float>(scan.grid)};
-  const Blocks blocks = blocks_of(scan, interior);
+  Blocks blocks = blocks_of(scan, interior);
   if (blocks.count == 0) return gland;
+  remove_coil_trend(blocks);
   std::vector<BlockLink> links = links_of(blocks);
-  const std::vector<double> coil = coil_trend(blocks, links);
   mark_edges(links);
-  const std::vector<double> steps = steps_below_fat(blocks, coil);
+  const std::vector<double> steps = steps_below_fat(blocks);
   Mask dim(blocks.level.grid);
   for (std::size_t n = 0; n < steps.size(); ++n) dim.voxels[n] = steps[n] > least_step;
   keep_enclosed(dim, links);
+  // Blocks less than half of which are gland are not counted.
+  const double half = 0.5 * mean_in(dim, steps);
+  for (std::size_t n = 0; n < steps.size(); ++n) dim.voxels[n] = dim.voxels[n] && steps[n] > half;
+  gland.step = mean_in(dim, steps);
   Volume<float> found(dim.grid);
-  double count = 0;
-  for (std::size_t n = 0; n < steps.size(); ++n) {
-    if (!dim.voxels[n]) continue;
-    found.voxels[n] = 1;
-    gland.step += steps[n];
-    count += 1;
-  }
-  gland.step /= std::max(count, 1.0);
+  std::copy(dim.voxels.begin(), dim.voxels.end(), found.voxels.begin());
   gland.share = resampled(found, scan.grid);
   return gland;
 }
