@@ -56,9 +56,10 @@ void declare(Tool& tool, Choices& c) {
   tool.text(c.from, "--from", "NAME|FILE", "material set whose constants are scaled");
   tool.numbers(c.expected, "--expected", "LOW,QUADRATIC,SKIN,WALL,CUT", 5,
                "centre of the prior: the first three in percent, the last two in kPa/mm");
-  tool.number(c.sternum, "--sternum", "KPA_PER_MM",
-              "centre of the prior of the stiffness of an attachment to the sternum (default: none)",
-              1e-4, 100);
+  tool.number(
+      c.sternum, "--sternum", "KPA_PER_MM",
+      "centre of the prior of the stiffness of an attachment to the sternum (default: none)", 1e-4,
+      100);
   tool.number(c.data.expected_ln_sd, "--expected-ln-sd", "LN",
               "standard deviation of the prior, in the logarithm", 0.01, 10);
   tool.numbers(c.pressure, "--pressure", "MEAN,SD", 2,

@@ -157,7 +157,8 @@ SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& da
   int evaluations = 0;
   const Residuals residuals = [&](const Eigen::VectorXd& x) -> std::optional<Eigen::VectorXd> {
     const Softness s = Softness::from_logarithms(x);
-    const std::optional<std::vector<double>> values = model(softened(base, s, data.muscle_stiffness), data);
+    const std::optional<std::vector<double>> values =
+        model(softened(base, s, data.muscle_stiffness), data);
     std::string said = message("low order ", s.low_order, ", quadratic ", s.quadratic, ", skin ",
                                s.skin, ", wall ", s.wall, ", cut ", s.cut);
     if (s.sternum) said += message(", sternum ", *s.sternum);

@@ -28,8 +28,8 @@ struct Softness {
   static Softness from_logarithms(const Eigen::VectorXd& x);
 };
 
-/// `base` scaled by these factors, with these supports. With `muscle`, muscle has the law of
-/// fibroglandular tissue times this factor, otherwise its own. Throws Error (input) when fat or
+/// `base` scaled by these factors, with these supports. Muscle keeps its own law, or has that of
+/// fibroglandular tissue times the factor `muscle` if it is given. Throws Error (input) when fat or
 /// fibroglandular tissue has no polynomial law of equation (9).
 MaterialSet softened(const MaterialSet& base, const Softness& softness,
                      std::optional<double> muscle = {});

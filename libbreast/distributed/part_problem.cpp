@@ -34,8 +34,7 @@ void add_supports(const MeshPart& part, const MechanicsOptions& options, Problem
     all.push_back(springs(mesh, mesh.pectoral_faces, {along, along}));
   }
   const CutSprings at_cut = springs_at_cut(mesh, options.cut);
-  all.push_back(at_cut.around);
-  all.push_back(at_cut.sternal);
+  all.insert(all.end(), {at_cut.around, at_cut.sternal});
   for (const auto& term : all) {
     if (term) problem.add(term);
   }

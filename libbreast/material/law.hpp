@@ -73,8 +73,8 @@ struct MaterialSet {
   std::array<double, n_tissues> density;  ///< g/mm^3
   SkinBehaviour skin;
   /// Resistance to sliding at the chest wall and stiffness at the cut, kPa/mm, with which the set
-  /// was identified; if absent, the wall is fixed and the cut free. Stiffness of an
-  /// attachment to the sternum, which only pulls; if absent, there is none.
+  /// was identified; if absent, the wall is fixed and the cut free. Stiffness of an attachment to
+  /// the sternum, which only pulls; if absent, there is none.
   std::optional<double> wall_support, cut_support, sternum_support;
   SoftnessUncertainty uncertainty;
   const Law& law(Tissue t) const { return laws[static_cast<std::size_t>(t)]; }

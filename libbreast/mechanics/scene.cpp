@@ -148,8 +148,9 @@ LoadedProblem Scene::problem(const Eigen::VectorXd& force) const {
   loaded.problem.add(solid_);
   if (membrane_) loaded.problem.add(membrane_);
   if (wall_springs_) loaded.problem.add(wall_springs_);
-  if (cut_springs_.around) loaded.problem.add(cut_springs_.around);
-  if (cut_springs_.sternal) loaded.problem.add(cut_springs_.sternal);
+  for (const auto& springs : {cut_springs_.around, cut_springs_.sternal}) {
+    if (springs) loaded.problem.add(springs);
+  }
   loaded.problem.set_sliding(sliding_);
   loaded.problem.add(loaded.load);
   loaded.set_load(force);
@@ -158,10 +159,9 @@ LoadedProblem Scene::problem(const Eigen::VectorXd& force) const {
 
 Vec3 Scene::force_of_springs(const State& state) const {
   Vec3 sum = Vec3::Zero();
-  for (const auto& springs : {wall_springs_, cut_springs_.around}) {
+  for (const auto& springs : {wall_springs_, cut_springs_.around, cut_springs_.sternal}) {
     if (springs) sum += springs->force_on_body(state);
   }
-  if (cut_springs_.sternal) sum += cut_springs_.sternal->force_on_body(state);
   return sum;
 }
 

@@ -46,9 +46,9 @@ class Scene {
   const MechanicsOptions& options() const { return options_; }
   const Solid& solid() const { return *solid_; }
   /// Springs at the chest wall and at the cut; null where there are none.
-  const ElasticSupport* wall_springs() const { return wall_springs_.get(); }
-  const ElasticSupport* cut_springs() const { return cut_springs_.around.get(); }
-  const Tether* sternal_attachment() const { return cut_springs_.sternal.get(); }
+  const NodeSprings* wall_springs() const { return wall_springs_.get(); }
+  const NodeSprings* cut_springs() const { return cut_springs_.around.get(); }
+  const NodeSprings* sternal_attachment() const { return cut_springs_.sternal.get(); }
   /// Force of all springs on the body, µN.
   Vec3 force_of_springs(const State& state) const;
   /// The constraints that do not depend on where the body is.
@@ -78,7 +78,7 @@ class Scene {
   MechanicsOptions options_;
   std::shared_ptr<const Solid> solid_;
   std::shared_ptr<const Term> membrane_;
-  std::shared_ptr<const ElasticSupport> wall_springs_;
+  std::shared_ptr<const NodeSprings> wall_springs_;
   CutSprings cut_springs_;
   std::shared_ptr<const SlidingNodes> sliding_;
   Constraints walls_;

@@ -14,8 +14,8 @@
 #include "fixtures/level_surfaces.hpp"
 #include "fixtures/wide_plates.hpp"
 #include "mechanics/scene.hpp"
+#include "mechanics/terms/attachment.hpp"
 #include "mechanics/terms/membrane.hpp"
-#include "mechanics/terms/tether.hpp"
 #include "mesh/element_order.hpp"
 #include "solve/problem.hpp"
 
@@ -88,8 +88,8 @@ Case attachment() {
   for (int n = 0; n < out.mesh.nodes(); ++n) {
     out.state.x.segment<3>(3L * n) -= 0.7 * (n % 4 - 1) * towards;
   }
-  out.term = std::make_shared<Tether>(out.mesh, out.mesh.pectoral_faces, 0.2, towards,
-                                      [](const Vec3&) { return 1.0; });
+  out.term = std::make_shared<Attachment>(out.mesh, out.mesh.pectoral_faces, 0.2, towards,
+                                          [](const Vec3&) { return 1.0; });
   return out;
 }
 
@@ -168,14 +168,15 @@ const std::vector<Named>& all_terms() {
       {"solid", [] { return term_of_scene("solid"); }},
       {"solid_q2p1", [] { return term_of_scene("solid", Element::q2p1); }},
       {"solid_compressible", [] { return term_of_scene("solid", Element::q1p0, 30); }},
-      {"solid_plain",
-       [] { return term_of_scene("solid", Element::q1p0, 0, Invariants::plain); }},
+      {"solid_plain", [] { return term_of_scene("solid", Element::q1p0, 0, Invariants::plain); }},
       {"membrane", [] { return term_of_scene("membrane"); }},
       {"membrane_q2", [] { return term_of_scene("membrane", Element::q2p1); }},
       {"membrane_wrinkling",
        [] { return term_of_scene("membrane", Element::q1p0, 0, Invariants::isochoric, true); }},
       {"elastic_support_curved",
-       [] { return term_of_scene("elastic support", Element::q1p0, 0, Invariants::isochoric, true); }},
+       [] {
+         return term_of_scene("elastic support", Element::q1p0, 0, Invariants::isochoric, true);
+       }},
       {"dead_load", [] { return term_of_scene("dead load"); }},
       {"elastic_support", [] { return term_of_scene("elastic support"); }},
       {"attachment", [] { return attachment(); }},

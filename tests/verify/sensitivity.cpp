@@ -128,7 +128,8 @@ TEST(Sensitivity, OnAWallToSlideOn) {
   in.gravity.x() += 4000 * lateral_sign(in.mesh.side);
   const Outcome base = solve_chain(in);
   const SensitivityChain chain(base.mesh, base.imaged_pressure, in.imaged_gravity, in.options);
-  const auto sternum = pick_parameters(all_parameters(base.mesh, in.options, in.imaged_gravity), "sternum");
+  const auto sternum =
+      pick_parameters(all_parameters(base.mesh, in.options, in.imaged_gravity), "sternum");
   double most = 0;
   for (const Vec3& by : chain.tangent(sternum)[0].position) most = std::max(most, by.norm());
   EXPECT_GT(most, 1e-3);

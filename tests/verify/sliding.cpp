@@ -183,7 +183,8 @@ TEST(Sliding, PlaneWallEqualsRollers) {
 // pulls the face towards the sternum, or half of each of two faces at 45 degrees, when the block moves
 // away from the sternum, with a stiffness that rises over the first millimetre, and does not push it.
 TEST(CutSprings, TheAttachmentToTheSternumPullsAndDoesNotPush) {
-  constexpr double around = 0.01, sternal = 0.2, size = 60, face = size * size * pascal_per_kilopascal;
+  constexpr double around = 0.01, sternal = 0.2, size = 60,
+                   face = size * size * pascal_per_kilopascal;
   for (const Side side : {Side::left, Side::right}) {
     for (const double degrees : {0.0, 45.0}) {
       fixtures::BlockSettings settings;
@@ -196,7 +197,8 @@ TEST(CutSprings, TheAttachmentToTheSternumPullsAndDoesNotPush) {
       const CutSprings springs = springs_at_cut(mesh, CutOption(Cut::spring, around, sternal));
       ASSERT_EQ(springs_at_cut(mesh, CutOption(Cut::spring, around)).sternal, nullptr);
       const double lateral = lateral_sign(side);
-      for (const auto& [away, pulled] : {std::pair(3.0, 2.5), {1.0, 0.5}, {0.5, 0.125}, {0.0, 0.0}, {-3.0, 0.0}}) {
+      for (const auto& [away, pulled] :
+           {std::pair(3.0, 2.5), {1.0, 0.5}, {0.5, 0.125}, {0.0, 0.0}, {-3.0, 0.0}}) {
         const Vec3 moved(away * lateral, -2, 0.5);
         State state{flatten(mesh.imaged), flatten(mesh.imaged), {}};
         for (int node = 0; node < mesh.nodes(); ++node) state.x.segment<3>(3L * node) += moved;

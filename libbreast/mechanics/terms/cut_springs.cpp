@@ -12,11 +12,11 @@ CutSprings springs_at_cut(const HexMesh& mesh, const CutOption& cut) {
                                                     SupportStiffness{cut.stiffness, cut.stiffness});
   if (!cut.sternal) return springs;
   const Vec3 medial(-lateral_sign(mesh.side), 0, 0);
-  springs.sternal = std::make_shared<Tether>(mesh, mesh.cut_faces, *cut.sternal, medial,
-                                             [&medial](const Vec3& normal) {
-                                               const double t = std::max(0.0, medial.dot(normal));
-                                               return t * t;
-                                             });
+  springs.sternal = std::make_shared<Attachment>(
+      mesh, mesh.cut_faces, *cut.sternal, medial, [&medial](const Vec3& normal) {
+        const double t = std::max(0.0, medial.dot(normal));
+        return t * t;
+      });
   return springs;
 }
 

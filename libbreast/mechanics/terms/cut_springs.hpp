@@ -5,18 +5,18 @@
 
 #include <memory>
 
-#include "mechanics/terms/tether.hpp"
+#include "mechanics/terms/attachment.hpp"
 #include "mechanics/wall_option.hpp"
 #include "mesh/hex_mesh.hpp"
 
 namespace breast {
 
-/// Springs of the stiffness k per area in all directions, and an attachment of the stiffness s t² to
-/// the sternum, where t = max(0, n·m) for the outward normal n of an imaged face and the direction m
+/// Springs of the stiffness k per area in all directions, and an attachment to the sternum with the
+/// stiffness s t², where t = max(0, n·m) for the outward normal n of an imaged face and the direction m
 /// to the sternum; k and s are CutOption::stiffness and sternal.
 struct CutSprings {
-  std::shared_ptr<const ElasticSupport> around;
-  std::shared_ptr<const Tether> sternal;  ///< null if there is no s
+  std::shared_ptr<const NodeSprings> around;
+  std::shared_ptr<const NodeSprings> sternal;  ///< null if there is no s
 };
 
 /// Null pointers for an option other than Cut::spring and for a mesh without cut faces.

@@ -18,7 +18,6 @@ ElasticSupport::ElasticSupport(const HexMesh& mesh, const std::vector<Face>& fac
                       " kPa/mm: the first must be above 0, the second 0 or more");
   }
   const NodalFaces spread = nodal_faces(mesh, faces, flatten(mesh.imaged));
-  cells_.nodes_per_cell = 1;
   cells_.nodes = nodes_of(mesh, faces);
   for (int i = 0; i < cells_.count(); ++i) {
     const auto node = std::size_t(cells_.nodes[std::size_t(i)]);
@@ -38,7 +37,7 @@ std::optional<Level> ElasticSupport::level(int i, const Vec3& x) const {
   return Level{normal.dot(x), normal, Mat3::Zero()};
 }
 
-std::optional<ElasticSupport::Spring> ElasticSupport::spring(const State& state, int i) const {
+std::optional<NodeSprings::Spring> ElasticSupport::spring(const State& state, int i) const {
   const long at = 3L * cells_.nodes[std::size_t(i)];
   const double along = along_[std::size_t(i)], across = across_[std::size_t(i)];
   const Vec3 x = state.x.segment<3>(at), rest = state.reference.segment<3>(at), moved = x - rest;
@@ -56,45 +55,6 @@ std::optional<ElasticSupport::Spring> ElasticSupport::spring(const State& state,
   out.tangent += across * (here->gradient * here->gradient.transpose() + lifted * here->hessian);
   out.by_reference -= across * here->gradient * there->gradient.transpose();
   return out;
-}
-
-bool ElasticSupport::add(const State& state, const Request& request, Forces& forces) const {
-  CellMatrices* reference =
-      request.reference != nullptr ? &request.reference->next(cells_) : nullptr;
-  PackedCells* packed = request.packed != nullptr ? &request.packed->next(cells_) : nullptr;
-  for (int i = 0; i < cells_.count(); ++i) {
-    const int node = cells_.nodes[std::size_t(i)];
-    const std::optional<Spring> now = spring(state, i);
-    if (!now) return false;
-    forces.r.segment<3>(3L * node) += now->force;
-    if (request.kappa != nullptr) forces.augmented.segment<3>(3L * node) += now->force;
-    forces.energy += now->energy;
-    if (request.matrix != nullptr) {
-      request.matrix->stiffness.add_to_node(node, now->tangent);
-      request.matrix->diagonal.segment<3>(3L * node) += now->tangent.diagonal().cwiseAbs();
-    }
-    if (packed != nullptr) packed->set(i, now->tangent.data());
-    if (reference != nullptr) Eigen::Map<Mat3>(reference->at(i)) = now->by_reference;
-  }
-  return true;
-}
-
-Eigen::VectorXd ElasticSupport::forces(const State& state) const {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(state.x.size());
-  for (int i = 0; i < cells_.count(); ++i) {
-    if (const auto now = spring(state, i)) {
-      out.segment<3>(3L * cells_.nodes[std::size_t(i)]) = now->force;
-    }
-  }
-  return out;
-}
-
-Vec3 ElasticSupport::force_on_body(const State& state) const {
-  Vec3 sum = Vec3::Zero();
-  for (int i = 0; i < cells_.count(); ++i) {
-    if (const auto now = spring(state, i)) sum -= now->force;
-  }
-  return sum;
 }
 
 }  // namespace breast

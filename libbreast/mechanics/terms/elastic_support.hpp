@@ -8,11 +8,12 @@
 // k_n acts normal and k_t tangential to the wall, whether it is flat or curved.
 #pragma once
 
-#include <Eigen/Core>
+#include <memory>
+#include <optional>
 #include <vector>
 
+#include "mechanics/terms/node_springs.hpp"
 #include "mesh/hex_mesh.hpp"
-#include "solve/term.hpp"
 #include "surface/level_surface.hpp"
 
 namespace breast {
@@ -22,7 +23,7 @@ struct SupportStiffness {
   double normal = 0, tangential = 0;
 };
 
-class ElasticSupport final : public Term {
+class ElasticSupport final : public NodeSprings {
  public:
   /// Springs at the nodes of `faces`, each with its share of the imaged area. Without a surface
   /// every node has its own plane, with the mean normal of the imaged faces there. Throws Error
@@ -32,25 +33,12 @@ class ElasticSupport final : public Term {
                  std::shared_ptr<const LevelSurface> surface = nullptr);
 
   std::string name() const override { return "elastic support"; }
-  bool add(const State& state, const Request& request, Forces& forces) const override;
-  std::vector<int> nodes() const override { return cells_.nodes; }
-  /// Contribution to r (µN, 3 per node).
-  Eigen::VectorXd forces(const State& state) const;
-  /// Force of the support on the body, µN.
-  Vec3 force_on_body(const State& state) const;
 
  private:
-  /// Force on the body and its derivatives.
-  struct Spring {
-    double energy = 0;
-    Vec3 force{0, 0, 0};                                        ///< ∂U/∂x
-    Mat3 tangent = Mat3::Zero(), by_reference = Mat3::Zero();  ///< ∂²U/∂x², ∂²U/∂x∂X
-  };
   /// Nothing if a position is beyond the surface.
-  std::optional<Spring> spring(const State& state, int i) const;
+  std::optional<Spring> spring(const State& state, int i) const override;
   std::optional<Level> level(int i, const Vec3& x) const;
 
-  Cells cells_;  // one node each
   std::shared_ptr<const LevelSurface> surface_;
   std::vector<double> along_, across_;  // µN/mm: k_t A, (k_n − k_t) A / |∇φ|²
   std::vector<Vec3> normals_;           // without a surface

@@ -3,12 +3,11 @@
 // not push tissue that moves towards it, since a loose sheet bears no compression.
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <vector>
 
+#include "mechanics/terms/node_springs.hpp"
 #include "mesh/hex_mesh.hpp"
-#include "solve/term.hpp"
 
 namespace breast {
 
@@ -19,7 +18,7 @@ namespace breast {
 ///
 /// stress-free tissue is without force, and the stiffness rises from zero to s over the width w.
 /// ψ is convex, so that an attachment cannot itself make a body unstable.
-class Tether final : public Term {
+class Attachment final : public NodeSprings {
  public:
   /// The width w, mm.
   static constexpr double toe_mm = 1;
@@ -27,25 +26,14 @@ class Tether final : public Term {
   /// At the nodes of `faces`, each with its share of the imaged area; `stiffness` s in kPa/mm > 0,
   /// `towards` the unit vector m. `factor` multiplies s by a function of the outward normal of a
   /// face. Throws Error (input) for another stiffness.
-  Tether(const HexMesh& mesh, const std::vector<Face>& faces, double stiffness, const Vec3& towards,
-         const std::function<double(const Vec3& normal)>& factor);
+  Attachment(const HexMesh& mesh, const std::vector<Face>& faces, double stiffness,
+             const Vec3& towards, const std::function<double(const Vec3& normal)>& factor);
 
   std::string name() const override { return "attachment"; }
-  bool add(const State& state, const Request& request, Forces& forces) const override;
-  std::vector<int> nodes() const override { return cells_.nodes; }
-  /// Contribution to r (µN, 3 per node).
-  Eigen::VectorXd forces(const State& state) const;
-  /// Force of the attachment on the body, µN.
-  Vec3 force_on_body(const State& state) const;
 
  private:
-  /// ψ and its derivatives at the i-th node, times its stiffness.
-  struct Pull {
-    double energy = 0, force = 0, stiffness = 0;
-  };
-  Pull pull(const State& state, int i) const;
+  std::optional<Spring> spring(const State& state, int i) const override;
 
-  Cells cells_;  // one node each
   Vec3 towards_;
   std::vector<double> stiffness_;  // µN/mm
 };
