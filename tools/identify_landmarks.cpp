@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "identify_landmarks.hpp"
 
-#include <algorithm>
-#include <cctype>
-
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/lower_case.hpp"
 #include "io/markups_file.hpp"
 
 namespace breast {
@@ -20,9 +18,7 @@ struct Label {
 };
 
 Label label_of(const std::string& text) {
-  std::string low = text;
-  std::transform(low.begin(), low.end(), low.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string low = lower_case(text);
   for (const char* posture : {"prone", "supine"}) {
     const std::size_t at = low.find(posture);
     if (at == std::string::npos) continue;

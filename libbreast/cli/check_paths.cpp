@@ -3,13 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "cli/parse.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/own_file.hpp"
+#include "core/text/lower_case.hpp"
 
 namespace breast {
 
@@ -64,12 +64,6 @@ void check_input(const fs::path& path, const std::string& label) {
   if (access(path.c_str(), R_OK) != 0) {
     throw input_error(label, ": ", path.string(), " cannot be read (no permission)");
   }
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
 }
 
 void check_ending(const fs::path& path, const Argument& argument) {

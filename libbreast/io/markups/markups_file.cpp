@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/markups_file.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/lower_case.hpp"
 
 namespace breast {
 
@@ -21,12 +20,6 @@ namespace {
 constexpr const char* schema =
     "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/"
     "Schema/markups-schema-v1.0.3.json#";
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
 
 // A value of a few bytes takes tens of them in memory: one file of 16 MB of brackets would take more than a gigabyte.
 ReadJson parsed(const std::string& text, const std::string& name) {

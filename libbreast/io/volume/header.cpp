@@ -2,21 +2,19 @@
 #include "io/volume/header.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <istream>
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/text/lower_case.hpp"
 
 namespace breast {
 
 namespace fs = std::filesystem;
 
 void check_header(const fs::path& file) {
-  std::string name = file.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string name = lower_case(file.filename().string());
   if (name.ends_with(".nii") || name.ends_with(".nii.gz")) check_nifti(file);
   if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) check_nrrd(file);
   if (name.ends_with(".mha") || name.ends_with(".mhd")) check_meta(file);

@@ -11,13 +11,12 @@
 #include <iostream>
 
 #include "core/error.hpp"
+#include "core/text/lower_case.hpp"
 
 namespace breast {
 
 itk::ImageIOBase::Pointer image_io_for(const std::filesystem::path& file) {
-  std::string name = file.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string name = lower_case(file.filename().string());
   if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) {
     return itk::ImageIOBase::Pointer(itk::NrrdImageIO::New());
   }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // NRRD (teem.sourceforge.net/nrrd/format.html), attached or detached.
-#include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <map>
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/text/lower_case.hpp"
 #include "core/text/trimmed.hpp"
 #include "io/volume/header.hpp"
 #include "io/volume/inflate.hpp"
@@ -18,12 +17,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double slack_bytes = 1 << 20;
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
 
 struct NrrdHeader {
   std::map<std::string, std::string> fields;  ///< by lower-case name

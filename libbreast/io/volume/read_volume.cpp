@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <itkImageFileReader.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 
@@ -10,6 +8,7 @@
 #include "core/guarded_child.hpp"
 #include "core/provenance.hpp"
 #include "core/temporary_folder.hpp"
+#include "core/text/lower_case.hpp"
 #include "io/volume/dicom.hpp"
 #include "io/volume/header.hpp"
 #include "io/volume/itk_image.hpp"
@@ -46,9 +45,7 @@ void check_layout(const fs::path& file, const itk::ImageIOBase& io) {
 /// be opened as it is: NIfTI's reader takes the voxels from scan.nii when asked for scan.nii.gz and
 /// both are there, and others do not know SCAN.MHA.
 std::optional<fs::path> link_alone(const fs::path& file, std::optional<TemporaryFolder>& folder) {
-  std::string name = file.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string name = lower_case(file.filename().string());
   const bool nifti = name.ends_with(".nii") || name.ends_with(".nii.gz");
   if (!nifti && name == file.filename().string()) return std::nullopt;
   const std::string ending = name.ends_with(".nii.gz") ? ".nii.gz" : name.substr(name.rfind('.'));

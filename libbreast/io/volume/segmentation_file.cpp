@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/segmentation_file.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <sstream>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/lower_case.hpp"
 #include "io/volume/encode.hpp"
 #include "io/volume/header.hpp"
 #include "io/volume_file.hpp"
@@ -93,9 +92,7 @@ std::vector<Segment> segments_in(const fs::path& file, const NrrdNotes& notes) {
 }  // namespace
 
 bool is_segmentation_name(const fs::path& file) {
-  std::string name = file.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string name = lower_case(file.filename().string());
   return name.ends_with(".seg.nrrd") || name.ends_with(".seg.nhdr");
 }
 

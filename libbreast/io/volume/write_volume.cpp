@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
-#include <cctype>
-
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/lower_case.hpp"
 #include "io/volume/encode.hpp"
 #include "io/volume_file.hpp"
 
 namespace breast {
 
 namespace {
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
 
 std::string encoded(const std::filesystem::path& file, const Grid& grid, const VoxelType& type,
                     std::string_view voxels) {
