@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iterator>
-#include <sstream>
 
 #include "cases/make_text.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/words.hpp"
 #include "study/cells.hpp"
 
 namespace breast {
@@ -18,11 +17,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Words = std::vector<std::string>;
-
-Words words_of(const std::string& text) {
-  std::istringstream in(text);
-  return {std::istream_iterator<std::string>(in), {}};
-}
 
 std::string filled(const Table& table, std::size_t row, const std::string& column) {
   const std::string& cell = table.cell(row, column);

@@ -2,12 +2,12 @@
 #include "cases/variants.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <sstream>
 
 #include "cases/make_text.hpp"
 #include "command/make_name.hpp"
 #include "core/error.hpp"
+#include "core/text/words.hpp"
 #include "study/cells.hpp"
 
 namespace breast {
@@ -15,11 +15,6 @@ namespace breast {
 namespace {
 
 using Words = std::vector<std::string>;
-
-Words words_of(const std::string& text) {
-  std::istringstream in(text);
-  return {std::istream_iterator<std::string>(in), {}};
-}
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
   if (from.empty()) return;

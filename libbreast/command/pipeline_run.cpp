@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <iterator>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -13,6 +12,7 @@
 #include "command/request.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/words.hpp"
 
 namespace breast {
 
@@ -159,8 +159,7 @@ int make_and_show(const std::vector<std::string>& words, const std::string& run)
 
 std::vector<std::string> pipeline_settings(const Installation& installation) {
   const Captured made = capture_child({"make", "-s", "-f", make_file(installation), "settings"});
-  std::istringstream words(made.exit_code == 0 ? made.out : "");
-  return {std::istream_iterator<std::string>(words), {}};
+  return made.exit_code == 0 ? words_of(made.out) : std::vector<std::string>{};
 }
 
 // The help of the makefile, in an installation without what needs the source tree, and with the command that is called there.
