@@ -10,6 +10,7 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "core/statistics/median.hpp"
 #include "fit/closest_point.hpp"
 
 namespace breast {
@@ -235,11 +236,6 @@ bool choose_cut(const HermiteSheet& skin, const WallSheet& wall, Rim& rim) {
   for (const Vec3& d : {mean, Vec3(0, 1, 0)})
     if (lay_cut(skin, wall, std::vector<Vec3>(halfway.size(), d), rim)) return true;
   return false;
-}
-
-double median(std::vector<double> v) {
-  std::nth_element(v.begin(), v.begin() + std::ptrdiff_t(v.size() / 2), v.end());
-  return v[v.size() / 2];
 }
 
 /// Inner angle in degrees between the cut and a sheet at its rim.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/statistics/median.hpp"
 #include "core/table.hpp"
 
 namespace breast {
@@ -18,11 +19,6 @@ constexpr double beyond_others = 6;
 constexpr double surely_wrong_mm = 25;    // errors above this cannot come from the model
 constexpr double most_unexplained = 0.6;  // as a fraction of the rms motion
 constexpr std::size_t few = 5;            // with fewer landmarks no median is formed
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + long(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
 
 // Distances of two landmarks, predicted without their marks, from their observed positions in units
 // of their errors.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/statistics/median.hpp"
 #include "core/table.hpp"
 #include "identification/observations.hpp"
 #include "identification/wall_map.hpp"
@@ -32,12 +33,6 @@ constexpr const char* names[6] = {"shift to the side",
                                   "rotation about the left-right axis",
                                   "rotation about the front-back axis",
                                   "rotation about the body's long axis"};
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 struct Compared {
   std::vector<double> distances;

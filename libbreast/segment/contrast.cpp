@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/statistics/median.hpp"
 #include "core/table.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/work.hpp"
@@ -12,13 +13,6 @@
 namespace breast {
 
 namespace {
-
-double percentile(std::vector<float>& values, double fraction, double fallback) {
-  if (values.empty()) return fallback;
-  const auto place = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 /// 0 where scans with bright fat end, 1 at a saturated one, at most `most`.
 double grade(double value, double bright, double saturated, double most) {
@@ -53,7 +47,7 @@ FatContrast contrast_below_skin(const Work& work, double behind_sternum) {
     if (weight.voxels[n] > 0 && tissue.voxels[n] > 0)
       shares.push_back(tissue.voxels[n] / brightest.voxels[n]);
   }
-  contrast.subcutaneous = percentile(shares, 0.5, 1);
+  contrast.subcutaneous = percentile(std::move(shares), 0.5, 1);
   subcutis = gaussian(subcutis, 10);
   weight = gaussian(weight, 10);
   for (int k = 0; k < grid.size[2]; ++k) {
@@ -68,7 +62,7 @@ FatContrast contrast_below_skin(const Work& work, double behind_sternum) {
       }
     }
   }
-  contrast.skin_to_subcutis = percentile(skin, 0.9, 0);
+  contrast.skin_to_subcutis = percentile(std::move(skin), 0.9, 0);
   return contrast;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "core/statistics/median.hpp"
 #include "core/units.hpp"
 #include "segment/body/debris.hpp"
 #include "segment/grid/itk_filters.hpp"
@@ -16,12 +17,6 @@
 namespace breast {
 
 namespace {
-
-double percentile(std::vector<float> values, double fraction) {
-  const auto place = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 /// Air: the two front corners (a tenth of the width, the first tenth of the depth), all slices.
 double corner_air_level(const Volume<float>& scan) {

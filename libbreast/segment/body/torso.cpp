@@ -7,6 +7,7 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "core/statistics/median.hpp"
 #include "segment/body/body.hpp"
 
 namespace breast {
@@ -87,13 +88,6 @@ HeightField turned(const HeightField& skin, const Grid& grid, double angle) {
     }
   }
   return out;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return nan;
-  const auto place = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
 }
 
 /// Skin over the sternum per slice: deepest of the skin within 15 mm of the midline, median over

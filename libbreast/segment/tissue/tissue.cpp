@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/statistics/median.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/grid/itk_filters.hpp"
 
@@ -42,13 +43,6 @@ double otsu(const std::vector<float>& ratios) {
     }
   }
   return low + width * place;
-}
-
-double percentile(std::vector<float> values, double fraction, double fallback) {
-  if (values.empty()) return fallback;
-  const auto place = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
 }
 
 /// One seed per block of about 20 mm: its interior voxel nearest to the brightness of fat.

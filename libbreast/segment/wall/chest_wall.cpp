@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/statistics/median.hpp"
 #include "segment/wall/legendre_surface.hpp"
 #include "segment/wall/min_cut.hpp"
 #include "segment/wall/wall_cost.hpp"
@@ -15,11 +16,6 @@ namespace breast {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-double median(std::vector<float> values) {
-  const auto place = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 /// Brightness of muscle: median ratio 2-8 mm behind the surface.
 double muscle_behind(const Volume<float>& ratio, const WallDomain& domain,

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "core/statistics/median.hpp"
 #include "segment/grid/itk_filters.hpp"
 
 namespace breast {
@@ -15,13 +16,6 @@ namespace breast {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-double median(std::vector<double> values, double fallback) {
-  if (values.empty()) return fallback;
-  const auto place = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 bool on_side(int i, const TorsoFront& torso, Side side) {
   return side == Side::left ? i > torso.midline : i < torso.midline;
