@@ -13,6 +13,7 @@
 #include "core/units.hpp"
 #include "segment/body/debris.hpp"
 #include "segment/grid/itk_filters.hpp"
+#include "segment/grid/otsu.hpp"
 
 namespace breast {
 
@@ -35,29 +36,12 @@ double corner_air_level(const Volume<float>& scan) {
 }
 
 /// Otsu's threshold of values in a histogram of 256 classes.
-double otsu(const std::vector<float>& values) {
+double threshold_of_values(const std::vector<float>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double first = *low, width = (*high - *low) / 256.0;
-  std::array<double, 256> count{};
+  std::vector<double> count(256);
   for (const float v : values) count[std::min(255, int((v - first) / width))] += 1;
-  double total = 0, sum = 0;
-  for (int b = 0; b < 256; ++b) {
-    total += count[b];
-    sum += b * count[b];
-  }
-  double below = 0, below_sum = 0, best = -1, place = 0;
-  for (int b = 0; b < 255; ++b) {
-    below += count[b];
-    below_sum += b * count[b];
-    if (below == 0 || below == total) continue;
-    const double gap = below_sum / below - (sum - below_sum) / (total - below);
-    const double between = below * (total - below) * gap * gap;
-    if (between > best) {
-      best = between;
-      place = b + 1;
-    }
-  }
-  return first + width * place;
+  return first + width * otsu_class(count, 0);
 }
 
 cv::Mat disc(double radius_mm, const Grid& grid) {
@@ -254,7 +238,7 @@ Body find_body(const Volume<float>& scan, Side side, Posture posture) {
   for (std::size_t n = 0; n < logs.size(); ++n) {
     logs[n] = elementary::log(std::max(scan.voxels[n], 0.0f) + float(floor));
   }
-  const double otsu_level = elementary::exp(otsu(logs)) - floor;
+  const double otsu_level = elementary::exp(threshold_of_values(logs)) - floor;
   const double count = double(std::count_if(scan.voxels.begin(), scan.voxels.end(),
                                             [&](float v) { return v > otsu_level; }));
   const double fraction = count / double(logs.size());

@@ -8,6 +8,7 @@
 #include "core/statistics/median.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/grid/itk_filters.hpp"
+#include "segment/grid/otsu.hpp"
 
 namespace breast {
 
@@ -18,31 +19,15 @@ constexpr double least_lobe = 60;          // mm3
 constexpr double growing_smoothing = 1.0;  // mm: keeps noise from carrying the growth into gland
 
 /// Otsu's threshold of ratios in [0.1, 1.3].
-double otsu(const std::vector<float>& ratios) {
+double threshold_of_ratios(const std::vector<float>& ratios) {
   constexpr int classes = 120;
   constexpr double low = 0.1, width = 0.01;
-  std::array<double, classes> count{};
-  double total = 0, sum = 0;
+  std::vector<double> count(classes);
   for (const float r : ratios) {
     const int c = int((r - low) / width);
-    if (c < 0 || c >= classes) continue;
-    count[c] += 1;
-    total += 1;
-    sum += c;
+    if (c >= 0 && c < classes) count[c] += 1;
   }
-  double below = 0, below_sum = 0, best = -1, place = 60;
-  for (int c = 0; c + 1 < classes; ++c) {
-    below += count[c];
-    below_sum += c * count[c];
-    if (below == 0 || below == total) continue;
-    const double gap = below_sum / below - (sum - below_sum) / (total - below);
-    const double between = below * (total - below) * gap * gap;
-    if (between > best) {
-      best = between;
-      place = c + 1;
-    }
-  }
-  return low + width * place;
+  return low + width * otsu_class(count, classes / 2);
 }
 
 /// One seed per block of about 20 mm: its interior voxel nearest to the brightness of fat.
@@ -218,7 +203,8 @@ Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& inter
   // Midway between gland and fat (1 by the bias correction). Without gland Otsu would split the fat
   // in two: gland is darker than fat's scatter reaches, and the search starts and ends there.
   const double brightest_gland = std::clamp(1 - 3 * fat_cv, 0.8, 0.87);
-  const double start = std::clamp(otsu(values), 0.5 * (1 + muscle_ratio) - 0.15, brightest_gland);
+  const double start =
+      std::clamp(threshold_of_ratios(values), 0.5 * (1 + muscle_ratio) - 0.15, brightest_gland);
   result.gland_ratio = std::clamp(brightness_of_gland(ratio, interior, start, muscle_ratio),
                                   0.5 * muscle_ratio, brightest_gland - 0.05);
   result.threshold = std::min(0.5 * (1 + result.gland_ratio), brightest_gland);
