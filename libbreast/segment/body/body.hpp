@@ -2,13 +2,18 @@
 // The body against air, and the frame of the torso: skin depth, midline, cleft.
 #pragma once
 
+#include <limits>
+
 #include "core/types.hpp"
 #include "core/units.hpp"
 #include "segment/grid/grid_ops.hpp"
 
 namespace breast {
 
-/// Depth (mm along j from the grid's first voxel centre) per column (i,k); NaN where there is none.
+/// Depth of a column without the surface: not a number.
+inline constexpr double no_depth = std::numeric_limits<double>::quiet_NaN();
+
+/// Depth (mm along j from the grid's first voxel centre) per column (i,k), or no_depth.
 struct HeightField {
   int nx = 0, nz = 0;
   std::vector<double> depth;

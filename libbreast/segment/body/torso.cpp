@@ -14,10 +14,8 @@ namespace breast {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 HeightField first_body_voxel(const Mask& body) {
-  HeightField skin(body.grid.size[0], body.grid.size[2], nan);
+  HeightField skin(body.grid.size[0], body.grid.size[2], no_depth);
   for (int k = 0; k < skin.nz; ++k) {
     for (int j = body.grid.size[1] - 1; j >= 0; --j) {
       for (int i = 0; i < skin.nx; ++i) {
@@ -66,7 +64,7 @@ int mirror_column(const HeightField& skin, double spacing, double deepest, doubl
 
 /// The skin as seen on a grid turned by `angle` about the middle of each slice (as rolled()).
 HeightField turned(const HeightField& skin, const Grid& grid, double angle) {
-  HeightField out(skin.nx, skin.nz, nan);
+  HeightField out(skin.nx, skin.nz, no_depth);
   const double c = elementary::cos(angle), s = elementary::sin(angle), dx = grid.spacing[0];
   const Vec2 centre(0.5 * (grid.size[0] - 1) * dx, 0.5 * (grid.size[1] - 1) * grid.spacing[1]);
   const auto turn = [&](int i, double depth) -> Vec2 {
@@ -93,7 +91,7 @@ HeightField turned(const HeightField& skin, const Grid& grid, double angle) {
 /// Skin over the sternum per slice: deepest of the skin within 15 mm of the midline, median over
 /// neighbouring slices.
 std::vector<double> cleft_depth(const HeightField& skin, int midline, const Grid& grid) {
-  std::vector<double> raw(skin.nz, nan), smooth(skin.nz, nan);
+  std::vector<double> raw(skin.nz, no_depth), smooth(skin.nz, no_depth);
   const int half = std::max(1, int(15 / grid.spacing[0]));
   for (int k = 0; k < skin.nz; ++k) {
     for (int i = std::max(midline - half, 0); i <= std::min(midline + half, skin.nx - 1); ++i) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/error.hpp"
 #include "core/statistics/median.hpp"
@@ -14,8 +13,6 @@
 namespace breast {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Brightness of muscle: median ratio 2-8 mm behind the surface.
 double muscle_behind(const Volume<float>& ratio, const WallDomain& domain,
@@ -68,7 +65,7 @@ HeightField cut_surface(const Volume<float>& ratio, const WallDomain& domain,
     }
   }
   const std::vector<int> surface = optimal_surface(problem);
-  HeightField depth(ratio.grid.size[0], problem.nz, nan);
+  HeightField depth(ratio.grid.size[0], problem.nz, no_depth);
   for (int k = 0; k < problem.nz; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
       const double x = double(i - domain.first) / stride;
@@ -120,7 +117,7 @@ WallDomain wall_domain(const Mask& body, const TorsoFront& torso, bool left) {
       domain.deepest.at(i, k) = std::min(end, torso.cleft[k] + depth);
     }
   }
-  domain.skin = HeightField(grid.size[0], grid.size[2], nan);
+  domain.skin = HeightField(grid.size[0], grid.size[2], no_depth);
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int i = 0; i < grid.size[0]; ++i) {
       const int deep = std::min(grid.size[1] - 1, int(domain.deepest.at(i, k) / grid.spacing[1]));
@@ -201,7 +198,7 @@ HeightField median_filtered(const HeightField& depth, const WallDomain& domain) 
 /// Nearest bright-to-dark crossing of `level` within `reach` mm; NaN when there is none.
 double nearest_crossing(const std::vector<float>& profile, double step, double from, double level,
                         double reach) {
-  double best = nan;
+  double best = no_depth;
   const int low = std::max(1, int((from - reach) / step)),
             high = std::min(int(profile.size()) - 1, int((from + reach) / step) + 1);
   for (int j = low; j <= high; ++j) {

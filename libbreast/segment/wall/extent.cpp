@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
@@ -14,8 +13,6 @@
 namespace breast {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 bool on_side(int i, const TorsoFront& torso, Side side) {
   return side == Side::left ? i > torso.midline : i < torso.midline;
@@ -61,8 +58,8 @@ struct Thickness {
 Thickness thickness_before(const ChestWall& wall, const WallDomain& domain, const TorsoFront& torso,
                            const Volume<float>& skin_distance) {
   const Grid& grid = skin_distance.grid;
-  Thickness found{HeightField(grid.size[0], grid.size[2], nan),
-                  HeightField(grid.size[0], grid.size[2], nan)};
+  Thickness found{HeightField(grid.size[0], grid.size[2], no_depth),
+                  HeightField(grid.size[0], grid.size[2], no_depth)};
   std::vector<double> sternal;
   const int half = std::max(1, int(8 / grid.spacing[0]));
   for (int k = 0; k < grid.size[2]; ++k) {
@@ -107,7 +104,7 @@ double mean_thickness(const HeightField& thickness, const Grid& grid, int i, int
       count += 1;
     }
   }
-  return count > 0 ? sum / count : nan;
+  return count > 0 ? sum / count : no_depth;
 }
 
 /// Up to the clavicle the chest may be covered more thickly than where a breast ends below and

@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace breast {
 
@@ -38,7 +37,7 @@ HeightField legendre_surface(const HeightField& depth, const HeightField& confid
     const double z = 2.0 * k / std::max(1, depth.nz - 1) - 1;
     return basis(x, z);
   };
-  HeightField fit(depth.nx, depth.nz, std::numeric_limits<double>::quiet_NaN());
+  HeightField fit(depth.nx, depth.nz, no_depth);
   double scale = 1e9;  // first pass: plain weighted least squares
   for (int pass = 0; pass < 6; ++pass) {
     Eigen::Matrix<double, terms, terms> matrix =
