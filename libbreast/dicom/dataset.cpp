@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/provenance.hpp"
+#include "dicom/elements.hpp"
 
 namespace breast {
 
@@ -27,8 +28,6 @@ bool is_long(std::string_view vr) {
                                                       "SV", "UC", "UN", "UR", "UT", "UV"};
   return std::find(names.begin(), names.end(), vr) != names.end();
 }
-
-constexpr std::uint32_t undefined_length = 0xffffffff;
 
 }  // namespace
 
@@ -74,9 +73,9 @@ DatasetBuilder& DatasetBuilder::sequence(std::uint32_t tag,
   std::string element = tag_bytes(tag) + "SQ" + std::string(2, '\0') + undefined;
   for (const DatasetBuilder& item : items) {
     element +=
-        tag_bytes(0xfffee000) + undefined + item.bytes() + tag_bytes(0xfffee00d) + end_length;
+        tag_bytes(item_tag) + undefined + item.bytes() + tag_bytes(item_end_tag) + end_length;
   }
-  elements_[tag] = element + tag_bytes(0xfffee0dd) + end_length;
+  elements_[tag] = element + tag_bytes(sequence_end_tag) + end_length;
   return *this;
 }
 

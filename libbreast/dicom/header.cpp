@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "dicom/elements.hpp"
 
 namespace breast {
 
@@ -19,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t undefined_length = 0xffffffff;
-constexpr std::uint32_t item = 0xfffee000, item_end = 0xfffee00d, sequence_end = 0xfffee0dd;
 constexpr std::uint32_t pixel_data = 0x7fe00010;
 // Value representations (PS3.5 table 6.2-1) with a length of 32 bits after two empty bytes, and
 // those with a length of 16 bits.
@@ -101,13 +100,13 @@ class Walker {
     for (;;) {
       const std::uint32_t tag = take_tag();
       const auto length = take<std::uint32_t>();
-      if (tag == sequence_end) return;
-      if (tag != item) throw broken("an item is expected");
+      if (tag == sequence_end_tag) return;
+      if (tag != item_tag) throw broken("an item is expected");
       if (length != undefined_length) {
         skip(length);
         continue;
       }
-      while (peek_tag() != item_end) element(explicit_vr, depth + 1, nullptr);
+      while (peek_tag() != item_end_tag) element(explicit_vr, depth + 1, nullptr);
       position_ += 8;
     }
   }
