@@ -6,14 +6,13 @@
 #include <cmath>
 
 #include "fem/stress.hpp"
+#include "fem/voigt.hpp"
 #include "mesh/gauss.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {
 
 namespace {
-
-constexpr int first[6] = {0, 1, 2, 0, 1, 0}, second[6] = {0, 1, 2, 1, 2, 2};
 
 // Kinematics at one Gauss point. Gradients are N × 3, with respect to X.
 template <int N>
@@ -47,7 +46,7 @@ void strain_rows(const Mat3& m, const Eigen::Matrix<double, N, 3>& gradient, Blo
   for (int b = 0; b < N; ++b) {
     for (int i = 0; i < 3; ++i) {
       for (int r = 0; r < 6; ++r) {
-        const int j = first[r], k = second[r];
+        const int j = voigt_row[r], k = voigt_column[r];
         rows(r, 3 * b + i) =
             r < 3 ? m(i, j) * gradient(b, j) : m(i, j) * gradient(b, k) + m(i, k) * gradient(b, j);
       }

@@ -17,7 +17,7 @@ using Mat2 = Eigen::Matrix2d;
 using Surface = Eigen::Vector3d;  // components 11, 22, 12 of a surface tensor
 using SurfaceTangent = Eigen::Matrix3d;
 
-constexpr int first[3] = {0, 1, 0}, second[3] = {0, 1, 1};
+constexpr int surface_row[3] = {0, 1, 0}, surface_column[3] = {0, 1, 1};
 
 Surface to_surface(const Mat2& a) {
   return {a(0, 0), a(1, 1), a(0, 1)};
@@ -28,8 +28,9 @@ SurfaceTangent self_product(const Mat2& a) {
   SurfaceTangent out;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) {
-      out(r, c) = 0.5 * (a(first[r], first[c]) * a(second[r], second[c]) +
-                         a(first[r], second[c]) * a(second[r], first[c]));
+      const int i = surface_row[r], j = surface_column[r];
+      const int k = surface_row[c], l = surface_column[c];
+      out(r, c) = 0.5 * (a(i, k) * a(j, l) + a(i, l) * a(j, k));
     }
   }
   return out;

@@ -4,19 +4,19 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "fem/voigt.hpp"
+
 namespace breast {
 
 namespace {
-
-constexpr int first[6] = {0, 1, 2, 0, 1, 0}, second[6] = {0, 1, 2, 1, 2, 2};
 
 // (a ⊙ a)_{IJKL} = ½ (a_IK a_JL + a_IL a_JK) in Voigt form.
 Matrix6 self_product(const Mat3& a) {
   Matrix6 out;
   for (int r = 0; r < 6; ++r) {
     for (int c = r; c < 6; ++c) {
-      out(r, c) = 0.5 * (a(first[r], first[c]) * a(second[r], second[c]) +
-                         a(first[r], second[c]) * a(second[r], first[c]));
+      const int i = voigt_row[r], j = voigt_column[r], k = voigt_row[c], l = voigt_column[c];
+      out(r, c) = 0.5 * (a(i, k) * a(j, l) + a(i, l) * a(j, k));
       out(c, r) = out(r, c);
     }
   }
@@ -79,13 +79,16 @@ Invariants isochoric_invariants(const Mat3& c, const Vector6& cv, double det_f, 
 
 Vector6 to_voigt(const Mat3& a) {
   Vector6 v;
-  for (int r = 0; r < 6; ++r) v[r] = a(first[r], second[r]);
+  for (int r = 0; r < 6; ++r) v[r] = a(voigt_row[r], voigt_column[r]);
   return v;
 }
 
 Mat3 from_voigt(const Vector6& v) {
   Mat3 a;
-  for (int r = 0; r < 6; ++r) a(first[r], second[r]) = a(second[r], first[r]) = v[r];
+  for (int r = 0; r < 6; ++r) {
+    const int i = voigt_row[r], j = voigt_column[r];
+    a(i, j) = a(j, i) = v[r];
+  }
   return a;
 }
 
