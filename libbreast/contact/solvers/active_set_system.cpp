@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/solvers/solve_limits.hpp"
 
 namespace breast {
 
@@ -19,14 +20,6 @@ constexpr int free_moves = 8;
 /// A node is released if it is pulled with more than this, relative to the scale times the
 /// tolerance.
 constexpr double least_pull = 0.1;
-/// The friction bounds follow the normal forces once the imbalance is this fraction of their lag.
-constexpr double balance_to_follow = 0.1;
-/// Additional iterations for each one with an indefinite tangent: itself, and one to settle.
-constexpr int slip_allowance = 2;
-/// A solve that may fail fast is abandoned if the first step has to be shorter than this, or if
-/// after this many iterations the imbalance is still this fraction of the first.
-constexpr double fast_first_step = 0.2, fast_reduction = 0.5;
-constexpr int fast_iterations = 8;
 /// A step that is much too long is detected early: after hopeless_iterations the imbalance is
 /// hopeless_growth times the first one and more than hopeless_imbalance times the forces.
 constexpr int hopeless_iterations = 6;
@@ -160,9 +153,8 @@ bool ActiveSet::System::hopeless(const NewtonResult& so_far, const Sweep& now) c
 
 /// Positions too far from the last one are recognised in the first iterations.
 bool ActiveSet::System::begins_badly(const NewtonResult& so_far, const Sweep& now) const {
-  const int made = int(so_far.iterations.size());
-  if (made == 1) return so_far.iterations.back().step_length < fast_first_step;
-  return made == fast_iterations && now.relative() > fast_reduction * first_imbalance_;
+  constexpr BadBeginning bad{.first_step = 0.2, .remainder = 0.5, .iterations = 8};
+  return bad.seen_in(so_far, now.relative(), first_imbalance_);
 }
 
 Balance ActiveSet::System::verdict(const NewtonResult& so_far, const Sweep& now, bool done) {

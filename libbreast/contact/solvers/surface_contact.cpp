@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/solvers/solve_limits.hpp"
 #include "solve/equilibrate.hpp"
 
 namespace breast {
@@ -25,16 +26,8 @@ constexpr int most_choices = 4;
 /// solution, and of an intermediate state, where bounds from the previous position would make the
 /// result depend on the steps.
 constexpr double bounds_tolerance = 1e-3, way_bounds_tolerance = 0.05;
-/// The bounds are changed once the imbalance is this fraction of that difference, and at most this
-/// often in one solve.
-constexpr double balance_to_follow = 0.1;
+/// The bounds are changed at most this often in one solve.
 constexpr int most_bounds = 12;
-/// Additional iterations for each one with an indefinite tangent: itself, and one to settle.
-constexpr int slip_allowance = 2;
-/// A solve that may fail fast is abandoned if the first step has to be shorter than this, or if
-/// after this many iterations the imbalance is still this fraction of the first.
-constexpr double fast_first_step = 0.1, fast_reduction = 0.7;
-constexpr int fast_iterations = 12;
 }  // namespace
 
 /// An equilibrium with the present stiffness of the plates.
@@ -118,9 +111,8 @@ bool SurfaceContact::System::follow_bounds(double residual) {
 
 /// Positions too far from the last one are recognised in the first iterations.
 bool SurfaceContact::System::begins_badly(const NewtonResult& so_far, double residual) const {
-  const int made = int(so_far.iterations.size());
-  if (made == 1) return so_far.iterations.back().step_length < fast_first_step;
-  return made == fast_iterations && residual > fast_reduction * first_;
+  constexpr BadBeginning bad{.first_step = 0.1, .remainder = 0.7, .iterations = 12};
+  return bad.seen_in(so_far, residual, first_);
 }
 
 // Where a face rolls over an edge, the rotation of the plates' forces may make the tangent
