@@ -9,8 +9,6 @@ namespace breast {
 
 namespace {
 
-constexpr int tag = 2;
-
 std::vector<double> gather(const Eigen::VectorXd& values, const std::vector<int>& nodes,
                            long each) {
   std::vector<double> out;
@@ -48,10 +46,10 @@ void Exchange::sum(Eigen::VectorXd& values) const {
     const SharedNodes& shared = part_.shared[i];
     out[i] = gather(values, shared.nodes, each);
     in[i].resize(out[i].size());
-    MPI_Irecv(in[i].data(), int(in[i].size()), MPI_DOUBLE, shared.rank, tag, MPI_COMM_WORLD,
-              &requests[2 * i]);
-    MPI_Isend(out[i].data(), int(out[i].size()), MPI_DOUBLE, shared.rank, tag, MPI_COMM_WORLD,
-              &requests[2 * i + 1]);
+    MPI_Irecv(in[i].data(), int(in[i].size()), MPI_DOUBLE, shared.rank, exchange_tag,
+              MPI_COMM_WORLD, &requests[2 * i]);
+    MPI_Isend(out[i].data(), int(out[i].size()), MPI_DOUBLE, shared.rank, exchange_tag,
+              MPI_COMM_WORLD, &requests[2 * i + 1]);
   }
   const std::vector<double> own = gather(values, all_, each);
   for (const int node : all_) values.segment(node * each, each).setZero();

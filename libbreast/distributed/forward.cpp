@@ -11,12 +11,11 @@ namespace breast {
 namespace {
 
 constexpr int first_limit = 25, later_limit = 12;  // Newton iterations of a load step
-constexpr double tolerance = 1e-10;
 
 class ForwardSteps final : public LoadSteps {
  public:
   ForwardSteps(const PartProblem& problem, Progress& progress)
-      : LoadSteps(problem, "forward-mpi", tolerance, progress) {}
+      : LoadSteps(problem, "forward-mpi", equilibrium_tolerance, progress) {}
 
  private:
   NewtonResult attempt(State& state, double from, double to) override;

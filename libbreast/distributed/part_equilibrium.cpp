@@ -12,7 +12,6 @@ namespace breast {
 namespace {
 
 // The same steps as in solve/equilibrate.cpp, which gives the reasons.
-constexpr double tolerance = 1e-10, volume_tolerance = 1e-11;
 constexpr double near_enough = 1e-5, gain_wanted = 0.02;
 constexpr double volume_accuracy = 1e-5;
 constexpr int halvings = 8, most_gmres = gmres_restarts * 60;
@@ -38,8 +37,8 @@ PartEquilibrium::PartEquilibrium(const PartProblem& problem, PartSaddle& solver,
       timer_(timer) {}
 
 bool PartEquilibrium::reached(double residual) const {
-  return residual <= std::max(tolerance, problem_.rounding(matrix_, state_.x)) &&
-         problem_.volume_residual(forces_) <= volume_tolerance;
+  return residual <= std::max(equilibrium_tolerance, problem_.rounding(matrix_, state_.x)) &&
+         problem_.volume_residual(forces_) <= part_volume_tolerance;
 }
 
 Balance PartEquilibrium::assess(const NewtonResult& so_far) {

@@ -11,6 +11,9 @@
 
 namespace breast {
 
+/// Residual of a solution, relative to the load.
+inline constexpr double equilibrium_tolerance = 1e-10;
+
 class PartEquilibrium final : public NewtonSystem {
  public:
   /// All references must outlive this object; `state` is changed.

@@ -13,7 +13,6 @@ namespace {
 
 // The same steps as in mechanics/inverse_system.cpp, which gives the reasons.
 constexpr int max_iterations = 25, max_gmres = 60, levels_worn = 45;
-constexpr double volume_tolerance = 1e-11;
 constexpr double near_tolerance = 1e-8, near_volume_tolerance = 1e-9;
 constexpr double typical_strain = 0.05, largest_growth = 20;
 
@@ -62,7 +61,7 @@ Balance PartInverse::assess(const NewtonResult& so_far) {
   const double bound = std::max(inverse_tolerance, problem_.rounding(matrix_, state_.x));
   now.residual = at.force;
   now.merit = at.merit;
-  now.converged = at.force <= bound && at.volume <= volume_tolerance;
+  now.converged = at.force <= bound && at.volume <= part_volume_tolerance;
   now.nearly = at.force <= near_tolerance && at.volume <= near_volume_tolerance;
   if (!now.converged && int(so_far.iterations.size()) >= max_iterations) {
     now.stop = NewtonStop::iteration_limit;

@@ -12,6 +12,9 @@
 
 namespace breast {
 
+/// Volume residual of a solution, of equilibria and of the inverse problem.
+inline constexpr double part_volume_tolerance = 1e-11;
+
 /// Nodal vectors contain all nodes of the part; a shared node has the same value on all its ranks.
 /// Pressure vectors contain the pressures of the part's own elements. Every member that returns a
 /// sum is collective.

@@ -17,7 +17,6 @@ namespace breast {
 namespace {
 
 constexpr long most_bytes = 1L << 30;  // of one message: MPI counts in int
-constexpr int tag = 1;
 
 // The sum is reduced on the root and sent to all: a sum computed by every rank for itself could
 // differ in its last bit.
@@ -117,18 +116,18 @@ void Ranks::broadcast(std::vector<char>& bytes) const {
 
 void Ranks::send(const std::vector<char>& bytes, int to) const {
   const unsigned long size = bytes.size();
-  MPI_Send(&size, 1, MPI_UNSIGNED_LONG, to, tag, MPI_COMM_WORLD);
+  MPI_Send(&size, 1, MPI_UNSIGNED_LONG, to, bytes_tag, MPI_COMM_WORLD);
   in_pieces(const_cast<char*>(bytes.data()), size, [&](const char* at, int count) {
-    MPI_Send(at, count, MPI_BYTE, to, tag, MPI_COMM_WORLD);
+    MPI_Send(at, count, MPI_BYTE, to, bytes_tag, MPI_COMM_WORLD);
   });
 }
 
 std::vector<char> Ranks::receive(int from) const {
   unsigned long size = 0;
-  MPI_Recv(&size, 1, MPI_UNSIGNED_LONG, from, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  MPI_Recv(&size, 1, MPI_UNSIGNED_LONG, from, bytes_tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
   std::vector<char> bytes(size);
   in_pieces(bytes.data(), size, [&](char* at, int count) {
-    MPI_Recv(at, count, MPI_BYTE, from, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    MPI_Recv(at, count, MPI_BYTE, from, bytes_tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
   });
   return bytes;
 }

@@ -32,6 +32,9 @@ class SharedError : public Error {
   using Error::Error;
 };
 
+/// Tags by which MPI tells the messages of Ranks from those of an Exchange.
+inline constexpr int bytes_tag = 1, exchange_tag = 2;
+
 /// All ranks of the run. Every member except rank, size, root, send and receive is collective; its
 /// result is identical on all ranks, to the last bit.
 class Ranks {
