@@ -23,8 +23,7 @@
 namespace breast {
 
 namespace {
-constexpr Colour black{0, 0, 0};
-constexpr double letters = 17;  // pixels
+constexpr double caption_letters = 17;  // pixels
 
 vtkSmartPointer<vtkActor2D> annulus(const Vec2& centre, double inner, double outer,
                                     const Colour& colour) {
@@ -65,7 +64,7 @@ int Panel::caption(const std::string& words) {
     lines.back() += (lines.back().empty() ? "" : " ") + word;
   }
   for (std::size_t k = 0; k < lines.size(); ++k) {
-    text({10, size().y() - 18 - line_height * double(k)}, lines[k], letters + 1, black);
+    text({10, size().y() - 18 - line_height * double(k)}, lines[k], caption_letters + 1, black);
   }
   return int(lines.size());
 }
@@ -81,8 +80,8 @@ void Panel::scale_bar(const Colour& colour) {
   const Vec2 right(size().x() - 22, 20), left = right - Vec2(pixels, 0);
   line(left, right, colour, 3);
   for (const Vec2& end : {left, right}) line(end - Vec2(0, 5), end + Vec2(0, 5), colour, 2);
-  text(0.5 * (left + right) + Vec2(0, 16), std::to_string(int(length)) + " mm", letters - 1, colour,
-       Align::centre);
+  text(0.5 * (left + right) + Vec2(0, 16), std::to_string(int(length)) + " mm", caption_letters - 1,
+       colour, Align::centre);
 }
 
 // Filled annuli, because wide lines of many short pieces would show gaps between them.
@@ -128,7 +127,7 @@ void Panel::compass() {
     // Along an oblique beam two axes may coincide: their letters then stand side by side.
     const Vec2 at = tip + 11 * along;
     const auto same = std::find_if(letters_at.begin(), letters_at.end(), [&](const auto& other) {
-      return (other.first - at).norm() < 0.5 * letters;
+      return (other.first - at).norm() < 0.5 * caption_letters;
     });
     if (same != letters_at.end()) {
       same->second += axis.letter;
@@ -136,7 +135,8 @@ void Panel::compass() {
       letters_at.emplace_back(at, axis.letter);
     }
   }
-  for (const auto& [at, words] : letters_at) text(at, words, letters - 1, black, Align::centre);
+  for (const auto& [at, words] : letters_at)
+    text(at, words, caption_letters - 1, black, Align::centre);
 }
 
 }  // namespace breast

@@ -16,6 +16,7 @@ namespace breast {
 struct Colour {
   double r = 0, g = 0, b = 0;
 };
+inline constexpr Colour black{0, 0, 0}, white{1, 1, 1};
 
 /// Quadrilaterals (triangles repeat their last corner).
 struct Facets {

@@ -11,7 +11,7 @@ namespace breast {
 
 namespace {
 
-constexpr double letters = 15;
+constexpr double chart_letters = 15;
 constexpr Colour ink{0, 0, 0}, grid{0.87, 0.87, 0.87};
 
 double fraction(const Axis& axis, double value) {
@@ -54,16 +54,16 @@ Chart::Chart(Panel& panel, const Axis& across, const Axis& upwards)
   for (const double value : ticks(across_)) {
     const double x = corner_.x() + extent_.x() * fraction(across_, value);
     panel_.line({x, corner_.y()}, {x, corner_.y() + extent_.y()}, grid, 1);
-    panel_.text({x, corner_.y() - 16}, label(value), letters, ink, Align::centre);
+    panel_.text({x, corner_.y() - 16}, label(value), chart_letters, ink, Align::centre);
   }
   for (const double value : ticks(upwards_)) {
     const double y = corner_.y() + extent_.y() * fraction(upwards_, value);
     panel_.line({corner_.x(), y}, {corner_.x() + extent_.x(), y}, grid, 1);
-    panel_.text({corner_.x() - 8, y}, label(value), letters, ink, Align::right);
+    panel_.text({corner_.x() - 8, y}, label(value), chart_letters, ink, Align::right);
   }
-  panel_.text({corner_.x() + extent_.x() / 2, corner_.y() - 42}, across_.title, letters + 1, ink,
-              Align::centre);
-  panel_.text({12, corner_.y() + extent_.y() + 22}, upwards_.title, letters + 1, ink);
+  panel_.text({corner_.x() + extent_.x() / 2, corner_.y() - 42}, across_.title, chart_letters + 1,
+              ink, Align::centre);
+  panel_.text({12, corner_.y() + extent_.y() + 22}, upwards_.title, chart_letters + 1, ink);
 }
 
 Vec2 Chart::pixel(const Vec2& value) const {
@@ -83,7 +83,7 @@ void Chart::band(double low, double high, const Colour& colour, const std::strin
   const double middle = corner_.y() + extent_.y() * 0.5 * (from + to);
   panel_.line({corner_.x(), middle}, {corner_.x() + extent_.x(), middle}, colour,
               extent_.y() * (to - from));
-  panel_.text({corner_.x() + 8, corner_.y() + extent_.y() * to - 12}, words, letters - 1,
+  panel_.text({corner_.x() + 8, corner_.y() + extent_.y() * to - 12}, words, chart_letters - 1,
               {0.25, 0.4, 0.25});
 }
 
@@ -112,7 +112,7 @@ void Chart::curve(const std::vector<Vec2>& points, const Colour& colour, double 
 void Chart::legend(const std::string& words, const Colour& colour, bool dashed) {
   const Vec2 at = corner_ + Vec2(14, extent_.y() - 18 - 22 * lines_++);
   piece(at, at + Vec2(34, 0), colour, 3, dashed);
-  panel_.text(at + Vec2(42, 0), words, letters, ink);
+  panel_.text(at + Vec2(42, 0), words, chart_letters, ink);
 }
 
 void Chart::frame() {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double clinical_low_N = 50, clinical_high_N = 180;
 constexpr double least_shown_N = 0.1;
-constexpr std::array<Colour, 3> colours = {
+constexpr std::array<Colour, 3> path_colours = {
     {{0.12, 0.35, 0.70}, {0.80, 0.30, 0.12}, {0.15, 0.55, 0.35}}};
 
 std::vector<Vec2> path_of(const ContactRecord& contact, const std::vector<double>& force) {
@@ -32,7 +32,7 @@ void add_paths(Panel& panel, const std::vector<const HexMesh*>& meshes, const Ax
   chart.band(clinical_low_N, clinical_high_N, {0.88, 0.95, 0.88}, "");
   for (std::size_t k = 0; k < meshes.size(); ++k) {
     const ContactRecord& contact = *meshes[k]->contact;
-    const Colour& colour = colours[k % colours.size()];
+    const Colour& colour = path_colours[k % path_colours.size()];
     chart.curve(path_of(contact, contact.path_force_N), colour, 3, false);
     chart.curve(path_of(contact, contact.path_detector_N), colour, 2, true);
     const std::string view =

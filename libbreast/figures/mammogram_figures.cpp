@@ -12,7 +12,6 @@ namespace breast {
 
 namespace {
 
-constexpr Colour white{1, 1, 1};
 constexpr double above_image = 1;  // mm
 
 // Converts an image position (u,v) in mm to the plane of the picture as it is hung, y up.
@@ -79,7 +78,7 @@ Colour query_colour(int query, int count) {
   return {1 - 0.9 * channel(5), 1 - 0.9 * channel(3), 1 - 0.9 * channel(1)};
 }
 
-constexpr double ring_pixels = 13, nipple_pixels = 9, point_pixels = 6;
+constexpr double nipple_pixels = 9, point_pixels = 6;
 
 /// A ring to draw when the camera stands.
 struct Mark {
@@ -110,7 +109,7 @@ std::string add_curves(Panel& panel, const Mammogram& image, const PolyLines& cu
   }
   if (cc) {
     for (const auto& p : points) {
-      marks.push_back({hanging.at(p.uv[0]), count > 1 ? point_pixels : ring_pixels,
+      marks.push_back({hanging.at(p.uv[0]), count > 1 ? point_pixels : point_ring_pixels,
                        query_colour(p.query, count)});
     }
     if (count > 1) return "points";
@@ -125,7 +124,8 @@ std::string add_curves(Panel& panel, const Mammogram& image, const PolyLines& cu
   }
   const auto places = image_lines(curves, is_place);
   for (const auto& p : places) {
-    marks.push_back({hanging.at(p.uv[0]), count > 1 ? point_pixels : ring_pixels, palette::tumour});
+    marks.push_back(
+        {hanging.at(p.uv[0]), count > 1 ? point_pixels : point_ring_pixels, palette::tumour});
   }
   const std::string lost =
       outside >= 0.5 ? " (" + format_fixed(outside, 0) + " mm outside the image)" : "";

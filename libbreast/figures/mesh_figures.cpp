@@ -10,8 +10,6 @@ namespace breast {
 
 namespace {
 
-constexpr double dot_mm = 0.7;
-
 // segment marks its data points with `surface`: 0 skin, 1 chest wall.
 void add_data_points(Panel& panel, const TriMesh& points) {
   std::vector<Vec3> skin, wall;

@@ -15,16 +15,15 @@ namespace breast {
 
 namespace {
 
-constexpr std::array<Colour, 4> colours = {
+constexpr std::array<Colour, 4> shape_colours = {
     {{0.15, 0.35, 0.70}, {0.85, 0.40, 0.10}, {0.20, 0.55, 0.30}, {0.55, 0.30, 0.60}}};
 constexpr Colour wall_colour{0.35, 0.20, 0.18};
 constexpr Colour muscle_colour{0.80, 0.25, 0.35};
-constexpr double line_pixels = 3, thin_pixels = 1.5, letters = 17;
-constexpr double ring_pixels = 6;
-constexpr double dot_mm = 0.7;
+constexpr double line_pixels = 3, thin_pixels = 1.5, outline_letters = 17;
+constexpr double landmark_ring_pixels = 6;
 
 const Colour& colour_of(std::size_t shape) {
-  return colours[shape % colours.size()];
+  return shape_colours[shape % shape_colours.size()];
 }
 
 std::string posture_of(const Vec3& gravity) {
@@ -85,7 +84,7 @@ void add_arrows(Panel& panel, const std::vector<Shape>& shapes) {
     const Vec3 from = place_in(shapes.front(), landmark), to = place_in(shapes.back(), landmark);
     panel.arrow(from, to, palette::ink);
     for (std::size_t k = 0; k < shapes.size(); ++k) {
-      panel.ring(place_in(shapes[k], landmark), ring_pixels, colour_of(k));
+      panel.ring(place_in(shapes[k], landmark), landmark_ring_pixels, colour_of(k));
     }
     if (shapes.size() < 2) continue;
     std::string name = landmark.name;
@@ -95,7 +94,7 @@ void add_arrows(Panel& panel, const std::vector<Shape>& shapes) {
     const bool rightwards = tip.x() >= start.x();
     panel.label(tip + Vec2(rightwards ? 12 : -12, 0),
                 name + " " + format_fixed(moved_mm(shapes, shapes.size() - 1, landmark), 0) + " mm",
-                letters - 2, palette::ink, rightwards ? Align::left : Align::right);
+                outline_letters - 2, palette::ink, rightwards ? Align::left : Align::right);
   }
 }
 
@@ -113,7 +112,7 @@ void add_seen(Panel& panel, const TriMesh& seen, double height) {
     at.z() = height;
     (on_wall ? wall : skin).push_back(at);
   }
-  if (!skin.empty()) panel.cloud(skin, dot_mm, colours[2]);
+  if (!skin.empty()) panel.cloud(skin, dot_mm, shape_colours[2]);
   if (!wall.empty()) panel.cloud(wall, dot_mm, muscle_colour);
 }
 
@@ -121,7 +120,7 @@ void add_seen(Panel& panel, const TriMesh& seen, double height) {
 double add_name(Panel& panel, double y, const std::string& name, const Colour& colour) {
   constexpr double row = 24, left = 18;
   panel.line({left, y}, {left + 26, y}, colour, 4);
-  panel.text({left + 34, y}, name, letters - 1, palette::ink);
+  panel.text({left + 34, y}, name, outline_letters - 1, palette::ink);
   return y - row;
 }
 
@@ -175,17 +174,17 @@ void draw_postures(Picture& picture, const FigureInput& input) {
   const Landmark* nipple = mesh.landmark("nipple");
   const double height = nipple != nullptr ? landmark_position(mesh, mesh.points, *nipple).z() : 0;
   Panel& slice = picture.panel(0, 0, 1, 1);
-  add_section(slice, {&mesh, &mesh.imaged, ""}, height, colours[0]);
-  add_section(slice, {&mesh, &mesh.points, ""}, height, colours[1]);
+  add_section(slice, {&mesh, &mesh.imaged, ""}, height, shape_colours[0]);
+  add_section(slice, {&mesh, &mesh.points, ""}, height, shape_colours[1]);
   add_wall(slice, mesh, height);
   add_seen(slice, input.surfaces.front(), height);
   add_arrows(slice, {{&mesh, &mesh.imaged, ""}, {&mesh, &mesh.points, ""}});
   slice.look_along(Vec3(0, 0, 1), Vec3(0, -1, 0), 0.16);
   slice.caption("transverse section through the nipple as predicted, seen from below");
   std::vector<std::pair<std::string, Colour>> names{
-      {"as scanned prone; thin: end of the model", colours[0]},
-      {posture_of(mesh.gravity) + " as predicted", colours[1]},
-      {"skin as seen in the second scan", colours[2]},
+      {"as scanned prone; thin: end of the model", shape_colours[0]},
+      {posture_of(mesh.gravity) + " as predicted", shape_colours[1]},
+      {"skin as seen in the second scan", shape_colours[2]},
       {"front of the muscle as seen in the second scan", muscle_colour}};
   if (const std::string wall = wall_words(mesh); !wall.empty())
     names.emplace_back(wall, wall_colour);
@@ -214,7 +213,7 @@ void draw_outlines(Picture& picture, const FigureInput& input) {
   double below = add_shape_legend(slice, shapes);
   if (const std::string wall = wall_words(first); !wall.empty())
     below = add_name(slice, below, wall, wall_colour);
-  slice.text({18, below}, "thin: where the model ends", letters - 1, palette::ink);
+  slice.text({18, below}, "thin: where the model ends", outline_letters - 1, palette::ink);
   slice.scale_bar();
   slice.compass();
 

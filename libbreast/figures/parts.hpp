@@ -24,6 +24,11 @@ inline constexpr Colour ink{0, 0, 0};
 
 namespace breast {
 
+/// Radius of a cloud's points.
+inline constexpr double dot_mm = 0.7;
+/// Radius of the ring round the point that the figure is about.
+inline constexpr double point_ring_pixels = 13;
+
 /// Viewing direction and upward direction, in the patient frame.
 struct Camera {
   Vec3 direction, up;

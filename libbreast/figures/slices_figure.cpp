@@ -15,11 +15,9 @@ namespace breast {
 
 namespace {
 
-constexpr Colour white{1, 1, 1}, black{0, 0, 0};
 constexpr Colour skin_line{0.25, 0.85, 0.95}, wall_line{0.30, 0.95, 0.35},
     gland_line{1.0, 0.45, 0.80}, model_line{1.0, 0.62, 0.25}, dim{0.65, 0.65, 0.65};
-constexpr double margin_mm = 12, line_width = 1.5, letters = 15;
-constexpr double ring_pixels = 13;
+constexpr double margin_mm = 12, line_width = 1.5, slice_letters = 15;
 /// A landmark farther from the plane than this is not marked in it, mm.
 constexpr double in_plane_mm = 6;
 
@@ -83,10 +81,10 @@ std::vector<PlaneSegment> model_end(const HexMesh& mesh, const SliceFrame& frame
 void add_letters(Panel& panel, SlicePlane plane) {
   const PlaneWords words = words_of(plane);
   const Vec2 size = panel.size();
-  panel.text({12, 0.5 * size.y()}, words.left, letters + 3, white);
-  panel.text({size.x() - 12, 0.5 * size.y()}, words.right, letters + 3, white, Align::right);
-  panel.text({0.5 * size.x(), size.y() - 36}, words.top, letters + 3, white, Align::centre);
-  panel.text({0.5 * size.x(), 16}, words.bottom, letters + 3, white, Align::centre);
+  panel.text({12, 0.5 * size.y()}, words.left, slice_letters + 3, white);
+  panel.text({size.x() - 12, 0.5 * size.y()}, words.right, slice_letters + 3, white, Align::right);
+  panel.text({0.5 * size.x(), size.y() - 36}, words.top, slice_letters + 3, white, Align::centre);
+  panel.text({0.5 * size.x(), 16}, words.bottom, slice_letters + 3, white, Align::centre);
 }
 
 /// Ticks at the borders, where the two other planes intersect this one.
@@ -135,10 +133,10 @@ void add_slice(Panel& panel, const FigureInput& input, SlicePlane plane, double 
   panel.look_along({0, 0, -1}, {0, 1, 0}, {0.5 * frame.width, 0.5 * frame.height, 0},
                    mm_per_pixel * panel.size().y());
   if (const Vec3* tumour = tumour_of(input)) {
-    panel.ring(lifted(frame.flat(*tumour)), ring_pixels, palette::tumour);
+    panel.ring(lifted(frame.flat(*tumour)), point_ring_pixels, palette::tumour);
   }
   if (const Vec3* nipple = nipple_in(input, plane)) {
-    panel.ring(lifted(frame.flat(*nipple)), 0.7 * ring_pixels, white);
+    panel.ring(lifted(frame.flat(*nipple)), 0.7 * point_ring_pixels, white);
   }
   add_letters(panel, plane);
   add_ticks(panel, frame, through);
@@ -146,7 +144,7 @@ void add_slice(Panel& panel, const FigureInput& input, SlicePlane plane, double 
   panel.text({10, panel.size().y() - 16},
              letter + words.name + ", " + words.axis + " = " +
                  format_fixed(through[axis_of(plane)], 0) + " mm",
-             letters + 1, white);
+             slice_letters + 1, white);
   panel.scale_bar(white);
 }
 
@@ -155,7 +153,7 @@ void add_slice_legend(Panel& panel, const FigureInput& input,
   const double y = 0.5 * panel.size().y();
   double x = 14;
   const auto words = [&](const std::string& text) {
-    panel.text({x, y}, text, letters, palette::ink);
+    panel.text({x, y}, text, slice_letters, palette::ink);
     x += 8.2 * double(text.size()) + 26;
   };
   const auto entry = [&](const std::string& text, const Colour& colour) {

@@ -11,7 +11,7 @@ namespace breast {
 
 namespace {
 
-constexpr double raster_mm = 0.5;
+constexpr double section_raster_mm = 0.5;
 /// Length in raster pixels of a piece of outline; shorter pieces would be drawn as a row of dots.
 constexpr int thinning = 3;
 constexpr int border = 12;  // pixels round the raster
@@ -77,22 +77,23 @@ std::vector<std::array<Vec3, 2>> silhouette(const Facets& facets, const Vec3& di
     low = low.cwiseMin(flat.back());
     high = high.cwiseMax(flat.back());
   }
-  const Vec2 size = (high - low) / raster_mm;
-  PlaneField field(int(size.x()) + 2 * border, int(size.y()) + 2 * border, raster_mm);
-  for (Vec2& p : flat) p = (p - low) / raster_mm + Vec2::Constant(border);
+  const Vec2 size = (high - low) / section_raster_mm;
+  PlaneField field(int(size.x()) + 2 * border, int(size.y()) + 2 * border, section_raster_mm);
+  for (Vec2& p : flat) p = (p - low) / section_raster_mm + Vec2::Constant(border);
   for (const auto& q : facets.quads) {
     fill_triangle(field, flat[std::size_t(q[0])], flat[std::size_t(q[1])], flat[std::size_t(q[2])]);
     fill_triangle(field, flat[std::size_t(q[0])], flat[std::size_t(q[2])], flat[std::size_t(q[3])]);
   }
-  const Vec2 corner = low - Vec2::Constant(border * raster_mm);
+  const Vec2 corner = low - Vec2::Constant(border * section_raster_mm);
   const auto lifted = [&](const Vec2& mm) {
     const Vec2 p = corner + mm;
     return Vec3(p.x() * right + p.y() * top + depth.dot(forward) * forward);
   };
   std::vector<std::array<Vec3, 2>> lines;
-  for (const auto& [a, b] : contour_lines(thinned(smoothed(field, thinning * raster_mm)), 0.5)) {
+  for (const auto& [a, b] :
+       contour_lines(thinned(smoothed(field, thinning * section_raster_mm)), 0.5)) {
     // Drawn a little longer than they are, because wide lines leave gaps where pieces only touch.
-    const Vec2 more = 0.15 * raster_mm * (b - a).stableNormalized();
+    const Vec2 more = 0.15 * section_raster_mm * (b - a).stableNormalized();
     lines.push_back({lifted(a - more), lifted(b + more)});
   }
   return lines;

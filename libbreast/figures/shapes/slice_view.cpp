@@ -11,7 +11,7 @@ namespace breast {
 
 namespace {
 
-constexpr double raster_mm = 0.6;
+constexpr double slice_raster_mm = 0.6;
 /// Labels are averaged over at least this length, and over this many voxels in the plane, so that
 /// contours do not follow the steps of voxels.
 constexpr double smoothing_mm = 0.9, smoothing_voxels = 0.6;
@@ -54,10 +54,11 @@ double trilinear(const Grid& grid, const Vec3& index, const Value& value) {
 template <class Value>
 PlaneField sampled(const LabelVolume& labels, const SliceFrame& frame, const Value& value) {
   const ToIndex to_index(labels.grid);
-  PlaneField field(1 + int(frame.width / raster_mm), 1 + int(frame.height / raster_mm), raster_mm);
+  PlaneField field(1 + int(frame.width / slice_raster_mm), 1 + int(frame.height / slice_raster_mm),
+                   slice_raster_mm);
   for (int row = 0; row < field.height; ++row) {
     for (int column = 0; column < field.width; ++column) {
-      const Vec3 index = to_index(frame.at(raster_mm * Vec2(column, row)));
+      const Vec3 index = to_index(frame.at(slice_raster_mm * Vec2(column, row)));
       field.at(column, row) = float(trilinear(labels.grid, index, value));
     }
   }
