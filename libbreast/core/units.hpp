@@ -16,6 +16,7 @@ inline constexpr double micronewton_per_newton = 1.0e6;
 inline constexpr double pascal_per_kilopascal = 1.0e3;
 inline constexpr double mm3_per_ml = 1.0e3;
 inline constexpr double mm2_per_cm2 = 1.0e2;
+inline constexpr double cm_per_mm = 0.1;
 
 /// How the patient lies or stands; `weightless`: no gravity at all.
 enum class Posture : std::uint8_t { prone, supine, upright, weightless };

@@ -5,7 +5,7 @@ namespace breast {
 
 namespace {
 
-constexpr AnodeTable molybdenum = {{
+constexpr AnodeTable molybdenum_table = {{
     {{-1.433777e7, 1.725903e6, -4.149616e4, 4.076118e2}},
     {{-1.346037e7, 1.602853e6, -3.417208e4, 3.197254e2}},
     {{-1.703271e7, 1.992354e6, -4.714275e4, 4.732125e2}},
@@ -63,7 +63,7 @@ constexpr AnodeTable molybdenum = {{
     {{-3.664991e7, 1.552772e6, -1.441075e4, 0}},
 }};
 
-constexpr AnodeTable tungsten = {{
+constexpr AnodeTable tungsten_table = {{
     {{-2.469562e8, 2.591247e7, -8.003514e5, 8.518917e3}},
     {{-4.706627e8, 4.614004e7, -1.283757e6, 1.301409e4}},
     {{-1.560684e8, 1.572514e7, -4.455923e5, 4.439223e3}},
@@ -124,7 +124,7 @@ constexpr AnodeTable tungsten = {{
 }  // namespace
 
 const AnodeTable& anode_table(Anode anode) {
-  return anode == Anode::molybdenum ? molybdenum : tungsten;
+  return anode == Anode::molybdenum ? molybdenum_table : tungsten_table;
 }
 
 }  // namespace breast

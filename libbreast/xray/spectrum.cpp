@@ -8,13 +8,13 @@
 
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/units.hpp"
 
 namespace breast {
 
 namespace {
 
 constexpr int beryllium = 4, aluminium = 13, molybdenum = 42, rhodium = 45;
-constexpr double per_mm = 0.1;  // of 1/cm
 
 double checked(double value, const xrl_error* error, double kev) {
   if (error != nullptr || !(value > 0)) {
@@ -27,7 +27,7 @@ double checked(double value, const xrl_error* error, double kev) {
 double linear_attenuation(int z, double kev) {  // 1/mm
   xrl_error* error = nullptr;
   const double mass = checked(CS_Total(z, kev, &error), error, kev);
-  return per_mm * mass * checked(ElementDensity(z, &error), error, kev);
+  return cm_per_mm * mass * checked(ElementDensity(z, &error), error, kev);
 }
 
 // Dry air, mass fractions of nitrogen, oxygen, argon.
@@ -101,7 +101,7 @@ Spectrum filtered(const Spectrum& spectrum, int z, double mm) {
 Spectrum behind_air(const Spectrum& spectrum, double mm) {
   Spectrum behind = spectrum;
   for (std::size_t i = 0; i < behind.kev.size(); ++i) {
-    behind.fluence[i] *= std::exp(-mm * per_mm * air_density * of_air(CS_Total, behind.kev[i]));
+    behind.fluence[i] *= std::exp(-mm * cm_per_mm * air_density * of_air(CS_Total, behind.kev[i]));
   }
   return behind;
 }

@@ -6,12 +6,12 @@
 #include <array>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace breast {
 
 namespace {
 
-constexpr double per_mm = 0.1;  // of 1/cm
 constexpr double tumour_over_gland = 1.052;
 
 // Mass fractions of H, C, N, O and of the ash, counted as equal parts of P, S, K and Ca.
@@ -39,7 +39,7 @@ double attenuation(const Composition& tissue, double kev) {
       throw failed_error("xraylib has no cross section at ", kev, " keV: ", why);
     }
   }
-  return per_mm * tissue.density * sum;
+  return cm_per_mm * tissue.density * sum;
 }
 
 }  // namespace

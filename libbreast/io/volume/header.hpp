@@ -19,6 +19,9 @@ namespace breast {
 /// Largest number of voxels of a volume, which take a gigabyte as float.
 inline constexpr double most_voxels = double(std::size_t(1) << 28);
 
+/// Most bytes that may follow the voxels: padding, extensions of other programs.
+inline constexpr double slack_bytes = 1 << 20;
+
 /// Throws Error (input) unless the data, which may be in another file of the same folder, agree
 /// with the header (sizes, checksums), and the header states a voxel size and orientation that
 /// check_scan_grid accepts. The format is chosen by the file extension, ignoring case; files with

@@ -19,8 +19,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double slack_bytes = 1 << 20;  // behind the voxels: padding, extensions of other programs
-
 class NiftiHeader {
  public:
   /// Nothing when these are not the first bytes of a single-file NIfTI.

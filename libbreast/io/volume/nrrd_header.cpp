@@ -16,8 +16,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double slack_bytes = 1 << 20;
-
 struct NrrdHeader {
   std::map<std::string, std::string> fields;  ///< by lower-case name
   std::map<std::string, std::string> notes;   ///< "key:=value", of the program that wrote the file
