@@ -9,14 +9,14 @@ namespace breast {
 
 namespace {
 
-constexpr int points_an_edge = 5;
+constexpr int samples_an_edge = 5;
 
 std::vector<QuadShape> sample_shapes(int order) {
   std::vector<QuadShape> shapes;
-  for (int j = 0; j < points_an_edge; ++j) {
-    for (int i = 0; i < points_an_edge; ++i) {
+  for (int j = 0; j < samples_an_edge; ++j) {
+    for (int i = 0; i < samples_an_edge; ++i) {
       shapes.push_back(quad_shape(
-          order, {2.0 * i / (points_an_edge - 1) - 1, 2.0 * j / (points_an_edge - 1) - 1}));
+          order, {2.0 * i / (samples_an_edge - 1) - 1, 2.0 * j / (samples_an_edge - 1) - 1}));
     }
   }
   return shapes;

@@ -16,7 +16,7 @@ namespace {
 
 /// Parts of the body closer than this in front of a face count as touching it, mm: ten times the
 /// accuracy of the plates.
-constexpr double touching_mm = 0.5;
+constexpr double self_touching_mm = 0.5;
 
 double depth_in_thorax(const HexMesh& mesh, const Vec3& at) {
   if (!mesh.geometry || !mesh.geometry->thorax) return 0;
@@ -33,7 +33,7 @@ SelfContact self_contact(const HexMesh& mesh, const std::vector<Vec3>& x) {
     const std::vector<int> nodes = face_nodes(mesh, face);
     for (const auto& [local, weight] : gauss_square(2)) {
       const FacePoint point = face_point(nodes, x, quad_shape(mesh.order, local));
-      if (body.find(point.at + touching_mm * point.area.normalized())) {
+      if (body.find(point.at + self_touching_mm * point.area.normalized())) {
         found.itself_cm2 += weight * point.area.norm() / mm2_per_cm2;
       }
       found.into_thorax_mm = std::max(found.into_thorax_mm, depth_in_thorax(mesh, point.at));

@@ -10,7 +10,7 @@ namespace breast {
 
 namespace {
 
-constexpr int points_an_edge = 8;
+constexpr int squares_an_edge = 8;
 
 struct AreaPoint {
   QuadShape shape;
@@ -19,10 +19,10 @@ struct AreaPoint {
 
 /// The middles of equal squares, because often only a part of a face touches.
 std::vector<AreaPoint> area_points(int order) {
-  constexpr double side = 2.0 / points_an_edge;
+  constexpr double side = 2.0 / squares_an_edge;
   std::vector<AreaPoint> points;
-  for (int j = 0; j < points_an_edge; ++j) {
-    for (int i = 0; i < points_an_edge; ++i) {
+  for (int j = 0; j < squares_an_edge; ++j) {
+    for (int i = 0; i < squares_an_edge; ++i) {
       points.push_back(
           {quad_shape(order, {(i + 0.5) * side - 1, (j + 0.5) * side - 1}), side * side});
     }

@@ -9,13 +9,13 @@
 namespace breast {
 
 namespace {
-constexpr std::array<std::string_view, n_tissues> names = {
+constexpr std::array<std::string_view, n_tissues> tissue_names = {
     "air", "fat", "fibroglandular", "skin", "muscle", "tumour", "other"};
 }
 
 std::string_view tissue_name(Tissue tissue) {
   const auto code = static_cast<std::size_t>(tissue);
-  return code < names.size() ? names[code] : "unknown";
+  return code < tissue_names.size() ? tissue_names[code] : "unknown";
 }
 
 bool is_breast(Tissue tissue) {
@@ -24,8 +24,8 @@ bool is_breast(Tissue tissue) {
 }
 
 Tissue tissue_from_name(std::string_view name) {
-  for (std::size_t code = 0; code < names.size(); ++code) {
-    if (names[code] == name) return static_cast<Tissue>(code);
+  for (std::size_t code = 0; code < tissue_names.size(); ++code) {
+    if (tissue_names[code] == name) return static_cast<Tissue>(code);
   }
   throw input_error("unknown tissue '", name,
                     "'; use one of air, fat, fibroglandular, skin, muscle, tumour, other");

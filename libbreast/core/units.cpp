@@ -8,14 +8,16 @@
 namespace breast {
 
 namespace {
-constexpr std::array<std::string_view, 4> names = {"prone", "supine", "upright", "off"};
+constexpr std::array<std::string_view, 4> posture_names = {"prone", "supine", "upright", "off"};
 }
 
-std::string_view posture_name(Posture posture) { return names.at(static_cast<std::size_t>(posture)); }
+std::string_view posture_name(Posture posture) {
+  return posture_names.at(static_cast<std::size_t>(posture));
+}
 
 Posture posture_from_name(std::string_view name) {
-  for (std::size_t code = 0; code < names.size(); ++code) {
-    if (names[code] == name) return static_cast<Posture>(code);
+  for (std::size_t code = 0; code < posture_names.size(); ++code) {
+    if (posture_names[code] == name) return static_cast<Posture>(code);
   }
   throw input_error("unknown posture '", name, "'; use prone, supine, upright or off");
 }

@@ -12,7 +12,7 @@ namespace breast {
 
 namespace {
 
-constexpr int max_iterations = 25;
+constexpr int max_newton_iterations = 25;
 // One factor is used until GMRES needs more iterations than this, because its back-substitutions
 // then cost as much as a factorisation.
 constexpr int factor_worn = 10, levels_worn = 45;
@@ -95,10 +95,10 @@ Balance InverseSolver::System::assess(const NewtonResult& so_far) {
   now.merit = at.merit;
   now.converged = at.force <= bound && at.volume <= volume_tolerance;
   now.nearly = at.force <= near_tolerance && at.volume <= near_volume_tolerance;
-  if (!now.converged && int(so_far.iterations.size()) >= max_iterations) {
+  if (!now.converged && int(so_far.iterations.size()) >= max_newton_iterations) {
     now.stop = NewtonStop::iteration_limit;
-    now.reason = message("no convergence in ", max_iterations, " iterations: residual ", at.force,
-                         " of the load");
+    now.reason = message("no convergence in ", max_newton_iterations, " iterations: residual ",
+                         at.force, " of the load");
   }
   return now;
 }

@@ -116,7 +116,7 @@ Expected expected_midline(const LabelVolume& labels, const Data& sheet, const Da
 }
 
 /// The four by four coefficients at one place: the first one's indices, and their weights.
-struct Weights {
+struct SplineWeights {
   int angle = 0, height = 0;
   double value[16];
 };
@@ -130,7 +130,7 @@ class SplineFit {
   int columns() const { return thorax_.angles + 3; }
   int rows() const { return thorax_.heights + 3; }
   int index(int i, int j) const { return j * columns() + i; }
-  Weights weights_at(const AxisPlace& place) const;
+  SplineWeights weights_at(const AxisPlace& place) const;
   void add_bending(std::vector<Eigen::Triplet<double>>& entries) const;
 
   ThoraxSurface& thorax_;
@@ -149,13 +149,13 @@ SplineFit::SplineFit(ThoraxSurface& thorax, const EllipticCylinder& base) : thor
   }
 }
 
-Weights SplineFit::weights_at(const AxisPlace& place) const {
+SplineWeights SplineFit::weights_at(const AxisPlace& place) const {
   const double angle = angle_of(place);
   const SplinePlace at = spline_place(angle, thorax_.angle_low, thorax_.angle_high, thorax_.angles);
   const SplinePlace up =
       spline_place(place.height, thorax_.height_low, thorax_.height_high, thorax_.heights);
   const CubicSpline a = cubic_spline(at.t), z = cubic_spline(up.t);
-  Weights w;
+  SplineWeights w;
   w.angle = at.interval, w.height = up.interval;
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 4; ++i) w.value[4 * j + i] = z.value[j] * a.value[i];
@@ -200,7 +200,7 @@ void SplineFit::solve(const Data& data, const std::vector<double>& weights) {
   constexpr double area = raster_mm * raster_mm;
   for (std::size_t k = 0; k < data.points.size(); ++k) {
     const AxisPlace place = about_axis(thorax_, data.points[k]);
-    const Weights w = weights_at(place);
+    const SplineWeights w = weights_at(place);
     double deviation = std::hypot(place.left, place.front);
     int at[16];
     for (int m = 0; m < 16; ++m) {

@@ -9,7 +9,7 @@ namespace breast {
 
 namespace {
 
-const std::string group = "/breast/hermite";
+const std::string hermite_group = "/breast/hermite";
 constexpr int most_patches = 1000;
 constexpr std::size_t least_rim_points = 32;
 
@@ -121,26 +121,26 @@ bool has_sheets(const BreastGeometry& geometry) {
 
 void check_geometry(const BreastGeometry& geometry, const Complaint& complain) {
   if (!has_sheets(geometry)) return;
-  check_sheet(geometry.skin, group + "/skin", complain);
-  check_sheet(geometry.wall, group + "/wall", complain);
+  check_sheet(geometry.skin, hermite_group + "/skin", complain);
+  check_sheet(geometry.wall, hermite_group + "/wall", complain);
   const std::size_t n = geometry.rim_skin.size();
   if (n < least_rim_points || geometry.rim_wall.size() != n || geometry.rim_end.size() != n) {
-    throw complain(group, "/rim has ", n, " skin, ", geometry.rim_wall.size(), " wall and ",
+    throw complain(hermite_group, "/rim has ", n, " skin, ", geometry.rim_wall.size(), " wall and ",
                    geometry.rim_end.size(), " end entries, must be equal and at least ",
                    least_rim_points);
   }
-  check_rim(geometry.rim_skin, group + "/rim/skin", complain);
-  check_rim(geometry.rim_wall, group + "/rim/wall", complain);
+  check_rim(geometry.rim_skin, hermite_group + "/rim/skin", complain);
+  check_rim(geometry.rim_wall, hermite_group + "/rim/wall", complain);
   for (std::size_t i = 0; i < n; ++i) {
     if (geometry.rim_end[i] > RimEnd::margin) {
-      throw complain("dataset ", group, "/rim/end[", i, "] is ", int(geometry.rim_end[i]),
+      throw complain("dataset ", hermite_group, "/rim/end[", i, "] is ", int(geometry.rim_end[i]),
                      ", must be 0 to 2");
     }
   }
-  check_rim({geometry.centre}, group + "/rim@centre", complain);
-  check_rim({geometry.nipple_st}, group + "@nipple_st", complain);
+  check_rim({geometry.centre}, hermite_group + "/rim@centre", complain);
+  check_rim({geometry.nipple_st}, hermite_group + "@nipple_st", complain);
   if (!(geometry.skin_thickness >= 0)) {
-    throw complain("attribute ", group, "@skin_thickness is ", geometry.skin_thickness,
+    throw complain("attribute ", hermite_group, "@skin_thickness is ", geometry.skin_thickness,
                    ", must be 0 or more");
   }
 }
@@ -148,44 +148,45 @@ void check_geometry(const BreastGeometry& geometry, const Complaint& complain) {
 void put_hermite(Document& document, const BreastGeometry& geometry) {
   if (geometry.thorax) put_thorax(document, *geometry.thorax);
   if (!has_sheets(geometry)) return;
-  put_sheet(document, group + "/skin", geometry.skin);
-  put_sheet(document, group + "/wall", geometry.wall);
-  document.datasets[group + "/rim/skin"] = rim_array(geometry.rim_skin);
-  document.datasets[group + "/rim/wall"] = rim_array(geometry.rim_wall);
+  put_sheet(document, hermite_group + "/skin", geometry.skin);
+  put_sheet(document, hermite_group + "/wall", geometry.wall);
+  document.datasets[hermite_group + "/rim/skin"] = rim_array(geometry.rim_skin);
+  document.datasets[hermite_group + "/rim/wall"] = rim_array(geometry.rim_wall);
   Bytes ends;
   for (const RimEnd end : geometry.rim_end) ends.push_back(std::uint8_t(end));
-  document.datasets[group + "/rim/end"] = array_of(std::move(ends));
+  document.datasets[hermite_group + "/rim/end"] = array_of(std::move(ends));
   auto& attributes = document.attributes;
-  attributes[group + "/rim@centre"] = array_of(Doubles{geometry.centre.x(), geometry.centre.y()});
-  attributes[group + "@nipple_st"] =
+  attributes[hermite_group + "/rim@centre"] =
+      array_of(Doubles{geometry.centre.x(), geometry.centre.y()});
+  attributes[hermite_group + "@nipple_st"] =
       array_of(Doubles{geometry.nipple_st.x(), geometry.nipple_st.y()});
-  attributes[group + "@nipple"] = array_of(geometry.nipple);
-  attributes[group + "@skin_thickness"] = array_of(geometry.skin_thickness);
-  attributes[group + "@fit_mean_mm"] = array_of(geometry.fit_mean_mm);
-  attributes[group + "@fit_p95_mm"] = array_of(geometry.fit_p95_mm);
-  attributes[group + "@fit_max_mm"] = array_of(geometry.fit_max_mm);
+  attributes[hermite_group + "@nipple"] = array_of(geometry.nipple);
+  attributes[hermite_group + "@skin_thickness"] = array_of(geometry.skin_thickness);
+  attributes[hermite_group + "@fit_mean_mm"] = array_of(geometry.fit_mean_mm);
+  attributes[hermite_group + "@fit_p95_mm"] = array_of(geometry.fit_p95_mm);
+  attributes[hermite_group + "@fit_max_mm"] = array_of(geometry.fit_max_mm);
 }
 
 BreastGeometry get_hermite(Fields& fields) {
   BreastGeometry geometry;
-  geometry.skin = get_sheet(fields, group + "/skin");
-  geometry.wall = get_sheet(fields, group + "/wall");
+  geometry.skin = get_sheet(fields, hermite_group + "/skin");
+  geometry.wall = get_sheet(fields, hermite_group + "/wall");
   if (has_thorax(fields)) geometry.thorax = get_thorax(fields);
-  geometry.rim_skin = get_rim(fields, group + "/rim/skin", Fields::any);
+  geometry.rim_skin = get_rim(fields, hermite_group + "/rim/skin", Fields::any);
   const std::size_t n = geometry.rim_skin.size();
-  geometry.rim_wall = get_rim(fields, group + "/rim/wall", n);
-  for (const std::uint8_t end : fields.bytes(group + "/rim/end", {n})) {
+  geometry.rim_wall = get_rim(fields, hermite_group + "/rim/wall", n);
+  for (const std::uint8_t end : fields.bytes(hermite_group + "/rim/end", {n})) {
     geometry.rim_end.push_back(static_cast<RimEnd>(end));
   }
-  const Doubles centre = fields.numbers(group + "/rim@centre", 2);
-  const Doubles nipple_st = fields.numbers(group + "@nipple_st", 2);
+  const Doubles centre = fields.numbers(hermite_group + "/rim@centre", 2);
+  const Doubles nipple_st = fields.numbers(hermite_group + "@nipple_st", 2);
   geometry.centre = {centre[0], centre[1]};
   geometry.nipple_st = {nipple_st[0], nipple_st[1]};
-  geometry.nipple = fields.place(group + "@nipple");
-  geometry.skin_thickness = fields.number(group + "@skin_thickness");
-  geometry.fit_mean_mm = fields.number(group + "@fit_mean_mm");
-  geometry.fit_p95_mm = fields.number(group + "@fit_p95_mm");
-  geometry.fit_max_mm = fields.number(group + "@fit_max_mm");
+  geometry.nipple = fields.place(hermite_group + "@nipple");
+  geometry.skin_thickness = fields.number(hermite_group + "@skin_thickness");
+  geometry.fit_mean_mm = fields.number(hermite_group + "@fit_mean_mm");
+  geometry.fit_p95_mm = fields.number(hermite_group + "@fit_p95_mm");
+  geometry.fit_max_mm = fields.number(hermite_group + "@fit_max_mm");
   return geometry;
 }
 

@@ -10,7 +10,7 @@ namespace breast {
 
 namespace {
 
-struct FaceSet {
+struct CheckedFaces {
   const char* path;
   const std::vector<Face>& faces;
 };
@@ -83,9 +83,9 @@ void check_cells(const HexMesh& mesh, const Complaint& complain) {
 
 // Every face of the boundary is in exactly one of the three sets, and nothing else is.
 void check_face_sets(const HexMesh& mesh, const Complaint& complain) {
-  const FaceSet sets[] = {{"/breast/sets/skin_faces", mesh.skin_faces},
-                          {"/breast/sets/pectoral_faces", mesh.pectoral_faces},
-                          {"/breast/sets/cut_faces", mesh.cut_faces}};
+  const CheckedFaces sets[] = {{"/breast/sets/skin_faces", mesh.skin_faces},
+                               {"/breast/sets/pectoral_faces", mesh.pectoral_faces},
+                               {"/breast/sets/cut_faces", mesh.cut_faces}};
   std::vector<int> owner(std::size_t(mesh.elements()) * 6, -1);
   for (int s = 0; s < 3; ++s) {
     for (std::size_t i = 0; i < sets[s].faces.size(); ++i) {

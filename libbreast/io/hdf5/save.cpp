@@ -22,7 +22,7 @@ bool reads_back(const std::string& name, std::string& image, const Document& doc
 namespace {
 
 constexpr std::size_t compact_bytes = 1024;  // stored inside the object header
-constexpr std::size_t chunk_bytes = std::size_t(1) << 20;
+constexpr std::size_t wanted_chunk_bytes = std::size_t(1) << 20;
 constexpr unsigned deflate_level = 2;  // beyond it the time grows, the file hardly shrinks
 
 std::size_t text_width(const Texts& texts) {
@@ -79,7 +79,7 @@ Handle layout_of(const Array& array, std::size_t value_bytes) {
   } else if (bytes > compact_bytes) {
     std::vector<hsize_t> chunk(array.shape.begin(), array.shape.end());
     const std::size_t row = std::max<std::size_t>(bytes / array.shape[0], 1);
-    chunk[0] = std::clamp<hsize_t>(chunk_bytes / row, 1, array.shape[0]);
+    chunk[0] = std::clamp<hsize_t>(wanted_chunk_bytes / row, 1, array.shape[0]);
     H5Pset_chunk(properties, int(chunk.size()), chunk.data());
     if (value_bytes > 1 && !std::holds_alternative<Texts>(array.values)) H5Pset_shuffle(properties);
     H5Pset_deflate(properties, deflate_level);

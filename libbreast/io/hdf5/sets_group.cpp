@@ -7,13 +7,13 @@ namespace breast {
 
 namespace {
 
-struct FaceSet {
+struct NamedFaces {
   const char* name;
   std::vector<Face> HexMesh::*member;
 };
-const FaceSet face_sets[] = {{"skin", &HexMesh::skin_faces},
-                             {"pectoral", &HexMesh::pectoral_faces},
-                             {"cut", &HexMesh::cut_faces}};
+const NamedFaces face_sets[] = {{"skin", &HexMesh::skin_faces},
+                                {"pectoral", &HexMesh::pectoral_faces},
+                                {"cut", &HexMesh::cut_faces}};
 struct SingleNode {
   const char* name;
   int HexMesh::*member;
@@ -22,17 +22,17 @@ constexpr SingleNode single_nodes[] = {{"tumour", &HexMesh::tumour_node},
                                        {"nipple", &HexMesh::nipple_node}};
 constexpr std::array<const char*, 3> skin_models = {"none", "membrane", "layer"};
 
-std::string faces_path(const FaceSet& set) {
+std::string faces_path(const NamedFaces& set) {
   return std::string("/breast/sets/") + set.name + "_faces";
 }
-std::string nodes_path(const FaceSet& set) {
+std::string nodes_path(const NamedFaces& set) {
   return std::string("/breast/sets/") + set.name + "_nodes";
 }
 
 }  // namespace
 
 void put_sets(Document& document, const HexMesh& mesh) {
-  for (const FaceSet& set : face_sets) {
+  for (const NamedFaces& set : face_sets) {
     const std::vector<Face>& faces = mesh.*set.member;
     Integers flat;
     for (const Face& face : faces) flat.insert(flat.end(), {face.element, face.local});
@@ -48,7 +48,7 @@ void put_sets(Document& document, const HexMesh& mesh) {
 }
 
 void get_sets(Fields& fields, HexMesh& mesh) {
-  for (const FaceSet& set : face_sets) {
+  for (const NamedFaces& set : face_sets) {
     // The larger bound of the two columns; check_mesh refuses a local face beyond 5.
     const auto flat =
         fields.indices(faces_path(set), {Fields::any, 2}, 0, std::max(mesh.elements(), 6));
@@ -67,7 +67,7 @@ void get_sets(Fields& fields, HexMesh& mesh) {
 }
 
 void check_node_sets(Fields& fields, const HexMesh& mesh) {
-  for (const FaceSet& set : face_sets) {
+  for (const NamedFaces& set : face_sets) {
     const std::vector<int> nodes = fields.indices(nodes_path(set), {Fields::any}, 0, mesh.nodes());
     if (nodes != nodes_of(mesh, mesh.*set.member)) {
       throw fields.complain()("dataset ", nodes_path(set), " are not the sorted nodes of ",

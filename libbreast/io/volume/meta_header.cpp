@@ -29,7 +29,7 @@ struct MetaHeader {
   }
 };
 
-MetaHeader header_of(const fs::path& file) {
+MetaHeader meta_header_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw input_error(file.string(), ": cannot be opened");
   constexpr int most_lines = 1000;
@@ -57,7 +57,7 @@ MetaHeader header_of(const fs::path& file) {
   throw input_error(file.string(), ": no complete MetaImage header");
 }
 
-double voxel_bytes(const std::string& type) {
+double bytes_of_meta_type(const std::string& type) {
   static const std::map<std::string, double> known = {
       {"MET_CHAR", 1},      {"MET_UCHAR", 1},      {"MET_SHORT", 2}, {"MET_USHORT", 2},
       {"MET_INT", 4},       {"MET_UINT", 4},       {"MET_LONG", 4},  {"MET_ULONG", 4},
@@ -98,7 +98,7 @@ void check_orientation(const fs::path& file, const MetaHeader& header) {
 }  // namespace
 
 void check_meta(const fs::path& file) {
-  const MetaHeader header = header_of(file);
+  const MetaHeader header = meta_header_of(file);
   const std::vector<double> sizes = header_numbers(header.field({"DimSize"}));
   // MetaIO makes loops of this number, whatever it is.
   const std::string dimensions = header.field({"NDims"});
@@ -110,7 +110,7 @@ void check_meta(const fs::path& file) {
   for (const double size : sizes) voxels *= size >= 1 ? size : 0;
   check_voxel_count(file.string(), voxels);
   const std::string type = header.field({"ElementType"});
-  const double element = voxel_bytes(type);
+  const double element = bytes_of_meta_type(type);
   if (element == 0) {
     throw input_error(file.string(), ": element type '", type,
                       "': grey values of 8 to 64 bits are read");

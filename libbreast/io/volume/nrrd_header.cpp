@@ -30,7 +30,7 @@ struct NrrdHeader {
   }
 };
 
-NrrdHeader header_of(const fs::path& file) {
+NrrdHeader nrrd_header_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw input_error(file.string(), ": cannot be opened");
   constexpr std::size_t most_lines = 10000, longest = 65536, most_bytes = 1 << 24;
@@ -64,7 +64,7 @@ NrrdHeader header_of(const fs::path& file) {
   return header;
 }
 
-double voxel_bytes(const std::string& type) {
+double bytes_of_nrrd_type(const std::string& type) {
   static const std::map<std::string, double> known = {{"signed char", 1},
                                                       {"int8", 1},
                                                       {"int8_t", 1},
@@ -172,7 +172,7 @@ double announced_bytes(const fs::path& file, const NrrdHeader& header) {
   double voxels = sizes.empty() ? 0 : 1;
   for (const double size : sizes) voxels *= size >= 1 ? size : 0;
   check_voxel_count(file.string(), voxels);
-  const double bytes = voxel_bytes(header.field("type"));
+  const double bytes = bytes_of_nrrd_type(header.field("type"));
   if (bytes == 0) {
     throw input_error(file.string(), ": type '", header.field("type"),
                       "': grey values of 8 to 64 bits are read");
@@ -211,7 +211,7 @@ void check_data(const fs::path& file, const NrrdHeader& header, double needed) {
 }  // namespace
 
 NrrdNotes nrrd_notes(const fs::path& file) {
-  const NrrdHeader header = header_of(file);
+  const NrrdHeader header = nrrd_header_of(file);
   const std::vector<double> dimension = header_numbers(header.field("dimension"));
   constexpr double most_axes = 16;  // of the format; another number is left to check_nrrd
   const bool known = dimension.size() == 1 && dimension[0] >= 1 && dimension[0] <= most_axes;
@@ -219,7 +219,7 @@ NrrdNotes nrrd_notes(const fs::path& file) {
 }
 
 void check_nrrd(const fs::path& file) {
-  const NrrdHeader header = header_of(file);
+  const NrrdHeader header = nrrd_header_of(file);
   const double needed = announced_bytes(file, header);
   check_orientation(file, header);
   check_data(file, header, needed);

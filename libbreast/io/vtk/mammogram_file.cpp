@@ -16,7 +16,7 @@ namespace breast {
 
 namespace {
 
-constexpr const char* schema = "mammogram/1";
+constexpr const char* mammogram_schema = "mammogram/1";
 
 std::vector<double> as_list(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
@@ -85,7 +85,7 @@ Mammogram parse_mammogram(const std::filesystem::path& file) {
   const std::string where = file.string();
   const auto data = read_image_data(file);
   vtkFieldData* fields = data->GetFieldData();
-  check_schema(fields, schema, true, where);
+  check_schema(fields, mammogram_schema, true, where);
   Mammogram image;
   int size[3];
   data->GetDimensions(size);
@@ -142,7 +142,7 @@ void write_mammogram(const std::filesystem::path& file, const Mammogram& image) 
   add_image<vtkFloatArray>(data, "fibroglandular", image.fibroglandular);
   add_image<vtkUnsignedCharArray>(data, "through_back", image.through_back);
   vtkFieldData* fields = data->GetFieldData();
-  add_text(fields, "schema", schema);
+  add_text(fields, "schema", mammogram_schema);
   add_numbers(fields, "n", as_list(image.pose.n));
   add_numbers(fields, "e_u", as_list(image.pose.e_u));
   add_numbers(fields, "e_v", as_list(image.pose.e_v));

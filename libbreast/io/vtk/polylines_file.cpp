@@ -19,7 +19,7 @@
 namespace breast {
 
 namespace {
-constexpr const char* schema = "curves/1";
+constexpr const char* curves_schema = "curves/1";
 
 void append_cells(vtkPolyData* data, vtkCellArray* cells, const std::string& where,
                   PolyLines& lines) {
@@ -47,7 +47,7 @@ std::vector<std::size_t> markers_first(const PolyLines& lines) {
 PolyLines parse_polylines(const std::filesystem::path& file) {
   const std::string where = file.string();
   const auto data = read_poly_data(file);
-  check_schema(data->GetFieldData(), schema, false, where);
+  check_schema(data->GetFieldData(), curves_schema, false, where);
   PolyLines lines;
   lines.points = points_of(data, where);
   append_cells(data, data->GetVerts(), where, lines);
@@ -105,7 +105,7 @@ void write_polylines(const std::filesystem::path& file, const PolyLines& lines) 
   for (const auto& [name, values] : lines.point_vectors) {
     data->GetPointData()->AddArray(vector_array(name, values));
   }
-  add_text(data->GetFieldData(), "schema", schema);
+  add_text(data->GetFieldData(), "schema", curves_schema);
   add_text(data->GetFieldData(), "units", "mm");
   add_space(data->GetFieldData());
   add_history(data->GetFieldData(), lines.history);

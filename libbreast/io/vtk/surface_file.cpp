@@ -17,7 +17,7 @@ namespace breast {
 
 namespace {
 
-constexpr const char* schema = "surface/1";
+constexpr const char* surface_schema = "surface/1";
 
 // Quads and triangle strips of other programs would need a choice of diagonal: refused by name.
 std::vector<std::array<int, 3>> triangles_of(vtkPolyData* data, const std::string& where) {
@@ -46,7 +46,7 @@ std::vector<std::array<int, 3>> triangles_of(vtkPolyData* data, const std::strin
 TriMesh parse_surface(const std::filesystem::path& file) {
   const std::string where = file.string();
   const auto data = read_poly_data(file);
-  check_schema(data->GetFieldData(), schema, false, where);
+  check_schema(data->GetFieldData(), surface_schema, false, where);
   TriMesh surface;
   surface.points = points_of(data, where);
   if (surface.points.empty()) throw input_error(where, ": has no points");
@@ -88,7 +88,7 @@ void write_surface(const std::filesystem::path& file, const TriMesh& surface) {
     const auto normals = vector_array("Normals", surface.normals);
     data->GetPointData()->SetNormals(normals);
   }
-  add_text(data->GetFieldData(), "schema", schema);
+  add_text(data->GetFieldData(), "schema", surface_schema);
   add_text(data->GetFieldData(), "units", "mm");
   add_space(data->GetFieldData());
   add_history(data->GetFieldData(), surface.history);

@@ -14,7 +14,7 @@ namespace {
 // Tolerance relative to the right-hand side of the first step in the preconditioner's norm:
 // landmarks are then within a tenth of their converged values.
 constexpr double relative_accuracy = 0.02;
-constexpr int max_iterations = 200;
+constexpr int max_gradient_iterations = 200;
 // The error of a landmark is of second order in the mesh size, and so is the effect on it of the
 // square of the local strain error: a single linearised step is wrong by half, however fine the
 // mesh. The second step includes that square; a third changes the result by a tenth. If the first
@@ -47,7 +47,7 @@ ErrorEstimate estimate_error(const Scene& scene, const State& state, const Vec3&
   if (!prepare_coarse(scene, state, gravity, contact, matrix, solver)) return estimate;
   RicherProblem problem(scene, state, gravity, contact);
   if (!problem.valid()) return estimate;
-  ConjugateGradientLimits limits{relative_accuracy, 0, max_iterations};
+  ConjugateGradientLimits limits{relative_accuracy, 0, max_gradient_iterations};
   Eigen::VectorXd correction = Eigen::VectorXd::Zero(problem.right_hand_side().size()), step;
   double first_residual = 0;  // in the preconditioner's norm
   for (; estimate.steps < steps; ++estimate.steps) {
@@ -63,7 +63,8 @@ ErrorEstimate estimate_error(const Scene& scene, const State& state, const Vec3&
     // The second step is solved to the accuracy of the first.
     if (estimate.steps == 0) {
       first_residual = solved.start;
-      limits = {0, relative_accuracy * first_residual, max_iterations - estimate.iterations};
+      limits = {0, relative_accuracy * first_residual,
+                max_gradient_iterations - estimate.iterations};
     }
   }
   if (estimate.steps == 0) return estimate;

@@ -76,14 +76,14 @@ class Layer {
   std::map<std::pair<int, int>, int> made_;  // (node of the wall, half depths) → node of the layer
 };
 
-using Edge = std::pair<int, int>;
-Edge edge_of(const std::vector<int>& nodes, int c) {
+using FaceEdge = std::pair<int, int>;
+FaceEdge edge_of(const std::vector<int>& nodes, int c) {
   return std::minmax(nodes[std::size_t(c)], nodes[std::size_t((c + 1) % 4)]);
 }
 
 /// The number of faces that share an edge: one at their rim.
-std::map<Edge, int> edge_uses(const HexMesh& mesh, const std::vector<Face>& faces) {
-  std::map<Edge, int> uses;
+std::map<FaceEdge, int> edge_uses(const HexMesh& mesh, const std::vector<Face>& faces) {
+  std::map<FaceEdge, int> uses;
   for (const Face& face : faces) {
     const std::vector<int> nodes = face_nodes(mesh, face);
     for (int c = 0; c < 4; ++c) ++uses[edge_of(nodes, c)];
@@ -125,7 +125,7 @@ double parse_muscle_thickness(const std::string& text) {
 
 void add_muscle_layer(double thickness, HexMesh& mesh, const LevelSurface* wall) {
   const std::vector<Face> front = mesh.pectoral_faces;
-  const std::map<Edge, int> uses = edge_uses(mesh, front);
+  const std::map<FaceEdge, int> uses = edge_uses(mesh, front);
   Layer layer(thickness, mesh, wall);
   mesh.pectoral_faces.clear();
   constexpr std::array<int, 4> side_of_edge = {2, 1, 3, 0};

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double skin_to_fat = 0.5;  // brightness of skin in T1
 constexpr double edge = 0.25;        // of fat: below skin, above air
-constexpr double step = 0.2, outside = 4, reach = 6, fat_layer = 2;  // mm along a profile
+constexpr double step = 0.2, outside = 4, profile_reach = 6, fat_layer = 2;  // mm along a profile
 constexpr std::size_t least_profiles = 200;
 
 /// Variance (mm2) of what blurs a surface of this normal (grid axes): the voxel's own width and the
@@ -33,13 +33,13 @@ double model(double x, double thickness, double sigma) {
 template <class Profile>
 double deficit_behind(double place, const Profile& profile) {
   double sum = 0;
-  for (double d = 0.5 * step; d < reach; d += step) sum += (1 - profile(place + d)) * step;
+  for (double d = 0.5 * step; d < profile_reach; d += step) sum += (1 - profile(place + d)) * step;
   return sum;
 }
 
 /// Thickness (mm) at which the model misses as much as was measured.
 double thickness_of(double deficit, double sigma) {
-  double low = 0, high = reach;
+  double low = 0, high = profile_reach;
   for (int n = 0; n < 30; ++n) {
     const double middle = 0.5 * (low + high);
     const auto profile = [&](double x) { return model(x, middle, sigma); };
@@ -59,7 +59,8 @@ double deficit_at(const Volume<float>& brightness, const Vec3& surface, const Ve
   while (place < outside && raw(place) < edge) place += 0.05;
   double fat = 0;
   int samples = 0;
-  for (double d = reach; d < reach + fat_layer; d += step, ++samples) fat += raw(place + d);
+  for (double d = profile_reach; d < profile_reach + fat_layer; d += step, ++samples)
+    fat += raw(place + d);
   fat /= samples;
   if (!(place < outside && fat > 0.8 && fat < 1.25)) return -1;
   return deficit_behind(place, [&](double s) { return raw(s) / fat; });

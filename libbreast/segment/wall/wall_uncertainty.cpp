@@ -12,7 +12,7 @@ namespace breast {
 
 namespace {
 
-constexpr double reach = 12;         // mm
+constexpr double level_reach = 12;   // mm
 constexpr double temperature = 0.1;  // of the cost: contrast between fat and muscle is about 1
 constexpr double hand_sigma = 1;     // mm: a careful click
 
@@ -20,9 +20,10 @@ double column_sigma(const Volume<float>& ratio, const WallDomain& domain, const 
                     int i, int k) {
   const double step = ratio.grid.spacing[1], depth = wall.depth.at(i, k);
   Levels levels;
-  levels.first = std::max(0, int((depth - reach) / step));
-  levels.count = std::min(ratio.grid.size[1] - 1, int((depth + reach) / step)) - levels.first + 1;
-  if (levels.count < 2) return reach;
+  levels.first = std::max(0, int((depth - level_reach) / step));
+  levels.count =
+      std::min(ratio.grid.size[1] - 1, int((depth + level_reach) / step)) - levels.first + 1;
+  if (levels.count < 2) return level_reach;
   std::vector<float> cost(levels.count);
   column_cost(ratio, domain, nullptr, wall.muscle_ratio, levels, i, k, cost.data());
   const float least = *std::min_element(cost.begin(), cost.end());
@@ -56,7 +57,7 @@ HeightField wall_sigma(const Volume<float>& ratio, const WallDomain& domain,
   }
   sigma = gaussian(sigma, 8);
   weight = gaussian(weight, 8);
-  HeightField out(wall.depth.nx, wall.depth.nz, reach);
+  HeightField out(wall.depth.nx, wall.depth.nz, level_reach);
   for (int k = 0; k < out.nz; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
       if (weight.at(i, 0, k) > 1e-3f) out.at(i, k) = sigma.at(i, 0, k) / weight.at(i, 0, k);

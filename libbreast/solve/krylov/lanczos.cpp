@@ -12,7 +12,7 @@ namespace {
 
 // After this many steps, an eigenvector that lies a fifth of the spectrum below the others
 // dominates the lowest Ritz vector even if the start contained only 1e-6 of it.
-constexpr int least_steps = 20;
+constexpr int least_lanczos_steps = 20;
 
 struct Ritz {
   double value = 0, residual = 0;
@@ -72,7 +72,7 @@ LowestEigenvalue lowest_eigenvalue(const LinearMap& a, const LinearMap& p,
     lowest.value = low.value;
     lowest.residual = low.residual;
     // Ritz values can only decrease, and an invariant space gives no further information.
-    const bool known = low.value < 0 || (lowest.steps >= least_steps && lowest.positive());
+    const bool known = low.value < 0 || (lowest.steps >= least_lanczos_steps && lowest.positive());
     if (known || !(length > 1e-14 * std::abs(diagonal[0]))) break;
   }
   if (!std::isfinite(lowest.value) || !std::isfinite(lowest.residual)) lowest = {};

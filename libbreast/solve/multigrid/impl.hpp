@@ -15,7 +15,7 @@ template <int B>
 using Motions = std::vector<Eigen::Matrix<double, B, 6>>;
 
 template <int B>
-struct Level {
+struct MultigridLevel {
   BlockMatrix<B, B> a;
   BlockMatrix<B, 6> interpolation;
   Eigen::VectorXd inverse_diagonal;
@@ -30,7 +30,7 @@ struct Level {
   BlockMatrix<6, 6> galerkin() const;
 };
 
-extern template struct Level<3>;
-extern template struct Level<6>;
+extern template struct MultigridLevel<3>;
+extern template struct MultigridLevel<6>;
 
 }  // namespace breast

@@ -15,7 +15,7 @@ constexpr double lowest_part = 1.0 / 12;  // of the spectrum's upper end: what t
 }  // namespace
 
 template <int B>
-bool Level<B>::prepare() {
+bool MultigridLevel<B>::prepare() {
   inverse_diagonal = a.diagonal().cwiseInverse();
   if (!(inverse_diagonal.minCoeff() > 0) || !inverse_diagonal.allFinite()) return false;
   // D^−1/2 A D^−1/2 has the eigenvalues of D⁻¹A. A start that is no eigenvector of anything, the
@@ -33,7 +33,7 @@ bool Level<B>::prepare() {
 }
 
 template <int B>
-void Level<B>::smooth(const Eigen::VectorXd& right, Eigen::VectorXd& x) const {
+void MultigridLevel<B>::smooth(const Eigen::VectorXd& right, Eigen::VectorXd& x) const {
   const double upper = largest, lower = lowest_part * largest;
   const double centre = 0.5 * (upper + lower), half = 0.5 * (upper - lower);
   const double sigma = centre / half;
@@ -59,7 +59,7 @@ void Level<B>::smooth(const Eigen::VectorXd& right, Eigen::VectorXd& x) const {
 }
 
 template <int B>
-Motions<6> Level<B>::coarsen(const Motions<B>& motions, double threshold) {
+Motions<6> MultigridLevel<B>::coarsen(const Motions<B>& motions, double threshold) {
   const Aggregates aggregates = aggregate(strong_couplings<B>(a, threshold));
   std::vector<std::vector<int>> members(std::size_t(aggregates.count));
   for (int i = 0; i < a.rows; ++i) {
@@ -115,7 +115,7 @@ Motions<6> Level<B>::coarsen(const Motions<B>& motions, double threshold) {
 }
 
 template <int B>
-BlockMatrix<6, 6> Level<B>::galerkin() const {
+BlockMatrix<6, 6> MultigridLevel<B>::galerkin() const {
   const BlockMatrix<B, 6>& p = interpolation;
   BlockMatrix<B, 6> ap;  // A P
   ap.rows = a.rows;
@@ -156,7 +156,7 @@ BlockMatrix<6, 6> Level<B>::galerkin() const {
   return coarse;
 }
 
-template struct Level<3>;
-template struct Level<6>;
+template struct MultigridLevel<3>;
+template struct MultigridLevel<6>;
 
 }  // namespace breast

@@ -42,13 +42,13 @@ Motions<3> rigid_motions(const Constraints& constraints, const Eigen::VectorXd& 
 }  // namespace
 
 struct Multigrid::Impl {
-  Level<3> finest;
-  std::vector<std::unique_ptr<Level<6>>> coarser;
+  MultigridLevel<3> finest;
+  std::vector<std::unique_ptr<MultigridLevel<6>>> coarser;
   Eigen::LLT<Eigen::MatrixXd> bottom;
 
   // The coarse correction of a level, then the smoother again: a symmetric cycle.
   template <int B>
-  Eigen::VectorXd cycle(const Level<B>& level, std::size_t next,
+  Eigen::VectorXd cycle(const MultigridLevel<B>& level, std::size_t next,
                         const Eigen::VectorXd& right) const {
     Eigen::VectorXd x, residual;
     level.smooth(right, x);
@@ -92,7 +92,7 @@ bool Multigrid::build(const NodeMatrix& matrix, const Constraints& constraints,
   BlockMatrix<6, 6> a = m.finest.galerkin();
   double threshold = strong;
   while (a.rows > coarsest_nodes && m.coarser.size() < most_levels) {
-    auto level = std::make_unique<Level<6>>();
+    auto level = std::make_unique<MultigridLevel<6>>();
     level->a = std::move(a);
     if (!level->prepare()) return false;
     threshold *= 0.5;  // couplings thin out as spaces coarsen

@@ -18,7 +18,7 @@ constexpr double gradient_weight = 1.5;
 // along an edge: with one, GMRES takes 25 instead of 22 iterations on the block of 48³ and 26
 // instead of 19 on the dome of 32 000.
 constexpr double accuracy = 0.1, steps_per_edge = 2;
-constexpr int least_steps = 20;
+constexpr int least_gradient_steps = 20;
 constexpr double nothing_left = 1e-12;  // of 1 − κc
 
 // The elements at every node, and which of their nodes it is.
@@ -108,7 +108,8 @@ Eigen::VectorXd PressureSchur::solve_sparse(const Eigen::VectorXd& q) const {
     return reciprocal_.cwiseProduct(v);
   };
   const int steps = int(steps_per_edge * std::cbrt(double(sparse_.rows)));
-  return conjugate_gradients(apply, scale, q, {accuracy, 0, std::max(least_steps, steps)}).x;
+  return conjugate_gradients(apply, scale, q, {accuracy, 0, std::max(least_gradient_steps, steps)})
+      .x;
 }
 
 Eigen::VectorXd PressureSchur::solve(const Eigen::VectorXd& q) const {

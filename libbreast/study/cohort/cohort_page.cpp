@@ -11,7 +11,7 @@ namespace breast {
 
 namespace {
 
-const std::string style =
+const std::string cohort_style =
     R"(body { font: 15px/1.4 sans-serif; margin: 1.5em; color: #222 } table { border-collapse: collapse; margin: .8em 0; font-size: 13px }
 th, td { border: 1px solid #ccc; padding: 2px 7px; text-align: left; vertical-align: top } th { background: #f2f2f2 }
 td.n { text-align: right; font-variant-numeric: tabular-nums } td.bad, figure.bad figcaption { background: #fbd5d0 }
@@ -51,7 +51,7 @@ std::string counted(const Table& cases) {
 }
 
 std::string head(const std::string& title, const CohortPages& cohort) {
-  return page_head(title, style) + "<h1>" + escaped(title) + "</h1>\n" +
+  return page_head(title, cohort_style) + "<h1>" + escaped(title) + "</h1>\n" +
          (cohort.pictures.possible
               ? ""
               : "<p class=look>No pictures: netpbm is not installed where this page was made (apt-get install netpbm).</p>\n");

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string style =
+const std::string report_style =
     R"(body { font: 15px/1.45 sans-serif; max-width: 1150px; margin: 2em auto; padding: 0 1em; color: #222 }
 table { border-collapse: collapse; margin: .8em 0; font-size: 13px } th, td { border: 1px solid #ccc; padding: 2px 7px; text-align: left; vertical-align: top }
 th { background: #f2f2f2 } td.n { text-align: right; font-variant-numeric: tabular-nums } td.bad { background: #fbd5d0 }
@@ -344,7 +344,7 @@ std::string report_page(const fs::path& run, const ReportContext& context) {
   const std::string name = escaped(run.filename()), calibrated = escaped(context.calibration);
   const std::string origin = tumour_origin(StageReport::read(run / "mesh.json"));
   const Words words = words_of(origin);
-  std::string html = page_head("libbreast: " + run.filename().string(), style) +
+  std::string html = page_head("libbreast: " + run.filename().string(), report_style) +
                      "<h1>Breast deformation: case " + name + "</h1>\n";
   html +=
       "<p>From a prone MR scan to the stress-free, supine and compressed shapes, two simulated mammograms and the CC&rarr;MLO curve,\n"
