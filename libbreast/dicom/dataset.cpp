@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "core/provenance.hpp"
-#include "dicom/elements.hpp"
+#include "dicom/delimiters.hpp"
 
 namespace breast {
 

@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "dicom/elements.hpp"
+#include "dicom/delimiters.hpp"
 
 namespace breast {
 

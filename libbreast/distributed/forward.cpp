@@ -15,7 +15,7 @@ constexpr int first_limit = 25, later_limit = 12;  // Newton iterations of a loa
 class ForwardSteps final : public LoadSteps {
  public:
   ForwardSteps(const PartProblem& problem, Progress& progress)
-      : LoadSteps(problem, "forward-mpi", equilibrium_tolerance, progress) {}
+      : LoadSteps(problem, "forward-mpi", part_equilibrium_tolerance, progress) {}
 
  private:
   NewtonResult attempt(State& state, double from, double to) override;

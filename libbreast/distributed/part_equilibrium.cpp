@@ -37,7 +37,7 @@ PartEquilibrium::PartEquilibrium(const PartProblem& problem, PartSaddle& solver,
       timer_(timer) {}
 
 bool PartEquilibrium::reached(double residual) const {
-  return residual <= std::max(equilibrium_tolerance, problem_.rounding(matrix_, state_.x)) &&
+  return residual <= std::max(part_equilibrium_tolerance, problem_.rounding(matrix_, state_.x)) &&
          problem_.volume_residual(forces_) <= part_volume_tolerance;
 }
 
@@ -71,7 +71,7 @@ Balance PartEquilibrium::assess(const NewtonResult& so_far) {
   if (made >= max_iterations_) {
     now.stop = NewtonStop::iteration_limit;
     now.reason = message("no convergence in ", made, " iterations: residual ", now.residual,
-                         " of the load, bound ", tolerance);
+                         " of the load, bound ", part_equilibrium_tolerance);
   }
   return now;
 }

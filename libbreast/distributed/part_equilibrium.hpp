@@ -11,8 +11,8 @@
 
 namespace breast {
 
-/// Residual of a solution, relative to the load.
-inline constexpr double equilibrium_tolerance = 1e-10;
+/// ‖r on free components‖ / load norm of a solution.
+inline constexpr double part_equilibrium_tolerance = 1e-10;
 
 class PartEquilibrium final : public NewtonSystem {
  public:

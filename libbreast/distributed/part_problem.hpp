@@ -12,7 +12,7 @@
 
 namespace breast {
 
-/// Volume residual of a solution, of equilibria and of the inverse problem.
+/// |θ_e| / V_e of a solution, of equilibria and of the inverse problem.
 inline constexpr double part_volume_tolerance = 1e-11;
 
 /// Nodal vectors contain all nodes of the part; a shared node has the same value on all its ranks.

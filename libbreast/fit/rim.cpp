@@ -10,7 +10,7 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
-#include "core/statistics/median.hpp"
+#include "core/statistics/percentile.hpp"
 #include "fit/closest_point.hpp"
 
 namespace breast {

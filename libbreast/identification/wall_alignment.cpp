@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/statistics/median.hpp"
+#include "core/statistics/percentile.hpp"
 #include "core/table.hpp"
 #include "identification/observations.hpp"
 #include "identification/wall_map.hpp"

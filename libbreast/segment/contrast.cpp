@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
-#include "core/statistics/median.hpp"
+#include "core/statistics/percentile.hpp"
 #include "core/table.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/work.hpp"

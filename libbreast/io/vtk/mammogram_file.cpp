@@ -64,7 +64,7 @@ void check_pose(const ViewPose& pose, const std::string& where) {
   }
 }
 
-std::string content_of(const Mammogram& image) {
+std::string content_of_image(const Mammogram& image) {
   Sha256 hash;
   for (const Vec3& v : {image.pose.n, image.pose.e_u, image.pose.e_v, image.pose.origin}) {
     hash.update(v.data(), sizeof(double) * 3);
@@ -122,7 +122,7 @@ Mammogram parse_mammogram(const std::filesystem::path& file) {
     image.through_back.push_back(flag != 0 ? 1 : 0);
   }
   image.history = history_field(fields, where);
-  image.content_sha256 = content_of(image);
+  image.content_sha256 = content_of_image(image);
   return image;
 }
 

@@ -9,7 +9,7 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
-#include "core/statistics/median.hpp"
+#include "core/statistics/percentile.hpp"
 #include "core/units.hpp"
 #include "segment/body/debris.hpp"
 #include "segment/grid/itk_filters.hpp"

@@ -10,7 +10,7 @@
 
 namespace breast {
 
-/// Depth of a column without the surface: not a number.
+/// Value of a column without the surface, or without the thickness measured from it: not a number.
 inline constexpr double no_depth = std::numeric_limits<double>::quiet_NaN();
 
 /// Depth (mm along j from the grid's first voxel centre) per column (i,k), or no_depth.

@@ -7,7 +7,7 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
-#include "core/statistics/median.hpp"
+#include "core/statistics/percentile.hpp"
 #include "segment/body/body.hpp"
 
 namespace breast {

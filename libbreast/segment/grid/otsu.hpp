@@ -7,7 +7,8 @@
 
 namespace breast {
 
-/// The first class above the threshold; `otherwise` if all values are in one class.
+/// The first class above the threshold of a histogram whose classes, in ascending order, hold
+/// `count` values; `otherwise` if all values are in one class, or there are none.
 int otsu_class(const std::vector<double>& count, int otherwise);
 
 }  // namespace breast

@@ -23,9 +23,9 @@ std::array<double, degree + 1> legendre(double t) {
 
 /// The bounding box of the numbered blocks, mapped to [-1, 1]³, on which the polynomials are
 /// defined.
-class Box {
+class CubeOfBlocks {
  public:
-  explicit Box(const Blocks& blocks) : grid_(blocks.level.grid) {
+  explicit CubeOfBlocks(const Blocks& blocks) : grid_(blocks.level.grid) {
     first_ = grid_.size;
     for (std::size_t n = 0; n < blocks.number.size(); ++n) {
       if (blocks.number[n] < 0) continue;
@@ -88,15 +88,15 @@ std::vector<double> coil_trend(const Blocks& blocks) {
   std::vector<double> trend(blocks.number.size(), 0);
   const std::vector<BlockLink> links = links_of(blocks);
   if (links.empty()) return trend;
-  const Box box(blocks);
+  const CubeOfBlocks cube(blocks);
   std::vector<Terms> rows(links.size());
   for (std::size_t n = 0; n < links.size(); ++n)
-    rows[n] = box.terms_at(links[n].to) - box.terms_at(links[n].from);
+    rows[n] = cube.terms_at(links[n].to) - cube.terms_at(links[n].from);
   const Terms found = least_absolute(rows, links);
   double mean = 0;
   for (std::size_t n = 0; n < trend.size(); ++n) {
     if (blocks.number[n] < 0) continue;
-    trend[n] = box.terms_at(n).dot(found);
+    trend[n] = cube.terms_at(n).dot(found);
     mean += trend[n] / blocks.count;
   }
   for (std::size_t n = 0; n < trend.size(); ++n)

@@ -29,7 +29,7 @@ double model(double x, double thickness, double sigma) {
   return skin_to_fat * rise(x) + (1 - skin_to_fat) * rise(x - thickness);
 }
 
-/// What the profile misses of fat (mm) over `reach` behind the place where it passes `edge`.
+/// What the profile misses of fat (mm) over `profile_reach` behind the place where it passes `edge`.
 template <class Profile>
 double deficit_behind(double place, const Profile& profile) {
   double sum = 0;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/statistics/median.hpp"
+#include "core/statistics/percentile.hpp"
 #include "segment/wall/legendre_surface.hpp"
 #include "segment/wall/min_cut.hpp"
 #include "segment/wall/wall_cost.hpp"
@@ -195,7 +195,7 @@ HeightField median_filtered(const HeightField& depth, const WallDomain& domain) 
   return out;
 }
 
-/// Nearest bright-to-dark crossing of `level` within `reach` mm; NaN when there is none.
+/// Nearest bright-to-dark crossing of `level` within `reach` mm; no_depth when there is none.
 double nearest_crossing(const std::vector<float>& profile, double step, double from, double level,
                         double reach) {
   double best = no_depth;

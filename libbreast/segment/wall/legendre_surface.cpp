@@ -9,8 +9,8 @@ namespace breast {
 
 namespace {
 
-constexpr int degree_x = 6, degree_z = 3, terms = (degree_x + 1) * (degree_z + 1);
-using Coefficients = Eigen::Matrix<double, terms, 1>;
+constexpr int degree_x = 6, degree_z = 3, surface_terms = (degree_x + 1) * (degree_z + 1);
+using Coefficients = Eigen::Matrix<double, surface_terms, 1>;
 
 Coefficients basis(double x, double z) {
   const auto legendre = [](double t, int degree, double* p) {
@@ -40,8 +40,8 @@ HeightField legendre_surface(const HeightField& depth, const HeightField& confid
   HeightField fit(depth.nx, depth.nz, no_depth);
   double scale = 1e9;  // first pass: plain weighted least squares
   for (int pass = 0; pass < 6; ++pass) {
-    Eigen::Matrix<double, terms, terms> matrix =
-        1e-3 * Eigen::Matrix<double, terms, terms>::Identity();
+    Eigen::Matrix<double, surface_terms, surface_terms> matrix =
+        1e-3 * Eigen::Matrix<double, surface_terms, surface_terms>::Identity();
     Coefficients right = Coefficients::Zero();
     std::vector<double> residuals;
     for (int k = 0; k < depth.nz; ++k) {

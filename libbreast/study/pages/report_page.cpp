@@ -127,7 +127,7 @@ struct Words {
   bool tumour = false;
   std::string in_4, in_6;  ///< text in the caption
 };
-Words words_of(const std::string& origin) {
+Words tumour_words(const std::string& origin) {
   if (origin == "none") return {};
   const std::string name = origin == "artificial" ? "the artificial tumour" : "the tumour";
   return {true, " and " + name, " " + name};
@@ -343,7 +343,7 @@ std::string commands(const fs::path& run) {
 std::string report_page(const fs::path& run, const ReportContext& context) {
   const std::string name = escaped(run.filename()), calibrated = escaped(context.calibration);
   const std::string origin = tumour_origin(StageReport::read(run / "mesh.json"));
-  const Words words = words_of(origin);
+  const Words words = tumour_words(origin);
   std::string html = page_head("libbreast: " + run.filename().string(), report_style) +
                      "<h1>Breast deformation: case " + name + "</h1>\n";
   html +=

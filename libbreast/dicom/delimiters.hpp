@@ -6,6 +6,7 @@
 
 namespace breast {
 
+/// Group in the upper 16 bits, element in the lower.
 inline constexpr std::uint32_t item_tag = 0xfffee000, item_end_tag = 0xfffee00d,
                                sequence_end_tag = 0xfffee0dd;
 /// Length of a sequence or item that ends with its delimiter.

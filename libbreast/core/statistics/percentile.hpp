@@ -9,7 +9,8 @@
 
 namespace breast {
 
-/// The middle value, of an even number the upper of the two; `fallback` if there are none.
+/// The middle value, of an even number the upper of the two; `fallback` if there are none. No value
+/// may be NaN.
 template <class T>
 double median(std::vector<T> values, double fallback = std::numeric_limits<double>::quiet_NaN()) {
   if (values.empty()) return fallback;
@@ -18,7 +19,9 @@ double median(std::vector<T> values, double fallback = std::numeric_limits<doubl
   return *place;
 }
 
-/// The value at `fraction` (0 to 1) of the sorted values; `fallback` if there are none.
+/// The value at rank `fraction` (n - 1), rounded down, of the n sorted values, without
+/// interpolation; at 0.5 of an even number the lower of the two middle values, unlike median().
+/// `fallback` if there are none. No value may be NaN.
 template <class T>
 double percentile(std::vector<T> values, double fraction,
                   double fallback = std::numeric_limits<double>::quiet_NaN()) {
