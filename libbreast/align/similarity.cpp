@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/statistics/percentile.hpp"
 
 namespace breast {
 
@@ -156,9 +157,7 @@ class Fit {
     if (pairs_.empty()) return finest;
     std::vector<double> apart;
     for (const Pairing& p : pairs_) apart.push_back(std::abs(p.distance));
-    const auto middle = apart.begin() + std::ptrdiff_t(apart.size() / 2);
-    std::nth_element(apart.begin(), middle, apart.end());
-    return 1.4826 * *middle;
+    return 1.4826 * median(std::move(apart));
   }
 
   Vec2 nipple_apart() const {

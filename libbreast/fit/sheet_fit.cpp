@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/statistics/percentile.hpp"
 #include "fit/closest_point.hpp"
 #include "fit/hermite_basis.hpp"
 #include "fit/line_solve.hpp"
@@ -238,11 +239,8 @@ FoldCheck check_folds(const HermiteSheet& sheet, int per_patch) {
       if (j + 1 < rows)
         check.min_cosine = std::min(check.min_cosine, normal[at].dot(normal[at + columns]));
     }
-  std::vector<double> sorted = area;
-  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2),
-                   sorted.end());
-  const double median = sorted[sorted.size() / 2];
-  check.min_area_ratio = *std::min_element(area.begin(), area.end()) / std::max(1e-12, median);
+  check.min_area_ratio =
+      *std::min_element(area.begin(), area.end()) / std::max(1e-12, median(area));
   return check;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/statistics/percentile.hpp"
 
 namespace breast {
 
@@ -37,8 +38,7 @@ double spacing_of(const std::vector<Vec3>& points) {
     }
     nearest.push_back(std::sqrt(best));
   }
-  std::nth_element(nearest.begin(), nearest.begin() + long(nearest.size() / 2), nearest.end());
-  return nearest[nearest.size() / 2];
+  return median(std::move(nearest));
 }
 
 }  // namespace

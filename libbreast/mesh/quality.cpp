@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/statistics/percentile.hpp"
 #include "mesh/gauss.hpp"
 #include "mesh/lattice.hpp"
 #include "mesh/positivity.hpp"
@@ -152,9 +153,7 @@ MeshQuality mesh_quality(const HexMesh& mesh, const std::vector<Vec3>& nodal) {
   }
   quality.worst_element = int(std::min_element(scaled.begin(), scaled.end()) - scaled.begin());
   quality.min_scaled_jacobian = scaled[quality.worst_element];
-  const std::size_t middle = scaled.size() / 2;
-  std::nth_element(scaled.begin(), scaled.begin() + middle, scaled.end());
-  quality.median_scaled_jacobian = scaled[middle];
+  quality.median_scaled_jacobian = median(std::move(scaled));
   return quality;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/error.hpp"
+#include "core/statistics/percentile.hpp"
 #include "core/table.hpp"
 #include "page/parts.hpp"
 #include "page/script_text.hpp"
@@ -27,12 +28,6 @@ Grid grid_about(const Box& box) {
   }
 }
 
-double at_rank(std::vector<float> values, double rank) {
-  const auto place = values.begin() + std::ptrdiff_t(rank * double(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return double(*place);
-}
-
 }  // namespace
 
 std::string scan_json(const Volume<float>& scan, const HexMesh& mesh) {
@@ -52,7 +47,7 @@ std::string scan_json(const Volume<float>& scan, const HexMesh& mesh) {
         "the scan covers ", 100 * inside.size() / grid.voxels(),
         " % of the bounding box of the imaged breast; give the scan that was segmented as --scan");
   }
-  const double low = at_rank(inside, 0.01), high = at_rank(inside, 0.995),
+  const double low = percentile(inside, 0.01), high = percentile(inside, 0.995),
                range = std::max(high - low, 1e-30);
   std::vector<std::uint8_t> grey;
   grey.reserve(values.size());

@@ -7,6 +7,7 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "core/statistics/percentile.hpp"
 #include "segment/body/side.hpp"
 #include "segment/contrast.hpp"
 #include "segment/grid/filters.hpp"
@@ -166,11 +167,7 @@ void summarise(Segmentation& result, const Work& work) {
   result.wall_confidence_mean = count > 0 ? sum / count : 0;
   result.wall_confident_percent = count > 0 ? 100 * sure / count : 0;
   result.wall_sigma_mean = count > 0 ? sigma / count : 0;
-  if (!sigmas.empty()) {
-    const auto place = sigmas.begin() + std::ptrdiff_t(0.95 * double(sigmas.size() - 1));
-    std::nth_element(sigmas.begin(), place, sigmas.end());
-    result.wall_sigma_p95 = *place;
-  }
+  result.wall_sigma_p95 = percentile(std::move(sigmas), 0.95, result.wall_sigma_p95);
 }
 
 /// What a reader of the result should look at, but for its extent.

@@ -9,6 +9,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/words.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/chain_files.hpp"
 #include "fixtures/run_tool.hpp"
@@ -72,12 +73,6 @@ inline const std::vector<Case>& cases() {
                              "--expected 20,50,100,0.05,0.05 --expected-ln-sd 0.2 --reduction 10", 0},
   };
   return list;
-}
-
-/// The words of a line, the tool's name first.
-inline std::vector<std::string> words_of(const std::string& line) {
-  std::istringstream in(line);
-  return {std::istream_iterator<std::string>(in), {}};
 }
 
 /// Writes what the cases read.

@@ -6,6 +6,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/report.hpp"
+#include "core/text/words.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/samples.hpp"
 #include "fixtures/scratch_folder.hpp"
@@ -15,8 +16,7 @@ namespace breast {
 namespace {
 
 std::vector<std::string> all_tools() {
-  std::istringstream in(BREAST_TOOLS);
-  return {std::istream_iterator<std::string>(in), {}};
+  return words_of(BREAST_TOOLS);
 }
 
 TEST(CommonFace, EveryToolIsBuilt) {

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "core/atomic_file.hpp"
+#include "core/text/words.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/samples.hpp"
 #include "fixtures/scratch_folder.hpp"
@@ -109,11 +110,6 @@ void write_samples(const ScratchFolder& folder) {
   write_polylines(folder / "curve.vtp", curve());
 }
 
-std::vector<std::string> words(const char* line) {
-  std::istringstream in(line);
-  return {std::istream_iterator<std::string>(in), {}};
-}
-
 std::set<std::string> listing(const ScratchFolder& folder) {
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder.path())) {
@@ -131,7 +127,7 @@ class Damaged : public testing::TestWithParam<Reading> {
   // Exit 2, one line naming the damaged file, nothing on stdout, no new file.
   void expect_refusal(const std::string& damage) {
     const Reading& reading = GetParam();
-    const ToolResult result = run_tool(reading.tool, words(reading.line), folder_.path());
+    const ToolResult result = run_tool(reading.tool, words_of(reading.line), folder_.path());
     const std::string where = std::string(reading.tool) + ", " + damage + ": " + result.err;
     EXPECT_EQ(result.exit_code, 2) << where;
     EXPECT_EQ(result.error_lines(), 1) << where;
@@ -176,7 +172,7 @@ TEST_P(Damaged, BytesFlippedBehindTheSeal) {
     damaged[random() % std::min<std::size_t>(body.size(), i % 2 ? 4000 : body.size())] ^=
         char(1 << random() % 8);
     write_text(bad, damaged);
-    const ToolResult result = run_tool(reading.tool, words(reading.line), folder_.path());
+    const ToolResult result = run_tool(reading.tool, words_of(reading.line), folder_.path());
     const std::string where =
         std::string(reading.tool) + ", damage " + std::to_string(i) + ": " + result.err;
     EXPECT_GE(result.exit_code, 0) << where;

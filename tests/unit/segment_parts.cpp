@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nipple, debris, ghosts, skin thickness and compact gland, each on a body made for it.
+// Nipple, debris, ghosts, skin thickness and compact gland, each on a body made for it; the split of a histogram.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "fixtures/compact_gland.hpp"
 #include "segment/body/debris.hpp"
 #include "segment/grid/itk_filters.hpp"
+#include "segment/grid/otsu.hpp"
 #include "segment/segment.hpp"
 #include "segment/tissue/compact_gland.hpp"
 #include "segment/tissue/nipple.hpp"
@@ -214,6 +215,12 @@ double compact_volume_found(double brightness, double scale = 0.65, double bias 
       segment_breast(testing::scan_of_compact_gland(truth, brightness), {}, no_progress(), timer);
   const testing::GlandVolume volume = testing::compact_gland_volume(truth, result.labels);
   return volume.found_ml / volume.true_ml;
+}
+
+TEST(Otsu, SplitsBetweenTheTwoHeaps) {
+  EXPECT_EQ(otsu_class({5, 0, 0, 5}, 9), 1);
+  EXPECT_EQ(otsu_class({0, 7, 0}, 2), 2);  // one class only
+  EXPECT_EQ(otsu_class({}, 3), 3);
 }
 
 // Nearly all of each was lost: the estimate of the bias followed the gland. 7 %: a third of a voxel all round.

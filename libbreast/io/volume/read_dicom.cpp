@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/guarded_child.hpp"
+#include "core/statistics/percentile.hpp"
 #include "dicom/header.hpp"
 #include "io/volume/dicom.hpp"
 #include "io/volume/header.hpp"
@@ -134,8 +135,7 @@ double slice_spacing(const fs::path& folder, const std::vector<Slice>& slices) {
   for (std::size_t n = 1; n < slices.size(); ++n) {
     steps.push_back(slices[n].along - slices[n - 1].along);
   }
-  std::nth_element(steps.begin(), steps.begin() + long(steps.size() / 2), steps.end());
-  const double usual = steps[steps.size() / 2];
+  const double usual = median(steps);
   if (!(slices.back().along - slices.front().along > 1e-3)) {
     throw input_error(folder.string(),
                       ": all slices lie at one position (several time points?): "

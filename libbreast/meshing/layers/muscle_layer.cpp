@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/statistics/percentile.hpp"
 #include "core/table.hpp"
 #include "mesh/nodal.hpp"
 #include "mesh/nodal_faces.hpp"
@@ -110,9 +111,7 @@ MuscleThickness measured_muscle_thickness(const LabelVolume& labels, const HexMe
     if (depth > first && depth <= most) runs.push_back(depth - 0.5 * step);
   }
   if (2 * runs.size() < ways.size()) return {};
-  const auto middle = runs.begin() + std::ptrdiff_t(runs.size() / 2);
-  std::nth_element(runs.begin(), middle, runs.end());
-  return {*middle, true};
+  return {median(std::move(runs)), true};
 }
 
 double parse_muscle_thickness(const std::string& text) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/statistics/percentile.hpp"
 #include "core/units.hpp"
 #include "segment/grid/itk_filters.hpp"
 #include "segment/tissue/coil_trend.hpp"
@@ -35,9 +36,7 @@ void mark_edges(std::vector<BlockLink>& links) {
   if (links.empty()) return;
   std::vector<double> changes;
   for (const BlockLink& link : links) changes.push_back(std::abs(link.change));
-  const auto middle = changes.begin() + std::ptrdiff_t(changes.size() / 2);
-  std::nth_element(changes.begin(), middle, changes.end());
-  const double limit = std::max(least_edge, usual_changes * *middle);
+  const double limit = std::max(least_edge, usual_changes * median(std::move(changes)));
   std::map<std::pair<std::size_t, int>, BlockLink*> starting;  // by block and axis
   for (BlockLink& link : links) starting[{link.from, link.axis}] = &link;
   for (BlockLink& link : links) {
@@ -62,10 +61,9 @@ std::vector<double> steps_below_fat(const Blocks& blocks) {
     levels.push_back(blocks.level.voxels[n]);
   }
   if (levels.empty()) return steps;
-  const auto place = levels.begin() + std::ptrdiff_t(fat * double(levels.size() - 1));
-  std::nth_element(levels.begin(), place, levels.end());
+  const double level = percentile(std::move(levels), fat);
   for (std::size_t n = 0; n < steps.size(); ++n) {
-    if (blocks.number[n] >= 0) steps[n] += *place;
+    if (blocks.number[n] >= 0) steps[n] += level;
   }
   return steps;
 }

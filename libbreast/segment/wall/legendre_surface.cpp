@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segment/wall/legendre_surface.hpp"
+#include "core/statistics/percentile.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -62,9 +63,7 @@ HeightField legendre_surface(const HeightField& depth, const HeightField& confid
       for (int i = domain.first; i <= domain.last; ++i) fit.at(i, k) = place(i, k).dot(solution);
     }
     if (!residuals.empty()) {
-      std::nth_element(residuals.begin(), residuals.begin() + std::ptrdiff_t(residuals.size() / 2),
-                       residuals.end());
-      scale = std::max(4.685 * 1.4826 * residuals[residuals.size() / 2], 4.0);
+      scale = std::max(4.685 * 1.4826 * median(residuals), 4.0);
     } else if (pass == 0) {
       scale = 20;
     }
