@@ -13,7 +13,7 @@ namespace breast {
 BreastFrames::BreastFrames(const PhantomBreast& breast, const Grid& grid)
     : breast_(breast),
       grid_(grid),
-      locator_(breast.mesh, breast.mesh.points),
+      locator_(breast.imaged_mesh(), breast.imaged_mesh().points),
       nipple_(breast.mesh.points[breast.mesh.nipple_node]) {
   const Vec3 margin(16, 16, 16);
   // Corners of the box in a grid that may be rotated relative to it.
@@ -72,7 +72,7 @@ bool BreastFrames::at(int i, int j, int k, MaterialFrame& out) const {
 
 // Outside the mesh the map is extrapolated linearly from the nearest point of the mesh.
 MaterialFrame BreastFrames::frame(const Location& location, const Vec3& x) const {
-  const HexMesh& mesh = breast_.mesh;
+  const HexMesh& mesh = breast_.imaged_mesh();
   std::array<Vec3, 27> imaged, stress_free;
   const int* vtk = lattice::vtk_nodes(mesh.order);
   const int* nodes = mesh.element(location.element);

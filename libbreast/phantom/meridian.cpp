@@ -92,13 +92,14 @@ struct Plane {
 };
 
 // From the end of the fold to the cut, mm.
-double rim_width(const BreastShape& shape, double azimuth) {
+double rim_width(const BreastShape& shape, double beyond, double azimuth) {
   const BreastParameters& p = shape.parameters();
   const double towards_side = 0.5 * (1 + lateral_sign(shape.side()) * elementary::cos(azimuth));
-  return p.rim + p.flank * towards_side * towards_side;
+  const double square = towards_side * towards_side;
+  return p.rim + p.flank * square + beyond * square * square;
 }
 
-Plane meridian_plane(const BreastShape& shape, double azimuth) {
+Plane meridian_plane(const BreastShape& shape, double beyond, double azimuth) {
   const auto point = [&](const Vec2& p) { return shape.at(p.x(), azimuth, p.y()); };
   const Field skin = [&](const Vec2& p) { return shape.skin_distance(point(p)); };
   const Field wall = [&](const Vec2& p) { return shape.torso().wall_distance(point(p)); };
@@ -107,7 +108,7 @@ Plane meridian_plane(const BreastShape& shape, double azimuth) {
     return p.x() > 10 ? shape.beyond_fold(point(p), 0.0) : -1.0;
   });
   const Vec2 fold = dome.back();
-  const double width = rim_width(shape, azimuth);
+  const double width = rim_width(shape, beyond, azimuth);
   const Curve skirt = follow(
       skin, fold, [&](const Vec2& p) { return shape.beyond_fold(point(p), 1.0) - width; });
   // Base points of fold and rim: perpendicular to the wall.
@@ -127,13 +128,13 @@ std::array<double, 4> cubic_weights(double t) {
 
 }  // namespace
 
-MeridianMap::MeridianMap(const BreastShape& shape)
+MeridianMap::MeridianMap(const BreastShape& shape, double beyond)
     : shape_(shape), skin_(n_azimuth), wall_(n_azimuth) {
   std::exception_ptr failure;
 #pragma omp parallel for schedule(dynamic) num_threads(threads())
   for (int j = 0; j < n_azimuth; ++j) {
     try {
-      Plane plane = meridian_plane(shape, 2 * std::numbers::pi * j / n_azimuth);
+      Plane plane = meridian_plane(shape, beyond, 2 * std::numbers::pi * j / n_azimuth);
       skin_[j] = std::move(plane.skin);
       wall_[j] = std::move(plane.wall);
     } catch (...) {

@@ -15,8 +15,9 @@ namespace breast {
 /// of the fillet between breast and chest) and 2 at the rim where the cut begins.
 class MeridianMap {
  public:
-  /// Throws Error (input) when the breast's outline cannot be followed to the chest.
-  explicit MeridianMap(const BreastShape& shape);
+  /// The rim lies `beyond` mm farther at the breast's side than the shape's parameters say. Throws
+  /// Error (input) when the breast's outline cannot be followed to the chest.
+  explicit MeridianMap(const BreastShape& shape, double beyond = 0);
 
   Vec3 skin(double parameter, double azimuth) const { return position(skin_, parameter, azimuth); }
   Vec3 wall(double parameter, double azimuth) const { return position(wall_, parameter, azimuth); }

@@ -91,6 +91,7 @@ void put_on_ribs(PhantomParameters& p) {
   p.torso.tilt = 0.22, p.torso.bend = 3e-4;
   p.body.materials = "phantom2026";
   p.body.slides = true;
+  p.body.beyond = 16;
   p.mesh.skirt = 4;
   if (p.preset == "average") {
     p.torso.half_width = 142, p.torso.half_depth = 110, p.torso.power = 2.0;
@@ -192,6 +193,7 @@ void write_parameters(const PhantomParameters& p, Report& report) {
   if (p.body.slides) {
     report.set("parameters/wall_percent", p.body.wall_percent);
     report.set("parameters/cut_percent", p.body.cut_percent);
+    report.set("parameters/beyond_mm", p.body.beyond);
   }
   write_breast("parameters/left/", p.left, report);
   write_breast("parameters/right/", p.right, report);

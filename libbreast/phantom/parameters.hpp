@@ -76,6 +76,9 @@ struct BodyParameters {
   std::vector<std::string> scale = {};  ///< TISSUE=PERCENT of the set
   bool slides = false;
   double wall_percent = 100, cut_percent = 100;  ///< stiffness of wall and cut in percent of the set's, for sliding breasts
+  /// mm by which a body that slides goes on at its side past the cut in the prone image. A breast on
+  /// its back hangs over a near cut, whose elements fold at the wall.
+  double beyond = 0;
 };
 
 struct PhantomParameters {

@@ -112,7 +112,7 @@ HexMesh half_resolution(const PhantomBreast& breast, const PhantomParameters& pa
   size.core = 2 * half(half(size.core));
   size.shell = half(size.shell), size.skirt = half(size.skirt);
   size.slab = half(size.slab), size.rise = half(size.rise);
-  HexMesh mesh = phantom_mesh(breast.shape, breast.map, size);
+  HexMesh mesh = phantom_mesh(breast.shape, breast.body_map(), size);
   assign_gland(breast.gland, mesh);
   mesh.skin_model = breast.mesh.skin_model;
   if (mesh.skin_model == SkinModel::membrane)

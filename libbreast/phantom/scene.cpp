@@ -20,8 +20,12 @@ namespace breast {
 PhantomBreast::PhantomBreast(const PhantomParameters& parameters, const Torso& torso, Side side)
     : shape(parameters, torso, side),
       map(shape),
+      wider(parameters.body.beyond > 0
+                ? std::optional<MeridianMap>(std::in_place, shape, parameters.body.beyond)
+                : std::nullopt),
       gland(shape, parameters.gland, mix(parameters.seed, side == Side::left ? 201 : 202)),
-      mesh(phantom_mesh(shape, map, parameters.mesh)) {
+      mesh(phantom_mesh(shape, body_map(), parameters.mesh)) {
+  if (wider) seen = phantom_mesh(shape, map, parameters.mesh);
   assign_gland(gland, mesh);
   mesh.skin_model = parameters.skin > 0 ? SkinModel::membrane : SkinModel::none;
   if (parameters.skin > 0) mesh.skin_thickness.assign(mesh.skin_faces.size(), parameters.skin);

@@ -14,7 +14,9 @@
 namespace breast {
 
 /// One breast. `mesh.reference` is stress-free. Once solved, `mesh.imaged` is prone, and
-/// `mesh.points` is prone or, after lie_supine(), supine.
+/// `mesh.points` is prone or, after lie_supine(), supine. A body that slides goes on at its side past
+/// the cut in the prone image (BodyParameters::beyond); its prone image is made from `seen`, which
+/// ends there and has the same elements, with the same nodes up to the fold.
 struct PhantomBreast {
   PhantomBreast(const PhantomParameters& parameters, const Torso& torso, Side side);
   PhantomBreast(const PhantomBreast&) = delete;
@@ -24,13 +26,18 @@ struct PhantomBreast {
   bool inside_cut(const Vec3& x, double margin) const {
     return supine_cut ? supine_cut->inside(x, margin) : map.inside_cut(x, margin);
   }
+  /// The mesh in which the image shows breast: all of a supine body, a prone one up to `map`'s rim.
+  const HexMesh& imaged_mesh() const { return seen && !supine_cut ? *seen : mesh; }
+  const MeridianMap& body_map() const { return wider ? *wider : map; }
   /// Gives the breast its supine shape, for imaging and truth; mesh.imaged remains prone.
   void lie_supine(const std::vector<Vec3>& points);
 
   BreastShape shape;
-  MeridianMap map;
+  MeridianMap map;                   ///< up to the cut in the image
+  std::optional<MeridianMap> wider;  ///< up to the cut of the body, where that is another
   GlandField gland;
   HexMesh mesh;
+  std::optional<HexMesh> seen;
   std::optional<CutOutline> supine_cut;
 };
 

@@ -122,6 +122,34 @@ TEST(RibSpline, IsTheRibSurfaceWhereBreastsSlide) {
   EXPECT_THROW(rib_spline(steep), Error);
 }
 
+// Only the ring of fat behind the fold is longer at the side; what the image shows and where
+// landmarks lie does not depend on it.
+TEST(PhantomBreast, ABodyThatSlidesGoesOnPastTheCutOfTheImage) {
+  PhantomParameters p = phantom_preset("heavy", 1);
+  p.mesh = coarse_mesh(p);
+  const Torso torso(p.torso, 1);
+  const PhantomBreast breast(p, torso, Side::right);
+  ASSERT_TRUE(breast.seen);
+  const std::vector<Vec3>&body = breast.mesh.points, &seen = breast.seen->points;
+  ASSERT_EQ(body.size(), seen.size());
+  double farthest = 0;
+  for (std::size_t n = 0; n < body.size(); ++n) {
+    if (body[n] == seen[n]) continue;
+    farthest = std::max(farthest, (body[n] - seen[n]).norm());
+    EXPECT_GT(breast.shape.beyond_fold(seen[n], 0.0), -1e-6);
+  }
+  // Least at the skin, most at the wall, which falls away.
+  EXPECT_GT(farthest, p.body.beyond);
+  EXPECT_LT(farthest, 2 * p.body.beyond);
+  p.body.beyond = 0;
+  const PhantomBreast narrow(p, torso, Side::right);
+  EXPECT_FALSE(narrow.seen);
+  EXPECT_EQ(&narrow.imaged_mesh(), &narrow.mesh);
+  EXPECT_EQ(narrow.mesh.points, seen);
+  for (std::size_t k = 0; k < breast.mesh.landmarks.size(); ++k)
+    EXPECT_EQ(breast.mesh.landmarks[k].imaged, narrow.mesh.landmarks[k].imaged);
+}
+
 TEST(BodyMaterials, ASlidingBreastNeedsSupportsAndTheyAreScaled) {
   BodyParameters body;
   body.materials = "phantom2026", body.slides = true, body.wall_percent = 120, body.cut_percent = 50;
