@@ -78,6 +78,13 @@ double moved_mm(const std::vector<Shape>& shapes, std::size_t k, const Landmark&
   return (place_in(shapes[k], landmark) - place_in(shapes.front(), landmark)).norm();
 }
 
+/// Whether the motion of a landmark is stated in words: of many, only those that everybody looks for,
+/// since words would hide one another.
+bool is_named(const HexMesh& mesh, const Landmark& landmark) {
+  constexpr std::size_t few = 8;
+  return mesh.landmarks.size() <= few || landmark.name == "nipple" || landmark.name == "tumour";
+}
+
 /// Rings at the positions of the landmarks in every shape, and arrows from the first to the last.
 void add_arrows(Panel& panel, const std::vector<Shape>& shapes) {
   for (const Landmark& landmark : shapes.front().mesh->landmarks) {
@@ -86,7 +93,7 @@ void add_arrows(Panel& panel, const std::vector<Shape>& shapes) {
     for (std::size_t k = 0; k < shapes.size(); ++k) {
       panel.ring(place_in(shapes[k], landmark), landmark_ring_pixels, colour_of(k));
     }
-    if (shapes.size() < 2) continue;
+    if (shapes.size() < 2 || !is_named(*shapes.front().mesh, landmark)) continue;
     std::string name = landmark.name;
     std::replace(name.begin(), name.end(), '_', ' ');
     // Beyond the head of the arrow, where the text hides no mark.
@@ -157,7 +164,7 @@ double add_shape_legend(Panel& panel, const std::vector<Shape>& shapes) {
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     std::string words = shapes[k].name;
     for (const Landmark& landmark : shapes[k].mesh->landmarks) {
-      if (k == 0) continue;
+      if (k == 0 || !is_named(*shapes[k].mesh, landmark)) continue;
       std::string name = landmark.name;
       std::replace(name.begin(), name.end(), '_', ' ');
       words += ", " + name + " moved " + format_fixed(moved_mm(shapes, k, landmark), 0) + " mm";
