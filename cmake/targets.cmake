@@ -75,8 +75,8 @@ endfunction()
 
 option(BREAST_UNITY "Compile the files of some libraries a dozen at a time: a build from nothing is shorter, one after a change longer")
 # The dearest of those that a program takes as a whole. Of the others, as core and io, it takes a few files, and would
-# link with the rest of a dozen what it does not need. None is in BREAST_NATIVE_FOLDERS: which products are fused must
-# not depend on what is compiled together.
+# link with the rest of a dozen what it does not need. Never those of BREAST_NATIVE_FOLDERS: which products are fused
+# must not depend on what is compiled together.
 set(BREAST_UNITY_LIBRARIES segment study figures xray phantom slicer)
 # breast_library(NAME DEPENDS lib... SYSTEM third-party...): target breast_NAME from the .cpp files of this
 # folder and of the folders in it. Third parties are PRIVATE: no header of ours shows them. COLD: none of its
@@ -97,9 +97,9 @@ function(breast_library name)
     breast_use_precompiled(breast_${name} native)
   else()
     breast_use_precompiled(breast_${name} common)
-  endif()
-  if(BREAST_UNITY AND name IN_LIST BREAST_UNITY_LIBRARIES)
-    set_target_properties(breast_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    if(BREAST_UNITY AND name IN_LIST BREAST_UNITY_LIBRARIES)
+      set_target_properties(breast_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    endif()
   endif()
   list(TRANSFORM ARG_DEPENDS PREPEND breast_)
   target_link_libraries(breast_${name} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_SYSTEM})
