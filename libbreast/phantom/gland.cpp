@@ -96,6 +96,21 @@ double piece_distance(const GlandPiece& piece, const Vec3& x) {
   return (d - t * along).norm() - piece.radius;
 }
 
+/// Sphere around a piece. No point is nearer to the piece than to the sphere, to which the
+/// distance is quicker to compute.
+struct Sphere {
+  Vec3 centre;
+  double radius;
+  explicit Sphere(const GlandPiece& piece)
+      : centre(0.5 * (piece.from + piece.to)),
+        radius(0.5 * (piece.to - piece.from).norm() + piece.radius + rounding) {}
+  bool within(double distance, const Vec3& x) const {
+    const double most = distance + radius;
+    return most > 0 && (x - centre).squaredNorm() < most * most;
+  }
+  static constexpr double rounding = 1e-9;
+};
+
 // For every bin of 8 mm the pieces that may matter within it.
 class Bins {
  public:
@@ -180,6 +195,7 @@ GlandField::GlandField(const BreastShape& shape, const GlandParameters& paramete
 void GlandField::fill(const std::vector<GlandPiece>& pieces) {
   const Vec3 extent(lattice_.size[0], lattice_.size[1], lattice_.size[2]);
   const Bins bins(pieces, lattice_.origin, lattice_.origin + lattice_.spacing * extent);
+  const std::vector<Sphere> around(pieces.begin(), pieces.end());
   duct_.assign(lattice_.values.size(), float(reach));
 #pragma omp parallel for schedule(dynamic) num_threads(threads())
   for (int k = 0; k < lattice_.size[2]; ++k)
@@ -189,7 +205,8 @@ void GlandField::fill(const std::vector<GlandPiece>& pieces) {
         double nearest = reach, duct = reach;
         for (int n : bins.near(x)) {
           double& distance = pieces[n].duct ? duct : nearest;
-          distance = std::min(distance, piece_distance(pieces[n], x));
+          if (around[n].within(distance, x))
+            distance = std::min(distance, piece_distance(pieces[n], x));
         }
         if (nearest < reach) {
           nearest += 2.6 * lattice_noise(seed_ + 1, x / 22) +
