@@ -29,48 +29,63 @@ struct Case {
 
 inline const std::vector<Case>& cases() {
   static const std::vector<Case> list = {
-      {"segment", "segment scan.nrrd out.vtkhdf --side left --points out.vtp --overlay out.png "
-                  "--measures out.tsv", 9},
-      {"segment_as_nifti", "segment scan.nrrd out.nii.gz --side right", 8},
-      {"segment_dicom", "segment series out.nrrd --side right", 8},
-      {"fit_hermite", "fit-hermite scan_labels.vtkhdf out.vtkhdf --elements 3x3", 16},
-      {"hexmesh", "hexmesh geometry.vtkhdf labels.vtkhdf out.vtkhdf --elements 4 --accept-mismatch --surface out.vtp"},
-      {"backward", "backward cap.vtkhdf out.vtkhdf"},
-      {"forward", "forward cap_reference.vtkhdf out.vtkhdf"},
+      {"segment",
+       "segment scan.nrrd out.vtkhdf --side left --points out.vtp --overlay out.png "
+       "--measures out.tsv",
+       18},
+      {"segment_as_nifti", "segment scan.nrrd out.nii.gz --side right", 16},
+      {"segment_dicom", "segment series out.nrrd --side right", 16},
+      {"fit_hermite", "fit-hermite scan_labels.vtkhdf out.vtkhdf --elements 3x3", 30},
+      {"hexmesh",
+       "hexmesh geometry.vtkhdf labels.vtkhdf out.vtkhdf --elements 4 --accept-mismatch --surface out.vtp",
+       4},
+      {"backward", "backward cap.vtkhdf out.vtkhdf", 3},
+      {"forward", "forward cap_reference.vtkhdf out.vtkhdf", 3},
       {"backward_mpi", "backward-mpi cap.vtkhdf out.vtkhdf", 8},
       {"forward_mpi", "forward-mpi cap_reference.vtkhdf out.vtkhdf", 8},
       {"breast", "breast list"},
       {"cases", "cases record out left scan.nrrd"},
-      {"sensitivity", "sensitivity cap_reference.vtkhdf cap_supine.vtkhdf out.vtkhdf --table out.tsv"},
-      {"difference", "difference supine.vtkhdf supine.vtkhdf supine.vtkhdf out.vtkhdf"},
-      {"compress", "compress pressed.vtkhdf out.vtkhdf --view CC --reduction 5"},
-      {"project", "project-mammogram cc.vtkhdf out.vti --labels labels.vtkhdf --png out.png --dicom "
-                  "out.dcm --pixel 4", 3},
-      {"cc2mlo", "cc2mlo cc.vtkhdf mlo.vtkhdf out.vtp --landmark tumour --table out.tsv"},
-      {"cc2mlo_images", "cc2mlo cc.vtkhdf mlo.vtkhdf out.vtp --point 20,37 --cc-image cc.dcm --mlo-image "
-                        "mlo.dcm --picture out.png --curve-table out.tsv", 5},
-      {"match_lookup", "match-lookup cc.vtkhdf mlo.vtkhdf out.h5 --pitch 20 --page out.html --from-image "
-                       "cc.vti --to-image mlo.vti", 3},
+      {"sensitivity",
+       "sensitivity cap_reference.vtkhdf cap_supine.vtkhdf out.vtkhdf --table out.tsv", 3},
+      {"difference", "difference supine.vtkhdf supine.vtkhdf supine.vtkhdf out.vtkhdf", 4},
+      {"compress", "compress pressed.vtkhdf out.vtkhdf --view CC --reduction 5", 3},
+      {"project",
+       "project-mammogram cc.vtkhdf out.vti --labels labels.vtkhdf --png out.png --dicom "
+       "out.dcm --pixel 4",
+       5},
+      {"cc2mlo", "cc2mlo cc.vtkhdf mlo.vtkhdf out.vtp --landmark tumour --table out.tsv", 4},
+      {"cc2mlo_images",
+       "cc2mlo cc.vtkhdf mlo.vtkhdf out.vtp --point 20,37 --cc-image cc.dcm --mlo-image "
+       "mlo.dcm --picture out.png --curve-table out.tsv",
+       8},
+      {"match_lookup",
+       "match-lookup cc.vtkhdf mlo.vtkhdf out.h5 --pitch 20 --page out.html --from-image "
+       "cc.vti --to-image mlo.vti",
+       9},
       {"export_inp", "export-deck cap_reference.vtkhdf out.inp --without-skin"},
       {"export_feb", "export-deck cap_reference.vtkhdf out.feb --without-skin"},
-      {"export_slicer", "export-slicer . out --spacing 12", 60},
-      {"tetrahedra", "tetrahedra mesh.vtkhdf out.vtu"},
-      {"probe", "probe cc.vtkhdf supine.vtkhdf --base mesh.vtkhdf"},
+      {"export_slicer", "export-slicer . out --spacing 12", 120},
+      {"tetrahedra", "tetrahedra mesh.vtkhdf out.vtu", 4},
+      {"probe", "probe cc.vtkhdf supine.vtkhdf --base mesh.vtkhdf", 3},
       {"evaluate", "evaluate labels.vtkhdf labels.vtkhdf", 4},
       {"evaluate_nrrd", "evaluate labels.vtkhdf labels.nrrd", 4},
       {"laws", "laws seed2008"},
-      {"identify", "identify pressed.vtkhdf out.tsv --nipple 0,25,0 --materials seed2008 --parameters stiffness --second "
-                   "out.vtkhdf --table out.marks.tsv", 6},
+      {"identify",
+       "identify pressed.vtkhdf out.tsv --nipple 0,25,0 --materials seed2008 --parameters stiffness --second "
+       "out.vtkhdf --table out.marks.tsv",
+       6},
       {"population", "population supine.vtkhdf --table out.tsv --summary out.mean.tsv"},
-      {"render_mammogram", "render cc.vti mlo.vti curve.vtp --figure mammogram -o out.png", 12},
+      {"render_mammogram", "render cc.vti mlo.vti curve.vtp --figure mammogram -o out.png", 30},
       {"render_mesh", "render mesh.vtkhdf --figure mesh -o out.png", 0},
       {"tabulate", "tabulate wall . back front"},
       {"truth_table", "truth-table landmarks.tsv out.tsv cc.vtkhdf fine_cc.vtkhdf"},
       {"phantom_mesh", "phantom-mesh out.vtkhdf --preset small --level 0.5 --coarse 8", 0},
       {"phantom", "phantom out.nrrd --preset small --coarse 8 --truth out --dicom out-series", 0},
       {"calibrate", "calibrate --preset small --evaluations 4", 0},
-      {"calibrate_softness", "calibrate-softness pressed.vtkhdf --pressed pressed.vtkhdf --women women.tsv --set out.tsv "
-                             "--expected 20,50,100,0.05,0.05 --expected-ln-sd 0.2 --reduction 10", 0},
+      {"calibrate_softness",
+       "calibrate-softness pressed.vtkhdf --pressed pressed.vtkhdf --women women.tsv --set out.tsv "
+       "--expected 20,50,100,0.05,0.05 --expected-ln-sd 0.2 --reduction 10",
+       0},
   };
   return list;
 }

@@ -45,11 +45,13 @@ for folder in libbreast/*/; do
   esac
   allowed=" $name $depends "
   # Lines like  path/file.cpp:12:#include "mesh/shape.hpp"
-  includes=$(grep -rnE '^ *#include "[^"]+"' --include='*.hpp' --include='*.cpp' "$folder" || true)
-  violations=$(printf '%s\n' "$includes" | while IFS= read -r hit; do
-    target=$(printf '%s' "$hit" | sed 's/.*#include "\([^"/]*\)[/"].*/\1/')
-    case "$allowed" in *" $target "*) ;; *) [ -z "$hit" ] || echo "$hit: $name may not include $target" ;; esac
-  done)
+  violations=$(grep -rnE '^ *#include "[^"]+"' --include='*.hpp' --include='*.cpp' "$folder" |
+    awk -v name="$name" -v allowed="$allowed" '{
+      target = $0
+      sub(/.*#include "/, "", target)
+      sub(/["\/].*/, "", target)
+      if (!index(allowed, " " target " ")) print $0 ": " name " may not include " target
+    }')
   if [ -n "$violations" ]; then
     echo "$violations"
     bad=1
