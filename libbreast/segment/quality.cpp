@@ -58,6 +58,7 @@ std::vector<StageQuality> quality_of(const Segmentation& result) {
   constexpr double least_gland = 0.01;
   if (1 - result.fat_fraction > least_gland)
     tissue.of("fibroglandular_agreement", result.fibroglandular_agreement, 0.8, 0.5);
+  tissue.of("lost_edges_percent", result.lost_edges_percent, 40, 60);
   return {contrast.quality(), wall.quality(), extent.quality(), tissue.quality()};
 }
 

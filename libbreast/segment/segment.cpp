@@ -14,6 +14,7 @@
 #include "segment/grid/itk_filters.hpp"
 #include "segment/plausibility.hpp"
 #include "segment/tissue/compact_gland.hpp"
+#include "segment/tissue/lost_edges.hpp"
 #include "segment/tissue/skin_thickness.hpp"
 #include "segment/wall/wall_input.hpp"
 #include "segment/wall/wall_uncertainty.hpp"
@@ -248,11 +249,14 @@ double darkened_by_skin(const Work& work) {
   return work.skin > 0 ? std::min(3.0, work.skin + 0.75 * (spacing[0] + spacing[1])) : 3.0;
 }
 
+Mask below_skin(const Work& work) {
+  return interior_of(work, darkened_by_skin(work), work.scan.grid.spacing[1]);
+}
+
 /// Skin, fat and gland of the breast.
 void separate_tissue(Work& work, Interior by, double fat_cv) {
   work.skin = skin_thickness(work.brightness, work.breast, work.skin_distance);
-  const Mask interior = interior_of(work, darkened_by_skin(work), work.scan.grid.spacing[1]);
-  work.gland = find_fibroglandular(work.ratio, interior, near_unsure_wall(work, 8),
+  work.gland = find_fibroglandular(work.ratio, below_skin(work), near_unsure_wall(work, 8),
                                    work.wall.muscle_ratio, fat_cv, by);
 }
 
@@ -273,8 +277,7 @@ DimTissue missed_gland(const Work& work, const Mask& interior) {
 /// Much bright gland, or compact gland that was missed.
 MisleadingGland misleading_gland(const Work& work) {
   constexpr double reach = 4;  // mm beyond compact gland, whose blocks are as wide
-  const Mask interior = interior_of(work, darkened_by_skin(work), work.scan.grid.spacing[1]);
-  MisleadingGland gland{{}, missed_gland(work, interior)};
+  MisleadingGland gland{{}, missed_gland(work, below_skin(work))};
   const bool compact = !gland.compact.share.voxels.empty();
   const bool bright = work.gland.gland_ratio > darkest_gland_in_bias &&
                       1 - work.gland.fat_fraction > least_gland_in_bias;
@@ -365,6 +368,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   }
   if (again || options.interior != Interior::threshold)
     separate_tissue(work, options.interior, result.bias_cv_after);
+  result.lost_edges_percent = lost_edges_percent(work.scan, below_skin(work), work.gland);
   const Volume<float> inside_gland = signed_distance(work.gland.lobes);
   result.compact_dark_mm =
       std::max(0.0f, -*std::min_element(inside_gland.voxels.begin(), inside_gland.voxels.end()));

@@ -66,6 +66,7 @@ struct Segmentation {
   double debris_ml = 0;             ///< volume removed from the skin
   double beside_ml = 0;             ///< tissue separate from the torso
   double compact_dark_mm = 0;       ///< radius of the largest ball within fibroglandular tissue
+  double lost_edges_percent = 0;    ///< of the edges of brightness (tissue/lost_edges.hpp)
   std::vector<std::string> doubts;  ///< results that the user should check
 };
 

@@ -288,6 +288,9 @@ TEST(Quality, FallsBelowOneHalfWhereAReaderHasToLook) {
   worse.bias_cv_after = 0.09;
   for (const char* stage : {"contrast", "wall", "extent", "tissue"})
     EXPECT_LT(score(worse, stage), least_quality) << stage;
+  worse = base;
+  worse.lost_edges_percent = 65;
+  EXPECT_LT(score(worse, "tissue"), least_quality);
   worse.wall_confident_percent = std::nan("");
   EXPECT_EQ(score(worse, "wall"), 0);
 }

@@ -20,13 +20,21 @@ struct BlockLink {
   std::size_t from, to;  ///< places in `Blocks::level`
   int axis;
   double change;      ///< of log brightness from the first to the second
-  bool edge = false;  ///< it is more than a coil makes
+  bool edge = false;  ///< the change is more than a coil makes
 };
 
 /// `scan` is brightness as scanned, on the grid of `interior`.
 Blocks blocks_of(const Volume<float>& scan, const Mask& interior);
 
+/// Mean of a volume on the scan's grid in every block.
+Volume<float> in_blocks(const Volume<float>& volume);
+
 /// All links between numbered neighbours.
 std::vector<BlockLink> links_of(const Blocks& blocks);
+
+/// The same links with those marked across which tissue changes: brightness without the trend of the
+/// coil (`remove_coil_trend`) changes by more than 2 % per mm, and by more than three times the
+/// median, which noise and thin strands raise.
+std::vector<BlockLink> links_with_edges(const Blocks& blocks);
 
 }  // namespace breast

@@ -104,4 +104,9 @@ std::vector<double> coil_trend(const Blocks& blocks) {
   return trend;
 }
 
+void remove_coil_trend(Blocks& blocks) {
+  const std::vector<double> coil = coil_trend(blocks);
+  for (std::size_t n = 0; n < coil.size(); ++n) blocks.level.voxels[n] -= float(coil[n]);
+}
+
 }  // namespace breast

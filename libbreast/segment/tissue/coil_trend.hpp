@@ -15,4 +15,7 @@ namespace breast {
 /// fat.
 std::vector<double> coil_trend(const Blocks& blocks);
 
+/// Divides the brightness of the blocks by the sensitivity of the coil.
+void remove_coil_trend(Blocks& blocks);
+
 }  // namespace breast

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 #include "core/statistics/percentile.hpp"
 #include "core/units.hpp"
@@ -15,41 +14,10 @@ namespace breast {
 
 namespace {
 
-// Change of log brightness from block to block that is not the coil's: 3 % per mm.
-constexpr double least_edge = 0.12;
-constexpr double usual_changes = 3;   // of the median, which noise and strands raise
-constexpr double least_step = 0.12;   // log brightness of fat over gland
+constexpr double least_step = 0.08;   // log brightness of fat over gland
 constexpr double least_part_ml = 5;   // smaller glands do not mislead the estimate of the bias
 constexpr double least_closed = 0.6;  // share of a part's boundary that must be an edge
 constexpr double most_crossed = 0.1;  // share of the links inside it that may be one
-
-/// Divides the brightness of the blocks by the sensitivity of the coil.
-void remove_coil_trend(Blocks& blocks) {
-  const std::vector<double> coil = coil_trend(blocks);
-  for (std::size_t n = 0; n < coil.size(); ++n) blocks.level.voxels[n] -= float(coil[n]);
-}
-
-/// Marks the links that change too much, alone or, where an edge crosses a block, with the next
-/// link in line. Of such a pair, a link with only a small part of the change is not marked.
-void mark_edges(std::vector<BlockLink>& links) {
-  constexpr double of_pair = 5.0 / 3, least_part = 0.25;
-  if (links.empty()) return;
-  std::vector<double> changes;
-  for (const BlockLink& link : links) changes.push_back(std::abs(link.change));
-  const double limit = std::max(least_edge, usual_changes * median(std::move(changes)));
-  std::map<std::pair<std::size_t, int>, BlockLink*> starting;  // by block and axis
-  for (BlockLink& link : links) starting[{link.from, link.axis}] = &link;
-  for (BlockLink& link : links) {
-    if (std::abs(link.change) > limit) link.edge = true;
-    const auto next = starting.find({link.to, link.axis});
-    if (next == starting.end()) continue;
-    BlockLink& other = *next->second;
-    const double both = std::abs(link.change + other.change);
-    if (!(both > of_pair * limit)) continue;
-    for (BlockLink* one : {&link, &other})
-      one->edge = one->edge || std::abs(one->change) > least_part * both;
-  }
-}
 
 /// Log brightness of fat, which is the brightest, over that of every block.
 std::vector<double> steps_below_fat(const Blocks& blocks) {
@@ -134,8 +102,7 @@ DimTissue compact_gland(const Volume<float>& scan, const Mask& interior) {
   Blocks blocks = blocks_of(scan, interior);
   if (blocks.count == 0) return gland;
   remove_coil_trend(blocks);
-  std::vector<BlockLink> links = links_of(blocks);
-  mark_edges(links);
+  const std::vector<BlockLink> links = links_with_edges(blocks);
   const std::vector<double> steps = steps_below_fat(blocks);
   Mask dim(blocks.level.grid);
   for (std::size_t n = 0; n < steps.size(); ++n) dim.voxels[n] = steps[n] > least_step;
