@@ -180,7 +180,7 @@ function(breast_test label source)
       ENVIRONMENT GOMP_SPINCOUNT=1000)
     return()
   endif()
-  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST
+  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES
     # Without the setting a tool that a test runs inside itself would start the test program anew, which
     # then ends with exit 0 and nothing tested.
     PROPERTIES LABELS ${label} TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT GOMP_SPINCOUNT=1000)
