@@ -10,10 +10,12 @@
 
 #include <cstdlib>
 #include <functional>
+#include <memory>
 #include <random>
 #include <set>
 
 #include "core/atomic_file.hpp"
+#include "faults/branches.hpp"
 #include "faults/cases.hpp"
 #include "faults/outputs.hpp"
 #include "fixtures/scratch_folder.hpp"
@@ -64,19 +66,69 @@ class Faults : public ::testing::TestWithParam<Case> {
     const std::string line = GetParam().line;
     return line.substr(0, line.find(' '));
   }
-  // The case with the `nth` call of that kind failing; nothing fails when `kind` is empty.
-  ToolResult run(const std::string& kind, long nth, const std::string& reason,
-                 const std::function<void()>& before = [] {}) {
-    fs::remove(mark());
-    if (!kind.empty()) {
-      setenv("BREAST_FAULT", (tool() + ":" + kind + ":" + std::to_string(nth) + reason).c_str(), 1);
-      setenv("BREAST_FAULT_MARK", mark().c_str(), 1);
-      setenv("LD_PRELOAD", BREAST_SHIM, 1);
-    }
+  static std::vector<std::string> arguments() {
     std::vector<std::string> words = words_of(std::string(GetParam().line) + " --report out.json --threads 1 --quiet");
     words.erase(words.begin());
-    const ToolResult result = run_tool(tool(), words, work_.path(), before);
+    return words;
+  }
+  // PROGRAM:KIND:N:REASON of the shim.
+  static std::string plan(const std::string& kind, long nth, const std::string& reason) {
+    return tool() + ':' + kind + ':' + std::to_string(nth) + reason;
+  }
+  // What the shim finds in the environment of the next runs.
+  void set_shim(const std::string& plan) {
+    fs::remove(mark());
+    if (!plan.empty()) setenv("BREAST_FAULT", plan.c_str(), 1);
+    setenv("BREAST_FAULT_MARK", mark().c_str(), 1);
+    setenv("LD_PRELOAD", BREAST_SHIM, 1);
+  }
+  static void unset_shim() {
     for (const char* name : {"BREAST_FAULT", "BREAST_FAULT_MARK", "LD_PRELOAD"}) unsetenv(name);
+  }
+  static bool branches() { return GetParam().branches; }
+  std::unique_ptr<BranchedRun> branched(const std::vector<long>& allocations = {}) {
+    set_shim("");
+    auto run = std::make_unique<BranchedRun>(tool(), arguments(), work_.path(), marks_.path(),
+                                             allocations);
+    unset_shim();
+    return run;
+  }
+  BranchedRun& at_first_output() {
+    if (!first_output_) {
+      first_output_ = branched();
+      if (!first_output_->reached())
+        throw failed_error(GetParam().name, ": ended before any output");
+    }
+    return *first_output_;
+  }
+  // The case with the `nth` call of that kind failing; nothing fails when `kind` is empty.
+  ToolResult run(const std::string& kind, long nth, const std::string& reason) {
+    if (branches() && !kind.empty()) {
+      BranchedRun& from = at_first_output();
+      fs::remove(mark());
+      return from.attempt(plan(kind, nth, reason));
+    }
+    if (!kind.empty()) set_shim(plan(kind, nth, reason));
+    const ToolResult result = run_tool(tool(), arguments(), work_.path());
+    unset_shim();
+    return result;
+  }
+  // The case with files no longer than `bytes`. What it says comes through a pipe, which has no such limit.
+  ToolResult run_on_full_disk(rlim_t bytes) {
+    if (branches()) return at_first_output().attempt(plan("output", 0, ""), long(bytes));
+    int said[2];
+    if (pipe2(said, O_CLOEXEC | O_NONBLOCK) != 0) throw failed_error("no pipe");
+    ToolResult result = run_tool(tool(), arguments(), work_.path(), [&] {
+      dup2(said[1], STDERR_FILENO);
+      signal(SIGXFSZ, SIG_IGN);
+      const rlimit limit{bytes, bytes};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    });
+    char text[4096];
+    const ssize_t size = read(said[0], text, sizeof text);
+    result.err.assign(text, std::size_t(std::max<ssize_t>(size, 0)));
+    close(said[0]);
+    close(said[1]);
     return result;
   }
   fs::path mark() const { return marks_ / "mark"; }
@@ -137,6 +189,9 @@ class Faults : public ::testing::TestWithParam<Case> {
     return list;
   }
   long every_call(const std::string& kind, const std::string& reason, long stride);
+  long allocations();
+  void fail_at(const std::vector<long>& chosen,
+               const std::function<void(long, const ToolResult&)>& judge);
   void clear() {
     for (const fs::path& file : outputs()) fs::remove_all(file);
     for (const auto& entry : fs::directory_iterator(temporary_.path())) fs::remove_all(entry.path());
@@ -146,6 +201,7 @@ class Faults : public ::testing::TestWithParam<Case> {
   ScratchFolder work_, reference_, temporary_, marks_;
   std::set<std::string> given_;
   std::string reference_out_;
+  std::unique_ptr<BranchedRun> first_output_;
 };
 
 // Lets one call after the other fail until none is left; returns how many that were.
@@ -180,50 +236,67 @@ TEST_P(Faults, DamagedBytesAreNoticed) {
 }
 
 // No file may be longer than so many bytes, as on a disk that is full there: 64 lengths from 0 to that of the largest output.
-// What the tool says comes through a pipe, which has no such limit.
 TEST_P(Faults, DiskFullAtAnyByte) {
   std::uintmax_t largest = 0;
   for (const auto& [name, content] : files_in(reference_.path())) largest = std::max<std::uintmax_t>(largest, content.size());
   const int counts = full() ? 64 : heavy() ? 1 : 3;
   for (int n = 0; n < counts; ++n) {
     const rlim_t bytes = largest * rlim_t(n) / rlim_t(counts);
-    int said[2];
-    ASSERT_EQ(pipe2(said, O_CLOEXEC | O_NONBLOCK), 0);
-    ToolResult result = run("", 0, "", [&] {
-      dup2(said[1], STDERR_FILENO);
-      signal(SIGXFSZ, SIG_IGN);
-      const rlimit limit{bytes, bytes};
-      setrlimit(RLIMIT_FSIZE, &limit);
-    });
-    char text[4096];
-    const ssize_t size = read(said[0], text, sizeof text);
-    result.err.assign(text, std::size_t(std::max<ssize_t>(size, 0)));
-    close(said[0]);
-    close(said[1]);
+    const ToolResult result = run_on_full_disk(bytes);
     EXPECT_EQ(complaint(result), "") << bytes << " of " << largest;
     clear();
   }
   std::printf("%s: full at %d sizes below %ju bytes\n", GetParam().name, counts, largest);
 }
 
-TEST_P(Faults, SampledAllocationsFail) {
-  run("allocation", 0, "");
+long Faults::allocations() {
+  set_shim(plan("allocation", 0, ""));
+  run_tool(tool(), arguments(), work_.path());
+  unset_shim();
   clear();
   const std::string counted = marked();
   const std::size_t at = counted.find("counted ");
-  ASSERT_NE(at, std::string::npos);
-  const long all = std::stol(counted.substr(at + 8));
+  return at == std::string::npos ? 0 : std::stol(counted.substr(at + 8));
+}
+
+// These allocations (in order) fail, each in a run of its own or from a branch of one run.
+void Faults::fail_at(const std::vector<long>& chosen,
+                     const std::function<void(long, const ToolResult&)>& judge) {
+  if (!branches()) {
+    for (const long n : chosen) judge(n, run("allocation", n, ""));
+    return;
+  }
+  const auto from = branched(chosen);
+  std::size_t next = 0;
+  while (next < chosen.size()) {
+    const std::optional<BranchedRun::Branch> here = from->reached();
+    ASSERT_TRUE(here.has_value()) << "ended before allocation " << chosen[next];
+    const bool last = here->at == "output";  // all others are tried from here
+    do {
+      judge(chosen[next],
+            from->attempt(plan("allocation", last ? chosen[next] - here->allocations : 1, "")));
+      ++next;
+    } while (last && next < chosen.size());
+    if (!last) from->go();
+  }
+}
+
+TEST_P(Faults, SampledAllocationsFail) {
+  const long all = allocations();
+  ASSERT_GT(all, 0);
   std::mt19937 random(1);
   int lines = 0, unharmed = 0;
   const int wanted = heavy() && !full() ? 1 : allocations_wanted();
-  for (int k = 0; k < wanted; ++k) {
-    const long n = std::uniform_int_distribution<long>(1, all)(random);
-    const ToolResult result = run("allocation", n, "");
+  std::set<long> chosen;
+  while (int(chosen.size()) < std::min<long>(wanted, all))
+    chosen.insert(std::uniform_int_distribution<long>(1, all)(random));
+  fail_at({chosen.begin(), chosen.end()}, [&](long n, const ToolResult& result) {
     const std::string wrong = complaint(result);
-    EXPECT_EQ(wrong, "") << "allocation " << n << " of " << all << ", " << result.err;
+    EXPECT_EQ(wrong, "") << "allocation " << n << " of " << all << ", exit " << result.exit_code
+                         << ", " << result.err;
     (result.exit_code == 0 ? unharmed : lines) += 1;
     clear();
-  }
+  });
   std::printf("%s: %ld allocations, %d sampled: %d end in one line, %d did no harm\n", GetParam().name, all,
               lines + unharmed, lines, unharmed);
 }

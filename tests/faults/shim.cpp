@@ -5,6 +5,11 @@
 //                      with "+" every later one, too. KIND is output, allocation, loss (the bytes written to a file are
 //                      lost without a word) or damage (one of them arrives as another); N = 0 only counts.
 //   BREAST_FAULT_MARK  file: gets one line "failed CALL" a failure, and at the end "counted N"
+//   BREAST_FAULT_FORK  FOLDER[:N,N...]: the program branches (branches.hpp) before its first output call and before its N-th
+//                      allocations, which are in order and before that. There it writes "output COUNT" or "allocation COUNT"
+//                      (of allocations so far) into FOLDER/answers and obeys FOLDER/orders, a line each: "try PLAN BYTES"
+//                      goes on in a forked process with a plan as in BREAST_FAULT, counted from this call on, and files no
+//                      longer than BYTES (-1: any), and answers with its wait status; "go" goes on to the next branch.
 // A program that takes longer than ten minutes of processor time hangs and ends by SIGXCPU; after half an hour it waits for
 // ever and ends by SIGALRM. Counted from main() on, in the program and the processes it forks together. Standard error works
 // always.
@@ -12,6 +17,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <malloc.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,6 +27,7 @@
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -54,7 +61,89 @@ void mark(const char* text) {
   syscall(SYS_close, file);
 }
 
+// A program that branches. The long way to its first output call is gone once for all failures after it.
+struct Branches {
+  int orders = -1, answers = -1;
+  long next[4096], count = 0, tried = 0;  ///< allocations to branch at
+  long allocations = 0;
+  pid_t owner = 0;
+  pid_t trial = 0,
+        program = 0;  ///< a forked process that tries a failure takes itself for the program
+};
+Branches branches;
+
+pid_t own_id() {
+  return pid_t(syscall(SYS_getpid));
+}
+
+void set_plan(const char* text);
+
+// One line of the orders, without malloc.
+bool next_order(char* line, size_t size) {
+  size_t n = 0;
+  for (char c = 0;
+       n + 1 < size && syscall(SYS_read, branches.orders, &c, size_t(1)) == 1 && c != '\n';)
+    line[n++] = c;
+  line[n] = 0;
+  return n > 0;
+}
+
+void answer(const char* line) {
+  syscall(SYS_write, branches.answers, line, strlen(line));
+}
+
+// The tool as it is here with another plan.
+bool become_trial(const char* order) {
+  char text[256];
+  long bytes = -1;
+  if (sscanf(order, "try %255s %ld", text, &bytes) != 2) _exit(125);
+  const int out = int(syscall(SYS_openat, AT_FDCWD, ".stdout", O_WRONLY | O_CREAT | O_TRUNC, 0600));
+  dup2(out, STDOUT_FILENO);
+  for (const int file : {out, branches.orders, branches.answers}) syscall(SYS_close, file);
+  branches.program = branches.owner;
+  branches.owner = 0;
+  branches.trial = own_id();
+  set_plan(text);
+  if (bytes >= 0) {
+    signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{rlim_t(bytes), rlim_t(bytes)};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  return true;
+}
+
+// True in a forked process that tries a failure.
+bool branch(const char* at) {
+  char line[512];
+  snprintf(line, sizeof line, "%s %ld\n", at, branches.allocations);
+  answer(line);
+  while (next_order(line, sizeof line)) {
+    if (strcmp(line, "go") == 0) return false;
+    const pid_t child = fork();
+    if (child == 0) return become_trial(line);
+    int status = 0;
+    waitpid(child, &status, 0);
+    snprintf(line, sizeof line, "status %d\n", status);
+    answer(line);
+  }
+  _exit(0);
+}
+
+void branch_where_due(Kind kind) {
+  if (branches.owner == 0 || branches.owner != own_id()) return;
+  if (kind == output) {
+    branch("output");
+  } else if (kind == allocation) {
+    ++branches.allocations;
+    if (branches.tried == branches.count || branches.allocations < branches.next[branches.tried])
+      return;
+    ++branches.tried;
+    branch("allocation");
+  }
+}
+
 bool fails(Kind kind, const char* call) {
+  branch_where_due(kind);
   if (plan.kind != kind || plan.counter == nullptr) return false;
   const long now = ++*plan.counter;
   if (plan.nth == 0 || now < plan.nth || (now > plan.nth && !plan.onwards)) return false;
@@ -87,21 +176,17 @@ F next(const char* name, F) {
 }
 #define NEXT(f) static const auto real = next(#f, &f)
 
-void read_plan() {
-  const char* text = getenv("BREAST_FAULT");
-  const char* file = getenv("BREAST_FAULT_MARK");
-  if (text == nullptr || file == nullptr) return;
+void set_plan(const char* text) {
   char program[256], kind[16];
   int reason = ENOSPC;
   char plus = 0;
   if (sscanf(text, "%255[^:]:%15[^:]:%ld:%d%c", program, kind, &plan.nth, &reason, &plus) < 3) return;
   if (strcmp(program, program_invocation_short_name) != 0) return;
-  snprintf(plan.mark, sizeof plan.mark, "%s", file);
   const auto named = [&](const char* name) { return strcmp(kind, name) == 0; };
   const Kind wanted = named("allocation") ? allocation : named("loss") ? loss : named("damage") ? damage : output;
   plan.reason = wanted == allocation ? ENOMEM : reason;
   plan.onwards = plus == '+';
-  plan.owner = getpid();
+  plan.owner = own_id();
   void* shared = mmap(nullptr, sizeof *plan.counter, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared == MAP_FAILED) return;
   plan.counter = new (shared) std::atomic<long>(0);
@@ -113,13 +198,42 @@ void read_plan() {
   alarm(waiting_s);
 }
 
+void read_branches(const char* text) {
+  char folder[3000], name[4096];
+  int used = 0;
+  if (sscanf(text, "%2999[^:]%n", folder, &used) != 1) return;
+  for (const char* rest = text + used; *rest != 0 && branches.count < 4096;) {
+    char* end = nullptr;
+    branches.next[branches.count++] = strtol(rest + 1, &end, 10);
+    rest = end;
+  }
+  snprintf(name, sizeof name, "%s/orders", folder);
+  branches.orders = int(syscall(SYS_openat, AT_FDCWD, name, O_RDONLY | O_CLOEXEC));
+  snprintf(name, sizeof name, "%s/answers", folder);
+  branches.answers = int(syscall(SYS_openat, AT_FDCWD, name, O_WRONLY | O_CLOEXEC));
+  branches.owner = own_id();
+}
+
+void read_environment() {
+  const char* file = getenv("BREAST_FAULT_MARK");
+  if (file == nullptr) return;
+  snprintf(plan.mark, sizeof plan.mark, "%s", file);
+  const char* text = getenv("BREAST_FAULT");
+  if (text == nullptr) return;
+  const char* folder = getenv("BREAST_FAULT_FORK");
+  if (folder == nullptr) return set_plan(text);
+  const size_t program = strlen(program_invocation_short_name);
+  if (strncmp(text, program_invocation_short_name, program) == 0 && text[program] == ':')
+    read_branches(folder);
+}
+
 using Main = int (*)(int, char**, char**);
 Main real_main;
 
 int armed_main(int argc, char** argv, char** environment) {
-  read_plan();
+  read_environment();
   const int code = real_main(argc, argv, environment);
-  if (plan.kind != nothing && getpid() == plan.owner) {
+  if (plan.kind != nothing && own_id() == plan.owner) {
     char line[64];
     const long counted = *plan.counter;
     plan.kind = nothing;
@@ -138,6 +252,15 @@ int __libc_start_main(Main main, int argc, char** argv, Main init, void (*fini)(
   real_main = main;
   const Start start = reinterpret_cast<Start>(dlsym(RTLD_NEXT, "__libc_start_main"));
   return start(armed_main, argc, argv, init, fini, rtld_fini, stack_end);
+}
+
+pid_t getpid() {
+  const pid_t id = own_id();
+  return id == branches.trial ? branches.program : id;
+}
+pid_t getppid() {
+  const pid_t id = pid_t(syscall(SYS_getppid));
+  return id == branches.trial ? branches.program : id;
 }
 
 ssize_t write(int descriptor, const void* bytes, size_t size) {
