@@ -5,10 +5,8 @@
 check:
 	cmake --build $(BUILD) -j $$(nproc)
 	OPENBLAS_THREAD_TIMEOUT=4 ctest --test-dir $(BUILD) --output-on-failure --no-tests=error -j $$(nproc)
-	tests/tools/docs-current.sh $(BIN)
-	tests/tools/pipeline.sh
-	tests/tools/reproduce.sh
-	tests/fuzz/run.sh inputs=2000
+	printf '%s\n' tests/tools/reproduce.sh tests/tools/pipeline.sh 'tests/fuzz/run.sh inputs=2000' \
+	  'tests/tools/docs-current.sh $(BIN)' | xargs -d '\n' -P $$(nproc) -I{} sh -c 'echo "{}:"; {} || { echo "FAILED: {}"; exit 1; }'
 
 page-check: $(RUN)/page.html $(CC2MLO)
 	tests/page/check.sh $(BIN) $(RUN) $(RUN)
