@@ -2,6 +2,7 @@
 #include "cases/scan_identity.hpp"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -65,6 +66,8 @@ std::string state_of(const fs::path& file) {
 
 std::string stamp_of(const std::string& scan) {
   if (is_phantom(scan)) return scan;
+  if (fs::exists(scan) && !fs::is_directory(scan) && !fs::is_regular_file(scan))
+    throw input_error(scan, ": neither a file nor a folder: give the scan's own file");
   if (!fs::is_directory(scan)) return hash_of_text(state_of(scan));
   std::string all;
   for (const fs::path& file : files_below(scan)) all += file.string() + " " + state_of(scan / file);
@@ -108,8 +111,18 @@ std::string mixed_up(const fs::path& run, const std::string& side, const std::st
 
 void remember_scan(const fs::path& run, const std::string& side, const std::string& scan) {
   fs::create_directories(run);
-  write_text(run / ".scan", "side\t" + side + "\ncontent\t" + content_of(scan) + "\nstamp\t" +
-                                stamp_of(scan) + "\n");
+  const fs::path file = run / ".scan", own = run / message(".scan-of-", getpid());
+  const std::string stamp = stamp_of(scan);
+  const std::string record =
+      "side\t" + side + "\ncontent\t" + content_of(scan) + "\nstamp\t" + stamp + "\n";
+  // Of two runs that begin at once, one has the folder: a link is made by the first alone.
+  write_text(own, record);
+  const bool first = link(own.c_str(), file.c_str()) == 0;
+  fs::remove(own);
+  if (first) return;
+  const std::string reason = mixed_up(run, side, scan);
+  if (!reason.empty()) throw input_error(reason);
+  write_text(file, record);
 }
 
 }  // namespace breast

@@ -95,6 +95,24 @@ TEST(ScanIdentity, KnowsAnotherScanAndSideWhateverItsNameAndTimes) {
   EXPECT_EQ(read_text(run / ".scan").find(folder.path().string()), std::string::npos);
 }
 
+TEST(ScanIdentity, OneOfTwoRunsThatBeginAtOnceHasTheFolder) {
+  const ScratchFolder folder;
+  write_text(folder / "A", "a");
+  write_text(folder / "B", "b");
+  EXPECT_EQ(mixed_up(folder / "run", "left", folder / "A"), "");
+  EXPECT_EQ(mixed_up(folder / "run", "left", folder / "B"), "") << "both have asked";
+  remember_scan(folder / "run", "left", folder / "A");
+  EXPECT_THROW(remember_scan(folder / "run", "left", folder / "B"), Error);
+  EXPECT_EQ(mixed_up(folder / "run", "left", folder / "A"), "");
+  remember_scan(folder / "run", "left", folder / "A");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "run"), {}), 1) << "nothing else is left";
+}
+
+TEST(ScanIdentity, OfWhatIsNoFileIsRefused) {
+  const ScratchFolder folder;
+  EXPECT_THROW(remember_scan(folder / "run", "left", "/dev/zero"), Error);
+}
+
 TEST(ScanIdentity, RemembersContentAsSha256sumDoes) {
   const ScratchFolder folder;
   write_text(folder / "scan.nrrd", "abc");
