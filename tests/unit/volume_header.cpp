@@ -323,6 +323,14 @@ TEST_F(DicomHeaders, OfTwelveBits) {
   change(std::string("\x28\0\0\1US\2\0\x10\0", 10), std::string("\x28\0\0\1US\2\0\x0c\0", 10));
   expect("12 bits");
 }
+TEST_F(DicomHeaders, OfTwoPatients) {
+  change("SIMULATED", "SOMEBODY ", 3, 3);
+  expect("slice_0003.dcm: names another patient");
+}
+TEST_F(DicomHeaders, OfAnotherModality) {
+  change(std::string("\x08\0\x60\0CS\2\0MR", 10), std::string("\x08\0\x60\0CS\2\0CT", 10));
+  expect("modality CT");
+}
 TEST_F(DicomHeaders, WithAxesThatAreNot) {
   change("1\\0\\0\\0\\1\\0", "1\\0\\0\\0\\2\\0");
   expect("perpendicular");

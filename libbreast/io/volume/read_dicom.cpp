@@ -42,11 +42,14 @@ struct Slice {
   double along = 0;  ///< mm along the slice normal
 };
 
+std::string text_of(const DicomHeader& header, const char* key) {
+  const auto found = header.find(key);
+  return found == header.end() ? std::string() : found->second;
+}
+
 /// Voxel size in the plane, mm; refuses what ITK would take for 1 mm.
 Eigen::Vector2d pixel_spacing(const fs::path& file, const DicomHeader& header) {
-  const auto found = header.find("0028|0030");
-  const auto values =
-      dicom_numbers(found == header.end() ? std::string() : found->second, 2);
+  const auto values = dicom_numbers(text_of(header, "0028|0030"), 2);
   constexpr double least_mm = 0.01, most_mm = 50;
   for (std::size_t d = 0; d < values.size(); ++d) {
     if (values[d] >= least_mm && values[d] <= most_mm) continue;
@@ -57,14 +60,27 @@ Eigen::Vector2d pixel_spacing(const fs::path& file, const DicomHeader& header) {
   return {values[0], values[1]};
 }
 
+/// Slices of another modality, of another patient than `first`, or whose brightness a rescale slope
+/// makes none. What the patient is called is not repeated.
+void check_origin(const fs::path& file, const DicomHeader& header, const DicomHeader& first) {
+  const std::string modality = text_of(header, "0008|0060"), slope = text_of(header, "0028|1053");
+  if (!modality.empty() && modality != "MR")
+    throw input_error(file.string(), ": modality ", modality, ": slices of MR are needed");
+  for (const char* key : {"0010|0020", "0010|0010"}) {
+    if (text_of(header, key) != text_of(first, key))
+      throw input_error(file.string(),
+                        ": names another patient than the first slice of its series");
+  }
+  if (slope.empty()) return;
+  const auto value = dicom_numbers(slope, 1);
+  if (value.empty() || !(value[0] > 0))
+    throw input_error(file.string(), ": rescale slope ", slope, ": must be above 0");
+}
+
 /// Grey values of 8 or 16 bits, one per pixel: what else there is makes GDCM abort, or is no MR.
 void check_pixels(const fs::path& file, const DicomHeader& header) {
-  const auto text = [&](const char* key) {
-    const auto found = header.find(key);
-    return found == header.end() ? std::string() : found->second;
-  };
-  const std::string bits = text("0028|0100"), stored = text("0028|0101");
-  const std::string samples = text("0028|0002"), kind = text("0028|0004");
+  const std::string bits = text_of(header, "0028|0100"), stored = text_of(header, "0028|0101");
+  const std::string samples = text_of(header, "0028|0002"), kind = text_of(header, "0028|0004");
   if (bits != "8" && bits != "16") {
     throw input_error(file.string(), ": ", bits.empty() ? "no" : bits,
                       " bits allocated per pixel: 8 or 16 are supported");
@@ -87,9 +103,12 @@ void check_pixels(const fs::path& file, const DicomHeader& header) {
 std::vector<Slice> sorted_slices(const DicomSeries& series, Vec3& row, Vec3& column) {
   std::vector<Slice> slices;
   Eigen::Vector2d pixel(0, 0);
+  DicomHeader first;
   for (const fs::path& file : series.files) {
     DicomHeader header;
     read_dicom_header(file, header);
+    if (slices.empty()) first = header;
+    check_origin(file, header, first);
     const auto position = dicom_numbers(header["0020|0032"], 3);
     const auto axes = dicom_numbers(header["0020|0037"], 6);
     if (position.empty() || axes.empty()) {
