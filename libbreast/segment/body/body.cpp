@@ -232,6 +232,10 @@ Body find_body(const Volume<float>& scan, Side side, Posture posture) {
   body.air_level = corner_air_level(scan);
   const auto [low, high] = std::minmax_element(scan.voxels.begin(), scan.voxels.end());
   if (!(*high > *low)) throw input_error("the scan is uniform (", *low, "): it shows no body");
+  if (!(*high > 0)) {
+    throw input_error("no voxel of the scan is brighter than 0 (brightest ", *high,
+                      "): was a value subtracted, for example by a rescale intercept?");
+  }
   // A scan without air noise (n0 = 0) still needs a finite logarithm.
   const double floor = std::max(body.air_level, 1e-3 * double(*high));
   std::vector<float> logs(scan.voxels.size());
