@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // hexmesh: hexahedral mesh of a breast from its Hermite geometry and its labels.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "cli/sibling.hpp"
@@ -58,13 +59,21 @@ std::vector<MarkupPoint> named_points(const std::filesystem::path& file) {
   return points;
 }
 
+/// Names that every file of the chain keeps as they are.
+bool is_landmark_name(const std::string& name) {
+  const auto blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+  return !name.empty() && name != "-" && name != "~" && !blank(name.front()) &&
+         !blank(name.back()) && name.find('/') == std::string::npos;
+}
+
 /// Adds the user's points as landmarks; the mesh's own landmarks (nipple, tumour) keep their
 /// positions.
 void add_points(const std::vector<MarkupPoint>& points, const std::string& name, HexMesh& mesh) {
   for (const MarkupPoint& point : points) {
-    if (point.label.empty() || point.label.find('/') != std::string::npos) {
+    if (!is_landmark_name(point.label)) {
       throw input_error("--landmarks ", name, ": a point at (", point.at.transpose(),
-                        ") mm has no name, or a name with a slash: give it a label");
+                        ") mm has the name '", point.label,
+                        "': give it a label without slashes and outer blanks, and not - or ~");
     }
     const bool known = std::any_of(mesh.landmarks.begin(), mesh.landmarks.end(),
                                    [&](const Landmark& l) { return l.name == point.label; });

@@ -79,6 +79,7 @@ void run_projection(const Choices& choices, Run& run) {
     Timer::Scope phase(run.timer(), "project");
     image = project_mammogram(mesh, options, &projection, run.progress());
   }
+  refuse_foreign_labels(projection, choices.labels.filename().string());
   {
     Timer::Scope phase(run.timer(), "expose");
     expose(image, choices.exposure);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "core/table.hpp"
 #include "core/units.hpp"
 
@@ -44,6 +45,15 @@ void write_report(const HexMesh& mesh, const Mammogram& image, const ProjectionR
     report.set(key + "position", landmark_position(mesh, mesh.points, landmark));
     report.set(key + "uv_mm", std::vector<double>{uv.x(), uv.y()});
   }
+}
+
+void refuse_foreign_labels(const ProjectionReport& projection, const std::string& labels) {
+  constexpr double most = 0.5;  // a layer of muscle alone is less
+  if (!(projection.unlabelled > most)) return;
+  throw input_error(
+      labels, ": ", format_fixed(100 * projection.unlabelled, 1),
+      " % of the compressed tissue lies in voxels labelled air, muscle or other (at most ",
+      100 * most, " %): these labels are of another breast");
 }
 
 std::vector<std::string> doubts(const HexMesh& mesh, const Mammogram& image,

@@ -11,6 +11,8 @@ namespace breast {
 /// thickness_mm, landmarks).
 void write_report(const HexMesh& mesh, const Mammogram& image, const ProjectionReport& projection,
                   Report& report);
+/// Throws Error (input) if most of the tissue lies outside the breast of the labels in this file.
+void refuse_foreign_labels(const ProjectionReport& projection, const std::string& labels);
 /// Doubts about landmarks behind the posterior edge of the image, and about tissue in voxels
 /// without breast label.
 std::vector<std::string> doubts(const HexMesh& mesh, const Mammogram& image,
