@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "cli/lineage.hpp"
 #include "cli/tool.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -57,19 +58,38 @@ void report_lookup(const MatchLookup& lookup, const std::string& prefix, Run& ru
   }
 }
 
+struct PageInput {
+  Mammogram from, to;
+  std::optional<Volume<float>> scan;
+};
+
+// Images and scan of the page, which must be of the meshes' own breast. Read before the curves are computed.
+PageInput read_page_input(const Choices& choices, const HexMesh& from, const HexMesh& to) {
+  PageInput input{read_mammogram(choices.from_image), read_mammogram(choices.to_image), {}};
+  const auto check = [](const Mammogram& image, const std::filesystem::path& file,
+                        const HexMesh& mesh, const std::filesystem::path& mesh_file) {
+    check_same_origin({file, image.content_sha256, &image.history},
+                      {mesh_file, mesh.content_sha256, &mesh.history});
+  };
+  check(input.from, choices.from_image, from, choices.from);
+  check(input.to, choices.to_image, to, choices.to);
+  if (choices.scan.empty()) return input;
+  VolumeSource source;
+  input.scan = read_volume(choices.scan, choices.series, &source);
+  check_given_to("segment", from.history, choices.scan, source.content_sha256);
+  return input;
+}
+
 // The page is made before the lookup's file is written, so that neither is left if the page fails.
-void write_page(const Choices& choices, const Matcher& matcher, const MatchLookup& lookup,
-                const MatchLookup& back, Run& run) {
+void write_page(const Choices& choices, const PageInput& input, const Matcher& matcher,
+                const MatchLookup& lookup, const MatchLookup& back, Run& run) {
   Timer::Scope phase(run.timer(), "page");
-  Volume<float> scan;
-  if (!choices.scan.empty()) scan = read_volume(choices.scan, choices.series);
-  const Mammogram from = read_mammogram(choices.from_image), to = read_mammogram(choices.to_image);
   const std::string page = lookup_page({.matcher = matcher,
                                         .there = lookup,
                                         .back = back,
-                                        .from = from,
-                                        .to = to,
-                                        .scan = choices.scan.empty() ? nullptr : &scan});
+                                        .from = input.from,
+                                        .to = input.to,
+                                        .scan = input.scan ? &*input.scan : nullptr});
   write_text(choices.page, page);
   run.report().set("page_mb", double(page.size()) / 1e6);
   run.report().set("page_shows_scan", !choices.scan.empty());
@@ -78,6 +98,8 @@ void write_page(const Choices& choices, const Matcher& matcher, const MatchLooku
 void run_lookup(const Choices& choices, Run& run) {
   const HexMesh from = read_mesh(choices.from, {.contact = true});
   const HexMesh to = read_mesh(choices.to, {.contact = true});
+  std::optional<PageInput> page;
+  if (!choices.page.empty()) page = read_page_input(choices, from, to);
   const Beam beam = choices.geometry == "cone" ? Beam::cone : Beam::parallel;
   const Matcher matcher(from, to, beam), reverse(to, from, beam);
   const DerivativeFields from_derivatives = read_derivatives(choices.from, from).position,
@@ -108,7 +130,7 @@ void run_lookup(const Choices& choices, Run& run) {
   for (const std::string& name : lookup.band_without) run.report().append("band_without", name);
   lookup.history = run.history({{choices.from, from.content_sha256, &from.history},
                                 {choices.to, to.content_sha256, &to.history}});
-  if (!choices.page.empty()) write_page(choices, matcher, lookup, *back, run);
+  if (page) write_page(choices, *page, matcher, lookup, *back, run);
   write_lookup(choices.lookup, lookup, back ? &*back : nullptr);
 }
 

@@ -2,6 +2,7 @@
 // render: pictures of the pipeline's results, drawn off-screen.
 #include <algorithm>
 
+#include "cli/lineage.hpp"
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "figures/figures.hpp"
@@ -56,8 +57,13 @@ void run_render(const Choices& choices, Run& run) {
   FigureInput input;
   for (const auto& file : choices.files) add_file(file, choices.figure, input);
   if (!choices.scan.empty()) {
-    input.scan = read_volume(choices.scan, choices.series);
+    VolumeSource source;
+    input.scan = read_volume(choices.scan, choices.series, &source);
     input.labels = read_labels(choices.labels);
+    check_given_to("segment", input.labels->history, choices.scan, source.content_sha256);
+    for (const auto& [name, mesh] : input.meshes)
+      check_same_origin({choices.labels, input.labels->content_sha256, &input.labels->history},
+                        {name, mesh.content_sha256, &mesh.history});
   }
   Timer::Scope phase(run.timer(), "draw");
   draw_figure(choices.figure, input, choices.output);

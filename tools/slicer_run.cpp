@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cli/lineage.hpp"
 #include "core/error.hpp"
 #include "io/label_file.hpp"
 #include "io/mesh_file.hpp"
@@ -37,24 +38,10 @@ void check_same_mesh(const RunState& state, const RunState& prone) {
   }
 }
 
-void check_lineage(const SlicerRun& run, const fs::path& scan, const std::string& sha256) {
-  std::string named;
-  for (const HistoryEntry& entry : run.labels.history) {
-    if (entry.tool != "segment") continue;
-    for (const InputRecord& input : entry.inputs) {
-      if (input.sha256 == sha256) return;
-      named += (named.empty() ? "" : ", ") + input.name;
-    }
-  }
-  if (named.empty()) return;  // labels of another program
-  throw input_error(scan.string(), ": is not the scan from which these labels were made (", named,
-                    "); give that scan");
-}
-
 void read_scan(const fs::path& file, int series, SlicerRun& result) {
   VolumeSource source;
   result.scan = read_volume(file, series, &source);
-  check_lineage(result, file, source.content_sha256);
+  check_given_to("segment", result.labels.history, file, source.content_sha256);
   result.scan_file = file;
   result.scan_sha256 = source.content_sha256;
 }
