@@ -63,7 +63,8 @@ struct PageInput {
   std::optional<Volume<float>> scan;
 };
 
-// Images and scan of the page, which must be of the meshes' own breast. Read before the curves are computed.
+// Images and scan of the page, which must be of the breast of the meshes. They are read first, so
+// that those of another breast are refused before the curves are computed.
 PageInput read_page_input(const Choices& choices, const HexMesh& from, const HexMesh& to) {
   PageInput input{read_mammogram(choices.from_image), read_mammogram(choices.to_image), {}};
   const auto check = [](const Mammogram& image, const std::filesystem::path& file,

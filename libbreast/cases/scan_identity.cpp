@@ -64,10 +64,15 @@ std::string state_of(const fs::path& file) {
                  "\n");
 }
 
+/// Refuses a device or a pipe, which might never end.
+void check_kind(const std::string& scan) {
+  if (is_phantom(scan) || !fs::exists(scan)) return;
+  if (!fs::is_directory(scan) && !fs::is_regular_file(scan))
+    throw input_error(scan, ": neither a file nor a folder: give the scan's own file");
+}
+
 std::string stamp_of(const std::string& scan) {
   if (is_phantom(scan)) return scan;
-  if (fs::exists(scan) && !fs::is_directory(scan) && !fs::is_regular_file(scan))
-    throw input_error(scan, ": neither a file nor a folder: give the scan's own file");
   if (!fs::is_directory(scan)) return hash_of_text(state_of(scan));
   std::string all;
   for (const fs::path& file : files_below(scan)) all += file.string() + " " + state_of(scan / file);
@@ -94,6 +99,7 @@ std::string remembered(const std::string& record, const std::string& key) {
 }  // namespace
 
 std::string mixed_up(const fs::path& run, const std::string& side, const std::string& scan) {
+  check_kind(scan);
   const fs::path file = run / ".scan";
   if ((!is_phantom(scan) && !fs::exists(scan)) || !fs::exists(file)) return "";
   const std::string record = read_text(file), held = remembered(record, "side");
@@ -110,11 +116,11 @@ std::string mixed_up(const fs::path& run, const std::string& side, const std::st
 }
 
 void remember_scan(const fs::path& run, const std::string& side, const std::string& scan) {
+  check_kind(scan);
   fs::create_directories(run);
   const fs::path file = run / ".scan", own = run / message(".scan-of-", getpid());
-  const std::string stamp = stamp_of(scan);
   const std::string record =
-      "side\t" + side + "\ncontent\t" + content_of(scan) + "\nstamp\t" + stamp + "\n";
+      "side\t" + side + "\ncontent\t" + content_of(scan) + "\nstamp\t" + stamp_of(scan) + "\n";
   // Of two runs that begin at once, one has the folder: a link is made by the first alone.
   write_text(own, record);
   const bool first = link(own.c_str(), file.c_str()) == 0;

@@ -9,8 +9,8 @@
 
 namespace breast {
 
-/// Throws Error (input) naming `file`, whose content has this SHA-256, if `history` has inputs of `tool`
-/// and none of them is that content: the file was not what the tool was given.
+/// Throws Error (input) naming `file` if `history` states inputs of `tool` and none of them has this
+/// SHA-256, that of the file's content: the tool was given another file.
 void check_given_to(const std::string& tool, const History& history,
                     const std::filesystem::path& file, const std::string& sha256);
 
@@ -21,8 +21,8 @@ struct Origin {
   const History* history = nullptr;
 };
 
-/// Throws Error (input) naming both files if each of them states inputs and none is an input of both
-/// or the other file itself: they come from different scans.
+/// Throws Error (input) naming both files if both state inputs, have none in common, and neither file is an
+/// input of the other: they come from different scans.
 void check_same_origin(const Origin& a, const Origin& b);
 
 }  // namespace breast

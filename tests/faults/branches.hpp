@@ -16,6 +16,13 @@
 
 namespace breast::faults {
 
+/// What waits in a pipe that is read without blocking.
+inline std::string text_in(int pipe) {
+  char text[4096];
+  const ssize_t size = read(pipe, text, sizeof text);
+  return {text, std::size_t(std::max<ssize_t>(size, 0))};
+}
+
 class BranchedRun {
  public:
   struct Branch {
@@ -75,7 +82,7 @@ class BranchedRun {
     const std::string line = answer();
     if (!line.starts_with("status ")) throw failed_error("a run that branches ended: ", line);
     const int status = std::stoi(line.substr(7));
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, printed(), said()};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, printed(), text_in(said_[0])};
   }
   void go() { order("go"); }
 
@@ -106,11 +113,6 @@ class BranchedRun {
     const std::string text = read_text(file);
     std::filesystem::remove(file);
     return text;
-  }
-  std::string said() const {
-    char text[4096];
-    const ssize_t size = read(said_[0], text, sizeof text);
-    return {text, std::size_t(std::max<ssize_t>(size, 0))};
   }
 
   std::filesystem::path folder_;

@@ -124,9 +124,7 @@ class Faults : public ::testing::TestWithParam<Case> {
       const rlimit limit{bytes, bytes};
       setrlimit(RLIMIT_FSIZE, &limit);
     });
-    char text[4096];
-    const ssize_t size = read(said[0], text, sizeof text);
-    result.err.assign(text, std::size_t(std::max<ssize_t>(size, 0)));
+    result.err = text_in(said[0]);
     close(said[0]);
     close(said[1]);
     return result;

@@ -61,7 +61,7 @@ void mark(const char* text) {
   syscall(SYS_close, file);
 }
 
-// A program that branches. The long way to its first output call is gone once for all failures after it.
+// A program that branches: the long computation before its first output call is done only once.
 struct Branches {
   int orders = -1, answers = -1;
   long next[4096], count = 0, tried = 0;  ///< allocations to branch at

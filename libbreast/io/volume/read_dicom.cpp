@@ -60,8 +60,8 @@ Eigen::Vector2d pixel_spacing(const fs::path& file, const DicomHeader& header) {
   return {values[0], values[1]};
 }
 
-/// Slices of another modality, of another patient than `first`, or whose brightness a rescale slope
-/// makes none. What the patient is called is not repeated.
+/// Throws Error (input) for a slice of another modality than MR, of another patient than `first`, or
+/// with a rescale slope that is not above 0. The message does not repeat the patient's name.
 void check_origin(const fs::path& file, const DicomHeader& header, const DicomHeader& first) {
   const std::string modality = text_of(header, "0008|0060"), slope = text_of(header, "0028|1053");
   if (!modality.empty() && modality != "MR")

@@ -32,9 +32,9 @@ Volume<float> in_blocks(const Volume<float>& volume);
 /// All links between numbered neighbours.
 std::vector<BlockLink> links_of(const Blocks& blocks);
 
-/// The same links with those marked across which tissue changes: brightness without the trend of the
-/// coil (`remove_coil_trend`) changes by more than 2 % per mm, and by more than three times the
-/// median, which noise and thin strands raise.
+/// All links between numbered neighbours, with the edges of tissue marked. At an edge, brightness
+/// without the coil's trend (`remove_coil_trend`) changes by more than 2 % per mm and by more than
+/// three times the median change, which noise and thin strands raise.
 std::vector<BlockLink> links_with_edges(const Blocks& blocks);
 
 }  // namespace breast

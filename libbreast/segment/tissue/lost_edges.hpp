@@ -8,8 +8,8 @@ namespace breast {
 
 /// Percent of the edges between blocks of 4 mm in `interior` of which the fractions of gland explain
 /// less than half. Where the estimate of the bias follows gland as if it were dim fat, the corrected
-/// image is even, but the scan keeps the edge, which no coil makes (`coil_trend`). 0 where edges are
-/// too few to surround anything. `scan` is brightness as scanned, on the grid of `interior` and
+/// image is even, but the scan keeps an edge too steep for a coil (`coil_trend`). 0 where there are
+/// too few edges to surround a gland. `scan` is brightness as scanned, on the grid of `interior` and
 /// `gland`.
 double lost_edges_percent(const Volume<float>& scan, const Mask& interior,
                           const Fibroglandular& gland);
