@@ -178,6 +178,9 @@ void Decisions::take_defaults() {
 void Decisions::decide_scan() {
   const std::string preset = value("PRESET"), at = value("RUNS") + "/phantom/" + preset;
   phantom_ = value("MR").empty();
+  // A script whose variable is empty must not get the result of a phantom.
+  if (phantom_ && has("MR") && !request_.environment.contains("MR"))
+    throw input_error("MR: is empty; name the scan, or leave MR out for the phantom PRESET");
   body_slides_ = among(preset, sliding_presets);
   set("body_slides", body_slides_ ? "yes" : "");
   set("PHANTOM_MR", at + ".nrrd");

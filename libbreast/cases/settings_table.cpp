@@ -7,6 +7,7 @@
 #include "cases/make_text.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/place.hpp"
 #include "core/text/words.hpp"
 #include "study/cells.hpp"
 
@@ -33,6 +34,29 @@ bool is_plain_number(const std::string& word) {
 bool matches(const std::string& word, const std::string& choice) {
   const std::size_t any = choice.find('%');
   return any == std::string::npos ? word == choice : word.starts_with(choice.substr(0, any));
+}
+
+// Refuses a word that is no number, or is outside the bounds that follow the kind of number.
+void check_number(const Setting& setting, const std::string& word) {
+  if (!is_plain_number(word))
+    throw input_error(
+        setting.name, ": '", word,
+        "' is not a number; write digits and at most one decimal point, as 40 or 2.5");
+  if (setting.choices.front() == "integer" && word.find('.') != std::string::npos)
+    throw input_error(setting.name, ": '", word, "' is not a whole number");
+  if (setting.choices.size() < 3) return;
+  const std::string &least = setting.choices[1], &greatest = setting.choices[2];
+  const double value = parse_number(word, setting.name);
+  if (value < parse_number(least, setting.name) || value > parse_number(greatest, setting.name))
+    throw input_error(setting.name, ": ", word, " must be from ", least, " to ", greatest);
+}
+
+// Refuses a word that is neither one of the choices, nor a file, nor a place.
+void check_place(const Setting& setting, const std::string& word) {
+  if (std::find(setting.choices.begin(), setting.choices.end(), word) != setting.choices.end())
+    return;
+  std::error_code none;
+  if (!fs::exists(word, none)) parse_place(word, setting.name);
 }
 
 // What a word of the setting may be; "%" if it may be anything.
@@ -96,20 +120,21 @@ void check_characters(const Setting& setting, const std::string& value) {
 void check_choice(const Setting& setting, const std::string& value, const fs::path& pipelines) {
   if (setting.choices.empty()) return;
   for (const std::string& word : words_of(value)) {
-    if (setting.choices.front() == "number") {
-      if (!is_plain_number(word))
-        throw input_error(setting.name, ": '", word,
-                          "' is not a number; write digits and at most one decimal point, as 40 "
-                          "or 2.5");
+    const std::string& kind = setting.choices.front();
+    if (kind == "number" || kind == "integer") {
+      check_number(setting, word);
+      continue;
+    }
+    if (setting.choices.back() == "place") {
+      check_place(setting, word);
       continue;
     }
     const Words accepted = words_accepted(setting, word, pipelines);
     if (std::none_of(accepted.begin(), accepted.end(),
                      [&](const std::string& choice) { return matches(word, choice); }))
-      throw input_error(
-          setting.name, ": '", word,
-          setting.choices.front() == "set" ? "' is neither a file nor one of " : "' is none of ",
-          join(accepted, ", "), suggestion(word, accepted));
+      throw input_error(setting.name, ": '", word,
+                        kind == "set" ? "' is neither a file nor one of " : "' is none of ",
+                        join(accepted, ", "), suggestion(word, accepted));
   }
 }
 

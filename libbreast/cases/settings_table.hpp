@@ -31,7 +31,8 @@ void check_characters(const Setting& setting, const std::string& value);
 
 /// Throws Error (input), naming the setting, the value and what is accepted, if `value` is not
 /// among the choices of the setting. A choice is a word, in which % stands for any text, or
-/// `number`; `set`: a material set in `pipelines` or a file; `rows:STUDY`: a row of that study. An
+/// `number` or `integer`, which the least and the greatest may follow; `place`, the last of its choices:
+/// x,y,z[:radius] in mm or a file; `set`: a material set in `pipelines` or a file; `rows:STUDY`: a row of that study. An
 /// empty value is accepted.
 void check_choice(const Setting& setting, const std::string& value,
                   const std::filesystem::path& pipelines);

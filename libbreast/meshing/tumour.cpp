@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/place.hpp"
 #include "mesh/landmark_names.hpp"
 #include "mesh/locate.hpp"
 #include "meshing/tissue.hpp"
@@ -103,13 +104,6 @@ struct Candidate {
   bool clear;  // whether it is clear of labels other than breast
 };
 
-void check_radius(double radius, const std::string& where) {
-  if (!(radius > 0 && radius <= 50)) {
-    throw input_error("--tumour ", where, ": radius ", radius,
-                      " mm must be above 0 and at most 50");
-  }
-}
-
 }  // namespace
 
 std::optional<Tumour> automatic_tumour(const LabelVolume& labels, const HexMesh& mesh) {
@@ -158,30 +152,14 @@ Tumour read_tumour(const std::filesystem::path& file) {
   Tumour tumour{table.point(0, ""), 0, "first row of " + name, false};
   if (table.has("radius_mm")) {
     tumour.radius = table.number(0, "radius_mm");
-    check_radius(tumour.radius, name);
+    check_place_radius(tumour.radius, "--tumour " + name);
   }
   return tumour;
 }
 
 Tumour parse_tumour(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  Tumour tumour;
-  std::string rest = text.substr(0, colon);
-  for (int d = 0; d < 3; ++d) {
-    const std::size_t comma = rest.find(',');
-    if ((comma == std::string::npos) != (d == 2)) {
-      throw input_error("--tumour ", text,
-                        ": expected auto, none, a file, or x,y,z[:radius] in mm");
-    }
-    tumour.centre[d] = parse_number(rest.substr(0, comma), "--tumour");
-    if (d < 2) rest = rest.substr(comma + 1);
-  }
-  if (colon != std::string::npos) {
-    tumour.radius = parse_number(text.substr(colon + 1), "--tumour radius");
-    check_radius(tumour.radius, text);
-  }
-  tumour.origin = "given";
-  return tumour;
+  const Place place = parse_place(text, "--tumour");
+  return {place.centre, place.radius.value_or(0), "given", false};
 }
 
 void add_nipple(HexMesh& mesh) {

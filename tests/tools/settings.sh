@@ -30,8 +30,24 @@ refused "an unknown part to leave out" no-skn "did you mean no-skin?" -- LEAVE_O
 refused "an unknown side" "did you mean left?" -- SIDE=lefft
 refused "an unknown material set" "did you mean seed2008?" -- MATERIALS=seed2080
 refused "a reduction that is no number" REDUCTION -- REDUCTION=half
+refused "a reduction of no compression" "REDUCTION: 500 must be from 1 to 95" -- REDUCTION=500
+refused "half a place" "TUMOUR 1,2" "x,y,z[:radius]" -- MR=/dev/null TUMOUR=1,2
+refused "a scan whose name was lost" "MR: is empty" -- MR=
 plan fuzz MINUTES=1 && plan release-check FUZZ_MINUTES=1 FUZZ_INPUTS=1 FAULT_ALLOCATIONS=1 || { cat "$work/err"; fail "settings of fuzz are known"; }
 pass "unknown settings and values are refused by name, with a suggestion"
+
+# What a setting accepts is what the program accepts to which it is given.
+while read -r setting tool option; do
+  range=$(awk -F '\t' -v setting="$setting" '$1 == setting { split($5, word, " "); print word[2], "to", word[3] }' pipelines/settings.tsv)
+  "$bin/$tool" --help | tr -s ' \n' ' ' | grep -q -- "$option [A-Z]* [^-]*($range[;)]" || fail "$setting: $range is the range of $tool $option"
+done <<'ranges'
+REDUCTION compress --reduction
+PRESSURE compress --pressure
+AT_LEAST compress --at-least
+ELEMENTS hexmesh --elements
+SERIES segment --series
+ranges
+pass "the bounds of settings are those of the programs"
 
 mkdir -p "$work/runs/paper"
 touch "$work/runs/keep"

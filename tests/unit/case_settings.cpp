@@ -34,10 +34,11 @@ constexpr const char* settings_table =
     "WALL\tname\tcase\t-\theld slide:%\t:\n"
     "MUSCLE\tname\tcase\t-\t-\t-\n"
     "PAPER\tname\tcase\t-\t1\t-\n"
-    "REDUCTION\tname\tcase\t50\tnumber\t-\n"
+    "REDUCTION\tname\tcase\t50\tnumber 1 95\t-\n"
     "PRESSURE\tname\tcase\t-\tnumber\t-\n"
     "AT_LEAST\tname\tcase\t-\tnumber\t-\n"
-    "TUMOUR\tname\tcase\t-\t-\t:\n"
+    "TUMOUR\tname\tcase\t-\tauto none place\t:\n"
+    "ELEMENTS\tname\tcase\t16\tinteger 4 64\t-\n"
     "LEAVE_OUT\ttext\tcase\t-\tno-skin no-gland no-backward\t-\n"
     "MECHANICS\ttext\tcase\t-\t-\t-\n"
     "HEXMESH_OPTIONS\ttext\tcase\t-\t-\t-\n"
@@ -109,6 +110,15 @@ TEST_F(CaseSettings, UnknownNamesAndValuesAreRefusedWithASuggestion) {
             std::string::npos);
   EXPECT_NE(refusal({{"REDUCTION", "."}}), "");
   EXPECT_EQ(refusal({{"REDUCTION", "40.5"}}), "");
+  EXPECT_EQ(refusal({{"REDUCTION", "500"}}), "REDUCTION: 500 must be from 1 to 95");
+  EXPECT_EQ(refusal({{"REDUCTION", "95"}}), "");
+  EXPECT_EQ(refusal({{"ELEMENTS", "0"}}), "ELEMENTS: 0 must be from 4 to 64");
+  EXPECT_EQ(refusal({{"ELEMENTS", "6.5"}}), "ELEMENTS: '6.5' is not a whole number");
+  EXPECT_EQ(refusal({{"TUMOUR", "1,2"}}),
+            "TUMOUR 1,2: expected auto, none, a file, or x,y,z[:radius] in mm");
+  EXPECT_NE(refusal({{"TUMOUR", "1,2,3:90"}}).find("radius 90 mm must be above 0"),
+            std::string::npos);
+  EXPECT_EQ(refusal({{"TUMOUR", (pipelines() / "settings.tsv").string()}}), "");
   EXPECT_EQ(refusal({{"WALL", "slide:3"}}), "");
   EXPECT_NE(refusal({{"WALL", "slid"}}), "");
   EXPECT_EQ(refusal({{"COST_POINTS", "fine"}}), "");
@@ -127,7 +137,7 @@ TEST_F(CaseSettings, TextThatIsCodeIsRefusedForEveryKind) {
   }
   EXPECT_NE(refusal({{"MR", "a b"}}).find("blanks may not stand in 'a b'"), std::string::npos);
   EXPECT_NE(refusal({{"MR", "-x"}}).find("write ./-x"), std::string::npos);
-  EXPECT_EQ(refusal({{"TUMOUR", "-5,3:4"}}), "");
+  EXPECT_EQ(refusal({{"TUMOUR", "-5,3,2:4"}}), "");
   EXPECT_NE(refusal({{"TUMOUR", "5:4=x"}}), "") << "after a character that it may contain";
   request_.environment = {{"MR", "$(shell x)"}};
   EXPECT_NE(refusal({}), "") << "make reads the environment, too";
@@ -163,6 +173,8 @@ TEST_F(CaseSettings, AScanHasItsOwnFolderAndNoTumour) {
   EXPECT_TRUE(has_line({}, "no_tumour := "));
   EXPECT_TRUE(has_line({{"HEXMESH_OPTIONS", "--tumour none"}}, "no_tumour := yes"));
   EXPECT_TRUE(has_line({{"SIDE", "right"}}, "CASE := average-right"));
+  EXPECT_NE(refusal({{"MR", ""}}).find("MR: is empty"), std::string::npos)
+      << "a phantom's result is not that of a scan whose name was lost";
   for (const char* name : {"", "..", ".x", "a/b"})
     EXPECT_NE(refusal({{"CASE", name}}).find("CASE: "), std::string::npos) << name;
   EXPECT_NE(refusal({{"RUNS", ""}}).find("RUNS: is empty"), std::string::npos);
