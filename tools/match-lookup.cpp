@@ -69,8 +69,7 @@ PageInput read_page_input(const Choices& choices, const HexMesh& from, const Hex
   PageInput input{read_mammogram(choices.from_image), read_mammogram(choices.to_image), {}};
   const auto check = [](const Mammogram& image, const std::filesystem::path& file,
                         const HexMesh& mesh, const std::filesystem::path& mesh_file) {
-    check_same_origin({file, image.content_sha256, &image.history},
-                      {mesh_file, mesh.content_sha256, &mesh.history});
+    check_same_origin(origin_of(file, image), origin_of(mesh_file, mesh));
   };
   check(input.from, choices.from_image, from, choices.from);
   check(input.to, choices.to_image, to, choices.to);

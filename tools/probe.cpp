@@ -2,6 +2,7 @@
 // probe: the positions of landmarks in deformed meshes, as a table.
 #include <algorithm>
 
+#include "cli/lineage.hpp"
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
@@ -107,6 +108,8 @@ void tell_positions(const Choices& c, const std::vector<HexMesh>& meshes, Run& r
   if (names.empty()) throw input_error(c.files.front().string(), ": has no landmarks");
   const bool relative = !c.base.empty();
   const HexMesh base = relative ? read_mesh(c.base) : HexMesh();
+  for (std::size_t i = 0; relative && i < meshes.size(); ++i)
+    check_same_origin(origin_of(c.base, base), origin_of(c.files[i], meshes[i]));
   Table table{{"file"}, {}};
   // A landmark is shown by its own name, so that a request for the tumour reveals an artificial
   // one.

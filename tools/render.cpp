@@ -53,17 +53,28 @@ void add_file(const std::filesystem::path& file, const std::string& figure, Figu
   }
 }
 
+// A picture shows one breast. Only outlines may compare several.
+void check_one_breast(const FigureInput& input, const Choices& choices) {
+  if (choices.figure == "outlines") return;
+  std::vector<Origin> origins;
+  for (const auto& [name, mesh] : input.meshes) origins.push_back(origin_of(name, mesh));
+  std::size_t image = 0;
+  for (const auto& file : choices.files)
+    if (file.extension() == ".vti") origins.push_back(origin_of(file, input.images[image++]));
+  for (const Origin& origin : origins) check_same_origin(origins.front(), origin);
+}
+
 void run_render(const Choices& choices, Run& run) {
   FigureInput input;
   for (const auto& file : choices.files) add_file(file, choices.figure, input);
+  check_one_breast(input, choices);
   if (!choices.scan.empty()) {
     VolumeSource source;
     input.scan = read_volume(choices.scan, choices.series, &source);
     input.labels = read_labels(choices.labels);
     check_given_to("segment", input.labels->history, choices.scan, source.content_sha256);
     for (const auto& [name, mesh] : input.meshes)
-      check_same_origin({choices.labels, input.labels->content_sha256, &input.labels->history},
-                        {name, mesh.content_sha256, &mesh.history});
+      check_same_origin(origin_of(choices.labels, *input.labels), origin_of(name, mesh));
   }
   Timer::Scope phase(run.timer(), "draw");
   draw_figure(choices.figure, input, choices.output);
@@ -84,7 +95,8 @@ int main(int argc, char** argv) {
     tool.describe(name + ": " + figure_summary(name) + ".");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Figs 4 to 7");
   tool.inputs(choices.files, "FILE",
-              "meshes (.vtkhdf), mammograms (.vti), points or curves (.vtp)");
+              "meshes (.vtkhdf), mammograms (.vti), points or curves (.vtp); all of one breast, "
+              "except for outlines");
   tool.input_file(
       choices.scan, "--scan", "MR",
       "MR scan behind the contours of slices and summary (.nrrd, .nii, .nii.gz, .mha or a "

@@ -105,6 +105,12 @@ TEST(Probe, PrintsPositionsAndRelativeDisplacements) {
       run_tool("probe", {"a.vtkhdf", "--landmarks", "nippel"}, folder.path());
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.err.find("it has: nipple, tumour"), std::string::npos) << unknown.err;
+
+  mesh.side = mesh.geometry->side = mesh.side == Side::left ? Side::right : Side::left;
+  write_mesh(folder / "other.vtkhdf", mesh);
+  const ToolResult other = run_tool("probe", {"a.vtkhdf", "--base", "other.vtkhdf"}, folder.path());
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("give files of one breast"), std::string::npos) << other.err;
 }
 
 }  // namespace

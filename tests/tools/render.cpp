@@ -15,6 +15,7 @@
 #include "fixtures/chain_files.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
+#include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
 
@@ -250,6 +251,20 @@ TEST_F(Render, MissingServerIsSaidWithThePackages) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.error_lines(), 1) << result.err;
   EXPECT_NE(result.err.find("xvfb xauth libgl1-mesa-dri"), std::string::npos) << result.err;
+}
+
+TEST_F(Render, APictureIsOfOneBreastExceptForOutlines) {
+  HexMesh other = read_mesh(file("mlo.vtkhdf"), {.contact = true});
+  other.side = other.geometry->side = other.side == Side::left ? Side::right : Side::left;
+  write_mesh(file("other.vtkhdf"), other);
+  const ToolResult mixed =
+      run("render", {"cc.vtkhdf", "other.vtkhdf", "--figure", "compression", "-o", "no.png"});
+  EXPECT_EQ(mixed.exit_code, 2);
+  EXPECT_NE(mixed.err.find("give files of one breast"), std::string::npos) << mixed.err;
+  EXPECT_FALSE(fs::exists(file("no.png")));
+  const ToolResult outlines =
+      run("render", {"cc.vtkhdf", "other.vtkhdf", "--figure", "outlines", "-o", "both.png"});
+  EXPECT_EQ(outlines.exit_code, 0) << outlines.err;
 }
 
 TEST_F(Render, MissingInputsAreNamed) {

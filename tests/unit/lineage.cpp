@@ -35,6 +35,8 @@ TEST(Lineage, FilesOfOneScanHaveAnInputInCommon) {
   check_same_origin(mesh, {"mlo.vtkhdf", "mlo", &cc});
   check_same_origin(mesh, {"foreign.vti", "foreign", &none});
   EXPECT_THROW(check_same_origin(mesh, {"mlo.vtkhdf", "mlo", &other}), Error);
+  EXPECT_THROW(check_same_origin(mesh, {"right.vti", "image", &image, Side::right}), Error)
+      << "the other breast of the same scan";
 }
 
 }  // namespace
