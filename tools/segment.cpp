@@ -157,6 +157,15 @@ Run::Input read_wall(const std::filesystem::path& file, const TissueCodes& codes
   return {file, sha256, nullptr};
 }
 
+// A scan in another posture than the one asked for would be given gravity in the wrong direction.
+void check_posture(const std::string& position, const std::string& posture, Run& run) {
+  if (position.empty()) return;  // not a DICOM series, or not stated
+  const char expected = posture == "prone" ? 'P' : 'S';
+  if (position.size() == 3 && position.back() == expected) return;
+  run.warn(message("the scanner recorded the patient position ", position, ", but --posture is ",
+                   posture, ": check how the patient lay"));
+}
+
 void run_segment(const Choices& c, Run& run) {
   SegmentOptions options;
   options.side = side_from_name(c.side);
@@ -171,6 +180,7 @@ void run_segment(const Choices& c, Run& run) {
     const Timer::Scope phase(run.timer(), "read");
     return read_volume(c.scan, c.series, &source);
   }();
+  check_posture(source.patient_position, c.posture, run);
   std::vector<Run::Input> inputs{{c.scan, source.content_sha256, nullptr}};
   if (wall) inputs.push_back(*wall);
   Segmentation result = segment_breast(scan, options, run.progress(), run.timer());

@@ -21,6 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t pixel_data = 0x7fe00010;
+// Transfer syntaxes whose pixel data are native (PS3.5 A.1, A.2).
+const std::string implicit_syntax = "1.2.840.10008.1.2";
+const std::string explicit_little_endian = "1.2.840.10008.1.2.1";
 // Value representations (PS3.5 table 6.2-1) with a length of 32 bits after two empty bytes, and
 // those with a length of 16 bits.
 constexpr std::string_view long_kinds = "OB OD OF OL OV OW SQ SV UC UN UR UT UV";
@@ -60,12 +63,12 @@ class Walker {
 
   bool explicit_syntax(const DicomHeader& header) const {
     const auto found = header.find("0002|0010");
-    const std::string syntax = found == header.end() ? "1.2.840.10008.1.2" : found->second;
+    const std::string syntax = found == header.end() ? implicit_syntax : found->second;
     if (syntax == "1.2.840.10008.1.2.2" || syntax == "1.2.840.10008.1.2.1.99") {
       throw input_error(file_.string(),
                         ": big-endian or deflated DICOM is not read: convert it first");
     }
-    return syntax != "1.2.840.10008.1.2";
+    return syntax != implicit_syntax;
   }
 
   template <class T>
@@ -160,14 +163,22 @@ class Walker {
   int tags_ = 0;
 };
 
-/// Uncompressed pixel data must be as long as rows, columns and bits say.
+/// Pixel data are encapsulated if, and only if, the transfer syntax says so; otherwise they must be as
+/// long as rows, columns and bits say.
 void check_pixel_bytes(const fs::path& file, const DicomHeader& header) {
   const auto number = [&](const char* key, double fallback) {
     const auto found = header.find(key);
     return found == header.end() ? fallback : std::strtod(found->second.c_str(), nullptr);
   };
   const std::string& length = header.at("7fe0|0010");
-  if (length == "encapsulated") return;
+  const bool encapsulated = length == "encapsulated";
+  const auto stated = header.find("0002|0010");
+  const std::string syntax = stated == header.end() ? implicit_syntax : stated->second;
+  const bool native = syntax == implicit_syntax || syntax == explicit_little_endian;
+  if (encapsulated == native)
+    throw input_error(file.string(), ": pixel data are ", encapsulated ? "" : "not ",
+                      "encapsulated, contrary to the transfer syntax ", syntax);
+  if (encapsulated) return;
   const double needed = number("0028|0010", 0) * number("0028|0011", 0) * number("0028|0002", 1) *
                         number("0028|0100", 16) / 8;
   if (!(needed > 0) || std::strtod(length.c_str(), nullptr) < needed) {

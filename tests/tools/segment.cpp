@@ -72,6 +72,25 @@ TEST_F(SegmentFolder, SeveralSeriesAreListedAndOneIsAskedFor) {
   }
 }
 
+// The scanner's record of the posture is the only one that a scan carries.
+TEST_F(SegmentFolder, ASupineSeriesIsNotTakenForAProneOneWithoutAWarning) {
+  write_dicom_series(folder_ / "supine", scan(), "T1 supine");
+  for (const auto& entry : fs::directory_iterator(folder_ / "supine")) {
+    std::string bytes = read_text(entry.path());
+    const auto at = bytes.find("HFP");
+    ASSERT_NE(at, std::string::npos);
+    write_text(entry.path(), bytes.replace(at, 3, "HFS"));
+  }
+  write_dicom_series(folder_ / "prone", scan(), "T1 prone");
+  const auto warned = [&](const std::string& series) {
+    EXPECT_EQ(segment(series, {"--report", "r.json"}).exit_code, 0);
+    return read_text(folder_ / "r.json").find("the patient position HFS, but --posture is prone") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(warned("supine"));
+  EXPECT_FALSE(warned("prone"));
+}
+
 TEST_F(SegmentFolder, TheChosenSeriesGivesWhatItsOwnFileGives) {
   const std::string listed = segment("exam", {}).err;
   const std::size_t name = listed.find(" = T1 prone");

@@ -331,6 +331,15 @@ TEST_F(DicomHeaders, OfAnotherModality) {
   change(std::string("\x08\0\x60\0CS\2\0MR", 10), std::string("\x08\0\x60\0CS\2\0CT", 10));
   expect("modality CT");
 }
+TEST_F(DicomHeaders, WithATransferSyntaxThatIsNotThatOfThePixels) {
+  change(std::string("1.2.840.10008.1.2.1\0", 20), std::string("1.2.840.10008.1.2.5\0", 20), 2, 2);
+  expect("slice_0002.dcm: pixel data are not encapsulated, contrary to the transfer syntax");
+}
+TEST_F(DicomHeaders, OfThePatientsPositionAreKept) {
+  VolumeSource source;
+  read_volume(folder_ / "scan", 0, &source);
+  EXPECT_EQ(source.patient_position, "HFP");
+}
 TEST_F(DicomHeaders, WithAxesThatAreNot) {
   change("1\\0\\0\\0\\1\\0", "1\\0\\0\\0\\2\\0");
   expect("perpendicular");

@@ -14,6 +14,7 @@ struct DicomSeries {
   std::string uid;
   int number = 0;
   std::string description;
+  std::string patient_position;              ///< "HFP", head first and prone; "" if not stated
   std::vector<std::filesystem::path> files;  ///< in the order found
   std::string label() const;                 ///< "T1 TSE, 40 files (series number 3)"
 };

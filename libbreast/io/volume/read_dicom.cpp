@@ -199,6 +199,7 @@ std::vector<DicomSeries> list_dicom_series(const fs::path& folder) {
     series.uid = header["0020|000e"];
     series.number = std::atoi(header["0020|0011"].c_str());
     series.description = header["0008|103e"];
+    series.patient_position = header["0018|5100"];
     series.files.push_back(name);
   }
   std::vector<DicomSeries> list;

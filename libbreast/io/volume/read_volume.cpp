@@ -109,7 +109,7 @@ std::string content_hash(const Volume<float>& volume) {
   return hash.hex();
 }
 
-Volume<float> read_folder(const fs::path& folder, int series, std::string& description) {
+Volume<float> read_folder(const fs::path& folder, int series, VolumeSource& source) {
   const std::vector<DicomSeries> list = list_dicom_series(folder);
   if (list.empty()) throw input_error(folder.string(), ": no DICOM images in this folder");
   const int count = static_cast<int>(list.size());
@@ -119,7 +119,8 @@ Volume<float> read_folder(const fs::path& folder, int series, std::string& descr
     throw input_error(folder.string(), ": ", count, " series; choose one with --series N: ", text);
   }
   const int chosen = series == 0 ? 1 : series;
-  description = message("DICOM series ", chosen, ": ", list[chosen - 1].label());
+  source.description = message("DICOM series ", chosen, ": ", list[chosen - 1].label());
+  source.patient_position = list[chosen - 1].patient_position;
   return read_dicom_series(folder, list[chosen - 1]);
 }
 
@@ -127,20 +128,22 @@ Volume<float> read_folder(const fs::path& folder, int series, std::string& descr
 
 Volume<float> read_volume(const fs::path& file, int series, VolumeSource* source) {
   if (series < 0) throw input_error("series ", series, ": must be 1 or more (0 for the only one)");
-  std::string description;
+  VolumeSource found;
   Volume<float> volume;
   std::error_code none;
   if (fs::is_directory(file, none)) {
-    volume = read_folder(file, series, description);
+    volume = read_folder(file, series, found);
   } else if (!fs::is_regular_file(file, none)) {
     throw input_error(file.string(), ": no such file");
   } else {
     volume = read_single_file(file);
-    description = file.extension().string().substr(1);
+    found.description = file.extension().string().substr(1);
   }
   check_scan_grid(file.string(), volume.grid);
   check_finite(file, volume);
-  if (source) *source = {description, content_hash(volume)};
+  if (!source) return volume;
+  found.content_sha256 = content_hash(volume);
+  *source = found;
   return volume;
 }
 
