@@ -20,6 +20,7 @@ struct Choices {
   SoftnessData data;  // with its defaults
   std::vector<double> expected, pressure;
   std::optional<double> sternum;
+  std::string cut = "spring";
   double kept = 5, smoothing = 0.02, prestretch = 3;
   CompressionChoices press;
 
@@ -56,6 +57,9 @@ void declare(Tool& tool, Choices& c) {
   tool.text(c.from, "--from", "NAME|FILE", "material set whose constants are scaled");
   tool.numbers(c.expected, "--expected", "LOW,QUADRATIC,SKIN,WALL,CUT", 5,
                "centre of the prior: the first three in percent, the last two in kPa/mm");
+  tool.choice(
+      c.cut, "--cut", {"spring", "tissue"},
+      "support of the cut: springs, or springs that also carry the weight of the tissue beyond");
   tool.number(
       c.sternum, "--sternum", "KPA_PER_MM",
       "centre of the prior of the stiffness of an attachment to the sternum (default: none)", 1e-4,
@@ -144,6 +148,7 @@ void run_calibration(const Choices& c, Run& run) {
   MaterialSet base = load_materials(c.from);
   base.skin = {c.kept / 100, c.smoothing, c.prestretch / 100};
   check_skin(base.skin, "skin");
+  base.tissue_beyond = c.cut == "tissue";
   const SoftnessFound found = calibrate_softness(base, data, run.progress());
   if (!found.fit.converged) run.warn("the calibration stopped before its parameters settled");
   write_table(c.set, material_table(found.materials));

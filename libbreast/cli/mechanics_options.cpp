@@ -67,11 +67,12 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices) {
             "spring: springs of KN kPa/mm normal and KT tangential to the wall (KT is a third "
             "of KN if it is not given) (default: that of the material set, otherwise held)");
   tool.text(
-      choices.cut, "--cut", "free|fixed|roller|spring:KC[,KS]",
+      choices.cut, "--cut", "free|fixed|roller|spring:KC[,KS]|tissue:KC[,KS]",
       "boundary condition on the lateral cut, the surface at which the model ends: free, "
       "fixed, roller, or springs of KC kPa/mm; where the cut faces the sternum, an attachment "
-      "of KS kPa/mm pulls tissue back that moves away from it (default: that of the "
-      "material set, otherwise free)");
+      "of KS kPa/mm pulls tissue back that moves away from it. tissue: the same springs, which "
+      "also carry the weight of the tissue beyond, as far as its own supports at the wall (KT) "
+      "do not (default: that of the material set, otherwise free)");
   tool.number(choices.skin_compression, "--skin-compression", "PERCENT",
               "share of the skin's stiffness that remains in compression, where skin wrinkles "
               "(default: that of the material set, otherwise 100)",

@@ -67,6 +67,9 @@ PartProblem::PartProblem(const Ranks& ranks, const MeshPart& part, const Mechani
       problem_->set_sliding(
           std::make_shared<SlidingNodes>(part.wall, part.sliding, flatten(part.mesh.imaged)));
     }
+    if (options.cut.kind == Cut::tissue)
+      beyond_.emplace(part.mesh, *part.wall, options.materials.density[std::size_t(Tissue::fat)],
+                      length_beyond(options.wall, options.cut));
     for (int e = 0; e < part.mesh.elements(); ++e) volume += pressures().volume(e);
   });
   gravity_ = Eigen::VectorXd::Zero(3L * part.mesh.nodes());
@@ -81,6 +84,7 @@ void PartProblem::set_gravity(const Vec3& gravity) {
   for (int node = 0; node < part_.mesh.nodes(); ++node) {
     gravity_.segment<3>(3L * node) = solid_->nodal_mass()[node] * gravity;
   }
+  if (beyond_) beyond_->add(gravity, gravity_);
   set_load(1);
 }
 

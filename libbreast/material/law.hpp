@@ -76,6 +76,7 @@ struct MaterialSet {
   /// was identified; if absent, the wall is fixed and the cut free. Stiffness of an attachment to
   /// the sternum, which only pulls; if absent, there is none.
   std::optional<double> wall_support, cut_support, sternum_support;
+  bool tissue_beyond = false;  ///< the cut carries the weight of the tissue beyond it
   SoftnessUncertainty uncertainty;
   const Law& law(Tissue t) const { return laws[static_cast<std::size_t>(t)]; }
 };

@@ -43,10 +43,11 @@ void read_skin(const Table& table, std::size_t row, const std::string& where, Sk
   check_skin(skin, where);
 }
 
-/// Rows "wall", "cut" and "sternum" with the law "support".
+/// Rows "wall", "cut" and "sternum" with the law "support"; the cut may have the law "tissue" instead.
 bool read_support(const Table& table, std::size_t row, const std::string& name, MaterialSet& set) {
-  if (table.cell(row, "law") != "support") return false;
-  const std::string where = table.cell(row, "tissue");
+  const std::string law = table.cell(row, "law"), where = table.cell(row, "tissue");
+  const bool beyond = law == "tissue" && where == "cut";
+  if (law != "support" && !beyond) return false;
   const double stiffness = table.number(row, "support_kPa_per_mm");
   std::optional<double>* const support = support_in(set, where);
   if (support == nullptr || !(stiffness >= 0 && stiffness <= 1e6)) {
@@ -54,6 +55,7 @@ bool read_support(const Table& table, std::size_t row, const std::string& name, 
                       " kPa/mm; 'wall', 'cut' and 'sternum' take 0 to 1e6");
   }
   *support = stiffness;
+  set.tissue_beyond = set.tissue_beyond || beyond;
   return true;
 }
 

@@ -26,8 +26,8 @@ Row law_row(const MaterialSet& set, Tissue tissue) {
   return row;
 }
 
-Row support_row(const char* where, double stiffness) {
-  return {{"tissue", where}, {"law", "support"}, {"support_kPa_per_mm", format_number(stiffness)}};
+Row support_row(const char* where, double stiffness, const char* law = "support") {
+  return {{"tissue", where}, {"law", law}, {"support_kPa_per_mm", format_number(stiffness)}};
 }
 
 /// Without the rounding errors of its division.
@@ -58,7 +58,8 @@ Table material_table(const MaterialSet& set) {
                               Tissue::skin})
     rows.push_back(law_row(set, tissue));
   if (set.wall_support) rows.push_back(support_row("wall", *set.wall_support));
-  if (set.cut_support) rows.push_back(support_row("cut", *set.cut_support));
+  if (set.cut_support)
+    rows.push_back(support_row("cut", *set.cut_support, set.tissue_beyond ? "tissue" : "support"));
   if (set.sternum_support) rows.push_back(support_row("sternum", *set.sternum_support));
   add_uncertainty(set.uncertainty, rows);
   Table table{{"tissue", "law", "density_g_per_mm3", "a10_Pa", "a01_Pa", "a20_Pa", "a02_Pa",

@@ -108,6 +108,11 @@ void Scene::add_wall() {
     if (along > 0) wall_springs_ = springs(mesh_.pectoral_faces, {along, along});
   }
   cut_springs_ = springs_at_cut(mesh_, options_.cut);
+  if (options_.cut.kind != Cut::tissue || mesh_.cut_faces.empty()) return;
+  if (!surface)
+    throw input_error("--cut tissue: the mesh has no chest-wall surface; use --cut spring");
+  beyond_.emplace(mesh_, *surface, options_.materials.density[std::size_t(Tissue::fat)],
+                  length_beyond(wall, options_.cut));
 }
 
 long Scene::unknowns() const {
@@ -170,6 +175,7 @@ Eigen::VectorXd Scene::gravity_force(const Vec3& gravity) const {
   for (int node = 0; node < nodes(); ++node) {
     force.segment<3>(3L * node) = solid_->nodal_mass()[node] * gravity;
   }
+  if (beyond_) beyond_->add(gravity, force);
   return force;
 }
 

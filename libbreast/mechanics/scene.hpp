@@ -12,10 +12,12 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 
 #include "mechanics/terms/cut_springs.hpp"
 #include "mechanics/terms/dead_load.hpp"
 #include "mechanics/terms/solid.hpp"
+#include "mechanics/terms/tissue_beyond.hpp"
 #include "solve/problem.hpp"
 
 namespace breast {
@@ -49,6 +51,8 @@ class Scene {
   const NodeSprings* wall_springs() const { return wall_springs_.get(); }
   const NodeSprings* cut_springs() const { return cut_springs_.around.get(); }
   const NodeSprings* sternal_attachment() const { return cut_springs_.sternal.get(); }
+  /// Null if the tissue beyond the cut has no weight.
+  const TissueBeyond* tissue_beyond() const { return beyond_ ? &*beyond_ : nullptr; }
   /// Force of all springs on the body, µN.
   Vec3 force_of_springs(const State& state) const;
   /// The constraints that do not depend on where the body is.
@@ -61,7 +65,8 @@ class Scene {
 
   /// Terms and constraints of this scene under nodal forces (µN, 3 per node).
   LoadedProblem problem(const Eigen::VectorXd& force) const;
-  /// Nodal gravity forces, µN (3 per node), from the imaged shape. `gravity`: mm/s², LPS.
+  /// Nodal gravity forces, µN (3 per node), from the imaged shape, with those of the tissue beyond the
+  /// cut. `gravity`: mm/s², LPS.
   Eigen::VectorXd gravity_force(const Vec3& gravity) const;
   /// A force derived from the stiffness, as a scale of the residual if there is no load, µN.
   double stiffness_force() const;
@@ -80,6 +85,7 @@ class Scene {
   std::shared_ptr<const Term> membrane_;
   std::shared_ptr<const NodeSprings> wall_springs_;
   CutSprings cut_springs_;
+  std::optional<TissueBeyond> beyond_;
   std::shared_ptr<const SlidingNodes> sliding_;
   Constraints walls_;
 };

@@ -7,11 +7,12 @@
 namespace breast {
 
 /// If the material set of `options` has supports, the breast slides on the chest wall against them
-/// and the cut has springs and may be attached to the sternum; otherwise wall and cut are unchanged.
+/// and the cut has springs, may carry the weight of the tissue beyond, and may be attached to the sternum; otherwise wall and cut are unchanged.
 inline void take_supports_of_set(MechanicsOptions& options) {
   const MaterialSet& set = options.materials;
   if (set.wall_support) options.wall = WallOption(WallKind::slide, {0, *set.wall_support});
-  if (set.cut_support) options.cut = CutOption(Cut::spring, *set.cut_support, set.sternum_support);
+  const Cut cut = set.tissue_beyond ? Cut::tissue : Cut::spring;
+  if (set.cut_support) options.cut = CutOption(cut, *set.cut_support, set.sternum_support);
 }
 
 }  // namespace breast

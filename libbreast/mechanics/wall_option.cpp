@@ -54,16 +54,16 @@ CutOption parse_cut(const std::string& text) {
   if (text == "free") return {};
   if (text == "fixed") return Cut::fixed;
   if (text == "roller") return Cut::roller;
-  if (const auto spring = numbers_after("spring", text); spring && spring->size() <= 2) {
+  for (const Cut kind : {Cut::spring, Cut::tissue}) {
+    const auto spring = numbers_after(kind == Cut::spring ? "spring" : "tissue", text);
+    if (!spring || spring->size() > 2 || !(spring->front() > 0 && spring->back() > 0)) continue;
     const bool uniform = spring->size() == 1;
-    if (spring->front() > 0 && spring->back() > 0) {
-      return {Cut::spring, spring->front(),
-              uniform ? std::nullopt : std::optional<double>(spring->back())};
-    }
+    return {kind, spring->front(), uniform ? std::nullopt : std::optional<double>(spring->back())};
   }
   throw input_error("--cut ", text,
                     ": give 'free', 'fixed', 'roller', 'spring:STIFFNESS' or "
-                    "'spring:STIFFNESS,STERNAL' in kPa/mm above 0; for example spring:0.01");
+                    "'spring:STIFFNESS,STERNAL' in kPa/mm above 0, or the same with 'tissue'; for "
+                    "example spring:0.01");
 }
 
 std::string describe(const WallOption& wall) {
@@ -88,7 +88,8 @@ std::string describe(const CutOption& cut) {
     case Cut::roller:
       return "roller";
     case Cut::spring:
-      return "spring:" + formatted(cut.stiffness) +
+    case Cut::tissue:
+      return (cut.kind == Cut::spring ? "spring:" : "tissue:") + formatted(cut.stiffness) +
              (cut.sternal ? "," + formatted(*cut.sternal) : "");
   }
   return "";

@@ -34,13 +34,16 @@ enum class Cut {
   fixed,
   roller,  ///< slides on its mean plane
   spring,  ///< springs in all directions
+  tissue,  ///< the same springs, and the weight of the tissue beyond (terms/tissue_beyond.hpp)
 };
 
 struct CutOption {
   Cut kind = Cut::free;
-  double stiffness = 0;  ///< kPa/mm; spring only
+  double stiffness = 0;  ///< kPa/mm; spring and tissue only
   /// Stiffness of an attachment to the sternum, which only pulls, kPa/mm; none if absent.
   std::optional<double> sternal = {};
+
+  bool has_springs() const { return kind == Cut::spring || kind == Cut::tissue; }
 
   CutOption(Cut how = Cut::free, double springs = 0, std::optional<double> at_sternum = {})
       : kind(how), stiffness(springs), sternal(at_sternum) {}
@@ -55,7 +58,8 @@ inline constexpr double usual_sliding_stiffness = 0.01;
 /// with free sides (E/h normal, G/h = E/3h tangential). Throws Error (input) for anything else.
 WallOption parse_wall(const std::string& text);
 /// "free", "fixed", "roller", "spring:STIFFNESS" or "spring:STIFFNESS,STERNAL" in kPa/mm, where the
-/// second number is the stiffness of an attachment to the sternum. Throws Error (input) otherwise.
+/// second number is the stiffness of an attachment to the sternum, or the same with "tissue" instead of
+/// "spring". Throws Error (input) otherwise.
 CutOption parse_cut(const std::string& text);
 
 /// The option's text as on a command line.

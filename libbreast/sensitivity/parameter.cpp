@@ -108,7 +108,7 @@ std::vector<Parameter> all_parameters(const HexMesh& state, const MechanicsOptio
   if (options.wall.kind != WallKind::held && options.wall.stiffness.tangential > 0) {
     all.push_back({"wall", ParameterKind::wall_support});
   }
-  if (options.cut.kind == Cut::spring) {
+  if (options.cut.has_springs()) {
     all.push_back({"cut", ParameterKind::cut_support});
     if (options.cut.sternal) all.push_back({"sternum", ParameterKind::sternum_support});
   }

@@ -232,6 +232,14 @@ void add_compliance(const Scene& scene, const LoadedState& state,
   }
 }
 
+// Forces of the tissue beyond the cut: proportional to the cut's stiffness and to the density of fat, and
+// inversely to the wall's stiffness.
+Eigen::VectorXd weight_beyond(const Scene& scene, const LoadedState& state) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(3L * scene.nodes());
+  if (scene.tissue_beyond()) scene.tissue_beyond()->add(state.gravity, force);
+  return force;
+}
+
 ParameterForces of_each(const Scene& scene, const LoadedState& state, ParameterKind role,
                         const std::vector<Parameter>& parameters) {
   ParameterForces out;
@@ -250,9 +258,11 @@ ParameterForces of_each(const Scene& scene, const LoadedState& state, ParameterK
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Parameter& parameter = parameters[i];
     if (parameter.kind == ParameterKind::wall_support) {
-      out.force.col(long(i)) += scene.wall_springs()->forces(state.state);
+      out.force.col(long(i)) +=
+          scene.wall_springs()->forces(state.state) + weight_beyond(scene, state);
     } else if (parameter.kind == ParameterKind::cut_support) {
-      out.force.col(long(i)) += scene.cut_springs()->forces(state.state);
+      out.force.col(long(i)) +=
+          scene.cut_springs()->forces(state.state) - weight_beyond(scene, state);
     } else if (parameter.kind == ParameterKind::sternum_support) {
       out.force.col(long(i)) += scene.sternal_attachment()->forces(state.state);
     } else if (parameter.kind == ParameterKind::density) {
@@ -262,6 +272,7 @@ ParameterForces of_each(const Scene& scene, const LoadedState& state, ParameterK
                                        ? tissue_mass<8>(scene, parameter.tissue)
                                        : tissue_mass<27>(scene, parameter.tissue);
       out.force.col(long(i)) -= weight(mass, state.gravity);
+      if (parameter.tissue == Tissue::fat) out.force.col(long(i)) -= weight_beyond(scene, state);
     } else if (parameter.kind == role) {
       out.force.col(long(i)) -= scene.gravity_force(turned_gravity(state.gravity, parameter.axis));
     }

@@ -100,6 +100,7 @@ TEST_F(MpiTools, BackwardIsThatOfOneProcessOnEveryWall) {
   for (const std::string how :
        {" --wall held",
         " --wall slide --cut spring:0.02,0.1 --gravity -4000,-9000,0",  // the sternum pulls
+        " --wall slide:0.02 --cut tissue:0.02,0.1 --gravity -4000,-9000,0",
         " --wall spring:1 --cut roller"}) {
     ASSERT_EQ(run("backward mesh.vtkhdf one.vtkhdf --estimate none" + how), 0) << said_.err;
     ASSERT_EQ(run_on(2, "backward-mpi mesh.vtkhdf many.vtkhdf --report many.json" + how), 0)

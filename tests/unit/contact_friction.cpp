@@ -63,7 +63,8 @@ TEST(ContactOptions, WallAndDetectorAreReadOrRefusedInWords) {
   for (const char* text : {"held", "slide:0.02", "spring:3,0.5"}) {
     EXPECT_EQ(describe(parse_wall(text)), text);
   }
-  for (const char* text : {"free", "fixed", "roller", "spring:0.005", "spring:0.005,0.1"}) {
+  for (const char* text :
+       {"free", "fixed", "roller", "spring:0.005", "spring:0.005,0.1", "tissue:0.005,0.1"}) {
     EXPECT_EQ(describe(parse_cut(text)), text);
   }
   EXPECT_TRUE(std::isinf(parse_detector("raised")));

@@ -153,7 +153,8 @@ TEST(Materials, EmbeddedSetsLoadAndScale) {
 TEST(MaterialTable, ReadsBackAsWritten) {
   for (const std::string& name : material_set_names()) {
     MaterialSet set = load_materials(name);
-    set.wall_support = 0.1 / 3, set.cut_support = 0.02, set.sternum_support = 0.3;
+    set.wall_support = 0.1 / 3, set.cut_support = 0.02, set.sternum_support = 0.3,
+    set.tissue_beyond = true;
     set.uncertainty.parameters = {"low_order", "wall"};
     set.uncertainty.covariance.resize(2, 2);
     set.uncertainty.covariance << 0.25, -0.03, -0.03, 0.04;
@@ -169,6 +170,7 @@ TEST(MaterialTable, ReadsBackAsWritten) {
     EXPECT_NEAR(back.skin.kept, set.skin.kept, 1e-15);
     EXPECT_EQ(back.wall_support, set.wall_support);
     EXPECT_EQ(back.cut_support, set.cut_support);
+    EXPECT_EQ(back.tissue_beyond, set.tissue_beyond);
     EXPECT_EQ(back.sternum_support, set.sternum_support);
     EXPECT_EQ(back.uncertainty.parameters, set.uncertainty.parameters);
     EXPECT_LT((back.uncertainty.covariance - set.uncertainty.covariance).norm(), 1e-15);

@@ -137,6 +137,16 @@ TEST(Sensitivity, OnAWallToSlideOn) {
   expect_adjoint_matches(in, true);
 }
 
+// The weight of the tissue beyond the cut depends on the supports of cut and wall and on the density.
+TEST(Sensitivity, OfTheWeightOfTheTissueBeyondTheCut) {
+  ChainInputs in = cap_inputs();
+  in.mesh = fixtures::cap_on_sphere(4);
+  in.options.wall = fixtures::slide(fixtures::sphere(), 0.02);
+  in.options.cut = CutOption(Cut::tissue, 0.01);
+  in.gravity.x() += 4000;
+  expect_all_match(in, "fat,density,fat.density,wall,cut,gravity_x,imaged_gravity_x");
+}
+
 // Nothing but ratios of stress and weight decides an equilibrium.
 TEST(Sensitivity, StiffnessOfAllTissuesUndoesDensity) {
   const ChainInputs in = cap_inputs();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -14,6 +15,7 @@
 #include "fixtures/in_place.hpp"
 #include "fixtures/sliding_cap.hpp"
 #include "mechanics/terms/cut_springs.hpp"
+#include "mechanics/terms/tissue_beyond.hpp"
 #include "mesh/nodal.hpp"
 
 namespace breast {
@@ -224,6 +226,54 @@ TEST(CutSprings, TheSternumHoldsABreastThatMovesAwayFromIt) {
   };
   EXPECT_GT(apart(5000), 0.1);
   EXPECT_LT(apart(-5000), 0.01 * apart(5000));
+}
+
+// A layer that is even everywhere moves along the wall by ρ h g / KT as one piece, wherever it is cut and
+// whatever the stiffness there, if the cut carries the weight of what lies beyond; springs alone hold it
+// back. Stiff tissue, so that the layer does not shear: by ρ g h² / 2μ = 0.02 mm.
+TEST(TissueBeyond, AnEvenLayerMovesAsOneWhereverItIsCut) {
+  constexpr double height = thickness_beyond, along = 0.01, percent = 1e4;
+  const Vec3 gravity(0, 6000, -8000);  // along the wall
+  const auto moved = [&](const Vec3& size, const CutOption& cut) {
+    fixtures::BlockSettings settings;
+    settings.size = size;
+    HexMesh mesh = fixtures::block(settings);
+    std::swap(mesh.cut_faces, mesh.skin_faces);
+    std::erase_if(mesh.cut_faces, [&](const Face& face) {  // the free surface
+      const std::vector<int> nodes = face_nodes(mesh, face);
+      return std::all_of(nodes.begin(), nodes.end(), [&](int node) {
+        return mesh.imaged[std::size_t(node)].x() > 0.99 * height;
+      });
+    });
+    MechanicsOptions options =
+        soft(percent, slide(std::make_shared<fixtures::Plane>(Vec3(1, 0, 0)), along));
+    options.cut = cut;
+    EXPECT_TRUE(fixtures::forward_into(mesh, gravity, options).converged());
+    std::vector<Vec3> by;
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      by.push_back(mesh.points[i] - mesh.imaged[i]);
+    return by;
+  };
+  const auto furthest_from = [](const std::vector<Vec3>& by, const Vec3& expected) {
+    return worst_distance(by, std::vector<Vec3>(by.size(), expected));
+  };
+  const Vec3 expected = 1e-3 * height / (along * pascal_per_kilopascal) * gravity;
+  EXPECT_NEAR(expected.norm(), 20, 1e-9);
+  for (const double stiffness : {0.005, 0.1}) {
+    for (const Vec3& size : {Vec3(height, 60, 80), Vec3(height, 120, 50)}) {
+      EXPECT_LT(furthest_from(moved(size, {Cut::tissue, stiffness}), expected), 0.05);
+      EXPECT_GT(furthest_from(moved(size, {Cut::spring, stiffness}), expected), 2);
+    }
+  }
+}
+
+TEST(TissueBeyond, NeedsAWallThatCarriesIt) {
+  HexMesh mesh = cap_on_sphere();
+  for (const WallOption& wall : {WallOption(), slide(sphere(), 0)}) {
+    MechanicsOptions options = soft(20, wall);
+    options.cut = CutOption(Cut::tissue, 0.01);
+    EXPECT_THROW(fixtures::forward_into(mesh, supine, options), Error);
+  }
 }
 
 TEST(Sliding, StiffSupportEqualsAHeldWall) {

@@ -36,7 +36,7 @@ std::vector<Candidate> candidates(const HexMesh& mesh, const MechanicsOptions& o
   }
   if (options.wall.kind != WallKind::held) all.push_back({Changed::wall});
   const Cut cut = options.cut.kind;
-  if (!mesh.cut_faces.empty() && (cut == Cut::free || cut == Cut::spring)) {
+  if (!mesh.cut_faces.empty() && (cut == Cut::free || options.cut.has_springs())) {
     all.push_back({Changed::cut});
   }
   return all;
@@ -129,7 +129,7 @@ MechanicsOptions with_change(const MechanicsOptions& options, Changed what, doub
     return out;
   }
   if (what == Changed::cut) {
-    out.cut.kind = Cut::spring;
+    if (!out.cut.has_springs()) out.cut.kind = Cut::spring;
     if (out.cut.sternal) *out.cut.sternal *= factor;
   }
   double& stiffness = *stiffness_of(out, what);

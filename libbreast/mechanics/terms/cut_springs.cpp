@@ -6,7 +6,7 @@
 namespace breast {
 
 CutSprings springs_at_cut(const HexMesh& mesh, const CutOption& cut) {
-  if (cut.kind != Cut::spring || mesh.cut_faces.empty()) return {};
+  if (!cut.has_springs() || mesh.cut_faces.empty()) return {};
   CutSprings springs;
   springs.around = std::make_shared<ElasticSupport>(mesh, mesh.cut_faces,
                                                     SupportStiffness{cut.stiffness, cut.stiffness});

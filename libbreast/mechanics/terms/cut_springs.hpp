@@ -19,7 +19,7 @@ struct CutSprings {
   std::shared_ptr<const NodeSprings> sternal;  ///< null if there is no s
 };
 
-/// Null pointers for an option other than Cut::spring and for a mesh without cut faces.
+/// Null pointers for an option without springs and for a mesh without cut faces.
 CutSprings springs_at_cut(const HexMesh& mesh, const CutOption& cut);
 
 }  // namespace breast
