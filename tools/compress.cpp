@@ -80,7 +80,7 @@ void declare(Tool& tool, Choices& c) {
               95);
   tool.number(c.force, "--force", "N", "stop at this paddle force", 1e-6, 1e5);
   tool.number(c.pressure, "--pressure", "KPA",
-              "stop at this mean pressure: the paddle's force divided by its contact area", 1e-6,
+              "stop at this mean pressure: the paddle's force divided by its contact area", 0.001,
               1e4);
   tool.number(c.area, "--area", "CM2", "stop at this contact area of the paddle", 1e-3, 1e4);
   tool.input_file(c.like, "--like", "MG.dcm",

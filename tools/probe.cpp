@@ -134,6 +134,8 @@ void tell_positions(const Choices& c, const std::vector<HexMesh>& meshes, Run& r
 }
 
 void tell_errors(const Choices& c, const std::vector<HexMesh>& meshes, Run& run) {
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    check_same_origin(origin_of(c.files.front(), meshes.front()), origin_of(c.files[i], meshes[i]));
   const auto truth = true_landmarks(read_table(c.truth), meshes.front().side, c.truth.string());
   const Table errors = compare_with_truth(meshes, truth);
   report_truth(errors, run.report());

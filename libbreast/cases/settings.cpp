@@ -60,7 +60,8 @@ class Decisions {
     if (!value("CASE_FILE").empty()) take_case_file();
     take_defaults();
     for (const Setting& setting : settings_)
-      check_choice(setting, value(setting.name), request_.pipelines);
+      if (!is_made_here(value(setting.name)))
+        check_choice(setting, value(setting.name), request_.pipelines);
     decide_scan();
     decide_folder();
     decide_model();
@@ -79,6 +80,8 @@ class Decisions {
     const auto found = values_.find(name);
     return found == values_.end() ? "" : found->second;
   }
+  // A file that a rule may make before it is read, such as the tumour of a phantom.
+  bool is_made_here(const std::string& text) const { return text.starts_with(value("RUNS") + "/"); }
   bool printed() const { return !value("PAPER").empty(); }
 
   void line(const std::string& text) { text_ += text + make_line_end; }
@@ -179,7 +182,8 @@ void Decisions::decide_scan() {
   const std::string preset = value("PRESET"), at = value("RUNS") + "/phantom/" + preset;
   phantom_ = value("MR").empty();
   // A script whose variable is empty must not get the result of a phantom.
-  if (phantom_ && has("MR") && !request_.environment.contains("MR"))
+  if (phantom_ && has("MR") &&
+      (request_.command_line.contains("MR") || !request_.environment.contains("MR")))
     throw input_error("MR: is empty; name the scan, or leave MR out for the phantom PRESET");
   body_slides_ = among(preset, sliding_presets);
   set("body_slides", body_slides_ ? "yes" : "");

@@ -56,7 +56,11 @@ void check_place(const Setting& setting, const std::string& word) {
   if (std::find(setting.choices.begin(), setting.choices.end(), word) != setting.choices.end())
     return;
   std::error_code none;
-  if (!fs::exists(word, none)) parse_place(word, setting.name);
+  if (fs::is_regular_file(word, none)) return;
+  if (word.find(',') == std::string::npos)
+    throw input_error(setting.name, ": '", word,
+                      "' is neither a file, nor auto, nor none, nor x,y,z[:radius] in mm");
+  parse_place(word, setting.name);
 }
 
 // What a word of the setting may be; "%" if it may be anything.

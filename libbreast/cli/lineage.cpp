@@ -35,9 +35,10 @@ std::set<std::string> contents_behind(const Origin& origin) {
 }  // namespace
 
 void check_same_origin(const Origin& a, const Origin& b) {
-  if (a.side != b.side)
-    throw input_error(a.file.string(), " is of the ", side_name(a.side), " breast and ",
-                      b.file.string(), " of the ", side_name(b.side), ": give files of one breast");
+  if (a.side && b.side && *a.side != *b.side)
+    throw input_error(a.file.string(), " is of the ", side_name(*a.side), " breast and ",
+                      b.file.string(), " of the ", side_name(*b.side),
+                      ": give files of one breast");
   const std::set<std::string> of_a = contents_behind(a), of_b = contents_behind(b);
   if (of_a.empty() || of_b.empty()) return;
   for (const std::string& content : of_a) {

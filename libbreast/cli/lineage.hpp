@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/provenance.hpp"
@@ -20,7 +21,7 @@ struct Origin {
   std::filesystem::path file;
   std::string sha256;
   const History* history = nullptr;
-  Side side = Side::left;
+  std::optional<Side> side = {};
 };
 
 /// Origin of a mesh, labels or a mammogram read from `file`.

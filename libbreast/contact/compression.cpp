@@ -270,8 +270,8 @@ double Compression::load_reached() const {
 void Compression::judge_against_practice() {
   found_.judgement = judge_compression(
       *found_.contact,
-      {found_.pose.n, body_.load->total() / micronewton_per_newton, found_.wall_reaction_N,
-       found_.max_volume_error, found_.places, found_.self_contact});
+      {found_.pose.n, scene_.weight(options_.gravity) / micronewton_per_newton,
+       found_.wall_reaction_N, found_.max_volume_error, found_.places, found_.self_contact});
   for (Judgement& line : judge_path(found_.path, found_.stable)) {
     found_.judgement.push_back(std::move(line));
   }

@@ -107,12 +107,14 @@ Vec3 record_plate(const std::vector<PressedPoint>& points, int k, const Plate& p
 }
 
 void record_balance(const Scene& scene, const Constraints& held, const State& state,
-                    const Vec3& plates, const Vec3& weight, CompressionResult& result) {
+                    const Vec3& plates, const Vec3& weight, const Vec3& load,
+                    CompressionResult& result) {
   const Eigen::VectorXd& residual = result.path.final_step.forces.r;
   Eigen::VectorXd free = residual;
   held.project(free);
   const Eigen::VectorXd reaction = residual - free;
-  Vec3 wall = scene.force_of_springs(state);
+  // With the weight that hangs on the cut.
+  Vec3 wall = scene.force_of_springs(state) + load - weight;
   for (Eigen::Index i = 0; i < reaction.size(); i += 3) wall += reaction.segment<3>(i);
   result.wall_reaction_N = wall / micronewton_per_newton;
   result.weight_N = weight.norm() / micronewton_per_newton;
@@ -162,7 +164,7 @@ ContactRecord record_of(const CompressionOptions& options, const CompressionResu
 
 void record_compression(const Scene& scene, const CompressionOptions& options, const State& state,
                         const ContactSolver& solver, const SurfaceContact* surface,
-                        const Vec3& weight, CompressionResult& result) {
+                        const Vec3& load, CompressionResult& result) {
   const FrictionTerm* friction = surface != nullptr ? surface->friction().get() : nullptr;
   const HexMesh& mesh = scene.mesh();
   result.contact_pressure.assign(std::size_t(mesh.nodes()), 0);
@@ -194,7 +196,8 @@ void record_compression(const Scene& scene, const CompressionOptions& options, c
   result.initial_thickness_mm = record.initial_thickness_mm;
   result.contact = std::move(record);
   record_pressure(mesh, state.x, solver, result);
-  record_balance(scene, solver.problem().constraints_at(state.x), state, total, weight, result);
+  record_balance(scene, solver.problem().constraints_at(state.x), state, total,
+                 scene.weight(options.gravity), load, result);
   const std::vector<Vec3> positions = unflatten(state.x);
   result.self_contact = self_contact(mesh, positions);
   result.projected_cm2 = projected_cm2(mesh, positions, result.plates.paddle);

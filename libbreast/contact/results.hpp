@@ -13,6 +13,6 @@ namespace breast {
 /// null.
 void record_compression(const Scene& scene, const CompressionOptions& options, const State& state,
                         const ContactSolver& solver, const SurfaceContact* surface,
-                        const Vec3& weight, CompressionResult& result);
+                        const Vec3& load, CompressionResult& result);
 
 }  // namespace breast

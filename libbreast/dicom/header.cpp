@@ -24,6 +24,11 @@ constexpr std::uint32_t pixel_data = 0x7fe00010;
 // Transfer syntaxes whose pixel data are native (PS3.5 A.1, A.2).
 const std::string implicit_syntax = "1.2.840.10008.1.2";
 const std::string explicit_little_endian = "1.2.840.10008.1.2.1";
+std::string transfer_syntax(const DicomHeader& header) {
+  const auto stated = header.find("0002|0010");
+  return stated == header.end() ? implicit_syntax : stated->second;
+}
+
 // Value representations (PS3.5 table 6.2-1) with a length of 32 bits after two empty bytes, and
 // those with a length of 16 bits.
 constexpr std::string_view long_kinds = "OB OD OF OL OV OW SQ SV UC UN UR UT UV";
@@ -62,8 +67,7 @@ class Walker {
   }
 
   bool explicit_syntax(const DicomHeader& header) const {
-    const auto found = header.find("0002|0010");
-    const std::string syntax = found == header.end() ? implicit_syntax : found->second;
+    const std::string syntax = transfer_syntax(header);
     if (syntax == "1.2.840.10008.1.2.2" || syntax == "1.2.840.10008.1.2.1.99") {
       throw input_error(file_.string(),
                         ": big-endian or deflated DICOM is not read: convert it first");
@@ -172,8 +176,7 @@ void check_pixel_bytes(const fs::path& file, const DicomHeader& header) {
   };
   const std::string& length = header.at("7fe0|0010");
   const bool encapsulated = length == "encapsulated";
-  const auto stated = header.find("0002|0010");
-  const std::string syntax = stated == header.end() ? implicit_syntax : stated->second;
+  const std::string syntax = transfer_syntax(header);
   const bool native = syntax == implicit_syntax || syntax == explicit_little_endian;
   if (encapsulated == native)
     throw input_error(file.string(), ": pixel data are ", encapsulated ? "" : "not ",

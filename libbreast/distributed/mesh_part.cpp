@@ -57,8 +57,6 @@ void check(const HexMesh& mesh, const MechanicsOptions& options) {
         "--wall slide: the mesh holds no wall surface to slide on; make geometry and mesh again "
         "with fit-hermite and hexmesh, or use --wall held");
   }
-  if (options.cut.kind == Cut::tissue && !surface)
-    throw input_error("--cut tissue: the mesh has no chest-wall surface; use --cut spring");
   if (mesh.pectoral_faces.empty()) {
     throw input_error("mesh: no pectoral faces, so nothing holds the breast; remesh with hexmesh");
   }

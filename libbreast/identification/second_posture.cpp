@@ -33,7 +33,7 @@ MaterialSet set_with_supports(const MechanicsOptions& options) {
   MaterialSet set = options.materials;
   set.wall_support.reset(), set.cut_support.reset(), set.sternum_support.reset();
   if (options.wall.kind == WallKind::slide) set.wall_support = options.wall.stiffness.tangential;
-  set.tissue_beyond = options.cut.kind == Cut::tissue;
+  set.tissue_beyond = options.cut.kind == Cut::tissue && set.wall_support.has_value();
   if (options.cut.has_springs()) {
     set.cut_support = options.cut.stiffness;
     set.sternum_support = options.cut.sternal;

@@ -54,6 +54,7 @@ bool read_support(const Table& table, std::size_t row, const std::string& name, 
     throw input_error("materials ", name, ", support of ", where, ": ", stiffness,
                       " kPa/mm; 'wall', 'cut' and 'sternum' take 0 to 1e6");
   }
+  if (*support) throw input_error("materials ", name, ": two supports of ", where);
   *support = stiffness;
   set.tissue_beyond = set.tissue_beyond || beyond;
   return true;

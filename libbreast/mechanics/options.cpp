@@ -42,7 +42,11 @@ MechanicsOptions mechanics_options(const MechanicsTexts& texts) {
   options.bulk_ratio = texts.bulk_ratio.value_or(0);
   take_supports_of_set(options);
   if (!texts.wall.empty()) options.wall = parse_wall(texts.wall);
-  if (!texts.cut.empty()) options.cut = parse_cut(texts.cut);
+  if (!texts.cut.empty()) {
+    options.cut = parse_cut(texts.cut);
+  } else if (options.cut.kind == Cut::tissue && !carries_tissue_beyond(options.wall)) {
+    options.cut.kind = Cut::spring;  // of the set, whose wall was replaced
+  }
   options.solver = pick<SolverOption>(texts.solver, "--solver",
                                       {{"auto", SolverOption::automatic},
                                        {"direct", SolverOption::direct},

@@ -109,9 +109,7 @@ void Scene::add_wall() {
   }
   cut_springs_ = springs_at_cut(mesh_, options_.cut);
   if (options_.cut.kind != Cut::tissue || mesh_.cut_faces.empty()) return;
-  if (!surface)
-    throw input_error("--cut tissue: the mesh has no chest-wall surface; use --cut spring");
-  beyond_.emplace(mesh_, *surface, options_.materials.density[std::size_t(Tissue::fat)],
+  beyond_.emplace(mesh_, surface.get(), options_.materials.density[std::size_t(Tissue::fat)],
                   length_beyond(wall, options_.cut));
 }
 
@@ -168,6 +166,12 @@ Vec3 Scene::force_of_springs(const State& state) const {
     if (springs) sum += springs->force_on_body(state);
   }
   return sum;
+}
+
+Vec3 Scene::weight(const Vec3& gravity) const {
+  double mass = 0;
+  for (const double share : solid_->nodal_mass()) mass += share;
+  return mass * gravity;
 }
 
 Eigen::VectorXd Scene::gravity_force(const Vec3& gravity) const {

@@ -68,6 +68,8 @@ class Scene {
   /// Nodal gravity forces, µN (3 per node), from the imaged shape, with those of the tissue beyond the
   /// cut. `gravity`: mm/s², LPS.
   Eigen::VectorXd gravity_force(const Vec3& gravity) const;
+  /// Weight of the body alone under gravity (mm/s²), µN.
+  Vec3 weight(const Vec3& gravity) const;
   /// A force derived from the stiffness, as a scale of the residual if there is no load, µN.
   double stiffness_force() const;
   /// The state of `shape` (3 per node) without stress.

@@ -49,6 +49,11 @@ struct CutOption {
       : kind(how), stiffness(springs), sternal(at_sternum) {}
 };
 
+/// True if the wall has springs along it, against which the tissue beyond the cut rests, too.
+inline bool carries_tissue_beyond(const WallOption& wall) {
+  return wall.kind != WallKind::held && wall.stiffness.tangential > 0;
+}
+
 /// Resistance to sliding when none is given, kPa/mm.
 inline constexpr double usual_sliding_stiffness = 0.01;
 

@@ -19,13 +19,14 @@ enum class ParameterKind {
   imaged_gravity,  ///< direction of the scan's gravity, turned towards an axis, degrees
   skin_thickness,  ///< thickness of a membrane skin, relative
   wall_support,    ///< stiffness of the springs along or under the chest wall, relative
-  cut_support,     ///< stiffness of the springs at the cut, relative
-  sternum_support, ///< stiffness of the attachment of the cut to the sternum, relative
-  together,        ///< a common factor on all `members`, relative
-  thickness,       ///< distance between the plates, which close on their mid-plane, mm
-  standoff,        ///< both plates' edges moved away from the chest wall, mm
-  detector,        ///< height of both plates, raised along the beam, mm
-  angle,           ///< angle of the beam; the plates turn about their anterior mid-line, degrees
+  cut_support,     ///< stiffness of the springs at the cut, relative; both change the weight of the
+                   ///< tissue beyond the cut that it carries
+  sternum_support,  ///< stiffness of the attachment of the cut to the sternum, relative
+  together,         ///< a common factor on all `members`, relative
+  thickness,        ///< distance between the plates, which close on their mid-plane, mm
+  standoff,         ///< both plates' edges moved away from the chest wall, mm
+  detector,         ///< height of both plates, raised along the beam, mm
+  angle,            ///< angle of the beam; the plates turn about their anterior mid-line, degrees
 };
 
 struct Parameter {

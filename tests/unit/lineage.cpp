@@ -30,7 +30,7 @@ TEST(Lineage, OnlyWhatAToolWasGivenIsTaken) {
 TEST(Lineage, FilesOfOneScanHaveAnInputInCommon) {
   const History cc = made_by("compress", "reference"), image = made_by("project-mammogram", "cc"),
                 other = made_by("compress", "elsewhere"), none;
-  const Origin mesh{"cc.vtkhdf", "cc", &cc};
+  const Origin mesh{"cc.vtkhdf", "cc", &cc, Side::left};
   check_same_origin(mesh, {"cc.vti", "image", &image});  // the one is an input of the other
   check_same_origin(mesh, {"mlo.vtkhdf", "mlo", &cc});
   check_same_origin(mesh, {"foreign.vti", "foreign", &none});

@@ -179,6 +179,14 @@ std::string DicomSeries::label() const {
                  " files");
 }
 
+namespace {
+/// Adds a slice's patient position to those of the slices before it: "HFP", or "HFP/HFS" if they differ.
+void add_position(const std::string& own, std::string& all) {
+  if (own.empty() || all.find(own) != std::string::npos) return;
+  all += (all.empty() ? "" : "/") + own;
+}
+}  // namespace
+
 std::vector<DicomSeries> list_dicom_series(const fs::path& folder) {
   std::vector<fs::path> names;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -199,7 +207,7 @@ std::vector<DicomSeries> list_dicom_series(const fs::path& folder) {
     series.uid = header["0020|000e"];
     series.number = std::atoi(header["0020|0011"].c_str());
     series.description = header["0008|103e"];
-    series.patient_position = header["0018|5100"];
+    add_position(header["0018|5100"], series.patient_position);
     series.files.push_back(name);
   }
   std::vector<DicomSeries> list;

@@ -112,7 +112,7 @@ std::string Remedy::words() const {
     case Changed::wall:
       return message("a resistance to sliding of ", support, " kPa/mm at the chest wall");
     case Changed::cut:
-      return message("springs of ", support, " kPa/mm at the cut");
+      return message("supports of ", support, " kPa/mm at the cut");
   }
   return "";
 }

@@ -8,25 +8,26 @@
 namespace breast {
 
 double length_beyond(const WallOption& wall, const CutOption& cut) {
-  const double along = wall.stiffness.tangential;
-  if (wall.kind == WallKind::held || !(along > 0))
+  if (!carries_tissue_beyond(wall))
     throw input_error(
         "--cut ", describe(cut), " with --wall ", describe(wall),
         ": the tissue beyond the cut rests on the wall's supports; give slide:KT with "
-        "KT above 0, or --cut spring");
-  return cut.stiffness * thickness_beyond / along;
+        "KT above 0, or --cut spring:KC");
+  return cut.stiffness * thickness_beyond / wall.stiffness.tangential;
 }
 
-TissueBeyond::TissueBeyond(const HexMesh& mesh, const LevelSurface& wall, double density,
+TissueBeyond::TissueBeyond(const HexMesh& mesh, const LevelSurface* wall, double density,
                            double length)
     : nodes_(nodes_of(mesh, mesh.cut_faces)) {
+  if (wall == nullptr)
+    throw input_error("--cut tissue: the mesh has no chest-wall surface; use --cut spring:KC");
   const std::vector<double> area = nodal_faces(mesh, mesh.cut_faces, flatten(mesh.imaged)).area;
   for (const int node : nodes_) {
     const Vec3& at = mesh.imaged[std::size_t(node)];
-    const std::optional<Level> level = wall.at(at);
+    const std::optional<Level> level = wall->at(at);
     if (!level)
       throw input_error("--cut tissue: node ", node, " of the cut at (", at.x(), ", ", at.y(), ", ",
-                        at.z(), ") mm lies beyond the chest-wall surface; use --cut spring");
+                        at.z(), ") mm lies beyond the chest-wall surface; use --cut spring:KC");
     const Vec3 normal = level->gradient.normalized();
     mass_.push_back(density * length * area[std::size_t(node)] *
                     (Mat3::Identity() - normal * normal.transpose()));

@@ -31,8 +31,8 @@ double length_beyond(const WallOption& wall, const CutOption& cut);
 class TissueBeyond {
  public:
   /// The weight of tissue of `density` (g/mm³) and `length` (mm) on the cut faces of the mesh. Throws Error
-  /// (input) for a node of the cut that is beyond the surface.
-  TissueBeyond(const HexMesh& mesh, const LevelSurface& wall, double density, double length);
+  /// (input) without a surface and for a node of the cut that is beyond it.
+  TissueBeyond(const HexMesh& mesh, const LevelSurface* wall, double density, double length);
 
   /// Adds its forces under gravity (mm/s²) to nodal forces (µN, 3 per node).
   void add(const Vec3& gravity, Eigen::VectorXd& force) const;
