@@ -102,14 +102,19 @@ void report_landmark(const Probe& here, Report& report) {
   report.set("landmarks/" + name + "/distance_mm", displacement.norm());
 }
 
+// Throws Error (input) unless every mesh is of the same breast as `base`.
+void check_one_breast(const Choices& c, const std::vector<HexMesh>& meshes, const Origin& base) {
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    check_same_origin(base, origin_of(c.files[i], meshes[i]));
+}
+
 // One row per file; the landmarks of a single file are also reported.
 void tell_positions(const Choices& c, const std::vector<HexMesh>& meshes, Run& run) {
   const std::vector<std::string> names = chosen(c.landmarks, meshes.front());
   if (names.empty()) throw input_error(c.files.front().string(), ": has no landmarks");
   const bool relative = !c.base.empty();
   const HexMesh base = relative ? read_mesh(c.base) : HexMesh();
-  for (std::size_t i = 0; relative && i < meshes.size(); ++i)
-    check_same_origin(origin_of(c.base, base), origin_of(c.files[i], meshes[i]));
+  if (relative) check_one_breast(c, meshes, origin_of(c.base, base));
   Table table{{"file"}, {}};
   // A landmark is shown by its own name, so that a request for the tumour reveals an artificial
   // one.
@@ -134,8 +139,7 @@ void tell_positions(const Choices& c, const std::vector<HexMesh>& meshes, Run& r
 }
 
 void tell_errors(const Choices& c, const std::vector<HexMesh>& meshes, Run& run) {
-  for (std::size_t i = 0; i < meshes.size(); ++i)
-    check_same_origin(origin_of(c.files.front(), meshes.front()), origin_of(c.files[i], meshes[i]));
+  check_one_breast(c, meshes, origin_of(c.files.front(), meshes.front()));
   const auto truth = true_landmarks(read_table(c.truth), meshes.front().side, c.truth.string());
   const Table errors = compare_with_truth(meshes, truth);
   report_truth(errors, run.report());

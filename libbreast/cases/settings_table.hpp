@@ -30,10 +30,10 @@ std::vector<Setting> read_settings(const std::filesystem::path& pipelines);
 void check_characters(const Setting& setting, const std::string& value);
 
 /// Throws Error (input), naming the setting, the value and what is accepted, if `value` is not
-/// among the choices of the setting. A choice is a word, in which % stands for any text, or
-/// `number` or `integer`, which the least and the greatest may follow; `place`, the last of its choices:
-/// x,y,z[:radius] in mm or a file; `set`: a material set in `pipelines` or a file; `rows:STUDY`: a row of that study. An
-/// empty value is accepted.
+/// among the choices of the setting. A choice is a word, in which % stands for any text, or one of
+/// these kinds. `number` or `integer`: optionally followed by the least and the greatest value.
+/// `place`, after the words: a file, or x,y,z[:radius] in mm. `set`: a material set in `pipelines`
+/// or a file. `rows:STUDY`: a row of that study. An empty value is accepted.
 void check_choice(const Setting& setting, const std::string& value,
                   const std::filesystem::path& pipelines);
 

@@ -6,8 +6,9 @@
 
 namespace breast {
 
-/// If the material set of `options` has supports, the breast slides on the chest wall against them
-/// and the cut has springs, may carry the weight of the tissue beyond, and may be attached to the sternum; otherwise wall and cut are unchanged.
+/// If the material set of `options` has supports, the breast slides on the chest wall against them.
+/// The cut then has springs; it may carry the weight of the tissue beyond and be attached to the
+/// sternum. Otherwise wall and cut are unchanged.
 inline void take_supports_of_set(MechanicsOptions& options) {
   const MaterialSet& set = options.materials;
   if (set.wall_support) options.wall = WallOption(WallKind::slide, {0, *set.wall_support});
