@@ -3,7 +3,6 @@
 #include "phantom/parameters.hpp"
 
 #include <map>
-#include <optional>
 
 #include "cli/tool.hpp"
 #include "core/atomic_file.hpp"
@@ -132,9 +131,8 @@ void report_motion(const RigidMotion& moved, Report& report) {
 void run_phantom(const Choices& c, Run& run) {
   const PhantomParameters parameters = parameters_of(c);
   const MaterialSet materials = body_materials(parameters.body);
-  // The folder is created first, so that a failure does not cost the minutes of the simulation.
-  std::optional<AtomicFolder> folder;
-  if (!c.truth.empty()) folder.emplace(c.truth, "landmarks.tsv");
+  // Created and removed again, so that a folder that is refused does not cost the minutes of the simulation.
+  if (!c.truth.empty()) AtomicFolder(c.truth, "landmarks.tsv");
   write_parameters(parameters, run.report());
   run.report().set("posture", c.posture);
   run.progress().update("shape", -1, "stress-free breasts and their glands");
@@ -172,7 +170,8 @@ void run_phantom(const Choices& c, Run& run) {
   Timer::Scope phase(run.timer(), "writing");
   const Volume<std::int16_t> mr = scan(image, parameters.mri, parameters.seed);
   if (!c.truth.empty()) {
-    const std::filesystem::path& truth = folder->temporary();
+    AtomicFolder folder(c.truth, "landmarks.tsv");
+    const std::filesystem::path& truth = folder.temporary();
     for (Side side : {Side::left, Side::right})
       write_truth_side(truth, scene.breast(side), solved.at(side), scene, image, run);
     write_table(truth / "landmarks.tsv", landmarks);
@@ -180,7 +179,7 @@ void run_phantom(const Choices& c, Run& run) {
       write_table(truth / ("tumour-" + std::string(side_name(side)) + ".tsv"),
                   tumour_place(scene.breast(side).mesh));
     write_text(truth / "parameters.json", run.report().json());
-    folder->commit();
+    folder.commit();
   }
   if (!c.dicom.empty()) write_dicom_series(c.dicom, mr, "phantom " + c.preset);
   write_volume(c.image, mr);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One run of a tool that branches (shim.cpp): what it does before its first output is done once for
-// all failures that are tried there, each in a process forked from it.
+// One run of a tool that branches (shim.cpp): what it does before an output call (the first, as a rule)
+// is done once for all failures that are tried there, each in a process forked from it.
 #pragma once
 
 #include <poll.h>
@@ -26,15 +26,15 @@ inline std::string text_in(int pipe) {
 class BranchedRun {
  public:
   struct Branch {
-    std::string at;        ///< "output" (the first call) or "allocation"
+    std::string at;        ///< "output" or "allocation"
     long allocations = 0;  ///< up to here
   };
 
   /// Starts `tool words` in `folder` under the environment of the shim, to branch before these
-  /// allocations (in order) and before the first output call. Orders and answers go through two
-  /// pipes in the folder `control`.
+  /// allocations (in order) and before the `output`-th output call (from 1). Orders and answers go
+  /// through two pipes in the folder `control`.
   BranchedRun(const std::string& tool, const std::vector<std::string>& words,
-              const std::filesystem::path& folder, const std::filesystem::path& control,
+              const std::filesystem::path& folder, const std::filesystem::path& control, int output,
               const std::vector<long>& allocations = {})
       : folder_(folder) {
     for (const char* name : {"orders", "answers"}) {
@@ -45,10 +45,8 @@ class BranchedRun {
     orders_ = open((control / "orders").c_str(), O_RDWR | O_CLOEXEC);
     answers_ = open((control / "answers").c_str(), O_RDWR | O_CLOEXEC);
     if (pipe2(said_, O_CLOEXEC | O_NONBLOCK) != 0) throw failed_error("no pipe");
-    std::string where = control.string();
-    for (const long n : allocations) {
-      where += (n == allocations.front() ? ":" : ",") + std::to_string(n);
-    }
+    std::string where = control.string() + ':' + std::to_string(output);
+    for (const long n : allocations) where += ',' + std::to_string(n);
     child_ = fork();
     if (child_ == 0) {
       setenv("BREAST_FAULT", (tool + ":").c_str(), 1);

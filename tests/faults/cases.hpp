@@ -25,7 +25,8 @@ struct Case {
   const char* name;
   const char* line;  ///< the tool and its arguments; outputs are called out.*, or lie in a folder out
   int stride = 1;  ///< the short test lets only every so many output calls fail; 0: it leaves the case out
-  bool branches = false;  ///< most of its time passes before it writes anything (branches.hpp)
+  int branches_at =
+      0;  ///< the output call before which most of its time passes (branches.hpp); 0: none
 };
 
 inline const std::vector<Case>& cases() {
@@ -80,12 +81,12 @@ inline const std::vector<Case>& cases() {
       {"render_mesh", "render mesh.vtkhdf --figure mesh -o out.png", 0},
       {"tabulate", "tabulate wall . back front"},
       {"truth_table", "truth-table landmarks.tsv out.tsv cc.vtkhdf fine_cc.vtkhdf"},
-      {"phantom_mesh", "phantom-mesh out.vtkhdf --preset small --level 0.5 --coarse 8", 0, true},
-      {"phantom", "phantom out.nrrd --preset small --coarse 8", 0, true},
-      // Its folders are there from the start, so that it cannot branch after its solves.
+      {"phantom_mesh", "phantom-mesh out.vtkhdf --preset small --level 0.5 --coarse 8", 0, 1},
+      {"phantom", "phantom out.nrrd --preset small --coarse 8", 0, 1},
+      // Its first call tries whether the folder can be made at all.
       {"phantom_folders",
-       "phantom out.nrrd --preset small --coarse 8 --truth out --dicom out-series", 0},
-      {"calibrate", "calibrate --preset small --evaluations 4", 0, true},
+       "phantom out.nrrd --preset small --coarse 8 --truth out --dicom out-series", 0, 2},
+      {"calibrate", "calibrate --preset small --evaluations 4", 0, 1},
       {"calibrate_softness",
        "calibrate-softness pressed.vtkhdf --pressed pressed.vtkhdf --women women.tsv --set out.tsv "
        "--expected 20,50,100,0.05,0.05 --expected-ln-sd 0.2 --reduction 10",

@@ -85,28 +85,28 @@ class Faults : public ::testing::TestWithParam<Case> {
   static void unset_shim() {
     for (const char* name : {"BREAST_FAULT", "BREAST_FAULT_MARK", "LD_PRELOAD"}) unsetenv(name);
   }
-  static bool branches() { return GetParam().branches; }
+  static bool branches() { return GetParam().branches_at > 0; }
   std::unique_ptr<BranchedRun> branched(const std::vector<long>& allocations = {}) {
     set_shim("");
     auto run = std::make_unique<BranchedRun>(tool(), arguments(), work_.path(), marks_.path(),
-                                             allocations);
+                                             GetParam().branches_at, allocations);
     unset_shim();
     return run;
   }
-  BranchedRun& at_first_output() {
-    if (!first_output_) {
-      first_output_ = branched();
-      if (!first_output_->reached())
-        throw failed_error(GetParam().name, ": ended before any output");
+  BranchedRun& at_output() {
+    if (!at_output_) {
+      at_output_ = branched();
+      if (!at_output_->reached()) throw failed_error(GetParam().name, ": ended before its output");
     }
-    return *first_output_;
+    return *at_output_;
   }
   // The case with the `nth` call of that kind failing; nothing fails when `kind` is empty.
   ToolResult run(const std::string& kind, long nth, const std::string& reason) {
-    if (branches() && !kind.empty()) {
-      BranchedRun& from = at_first_output();
+    const long passed = kind == "output" ? GetParam().branches_at - 1 : 0;  // before the branch
+    if (branches() && !kind.empty() && nth > passed) {
+      BranchedRun& from = at_output();
       fs::remove(mark());
-      return from.attempt(plan(kind, nth, reason));
+      return from.attempt(plan(kind, nth - passed, reason));
     }
     if (!kind.empty()) set_shim(plan(kind, nth, reason));
     const ToolResult result = run_tool(tool(), arguments(), work_.path());
@@ -115,7 +115,7 @@ class Faults : public ::testing::TestWithParam<Case> {
   }
   // The case with files no longer than `bytes`. What it says comes through a pipe, which has no such limit.
   ToolResult run_on_full_disk(rlim_t bytes) {
-    if (branches()) return at_first_output().attempt(plan("output", 0, ""), long(bytes));
+    if (branches()) return at_output().attempt(plan("output", 0, ""), long(bytes));
     int said[2];
     if (pipe2(said, O_CLOEXEC | O_NONBLOCK) != 0) throw failed_error("no pipe");
     ToolResult result = run_tool(tool(), arguments(), work_.path(), [&] {
@@ -199,7 +199,7 @@ class Faults : public ::testing::TestWithParam<Case> {
   ScratchFolder work_, reference_, temporary_, marks_;
   std::set<std::string> given_;
   std::string reference_out_;
-  std::unique_ptr<BranchedRun> first_output_;
+  std::unique_ptr<BranchedRun> at_output_;
 };
 
 // Lets one call after the other fail until none is left; returns how many that were.

@@ -5,7 +5,7 @@
 //                      with "+" every later one, too. KIND is output, allocation, loss (the bytes written to a file are
 //                      lost without a word) or damage (one of them arrives as another); N = 0 only counts.
 //   BREAST_FAULT_MARK  file: gets one line "failed CALL" a failure, and at the end "counted N"
-//   BREAST_FAULT_FORK  FOLDER[:N,N...]: the program branches (branches.hpp) before its first output call and before its N-th
+//   BREAST_FAULT_FORK  FOLDER:K[,N...]: the program branches (branches.hpp) before its K-th output call and before its N-th
 //                      allocations, which are in order and before that. There it writes "output COUNT" or "allocation COUNT"
 //                      (of allocations so far) into FOLDER/answers and obeys FOLDER/orders, a line each: "try PLAN BYTES"
 //                      goes on in a forked process with a plan as in BREAST_FAULT, counted from this call on, and files no
@@ -61,11 +61,11 @@ void mark(const char* text) {
   syscall(SYS_close, file);
 }
 
-// A program that branches: the long computation before its first output call is done only once.
+// A program that branches: the long computation before an output call is done only once.
 struct Branches {
   int orders = -1, answers = -1;
   long next[4096], count = 0, tried = 0;  ///< allocations to branch at
-  long allocations = 0;
+  long allocations = 0, outputs_left = 0;
   pid_t owner = 0;
   pid_t trial = 0,
         program = 0;  ///< a forked process that tries a failure takes itself for the program
@@ -132,7 +132,7 @@ bool branch(const char* at) {
 void branch_where_due(Kind kind) {
   if (branches.owner == 0 || branches.owner != own_id()) return;
   if (kind == output) {
-    branch("output");
+    if (--branches.outputs_left <= 0) branch("output");
   } else if (kind == allocation) {
     ++branches.allocations;
     if (branches.tried == branches.count || branches.allocations < branches.next[branches.tried])
@@ -201,7 +201,7 @@ void set_plan(const char* text) {
 void read_branches(const char* text) {
   char folder[3000], name[4096];
   int used = 0;
-  if (sscanf(text, "%2999[^:]%n", folder, &used) != 1) return;
+  if (sscanf(text, "%2999[^:]:%ld%n", folder, &branches.outputs_left, &used) != 2) return;
   for (const char* rest = text + used; *rest != 0 && branches.count < 4096;) {
     char* end = nullptr;
     branches.next[branches.count++] = strtol(rest + 1, &end, 10);
