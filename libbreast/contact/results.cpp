@@ -181,7 +181,8 @@ void record_compression(const Scene& scene, const CompressionOptions& options, c
   Vec3 total = Vec3::Zero();  // force of both plates on the body, µN
   if (friction != nullptr) {
     for (const FrictionEntry& held : friction->entries()) {
-      record.friction.push_back({held.node, held.plate, held.anchor, held.bound, held.stick});
+      record.friction.push_back({held.node, held.plate, friction->anchor_in_plane(held, state.x),
+                                 held.bound, held.stick});
     }
   }
   for (int k = 0; k < 2; ++k) {

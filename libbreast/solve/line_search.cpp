@@ -10,6 +10,9 @@ namespace {
 
 /// Largest fraction of the initial slope that may remain at the end of a step.
 constexpr double slope_kept = 0.8;
+/// The same where the step has gone past the minimum of an energy with kinks: full steps from one
+/// side of a kink to the other could otherwise repeat for ever.
+constexpr double slope_kept_past_kink = 0.3;
 /// Longest multiple of a shifted step.
 constexpr double longest_slip = 64;
 /// Number of further times that the slope determines the shortening of a step, and the smallest
@@ -35,7 +38,9 @@ bool accepted(const Appraisal& seen, const NewtonDirection& direction, const Lin
   // In a step with an indefinite tangent (a node slips over the edge of a plate) the imbalance may
   // have to grow: a decrease of the energy is then sufficient.
   if (rule.downhill_suffices) return seen.along <= slope_kept * direction.slope;
-  return rule.flat_suffices && std::abs(seen.along) <= slope_kept * std::abs(direction.slope);
+  const double slope = std::abs(direction.slope);
+  return rule.flat_suffices && seen.along >= -slope_kept * slope &&
+         seen.along <= (rule.kinks ? slope_kept_past_kink : slope_kept) * slope;
 }
 
 /// The factor on a length at which the slope would be zero if it were linear from

@@ -290,28 +290,47 @@ TEST(CompressionPath, ATargetMayBePassedBeforeThePathMayEnd) {
   EXPECT_LT(path.thickness, 0.9 * early);
 }
 
-// A penalty that sets in at once, 320 times as stiff as the tangent knows: halves of the step are
-// all too long, the place where the slope vanishes is found at once.
+// A penalty that sets in at once, `stiffer` times as stiff as the tangent knows.
 namespace {
 class Kinked final : public NewtonSystem {
  public:
+  explicit Kinked(double stiffer) : stiffer_(stiffer) {}
   Balance assess(const NewtonResult&) override { return {}; }
   NewtonDirection direction(const Balance&) override { return {}; }
   LineSearchRule rule(const NewtonResult&, const Balance&, const NewtonDirection&) const override {
     return {};
   }
   std::optional<Trial> attempt(double length) override {
-    const double along = 320 * length - 1;
+    const double along = stiffer_ * length - 1;
     Trial trial;
     trial.seen = {std::abs(along), std::abs(along), along};
     return trial;
   }
   void accept(Trial) override {}
+
+ private:
+  double stiffer_;
 };
 }  // namespace
 
+// A full step would end at 0.7 of the slope on the other side; when the next comes back, Newton's method goes in circles.
+TEST(LineSearch, DoesNotGoFarPastTheMinimumOfAKinkedEnergy) {
+  Kinked system(1.7);
+  NewtonDirection direction;
+  direction.slope = 1;
+  LineSearchRule rule;
+  rule.merit = 0.1;
+  rule.flat_suffices = true;
+  for (const bool kinks : {false, true}) {
+    rule.kinks = kinks;
+    const SearchResult found = line_search(system, direction, rule);
+    EXPECT_EQ(found.length, kinks ? 0.5 : 1);
+  }
+}
+
+// Halves of the step are all too long, the place where the slope vanishes is found at once.
 TEST(LineSearch, ShortensToWhereAKinkedEnergyIsFlat) {
-  Kinked system;
+  Kinked system(320);
   NewtonDirection direction;
   direction.slope = 1;
   LineSearchRule rule;
@@ -333,6 +352,7 @@ TEST(CompressionPath, CorrectionsDoNotShortenTheSteps) {
   State exact = body.start(), penalised = exact;
   PathOptions options;
   options.first_step = options.longest_step = 4;
+  options.path_tolerance = 1e-4;  // enough corrections for this test
   PlatePair plates = plates_at(-20, 20, 15);
   ActiveSet active_set = body.active_set();
   const PathResult a = close(plates, active_set, exact, {TargetKind::thickness, 12}, options);

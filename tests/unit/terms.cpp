@@ -307,15 +307,16 @@ TEST_P(EveryTerm, TouchesOnlyTheNodesItNames) {
 INSTANTIATE_TEST_SUITE_P(Terms, EveryTerm, testing::ValuesIn(all_terms()),
                          [](const auto& each) { return each.param.name; });
 
-// On a rounded edge the plate's normal turns with the node, which friction's tangent leaves out.
-TEST(FrictionTerm, TangentIsExactOnlyWhereThePlateIsFlat) {
+// On a rounded edge the plate's normal turns with the node, which friction's tangent leaves out unless
+// the normal is fixed.
+TEST(FrictionTerm, TangentIsExactOnAFlatPlateOrWithAFixedNormal) {
   Plate plate = plate_facing(view_pose(Side::left, 0));
   plate.far_edge = plate.half_width = 200;
   plate.edge_radius = 10;
   FrictionTerm term;
   term.set_plates(fixtures::pair_at(plate, 0, 60));
-  const auto error_at = [&](const Vec3& x) {
-    term.set_entries({{0, 0, x + Vec3(2, 1, 0), 1e9, 100}});
+  const auto error_at = [&](const Vec3& x, std::optional<Vec3> normal, double bound) {
+    term.set_entries({{0, 0, x + Vec3(2, 1, 0), bound, 100, normal}});
     Mat3 slope;
     for (int i = 0; i < 3; ++i) {
       const Vec3 d = 1e-5 * Vec3::Unit(i);
@@ -325,8 +326,34 @@ TEST(FrictionTerm, TangentIsExactOnlyWhereThePlateIsFlat) {
     }
     return (slope - term.at(term.entries()[0], x).stiffness).norm() / slope.norm();
   };
-  EXPECT_LT(error_at(Vec3(0, -50, -0.1)), 1e-8);
-  EXPECT_GT(error_at(Vec3(0, 6, 3)), 0.02);
+  const Vec3 flat(0, -50, -0.1), round(0, 6, 3);
+  EXPECT_LT(error_at(flat, {}, 1e9), 1e-8);
+  EXPECT_GT(error_at(round, {}, 1e9), 0.02);
+  const Vec3 normal = plate.gap(round).gradient;
+  for (const double bound : {1e9, 50.0}) {
+    EXPECT_LT(error_at(round, normal, bound), 1e-7) << bound;
+  }
+}
+
+// What a file keeps: without a lever along the normal, the force is the same with the normal at the node.
+TEST(FrictionTerm, AnchorInThePlaneOfTheNodeChangesNoForce) {
+  Plate plate = plate_facing(view_pose(Side::left, 0));
+  plate.far_edge = plate.half_width = 200;
+  plate.edge_radius = 10;
+  const Eigen::Vector3d x(0, 6, 3);
+  const Vec3 normal = plate.gap(x).gradient;
+  for (const double bound : {1e9, 50.0}) {
+    FrictionTerm fixed, kept;
+    for (FrictionTerm* term : {&fixed, &kept}) term->set_plates(fixtures::pair_at(plate, 0, 60));
+    fixed.set_entries({{0, 0, x + Vec3(2, 1, 4), bound, 100, normal}});
+    const FrictionEntry& held = fixed.entries()[0];
+    const Vec3 anchor = fixed.anchor_in_plane(held, x);
+    EXPECT_LT(std::abs((x - anchor).dot(normal)), 1e-12);
+    kept.set_entries({{0, 0, anchor, bound, 100}});
+    const FrictionForce before = fixed.at(held, x), after = kept.at(kept.entries()[0], x);
+    EXPECT_LT((before.force - after.force).norm(), 1e-12 * before.force.norm());
+    EXPECT_EQ(before.slips, after.slips);
+  }
 }
 
 // What a scene lacks is not in its list.

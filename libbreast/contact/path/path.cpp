@@ -8,6 +8,7 @@
 
 #include "contact/path/next_position.hpp"
 #include "contact/path/path_point.hpp"
+#include "contact/path/waypoint.hpp"
 #include "core/error.hpp"
 
 namespace breast {
@@ -24,16 +25,12 @@ constexpr double sought_tolerance = 1e-6;
 /// Plate positions closer than this count as equal, mm.
 constexpr double narrowest_bracket = 1e-4;
 
+/// A position that took fewer iterations than `quick`, corrections aside, lengthens the next step;
+/// one that took more than `slow` shortens it.
+constexpr int quick = 8, slow = 12;
+
 /// States kept for a return when the last one turns out not to be an equilibrium.
 constexpr std::size_t longest_trail = 3;
-
-/// A converged state to which the path can return.
-struct Waypoint {
-  State state;
-  ContactMemory memory;
-  double thickness = 0;
-  PathPoint point;
-};
 
 class Path {
  public:
@@ -53,18 +50,17 @@ class Path {
  private:
   const CompressionTarget* passed(const PathPoint& point) const;
   double longest_step() const;
+  double sought() const { return std::min(tolerance_, sought_tolerance); }
   bool march();
   bool end_at(const CompressionTarget& target, Waypoint reached);
   bool end_at_thickness();
-  bool sharpen(Waypoint& sharp);
   bool sharpen_before(const CompressionTarget& target, Waypoint& high);
   bool refine_control(const CompressionTarget& target, Waypoint high);
-  bool attempt(const State& guess, const ContactMemory& memory, double thickness, double tolerance,
-               Waypoint& reached);
+  bool attempt(const Guess& guess, double thickness, double tolerance, Waypoint& reached);
+  bool sharpen(double tolerance, Waypoint& sharp);
   bool finish();
   bool step_back();
   bool be_patient();
-  State predict(double thickness, bool extrapolate) const;
   void tell(const PathPoint& point) const;
 
   ContactSolver& solver_;
@@ -107,12 +103,11 @@ void Path::tell(const PathPoint& point) const {
               std::round(10 * point.detector_N) / 10, " N, ", point.iterations, " iterations"));
 }
 
-bool Path::attempt(const State& guess, const ContactMemory& memory, double thickness,
-                   double tolerance, Waypoint& reached) {
+bool Path::attempt(const Guess& guess, double thickness, double tolerance, Waypoint& reached) {
   plates_.close_to(thickness);
   if (options_.prepare) options_.prepare(thickness);
-  State state = guess;
-  solver_.restore(memory);
+  State state = guess.state;
+  solver_.restore(guess.memory);
   ContactStep step = solver_.solve(plates_, state, tolerance);
   ++result_.solves;
   result_.iterations += int(step.iterations.size());
@@ -135,17 +130,11 @@ bool Path::attempt(const State& guess, const ContactMemory& memory, double thick
   PathPoint point = path_point(solver_, plates_, state, step, area_(state));
   point.thickness = thickness;  // to the last digit, as the path compares it
   tell(point);
+  State moved = step.softer.value_or(state);
   result_.final_step = std::move(step);
-  reached = {std::move(state), solver_.memory(), thickness, point};
+  reached = {std::move(state), solver_.memory(), thickness, point, std::move(moved)};
   result_.points.push_back(point);
   return true;
-}
-
-State Path::predict(double thickness, bool extrapolate) const {
-  if (!extrapolate || !have_before_) return here_.state;
-  const double ratio = (thickness - here_.thickness) / (here_.thickness - before_.thickness);
-  return {here_.state.reference, here_.state.x + ratio * (here_.state.x - before_.state.x),
-          here_.state.p + ratio * (here_.state.p - before_.state.p)};
 }
 
 /// From the present position, mm.
@@ -173,19 +162,19 @@ bool Path::march() {
       return false;
     }
     // After two refusals in a row, the extrapolation itself may be the reason why elements fold.
-    const bool extrapolate = failures_in_row % 3 != 2;
+    const bool straight_on = have_before_ && failures_in_row % 3 != 2;
+    const Guess guess = extrapolate(here_, straight_on ? &before_ : nullptr, thickness);
     Waypoint reached;
     const bool fail_fast = !patient_ && std::abs(thickness - here_.thickness) > fast_part * longest;
     solver_.set_fail_fast(fail_fast);
-    const bool arrived =
-        attempt(predict(thickness, extrapolate), here_.memory, thickness, tolerance_, reached);
+    const bool arrived = attempt(guess, thickness, tolerance_, reached);
     solver_.set_fail_fast(false);
     if (arrived) {
       const int iterations =
           int(result_.final_step.iterations.size()) - result_.final_step.corrections;
       // A length that was just found by halving is used twice before it grows again.
-      if (iterations < 6 && failures_in_row == 0) step = std::min(longest, 1.4 * step);
-      if (iterations > 12) step = std::max(options_.shortest_step, 0.7 * step);
+      if (iterations < quick && failures_in_row == 0) step = std::min(longest, 1.4 * step);
+      if (iterations > slow) step = std::max(options_.shortest_step, 0.7 * step);
       failures_in_row = 0;
       const bool may_end = !options_.may_end || options_.may_end(thickness);
       if (const CompressionTarget* target = may_end ? passed(reached.point) : nullptr) {
@@ -222,9 +211,8 @@ bool Path::end_at(const CompressionTarget& target, Waypoint reached) {
 }
 
 /// Solves the last state more accurately.
-bool Path::sharpen(Waypoint& sharp) {
-  const double tolerance = std::min(tolerance_, sought_tolerance);
-  if (!attempt(here_.state, here_.memory, here_.thickness, tolerance, sharp)) return false;
+bool Path::sharpen(double tolerance, Waypoint& sharp) {
+  if (!attempt({here_.state, here_.memory}, here_.thickness, tolerance, sharp)) return false;
   drop_repeated_point(result_.points);
   return true;
 }
@@ -232,7 +220,7 @@ bool Path::sharpen(Waypoint& sharp) {
 /// Ends at the last state, unless its accurate solution lies beyond another target.
 bool Path::end_at_thickness() {
   Waypoint sharp;
-  if (!stops_.controls.empty() && sharpen(sharp)) {
+  if (!stops_.controls.empty() && sharpen(sought(), sharp)) {
     const CompressionTarget* target = passed(sharp.point);
     if (target != nullptr && step_back()) return end_at(*target, std::move(sharp));
     here_ = std::move(sharp);
@@ -251,7 +239,7 @@ bool Path::sharpen_before(const CompressionTarget& target, Waypoint& high) {
   };
   while (may_end_here()) {
     Waypoint sharp;
-    if (!sharpen(sharp)) return true;
+    if (!sharpen(sought(), sharp)) return true;
     if (measure(sharp.point, target.kind) < target.value) {
       here_ = std::move(sharp);
       return true;
@@ -292,12 +280,11 @@ bool Path::refine_control(const CompressionTarget& target, Waypoint high) {
     }
     const double w = f_low / (f_low - f_high);
     const double thickness = low.thickness + w * (high.thickness - low.thickness);
-    State guess{low.state.reference, (1 - w) * low.state.x + w * high.state.x,
-                (1 - w) * low.state.p + w * high.state.p};
+    const State between{low.state.reference, (1 - w) * low.state.x + w * high.state.x,
+                        (1 - w) * low.state.p + w * high.state.p};
     Waypoint middle;
     // The memory of a state beyond the target is not used, because friction would keep it.
-    const double tolerance = std::min(tolerance_, sought_tolerance);
-    if (!attempt(guess, low.memory, thickness, tolerance, middle)) {
+    if (!attempt({between, low.memory}, thickness, sought(), middle)) {
       here_ = low;
       return false;
     }
@@ -351,10 +338,9 @@ bool Path::be_patient() {
 /// solution; if there is none, no points are left.
 bool Path::finish() {
   for (bool last = true;; last = false) {
-    Waypoint reached;
-    if (attempt(here_.state, here_.memory, here_.thickness, options_.tolerance, reached)) {
-      here_ = std::move(reached);
-      drop_repeated_point(result_.points);
+    Waypoint sharp;
+    if (sharpen(options_.tolerance, sharp)) {
+      here_ = std::move(sharp);
       return last;
     }
     if (!step_back()) {
@@ -365,10 +351,10 @@ bool Path::finish() {
 }
 
 PathResult Path::run(State& state) {
-  here_ = {state, solver_.memory(), plates_.thickness(), {}};
+  here_ = {state, solver_.memory(), plates_.thickness(), {}, state};
   // The state from which the plates start: without contact, or the end of an earlier path.
   Waypoint first;
-  if (attempt(here_.state, here_.memory, here_.thickness, options_.path_tolerance, first)) {
+  if (attempt({state, here_.memory}, here_.thickness, options_.path_tolerance, first)) {
     start_ = here_ = std::move(first);
     result_.reached = march();
     if (!finish() && !result_.points.empty()) {

@@ -24,7 +24,7 @@ struct PathOptions {
   /// along straight lines.
   double slipping_part = 0.07, slipping_below = 0;
   double least_thickness = 2;    ///< smallest thickness of a path without a thickness as target, mm
-  double path_tolerance = 1e-4;  ///< residual of intermediate states; the final state is solved to
+  double path_tolerance = 3e-4;  ///< residual of intermediate states; the final state is solved to
                                  ///< `tolerance`
   double tolerance = 1e-9;
   double control_tolerance = 1e-4;  ///< relative, of force, pressure and area

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "contact/plates.hpp"
@@ -33,6 +34,8 @@ struct ContactStep : NewtonResult {
   /// For a state to be reported: relative difference between the friction bounds and those of its
   /// own normal forces.
   double friction_lag = 0;
+  /// The equilibrium at this position before the plates became stiffer; absent if they did not.
+  std::optional<State> softer;
   double worst_penetration = 0;        ///< mm, over all candidates
   std::vector<NodalContact> contacts;  ///< per candidate, when converged
   std::vector<PressedPoint> pressed;   ///< when converged, of faces; empty where nodes touch
@@ -52,7 +55,7 @@ struct ContactStep : NewtonResult {
 struct ContactMemory {
   std::vector<signed char> touching;  ///< −1 free, 0 touches the paddle, 1 the detector
   std::vector<double> multipliers;    ///< µN per unit gap gradient
-  double penalty = 0;                 ///< µN/mm; augmented Lagrangian only
+  double penalty = 0;  ///< of the augmented Lagrangian, µN/mm; of plates that press on faces, Pa/mm
   /// Points at which friction holds the nodes, relative to the plate's shift, and the positions of
   /// free nodes, mm; with friction only.
   std::vector<Vec3> anchors;

@@ -11,10 +11,10 @@
 namespace breast {
 
 namespace {
-/// Factor on the stiffness of plates that are penetrated too deeply, and how often it is applied at
-/// most.
-constexpr double stiffer = 4;
-constexpr int most_stiffenings = 12;
+/// Factor on the stiffness of plates that are penetrated too deeply, the smallest one to which it is
+/// reduced where a solve fails, and the number of solves.
+constexpr double stiffer = 4, least_stiffer = 1.4;
+constexpr int most_stiffenings = 24;
 /// Residual of the intermediate states.
 constexpr double between_tolerance = 1e-3;
 /// Below this residual the tangent includes the rotation of all forces; above it, only of points up
@@ -28,6 +28,9 @@ constexpr int most_choices = 4;
 constexpr double bounds_tolerance = 1e-3, way_bounds_tolerance = 0.05;
 /// The bounds are changed at most this often in one solve.
 constexpr int most_bounds = 12;
+/// If more than this fraction of the lag remains after the bounds have followed, they alternate: from
+/// then on they follow by half as much.
+constexpr double lag_kept = 0.7;
 }  // namespace
 
 /// An equilibrium with the present stiffness of the plates.
@@ -63,8 +66,11 @@ class SurfaceContact::System final : public TangentSystem {
   SurfaceContact& owner_;
   double tolerance_, depth_, first_ = 0, scale_ = 1, lag_ = 0;
   int followed_ = 0, before_follow_ = -1;
+  double followed_lag_ = std::numeric_limits<double>::infinity();  // when they last followed
+  double following_part_ = 1;  // of the way to the bounds that the normal forces allow
   bool hurried_ = false;
   bool simplified_ = false;  // whether the tangent lacks the rotation of the forces
+  int simplifications_ = 0;
 };
 
 Balance SurfaceContact::System::assess(const NewtonResult& so_far) {
@@ -85,8 +91,9 @@ Balance SurfaceContact::System::assess(const NewtonResult& so_far) {
   const int made = int(so_far.iterations.size());
   if (made == 1) first_ = now.residual;
   hurried_ = owner_.fail_fast_ && begins_badly(so_far, now.residual);
-  const int allowed = std::min(options.max_iterations + slip_allowance * so_far.indefinite,
-                               options.most_iterations);
+  const int slipping = so_far.indefinite + simplifications_;
+  const int allowed =
+      std::min(options.max_iterations + slip_allowance * slipping, options.most_iterations);
   if (made >= allowed || hurried_) {
     now.stop = NewtonStop::iteration_limit;
     now.reason = describe(now.stop);
@@ -95,7 +102,8 @@ Balance SurfaceContact::System::assess(const NewtonResult& so_far) {
 }
 
 /// If the state is balanced well enough for its normal forces to be meaningful, the friction bounds
-/// follow them.
+/// follow them. Where a point comes and goes with its friction, the bounds alternate unless they
+/// follow only part of the way.
 bool SurfaceContact::System::follow_bounds(double residual) {
   if (owner_.friction_ == nullptr || residual > std::max(tolerance_, balance_to_follow))
     return false;
@@ -105,6 +113,9 @@ bool SurfaceContact::System::follow_bounds(double residual) {
   const bool close = lag_ <= (on_the_way ? way_bounds_tolerance : bounds_tolerance);
   if (close || residual > std::max(tolerance_, balance_to_follow * lag_)) return false;
   if (++followed_ > most_bounds) return false;
+  if (lag_ > lag_kept * followed_lag_) following_part_ *= 0.5;
+  followed_lag_ = lag_;
+  bounds.approach_from(owner_.memory_.bounds, following_part_);
   change({owner_.friction_.get()}, [&] { owner_.adopt(std::move(bounds), state_); });
   return true;
 }
@@ -127,6 +138,7 @@ NewtonDirection SurfaceContact::System::direction(const Balance& now) {
   const Constraints held = problem_.constraints_at(state_.x);
   simplified_ = !factorise(held, false).ok;
   if (simplified_) {
+    ++simplifications_;
     owner_.pressure_->set_turning_depth(0);
     if (!assemble() || !factorise(held).ok) return none;
   }
@@ -174,6 +186,7 @@ SurfaceContact::SurfaceContact(const HexMesh& mesh, const std::vector<Face>& fac
 
 bool SurfaceContact::equilibrate(State& state, double tolerance, double depth, ContactStep& step) {
   pressure_->set_stiffness(memory_.penalty);
+  set_friction(state.x);
   System system(*this, state, tolerance, depth);
   if (!system.begin()) {
     step.stop = system.refusal();
@@ -192,12 +205,21 @@ bool SurfaceContact::equilibrate(State& state, double tolerance, double depth, C
   return part.converged;
 }
 
-/// Increases the stiffness until no point lies too deep.
+/// Increases the stiffness until no point lies too deep; by less where an increase leads to no
+/// equilibrium.
 bool SurfaceContact::stiffen(State& state, double allowed, ContactStep& step) {
   const std::size_t before = step.iterations.size();
+  double factor = stiffer;
   for (int k = 0; k < most_stiffenings && pressure_->deepest(state.x) > allowed; ++k) {
-    memory_.penalty *= stiffer;
-    if (!equilibrate(state, between_tolerance, allowed, step)) return false;
+    const State softer = state;
+    const ContactMemory memory = memory_;
+    if (!step.softer) step.softer = softer;
+    memory_.penalty *= factor;
+    if (equilibrate(state, between_tolerance, allowed, step)) continue;
+    factor = std::sqrt(factor);
+    if (fail_fast_ || factor < least_stiffer) return false;
+    state = softer;
+    memory_ = memory;
   }
   step.corrections += int(step.iterations.size() - before);
   return true;
@@ -210,7 +232,6 @@ ContactStep SurfaceContact::solve(const PlatePair& plates, State& state, double 
     for (const int node : candidates_) memory_.anchors.push_back(state.x.segment<3>(3L * node));
     memory_.plates = plates;
   }
-  set_friction();
   ContactStep step;
   pressure_->choose_points(state.x);
   const bool on_the_way = tolerance > options_.way_tolerance;
@@ -225,15 +246,18 @@ ContactStep SurfaceContact::solve(const PlatePair& plates, State& state, double 
   return step;
 }
 
-/// The nodes that the plates held in the last solve, with the normal forces of that solve.
-void SurfaceContact::set_friction() {
+/// The nodes that the plates held in the last solve, with the normal forces of that solve and the
+/// plates' normals at `x`.
+void SurfaceContact::set_friction(const Eigen::VectorXd& x) {
   if (friction_ == nullptr) return;
   std::vector<FrictionEntry> held;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     const int k = memory_.touching[c];
     if (k < 0 || !(memory_.bounds[c] > 0)) continue;
-    held.push_back({candidates_[c], k, memory_.anchors[c] + pressure_->plates().plate(k).shift(),
-                    memory_.bounds[c], options_.friction.stick(memory_.bounds[c])});
+    const Plate& plate = pressure_->plates().plate(k);
+    held.push_back({candidates_[c], k, memory_.anchors[c] + plate.shift(), memory_.bounds[c],
+                    options_.friction.stick(memory_.bounds[c]),
+                    plate.gap(x.segment<3>(3L * candidates_[c])).gradient});
   }
   friction_->set_plates(pressure_->plates());
   friction_->set_entries(std::move(held));
@@ -256,7 +280,7 @@ SurfaceContact::Bounds SurfaceContact::bounds_at(const Eigen::VectorXd& x) const
 void SurfaceContact::adopt(Bounds bounds, const State& state) {
   for (std::size_t c = 0; c < candidates_.size(); ++c) hold(c, bounds.contacts[c].plate, state);
   memory_.bounds = std::move(bounds.values);
-  set_friction();
+  set_friction(state.x);
 }
 
 /// Anchors a node that has come into contact with a plate since the last solution at the place on

@@ -50,12 +50,17 @@ class SurfaceContact : public ContactSolver {
     std::vector<NodalContact> contacts;
     std::vector<double> values;
     double lag = 0;
+    /// Goes only this part of the way from the present values.
+    void approach_from(const std::vector<double>& present, double part) {
+      for (std::size_t c = 0; c < values.size(); ++c)
+        values[c] = (1 - part) * present[c] + part * values[c];
+    }
   };
   bool equilibrate(State& state, double tolerance, double depth, ContactStep& step);
   bool stiffen(State& state, double allowed, ContactStep& step);
   void finish(const State& state, ContactStep& step);
   std::vector<NodalContact> nodal_contacts(const Eigen::VectorXd& x) const;
-  void set_friction();
+  void set_friction(const Eigen::VectorXd& x);
   Bounds bounds_at(const Eigen::VectorXd& x) const;
   void adopt(Bounds bounds, const State& state);
   void hold(std::size_t c, int plate, const State& state);

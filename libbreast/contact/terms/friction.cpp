@@ -44,8 +44,16 @@ void FrictionTerm::set_entries(std::vector<FrictionEntry> entries) {
 
 FrictionForce FrictionTerm::at(const FrictionEntry& entry, const Eigen::VectorXd& x) const {
   const Vec3 point = x.segment<3>(3L * entry.node);
-  const Vec3 normal = plates_.plate(entry.plate).gap(point).gradient;
-  return friction_force(point, entry.anchor, normal, entry.bound, entry.stick);
+  return friction_force(point, entry.anchor, normal_at(entry, point), entry.bound, entry.stick);
+}
+
+Vec3 FrictionTerm::normal_at(const FrictionEntry& entry, const Vec3& point) const {
+  return entry.normal ? *entry.normal : plates_.plate(entry.plate).gap(point).gradient;
+}
+
+Vec3 FrictionTerm::anchor_in_plane(const FrictionEntry& entry, const Eigen::VectorXd& x) const {
+  const Vec3 point = x.segment<3>(3L * entry.node), normal = normal_at(entry, point);
+  return entry.anchor + (point - entry.anchor).dot(normal) * normal;
 }
 
 Eigen::VectorXd FrictionTerm::change_of_forces(

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "contact/plates.hpp"
@@ -48,11 +49,14 @@ struct FrictionEntry {
   Vec3 anchor{0, 0, 0};  ///< mm, where the plate is now
   double bound = 0;      ///< µN
   double stick = 0;      ///< µN/mm
+  /// Of the plate, fixed for one solve; absent: that at the node, wherever it moves.
+  std::optional<Vec3> normal = {};
 };
 
-/// The tangent neglects the rotation of the plate's normal with the node: it is exact on a flat
-/// plate, and on a rounded edge its error is proportional to the step. The full tangent would not
-/// be symmetric.
+/// With fixed normals the tangent is exact and the force has an energy. Without, the tangent neglects
+/// the rotation of the normal with the node, and the full one would not be symmetric: on a rounded
+/// edge the error grows with the distance of the anchor from the tangential plane, and Newton's
+/// method may go in circles.
 class FrictionTerm final : public Term {
  public:
   void set_plates(const PlatePair& plates) { plates_ = plates; }
@@ -62,6 +66,8 @@ class FrictionTerm final : public Term {
   FrictionForce at(const FrictionEntry& entry, const Eigen::VectorXd& x) const;
   /// Where the node is anchored after the solution x, mm: behind a slipping node by its full slip.
   Vec3 next_anchor(const FrictionEntry& entry, const Eigen::VectorXd& x) const;
+  /// The anchor moved along the normal into the tangential plane of the node, which changes no force.
+  Vec3 anchor_in_plane(const FrictionEntry& entry, const Eigen::VectorXd& x) const;
 
   /// Change of the forces on the nodes (µN, 3 per node) while the plates move and carry the anchors
   /// with them by velocity(plate, x), mm per unit; bounds and slipping nodes are kept.
@@ -77,6 +83,8 @@ class FrictionTerm final : public Term {
   PlatePair plates_;
   std::vector<FrictionEntry> entries_;
   Cells cells_;  // one node each
+
+  Vec3 normal_at(const FrictionEntry& entry, const Vec3& point) const;
 };
 
 }  // namespace breast
