@@ -156,7 +156,7 @@ void declare(Tool& tool, Choices& c) {
   tool.number(
       c.plate_step, "--plate-step", "MM",
       "longest step by which the plates close (default: 0.07 of the initial thickness; in MLO and ML "
-      "with friction 0.05, and 0.015 once the hand lets go)",
+      "with friction 0.006 while the hand lets go)",
       0.1, 1000);
   tool.choice(c.contact, "--contact", {"active-set", "al"},
               "contact algorithm: exact active set, or the paper's augmented Lagrangian");

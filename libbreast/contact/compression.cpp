@@ -136,6 +136,7 @@ PathOptions Compression::path_options() {
     path.corners.push_back((1 - reduction) * found_.plates.initial_thickness);
   }
   path.slipping_below = (1 - hand.pull.begins) * found_.plates.initial_thickness;
+  path.slipping_above = (1 - hand.pull.ends) * found_.plates.initial_thickness;
   if (!thickness_in(target())) return path;
   path.may_end = [this, hand](double thickness) {
     return hand.gone(1 - thickness / found_.plates.initial_thickness);

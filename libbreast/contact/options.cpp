@@ -18,11 +18,10 @@ constexpr double edge_radius = 15, image_edge_radius = 3;
 constexpr double image_edge_friction = 0.15;
 /// Default force with which a hand pulls such a breast forwards until friction holds it, N.
 constexpr double image_edge_pull = 30;
-/// Automatic longest steps, as fractions of the initial thickness, between inclined plates that hold
-/// the breast by friction, before the hand lets it go and afterwards: along these plates it slips
-/// for longer than in CC, and its end depends on the steps in which it slips.
-constexpr double longest_part_oblique = 0.05;
-constexpr double slipping_part = 0.015;
+/// Automatic longest step, as a fraction of the initial thickness, between inclined plates that hold
+/// the breast by friction, while the hand lets it go: along these plates it slips farther than in
+/// CC, and its end depends on the steps in which it slips.
+constexpr double slipping_part = 0.006;
 /// Default distance from the chest wall to the edge of the image, mm. The oblique view shows muscle:
 /// in a mesh with a layer of muscle the edge lies behind its front by this fraction of its thickness.
 constexpr double edge_cc = 5, edge_in_muscle = 1.25;
@@ -117,10 +116,7 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   options.positioning = lifted ? Positioning::lifted : Positioning::hanging;
   const bool held = frictional && lifted && options.friction > 0;
   options.pull_N = c.pull.value_or(held ? image_edge_pull : 0);
-  if (options.view != View::cc && options.friction > 0) {
-    options.path.longest_part = longest_part_oblique;
-    options.path.slipping_part = slipping_part;
-  }
+  if (options.view != View::cc && options.friction > 0) options.path.slipping_part = slipping_part;
   options.or_at = c.stops();
   if (!options.or_at.empty()) {
     options.stop_at = options.or_at.front().at;

@@ -140,7 +140,8 @@ bool Path::attempt(const Guess& guess, double thickness, double tolerance, Waypo
 /// From the present position, mm.
 double Path::longest_step() const {
   if (options_.longest_step > 0) return options_.longest_step;
-  const bool slipping = here_.thickness <= options_.slipping_below;
+  const bool slipping =
+      here_.thickness <= options_.slipping_below && here_.thickness > options_.slipping_above;
   const double part = slipping ? std::min(options_.slipping_part, options_.longest_part)
                                : options_.longest_part;
   return part * plates_.initial_thickness;

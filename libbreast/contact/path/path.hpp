@@ -19,10 +19,10 @@ namespace breast {
 struct PathOptions {
   double first_step = 0, longest_step = 0, shortest_step = 0.05;
   double longest_part = 0.07;    ///< about 7 mm for a typical breast
-  /// The longest step (a fraction, like `longest_part`, and never more than that) once the plates are
-  /// at most `slipping_below` (mm) apart. There the breast slips on them, and within a step it slips
-  /// along straight lines.
-  double slipping_part = 0.07, slipping_below = 0;
+  /// The longest step (a fraction, like `longest_part`, and never more than that) while the plates are
+  /// at most `slipping_below` and more than `slipping_above` (mm) apart. There the breast slips on
+  /// them, and within a step it slips along straight lines.
+  double slipping_part = 0.07, slipping_below = 0, slipping_above = 0;
   double least_thickness = 2;    ///< smallest thickness of a path without a thickness as target, mm
   double path_tolerance = 3e-4;  ///< residual of intermediate states; the final state is solved to
                                  ///< `tolerance`
