@@ -311,39 +311,33 @@ class Kinked final : public NewtonSystem {
  private:
   double stiffer_;
 };
-}  // namespace
 
-// A full step would end at 0.7 of the slope on the other side; when the next comes back, Newton's method goes in circles.
-TEST(LineSearch, DoesNotGoFarPastTheMinimumOfAKinkedEnergy) {
-  Kinked system(1.7);
+/// Along a direction of slope 1, from a state with this merit.
+SearchResult search(double stiffer, double merit, bool kinks) {
+  Kinked system(stiffer);
   NewtonDirection direction;
   direction.slope = 1;
   LineSearchRule rule;
-  rule.merit = 0.1;
+  rule.merit = merit;
   rule.flat_suffices = true;
-  for (const bool kinks : {false, true}) {
-    rule.kinks = kinks;
-    const SearchResult found = line_search(system, direction, rule);
-    EXPECT_EQ(found.length, kinks ? 0.5 : 1);
-  }
+  rule.kinks = kinks;
+  return line_search(system, direction, rule);
+}
+}  // namespace
+
+// A full step would end at 0.7 of the slope on the other side; when the next comes back, Newton's
+// method goes in circles.
+TEST(LineSearch, DoesNotGoFarPastTheMinimumOfAKinkedEnergy) {
+  EXPECT_EQ(search(1.7, 0.1, false).length, 1);
+  EXPECT_EQ(search(1.7, 0.1, true).length, 0.5);
 }
 
 // Halves of the step are all too long, the place where the slope vanishes is found at once.
 TEST(LineSearch, ShortensToWhereAKinkedEnergyIsFlat) {
-  Kinked system(320);
-  NewtonDirection direction;
-  direction.slope = 1;
-  LineSearchRule rule;
-  rule.merit = 1;
-  rule.flat_suffices = true;
-  for (const bool kinks : {false, true}) {
-    rule.kinks = kinks;
-    const SearchResult found = line_search(system, direction, rule);
-    EXPECT_EQ(found.trial.has_value(), kinks);
-    EXPECT_TRUE(found.any_admissible);
-    if (!kinks) continue;
-    EXPECT_NEAR(found.length, 1.0 / 320, 1e-4);
-  }
+  const SearchResult halved = search(320, 1, false), found = search(320, 1, true);
+  EXPECT_TRUE(halved.any_admissible && !halved.trial);
+  EXPECT_TRUE(found.trial.has_value());
+  EXPECT_NEAR(found.length, 1.0 / 320, 1e-4);
 }
 
 // How many updates the multipliers need says nothing of how far the plates may move at once.

@@ -211,7 +211,7 @@ bool Path::end_at(const CompressionTarget& target, Waypoint reached) {
   return true;
 }
 
-/// Solves the last state more accurately.
+/// Solves the last state again, to this residual.
 bool Path::sharpen(double tolerance, Waypoint& sharp) {
   if (!attempt({here_.state, here_.memory}, here_.thickness, tolerance, sharp)) return false;
   drop_repeated_point(result_.points);
