@@ -19,8 +19,9 @@ enum class ParameterKind {
   imaged_gravity,  ///< direction of the scan's gravity, turned towards an axis, degrees
   skin_thickness,  ///< thickness of a membrane skin, relative
   wall_support,    ///< stiffness of the springs along or under the chest wall, relative
-  cut_support,     ///< stiffness of the springs at the cut, relative; both change the weight of the
-                   ///< tissue beyond the cut that it carries
+  /// Stiffness of the springs at the cut, relative. The weight of the tissue beyond the cut depends
+  /// on this stiffness and on that of the wall.
+  cut_support,
   sternum_support,  ///< stiffness of the attachment of the cut to the sternum, relative
   together,         ///< a common factor on all `members`, relative
   thickness,        ///< distance between the plates, which close on their mid-plane, mm

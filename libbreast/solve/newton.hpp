@@ -92,6 +92,7 @@ struct LineSearchRule {
   bool downhill_suffices = false;
   /// The energy has kinks: a penalty that becomes active along the step can be hundreds of times
   /// stiffer than the tangent, so that after several halvings the slope determines the step length.
+  /// A step past the minimum along the direction must end flatter than one before it.
   bool kinks = false;
 };
 

@@ -325,8 +325,8 @@ SearchResult search(double stiffer, double merit, bool kinks) {
 }
 }  // namespace
 
-// A full step would end at 0.7 of the slope on the other side; when the next comes back, Newton's
-// method goes in circles.
+// A full step would end at 0.7 of the slope on the other side; if the next one came back, Newton's
+// method would cycle.
 TEST(LineSearch, DoesNotGoFarPastTheMinimumOfAKinkedEnergy) {
   EXPECT_EQ(search(1.7, 0.1, false).length, 1);
   EXPECT_EQ(search(1.7, 0.1, true).length, 0.5);

@@ -14,12 +14,12 @@ struct Waypoint {
   ContactMemory memory;
   double thickness = 0;  ///< mm
   PathPoint point;
-  /// Where the motion of the plates alone led: the state before the plates became stiffer in the
-  /// same solve, otherwise `state`.
+  /// The state to which the motion of the plates alone led: `state`, unless the plates became stiffer
+  /// at the same position.
   State moved;
 };
 
-/// What a solve begins with.
+/// Initial state of a solve and what the contact method remembers.
 struct Guess {
   State state;
   ContactMemory memory;

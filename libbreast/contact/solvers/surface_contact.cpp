@@ -11,8 +11,8 @@
 namespace breast {
 
 namespace {
-/// Factor on the stiffness of plates that are penetrated too deeply, the smallest one to which it is
-/// reduced where a solve fails, and the number of solves.
+/// Factor on the stiffness of plates that are penetrated too deeply, the smallest value to which it
+/// is reduced after failed solves, and the largest number of solves.
 constexpr double stiffer = 4, least_stiffer = 1.4;
 constexpr int most_stiffenings = 24;
 /// Residual of the intermediate states.
@@ -205,8 +205,8 @@ bool SurfaceContact::equilibrate(State& state, double tolerance, double depth, C
   return part.converged;
 }
 
-/// Increases the stiffness until no point lies too deep; by less where an increase leads to no
-/// equilibrium.
+/// Increases the stiffness until no point lies too deep, by a smaller factor after each increase for
+/// which no equilibrium is found.
 bool SurfaceContact::stiffen(State& state, double allowed, ContactStep& step) {
   const std::size_t before = step.iterations.size();
   double factor = stiffer;

@@ -49,14 +49,14 @@ struct FrictionEntry {
   Vec3 anchor{0, 0, 0};  ///< mm, where the plate is now
   double bound = 0;      ///< µN
   double stick = 0;      ///< µN/mm
-  /// Of the plate, fixed for one solve; absent: that at the node, wherever it moves.
+  /// Normal of the plate, fixed during a solve; if absent, the normal at the node's present position.
   std::optional<Vec3> normal = {};
 };
 
 /// With fixed normals the tangent is exact and the force has an energy. Without, the tangent neglects
 /// the rotation of the normal with the node, and the full one would not be symmetric: on a rounded
 /// edge the error grows with the distance of the anchor from the tangential plane, and Newton's
-/// method may go in circles.
+/// method may cycle.
 class FrictionTerm final : public Term {
  public:
   void set_plates(const PlatePair& plates) { plates_ = plates; }
