@@ -67,10 +67,7 @@ PartProblem::PartProblem(const Ranks& ranks, const MeshPart& part, const Mechani
       problem_->set_sliding(
           std::make_shared<SlidingNodes>(part.wall, part.sliding, flatten(part.mesh.imaged)));
     }
-    if (options.cut.kind == Cut::tissue && !part.mesh.cut_faces.empty())
-      beyond_.emplace(part.mesh, part.wall.get(),
-                      options.materials.density[std::size_t(Tissue::fat)],
-                      length_beyond(options.wall, options.cut));
+    beyond_ = tissue_at_cut(part.mesh, part.wall.get(), options);
     for (int e = 0; e < part.mesh.elements(); ++e) volume += pressures().volume(e);
   });
   gravity_ = Eigen::VectorXd::Zero(3L * part.mesh.nodes());

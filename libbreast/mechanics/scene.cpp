@@ -108,9 +108,7 @@ void Scene::add_wall() {
     if (along > 0) wall_springs_ = springs(mesh_.pectoral_faces, {along, along});
   }
   cut_springs_ = springs_at_cut(mesh_, options_.cut);
-  if (options_.cut.kind != Cut::tissue || mesh_.cut_faces.empty()) return;
-  beyond_.emplace(mesh_, surface.get(), options_.materials.density[std::size_t(Tissue::fat)],
-                  length_beyond(wall, options_.cut));
+  beyond_ = tissue_at_cut(mesh_, surface.get(), options_);
 }
 
 long Scene::unknowns() const {

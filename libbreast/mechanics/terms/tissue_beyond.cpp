@@ -7,6 +7,9 @@
 
 namespace breast {
 
+namespace {
+
+/// KC h / KT, mm.
 double length_beyond(const WallOption& wall, const CutOption& cut) {
   if (!carries_tissue_beyond(wall))
     throw input_error(
@@ -15,6 +18,8 @@ double length_beyond(const WallOption& wall, const CutOption& cut) {
         "KT above 0, or --cut spring:KC");
   return cut.stiffness * thickness_beyond / wall.stiffness.tangential;
 }
+
+}  // namespace
 
 TissueBeyond::TissueBeyond(const HexMesh& mesh, const LevelSurface* wall, double density,
                            double length)
@@ -37,6 +42,13 @@ TissueBeyond::TissueBeyond(const HexMesh& mesh, const LevelSurface* wall, double
 void TissueBeyond::add(const Vec3& gravity, Eigen::VectorXd& force) const {
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     force.segment<3>(3L * nodes_[i]) += mass_[i] * gravity;
+}
+
+std::optional<TissueBeyond> tissue_at_cut(const HexMesh& mesh, const LevelSurface* wall,
+                                          const MechanicsOptions& options) {
+  if (options.cut.kind != Cut::tissue || mesh.cut_faces.empty()) return {};
+  const double length = length_beyond(options.wall, options.cut);
+  return TissueBeyond(mesh, wall, options.materials.density[std::size_t(Tissue::fat)], length);
 }
 
 }  // namespace breast

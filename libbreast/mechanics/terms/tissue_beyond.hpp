@@ -13,10 +13,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/types.hpp"
-#include "mechanics/wall_option.hpp"
+#include "mechanics/options.hpp"
 #include "mesh/hex_mesh.hpp"
 #include "surface/level_surface.hpp"
 
@@ -24,9 +25,6 @@ namespace breast {
 
 /// Thickness h of the tissue around a breast, mm.
 inline constexpr double thickness_beyond = 20;
-
-/// KC h / KT, mm. Throws Error (input) if the breast does not slide or rest on springs with KT above 0.
-double length_beyond(const WallOption& wall, const CutOption& cut);
 
 class TissueBeyond {
  public:
@@ -41,5 +39,11 @@ class TissueBeyond {
   std::vector<int> nodes_;
   std::vector<Mat3> mass_;  // g: the mass that each node carries, projected onto the wall
 };
+
+/// That of the options; absent if they give it no weight or the mesh has no cut. `wall`: chest-wall
+/// surface of the mesh, null if it has none. Throws Error (input) as the constructor does, and if the
+/// breast does not slide or rest on springs with KT above 0.
+std::optional<TissueBeyond> tissue_at_cut(const HexMesh& mesh, const LevelSurface* wall,
+                                          const MechanicsOptions& options);
 
 }  // namespace breast
