@@ -172,20 +172,18 @@ double slice_spacing(const fs::path& folder, const std::vector<Slice>& slices) {
   return usual;
 }
 
+/// Adds a slice's patient position to those of the slices before it: "HFP", or "HFP/HFS" if they differ.
+void add_position(const std::string& own, std::string& all) {
+  if (own.empty() || all.find(own) != std::string::npos) return;
+  all += (all.empty() ? "" : "/") + own;
+}
+
 }  // namespace
 
 std::string DicomSeries::label() const {
   return message(description.empty() ? "no description" : description, ", ", files.size(),
                  " files");
 }
-
-namespace {
-/// Adds a slice's patient position to those of the slices before it: "HFP", or "HFP/HFS" if they differ.
-void add_position(const std::string& own, std::string& all) {
-  if (own.empty() || all.find(own) != std::string::npos) return;
-  all += (all.empty() ? "" : "/") + own;
-}
-}  // namespace
 
 std::vector<DicomSeries> list_dicom_series(const fs::path& folder) {
   std::vector<fs::path> names;
