@@ -11,6 +11,7 @@
 #include "mechanics/estimate/second_solution.hpp"
 #include "mechanics_run.hpp"
 #include "mesh/muscle_front.hpp"
+#include "mesh/surroundings.hpp"
 
 using namespace breast;
 
@@ -190,7 +191,7 @@ void take_from_mammogram(Choices& c, Side side, Report& report) {
 
 void run_compress(Choices c, Run& run) {
   MechanicsRun mechanics(run, c.mechanics, c.estimate, c.reference,
-                         read_mesh(c.reference, {.reference = true}));
+                         breast_alone(read_mesh(c.reference, {.reference = true})));
   const HexMesh& mesh = mechanics.mesh();
   take_from_mammogram(c, mesh.side, run.report());
   // A breast that slides lies limp between plates that stand far in front of its chest wall.

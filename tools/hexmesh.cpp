@@ -16,6 +16,7 @@
 #include "meshing/agreement.hpp"
 #include "meshing/boundary_surface.hpp"
 #include "meshing/layers/muscle_layer.hpp"
+#include "meshing/layers/surrounding_layers.hpp"
 #include "meshing/report.hpp"
 #include "meshing/skin.hpp"
 #include "meshing/tumour.hpp"
@@ -117,6 +118,14 @@ void fill_with_tetrahedra(const MeshChoices& choices, const HexMesh& mesh, Run& 
                     run_sibling("tetrahedra", {file.string(), choices.tetrahedra.string()}));
 }
 
+void surround(const MeshChoices& choices, HexMesh& mesh, Run& run) {
+  if (!(choices.surroundings_mm > 0)) return;
+  const Surroundings around = add_surroundings(choices.surroundings_mm, mesh);
+  run.report().set("surroundings_mm", around.mean_mm);
+  run.report().set("surroundings_part", around.part);
+  run.report().set("surrounding_layers", around.layers);
+}
+
 void add_muscle(const MeshChoices& choices, const LabelVolume& labels, HexMesh& mesh, Run& run) {
   MuscleThickness muscle;
   if (choices.muscle == "measured") {
@@ -159,6 +168,7 @@ void run_hexmesh(const MeshChoices& choices, Run& run) {
   }
   add_points(points, choices.landmarks.filename().string(), mesh);
   add_muscle(choices, labels, mesh, run);
+  surround(choices, mesh, run);
   const MeshQuality quality = mesh_quality(mesh, mesh.points);
   write_report(mesh, quality, body, tissue, run.report());
   for (const std::string& doubt : doubts(quality)) run.warn(doubt);

@@ -4,6 +4,7 @@
 #include "cli/sibling.hpp"
 #include "core/error.hpp"
 #include "meshing/layers/muscle_layer.hpp"
+#include "meshing/layers/surrounding_layers.hpp"
 #include "meshing/skin.hpp"
 #include "meshing/tumour.hpp"
 
@@ -72,6 +73,12 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
             "thickness of a layer of muscle between the chest wall in the scan and the ribs, on which the "
             "body then slides; 0 for no muscle; measured for the thickness in labels that show the "
             "back of the muscle, otherwise 8 mm");
+  tool.number(
+      choices.surroundings_mm, "--surroundings", "MM",
+      "width of the tissue around the breast that is meshed with it, beyond the lateral cut; it "
+      "has the law of fat and the label other, and holds the breast instead of supports at the "
+      "cut; plates and mammograms leave it out",
+      0, most_surroundings_mm);
   tool.text(
       choices.tumour, "--tumour", "auto|none|x,y,z[:radius]|FILE",
       "position of the tumour in LPS mm; with a radius, the elements inside it become tumour. "

@@ -18,6 +18,7 @@ struct MeshChoices {
   std::string shape = "dome", skin = "1.45", skin_as = "membrane", tumour = "auto",
               muscle = "0";
   int elements = 16, order = 1;
+  double surroundings_mm = 0;
   bool accept_mismatch = false;
   std::vector<double> dome;  ///< n, l, m, k; empty for about `elements`^3 elements
 

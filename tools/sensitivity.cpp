@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "io/derivative_file.hpp"
 #include "mechanics/options.hpp"
+#include "mesh/surroundings.hpp"
 #include "sensitivity/results.hpp"
 
 using namespace breast;
@@ -66,9 +67,12 @@ void declare(Tool& tool, Choices& c) {
 
 // Checks that the two files describe the same breast.
 void check_pair(const HexMesh& reference, const HexMesh& state, const Choices& c) {
+  const bool whole = reference.elements() == state.elements();
+  const HexMesh own = whole ? HexMesh() : breast_alone(reference);
+  const HexMesh& from = whole ? reference : own;
   const bool same =
-      reference.reference.size() == state.reference.size() && reference.tissue == state.tissue &&
-      std::equal(reference.reference.begin(), reference.reference.end(), state.reference.begin(),
+      from.reference.size() == state.reference.size() && from.tissue == state.tissue &&
+      std::equal(from.reference.begin(), from.reference.end(), state.reference.begin(),
                  [](const Vec3& a, const Vec3& b) { return (a - b).norm() < 1e-9; });
   if (!same) {
     throw input_error(c.state.string(), ": was not made from ", c.reference.string(),
@@ -82,11 +86,11 @@ void run_sensitivity(const Choices& c, Run& run) {
   HexMesh mesh = read_mesh(c.state, {.reference = true});
   check_pair(reference, mesh, c);
   const auto parameters =
-      pick_parameters(all_parameters(mesh, options, c.imaged.vector()), c.parameters);
+      pick_parameters(all_parameters(reference, mesh, options, c.imaged.vector()), c.parameters);
   const SensitivityChain chain = [&] {
     Timer::Scope phase(run.timer(), "factorisation");
     run.progress().update("factorisation", -1, "the scan's shape and the deformed one");
-    return SensitivityChain(mesh, reference.pressure, c.imaged.vector(), options);
+    return SensitivityChain(reference, mesh, reference.pressure, c.imaged.vector(), options);
   }();
   const SensitivityResults results = [&] {
     Timer::Scope phase(run.timer(), "derivatives");

@@ -11,6 +11,7 @@
 #include "evaluation/posture_motion.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/set_supports.hpp"
+#include "mesh/surroundings.hpp"
 
 namespace breast {
 
@@ -89,7 +90,7 @@ std::optional<PostureMotion> motion_of(HexMesh mesh, const MechanicsOptions& opt
 std::optional<double> pressure_on(HexMesh mesh, const MechanicsOptions& options,
                                   const SoftnessData& data) {
   if (!unload(mesh, options)) return {};
-  const CompressionResult found = compress(mesh, data.press, options);
+  const CompressionResult found = compress(breast_alone(std::move(mesh)), data.press, options);
   if (!found.converged()) return {};
   return found.contact->plates[0].mean_kPa;
 }

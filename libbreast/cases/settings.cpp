@@ -230,7 +230,8 @@ void Decisions::decide_model() {
     // A breast that slides does so with the muscle behind it; one that is held needs none.
     set_default("MUSCLE", slides ? "measured" : "0");
     set_default_text("HEXMESH_OPTIONS",
-                     "--elements $(ELEMENTS) $(addprefix --muscle ,$(filter-out 0,$(MUSCLE)))");
+                     "--elements $(ELEMENTS) $(addprefix --muscle ,$(filter-out 0,$(MUSCLE))) "
+                     "$(addprefix --surroundings ,$(filter-out 0,$(SURROUNDINGS)))");
     // An empty ELEMENT is the default of the programs. ACCURACY=MM chooses ELEMENTS and ELEMENT.
     set_default_text("MECHANICS", "--materials $(MATERIALS) $(addprefix --element ,$(ELEMENT))");
   }

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "mesh/muscle_front.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/surroundings.hpp"
 
 namespace breast {
 
@@ -24,7 +25,7 @@ std::vector<Sample> samples_of(const HexMesh& mesh, const ThoraxSurface& surface
   const std::vector<double> volumes = element_volumes(mesh, mesh.imaged);
   std::vector<Sample> samples;
   for (int e = 0; e < mesh.elements(); ++e) {
-    if (mesh.tissue[std::size_t(e)] == Tissue::muscle) continue;
+    if (mesh.tissue[std::size_t(e)] == Tissue::muscle || is_around_breast(mesh, e)) continue;
     const Vec3 from = element_position(mesh, mesh.imaged, e, Vec3::Zero());
     const Vec3 to = element_position(mesh, mesh.points, e, Vec3::Zero());
     samples.push_back({volumes[std::size_t(e)], (to - from).norm(),

@@ -141,7 +141,7 @@ void check_options(const FitOptions& options) {
   check(options.surface_step_mm, 0.5, 10, "surface raster (mm)");
   check(options.wall_smoothing_mm, 1, 50, "wall smoothing (mm)");
   check(options.rim.rays, 32, 1024, "rim rays");
-  check(options.rim.margin, 0.01, 0.3, "rim margin");
+  check(options.rim.margin.width, 0.01, 0.3, "rim margin");
 }
 
 /// The state of a fit, in which every step stores its results for the next ones.

@@ -106,7 +106,7 @@ double margin_radius(const Vec2& centre, const Vec2& direction, const RimOptions
   double low = 0, high = 1.5;
   for (int k = 0; k < 50; ++k) {
     const double middle = 0.5 * (low + high);
-    (within_margin(centre + middle * direction, options) ? low : high) = middle;
+    (within_margin(centre + middle * direction, options.margin) ? low : high) = middle;
   }
   return low;
 }
@@ -271,13 +271,6 @@ void measure(const HermiteSheet& skin, const HermiteSheet& wall, Rim& rim) {
 }
 
 }  // namespace
-
-bool within_margin(const Vec2& st, const RimOptions& options) {
-  const Vec2 q = (st - Vec2(0.5, 0.5)).cwiseAbs() / (0.5 - options.margin);
-  return elementary::pow(q.x(), options.margin_order) +
-             elementary::pow(q.y(), options.margin_order) <
-         1;
-}
 
 Vec2 centroid(const std::vector<Vec2>& curve) {
   double area = 0;

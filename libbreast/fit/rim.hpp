@@ -8,6 +8,7 @@
 #include "core/types.hpp"
 #include "fit/wall/wall_sheet.hpp"
 #include "surface/hermite.hpp"
+#include "surface/margin.hpp"
 
 namespace breast {
 
@@ -25,14 +26,8 @@ struct RimOptions {
   double steep_degrees = 40;
   double steep_down_to = 0.6;
   double low_pass_degrees = 12;  ///< standard deviation of the smoothing of the rim's log radius
-  int margin_order = 5;          ///< order of the superellipse within the sheet's border
-  /// Range of the skin sheet's parameters that is kept outside the body.
-  double margin = 0.035;
+  SheetMargin margin;
 };
-
-/// True where the body may lie: within the superellipse that keeps a distance from the border of
-/// the skin sheet.
-bool within_margin(const Vec2& st, const RimOptions& options);
 
 struct Rim {
   Vec2 centre;

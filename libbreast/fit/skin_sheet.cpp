@@ -75,8 +75,9 @@ SkinSheet fit_skin(const DiscSurface& surface, const DiscMap& map, const Vec3& n
   const bool demanded = options.max_error_mm > 0;
   const double wanted = demanded ? options.max_error_mm : options.target_max_mm;
   const auto summary_of = [&](const HermiteSheet& sheet, const SheetData& at) {
-    return summarise(distances_of(measured_points(
-        sheet, at, surface, [&](const Vec2& st) { return within_margin(st, options.rim); })));
+    return summarise(distances_of(measured_points(sheet, at, surface, [&](const Vec2& st) {
+      return within_margin(st, options.rim.margin);
+    })));
   };
   const FitControl control =
       control_of(options, [&](const HermiteSheet& sheet, const SheetData& at) {

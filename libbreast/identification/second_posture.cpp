@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "material/set_parameter.hpp"
+#include "mesh/surroundings.hpp"
 
 namespace breast {
 
@@ -14,13 +15,15 @@ namespace {
 constexpr double sample_spacing_mm = 12;
 
 // Derivatives of the elastic parameters, as columns of nodal fields.
-std::vector<Response> responses(const HexMesh& state, const std::vector<double>& imaged_pressure,
+std::vector<Response> responses(const HexMesh& imaged, const HexMesh& state,
+                                const std::vector<double>& imaged_pressure,
                                 const Vec3& imaged_gravity, const MechanicsOptions& options,
                                 const std::vector<std::string>& names) {
   std::vector<Parameter> parameters;
   for (const std::string& name : names)
-    parameters.push_back(set_parameter(state, set_with_supports(options), name));
-  return SensitivityChain(state, imaged_pressure, imaged_gravity, options).tangent(parameters);
+    parameters.push_back(set_parameter(imaged, set_with_supports(options), name));
+  return SensitivityChain(imaged, state, imaged_pressure, imaged_gravity, options)
+      .tangent(parameters);
 }
 
 }  // namespace
@@ -103,7 +106,7 @@ bool SecondPosture::press(const MechanicsOptions& options) {
     press.stop_at = StopAt::thickness;
     press.target = seen.thickness;
     press.or_at.clear();
-    HexMesh state = mesh_;
+    HexMesh state = breast_alone(mesh_);
     const CompressionResult found = compress(state, press, options);
     if (!found.converged()) return reason_ = "compression: " + found.record.reason, false;
     store(found, state);
@@ -138,7 +141,7 @@ std::optional<Eigen::VectorXd> SecondPosture::residuals(const Eigen::VectorXd& x
 
 Eigen::MatrixXd SecondPosture::jacobian() const {
   const std::vector<Response> by =
-      responses(mesh_, imaged_pressure_, imaged_gravity_, options_, sought_.names);
+      responses(mesh_, mesh_, imaged_pressure_, imaged_gravity_, options_, sought_.names);
   const RigidMotion moved = motion(x_);
   const Mat3 rotation = moved.rotation();
   const Eigen::Index materials = sought_.materials();
@@ -169,7 +172,7 @@ Eigen::MatrixXd SecondPosture::jacobian() const {
   }
   for (std::size_t k = 0; k < seen_.forces.size(); ++k, ++at) {
     const std::vector<Response> pressed =
-        responses(pressed_[k], imaged_pressure_, imaged_gravity_, options_, sought_.names);
+        responses(mesh_, pressed_[k], imaged_pressure_, imaged_gravity_, options_, sought_.names);
     for (Eigen::Index i = 0; i < materials; ++i)
       j(at, i) = pressed[std::size_t(i)].paddle_force_N / seen_.forces[k].deviation;
   }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <set>
 
+#include "mesh/surroundings.hpp"
+
 namespace breast {
 
 namespace {
@@ -30,7 +32,7 @@ std::vector<Location> skin_samples(const HexMesh& mesh, double spacing) {
   const std::set<int> rim = rim_nodes(mesh);
   std::vector<Location> samples;
   std::vector<Vec3> places;
-  for (const Face& face : mesh.skin_faces) {
+  for (const Face& face : of_breast(mesh, mesh.skin_faces)) {
     const std::vector<int> nodes = face_nodes(mesh, face);
     if (std::any_of(nodes.begin(), nodes.end(), [&](int n) { return rim.contains(n); })) continue;
     const Vec3 local = middle_of(face.local),

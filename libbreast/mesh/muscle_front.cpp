@@ -8,6 +8,7 @@
 #include "mesh/nodal.hpp"
 #include "mesh/nodal_faces.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/surroundings.hpp"
 
 namespace breast {
 
@@ -31,10 +32,10 @@ std::vector<Face> muscle_front(const HexMesh& mesh) {
     if (mesh.tissue[e] != Tissue::muscle) continue;
     for (int local = 0; local < 6; ++local) of_muscle.insert(sorted_corners(mesh, {e, local}));
   }
-  if (of_muscle.empty()) return mesh.pectoral_faces;
+  if (of_muscle.empty()) return of_breast(mesh, mesh.pectoral_faces);
   std::vector<Face> front;
   for (int e = 0; e < mesh.elements(); ++e) {
-    if (mesh.tissue[e] == Tissue::muscle) continue;
+    if (mesh.tissue[e] == Tissue::muscle || is_around_breast(mesh, e)) continue;
     for (int local = 0; local < 6; ++local) {
       if (of_muscle.contains(sorted_corners(mesh, {e, local}))) front.push_back({e, local});
     }

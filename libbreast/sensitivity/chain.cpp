@@ -109,15 +109,32 @@ std::vector<std::shared_ptr<const Term>> present(
 
 SensitivityChain::SensitivityChain(const HexMesh& state, const std::vector<double>& imaged_pressure,
                                    const Vec3& imaged_gravity, const MechanicsOptions& options)
+    : SensitivityChain(state, state, imaged_pressure, imaged_gravity, options) {}
+
+SensitivityChain::SensitivityChain(const HexMesh& imaged, const HexMesh& state,
+                                   const std::vector<double>& imaged_pressure,
+                                   const Vec3& imaged_gravity, const MechanicsOptions& options)
     : mesh_(state),
       scene_(state, options),
+      imaged_scene_(imaged, options),
       plates_(state.contact ? recorded_plates(state) : PlatePair{}),
       pressure_(recorded_pressure(scene_, plates_)),
-      imaged_(scene_, imaged_state(scene_, imaged_pressure, imaged_gravity), {}, {},
+      imaged_(imaged_scene_, imaged_state(imaged_scene_, imaged_pressure, imaged_gravity), {}, {},
               "the imaged shape"),
       friction_(recorded_friction(state, plates_)),
       deformed_(scene_, deformed_state(scene_), contacts_of(state, plates_),
                 present({pressure_, friction_}), "the deformed shape") {}
+
+// The tissue around the breast comes last.
+Eigen::VectorXd SensitivityChain::own_nodes(const Eigen::VectorXd& all) const {
+  return all.head(3L * scene_.nodes());
+}
+
+Eigen::VectorXd SensitivityChain::all_nodes(const Eigen::VectorXd& own) const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(3L * imaged_scene_.nodes());
+  all.head(own.size()) = own;
+  return all;
+}
 
 // −∂R/∂m of both states, and the motion that the plates impose.
 struct SensitivityChain::Rights {
@@ -126,9 +143,10 @@ struct SensitivityChain::Rights {
 };
 
 SensitivityChain::Rights SensitivityChain::rights(const std::vector<Parameter>& parameters) const {
-  Rights out{parameter_forces(scene_, imaged_.state(), ParameterKind::imaged_gravity, parameters),
-             parameter_forces(scene_, deformed_.state(), ParameterKind::gravity, parameters),
-             Eigen::MatrixXd::Zero(3L * scene_.nodes(), long(parameters.size()))};
+  Rights out{
+      parameter_forces(imaged_scene_, imaged_.state(), ParameterKind::imaged_gravity, parameters),
+      parameter_forces(scene_, deformed_.state(), ParameterKind::gravity, parameters),
+      Eigen::MatrixXd::Zero(3L * scene_.nodes(), long(parameters.size()))};
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (!parameters[i].of_plates()) continue;
     for (const PlateContact& contact : deformed_.contacts()) {
@@ -205,8 +223,8 @@ std::vector<Response> SensitivityChain::tangent(const std::vector<Parameter>& pa
     const bool moves =
         !right.imaged.force.col(k).isZero(0) || !right.imaged.volume.col(k).isZero(0);
     if (moves) {
-      reference =
-          imaged_.solve_reference({right.imaged.force.col(k), right.imaged.volume.col(k)}).u;
+      reference = own_nodes(
+          imaged_.solve_reference({right.imaged.force.col(k), right.imaged.volume.col(k)}).u);
     }
     const Imbalance carried = deformed_.of_reference(reference);
     const Imbalance all{right.deformed.force.col(k) - carried.force,
@@ -241,15 +259,16 @@ LandmarkGradient SensitivityChain::adjoint(const Landmark& landmark,
                      landmark_position(mesh_, mesh_.imaged, landmark))
                         .stableNormalized();
   const HexShape shape = hex_shape(mesh_.order, landmark.local);
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(deformed_.state().state.p.size());
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(deformed_.state().state.p.size()),
+                        no_volume = Eigen::VectorXd::Zero(imaged_.state().state.p.size());
   for (int c = 0; c < 3; ++c) {
     Eigen::VectorXd output = Eigen::VectorXd::Zero(3L * scene_.nodes());
     for (int a = 0; a < mesh_.nodes_per_element(); ++a) {
       output[3L * mesh_.element(landmark.element)[a] + c] += shape.values[a];
     }
     const Direction late = deformed_.solve_transposed({output, none});
-    const Direction early =
-        imaged_.solve_reference_transposed({deformed_.of_reference_transposed(late), none});
+    const Direction early = imaged_.solve_reference_transposed(
+        {all_nodes(deformed_.of_reference_transposed(late)), no_volume});
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       const long k = long(i);
       double& value = gradient.by_parameter[i][c];
@@ -263,7 +282,7 @@ LandmarkGradient SensitivityChain::adjoint(const Landmark& landmark,
     const std::vector<double> now_stiff =
         element_stiffness_products(scene_, deformed_.state(), late.u);
     const std::vector<double> then_stiff =
-        element_stiffness_products(scene_, imaged_.state(), early.u);
+        element_stiffness_products(imaged_scene_, imaged_.state(), early.u);
     for (std::size_t e = 0; e < now_stiff.size(); ++e) {
       gradient.by_element[e] += away[c] * (then_stiff[e] - now_stiff[e]);
     }

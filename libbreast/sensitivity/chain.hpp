@@ -41,6 +41,11 @@ class SensitivityChain {
   /// outlive this object.
   SensitivityChain(const HexMesh& state, const std::vector<double>& imaged_pressure,
                    const Vec3& imaged_gravity, const MechanicsOptions& options);
+  /// With the mesh of backward, which may have tissue around the breast that `state` lacks, and must
+  /// outlive this object, too.
+  SensitivityChain(const HexMesh& imaged, const HexMesh& state,
+                   const std::vector<double>& imaged_pressure, const Vec3& imaged_gravity,
+                   const MechanicsOptions& options);
 
   /// Tangent-linear method: two solves per parameter.
   std::vector<Response> tangent(const std::vector<Parameter>& parameters,
@@ -66,8 +71,12 @@ class SensitivityChain {
   double paddle_force(const Parameter& parameter, const Imbalance& along,
                       const Direction& moved) const;
 
+  /// The change of the nodes of the deformed state, of one of all nodes of the scan, and its transpose.
+  Eigen::VectorXd own_nodes(const Eigen::VectorXd& all) const;
+  Eigen::VectorXd all_nodes(const Eigen::VectorXd& own) const;
+
   const HexMesh& mesh_;
-  Scene scene_;
+  Scene scene_, imaged_scene_;
   PlatePair plates_;
   std::shared_ptr<SurfacePressure> pressure_;  // where plates press on faces
   LinearisedState imaged_;

@@ -89,15 +89,20 @@ bool Parameter::of_plates() const {
 
 std::vector<Parameter> all_parameters(const HexMesh& state, const MechanicsOptions& options,
                                       const Vec3& imaged_gravity) {
+  return all_parameters(state, state, options, imaged_gravity);
+}
+
+std::vector<Parameter> all_parameters(const HexMesh& imaged, const HexMesh& state,
+                                      const MechanicsOptions& options, const Vec3& imaged_gravity) {
   std::vector<Parameter> all;
-  const std::set<Tissue> present = tissues_of(state);
+  const std::set<Tissue> present = tissues_of(imaged);
   for (const Tissue tissue : present) {
     all.push_back({std::string(tissue_name(tissue)), ParameterKind::scale, tissue});
   }
   for (const Tissue tissue : present) add_constants(tissue, options.materials.law(tissue), all);
   if (imaged_gravity.norm() > 0 || state.gravity.norm() > 0) {
     all.push_back({"density", ParameterKind::density});
-    for (const Tissue tissue : std::set<Tissue>(state.tissue.begin(), state.tissue.end())) {
+    for (const Tissue tissue : std::set<Tissue>(imaged.tissue.begin(), imaged.tissue.end())) {
       all.push_back(
           {std::string(tissue_name(tissue)) + ".density", ParameterKind::tissue_density, tissue});
     }
@@ -112,7 +117,7 @@ std::vector<Parameter> all_parameters(const HexMesh& state, const MechanicsOptio
     all.push_back({"cut", ParameterKind::cut_support});
     if (options.cut.sternal) all.push_back({"sternum", ParameterKind::sternum_support});
   }
-  add_set_parameters(state, options.materials, all);
+  add_set_parameters(imaged, options.materials, all);
   add_gravity(state.gravity, "gravity_", ParameterKind::gravity, all);
   add_gravity(imaged_gravity, "imaged_gravity_", ParameterKind::imaged_gravity, all);
   if (state.contact) {

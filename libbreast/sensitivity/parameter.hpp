@@ -52,6 +52,9 @@ struct Parameter {
 /// it has one (material/set_parameter.hpp). Relative parameters come first.
 std::vector<Parameter> all_parameters(const HexMesh& state, const MechanicsOptions& options,
                                       const Vec3& imaged_gravity);
+/// With the mesh of the scan, which may have tissue around the breast that `state` lacks.
+std::vector<Parameter> all_parameters(const HexMesh& imaged, const HexMesh& state,
+                                      const MechanicsOptions& options, const Vec3& imaged_gravity);
 
 /// A factor on part of the material set (material/set_parameter.hpp) as a parameter of this state;
 /// without members if nothing in the mesh depends on it. Throws Error (input) for an unknown name.

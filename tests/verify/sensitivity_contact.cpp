@@ -7,18 +7,20 @@
 #include <cmath>
 #include <numbers>
 
-#include "fixtures/compress_into.hpp"
-#include "fixtures/in_place.hpp"
-#include "contact/solvers/active_set.hpp"
 #include "contact/compression.hpp"
 #include "contact/penetration.hpp"
+#include "contact/solvers/active_set.hpp"
 #include "contact/terms/friction.hpp"
 #include "contact/terms/surface_pressure.hpp"
 #include "core/units.hpp"
-#include "solve/equilibrate.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/chain_inputs.hpp"
+#include "fixtures/compress_into.hpp"
+#include "fixtures/in_place.hpp"
+#include "mesh/surroundings.hpp"
+#include "meshing/layers/surrounding_layers.hpp"
 #include "sensitivity/chain.hpp"
+#include "solve/equilibrate.hpp"
 
 using namespace breast;
 
@@ -180,6 +182,7 @@ TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
 Outcome press_faces(const Inputs& in, const HexMesh& near, const Parameter& parameter, double by) {
   HexMesh mesh = in.mesh;
   EXPECT_TRUE(fixtures::backward_into(mesh, in.imaged_gravity, in.options).converged());
+  mesh = breast_alone(std::move(mesh));
   Scene scene(mesh, in.options);
   Problem body = scene.problem(scene.gravity_force(in.gravity)).problem;
   const PlatePair before = recorded_plates(near);
@@ -215,29 +218,37 @@ Outcome press_faces(const Inputs& in, const HexMesh& near, const Parameter& para
   return out;
 }
 
-class PressedFacesSensitivity : public testing::TestWithParam<double> {};
+/// The coefficient of friction, and the width of the tissue around the breast in the scan, which the
+/// plates leave out, mm.
+struct Pressed {
+  double friction = 0, surroundings = 0;
+};
+class PressedFacesSensitivity : public testing::TestWithParam<Pressed> {};
 
 TEST_P(PressedFacesSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
   Inputs in = upright_breast();
-  HexMesh mesh = in.mesh;
-  ASSERT_TRUE(fixtures::backward_into(mesh, in.imaged_gravity, in.options).converged());
-  const std::vector<double> imaged_pressure = mesh.pressure;
+  if (GetParam().surroundings > 0) add_surroundings(GetParam().surroundings, in.mesh);
+  HexMesh imaged = in.mesh;
+  ASSERT_TRUE(fixtures::backward_into(imaged, in.imaged_gravity, in.options).converged());
+  HexMesh mesh = breast_alone(imaged);
   CompressionOptions compression;
   compression.method = ContactMethod::surface;
   compression.positioning = Positioning::lifted;
   compression.plates.image_edge = 10;
   compression.plates.edge_radius = 3;
   compression.plates.turn_deg = 5;
-  compression.friction = GetParam();
+  compression.friction = GetParam().friction;
   compression.target = 25;
   ASSERT_TRUE(fixtures::compress_into(mesh, compression, in.options).converged());
   in.plates = recorded_plates(mesh);
   in.mesh.contact = mesh.contact;
-  EXPECT_EQ(mesh.contact->friction.empty(), GetParam() == 0);
-  const SensitivityChain chain(mesh, imaged_pressure, in.imaged_gravity, in.options);
+  EXPECT_EQ(mesh.contact->friction.empty(), GetParam().friction == 0);
+  EXPECT_EQ(mesh.elements() < imaged.elements(), GetParam().surroundings > 0);
+  const SensitivityChain chain(imaged, mesh, imaged.pressure, in.imaged_gravity, in.options);
   EXPECT_TRUE(chain.pressed());
-  const auto picked = pick_parameters(all_parameters(mesh, in.options, in.imaged_gravity),
-                                      "fat,gravity_x,thickness,standoff,detector");
+  const std::string around = GetParam().surroundings > 0 ? ",other" : "";
+  const auto picked = pick_parameters(all_parameters(imaged, mesh, in.options, in.imaged_gravity),
+                                      "fat,gravity_x,thickness,standoff,detector" + around);
   const std::vector<Response> responses = chain.tangent(picked);
   const Landmark& landmark = mesh.landmarks.back();
   const LandmarkGradient adjoint = chain.adjoint(landmark, picked);
@@ -250,14 +261,19 @@ TEST_P(PressedFacesSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
     EXPECT_LT((x - flatten(responses[i].position)).norm(), 1e-3 * x.norm());
     const Vec3 at = landmark_position(mesh, responses[i].position, landmark);
     EXPECT_LT((adjoint.by_parameter[i] - at).norm(), 1e-5 * at.norm() + 1e-9);
-    if (GetParam() > 0) continue;  // the paddle's force has a part of friction
+    if (GetParam().friction > 0) continue;  // the paddle's force has a part of friction
     const double force = (more.paddle_N - less.paddle_N) / (2 * small);
     EXPECT_NEAR(responses[i].paddle_force_N, force, 1e-3 * std::abs(force) + 1e-5);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Skin, PressedFacesSensitivity, testing::Values(0.0, 0.3),
-                         [](const auto& test) { return test.param > 0 ? "rough" : "smooth"; });
+INSTANTIATE_TEST_SUITE_P(Skin, PressedFacesSensitivity,
+                         testing::Values(Pressed{0, 0}, Pressed{0.3, 0}, Pressed{0, 12}),
+                         [](const auto& test) {
+                           return test.param.friction > 0       ? "rough"
+                                  : test.param.surroundings > 0 ? "surrounded"
+                                                                : "smooth";
+                         });
 
 constexpr double raised = std::numeric_limits<double>::infinity();
 INSTANTIATE_TEST_SUITE_P(

@@ -2,10 +2,8 @@
 #include "meshing/layers/muscle_layer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -14,7 +12,7 @@
 #include "mesh/nodal.hpp"
 #include "mesh/nodal_faces.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/shape.hpp"
+#include "meshing/layers/extrusion.hpp"
 #include "surface/thorax.hpp"
 
 namespace breast {
@@ -33,61 +31,12 @@ std::map<int, Vec3> ways_to_ribs(const HexMesh& mesh, const LevelSurface* wall) 
   return ways;
 }
 
-/// Builds the elements of the layer over the chest-wall faces; nodes are created when they are
-/// first needed.
-class Layer {
- public:
-  Layer(double thickness, HexMesh& mesh, const LevelSurface* wall)
-      : thickness_(thickness), mesh_(mesh), ways_(ways_to_ribs(mesh, wall)) {}
-
-  /// The element behind one face: its bottom is the face, and its top lies on the ribs.
-  int element_behind(const Face& face) {
-    const std::vector<int> front = face_nodes(mesh_, face);
-    std::vector<int> nodes(std::size_t(mesh_.nodes_per_element()));
-    for (int a = 0; a < mesh_.nodes_per_element(); ++a) {
-      const Vec3 local = hex_node_local(mesh_.order, a);
-      nodes[std::size_t(a)] = node(front[place_in_face(local)], 0.5 * (1 + local.z()));
-    }
-    mesh_.connectivity.insert(mesh_.connectivity.end(), nodes.begin(), nodes.end());
-    return mesh_.elements() - 1;
-  }
-
- private:
-  /// The node of the face in front of a node of the element.
-  std::size_t place_in_face(const Vec3& local) const {
-    Eigen::Index at = 0;
-    quad_shape(mesh_.order, local.head<2>()).values.maxCoeff(&at);
-    return std::size_t(at);
-  }
-  /// The node at this fraction of the layer's depth behind a node of the wall.
-  int node(int front, double depth) {
-    if (depth == 0) return front;
-    const auto [entry, fresh] = made_.try_emplace({front, int(2 * depth)}, mesh_.nodes());
-    if (fresh) {
-      const Vec3 x = mesh_.imaged[std::size_t(front)] + depth * thickness_ * ways_.at(front);
-      mesh_.imaged.push_back(x);
-      mesh_.points.push_back(x);
-    }
-    return entry->second;
-  }
-
-  double thickness_;
-  HexMesh& mesh_;
-  std::map<int, Vec3> ways_;
-  std::map<std::pair<int, int>, int> made_;  // (node of the wall, half depths) → node of the layer
-};
-
-using FaceEdge = std::pair<int, int>;
-FaceEdge edge_of(const std::vector<int>& nodes, int c) {
-  return std::minmax(nodes[std::size_t(c)], nodes[std::size_t((c + 1) % 4)]);
-}
-
 /// The number of faces that share an edge: one at their rim.
 std::map<FaceEdge, int> edge_uses(const HexMesh& mesh, const std::vector<Face>& faces) {
   std::map<FaceEdge, int> uses;
   for (const Face& face : faces) {
     const std::vector<int> nodes = face_nodes(mesh, face);
-    for (int c = 0; c < 4; ++c) ++uses[edge_of(nodes, c)];
+    for (int c = 0; c < 4; ++c) ++uses[face_edge(nodes, c)];
   }
   return uses;
 }
@@ -125,17 +74,19 @@ double parse_muscle_thickness(const std::string& text) {
 void add_muscle_layer(double thickness, HexMesh& mesh, const LevelSurface* wall) {
   const std::vector<Face> front = mesh.pectoral_faces;
   const std::map<FaceEdge, int> uses = edge_uses(mesh, front);
-  Layer layer(thickness, mesh, wall);
+  const std::map<int, Vec3> ways = ways_to_ribs(mesh, wall);
+  Extrusion layer(mesh, [&](int node, double depth) {
+    return Vec3(mesh.imaged[std::size_t(node)] + depth * thickness * ways.at(node));
+  });
   mesh.pectoral_faces.clear();
-  constexpr std::array<int, 4> side_of_edge = {2, 1, 3, 0};
   for (const Face& face : front) {
     const std::vector<int> nodes = face_nodes(mesh, face);
-    const int e = layer.element_behind(face);
+    const int e = layer.element_over(face);
     mesh.tissue.push_back(Tissue::muscle);
     if (!mesh.fibroglandular_fraction.empty()) mesh.fibroglandular_fraction.push_back(0);
     mesh.pectoral_faces.push_back({e, 5});
     for (int c = 0; c < 4; ++c) {
-      if (uses.at(edge_of(nodes, c)) == 1) mesh.cut_faces.push_back({e, side_of_edge[c]});
+      if (uses.at(face_edge(nodes, c)) == 1) mesh.cut_faces.push_back(Extrusion::side_over(e, c));
     }
   }
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/surroundings.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
+
+namespace breast {
+
+namespace {
+
+/// Shortens an array that is present.
+template <class Value>
+void shorten(std::vector<Value>& values, int count) {
+  if (!values.empty()) values.resize(std::size_t(count));
+}
+
+/// The skin of the breast, with the thickness of the membrane.
+void keep_skin(HexMesh& mesh) {
+  std::vector<double> thickness;
+  for (std::size_t f = 0; f < mesh.skin_thickness.size(); ++f) {
+    if (!is_around_breast(mesh, mesh.skin_faces[f].element))
+      thickness.push_back(mesh.skin_thickness[f]);
+  }
+  mesh.skin_thickness = std::move(thickness);
+  mesh.skin_faces = of_breast(mesh, mesh.skin_faces);
+}
+
+/// The boundary that is neither skin nor chest wall.
+std::vector<Face> cut_of(const HexMesh& mesh) {
+  std::set<std::pair<int, int>> others;
+  for (const auto* faces : {&mesh.skin_faces, &mesh.pectoral_faces})
+    for (const Face& face : *faces) others.insert({face.element, face.local});
+  std::vector<Face> cut = boundary_faces(mesh);
+  std::erase_if(cut, [&](const Face& f) { return others.contains({f.element, f.local}); });
+  return cut;
+}
+
+}  // namespace
+
+std::vector<Face> of_breast(const HexMesh& mesh, const std::vector<Face>& faces) {
+  std::vector<Face> own;
+  std::copy_if(faces.begin(), faces.end(), std::back_inserter(own),
+               [&](const Face& face) { return !is_around_breast(mesh, face.element); });
+  return own;
+}
+
+HexMesh breast_alone(HexMesh mesh) {
+  const auto first = std::find(mesh.tissue.begin(), mesh.tissue.end(), Tissue::other);
+  if (first == mesh.tissue.end()) return mesh;
+  const int elements = int(first - mesh.tissue.begin());
+  keep_skin(mesh);
+  mesh.pectoral_faces = of_breast(mesh, mesh.pectoral_faces);
+  mesh.connectivity.resize(std::size_t(elements) * std::size_t(mesh.nodes_per_element()));
+  shorten(mesh.tissue, elements);
+  shorten(mesh.fibroglandular_fraction, elements);
+  shorten(mesh.pressure, elements);
+  shorten(mesh.det_F, elements);
+  shorten(mesh.scaled_jacobian, elements);
+  const int nodes = 1 + *std::max_element(mesh.connectivity.begin(), mesh.connectivity.end());
+  shorten(mesh.points, nodes);
+  shorten(mesh.imaged, nodes);
+  shorten(mesh.reference, nodes);
+  shorten(mesh.contact_pressure, nodes);
+  mesh.cut_faces = cut_of(mesh);
+  return mesh;
+}
+
+}  // namespace breast
