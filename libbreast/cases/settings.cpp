@@ -229,6 +229,8 @@ void Decisions::decide_model() {
   } else {
     // A breast that slides does so with the muscle behind it; one that is held needs none.
     set_default("MUSCLE", slides ? "measured" : "0");
+    // Nor does it end where the breast does.
+    set_default("SURROUNDINGS", slides ? "16" : "0");
     set_default_text("HEXMESH_OPTIONS",
                      "--elements $(ELEMENTS) $(addprefix --muscle ,$(filter-out 0,$(MUSCLE))) "
                      "$(addprefix --surroundings ,$(filter-out 0,$(SURROUNDINGS)))");

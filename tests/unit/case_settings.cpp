@@ -33,6 +33,7 @@ constexpr const char* settings_table =
     "PRESET\tname\tcase\t-\taverage paper\t-\n"
     "WALL\tname\tcase\t-\theld slide:%\t:\n"
     "MUSCLE\tname\tcase\t-\t-\t-\n"
+    "SURROUNDINGS\tname\tcase\t-\tnumber 0 60\t-\n"
     "PAPER\tname\tcase\t-\t1\t-\n"
     "REDUCTION\tname\tcase\t50\tnumber 1 95\t-\n"
     "PRESSURE\tname\tcase\t-\tnumber\t-\n"
@@ -150,6 +151,7 @@ TEST_F(CaseSettings, TheModelFollowsFromTheCase) {
   EXPECT_TRUE(has_line({}, "MATERIALS := invivo"));
   EXPECT_TRUE(has_line({}, "PRESSURE := 10")) << "a breast that slides";
   EXPECT_TRUE(has_line({}, "MUSCLE := measured"));
+  EXPECT_TRUE(has_line({}, "SURROUNDINGS := 16"));
   EXPECT_TRUE(has_line({}, "FORWARD := bin/forward"));
   EXPECT_TRUE(has_line({{"PRESET", "paper"}}, "MATERIALS := seed2008"));
   EXPECT_TRUE(has_line({{"PRESET", "paper"}}, "PRESSURE := "));
@@ -157,6 +159,7 @@ TEST_F(CaseSettings, TheModelFollowsFromTheCase) {
   EXPECT_TRUE(has_line({{"PAPER", "1"}}, "AT_LEAST := 30"));
   EXPECT_TRUE(has_line({{"PAPER", "1"}}, "MECHANICS = $(PRINTED_MECHANICS)"));
   EXPECT_TRUE(has_line({{"MATERIALS", "seed2008"}}, "MUSCLE := 0"));
+  EXPECT_TRUE(has_line({{"MATERIALS", "seed2008"}}, "SURROUNDINGS := 0"));
   EXPECT_EQ(lines({{"MECHANICS", "--x"}}).find("\nMECHANICS"), std::string::npos)
       << "what is given stays as it is";
   request_.goals = {"tables"};
