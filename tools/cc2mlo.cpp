@@ -16,6 +16,7 @@
 #include "matching/curve_lines.hpp"
 #include "matching/point_pair.hpp"
 #include "material/law.hpp"
+#include "mesh/surroundings.hpp"
 
 using namespace breast;
 
@@ -42,7 +43,7 @@ void report_pair(const MatchChoices& choices, const MatchQuery& query, const Mat
   const PairPoint pair = locate_pair(matcher, backward, query.from_uv, *query.place);
   report_spot(pair, matcher, run.report());
   if (choices.supine.empty()) return;
-  const HexMesh supine = read_mesh(choices.supine);
+  const HexMesh supine = breast_alone(read_mesh(choices.supine));
   if (supine.connectivity != matcher.from().connectivity) {
     throw input_error(choices.supine.string(), ": this is not a shape of the same mesh");
   }

@@ -121,6 +121,12 @@ void fill_with_tetrahedra(const MeshChoices& choices, const HexMesh& mesh, Run& 
 void surround(const MeshChoices& choices, HexMesh& mesh, Run& run) {
   if (!(choices.surroundings_mm > 0)) return;
   const Surroundings around = add_surroundings(choices.surroundings_mm, mesh);
+  if (around.layers == 0) {
+    run.warn(
+        message("tissue around the breast, ", choices.surroundings_mm,
+                " mm wide, would fold beyond the cut at every width down to a third of it: the "
+                "mesh ends at the cut, as with --surroundings 0; check the skin there"));
+  }
   run.report().set("surroundings_mm", around.mean_mm);
   run.report().set("surroundings_part", around.part);
   run.report().set("surrounding_layers", around.layers);

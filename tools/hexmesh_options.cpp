@@ -31,6 +31,9 @@ void MeshChoices::check() const {
     throw input_error(
         "--tetrahedra needs --skin-as membrane, because its elements are thicker than a layer "
         "of skin");
+  if (surroundings_mm > 0 && skin_as == "layer")
+    throw input_error(
+        "--surroundings needs --skin-as membrane: the tissue around the breast has no layer of skin");
   if (!tetrahedra.empty()) require_sibling("tetrahedra", "--tetrahedra");
   if (skin != "measured") parse_skin_thickness(skin);
   if (muscle != "measured") parse_muscle_thickness(muscle);

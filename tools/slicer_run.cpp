@@ -9,6 +9,7 @@
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
+#include "mesh/surroundings.hpp"
 
 namespace breast {
 
@@ -77,7 +78,7 @@ SlicerRun read_run(const fs::path& folder, const fs::path& scan, int series, Run
     const fs::path file = folder / (std::string(kind.file) + ".vtkhdf");
     if (!fs::is_regular_file(file)) continue;
     run.progress().update("reading", -1, file.filename().string());
-    result.states.push_back({kind.name, kind.title, file, read_mesh(file)});
+    result.states.push_back({kind.name, kind.title, file, breast_alone(read_mesh(file))});
     check_same_mesh(result.states.back(), result.states.front());
   }
   if (const fs::path curve = folder / "curve.vtp"; fs::is_regular_file(curve)) {

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "mesh/locate.hpp"
+#include "mesh/surroundings.hpp"
 
 namespace breast {
 
@@ -81,7 +82,7 @@ Table compare_with_truth(const std::vector<HexMesh>& meshes,
   table.columns = {"landmark", "outside_mm", "prone_error_mm"};
   std::vector<const HexMesh*> shown;
   for (const HexMesh& mesh : meshes) {
-    if (mesh.connectivity != meshes.front().connectivity) {
+    if (!have_same_breast(mesh, meshes.front())) {
       throw input_error("the meshes differ in their elements; compare files of one chain");
     }
     const std::string posture = posture_of(mesh);
@@ -92,7 +93,7 @@ Table compare_with_truth(const std::vector<HexMesh>& meshes,
     table.columns.push_back(posture + "_true_mm");
     if (known->own_error) table.columns.push_back(posture + "_own_error_mm");
   }
-  const HexMesh& first = meshes.front();
+  const HexMesh first = breast_alone(meshes.front());
   const Locator imaged(first, first.imaged);
   for (const TrueLandmark& point : truth) {
     const Vec3& prone = point.at.at("prone").x;

@@ -10,6 +10,7 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "core/statistics/low_pass.hpp"
 #include "core/statistics/percentile.hpp"
 #include "fit/closest_point.hpp"
 
@@ -145,24 +146,6 @@ RayEnd walk(const HermiteSheet& skin, const ThicknessMap& map, const Core& core,
     if (thinning < flat) return {radius, RimEnd::slope};
   }
   return {limit, RimEnd::margin};
-}
-
-/// Periodic Gaussian of `sigma` samples.
-template <class T>
-std::vector<T> low_pass(const std::vector<T>& values, double sigma) {
-  const int n = int(values.size()), reach = std::min(n / 2, int(std::ceil(3 * sigma)));
-  std::vector<T> smooth = values;
-  for (int i = 0; i < n; ++i) {
-    T sum = 0 * values[0];
-    double total = 0;
-    for (int o = -reach; o <= reach; ++o) {
-      const double w = elementary::exp(-0.5 * o * o / (sigma * sigma));
-      sum += w * values[(i + o + n) % n];
-      total += w;
-    }
-    smooth[i] = sum / total;
-  }
-  return smooth;
 }
 
 std::vector<double> median_of_five(const std::vector<double>& values) {

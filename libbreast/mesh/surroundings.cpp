@@ -10,6 +10,11 @@ namespace breast {
 
 namespace {
 
+int breast_elements(const HexMesh& mesh) {
+  return int(std::find(mesh.tissue.begin(), mesh.tissue.end(), Tissue::other) -
+             mesh.tissue.begin());
+}
+
 /// Shortens an array that is present.
 template <class Value>
 void shorten(std::vector<Value>& values, int count) {
@@ -46,10 +51,17 @@ std::vector<Face> of_breast(const HexMesh& mesh, const std::vector<Face>& faces)
   return own;
 }
 
+bool have_same_breast(const HexMesh& a, const HexMesh& b) {
+  const int elements = breast_elements(a);
+  const auto entries = std::ptrdiff_t(elements) * a.nodes_per_element();
+  return a.order == b.order && elements == breast_elements(b) &&
+         std::equal(a.connectivity.begin(), a.connectivity.begin() + entries,
+                    b.connectivity.begin());
+}
+
 HexMesh breast_alone(HexMesh mesh) {
-  const auto first = std::find(mesh.tissue.begin(), mesh.tissue.end(), Tissue::other);
-  if (first == mesh.tissue.end()) return mesh;
-  const int elements = int(first - mesh.tissue.begin());
+  const int elements = breast_elements(mesh);
+  if (elements == mesh.elements()) return mesh;
   keep_skin(mesh);
   mesh.pectoral_faces = of_breast(mesh, mesh.pectoral_faces);
   mesh.connectivity.resize(std::size_t(elements) * std::size_t(mesh.nodes_per_element()));

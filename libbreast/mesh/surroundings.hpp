@@ -18,5 +18,7 @@ std::vector<Face> of_breast(const HexMesh& mesh, const std::vector<Face>& faces)
 /// The mesh without the tissue around the breast, which is cut off where the breast ends. Elements
 /// and nodes keep their numbers.
 HexMesh breast_alone(HexMesh mesh);
+/// Whether two meshes are of one breast: the same elements, but for the tissue around it.
+bool have_same_breast(const HexMesh& a, const HexMesh& b);
 
 }  // namespace breast

@@ -17,6 +17,7 @@
 #include "io/mesh_file.hpp"
 #include "mesh/locate.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/surroundings.hpp"
 
 namespace breast {
 namespace {
@@ -88,6 +89,35 @@ TEST_F(HexmeshTool, DefaultIsADomeWithMembraneSkinAndTumour) {
   EXPECT_GT(report.number("min_scaled_jacobian"), 0.6);
   EXPECT_NEAR(report.number("volumes_ml/fibroglandular"), 44.6, 5);
   EXPECT_NEAR(report.number("sheet_volume_error_percent"), 0, 0.5);
+}
+
+TEST_F(HexmeshTool, SurroundingsHoldTheBreastAndAreLeftOutByCompress) {
+  ASSERT_EQ(
+      hexmesh({"--elements", "5", "--tumour", "none", "--surroundings", "12", "--muscle", "8"})
+          .exit_code,
+      0);
+  const Report report = Report::parse(read_text(folder_ / "r.json"), "r.json");
+  EXPECT_GE(report.number("surroundings_mm"), 6);
+  EXPECT_GT(report.number("volumes_ml/other"), 20);
+  const HexMesh whole = read_mesh(folder_ / "mesh.vtkhdf");
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"backward", "mesh.vtkhdf", "free.vtkhdf", "--materials", "invivo"},
+           {"forward", "free.vtkhdf", "supine.vtkhdf", "--posture", "supine", "--materials",
+            "invivo"},
+           {"compress", "free.vtkhdf", "cc.vtkhdf", "--view", "CC", "--reduction", "20",
+            "--materials", "invivo"}}) {
+    std::vector<std::string> arguments(words.begin() + 1, words.end());
+    arguments.insert(arguments.end(), {"--quiet", "--threads", "1"});
+    const ToolResult result = run_tool(words[0], arguments, folder_.path());
+    ASSERT_EQ(result.exit_code, 0) << words[0] << ": " << result.err;
+  }
+  EXPECT_EQ(read_mesh(folder_ / "supine.vtkhdf").elements(), whole.elements());
+  const HexMesh pressed = read_mesh(folder_ / "cc.vtkhdf"), breast = breast_alone(whole);
+  EXPECT_LT(pressed.elements(), whole.elements());
+  EXPECT_EQ(pressed.connectivity, breast.connectivity);
+  EXPECT_EQ(pressed.imaged, breast.imaged);
+  EXPECT_EQ(hexmesh({"--surroundings", "61"}).exit_code, 2);
+  EXPECT_EQ(hexmesh({"--surroundings", "8", "--skin-as", "layer"}).exit_code, 2);
 }
 
 TEST_F(HexmeshTool, AGeometryOfAnotherBodyIsRefusedUnlessAccepted) {

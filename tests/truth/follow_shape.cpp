@@ -16,13 +16,14 @@
 #include "io/mesh_file.hpp"
 #include "mesh/locate.hpp"
 #include "mesh/shape.hpp"
+#include "mesh/surroundings.hpp"
 
 namespace {
 
 using namespace breast;
 
 void run(const std::string& file, const std::string& true_file, const std::string& out) {
-  HexMesh mesh = read_mesh(file);
+  HexMesh mesh = breast_alone(read_mesh(file));  // the truth ends elsewhere
   const HexMesh truth = read_mesh(true_file, {.reference = true});
   if (mesh.side != truth.side) throw input_error(file, " and ", true_file, " differ in side");
   const Locator locator(truth, truth.imaged);

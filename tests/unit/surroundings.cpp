@@ -79,6 +79,9 @@ TEST_P(SurroundingsOf, LeftOutGiveTheSameMesh) {
   HexMesh mesh = before;
   add_surroundings(16, mesh);
   const HexMesh alone = breast_alone(mesh);
+  EXPECT_TRUE(have_same_breast(mesh, alone));
+  EXPECT_TRUE(have_same_breast(alone, mesh));
+  EXPECT_FALSE(have_same_breast(mesh, breast_mesh(order, muscle > 0 ? 0 : 8)));
   EXPECT_EQ(alone.connectivity, before.connectivity);
   EXPECT_EQ(alone.imaged, before.imaged);
   EXPECT_EQ(alone.points, before.points);

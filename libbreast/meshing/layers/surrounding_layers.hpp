@@ -18,8 +18,8 @@ struct Surroundings {
 /// Adds layers of elements of Tissue::other beyond the cut of a mesh with a geometry, between the
 /// continued sheets of skin and chest wall, up to `width` mm wide: as far as the margin of the skin
 /// sheet, at least 6 mm, and less (down to a third) where elements would fold. Their outer faces become
-/// the cut of the mesh; skin and chest wall continue over them, and so does a layer of muscle. Throws
-/// Error (input) if the elements fold at every width.
+/// the cut of the mesh; skin and chest wall continue over them, and so does a layer of muscle. Where
+/// the elements fold at every width, the mesh stays as it is, and there are 0 layers.
 Surroundings add_surroundings(double width, HexMesh& mesh);
 
 }  // namespace breast
