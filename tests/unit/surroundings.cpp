@@ -110,6 +110,17 @@ TEST(Surroundings, FollowTheChestWall) {
   EXPECT_LT(farthest, 2);
 }
 
+// A rim of the skin that runs against that of the wall.
+TEST(Surroundings, ThatWouldFoldAreNotMeshed) {
+  HexMesh mesh = breast_mesh(1, 0);
+  std::vector<Vec2>& rim = mesh.geometry->rim_skin;
+  std::rotate(rim.begin(), rim.begin() + std::ptrdiff_t(rim.size() / 2), rim.end());
+  const std::vector<int> before = mesh.connectivity;
+  EXPECT_EQ(add_surroundings(16, mesh).layers, 0);
+  EXPECT_EQ(mesh.connectivity, before);
+  EXPECT_EQ(mesh.cut_faces.size(), breast_mesh(1, 0).cut_faces.size());
+}
+
 TEST(Surroundings, AMeshWithoutThemIsItsOwnBreast) {
   const HexMesh mesh = breast_mesh(1, 8);
   EXPECT_EQ(breast_alone(mesh).connectivity, mesh.connectivity);
