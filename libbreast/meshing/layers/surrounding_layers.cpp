@@ -97,7 +97,8 @@ class Beyond {
     widths_ = low_pass(widths_, smoothing);
   }
 
-  CutPlace of(const Vec3& x) const {
+  /// The place of a node of the cut.
+  CutPlace locate(const Vec3& x) const {
     constexpr int around = 720;
     double nearest = std::numeric_limits<double>::infinity();
     Vec2 start = Vec2::Zero();
@@ -113,8 +114,8 @@ class Beyond {
     return {at.x(), height, x - body_.cut(height, at.x())};
   }
 
-  /// The place at a part of the width there.
-  Vec3 place(const CutPlace& from, double part) const {
+  /// The point beyond a place of the cut, at this part of the width there.
+  Vec3 point(const CutPlace& from, double part) const {
     const double u = from.u, distance = part * width(u);
     Outwards on_wall = wall(u), on_skin = skin(u);
     const Vec3 along = on_wall.way();
@@ -177,7 +178,7 @@ void add_layer(const Beyond& beyond, double from, double to, std::map<int, CutPl
   const std::map<FaceEdge, std::size_t> skin = faces_at_edges(mesh, mesh.skin_faces),
                                         wall = faces_at_edges(mesh, mesh.pectoral_faces);
   Extrusion layer(mesh, [&](int node, double depth) {
-    return beyond.place(at.at(node), from + depth * (to - from));
+    return beyond.point(at.at(node), from + depth * (to - from));
   });
   mesh.cut_faces.clear();
   for (const Face& face : inner) {
@@ -216,7 +217,7 @@ Surroundings add_surroundings(double width, HexMesh& mesh) {
   const Beyond beyond(*mesh.geometry, width);
   std::map<int, CutPlace> at;
   for (const int node : nodes_of(mesh, mesh.cut_faces))
-    at[node] = beyond.of(mesh.imaged[std::size_t(node)]);
+    at[node] = beyond.locate(mesh.imaged[std::size_t(node)]);
   const double length = edge_length(mesh);
   const auto first = std::ptrdiff_t(mesh.elements());
   for (double part = 1; part > narrowest; part *= narrower) {
