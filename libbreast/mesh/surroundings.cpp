@@ -6,13 +6,31 @@
 #include <set>
 #include <utility>
 
+#include "core/error.hpp"
+
 namespace breast {
 
 namespace {
 
 int breast_elements(const HexMesh& mesh) {
-  return int(std::find(mesh.tissue.begin(), mesh.tissue.end(), Tissue::other) -
-             mesh.tissue.begin());
+  const auto first = std::find(mesh.tissue.begin(), mesh.tissue.end(), Tissue::other);
+  const auto later =
+      std::find_if(first, mesh.tissue.end(), [](Tissue t) { return t != Tissue::other; });
+  if (later != mesh.tissue.end() || (first == mesh.tissue.begin() && mesh.elements() > 0)) {
+    throw input_error("mesh: element ", first - mesh.tissue.begin(), " of ", mesh.elements(),
+                      " is tissue around the breast (other), which must come after all elements of "
+                      "the breast");
+  }
+  return int(first - mesh.tissue.begin());
+}
+
+/// The nodes of the elements, which come first. Throws Error (input) if others are between them.
+int first_nodes(const HexMesh& mesh) {
+  const std::set<int> used(mesh.connectivity.begin(), mesh.connectivity.end());
+  if (*used.rbegin() + 1 != int(used.size()))
+    throw input_error("mesh: nodes of tissue around the breast (other) come before node ",
+                      *used.rbegin(), " of the breast, but must come after all of its nodes");
+  return int(used.size());
 }
 
 /// Shortens an array that is present.
@@ -21,7 +39,7 @@ void shorten(std::vector<Value>& values, int count) {
   if (!values.empty()) values.resize(std::size_t(count));
 }
 
-/// The skin of the breast, with the thickness of the membrane.
+/// Leaves out the skin around the breast, and its thickness.
 void keep_skin(HexMesh& mesh) {
   std::vector<double> thickness;
   for (std::size_t f = 0; f < mesh.skin_thickness.size(); ++f) {
@@ -70,12 +88,13 @@ HexMesh breast_alone(HexMesh mesh) {
   shorten(mesh.pressure, elements);
   shorten(mesh.det_F, elements);
   shorten(mesh.scaled_jacobian, elements);
-  const int nodes = 1 + *std::max_element(mesh.connectivity.begin(), mesh.connectivity.end());
+  const int nodes = first_nodes(mesh);
   shorten(mesh.points, nodes);
   shorten(mesh.imaged, nodes);
   shorten(mesh.reference, nodes);
   shorten(mesh.contact_pressure, nodes);
   mesh.cut_faces = cut_of(mesh);
+  std::erase_if(mesh.landmarks, [&](const Landmark& l) { return l.element >= elements; });
   return mesh;
 }
 

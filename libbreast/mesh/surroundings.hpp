@@ -16,7 +16,8 @@ inline bool is_around_breast(const HexMesh& mesh, int element) {
 /// Those of the faces that are faces of the breast.
 std::vector<Face> of_breast(const HexMesh& mesh, const std::vector<Face>& faces);
 /// The mesh without the tissue around the breast, which is cut off where the breast ends. Elements
-/// and nodes keep their numbers.
+/// and nodes keep their numbers; landmarks outside the breast are left out. Throws Error (input) if
+/// that tissue does not come last.
 HexMesh breast_alone(HexMesh mesh);
 /// Whether two meshes are of one breast: the same elements, but for the tissue around it.
 bool have_same_breast(const HexMesh& a, const HexMesh& b);

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/error.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/boundary_sets.hpp"
 #include "mesh/muscle_front.hpp"
@@ -119,6 +120,16 @@ TEST(Surroundings, ThatWouldFoldAreNotMeshed) {
   EXPECT_EQ(add_surroundings(16, mesh).layers, 0);
   EXPECT_EQ(mesh.connectivity, before);
   EXPECT_EQ(mesh.cut_faces.size(), breast_mesh(1, 0).cut_faces.size());
+}
+
+TEST(Surroundings, MustComeLast) {
+  HexMesh mesh = breast_mesh(1, 0);
+  mesh.tissue.front() = Tissue::other;
+  EXPECT_THROW(breast_alone(mesh), Error);
+  mesh = breast_mesh(1, 0);
+  add_surroundings(16, mesh);
+  for (int& node : mesh.connectivity) node = mesh.nodes() - 1 - node;
+  EXPECT_THROW(breast_alone(mesh), Error);
 }
 
 TEST(Surroundings, AMeshWithoutThemIsItsOwnBreast) {
