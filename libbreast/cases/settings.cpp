@@ -229,7 +229,7 @@ void Decisions::decide_model() {
   } else {
     // A breast that slides does so with the muscle behind it; one that is held needs none.
     set_default("MUSCLE", slides ? "measured" : "0");
-    // Nor does it end where the breast does.
+    // The tissue around the breast moves with it.
     set_default("SURROUNDINGS", slides ? "16" : "0");
     set_default_text("HEXMESH_OPTIONS",
                      "--elements $(ELEMENTS) $(addprefix --muscle ,$(filter-out 0,$(MUSCLE))) "

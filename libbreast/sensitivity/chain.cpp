@@ -116,10 +116,12 @@ SensitivityChain::SensitivityChain(const HexMesh& imaged, const HexMesh& state,
                                    const Vec3& imaged_gravity, const MechanicsOptions& options)
     : mesh_(state),
       scene_(state, options),
-      imaged_scene_(imaged, options),
+      wider_(imaged.elements() != state.elements()
+                 ? std::optional<Scene>(std::in_place, imaged, options)
+                 : std::optional<Scene>()),
       plates_(state.contact ? recorded_plates(state) : PlatePair{}),
       pressure_(recorded_pressure(scene_, plates_)),
-      imaged_(imaged_scene_, imaged_state(imaged_scene_, imaged_pressure, imaged_gravity), {}, {},
+      imaged_(imaged_scene(), imaged_state(imaged_scene(), imaged_pressure, imaged_gravity), {}, {},
               "the imaged shape"),
       friction_(recorded_friction(state, plates_)),
       deformed_(scene_, deformed_state(scene_), contacts_of(state, plates_),
@@ -131,7 +133,7 @@ Eigen::VectorXd SensitivityChain::own_nodes(const Eigen::VectorXd& all) const {
 }
 
 Eigen::VectorXd SensitivityChain::all_nodes(const Eigen::VectorXd& own) const {
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(3L * imaged_scene_.nodes());
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(3L * imaged_scene().nodes());
   all.head(own.size()) = own;
   return all;
 }
@@ -144,7 +146,7 @@ struct SensitivityChain::Rights {
 
 SensitivityChain::Rights SensitivityChain::rights(const std::vector<Parameter>& parameters) const {
   Rights out{
-      parameter_forces(imaged_scene_, imaged_.state(), ParameterKind::imaged_gravity, parameters),
+      parameter_forces(imaged_scene(), imaged_.state(), ParameterKind::imaged_gravity, parameters),
       parameter_forces(scene_, deformed_.state(), ParameterKind::gravity, parameters),
       Eigen::MatrixXd::Zero(3L * scene_.nodes(), long(parameters.size()))};
   for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -282,7 +284,7 @@ LandmarkGradient SensitivityChain::adjoint(const Landmark& landmark,
     const std::vector<double> now_stiff =
         element_stiffness_products(scene_, deformed_.state(), late.u);
     const std::vector<double> then_stiff =
-        element_stiffness_products(imaged_scene_, imaged_.state(), early.u);
+        element_stiffness_products(imaged_scene(), imaged_.state(), early.u);
     for (std::size_t e = 0; e < now_stiff.size(); ++e) {
       gradient.by_element[e] += away[c] * (then_stiff[e] - now_stiff[e]);
     }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,12 +72,15 @@ class SensitivityChain {
   double paddle_force(const Parameter& parameter, const Imbalance& along,
                       const Direction& moved) const;
 
-  /// The change of the nodes of the deformed state, of one of all nodes of the scan, and its transpose.
+  const Scene& imaged_scene() const { return wider_ ? *wider_ : scene_; }
+  /// A vector on the nodes of the scan, restricted to those of the deformed state; and the transpose,
+  /// which adds zeros.
   Eigen::VectorXd own_nodes(const Eigen::VectorXd& all) const;
   Eigen::VectorXd all_nodes(const Eigen::VectorXd& own) const;
 
   const HexMesh& mesh_;
-  Scene scene_, imaged_scene_;
+  Scene scene_;
+  std::optional<Scene> wider_;  // of the scan, where it has tissue around the breast
   PlatePair plates_;
   std::shared_ptr<SurfacePressure> pressure_;  // where plates press on faces
   LinearisedState imaged_;

@@ -10,7 +10,8 @@
 
 namespace breast {
 
-/// Periodic Gaussian of `sigma` samples.
+/// The values, at equal steps along the curve, smoothed by a Gaussian with a standard deviation of
+/// `sigma` steps.
 template <class T>
 std::vector<T> low_pass(const std::vector<T>& values, double sigma) {
   const int n = int(values.size()), reach = std::min(n / 2, int(std::ceil(3 * sigma)));
