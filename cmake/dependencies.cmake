@@ -33,7 +33,7 @@ find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel IOXML IOImage I
   RenderingCore RenderingOpenGL2 RenderingAnnotation RenderingFreeType RenderingVolumeOpenGL2
   InteractionStyle FiltersCore FiltersGeneral FiltersGeometry FiltersSources FiltersModeling
   ChartsCore ViewsContext2D RenderingContext2D RenderingContextOpenGL2 ImagingCore)
-find_package(ITK 5.2 QUIET COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIONIFTI ITKIOMeta ITKIOGDCM
+find_package(ITK 5.2 QUIET COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIOMeta ITKIOGDCM
   ITKImageGrid ITKSmoothing ITKThresholding ITKRegionGrowing ITKBinaryMathematicalMorphology
   ITKMathematicalMorphology ITKConnectedComponents ITKLabelMap ITKDistanceMap ITKImageFeature ITKImageFilterBase
   ITKImageStatistics ITKBiasCorrection ITKLabelVoting)

@@ -57,6 +57,11 @@ std::vector<MarkupPoint> named_points(const std::filesystem::path& file) {
   std::vector<MarkupPoint> points;
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     points.push_back({table.cell(row, "name"), table.point(row, "")});
+  if (points.empty()) {
+    throw input_error(
+        "--landmarks ", file.filename().string(),
+        ": no points: a table needs columns name, x_mm, y_mm and z_mm, and a row for each");
+  }
   return points;
 }
 

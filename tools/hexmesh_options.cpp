@@ -72,10 +72,11 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
   tool.choice(choices.skin_as, "--skin-as", {"membrane", "layer"},
               "model of the skin: a membrane on the outer faces, or the outermost layer of "
               "elements");
-  tool.text(choices.muscle, "--muscle", "MM|0|measured",
-            "thickness of a layer of muscle between the chest wall in the scan and the ribs, on which the "
-            "body then slides; 0 for no muscle; measured for the thickness in labels that show the "
-            "back of the muscle, otherwise 8 mm");
+  tool.text(
+      choices.muscle, "--muscle", "MM|0|measured",
+      "thickness of a layer of muscle between the chest wall in the scan and the ribs, on which the "
+      "body then slides; 0 for no muscle; measured for the thickness in labels that show the "
+      "back of the muscle, otherwise 8 mm");
   tool.number(
       choices.surroundings_mm, "--surroundings", "MM",
       "width of the tissue around the breast that is meshed with it, beyond the lateral cut; it "
@@ -85,13 +86,13 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
   tool.text(
       choices.tumour, "--tumour", "auto|none|x,y,z[:radius]|FILE",
       "position of the tumour in LPS mm; with a radius, the elements inside it become tumour. "
-      "FILE is a .tsv with columns x_mm y_mm z_mm [radius_mm], a point of 3D Slicer (.mrk.json: "
+      "FILE is a .tsv with columns x_mm y_mm z_mm [radius_mm], a point of 3D Slicer (.mrk.json or .fcsv: "
       "the one labelled tumour, or the only one), or a label volume with tumour voxels. auto "
       "takes the tumour of the labels; if they have none, it places an artificial one at the "
       "edge of the fibroglandular tissue (landmark artificial_tumour)");
   tool.input_file(
       choices.landmarks, "--landmarks", "FILE",
-      "landmarks to follow through all shapes: points of 3D Slicer (.mrk.json, LPS or RAS) with "
+      "landmarks to follow through all shapes: points of 3D Slicer (.mrk.json or .fcsv, LPS or RAS) with "
       "their labels as names, or a .tsv with columns name x_mm y_mm z_mm (LPS); they may lie at "
       "most 10 mm outside the mesh");
   declare_label_choices(tool, choices.foreign);

@@ -77,11 +77,14 @@ std::vector<LandmarkPair> read_landmark_pairs(const std::filesystem::path& first
                                               double observer) {
   if (!is_markups_name(first)) {
     if (!second.empty())
-      throw input_error(second.string(), ": a second file of landmarks goes with a .mrk.json only");
+      throw input_error(
+          second.string(),
+          ": a second file of landmarks goes with points of 3D Slicer (.mrk.json, .fcsv) only");
     return landmark_pairs(read_table(first), side, observer);
   }
   const std::filesystem::path& other = second.empty() ? first : second;
-  if (!is_markups_name(other)) throw input_error(other.string(), ": is no .mrk.json of 3D Slicer");
+  if (!is_markups_name(other))
+    throw input_error(other.string(), ": is no point list of 3D Slicer (.mrk.json, .fcsv)");
   const auto [prone, supine] =
       second.empty() ? parted(read_markups(first))
                      : std::pair<Marks, Marks>(read_markups(first), read_markups(second));

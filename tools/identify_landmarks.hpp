@@ -8,7 +8,7 @@
 
 namespace breast {
 
-/// Reads pairs from `first`, which is a table or a .mrk.json file. With .mrk.json, the marks of the
+/// Reads pairs from `first`, which is a table or a point list of 3D Slicer (.mrk.json, .fcsv). With the latter, the marks of the
 /// second posture are those of `second`, or of `first` if `second` is empty. Marks are paired by
 /// their labels without the words prone and supine ("prone-3" with "supine-3"); in a single file
 /// without these words, the first mark of a label belongs to the scan. Throws Error (input) with

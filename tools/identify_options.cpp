@@ -40,7 +40,7 @@ void declare_data(Tool& tool, IdentifyChoices& c) {
   tool.input_file(
       c.landmarks, "--landmarks", "PAIRS.tsv|MARKS.mrk.json",
       "material points marked in both postures: columns prone_x_mm ... supine_z_mm, optionally "
-      "landmark, observer_mm and side; or marks of 3D Slicer, paired by their labels (prone-3 with supine-3)");
+      "landmark, observer_mm and side; or marks of 3D Slicer (.mrk.json, .fcsv), paired by their labels (prone-3 with supine-3)");
   tool.input_file(c.second_landmarks, "--second-landmarks", "MARKS.mrk.json",
                   "marks of the second posture, if --landmarks contains only those of the scan");
   tool.numbers(c.nipple, "--nipple", "x,y,z", 3,

@@ -58,7 +58,7 @@ void declare(Tool& tool, Choices& c) {
       c.wall, "--chest-wall", "FILE|POINTS",
       "corrected chest wall: a segmentation of 3D Slicer (.seg.nrrd, segment 'Chest wall'), a "
       "label map (code 4 behind the wall), a surface (.vtp; of a file written by --points, its "
-      "chest-wall points), or clicked points from 3D Slicer (.mrk.json) or in a table with "
+      "chest-wall points), or clicked points from 3D Slicer (.mrk.json or .fcsv) or in a table with "
       "columns x_mm y_mm z_mm (.tsv)");
   tool.texts(c.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE",
              "tissue of a value or of a segment in --chest-wall, such as wall=3 or "
@@ -88,8 +88,9 @@ void declare(Tool& tool, Choices& c) {
   });
   tool.example("segment scan.nrrd labels.vtkhdf --side left --overlay look.png",
                "the left breast, with a picture of the contours");
-  tool.example("segment supine.nrrd supine-labels.vtkhdf --side left --posture supine --points supine-skin.vtp",
-               "the second posture, for identify");
+  tool.example(
+      "segment supine.nrrd supine-labels.vtkhdf --side left --posture supine --points supine-skin.vtp",
+      "the second posture, for identify");
   tool.example("segment dicom/ labels.vtkhdf --side right --series 2 --chest-wall clicked.tsv",
                "the second series of a folder, with the chest wall corrected by clicked points");
 }
@@ -187,7 +188,9 @@ void run_segment(const Choices& c, Run& run) {
   for (const std::string& doubt : result.doubts) run.warn(doubt);
   const bool guessed = options.posture != Posture::prone;
   run.report().set("nipple", guessed ? "guessed" : "found");
-  if (guessed) run.progress().note("the nipple of a breast that lies flat is a guess; identify does not use it");
+  if (guessed)
+    run.progress().note(
+        "the nipple of a breast that lies flat is a guess; identify does not use it");
   for (const StageQuality& quality : quality_of(result)) {
     if (quality.score >= least_quality) continue;
     run.warn(message("quality of ", quality.stage, " ", format_fixed(quality.score, 2), " (",

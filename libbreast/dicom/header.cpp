@@ -3,6 +3,7 @@
 
 // A walk through a DICOM file's elements (PS3.5 section 7), enough to know that it is whole and to
 // read short text elements.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -21,6 +22,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t pixel_data = 0x7fe00010;
+// The codes of a mammogram's view and, within it, of the view's modifiers (PS3.3 C.8.11.7).
+constexpr std::array<std::uint32_t, 2> view_sequences{0x00540220, 0x00540222};
+// Elements of group 28 that are binary numbers (US); others, such as Rescale Slope, are text.
+constexpr std::array<std::uint32_t, 7> binary_numbers{
+    0x00280002, 0x00280010, 0x00280011, 0x00280100, 0x00280101, 0x00280102, 0x00280103};
 // Transfer syntaxes whose pixel data are native (PS3.5 A.1, A.2).
 const std::string implicit_syntax = "1.2.840.10008.1.2";
 const std::string explicit_little_endian = "1.2.840.10008.1.2.1";
@@ -36,6 +42,11 @@ constexpr std::string_view short_kinds =
     "AE AS AT CS DA DS DT FD FL IS LO LT PN SH SL SS ST TM UI UL US";
 // Of a slice a few hundred; a file of zeros is one of empty elements, eight bytes each.
 constexpr int most_tags = 200000;
+
+template <std::size_t N>
+bool is_among(const std::array<std::uint32_t, N>& tags, std::uint32_t tag) {
+  return std::find(tags.begin(), tags.end(), tag) != tags.end();
+}
 
 bool is_among(std::string_view kinds, const std::string& name) {
   const auto at = kinds.find(name);
@@ -101,21 +112,35 @@ class Walker {
     position_ += length;
   }
 
-  /// Items of an undefined-length sequence (or of encapsulated pixel data) up to its delimiter.
-  void items(bool explicit_vr, int depth) {
+  /// Items of a sequence (or of encapsulated pixel data) of this many bytes, or up to its delimiter when
+  /// the length is undefined.
+  void items(bool explicit_vr, int depth, std::uint32_t bytes, DicomHeader* header) {
     if (depth > 16) throw broken("sequences nested too deeply");
-    for (;;) {
+    const std::uint64_t end = bytes == undefined_length ? size_ : position_ + bytes;
+    if (end > size_) throw broken("ends inside a sequence");
+    while (bytes == undefined_length || position_ < end) {
       const std::uint32_t tag = take_tag();
       const auto length = take<std::uint32_t>();
-      if (tag == sequence_end_tag) return;
+      if (tag == sequence_end_tag && bytes == undefined_length) return;
       if (tag != item_tag) throw broken("an item is expected");
-      if (length != undefined_length) {
+      if (length != undefined_length && header == nullptr) {
         skip(length);
-        continue;
+      } else {
+        item(explicit_vr, depth, length, header);
       }
-      while (peek_tag() != item_end_tag) element(explicit_vr, depth + 1, nullptr);
-      position_ += 8;
     }
+    if (position_ != end) throw broken("a sequence is longer than it states");
+  }
+
+  void item(bool explicit_vr, int depth, std::uint32_t length, DicomHeader* header) {
+    const std::uint64_t end = position_ + length;
+    if (length == undefined_length) {
+      while (peek_tag() != item_end_tag) element(explicit_vr, depth + 1, header);
+      position_ += 8;
+      return;
+    }
+    while (position_ < end) element(explicit_vr, depth + 1, header);
+    if (position_ != end) throw broken("an item is longer than it states");
   }
 
   void element(bool explicit_vr, int depth, DicomHeader* header) {
@@ -135,8 +160,15 @@ class Walker {
     } else {
       length = take<std::uint32_t>();
     }
+    if (header && is_among(view_sequences, tag)) {
+      const std::string outer = path_;
+      path_ += key_of(tag) + "/";
+      items(explicit_vr && !unknown_vr, depth + 1, length, header);
+      path_ = outer;
+      return;
+    }
     if (length == undefined_length) {
-      items(explicit_vr && !unknown_vr, depth + 1);
+      items(explicit_vr && !unknown_vr, depth + 1, length, nullptr);
       if (header && tag == pixel_data) (*header)["7fe0|0010"] = "encapsulated";
       return;
     }
@@ -149,22 +181,27 @@ class Walker {
     std::string value(length, '\0');
     in_.seekg(std::streamoff(position_));
     if (!in_.read(value.data(), length)) throw broken("ends inside an element");
-    const bool rows_or_bits = tag >> 16 == 0x0028 && length == 2;  // US: binary
-    if (rows_or_bits) {
+    if (is_among(binary_numbers, tag) && length == 2) {
       std::uint16_t number = 0;
       std::memcpy(&number, value.data(), 2);
       value = std::to_string(number);
     }
     while (!value.empty() && (value.back() == ' ' || value.back() == '\0')) value.pop_back();
+    std::string& kept = header[path_ + key_of(tag)];
+    kept = path_.empty() || kept.empty() ? value : kept + "\\" + value;
+  }
+
+  static std::string key_of(std::uint32_t tag) {
     char key[16];
     std::snprintf(key, sizeof key, "%04x|%04x", tag >> 16, tag & 0xffff);
-    header[key] = value;
+    return key;
   }
 
   const fs::path& file_;
   std::ifstream& in_;
   std::uint64_t size_, position_ = 0;
   int tags_ = 0;
+  std::string path_;  ///< of the sequences around the present element: "0054|0220/"
 };
 
 /// Pixel data are encapsulated if, and only if, the transfer syntax says so; otherwise they must be as

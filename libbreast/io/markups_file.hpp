@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reading and writing of points and curves of 3D Slicer (.mrk.json, Markups schema 1.0).
+// Reading and writing of points and curves of 3D Slicer (.mrk.json, Markups schema 1.0); reading of its
+// point lists before 4.11 (.fcsv).
 #pragma once
 
 #include <array>
@@ -24,11 +25,11 @@ struct Markups {
   std::vector<MarkupPoint> points;
 };
 
-/// True for .mrk.json, in any case.
+/// True for .mrk.json and .fcsv, in any case.
 bool is_markups_name(const std::filesystem::path& file);
 
 /// All points of all lists of the file that have a position, converted to LPS if the file states
-/// RAS (LPS is the default, as in the schema). Throws Error (input) for another format, coordinates
+/// RAS (LPS is the default of .mrk.json, as in the schema; .fcsv must state it). Throws Error (input) for another format, coordinates
 /// that are not three finite mm, and a file without points.
 std::vector<MarkupPoint> read_markups(const std::filesystem::path& file);
 

@@ -13,7 +13,8 @@ namespace breast {
 
 /// The source of a volume, as described in messages.
 struct VolumeSource {
-  std::string description;     ///< "NRRD", "DICOM series 3: T1 TSE, 40 slices"
+  std::string
+      description;  ///< "nrrd", "DICOM series 3: 40 files of 512 x 512 pixels, series number 7"
   std::string
       patient_position;  ///< of a DICOM series, as "HFP" (head first, prone); "" if not stated
   std::string content_sha256;  ///< of grid and voxels, the same for NRRD and DICOM of one scan

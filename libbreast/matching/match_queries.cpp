@@ -116,6 +116,7 @@ std::vector<MatchQuery> point_queries(const Table& table, const std::string& whe
     if (table.has("name")) query.landmark = table.cell(r, "name");
     queries.push_back(query);
   }
+  if (queries.empty()) throw input_error(where, ": no points");
   return queries;
 }
 

@@ -13,7 +13,7 @@ from .hdf5 import SCHEMAS, file_schema
 from .labels import read_labels
 from .lookup import read_lookup
 from .mammogram import read_mammogram
-from .markups import read_markups
+from .markups import read_fiducials, read_markups
 from .meta_image import read_meta_image
 from .nifti import read_nifti
 from .nrrd import read_nrrd
@@ -35,8 +35,8 @@ def _read_vtp(path: Path) -> Any:
 
 _BY_ENDING: dict[str, Callable[[Path], Any]] = {
     ".vti": read_mammogram, ".vtp": _read_vtp, ".vtu": read_xml_mesh, ".tsv": read_table, ".json": read_report,
-    ".mrk.json": read_markups, ".nrrd": read_nrrd, ".nhdr": read_nrrd, ".nii": read_nifti, ".nii.gz": read_nifti,
-    ".mha": read_meta_image, ".mhd": read_meta_image}
+    ".mrk.json": read_markups, ".fcsv": read_fiducials, ".nrrd": read_nrrd, ".nhdr": read_nrrd, ".nii": read_nifti,
+    ".nii.gz": read_nifti, ".mha": read_meta_image, ".mhd": read_meta_image}
 SCAN_ENDINGS = (".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd")
 
 
@@ -46,7 +46,7 @@ def load(path: str | os.PathLike[str]) -> Any:
     Returns:
         a folder: Run. A file by its ending: .vtkhdf and .h5, by their schema, State, Labels, Geometry or Lookup; .vti
         Mammogram; .vtp of cc2mlo lines by name, another .vtp and .vtu XmlMesh; .tsv a table; .json a report; .nrrd, .nhdr,
-        .nii, .nii.gz, .mha, .mhd a scan (Volume). Of 3D Slicer: .seg.nrrd Segmentation, vectors in .nrrd Field, .mrk.json
+        .nii, .nii.gz, .mha, .mhd a scan (Volume). Of 3D Slicer: .seg.nrrd Segmentation, vectors in .nrrd Field, .mrk.json and .fcsv
         Markup by name.
 
     Raises:

@@ -8,7 +8,7 @@ import numpy as np
 
 from .errors import BreastError
 from .inflate import inflated
-from .volume import Volume, checked_size, detached_data, exact_bytes, made_volume
+from .volume import Volume, checked_size, detached_data, exact_bytes, made_volume, unit_mm
 
 _TYPES = {"MET_CHAR": "i1", "MET_UCHAR": "u1", "MET_SHORT": "i2", "MET_USHORT": "u2", "MET_INT": "i4", "MET_UINT": "u4",
           "MET_LONG": "i4", "MET_ULONG": "u4", "MET_LONG_LONG": "i8", "MET_ULONG_LONG": "u8", "MET_FLOAT": "f4",
@@ -63,16 +63,14 @@ def _numbers(file: Path, fields: dict[str, str], count: int, *names: str) -> np.
     except ValueError:
         numbers = np.zeros(0)
     if len(numbers) != count or not np.isfinite(numbers).all():
-        raise BreastError(f"states no {names[0]} of {count} finite numbers: size and orientation of voxels are unknown", file)
+        raise BreastError(f"states no {names[0]} of {count} finite numbers: size, orientation and place of voxels are unknown", file)
     return numbers
 
 
 def _placed(file: Path, fields: dict[str, str]) -> tuple[np.ndarray, np.ndarray]:
-    if _field(fields, "DistanceUnits") not in ("", "mm", "?"):
-        raise BreastError(f"DistanceUnits {_field(fields, 'DistanceUnits')}: must be mm", file)
+    mm = unit_mm(file, _field(fields, "DistanceUnits"))
     spacing = _numbers(file, fields, 3, "ElementSpacing", "ElementSize")
     # Each row is the direction of an axis.
     rows = _numbers(file, fields, 9, "TransformMatrix", "Orientation", "Rotation").reshape(3, 3)
-    stated = any(name in fields for name in ("Offset", "Position", "Origin"))
-    origin = _numbers(file, fields, 3, "Offset", "Position", "Origin") if stated else np.zeros(3)
-    return rows.T * spacing, origin
+    origin = _numbers(file, fields, 3, "Offset", "Position", "Origin")
+    return mm * rows.T * spacing, mm * origin

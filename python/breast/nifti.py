@@ -44,8 +44,7 @@ def read_nifti(file: Path) -> Volume:
     if not 348 <= offset <= 1e8:
         raise BreastError(f"the stated start of the voxels is byte {offset}: must be 348 or more", file)
     needed = int(offset) + count * dtype.itemsize
-    # Padding and extensions of other programs may follow the voxels.
-    data = exact_bytes(file, inflated(file, content, needed, whole=False) if zipped else content, needed)
+    data = exact_bytes(file, inflated(file, content, needed) if zipped else content, needed)
     voxels = np.frombuffer(data, dtype, count, int(offset))
     slope, intercept = float(header["slope"]), float(header["intercept"])
     if slope != 0 and (slope != 1 or intercept != 0):

@@ -11,7 +11,7 @@ from .errors import BreastError
 from .field import Field
 from .inflate import inflated
 from .segmentation import Segmentation, made_segmentation
-from .volume import Volume, checked_size, detached_data, exact_bytes, made_volume
+from .volume import Volume, checked_size, detached_data, exact_bytes, made_volume, unit_mm
 
 _TYPES = {"i1": "signed char,int8,int8_t", "u1": "uchar,unsigned char,uint8,uint8_t",
           "i2": "short,short int,signed short,signed short int,int16,int16_t",
@@ -109,13 +109,17 @@ def _placed(file: Path, fields: dict[str, str]) -> tuple[np.ndarray, np.ndarray]
     if space not in _TO_LPS:
         said = f"space '{space}'" if space else "states no space, so left and right are unknown"
         raise BreastError(f"{said}: left-posterior-superior or right-anterior-superior are read", file)
-    if any(unit != '"mm"' for unit in fields.get("space units", "").split()):
-        raise BreastError(f"space units {fields['space units']}: must be mm", file)
+    units = set(fields.get("space units", "").split()) or {""}
+    if len(units) > 1:
+        raise BreastError(f"space units {fields['space units']}: one unit for all axes is read", file)
+    mm = unit_mm(file, units.pop().strip('"'))
+    if "space origin" not in fields:
+        raise BreastError("states no space origin, so where the scan lies is unknown", file, "save it with its origin")
     vectors = [_vector(file, v) for v in re.findall(r"\([^)]*\)", fields.get("space directions", ""))]
     if len(vectors) != 3:
         raise BreastError(f"{len(vectors)} space directions: voxel size and orientation need three", file)
-    to_lps = np.array(_TO_LPS[space], float)
-    origin = _vector(file, fields.get("space origin", "(0,0,0)"))
+    to_lps = mm * np.array(_TO_LPS[space], float)
+    origin = _vector(file, fields["space origin"])
     return np.stack(vectors, -1) * to_lps[:, None], origin * to_lps
 
 

@@ -46,6 +46,8 @@ def made_segmentation(file: Path, grid: Grid, grey: np.ndarray, notes: dict[str,
     for n in range(10000):
         if f"Segment{n}_ID" not in notes:
             break
+        if f"Segment{n}_LabelValue" not in notes and (n > 0 or "Segment1_ID" in notes):
+            raise BreastError(f"Segment{n}_LabelValue is missing: which voxels are its own is unknown", file)
         name = notes.get(f"Segment{n}_Name", notes[f"Segment{n}_ID"])
         try:
             value = int(notes.get(f"Segment{n}_LabelValue", "1"))

@@ -89,10 +89,20 @@ def checked_size(file: Path, size: list[int]) -> int:
 
 
 def exact_bytes(file: Path, content: bytes, needed: int) -> bytes:
-    """The first `needed` bytes. Raises BreastError when there are fewer."""
+    """The content. Raises BreastError unless it has `needed` bytes: which of more are the volume is unknown."""
     if len(content) < needed:
         raise BreastError(f"truncated: {len(content)} bytes of voxels, the header announces {needed}", file)
-    return content[:needed]
+    if len(content) > needed:
+        raise BreastError(f"{len(content)} bytes of voxels, but the header announces {needed}", file, "save the volume again")
+    return content
+
+
+def unit_mm(file: Path, symbol: str) -> float:
+    """mm of a unit of length by its symbol; a file that states none ("" or "?") is in mm, as every program takes it."""
+    known = {"": 1.0, "?": 1.0, "m": 1e3, "cm": 10.0, "mm": 1.0, "um": 1e-3}
+    if symbol not in known:
+        raise BreastError(f"unit of length '{symbol}': mm, m, cm and um are read", file)
+    return known[symbol]
 
 
 def detached_data(file: Path, name: str) -> bytes:

@@ -57,13 +57,13 @@ std::filesystem::path as_file(const std::string& ending) {
 }
 
 void nrrd() {
-  check_nrrd(as_file(".nrrd"));
+  nrrd_grid(as_file(".nrrd"));
 }
 void nifti() {
-  check_nifti(as_file(".nii"));
+  read_nifti(as_file(".nii"));
 }
 void meta() {
-  check_meta(as_file(".mha"));
+  meta_grid(as_file(".mha"));
 }
 void segmentation() {
   labels_of(read_segmentation(as_file(".seg.nrrd")), {}, std::nullopt, "input");
@@ -182,7 +182,7 @@ Document load_document(const std::filesystem::path&, const std::string&, const s
 void save_document(const std::filesystem::path&, const Document&) {}
 // In place of io/volume/read_volume.cpp, where ITK reads the voxels behind the same check: one of each value that a header names.
 Volume<float> read_volume(const std::filesystem::path& file, int, VolumeSource*) {
-  check_nrrd(file);
+  nrrd_grid(file);
   Grid grid;
   grid.size = {4, 3, 2};
   Volume<float> out(grid);

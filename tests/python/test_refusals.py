@@ -175,6 +175,8 @@ class OtherFiles(unittest.TestCase):
         self.refused("s.nrrd", nrrd[:-1000], "cut off|damaged")
         self.refused("s.nrrd", nrrd.replace(b"sizes: 128", b"sizes: 127"), "more than the header announces")
         self.refused("s.nrrd", nrrd.replace(b"sizes: 128 128 15", b"sizes: 128 128"), "one 3-D volume")
+        self.refused("s.nrrd", nrrd.replace(b"space origin: ", b"space source: "), "states no space origin")
+        self.refused("s.nrrd", nrrd.replace(b"space origin: ", b'space units: "in" "in" "in"\nspace origin: '), "'in'")
         folder = small_run.scratch("nifti")
         small_run.tool(f"segment {small_run.folder()}/small-scan.nrrd l.nii --side left", folder)
         small_run.tool(f"segment {small_run.folder()}/small-scan.nrrd l.mha --side left", folder)
@@ -182,11 +184,14 @@ class OtherFiles(unittest.TestCase):
         blank = nifti[:252] + bytes(4) + nifti[256:]
         self.refused("s.nii", bytes(blank), "no orientation")
         self.refused("s.nii", bytes(nifti[:-500]), "truncated")
+        self.refused("s.nii", bytes(nifti) + b"\0", "but the header announces")
         self.refused("s.nii", bytes(nifti[:80]) + np.float32(0).tobytes() + bytes(nifti[84:]), "voxel size|contradict")
         self.refused("s.nii", b"\1" * 400, "not the NIfTI header")
         meta = (folder / "l.mha").read_bytes()
         lines = [line for line in meta.split(b"\n", 20) if not line.startswith(b"TransformMatrix")]
         self.refused("s.mha", b"\n".join(lines), "TransformMatrix")
+        self.refused("s.mha", meta + b"\0", "more than the header announces|but the header announces")
+        self.refused("s.mha", meta.replace(b"Offset =", b"Remark =", 1), "no Offset")
         self.refused("scan.img", b"", "unknown ending")
 
 

@@ -33,6 +33,16 @@ def nrrd(name: str, array: np.ndarray, notes: str = "", **fields: object) -> bre
     return breast.load(file)
 
 
+class Units(unittest.TestCase):
+    def test_lengths_are_millimetres_whatever_the_file_is_in(self) -> None:
+        labels = np.zeros((4, 3, 2), np.uint8)
+        volume = nrrd("m.nrrd", labels, 'space units: "m" "m" "m"\n', origin="(0.01,0.02,0.03)",
+                      directions="(0.002,0,0) (0,0.002,0) (0,0,0.003)")
+        np.testing.assert_allclose(volume.grid.to_patient([[0, 0, 0], [1, 1, 1]]), [[10, 20, 30], [12, 22, 33]])
+        with self.assertRaisesRegex(breast.BreastError, "one unit for all axes"):
+            nrrd("m.nrrd", labels, 'space units: "m" "mm" "m"\n')
+
+
 class Fields(unittest.TestCase):
     def test_a_linear_field_moves_points_exactly(self) -> None:
         i, j, k = np.meshgrid(range(6), range(5), range(4), indexing="ij")
@@ -71,6 +81,31 @@ class Segmentations(unittest.TestCase):
             np.testing.assert_allclose(seg.grid.to_patient([[1, 2, 0]])[0], [sign * 12, sign * 24, 30])
             with self.assertRaisesRegex(breast.BreastError, "it has: Brustwand ä, Segment_2"):
                 seg.mask("wall")
+
+
+    def test_of_several_segments_each_states_its_value(self) -> None:
+        with self.assertRaisesRegex(breast.BreastError, "Segment1_LabelValue is missing"):
+            nrrd("s.seg.nrrd", np.ones((4, 3, 2), np.uint8), "Segment0_ID:=a\nSegment0_LabelValue:=1\nSegment1_ID:=b\n")
+
+
+class Fiducials(unittest.TestCase):
+    def load(self, header: str, row: str = "n0,1,2,3,0,0,0,1,1,1,0,\"a, b\",,\n") -> breast.Markup:
+        file = small_run.scratch("markups") / "F.fcsv"
+        file.write_text(f"# Markups fiducial file version = 4.11\n{header}"
+                        f"# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n{row}")
+        return breast.load(file)["F"]
+
+    def test_places_are_lps_whatever_the_file_is_in(self) -> None:
+        for system, place in (("LPS", [1, 2, 3]), ("1", [1, 2, 3]), ("RAS", [-1, -2, 3]), ("0", [-1, -2, 3])):
+            np.testing.assert_array_equal(self.load(f"# CoordinateSystem = {system}\n").point("a, b"), place)
+
+    def test_what_is_no_place_is_refused(self) -> None:
+        for header, row, word in (("", "n0,1,2,3,0,0,0,1,1,1,0,a,,\n", "CoordinateSystem"),
+                                  ("# CoordinateSystem = 2\n", "n0,1,2,3,0,0,0,1,1,1,0,a,,\n", "CoordinateSystem"),
+                                  ("# CoordinateSystem = LPS\n", "n0,1,two,3,0,0,0,1,1,1,0,a,,\n", "line 4"),
+                                  ("# CoordinateSystem = LPS\n", "", "no points")):
+            with self.assertRaisesRegex(breast.BreastError, word):
+                self.load(header, row)
 
 
 class Markups(unittest.TestCase):

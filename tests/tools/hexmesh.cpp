@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "core/atomic_file.hpp"
 #include "core/report.hpp"
@@ -56,9 +57,9 @@ class HexmeshTool : public testing::Test {
   }
   /// The labels are a box, not the geometry's body.
   ToolResult hexmesh(std::vector<std::string> options) {
-    std::vector<std::string> arguments = {"geometry.vtkhdf", "labels.vtkhdf",    "mesh.vtkhdf",
-                                          "--quiet",         "--threads",        "1",
-                                          "--report",        "r.json",           "--accept-mismatch"};
+    std::vector<std::string> arguments = {"geometry.vtkhdf", "labels.vtkhdf", "mesh.vtkhdf",
+                                          "--quiet",         "--threads",     "1",
+                                          "--report",        "r.json",        "--accept-mismatch"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     return run_tool("hexmesh", arguments, folder_.path());
   }
@@ -81,7 +82,8 @@ TEST_F(HexmeshTool, DefaultIsADomeWithMembraneSkinAndTumour) {
   ASSERT_NE(mesh.landmark("tumour"), nullptr);
   EXPECT_EQ(mesh.landmark("tumour")->name, "artificial_tumour");
   EXPECT_NE(read_text(folder_ / "r.json").find("the tumour is artificial"), std::string::npos);
-  const ToolResult probe = run_tool("probe", {"mesh.vtkhdf", "--landmarks", "tumour"}, folder_.path());
+  const ToolResult probe =
+      run_tool("probe", {"mesh.vtkhdf", "--landmarks", "tumour"}, folder_.path());
   EXPECT_NE(probe.out.find("artificial_tumour_x_mm"), std::string::npos) << probe.out;
   EXPECT_LT(mesh.landmark("nipple")->moved, 0.01);
   const Report report = Report::parse(read_text(folder_ / "r.json"), "r.json");
@@ -120,6 +122,34 @@ TEST_F(HexmeshTool, SurroundingsHoldTheBreastAndAreLeftOutByCompress) {
   EXPECT_EQ(hexmesh({"--surroundings", "8", "--skin-as", "layer"}).exit_code, 2);
 }
 
+// Points of 3D Slicer's older format are read, and a file without a point is not silently nothing.
+TEST_F(HexmeshTool, LandmarksAreReadOrRefused) {
+  const std::string comments =
+      "# Markups fiducial file version = 4.10\n# CoordinateSystem = 0\n"
+      "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n";
+  ASSERT_EQ(hexmesh({"--elements", "5", "--tumour", "none"}).exit_code, 0);
+  const HexMesh mesh = read_mesh(folder_ / "mesh.vtkhdf");
+  const Vec3 at = mesh.imaged[mesh.connectivity[mesh.connectivity.size() / 2]];
+  std::ostringstream row;
+  row << "n0," << -at.x() << "," << -at.y() << "," << at.z() << ",0,0,0,1,1,1,0,clip,,\n";
+  write_text(folder_ / "points.fcsv", comments + row.str());
+  const ToolResult read =
+      hexmesh({"--elements", "5", "--tumour", "none", "--landmarks", "points.fcsv"});
+  ASSERT_EQ(read.exit_code, 0) << read.err;
+  const HexMesh marked = read_mesh(folder_ / "mesh.vtkhdf");
+  ASSERT_NE(marked.landmark("clip"), nullptr);
+  EXPECT_LT((landmark_position(marked, marked.imaged, *marked.landmark("clip")) - at).norm(), 0.01);
+  std::filesystem::remove(folder_ / "mesh.vtkhdf");
+  write_text(folder_ / "none.fcsv", comments);
+  write_text(folder_ / "none.tsv", "# points to come\n");
+  for (const char* file : {"none.fcsv", "none.tsv"}) {
+    const ToolResult none = hexmesh({"--elements", "5", "--tumour", "none", "--landmarks", file});
+    EXPECT_EQ(none.exit_code, 2) << file;
+    EXPECT_EQ(none.error_lines(), 1) << none.err;
+    EXPECT_FALSE(written()) << file;
+  }
+}
+
 TEST_F(HexmeshTool, AGeometryOfAnotherBodyIsRefusedUnlessAccepted) {
   const ToolResult refused = run_tool(
       "hexmesh", {"geometry.vtkhdf", "labels.vtkhdf", "mesh.vtkhdf", "--quiet"}, folder_.path());
@@ -129,7 +159,8 @@ TEST_F(HexmeshTool, AGeometryOfAnotherBodyIsRefusedUnlessAccepted) {
   EXPECT_NE(refused.err.find("--accept-mismatch"), std::string::npos) << refused.err;
   EXPECT_FALSE(written());
   ASSERT_EQ(hexmesh({"--elements", "8"}).exit_code, 0);
-  EXPECT_NE(read_text(folder_ / "r.json").find("does not agree with the labels"), std::string::npos);
+  EXPECT_NE(read_text(folder_ / "r.json").find("does not agree with the labels"),
+            std::string::npos);
 }
 
 TEST_F(HexmeshTool, CuboidWithLayerHasThePapersCounts) {
@@ -241,17 +272,17 @@ TEST_F(HexmeshTool, TetrahedraInTwoStepsAreTheSame) {
   };
   const Report two = tetrahedra({});
   for (const char* key : {"count", "nodes", "volume_ml", "least_dihedral_deg"})
-    EXPECT_EQ(two.text(std::string("tetrahedra/") + key), one.text(std::string("tetrahedra/") + key));
+    EXPECT_EQ(two.text(std::string("tetrahedra/") + key),
+              one.text(std::string("tetrahedra/") + key));
   EXPECT_GT(tetrahedra({"--edge", "6"}).number("tetrahedra/count"),
             2 * two.number("tetrahedra/count"));
 }
 
 TEST_F(HexmeshTool, TetrahedraWithoutTheirProgramAreRefusedAtOnce) {
   std::filesystem::copy_file(tool_path("hexmesh"), folder_ / "hexmesh");
-  const ToolResult result =
-      run_tool((folder_ / "hexmesh").string(),
-               {"geometry.vtkhdf", "labels.vtkhdf", "mesh.vtkhdf", "--tetrahedra", "t.vtu"},
-               folder_.path());
+  const ToolResult result = run_tool(
+      (folder_ / "hexmesh").string(),
+      {"geometry.vtkhdf", "labels.vtkhdf", "mesh.vtkhdf", "--tetrahedra", "t.vtu"}, folder_.path());
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.error_lines(), 1) << result.err;
   EXPECT_NE(result.err.find("--target tetrahedra"), std::string::npos) << result.err;

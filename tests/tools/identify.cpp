@@ -182,31 +182,37 @@ TEST_F(IdentifyTool, SlipsInLandmarksAreNamed) {
 
 TEST_F(IdentifyTool, PairsMarkedInSlicerAreTakenWhicheverWayTheyAreKept) {
   const std::vector<Mark> good = marks();
-  const auto list = [](const std::string& prefix, const std::vector<Mark>& marks, bool supine, bool ras) {
+  const auto list = [](const std::string& prefix, const std::vector<Mark>& marks, bool supine,
+                       bool ras) {
     std::string points;
     for (std::size_t k = 0; k < marks.size(); ++k) {
       Vec3 x = supine ? marks[k].supine : marks[k].prone;
       if (ras) x = Vec3(-x.x(), -x.y(), x.z());
-      points += std::string(k > 0 ? "," : "") + "{\"label\":\"" + prefix + marks[k].name + "\",\"position\":[" +
-                format_number(x.x()) + "," + format_number(x.y()) + "," + format_number(x.z()) + "]}";
+      points += std::string(k > 0 ? "," : "") + "{\"label\":\"" + prefix + marks[k].name +
+                "\",\"position\":[" + format_number(x.x()) + "," + format_number(x.y()) + "," +
+                format_number(x.z()) + "]}";
     }
     return "{\"type\":\"Fiducial\",\"coordinateSystem\":\"" + std::string(ras ? "RAS" : "LPS") +
            "\",\"controlPoints\":[" + points + "]}";
   };
   const auto file = [&](const std::string& name, const std::string& lists) {
-    write_text(folder_ / name,
-               "{\"@schema\":\"https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/"
-               "Schema/markups-schema-v1.0.3.json#\",\"markups\":[" + lists + "]}");
+    write_text(
+        folder_ / name,
+        "{\"@schema\":\"https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/"
+        "Schema/markups-schema-v1.0.3.json#\",\"markups\":[" +
+            lists + "]}");
   };
   write_marks(good);
   file("prone.mrk.json", list("prone-", good, false, false));
   file("supine.mrk.json", list("supine-", good, true, true));
   file("both.mrk.json", list("", good, false, true) + "," + list("", good, true, false));
-  const std::string line = "identify mesh.vtkhdf mine.tsv --materials set.tsv --parameters stiffness --compare seed2008 "
-                           "--table marks.tsv --report i.json ";
+  const std::string line =
+      "identify mesh.vtkhdf mine.tsv --materials set.tsv --parameters stiffness --compare seed2008 "
+      "--table marks.tsv --report i.json ";
   std::vector<double> factors;
-  for (const char* landmarks : {"--landmarks pairs.tsv", "--landmarks prone.mrk.json --second-landmarks supine.mrk.json",
-                                "--landmarks both.mrk.json"}) {
+  for (const char* landmarks :
+       {"--landmarks pairs.tsv", "--landmarks prone.mrk.json --second-landmarks supine.mrk.json",
+        "--landmarks both.mrk.json"}) {
     ASSERT_EQ(run(line + landmarks), 0) << landmarks << said_.err;
     factors.push_back(report("i.json").number("parameters/stiffness/factor"));
   }
@@ -214,7 +220,8 @@ TEST_F(IdentifyTool, PairsMarkedInSlicerAreTakenWhicheverWayTheyAreKept) {
   EXPECT_NEAR(factors[2], factors[0], 1e-6);
   const Table table = read_table(folder_ / "marks.tsv");
   for (std::size_t row = 0; row < table.rows.size(); ++row)
-    EXPECT_LT(table.number(row, "left_out_mm"), table.number(row, "seed2008_mm")) << table.cell(row, "landmark");
+    EXPECT_LT(table.number(row, "left_out_mm"), table.number(row, "seed2008_mm"))
+        << table.cell(row, "landmark");
   EXPECT_NE(said_.out.find("identified, landmark left out\t12"), std::string::npos) << said_.out;
   std::vector<Mark> fewer = good;
   fewer.pop_back();
@@ -224,10 +231,13 @@ TEST_F(IdentifyTool, PairsMarkedInSlicerAreTakenWhicheverWayTheyAreKept) {
     EXPECT_NE(said_.err.find(words), std::string::npos) << said_.err;
     EXPECT_EQ(said_.error_lines(), 1) << said_.err;
   };
-  refused_line("--landmarks prone.mrk.json --second-landmarks fewer.mrk.json", "'m11' has no mark of the other posture");
+  refused_line("--landmarks prone.mrk.json --second-landmarks fewer.mrk.json",
+               "'m11' has no mark of the other posture");
   refused_line("--landmarks prone.mrk.json", "no mark of the other posture");
-  refused_line("--landmarks pairs.tsv --second-landmarks supine.mrk.json", "goes with a .mrk.json only");
-  refused_line("--landmarks prone.mrk.json --second-landmarks prone.mrk.json --labels mesh.vtkhdf", "must be given together");
+  refused_line("--landmarks pairs.tsv --second-landmarks supine.mrk.json",
+               "goes with points of 3D Slicer");
+  refused_line("--landmarks prone.mrk.json --second-landmarks prone.mrk.json --labels mesh.vtkhdf",
+               "must be given together");
   refused_line("--nipple 1,2,3 --second-landmarks supine.mrk.json", "needs --landmarks");
 }
 

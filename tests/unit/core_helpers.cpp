@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/statistics/percentile.hpp"
+#include "core/text/library_message.hpp"
 #include "core/text/lower_case.hpp"
 #include "core/text/words.hpp"
 
@@ -33,6 +34,14 @@ TEST(Percentile, IsAValueOfTheRankRoundedDown) {
 TEST(LowerCase, ChangesLettersOfAsciiOnly) {
   EXPECT_EQ(lower_case("SCAN.Nii.GZ"), "scan.nii.gz");
   EXPECT_EQ(lower_case("\xC3\x84"), "\xC3\x84");
+}
+
+TEST(LibraryMessage, NamesNoPlaceInMemory) {
+  EXPECT_EQ(library_message(
+                "itk::ERROR: itk::ERROR: NrrdImageIO(0x55d1a0):\n ReadImageInformation:  failed "),
+            "ReadImageInformation: failed");
+  EXPECT_EQ(library_message("itk::ERROR: Filter (0x7f12ab): Input 0x7f12abcd is not set"),
+            "Input ? is not set");
 }
 
 TEST(Words, AreSeparatedByBlanksTabsAndLineBreaks) {

@@ -100,6 +100,13 @@ TEST(Segmentations, FilesThatAreNoneAreRefused) {
   EXPECT_TRUE(says(reason([&] { read_segmentation(bad); }), "layers"));
   replace(file, bad, "Segment0_LabelValue:=1", "Segment0_LabelValue:=x");
   EXPECT_TRUE(says(reason([&] { read_segmentation(bad); }), "Segment0_LabelValue"));
+  replace(file, bad, "Segment1_LabelValue:=", "Segment1_LabelNumber:=");
+  EXPECT_TRUE(says(reason([&] { read_segmentation(bad); }), "Segment1_LabelValue is missing"));
+  const std::string second =
+      "Segment1_LabelValue:=" + std::to_string(segments_of(samples::labels())[1].value);
+  replace(file, bad, second, "Segment1_LabelValue:=1");
+  EXPECT_TRUE(
+      says(reason([&] { read_segmentation(bad); }), "Segment1_LabelValue 1: is that of segment"));
   Volume<std::uint8_t> plain(samples::labels().grid);
   write_volume(bad, plain);
   EXPECT_TRUE(says(reason([&] { read_segmentation(bad); }), "names no segment"));
@@ -109,7 +116,8 @@ TEST(Segmentations, FilesThatAreNoneAreRefused) {
   EXPECT_EQ(labels_of(volume, {}, Side::right, "f").side, Side::right);
   LabelVolume far = labels_of(volume, {}, Side::left, "f");
   far.grid.origin += Vec3(1e4, 0, 0);
-  EXPECT_TRUE(says(reason([&] { completed_labels(far, samples::labels(), "f"); }), "different region"));
+  EXPECT_TRUE(
+      says(reason([&] { completed_labels(far, samples::labels(), "f"); }), "different region"));
 }
 
 TEST(MarkupFiles, RoundTripIsExact) {
@@ -125,6 +133,45 @@ TEST(MarkupFiles, RoundTripIsExact) {
   EXPECT_EQ(read[1].label, "né");
   EXPECT_EQ(point_named(read, "TUMOUR", "p").at, list.points[0].at);
   EXPECT_TRUE(says(reason([&] { point_named(read, "nipple", "p"); }), "'tumour', 'né'"));
+}
+
+// As 3D Slicer 4.11 and 4.10 write it.
+std::string fcsv(const std::string& system, const std::string& rows) {
+  return "# Markups fiducial file version = 4.11\n# CoordinateSystem = " + system +
+         "\n# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n" + rows;
+}
+
+TEST(FiducialFiles, AreReadInTheirCoordinateSystem) {
+  const ScratchFolder folder;
+  const std::string rows =
+      "vtkMRMLMarkupsFiducialNode_0,10.5,-20,30,0,0,0,1,1,1,0,clip,,\r\n"
+      "vtkMRMLMarkupsFiducialNode_1,1,2,3e1,0,0,0,1,1,1,0,\"a, \"\"b\"\"\",\"note, too\",node\n";
+  for (const auto& [system, sign] :
+       {std::pair<const char*, double>{"LPS", 1}, {"1", 1}, {"RAS", -1}, {"0", -1}}) {
+    write_text(folder / "P.FCSV", fcsv(system, rows));
+    ASSERT_TRUE(is_markups_name(folder / "P.FCSV"));
+    const auto points = read_markups(folder / "P.FCSV");
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_EQ(points[0].label, "clip");
+    EXPECT_EQ(points[0].at, Vec3(sign * 10.5, sign * -20, 30)) << system;
+    EXPECT_EQ(points[1].label, "a, \"b\"");
+  }
+}
+
+TEST(FiducialFiles, WhatIsAmbiguousIsRefused) {
+  const ScratchFolder folder;
+  const auto refusal = [&](const std::string& text) {
+    write_text(folder / "p.fcsv", text);
+    return reason([&] { read_markups(folder / "p.fcsv"); });
+  };
+  const std::string row = "n0,1,2,3,0,0,0,1,1,1,0,clip,,\n";
+  EXPECT_TRUE(says(refusal(fcsv("2", row)), "CoordinateSystem '2'"));
+  EXPECT_TRUE(says(refusal(fcsv("LPS", "")), "no points"));
+  EXPECT_TRUE(says(refusal(fcsv("LPS", "n0,1,two,3,0,0,0,1,1,1,0,clip,,\n")), "line 4"));
+  EXPECT_TRUE(says(refusal(fcsv("LPS", "n0,1,2,3\n")), "has 4 cells"));
+  EXPECT_TRUE(
+      says(refusal("# columns = id,x,y,z,label\nn0,1,2,3,clip\n"), "states no CoordinateSystem"));
+  EXPECT_TRUE(says(refusal("# CoordinateSystem = LPS\n" + row), "no column 'x'"));
 }
 
 std::string points_json(const std::string& list) {

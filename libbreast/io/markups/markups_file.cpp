@@ -7,6 +7,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/text/lower_case.hpp"
+#include "io/markups/fiducials_file.hpp"
 
 namespace breast {
 
@@ -53,7 +54,8 @@ Vec3 place_of(const ReadJson& point, bool ras, const std::string& where) {
   return ras ? Vec3(-at[0], -at[1], at[2]) : at;
 }
 
-void add_points(const ReadJson& markups, const std::string& where, std::vector<MarkupPoint>& points) {
+void add_points(const ReadJson& markups, const std::string& where,
+                std::vector<MarkupPoint>& points) {
   const std::string space = text_of(markups, "coordinateSystem", "LPS");
   if (space != "LPS" && space != "RAS") {
     throw input_error(where, ": coordinateSystem '", space, "': LPS or RAS are read");
@@ -84,13 +86,11 @@ Json point_json(const MarkupPoint& point, std::size_t number) {
           {"positionStatus", "defined"}};
 }
 
-}  // namespace
-
-bool is_markups_name(const fs::path& file) {
-  return lower_case(file.filename().string()).ends_with(".mrk.json");
+bool is_fiducials_name(const fs::path& file) {
+  return lower_case(file.extension().string()) == ".fcsv";
 }
 
-std::vector<MarkupPoint> read_markups(const fs::path& file) {
+std::vector<MarkupPoint> read_markups_json(const fs::path& file) {
   constexpr std::uintmax_t most_bytes = 16 << 20;
   const ReadJson root = parsed(read_text(file, most_bytes), file.string());
   const auto lists = root.is_object() ? root.find("markups") : root.end();
@@ -103,6 +103,18 @@ std::vector<MarkupPoint> read_markups(const fs::path& file) {
     if (!markups.is_object()) throw input_error(file.string(), ": 'markups' contains no object");
     add_points(markups, file.string(), points);
   }
+  return points;
+}
+
+}  // namespace
+
+bool is_markups_name(const fs::path& file) {
+  return lower_case(file.filename().string()).ends_with(".mrk.json") || is_fiducials_name(file);
+}
+
+std::vector<MarkupPoint> read_markups(const fs::path& file) {
+  std::vector<MarkupPoint> points =
+      is_fiducials_name(file) ? read_fiducials(file) : read_markups_json(file);
   if (points.empty()) throw input_error(file.string(), ": no points with a position");
   return points;
 }

@@ -13,10 +13,12 @@ namespace breast {
 struct DicomSeries {
   std::string uid;
   int number = 0;
-  std::string description;
+  int columns = 0, rows = 0;
   std::string patient_position;              ///< "HFP", head first and prone; "" if not stated
   std::vector<std::filesystem::path> files;  ///< in the order found
-  std::string label() const;                 ///< "T1 TSE, 40 files (series number 3)"
+  /// "40 files of 512 x 512 pixels, series number 3". Not its description, in which anything may
+  /// stand, also names: messages and reports are sent to others.
+  std::string label() const;
 };
 
 /// All image series of a folder, in the order of series number, then UID.

@@ -4,20 +4,34 @@
 #include <algorithm>
 #include <cmath>
 #include <istream>
+#include <map>
 #include <sstream>
 
 #include "core/error.hpp"
-#include "core/text/lower_case.hpp"
 
 namespace breast {
 
 namespace fs = std::filesystem;
 
-void check_header(const fs::path& file) {
-  const std::string name = lower_case(file.filename().string());
-  if (name.ends_with(".nii") || name.ends_with(".nii.gz")) check_nifti(file);
-  if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) check_nrrd(file);
-  if (name.ends_with(".mha") || name.ends_with(".mhd")) check_meta(file);
+std::optional<double> unit_mm(const std::string& symbol) {
+  static const std::map<std::string, double> known = {
+      {"m", 1e3}, {"cm", 10}, {"mm", 1}, {"um", 1e-3}};
+  const auto found = known.find(symbol);
+  return found == known.end() ? std::nullopt : std::optional(found->second);
+}
+
+void check_voxel_bytes(const std::string& name, double found, double announced) {
+  if (found < announced) {
+    throw input_error(name, ": truncated: voxel data of ", found, " bytes, the header announces ",
+                      announced);
+  }
+  if (found > announced) {
+    const std::string size =
+        std::isfinite(found) ? message(found) : message("more than ", announced);
+    throw input_error(name, ": voxel data of ", size, " bytes, but the header announces ",
+                      announced,
+                      ": its sizes, type or start of the voxels are wrong; save the volume again");
+  }
 }
 
 bool next_line(std::istream& in, std::string& line, std::size_t longest) {
@@ -71,6 +85,16 @@ fs::path detached_data(const fs::path& header, const std::string& name) {
                       ", which does not exist");
   }
   return data;
+}
+
+void check_volume_sizes(const std::string& name, const std::vector<double>& sizes) {
+  for (std::size_t d = 0; d < sizes.size(); ++d) {
+    if (sizes[d] >= 1 && (d < 3 || sizes[d] == 1)) continue;
+    throw input_error(name, ": size ", sizes[d], " along axis ", d, ": one 3-D volume is needed");
+  }
+  if (sizes.size() < 3) {
+    throw input_error(name, ": ", sizes.size(), "-D image: a 3-D volume is needed");
+  }
 }
 
 void check_voxel_count(const std::string& name, double voxels) {

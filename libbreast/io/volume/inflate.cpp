@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 
 #include "core/error.hpp"
 
@@ -14,38 +15,22 @@ namespace fs = std::filesystem;
 
 namespace {
 
-class Counter {
- public:
-  Counter(const fs::path& file, double most_bytes) : file_(file), most_bytes_(most_bytes) {}
-
-  void add(std::size_t count) {
-    content.bytes += double(count);
-    if (content.bytes > most_bytes_) {
-      throw input_error(file_.string(), ": holds more than ", most_bytes_,
-                        " bytes, the number that its header states");
-    }
-  }
-  Content content;
-
- private:
-  const fs::path& file_;
-  double most_bytes_;
-};
-
-/// Inflates the members of a gzip stream up to the last one's checksum and length, which zlib
-/// compares. gzread will not do: it takes a stream cut inside them for whole.
+/// Inflates the members of a gzip stream, or a zlib stream, up to the last one's checksum and length,
+/// which zlib compares. gzread will not do: it takes a stream cut inside them for whole.
 class Inflater {
  public:
   Inflater(const fs::path& file, std::ifstream& in) : file_(file), in_(in) {
-    constexpr int gzip_only = 15 + 16;
-    if (inflateInit2(&z_, gzip_only) != Z_OK)
+    constexpr int gzip_or_zlib = 15 + 32;
+    if (inflateInit2(&z_, gzip_or_zlib) != Z_OK)
       throw failed_error(file.string(), ": zlib cannot be started");
   }
   ~Inflater() { inflateEnd(&z_); }
   Inflater(const Inflater&) = delete;
   Inflater& operator=(const Inflater&) = delete;
 
-  void run(Counter& counter) {
+  /// Bytes of the whole stream; infinity for one with more than `most_bytes`.
+  double bytes(double most_bytes, std::string* kept) {
+    double count = 0;
     int code = Z_OK;
     while (code != Z_STREAM_END || another_member()) {
       if (code == Z_STREAM_END) inflateReset(&z_);
@@ -57,8 +42,12 @@ class Inflater {
       if ((code != Z_OK && code != Z_STREAM_END && code != Z_BUF_ERROR) || stuck) {
         throw input_error(file_.string(), ": truncated or damaged compressed data");
       }
-      counter.add(out_.size() - z_.avail_out);
+      const std::size_t now = out_.size() - z_.avail_out;
+      count += double(now);
+      if (count > most_bytes) return std::numeric_limits<double>::infinity();
+      if (kept) kept->append(reinterpret_cast<const char*>(out_.data()), now);
     }
+    return count;
   }
 
  private:
@@ -82,25 +71,27 @@ class Inflater {
 
 }  // namespace
 
-Content content_from(const fs::path& file, std::streamoff start, double most_bytes) {
+Content inflated_content(const fs::path& file, std::streamoff start, double most_bytes,
+                         std::string* kept) {
   std::ifstream in(file, std::ios::binary);
   if (!in.seekg(start)) throw input_error(file.string(), ": cannot be opened");
-  char magic[2] = {};
-  in.read(magic, 2);
+  unsigned char magic[2] = {};
+  in.read(reinterpret_cast<char*>(magic), 2);
   in.clear();
   in.seekg(start);
-  Counter counter(file, most_bytes);
-  counter.content.compressed = magic[0] == '\x1f' && magic[1] == '\x8b';
-  if (counter.content.compressed) {
-    Inflater(file, in).run(counter);
-    return counter.content;
+  const bool gzip = magic[0] == 0x1f && magic[1] == 0x8b;
+  const bool zlib = (magic[0] & 0xf) == 8 && (magic[0] * 256 + magic[1]) % 31 == 0;  // RFC 1950
+  if (kept) kept->clear();
+  if (gzip || zlib) {
+    return {Inflater(file, in).bytes(most_bytes, kept), gzip ? Packing::gzip : Packing::zlib};
   }
-  std::vector<unsigned char> buffer(1 << 18);
-  while (in) {
-    in.read(reinterpret_cast<char*>(buffer.data()), std::streamsize(buffer.size()));
-    counter.add(std::size_t(in.gcount()));
+  const double bytes = double(fs::file_size(file)) - double(start);
+  if (kept && bytes <= most_bytes) {
+    kept->resize(std::size_t(bytes));
+    if (!in.read(kept->data(), std::streamsize(bytes)))
+      throw input_error(file.string(), ": cannot be read to its end");
   }
-  return counter.content;
+  return {bytes, Packing::none};
 }
 
 std::vector<unsigned char> head_of(const fs::path& file) {

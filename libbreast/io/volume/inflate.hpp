@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Number of bytes in a file, after inflation if it is gzip; private to io/volume.
+// Number of bytes in a file, after inflation if it is compressed; private to io/volume.
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace breast {
 
+enum class Packing { none, gzip, zlib };
+
 struct Content {
-  double bytes = 0;
-  bool compressed = false;
+  double bytes = 0;  ///< unpacked
+  Packing packing = Packing::none;
 };
 
-/// Reads `file` from byte `start` to its end, through every gzip checksum. Throws Error (input) if
-/// it contains more than `most_bytes`, since a small stream can inflate without end, and for a
-/// truncated or damaged stream.
-Content content_from(const std::filesystem::path& file, std::streamoff start, double most_bytes);
+/// The content of `file` from byte `start` to its end. A gzip or zlib stream is inflated through every
+/// checksum; it has infinite bytes if it holds more than `most_bytes`, since a small stream can inflate
+/// without end. Anything else counts as it is. `kept` receives the bytes, if there are
+/// no more than `most_bytes`. Throws Error (input) for a truncated or damaged stream.
+Content inflated_content(const std::filesystem::path& file, std::streamoff start, double most_bytes,
+                         std::string* kept = nullptr);
 
 /// The first bytes, at most 600: enough for a header.
 std::vector<unsigned char> head_of(const std::filesystem::path& file);

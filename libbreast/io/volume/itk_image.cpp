@@ -2,15 +2,14 @@
 #include "io/volume/itk_image.hpp"
 
 #include <itkMetaImageIO.h>
-#include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <iostream>
 
 #include "core/error.hpp"
+#include "core/text/library_message.hpp"
 #include "core/text/lower_case.hpp"
 
 namespace breast {
@@ -20,28 +19,10 @@ itk::ImageIOBase::Pointer image_io_for(const std::filesystem::path& file) {
   if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) {
     return itk::ImageIOBase::Pointer(itk::NrrdImageIO::New());
   }
-  if (name.ends_with(".nii") || name.ends_with(".nii.gz")) {
-    return itk::ImageIOBase::Pointer(itk::NiftiImageIO::New());
-  }
   if (name.ends_with(".mha") || name.ends_with(".mhd")) {
     return itk::ImageIOBase::Pointer(itk::MetaImageIO::New());
   }
   return nullptr;
-}
-
-std::string one_line(const itk::ExceptionObject& exception) {
-  std::string text = exception.GetDescription();
-  // "itk::ERROR: NrrdImageIO(0x55...): what happened"
-  const auto address = text.find("): ");
-  if (text.starts_with("itk::ERROR") && address != std::string::npos) text.erase(0, address + 3);
-  std::string line;
-  for (const char c : text) {
-    const bool blank = std::isspace(static_cast<unsigned char>(c)) != 0;
-    if (blank && (line.empty() || line.back() == ' ')) continue;
-    line += blank ? ' ' : c;
-  }
-  while (!line.empty() && line.back() == ' ') line.pop_back();
-  return line.substr(0, 200);
 }
 
 QuietItk::QuietItk()
@@ -61,7 +42,8 @@ std::string guarded_itk(const std::filesystem::path& file,
   try {
     return read();
   } catch (const itk::ExceptionObject& exception) {
-    throw input_error(file.string(), ": cannot be read as a volume: ", one_line(exception));
+    throw input_error(file.string(), ": cannot be read as a volume: ",
+                      library_message(exception.GetDescription()));
   }
 }
 

@@ -15,13 +15,10 @@
 
 namespace breast {
 
-/// The ImageIO for a file's extension, or null for an unknown extension.
+/// The ImageIO for a file's extension, or null for one that ITK does not read here.
 itk::ImageIOBase::Pointer image_io_for(const std::filesystem::path& file);
 /// The known file extensions, for messages.
 inline constexpr const char* known_endings = ".nrrd .nhdr .nii .nii.gz .mha .mhd";
-
-/// Extracts the description from ITK's messages, without file, line and object address.
-std::string one_line(const itk::ExceptionObject& exception);
 
 /// Silences ITK's warnings and the output of its readers on std::cerr while the object exists.
 class QuietItk {
@@ -37,7 +34,8 @@ class QuietItk {
 };
 
 /// Runs `read`, which uses ITK, and turns ITK's exceptions into Error (input) about `file`.
-std::string guarded_itk(const std::filesystem::path& file, const std::function<std::string()>& read);
+std::string guarded_itk(const std::filesystem::path& file,
+                        const std::function<std::string()>& read);
 
 /// Conversion of an image to bytes and back to a volume, for the transfer from a reading child
 /// process.

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // MetaImage (.mha, .mhd).
+#include <algorithm>
 #include <fstream>
 #include <initializer_list>
 #include <map>
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/text/lower_case.hpp"
 #include "io/volume/header.hpp"
+#include "io/volume/inflate.hpp"
 
 namespace breast {
 
@@ -66,11 +69,11 @@ double bytes_of_meta_type(const std::string& type) {
   return found == known.end() ? 0 : found->second;
 }
 
-void check_orientation(const fs::path& file, const MetaHeader& header) {
+Grid stated_grid(const fs::path& file, const MetaHeader& header) {
   const std::string units = header.field({"DistanceUnits"});
-  if (!units.empty() && units != "mm" && units != "?") {
-    throw input_error(file.string(), ": DistanceUnits ", units, ": must be mm");
-  }
+  const bool unknown = units.empty() || units == "?";  // counts as mm, as every program takes it
+  const std::optional<double> mm = unknown ? 1.0 : unit_mm(units);
+  if (!mm) throw input_error(file.string(), ": DistanceUnits ", units, ": must be mm, m, cm or um");
   const auto spacing = header_numbers(header.field({"ElementSpacing", "ElementSize"}));
   if (spacing.size() < 3) {
     throw input_error(file.string(), ": states no voxel size (ElementSpacing)");
@@ -83,21 +86,66 @@ void check_orientation(const fs::path& file, const MetaHeader& header) {
   }
   Grid grid;
   for (int d = 0; d < 3; ++d) {
-    grid.spacing[d] = spacing[std::size_t(d)];
+    grid.spacing[d] = *mm * spacing[std::size_t(d)];
     for (int e = 0; e < 3; ++e) grid.direction(e, d) = matrix[std::size_t(3 * d + e)];
   }
   const std::string place = header.field({"Offset", "Position", "Origin"});
+  if (place.empty()) {
+    throw input_error(file.string(),
+                      ": states no Offset, so where the scan lies is unknown: save it with its "
+                      "origin (Offset = x y z)");
+  }
   const auto origin = header_numbers(place);
-  if (!place.empty() && origin.size() != 3) {
+  if (origin.size() != 3) {
     throw input_error(file.string(), ": Offset '", place, "' is not three finite numbers");
   }
-  if (!place.empty()) grid.origin = Vec3(origin[0], origin[1], origin[2]);
+  grid.origin = *mm * Vec3(origin[0], origin[1], origin[2]);
   check_scan_grid(file.string(), grid);
+  return grid;
+}
+
+/// As MetaIO reads it: True, true, T or 1.
+bool is_true(const std::string& text) {
+  return text.starts_with('T') || text.starts_with('t') || text.starts_with('1');
+}
+
+/// Refuses voxels that are cut off, or more than the header announces, as stored and as unpacked.
+void check_data(const fs::path& file, const MetaHeader& header, double needed) {
+  const std::string name = header.field({"ElementDataFile"});
+  if (name.starts_with("LIST") || name.find('%') != std::string::npos) {
+    throw input_error(file.string(), ": voxels in several files: save them in one");
+  }
+  if (const std::string binary = header.field({"BinaryData"});
+      !binary.empty() && !is_true(binary)) {
+    throw input_error(file.string(),
+                      ": keeps its voxels as text, which is not read: save it as binary data");
+  }
+  const bool local = lower_case(name) == "local";
+  const fs::path data = local ? file : detached_data(file, name);
+  // Bytes before the voxels of another file; -1: the voxels end the file.
+  const auto stated_skip = header_numbers(header.field({"HeaderSize"}));
+  const double skip = stated_skip.size() == 1 ? stated_skip.front() : 0;
+  const double start = (local ? header.data_at : 0.0) + std::max(skip, 0.0);
+  const double stored = double(fs::file_size(data)) - start;
+  if (!is_true(header.field({"CompressedData"}))) {
+    check_voxel_bytes(file.string(), skip < 0 ? std::min(stored, needed) : stored, needed);
+    return;
+  }
+  const auto packed = header_numbers(header.field({"CompressedDataSize"}));
+  if (packed.size() == 1 && packed.front() > 0) {
+    check_voxel_bytes(file.string(), stored, packed.front());
+  }
+  const Content content = inflated_content(data, std::streamoff(start), needed);
+  if (content.packing == Packing::none) {
+    throw input_error(file.string(),
+                      ": its voxels are not the compressed data its header announces");
+  }
+  check_voxel_bytes(file.string(), content.bytes, needed);
 }
 
 }  // namespace
 
-void check_meta(const fs::path& file) {
+Grid meta_grid(const fs::path& file) {
   const MetaHeader header = meta_header_of(file);
   const std::vector<double> sizes = header_numbers(header.field({"DimSize"}));
   // MetaIO makes loops of this number, whatever it is.
@@ -115,21 +163,10 @@ void check_meta(const fs::path& file) {
     throw input_error(file.string(), ": element type '", type,
                       "': grey values of 8 to 64 bits are read");
   }
-  check_orientation(file, header);
-  const std::string name = header.field({"ElementDataFile"});
-  if (name.starts_with("LIST") || name.find('%') != std::string::npos) {
-    throw input_error(file.string(), ": voxels in several files: save them in one");
-  }
-  const bool local = name == "LOCAL" || name == "Local" || name == "local";
-  const fs::path data = local ? file : detached_data(file, name);
-  const double have = double(fs::file_size(data)) - (local ? header.data_at : 0.0);
-  const std::string compressed = header.field({"CompressedDataSize"});
-  const std::vector<double> stated = header_numbers(compressed);
-  const double needed = stated.size() == 1 ? stated.front() : voxels * element;
-  if (!(needed >= 0 && have >= needed)) {
-    throw input_error(file.string(), ": truncated: voxel data of ", have,
-                      " bytes, the header announces ", needed);
-  }
+  const Grid grid = stated_grid(file, header);
+  const auto channels = header_numbers(header.field({"ElementNumberOfChannels"}));
+  check_data(file, header, voxels * element * (channels.size() == 1 ? channels.front() : 1));
+  return grid;
 }
 
 }  // namespace breast

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // NRRD (teem.sourceforge.net/nrrd/format.html), attached or detached.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -131,24 +135,38 @@ std::vector<Vec3> vectors_of(const fs::path& file, const std::string& text) {
   return vectors;
 }
 
-void check_orientation(const fs::path& file, const NrrdHeader& header) {
+/// mm of the unit that all three axes of space have; mm if none is stated, as the format's users take it.
+double space_unit_mm(const fs::path& file, const std::string& units) {
+  std::istringstream words(units);
+  std::string first;
+  words >> first;
+  if (first.empty()) return 1;
+  for (std::string unit = first; !unit.empty(); unit.clear(), words >> unit) {
+    if (unit == first && first.size() > 2 && first.front() == '"' && first.back() == '"') continue;
+    throw input_error(file.string(), ": space units ", units, ": one unit for all axes is read");
+  }
+  const auto mm = unit_mm(first.substr(1, first.size() - 2));
+  if (!mm) {
+    throw input_error(file.string(), ": space units ", units,
+                      ": must be \"mm\", \"m\", \"cm\" or \"um\"");
+  }
+  return *mm;
+}
+
+Grid stated_grid(const fs::path& file, const NrrdHeader& header) {
   const std::string space = lower_case(header.field("space"));
   if (space.empty()) {
     throw input_error(file.string(),
                       ": states no space, so left and right are unknown: save it with its "
                       "orientation (space: left-posterior-superior)");
   }
-  const bool known = space == "left-posterior-superior" || space == "lps" ||
-                     space == "right-anterior-superior" || space == "ras";
-  if (!known) {
+  const bool ras = space == "right-anterior-superior" || space == "ras";
+  if (!ras && space != "left-posterior-superior" && space != "lps") {
     throw input_error(file.string(), ": space '", space,
                       "': left-posterior-superior or right-anterior-superior are read");
   }
-  const std::string units = header.field("space units");
-  std::istringstream words(units);
-  for (std::string unit; words >> unit;) {
-    if (unit != "\"mm\"") throw input_error(file.string(), ": space units ", units, ": must be mm");
-  }
+  const double mm = space_unit_mm(file, header.field("space units"));
+  const Vec3 to_lps = mm * (ras ? Vec3(-1, -1, 1) : Vec3(1, 1, 1));
   const std::vector<Vec3> axes = vectors_of(file, header.field("space directions"));
   if (axes.size() != 3) {
     throw input_error(file.string(), ": ", axes.size(),
@@ -156,31 +174,73 @@ void check_orientation(const fs::path& file, const NrrdHeader& header) {
   }
   Grid grid;
   Mat3 matrix;
-  for (int d = 0; d < 3; ++d) matrix.col(d) = axes[std::size_t(d)];
+  for (int d = 0; d < 3; ++d) matrix.col(d) = axes[std::size_t(d)].cwiseProduct(to_lps);
   set_axes(grid, matrix);
   const std::string place = header.field("space origin");
+  if (place.empty()) {
+    throw input_error(file.string(),
+                      ": states no space origin, so where the scan lies is unknown: save it with "
+                      "its origin (space origin: (x,y,z))");
+  }
   const std::vector<double> origin = header_numbers(place);
-  if (!place.empty() && origin.size() != 3) {
+  if (origin.size() != 3) {
     throw input_error(file.string(), ": space origin '", place, "' is not three finite numbers");
   }
-  if (!place.empty()) grid.origin = Vec3(origin[0], origin[1], origin[2]);
+  grid.origin = Vec3(origin[0], origin[1], origin[2]).cwiseProduct(to_lps);
   check_scan_grid(file.string(), grid);
+  return grid;
 }
 
-double announced_bytes(const fs::path& file, const NrrdHeader& header) {
+struct Announced {
+  double voxels = 0, bytes_each = 0;
+  double bytes() const { return voxels * bytes_each; }
+};
+
+Announced announced_by(const fs::path& file, const NrrdHeader& header) {
   const std::vector<double> sizes = header_numbers(header.field("sizes"));
-  double voxels = sizes.empty() ? 0 : 1;
-  for (const double size : sizes) voxels *= size >= 1 ? size : 0;
-  check_voxel_count(file.string(), voxels);
-  const double bytes = bytes_of_nrrd_type(header.field("type"));
-  if (bytes == 0) {
+  Announced announced{sizes.empty() ? 0.0 : 1.0, bytes_of_nrrd_type(header.field("type"))};
+  for (const double size : sizes) announced.voxels *= size >= 1 ? size : 0;
+  check_voxel_count(file.string(), announced.voxels);
+  if (announced.bytes_each == 0) {
     throw input_error(file.string(), ": type '", header.field("type"),
                       "': grey values of 8 to 64 bits are read");
   }
-  return voxels * bytes;
+  return announced;
 }
 
-void check_data(const fs::path& file, const NrrdHeader& header, double needed) {
+/// Numbers separated by blanks or commas.
+double numbers_in(const fs::path& data, std::streamoff start) {
+  std::ifstream in(data, std::ios::binary);
+  in.seekg(start);
+  double count = 0;
+  bool inside = false;
+  for (std::istreambuf_iterator<char> at(in), end; at != end; ++at) {
+    const bool between = *at == ',' || std::isspace(static_cast<unsigned char>(*at)) != 0;
+    if (!between && !inside) ++count;
+    inside = !between;
+  }
+  return count;
+}
+
+/// Bytes to skip before the voxels of a raw file; -1: the voxels end the file.
+double skipped_bytes(const fs::path& file, const NrrdHeader& header, bool raw) {
+  const auto stated = [&](const char* name, const char* also) {
+    const std::string text = header.field(name, also);
+    const std::vector<double> number = header_numbers(text.empty() ? "0" : text);
+    if (number.size() == 1 && number[0] >= -1 && number[0] == std::floor(number[0]))
+      return number[0];
+    throw input_error(file.string(), ": ", name, " '", text, "' is not a number of them");
+  };
+  const double bytes = stated("byte skip", "byteskip");
+  if (stated("line skip", "lineskip") != 0 || (bytes != 0 && !raw)) {
+    throw input_error(file.string(),
+                      ": lines, or bytes of voxels that are not raw, are to be skipped, which is "
+                      "not read: save the volume again");
+  }
+  return bytes;
+}
+
+void check_data(const fs::path& file, const NrrdHeader& header, const Announced& announced) {
   const std::string encoding = lower_case(header.field("encoding"));
   const bool gzip = encoding == "gzip" || encoding == "gz";
   const bool text = encoding == "text" || encoding == "txt" || encoding == "ascii";
@@ -196,16 +256,24 @@ void check_data(const fs::path& file, const NrrdHeader& header, double needed) {
   }
   const fs::path data = detached.empty() ? file : detached_data(file, detached);
   const std::streamoff start = detached.empty() ? header.data_at : 0;
-  constexpr double text_bytes = 32;  // of one number, at most
-  const Content content = content_from(data, start, needed * (text ? text_bytes : 1) + slack_bytes);
-  const bool skips = header.fields.contains("line skip") || header.fields.contains("lineskip");
-  if (gzip && !content.compressed && !skips) {
+  const double skip = skipped_bytes(file, header, !gzip && !text);
+  if (text) {
+    const double found = numbers_in(data, start);
+    if (found == announced.voxels) return;
+    throw input_error(file.string(), ": ", found, " voxels, but the header announces ",
+                      announced.voxels);
+  }
+  if (!gzip) {
+    const double found = double(fs::file_size(data)) - double(start);
+    const double needed = announced.bytes();
+    return check_voxel_bytes(file.string(), skip < 0 ? std::min(found, needed) : found - skip,
+                             needed);
+  }
+  const Content content = inflated_content(data, start, announced.bytes());
+  if (content.packing != Packing::gzip) {
     throw input_error(file.string(), ": its voxels are not the gzip data its header announces");
   }
-  if (!text && content.bytes < needed) {
-    throw input_error(file.string(), ": truncated: voxel data of ", content.bytes,
-                      " bytes, the header announces ", needed);
-  }
+  check_voxel_bytes(file.string(), content.bytes, announced.bytes());
 }
 
 }  // namespace
@@ -218,11 +286,12 @@ NrrdNotes nrrd_notes(const fs::path& file) {
   return {known ? int(dimension[0]) : 0, header.notes};
 }
 
-void check_nrrd(const fs::path& file) {
+Grid nrrd_grid(const fs::path& file) {
   const NrrdHeader header = nrrd_header_of(file);
-  const double needed = announced_bytes(file, header);
-  check_orientation(file, header);
-  check_data(file, header, needed);
+  const Announced announced = announced_by(file, header);
+  const Grid grid = stated_grid(file, header);
+  check_data(file, header, announced);
+  return grid;
 }
 
 }  // namespace breast

@@ -181,14 +181,15 @@ void add_position(const std::string& own, std::string& all) {
 }  // namespace
 
 std::string DicomSeries::label() const {
-  return message(description.empty() ? "no description" : description, ", ", files.size(),
-                 " files");
+  return message(files.size(), " files of ", columns, " x ", rows, " pixels, series number ",
+                 number);
 }
 
 std::vector<DicomSeries> list_dicom_series(const fs::path& folder) {
   std::vector<fs::path> names;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file()) names.push_back(entry.path());
+    std::error_code unreachable;  // a link that leads nowhere, or to itself
+    if (entry.is_regular_file(unreachable)) names.push_back(entry.path());
   }
   std::sort(names.begin(), names.end());
   // Series of one UID but several image sizes (localisers) are kept apart.
@@ -204,7 +205,8 @@ std::vector<DicomSeries> list_dicom_series(const fs::path& folder) {
         found[header["0020|000e"] + "/" + header["0028|0010"] + "x" + header["0028|0011"]];
     series.uid = header["0020|000e"];
     series.number = std::atoi(header["0020|0011"].c_str());
-    series.description = header["0008|103e"];
+    series.columns = std::atoi(header["0028|0011"].c_str());
+    series.rows = std::atoi(header["0028|0010"].c_str());
     add_position(header["0018|5100"], series.patient_position);
     series.files.push_back(name);
   }
@@ -233,8 +235,8 @@ Volume<float> read_dicom_series(const fs::path& folder, const DicomSeries& serie
     reader->Update();
     return packed_image(*reader->GetOutput());
   };
-  Volume<float> volume = unpacked_image(
-      in_guarded_child(folder.string(), [&] { return guarded_itk(folder, read); }));
+  Volume<float> volume =
+      unpacked_image(in_guarded_child(folder.string(), [&] { return guarded_itk(folder, read); }));
   if (volume.grid.size[2] != static_cast<int>(slices.size())) {
     throw input_error(folder.string(), ": ", slices.size(), " files gave ", volume.grid.size[2],
                       " slices: multi-frame files are not supported");

@@ -25,32 +25,24 @@ void check_layout(const fs::path& file, const itk::ImageIOBase& io) {
     throw input_error(file.string(), ": ", io.GetNumberOfComponents(),
                       " components per voxel: a scalar (grey-scale) volume is needed");
   }
-  std::size_t voxels = 1;
+  std::vector<double> sizes;
+  double voxels = 1;
   for (unsigned d = 0; d < io.GetNumberOfDimensions(); ++d) {
-    const auto size = io.GetDimensions(d);
-    if (size < 1 || (d > 2 && size != 1)) {
-      throw input_error(file.string(), ": size ", size, " along axis ", d,
-                        ": one 3-D volume is needed");
-    }
-    voxels *= size;
+    sizes.push_back(double(io.GetDimensions(d)));
+    voxels *= sizes.back();
   }
-  if (io.GetNumberOfDimensions() < 3) {
-    throw input_error(file.string(), ": ", io.GetNumberOfDimensions(),
-                      "-D image: a 3-D volume is needed");
-  }
-  check_voxel_count(file.string(), double(voxels));
+  check_volume_sizes(file.string(), sizes);
+  check_voxel_count(file.string(), voxels);
 }
 
-/// The file's name where it stands alone and with its ending in small letters, or nothing when it may
-/// be opened as it is: NIfTI's reader takes the voxels from scan.nii when asked for scan.nii.gz and
-/// both are there, and others do not know SCAN.MHA.
-std::optional<fs::path> link_alone(const fs::path& file, std::optional<TemporaryFolder>& folder) {
+/// A link with the file's ending in small letters, the only ones that ITK knows; nothing when the file
+/// may be opened as it is.
+std::optional<fs::path> link_in_small_letters(const fs::path& file,
+                                              std::optional<TemporaryFolder>& folder) {
   const std::string name = lower_case(file.filename().string());
-  const bool nifti = name.ends_with(".nii") || name.ends_with(".nii.gz");
-  if (!nifti && name == file.filename().string()) return std::nullopt;
-  const std::string ending = name.ends_with(".nii.gz") ? ".nii.gz" : name.substr(name.rfind('.'));
+  if (name == file.filename().string()) return std::nullopt;
   folder.emplace();
-  const fs::path link = *folder / ("scan" + ending);
+  const fs::path link = *folder / ("scan" + name.substr(name.rfind('.')));
   fs::create_symlink(fs::absolute(file), link);
   return link;
 }
@@ -70,17 +62,24 @@ std::string read_with(const fs::path& file, const fs::path& opened, itk::ImageIO
 }
 
 Volume<float> read_single_file(const fs::path& file) {
+  const std::string name = lower_case(file.filename().string());
+  if (name.ends_with(".nii") || name.ends_with(".nii.gz")) return read_nifti(file);
   const auto io = image_io_for(file);
   if (!io) {
     throw input_error(file.string(), ": unknown file name extension; volumes are read from ",
                       known_endings, " or a DICOM folder");
   }
-  check_header(file);
+  const bool meta = name.ends_with(".mha") || name.ends_with(".mhd");
+  const Grid stated = meta ? meta_grid(file) : nrrd_grid(file);
   std::optional<TemporaryFolder> folder;
-  const fs::path opened = link_alone(file, folder).value_or(file);
+  const fs::path opened = link_in_small_letters(file, folder).value_or(file);
   const auto read = [&] { return read_with(file, opened, io); };
-  return unpacked_image(
-      in_guarded_child(file.string(), [&] { return guarded_itk(file, read); }));
+  Volume<float> volume =
+      unpacked_image(in_guarded_child(file.string(), [&] { return guarded_itk(file, read); }));
+  const auto size = volume.grid.size;
+  volume.grid = stated;
+  volume.grid.size = size;
+  return volume;
 }
 
 void check_finite(const fs::path& file, const Volume<float>& volume) {

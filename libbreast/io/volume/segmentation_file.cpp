@@ -78,11 +78,21 @@ std::vector<Segment> segments_in(const fs::path& file, const NrrdNotes& notes) {
     segment.name = name != nullptr ? *name : *value(n, "ID");
     const std::string* number = value(n, "LabelValue");
     const std::string where = file.string() + ": Segment" + std::to_string(n) + "_LabelValue";
+    const bool alone = n == 0 && value(1, "ID") == nullptr && value(1, "Name") == nullptr;
+    if (number == nullptr && !alone) {
+      throw input_error(where,
+                        " is missing: which voxels are its own is unknown; save the "
+                        "segmentation again with 3D Slicer");
+    }
     const double code = number == nullptr ? 1 : parse_number(*number, where);
     if (!(code >= 1 && code <= 65535 && code == double(int(code)))) {
       throw input_error(where, " ", code, ": must be a whole number from 1 to 65535");
     }
     segment.value = int(code);
+    for (const Segment& other : segments) {
+      if (other.value == segment.value)
+        throw input_error(where, " ", code, ": is that of segment '", other.name, "', too");
+    }
     if (const std::string* tags = value(n, "Tags")) read_tags(*tags, segment);
     segments.push_back(segment);
   }

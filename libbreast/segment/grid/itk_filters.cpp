@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/text/library_message.hpp"
 
 namespace breast {
 
@@ -39,7 +40,8 @@ void run(Filter& filter) {
   try {
     filter.Update();
   } catch (const itk::ExceptionObject& exception) {
-    throw failed_error(filter.GetNameOfClass(), " failed: ", exception.GetDescription());
+    throw failed_error(filter.GetNameOfClass(),
+                       " failed: ", library_message(exception.GetDescription()));
   }
 }
 
