@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "deck/results.hpp"
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -62,26 +65,63 @@ void check_lines(const std::string& name, const std::string& text) {
   }
 }
 
-// CalculiX cgx format, ASCII: blocks headed by "100CL" (time in columns 12–24) and "-4  DISP".
+// The next number of a row of %12.5E, taken off its beginning. One that is negative with an exponent of
+// three digits takes 13 columns and moves the rest, so columns alone do not tell where it ends: it does
+// at a blank, a sign that no 'E' precedes, or with the digit before a point, which begins the next one.
+std::string take_number(std::string_view& row) {
+  row.remove_prefix(std::min(row.find_first_not_of(' '), row.size()));
+  const auto ends = [&](std::size_t i) {
+    const bool exponent = row[i - 1] == 'E' || row[i - 1] == 'e';
+    if ((row[i] == '-' || row[i] == '+') && !exponent) return true;
+    return row[i] == ' ' || (i + 1 < row.size() && i > 1 && row[i + 1] == '.');
+  };
+  std::size_t end = std::min<std::size_t>(1, row.size());
+  while (end < row.size() && !ends(end)) ++end;
+  const std::string number(row.substr(0, end));
+  row.remove_prefix(end);
+  return number_text(number);
+}
+
+// Columns of a node number: 10, or 5 in the short form, by the last field of a block's 100C line.
+std::size_t node_columns(const std::string& name, const std::string& block) {
+  constexpr std::size_t format_at = 73;
+  const std::string format = block.size() > format_at ? trimmed(block.substr(format_at, 2)) : "";
+  if (format == "0") return 5;
+  if (format.empty() || format == "1") return 10;
+  throw input_error(name, ": format ", format,
+                    " of cgx: text in the short (0) or long form (1) is read; let CalculiX write "
+                    "*NODE FILE as text");
+}
+
+// CalculiX cgx format, ASCII: blocks headed by "100CL" (time in columns 12–24) and "-4  DISP". The time
+// alone stays in its columns: it is not negative.
 std::vector<Vec3> read_frd(const std::string& name, const std::string& text, int nodes) {
   check_lines(name, text);
   NodeValues values(name, nodes);
   std::istringstream in(text);
   double time = 0;
   bool in_block = false, found = false;
+  std::size_t node_end = 13;
   for (std::string line; std::getline(in, line);) {
     if (line.compare(0, 7, "  100CL") == 0 && line.size() >= 24) {
       time = parse_number(number_text(line.substr(12, 12)), name + ", time");
+      node_end = 3 + node_columns(name, line);
     } else if (line.compare(0, 9, " -4  DISP") == 0) {
       values.clear();
       in_block = found = true;
     } else if (line.compare(0, 3, " -3") == 0) {
       in_block = false;
     } else if (in_block && line.compare(0, 3, " -1") == 0) {
-      if (line.size() < 49) throw input_error(name, ": truncated line: '", line, "'");
-      values.set(number_text(line.substr(3, 10)),
-                 {number_text(line.substr(13, 12)), number_text(line.substr(25, 12)),
-                  number_text(line.substr(37, 12))});
+      if (line.ends_with('\r')) line.pop_back();
+      constexpr std::size_t columns = 12;
+      if (line.size() < node_end + 3 * columns)
+        throw input_error(name, ": truncated line: '", line, "'");
+      std::string_view row = std::string_view(line).substr(node_end);
+      std::array<std::string, 3> u;
+      for (std::string& one : u) one = take_number(row);
+      if (!trimmed(row).empty())
+        throw input_error(name, ": not three numbers of %12.5E: '", line, "'");
+      values.set(number_text(line.substr(3, node_end - 3)), u);
     }
   }
   if (!found || !(time > 1 - 1e-6)) {
@@ -131,6 +171,22 @@ std::optional<Vec3> read_total_force(const std::string& name, const std::string&
   return force;
 }
 
+// A breast held at its chest wall moves nowhere by twice its own size.
+void check_lengths(const HexMesh& mesh, const std::vector<int>& nodes,
+                   const std::vector<Vec3>& displacement) {
+  Eigen::AlignedBox3d body;
+  for (const Vec3& point : mesh.reference) body.extend(point);
+  const double most = 2 * body.diagonal().norm();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (displacement[i].norm() <= most) continue;
+    throw input_error(
+        "displacement of node ", i + 1, " is ", displacement[i].norm(), " mm: must be at most ",
+        most,
+        " mm, twice the breast's own size; is it the result of another model, in another "
+        "unit than mm, or of a run that diverged?");
+  }
+}
+
 }  // namespace
 
 DeckResult read_deck_result(const std::filesystem::path& file, int nodes) {
@@ -157,6 +213,7 @@ void apply_displacement(HexMesh& mesh, const std::vector<Vec3>& displacement) {
     throw input_error("displacements of ", displacement.size(), " nodes for a deck of ",
                       nodes.size());
   }
+  check_lengths(mesh, nodes, displacement);
   std::vector<Vec3> u(mesh.reference.size(), Vec3::Zero());
   for (std::size_t i = 0; i < nodes.size(); ++i) u[nodes[i]] = displacement[i];
   if (mesh.order == 2) interpolate_centres(mesh, u);

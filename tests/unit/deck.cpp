@@ -260,11 +260,11 @@ TEST(Deck, CentresOfQuadraticElements) {
   // On a box the field in x is the same polynomial in the local coordinates.
   HexMesh box = raise_order(fixtures::block({.elements = {2, 1, 1}, .size = {4, 3, 2}}));
   std::vector<Vec3> displacement;
-  for (const int node : deck_nodes(box)) displacement.push_back(field(box.reference[node]));
+  for (const int node : deck_nodes(box)) displacement.push_back(0.5 * field(box.reference[node]));
   EXPECT_EQ(displacement.size(), 32u);
   apply_displacement(box, displacement);
   for (int i = 0; i < box.nodes(); ++i) {
-    EXPECT_LT((box.points[i] - box.reference[i] - field(box.reference[i])).norm(), 1e-12);
+    EXPECT_LT((box.points[i] - box.reference[i] - 0.5 * field(box.reference[i])).norm(), 1e-12);
   }
   // gather is the transpose of interpolate: the same work.
   std::vector<Vec3> u(std::size_t(mesh.nodes()), Vec3::Zero()), f = u;
@@ -308,6 +308,54 @@ TEST_F(Results, Frd) {
   EXPECT_EQ(*result.reaction, Vec3(1, 2, -3));
 }
 
+// As ccx writes them: %12.5E takes 13 columns for a negative number with an exponent of three digits.
+TEST_F(Results, FrdWithExponentsOfThreeDigits) {
+  const std::string data =
+      " -4  DISP        4    1\n"
+      " -1         1-3.22000E-104 1.00000E-011.00000E-104\n"
+      " -1         2-1.50000E+01-3.22000E-104-4.00000E+00\n"
+      " -1         31.00000E-1041.00000E-104-2.00000E-100\n -3\n";
+  const auto u = read_deck_result(write("run.frd", frd_head + data), 3).displacement;
+  EXPECT_EQ(u[0], Vec3(-3.22e-104, 0.1, 1e-104));
+  EXPECT_EQ(u[1], Vec3(-15, -3.22e-104, -4));
+  EXPECT_EQ(u[2], Vec3(1e-104, 1e-104, -2e-100));
+}
+
+TEST_F(Results, FrdInTheShortForm) {
+  std::string head = frd_head;
+  head.resize(63);  // behind the number of the step
+  const std::string data =
+      " -4  DISP        4    1\n"
+      " -1    1 0.00000E+00 1.00000E-01-2.00000E+00\n"
+      " -1    2-1.50000E+01 3.00000E+00-4.00000E-101\n -3\n";
+  const auto u = read_deck_result(write("run.frd", head + std::string(10, ' ') + " 0\n" + data), 2)
+                     .displacement;
+  EXPECT_EQ(u[0], Vec3(0, 0.1, -2));
+  EXPECT_EQ(u[1], Vec3(-15, 3, -4e-101));
+  try {
+    read_deck_result(write("run.frd", head + std::string(10, ' ') + " 2\n" + data), 2);
+    ADD_FAILURE() << "binary";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("format 2"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(Results, OnesFartherThanTheBreastIsLargeAreRefused) {
+  HexMesh box = fixtures::block({.elements = {2, 1, 1}, .size = {4, 3, 2}});
+  std::vector<Vec3> displacement(deck_nodes(box).size(), Vec3(5, 0, 0));
+  apply_displacement(box, displacement);  // the box is 5.4 mm large
+  displacement[3] = Vec3(0, 0, 1e5);
+  try {
+    apply_displacement(box, displacement);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_NE(std::string(error.what()).find("node 4 is 100000 mm: must be at most 10.77"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(Results, LastBlockOfALogCounts) {
   const DeckResult result =
       read_deck_result(write("d.log",
@@ -329,7 +377,8 @@ TEST_F(Results, EndlessLinesAreRefused) {
       ADD_FAILURE() << name;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::input);
-      EXPECT_NE(std::string(error.what()).find("a line of more than"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("a line of more than"), std::string::npos)
+          << error.what();
     }
   }
 }
