@@ -27,7 +27,9 @@ Alignment aligned(const MammogramScan& scan, const ImageAxes& axes, const ImageF
   data.plate_edge_u = frame.plate_edge_u - edge_radius;
   if (mark && !landmark) throw input_error(where, ": a nipple is marked, but the mesh has none");
   if (mark) data.nipple = {*landmark, axes.mm(*mark)};
-  return align_outlines(data, axes, where);
+  const Alignment found = align_outlines(data, axes, where);
+  check_upright(data, axes, found, where);
+  return found;
 }
 
 }  // namespace
@@ -57,9 +59,9 @@ AlignedView::AlignedView(MammogramScan scan, const Matcher& matcher, MatchEnd en
       [&](const Vec2& uv) { return from ? matcher.tissue_in_from(uv) : matcher.tissue_in_to(uv); },
       frame);
   const double radius = compression_.plates.empty() ? 0 : compression_.plates.front().edge_radius;
-  alignment_ = aligned(scan_, axes_, frame, radius, simulated_,
-                       from ? matcher.from_landmark("nipple") : matcher.to_landmark("nipple"),
-                       nipple, where);
+  const std::optional<Vec2> landmark =
+      from ? matcher.from_landmark("nipple") : matcher.to_landmark("nipple");
+  alignment_ = aligned(scan_, axes_, frame, radius, simulated_, landmark, nipple, where);
 }
 
 void AlignedView::report(Report& report) const {
@@ -76,6 +78,8 @@ void AlignedView::report(Report& report) const {
   report.set(key + "edge_mm", alignment_.edge_mm);
   report.set(key + "outline_within_percent", 100 * alignment_.used);
   report.set(key + "pixel_mm", scan_.header.pixel_mm);
+  if (scan_.header.magnification != 1)
+    report.set(key + "header/magnification", scan_.header.magnification);
   report.set(key + "simulated/thickness_mm", compression_.thickness_mm);
   if (scan_.header.thickness_mm)
     report.set(key + "header/thickness_mm", *scan_.header.thickness_mm);

@@ -25,6 +25,12 @@ class ImageAxes {
   /// Coordinate u of the image border at the chest, mm.
   double posterior_border() const;
   bool anterior_is_right() const { return mm_per_pixel_.x() > 0; }
+  /// The axes of the same image with its rows in reverse order.
+  ImageAxes upside_down() const {
+    ImageAxes axes = *this;
+    axes.mm_per_pixel_.y() *= -1;
+    return axes;
+  }
 
  private:
   Vec2 mm_per_pixel_;  ///< signed

@@ -235,4 +235,27 @@ Alignment align_outlines(const AlignmentData& data, const ImageAxes& axes,
   return found;
 }
 
+void check_upright(const AlignmentData& data, const ImageAxes& axes, const Alignment& found,
+                   const std::string& where) {
+  constexpr double least_mm = 1, part = 0.5;
+  if (!(found.residual_mm > least_mm)) return;
+  const auto reverse = [](Vec2& uv) { uv.y() *= -1; };
+  AlignmentData reversed = data;
+  for (OutlinePoint& point : reversed.real) {
+    reverse(point.at);
+    reverse(point.normal);
+  }
+  if (reversed.nipple) reverse(reversed.nipple->second);
+  double residual = 0;
+  try {
+    residual = align_outlines(reversed, axes.upside_down(), where).residual_mm;
+  } catch (const Error&) {
+    return;  // it does not fit at all
+  }
+  if (!(residual < part * found.residual_mm)) return;
+  throw input_error(where, ": fits upside down (", residual,
+                    " mm) better than as its patient orientation says (", found.residual_mm,
+                    " mm): its rows were reversed after the header was written");
+}
+
 }  // namespace breast

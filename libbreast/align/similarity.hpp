@@ -53,4 +53,10 @@ struct Alignment {
 Alignment align_outlines(const AlignmentData& data, const ImageAxes& axes,
                          const std::string& where);
 
+/// Throws Error (input) beginning with `where` if the image fits clearly better with its rows in reverse
+/// order than as `found`: above 1 mm, and less than half of it reversed. Of a symmetric breast the
+/// outline does not tell.
+void check_upright(const AlignmentData& data, const ImageAxes& axes, const Alignment& found,
+                   const std::string& where);
+
 }  // namespace breast

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dicom/like_mammogram.hpp"
 
+#include <cmath>
+
 #include "core/error.hpp"
 
 namespace breast {
 
-LikeMammogram like_mammogram(const std::filesystem::path& file, View view, Side side) {
+LikeMammogram like_mammogram(const std::filesystem::path& file, View view, Side side,
+                             const std::optional<double>& angle_deg) {
   const MammogramHeader header = read_mammogram_header(file);
   if (header.side != side) {
     throw input_error(file.string(), ": a mammogram of the ", side_name(header.side),
@@ -20,7 +23,14 @@ LikeMammogram like_mammogram(const std::filesystem::path& file, View view, Side 
                       ": states neither the thickness nor the force of the compression; give "
                       "--thickness or --force");
   }
-  return {header.angle_deg, header.thickness_mm, header.force_N};
+  constexpr double farthest_deg = 30;
+  if (!angle_deg && header.angle_deg &&
+      std::abs(*header.angle_deg - view_angle_deg(view)) > farthest_deg) {
+    throw input_error(file.string(), ": positioner angle ", *header.angle_deg, " degrees, but ",
+                      view_name(view), " is at ", view_angle_deg(view), " +- ", farthest_deg,
+                      "; give --angle");
+  }
+  return {angle_deg ? angle_deg : header.angle_deg, header.thickness_mm, header.force_N};
 }
 
 }  // namespace breast

@@ -14,8 +14,10 @@ namespace breast {
 struct LikeMammogram {
   std::optional<double> angle_deg, thickness_mm, force_N;
 };
-/// Throws Error (input) when the mammogram is of the other breast or another view, or when it
-/// states neither thickness nor force.
-LikeMammogram like_mammogram(const std::filesystem::path& file, View view, Side side);
+/// Throws Error (input) when the mammogram is of the other breast or another view, when it states
+/// neither thickness nor force, and, unless another `angle_deg` is chosen, when its angle is not one of
+/// the view (more than 30 degrees from view_angle_deg).
+LikeMammogram like_mammogram(const std::filesystem::path& file, View view, Side side,
+                             const std::optional<double>& angle_deg = {});
 
 }  // namespace breast

@@ -2,9 +2,12 @@
 #include "dicom/mammogram_header.hpp"
 
 #include <cmath>
+#include <initializer_list>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/trimmed.hpp"
 #include "dicom/header.hpp"
 
 namespace breast {
@@ -60,6 +63,50 @@ Vec3 direction(const std::string& letters) {
   return sum;
 }
 
+/// Whether the view has one of these modifiers, given by their codes in SNOMED CT and SNOMED RT (PS3.16
+/// CID 4015). Some programs write the modifiers beside the view instead of within it.
+bool has_modifier(const Fields& fields, std::initializer_list<const char*> codes) {
+  for (const char* place : {"0054|0220/0054|0222/0008|0100", "0054|0222/0008|0100"}) {
+    std::istringstream stated(fields.text(place));
+    for (std::string code; std::getline(stated, code, '\\');) {
+      for (const char* known : codes) {
+        if (trimmed(code) == known) return true;
+      }
+    }
+  }
+  return false;
+}
+
+void refuse_what_is_not_simulated(const Fields& fields) {
+  if (has_modifier(fields, {"399055006", "R-102D7"})) {
+    throw input_error(fields.where(),
+                      ": a spot compression, which presses a part of the breast: the simulated "
+                      "plates press all of it; give the whole view");
+  }
+  if (fields.text("0028|1300") == "YES" || has_modifier(fields, {"399209000", "R-102D5"})) {
+    throw input_error(fields.where(),
+                      ": shows a breast with an implant, which the model does not have");
+  }
+}
+
+double magnification_of(const Fields& fields) {
+  constexpr double least_of_a_stand = 1.2;  // on the detector's cover it is at most 1.1
+  const auto stated = fields.number("0018|1114", "radiographic magnification", 0.5, 5);
+  if (has_modifier(fields, {"399163009", "R-102D6"}) && stated.value_or(1) < least_of_a_stand) {
+    throw input_error(
+        fields.where(),
+        ": a magnification view that does not state its factor (Estimated Radiographic "
+        "Magnification Factor), so that its scale is unknown; give the contact view");
+  }
+  return stated.value_or(1);
+}
+
+/// The angle between the beam's line and the vertical.
+double folded(double angle_deg) {
+  const double from_above = std::abs(angle_deg);
+  return from_above > 90 ? 180 - from_above : from_above;
+}
+
 }  // namespace
 
 MammogramHeader read_mammogram_header(const std::filesystem::path& file) {
@@ -77,13 +124,13 @@ MammogramHeader read_mammogram_header(const std::filesystem::path& file) {
   header.side = side == "L" ? Side::left : Side::right;
   const auto pixel = fields.number("0018|1164", "imager pixel spacing", 0.005, 2);
   if (!pixel) throw fields.missing("imager pixel spacing", "", "mm at the detector");
-  header.pixel_mm = *pixel;
+  refuse_what_is_not_simulated(fields);
+  header.magnification = magnification_of(fields);
+  header.pixel_mm = *pixel / header.magnification;
   header.angle_deg = fields.number("0018|1510", "positioner primary angle", -180, 180);
-  if (header.angle_deg) *header.angle_deg = std::abs(*header.angle_deg);
+  if (header.angle_deg) header.angle_deg = folded(*header.angle_deg);
   header.thickness_mm = fields.number("0018|11a0", "body part thickness", 1, 300);
   header.force_N = fields.number("0018|11a2", "compression force", 0, 1000);
-  header.magnification =
-      fields.number("0018|1114", "radiographic magnification", 0.5, 5).value_or(1);
   header.rows = int(fields.number("0028|0010", "rows", 1, 65535).value_or(0));
   header.columns = int(fields.number("0028|0011", "columns", 1, 65535).value_or(0));
   const std::string orientation = fields.text("0020|0020");

@@ -13,11 +13,11 @@ namespace breast {
 struct MammogramHeader {
   View view = View::cc;
   Side side = Side::left;
-  std::optional<double> angle_deg;     ///< of the beam from the vertical, 0-90
+  std::optional<double> angle_deg;     ///< between the beam's line and the vertical, 0-90
   std::optional<double> thickness_mm;  ///< between the plates
   std::optional<double> force_N;
-  double pixel_mm = 0;  ///< at the detector
-  /// Magnification: mm at the detector per mm in the breast if the header states it, otherwise 1.
+  double pixel_mm = 0;  ///< in the breast: at the detector, divided by the magnification
+  /// mm at the detector per mm in the breast if the header states it, otherwise 1.
   double magnification = 1;
   int columns = 0, rows = 0;
   /// Patient directions of the image's rows (to the right) and columns (downwards), from letters
@@ -25,10 +25,13 @@ struct MammogramHeader {
   Vec3 right{0, 0, 0}, down{0, 0, 0};
 };
 
-/// Reads modality, View Position, Image Laterality, Imager Pixel Spacing, Body Part Thickness (mm),
-/// Compression Force (N), Positioner Primary Angle (without its sign, which differs between
-/// manufacturers) and Patient Orientation. Throws Error (input) if the file is not a mammogram, or
-/// if its view, side or pixel spacing is missing or unknown.
+/// Reads modality, View Position and the view's modifiers, Image Laterality, Imager Pixel Spacing,
+/// Estimated Radiographic Magnification Factor, Body Part Thickness (mm), Compression Force (N),
+/// Positioner Primary Angle and Patient Orientation. The angle is folded to 0-90: its sign differs
+/// between manufacturers, and 180 (the beam from below) presses the breast as 0 does. Throws Error
+/// (input) if the file is not a mammogram, if its view, side or pixel spacing is missing or unknown,
+/// for a magnification view that does not state its factor, and for what the simulated compression does
+/// not show: a spot compression, and a breast with an implant.
 MammogramHeader read_mammogram_header(const std::filesystem::path& file);
 
 }  // namespace breast

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "dicom/like_mammogram.hpp"
 #include "fixtures/chain_files.hpp"
+#include "fixtures/dicom_elements.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/mammogram_dicom.hpp"
@@ -130,6 +131,52 @@ TEST_F(MammogramDicomFile, HeadersThatDoNotFitAreRefusedByName) {
   says(file("text.dcm"), "not a DICOM file");
 }
 
+TEST_F(MammogramDicomFile, ViewsThatAreNotSimulatedAreRefusedByName) {
+  const std::string whole = read_text(file("mlo.dcm"));
+  const auto says = [&](const DatasetBuilder& more, const char* what) {
+    write_text(file("other.dcm"), fixtures::with_elements(whole, more));
+    EXPECT_NE(refusal(file("other.dcm")).find(what), std::string::npos)
+        << what << ": " << refusal(file("other.dcm"));
+  };
+  for (const char* code : {"399055006", "R-102D7"})
+    says(fixtures::view_modifier(code), "spot compression");
+  for (const char* code : {"399209000", "R-102D5"}) says(fixtures::view_modifier(code), "implant");
+  says(DatasetBuilder().text(0x00281300, "CS", "YES"), "implant");
+  for (const char* code : {"399163009", "R-102D6"})
+    says(fixtures::view_modifier(code), "does not state its factor");
+  write_text(file("other.dcm"),
+             fixtures::with_elements(whole, fixtures::view_modifier("399161006")));
+  EXPECT_EQ(refusal(file("other.dcm")), "");  // cleavage
+}
+
+TEST_F(MammogramDicomFile, APixelOfAMagnifiedViewIsSmallerInTheBreast) {
+  const std::string magnified = fixtures::with_elements(
+      fixtures::with_elements(read_text(file("mlo.dcm")), DatasetBuilder().number(0x00181114, 1.8)),
+      fixtures::view_modifier("399163009"));
+  write_text(file("magnified.dcm"), magnified);
+  const MammogramHeader header = read_mammogram_header(file("magnified.dcm"));
+  EXPECT_DOUBLE_EQ(header.magnification, 1.8);
+  EXPECT_DOUBLE_EQ(header.pixel_mm, 0.5 / 1.8);
+}
+
+TEST_F(MammogramDicomFile, AnglesAreFoldedToThoseOfTheView) {
+  const Side side = read_mesh(file("reference.vtkhdf")).side;
+  const auto angle = [&](const char* view, double stated) {
+    DatasetBuilder more;
+    more.number(0x00181510, stated);
+    write_text(file("turned.dcm"),
+               fixtures::with_elements(read_text(file(std::string(view) + ".dcm")), more));
+    const View shown = view == std::string("cc") ? View::cc : View::mlo;
+    return *like_mammogram(file("turned.dcm"), shown, side).angle_deg;
+  };
+  EXPECT_NEAR(angle("cc", 180), 0, 1e-9);
+  EXPECT_NEAR(angle("mlo", 135), 45, 1e-9);
+  EXPECT_NEAR(angle("mlo", -50), 50, 1e-9);
+  EXPECT_THROW(angle("mlo", 180), Error);
+  EXPECT_THROW(angle("cc", 90), Error);
+  EXPECT_EQ(like_mammogram(file("turned.dcm"), View::cc, side, 5.0).angle_deg, 5);  // the user's
+}
+
 TEST_F(MammogramDicomFile, ATissueFractionImageHasNoDetectorSignal) {
   const ToolResult result = run_tool(
       "project-mammogram",
@@ -147,7 +194,8 @@ TEST_F(MammogramDicomFile, CompressionLikeAMammogram) {
   EXPECT_NEAR(*like.thickness_mm, read_mesh(file("mlo.vtkhdf")).contact->thickness_mm, 1e-6);
   EXPECT_THROW(like_mammogram(file("mlo.dcm"), View::cc, side), Error);
   EXPECT_THROW(
-      like_mammogram(file("mlo.dcm"), View::mlo, side == Side::left ? Side::right : Side::left), Error);
+      like_mammogram(file("mlo.dcm"), View::mlo, side == Side::left ? Side::right : Side::left),
+      Error);
   // The tool: a header that does not fit is one line and exit 2, before anything is solved.
   for (const std::vector<std::string>& fit :
        {std::vector<std::string>{"--view", "CC", "--like", "mlo.dcm"},

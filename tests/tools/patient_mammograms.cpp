@@ -11,6 +11,7 @@
 #include "core/report.hpp"
 #include "core/table.hpp"
 #include "fixtures/chain_files.hpp"
+#include "fixtures/dicom_elements.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/derivative_file.hpp"
@@ -70,14 +71,20 @@ class PatientMammograms : public testing::Test {
     }
     for (const std::string view : {"cc", "mlo"}) {
       const ToolResult result =
-          run("project-mammogram",
-              {view + ".vtkhdf", view + ".vti", "--pixel", "0.25", "--labels", "labels.vtkhdf", "--energy", "W/Rh:28"});
+          run("project-mammogram", {view + ".vtkhdf", view + ".vti", "--pixel", "0.25", "--labels",
+                                    "labels.vtkhdf", "--energy", "W/Rh:28"});
       ASSERT_EQ(result.exit_code, 0) << result.err;
       const Mammogram image = read_mammogram(file(view + ".vti"));
       const Mammogram real =
           moved(image, map(view), pixel(view), int(145 / pixel(view)), int(190 / pixel(view)));
       const HexMesh mesh = read_mesh(file(view + ".vtkhdf"));
       write_mammogram_dicom(file(view + ".dcm"), real, {true, mesh.contact->thickness_mm, 90, {}});
+      Mammogram magnified = real;
+      magnified.pixel *= 1.8;
+      write_mammogram_dicom(file(view + "-magnified.dcm"), magnified, {true, {}, {}, {}});
+      write_text(file(view + "-magnified.dcm"),
+                 fixtures::with_elements(read_text(file(view + "-magnified.dcm")),
+                                         DatasetBuilder().number(0x00181114, 1.8)));
     }
   }
   static void TearDownTestSuite() { delete folder_; }
@@ -145,6 +152,18 @@ TEST_F(PatientMammograms, AKnownMisalignmentIsFoundAndTheCurveLiesWhereItBelongs
       std::hypot(report.number("aligned/MLO/residual_mm"), report.number("aligned/MLO/pose_mm")),
       1e-9);
   EXPECT_GT(report.number("band/deviation_mm/alignment in CC"), 0);
+}
+
+// Its pixels are 1.8 times as large at the detector, and the same in the breast.
+TEST_F(PatientMammograms, AMagnifiedImageIsRegisteredAtItsOwnScale) {
+  const ToolResult result =
+      run("cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "curve.vtp", "--cc-image", "cc-magnified.dcm",
+                     "--mlo-image", "mlo.dcm", "--point", "200,300", "--report", "magnified.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Report report = Report::parse(read_text(file("magnified.json")), "magnified.json");
+  EXPECT_NEAR(report.number("aligned/CC/scale"), map("cc").scale, 0.006);
+  EXPECT_LT(report.number("aligned/CC/residual_mm"), 0.2);
+  EXPECT_NEAR(report.number("aligned/CC/header/magnification"), 1.8, 1e-9);
 }
 
 TEST_F(PatientMammograms, APairOfPixelsGivesTheSpot) {

@@ -127,6 +127,29 @@ TEST(Align, AMarkedNippleDecidesWhereTheOutlineDoesNot) {
   EXPECT_GT(marked.rotation_sd_deg, 0.5);  // and says how little is known
 }
 
+// The upper half reaches farther than the lower one, as towards the axilla.
+TEST(Align, AnImageUpsideDownIsRefused) {
+  AlignmentData data = scene({1.01, 2, Vec2(5, 8)}, 0, false);
+  const auto lopsided = [](const Vec2& at) {
+    return Vec2(at.x() + 0.25 * std::max(0.0, at.y() - 90), at.y());
+  };
+  const Similarity map{1.01, 2, Vec2(5, 8)};
+  for (Vec2& at : data.simulated) at = lopsided(at);
+  for (OutlinePoint& point : data.real) point.at = map.apply(lopsided(map.invert(point.at)));
+  const ImageAxes axes(header_of(pose().e_u, pose().e_v), pose(), "x");
+  const Alignment upright = align_outlines(data, axes, "x");
+  EXPECT_LT(upright.residual_mm, 1);
+  check_upright(data, axes, upright, "x");
+  const double height = axes.mm(Vec2(0, 719)).y();
+  for (OutlinePoint& point : data.real) {
+    point.at.y() = height - point.at.y();
+    point.normal.y() *= -1;
+  }
+  const Alignment turned = align_outlines(data, axes, "x");
+  EXPECT_GT(turned.residual_mm, 2);
+  EXPECT_THROW(check_upright(data, axes, turned, "x"), Error);
+}
+
 TEST(Align, ABreastElsewhereIsRefused) {
   const ImageAxes axes(header_of(pose().e_u, pose().e_v), pose(), "x");
   EXPECT_THROW(align_outlines(scene({1, 0, Vec2(-200, 300)}, 0, false), axes, "x"), Error);
