@@ -75,9 +75,16 @@ std::vector<Prior> priors_from(const Table& table, const std::string& where) {
     const std::string at = where + ", row " + std::to_string(r + 1);
     const double value = parse_number(row[std::size_t(deviation)], at);
     if (!(value >= 0)) throw input_error(at, ": standard deviation ", value, " is negative");
+    const std::string& name = row[std::size_t(parameter)];
+    for (const Prior& prior : priors) {
+      if (prior.parameter == name)
+        throw input_error(at, ": parameter '", name,
+                          "' is listed twice, which would widen the band");
+    }
     priors.push_back(
         {row[std::size_t(parameter)], value, optional(row, "unit"), optional(row, "source")});
   }
+  if (priors.empty()) throw input_error(where, ": no priors");
   return priors;
 }
 

@@ -238,6 +238,9 @@ TEST(Band, PriorsAreChecked) {
   const std::vector<Prior> priors = priors_from(table, "p");
   ASSERT_EQ(priors.size(), 1u);
   EXPECT_EQ(priors[0].source, "mine");
+  EXPECT_THROW(
+      priors_from(parse_table("parameter\tstandard_deviation\nfat\t1\nfat\t1\n", "p"), "p"), Error);
+  EXPECT_THROW(priors_from(parse_table("parameter\tstandard_deviation\n", "p"), "p"), Error);
   EXPECT_THROW(priors_from(parse_table("parameter\tstandard_deviation\nfat\t-1\n", "p"), "p"),
                Error);
   const Scene scene;
