@@ -15,7 +15,7 @@ supine_truth := $(PHANTOM_SUPINE:.nrrd=-truth)/landmarks.tsv
 $(eval $(call phantom_scan,$(PRESET)-supine,--posture supine --misalign 4$(comma)2))
 endif
 second-labels_record := $(RUN)/second/.labels.settings
-second-labels_settings := $(SEGMENT) $(supine_scan) --side $(SIDE)
+second-labels_settings := $(SEGMENT) $(call named,$(supine_scan)) --side $(SIDE)
 $(RUN)/second/labels.vtkhdf $(RUN)/second/points.vtp &: $(supine_scan) $(SEGMENT) $(call changed,second-labels)
 	@mkdir -p $(RUN)/second
 	$(SEGMENT) $(supine_scan) $(RUN)/second/labels.vtkhdf --side $(SIDE) --posture supine --points $(RUN)/second/points.vtp \

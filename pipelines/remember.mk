@@ -5,6 +5,9 @@
 #   $(call changed,STAGE)  FORCE when STAGE_settings differs from the record of an existing output
 #   $(call record,STAGE)   shell command that records them in STAGE_record (default RUN/.STAGE.settings)
 #   $(call stale,FILE,TEXT), $(call note,FILE,TEXT)  the same for a record and settings that have no NAME
+#   $(call named,SCAN)     a scan as records name it: by its own name and a digest of its path. Another scan differs, but the
+#                          folders above it, in which a patient's name may stand, are not told: a run may be sent to somebody
+named = $(if $1,$(notdir $(patsubst %/,%,$1)):$(shell printf %s '$1' | sha256sum | cut -c1-12))
 record_file = $(or $($1_record),$(RUN)/.$1.settings)
 stale = $(if $(subst x$(strip $(file < $1))x,,x$(strip $2)x),FORCE)
 note = printf '%s\n' '$(subst ','\'',$(strip $2))' > $1

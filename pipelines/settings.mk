@@ -16,6 +16,9 @@ outdated = $(if $(if $(INSTALLED),,$(shell find $(SOURCES) -newer $(BIN)/cases))
   the programs are older than their sources: make -f $(PIPELINE) build)
 quoted = '$(subst ','\'',$1)'
 
+# $(shell) would end its command at a line break, before `cases` could refuse it.
+$(foreach v,$(given),$(if $(findstring $(newline),$(value $v)),$(error $v: a line break may not stand in it; give a name \
+  without it$(comma) or a link that has such a name (ln -s))))
 # What is given on the command line is passed on with its values before any expansion.
 $(call ask,$(BIN)/cases settings $(PIPELINES) $(BIN) $(if $(INSTALLED),installed,built) $(call quoted,$(goals)) \
   $(foreach v,$(given),$(call quoted,$v=$(value $v))))

@@ -92,7 +92,7 @@ attempt = $(if $(filter $(RUN),$1),,$(CASES) attempt $1/$2.json '$(strip $(call 
 threads_of = $(if $(filter $(addprefix $(RUN)@,labels geometry mesh reference),$1@$2),$(alone),$(share))
 run_stage = $(strip $(call attempt,$1,$2) $(program_$2) $(scan_$2) $(call inputs_of,$1,$2) $(addprefix $1/,$(firstword $(or $(writes_$2),$2.vtkhdf))) \
   $(fixed_$2) $(call placed,$1,$(options_$2)) --report $1/$2.json $(call threads_of,$1,$2))
-settings_of = $(program_$2) $(scan_$2) $(options_$2)
+settings_of = $(program_$2) $(call named,$(scan_$2)) $(options_$2)
 # The name of a folder may contain a comma; it must not separate arguments when the text is expanded later.
 define stage_rule
 $(call made_in,$1,$2) $(if $(word 2,$(call made_in,$1,$2)),&): $(foreach s,$(reads_$2) $(also_$2),$(call target_of,$1,$s)) \

@@ -57,6 +57,9 @@ class Decisions {
     refuse_unknown();
     name_settings();
     take_given();
+    // A script whose variable is empty must not get the results of the phantom.
+    if (value("CASE_FILE").empty() && request_.command_line.contains("CASE_FILE"))
+      throw input_error("CASE_FILE: is empty; name the case file, or leave CASE_FILE out");
     if (!value("CASE_FILE").empty()) take_case_file();
     take_defaults();
     for (const Setting& setting : settings_)

@@ -33,6 +33,8 @@ refused "a reduction that is no number" REDUCTION -- REDUCTION=half
 refused "a reduction of no compression" "REDUCTION: 500 must be from 1 to 95" -- REDUCTION=500
 refused "half a place" "TUMOUR 1,2" "x,y,z[:radius]" -- MR=/dev/null TUMOUR=1,2
 refused "a scan whose name was lost" "MR: is empty" -- MR=
+refused "a case file whose name was lost" "CASE_FILE: is empty" -- CASE_FILE=
+refused "a scan with a line break in its name" "MR: a line break may not stand in it" -- MR=$'a\nb.nrrd' SIDE=left
 plan fuzz MINUTES=1 && plan release-check FUZZ_MINUTES=1 FUZZ_INPUTS=1 FAULT_ALLOCATIONS=1 || { cat "$work/err"; fail "settings of fuzz are known"; }
 pass "unknown settings and values are refused by name, with a suggestion"
 
@@ -56,7 +58,12 @@ for case in '' . .. a/b; do
 done
 ! make -f Makefile.pipeline RUNS="$work/runs" RUN="$work/runs/" clean > "$work/out" 2>&1 || fail "clean keeps to the runs' folders"
 [ -e "$work/runs/keep" ] || fail "CASE= clean removes no runs"
-pass "CASE must be a plain name: clean cannot remove all runs"
+! make -f Makefile.pipeline RUNS="$work/runs" RUN="$work/runs/paper" clean > "$work/out" 2>&1 || fail "clean of a folder that is no run is refused"
+grep -q "holds no run" "$work/out" && [ -d "$work/runs/paper" ] || fail "clean removes runs only"
+touch "$work/runs/paper/.scan"
+make -f Makefile.pipeline RUNS="$work/runs" RUN="$work/runs/paper" clean > "$work/out" 2>&1 && [ ! -e "$work/runs/paper" ] || fail "clean removes a run"
+mkdir "$work/runs/paper"
+pass "CASE must be a plain name: clean cannot remove all runs, nor a folder that is none"
 
 # Nothing of a name is executed, neither by make nor by a shell.
 bait=$work/executed
