@@ -79,7 +79,7 @@ void declare(Tool& tool, Choices& c) {
       1000);
   tool.number(c.reduction, "--reduction", "PERCENT", "stop at this reduction of the thickness", 1,
               95);
-  tool.number(c.force, "--force", "N", "stop at this paddle force", 1e-6, 1e5);
+  tool.number(c.force, "--force", "N", "stop at this paddle force", 0.1, 1e5);
   tool.number(c.pressure, "--pressure", "KPA",
               "stop at this mean pressure: the paddle's force divided by its contact area", 0.001,
               1e4);
@@ -180,8 +180,8 @@ void declare(Tool& tool, Choices& c) {
 // Fills what was not given from the mammogram to imitate.
 void take_from_mammogram(Choices& c, Side side, Report& report) {
   if (c.like.empty()) return;
-  const LikeMammogram like = like_mammogram(c.like, view_named(c.view), side);
-  if (!c.angle) c.angle = like.angle_deg;
+  const LikeMammogram like = like_mammogram(c.like, view_named(c.view), side, c.angle);
+  c.angle = like.angle_deg;
   if (like.force_N) report.set("like/force_N", *like.force_N);
   if (like.thickness_mm) report.set("like/thickness_mm", *like.thickness_mm);
   if (!c.stops().empty()) return;

@@ -13,6 +13,7 @@
 #include "cli/tool_impl.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/files_written.hpp"
 #include "core/own_file.hpp"
 #include "core/parallel.hpp"
 
@@ -82,19 +83,20 @@ std::string without_folders(std::string text, const Tokens& tokens) {
     const std::size_t slash = value.find_last_of('/');
     if (slash == std::string::npos || slash == 0) continue;
     const std::string folder = value.substr(0, slash + 1);
-    for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) text.erase(at, folder.size());
+    for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;)
+      text.erase(at, folder.size());
   }
   return text;
 }
 
-/// Names of the files and folders that were given to be read, without the folders they lie in.
-std::vector<std::string> input_names(const Declaration& tool, const Tokens& tokens) {
-  std::vector<std::string> names;
+/// The files and folders that were given as arguments of this kind.
+std::vector<std::filesystem::path> given_files(const Declaration& tool, const Tokens& tokens,
+                                               ArgumentKind kind) {
+  std::vector<std::filesystem::path> files;
   const auto add = [&](const Argument& argument, const std::string& value) {
-    if (argument.kind != ArgumentKind::input) return;
-    std::filesystem::path name = value;
-    if (!name.has_filename()) name = name.parent_path();
-    names.push_back(name.filename().string());
+    if (argument.kind != kind) return;
+    const std::filesystem::path file = value;
+    files.push_back(file.has_filename() ? file : file.parent_path());
   };
   for (std::size_t i = 0; i < tokens.positionals.size() && !tool.positionals.empty(); ++i)
     add(tool.positionals[std::min(i, tool.positionals.size() - 1)], tokens.positionals[i]);
@@ -104,10 +106,32 @@ std::vector<std::string> input_names(const Declaration& tool, const Tokens& toke
       for (const std::string& value : option.values) add(argument, value);
     }
   }
+  return files;
+}
+
+/// Their names, without the folders they lie in.
+std::vector<std::string> input_names(const Declaration& tool, const Tokens& tokens) {
+  std::vector<std::string> names;
+  for (const auto& file : given_files(tool, tokens, ArgumentKind::input))
+    names.push_back(file.filename().string());
   return names;
 }
 
-void write_report(const std::filesystem::path& file, Run& run, const Outcome& outcome, const Tokens& tokens) {
+/// Removes those outputs, and files named after them (NAME-summary.tsv), that this process has written:
+/// some of a run's files beside older ones would look like a result.
+void remove_outputs(const Declaration& tool, const Tokens& tokens) {
+  for (const auto& file : files_written()) {
+    for (const auto& output : given_files(tool, tokens, ArgumentKind::output)) {
+      const bool named_after = file.parent_path() == output.parent_path() &&
+                               file.filename().string().starts_with(output.stem().string());
+      std::error_code ignored;
+      if (named_after) std::filesystem::remove(file, ignored);
+    }
+  }
+}
+
+void write_report(const std::filesystem::path& file, Run& run, const Outcome& outcome,
+                  const Tokens& tokens) {
   Report& report = run.report();
   if (outcome.exit_code != 0) {
     // A solve that did not converge has already recorded its typed reason.
@@ -229,9 +253,12 @@ int Tool::main(int argc, char** argv, const std::function<void(Run&)>& body) {
     });
   }
   progress.finish(outcome.exit_code == 0);
+  // A solve that did not converge writes what it has found.
+  if (outcome.exit_code == 1 || outcome.exit_code == 2) remove_outputs(declaration, tokens);
   if (outcome.exit_code != 0) complain(outcome);
   const Outcome reported = guarded([&] {
-    write_report(report_possible ? impl_->report_file : std::filesystem::path(), run, outcome, tokens);
+    write_report(report_possible ? impl_->report_file : std::filesystem::path(), run, outcome,
+                 tokens);
   });
   if (outcome.exit_code == 0 && reported.exit_code != 0) return complain(reported);
   return outcome.exit_code;

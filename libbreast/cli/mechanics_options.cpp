@@ -18,6 +18,8 @@ namespace {
 // a breast by a tenth of a millimetre).
 constexpr double least_scale_percent = 10;
 constexpr double least_gravity_mm_s2 = 50;
+// Twice the earth's gravity: more is a slip of a power of ten, or um/s2.
+constexpr double most_gravity_mm_s2 = 2 * gravity_mm_s2;
 
 void check_scale(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -37,7 +39,12 @@ void check_scale(const std::string& text) {
 }
 
 void check_gravity(const Vec3& gravity, const std::string& given) {
-  const double size = gravity.norm();
+  const double size = gravity.stableNorm();
+  if (size > most_gravity_mm_s2) {
+    throw input_error("--gravity ", given, ": ", format_number(size), " mm/s2 is above ",
+                      format_number(most_gravity_mm_s2),
+                      ", twice the earth's gravity, which is 9810 mm/s2");
+  }
   if (size == 0 || size >= least_gravity_mm_s2) return;
   // In m/s2 a body on earth has 9.81, in multiples of the earth's gravity 1.
   const double factor = size > 2 ? 1000 : gravity_mm_s2;

@@ -11,9 +11,11 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <mutex>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files_written.hpp"
 #include "core/own_file.hpp"
 #include "core/temporary_folder.hpp"
 
@@ -23,8 +25,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
+std::mutex written_mutex;
+std::vector<fs::path> written;
+
+// A file name has at most 255 bytes, and the part's must not be longer than the target's may be.
 std::string part_prefix(const fs::path& target) {
-  return "." + target.filename().string() + ".part-";
+  constexpr std::size_t longest = 220;
+  return "." + target.filename().string().substr(0, longest) + ".part-";
 }
 
 fs::path part_of(const fs::path& target) {
@@ -155,6 +162,13 @@ void write_bytes(const fs::path& target, std::string_view bytes) {
                      holds(file.id(), bytes) && file.close();
   if (!whole || !part.rename(target)) throw cannot_write(target, done, bytes.size());
   flush_folder(target);
+  const std::lock_guard lock(written_mutex);
+  written.push_back(target);
+}
+
+std::vector<fs::path> files_written() {
+  const std::lock_guard lock(written_mutex);
+  return written;
 }
 
 AtomicFolder::AtomicFolder(const fs::path& target, std::string last)

@@ -57,7 +57,9 @@ TEST_F(CompressTool, WritesTheContactRecordAndTheContractKeys) {
                           "detector_force_N",
                           "pressure_kPa",
                           "area_cm2",
-                          "worst_gap_mm", "worst_nodal_gap_mm", "stable",
+                          "worst_gap_mm",
+                          "worst_nodal_gap_mm",
+                          "stable",
                           "standoff_mm",
                           "initial_thickness_mm",
                           "force_balance",
@@ -105,8 +107,8 @@ TEST_F(CompressTool, PlacesThePlatesByTheEdgeOfTheImage) {
 
 // On the way, faces lie deeper in the plates and the force is smaller.
 TEST_F(CompressTool, EndsAtTheForceThatWasAskedFor) {
-  const ToolResult good = compress(
-      {"CC", "--reduction", "25", "--force", "2000", "--image-edge", "8", "--turn", "5"});
+  const ToolResult good =
+      compress({"CC", "--reduction", "25", "--force", "2000", "--image-edge", "8", "--turn", "5"});
   ASSERT_EQ(good.exit_code, 0) << good.err;
   EXPECT_NEAR(report().number("force_N"), 2000, 0.005 * 2000);
   EXPECT_LT(report().number("reduction_percent"), 25);
@@ -161,6 +163,7 @@ TEST_F(CompressTool, RefusesWhatItCannotDo) {
   for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
            {"CC"},
            {"CC", "--reduction", "40", "--area", "0"},
+           {"CC", "--force", "1e-6"},
            {"XX", "--reduction", "40"},
            {"CC", "--reduction", "40", "--friction", "-0.3"},
            {"CC", "--reduction", "40", "--wall", "spring:0"},

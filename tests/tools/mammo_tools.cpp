@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // project-mammogram and cc2mlo as a user runs them.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "core/atomic_file.hpp"
 #include "core/report.hpp"
@@ -41,6 +42,26 @@ class MammoTools : public testing::Test {
 };
 
 }  // namespace
+
+// The table fits below the limit, the curve, which is written last, does not.
+TEST_F(MammoTools, AFileThatCannotBeWrittenTakesTheOthersWithIt) {
+  const ToolResult result = run_tool(
+      "cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "no.vtp", "--landmark", "tumour", "--table", "no.tsv"},
+      file(""), [] {
+        const rlimit small{4096, 4096};
+        setrlimit(RLIMIT_FSIZE, &small);
+      });
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_EQ(result.error_lines(), 1) << result.err;
+  EXPECT_FALSE(fs::exists(file("no.vtp")) || fs::exists(file("no.tsv")));
+}
+
+TEST_F(MammoTools, WhatCannotBePrintedIsNotDone) {
+  const ToolResult result =
+      run_tool("probe", {"cc.vtkhdf"}, file(""), [] { close(STDOUT_FILENO); });
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("stdout cannot be written"), std::string::npos) << result.err;
+}
 
 TEST_F(MammoTools, ProjectionWritesImagePictureAndReport) {
   const ToolResult result =
@@ -309,9 +330,8 @@ TEST_F(MammoTools, ABandWithoutDerivativesIsRefused) {
 TEST_F(MammoTools, ACurveThatLeavesTheImageSaysHowMuchOfIt) {
   // The MLO shape sheared so that the upper half of every column goes back behind the image's edge.
   HexMesh mlo = read_mesh(file("mlo.vtkhdf"), {.contact = true});
-  HexMesh sheared = fixtures::deformed(mlo, View::mlo, [](const Vec3& x) {
-    return Vec3(x.x(), x.y() + 0.9 * x.z(), 0.6 * x.z());
-  });
+  HexMesh sheared = fixtures::deformed(
+      mlo, View::mlo, [](const Vec3& x) { return Vec3(x.x(), x.y() + 0.9 * x.z(), 0.6 * x.z()); });
   write_mesh(file("sheared.vtkhdf"), sheared);
   const ToolResult result = run("cc2mlo", {"cc.vtkhdf", "sheared.vtkhdf", "s.vtp", "--grid", "6",
                                            "--table", "s.tsv", "--report", "s.json"});

@@ -95,8 +95,13 @@ TEST_F(MechanicsTools, RefuseWhatTheyCannotDo) {
 
 // Far beyond what the law can carry: exit 3 and nothing written, unless it is asked for.
 TEST_F(MechanicsTools, NotConvergedIsExitThree) {
-  const std::string load = " --gravity 0,3e7,2e7 --materials mira2018";
-  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --materials mira2018 --gravity 0,0,0"), 0)
+  // A hundred times as heavy as water, and twenty times as soft as mira2018.
+  std::ofstream(folder_ / "heavy.tsv")
+      << "tissue\tlaw\tdensity_g_per_mm3\ta10_Pa\nfat\tneo_hookean\t0.1\t2.27\n"
+      << "fibroglandular\tneo_hookean\t0.1\t2.27\nskin\tneo_hookean\t0.1\t36.3\n"
+      << "muscle\tneo_hookean\t0.1\t1090\ntumour\tneo_hookean\t0.1\t2.27\n";
+  const std::string load = " --gravity 0,16320,10880 --materials heavy.tsv";
+  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --materials heavy.tsv --gravity 0,0,0"), 0)
       << said_.err;
   EXPECT_EQ(run("forward reference.vtkhdf far.vtkhdf" + load + " --report far.json"), 3)
       << said_.err;

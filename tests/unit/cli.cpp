@@ -122,6 +122,8 @@ TEST(Cli, AGravityInAnotherUnitIsAskedAbout) {
   const auto parsed = [&](const char* text) { return refusal([&] { parse_gravity(text); }); };
   EXPECT_NE(parsed("0,0,-9.81").find("did you mean 0,0,-9810?"), std::string::npos);
   EXPECT_NE(parsed("0,1,0").find("did you mean 0,9810,0?"), std::string::npos);
+  for (const char* large : {"0,98100,0", "0,0,-1e300", "1e308,1e308,1e308"})
+    EXPECT_NE(parsed(large).find("mm/s2 is above 19620"), std::string::npos) << parsed(large);
   for (const char* fine : {"0,0,-9810", "0,0,0", "0,0,-1620", "50,0,0", "off", "upright"}) {
     EXPECT_EQ(parsed(fine), "accepted") << fine;
   }
@@ -163,8 +165,8 @@ TEST(Cli, AnEndingThatIsNotTheFormatsIsRefused) {
     EXPECT_EQ(trial.run({trial.mesh(), (trial.folder / name).string()}), 2) << name;
     EXPECT_NE(trial.err.find(".vtkhdf"), std::string::npos) << trial.err;
   }
-  EXPECT_EQ(trial.run({trial.mesh(), trial.result(), "--report", (trial.folder / "r.txt").string()}),
-            2);
+  EXPECT_EQ(
+      trial.run({trial.mesh(), trial.result(), "--report", (trial.folder / "r.txt").string()}), 2);
   EXPECT_FALSE(trial.ran);
   EXPECT_EQ(trial.run({trial.mesh(), (trial.folder / "OUT.VTKHDF").string()}), 0);
 }
@@ -232,7 +234,8 @@ TEST(Cli, AReportNamesFilesWithoutTheirFolders) {
   trial.body = [&mesh](breast::Run&) { throw input_error(mesh.string(), ": is damaged"); };
   EXPECT_EQ(trial.run({mesh.string(), trial.result(), "--report", trial.report()}), 2);
   EXPECT_EQ(trial.err, "trial: " + mesh.string() + ": is damaged\n");
-  EXPECT_EQ(Report::parse(read_text(trial.report()), "report").text("reason"), mesh.filename().string() + ": is damaged");
+  EXPECT_EQ(Report::parse(read_text(trial.report()), "report").text("reason"),
+            mesh.filename().string() + ": is damaged");
 }
 
 TEST(Cli, SuccessReportsAndPrints) {

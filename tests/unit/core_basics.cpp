@@ -320,6 +320,17 @@ TEST(AtomicFiles, AFullDiskLeavesTheOldFileAndSaysWhereItStopped) {
   }
 }
 
+TEST(AtomicFiles, ANameMayBeAsLongAsTheSystemAllows) {
+  const ScratchFolder folder;
+  for (const std::size_t bytes : {std::size_t(254), std::size_t(255)}) {
+    const fs::path file = folder / std::string(bytes, 'n');
+    write_text(file, "once");
+    write_text(file, "twice");
+    EXPECT_EQ(read_text(file), "twice");
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);
+}
+
 TEST(AtomicFiles, DevicesAndStreamsAreWrittenThrough) {
   const ScratchFolder folder;
   write_text("/dev/null", "x");
