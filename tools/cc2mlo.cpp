@@ -16,6 +16,7 @@
 #include "matching/curve_lines.hpp"
 #include "matching/point_pair.hpp"
 #include "material/law.hpp"
+#include "mesh/part.hpp"
 #include "mesh/surroundings.hpp"
 
 using namespace breast;
@@ -44,7 +45,7 @@ void report_pair(const MatchChoices& choices, const MatchQuery& query, const Mat
   report_spot(pair, matcher, run.report());
   if (choices.supine.empty()) return;
   const HexMesh supine = breast_alone(read_mesh(choices.supine));
-  if (supine.connectivity != matcher.from().connectivity) {
+  if (!have_same_elements(supine, matcher.from())) {
     throw input_error(choices.supine.string(), ": this is not a shape of the same mesh");
   }
   run.report().set("spot/supine", pair.position(supine, supine.points));

@@ -9,6 +9,7 @@
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
+#include "mesh/part.hpp"
 #include "mesh/surroundings.hpp"
 
 namespace breast {
@@ -30,7 +31,7 @@ void check_same_mesh(const RunState& state, const RunState& prone) {
   const HexMesh &mesh = state.mesh, &first = prone.mesh;
   constexpr double rounding_mm = 1e-9;
   const bool same =
-      mesh.connectivity == first.connectivity && mesh.imaged.size() == first.imaged.size() &&
+      have_same_elements(mesh, first) &&
       std::equal(mesh.imaged.begin(), mesh.imaged.end(), first.imaged.begin(),
                  [&](const Vec3& a, const Vec3& b) { return (a - b).norm() < rounding_mm; });
   if (!same) {

@@ -13,6 +13,7 @@
 #include "core/text/trimmed.hpp"
 #include "deck/scene.hpp"
 #include "deck/serendipity.hpp"
+#include "mesh/part.hpp"
 
 namespace breast {
 
@@ -225,7 +226,7 @@ void apply_displacement(HexMesh& mesh, const std::vector<Vec3>& displacement) {
 }
 
 NodeDifference node_difference(const HexMesh& mesh, const HexMesh& other) {
-  if (mesh.connectivity != other.connectivity) {
+  if (!have_same_elements(mesh, other)) {
     throw input_error("the two meshes have different elements (", mesh.elements(), " and ",
                       other.elements(), ")");
   }

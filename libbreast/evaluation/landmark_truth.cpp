@@ -80,7 +80,7 @@ Table compare_with_truth(const std::vector<HexMesh>& meshes,
                          const std::vector<TrueLandmark>& truth) {
   Table table;
   table.columns = {"landmark", "outside_mm", "prone_error_mm"};
-  std::vector<const HexMesh*> shown;
+  std::vector<HexMesh> shown;
   for (const HexMesh& mesh : meshes) {
     if (!have_same_breast(mesh, meshes.front())) {
       throw input_error("the meshes differ in their elements; compare files of one chain");
@@ -88,7 +88,7 @@ Table compare_with_truth(const std::vector<HexMesh>& meshes,
     const std::string posture = posture_of(mesh);
     const TruePosition* known = position_in(truth.front(), posture);
     if (posture == "prone" || known == nullptr) continue;
-    shown.push_back(&mesh);
+    shown.push_back(breast_alone(mesh));
     table.columns.push_back(posture + "_error_mm");
     table.columns.push_back(posture + "_true_mm");
     if (known->own_error) table.columns.push_back(posture + "_own_error_mm");
@@ -106,9 +106,9 @@ Table compare_with_truth(const std::vector<HexMesh>& meshes,
     const std::string shown_as = point.name == "tumour" ? "true-tumour" : point.name;
     std::vector<std::string> row{shown_as, format_fixed(found.moved, 3),
                                  format_fixed(prone_error, 3)};
-    for (const HexMesh* mesh : shown) {
-      const TruePosition& there = *position_in(point, posture_of(*mesh));
-      const Vec3 here = element_position(*mesh, mesh->points, found.element, found.local);
+    for (const HexMesh& mesh : shown) {
+      const TruePosition& there = *position_in(point, posture_of(mesh));
+      const Vec3 here = element_position(mesh, mesh.points, found.element, found.local);
       row.push_back(format_fixed((here - there.x).norm(), 3));
       row.push_back(format_fixed((there.x - prone).norm(), 3));
       if (there.own_error) row.push_back(format_fixed(*there.own_error, 3));

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "mesh/part.hpp"
 
 namespace breast {
 
@@ -29,7 +30,7 @@ void check_same_body(const HexMesh& from, const HexMesh& to) {
     throw input_error("the ", first, " mesh is of the ", side_name(from.side), " breast, the ",
                       second, " mesh of the ", side_name(to.side));
   }
-  if (from.order != to.order || from.connectivity != to.connectivity) {
+  if (!have_same_elements(from, to)) {
     throw input_error("the ", first, " and ", second, " meshes have different elements (",
                       from.elements(), " and ", to.elements(),
                       "); both must be compressions of one mesh");

@@ -32,6 +32,8 @@ HexMesh raise_order(const HexMesh& mesh) {
   HexMesh raised = mesh;
   raised.order = 2;
   raised.connectivity.clear();
+  raised.element_numbers.clear();  // a mesh of its own
+  raised.node_numbers.clear();
   raised.contact_pressure.clear();
   const auto add = [](std::vector<Vec3>& nodal, const std::vector<int>& corners) {
     if (nodal.empty()) return;

@@ -114,6 +114,9 @@ struct HexMesh {
   std::vector<Vec3> imaged;     ///< the MR frame, copied unchanged by every tool
   std::vector<Vec3> reference;  ///< stress-free shape, from backward on
   std::vector<int> connectivity;
+  /// Numbers of the elements and nodes in the whole mesh, ascending, if this is a part of one; empty
+  /// otherwise.
+  std::vector<int> element_numbers, node_numbers;
 
   std::vector<Tissue> tissue;                  ///< per element
   std::vector<float> fibroglandular_fraction;  ///< per element, may be empty

@@ -26,7 +26,8 @@ Eigen::VectorXd pressures(const Scene& scene, const std::vector<double>& mean,
   const int rows = scene.solid().space()->pressures->rows;
   if (int(mean.size()) != scene.mesh().elements()) {
     throw input_error(what,
-                      ": the file has no pressures; make it with backward, forward or compress");
+                      ": the file has no pressures (dataset /VTKHDF/CellData/pressure); make it "
+                      "with backward, forward or compress");
   }
   Eigen::VectorXd p = Eigen::VectorXd::Zero(long(rows) * long(mean.size()));
   for (std::size_t e = 0; e < mean.size(); ++e) p[long(rows) * long(e)] = mean[e];
@@ -97,6 +98,12 @@ std::shared_ptr<FrictionTerm> recorded_friction(const HexMesh& mesh, const Plate
   return friction;
 }
 
+PartIndices part_of(const HexMesh& imaged, const HexMesh& state) {
+  std::optional<PartIndices> part = indices_in(imaged, state);
+  if (!part) throw input_error("the deformed mesh is no part of the mesh of the scan");
+  return *std::move(part);
+}
+
 std::vector<std::shared_ptr<const Term>> present(
     std::initializer_list<std::shared_ptr<const Term>> terms) {
   std::vector<std::shared_ptr<const Term>> list;
@@ -119,6 +126,7 @@ SensitivityChain::SensitivityChain(const HexMesh& imaged, const HexMesh& state,
       wider_(imaged.elements() != state.elements()
                  ? std::optional<Scene>(std::in_place, imaged, options)
                  : std::optional<Scene>()),
+      part_(part_of(imaged, state)),
       plates_(state.contact ? recorded_plates(state) : PlatePair{}),
       pressure_(recorded_pressure(scene_, plates_)),
       imaged_(imaged_scene(), imaged_state(imaged_scene(), imaged_pressure, imaged_gravity), {}, {},
@@ -127,14 +135,17 @@ SensitivityChain::SensitivityChain(const HexMesh& imaged, const HexMesh& state,
       deformed_(scene_, deformed_state(scene_), contacts_of(state, plates_),
                 present({pressure_, friction_}), "the deformed shape") {}
 
-// The tissue around the breast comes last.
 Eigen::VectorXd SensitivityChain::own_nodes(const Eigen::VectorXd& all) const {
-  return all.head(3L * scene_.nodes());
+  Eigen::VectorXd own(3L * scene_.nodes());
+  for (long n = 0; n < scene_.nodes(); ++n)
+    own.segment<3>(3 * n) = all.segment<3>(3L * part_.nodes[std::size_t(n)]);
+  return own;
 }
 
 Eigen::VectorXd SensitivityChain::all_nodes(const Eigen::VectorXd& own) const {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(3L * imaged_scene().nodes());
-  all.head(own.size()) = own;
+  for (long n = 0; n < scene_.nodes(); ++n)
+    all.segment<3>(3L * part_.nodes[std::size_t(n)]) = own.segment<3>(3 * n);
   return all;
 }
 
@@ -153,8 +164,8 @@ SensitivityChain::Rights SensitivityChain::rights(const std::vector<Parameter>& 
     if (!parameters[i].of_plates()) continue;
     for (const PlateContact& contact : deformed_.contacts()) {
       const long at = 3L * contact.node;
-      const GapSlope slope = gap_slope(
-          plates_, contact, deformed_.state().state.x.segment<3>(at), parameters[i], mesh_.side);
+      const GapSlope slope = gap_slope(plates_, contact, deformed_.state().state.x.segment<3>(at),
+                                       parameters[i], mesh_.side);
       out.deformed.force.col(long(i)).segment<3>(at) -= contact.force * slope.gradient;
       out.imposed.col(long(i)).segment<3>(at) = -slope.value * contact.normal();
     }
@@ -163,8 +174,8 @@ SensitivityChain::Rights SensitivityChain::rights(const std::vector<Parameter>& 
           deformed_.state().state.x, -1, nullptr, slope_of(parameters[i]));
     }
     if (friction_) {
-      out.deformed.force.col(long(i)) -= friction_->change_of_forces(
-          deformed_.state().state.x, -1, velocity_of(parameters[i]));
+      out.deformed.force.col(long(i)) -=
+          friction_->change_of_forces(deformed_.state().state.x, -1, velocity_of(parameters[i]));
     }
   }
   out.imaged.force *= -1;
@@ -194,8 +205,8 @@ double SensitivityChain::paddle_force(const Parameter& parameter, const Imbalanc
                                       const Direction& moved) const {
   Vec3 sum = Vec3::Zero();
   if (pressure_) {
-    const Eigen::VectorXd change = pressure_->change_of_forces(deformed_.state().state.x, 0,
-                                                               &moved.u, slope_of(parameter));
+    const Eigen::VectorXd change =
+        pressure_->change_of_forces(deformed_.state().state.x, 0, &moved.u, slope_of(parameter));
     for (Eigen::Index i = 0; i < change.size(); i += 3) sum += change.segment<3>(i);
   }
   for (const PlateContact& contact : deformed_.contacts()) {
@@ -286,7 +297,8 @@ LandmarkGradient SensitivityChain::adjoint(const Landmark& landmark,
     const std::vector<double> then_stiff =
         element_stiffness_products(imaged_scene(), imaged_.state(), early.u);
     for (std::size_t e = 0; e < now_stiff.size(); ++e) {
-      gradient.by_element[e] += away[c] * (then_stiff[e] - now_stiff[e]);
+      const auto then = std::size_t(part_.elements[e]);
+      gradient.by_element[e] += away[c] * (then_stiff[then] - now_stiff[e]);
     }
   }
   gradient.seconds = now() - start;

@@ -12,6 +12,7 @@
 #include "contact/terms/friction.hpp"
 #include "contact/terms/surface_pressure.hpp"
 #include "core/progress.hpp"
+#include "mesh/part.hpp"
 #include "sensitivity/linearised_state.hpp"
 
 namespace breast {
@@ -42,8 +43,8 @@ class SensitivityChain {
   /// outlive this object.
   SensitivityChain(const HexMesh& state, const std::vector<double>& imaged_pressure,
                    const Vec3& imaged_gravity, const MechanicsOptions& options);
-  /// With the mesh of backward, which may have tissue around the breast that `state` lacks, and must
-  /// outlive this object, too.
+  /// With the mesh of backward, of which `state` may be a part, and which must outlive this object,
+  /// too. Throws Error (input) if `state` is no part of it.
   SensitivityChain(const HexMesh& imaged, const HexMesh& state,
                    const std::vector<double>& imaged_pressure, const Vec3& imaged_gravity,
                    const MechanicsOptions& options);
@@ -80,7 +81,8 @@ class SensitivityChain {
 
   const HexMesh& mesh_;
   Scene scene_;
-  std::optional<Scene> wider_;  // of the scan, where it has tissue around the breast
+  std::optional<Scene> wider_;  // of the scan, where `state` is a part of it
+  PartIndices part_;            // the elements and nodes of `state` in the scan's mesh
   PlatePair plates_;
   std::shared_ptr<SurfacePressure> pressure_;  // where plates press on faces
   LinearisedState imaged_;

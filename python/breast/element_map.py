@@ -20,7 +20,7 @@ class Located:
     """Material points of n queries.
 
     Attributes:
-        element: (n) element that holds the point; -1 outside.
+        element: (n) number of the element that holds the point; -1 outside.
         local: (n, 3) its (ξ, η, ζ) in [-1, 1]; NaN outside.
         inside: (n) whether an element holds the point.
     """
@@ -47,11 +47,13 @@ class ElementMap:
     elements are searched too.
 
     Args:
-        hexahedra: (E, 8) or (E, 27) node numbers, VTK order.
+        hexahedra: (E, 8) or (E, 27) rows of `nodal`, VTK order.
         nodal: (N, 3) node positions of this shape, mm.
+        numbers: (E) ascending numbers by which the elements are called; 0 to E - 1 unless given.
     """
 
-    def __init__(self, hexahedra: np.ndarray, nodal: np.ndarray) -> None:
+    def __init__(self, hexahedra: np.ndarray, nodal: np.ndarray, numbers: np.ndarray | None = None) -> None:
+        self._numbers = np.arange(len(hexahedra)) if numbers is None else numbers
         self.order = order_of(hexahedra.shape[1])
         self._nodes = nodal[hexahedra]
         hull = hulls(self.order, self._nodes)
@@ -63,11 +65,12 @@ class ElementMap:
             self._inverse = np.stack([_solve(middle, np.broadcast_to(e, self._centre.shape))[0] for e in np.eye(3)], -1)
 
     def positions(self, element: np.ndarray, local: np.ndarray) -> np.ndarray:
-        """Places (n, 3) in this shape, mm, of local points (n, 3) of elements (n); NaN where the element is negative."""
+        """Places (n, 3) in this shape, mm, of local points (n, 3) of elements (n); NaN where the shape has no such element."""
         places = np.full((len(element), 3), np.nan)
-        known = np.flatnonzero(element >= 0)
+        row = np.minimum(np.searchsorted(self._numbers, element), len(self._numbers) - 1)
+        known = np.flatnonzero(self._numbers[row] == element)
         for block in np.array_split(known, max(1, len(known) // _BLOCK)):
-            places[block] = evaluate(self.order, self._nodes[element[block]], local[block])[0]
+            places[block] = evaluate(self.order, self._nodes[row[block]], local[block])[0]
         return places
 
     def locate(self, points: np.ndarray) -> Located:
@@ -80,7 +83,9 @@ class ElementMap:
         finite = np.flatnonzero(np.isfinite(points).all(1))
         for block in np.array_split(finite, max(1, len(finite) // _BLOCK)):
             element[block], local[block] = self._locate(points[block])
-        return Located(element, local, element >= 0)
+        inside = element >= 0
+        element[inside] = self._numbers[element[inside]]
+        return Located(element, local, inside)
 
     def _locate(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The likeliest candidate of every point first, then the next of those not found yet."""
@@ -141,4 +146,6 @@ class ElementMap:
 
     def nearest(self, faces: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Of boundary faces (F, 2) the points nearest to points (n, 3): distance (n) mm, element (n), local (n, 3)."""
-        return nearest_on_faces(self.order, self._nodes, faces, points)
+        rows = np.column_stack([np.searchsorted(self._numbers, faces[:, 0]), faces[:, 1]])
+        distance, row, local = nearest_on_faces(self.order, self._nodes, rows, points)
+        return distance, self._numbers[row], local

@@ -66,14 +66,17 @@ def read_labels(file: str | os.PathLike[str]) -> Labels:
     thickness = doc.number("/breast/skin@measured_thickness")
     if thickness < 0:
         raise doc.refuse(f"attribute /breast/skin@measured_thickness is {thickness}, must be 0 or more")
-    midline = doc.number("/breast@midline") if doc.has_attribute("/breast@midline") else None
-    if midline is not None and abs(midline) > FARTHEST_MM:
+    known = int(doc.integer_list("/breast@midline_known", 1)[0])
+    if known not in (0, 1):
+        raise doc.refuse(f"attribute /breast@midline_known is {known}, must be 0 or 1")
+    midline = doc.number("/breast@midline")
+    if abs(midline) > FARTHEST_MM:
         raise doc.refuse(f"attribute /breast@midline is {midline} mm, must be within {FARTHEST_MM:g}")
     data = "/VTKHDF/PointData/"
     return Labels(doc.file, grid, doc.codes(data + "tissue", shape, len(TISSUES)),
                   doc.fractions(data + "fibroglandular_fraction", shape),
-                  doc.fractions(data + "chest_wall_confidence", shape), dict(zip(names, places)), side, thickness, midline,
-                  read_history(doc))
+                  doc.fractions(data + "chest_wall_confidence", shape), dict(zip(names, places)), side, thickness,
+                  midline if known else None, read_history(doc))
 
 
 def _grid(doc: Document) -> Grid:

@@ -88,7 +88,7 @@ class Contact:
         surface_stiffness: of the plates against faces, Pa/mm; 0 where nodes touch exactly.
         plates: by name.
         friction: what friction holds, or None.
-        path: columns thickness_mm, force_N (paddle) and detector_N (absent in older files) along the compression.
+        path: columns thickness_mm, force_N (paddle) and detector_N along the compression.
     """
 
     view: str
@@ -113,7 +113,7 @@ def read_solve(document: Document) -> Solve | None:
     if not document.has_group(group):
         return None
     status = document.text(f"{group}@status", ("converged", "stopped_early", "unstable", "not_converged"))
-    support = document.text(f"{group}@support") if document.has_attribute(f"{group}@support") else ""
+    support = document.text(f"{group}@support")
     rows = len(document.integers(f"{group}/step", (None,)))
     iterations = {name: document.integers(f"{group}/{name}", (rows,)) for name in ("step", "iteration")}
     for name in ("residual", "min_det_F", "max_det_F", "step_length", "seconds"):
@@ -127,22 +127,19 @@ def read_contact(document: Document, nodes: int) -> Contact | None:
     if not document.has_group(group):
         return None
 
-    def number(name: str, otherwise: float | None = None) -> float:
-        path = f"{group}@{name}"
-        if otherwise is not None and not document.has_attribute(path):
-            return otherwise  # files of earlier versions
-        return document.number(path)
+    def number(name: str) -> float:
+        return document.number(f"{group}@{name}")
 
-    share = number("paddle_share", 0.5)
+    share = number("paddle_share")
     if not 0 <= share <= 1:
         raise document.refuse(f"attribute {group}@paddle_share is {share}, must be 0 to 1")
-    stiffness = number("surface_stiffness", 0.0)
+    stiffness = number("surface_stiffness")
     if stiffness < 0:
         raise document.refuse(f"attribute {group}@surface_stiffness is {stiffness} Pa/mm, must be 0 or more")
     return Contact(
-        document.text(f"{group}@view", ("CC", "MLO", "ML")), number("angle_deg"), number("turn_deg", 0.0), number("lean_deg", 0.0),
+        document.text(f"{group}@view", ("CC", "MLO", "ML")), number("angle_deg"), number("turn_deg"), number("lean_deg"),
         number("thickness_mm"), number("initial_thickness_mm"), number("reduction_percent"), number("standoff_mm"),
-        number("ends_image", 0.0) != 0, share, stiffness, _plates(document), _friction(document, nodes), _path(document))
+        number("ends_image") != 0, share, stiffness, _plates(document), _friction(document, nodes), _path(document))
 
 
 def _plates(document: Document) -> dict[str, Plate]:
@@ -161,18 +158,15 @@ def _plates(document: Document) -> dict[str, Plate]:
 
 def _friction(document: Document, nodes: int) -> Friction | None:
     group = "/breast/contact/friction"
-    if not document.has(f"{group}/node"):
-        return None
     node = document.integers(f"{group}/node", (None,), 0, nodes)
-    return Friction(node, document.integers(f"{group}/plate", (len(node),), 0, 2),
+    friction = Friction(node, document.integers(f"{group}/plate", (len(node),), 0, 2),
                     document.places(f"{group}/anchor", len(node)), document.numbers(f"{group}/bound", (len(node),)),
                     document.numbers(f"{group}/stick", (len(node),)))
+    return friction if len(node) else None
 
 
 def _path(document: Document) -> dict[str, np.ndarray]:
     group = "/breast/contact/path_"
     thickness = document.numbers(group + "thickness_mm", (None,))
-    path = {"thickness_mm": thickness, "force_N": document.numbers(group + "force_N", thickness.shape)}
-    if document.has(group + "detector_N") and document.datasets[group + "detector_N"].size:
-        path["detector_N"] = document.numbers(group + "detector_N", thickness.shape)
-    return path
+    return {"thickness_mm": thickness, "force_N": document.numbers(group + "force_N", thickness.shape),
+            "detector_N": document.numbers(group + "detector_N", thickness.shape)}

@@ -174,8 +174,18 @@ class Run:
     # ---- shapes -----------------------------------------------------------------------------------------------------
 
     def shape(self, name: str) -> np.ndarray:
-        """Node positions (N, 3), LPS mm: 'imaged' (the shape in the scan) or the name of a state."""
-        return self._base.imaged if name == "imaged" else self._same_mesh(name).points
+        """Positions (N, 3), LPS mm, of the nodes of the whole mesh in 'imaged' (the shape in the scan) or a state.
+
+        NaN at nodes that the state lacks: files of compress do not contain the tissue around the breast.
+        """
+        if name == "imaged":
+            return self._base.imaged
+        state = self.state(name)
+        if state is self._base:
+            return state.points
+        positions = np.full_like(self._base.points, np.nan)
+        positions[self._nodes_of(state)] = state.points
+        return positions
 
     def displacement(self, source: str, target: str) -> np.ndarray:
         """Where each node is in `target` minus where it is in `source`, (N, 3) mm; names as for shape()."""
@@ -190,34 +200,57 @@ class Run:
             within: points at most so many mm outside are moved to the nearest point of `source` first.
 
         Returns:
-            Transported: `points` (NaN outside), `inside` (n), and `distance` (n) mm outside.
+            Transported: `points` (NaN where not inside), `inside` (n), and `distance` (n) mm outside the source shape.
         """
-        boundary = np.concatenate(list(self._base.faces.values()))
+        state = self._state_of(source)
+        boundary = np.concatenate(list(state.faces.values()))
+        boundary = np.column_stack([state.element_numbers[boundary[:, 0]], boundary[:, 1]])
         return transported(self.element_map(source), self.element_map(target), boundary, points, within)
 
     def element_map(self, name: str) -> ElementMap:
-        """The element map of a shape, made once; names as for shape()."""
+        """The element map of a shape, by the numbers of the elements in the mesh, made once; names as for shape()."""
         if name not in self._maps:
-            nodal = self.shape(name)
-            self._maps[name] = ElementMap(self._base.hexahedra, nodal)
+            state = self._state_of(name)
+            nodal = state.imaged if name == "imaged" else state.points
+            self._maps[name] = ElementMap(state.hexahedra, nodal, state.element_numbers)
         return self._maps[name]
 
     def landmark_position(self, name: str, shape: str) -> np.ndarray:
-        """Where a landmark is in a shape, (3) LPS mm; shapes as for shape()."""
+        """Where a landmark is in a shape, (3) LPS mm; shapes as for shape(). Raises BreastError where the shape lacks it."""
         landmark = self._base.landmark(name)
-        return self.element_map(shape).positions(np.array([landmark.element]), landmark.local[None])[0]
+        number = self._base.element_numbers[landmark.element]
+        place = self.element_map(shape).positions(np.array([number]), landmark.local[None])[0]
+        if np.isnan(place).any():
+            raise BreastError(f"has no element {number} of the mesh, in which the landmark '{name}' is",
+                              self._state_of(shape).file, "it contains a part of the mesh only")
+        return place
 
     @cached_property
     def _base(self) -> State:
-        name = next((name for name in _CHAIN if name in self._files), None) or next(iter(self.states), None)
-        if name is None:
+        """The first state of the whole mesh, or else the first."""
+        names = [name for name in _CHAIN if name in self._files] or self.states
+        if not names:
             raise BreastError("has no state (a mesh file)", self.folder, "make one with hexmesh")
-        return self.state(name)
+        return next((s for s in map(self.state, names) if not s.part), None) or self.state(names[0])
 
-    def _same_mesh(self, name: str) -> State:
-        """A state of the same elements and the same imaged shape as all others."""
-        state, base = self.state(name), self._base
-        if not (np.array_equal(state.hexahedra, base.hexahedra) and np.array_equal(state.imaged, base.imaged)):
+    def _state_of(self, shape: str) -> State:
+        """The state that a shape belongs to, once it is known to be of the same mesh as all others."""
+        if shape == "imaged":
+            return self._base
+        state = self.state(shape)
+        self._nodes_of(state)
+        return state
+
+    def _nodes_of(self, state: State) -> np.ndarray:
+        """Rows of the nodes of a state in the mesh; elements and imaged shape must be the same."""
+        base = self._base
+        node, element = (np.minimum(np.searchsorted(all_numbers, numbers), len(all_numbers) - 1) for all_numbers, numbers in (
+            (base.node_numbers, state.node_numbers), (base.element_numbers, state.element_numbers)))
+        same = (np.array_equal(base.node_numbers[node], state.node_numbers)
+                and np.array_equal(base.element_numbers[element], state.element_numbers)
+                and np.array_equal(base.hexahedra[element], node[state.hexahedra])
+                and np.array_equal(base.imaged[node], state.imaged))
+        if not same:
             raise BreastError(f"has another mesh than {base.file.name}: no node or element corresponds", state.file,
                               "make both from one mesh")
-        return state
+        return node

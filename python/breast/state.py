@@ -31,7 +31,7 @@ class Landmark:
     Attributes:
         name: nipple, tumour, artificial_tumour (made up by hexmesh), ...
         imaged: (3) the point of the scan that was asked for, LPS mm.
-        element: the element that holds it.
+        element: the element that holds it, a row of the state's hexahedra.
         local: (3) its (ξ, η, ζ) there, in [-1, 1].
         moved: mm by which it was moved to reach the mesh.
     """
@@ -55,7 +55,9 @@ class State:
         points: (N, 3) the shape this state is about.
         imaged: (N, 3) the shape in the scan.
         reference: (N, 3) the stress-free shape, or None before `backward`.
-        hexahedra: (E, 8) or (E, 27) node numbers, in the order of VTK_HEXAHEDRON or VTK_TRIQUADRATIC_HEXAHEDRON.
+        hexahedra: (E, 8) or (E, 27) rows of `points`, in the order of VTK_HEXAHEDRON or VTK_TRIQUADRATIC_HEXAHEDRON.
+        part: whether the file holds only a part of the mesh, as those of compress, which lack the tissue around the breast.
+        element_numbers, node_numbers: (E), (N) numbers in the whole mesh, ascending.
         tissue: (E) codes, see TISSUES.
         point_arrays: arrays by name with N rows: contact_pressure (kPa), derivative_NAME (mm per unit of NAME), ...
         cell_arrays: arrays by name with E rows: pressure (Pa), det_F, scaled_jacobian, fibroglandular_fraction, ...
@@ -79,6 +81,9 @@ class State:
     imaged: np.ndarray
     reference: np.ndarray | None
     hexahedra: np.ndarray
+    part: bool
+    element_numbers: np.ndarray
+    node_numbers: np.ndarray
     tissue: np.ndarray
     point_arrays: dict[str, np.ndarray]
     cell_arrays: dict[str, np.ndarray]

@@ -14,6 +14,7 @@ from .records import read_contact, read_solve
 from .state import TISSUES, Landmark, State
 
 _POINT, _CELL = "/VTKHDF/PointData/", "/VTKHDF/CellData/"
+_ELEMENT_NUMBER, _NODE_NUMBER = _CELL + "element_number", _POINT + "node_number"
 _NODES_OF_TYPE = {12: 8, 29: 27}
 _FACE_SETS = ("skin", "pectoral", "cut")
 _FACE_NODES = [np.flatnonzero(LATTICE[:, f // 2] == 2 * (f % 2) - 1) for f in range(6)]
@@ -36,13 +37,28 @@ def read_state(file: str | os.PathLike[str]) -> State:
         raise doc.refuse(f"dataset /breast/skin/thickness has {len(thickness)} entries, must be {len(faces['skin'])}")
     if len(thickness) and thickness.min() < 0:
         raise doc.refuse(f"dataset /breast/skin/thickness[{thickness.argmin()}] is {thickness.min()}, must be 0 or more")
+    contact = read_contact(doc, n)
+    if contact is not None:
+        doc.numbers(_POINT + "contact_pressure", (n,))
     return State(
-        doc.file, points, imaged, reference, hexahedra, doc.codes(_CELL + "tissue", (e,), len(TISSUES)),
-        _arrays(doc, _POINT, n, ("imaged", "reference", "displacement", "displacement_from_scan",
-                                 "displacement_from_stress_free")),
+        doc.file, points, imaged, reference, hexahedra, doc.has(_ELEMENT_NUMBER), _numbers(doc, _ELEMENT_NUMBER, e),
+        _numbers(doc, _NODE_NUMBER, n), doc.codes(_CELL + "tissue", (e,), len(TISSUES)),
+        _arrays(doc, _POINT, n, ("imaged", "reference", "displacement_from_scan", "displacement_from_stress_free")),
         _cell_arrays(doc, e), faces, node_sets, _landmarks(doc, e), side, doc.number_list("/breast@gravity", 3),
         (doc.text("/breast/template@name"), doc.integer_list("/breast/template@size", 4)), skin_model, thickness,
-        read_solve(doc), read_contact(doc, n), history, float(doc.numbers("/VTKHDF/FieldData/wall_seconds", (1,))[0]))
+        read_solve(doc), contact, history, float(doc.numbers("/VTKHDF/FieldData/wall_seconds", (1,))[0]))
+
+
+def _numbers(doc: Document, path: str, count: int) -> np.ndarray:
+    """Numbers in the whole mesh, ascending; a file without them is a whole mesh."""
+    if not (doc.has(_ELEMENT_NUMBER) or doc.has(_NODE_NUMBER)):
+        return np.arange(count)
+    numbers = doc.integers(path, (count,), 0)
+    wrong = np.flatnonzero(np.diff(numbers) <= 0)
+    if len(wrong):
+        at = int(wrong[0]) + 1
+        raise doc.refuse(f"dataset {path}[{at}] is {numbers[at]}, must be at least {numbers[at - 1] + 1}")
+    return numbers
 
 
 def _hexahedra(doc: Document, nodes: int) -> np.ndarray:
@@ -72,11 +88,11 @@ def _hexahedra(doc: Document, nodes: int) -> np.ndarray:
 
 
 def _reference(doc: Document, points: np.ndarray) -> np.ndarray | None:
-    if not doc.has(_POINT + "reference"):
+    parts = (_POINT + "reference", _POINT + "displacement_from_stress_free")
+    if not any(map(doc.has, parts)) and not doc.has_group("/breast/solve"):
         return None
     reference = doc.places(_POINT + "reference", len(points))
-    old = not doc.has(_POINT + "displacement_from_stress_free")  # version 0.1 called it displacement
-    _check_displacement(doc, "displacement" if old else "displacement_from_stress_free", points, reference)
+    _check_displacement(doc, "displacement_from_stress_free", points, reference)
     return reference
 
 
@@ -104,8 +120,7 @@ def _arrays(doc: Document, group: str, rows: int, without: tuple[str, ...]) -> d
 
 
 def _cell_arrays(doc: Document, elements: int) -> dict[str, np.ndarray]:
-    if doc.has(_CELL + "fibroglandular_fraction"):
-        doc.fractions(_CELL + "fibroglandular_fraction", (elements,))
+    doc.fractions(_CELL + "fibroglandular_fraction", (elements,))
     for name in ("pressure", "det_F", "scaled_jacobian"):
         if doc.has(_CELL + name):
             doc.numbers(_CELL + name, (elements,))

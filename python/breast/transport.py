@@ -21,10 +21,9 @@ class Transported:
     """What became of n points.
 
     Attributes:
-        points: (n, 3) their places in the target shape, LPS mm; NaN for points outside the source shape.
-        inside: (n) whether the point lies in the source shape (or was moved onto it, see `within`). Not inside: its row of
-            `points` is NaN.
-        located: element and local coordinates in the source shape.
+        points: (n, 3) their places in the target shape, LPS mm; NaN for points that are not inside.
+        inside: (n) whether the point lies in an element that both shapes have (or was moved onto one, see `within`).
+        located: number of the element in the mesh, and local coordinates in the source shape.
         moved: (n) mm by which a point was moved onto the source shape before it was carried; 0 but where `within` allowed it.
     """
 
@@ -40,18 +39,18 @@ class Transported:
     def distance(self) -> np.ndarray:
         """(n) mm from each point asked for to the source shape: 0 inside, positive outside, computed when first asked for."""
         distance = self.moved.copy()
-        outside = np.flatnonzero(~self.inside)
+        outside = np.flatnonzero(~self.located.inside)
         distance[outside] = self._source.nearest(self._boundary, self._asked[outside])[0]
         return distance
 
 
 def transported(source: ElementMap, target: ElementMap, boundary: np.ndarray, points: ArrayLike,
                 within: float = 0.0) -> Transported:
-    """Carries points (n, 3), LPS mm, from the source shape to the target shape of the same elements.
+    """Carries points (n, 3), LPS mm, from the source shape to the target shape by the elements that both have.
 
     Args:
         source, target: element maps of the two shapes.
-        boundary: (F, 2) all boundary faces.
+        boundary: (F, 2) all boundary faces of the source shape.
         points: (n, 3) finite.
         within: points at most so many mm outside are moved to the nearest point of the source shape first.
     """
@@ -67,5 +66,5 @@ def transported(source: ElementMap, target: ElementMap, boundary: np.ndarray, po
         taken = outside[near]
         located.element[taken], located.local[taken], located.inside[taken] = element[near], local[near], True
         moved[taken] = distance[near]
-    return Transported(target.positions(located.element, located.local), located.inside, located, moved, source, boundary,
-                       asked)
+    there = target.positions(located.element, located.local)
+    return Transported(there, np.isfinite(there).all(1), located, moved, source, boundary, asked)

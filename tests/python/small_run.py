@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A small run made by the programs once for all tests: the kept scan through the whole chain, five seconds."""
+"""Small runs made by the programs once for all tests: the kept scan through the whole chain, and the pipeline's demonstration."""
 import functools
 import os
 import pathlib
@@ -48,6 +48,42 @@ def folder() -> pathlib.Path:
         tool(line, run)
     table = tool("probe mesh.vtkhdf reference.vtkhdf supine.vtkhdf cc.vtkhdf mlo.vtkhdf", run)
     (run / "displacements.tsv").write_text(table)
+    return run
+
+
+_COARSE = ("PRESET=average", "PHANTOM_OPTIONS=--coarse 2", "ELEMENTS=6", "REDUCTION=30", "AT_LEAST=20")
+
+
+@functools.lru_cache(maxsize=None)
+def demo() -> pathlib.Path:
+    """The folder of the demonstration, with the pipeline's defaults but coarser; nothing in it may be changed.
+
+    BREAST_RUN in the environment names a finished one instead.
+    """
+    if os.environ.get("BREAST_RUN"):
+        return pathlib.Path(os.environ["BREAST_RUN"]).resolve()
+    runs = _work() / "demo"
+    environment = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
+    environment["INSTALLED"] = str(programs)
+    done = subprocess.run(["make", "-f", "Makefile.pipeline", f"RUNS={runs}", *_COARSE, "chain"], cwd=source, env=environment,
+                          capture_output=True, text=True)
+    if done.returncode != 0:
+        raise AssertionError(f"the demonstration: exit {done.returncode}: {done.stderr[-2000:]}")
+    return runs / "average"
+
+
+@functools.lru_cache(maxsize=None)
+def swept() -> pathlib.Path:
+    """The files of the demonstration with a compression between nodes and the derivatives of two compressions."""
+    run = _work() / "swept"
+    run.mkdir()
+    for file in demo().iterdir():
+        if file.is_file():
+            shutil.copy(file, run)
+    tool("compress reference.vtkhdf nodes.vtkhdf --view CC --reduction 5 --at-least 1 --contact-points nodes --friction 0 "
+         "--materials invivo", run)
+    for view in ("cc", "mlo"):
+        tool(f"sensitivity reference.vtkhdf {view}.vtkhdf {view}-slopes.vtkhdf --parameters main --materials invivo", run)
     return run
 
 

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/boundary_sets.hpp"
+#include "fixtures/renumbered.hpp"
 #include "mesh/muscle_front.hpp"
 #include "mesh/nodal.hpp"
 #include "mesh/quality.hpp"
@@ -122,13 +123,24 @@ TEST(Surroundings, ThatWouldFoldAreNotMeshed) {
   EXPECT_EQ(mesh.cut_faces.size(), breast_mesh(1, 0).cut_faces.size());
 }
 
-TEST(Surroundings, MustComeLast) {
+TEST(Surroundings, MayComeFirst) {
   HexMesh mesh = breast_mesh(1, 0);
-  mesh.tissue.front() = Tissue::other;
-  EXPECT_THROW(breast_alone(mesh), Error);
-  mesh = breast_mesh(1, 0);
+  mesh.skin_thickness.assign(mesh.skin_faces.size(), 1.5);
   add_surroundings(16, mesh);
-  for (int& node : mesh.connectivity) node = mesh.nodes() - 1 - node;
+  mesh.reference = mesh.points;
+  const HexMesh other = fixtures::renumbered(mesh).mesh;
+  const HexMesh alone = breast_alone(other);
+  EXPECT_EQ(alone.nodes(), breast_alone(mesh).nodes());
+  EXPECT_EQ(std::count(alone.tissue.begin(), alone.tissue.end(), Tissue::other), 0);
+  EXPECT_NEAR(mesh_volume(alone, alone.imaged), mesh_volume(breast_alone(mesh), mesh.imaged), 1e-6);
+  EXPECT_TRUE(have_same_breast(other, alone));
+  EXPECT_FALSE(have_same_breast(mesh, alone));
+  expect_faces_cover_boundary(alone);
+}
+
+TEST(Surroundings, WithoutABreastAreRefused) {
+  HexMesh mesh = breast_mesh(1, 0);
+  mesh.tissue.assign(mesh.tissue.size(), Tissue::other);
   EXPECT_THROW(breast_alone(mesh), Error);
 }
 

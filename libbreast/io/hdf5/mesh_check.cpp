@@ -27,14 +27,25 @@ void check_lengths(const HexMesh& mesh, const Complaint& complain) {
   check_length(mesh.imaged, nodes, false, "/VTKHDF/PointData/imaged", complain);
   check_length(mesh.reference, nodes, true, "/VTKHDF/PointData/reference", complain);
   check_length(mesh.contact_pressure, nodes, true, "/VTKHDF/PointData/contact_pressure", complain);
+  check_length(mesh.node_numbers, nodes, mesh.element_numbers.empty(),
+               "/VTKHDF/PointData/node_number", complain);
+  check_length(mesh.element_numbers, elements, mesh.node_numbers.empty(),
+               "/VTKHDF/CellData/element_number", complain);
   check_length(mesh.tissue, elements, false, "/VTKHDF/CellData/tissue", complain);
   check_length(mesh.fibroglandular_fraction, elements, true,
                "/VTKHDF/CellData/fibroglandular_fraction", complain);
   check_length(mesh.pressure, elements, true, "/VTKHDF/CellData/pressure", complain);
   check_length(mesh.det_F, elements, true, "/VTKHDF/CellData/det_F", complain);
   check_length(mesh.scaled_jacobian, elements, true, "/VTKHDF/CellData/scaled_jacobian", complain);
-  check_length(mesh.skin_thickness, mesh.skin_faces.size(), true, "/breast/skin/thickness",
-               complain);
+}
+
+// The order by which a number is searched.
+void check_ascending(const std::vector<int>& numbers, const char* path, const Complaint& complain) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const int least = i == 0 ? 0 : numbers[i - 1] + 1;
+    if (numbers[i] < least)
+      throw complain("dataset ", path, "[", i, "] is ", numbers[i], ", must be at least ", least);
+  }
 }
 
 void check_connectivity(const HexMesh& mesh, const Complaint& complain) {
@@ -157,8 +168,7 @@ void check_contact(const ContactRecord& contact, const Complaint& complain) {
     throw complain("group /breast/contact has a path of ", contact.path_thickness_mm.size(),
                    " thicknesses and ", contact.path_force_N.size(), " forces");
   }
-  if (!contact.path_detector_N.empty() &&
-      contact.path_detector_N.size() != contact.path_thickness_mm.size()) {
+  if (contact.path_detector_N.size() != contact.path_thickness_mm.size()) {
     throw complain("group /breast/contact has a path of ", contact.path_thickness_mm.size(),
                    " thicknesses and ", contact.path_detector_N.size(), " forces of the detector");
   }
@@ -181,9 +191,13 @@ void check_mesh(const HexMesh& mesh, const Complaint& complain) {
   }
   check_connectivity(mesh, complain);
   check_lengths(mesh, complain);
+  check_ascending(mesh.element_numbers, "/VTKHDF/CellData/element_number", complain);
+  check_ascending(mesh.node_numbers, "/VTKHDF/PointData/node_number", complain);
   check_cells(mesh, complain);
   check_face_sets(mesh, complain);
   check_landmarks(mesh, complain);
+  check_length(mesh.skin_thickness, mesh.skin_faces.size(), true, "/breast/skin/thickness",
+               complain);
   for (std::size_t i = 0; i < mesh.skin_thickness.size(); ++i) {
     if (!(mesh.skin_thickness[i] >= 0)) {
       throw complain("dataset /breast/skin/thickness[", i, "] is ", mesh.skin_thickness[i],
@@ -195,7 +209,18 @@ void check_mesh(const HexMesh& mesh, const Complaint& complain) {
     throw complain("dataset /breast/skin/thickness is missing, which a membrane skin needs");
   }
   if (mesh.geometry) check_geometry(*mesh.geometry, complain);
-  if (mesh.contact) check_contact(*mesh.contact, complain);
+  if (mesh.solve && mesh.reference.empty()) {
+    throw complain(
+        "dataset /VTKHDF/PointData/reference is missing, which what was solved has "
+        "(group /breast/solve)");
+  }
+  if (!mesh.contact) return;
+  check_contact(*mesh.contact, complain);
+  if (mesh.contact_pressure.empty()) {
+    throw complain(
+        "dataset /VTKHDF/PointData/contact_pressure is missing, which a compression has "
+        "(group /breast/contact)");
+  }
 }
 
 }  // namespace breast

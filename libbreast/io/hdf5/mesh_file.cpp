@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/derivative_file.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "io/hdf5/hermite_group.hpp"
@@ -16,7 +17,11 @@ namespace {
 
 constexpr std::uint8_t vtk_hexahedron = 12, vtk_triquadratic_hexahedron = 29;
 const std::string point_data = "/VTKHDF/PointData/", cell_data = "/VTKHDF/CellData/";
+const std::string element_number = cell_data + "element_number",
+                  node_number = point_data + "node_number";
 const std::string derivative = point_data + "derivative_", influence = cell_data + "influence_";
+const std::string derivative_list = "/breast/derivatives/parameters",
+                  influence_list = "/breast/derivatives/landmarks";
 
 void put_grid(Document& document, const HexMesh& mesh) {
   const std::size_t n = std::size_t(mesh.nodes_per_element()),
@@ -54,6 +59,16 @@ void get_grid(Fields& fields, HexMesh& mesh) {
   mesh.connectivity.assign(ids.begin(), ids.end());
 }
 
+Array numbers_array(const std::vector<int>& numbers) {
+  return array_of(Integers(numbers.begin(), numbers.end()));
+}
+
+// Numbers in the whole mesh; a file without them is a whole mesh.
+std::vector<int> get_numbers(Fields& fields, const std::string& path, std::size_t count) {
+  if (!fields.has(path)) return {};
+  return fields.indices(path, {count}, 0, std::numeric_limits<int>::max());
+}
+
 std::vector<Vec3> difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   std::vector<Vec3> difference(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) difference[i] = a[i] - b[i];
@@ -87,6 +102,7 @@ void put_point_data(Document& document, const HexMesh& mesh) {
   if (!mesh.contact_pressure.empty()) {
     document.datasets[point_data + "contact_pressure"] = array_of(Doubles(mesh.contact_pressure));
   }
+  if (!mesh.node_numbers.empty()) document.datasets[node_number] = numbers_array(mesh.node_numbers);
 }
 
 void get_point_data(Fields& fields, HexMesh& mesh) {
@@ -95,16 +111,24 @@ void get_point_data(Fields& fields, HexMesh& mesh) {
   if (fields.has(point_data + "contact_pressure")) {
     mesh.contact_pressure = fields.doubles(point_data + "contact_pressure", {nodes});
   }
-  if (!fields.has(point_data + "reference")) return;
+  mesh.node_numbers = get_numbers(fields, node_number, nodes);
+  const std::string from_stress_free = "displacement_from_stress_free";
+  if (!fields.has(point_data + "reference") && !fields.has(point_data + from_stress_free)) return;
   mesh.reference = fields.places(point_data + "reference", nodes);
   if (fields.has(point_data + "displacement_from_scan")) {
     check_displacement(fields, "displacement_from_scan", mesh.points, mesh.imaged, "imaged");
   }
-  // Files of version 0.1 call the second one plainly "displacement".
-  const bool old = !fields.has(point_data + "displacement_from_stress_free") &&
-                   fields.has(point_data + "displacement");
-  check_displacement(fields, old ? "displacement" : "displacement_from_stress_free", mesh.points,
-                     mesh.reference, "reference");
+  if (fields.has(point_data + from_stress_free)) {
+    check_displacement(fields, from_stress_free, mesh.points, mesh.reference, "reference");
+  }
+}
+
+// Where no voxels were averaged, elements are of one tissue each.
+Floats fractions(const HexMesh& mesh) {
+  if (!mesh.fibroglandular_fraction.empty()) return mesh.fibroglandular_fraction;
+  Floats list;
+  for (const Tissue t : mesh.tissue) list.push_back(t == Tissue::fibroglandular ? 1.0F : 0.0F);
+  return list;
 }
 
 void put_cell_data(Document& document, const HexMesh& mesh) {
@@ -112,14 +136,13 @@ void put_cell_data(Document& document, const HexMesh& mesh) {
   for (const Tissue t : mesh.tissue) tissue.push_back(std::uint8_t(t));
   auto& sets = document.datasets;
   sets[cell_data + "tissue"] = array_of(std::move(tissue));
-  if (!mesh.fibroglandular_fraction.empty()) {
-    sets[cell_data + "fibroglandular_fraction"] = array_of(Floats(mesh.fibroglandular_fraction));
-  }
+  sets[cell_data + "fibroglandular_fraction"] = array_of(fractions(mesh));
   if (!mesh.pressure.empty()) sets[cell_data + "pressure"] = array_of(Doubles(mesh.pressure));
   if (!mesh.det_F.empty()) sets[cell_data + "det_F"] = array_of(Doubles(mesh.det_F));
   if (!mesh.scaled_jacobian.empty()) {
     sets[cell_data + "scaled_jacobian"] = array_of(Doubles(mesh.scaled_jacobian));
   }
+  if (!mesh.element_numbers.empty()) sets[element_number] = numbers_array(mesh.element_numbers);
   sets["/VTKHDF/FieldData/wall_seconds"] = array_of(Doubles{mesh.wall_seconds});
 }
 
@@ -128,12 +151,11 @@ void get_cell_data(Fields& fields, HexMesh& mesh) {
   for (const std::uint8_t code : fields.bytes(cell_data + "tissue", {elements})) {
     mesh.tissue.push_back(static_cast<Tissue>(code));
   }
-  if (fields.has(cell_data + "fibroglandular_fraction")) {
-    mesh.fibroglandular_fraction = fields.floats(cell_data + "fibroglandular_fraction", {elements});
-  }
+  mesh.fibroglandular_fraction = fields.floats(cell_data + "fibroglandular_fraction", {elements});
   const auto optional = [&](const char* name) {
     return fields.has(cell_data + name) ? fields.doubles(cell_data + name, {elements}) : Doubles{};
   };
+  mesh.element_numbers = get_numbers(fields, element_number, elements);
   mesh.pressure = optional("pressure");
   mesh.det_F = optional("det_F");
   mesh.scaled_jacobian = optional("scaled_jacobian");
@@ -235,13 +257,31 @@ Document mesh_document(const std::filesystem::path& file, const HexMesh& mesh) {
   return document;
 }
 
-// What follows `prefix` in the paths of the datasets that begin with it.
-std::vector<std::string> endings(const Document& document, const std::string& prefix) {
-  std::vector<std::string> list;
+// The names that the file lists; the datasets that begin with `prefix` must be theirs, so that none
+// can be lost without notice. A file without derivatives has no list.
+Texts listed(Fields& fields, const Document& document, const std::string& list,
+             const std::string& prefix) {
+  const Texts names = fields.has(list) ? fields.texts(list, {Fields::any}) : Texts{};
   for (const auto& [path, array] : document.datasets) {
-    if (path.starts_with(prefix)) list.push_back(path.substr(prefix.size()));
+    if (!path.starts_with(prefix)) continue;
+    const std::string name = path.substr(prefix.size());
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw fields.complain()("dataset ", list, " does not name ", name, ", of which there is ",
+                              path);
   }
-  return list;
+  return names;
+}
+
+// The derivatives by their names, and the list of these names.
+template <class Values>
+void put_derivatives(Document& document, const std::map<std::string, Values>& derivatives,
+                     const std::string& list, const std::string& prefix) {
+  Texts names;
+  for (const auto& [name, values] : derivatives) {
+    names.push_back(name);
+    document.datasets[prefix + name] = array_of(Values(values));
+  }
+  document.datasets[list] = array_of(std::move(names));
 }
 
 }  // namespace
@@ -253,12 +293,8 @@ void write_mesh(const std::filesystem::path& file, const HexMesh& mesh) {
 void write_mesh(const std::filesystem::path& file, const HexMesh& mesh,
                 const Derivatives& derivatives) {
   Document document = mesh_document(file, mesh);
-  for (const auto& [parameter, field] : derivatives.position) {
-    document.datasets[derivative + parameter] = array_of(field);
-  }
-  for (const auto& [landmark, field] : derivatives.influence) {
-    document.datasets[influence + landmark] = array_of(Doubles(field));
-  }
+  put_derivatives(document, derivatives.position, derivative_list, derivative);
+  put_derivatives(document, derivatives.influence, influence_list, influence);
   save_document(file, document);
 }
 
@@ -266,10 +302,10 @@ Derivatives read_derivatives(const std::filesystem::path& file, const HexMesh& m
   Document document = load_document(file, "mesh/1", "sensitivity");
   Fields fields(document, {ErrorKind::input, file.string(), "; make it again"});
   Derivatives out;
-  for (const std::string& parameter : endings(document, derivative)) {
+  for (const std::string& parameter : listed(fields, document, derivative_list, derivative)) {
     out.position[parameter] = fields.vectors(derivative + parameter, mesh.points.size());
   }
-  for (const std::string& landmark : endings(document, influence)) {
+  for (const std::string& landmark : listed(fields, document, influence_list, influence)) {
     out.influence[landmark] = fields.doubles(influence + landmark, {std::size_t(mesh.elements())});
   }
   return out;
