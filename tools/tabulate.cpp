@@ -85,7 +85,8 @@ int main(int argc, char** argv) {
   tool.example("tabulate summary runs/average",
                "the results of a finished case, preceded by its warnings");
   tool.example(
-      "tabulate slopes runs/paper/supine.json runs/paper/scaled runs/paper/base-slopes.tsv runs/paper/scaled/tumour-100-slopes.tsv",
+      "tabulate slopes runs/paper/supine.json runs/paper/studies/scaled runs/paper/slopes.tsv "
+      "runs/paper/studies/scaled/tumour-100/slopes.tsv",
       "every slope from one solve, compared with solving again");
   return tool.main(argc, argv, [&](Run& run) {
     request.pipelines = pipelines;

@@ -179,7 +179,7 @@ std::string figures(const fs::path& run, const Words& words) {
 
 // CPU seconds of all solves for Tables III to VI, from their reports.
 double solved_again(const fs::path& run) {
-  std::vector<fs::path> files = files_in(run / "scaled", ".json");
+  std::vector<fs::path> files;
   std::error_code ignored;
   for (const auto& variant : fs::directory_iterator(run / "studies/scaled", ignored))
     for (const fs::path& file : files_in(variant.path(), ".json")) files.push_back(file);
@@ -237,11 +237,7 @@ std::string own_tables(const fs::path& run, const std::string& calibrated) {
             "the rows of Tables III to VI solved again (<i>resolved</i>: three-point derivative "
             "in ln s). <i>Step error</i> is the error of the finite steps between these rows; the "
             "two agree if they differ by at most twice that. Cost: " +
-            fixed_cell(
-                StageReport::read(run / (fs::exists(run / "slopes.json") ? "slopes.json"
-                                                                         : "base-sensitivity.json"))
-                    .number("cpu_seconds"),
-                2) +
+            fixed_cell(StageReport::read(run / "slopes.json").number("cpu_seconds"), 2) +
             " CPU seconds for all slopes, and " + format_fixed(solved_again(run), 0) +
             " for the solves of the tables.") +
         html_table_of(tables / "table7.tsv");
