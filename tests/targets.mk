@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Targets of the source tree alone, which an installation has not: tests, extreme cases, what takes hours before a release, the
 # Debian package. Makefile.pipeline includes it.
-.PHONY: check page-check fuzz release-check faults full-disk whole-tools slurm clean-root stability stability-mechanics stability-contact
+.PHONY: check page-check fuzz release-check faults fields python-pages full-disk whole-tools slurm clean-root stability stability-mechanics stability-contact
 check:
 	cmake --build $(BUILD) -j $$(nproc)
 	OPENBLAS_THREAD_TIMEOUT=4 ctest --test-dir $(BUILD) --output-on-failure --no-tests=error -j $$(nproc)
@@ -17,7 +17,7 @@ fuzz:
 # Before a release: what takes hours. Every program under failing writes and allocations, small limits, full disks, damaged files
 # of every format in our own checks (100000 inputs a format, and FUZZ_MINUTES more in all) and in whole programs under
 # sanitizers (FUZZ_INPUTS a format); the package in an empty Debian 12; a cohort on a Slurm of its own.
-release-check: check faults full-disk whole-tools clean-root slurm
+release-check: check faults fields python-pages full-disk whole-tools clean-root slurm
 	tests/fuzz/run.sh inputs=100000
 	tests/fuzz/run.sh $(FUZZ_MINUTES)
 
@@ -25,6 +25,15 @@ faults:
 	cmake --build $(BUILD) -j $$(nproc) --target programs tetrahedra tools_faults tools_limits
 	BREAST_FAULT_ALLOCATIONS=$(FAULT_ALLOCATIONS) OPENBLAS_THREAD_TIMEOUT=4 $(BUILD)/tests/tools_faults
 	BREAST_FAULT_ALLOCATIONS=$(FAULT_ALLOCATIONS) OPENBLAS_THREAD_TIMEOUT=4 $(BUILD)/tests/tools_limits
+
+# Every field of every file, damaged in four ways, for every tool that reads it.
+fields:
+	cmake --build $(BUILD) -j $$(nproc) --target programs
+	tests/faults/fields.py $(BUILD)/bin whole
+
+# The examples of docs/python.md and of the tutorial on the run itself.
+python-pages: $(CHAIN_FILES)
+	BREAST_RUN=$(RUN) tests/python/run_tests.py $(BUILD)/bin test_pages test_parts
 
 full-disk:
 	cmake --build $(BUILD) -j $$(nproc) --target programs tools_full_disk tools_killed_writer

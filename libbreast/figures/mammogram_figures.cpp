@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/error.hpp"
 #include "core/table.hpp"
 #include "figures/parts.hpp"
 #include "projection/display.hpp"
@@ -42,8 +43,12 @@ struct ImageLine {
 std::vector<ImageLine> image_lines(const PolyLines& lines,
                                    const std::function<bool(const std::string&)>& wanted) {
   std::vector<ImageLine> found;
-  const auto &u = lines.point_data.at("u_mm"), &v = lines.point_data.at("v_mm"),
-             &query = lines.point_data.at("query");
+  const auto data = [&](const char* name) -> const std::vector<double>& {
+    const auto at = lines.point_data.find(name);
+    if (at != lines.point_data.end()) return at->second;
+    throw input_error("the file of curves has no PointData ", name, "; make it with cc2mlo");
+  };
+  const auto &u = data("u_mm"), &v = data("v_mm"), &query = data("query");
   for (std::size_t i = 0; i < lines.lines.size() && i < lines.line_names.size(); ++i) {
     if (!wanted(lines.line_names[i]) || lines.lines[i].empty()) continue;
     found.push_back({int(query[lines.lines[i].front()]), {}});

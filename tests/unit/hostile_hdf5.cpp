@@ -112,7 +112,7 @@ TEST_F(HostileMesh, AttributesThatLeaveTheirMessageAreRefused) {
   };
   const std::size_t type = name + 8, space = type + 24;  // a double takes 20 bytes
   const std::string longest = "\xff\xff", longer = "is longer than its message",
-                    values_longer = "values of an attribute are longer";
+                    values_longer = "values of attribute notes are longer";
   for (const std::size_t length : {name - 6, name - 4, name - 2})
     EXPECT_NE(damaged(length, longest).find(longer), std::string::npos) << length - name;
   EXPECT_NE(damaged(name + 5, "x").find("has no end"), std::string::npos);

@@ -250,7 +250,7 @@ TEST(MammogramFile, TheSkinFadesAndTheUnknownPartEndsSoftly) {
     } else if (u < 30) {
       image.thickness[i] = 50;
       image.path[i] = i < 40 && u >= 20 ? 48 : 22;  // gland in the first row, else fat
-    } else if (u < 36) {  // mostly skin, as along a tangent
+    } else if (u < 36) {                            // mostly skin, as along a tangent
       image.thickness[i] = float(36 - u) * 5;
       image.path[i] = image.thickness[i] * 0.72f;
     }
@@ -370,7 +370,8 @@ TEST(VtkFiles, MoreTextsThanDeclaredAreRefusedBeforeVtk) {
   const ScratchFolder folder;
   const std::filesystem::path file = folder / "mammogram.vti";
   Mammogram image = some_mammogram();
-  image.history = {{"project-mammogram", "1.0", "first", {}}, {"project-mammogram", "1.0", "second", {}}};
+  image.history = {{"project-mammogram", "1.0", "first", {}},
+                   {"project-mammogram", "1.0", "second", {}}};
   write_mammogram(file, image);
   std::string text = unsealed(file);
   const std::string declared = "Name=\"history\" NumberOfTuples=\"";

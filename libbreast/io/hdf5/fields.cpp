@@ -102,9 +102,8 @@ std::vector<Vec3> Fields::places(const std::string& path, std::size_t count) {
 }
 
 void Fields::check_name(const std::string& path, std::size_t index, const std::string& name) const {
-  const bool odd = std::any_of(name.begin(), name.end(), [](unsigned char c) {
-    return c < ' ' || c == 0x7f || c == '/';
-  });
+  const bool odd = std::any_of(name.begin(), name.end(),
+                               [](unsigned char c) { return c < ' ' || c == 0x7f || c == '/'; });
   if (!name.empty() && !odd) return;
   throw complain_("dataset ", path, "[", index, "] is ", name.empty() ? "empty" : "no name",
                   ", must be a name without '/' and control characters");

@@ -57,6 +57,14 @@ void check_labels(const LabelVolume& labels, const Complaint& complain) {
   }
 }
 
+bool get_flag(Fields& fields, const std::string& path) {
+  const std::int64_t flag = fields.integer(path);
+  if (flag != 0 && flag != 1) {
+    throw fields.complain()("attribute ", path, " is ", flag, ", must be 0 or 1");
+  }
+  return flag == 1;
+}
+
 }  // namespace
 
 LabelVolume read_labels(const std::filesystem::path& file) {
@@ -75,7 +83,8 @@ LabelVolume read_labels(const std::filesystem::path& file) {
       fields.floats("/VTKHDF/PointData/fibroglandular_fraction", shape);
   labels.chest_wall_confidence = fields.floats("/VTKHDF/PointData/chest_wall_confidence", shape);
   labels.skin_thickness = fields.number("/breast/skin@measured_thickness");
-  if (fields.has_attribute("/breast@midline")) labels.midline_mm = fields.number("/breast@midline");
+  const double midline_mm = fields.number("/breast@midline");
+  if (get_flag(fields, "/breast@midline_known")) labels.midline_mm = midline_mm;
   const Texts names = fields.texts("/breast/landmarks/name", {Fields::any});
   const std::vector<Vec3> points = fields.places("/breast/landmarks/imaged", names.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -105,7 +114,8 @@ void write_labels(const std::filesystem::path& file, const LabelVolume& labels) 
   sets["/VTKHDF/PointData/chest_wall_confidence"] =
       reshaped(array_of(std::move(whole.chest_wall_confidence)), shape);
   document.attributes["/breast/skin@measured_thickness"] = array_of(whole.skin_thickness);
-  if (whole.midline_mm) document.attributes["/breast@midline"] = array_of(*whole.midline_mm);
+  document.attributes["/breast@midline"] = array_of(whole.midline_mm.value_or(0));
+  document.attributes["/breast@midline_known"] = array_of(std::int64_t(whole.midline_mm ? 1 : 0));
   Texts names;
   std::vector<Vec3> points;
   for (const auto& [name, point] : whole.landmarks) {

@@ -127,6 +127,9 @@ class Loader {
 
   // Shape of a dataspace, refused when the file could not possibly hold it.
   std::vector<std::size_t> shape_of(const Handle& space, const std::string& path) {
+    // HDF5 reads a null dataspace as no value at all, which would leave the zero that was there.
+    if (space && H5Sget_simple_extent_type(space) == H5S_NULL)
+      throw source_.refuse(path, " is there without a value");
     const int rank = space ? H5Sget_simple_extent_ndims(space) : -1;
     if (rank < 0 || rank > 4) throw source_.refuse(path, " has ", rank, " dimensions");
     std::vector<hsize_t> extent(std::size_t(rank) + 1);

@@ -55,16 +55,18 @@ constexpr ContactNumber contact_numbers[] = {
     {"thickness_mm", &ContactRecord::thickness_mm},
     {"reduction_percent", &ContactRecord::reduction_percent},
     {"initial_thickness_mm", &ContactRecord::initial_thickness_mm},
-    {"standoff_mm", &ContactRecord::standoff_mm}};
+    {"standoff_mm", &ContactRecord::standoff_mm},
+    {"paddle_share", &ContactRecord::paddle_share},
+    {"turn_deg", &ContactRecord::turn_deg},
+    {"lean_deg", &ContactRecord::lean_deg},
+    {"surface_stiffness", &ContactRecord::surface_stiffness}};
 
 }  // namespace
 
 void put_solve(Document& document, const SolveRecord& solve) {
   document.attributes[solve_group + "@status"] = array_of(std::string(status_name(solve.status)));
   document.attributes[solve_group + "@reason"] = array_of(solve.reason);
-  if (!solve.support.empty()) {
-    document.attributes[solve_group + "@support"] = array_of(solve.support);
-  }
+  document.attributes[solve_group + "@support"] = array_of(solve.support);
   Integers steps, iterations;
   for (const IterationRecord& row : solve.iterations) {
     steps.push_back(row.step);
@@ -87,9 +89,7 @@ SolveRecord get_solve(Fields& fields) {
   }
   solve.status = *known;
   solve.reason = fields.text(solve_group + "@reason");
-  if (fields.has_attribute(solve_group + "@support")) {
-    solve.support = fields.text(solve_group + "@support");
-  }
+  solve.support = fields.text(solve_group + "@support");
   const auto steps = fields.indices(solve_group + "/step", {Fields::any}, -int_limit, int_limit);
   const auto iterations =
       fields.indices(solve_group + "/iteration", {steps.size()}, -int_limit, int_limit);
@@ -110,11 +110,7 @@ void put_contact(Document& document, const ContactRecord& contact) {
   for (const auto& [name, member] : contact_numbers) {
     document.attributes[contact_group + "@" + name] = array_of(contact.*member);
   }
-  document.attributes[contact_group + "@paddle_share"] = array_of(contact.paddle_share);
-  document.attributes[contact_group + "@turn_deg"] = array_of(contact.turn_deg);
-  document.attributes[contact_group + "@lean_deg"] = array_of(contact.lean_deg);
   document.attributes[contact_group + "@ends_image"] = array_of(contact.ends_image ? 1.0 : 0.0);
-  document.attributes[contact_group + "@surface_stiffness"] = array_of(contact.surface_stiffness);
   auto& sets = document.datasets;
   sets[plates_group + "/name"] = array_of(column(contact.plates, &PlateRecord::name));
   for (const auto& [name, member] : plate_axes) {
@@ -123,22 +119,18 @@ void put_contact(Document& document, const ContactRecord& contact) {
   for (const auto& [name, member] : plate_columns) {
     sets[plates_group + "/" + name] = array_of(column(contact.plates, member));
   }
-  if (!contact.face_rules.empty()) {
-    sets[contact_group + "/face_rules"] =
-        array_of(Integers(contact.face_rules.begin(), contact.face_rules.end()));
+  sets[contact_group + "/face_rules"] =
+      array_of(Integers(contact.face_rules.begin(), contact.face_rules.end()));
+  Integers nodes, plates;
+  for (const FrictionRecord& held : contact.friction) {
+    nodes.push_back(held.node);
+    plates.push_back(held.plate);
   }
-  if (!contact.friction.empty()) {
-    Integers nodes, plates;
-    for (const FrictionRecord& held : contact.friction) {
-      nodes.push_back(held.node);
-      plates.push_back(held.plate);
-    }
-    sets[friction_group + "/node"] = array_of(std::move(nodes));
-    sets[friction_group + "/plate"] = array_of(std::move(plates));
-    sets[friction_group + "/anchor"] = array_of(column(contact.friction, &FrictionRecord::anchor));
-    sets[friction_group + "/bound"] = array_of(column(contact.friction, &FrictionRecord::bound));
-    sets[friction_group + "/stick"] = array_of(column(contact.friction, &FrictionRecord::stick));
-  }
+  sets[friction_group + "/node"] = array_of(std::move(nodes));
+  sets[friction_group + "/plate"] = array_of(std::move(plates));
+  sets[friction_group + "/anchor"] = array_of(column(contact.friction, &FrictionRecord::anchor));
+  sets[friction_group + "/bound"] = array_of(column(contact.friction, &FrictionRecord::bound));
+  sets[friction_group + "/stick"] = array_of(column(contact.friction, &FrictionRecord::stick));
   sets[contact_group + "/path_thickness_mm"] = array_of(Doubles(contact.path_thickness_mm));
   sets[contact_group + "/path_force_N"] = array_of(Doubles(contact.path_force_N));
   sets[contact_group + "/path_detector_N"] = array_of(Doubles(contact.path_detector_N));
@@ -163,37 +155,25 @@ ContactRecord get_contact(Fields& fields) {
   ContactRecord contact;
   const std::string view = fields.text(contact_group + "@view");
   const std::optional<View> known = view_from_name(view);
-  if (!known) throw fields.complain()(contact_group, "@view '", view, "' is unknown: CC, MLO or ML");
+  if (!known)
+    throw fields.complain()(contact_group, "@view '", view, "' is unknown: CC, MLO or ML");
   contact.view = *known;
   for (const auto& [name, member] : contact_numbers) {
     contact.*member = fields.number(contact_group + "@" + name);
   }
-  // Files of earlier versions do not say; with a detector that was not raised they are wrong.
-  if (fields.has_attribute(contact_group + "@paddle_share")) {
-    contact.paddle_share = fields.number(contact_group + "@paddle_share");
-    if (!(contact.paddle_share >= 0 && contact.paddle_share <= 1)) {
-      throw fields.complain()(contact_group, "@paddle_share ", contact.paddle_share,
-                              ": must lie within 0 and 1");
-    }
+  if (!(contact.paddle_share >= 0 && contact.paddle_share <= 1)) {
+    throw fields.complain()("attribute ", contact_group, "@paddle_share is ", contact.paddle_share,
+                            ", must lie within 0 and 1");
   }
-  // Plates of earlier versions were not turned and touched nodes.
-  if (fields.has_attribute(contact_group + "@turn_deg")) {
-    contact.turn_deg = fields.number(contact_group + "@turn_deg");
+  if (!(contact.surface_stiffness >= 0)) {
+    throw fields.complain()("attribute ", contact_group, "@surface_stiffness is ",
+                            contact.surface_stiffness, " Pa/mm, must be 0 or more");
   }
-  if (fields.has_attribute(contact_group + "@lean_deg")) {
-    contact.lean_deg = fields.number(contact_group + "@lean_deg");
-  }
-  if (fields.has_attribute(contact_group + "@ends_image")) {
-    contact.ends_image = fields.number(contact_group + "@ends_image") != 0;
-  }
-  if (fields.has_attribute(contact_group + "@surface_stiffness")) {
-    contact.surface_stiffness = fields.number(contact_group + "@surface_stiffness");
-    if (!(contact.surface_stiffness >= 0)) {
-      throw fields.complain()(contact_group, "@surface_stiffness ", contact.surface_stiffness,
-                              " Pa/mm: must be 0 or more");
-    }
-  }
+  contact.ends_image = fields.number(contact_group + "@ends_image") != 0;
   const Texts names = fields.texts(plates_group + "/name", {Fields::any});
+  if (names != Texts{"paddle", "detector"}) {
+    throw fields.complain()("dataset ", plates_group, "/name must be 'paddle' and 'detector'");
+  }
   contact.plates.resize(names.size());
   for (std::size_t p = 0; p < names.size(); ++p) contact.plates[p].name = names[p];
   for (const auto& [name, member] : plate_axes) {
@@ -204,17 +184,17 @@ ContactRecord get_contact(Fields& fields) {
     const Doubles list = fields.doubles(plates_group + "/" + name, {names.size()});
     for (std::size_t p = 0; p < names.size(); ++p) contact.plates[p].*member = list[p];
   }
-  if (fields.has(contact_group + "/face_rules")) {
-    contact.face_rules = fields.indices(contact_group + "/face_rules", {Fields::any}, 0, int_limit);
+  contact.face_rules = fields.indices(contact_group + "/face_rules", {Fields::any}, 0, int_limit);
+  if (contact.surface_stiffness > 0 && contact.face_rules.empty()) {
+    throw fields.complain()("dataset ", contact_group,
+                            "/face_rules is empty, but plates pressed on faces");
   }
-  if (fields.has(friction_group + "/node")) contact.friction = get_friction(fields);
+  contact.friction = get_friction(fields);
   contact.path_thickness_mm = fields.doubles(contact_group + "/path_thickness_mm", {Fields::any});
   contact.path_force_N =
       fields.doubles(contact_group + "/path_force_N", {contact.path_thickness_mm.size()});
-  // Files of earlier versions have the paddle's alone.
-  if (fields.has(contact_group + "/path_detector_N")) {
-    contact.path_detector_N = fields.doubles(contact_group + "/path_detector_N", {Fields::any});
-  }
+  contact.path_detector_N =
+      fields.doubles(contact_group + "/path_detector_N", {contact.path_thickness_mm.size()});
   return contact;
 }
 

@@ -56,8 +56,8 @@ void check_seal(std::string_view view, const std::string& name, const std::strin
   if (view.size() == end) return;  // unsealed: written or edited by another program
   const std::size_t body = view.size() < seal_bytes ? 0 : view.size() - seal_bytes;
   if (view.substr(body, mark.size()) != mark) {
-    throw input_error(name, ": is damaged: ", view.size(), " bytes where its header states ",
-                      end, advice);
+    throw input_error(name, ": is damaged: ", view.size(), " bytes where its header states ", end,
+                      advice);
   }
   if (view.substr(body + mark.size()) != digest(view.substr(0, body))) {
     throw input_error(name, ": is damaged: its content disagrees with the digest at its end",

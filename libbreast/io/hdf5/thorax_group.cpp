@@ -23,7 +23,7 @@ void put_thorax(Document& document, const ThoraxSurface& thorax) {
 }
 
 bool has_thorax(const Fields& fields) {
-  return fields.has(thorax_group + "/radius");
+  return fields.has_group(thorax_group);
 }
 
 ThoraxSurface get_thorax(Fields& fields) {

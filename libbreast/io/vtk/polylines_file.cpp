@@ -53,14 +53,14 @@ PolyLines parse_polylines(const std::filesystem::path& file) {
   append_cells(data, data->GetVerts(), where, lines);
   append_cells(data, data->GetLines(), where, lines);
   if (lines.lines.empty()) throw input_error(where, ": has no lines");
-  if (auto* names = vtkStringArray::SafeDownCast(data->GetCellData()->GetAbstractArray("name"))) {
-    if (names->GetNumberOfValues() != vtkIdType(lines.lines.size())) {
-      throw input_error(where, ": CellData name has ", names->GetNumberOfValues(), " texts for ",
-                        lines.lines.size(), " lines");
-    }
-    for (vtkIdType c = 0; c < names->GetNumberOfValues(); ++c) {
-      lines.line_names.push_back(names->GetValue(c));
-    }
+  auto* names = vtkStringArray::SafeDownCast(data->GetCellData()->GetAbstractArray("name"));
+  if (names == nullptr) throw input_error(where, ": CellData name is missing, or no text");
+  if (names->GetNumberOfValues() != vtkIdType(lines.lines.size())) {
+    throw input_error(where, ": CellData name has ", names->GetNumberOfValues(), " texts for ",
+                      lines.lines.size(), " lines");
+  }
+  for (vtkIdType c = 0; c < names->GetNumberOfValues(); ++c) {
+    lines.line_names.push_back(names->GetValue(c));
   }
   lines.point_data = scalars_of(data, where);
   for (int a = 0; a < data->GetPointData()->GetNumberOfArrays(); ++a) {

@@ -27,7 +27,7 @@ Size bytes_of_values(std::string_view space, Size one, Size most) {
   const bool old = integer(space, 0, 1) == 1;
   if (!old && integer(space, 3, 1) == null_space) return 0;
   const Size rank = integer(space, 1, 1), first = old ? 8 : 4;
-  if (first + 8 * rank > space.size() || one > most) return most + 1;
+  if (first + 8 * rank > space.size()) return most + 1;
   Size bytes = one;
   for (Size d = 0; d < rank; ++d) {
     const Size extent = integer(space, first + 8 * d, 8);
@@ -72,11 +72,12 @@ std::string wrong_attribute(std::string_view message) {
   if (values_at > message.size() || type < least_type || space < least_space)
     return "an attribute is longer than its message";
   if (name == 0 || message[begin + name - 1] != '\0') return "the name of an attribute has no end";
+  const std::string called(message.substr(begin, name - 1));
   const Size described = bytes_of_type(message.substr(type_at, type));
-  if (described == 0) return "an attribute is neither number nor text";
+  if (described == 0) return "attribute " + called + " is neither number nor text";
   const Size one = integer(message, type_at + 4, 4), left = message.size() - values_at;
   if (type < described || bytes_of_values(message.substr(space_at, space), one, left) > left)
-    return "the values of an attribute are longer than its message";
+    return "the values of attribute " + called + " are longer than its message";
   return {};
 }
 
