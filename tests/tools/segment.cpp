@@ -93,7 +93,7 @@ TEST_F(SegmentFolder, ASupineSeriesIsNotTakenForAProneOneWithoutAWarning) {
 
 TEST_F(SegmentFolder, TheChosenSeriesGivesWhatItsOwnFileGives) {
   const std::string listed = segment("exam", {}).err;
-  const std::size_t name = listed.find(" = T1 prone");
+  const std::size_t name = listed.find(" = 30 files of ");
   ASSERT_NE(name, std::string::npos) << listed;
   const std::string number(1, listed[name - 1]);  // of the list "1 = ...; 2 = ..."
   const ToolResult chosen =
