@@ -30,6 +30,10 @@ $(call study_dir,$1).tsv: $(foreach v,$($1_variants),$(call results,$1,$v,$($(ca
 endef
 $(foreach s,$(all_studies),$(eval $(call study_rule,$s)))
 
+# What a cell without a leading + leaves out is said before anything is solved.
+say_drops = $(foreach v,$($1_variants),$(if $($(call study_dir,$1/$v)@drops),$(info $1/$v leaves out of $(or \
+  $(patsubst $(RUN)/%,%,$(filter-out $(RUN),$($(call study_dir,$1/$v)@from))),the case) $($(call study_dir,$1/$v)@drops) (a + at the beginning of the cell keeps it))))
+$(if $(filter study,$(MAKECMDGOALS)),$(call say_drops,$(study_name)))
 .PHONY: study
 study: $(addprefix $(call study_dir,),$(addsuffix .tsv,$(study_name)))
 	$(if $(STUDY),,$(error study: no study is named; give a table of variants with STUDY=FILE.tsv$(comma) or one of $(studies)))

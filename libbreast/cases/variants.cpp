@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "cases/make_text.hpp"
 #include "command/make_name.hpp"
@@ -44,6 +45,33 @@ void check_cells(const std::string& lines, const std::string& file) {
       throw input_error(file, ": ", cells.front(), " has ", cells.size(), " cells and not ",
                         columns, "; separate cells by one tab, and write - for an empty one");
   }
+}
+
+}  // namespace
+
+namespace {
+
+// The options of a command line, each "--name" with the words up to the next one; "--name=value" is
+// one word.
+std::vector<std::pair<std::string, std::string>> options_in(const std::string& text) {
+  std::vector<std::pair<std::string, std::string>> options;
+  for (const std::string& word : words_of(text)) {
+    if (word.starts_with("--")) {
+      options.emplace_back(word.substr(0, word.find('=')), word);
+    } else if (!options.empty()) {
+      options.back().second += " " + word;
+    }
+  }
+  return options;
+}
+
+// The options of `text` whose names do not occur in `other`.
+std::string options_without(const std::string& text, const std::string& other) {
+  Words named, left;
+  for (const auto& [name, option] : options_in(other)) named.push_back(name);
+  for (const auto& [name, option] : options_in(text))
+    if (std::find(named.begin(), named.end(), name) == named.end()) left.push_back(option);
+  return join(left, " ");
 }
 
 }  // namespace
@@ -113,6 +141,19 @@ std::string Studies::option(const Row& row, const std::string& attribute,
   return before + (before.empty() ? "" : " ") + named(cell.substr(1));
 }
 
+// What the cells of a row leave out, as "mechanics: --materials invivo; hexmesh: --muscle measured".
+std::string Studies::drops(const Row& row, const Attributes& from) const {
+  std::string text;
+  for (const std::string& attribute : base_.attributes) {
+    const std::string cell = row.cell(attribute);
+    const auto before = from.find(attribute);
+    if (cell.empty() || cell.starts_with('+') || before == from.end()) continue;
+    const std::string left_out = options_without(before->second, named(cell));
+    if (!left_out.empty()) text += (text.empty() ? "" : "; ") + attribute + ": " + left_out;
+  }
+  return text;
+}
+
 void Studies::add_row(const Row& row) {
   const std::string name = row.cell("variant"), from_cell = row.cell("from"),
                     start = row.cell("starts_at"), ends = row.cell("ends_at"),
@@ -146,6 +187,8 @@ void Studies::add_row(const Row& row) {
       make_assignment(dir + "@stages", given + " " + join(Words(first, base_.stages.end()), " ")) +
       make_assignment(dir + "@ends_at", ends.empty() ? base_.ends_at : ends);
   if (!only_if.empty()) text_ += make_assignment(dir + "@if", folder(row.study, only_if));
+  if (const std::string left_out = drops(row, from->second); !left_out.empty())
+    text_ += make_assignment(dir + "@drops", left_out);
   for (const auto& [attribute, value] : own)
     if (!value.empty()) text_ += make_assignment(dir + "@" + attribute, value);
   known_[dir] = std::move(own);

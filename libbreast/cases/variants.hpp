@@ -36,7 +36,8 @@ class Studies {
   void add(const std::string& study, const std::string& text, const std::string& file,
            const std::string& from = "");
   /// The lines of all rows added: STUDY_variants and variant_dirs, and for the folder DIR of every
-  /// variant DIR@from, DIR@given, DIR@stages, DIR@ends_at, DIR@if and DIR@ATTRIBUTE.
+  /// variant DIR@from, DIR@given, DIR@stages, DIR@ends_at, DIR@if, DIR@ATTRIBUTE and DIR@drops, which
+  /// names the options of `from` that a cell without a leading + leaves out.
   const std::string& text() const { return text_; }
 
  private:
@@ -47,6 +48,7 @@ class Studies {
   void add_row(const Row& row);
   std::string option(const Row& row, const std::string& attribute, const Attributes& from) const;
   std::string named(const std::string& cell) const;
+  std::string drops(const Row& row, const Attributes& from) const;
 
   StudyBase base_;
   std::map<std::string, Attributes> known_;  ///< attributes of the case and all variants, by folder

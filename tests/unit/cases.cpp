@@ -262,6 +262,23 @@ TEST(Variants, AddReplaceAndInheritOptions) {
   EXPECT_TRUE(has_line(text, "run/studies/own/fine@if := run/studies/own/soft"));
 }
 
+TEST(Variants, SayWhichOptionsACellWithoutPlusLeavesOut) {
+  const std::string text = expanded(
+      "variant\tfrom\tstarts_at\thexmesh\tmechanics\n"
+      "soft\t-\treference\t-\t--scale fat=50\n"
+      "kept\t-\treference\t-\t+--scale fat=50\n"
+      "both\tkept\tmesh\t--tumour none\t--materials other --element=q2p1\n"
+      "all\t-\tmesh\t--elements 20\t--element q2p1 --materials other\n");
+  EXPECT_TRUE(
+      has_line(text, "run/studies/own/soft@drops := mechanics: --materials seed --element q1p0"))
+      << text;
+  EXPECT_TRUE(has_line(
+      text, "run/studies/own/both@drops := hexmesh: --elements 16; mechanics: --scale fat=50"))
+      << text;
+  EXPECT_EQ(text.find("kept@drops"), std::string::npos) << text;
+  EXPECT_EQ(text.find("all@drops"), std::string::npos) << text;
+}
+
 TEST(Variants, ComeFromRowsOfOtherStudies) {
   Studies studies(base());
   studies.add("scaled", "variant\tstarts_at\tmechanics\nx\treference\t+--a\n", "scaled.tsv");
