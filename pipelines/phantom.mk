@@ -32,13 +32,13 @@ phantom-scan: $(if $(TRUTH),$(MR))
 TRUTH_AT := $(PHANTOM_TRUTH)/$(SIDE)
 TRUTH_COARSE ?= $(if $(body_slides),0.5,1)
 TRUTH_FINE ?= $(if $(body_slides),0.75,2)
-TRUTH_SET := $(TRUTH_AT)-set.tsv
 truth_edge_cc := 20 --friction 0.3
 truth_edge_mlo := auto
 # At 49.5 % an element of the finer mesh folds in MLO, where this body has touched itself.
 truth_reduction_cc = $(REDUCTION)
 truth_reduction_mlo = $(if $(and $(body_slides),$(filter 50,$(REDUCTION))),48,$(REDUCTION))
-truth_body = $(if $(body_slides),--materials $(TRUTH_SET) --image-edge $(truth_edge_$1),--cut fixed)
+# The model is the one that the file of the body states.
+truth_plates = $(if $(body_slides),--image-edge $(truth_edge_$1))
 # The part of PHANTOM_OPTIONS that describes the same body.
 truth_alike = $(filter --seed=% --materials=% --coarse=%,$(subst --seed ,--seed=,$(subst --materials ,--materials=,$(subst \
   --coarse ,--coarse=,$(strip $(PHANTOM_OPTIONS))))))
@@ -49,16 +49,16 @@ truth_mesh = $(PHANTOM_MESH) $(TRUTH_AT)-$1.vtkhdf --supine $(TRUTH_AT)-$1-supin
   --preset $(PRESET) --side $(SIDE) $(truth_alike) --report $(TRUTH_AT)-$1.json $(share)
 truth-meshes_record := $(PHANTOM_TRUTH)/.$(SIDE)-meshes.settings
 truth-meshes_settings := $(PHANTOM_MESH) $(TRUTH_COARSE) $(TRUTH_FINE) $(phantom_settings)
-$(TRUTH_AT)-coarse.vtkhdf $(TRUTH_AT)-coarse-supine.vtkhdf $(TRUTH_SET) &: $(PHANTOM_MR) $(PHANTOM_MESH) $(call changed,truth-meshes)
-	$(call truth_mesh,coarse,$(TRUTH_COARSE)) --set $(TRUTH_SET)
+$(TRUTH_AT)-coarse.vtkhdf $(TRUTH_AT)-coarse-supine.vtkhdf &: $(PHANTOM_MR) $(PHANTOM_MESH) $(call changed,truth-meshes)
+	$(call truth_mesh,coarse,$(TRUTH_COARSE))
 	@$(call record,truth-meshes)
-$(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-fine-supine.vtkhdf &: $(PHANTOM_MR) $(TRUTH_SET) $(PHANTOM_MESH)
+$(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-fine-supine.vtkhdf &: $(PHANTOM_MR) $(PHANTOM_MESH) $(TRUTH_AT)-coarse.vtkhdf
 	$(call truth_mesh,fine,$(TRUTH_FINE))
-truth_compress = $(COMPRESS) $< $@ $(call truth_body,$1) --at-least $(AT_LEAST) $(common)
+truth_compress = $(COMPRESS) $< $@ $(call truth_plates,$1) --at-least $(AT_LEAST) $(common)
 define truth_view
 truth-$1_record := $(PHANTOM_TRUTH)/.$(SIDE)-$1.settings
 truth-$1_settings := $(COMPRESS) $(truth_reduction_$1) $(AT_LEAST) $(truth_edge_$1) $(phantom_settings)
-$(TRUTH_AT)-coarse-$1.vtkhdf: $(TRUTH_AT)-coarse.vtkhdf $(TRUTH_SET) $(COMPRESS) $$(call changed,truth-$1)
+$(TRUTH_AT)-coarse-$1.vtkhdf: $(TRUTH_AT)-coarse.vtkhdf $(COMPRESS) $$(call changed,truth-$1)
 	$$(call truth_compress,$1) --view $2 --reduction $(truth_reduction_$1)
 	@$$(call record,truth-$1)
 $(TRUTH_AT)-fine-$1.vtkhdf: $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-coarse-$1.vtkhdf $(COMPRESS)

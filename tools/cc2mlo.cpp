@@ -55,22 +55,45 @@ struct Derivatives {
   DerivativeFields from, to;
 };
 
+// The covariance of a material set, which replaces the priors of its stiffness and supports: of
+// --materials, or without --priors of the set with which the first shape was solved. Empty if there is
+// none.
+SoftnessUncertainty known_softness(const MatchChoices& choices, const HexMesh& from, Run& run) {
+  if (choices.materials.empty() && !choices.priors.empty()) return {};
+  if (choices.materials.empty() && !from.model) {
+    throw input_error(choices.from.string(),
+                      ": does not state the model with which it was solved (group /breast/model); "
+                      "with --band, give --materials NAME|FILE or --priors FILE");
+  }
+  const MaterialSet set =
+      choices.materials.empty()
+          ? read_materials(parse_table(from.model->materials,
+                                       choices.from.string() + ", group /breast/model, materials"),
+                           from.model->name)
+          : load_materials(choices.materials);
+  if (!set.uncertainty.parameters.empty()) {
+    run.report().set("band/covariance_of", set.name);
+  } else if (!choices.materials.empty()) {
+    run.warn(
+        "--materials " + choices.materials +
+        ": the set has no covariance (identify and calibrate-softness write one); the priors of "
+        "stiffness and supports stand");
+  }
+  return set.uncertainty;
+}
+
 std::optional<BandModel> band_model(const MatchChoices& choices, const Matcher& matcher,
-                                    const PatientViews* patient, Derivatives& derivatives) {
+                                    const PatientViews* patient, Derivatives& derivatives,
+                                    Run& run) {
   if (!choices.band) return std::nullopt;
   derivatives.from = read_derivatives(choices.from, matcher.from()).position;
   derivatives.to = read_derivatives(choices.to, matcher.to()).position;
   std::vector<Prior> priors =
       choices.priors.empty() ? default_priors()
                              : priors_from(read_table(choices.priors), choices.priors.string());
-  if (!choices.materials.empty()) {
-    const SoftnessUncertainty known = load_materials(choices.materials).uncertainty;
-    if (known.parameters.empty()) {
-      throw input_error("--materials ", choices.materials,
-                        ": the set has no covariance; identify and calibrate-softness write one");
-    }
+  const SoftnessUncertainty known = known_softness(choices, matcher.from(), run);
+  if (!known.parameters.empty())
     use_covariance(known.parameters, known.covariance, derivatives.from, derivatives.to, priors);
-  }
   if (patient != nullptr) priors = patient->with_alignment(std::move(priors));
   std::optional<BandModel> band(std::in_place, matcher, derivatives.from, derivatives.to,
                                 std::move(priors));
@@ -117,7 +140,7 @@ void run_match(const MatchChoices& choices, Run& run) {
     for (const std::string& doubt : patient->doubts()) run.warn(doubt);
   }
   Derivatives derivatives;
-  const std::optional<BandModel> band = band_model(choices, matcher, patient, derivatives);
+  const std::optional<BandModel> band = band_model(choices, matcher, patient, derivatives, run);
   int behind = 0;
   const auto queries = choices.question.queries(matcher, patient, behind);
   if (behind > 0) run.report().set("truth/behind_first_image", behind);

@@ -95,8 +95,9 @@ void declare_match(Tool& tool, MatchChoices& choices) {
                   "standard deviations for --band: TSV with columns parameter and "
                   "standard_deviation (relative, degrees or mm)");
   tool.text(choices.materials, "--materials", "NAME|FILE",
-            "with --band, the material set with which the files were made; its covariance "
-            "(identify) replaces the priors of stiffness and support");
+            "with --band, the material set whose covariance (identify) replaces the priors of "
+            "stiffness and supports (default: the set with which CC was solved, as the file states "
+            "it; with --priors none)");
   tool.choice(choices.geometry, "--geometry", {"parallel", "cone"},
               "X-ray beam, as in project-mammogram");
   tool.output_file(choices.table, "--table", "OUT.tsv", "one row per point");

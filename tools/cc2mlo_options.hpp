@@ -18,7 +18,7 @@ struct MatchChoices {
   std::filesystem::path curve, table, supine;
   bool band = false;
   std::filesystem::path priors;  ///< priors of the band; empty for the default ones
-  /// Material set with the covariance used for the band; empty for none.
+  /// Material set with the covariance used for the band; empty: that of the files' model.
   std::string materials;
   std::string geometry = "parallel";
   /// The patient's images, and the outputs for them.

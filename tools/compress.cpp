@@ -161,7 +161,7 @@ void declare(Tool& tool, Choices& c) {
       0.1, 1000);
   tool.choice(c.contact, "--contact", {"active-set", "al"},
               "contact algorithm: exact active set, or the paper's augmented Lagrangian");
-  declare_mechanics(tool, c.mechanics);
+  declare_mechanics(tool, c.mechanics, "REFERENCE");
   declare_estimate(tool, c.estimate);
   tool.check([&c] {
     if (c.stops().empty() && c.like.empty()) {

@@ -8,9 +8,10 @@
 #include "deck/febio.hpp"
 #include "deck/report.hpp"
 #include "io/mesh_file.hpp"
-#include "mechanics/options.hpp"
+#include "mechanics/model.hpp"
 #include "mesh/element_order.hpp"
 #include "mesh/quality.hpp"
+#include "solved_model.hpp"
 
 using namespace breast;
 
@@ -47,7 +48,7 @@ void declare(Tool& tool, Choices& c) {
   tool.output(c.out, "OUT.inp|OUT.feb|OUT.vtkhdf",
               "input file of the other program, or with --read-back the displaced mesh");
   declare_gravity(tool, c.gravity, "direction of gravity");
-  declare_mechanics(tool, c.mechanics);
+  declare_mechanics(tool, c.mechanics, "REFERENCE");
   tool.flag(c.without_skin, "--without-skin", "omit a membrane skin from the model");
   tool.text(
       c.calculix_element, "--calculix-element", "TYPE",
@@ -70,16 +71,21 @@ void declare(Tool& tool, Choices& c) {
     }
     if (!c.base.empty() && c.result.empty()) throw input_error("--base needs --read-back RESULT");
   });
-  tool.example("export-deck reference.vtkhdf supine.inp --bulk-ratio 1000 --without-skin",
-               "input file of CalculiX, which is then run by: ccx supine");
+  tool.example(
+      "export-deck reference.vtkhdf supine.inp --bulk-ratio 1000 --without-skin",
+      "input file of CalculiX for a breast that was solved with a held wall; then run: ccx supine");
+  tool.example(
+      "export-deck reference.vtkhdf supine.inp --wall held --cut free --bulk-ratio 1000 --without-skin",
+      "the same for a breast that slides on its chest wall, held instead");
   tool.example(
       "export-deck reference.vtkhdf supine-ccx.vtkhdf --read-back supine.frd "
       "--base supine.vtkhdf",
       "CalculiX's solution as a mesh, and its distance from that of forward");
 }
 
-DeckScene scene_of(const Choices& c, const HexMesh& mesh, Run& run) {
-  MechanicsOptions options = mechanics_options(c.mechanics);
+// The model of the other program, which cannot be exactly incompressible.
+MechanicsOptions deck_model(const Choices& c, const HexMesh& mesh, Run& run) {
+  MechanicsOptions options = model_for(c.mechanics, c.reference, mesh, run);
   if (!(options.bulk_ratio > 0)) {
     options.bulk_ratio = default_bulk_ratio;
     run.warn(
@@ -87,14 +93,19 @@ DeckScene scene_of(const Choices& c, const HexMesh& mesh, Run& run) {
                 "shear modulus is ",
                 default_bulk_ratio, " instead (see --bulk-ratio)"));
   }
+  return options;
+}
+
+DeckScene scene_of(const Choices& c, const HexMesh& mesh, const MechanicsOptions& options,
+                   Run& run) {
   if (mesh.skin_model == SkinModel::membrane && c.without_skin) {
     run.warn("the membrane skin is omitted");
   }
   return deck_scene(mesh, options, c.gravity.vector(), c.without_skin);
 }
 
-void write_deck(const Choices& c, const HexMesh& mesh, Run& run) {
-  const DeckScene scene = scene_of(c, mesh, run);
+void write_deck(const Choices& c, const HexMesh& mesh, const MechanicsOptions& options, Run& run) {
+  const DeckScene scene = scene_of(c, mesh, options, run);
   const bool calculix = c.out.extension() == ".inp";
   const std::string element = !c.calculix_element.empty()    ? c.calculix_element
                               : scene.nodes_per_element == 8 ? "C3D8I"
@@ -103,13 +114,15 @@ void write_deck(const Choices& c, const HexMesh& mesh, Run& run) {
   write_report(scene, calculix ? element : message("hex", scene.nodes_per_element), run.report());
 }
 
-void read_back(const Choices& c, HexMesh mesh, Run& run) {
+void read_back(const Choices& c, HexMesh mesh, const MechanicsOptions& options, Run& run) {
   const DeckResult result = read_deck_result(c.result, int(deck_nodes(mesh).size()));
   apply_displacement(mesh, result.displacement);
   mesh.gravity = c.gravity.vector();
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
-  mesh.solve = SolveRecord{SolveStatus::converged, "solved by another program", "", {}};
-  if (result.reaction) write_balance(scene_of(c, mesh, run), *result.reaction, run.report());
+  mesh.model = model_text(options);
+  mesh.solve = SolveRecord{SolveStatus::converged, "solved by another program", {}};
+  if (result.reaction)
+    write_balance(scene_of(c, mesh, options, run), *result.reaction, run.report());
   if (!c.base.empty()) {
     const NodeDifference difference = node_difference(mesh, read_mesh(c.base));
     run.print(write_difference(difference, mesh, run.report()).text());
@@ -130,7 +143,9 @@ int main(int argc, char** argv) {
   declare(tool, c);
   return tool.main(argc, argv, [&c](Run& run) {
     HexMesh mesh = read_mesh(c.reference, {.reference = true});
-    if (c.mechanics.element == "q2p1") mesh = raise_order(mesh);
-    c.result.empty() ? write_deck(c, mesh, run) : read_back(c, std::move(mesh), run);
+    const MechanicsOptions options = deck_model(c, mesh, run);
+    if (options.element == Element::q2p1) mesh = raise_order(mesh);
+    c.result.empty() ? write_deck(c, mesh, options, run)
+                     : read_back(c, std::move(mesh), options, run);
   });
 }

@@ -35,18 +35,19 @@ void declare(Tool& tool, Choices& c) {
   tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
   tool.output(c.deformed, "DEFORMED.vtkhdf", "the same mesh under gravity");
   declare_gravity(tool, c.gravity, "direction of gravity");
-  declare_mechanics(tool, c.mechanics);
+  declare_mechanics(tool, c.mechanics, "REFERENCE");
   tool.example("mpirun -n 16 forward-mpi reference.vtkhdf supine.vtkhdf", "on 16 processes");
 }
 
 void run_forward(const Choices& c, Run& run, const Ranks& ranks) {
-  const MechanicsOptions options = mechanics_options(c.mechanics);
   std::optional<MechanicsRun> mechanics;
   ranks.together([&] {
     if (!ranks.root()) return;
     mechanics.emplace(run, c.mechanics, "none", c.reference,
                       read_mesh(c.reference, {.reference = true}));
   });
+  const MechanicsOptions options =
+      shared_options(ranks, mechanics ? mechanics->options() : MechanicsOptions{});
   const HexMesh none;
   const HexMesh& mesh = mechanics ? mechanics->mesh() : none;
   Equilibrium found = solve_forward_on(ranks, mesh, c.gravity.vector(), options, run.progress());

@@ -34,7 +34,7 @@ void declare(Tool& tool, Choices& c) {
   tool.input(c.reference, "REFERENCE.vtkhdf", "stress-free mesh (backward)");
   tool.output(c.deformed, "DEFORMED.vtkhdf", "the same mesh under gravity");
   declare_gravity(tool, c.gravity, "direction of gravity");
-  declare_mechanics(tool, c.mechanics);
+  declare_mechanics(tool, c.mechanics, "REFERENCE");
   declare_estimate(tool, c.estimate);
   tool.example("forward reference.vtkhdf supine.vtkhdf", "lying on the back");
   tool.example("forward reference.vtkhdf prone.vtkhdf --posture prone --element q2p1",
@@ -45,8 +45,7 @@ void run_forward(const Choices& c, Run& run) {
   MechanicsRun mechanics(run, c.mechanics, c.estimate, c.reference,
                          read_mesh(c.reference, {.reference = true}));
   const HexMesh& mesh = mechanics.mesh();
-  Equilibrium found =
-      solve_forward(mesh, c.gravity.vector(), mechanics.options(), run.progress());
+  Equilibrium found = solve_forward(mesh, c.gravity.vector(), mechanics.options(), run.progress());
   if (mechanics.options().estimate == Estimate::q2) {
     estimate_by_second_solution(
         mesh, mechanics.options(), found, [&](const HexMesh& richer, const MechanicsOptions& same) {

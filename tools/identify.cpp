@@ -10,6 +10,7 @@
 #include "io/surface_file.hpp"
 #include "material/material_table.hpp"
 #include "mesh/element_order.hpp"
+#include "solved_model.hpp"
 
 using namespace breast;
 
@@ -39,8 +40,8 @@ std::string cell(double value) {
 
 // Table of fitted landmarks with all their quantities, and of other landmarks with their errors.
 Table landmark_table(const Identified& found, const Comparison& compared) {
-  Table table{{"landmark", "fitted", "moved_mm", "residual_mm", "left_out_mm", "observer_mm", "predicted_x_mm",
-               "predicted_y_mm", "predicted_z_mm"},
+  Table table{{"landmark", "fitted", "moved_mm", "residual_mm", "left_out_mm", "observer_mm",
+               "predicted_x_mm", "predicted_y_mm", "predicted_z_mm"},
               {}};
   for (const std::string& set : compared.sets) table.columns.push_back(set + "_mm");
   for (std::size_t i = 0; i < compared.landmarks.size(); ++i) {
@@ -95,7 +96,8 @@ void report_answer(const Identified& found, Report& report) {
 
 // Reports the whole motion of the rib cage between the scans, and the part found from the chest
 // walls.
-void report_motion(const Identified& found, const std::optional<WallAlignment>& ribs, Report& report) {
+void report_motion(const Identified& found, const std::optional<WallAlignment>& ribs,
+                   Report& report) {
   const RigidMotion whole = ribs ? ribs->motion.after(found.motion) : found.motion;
   report.set("alignment/centre_mm", whole.centre);
   report.set("alignment/shift_mm", whole.shift);
@@ -116,13 +118,14 @@ void report_comparison(const Comparison& compared, Report& report) {
   const Table summary = compared.summary();
   for (std::size_t row = 0; row < summary.rows.size(); ++row)
     if (summary.cell(row, "mean_mm") != "-")
-      report.set("compared/" + summary.cell(row, "model") + "/mean_mm", summary.number(row, "mean_mm"));
+      report.set("compared/" + summary.cell(row, "model") + "/mean_mm",
+                 summary.number(row, "mean_mm"));
   report.set("compared_seconds", compared.solve_seconds);
 }
 
-IdentifyOptions options_of(const IdentifyChoices& c) {
+IdentifyOptions options_of(const IdentifyChoices& c, const HexMesh& mesh, Run& run) {
   IdentifyOptions options;
-  options.mechanics = mechanics_options(c.mechanics);
+  options.mechanics = model_for(c.mechanics, c.mesh, mesh, run);
   options.gravity = c.gravity.vector();
   options.imaged_gravity = posture_gravity(Posture::prone);
   options.parameters = c.names();
@@ -134,27 +137,28 @@ IdentifyOptions options_of(const IdentifyChoices& c) {
 }
 
 // The sets to compare, with their own settings and the same elements.
-std::vector<ComparedSet> sets_of(const IdentifyChoices& c) {
+std::vector<ComparedSet> sets_of(const IdentifyChoices& c, Element element) {
   std::vector<ComparedSet> sets;
   for (const std::string& name : c.compare) {
-    MechanicsChoices own;
-    own.materials = name, own.element = c.mechanics.element;
+    MechanicsTexts own;
+    own.materials = name, own.element = element_name(element);
     sets.push_back({name, mechanics_options(own)});
   }
   return sets;
 }
 
 void tell_ribs(const WallAlignment& ribs, Run& run) {
-  run.warn(message("rib cages registered by their chest walls: residual ", format_fixed(ribs.residual_mm, 2),
-                   " mm at ", ribs.places, " places, ", format_fixed(ribs.left_out_percent, 0), " % left out"));
+  run.warn(message("rib cages registered by their chest walls: residual ",
+                   format_fixed(ribs.residual_mm, 2), " mm at ", ribs.places, " places, ",
+                   format_fixed(ribs.left_out_percent, 0), " % left out"));
   for (const std::string& words : ribs.words())
     if (words.find("not determined") != std::string::npos) run.warn(words);
 }
 
 void run_identify(const IdentifyChoices& c, Run& run) {
   HexMesh mesh = read_mesh(c.mesh, {.geometry = true});
-  IdentifyOptions options = options_of(c);
-  const std::vector<ComparedSet> sets = sets_of(c);
+  IdentifyOptions options = options_of(c, mesh, run);
+  const std::vector<ComparedSet> sets = sets_of(c, options.mechanics.element);
   const SecondScan scan = read_second_scan(c, mesh);
   if (scan.ribs) {
     options.align = true;

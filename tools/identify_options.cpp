@@ -85,7 +85,7 @@ void declare_identify(Tool& tool, IdentifyChoices& c) {
   tool.describe(
       "Finds a patient's own stiffness: the material set with which her breast, imaged prone, "
       "moves to its position observed in a second posture. The unknowns are factors (in "
-      "logarithms) on parts of the set given by --materials: low_order (constants linear in the "
+      "logarithms) on parts of the material set: low_order (constants linear in the "
       "invariants, of fat and fibroglandular tissue alike), quadratic (the other constants), "
       "gland (additional factor for fibroglandular tissue, that is, the ratio of gland to fat), "
       "skin, wall (resistance to sliding) and cut. With --align, the shift and rotation of the "
@@ -135,17 +135,18 @@ void declare_identify(Tool& tool, IdentifyChoices& c) {
                    "shape in the second posture, solved with the set found");
   declare_gravity(tool, c.gravity,
                   "direction of gravity in the second posture, in the frame of the scan");
-  declare_mechanics(tool, c.mechanics);
+  declare_mechanics(tool, c.mechanics, "MESH");
   tool.cite("Moré 1978, the Levenberg-Marquardt algorithm: implementation and theory");
   tool.check([&c] { c.check(); });
   tool.example(
-      "identify mesh.vtkhdf patient.tsv --landmarks pairs.tsv --align --table landmarks.tsv",
+      "identify mesh.vtkhdf patient.tsv --materials invivo --landmarks pairs.tsv --align "
+      "--table landmarks.tsv",
       "from landmarks marked prone and supine");
   tool.example(
-      "identify mesh.vtkhdf patient.tsv --surface supine-skin.vtp --labels labels.vtkhdf --second-labels "
-      "supine-labels.vtkhdf --compare seed2008 --compare invivo --table landmarks.tsv",
+      "identify mesh.vtkhdf patient.tsv --materials invivo --surface supine-skin.vtp --labels "
+      "labels.vtkhdf --second-labels supine-labels.vtkhdf --compare seed2008 --compare invivo --table landmarks.tsv",
       "from the skin of a supine scan, with rib cages registered by their chest walls");
-  tool.example("identify mesh.vtkhdf patient.tsv --nipple 158,-9,13",
+  tool.example("identify mesh.vtkhdf patient.tsv --materials invivo --nipple 158,-9,13",
                "from the nipple alone; as the output says, the result is mostly determined by the "
                "prior");
 }

@@ -11,8 +11,8 @@
 namespace breast {
 
 struct IdentifyChoices {
-  std::filesystem::path mesh, set, landmarks, second_landmarks, surface, forces, labels, second_labels, judge, table,
-      second, seen;
+  std::filesystem::path mesh, set, landmarks, second_landmarks, surface, forces, labels,
+      second_labels, judge, table, second, seen;
   std::vector<std::string> compare;
   std::vector<double> nipple, align_deviation{4, 2};
   double observer = 2.5, surface_error = 2, outside = 10;
@@ -23,7 +23,6 @@ struct IdentifyChoices {
   GravityChoices gravity{"supine", {}};
   MechanicsChoices mechanics = {};
 
-  IdentifyChoices() { mechanics.materials = "invivo"; }
   void check() const;
   std::vector<std::string> names() const;
 };

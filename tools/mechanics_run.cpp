@@ -4,35 +4,22 @@
 #include "core/error.hpp"
 #include "io/mesh_file.hpp"
 #include "mechanics/closing_summary.hpp"
+#include "mechanics/model.hpp"
 #include "mesh/element_order.hpp"
+#include "solved_model.hpp"
 
 namespace breast {
-
-namespace {
-
-MechanicsOptions options_of(const MechanicsChoices& choices, const std::string& estimate) {
-  MechanicsOptions options = mechanics_options(choices);
-  options.estimate = estimate_from_name(estimate);
-  return options;
-}
-
-}  // namespace
 
 MechanicsRun::MechanicsRun(Run& run, const MechanicsChoices& choices, const std::string& estimate,
                            std::filesystem::path input, HexMesh mesh)
     : run_(run),
       keep_unconverged_(choices.keep_unconverged),
       input_(std::move(input)),
-      options_(options_of(choices, estimate)),
+      options_(model_for(choices, input_, mesh, run)),
       mesh_(std::move(mesh)),
       sha_(mesh_.content_sha256) {
+  options_.estimate = estimate_from_name(estimate);
   if (options_.element == Element::q2p1) mesh_ = raise_order(mesh_);
-  const std::string support = support_options(options_);
-  if (mesh_.solve && !mesh_.solve->support.empty() && mesh_.solve->support != support) {
-    run_.warn(message(input_.filename().string(), " was solved with ", mesh_.solve->support,
-                      ", but this run uses ", support,
-                      ": the imaged shape is then not an equilibrium; give both the same options"));
-  }
 }
 
 void MechanicsRun::finish(const Equilibrium& found, const std::filesystem::path& output,
@@ -42,7 +29,7 @@ void MechanicsRun::finish(const Equilibrium& found, const std::filesystem::path&
   if (found.converged() || enough || keep_unconverged_) {
     const History before = mesh_.history;
     store(found, mesh_);
-    mesh_.solve->support = support_options(options_);
+    mesh_.model = model_text(options_);
     mesh_.history = run_.history({{input_, sha_, &before}});
     mesh_.wall_seconds = run_.seconds();
     write_mesh(output, mesh_);

@@ -14,8 +14,8 @@ namespace breast {
 
 class MechanicsRun {
  public:
-  /// `input` is the file from which `mesh` was read. For 27-node elements the order of the mesh is
-  /// raised.
+  /// `input` is the file from which `mesh` was read, and which states the model (model_for). For
+  /// 27-node elements the order of the mesh is raised.
   MechanicsRun(Run& run, const MechanicsChoices& choices, const std::string& estimate,
                std::filesystem::path input, HexMesh mesh);
 
@@ -25,7 +25,7 @@ class MechanicsRun {
 
   /// Ends all three tools after the report is filled. Prints the summary (with `results`, the
   /// tool's own lines) and the warnings. Writes `output` if the solve converged, if `enough` says
-  /// that it came far enough, or if --keep-unconverged is given. Throws Error (not converged)
+  /// that it came far enough, or if --keep-unconverged is given; the file states the model. Throws Error (not converged)
   /// otherwise.
   void finish(const Equilibrium& found, const std::filesystem::path& output, bool enough = false,
               const std::vector<std::string>& results = {});

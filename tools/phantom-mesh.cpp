@@ -31,27 +31,29 @@ void declare(Tool& tool, Choices& c) {
       "times as many as in the chain's mesh); a sliding breast has a tenth more. The prone and "
       "supine shapes are solved as in the phantom. The breast is either fixed at the wall and the "
       "cut, or it slides on the ribs, which are then the chest-wall surface of the mesh. "
-      "`compress` continues from the prone mesh; for a sliding breast, give it the set written by "
-      "--set. The difference between two levels estimates the error of the finer one "
+      "`compress` continues from the prone mesh, which states its model. The difference between two levels estimates the error of the finer one "
       "(truth-table).");
   tool.output(c.mesh, "PRONE.vtkhdf", "the prone mesh with its stress-free reference");
   tool.output_file(c.supine, "--supine", "SUPINE.vtkhdf", "write the supine shape to this file");
   tool.choice(c.preset, "--preset", preset_names(), "kind of breast, as in phantom");
   tool.integer(c.seed, "--seed", "N", "random seed, as in phantom", 0, 1000000000);
   tool.choice(c.side, "--side", {"left", "right"}, "which breast");
-  tool.number(c.level, "--level", "L",
-              "level of refinement; the mesh has about 4280 L^3 elements", 0.5, 4);
+  tool.number(c.level, "--level", "L", "level of refinement; the mesh has about 4280 L^3 elements",
+              0.5, 4);
   tool.text(c.materials, "--materials", "NAME|FILE",
             "material set, as in phantom (default: that of the preset)");
-  tool.number(c.coarse, "--coarse", "FACTOR",
-              "coarsening of the phantom's own mesh, as in phantom: its landmarks depend on that mesh", 1, 8);
-  tool.output_file(c.set, "--set", "SET.tsv",
-                   "also write the material set of the body, for --materials; for a sliding breast with its "
-                   "supports of wall and cut");
+  tool.number(
+      c.coarse, "--coarse", "FACTOR",
+      "coarsening of the phantom's own mesh, as in phantom: its landmarks depend on that mesh", 1,
+      8);
+  tool.output_file(
+      c.set, "--set", "SET.tsv",
+      "also write the material set of the body; for a sliding breast with its supports of wall "
+      "and cut");
   tool.example("phantom-mesh left-fine.vtkhdf --supine left-fine-supine.vtkhdf --level 2",
-               "the left breast of the phantom `paper` for `compress --cut fixed`");
-  tool.example("phantom-mesh body.vtkhdf --preset average --level 1 --set body.tsv",
-               "a breast that slides, for `compress --materials body.tsv --image-edge auto`");
+               "the left breast of the phantom `paper` for `compress`");
+  tool.example("phantom-mesh body.vtkhdf --preset average --level 1",
+               "a breast that slides, for `compress --image-edge auto`");
 }
 
 // Mesh parameters that differ from those of phantom and hexmesh, with `level` times as many
@@ -96,6 +98,7 @@ void run_phantom_mesh(const Choices& c, Run& run) {
   mesh.reference = postures.stress_free;
   mesh.pressure = postures.pressure;
   mesh.gravity = posture_gravity(Posture::prone);
+  mesh.model = postures.model;
   mesh.solve = postures.prone.record;
   write_mesh(c.mesh, mesh);
   if (!c.set.empty()) write_table(c.set, material_table(materials));

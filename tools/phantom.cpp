@@ -58,8 +58,9 @@ void declare(Tool& tool, Choices& c) {
   tool.number(c.noise, "--noise", "%",
               "standard deviation of the noise in percent of the fat signal", 0, 100);
   tool.choice(c.posture, "--posture", {"prone", "supine"}, "posture of the scan");
-  tool.numbers(c.misalign, "--misalign", "MM,DEGREES", 2,
-               "shift and rotation of a supine body relative to the prone one, in directions drawn from the seed");
+  tool.numbers(
+      c.misalign, "--misalign", "MM,DEGREES", 2,
+      "shift and rotation of a supine body relative to the prone one, in directions drawn from the seed");
   tool.text(c.materials, "--materials", "NAME|FILE",
             "material set of the breasts (default: that of the preset)");
   tool.number(c.coarse, "--coarse", "FACTOR",
@@ -71,8 +72,9 @@ void declare(Tool& tool, Choices& c) {
     if ((shift != 0 || turn != 0) && c.posture != "supine")
       throw input_error("--misalign is for --posture supine");
     if (!(shift >= 0 && shift <= 50 && turn >= 0 && turn <= 15)) {
-      throw input_error("--misalign ", shift, ",", turn,
-                        ": the shift must lie between 0 and 50 mm, the turn between 0 and 15 degrees");
+      throw input_error(
+          "--misalign ", shift, ",", turn,
+          ": the shift must lie between 0 and 50 mm, the turn between 0 and 15 degrees");
     }
   });
   tool.example("phantom paper.nrrd --truth paper-truth", "a breast of average size and its truth");
@@ -93,7 +95,8 @@ PhantomParameters parameters_of(const Choices& c) {
 }
 
 void write_truth_side(const std::filesystem::path& folder, PhantomBreast& breast,
-                      const Postures& postures, const PhantomScene& scene, const PhantomImage& image, Run& run) {
+                      const Postures& postures, const PhantomScene& scene,
+                      const PhantomImage& image, Run& run) {
   const std::string side(side_name(breast.mesh.side));
   LabelVolume labels = true_labels(scene, image, breast.mesh.side);
   labels.history = breast.mesh.history = run.history({});
@@ -101,6 +104,7 @@ void write_truth_side(const std::filesystem::path& folder, PhantomBreast& breast
   write_labels(folder / ("labels-" + side + ".vtkhdf"), labels);
   HexMesh mesh = breast.mesh;
   mesh.reference = postures.stress_free;
+  mesh.model = postures.model;
   write_mesh(folder / (side + ".vtkhdf"), mesh);
   write_surface(folder / ("skin-" + side + ".vtp"),
                 boundary_surface(mesh, mesh.points, mesh.skin_faces));
@@ -141,7 +145,8 @@ void run_phantom(const Choices& c, Run& run) {
     return PhantomScene(parameters);
   }();
   const bool supine = c.posture == "supine";
-  const RigidMotion moved = supine ? misalignment(scene, c.misalign[0], c.misalign[1]) : RigidMotion();
+  const RigidMotion moved =
+      supine ? misalignment(scene, c.misalign[0], c.misalign[1]) : RigidMotion();
   if (supine) report_motion(moved, run.report());
   Table landmarks;
   double worst = 0;

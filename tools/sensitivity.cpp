@@ -9,6 +9,7 @@
 #include "mechanics/options.hpp"
 #include "mesh/part.hpp"
 #include "sensitivity/results.hpp"
+#include "solved_model.hpp"
 
 using namespace breast;
 
@@ -55,7 +56,7 @@ void declare(Tool& tool, Choices& c) {
                    "table of landmark, parameter, derivative, d ln|u| of the displacement from "
                    "the imaged position, and seconds (default: stdout)");
   declare_gravity(tool, c.imaged, "direction of gravity during the scan, as given to backward");
-  declare_mechanics(tool, c.mechanics);
+  declare_mechanics(tool, c.mechanics, "REFERENCE");
   tool.cite(
       "Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Tables III-VI (by solving again)");
   tool.example("sensitivity reference.vtkhdf supine.vtkhdf supine-sensitivity.vtkhdf",
@@ -83,10 +84,11 @@ void check_pair(const HexMesh& reference, const HexMesh& state, const Choices& c
 }
 
 void run_sensitivity(const Choices& c, Run& run) {
-  const MechanicsOptions options = mechanics_options(c.mechanics);
   const HexMesh reference = read_mesh(c.reference, {.reference = true});
   HexMesh mesh = read_mesh(c.state, {.reference = true});
   check_pair(reference, mesh, c);
+  const MechanicsOptions options = model_for(c.mechanics, c.reference, reference, run);
+  warn_of_differences(options, c.state, mesh, run);
   const auto parameters =
       pick_parameters(all_parameters(reference, mesh, options, c.imaged.vector()), c.parameters);
   const SensitivityChain chain = [&] {

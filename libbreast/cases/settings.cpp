@@ -11,6 +11,7 @@
 #include "cases/settings_table.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "material/law.hpp"
 
 namespace breast {
 
@@ -215,7 +216,9 @@ void Decisions::decide_folder() {
 // A living breast slides on the chest wall and is soft; the breast of the paper is held there and
 // has the materials of Table II.
 void Decisions::decide_model() {
-  set_default("MATERIALS", !printed() && (!phantom_ || body_slides_) ? "invivo" : "seed2008");
+  set_default("MATERIALS",
+              !printed() && (!phantom_ || body_slides_) ? default_material_set : "seed2008");
+  set_default("POPULATION_MATERIALS", default_material_set);
   const fs::path set_file = material_set_file(value("MATERIALS"), request_.pipelines);
   const bool slides = !printed() && has_wall(set_file);
   set("slides", slides ? "yes" : "");

@@ -56,42 +56,59 @@ void check_gravity(const Vec3& gravity, const std::string& given) {
 }
 }  // namespace
 
-void declare_mechanics(Tool& tool, MechanicsChoices& choices) {
+namespace {
+
+void declare_origin(Tool& tool, const MechanicsChoices& choices, const std::string& from) {
+  tool.describe(
+      "The model is the one with which " + from +
+      " was solved, as the file states it: laws, densities and skin, supports at wall and cut, "
+      "element, invariants and bulk ratio. Options change only what they name; --materials "
+      "replaces laws, densities and skin, and those supports that the set has. A warning names every "
+      "part that differs from the file's model. " +
+      (choices.default_set.empty()
+           ? "A file without a model needs --materials; wall, cut"
+           : "Without a model in the file and without --materials, the set is " +
+                 choices.default_set + "; wall, cut") +
+      " and skin are then those of the set (otherwise the wall is held, the cut free, and the skin "
+      "does not wrinkle), the element is q1p0, the invariants are isochoric, and the tissues are "
+      "exactly incompressible.");
+}
+
+}  // namespace
+
+void declare_mechanics(Tool& tool, MechanicsChoices& choices, const std::string& from) {
+  declare_origin(tool, choices, from);
   tool.text(choices.materials, "--materials", "NAME|FILE", "material set: its name or a TSV file");
-  tool.texts(choices.scale, "--scale", "TISSUE=PERCENT",
-             "scale the stiffness of one tissue to this percentage of the set's, at least 10, "
-             "such as fat=150");
+  tool.texts(
+      choices.scale, "--scale", "TISSUE=PERCENT",
+      "scale the stiffness of one tissue to this percentage of that of --materials or of the "
+      "file's model, at least 10, such as fat=150");
   tool.choice(choices.element, "--element", {"q1p0", "q2p1"},
               "element type: 8 nodes and one pressure, or 27 nodes and four pressures");
   tool.choice(choices.invariants, "--invariants", {"isochoric", "plain"},
               "invariants in the laws: those of the isochoric part of C, or the plain ones as "
               "printed in the paper");
-  tool.number(choices.bulk_ratio, "--bulk-ratio", "K_OVER_MU",
-              "ratio of bulk to shear modulus (default: exactly incompressible)", 1.0, 1e9);
+  tool.text(choices.bulk_ratio, "--bulk-ratio", "K_OVER_MU|incompressible",
+            "ratio of bulk to shear modulus, from 1 to 1e9, or exactly incompressible tissues");
   tool.text(choices.wall, "--wall", "held|slide[:KT]|spring:KN[,KT]",
             "boundary condition at the chest wall. held: no displacement; slide: the breast "
             "slides on the wall against springs of KT kPa/mm (0.01 if no number is given); "
             "spring: springs of KN kPa/mm normal and KT tangential to the wall (KT is a third "
-            "of KN if it is not given) (default: that of the material set, otherwise held)");
+            "of KN if it is not given)");
   tool.text(
       choices.cut, "--cut", "free|fixed|roller|spring:KC[,KS]|tissue:KC[,KS]",
       "boundary condition on the lateral cut, the surface at which the model ends: free, "
       "fixed, roller, or springs of KC kPa/mm; where the cut faces the sternum, an attachment "
       "of KS kPa/mm pulls tissue back that moves away from it. tissue: the same springs, which "
       "also carry the weight of the tissue beyond, as far as its own supports at the wall (KT) "
-      "do not (default: that of the material set, otherwise free)");
+      "do not");
   tool.number(choices.skin_compression, "--skin-compression", "PERCENT",
-              "share of the skin's stiffness that remains in compression, where skin wrinkles "
-              "(default: that of the material set, otherwise 100)",
-              0.1, 100);
+              "share of the skin's stiffness that remains in compression, where skin wrinkles", 0.1,
+              100);
   tool.number(choices.skin_smoothing, "--skin-smoothing", "WIDTH",
-              "half the width of the transition to wrinkling, in squared stretches (default: "
-              "that of the material set, otherwise 0.02)",
-              1e-4, 0.5);
+              "half the width of the transition to wrinkling, in squared stretches", 1e-4, 0.5);
   tool.number(choices.skin_prestretch, "--skin-prestretch", "PERCENT",
-              "stretch of the skin in the stress-free shape of the body (default: that of the "
-              "material set, otherwise 0)",
-              0, 50);
+              "stretch of the skin in the stress-free shape of the body", 0, 50);
   tool.choice(choices.solver, "--solver", {"auto", "direct", "multigrid"},
               "linear solver. direct: Cholesky factorisation; multigrid: iterative, with a "
               "check of stability; auto: multigrid where it is cheaper, followed by direct if "

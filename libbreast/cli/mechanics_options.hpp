@@ -10,19 +10,23 @@
 
 namespace breast {
 
+/// The parts of the model that the command line gives; empty: not given.
 struct MechanicsChoices {
-  std::string materials = "seed2008";    ///< name of a set, or a TSV file
-  std::vector<std::string> scale;        ///< "TISSUE=PERCENT", checked in form only
-  std::string element = "q1p0";          ///< q1p0 | q2p1
-  std::string invariants = "isochoric";  ///< isochoric | plain
-  std::optional<double> bulk_ratio;      ///< K/μ; none: exactly incompressible
-  std::string wall, cut;                 ///< empty: those of the material set
-  std::optional<double> skin_compression, skin_smoothing, skin_prestretch;
-  std::string solver = "auto";           ///< auto | direct
-  bool keep_unconverged = false;         ///< write the file even if not converged, with this status
+  std::string default_set = {};  ///< material set for a file that states no model; empty: none
+  std::string materials = {};    ///< name of a set, or a TSV file
+  std::vector<std::string> scale = {};  ///< "TISSUE=PERCENT", checked in form only
+  std::string element = {};             ///< q1p0 | q2p1
+  std::string invariants = {};          ///< isochoric | plain
+  std::string bulk_ratio = {};          ///< K/μ, or "incompressible"
+  std::string wall = {}, cut = {};
+  std::optional<double> skin_compression = {}, skin_smoothing = {}, skin_prestretch = {};
+  std::string solver = "auto";    ///< auto | direct | multigrid
+  bool keep_unconverged = false;  ///< write the file even if not converged, with this status
 };
 
-void declare_mechanics(Tool& tool, MechanicsChoices& choices);
+/// The options of the model, and a paragraph that says where it comes from: from the file `from`, as
+/// the help calls it.
+void declare_mechanics(Tool& tool, MechanicsChoices& choices, const std::string& from);
 
 /// --estimate: step (the present value first), q2 or none.
 void declare_estimate(Tool& tool, std::string& estimate);

@@ -10,6 +10,10 @@
 
 namespace breast {
 
+/// The options of the root on all ranks, whose own are ignored: only the root reads the file that
+/// states the model. Collective.
+MechanicsOptions shared_options(const Ranks& ranks, const MechanicsOptions& of_root);
+
 /// Both functions are collective. `mesh` is read on the root only; the arrays of the result are
 /// filled on the root only, and its summary on all ranks. The linear solver is always multigrid;
 /// there is no search for a remedy and no error estimate. Throws a SharedError (input) if mesh and

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "material/set_parameter.hpp"
+#include "mechanics/model.hpp"
 
 namespace breast {
 
@@ -172,7 +173,9 @@ void Search::judge(Identified& out) const {
     fit.observer = point.deviation * std::sqrt(3.0);
     out.landmarks.push_back(fit);
   }
-  out.materials = with_factors(options_.mechanics, sought_, out.fit.x).materials;
+  const MechanicsOptions model = with_factors(options_.mechanics, sought_, out.fit.x);
+  out.materials = model.materials;
+  out.second.model = model_text(model);
 }
 
 // The parameters are x = x̂ + z d + z² a + z³ b with z standard normal, where d is one deviation of

@@ -17,7 +17,7 @@ const NodalField& derivative_in(const DerivativeFields& fields, const std::strin
   if (found == fields.end()) {
     throw input_error("band: the material set states the uncertainty of '", name,
                       "', but a file has no derivative with respect to it; run sensitivity with "
-                      "this set as --materials");
+                      "--parameters main and this set, or give --priors FILE");
   }
   return found->second;
 }
@@ -39,8 +39,7 @@ void use_covariance(const std::vector<std::string>& parameters, const Eigen::Mat
                     DerivativeFields& from, DerivativeFields& to, std::vector<Prior>& priors) {
   static const std::map<std::string, std::string> prior_of{
       {"low_order", "fat"}, {"quadratic", "fat"}, {"stiffness", "fat"}, {"gland", "fibroglandular"},
-      {"skin", "skin"},     {"wall", "wall"},     {"cut", "cut"},
-      {"sternum", "sternum"}};
+      {"skin", "skin"},     {"wall", "wall"},     {"cut", "cut"},       {"sternum", "sternum"}};
   for (const std::string& parameter : parameters) {
     const auto known = prior_of.find(parameter);
     if (known == prior_of.end()) continue;

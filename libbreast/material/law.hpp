@@ -14,6 +14,8 @@
 
 namespace breast {
 
+struct Table;
+
 /// W and its derivatives at (I1, I2), Pa.
 struct LawValue {
   double w = 0, w1 = 0, w2 = 0, w11 = 0, w12 = 0, w22 = 0;
@@ -36,6 +38,7 @@ struct Law {
   /// The law with all stiffness constants multiplied (b of the exponential is not a stiffness).
   Law scaled(double factor) const;
   std::string describe() const;
+  bool operator==(const Law&) const = default;
 };
 
 /// "polynomial", "exponential", ...; throws Error (input) naming the choices.
@@ -49,9 +52,9 @@ std::string law_constant_column(std::string_view constant);
 /// Behaviour of thin skin in addition to its law: it wrinkles instead of resisting compression, and
 /// is stretched even on the stress-free body. The defaults give the law alone, as in the paper.
 struct SkinBehaviour {
-  double kept = 1;        ///< fraction of the law that remains in compression; 1: all of it
+  double kept = 1;          ///< fraction of the law that remains in compression; 1: all of it
   double smoothing = 0.02;  ///< half the width of the transition, in squared stretches
-  double prestretch = 0;  ///< stretch of the skin in the stress-free shape of the body, minus 1
+  double prestretch = 0;    ///< stretch of the skin in the stress-free shape of the body, minus 1
 };
 /// Throws Error (input) unless the fraction kept is 0.001 to 1, the smoothing 1e-4 to 0.5 and the
 /// pre-stretch 0 to 0.5. Skin of which less than the whole law is kept in compression must also be
@@ -79,10 +82,20 @@ struct MaterialSet {
   bool tissue_beyond = false;  ///< the cut carries the weight of the tissue beyond it
   SoftnessUncertainty uncertainty;
   const Law& law(Tissue t) const { return laws[static_cast<std::size_t>(t)]; }
+  /// Whether two tissues have the same law and density.
+  bool alike(Tissue a, Tissue b) const {
+    return law(a) == law(b) && density[std::size_t(a)] == density[std::size_t(b)];
+  }
 };
+
+/// The set with which a chain begins unless another one is given: the default of backward and of the
+/// pipeline. All later stages take the model that is stated in their input.
+inline constexpr const char* default_material_set = "invivo";
 
 /// Named set (one of material_set_names()) or a TSV file of the same columns.
 MaterialSet load_materials(const std::string& name_or_file);
+/// The set in a table of these columns; errors begin with the table's name.
+MaterialSet read_materials(const Table& table, const std::string& name);
 /// The names of the embedded sets, in alphabetical order.
 std::vector<std::string> material_set_names();
 /// Applies "--scale fat=50" settings (per cent). Throws Error (input).

@@ -90,7 +90,9 @@ SoftnessUncertainty read_uncertainty(const Table& table, const std::string& name
   return known;
 }
 
-MaterialSet read_set(const Table& table, const std::string& name) {
+}  // namespace
+
+MaterialSet read_materials(const Table& table, const std::string& name) {
   MaterialSet set;
   set.name = name;
   std::array<bool, n_tissues> given{};
@@ -127,12 +129,10 @@ MaterialSet read_set(const Table& table, const std::string& name) {
   return set;
 }
 
-}  // namespace
-
 MaterialSet load_materials(const std::string& name_or_file) {
   for (const EmbeddedTable& table : embedded_materials()) {
     if (table.name == name_or_file) {
-      return read_set(parse_table(std::string(table.text), name_or_file), name_or_file);
+      return read_materials(parse_table(std::string(table.text), name_or_file), name_or_file);
     }
   }
   if (!std::filesystem::exists(name_or_file)) {
@@ -142,7 +142,7 @@ MaterialSet load_materials(const std::string& name_or_file) {
     throw input_error("materials '", name_or_file, "': neither a file nor one of ", names);
   }
   const std::filesystem::path file(name_or_file);
-  return read_set(read_table(file), file.filename().string());
+  return read_materials(read_table(file), file.filename().string());
 }
 
 std::vector<std::string> material_set_names() {

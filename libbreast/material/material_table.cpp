@@ -3,9 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace breast {
+
+std::string percent_text(double fraction) {
+  // 100 times 0.07 is not 7, but a neighbour of it.
+  const double product = 100 * fraction;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double near :
+       {product, std::nextafter(product, -infinity), std::nextafter(product, infinity)})
+    if (near / 100 == fraction) return format_number(near);
+  return format_number(product);
+}
 
 namespace {
 
@@ -13,15 +24,16 @@ using Row = std::map<std::string, std::string>;
 
 Row law_row(const MaterialSet& set, Tissue tissue) {
   const Law& law = set.law(tissue);
-  Row row{{"tissue", std::string(tissue_name(tissue))}, {"law", std::string(law_kind_name(law.kind))}};
+  Row row{{"tissue", std::string(tissue_name(tissue))},
+          {"law", std::string(law_kind_name(law.kind))}};
   row["density_g_per_mm3"] = format_number(set.density[std::size_t(tissue)]);
   const std::vector<std::string_view> names = law_constant_names(law.kind);
   for (std::size_t k = 0; k < names.size(); ++k)
     row[law_constant_column(names[k])] = format_number(law.constants[k]);
   if (tissue == Tissue::skin) {
-    row["compression_percent"] = format_number(100 * set.skin.kept);
+    row["compression_percent"] = percent_text(set.skin.kept);
     row["smoothing"] = format_number(set.skin.smoothing);
-    row["prestretch_percent"] = format_number(100 * set.skin.prestretch);
+    row["prestretch_percent"] = percent_text(set.skin.prestretch);
   }
   return row;
 }
@@ -54,9 +66,11 @@ void add_uncertainty(const SoftnessUncertainty& known, std::vector<Row>& rows) {
 
 Table material_table(const MaterialSet& set) {
   std::vector<Row> rows;
-  for (const Tissue tissue : {Tissue::fat, Tissue::fibroglandular, Tissue::muscle, Tissue::tumour,
-                              Tissue::skin})
+  for (const Tissue tissue :
+       {Tissue::fat, Tissue::fibroglandular, Tissue::muscle, Tissue::tumour, Tissue::skin})
     rows.push_back(law_row(set, tissue));
+  for (const Tissue tissue : {Tissue::air, Tissue::other})
+    if (!set.alike(tissue, Tissue::fat)) rows.push_back(law_row(set, tissue));
   if (set.wall_support) rows.push_back(support_row("wall", *set.wall_support));
   if (set.cut_support)
     rows.push_back(support_row("cut", *set.cut_support, set.tissue_beyond ? "tissue" : "support"));

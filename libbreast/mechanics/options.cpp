@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/table.hpp"
 #include "mechanics/set_supports.hpp"
 
 namespace breast {
@@ -24,34 +25,66 @@ Value pick(const std::string& name, const char* option,
 
 }  // namespace
 
-MechanicsOptions mechanics_options(const MechanicsTexts& texts) {
-  MechanicsOptions options;
-  MaterialSet& materials = options.materials;
-  materials = load_materials(texts.materials);
+namespace {
+
+void take_materials(const MechanicsTexts& texts, MechanicsOptions& model) {
+  MaterialSet& materials = model.materials;
+  if (!texts.materials.empty()) {
+    materials = load_materials(texts.materials);
+    take_supports_of_set(model);
+  }
+  if (materials.name.empty()) throw input_error("--materials: no material set is given");
   scale_materials(materials, texts.scale);
   SkinBehaviour& skin = materials.skin;
   if (texts.skin_compression) skin.kept = *texts.skin_compression / 100;
   if (texts.skin_smoothing) skin.smoothing = *texts.skin_smoothing;
   if (texts.skin_prestretch) skin.prestretch = *texts.skin_prestretch / 100;
   check_skin(skin, "skin");
-  options.element = pick<Element>(texts.element, "--element",
+}
+
+}  // namespace
+
+MechanicsOptions mechanics_options(const MechanicsTexts& texts, MechanicsOptions model) {
+  take_materials(texts, model);
+  if (!texts.element.empty()) {
+    model.element = pick<Element>(texts.element, "--element",
                                   {{"q1p0", Element::q1p0}, {"q2p1", Element::q2p1}});
-  options.invariants =
-      pick<Invariants>(texts.invariants, "--invariants",
-                       {{"isochoric", Invariants::isochoric}, {"plain", Invariants::plain}});
-  options.bulk_ratio = texts.bulk_ratio.value_or(0);
-  take_supports_of_set(options);
-  if (!texts.wall.empty()) options.wall = parse_wall(texts.wall);
-  if (!texts.cut.empty()) {
-    options.cut = parse_cut(texts.cut);
-  } else if (options.cut.kind == Cut::tissue && !carries_tissue_beyond(options.wall)) {
-    options.cut.kind = Cut::spring;  // of the set, whose wall was replaced
   }
-  options.solver = pick<SolverOption>(texts.solver, "--solver",
-                                      {{"auto", SolverOption::automatic},
-                                       {"direct", SolverOption::direct},
-                                       {"multigrid", SolverOption::multigrid}});
-  return options;
+  if (!texts.invariants.empty()) {
+    model.invariants =
+        pick<Invariants>(texts.invariants, "--invariants",
+                         {{"isochoric", Invariants::isochoric}, {"plain", Invariants::plain}});
+  }
+  if (!texts.bulk_ratio.empty()) model.bulk_ratio = parse_bulk_ratio(texts.bulk_ratio);
+  if (!texts.wall.empty()) model.wall = parse_wall(texts.wall);
+  if (!texts.cut.empty()) {
+    model.cut = parse_cut(texts.cut);
+  } else if (model.cut.kind == Cut::tissue && !carries_tissue_beyond(model.wall)) {
+    model.cut.kind = Cut::spring;  // its wall was replaced
+  }
+  model.solver = pick<SolverOption>(texts.solver, "--solver",
+                                    {{"auto", SolverOption::automatic},
+                                     {"direct", SolverOption::direct},
+                                     {"multigrid", SolverOption::multigrid}});
+  return model;
+}
+
+namespace {
+constexpr const char* no_bulk_ratio = "incompressible";
+}
+
+double parse_bulk_ratio(const std::string& text) {
+  if (text == no_bulk_ratio) return 0;
+  const std::optional<double> ratio = number_in(text);
+  if (!ratio || !(*ratio >= 1 && *ratio <= 1e9)) {
+    throw input_error("--bulk-ratio '", text, "': give '", no_bulk_ratio,
+                      "' or a ratio of bulk to shear modulus from 1 to 1e9, for example 1000");
+  }
+  return *ratio;
+}
+
+std::string bulk_ratio_text(double ratio) {
+  return ratio > 0 ? format_number(ratio) : no_bulk_ratio;
 }
 
 namespace {
@@ -71,10 +104,6 @@ std::string describe_support(const WallOption& wall) {
 }
 
 }  // namespace
-
-std::string support_options(const MechanicsOptions& options) {
-  return "--wall " + describe(options.wall) + " --cut " + describe(options.cut);
-}
 
 std::string describe_model(const MechanicsOptions& options) {
   const MaterialSet& set = options.materials;

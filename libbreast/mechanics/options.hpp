@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "material/law.hpp"
@@ -25,7 +26,7 @@ struct MechanicsOptions {
   Element element = Element::q1p0;
   Invariants invariants = Invariants::isochoric;
   double bulk_ratio = 0;  ///< K/μ; 0 means exactly incompressible
-  WallOption wall = {};  ///< springs are at rest in the stress-free shape
+  WallOption wall = {};   ///< springs are at rest in the stress-free shape
   CutOption cut = {};
   SolverOption solver = SolverOption::automatic;
   Estimate estimate = Estimate::none;
@@ -34,37 +35,43 @@ struct MechanicsOptions {
   bool seek_remedy = true;
 };
 
-/// The mechanics options as texts. Where wall, cut or skin is empty, the material set decides.
+/// The mechanics options as texts. What is empty is left as it is.
 struct MechanicsTexts {
-  std::string materials = "seed2008";  ///< set or file
+  std::string materials = {};           ///< set or file
   std::vector<std::string> scale = {};  ///< "TISSUE=PERCENT"
-  std::string element = "q1p0", invariants = "isochoric";
-  std::optional<double> bulk_ratio = {};
+  std::string element = {}, invariants = {};
+  std::string bulk_ratio = {};  ///< K/μ, or "incompressible"
   std::string wall = {}, cut = {}, solver = "auto";
-  std::optional<double> skin_compression = {}, skin_smoothing = {}, skin_prestretch = {};  ///< per cent, -, per cent
+  std::optional<double> skin_compression = {}, skin_smoothing = {},
+                        skin_prestretch = {};  ///< per cent, -, per cent
 };
 
-/// The texts are those of the mechanics options: materials (set or file), "TISSUE=PERCENT" scales,
-/// "q1p0" | "q2p1", "isochoric" | "plain", bulk ratio K/μ (none: incompressible), wall and cut as
-/// parse_wall and parse_cut read them, "auto" | "direct" | "multigrid". Throws Error (input) for
-/// any other.
-MechanicsOptions mechanics_options(const MechanicsTexts& texts);
+/// `model` with what the texts give: materials (a set or a file, with its laws, densities and skin,
+/// and with those supports of wall and cut that it has), then "TISSUE=PERCENT" scales of these
+/// materials, "q1p0" | "q2p1", "isochoric" | "plain", the bulk ratio as parse_bulk_ratio reads it,
+/// wall and cut as parse_wall and parse_cut read them, and the skin; and the solver "auto" | "direct" |
+/// "multigrid". A cut that carries the tissue beyond it keeps only its springs where the wall that is
+/// given has none. Throws Error (input) for any other text, and if there is no material set at all.
+MechanicsOptions mechanics_options(const MechanicsTexts& texts, MechanicsOptions model = {});
 
 /// The same from the choices of a command line: any struct with members of these names, since the
 /// struct of the tools belongs to a layer that this one does not include.
 template <class Choices>
-MechanicsOptions mechanics_options(const Choices& c) {
-  return mechanics_options(MechanicsTexts{c.materials, c.scale, c.element, c.invariants,
-                                          c.bulk_ratio, c.wall, c.cut, c.solver,
-                                          c.skin_compression, c.skin_smoothing,
-                                          c.skin_prestretch});
+MechanicsOptions mechanics_options(const Choices& c, MechanicsOptions model = {}) {
+  return mechanics_options(
+      MechanicsTexts{c.materials, c.scale, c.element, c.invariants, c.bulk_ratio, c.wall, c.cut,
+                     c.solver, c.skin_compression, c.skin_smoothing, c.skin_prestretch},
+      std::move(model));
 }
+
+/// "incompressible" (0) or a ratio of bulk to shear modulus from 1 to 1e9. Throws Error (input) for
+/// anything else.
+double parse_bulk_ratio(const std::string& text);
+/// The text that parse_bulk_ratio reads as this ratio.
+std::string bulk_ratio_text(double ratio);
 
 /// Describes the model in one sentence: its boundary conditions, stiffness and skin.
 std::string describe_model(const MechanicsOptions& options);
-
-/// The boundary conditions as on a command line: "--wall held --cut free".
-std::string support_options(const MechanicsOptions& options);
 
 /// Parses "none", "step" or "q2". Throws Error (input) for any other name.
 Estimate estimate_from_name(const std::string& name);

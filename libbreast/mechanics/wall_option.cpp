@@ -12,8 +12,7 @@ namespace breast {
 namespace {
 
 /// The numbers after "KIND:"; no value if the text is of another kind or contains anything else.
-std::optional<std::vector<double>> numbers_after(const std::string& kind,
-                                                 const std::string& text) {
+std::optional<std::vector<double>> numbers_after(const std::string& kind, const std::string& text) {
   if (text.rfind(kind + ":", 0) != 0) return {};
   std::vector<double> list;
   std::size_t at = kind.size() + 1;
@@ -25,10 +24,6 @@ std::optional<std::vector<double>> numbers_after(const std::string& kind,
     if (comma == std::string::npos) return list;
     at = comma + 1;
   }
-}
-
-std::string formatted(double value) {
-  return message(value);
 }
 
 }  // namespace
@@ -56,7 +51,7 @@ CutOption parse_cut(const std::string& text) {
   if (text == "roller") return Cut::roller;
   for (const Cut kind : {Cut::spring, Cut::tissue}) {
     const auto spring = numbers_after(kind == Cut::spring ? "spring" : "tissue", text);
-    if (!spring || spring->size() > 2 || !(spring->front() > 0 && spring->back() > 0)) continue;
+    if (!spring || spring->size() > 2 || !(spring->front() >= 0 && spring->back() > 0)) continue;
     const bool uniform = spring->size() == 1;
     return {kind, spring->front(), uniform ? std::nullopt : std::optional<double>(spring->back())};
   }
@@ -71,10 +66,10 @@ std::string describe(const WallOption& wall) {
     case WallKind::held:
       return "held";
     case WallKind::slide:
-      return "slide:" + formatted(wall.stiffness.tangential);
+      return "slide:" + format_number(wall.stiffness.tangential);
     case WallKind::spring:
-      return "spring:" + formatted(wall.stiffness.normal) + "," +
-             formatted(wall.stiffness.tangential);
+      return "spring:" + format_number(wall.stiffness.normal) + "," +
+             format_number(wall.stiffness.tangential);
   }
   return "";
 }
@@ -89,8 +84,8 @@ std::string describe(const CutOption& cut) {
       return "roller";
     case Cut::spring:
     case Cut::tissue:
-      return (cut.kind == Cut::spring ? "spring:" : "tissue:") + formatted(cut.stiffness) +
-             (cut.sternal ? "," + formatted(*cut.sternal) : "");
+      return (cut.kind == Cut::spring ? "spring:" : "tissue:") + format_number(cut.stiffness) +
+             (cut.sternal ? "," + format_number(*cut.sternal) : "");
   }
   return "";
 }

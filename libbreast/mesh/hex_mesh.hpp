@@ -11,6 +11,7 @@
 
 #include "core/provenance.hpp"
 #include "core/types.hpp"
+#include "mesh/model_text.hpp"
 #include "surface/hermite.hpp"
 #include "views/view.hpp"
 
@@ -101,8 +102,6 @@ std::optional<SolveStatus> status_from_name(const std::string& name);
 struct SolveRecord {
   SolveStatus status = SolveStatus::not_converged;
   std::string reason;  ///< empty when converged
-  /// The boundary conditions as options: "--wall slide:0.01 --cut free"; empty in older files.
-  std::string support = {};
   std::vector<IterationRecord> iterations;
 };
 
@@ -136,6 +135,7 @@ struct HexMesh {
   std::string template_name;           ///< "dome", "cuboid", ...
   std::array<int, 4> template_size{0, 0, 0, 0};
   std::optional<BreastGeometry> geometry;  ///< group /breast/hermite
+  std::optional<ModelText> model;  ///< with which `points` was solved; none: not stated
   std::optional<SolveRecord> solve;
   std::optional<ContactRecord> contact;
   Vec3 gravity{0, 0, 0};               ///< mm/s^2 acting on `points` (0 for reference)

@@ -6,8 +6,9 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-#include "mesh/locate.hpp"
+#include "mechanics/model.hpp"
 #include "mechanics/set_supports.hpp"
+#include "mesh/locate.hpp"
 #include "mesh/quality.hpp"
 #include "phantom/chest/rib_surface.hpp"
 
@@ -15,7 +16,9 @@ namespace breast {
 
 namespace {
 
-Element element_of(const HexMesh& mesh) { return mesh.order == 2 ? Element::q2p1 : Element::q1p0; }
+Element element_of(const HexMesh& mesh) {
+  return mesh.order == 2 ? Element::q2p1 : Element::q1p0;
+}
 
 void must_converge(const Equilibrium& found, const HexMesh& mesh, std::string_view what) {
   if (found.converged()) return;
@@ -23,13 +26,17 @@ void must_converge(const Equilibrium& found, const HexMesh& mesh, std::string_vi
                             found.record.reason);
 }
 
-// Solves and stores the resulting shape in the mesh.
-SolveSummary take_posture(HexMesh& mesh, Posture posture, const MaterialSet& materials,
-                          Progress& progress) {
+MechanicsOptions held_model(const HexMesh& mesh, const MaterialSet& materials) {
   MechanicsOptions options;
   options.materials = materials;
   options.element = element_of(mesh);
   options.cut = Cut::fixed;
+  return options;
+}
+
+// Solves and stores the resulting shape in the mesh.
+SolveSummary take_posture(HexMesh& mesh, Posture posture, const MechanicsOptions& options,
+                          Progress& progress) {
   Equilibrium found = solve_forward(mesh, posture_gravity(posture), options, progress);
   must_converge(found, mesh, posture_name(posture));
   store(found, mesh);
@@ -46,9 +53,11 @@ double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) 
 
 Postures solve_postures(HexMesh& mesh, const MaterialSet& materials, Progress& progress) {
   constexpr double agreement = 1e-4;  // mm
+  const MechanicsOptions options = held_model(mesh, materials);
   Postures out;
+  out.model = model_text(options);
   for (int pass = 0; pass < 6; ++pass) {
-    out.prone = take_posture(mesh, Posture::prone, materials, progress);
+    out.prone = take_posture(mesh, Posture::prone, options, progress);
     out.imaged_gap = largest_distance(mesh.points, mesh.imaged);
     if (out.imaged_gap < agreement) break;
     mesh.imaged = mesh.points;
@@ -57,7 +66,7 @@ Postures solve_postures(HexMesh& mesh, const MaterialSet& materials, Progress& p
     landmark.imaged = landmark_position(mesh, mesh.imaged, landmark);
   out.pressure = mesh.pressure;
   HexMesh supine = mesh;
-  out.supine_solve = take_posture(supine, Posture::supine, materials, progress);
+  out.supine_solve = take_posture(supine, Posture::supine, options, progress);
   out.supine = std::move(supine.points);
   out.stress_free = mesh.reference;
   return out;
@@ -73,6 +82,7 @@ Postures solve_sliding_postures(const HexMesh& imaged, const MaterialSet& materi
   // As fast as multigrid on these meshes, which gives up on some of the breasts.
   options.solver = SolverOption::direct;
   Postures out;
+  out.model = model_text(options);
   HexMesh mesh = imaged;
   const Equilibrium prone =
       solve_backward(mesh, posture_gravity(Posture::prone), options, progress);

@@ -12,6 +12,7 @@ struct Postures {
   std::vector<Vec3> stress_free, supine;  ///< nodal positions
   std::vector<double> pressure;           ///< Pa per element, of the prone shape
   SolveSummary prone, supine_solve;
+  ModelText model;  ///< with which both were solved
   /// Distance in mm between the shape `imaged` used for the load and the solution `points`.
   double imaged_gap = 0;
 };

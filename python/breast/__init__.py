@@ -23,7 +23,7 @@ from .load import load, load_scan
 from .lookup import Lookup
 from .mammogram import Mammogram
 from .markups import Markup
-from .records import Contact, Friction, Plate, Solve
+from .records import Contact, Friction, Model, Plate, Solve
 from .reports import read_report
 from .run import Run
 from .segmentation import Segmentation
@@ -35,6 +35,6 @@ from .xml_mesh import XmlMesh
 
 __all__ = [
     "BreastError", "Command", "Contact", "ElementMap", "Field", "Friction", "Geometry", "Grid", "Input", "Labels",
-    "Landmark", "Line", "Located", "Lookup", "Mammogram", "Markup", "Plate", "Run", "Segmentation", "Sheet",
+    "Landmark", "Line", "Located", "Lookup", "Mammogram", "Markup", "Model", "Plate", "Run", "Segmentation", "Sheet",
     "Solve", "State", "TISSUES", "Transported", "Volume", "XmlMesh", "load", "load_scan", "read_report",
     "read_table"]

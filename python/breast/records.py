@@ -1,12 +1,34 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a mechanics tool recorded: how the solve converged, and the plates of a compression."""
+"""What a mechanics tool recorded: its model, how the solve converged, and the plates of a compression."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from .document import Document
+
+
+@dataclass(frozen=True)
+class Model:
+    """The mechanical model with which the state was solved, in the words of a tool's command line.
+
+    Attributes:
+        name: of the material set.
+        materials: the set itself as a tab-separated table: laws, densities, skin, supports, uncertainty.
+        element: q1p0 or q2p1.
+        invariants: isochoric or plain.
+        bulk_ratio: bulk to shear modulus, or 'incompressible'.
+        wall, cut: the boundary conditions, as of --wall and --cut.
+    """
+
+    name: str
+    materials: str
+    element: str
+    invariants: str
+    bulk_ratio: str
+    wall: str
+    cut: str
 
 
 @dataclass(frozen=True)
@@ -16,14 +38,12 @@ class Solve:
     Attributes:
         status: converged, stopped_early, unstable or not_converged.
         reason: why not; empty when converged.
-        support: what held the breast, as options of the tool; may be empty.
         iterations: columns of one row a Newton iteration: step, iteration, residual, min_det_F, max_det_F, step_length,
             seconds.
     """
 
     status: str
     reason: str
-    support: str
     iterations: dict[str, np.ndarray]
 
 
@@ -107,18 +127,29 @@ class Contact:
     path: dict[str, np.ndarray]
 
 
+def read_model(document: Document) -> Model | None:
+    """The model with which the state was solved; None for a file that does not state it."""
+    group = "/breast/model"
+    if not document.has_group(group):
+        return None
+    texts = {part.name: document.text(f"{group}@{part.name}") for part in fields(Model)}
+    for name, text in texts.items():
+        if not text:
+            raise document.refuse(f"attribute {group}@{name} is empty, must state this part of the model")
+    return Model(**texts)
+
+
 def read_solve(document: Document) -> Solve | None:
     """The record of the solve; None for a mesh that nothing has solved yet."""
     group = "/breast/solve"
     if not document.has_group(group):
         return None
     status = document.text(f"{group}@status", ("converged", "stopped_early", "unstable", "not_converged"))
-    support = document.text(f"{group}@support")
     rows = len(document.integers(f"{group}/step", (None,)))
     iterations = {name: document.integers(f"{group}/{name}", (rows,)) for name in ("step", "iteration")}
     for name in ("residual", "min_det_F", "max_det_F", "step_length", "seconds"):
         iterations[name] = document.numbers(f"{group}/{name}", (rows,))
-    return Solve(status, document.text(f"{group}@reason"), support, iterations)
+    return Solve(status, document.text(f"{group}@reason"), iterations)
 
 
 def read_contact(document: Document, nodes: int) -> Contact | None:

@@ -13,7 +13,7 @@ from .elements import element_volumes, order_of
 from .errors import BreastError
 from .history import Command
 from .points import checked_points
-from .records import Contact, Solve
+from .records import Contact, Model, Solve
 from .section import faces_in_plane
 from .transport import Transported, transported
 
@@ -70,6 +70,7 @@ class State:
         template: name and size (4) of the arrangement of the elements.
         skin_model: 'none', 'membrane' or 'layer'.
         skin_thickness: mm of each skin face in the imaged shape; empty unless 'membrane'.
+        model: with which it was solved, or None.
         solve: how it was solved, or None.
         contact: the compression plates, or None.
         history: every command that led to the file.
@@ -95,6 +96,7 @@ class State:
     template: tuple[str, tuple[int, ...]]
     skin_model: str
     skin_thickness: np.ndarray
+    model: Model | None
     solve: Solve | None
     contact: Contact | None
     history: tuple[Command, ...]

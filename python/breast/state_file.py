@@ -10,7 +10,7 @@ from .document import Document
 from .elements import FACE_CORNERS, LATTICE, boundary_faces
 from .hdf5 import read_document
 from .history import read_history, read_side
-from .records import read_contact, read_solve
+from .records import read_contact, read_model, read_solve
 from .state import TISSUES, Landmark, State
 
 _POINT, _CELL = "/VTKHDF/PointData/", "/VTKHDF/CellData/"
@@ -46,7 +46,8 @@ def read_state(file: str | os.PathLike[str]) -> State:
         _arrays(doc, _POINT, n, ("imaged", "reference", "displacement_from_scan", "displacement_from_stress_free")),
         _cell_arrays(doc, e), faces, node_sets, _landmarks(doc, e), side, doc.number_list("/breast@gravity", 3),
         (doc.text("/breast/template@name"), doc.integer_list("/breast/template@size", 4)), skin_model, thickness,
-        read_solve(doc), contact, history, float(doc.numbers("/VTKHDF/FieldData/wall_seconds", (1,))[0]))
+        read_model(doc), read_solve(doc), contact, history,
+        float(doc.numbers("/VTKHDF/FieldData/wall_seconds", (1,))[0]))
 
 
 def _numbers(doc: Document, path: str, count: int) -> np.ndarray:

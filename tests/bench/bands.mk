@@ -18,10 +18,9 @@ band-check: $(RUN)/band-samples.tsv
 # (band-drawn, with BAND_DRAWS draws).
 BAND_DRAWS ?= 400
 BAND_PLACES ?= 150
-truth_support := $(if $(body_slides),--materials $(TRUTH_SET),--cut fixed)
 TRUE_SENSITIVITIES := $(foreach view,cc mlo,$(TRUTH_AT)-coarse-$(view)-sensitivity.vtkhdf)
 $(TRUE_SENSITIVITIES): %-sensitivity.vtkhdf: %.vtkhdf $(TRUTH_AT)-coarse.vtkhdf $(SENSITIVITY)
-	$(SENSITIVITY) $(TRUTH_AT)-coarse.vtkhdf $< $@ --posture prone $(truth_support) --table $(basename $@).tsv $(common)
+	$(SENSITIVITY) $(TRUTH_AT)-coarse.vtkhdf $< $@ --posture prone --table $(basename $@).tsv $(common)
 band_bodies := $(RUN)/truth-cc-sensitivity.vtkhdf $(RUN)/truth-mlo-sensitivity.vtkhdf $(TRUE_SENSITIVITIES)
 # $(call band_rows,COUNT,SPREAD)
 band_rows = $(BIN)/band_truth $(band_bodies) 1 $1 $(BAND_PLACES) $2 $(band_set)

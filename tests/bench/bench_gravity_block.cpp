@@ -17,13 +17,13 @@
 #include <string>
 #include <vector>
 
-#include "fixtures/in_place.hpp"
 #include "bench/command_line.hpp"
 #include "core/blas.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "fixtures/block.hpp"
+#include "fixtures/in_place.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/scene.hpp"
 
@@ -42,7 +42,7 @@ const std::vector<std::string> phases{"ordering", "assembly", "factorisation", "
 
 MechanicsOptions one_law(const Settings& s) {
   MechanicsOptions options =
-      mechanics_options({.element = s.element, .solver = s.solver});
+      mechanics_options({.materials = "seed2008", .element = s.element, .solver = s.solver});
   Law law = options.materials.law(Tissue::fat);
   if (s.law == "mr") law = {LawKind::mooney_rivlin, {310, 300}};
   for (Law& each : options.materials.laws) each = law;

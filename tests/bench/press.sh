@@ -41,7 +41,7 @@ step() { # UPPER LOWER: sets that are moved
 
 "$bin/block_mesh" "$n" "$work/block.vtkhdf"
 "$bin/export-deck" "$work/block.vtkhdf" "$work/block.inp" --bulk-ratio "$ratio" --calculix-element "$element" \
-  --gravity 0,0,0 --quiet
+  --materials seed2008 --gravity 0,0,0 --quiet
 travel=$(awk -v g="$gap" 'BEGIN { print (100 - g) / 2 }')
 {
   model "$work/block.inp"

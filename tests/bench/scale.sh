@@ -34,12 +34,12 @@ for what in "$@"; do
   "$bin/block_mesh" "$n" block.vtkhdf
   for tool in $tools; do
     if [ "${SERIAL:-yes}" = yes ]; then
-      "$bin/$tool" block.vtkhdf serial.vtkhdf --gravity 0,0,-9810 --estimate none --threads 1 --solver multigrid \
+      "$bin/$tool" block.vtkhdf serial.vtkhdf --materials seed2008 --gravity 0,0,-9810 --estimate none --threads 1 --solver multigrid \
         --quiet --report serial.json
       row "$tool" serial.json ""
     fi
     for count in ${ranks:-1 2}; do
-      mpirun --oversubscribe -n "$count" "$bin/$tool-mpi" block.vtkhdf "$count.vtkhdf" --gravity 0,0,-9810 --quiet \
+      mpirun --oversubscribe -n "$count" "$bin/$tool-mpi" block.vtkhdf "$count.vtkhdf" --materials seed2008 --gravity 0,0,-9810 --quiet \
         --report "$count.json"
       far=
       [ "${SERIAL:-yes}" != yes ] || far=$(difference serial.vtkhdf "$count.vtkhdf")

@@ -4,9 +4,9 @@
 
 #include <limits>
 
-#include "fixtures/in_place.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "fixtures/in_place.hpp"
 #include "fixtures/shapes.hpp"
 #include "mechanics/mechanics.hpp"
 
@@ -35,7 +35,7 @@ TEST(Input, IsRefusedInWords) {
   HexMesh bare = fixtures::cap({.elements = 4});
   bare.skin_thickness.pop_back();
   EXPECT_THROW(solve_forward(bare, prone, options), Error);
-  EXPECT_THROW(mechanics_options({.solver = "lu"}), Error);
+  EXPECT_THROW(mechanics_options({.materials = "seed2008", .solver = "lu"}), Error);
 }
 
 // Not-a-number anywhere ends as an error or as "not converged", never as a result.

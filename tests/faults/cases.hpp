@@ -23,8 +23,10 @@ namespace breast::faults {
 
 struct Case {
   const char* name;
-  const char* line;  ///< the tool and its arguments; outputs are called out.*, or lie in a folder out
-  int stride = 1;  ///< the short test lets only every so many output calls fail; 0: it leaves the case out
+  const char*
+      line;  ///< the tool and its arguments; outputs are called out.*, or lie in a folder out
+  int stride =
+      1;  ///< the short test lets only every so many output calls fail; 0: it leaves the case out
   int branches_at =
       0;  ///< the output call before which most of its time passes (branches.hpp); 0: none
 };
@@ -41,16 +43,17 @@ inline const std::vector<Case>& cases() {
       {"hexmesh",
        "hexmesh geometry.vtkhdf labels.vtkhdf out.vtkhdf --elements 4 --accept-mismatch --surface out.vtp",
        4},
-      {"backward", "backward cap.vtkhdf out.vtkhdf", 3},
+      {"backward", "backward cap.vtkhdf out.vtkhdf --materials seed2008", 3},
       {"forward", "forward cap_reference.vtkhdf out.vtkhdf", 3},
-      {"backward_mpi", "backward-mpi cap.vtkhdf out.vtkhdf", 8},
+      {"backward_mpi", "backward-mpi cap.vtkhdf out.vtkhdf --materials seed2008", 8},
       {"forward_mpi", "forward-mpi cap_reference.vtkhdf out.vtkhdf", 8},
       {"breast", "breast list"},
       {"cases", "cases record out left scan.nrrd"},
       {"sensitivity",
        "sensitivity cap_reference.vtkhdf cap_supine.vtkhdf out.vtkhdf --table out.tsv", 3},
       {"difference", "difference supine.vtkhdf supine.vtkhdf supine.vtkhdf out.vtkhdf", 4},
-      {"compress", "compress pressed.vtkhdf out.vtkhdf --view CC --reduction 5", 3},
+      {"compress",
+       "compress pressed.vtkhdf out.vtkhdf --view CC --reduction 5 --materials seed2008", 3},
       {"project",
        "project-mammogram cc.vtkhdf out.vti --labels labels.vtkhdf --png out.png --dicom "
        "out.dcm --pixel 4",
@@ -116,14 +119,16 @@ inline void write_inputs(const std::filesystem::path& folder) {
   Volume<std::int16_t> rounded(scan.grid);
   std::copy(scan.voxels.begin(), scan.voxels.end(), rounded.voxels.begin());
   write_dicom_series(folder / "series", rounded, "T1");
-  write_text(folder / "landmarks.tsv",
-             "landmark\tside\tstress_free_x_mm\tstress_free_y_mm\tstress_free_z_mm\tprone_x_mm\tprone_y_mm\t"
-             "prone_z_mm\tsupine_x_mm\tsupine_y_mm\tsupine_z_mm\nnipple\tleft\t0\t0\t0\t0\t0\t0\t0\t0\t0\n"
-             "tumour\tleft\t14\t30\t12\t14\t30\t12\t14\t30\t12\n# rows 2\n");
-  write_text(folder / "women.tsv", "quantity\tmean\tsd\nnipple_lateral_mm\t6\t3\nnipple_posterior_mm\t5\t3\n"
-                                   "ribs_change_mm\t-1\t1\n");
+  write_text(
+      folder / "landmarks.tsv",
+      "landmark\tside\tstress_free_x_mm\tstress_free_y_mm\tstress_free_z_mm\tprone_x_mm\tprone_y_mm\t"
+      "prone_z_mm\tsupine_x_mm\tsupine_y_mm\tsupine_z_mm\nnipple\tleft\t0\t0\t0\t0\t0\t0\t0\t0\t0\n"
+      "tumour\tleft\t14\t30\t12\t14\t30\t12\t14\t30\t12\n# rows 2\n");
+  write_text(folder / "women.tsv",
+             "quantity\tmean\tsd\nnipple_lateral_mm\t6\t3\nnipple_posterior_mm\t5\t3\n"
+             "ribs_change_mm\t-1\t1\n");
   for (const char* line : {
-           "backward cap.vtkhdf cap_reference.vtkhdf",
+           "backward cap.vtkhdf cap_reference.vtkhdf --materials seed2008",
            "forward cap_reference.vtkhdf cap_supine.vtkhdf",
            "project-mammogram cc.vtkhdf cc.vti --pixel 2 --dicom cc.dcm",
            "project-mammogram mlo.vtkhdf mlo.vti --pixel 2 --dicom mlo.dcm",
@@ -143,7 +148,8 @@ inline void write_more_inputs(const std::filesystem::path& folder) {
   grid.origin = Vec3(-80, -10, -70);
   Volume<std::uint8_t> tiny(grid);
   for (std::size_t v = 0; v < tiny.voxels.size(); ++v) tiny.voxels[v] = std::uint8_t(v % 6);
-  for (const char* name : {"tiny.nrrd", "tiny.nii", "tiny.nii.gz", "tiny.mha"}) write_volume(folder / name, tiny);
+  for (const char* name : {"tiny.nrrd", "tiny.nii", "tiny.nii.gz", "tiny.mha"})
+    write_volume(folder / name, tiny);
   std::string raw = read_text(folder / "tiny.nrrd");
   raw.erase(raw.find("\n\n") + 2);
   raw.replace(raw.find("encoding: gzip"), std::string("encoding: gzip").size(), "encoding: raw");
@@ -153,14 +159,17 @@ inline void write_more_inputs(const std::filesystem::path& folder) {
   labels.tissue = tiny.voxels;
   write_labels(folder / "tiny_labels.vtkhdf", labels);
   write_segmentation(folder / "tiny.seg.nrrd", labels);
-  write_markups(folder / "points.mrk.json", {"points", false, {1, 0, 0}, {{"tumour", {14, 30, 12}}, {"nipple", {0, 0, 0}}}});
+  write_markups(folder / "points.mrk.json",
+                {"points", false, {1, 0, 0}, {{"tumour", {14, 30, 12}}, {"nipple", {0, 0, 0}}}});
   Volume<std::int16_t> slices(grid);
   std::copy(tiny.voxels.begin(), tiny.voxels.end(), slices.voxels.begin());
   write_dicom_series(folder / "tiny_series", slices, "T1");
-  write_text(folder / "patient.case", "# a patient\nMR = scan.nrrd\nSIDE = right\nREDUCTION = 40\n"
-                                      "HEXMESH_OPTIONS = --elements 8 --skin 1.5\nLEAVE_OUT = no-skin\n");
+  write_text(folder / "patient.case",
+             "# a patient\nMR = scan.nrrd\nSIDE = right\nREDUCTION = 40\n"
+             "HEXMESH_OPTIONS = --elements 8 --skin 1.5\nLEAVE_OUT = no-skin\n");
   const HexMesh deck = read_mesh(folder / "cap_reference.vtkhdf");
-  std::string frd = "    1C\n    1PSTEP                         1           1           1\n  100CL  101 1.000000000\n -4  DISP        4    1\n";
+  std::string frd =
+      "    1C\n    1PSTEP                         1           1           1\n  100CL  101 1.000000000\n -4  DISP        4    1\n";
   std::string dat = "\n displacements (vx,vy,vz) for set NALL and time  0.1000000E+01\n\n";
   std::string log = "*Step = 1\n*Time = 1\n*Data = u\n";
   for (int n = 1; n <= deck.nodes(); ++n) {

@@ -14,7 +14,7 @@ _STAGES = """\
 segment small-scan.nrrd labels.vtkhdf --side left --points points.vtp --report labels.json
 fit-hermite labels.vtkhdf geometry.vtkhdf --report geometry.json
 hexmesh geometry.vtkhdf labels.vtkhdf mesh.vtkhdf --elements 6 --report mesh.json
-backward mesh.vtkhdf reference.vtkhdf --report reference.json
+backward mesh.vtkhdf reference.vtkhdf --materials seed2008 --report reference.json
 forward reference.vtkhdf supine.vtkhdf --report supine.json
 compress reference.vtkhdf cc.vtkhdf --view CC --reduction 30 --at-least 20 --report cc.json
 compress reference.vtkhdf mlo.vtkhdf --view MLO --reduction 30 --at-least 20 --report mlo.json
@@ -94,8 +94,8 @@ def quadratic() -> pathlib.Path:
     run.mkdir()
     first = folder()
     tool(f"hexmesh {first}/geometry.vtkhdf {first}/labels.vtkhdf mesh.vtkhdf --elements 5 --order 2", run)
-    tool("backward mesh.vtkhdf reference.vtkhdf --element q2p1", run)
-    tool("forward reference.vtkhdf supine.vtkhdf --element q2p1", run)
+    tool("backward mesh.vtkhdf reference.vtkhdf --materials seed2008 --element q2p1", run)
+    tool("forward reference.vtkhdf supine.vtkhdf", run)
     return run
 
 

@@ -47,6 +47,10 @@ class States(unittest.TestCase):
         self.assertAlmostEqual(cc.contact.path["thickness_mm"][-1], cc.contact.thickness_mm, places=9)
         self.assertAlmostEqual(cc.contact.path["force_N"][-1], cc.contact.plates["paddle"].force_N, places=6)
         self.assertEqual(cc.solve.status, report["status"])
+        self.assertEqual((cc.model.name, cc.model.element), (report["materials"]["name"], report["element"]))
+        self.assertEqual((cc.model.wall, cc.model.cut), (report["wall"], report["cut"]))
+        self.assertTrue(cc.model.materials.startswith("tissue\tlaw"))
+        self.assertIsNone(self.run_.mesh.model)
         self.assertEqual(set(cc.solve.iterations), {"step", "iteration", "residual", "min_det_F", "max_det_F",
                                                     "step_length", "seconds"})
         self.assertIn("contact_pressure", cc.point_arrays)

@@ -20,6 +20,7 @@ class Calculix : public testing::Test {
   // Solves with both; `calculix` are options only its side gets. Leaves ccx.json.
   void solve(const HexMesh& mesh, std::vector<std::string> options, const std::string& calculix) {
     write_mesh(folder_ / "x.vtkhdf", mesh);
+    options.insert(options.end(), {"--materials", "seed2008"});
     std::string line = "cd '" + folder_.path().string() +
                        "' && BIN='" BREAST_BIN "' '" BREAST_SOURCE
                        "/pipelines/compare/ccx-forward.sh' x.vtkhdf ccx.vtkhdf --threads 1 "

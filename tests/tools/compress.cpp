@@ -23,9 +23,9 @@ class CompressTool : public testing::Test {
     write_mesh(folder_ / "reference.vtkhdf", mesh);
   }
   ToolResult compress(std::vector<std::string> options) {
-    std::vector<std::string> arguments = {"reference.vtkhdf", "out.vtkhdf", "--quiet",
-                                          "--threads",        "1",          "--report",
-                                          "r.json",           "--view"};
+    std::vector<std::string> arguments = {
+        "reference.vtkhdf", "out.vtkhdf", "--quiet",     "--threads", "1",
+        "--report",         "r.json",     "--materials", "seed2008",  "--view"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     return run_tool("compress", arguments, folder_.path());
   }

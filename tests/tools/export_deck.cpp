@@ -22,7 +22,9 @@ class ExportDeck : public testing::Test {
     write_mesh(folder_ / "skin.vtkhdf", fixtures::cap({.elements = 4}));
   }
   ToolResult run(const std::vector<std::string>& arguments) {
-    return run_tool("export-deck", arguments, folder_.path());
+    std::vector<std::string> all = arguments;
+    all.insert(all.end(), {"--materials", "seed2008"});
+    return run_tool("export-deck", all, folder_.path());
   }
   ScratchFolder folder_;
 };

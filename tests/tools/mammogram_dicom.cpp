@@ -200,7 +200,7 @@ TEST_F(MammogramDicomFile, CompressionLikeAMammogram) {
   for (const std::vector<std::string>& fit :
        {std::vector<std::string>{"--view", "CC", "--like", "mlo.dcm"},
         {"--view", "MLO", "--like", "cc.vti"}}) {
-    std::vector<std::string> arguments{"reference.vtkhdf", "no.vtkhdf"};
+    std::vector<std::string> arguments{"reference.vtkhdf", "no.vtkhdf", "--materials", "seed2008"};
     arguments.insert(arguments.end(), fit.begin(), fit.end());
     const ToolResult result = run_tool("compress", arguments, folder_->path());
     EXPECT_EQ(result.exit_code, 2) << result.err;

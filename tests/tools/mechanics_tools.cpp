@@ -38,7 +38,9 @@ class MechanicsTools : public testing::Test {
 };
 
 TEST_F(MechanicsTools, BackwardThenForwardReturnsToTheScan) {
-  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --report backward.json"), 0) << said_.err;
+  ASSERT_EQ(
+      run("backward mesh.vtkhdf reference.vtkhdf --materials seed2008 --report backward.json"), 0)
+      << said_.err;
   const Report backward = report("backward.json");
   EXPECT_EQ(backward.text("status"), "converged");
   EXPECT_LT(backward.number("closure_mm"), 1e-8);
@@ -60,7 +62,8 @@ TEST_F(MechanicsTools, BackwardThenForwardReturnsToTheScan) {
 
 // What was solved, how, at what cost and how well: for people on stderr, nothing under --quiet.
 TEST_F(MechanicsTools, EndWithASummary) {
-  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --scale fat=50"), 0) << said_.err;
+  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --materials seed2008 --scale fat=50"), 0)
+      << said_.err;
   for (const char* part :
        {"elements", "unknowns", "fat: polynomial", "μ0 610 Pa", "ρgL/μ0", "Newton iterations",
         "residual", "peak", "at the landmarks about", "forward returns to the scan within"}) {
@@ -70,13 +73,74 @@ TEST_F(MechanicsTools, EndWithASummary) {
   EXPECT_EQ(said_.err, "");
 }
 
+// The file of the stress-free shape states the model: laws, scales, supports, elements.
+TEST_F(MechanicsTools, LaterToolsTakeTheModelOfTheFile) {
+  const std::string model =
+      " --materials wellman --scale fat=70 --wall spring:0.3 --cut roller --invariants plain "
+      "--bulk-ratio 300";
+  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf" + model), 0) << said_.err;
+  ASSERT_EQ(run("forward reference.vtkhdf stated.vtkhdf --report s.json"), 0) << said_.err;
+  EXPECT_EQ(said_.err.find("instead of"), std::string::npos) << said_.err;
+  ASSERT_EQ(run("forward reference.vtkhdf given.vtkhdf" + model), 0) << said_.err;
+  EXPECT_EQ(said_.err.find("instead of"), std::string::npos) << said_.err;
+  const HexMesh stated = read_mesh(folder_ / "stated.vtkhdf"),
+                given = read_mesh(folder_ / "given.vtkhdf");
+  EXPECT_EQ(stated.points, given.points) << "to the last digit";
+  ASSERT_TRUE(stated.model);
+  EXPECT_EQ(stated.model, read_mesh(folder_ / "reference.vtkhdf").model);
+  EXPECT_EQ(report("s.json").text("wall"), "spring:0.3,0.1");
+  EXPECT_EQ(report("s.json").number("bulk_ratio"), 300);
+  ASSERT_EQ(run("sensitivity reference.vtkhdf stated.vtkhdf d.vtkhdf --table d.tsv"), 0)
+      << said_.err;
+  EXPECT_EQ(said_.err.find("instead of"), std::string::npos) << said_.err;
+}
+
+TEST_F(MechanicsTools, AnotherModelThanTheFilesIsNamedInOneLine) {
+  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --materials seed2008"), 0) << said_.err;
+  ASSERT_EQ(
+      run("forward reference.vtkhdf other.vtkhdf --scale fat=200 --cut roller --report o.json"), 0)
+      << said_.err;
+  EXPECT_NE(said_.err.find("forward: warning: model: stiffness of fat 200 instead of 100 %, --cut "
+                           "roller instead of free; reference.vtkhdf was solved with the latter\n"),
+            std::string::npos)
+      << said_.err;
+  EXPECT_EQ(report("o.json").text("cut"), "roller");
+  EXPECT_EQ(report("o.json").text("wall"), "held");
+  const HexMesh other = read_mesh(folder_ / "other.vtkhdf");
+  EXPECT_EQ(other.model->cut, "roller");
+}
+
+TEST_F(MechanicsTools, AFileThatStatesNoModelNeedsOne) {
+  HexMesh mesh = fixtures::cap({.elements = 4});
+  write_mesh(folder_ / "foreign.vtkhdf", mesh);
+  for (const std::string line : {"forward foreign.vtkhdf out.vtkhdf",
+                                 "compress foreign.vtkhdf out.vtkhdf --view CC --reduction 20",
+                                 "sensitivity foreign.vtkhdf foreign.vtkhdf out.vtkhdf",
+                                 "export-deck foreign.vtkhdf out.inp"}) {
+    EXPECT_EQ(run(line), 2) << line;
+    EXPECT_EQ(said_.error_lines(), 1) << said_.err;
+    EXPECT_NE(said_.err.find("foreign.vtkhdf: does not state the model"), std::string::npos)
+        << said_.err;
+    EXPECT_NE(said_.err.find("--materials"), std::string::npos) << said_.err;
+  }
+  EXPECT_EQ(run("forward foreign.vtkhdf out.vtkhdf --materials seed2008 --gravity 0,0,0"), 0)
+      << said_.err;
+  mesh.model = ModelText{"odd", "no table", "q1p0", "isochoric", "incompressible", "held", "free"};
+  write_mesh(folder_ / "odd.vtkhdf", mesh);
+  EXPECT_EQ(run("forward odd.vtkhdf out.vtkhdf"), 2);
+  EXPECT_EQ(said_.error_lines(), 1) << said_.err;
+  EXPECT_NE(said_.err.find("/breast/model"), std::string::npos) << said_.err;
+}
+
 TEST_F(MechanicsTools, QuadraticElementsOnTheSameMesh) {
   ASSERT_EQ(
-      run("backward mesh.vtkhdf reference.vtkhdf --element q2p1 --cut roller --report b.json"), 0)
+      run("backward mesh.vtkhdf reference.vtkhdf --materials seed2008 --element q2p1 --cut roller "
+          "--report b.json"),
+      0)
       << said_.err;
   EXPECT_LT(report("b.json").number("closure_mm"), 1e-8);
   EXPECT_EQ(read_mesh(folder_ / "reference.vtkhdf").order, 2);
-  ASSERT_EQ(run("forward reference.vtkhdf supine.vtkhdf --element q2p1"), 0) << said_.err;
+  ASSERT_EQ(run("forward reference.vtkhdf supine.vtkhdf"), 0) << said_.err;
   EXPECT_EQ(run("forward reference.vtkhdf other.vtkhdf --element q1p0"), 2);
   EXPECT_FALSE(exists("other.vtkhdf"));
 }

@@ -65,7 +65,7 @@ TEST_F(MpiTools, ForwardIsThatOfOneProcess) {
   settings.distortion = 0.2;
   settings.skin_mm = 1.5;
   write_mesh(folder_ / "block.vtkhdf", fixtures::block(settings));
-  const std::string load = " --gravity 0,0,-9810 ";
+  const std::string load = " --materials seed2008 --gravity 0,0,-9810 ";
   ASSERT_EQ(run("forward block.vtkhdf one.vtkhdf --estimate none --report one.json" + load), 0)
       << said_.err;
   for (const int ranks : {1, 3}) {
@@ -87,7 +87,8 @@ TEST_F(MpiTools, CompressibleQuadraticElements) {
   fixtures::BlockSettings settings;
   settings.elements = {1, 2, 1};
   write_mesh(folder_ / "block.vtkhdf", fixtures::block(settings));
-  const std::string how = " --gravity 0,0,-9810 --element q2p1 --bulk-ratio 50";
+  const std::string how =
+      " --materials seed2008 --gravity 0,0,-9810 --element q2p1 --bulk-ratio 50";
   ASSERT_EQ(run("forward block.vtkhdf one.vtkhdf --estimate none" + how), 0) << said_.err;
   ASSERT_EQ(run_on(2, "forward-mpi block.vtkhdf many.vtkhdf" + how), 0) << said_.err;
   EXPECT_LT(distance("one.vtkhdf", "many.vtkhdf"), 1e-7);
@@ -102,8 +103,9 @@ TEST_F(MpiTools, BackwardIsThatOfOneProcessOnEveryWall) {
         " --wall slide --cut spring:0.02,0.1 --gravity -4000,-9000,0",  // the sternum pulls
         " --wall slide:0.02 --cut tissue:0.02,0.1 --gravity -4000,-9000,0",
         " --wall spring:1 --cut roller"}) {
-    ASSERT_EQ(run("backward mesh.vtkhdf one.vtkhdf --estimate none" + how), 0) << said_.err;
-    ASSERT_EQ(run_on(2, "backward-mpi mesh.vtkhdf many.vtkhdf --report many.json" + how), 0)
+    const std::string with = " --materials seed2008" + how;
+    ASSERT_EQ(run("backward mesh.vtkhdf one.vtkhdf --estimate none" + with), 0) << said_.err;
+    ASSERT_EQ(run_on(2, "backward-mpi mesh.vtkhdf many.vtkhdf --report many.json" + with), 0)
         << said_.err;
     EXPECT_LT(distance("one.vtkhdf", "many.vtkhdf"), 1e-7) << how;
     // Forward over two processes comes back to the imaged shape.
@@ -120,12 +122,12 @@ TEST_F(MpiTools, RefusalsAreOneLineAndNothingIsWritten) {
   write_mesh(folder_ / "imaged.vtkhdf", mesh);
   std::ofstream(folder_ / "broken.vtkhdf") << "no mesh\n";
   for (const std::string line :
-       {"forward-mpi block.vtkhdf out.vtkhdf --solver direct",
+       {"forward-mpi block.vtkhdf out.vtkhdf --materials seed2008 --solver direct",
         "forward-mpi imaged.vtkhdf out.vtkhdf", "forward-mpi broken.vtkhdf out.vtkhdf",
         "forward-mpi block.vtkhdf block.vtkhdf", "forward-mpi block.vtkhdf",
-        "forward-mpi block.vtkhdf out.vtkhdf --wall slide",
-        "backward-mpi block.vtkhdf out.vtkhdf "
-        "--wall spring:1",
+        "forward-mpi block.vtkhdf out.vtkhdf --materials seed2008 --wall slide",
+        "backward-mpi block.vtkhdf out.vtkhdf --materials seed2008 --wall spring:1",
+        "forward-mpi block.vtkhdf out.vtkhdf --materials seed2008",
         "forward-mpi block.vtkhdf out.vtkhdf"}) {
     EXPECT_EQ(run_on(3, line), 2) << line << "\n" << said_.err;
     EXPECT_EQ(own_lines(line.substr(0, line.find(' '))), 1) << line << "\n" << said_.err;
@@ -142,15 +144,16 @@ TEST_F(MpiTools, FewOpenFilesEndInOneLineAndLeaveNothing) {
   for (const auto& [files, exit_code] :
        {std::pair{4, 1}, std::pair{6, 1}, std::pair{20, 1}, std::pair{64, 0}}) {
     for (const char* tool : {"forward-mpi", "backward-mpi"}) {
-      const ToolResult said =
-          run_tool(tool, {"block.vtkhdf", "out.vtkhdf", "--gravity", "0,0,-9810", "--quiet"},
-                   folder_.path(), [&, &files = files] {
-                     setenv("TMPDIR", temporary.path().c_str(), 1);
-                     // Files that the suite's caller left open would count, too.
-                     close_range(3, ~0U, CLOSE_RANGE_CLOEXEC);
-                     const rlimit limit{rlim_t(files), rlim_t(files)};
-                     setrlimit(RLIMIT_NOFILE, &limit);
-                   });
+      const ToolResult said = run_tool(tool,
+                                       {"block.vtkhdf", "out.vtkhdf", "--materials", "seed2008",
+                                        "--gravity", "0,0,-9810", "--quiet"},
+                                       folder_.path(), [&, &files = files] {
+                                         setenv("TMPDIR", temporary.path().c_str(), 1);
+                                         // Files that the suite's caller left open would count, too.
+                                         close_range(3, ~0U, CLOSE_RANGE_CLOEXEC);
+                                         const rlimit limit{rlim_t(files), rlim_t(files)};
+                                         setrlimit(RLIMIT_NOFILE, &limit);
+                                       });
       EXPECT_EQ(said.exit_code, exit_code) << tool << ", " << files << " files: " << said.err;
       EXPECT_EQ(said.error_lines(), exit_code) << tool << ", " << files << " files: " << said.err;
       EXPECT_TRUE(std::filesystem::is_empty(temporary.path())) << tool << ", " << files << " files";
@@ -164,12 +167,14 @@ TEST_F(MpiTools, TheTwoBuildsOfHdf5KeepApart) {
   fixtures::BlockSettings settings;
   settings.elements = {1, 1, 1};
   write_mesh(folder_ / "block.vtkhdf", fixtures::block(settings));
-  const ToolResult said = run_tool(
-      "forward-mpi", {"block.vtkhdf", "out.vtkhdf", "--gravity", "0,0,-9810"}, folder_.path(), [] {
-        setenv("LD_DEBUG", "bindings", 1);
-        setenv("LD_DEBUG_OUTPUT", "bindings", 1);
-        setenv("OMP_WAIT_POLICY", "passive", 1);
-      });
+  const ToolResult said =
+      run_tool("forward-mpi",
+               {"block.vtkhdf", "out.vtkhdf", "--materials", "seed2008", "--gravity", "0,0,-9810"},
+               folder_.path(), [] {
+                 setenv("LD_DEBUG", "bindings", 1);
+                 setenv("LD_DEBUG_OUTPUT", "bindings", 1);
+                 setenv("OMP_WAIT_POLICY", "passive", 1);
+               });
   ASSERT_EQ(said.exit_code, 0) << said.err;
   int serial = 0, crossed = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
@@ -197,7 +202,9 @@ TEST_F(MpiTools, AnUnstableEquilibriumIsNoAnswer) {
   for (const auto& [height, exit_code] : {std::pair{20, 0}, std::pair{40, 3}}) {
     write_mesh(folder_ / "column.vtkhdf",
                fixtures::standing_block(Vec3(10, height, 10), {2, height / 5, 2}));
-    EXPECT_EQ(run_on(1, "backward-mpi column.vtkhdf out.vtkhdf --posture supine --report r.json"),
+    EXPECT_EQ(run_on(1,
+                     "backward-mpi column.vtkhdf out.vtkhdf --materials seed2008 --posture supine "
+                     "--report r.json"),
               exit_code)
         << height << " mm: " << said_.err;
     EXPECT_EQ(std::filesystem::remove(folder_ / "out.vtkhdf"), exit_code == 0);

@@ -59,9 +59,12 @@ TEST(PhantomTool, WritesScanDicomAndAConsistentTruth) {
 // and the report says so.
 TEST(PhantomTool, ASupineScanIsOfTheSameBodyAndIsSegmented) {
   ScratchFolder folder;
-  const auto run = [&](const std::string& line) { return run_line(line + " --quiet", folder.path()); };
+  const auto run = [&](const std::string& line) {
+    return run_line(line + " --quiet", folder.path());
+  };
   const std::string options = " --preset average --coarse 3";
-  ToolResult said = run("phantom s.nrrd --posture supine --misalign 4,2 --truth s --report s.json" + options);
+  ToolResult said =
+      run("phantom s.nrrd --posture supine --misalign 4,2 --truth s --report s.json" + options);
   ASSERT_EQ(said.exit_code, 0) << said.err;
   said = run("segment s.nrrd l.vtkhdf --side left --posture supine --points p.vtp --report l.json");
   ASSERT_EQ(said.exit_code, 0) << said.err;
@@ -73,12 +76,17 @@ TEST(PhantomTool, ASupineScanIsOfTheSameBodyAndIsSegmented) {
     if (landmarks.cell(row, "side") != "left") continue;
     const Landmark* landmark = mesh.landmark(landmarks.cell(row, "landmark"));
     ASSERT_NE(landmark, nullptr);
-    EXPECT_LT((landmark_position(mesh, mesh.points, *landmark) - landmarks.point(row, "supine_")).norm(), 1e-4);
-    EXPECT_LT((landmark_position(mesh, mesh.imaged, *landmark) - landmarks.point(row, "prone_")).norm(), 1e-4);
+    EXPECT_LT(
+        (landmark_position(mesh, mesh.points, *landmark) - landmarks.point(row, "supine_")).norm(),
+        1e-4);
+    EXPECT_LT(
+        (landmark_position(mesh, mesh.imaged, *landmark) - landmarks.point(row, "prone_")).norm(),
+        1e-4);
   }
   EXPECT_EQ(Report::parse(read_text(folder.path() / "l.json"), "l.json").text("nipple"), "guessed");
   // Skin of the segmentation lies on the true skin where that has a face near.
-  const TriMesh points = read_surface(folder.path() / "p.vtp"), skin = read_surface(folder.path() / "s/skin-left.vtp");
+  const TriMesh points = read_surface(folder.path() / "p.vtp"),
+                skin = read_surface(folder.path() / "s/skin-left.vtp");
   ASSERT_EQ(points.normals.size(), points.points.size());
   const std::vector<double>& kind = points.point_data.at("surface");
   double sum = 0, outwards = 0, wall = 0;
@@ -124,18 +132,18 @@ TEST(PhantomTool, RefusesBadUsageBeforeItStarts) {
   }
 }
 
-// What compress goes on from: wall surface and material set are all that a solve of the body needs.
+// What compress goes on from: the file has the wall surface and states the model.
 TEST(PhantomMeshTool, WritesASlidingBodyThatForwardSolvesAgain) {
   ScratchFolder folder;
   ToolResult run = run_tool("phantom-mesh",
-                            {"prone.vtkhdf", "--supine", "supine.vtkhdf", "--set", "body.tsv", "--preset",
-                             "slim", "--level", "0.5", "--quiet"},
+                            {"prone.vtkhdf", "--supine", "supine.vtkhdf", "--preset", "slim",
+                             "--level", "0.5", "--quiet"},
                             folder.path());
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  run = run_tool("forward",
-                 {"prone.vtkhdf", "again.vtkhdf", "--posture", "supine", "--materials", "body.tsv",
-                  "--estimate", "none", "--quiet"},
-                 folder.path());
+  run = run_tool(
+      "forward",
+      {"prone.vtkhdf", "again.vtkhdf", "--posture", "supine", "--estimate", "none", "--quiet"},
+      folder.path());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const HexMesh prone = read_mesh(folder.path() / "prone.vtkhdf", {.reference = true}),
                 supine = read_mesh(folder.path() / "supine.vtkhdf"),

@@ -29,10 +29,10 @@ TEST_P(RecordedBreast, TurnsOverAsRecorded) {
   const std::string mesh_file =
       (std::filesystem::path(BREAST_SOURCE) / "testdata" / "small-breast-mesh.vtkhdf").string();
   const std::string threads = GetParam();
-  const ToolResult back =
-      run_tool("backward",
-               {mesh_file, "reference.vtkhdf", "--report", "backward.json", "--threads", threads},
-               folder.path());
+  const ToolResult back = run_tool("backward",
+                                   {mesh_file, "reference.vtkhdf", "--materials", "seed2008",
+                                    "--report", "backward.json", "--threads", threads},
+                                   folder.path());
   ASSERT_EQ(back.exit_code, 0) << back.err;
   const Report report = Report::parse(read_text(folder / "backward.json"), "backward.json");
   EXPECT_EQ(report.text("status"), "converged");

@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/text/trimmed.hpp"
 #include "fixtures/scratch_folder.hpp"
+#include "material/law.hpp"
 
 namespace breast {
 namespace {
@@ -149,6 +150,7 @@ TEST_F(CaseSettings, TextThatIsCodeIsRefusedForEveryKind) {
 TEST_F(CaseSettings, TheModelFollowsFromTheCase) {
   EXPECT_TRUE(has_line({}, "RUN := runs/average")) << lines({});
   EXPECT_TRUE(has_line({}, "MATERIALS := invivo"));
+  EXPECT_TRUE(has_line({}, "POPULATION_MATERIALS := " + std::string(default_material_set)));
   EXPECT_TRUE(has_line({}, "PRESSURE := 10")) << "a breast that slides";
   EXPECT_TRUE(has_line({}, "MUSCLE := measured"));
   EXPECT_TRUE(has_line({}, "SURROUNDINGS := 16"));

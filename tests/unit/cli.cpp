@@ -36,7 +36,7 @@ struct Trial {
     tool.number(skin, "-t,--skin", "MM", "thickness", 0, 40);
     tool.number(force, "--force", "N", "force", 0, 500);
     tool.output_file(table, "--table", "FILE.tsv", "table");
-    declare_mechanics(tool, choices);
+    declare_mechanics(tool, choices, "MESH");
     tool.check([this] {
       if (skin == 13) throw input_error("--skin 13: unlucky");
     });
@@ -73,7 +73,7 @@ TEST(Cli, ValuesReachTheirVariables) {
   EXPECT_EQ(trial.posture, "supine");
   EXPECT_EQ(trial.choices.scale, (std::vector<std::string>{"fat=150", "skin=50"}));
   EXPECT_EQ(trial.choices.element, "q2p1");
-  EXPECT_EQ(trial.choices.bulk_ratio, 1000);
+  EXPECT_EQ(trial.choices.bulk_ratio, "1000");
   EXPECT_EQ(trial.err, "");
 }
 

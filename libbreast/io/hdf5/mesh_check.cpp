@@ -163,6 +163,13 @@ void check_landmarks(const HexMesh& mesh, const Complaint& complain) {
   }
 }
 
+void check_model(const ModelText& model, const Complaint& complain) {
+  for (const auto& [name, text] : model_parts)
+    if ((model.*text).empty())
+      throw complain("attribute /breast/model@", name,
+                     " is empty, must state this part of the model");
+}
+
 void check_contact(const ContactRecord& contact, const Complaint& complain) {
   if (contact.path_force_N.size() != contact.path_thickness_mm.size()) {
     throw complain("group /breast/contact has a path of ", contact.path_thickness_mm.size(),
@@ -209,6 +216,7 @@ void check_mesh(const HexMesh& mesh, const Complaint& complain) {
     throw complain("dataset /breast/skin/thickness is missing, which a membrane skin needs");
   }
   if (mesh.geometry) check_geometry(*mesh.geometry, complain);
+  if (mesh.model) check_model(*mesh.model, complain);
   if (mesh.solve && mesh.reference.empty()) {
     throw complain(
         "dataset /VTKHDF/PointData/reference is missing, which what was solved has "

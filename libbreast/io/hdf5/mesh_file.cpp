@@ -177,6 +177,7 @@ void get_optional_groups(Fields& fields, HexMesh& mesh) {
     mesh.geometry.emplace().side = mesh.side;
     mesh.geometry->thorax = get_thorax(fields);
   }
+  if (fields.has_group("/breast/model")) mesh.model = get_model(fields);
   if (fields.has_group("/breast/solve")) mesh.solve = get_solve(fields);
   if (fields.has_group("/breast/contact")) mesh.contact = get_contact(fields);
 }
@@ -252,6 +253,7 @@ Document mesh_document(const std::filesystem::path& file, const HexMesh& mesh) {
   put_landmarks(document, mesh);
   put_skin(document, mesh);
   if (mesh.geometry) put_geometry(document, mesh);
+  if (mesh.model) put_model(document, *mesh.model);
   if (mesh.solve) put_solve(document, *mesh.solve);
   if (mesh.contact) put_contact(document, *mesh.contact);
   return document;

@@ -8,8 +8,8 @@ namespace breast {
 namespace {
 
 constexpr long int_limit = std::numeric_limits<int>::max();
-const std::string solve_group = "/breast/solve", contact_group = "/breast/contact",
-                  plates_group = "/breast/contact/plates",
+const std::string model_group = "/breast/model", solve_group = "/breast/solve",
+                  contact_group = "/breast/contact", plates_group = "/breast/contact/plates",
                   friction_group = "/breast/contact/friction";
 
 // One column of a table of records.
@@ -63,10 +63,20 @@ constexpr ContactNumber contact_numbers[] = {
 
 }  // namespace
 
+void put_model(Document& document, const ModelText& model) {
+  for (const auto& [name, text] : model_parts)
+    document.attributes[model_group + "@" + name] = array_of(model.*text);
+}
+
+ModelText get_model(Fields& fields) {
+  ModelText model;
+  for (const auto& [name, text] : model_parts) model.*text = fields.text(model_group + "@" + name);
+  return model;
+}
+
 void put_solve(Document& document, const SolveRecord& solve) {
   document.attributes[solve_group + "@status"] = array_of(std::string(status_name(solve.status)));
   document.attributes[solve_group + "@reason"] = array_of(solve.reason);
-  document.attributes[solve_group + "@support"] = array_of(solve.support);
   Integers steps, iterations;
   for (const IterationRecord& row : solve.iterations) {
     steps.push_back(row.step);
@@ -89,7 +99,6 @@ SolveRecord get_solve(Fields& fields) {
   }
   solve.status = *known;
   solve.reason = fields.text(solve_group + "@reason");
-  solve.support = fields.text(solve_group + "@support");
   const auto steps = fields.indices(solve_group + "/step", {Fields::any}, -int_limit, int_limit);
   const auto iterations =
       fields.indices(solve_group + "/iteration", {steps.size()}, -int_limit, int_limit);
