@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evaluation/triangle_tree.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace breast {
 
@@ -37,56 +37,18 @@ TriangleTree::TriangleTree(const TriMesh& mesh) {
   if (mesh.triangles.empty()) {
     for (const Vec3& x : mesh.points) triangles_.push_back({x, x, x});
   }
-  if (!triangles_.empty()) build(0, int(triangles_.size()));
-}
-
-int TriangleTree::build(int first, int count) {
-  constexpr int leaf_size = 4;
-  const int index = int(nodes_.size());
-  nodes_.emplace_back();
-  Eigen::AlignedBox3d box, centres;
-  for (int t = first; t < first + count; ++t) {
-    const Triangle& triangle = triangles_[std::size_t(t)];
-    box.extend(triangle.a).extend(triangle.b).extend(triangle.c);
-    centres.extend(triangle.centre());
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const auto& [a, b, c] : triangles_) {
+    boxes.push_back(Eigen::AlignedBox3d(a).extend(b).extend(c));
   }
-  nodes_[std::size_t(index)].box = box;
-  if (count <= leaf_size) {
-    nodes_[std::size_t(index)].first = first;
-    nodes_[std::size_t(index)].count = count;
-    return index;
-  }
-  Eigen::Index axis = 0;
-  centres.sizes().maxCoeff(&axis);
-  const int half = count / 2;
-  std::nth_element(
-      triangles_.begin() + first, triangles_.begin() + first + half,
-      triangles_.begin() + first + count,
-      [axis](const Triangle& a, const Triangle& b) { return a.centre()[axis] < b.centre()[axis]; });
-  const int left = build(first, half), right = build(first + half, count - half);
-  nodes_[std::size_t(index)].left = left;
-  nodes_[std::size_t(index)].right = right;
-  return index;
-}
-
-void TriangleTree::search(int index, const Vec3& point, double& best) const {
-  const Node& node = nodes_[std::size_t(index)];
-  for (int t = node.first; t < node.first + node.count; ++t) {
-    const Triangle& triangle = triangles_[std::size_t(t)];
-    best = std::min(best, squared_distance(point, triangle.a, triangle.b, triangle.c));
-  }
-  if (node.left < 0) return;
-  const double left = nodes_[std::size_t(node.left)].box.squaredExteriorDistance(point);
-  const double right = nodes_[std::size_t(node.right)].box.squaredExteriorDistance(point);
-  const bool left_first = left <= right;
-  if (std::min(left, right) < best) search(left_first ? node.left : node.right, point, best);
-  if (std::max(left, right) < best) search(left_first ? node.right : node.left, point, best);
+  tree_ = BoxTree(std::move(boxes));
 }
 
 double TriangleTree::distance(const Vec3& point) const {
-  double best = std::numeric_limits<double>::infinity();
-  if (!nodes_.empty()) search(0, point, best);
-  return std::sqrt(best);
+  return std::sqrt(tree_.nearest(point, [&](int item) {
+    const auto& [a, b, c] = triangles_[std::size_t(item)];
+    return squared_distance(point, a, b, c);
+  }));
 }
 
 }  // namespace breast

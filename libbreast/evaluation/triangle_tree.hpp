@@ -2,9 +2,10 @@
 // Search for the nearest triangle with a tree of bounding boxes.
 #pragma once
 
-#include <Eigen/Geometry>
+#include <array>
 #include <vector>
 
+#include "surface/box_tree.hpp"
 #include "surface/tri_mesh.hpp"
 
 namespace breast {
@@ -21,20 +22,8 @@ class TriangleTree {
   double distance(const Vec3& point) const;
 
  private:
-  struct Triangle {
-    Vec3 a, b, c;
-    Vec3 centre() const { return (a + b + c) / 3; }
-  };
-  struct Node {
-    Eigen::AlignedBox3d box;
-    int first = 0, count = 0;  ///< leaf: triangles; inner node: count 0
-    int left = -1, right = -1;
-  };
-  int build(int first, int count);
-  void search(int node, const Vec3& point, double& best) const;
-
-  std::vector<Triangle> triangles_;
-  std::vector<Node> nodes_;
+  std::vector<std::array<Vec3, 3>> triangles_;
+  BoxTree tree_;
 };
 
 }  // namespace breast

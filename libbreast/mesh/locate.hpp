@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/hex_mesh.hpp"
+#include "surface/box_tree.hpp"
 
 namespace breast {
 
@@ -37,22 +38,11 @@ class Locator {
   /// Position of a local point of an element in this field.
   Vec3 position(int element, const Vec3& local) const;
 
-  const Vec3& lower() const { return lower_; }  ///< bounding box of the mesh, mm
-  const Vec3& upper() const { return upper_; }
+  /// Bounding box of the mesh, mm.
+  const Vec3& lower() const { return tree_.whole().min(); }
+  const Vec3& upper() const { return tree_.whole().max(); }
 
  private:
-  struct Box {
-    Vec3 lower, upper;
-    double squared_distance(const Vec3& point) const;
-    bool contains(const Vec3& point, double slack) const;
-  };
-  struct Branch {
-    Box box;
-    int left = -1, right = -1;  ///< children, or
-    int first = 0, count = 0;   ///< a leaf's range of order_
-  };
-
-  int build(int first, int count);
   const Vec3* lattice(int element) const {
     return &coordinates_[std::size_t(element) * per_element_];
   }
@@ -61,10 +51,7 @@ class Locator {
   int order_of_mesh_ = 1;
   int per_element_ = 8;
   std::vector<Vec3> coordinates_;  ///< per element, lattice order (ξ fastest)
-  std::vector<Box> boxes_;
-  std::vector<int> order_;
-  std::vector<Branch> tree_;
-  Vec3 lower_, upper_;
+  BoxTree tree_;                   ///< of the elements
   double slack_ = 0;
 };
 
