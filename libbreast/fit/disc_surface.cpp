@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "core/error.hpp"
+#include "surface/marching_tetrahedra.hpp"
 
 namespace breast {
 
@@ -34,6 +35,13 @@ struct Lattice {
   Vec3 position(std::size_t n) const {
     const auto i = index(n);
     return origin + step.cwiseProduct(Vec3(i[0], i[1], i[2]));
+  }
+  /// Whether the corners of the cell at (i, j, k) lie on both sides of the skin.
+  bool crossed(int i, int j, int k) const {
+    int inside = 0;
+    for (int c = 0; c < 8; ++c)
+      inside += value[offset(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2))] > 0.5f ? 1 : 0;
+    return inside != 0 && inside != 8;
   }
 };
 
@@ -98,90 +106,32 @@ void simplify(Lattice& lattice, const Vec3& nipple) {
     if (lattice.value[n] > 0.5f && body[n] == 0) lattice.value[n] = 0.25f;
 }
 
-struct RawMesh {
-  std::vector<Vec3> points;
-  std::vector<std::array<int, 3>> triangles;
-};
-
-class MarchingTetrahedra {
- public:
-  explicit MarchingTetrahedra(const Lattice& lattice) : lattice_(lattice) {}
-
-  RawMesh run() {
-    const int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
-    for (int k = 0; k + 1 < lattice_.size[2]; ++k)
-      for (int j = 0; j + 1 < lattice_.size[1]; ++j)
-        for (int i = 0; i + 1 < lattice_.size[0]; ++i)
-          for (const auto& axes : order) {
-            std::array<int, 3> at{i, j, k};
-            std::array<std::size_t, 4> corner{lattice_.offset(i, j, k)};
-            for (int c = 0; c < 3; ++c) {
-              ++at[axes[c]];
-              corner[c + 1] = lattice_.offset(at[0], at[1], at[2]);
-            }
-            tetrahedron(corner);
+TriMesh skin_of(const Lattice& lattice) {
+  const int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  MarchingTetrahedra surface(0.1);  // evened out afterwards
+  const auto corner = [&](const std::array<int, 3>& at) {
+    const std::size_t n = lattice.offset(at[0], at[1], at[2]);
+    return MarchingTetrahedra::Corner{n, lattice.value[n] - 0.5, lattice.position(n)};
+  };
+  for (int k = 0; k + 1 < lattice.size[2]; ++k)
+    for (int j = 0; j + 1 < lattice.size[1]; ++j)
+      for (int i = 0; i + 1 < lattice.size[0]; ++i) {
+        if (!lattice.crossed(i, j, k)) continue;
+        for (const auto& axes : order) {
+          std::array<int, 3> at{i, j, k};
+          std::array<MarchingTetrahedra::Corner, 4> corners{corner(at)};
+          for (std::size_t c = 0; c < 3; ++c) {
+            ++at[std::size_t(axes[c])];
+            corners[c + 1] = corner(at);
           }
-    return std::move(mesh_);
-  }
-
- private:
-  bool inside(std::size_t n) const { return lattice_.value[n] > 0.5f; }
-
-  int crossing(std::size_t a, std::size_t b) {
-    if (a > b) std::swap(a, b);
-    const auto [entry, fresh] =
-        point_of_.try_emplace(a * 8 + edge_type(a, b), int(mesh_.points.size()));
-    if (fresh) {
-      const double va = lattice_.value[a], vb = lattice_.value[b];
-      // Kept off the nodes so that no triangle is degenerate; evened out afterwards.
-      const double f = std::clamp((0.5 - va) / (vb - va), 0.1, 0.9);
-      mesh_.points.push_back((1 - f) * lattice_.position(a) + f * lattice_.position(b));
-    }
-    return entry->second;
-  }
-
-  std::size_t edge_type(std::size_t a, std::size_t b) const {
-    const auto ia = lattice_.index(a), ib = lattice_.index(b);
-    for (std::size_t e = 0; e < 7; ++e)
-      if (ib[0] - ia[0] == edge_direction[e][0] && ib[1] - ia[1] == edge_direction[e][1] &&
-          ib[2] - ia[2] == edge_direction[e][2])
-        return e;
-    return 7;
-  }
-
-  void add(int a, int b, int c, const Vec3& outward) {
-    const Vec3 n = (mesh_.points[b] - mesh_.points[a]).cross(mesh_.points[c] - mesh_.points[a]);
-    if (n.dot(outward) < 0) std::swap(b, c);
-    mesh_.triangles.push_back({a, b, c});
-  }
-
-  void tetrahedron(const std::array<std::size_t, 4>& corner) {
-    std::vector<std::size_t> in, out;
-    for (const std::size_t n : corner) (inside(n) ? in : out).push_back(n);
-    if (in.empty() || out.empty()) return;
-    Vec3 outward = Vec3::Zero();
-    for (const std::size_t n : out) outward += lattice_.position(n) / double(out.size());
-    for (const std::size_t n : in) outward -= lattice_.position(n) / double(in.size());
-    if (in.size() == 2) {
-      const int a = crossing(in[0], out[0]), b = crossing(in[0], out[1]);
-      const int c = crossing(in[1], out[1]), d = crossing(in[1], out[0]);
-      add(a, b, c, outward);
-      add(a, c, d, outward);
-    } else {
-      const auto& one = in.size() == 1 ? in : out;
-      const auto& three = in.size() == 1 ? out : in;
-      add(crossing(one[0], three[0]), crossing(one[0], three[1]), crossing(one[0], three[2]),
-          outward);
-    }
-  }
-
-  const Lattice& lattice_;
-  RawMesh mesh_;
-  std::unordered_map<std::size_t, int> point_of_;
-};
+          surface.add(corners);
+        }
+      }
+  return surface.take();
+}
 
 /// The component whose nearest point to `seed` is nearest, renumbered.
-RawMesh component_at(const RawMesh& mesh, const Vec3& seed) {
+TriMesh component_at(const TriMesh& mesh, const Vec3& seed) {
   std::vector<int> parent(mesh.points.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int n) {
@@ -196,7 +146,7 @@ RawMesh component_at(const RawMesh& mesh, const Vec3& seed) {
   for (int n = 1; n < int(mesh.points.size()); ++n)
     if ((mesh.points[n] - seed).squaredNorm() < (mesh.points[nearest] - seed).squaredNorm())
       nearest = n;
-  RawMesh kept;
+  TriMesh kept;
   std::vector<int> number(mesh.points.size(), -1);
   for (int n = 0; n < int(mesh.points.size()); ++n)
     if (root(n) == root(nearest)) {
@@ -209,7 +159,7 @@ RawMesh component_at(const RawMesh& mesh, const Vec3& seed) {
 }
 
 /// Border loops, each with the surface on its left seen from outside; longest (mm) first.
-std::vector<std::vector<int>> border_loops(const RawMesh& mesh) {
+std::vector<std::vector<int>> border_loops(const TriMesh& mesh) {
   std::map<std::pair<int, int>, int> edges;
   for (const auto& t : mesh.triangles)
     for (int e = 0; e < 3; ++e) ++edges[{t[e], t[(e + 1) % 3]}];
@@ -239,14 +189,14 @@ std::vector<std::vector<int>> border_loops(const RawMesh& mesh) {
   return result;
 }
 
-int euler_number(const RawMesh& mesh) {
+int euler_number(const TriMesh& mesh) {
   std::map<std::pair<int, int>, int> edges;
   for (const auto& t : mesh.triangles)
     for (int e = 0; e < 3; ++e) ++edges[std::minmax(t[e], t[(e + 1) % 3])];
   return int(mesh.points.size()) - int(edges.size()) + int(mesh.triangles.size());
 }
 
-void close_by_fan(RawMesh& mesh, const std::vector<int>& loop, std::vector<char>& filled) {
+void close_by_fan(TriMesh& mesh, const std::vector<int>& loop, std::vector<char>& filled) {
   Vec3 middle = Vec3::Zero();
   for (const int n : loop) middle += mesh.points[n] / double(loop.size());
   const int hub = int(mesh.points.size());
@@ -314,7 +264,7 @@ DiscSurface extract_skin(const OccupancyField& field, const Box& box, const Vec3
     throw input_error("labels: no skin in the box around the breast (body fraction ", *low, " to ",
                       *high, "): the body mask has no air or no tissue there");
   simplify(lattice, nipple);
-  RawMesh mesh = component_at(MarchingTetrahedra(lattice).run(), nipple);
+  TriMesh mesh = component_at(skin_of(lattice), nipple);
 
   DiscSurface surface;
   surface.filled.assign(mesh.points.size(), 0);

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "surface/marching_tetrahedra.hpp"
+
 namespace breast {
 
 namespace {
@@ -80,7 +82,32 @@ double level_enclosing(std::vector<Cell> list, double volume) {
   return 1e-3;
 }
 
-/// Marching tetrahedra with corners shared between cells and elements, for shading across them.
+// Normals are area-weighted means, averaged again over neighbours, so that thin triangles are not
+// visible.
+Facets shaded(TriMesh mesh) {
+  std::vector<Vec3> normals(mesh.points.size(), Vec3::Zero());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3 normal = (mesh.points[std::size_t(b)] - mesh.points[std::size_t(a)])
+                            .cross(mesh.points[std::size_t(c)] - mesh.points[std::size_t(a)]);
+    for (const int corner : {a, b, c}) normals[std::size_t(corner)] += normal;
+  }
+  for (int pass = 0; pass < 3; ++pass) {
+    for (Vec3& n : normals) n.normalize();
+    std::vector<Vec3> mean = normals;
+    for (const auto& triangle : mesh.triangles) {
+      for (const int corner : triangle) {
+        for (const int other : triangle) mean[std::size_t(corner)] += normals[std::size_t(other)];
+      }
+    }
+    normals = std::move(mean);
+  }
+  for (Vec3& n : normals) n.normalize();
+  Facets facets{std::move(mesh.points), {}, std::move(normals)};
+  for (const auto& [a, b, c] : mesh.triangles) facets.quads.push_back({a, b, c, c});
+  return facets;
+}
+
+/// The level surface from corners that cells and elements share, for shading across them.
 class Surface {
  public:
   Surface(const HexMesh& mesh, const std::vector<Vec3>& nodal, const std::vector<Vec3>& field,
@@ -88,7 +115,7 @@ class Surface {
       : mesh_(mesh), nodal_(nodal), field_(field), level_(level) {}
 
   void add_element(int element) {
-    std::array<Corner, std::size_t(side * side * side)> lattice;
+    std::array<MarchingTetrahedra::Corner, std::size_t(side * side * side)> lattice;
     bool above = false, below = false;
     for (int n = 0; n < int(lattice.size()); ++n) {
       const Vec3 local = local_at(n % side, n / side % side, n / (side * side));
@@ -97,111 +124,38 @@ class Surface {
       (value > 0 ? above : below) = true;
     }
     if (!above || !below) return;
-    for (Corner& corner : lattice) {
+    for (MarchingTetrahedra::Corner& corner : lattice) {
       corner.id = id_of(element_position(mesh_, mesh_.imaged, element, corner.place));
       corner.place = element_position(mesh_, nodal_, element, corner.place);
     }
     for (int c = 0; c < cells * cells * cells; ++c) {
       const int i = c % cells, j = c / cells % cells, k = c / (cells * cells);
       for (const auto& tetrahedron : tetrahedra) {
-        std::array<const Corner*, 4> corners;
+        std::array<MarchingTetrahedra::Corner, 4> corners;
         for (std::size_t t = 0; t < 4; ++t) {
           const int v = tetrahedron[t];
           const int n = (i + (v & 1)) + side * ((j + (v >> 1 & 1)) + side * (k + (v >> 2)));
-          corners[t] = &lattice[std::size_t(n)];
+          corners[t] = lattice[std::size_t(n)];
         }
-        cut(corners);
+        surface_.add(corners);
       }
     }
   }
-  Facets take() {
-    shade();
-    return std::move(facets_);
-  }
+  Facets take() { return shaded(surface_.take()); }
 
  private:
-  struct Corner {
-    int id;
-    double value;  ///< fraction above the level
-    Vec3 place;
-  };
-
   // Corners of neighbouring elements coincide in the scan except for rounding.
-  int id_of(const Vec3& imaged) {
+  std::size_t id_of(const Vec3& imaged) {
     const auto key = [](double x) { return std::llround(x * 1000); };
-    return ids_.try_emplace({key(imaged.x()), key(imaged.y()), key(imaged.z())}, int(ids_.size()))
+    return ids_.try_emplace({key(imaged.x()), key(imaged.y()), key(imaged.z())}, ids_.size())
         .first->second;
-  }
-  int crossing(const Corner& a, const Corner& b) {
-    const auto [at, added] =
-        crossings_.try_emplace(std::minmax(a.id, b.id), int(facets_.points.size()));
-    if (added) {
-      const double f = a.value / (a.value - b.value);
-      facets_.points.push_back((1 - f) * a.place + f * b.place);
-    }
-    return at->second;
-  }
-  void cut(std::array<const Corner*, 4> corners) {
-    const auto middle = std::partition(corners.begin(), corners.end(),
-                                       [](const Corner* corner) { return corner->value > 0; });
-    const auto inside = middle - corners.begin();
-    if (inside == 0 || inside == 4) return;
-    Vec3 outwards = Vec3::Zero();
-    for (auto at = corners.begin(); at != corners.end(); ++at) {
-      outwards += at < middle ? Vec3(-(*at)->place / double(inside))
-                              : Vec3((*at)->place / double(4 - inside));
-    }
-    const auto& [p, q, r, s] = corners;
-    if (inside == 1) {
-      triangle(crossing(*p, *q), crossing(*p, *r), crossing(*p, *s), outwards);
-    } else if (inside == 3) {
-      triangle(crossing(*s, *p), crossing(*s, *q), crossing(*s, *r), outwards);
-    } else {
-      const int a = crossing(*p, *r), b = crossing(*p, *s), c = crossing(*q, *s),
-                d = crossing(*q, *r);
-      triangle(a, b, c, outwards);
-      triangle(a, c, d, outwards);
-    }
-  }
-  void triangle(int a, int b, int c, const Vec3& outwards) {
-    if (normal(a, b, c).dot(outwards) < 0) std::swap(b, c);
-    facets_.quads.push_back({a, b, c, c});
-  }
-  Vec3 normal(int a, int b, int c) const {
-    const auto& x = facets_.points;
-    return (x[std::size_t(b)] - x[std::size_t(a)]).cross(x[std::size_t(c)] - x[std::size_t(a)]);
-  }
-  // Normals are area-weighted means, averaged again over neighbours, so that thin triangles are not
-  // visible.
-  void shade() {
-    std::vector<Vec3> normals(facets_.points.size(), Vec3::Zero());
-    for (const auto& t : facets_.quads) {
-      for (const int corner : {t[0], t[1], t[2]}) {
-        normals[std::size_t(corner)] += normal(t[0], t[1], t[2]);
-      }
-    }
-    for (int pass = 0; pass < 3; ++pass) {
-      for (Vec3& n : normals) n.normalize();
-      std::vector<Vec3> mean = normals;
-      for (const auto& t : facets_.quads) {
-        for (const int corner : {t[0], t[1], t[2]}) {
-          for (const int other : {t[0], t[1], t[2]}) {
-            mean[std::size_t(corner)] += normals[std::size_t(other)];
-          }
-        }
-      }
-      normals = std::move(mean);
-    }
-    for (Vec3& n : normals) n.normalize();
-    facets_.normals = std::move(normals);
   }
 
   const HexMesh& mesh_;
   const std::vector<Vec3>&nodal_, &field_;
   double level_;
-  std::map<std::tuple<long long, long long, long long>, int> ids_;
-  std::map<std::pair<int, int>, int> crossings_;
-  Facets facets_;
+  std::map<std::tuple<long long, long long, long long>, std::size_t> ids_;
+  MarchingTetrahedra surface_;
 };
 
 /// The cells of all elements; `volume` is the volume to which the fractions sum.
