@@ -119,10 +119,11 @@ void report_found(const SoftnessFound& found, Run& run) {
     run.report().set("data/" + wanted.quantity + "/sd", wanted.sd);
   }
   const std::vector<std::string> names = found.softness.names();
+  const Eigen::MatrixXd covariance = found.fit.covariance();
   for (std::size_t k = 0; k < names.size(); ++k) {
     const std::string& name = names[k];
     const double value = found.softness.values()[k],
-                 sd = std::sqrt(found.fit.covariance(Eigen::Index(k), Eigen::Index(k)));
+                 sd = std::sqrt(covariance(Eigen::Index(k), Eigen::Index(k)));
     table.rows.push_back(
         {name, format_number(value), "-", format_fixed(sd, 2) + " of the logarithm"});
     run.report().set("softness/" + name, value);
@@ -141,8 +142,8 @@ void run_calibration(const Choices& c, Run& run) {
   data.ribs_change = observed(women, "ribs_change_mm");
   data.pressure.mean = c.pressure[0], data.pressure.sd = c.pressure[1];
   data.press = compression_options(c.press, posture_gravity(Posture::upright));
-  data.expected = {c.expected[0] / 100, c.expected[1] / 100, c.expected[2] / 100, c.expected[3],
-                   c.expected[4], c.sternum};
+  data.expected = {c.expected[0] / 100, c.expected[1] / 100, c.expected[2] / 100,
+                   c.expected[3],       c.expected[4],       c.sternum};
   for (const std::filesystem::path& file : c.cohort) data.cohort.push_back(prone_mesh(file));
   data.pressed = prone_mesh(c.pressed);
   MaterialSet base = load_materials(c.from);

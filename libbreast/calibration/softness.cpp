@@ -156,7 +156,8 @@ SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& da
   out.wanted = weighted(data);
   const Eigen::VectorXd expected = data.expected.logarithms();
   int evaluations = 0;
-  const Residuals residuals = [&](const Eigen::VectorXd& x) -> std::optional<Eigen::VectorXd> {
+  LeastSquaresProblem problem;
+  problem.residuals = [&](const Eigen::VectorXd& x) -> std::optional<Eigen::VectorXd> {
     const Softness s = Softness::from_logarithms(x);
     const std::optional<std::vector<double>> values =
         model(softened(base, s, data.muscle_stiffness), data);
@@ -175,7 +176,9 @@ SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& da
     r.tail(x.size()) = (x - expected) / data.expected_ln_sd;
     return r;
   };
-  out.fit = gauss_newton(residuals, expected);
+  LeastSquaresOptions search;
+  search.max_evaluations = 100;
+  out.fit = least_squares(problem, expected, search);
   out.softness = rounded(Softness::from_logarithms(out.fit.x));
   for (std::size_t k = 0; k < out.wanted.size(); ++k)
     out.found.push_back(out.wanted[k].mean + out.fit.residuals[Eigen::Index(k)] * out.wanted[k].sd);
@@ -183,7 +186,7 @@ SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& da
   for (Law& law : out.materials.laws)
     for (double& constant : law.constants) constant = rounded(constant, 5);
   out.materials.uncertainty.parameters = out.softness.names();
-  out.materials.uncertainty.covariance = rounded(out.fit.covariance);
+  out.materials.uncertainty.covariance = rounded(out.fit.covariance());
   return out;
 }
 

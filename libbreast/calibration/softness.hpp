@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "calibration/gauss_newton.hpp"
 #include "contact/compression.hpp"
 #include "core/progress.hpp"
 #include "material/law.hpp"
 #include "mesh/hex_mesh.hpp"
+#include "solve/least_squares.hpp"
 
 namespace breast {
 
@@ -47,7 +47,7 @@ struct SoftnessData {
   HexMesh pressed;
   double muscle_mm = 8;
   std::optional<double> muscle_stiffness = {};  ///< relative to fibroglandular tissue
-  Observed lateral, posterior, ribs_change;  ///< means over `women` women
+  Observed lateral, posterior, ribs_change;     ///< means over `women` women
   int women = 63;
   Observed pressure{"pressure_kPa", 10, 2.5};  ///< of the paddle on `pressed`
   CompressionOptions press;                    ///< how `pressed` is compressed
@@ -57,7 +57,7 @@ struct SoftnessData {
 
 struct SoftnessFound {
   Softness softness;
-  LeastSquares fit;
+  LeastSquaresResult fit;
   std::vector<Observed> wanted;  ///< targets, with the standard deviations used as weights
   std::vector<double> found;     ///< resulting means of the cohort, and the resulting pressure
   MaterialSet materials;         ///< with its uncertainty

@@ -220,13 +220,13 @@ void Search::know(Identified& out) const {
 
 Identified Search::run() {
   Identified out;
-  TrustRegionOptions region;
+  LeastSquaresOptions region;
   region.unit = unit_;
   const VectorXd begin = start();
   region.max_evaluations = options_.max_pairs - model_.pairs() + 1;
   const LeastSquaresProblem problem{[&](const VectorXd& x) { return residuals(x); },
                                     [&] { return jacobian(); }};
-  out.fit = trust_region(problem, begin, region);
+  out.fit = least_squares(problem, begin, region);
   // The last trial point may have been refused or worse, so the state of the solution itself is
   // kept.
   if (solved_ != out.fit.x) residuals(out.fit.x);

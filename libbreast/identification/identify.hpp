@@ -5,7 +5,7 @@
 #include "identification/knowledge.hpp"
 #include "identification/prior.hpp"
 #include "identification/second_posture.hpp"
-#include "identification/trust_region.hpp"
+#include "solve/least_squares.hpp"
 
 namespace breast {
 
@@ -16,7 +16,7 @@ struct IdentifyOptions {
   PriorKind prior = PriorKind::set;
   bool align = false;
   double shift_mm = 4,
-         turn_deg = 2;         ///< expected motion of the rib cage, rms in space
+         turn_deg = 2;  ///< expected motion of the rib cage, rms in space
   /// The same as a covariance of shift (mm) and rotation (degrees), if more is known about it.
   std::optional<Eigen::Matrix<double, 6, 6>> motion_covariance = {};
   int max_pairs = 25;          ///< limit on pairs of backward and forward solves
@@ -39,11 +39,10 @@ struct LandmarkFit {
 };
 
 struct Identified {
-  std::vector<std::string>
-      names;                   ///< names of the material parameters
-  TrustRegionResult fit;       ///< residuals and Jacobian with the prior's rows last
-  Eigen::MatrixXd covariance;  ///< covariance of all unknowns, widened by curvature
-  Eigen::MatrixXd prior;       ///< prior covariance of the material parameters
+  std::vector<std::string> names;  ///< names of the material parameters
+  LeastSquaresResult fit;          ///< residuals and Jacobian with the prior's rows last
+  Eigen::MatrixXd covariance;      ///< covariance of all unknowns, widened by curvature
+  Eigen::MatrixXd prior;           ///< prior covariance of the material parameters
   RigidMotion motion;
   HexMesh second;  ///< the second posture found, in the frame of the mesh
   std::vector<KnownDirection> directions;

@@ -171,42 +171,6 @@ TEST(Identification, TooFewDataWithoutAPriorAreRefused) {
   EXPECT_THROW(identify(c.mesh, Observations(), c.options), Error);
 }
 
-TEST(TrustRegion, FindsTheBottomOfACurvedValley) {
-  const auto at = [](const Eigen::VectorXd& x) {
-    return Eigen::VectorXd(Eigen::Vector2d(10 * (x[1] - x[0] * x[0]), 1 - x[0]));
-  };
-  Eigen::VectorXd last;
-  const LeastSquaresProblem problem{
-      [&](const Eigen::VectorXd& x) -> std::optional<Eigen::VectorXd> { return last = x, at(x); },
-      [&]() -> Eigen::MatrixXd {
-        Eigen::Matrix2d j;
-        j << -20 * last[0], 10, -1, 0;
-        return j;
-      }};
-  TrustRegionOptions options;
-  options.tolerance = 1e-16, options.max_evaluations = 200;
-  const TrustRegionResult found = trust_region(problem, Eigen::Vector2d(-1.2, 1), options);
-  EXPECT_TRUE(found.converged);
-  EXPECT_LT((found.x - Eigen::Vector2d(1, 1)).norm(), 1e-7);
-}
-
-TEST(TrustRegion, StopsWhereTheModelHasNoAnswer) {
-  Eigen::VectorXd last;
-  const LeastSquaresProblem problem{
-      [&](const Eigen::VectorXd& x) -> std::optional<Eigen::VectorXd> {
-        if (x[0] > 1) return {};
-        return last = x, Eigen::VectorXd(Eigen::VectorXd::Constant(1, x[0] - 3));
-      },
-      [] { return Eigen::MatrixXd::Ones(1, 1); }};
-  TrustRegionOptions options;
-  options.max_evaluations = 100;
-  const TrustRegionResult found = trust_region(problem, Eigen::VectorXd::Zero(1), options);
-  EXPECT_FALSE(found.converged);
-  EXPECT_TRUE(found.at_limit);
-  EXPECT_GT(found.x[0], 0.98);
-  EXPECT_FALSE(found.refused.empty());
-}
-
 TEST(ChiSquared, IsThatOfTables) {
   EXPECT_NEAR(chi_squared_above(3.841458820694124, 1), 0.05, 1e-12);
   EXPECT_NEAR(chi_squared_above(124.3421134, 100), 0.05, 1e-8);
