@@ -18,7 +18,6 @@ constexpr std::size_t most_bytes = 65536;
 
 struct Line {
   std::string key, value;
-  bool of_makefile = false;  ///< assigned with := or ?=
 };
 
 // A comment in a value begins at a '#' that follows a blank.
@@ -31,9 +30,7 @@ std::string without_comment(const std::string& value) {
 std::optional<Line> split_line(const std::string& line) {
   const std::size_t equals = line.find('=');
   if (equals == std::string::npos || equals == 0) return {};
-  const bool of_makefile = line[equals - 1] == ':' || line[equals - 1] == '?';
-  Line split{trimmed(line.substr(0, equals - (of_makefile ? 1 : 0))), line.substr(equals + 1),
-             of_makefile};
+  Line split{trimmed(line.substr(0, equals)), line.substr(equals + 1)};
   const bool letters =
       !split.key.empty() && std::all_of(split.key.begin(), split.key.end(), [](char c) {
         return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
@@ -75,7 +72,6 @@ CaseFile parse_case_file(const std::string& text, const std::string& name,
   if (text.size() > most_bytes)
     throw input_error(what, " has ", text.size(), " bytes and may not be larger than 64 kB");
   CaseFile found;
-  bool of_makefile = false;
   std::istringstream in(text);
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
@@ -93,15 +89,8 @@ CaseFile parse_case_file(const std::string& text, const std::string& name,
       throw input_error(at, ": ", split->key,
                         " is given for the second time; remove one of the two lines");
     check_value(*split, at);
-    of_makefile = of_makefile || split->of_makefile;
     found.settings.emplace_back(split->key, split->value);
   }
-  if (!of_makefile) return found;
-  if (!name.ends_with(".mk"))
-    throw input_error(
-        what, " contains := or ?=, which only makefiles of version 0.1 may; write KEY = VALUE");
-  found.warning =
-      name + " contains := or ?=, which the next version will not read; write KEY = VALUE";
   return found;
 }
 

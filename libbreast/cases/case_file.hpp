@@ -12,14 +12,12 @@ namespace breast {
 
 struct CaseFile {
   std::vector<std::pair<std::string, std::string>> settings;  ///< in the order of the file
-  std::string warning;  ///< if := or ?= of a makefile of version 0.1 was read as =; otherwise ""
 
   bool has(const std::string& key) const;
 };
 
 /// Reads a case file; `known` lists the keys that it may contain. A '#' at the start of a line or
-/// after a blank begins a comment. Files named *.mk are makefiles of version 0.1, in which := and
-/// ?= are read as =. Throws Error (input) if the file cannot be read or is larger than 64 kB, and,
+/// after a blank begins a comment. Throws Error (input) if the file cannot be read or is larger than 64 kB, and,
 /// naming the file and the line, for a line that is not KEY = VALUE, for an unknown or repeated
 /// key, and for a value with a control character or one that make or a shell would interpret as
 /// code.

@@ -16,10 +16,10 @@ namespace fs = std::filesystem;
 namespace {
 
 bool ends_case(const fs::path& file) {
-  return file.extension() == ".case" || file.extension() == ".mk";
+  return file.extension() == ".case";
 }
 bool is_inner_case(const fs::path& file) {
-  return file.filename() == "case.txt" || file.filename() == "case.mk";
+  return file.filename() == "case.txt";
 }
 
 // Hidden files and folders do not belong to a cohort.
@@ -71,8 +71,7 @@ std::vector<CohortEntry> cohort_entries(const fs::path& cohort,
   if (files.empty())
     throw input_error(
         "COHORT=", cohort.string(),
-        " holds no case; a case is a file *.case or */case.txt (in version 0.1 *.mk or "
-        "*/case.mk)");
+        " holds no case; a case is a file *.case or */case.txt");
   for (const fs::path& file : files) check_name(file, cohort);
   std::map<std::string, fs::path> named;
   for (const fs::path& file : files) {

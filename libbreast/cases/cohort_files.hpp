@@ -14,8 +14,8 @@ struct CohortEntry {
   bool phantom = false;  ///< true if the case file names no MR scan
 };
 
-/// The cases of a cohort, sorted by the paths of their files: COHORT/*.case and COHORT/*/case.txt,
-/// and the names that version 0.1 used, *.mk and */case.mk. `known` lists the keys of case files.
+/// The cases of a cohort, sorted by the paths of their files: COHORT/*.case and COHORT/*/case.txt.
+/// `known` lists the keys of case files.
 /// Throws Error (input) if there is no case, if a path below COHORT contains a character that is
 /// refused, if two cases have the same name, or if any case file is refused or names neither MR nor
 /// PRESET: a phantom would otherwise be run under the name of the patient whose MR was left out.

@@ -167,7 +167,6 @@ void Decisions::take_case_file() {
       check_characters(setting, given);
       if (request_.command_line.count(key) == 0) set(key, given);
     }
-  if (!file.warning.empty()) line("$(warning warning: " + file.warning + ")");
 }
 
 void Decisions::take_defaults() {

@@ -9,22 +9,11 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/lists.hpp"
 
 namespace breast {
 
 namespace {
-const std::string rows_line = "# rows ";
-
-std::vector<std::string> split_tabs(const std::string& line) {
-  std::vector<std::string> cells;
-  std::size_t start = 0;
-  while (true) {
-    const std::size_t tab = line.find('\t', start);
-    cells.push_back(line.substr(start, tab == std::string::npos ? tab : tab - start));
-    if (tab == std::string::npos) return cells;
-    start = tab + 1;
-  }
-}
 bool is_non_finite(const std::string& cell) {
   double value = 0;
   const auto end = std::from_chars(cell.data(), cell.data() + cell.size(), value);
@@ -40,11 +29,6 @@ std::string written_cell(const std::string& cell, std::size_t columns) {
 // cell.
 void refuse_non_finite(const std::string& cell, const std::string& where) {
   if (is_non_finite(cell)) throw input_error(where, ": '", cell, "' is not finite");
-}
-std::string join_tabs(const std::vector<std::string>& cells) {
-  std::string line;
-  for (std::size_t c = 0; c < cells.size(); ++c) line += (c == 0 ? "" : "\t") + cells[c];
-  return line + "\n";
 }
 // What is read from `text` must be the table: a tab or line break in a name, or a name that begins
 // with '#', would otherwise move or drop cells without a word.
@@ -107,10 +91,10 @@ std::string Table::text() const {
   for (auto& row : written.rows)
     for (std::string& cell : row)
       if (cell.empty() || is_non_finite(cell)) cell = empty_cell;
-  std::string out = join_tabs(columns);
+  std::string out = join(columns, "\t") + "\n";
   for (std::vector<std::string> row : written.rows) {
     for (std::string& cell : row) cell = written_cell(cell, columns.size());
-    out += join_tabs(row);
+    out += join(row, "\t") + "\n";
   }
   check_reads_back(written, out);
   return out;
@@ -121,23 +105,18 @@ std::string Table::closed_text() const {
 }
 
 bool closes_table(std::string_view tail) {
-  if (tail.ends_with("\n\r\n") && !tail.ends_with("\r\n\r\n")) return true;
-  if (!tail.ends_with('\n')) return false;
-  tail.remove_suffix(1);
-  const std::size_t line = tail.rfind('\n');
-  return line != std::string_view::npos && tail.substr(line + 1).starts_with(rows_line);
+  return tail.ends_with("\n\r\n") && !tail.ends_with("\r\n\r\n");
 }
 
 Table parse_table(const std::string& text, const std::string& name) {
   std::istringstream in(text);
   Table table;
   table.name = name;
-  std::string line, promised;
+  std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.starts_with(rows_line)) promised = line.substr(rows_line.size());
     if (line.empty() || line[0] == '#') continue;
-    std::vector<std::string> cells = split_tabs(line);
+    std::vector<std::string> cells = split(line, '\t');
     if (table.columns.empty()) {
       table.columns = std::move(cells);
       continue;
@@ -153,11 +132,7 @@ Table parse_table(const std::string& text, const std::string& name) {
     table.rows.push_back(std::move(cells));
   }
   if (table.columns.empty()) throw input_error(name, ": no header line");
-  if (!promised.empty() && promised != std::to_string(table.rows.size())) {
-    throw input_error(name, ": has ", table.rows.size(), " rows, but its last line states ",
-                      promised);
-  }
-  table.closed = !promised.empty() || closes_table(text);
+  table.closed = closes_table(text);
   return table;
 }
 

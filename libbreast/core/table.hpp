@@ -36,17 +36,14 @@ struct Table {
 /// it is the only line of the file that ends with CR LF, so that a table truncated at the end of
 /// another line is recognised, too.
 inline constexpr std::string_view table_end = "\r\n";
-/// True if `tail`, the end of a file, contains the closing line of a table: table_end, or the line
-/// "# rows N" of earlier versions.
+/// True if `tail`, the end of a file, is the closing line of a table.
 bool closes_table(std::string_view tail);
 /// A cell without a value, as a Table contains it. In a file the cell is empty, which other
-/// programs read as a missing number; "-", which people and older versions write, is read as the
-/// same.
+/// programs read as a missing number; "-", which people write, is read as the same.
 inline constexpr std::string_view empty_cell = "-";
 
-/// Reads a table. Lines starting with '#' are comments; "# rows N" closes a table of an older
-/// version, and N is checked. Throws Error (input) with the line number, also for a cell that is
-/// nan or inf.
+/// Reads a table. Lines starting with '#' are comments. Throws Error (input) with the line number, also
+/// for a cell that is nan or inf.
 Table read_table(const std::filesystem::path& file);
 /// The same from a text; `name` is used in errors.
 Table parse_table(const std::string& text, const std::string& name);

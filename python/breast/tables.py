@@ -19,11 +19,11 @@ def read_table(file: str | os.PathLike[str], pandas: bool | None = None) -> Any:
     Columns of numbers become float64 or int64, and an empty cell or '-' (no value) in them becomes NaN. All other columns are text.
 
     Args:
-        file: a .tsv file; lines that begin with # are comments; N in "# rows N", the last line of older tables, is checked.
+        file: a .tsv file; lines that begin with # are comments.
         pandas: True a DataFrame, False a structured array, None a DataFrame where pandas is installed.
 
     Raises:
-        BreastError: rows that do not fit the header or their promised number, or a number that is not finite.
+        BreastError: rows that do not fit the header, or a number that is not finite.
     """
     columns = _columns(Path(file))
     if pandas is not False:
@@ -50,10 +50,7 @@ def _columns(path: Path) -> dict[str, np.ndarray]:
         raise BreastError("is not UTF-8 text", path) from None
     header: list[str] = []
     rows: list[list[str]] = []
-    promised = None
     for number, line in enumerate(text.splitlines(), 1):
-        if line.startswith("# rows "):
-            promised = line[len("# rows "):]
         if not line or line.startswith("#"):
             continue
         cells = line.split("\t")
@@ -67,8 +64,6 @@ def _columns(path: Path) -> dict[str, np.ndarray]:
         raise BreastError("no header line", path)
     if len(set(header)) != len(header):
         raise BreastError("has two columns of one name", path)
-    if promised is not None and promised != str(len(rows)):
-        raise BreastError(f"has {len(rows)} rows, but its last line states {promised}", path)
     return {name: _typed(path, name, [row[c] for row in rows]) for c, name in enumerate(header)}
 
 

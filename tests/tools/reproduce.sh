@@ -81,8 +81,8 @@ check_threads() {
 
 check_cohort() {
   mkdir -p "$work/patients/second"
-  printf 'PRESET = small\nELEMENTS = 4\n' > "$work/patients/first.mk"
-  printf 'MR = %s\nSIDE = left\n' "$work/no-such-scan.nrrd" > "$work/patients/second/case.mk"
+  printf 'PRESET = small\nELEMENTS = 4\n' > "$work/patients/first.case"
+  printf 'MR = %s\nSIDE = left\n' "$work/no-such-scan.nrrd" > "$work/patients/second/case.txt"
   run COHORT="$work/patients" RUNS="$work/runs" > "$work/log" 2>&1 || { tail -n 20 "$work/log"; fail "a cohort with a failing case"; }
   local table=$work/runs/cohort-patients/cohort.tsv
   awk -F'\t' '$1 == "first" && $2 == "done" && $5 > 0 && $8 > 0 { good = 1 }

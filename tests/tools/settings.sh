@@ -108,10 +108,6 @@ for line in 'include other' 'MR = $(shell touch '"$bait"')' 'MR = `touch '"$bait
   printf '%s\n' "$line" > "$work/bad.case"
   ! plan CASE_FILE="$work/bad.case" chain || fail "case file with '$line' is refused"
 done
-cp "$work/patient.case" "$work/old.mk"
-printf 'ELEMENTS := 6\n' >> "$work/old.mk"
-plan CASE_FILE="$work/old.mk" chain || { cat "$work/err"; fail "a makefile of version 0.1 is still read as data"; }
-grep -q 'warning: .*old.mk' "$work/err" || fail "and warned of"
 [ ! -e "$bait" ] || fail "nothing in a case file is executed"
 pass "case files are data: checked by key and value, never executed"
 
@@ -154,8 +150,8 @@ refused "the other side in the same folder" "left breast" -- MR="$work/A/DICOM" 
 pass "a run folder remembers its scan and refuses another"
 
 cohort() { rm -rf "$work/cohort"; mkdir -p "$work/cohort/a"; }
-cohort; printf 'MR = x.nrrd\n' > "$work/cohort/a.mk"; printf 'MR = y.nrrd\n' > "$work/cohort/a/case.mk"
-refused "a.mk beside a/case.mk" "two case files are called a" -- COHORT="$work/cohort" cohort
+cohort; printf 'MR = x.nrrd\n' > "$work/cohort/a.case"; printf 'MR = y.nrrd\n' > "$work/cohort/a/case.txt"
+refused "a.case beside a/case.txt" "two case files are called a" -- COHORT="$work/cohort" cohort
 cohort; printf 'SIDE = left\n' > "$work/cohort/b.case"
 refused "a cohort's case without a scan" "neither MR nor PRESET" -- COHORT="$work/cohort" cohort
 cohort; printf 'MRI = x.nrrd\n' > "$work/cohort/b.case"

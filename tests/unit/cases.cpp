@@ -58,7 +58,8 @@ TEST(CaseFiles, AreRefusedByLineAndKey) {
             "case file a.case, line 2: MRI is no setting of a case; did you mean MR?");
   EXPECT_NE(refusal("include other").find("line 1: this line is not KEY = VALUE"),
             std::string::npos);
-  EXPECT_NE(refusal("export X = 1").find("is not KEY = VALUE"), std::string::npos);
+  for (const std::string code : {"export X = 1", "SIDE := left", "SIDE ?= left"})
+    EXPECT_NE(refusal(code).find("is not KEY = VALUE"), std::string::npos) << code;
   EXPECT_NE(refusal("MR = x\nMR = y").find("line 2: MR is given for the second time"),
             std::string::npos);
   for (const std::string code : {"$(shell x)", "`x`", "a;b", "a'b", "a#b", "a\\b", "a|b", "#x"})
@@ -68,13 +69,6 @@ TEST(CaseFiles, AreRefusedByLineAndKey) {
   EXPECT_NE(refusal(std::string(70000, '#')).find("larger than 64 kB"), std::string::npos);
   EXPECT_NE(reason([] { read_case_file("/nowhere.case", keys); }).find("can be read"),
             std::string::npos);
-}
-
-TEST(CaseFiles, OfVersion01AreReadWithAWarning) {
-  EXPECT_NE(refusal("SIDE := left").find("write KEY = VALUE"), std::string::npos);
-  const CaseFile old = parse_case_file("SIDE := left\nELEMENTS ?= 6\n", "old.mk", keys);
-  EXPECT_EQ(old.settings[1].second, "6");
-  EXPECT_NE(old.warning.find("old.mk"), std::string::npos);
 }
 
 TEST(ScanIdentity, KnowsAnotherScanAndSideWhateverItsNameAndTimes) {
@@ -135,15 +129,15 @@ TEST(Cohorts, AreFoundCheckedAndNamedOnce) {
   EXPECT_EQ(entries()[0].name, "a");
   EXPECT_FALSE(entries()[0].phantom);
   EXPECT_TRUE(entries()[1].phantom);
-  write_text(folder / "a.mk", "MR = y.nrrd\n");
+  write_text(folder / "a.case", "MR = y.nrrd\n");
   EXPECT_NE(reason(entries).find("two case files are called a"), std::string::npos);
-  fs::rename(folder / "a.mk", folder / "c d.mk");
-  EXPECT_NE(reason(entries).find("c?d.mk: a name with such characters is refused"),
+  fs::rename(folder / "a.case", folder / "c d.case");
+  EXPECT_NE(reason(entries).find("c?d.case: a name with such characters is refused"),
             std::string::npos);
-  fs::rename(folder / "c d.mk", folder / "c.mk");
-  write_text(folder / "c.mk", "SIDE = left\n");
+  fs::rename(folder / "c d.case", folder / "c.case");
+  write_text(folder / "c.case", "SIDE = left\n");
   write_text(folder / "d.case", "MRI = left\n");
-  EXPECT_NE(reason(entries).find("c.mk: names neither MR nor PRESET"), std::string::npos);
+  EXPECT_NE(reason(entries).find("c.case: names neither MR nor PRESET"), std::string::npos);
   EXPECT_NE(reason(entries).find("did you mean MR?"), std::string::npos) << "all problems at once";
 }
 
