@@ -22,6 +22,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/lists.hpp"
 #include "study/cells.hpp"
 
 using namespace breast;

@@ -6,6 +6,7 @@
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/lists.hpp"
 #include "evaluation/landmark_truth.hpp"
 #include "io/mesh_file.hpp"
 
@@ -42,20 +43,9 @@ void declare(Tool& tool, Choices& c) {
                "the effect of a material on the supine shape, as in Table III");
 }
 
-std::vector<std::string> split(const std::string& list) {
-  std::vector<std::string> names{""};
-  for (const char c : list) {
-    if (c == ',')
-      names.emplace_back();
-    else
-      names.back() += c;
-  }
-  return names;
-}
-
 // The requested landmarks, or those of the first file.
 std::vector<std::string> chosen(const std::string& option, const HexMesh& first) {
-  if (!option.empty()) return split(option);
+  if (!option.empty()) return split(option, ',');
   std::vector<std::string> names;
   for (const Landmark& landmark : first.landmarks) names.push_back(landmark.name);
   return names;

@@ -5,6 +5,8 @@
 #include "command/child.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/lists.hpp"
+#include "core/text/one_line.hpp"
 #include "study/cells.hpp"
 #include "study/cohort/cohort_page.hpp"
 #include "study/cohort/cohort_table.hpp"

@@ -15,6 +15,8 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"
+#include "core/text/lists.hpp"
+#include "core/text/one_line.hpp"
 #include "study/cells.hpp"
 #include "study/pages/markdown.hpp"
 #include "study/pages/report_page.hpp"

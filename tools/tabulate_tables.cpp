@@ -2,6 +2,7 @@
 // The tables of the paper and of studies.
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/lists.hpp"
 #include "evaluation/curve_distance.hpp"
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
@@ -197,8 +198,7 @@ std::vector<TabulateKind> table_kinds() {
        any_number, least},
       {"recommendation", "RUN MM PART...",
        "those parts, the sum of their changes, and the change in RUN/studies/leaveout/least-QUESTION",
-       3,
-       any_number,
+       3, any_number,
        [](const Request& r) {
          return recommendation(r.word(0), parse_number(r.word(1), "recommendation: MM"), r.rest(2),
                                read_shape, curve_gap)

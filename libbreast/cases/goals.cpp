@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/lists.hpp"
 #include "study/cells.hpp"
 
 namespace breast {

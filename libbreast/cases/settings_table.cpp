@@ -7,6 +7,7 @@
 #include "cases/make_text.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/lists.hpp"
 #include "core/text/place.hpp"
 #include "core/text/words.hpp"
 #include "study/cells.hpp"

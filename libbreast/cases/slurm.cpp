@@ -14,6 +14,8 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/lists.hpp"
+#include "core/text/one_line.hpp"
 #include "study/cells.hpp"
 
 namespace breast {

@@ -8,6 +8,7 @@
 #include "cases/make_text.hpp"
 #include "command/make_name.hpp"
 #include "core/error.hpp"
+#include "core/text/lists.hpp"
 #include "core/text/words.hpp"
 #include "study/cells.hpp"
 

@@ -16,6 +16,7 @@
 #include "core/files_written.hpp"
 #include "core/own_file.hpp"
 #include "core/parallel.hpp"
+#include "core/text/one_line.hpp"
 
 namespace breast {
 
@@ -24,13 +25,12 @@ namespace {
 // Runs before main(), because the tool's own options may be what does not fit in memory.
 [[maybe_unused]] const bool prepared = has_preflight() && have_last_words();
 
-std::string one_line(std::string text) {
+// Text from a file that a message quotes must not contain control sequences for the terminal.
+std::string printable_line(const std::string& text) {
+  std::string line = one_line(text);
   std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
-  // Text from a file that a message quotes must not contain control sequences for the terminal.
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
-  return text;
+      line.begin(), line.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
+  return line;
 }
 
 // One number of threads for OpenMP, ITK and VTK; the latter two read their environment late.
@@ -57,11 +57,11 @@ Outcome guarded(const std::function<void()>& work) {
     work();
     return {};
   } catch (const Error& error) {
-    return {error.exit_code(), failure_status(error.kind()), one_line(error.what())};
+    return {error.exit_code(), failure_status(error.kind()), printable_line(error.what())};
   } catch (const std::bad_alloc&) {
     return {1, "failed", "out of memory"};
   } catch (const std::exception& error) {
-    return {1, "failed", one_line(error.what())};
+    return {1, "failed", printable_line(error.what())};
   } catch (...) {
     return {1, "failed", "unknown failure"};
   }

@@ -6,31 +6,15 @@
 
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/lists.hpp"
 
 namespace breast {
 
 namespace {
 
-std::string join(const std::vector<std::string>& list) {
-  std::string text;
-  for (const std::string& item : list) text += (text.empty() ? "" : ", ") + item;
-  return text;
-}
-
 std::string suggestion(const std::string& given, const std::vector<std::string>& candidates) {
   const std::string best = nearest(given, candidates);
   return best.empty() ? "" : "; did you mean '" + best + "'?";
-}
-
-std::vector<std::string> split_commas(const std::string& text) {
-  std::vector<std::string> parts{""};
-  for (const char c : text) {
-    if (c == ',')
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  return parts;
 }
 
 void check_range(const Argument& argument, double value) {
@@ -54,7 +38,7 @@ void check_value(const Argument& argument, const std::string& value) {
     check_range(argument, number);
   }
   if (argument.kind == ArgumentKind::numbers) {
-    const std::vector<std::string> parts = split_commas(value);
+    const std::vector<std::string> parts = split(value, ',');
     if (int(parts.size()) != argument.count) {
       throw input_error(argument.label(), ": '", value, "' has ", parts.size(), " numbers; give ",
                         argument.count, " as ", argument.placeholder);
@@ -64,7 +48,7 @@ void check_value(const Argument& argument, const std::string& value) {
   const auto& choices = argument.choices;
   if (argument.kind == ArgumentKind::choice &&
       std::find(choices.begin(), choices.end(), value) == choices.end()) {
-    throw input_error(argument.label(), ": '", value, "' is none of ", join(choices),
+    throw input_error(argument.label(), ": '", value, "' is none of ", join(choices, ", "),
                       suggestion(value, choices));
   }
   if (value.empty()) throw input_error(argument.label(), ": is empty");

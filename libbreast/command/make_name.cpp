@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/text/utf8.hpp"
 
 namespace breast {
 
@@ -16,21 +17,6 @@ namespace {
 
 // The characters that are refused in names by cases/settings_table.hpp.
 const std::string refused = "$`;&|<>(){}[]*?!\"'\\^#=:%~";
-
-// Length of the valid UTF-8 character at `at`, 0 when there is none.
-std::size_t utf8_length(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return std::uint8_t(i < text.size() ? text[i] : 0); };
-  const std::uint8_t lead = byte(at);
-  const std::size_t length = lead < 0x80                   ? 1
-                             : lead >= 0xc2 && lead < 0xe0 ? 2
-                             : lead >= 0xe0 && lead < 0xf0 ? 3
-                             : lead >= 0xf0 && lead < 0xf5 ? 4
-                                                           : 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(at + i) & 0xc0) != 0x80) return 0;
-  }
-  return length;
-}
 
 bool plain_byte(char c) {
   return std::uint8_t(c) > ' ' && c != 0x7f && refused.find(c) == std::string::npos;
@@ -85,7 +71,7 @@ bool holds_strange_names(const fs::path& folder) {
 bool plain_for_make(const std::string& path) {
   if (path.empty() || path.front() == '-') return false;
   for (std::size_t at = 0; at < path.size();) {
-    const std::size_t length = utf8_length(path, at);
+    const std::size_t length = first_character(std::string_view(path).substr(at)).bytes;
     if (length == 0 || (length == 1 && !plain_byte(path[at]))) return false;
     at += length;
   }
@@ -95,7 +81,7 @@ bool plain_for_make(const std::string& path) {
 std::string plain_name(const std::string& name) {
   std::string plain;
   for (std::size_t at = 0; at < name.size();) {
-    const std::size_t length = utf8_length(name, at);
+    const std::size_t length = first_character(std::string_view(name).substr(at)).bytes;
     const bool kept =
         length > 1 || (length == 1 && plain_byte(name[at]) && !(at == 0 && name[at] == '-'));
     plain += kept ? name.substr(at, length) : "_";

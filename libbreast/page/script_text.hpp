@@ -3,8 +3,8 @@
 // base64.
 #pragma once
 
-#include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -16,15 +16,14 @@ namespace breast {
 std::string script_text(const std::string& text);
 
 /// Bytes in base64, in double quotes.
-std::string script_bytes(std::span<const unsigned char> bytes);
+std::string script_bytes(std::string_view bytes);
 
 /// The memory of an array of numbers in base64, in double quotes; little-endian on every supported
 /// processor.
 template <class T>
 std::string script_array(const std::vector<T>& values) {
   static_assert(std::is_arithmetic_v<T>);
-  return script_bytes(
-      {reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(T)});
+  return script_bytes({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
 }
 
 }  // namespace breast

@@ -32,13 +32,4 @@ std::optional<double> number_at(const Table& table, const std::string& row,
 /// The table in `file`; no value if the file is absent or empty.
 std::optional<Table> table_if_any(const std::string& file);
 
-/// The text with tabs and line breaks replaced by blanks.
-std::string one_line(std::string text);
-/// The text with bytes that are not valid UTF-8 replaced by U+FFFD.
-std::string valid_utf8(const std::string& bytes);
-/// The elements of `parts`, separated by `between`.
-std::string join(const std::vector<std::string>& parts, const std::string& between);
-/// The parts of the text between the separators; an empty text has one empty part.
-std::vector<std::string> split(const std::string& text, char separator);
-
 }  // namespace breast

@@ -5,6 +5,8 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/one_line.hpp"
+#include "core/text/utf8.hpp"
 #include "study/cells.hpp"
 
 namespace breast {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/atomic_file.hpp"
+#include "core/text/lists.hpp"
 #include "study/cells.hpp"
 
 namespace breast {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/text/lists.hpp"
 #include "study/cells.hpp"
 #include "study/stage_report.hpp"
 

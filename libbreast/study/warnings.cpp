@@ -8,6 +8,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/one_line.hpp"
 #include "study/cells.hpp"
 #include "study/stage_report.hpp"
 

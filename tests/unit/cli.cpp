@@ -187,7 +187,7 @@ TEST(Cli, AnotherProgramsFileIsNotReplaced) {
 TEST(Cli, AFileNamedByAnyArgumentIsNotAlsoAnOutput) {
   Trial trial;
   const std::string table = (trial.folder / "fat.tsv").string();
-  write_text(table, "a\n1\n# rows 1\n");
+  write_text(table, "a\n1\n\r\n");
   EXPECT_EQ(trial.run({trial.mesh(), trial.result(), "--materials", table, "--table", table}), 2);
   EXPECT_NE(trial.err.find("--materials"), std::string::npos) << trial.err;
   EXPECT_EQ(trial.run({trial.folder.path().string(), trial.result()}), 2);  // in an input folder

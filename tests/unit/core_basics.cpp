@@ -74,16 +74,6 @@ TEST(Tables, CutAtALineEndIsRefused) {
   }
   EXPECT_FALSE(parse_table("name\tx_mm\r\nnipple\t1\r\n\r\n", "t.tsv").closed)
       << "every line of another program's ends so";
-  EXPECT_TRUE(parse_table("name\tx_mm\nnipple\t1\n# rows 1\n", "t.tsv").closed)
-      << "of an older version";
-  for (const std::string cut : {"name\tx_mm\nnipple\t1\n# rows 2\n", "name\tx_mm\n# rows x\n"}) {
-    try {
-      parse_table(cut, "t.tsv");
-      ADD_FAILURE() << cut;
-    } catch (const Error& error) {
-      EXPECT_TRUE(std::string(error.what()).starts_with("t.tsv: has ")) << error.what();
-    }
-  }
   try {
     parse_table(text, "t.tsv").column("y_mm");
     ADD_FAILURE();
@@ -122,14 +112,14 @@ TEST(Tables, WhatWouldReadBackOtherwiseIsNotWritten) {
   EXPECT_NE(reason({header, {{"a", "1\r"}}}), "");
   EXPECT_EQ((Table{header, {{"a", "-inf"}}}.text()), "name\tx_mm\na\t\n");  // no such number
   EXPECT_NE(reason({header, {{"a", "1", "2"}}}), "");
-  EXPECT_NE(reason({header, {{"a", "1"}, {"# rows 1", "2"}}}), "");
+  EXPECT_NE(reason({header, {{"a", "1"}, {"# comment", "2"}}}), "");
   EXPECT_NE(reason({header, {{"#1", "2"}}}).find("row 1, '#1'"), std::string::npos);
 }
 
 TEST(AtomicFolders, TheLastFileStandsForTheWhole) {
   ScratchFolder scratch;
   const auto target = scratch.path() / "truth";
-  const std::string ours = "\n# rows 0\n";
+  const std::string ours = "\n\r\n";
   const auto fill = [&](const AtomicFolder& folder, const std::string& what) {
     write_text(folder.temporary() / "a.txt", what + ours);
     write_text(folder.temporary() / "last.tsv", what + ours);
@@ -386,7 +376,6 @@ TEST(OwnFiles, AreKnownByTheirContent) {
     return written_by_us(folder / "file");
   };
   EXPECT_TRUE(ours(""));
-  EXPECT_TRUE(ours("a\tb\n1\t2\n# rows 1\n"));
   EXPECT_TRUE(ours("a\tb\n1\t2\n\r\n"));
   EXPECT_FALSE(ours("a\tb\n1\t2\n\n"));
   EXPECT_FALSE(ours("a\tb\r\n1\t2\r\n\r\n")) << "a table of Windows that ends with an empty line";

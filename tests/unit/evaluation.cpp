@@ -236,11 +236,11 @@ TEST(LandmarkTruth, ForeignTablesAreRefusedByFile) {
     return "";
   };
   EXPECT_TRUE(refusal("landmark\tside\nnipple\tleft\n").starts_with("t.tsv: does not end"));
-  EXPECT_TRUE(refusal("name\tvalue\na\t1\n# rows 1\n").starts_with("t.tsv has no column"));
-  EXPECT_TRUE(refusal("landmark\tside\nnipple\tleft\n# rows 1\n").starts_with("t.tsv has no"));
-  EXPECT_TRUE(refusal("landmark\tside\nnipple\tmiddle\n# rows 1\n").starts_with("t.tsv: "));
+  EXPECT_TRUE(refusal("name\tvalue\na\t1\n\r\n").starts_with("t.tsv has no column"));
+  EXPECT_TRUE(refusal("landmark\tside\nnipple\tleft\n\r\n").starts_with("t.tsv has no"));
+  EXPECT_TRUE(refusal("landmark\tside\nnipple\tmiddle\n\r\n").starts_with("t.tsv: "));
   EXPECT_TRUE(
-      refusal("landmark\tside\nnipple\tright\n# rows 1\n").starts_with("t.tsv: no landmark"));
+      refusal("landmark\tside\nnipple\tright\n\r\n").starts_with("t.tsv: no landmark"));
 }
 
 TEST(LandmarkTruth, ItsTumourIsNotTheChainsTumour) {

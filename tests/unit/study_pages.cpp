@@ -4,6 +4,9 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/base64.hpp"
+#include "core/text/lists.hpp"
+#include "core/text/utf8.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "study/cells.hpp"
 #include "study/cohort/cohort_page.hpp"
@@ -168,8 +171,9 @@ TEST(ReportPage, NamesNoFolderAndBeginsWithWarnings) {
   write_text(run / "cc.json",
              R"({"status": "converged", "thickness_mm": 41.27, "warnings": ["<script>"]})");
   write_text(run / "displacements.tsv", "file\tnipple_mm\nsupine.vtkhdf\t3.5\n");
-  write_text(run / "population.tsv",
-             "quantity\tmean\twomen_mean\twomen_sd\twithin_one_sd\nnipple_moved_mm\t97.3\t101\t33\tyes\n");
+  write_text(
+      run / "population.tsv",
+      "quantity\tmean\twomen_mean\twomen_sd\twithin_one_sd\nnipple_moved_mm\t97.3\t101\t33\tyes\n");
   write_text(run / ".labels.settings", "/home/me/bin/segment /secret/scan.nrrd --side left\n");
   const std::string page = report_page(run, {folder.path(), {}, {"A limit."}, "", "Made today."});
   EXPECT_NE(page.find("labels: segment scan.nrrd --side left\n"), std::string::npos);

@@ -6,6 +6,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/lists.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "study/cells.hpp"
 #include "study/cohort/cohort_page.hpp"
@@ -283,7 +284,8 @@ TEST(Studies, OfManySolvesAreCountedByKind) {
   EXPECT_EQ(join(table.rows[0], " "), "same a 2 500 2 7.0 8 2.0 4 75 100 88 42 1.50 3.00 4.00 50");
   EXPECT_EQ(table.cell(1, "alarms_%"), "-");
   EXPECT_EQ(table.cell(1, "known_5_percent"), "-");
-  EXPECT_EQ(table.cell(2, "elements") + " " + table.cell(2, "draws"), "900 1");  // another mesh, another row
+  EXPECT_EQ(table.cell(2, "elements") + " " + table.cell(2, "draws"),
+            "900 1");  // another mesh, another row
 
   const Table mechanics = table_of(
       "case\tdirection\toutcome\tresidual\tmin_det_F\tnewton\tseconds\nx\tforward\tconverged\t1e-9\t0.5\t7\t1\ny\tforward\tconverged\t2e-9\t0.25\t5\t2\nz\tbackward\trefused\t-\t-\t0\t0\n");
@@ -352,14 +354,14 @@ TEST(Plates, RowsSayWhatTheReportsDoAndDashesWhereTheySayNothing) {
   for (const std::string variant : {"coarse", "fine"}) {
     std::filesystem::create_directories(folder / variant);
     write_text(folder / (variant + "/cc.vtkhdf"), "x");
-    write_text(folder / (variant + "/cc.json"),
-               R"({"view": "CC", "status": "converged", "elements": 68, "force_N": 80, "pressure_kPa": 9.96,
+    write_text(
+        folder / (variant + "/cc.json"),
+        R"({"view": "CC", "status": "converged", "elements": 68, "force_N": 80, "pressure_kPa": 9.96,
                    "newton_iterations": 150, "plates": {"paddle": {"force_N": 80, "force_behind_edge_N": 10},
                    "detector": {"force_N": 0, "force_behind_edge_N": 0}}})");
   }
-  const Table plates =
-      plates_table(folder.path(), "next", {"coarse", "fine", "absent"},
-                   shapes({{"coarse/cc.vtkhdf", 4}, {"fine/cc.vtkhdf", 3}}));
+  const Table plates = plates_table(folder.path(), "next", {"coarse", "fine", "absent"},
+                                    shapes({{"coarse/cc.vtkhdf", 4}, {"fine/cc.vtkhdf", 3}}));
   ASSERT_EQ(plates.rows.size(), 2u);
   EXPECT_EQ(plates.cell(0, "view") + " " + plates.cell(0, "paddle_behind_edge_percent") + " " +
                 plates.cell(0, "detector_behind_edge_percent") + " " +

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text/base64.hpp"
 #include "study/cells.hpp"
 #include "study/pages/html.hpp"
 

@@ -7,6 +7,8 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/lists.hpp"
+#include "core/text/one_line.hpp"
 #include "study/cells.hpp"
 #include "study/stage_report.hpp"
 #include "study/summary.hpp"

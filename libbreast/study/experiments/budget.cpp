@@ -3,6 +3,8 @@
 
 #include <map>
 
+#include "core/text/lists.hpp"
+#include "core/text/one_line.hpp"
 #include "study/cells.hpp"
 #include "study/stage_report.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/text/one_line.hpp"
 #include "study/cells.hpp"
 #include "study/stage_report.hpp"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/experiments/cost.hpp"
 
+#include "core/text/lists.hpp"
+
 namespace breast {
 
 namespace fs = std::filesystem;

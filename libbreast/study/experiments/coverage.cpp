@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/text/lists.hpp"
 #include "study/cells.hpp"
 
 namespace breast {

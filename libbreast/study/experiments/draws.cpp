@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 
+#include "core/text/lists.hpp"
 #include "study/cells.hpp"
 
 namespace breast {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/text/lists.hpp"
 #include "study/cells.hpp"
 #include "study/stage_report.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/experiments/outcomes.hpp"
 
+#include "core/text/one_line.hpp"
 #include "study/cells.hpp"
 #include "study/stage_report.hpp"
 

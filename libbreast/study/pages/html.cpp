@@ -5,6 +5,9 @@
 #include <sstream>
 
 #include "core/atomic_file.hpp"
+#include "core/text/base64.hpp"
+#include "core/text/lists.hpp"
+#include "core/text/utf8.hpp"
 #include "study/cells.hpp"
 
 namespace breast {
@@ -33,19 +36,6 @@ std::string escaped(const std::string& text) {
     }
   }
   return safe;
-}
-
-std::string base64(const std::string& bytes) {
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63u] : '=';
-  }
-  return text;
 }
 
 std::string page_head(const std::string& title, const std::string& style) {

@@ -12,7 +12,6 @@ namespace breast {
 
 /// The text with & < > " ' as entities and bytes that are not valid UTF-8 as U+FFFD.
 std::string escaped(const std::string& text);
-std::string base64(const std::string& bytes);
 
 /// The beginning of a page, up to its first heading. `title` is escaped by this function.
 std::string page_head(const std::string& title, const std::string& style);

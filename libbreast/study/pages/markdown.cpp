@@ -8,6 +8,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text/lists.hpp"
 #include "study/cells.hpp"
 
 namespace breast {
