@@ -48,7 +48,6 @@ TEST(CaseFiles, AreKeysAndValuesWithComments) {
   EXPECT_EQ(file.settings[0], (std::pair<std::string, std::string>("MR", "a/b.nrrd")));
   EXPECT_EQ(file.settings[1].second, "right");
   EXPECT_EQ(file.settings[2].second, "--elements 8 --order 1");
-  EXPECT_TRUE(file.warning.empty());
   EXPECT_TRUE(file.has("SIDE"));
   EXPECT_FALSE(file.has("PRESET"));
 }
