@@ -16,15 +16,23 @@
 #include "matching/curve_lines.hpp"
 #include "matching/point_pair.hpp"
 #include "material/law.hpp"
-#include "mesh/part.hpp"
 #include "mesh/surroundings.hpp"
+#include "tool_pairs.hpp"
 
 using namespace breast;
 
 namespace {
 
+Origin origin_of(const std::filesystem::path& file, const MammogramHeader& header) {
+  Origin origin{file};
+  origin.side = header.side;
+  origin.patient = header.patient_id;
+  return origin;
+}
+
 // The patient's mammograms, in the order of the meshes.
-std::optional<PatientViews> patient_views(const MatchChoices& choices, const Matcher& matcher) {
+std::optional<PatientViews> patient_views(const MatchChoices& choices, const Matcher& matcher,
+                                          Pairs& pairs) {
   if (choices.cc_image.empty()) return std::nullopt;
   const auto image = [](const std::filesystem::path& file, const std::vector<double>& nipple) {
     PatientImage read{read_mammogram_dicom(file), file.string(), std::nullopt};
@@ -33,21 +41,25 @@ std::optional<PatientViews> patient_views(const MatchChoices& choices, const Mat
   };
   PatientImage cc = image(choices.cc_image, choices.cc_nipple),
                mlo = image(choices.mlo_image, choices.mlo_nipple);
+  const Origin of_cc = origin_of(choices.cc_image, cc.scan.header),
+               of_mlo = origin_of(choices.mlo_image, mlo.scan.header);
+  pairs.check("CC", breast::origin_of(choices.from, matcher.from()), "--cc-image", of_cc);
+  pairs.check("MLO", breast::origin_of(choices.to, matcher.to()), "--mlo-image", of_mlo);
+  pairs.check("--cc-image", of_cc, "--mlo-image", of_mlo);
   const bool from_cc = matcher.from_frame().view == View::cc;
   return PatientViews(from_cc ? std::move(cc) : std::move(mlo),
                       from_cc ? std::move(mlo) : std::move(cc), matcher);
 }
 
 void report_pair(const MatchChoices& choices, const MatchQuery& query, const Matcher& matcher,
-                 Beam beam, Run& run) {
+                 Beam beam, Pairs& pairs, Run& run) {
   const Matcher backward(matcher.to(), matcher.from(), beam);
   const PairPoint pair = locate_pair(matcher, backward, query.from_uv, *query.place);
   report_spot(pair, matcher, run.report());
   if (choices.supine.empty()) return;
   const HexMesh supine = breast_alone(read_mesh(choices.supine));
-  if (!have_same_elements(supine, matcher.from())) {
-    throw input_error(choices.supine.string(), ": this is not a shape of the same mesh");
-  }
+  pairs.check("CC", breast::origin_of(choices.from, matcher.from()), "--supine",
+              breast::origin_of(choices.supine, supine));
   run.report().set("spot/supine", pair.position(supine, supine.points));
 }
 
@@ -129,10 +141,18 @@ void run_match(const MatchChoices& choices, Run& run) {
   const HexMesh to = read_mesh(choices.to, {.contact = true});
   const Beam beam = choices.geometry == "cone" ? Beam::cone : Beam::parallel;
   run.report().set("side", side_name(from.side));
+  Pairs pairs = pairs_of("cc2mlo", run, choices.accept_other);
+  pairs.check("CC", breast::origin_of(choices.from, from), "MLO",
+              breast::origin_of(choices.to, to));
+  if (!choices.question.truth.empty()) {
+    const Table truth = read_table(choices.question.truth);
+    pairs.check("CC", breast::origin_of(choices.from, from), "--truth",
+                origin_of_truth(choices.question.truth, truth, from.side));
+  }
   const Matcher matcher(from, to, beam);
   const std::optional<PatientViews> views = [&] {
     Timer::Scope phase(run.timer(), "align");
-    return patient_views(choices, matcher);
+    return patient_views(choices, matcher, pairs);
   }();
   const PatientViews* patient = views ? &*views : nullptr;
   if (patient != nullptr) {
@@ -152,7 +172,7 @@ void run_match(const MatchChoices& choices, Run& run) {
   if (band && !band->without().empty()) run.warn(band->what_is_missing());
   if (results.size() == 1) report_match(results[0], run.report());
   report_truth(results, run.report());
-  if (!choices.question.pair.empty()) report_pair(choices, queries[0], matcher, beam, run);
+  if (!choices.question.pair.empty()) report_pair(choices, queries[0], matcher, beam, pairs, run);
   PolyLines lines = curve_lines(matcher, results);
   lines.history = run.history({{choices.from, from.content_sha256, &from.history},
                                {choices.to, to.content_sha256, &to.history}});

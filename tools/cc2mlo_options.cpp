@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "matching/band.hpp"
+#include "tool_pairs.hpp"
 
 namespace breast {
 
@@ -101,6 +102,7 @@ void declare_match(Tool& tool, MatchChoices& choices) {
   tool.choice(choices.geometry, "--geometry", {"parallel", "cone"},
               "X-ray beam, as in project-mammogram");
   tool.output_file(choices.table, "--table", "OUT.tsv", "one row per point");
+  declare_accept_other(tool, "cc2mlo", choices.accept_other);
   declare_images(tool, choices);
   tool.describe(default_priors_text());
   tool.check([&] { choices.check(); });

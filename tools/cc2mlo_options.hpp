@@ -20,7 +20,7 @@ struct MatchChoices {
   std::filesystem::path priors;  ///< priors of the band; empty for the default ones
   /// Material set with the covariance used for the band; empty: that of the files' model.
   std::string materials;
-  std::string geometry = "parallel";
+  std::string geometry = "parallel", accept_other;
   /// The patient's images, and the outputs for them.
   std::filesystem::path cc_image, mlo_image, picture, curve_table;
   std::vector<double> cc_nipple, mlo_nipple;  ///< in pixels

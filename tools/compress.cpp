@@ -12,6 +12,7 @@
 #include "mechanics_run.hpp"
 #include "mesh/muscle_front.hpp"
 #include "mesh/surroundings.hpp"
+#include "tool_pairs.hpp"
 
 using namespace breast;
 
@@ -178,9 +179,13 @@ void declare(Tool& tool, Choices& c) {
 }
 
 // Fills what was not given from the mammogram to imitate.
-void take_from_mammogram(Choices& c, Side side, Report& report) {
+void take_from_mammogram(Choices& c, const HexMesh& mesh, Run& run) {
   if (c.like.empty()) return;
-  const LikeMammogram like = like_mammogram(c.like, view_named(c.view), side, c.angle);
+  const LikeMammogram like = like_mammogram(c.like, view_named(c.view), c.angle);
+  Origin image{c.like};
+  image.side = like.side;
+  pairs_of("compress", run).check("REFERENCE", origin_of(c.reference, mesh), "--like", image);
+  Report& report = run.report();
   c.angle = like.angle_deg;
   if (like.force_N) report.set("like/force_N", *like.force_N);
   if (like.thickness_mm) report.set("like/thickness_mm", *like.thickness_mm);
@@ -193,7 +198,7 @@ void run_compress(Choices c, Run& run) {
   MechanicsRun mechanics(run, c.mechanics, c.estimate, c.reference,
                          breast_alone(read_mesh(c.reference, {.reference = true})));
   const HexMesh& mesh = mechanics.mesh();
-  take_from_mammogram(c, mesh.side, run.report());
+  take_from_mammogram(c, mesh, run);
   // A breast that slides lies limp between plates that stand far in front of its chest wall.
   const bool slides = mechanics.options().wall.kind == WallKind::slide;
   if (slides && c.image_edge.empty() && !c.plates.standoff) c.image_edge = "auto";

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "evaluation/shape_difference.hpp"
 #include "io/derivative_file.hpp"
+#include "tool_pairs.hpp"
 
 using namespace breast;
 
@@ -20,6 +21,9 @@ void run_difference(const Choices& c, Run& run) {
   HexMesh mesh = read_mesh(c.state, {.reference = true});
   const HexMesh plus = read_mesh(c.plus, {.reference = true}),
                 minus = read_mesh(c.minus, {.reference = true});
+  Pairs pairs = pairs_of("difference", run);
+  pairs.check("STATE", origin_of(c.state, mesh), "PLUS", origin_of(c.plus, plus));
+  pairs.check("STATE", origin_of(c.state, mesh), "MINUS", origin_of(c.minus, minus));
   Derivatives derivatives = read_derivatives(c.state, mesh);
   const ShapeDifference difference = shape_difference(mesh, plus, minus, c.step);
   double largest = 0, sum = 0;

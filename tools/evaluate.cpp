@@ -27,18 +27,38 @@ bool is_surface(const std::filesystem::path& file) {
 LabelVolume read_any_labels(const std::filesystem::path& file, const TissueCodes& codes,
                             Volume<float>* volume) {
   if (file.extension() == ".vtkhdf" || is_segmentation_name(file)) return read_tissues(file, codes);
-  const Volume<float> foreign = read_volume(file);
+  VolumeSource source;
+  const Volume<float> foreign = read_volume(file, 0, &source);
   if (volume != nullptr) *volume = foreign;
-  return translate_labels(foreign, codes, file.string());
+  LabelVolume labels = translate_labels(foreign, codes, file.string());
+  labels.content_sha256 = source.content_sha256;
+  return labels;
 }
 
 // Distance between curves of cc2mlo on the MLO detector.
-void evaluate_curves(Run& run, Table& table, const std::filesystem::path& given,
+void evaluate_curves(Run& run, Pairs& pairs, Table& table, const std::filesystem::path& given,
                      const std::filesystem::path& truth) {
-  const CurveComparison comparison =
-      compare_curves(read_polylines(given), read_polylines(truth), given.string(), truth.string());
+  const PolyLines first = read_polylines(given), second = read_polylines(truth);
+  pairs.check("GIVEN", breast::origin_of(given, first), "TRUTH", breast::origin_of(truth, second));
+  const CurveComparison comparison = compare_curves(first, second, given.string(), truth.string());
   table.rows.push_back({"curves", std::to_string(comparison.curves)});
   tell(distance_quantities("curve", comparison.both), table, run.report());
+}
+
+/// The origin of labels or, where there are none, of a surface.
+Origin origin_of(const std::filesystem::path& file, const std::optional<LabelVolume>& labels,
+                 const TriMesh& surface) {
+  return labels ? breast::origin_of(file, *labels, file.extension() == ".vtkhdf")
+                : breast::origin_of(file, surface);
+}
+
+/// A volume that goes with the truth, at its place.
+Volume<float> read_beside(const std::filesystem::path& file, const std::string& option,
+                          const Origin& truth, Pairs& pairs) {
+  VolumeSource source;
+  Volume<float> volume = read_volume(file, 0, &source);
+  pairs.check("TRUTH", truth, option, origin_of_scan(file, source.content_sha256, volume.grid));
+  return volume;
 }
 
 }  // namespace
@@ -47,6 +67,7 @@ int main(int argc, char** argv) {
   std::filesystem::path given_file, truth_file, region_file, fraction_file;
   std::vector<std::string> code_texts;
   int region_code = 0, nipple_code = 0;
+  std::string accept_other;
   bool curves = false;
   Tool tool("evaluate", "agreement of a segmentation or a surface with the truth");
   tool.describe(
@@ -87,13 +108,15 @@ int main(int argc, char** argv) {
       "evaluate labels.vtkhdf labels_mr.nrrd --code 1=fat --code 29=fibroglandular --code 2=skin "
       "--region side.nrrd --region-code 1",
       "comparison with a volume that has its own codes and shows both breasts");
+  declare_accept_other(tool, "evaluate", accept_other);
   tool.check([&] { parse_tissue_codes(code_texts); });
   return tool.main(argc, argv, [&](Run& run) {
     const TissueCodes codes = parse_tissue_codes(code_texts);
     Table table;
     table.columns = {"quantity", "value"};
+    Pairs pairs = pairs_of("evaluate", run, accept_other);
     if (curves) {
-      evaluate_curves(run, table, given_file, truth_file);
+      evaluate_curves(run, pairs, table, given_file, truth_file);
       run.print(table.text());
       return;
     }
@@ -109,8 +132,11 @@ int main(int argc, char** argv) {
       truth = read_surface(truth_file);
     else
       truth_labels = read_any_labels(truth_file, codes, &foreign);
+    const Origin of_truth = origin_of(truth_file, truth_labels, truth);
+    pairs.check("GIVEN", origin_of(given_file, given_labels, given), "TRUTH", of_truth);
     if (truth_labels && !region_file.empty())
-      restrict_breast(*truth_labels, read_volume(region_file), region_code);
+      restrict_breast(*truth_labels, read_beside(region_file, "--region", of_truth, pairs),
+                      region_code);
     if (truth_labels && nipple_code > 0) {
       const auto centre = skin_over_code(foreign, nipple_code, *truth_labels);
       if (!centre)
@@ -120,7 +146,7 @@ int main(int argc, char** argv) {
     if (given_labels && truth_labels)
       tell(label_quantities(*given_labels, *truth_labels), table, run.report());
     if (given_labels && truth_labels && !fraction_file.empty()) {
-      const Volume<float> fraction = read_volume(fraction_file);
+      const Volume<float> fraction = read_beside(fraction_file, "--fraction", of_truth, pairs);
       tell(fraction_quantities(compare_fractions(*given_labels, *truth_labels, fraction)), table,
            run.report());
     }

@@ -12,6 +12,7 @@
 #include "mesh/element_order.hpp"
 #include "mesh/quality.hpp"
 #include "solved_model.hpp"
+#include "tool_pairs.hpp"
 
 using namespace breast;
 
@@ -124,7 +125,10 @@ void read_back(const Choices& c, HexMesh mesh, const MechanicsOptions& options, 
   if (result.reaction)
     write_balance(scene_of(c, mesh, options, run), *result.reaction, run.report());
   if (!c.base.empty()) {
-    const NodeDifference difference = node_difference(mesh, read_mesh(c.base));
+    const HexMesh base = read_mesh(c.base);
+    pairs_of("export-deck", run)
+        .check("REFERENCE", origin_of(c.reference, mesh), "--base", origin_of(c.base, base));
+    const NodeDifference difference = node_difference(mesh, base);
     run.print(write_difference(difference, mesh, run.report()).text());
   }
   const History before = mesh.history;

@@ -67,7 +67,8 @@ void report_fit(Report& report, const FitReport& fit, const BreastGeometry& geom
 void run_fit(const FitChoices& choices, Run& run) {
   const LabelInput input = [&] {
     const Timer::Scope phase(run.timer(), "read");
-    return read_label_input(choices.labels, choices.foreign);
+    Pairs pairs = pairs_of("fit-hermite", run, choices.foreign.accept_other);
+    return read_label_input(choices.labels, choices.foreign, pairs);
   }();
   const LabelVolume& labels = input.labels;
   FitReport fit;

@@ -95,7 +95,7 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
       "landmarks to follow through all shapes: points of 3D Slicer (.mrk.json or .fcsv, LPS or RAS) with "
       "their labels as names, or a .tsv with columns name x_mm y_mm z_mm (LPS); they may lie at "
       "most 10 mm outside the mesh");
-  declare_label_choices(tool, choices.foreign);
+  declare_label_choices(tool, "hexmesh", choices.foreign);
   tool.flag(choices.accept_mismatch, "--accept-mismatch",
             "mesh a geometry even if it does not agree with the labels, that is, if its volume "
             "differs by more than 2 % or more than 5 % of the labelled breast lies outside it; "

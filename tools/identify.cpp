@@ -159,7 +159,8 @@ void run_identify(const IdentifyChoices& c, Run& run) {
   HexMesh mesh = read_mesh(c.mesh, {.geometry = true});
   IdentifyOptions options = options_of(c, mesh, run);
   const std::vector<ComparedSet> sets = sets_of(c, options.mechanics.element);
-  const SecondScan scan = read_second_scan(c, mesh);
+  Pairs pairs = pairs_of("identify", run);
+  const SecondScan scan = read_second_scan(c, mesh, pairs);
   if (scan.ribs) {
     options.align = true;
     options.motion_covariance = scan.ribs->covariance;
@@ -186,7 +187,12 @@ void run_identify(const IdentifyChoices& c, Run& run) {
   if (!compared.landmarks.empty() && (!sets.empty() || !scan.judged.empty()))
     run.print("\n" + compared.summary().text());
   if (!c.table.empty()) write_table(c.table, landmark_table(found, compared));
-  if (!c.seen.empty()) write_surface(c.seen, seen_beside(scan, found));
+  if (!c.seen.empty()) {
+    TriMesh seen = seen_beside(scan, found);
+    seen.history = run.history({{c.mesh, mesh.content_sha256, &mesh.history},
+                                {c.surface, scan.surface.content_sha256, &scan.surface.history}});
+    write_surface(c.seen, seen);
+  }
   if (!c.second.empty()) {
     found.second.history = run.history({{c.mesh, mesh.content_sha256, &mesh.history}});
     found.second.wall_seconds = run.seconds();

@@ -20,7 +20,7 @@ const Landmark& nipple_of(const IdentifyChoices& c, const HexMesh& mesh) {
   return *nipple;
 }
 
-std::vector<LandmarkPair> pairs_of(const IdentifyChoices& c, const HexMesh& mesh) {
+std::vector<LandmarkPair> marked_pairs(const IdentifyChoices& c, const HexMesh& mesh) {
   std::vector<LandmarkPair> pairs;
   if (!c.landmarks.empty())
     pairs = read_landmark_pairs(c.landmarks, c.second_landmarks, mesh.side, c.observer);
@@ -62,24 +62,26 @@ std::vector<LandmarkPair> laid_over(std::vector<LandmarkPair> pairs, const Secon
 
 }  // namespace
 
-SecondScan read_second_scan(const IdentifyChoices& c, const HexMesh& mesh) {
+SecondScan read_second_scan(const IdentifyChoices& c, const HexMesh& mesh, Pairs& pairs) {
   SecondScan scan;
   std::optional<LabelVolume> second;
+  if (!c.surface.empty()) scan.surface = read_surface(c.surface);
   if (!c.labels.empty()) {
     second = read_labels(c.second_labels);
     const LabelVolume first = read_labels(c.labels);
-    if (first.side != mesh.side || second->side != mesh.side)
-      throw input_error((first.side != mesh.side ? c.labels : c.second_labels).string(),
-                        ": labels of the other breast than that of the mesh, the ",
-                        side_name(mesh.side));
+    pairs.check("MESH", origin_of(c.mesh, mesh), "--labels", origin_of(c.labels, first));
+    pairs.check("MESH", origin_of(c.mesh, mesh), "--second-labels",
+                origin_of(c.second_labels, *second));
+    if (!c.surface.empty())
+      pairs.check("--second-labels", origin_of(c.second_labels, *second), "--surface",
+                  origin_of(c.surface, scan.surface));
     scan.ribs =
         align_walls(first, *second, wall_middle(mesh), c.align_deviation[0], c.align_deviation[1]);
   }
-  const std::vector<LandmarkPair> pairs = laid_over(pairs_of(c, mesh), scan);
+  const std::vector<LandmarkPair> marks = laid_over(marked_pairs(c, mesh), scan);
   const std::string where = c.landmarks.empty() ? "--nipple" : c.landmarks.string();
-  if (!pairs.empty()) scan.seen.points = seen_points(mesh, pairs, c.outside, where);
+  if (!marks.empty()) scan.seen.points = seen_points(mesh, marks, c.outside, where);
   if (!c.surface.empty()) {
-    scan.surface = read_surface(c.surface);
     if (scan.ribs) {
       const Mat3 back = scan.ribs->motion.rotation().transpose();
       for (Vec3& point : scan.surface.points) point = scan.ribs->motion.origin_of(point);

@@ -8,6 +8,7 @@
 #include "identification/wall_alignment.hpp"
 #include "identify_options.hpp"
 #include "surface/tri_mesh.hpp"
+#include "tool_pairs.hpp"
 
 namespace breast {
 
@@ -19,7 +20,7 @@ struct SecondScan {
 };
 
 /// Reads and checks all given data. Throws Error (input).
-SecondScan read_second_scan(const IdentifyChoices& choices, const HexMesh& mesh);
+SecondScan read_second_scan(const IdentifyChoices& choices, const HexMesh& mesh, Pairs& pairs);
 
 /// The surface in the frame of the solution, that is, also moved by the remaining motion of the rib
 /// cage.

@@ -29,9 +29,7 @@ LabelVolume coded_labels(const fs::path& file, const LabelChoices& choices) {
     throw input_error(file.string(),
                       ": does not state which breast it shows: give --side left or right");
   }
-  std::string sha256;
-  LabelVolume labels = read_tissues(file, parse_tissue_codes(choices.codes), &sha256);
-  labels.content_sha256 = sha256;
+  LabelVolume labels = read_tissues(file, parse_tissue_codes(choices.codes));
   if (side) labels.side = *side;
   for (const std::uint8_t tissue : labels.tissue)
     labels.fibroglandular_fraction.push_back(Tissue(tissue) == Tissue::fibroglandular ? 1.0F
@@ -39,17 +37,25 @@ LabelVolume coded_labels(const fs::path& file, const LabelChoices& choices) {
   return labels;
 }
 
-LabelVolume foreign_labels(const fs::path& file, const LabelChoices& choices) {
-  if (!is_segmentation_name(file)) return coded_labels(file, choices);
-  // The native labels, if given, state the side.
-  auto side = side_of(choices);
+struct ForeignLabels {
+  LabelVolume labels;
+  bool states_side = true;  ///< otherwise it is that of the native labels
+};
+
+ForeignLabels foreign_labels(const fs::path& file, const LabelChoices& choices) {
+  std::optional<Side> side = side_of(choices);
+  if (!is_segmentation_name(file)) return {coded_labels(file, choices), side.has_value()};
+  const SegmentedVolume segmentation = read_segmentation(file);
+  if (!side) side = tagged_side(segmentation.segments);
+  const bool states_side = side.has_value();
   if (!side && !choices.native.empty()) side = Side::left;
-  return labels_of(read_segmentation(file), parse_tissue_codes(choices.codes), side, file.string());
+  return {labels_of(segmentation, parse_tissue_codes(choices.codes), side, file.string()),
+          states_side};
 }
 
 }  // namespace
 
-void declare_label_choices(Tool& tool, LabelChoices& choices) {
+void declare_label_choices(Tool& tool, const std::string& name, LabelChoices& choices) {
   tool.texts(
       choices.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE",
       "tissue of a value or of a segment in labels from another program, such as 3=skin, wall=3 "
@@ -63,27 +69,27 @@ void declare_label_choices(Tool& tool, LabelChoices& choices) {
       "original labels of segment, if LABELS is a corrected copy from another program; the grid "
       "and what such a copy lacks (fibroglandular fraction where the tissue is unchanged, "
       "confidence of the chest wall, nipple, skin, midline) are taken from them");
+  declare_accept_other(tool, name, choices.accept_other);
 }
 
-LabelVolume read_tissues(const fs::path& file, const TissueCodes& codes, std::string* sha256) {
-  if (is_native(file)) {
-    LabelVolume labels = read_labels(file);
-    if (sha256 != nullptr) *sha256 = labels.content_sha256;
-    return labels;
-  }
+LabelVolume read_tissues(const fs::path& file, const TissueCodes& codes) {
+  if (is_native(file)) return read_labels(file);
+  LabelVolume labels;
   if (is_segmentation_name(file)) {
     const SegmentedVolume segmentation = read_segmentation(file);
-    if (sha256 != nullptr) *sha256 = segmentation.content_sha256;
-    return translate_labels(segmentation.values,
-                            codes_of(segmentation.segments, codes, file.string()), file.string());
+    labels = translate_labels(segmentation.values,
+                              codes_of(segmentation.segments, codes, file.string()), file.string());
+    labels.content_sha256 = segmentation.content_sha256;
+    labels.scan_sha256 = tagged_scan(segmentation.segments);
+    return labels;
   }
   VolumeSource source;
-  const Volume<float> volume = read_volume(file, 0, &source);
-  if (sha256 != nullptr) *sha256 = source.content_sha256;
-  return translate_labels(volume, codes, file.string());
+  labels = translate_labels(read_volume(file, 0, &source), codes, file.string());
+  labels.content_sha256 = source.content_sha256;
+  return labels;
 }
 
-LabelInput read_label_input(const fs::path& file, const LabelChoices& choices) {
+LabelInput read_label_input(const fs::path& file, const LabelChoices& choices, Pairs& pairs) {
   LabelInput input;
   if (is_native(file)) {
     if (!choices.codes.empty() || !choices.side.empty() || !choices.native.empty()) {
@@ -94,18 +100,18 @@ LabelInput read_label_input(const fs::path& file, const LabelChoices& choices) {
     input.labels = read_labels(file);
     return input;
   }
-  input.labels = foreign_labels(file, choices);
+  ForeignLabels foreign = foreign_labels(file, choices);
+  input.labels = std::move(foreign.labels);
   if (choices.native.empty()) return input;
   const LabelVolume native = read_labels(choices.native);
-  if (!choices.side.empty() && side_from_name(choices.side) != native.side) {
-    throw input_error("--side ", choices.side, ": ", choices.native.string(), " is of the ",
-                      side_name(native.side), " breast");
-  }
+  const Origin origin = origin_of(choices.native, native);
+  pairs.check("LABELS", origin_of(file, input.labels, foreign.states_side), "--native", origin);
   const std::string sha256 = input.labels.content_sha256;
   input.labels = completed_labels(input.labels, native, file.string());
   input.native_history = native.history;
   input.native_sha256 = native.content_sha256;
   input.labels.content_sha256 = sha256;
+  input.labels.scan_sha256 = scan_behind(origin);
   input.labels.history.clear();
   return input;
 }

@@ -9,6 +9,7 @@
 
 #include "cli/tool.hpp"
 #include "image/segments.hpp"
+#include "tool_pairs.hpp"
 
 namespace breast {
 
@@ -17,10 +18,11 @@ struct LabelChoices {
   std::vector<std::string> codes;
   std::string side;
   std::filesystem::path native;
+  std::string accept_other;
 };
 
-/// Declares --code, --side and --native.
-void declare_label_choices(Tool& tool, LabelChoices& choices);
+/// Declares --code, --side, --native and --accept-other for the tool `name`.
+void declare_label_choices(Tool& tool, const std::string& name, LabelChoices& choices);
 
 /// Labels with all data that the stages of the chain need, and the origin of the native labels from
 /// which they were completed.
@@ -29,16 +31,15 @@ struct LabelInput {
   History native_history;
   std::string native_sha256;
 };
-/// Reads labels. Throws Error (input) for an unknown segment or code, labels without a side, and a
-/// map at another position.
-LabelInput read_label_input(const std::filesystem::path& file, const LabelChoices& choices);
+/// Reads labels. Throws Error (input) for an unknown segment or code, labels without a side, a map at
+/// another position, and native labels from which the others were not made.
+LabelInput read_label_input(const std::filesystem::path& file, const LabelChoices& choices,
+                            Pairs& pairs);
 /// The input files, for Run::history.
 std::vector<Run::Input> inputs_of(const std::filesystem::path& file, const LabelChoices& choices,
                                   const LabelInput& input);
 
-/// Reads only the tissues of any label map; `sha256` (may be null) receives the hash of its
-/// content.
-LabelVolume read_tissues(const std::filesystem::path& file, const TissueCodes& codes,
-                         std::string* sha256 = nullptr);
+/// Reads only the tissues of any label map, and what it says of its origin.
+LabelVolume read_tissues(const std::filesystem::path& file, const TissueCodes& codes);
 
 }  // namespace breast

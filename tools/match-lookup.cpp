@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "cli/lineage.hpp"
 #include "cli/tool.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -14,6 +13,7 @@
 #include "io/mesh_file.hpp"
 #include "io/volume_file.hpp"
 #include "page/page.hpp"
+#include "tool_pairs.hpp"
 
 using namespace breast;
 
@@ -24,7 +24,7 @@ struct Choices {
   int series = 0;
   bool both_ways = false;
   double pitch = 2;
-  std::string geometry = "parallel";
+  std::string geometry = "parallel", accept_other;
 
   void check() const {
     if (page.empty() != from_image.empty() || page.empty() != to_image.empty()) {
@@ -65,18 +65,17 @@ struct PageInput {
 
 // Images and scan of the page, which must be of the breast of the meshes. They are read first, so
 // that those of another breast are refused before the curves are computed.
-PageInput read_page_input(const Choices& choices, const HexMesh& from, const HexMesh& to) {
+PageInput read_page_input(const Choices& choices, const HexMesh& from, const HexMesh& to,
+                          Pairs& pairs) {
   PageInput input{read_mammogram(choices.from_image), read_mammogram(choices.to_image), {}};
-  const auto check = [](const Mammogram& image, const std::filesystem::path& file,
-                        const HexMesh& mesh, const std::filesystem::path& mesh_file) {
-    check_same_origin(origin_of(file, image), origin_of(mesh_file, mesh));
-  };
-  check(input.from, choices.from_image, from, choices.from);
-  check(input.to, choices.to_image, to, choices.to);
+  const Origin first = origin_of(choices.from, from), second = origin_of(choices.to, to);
+  pairs.check("CC", first, "--from-image", origin_of(choices.from_image, input.from));
+  pairs.check("MLO", second, "--to-image", origin_of(choices.to_image, input.to));
   if (choices.scan.empty()) return input;
   VolumeSource source;
   input.scan = read_volume(choices.scan, choices.series, &source);
-  check_given_to("segment", from.history, choices.scan, source.content_sha256);
+  pairs.check("CC", first, "--scan",
+              origin_of_scan(choices.scan, source.content_sha256, input.scan->grid));
   return input;
 }
 
@@ -98,8 +97,10 @@ void write_page(const Choices& choices, const PageInput& input, const Matcher& m
 void run_lookup(const Choices& choices, Run& run) {
   const HexMesh from = read_mesh(choices.from, {.contact = true});
   const HexMesh to = read_mesh(choices.to, {.contact = true});
+  Pairs pairs = pairs_of("match-lookup", run, choices.accept_other);
+  pairs.check("CC", origin_of(choices.from, from), "MLO", origin_of(choices.to, to));
   std::optional<PageInput> page;
-  if (!choices.page.empty()) page = read_page_input(choices, from, to);
+  if (!choices.page.empty()) page = read_page_input(choices, from, to, pairs);
   const Beam beam = choices.geometry == "cone" ? Beam::cone : Beam::parallel;
   const Matcher matcher(from, to, beam), reverse(to, from, beam);
   const DerivativeFields from_derivatives = read_derivatives(choices.from, from).position,
@@ -171,6 +172,7 @@ int main(int argc, char** argv) {
       "the page contains no voxel of the scan)");
   tool.integer(choices.series, "--series", "N", "which series of a DICOM folder (0: the only one)",
                0, 10000);
+  declare_accept_other(tool, "match-lookup", choices.accept_other);
   tool.check([&] { choices.check(); });
   tool.example(
       "match-lookup cc.vtkhdf mlo.vtkhdf lookup.h5 --page page.html --from-image cc.vti "

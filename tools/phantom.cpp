@@ -11,6 +11,7 @@
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
+#include "lineage/origin.hpp"
 #include "phantom/scanner.hpp"
 #include "phantom/truth.hpp"
 
@@ -96,20 +97,22 @@ PhantomParameters parameters_of(const Choices& c) {
 
 void write_truth_side(const std::filesystem::path& folder, PhantomBreast& breast,
                       const Postures& postures, const PhantomScene& scene,
-                      const PhantomImage& image, Run& run) {
+                      const PhantomImage& image, const History& history, Run& run) {
   const std::string side(side_name(breast.mesh.side));
   LabelVolume labels = true_labels(scene, image, breast.mesh.side);
-  labels.history = breast.mesh.history = run.history({});
+  labels.history = breast.mesh.history = history;
   report_volumes(labels, "volumes_ml/" + side, run.report());
   write_labels(folder / ("labels-" + side + ".vtkhdf"), labels);
   HexMesh mesh = breast.mesh;
   mesh.reference = postures.stress_free;
   mesh.model = postures.model;
   write_mesh(folder / (side + ".vtkhdf"), mesh);
-  write_surface(folder / ("skin-" + side + ".vtp"),
-                boundary_surface(mesh, mesh.points, mesh.skin_faces));
-  write_surface(folder / ("wall-" + side + ".vtp"),
-                boundary_surface(mesh, mesh.points, mesh.pectoral_faces));
+  for (const auto& [name, faces] :
+       {std::pair("skin-", &mesh.skin_faces), {"wall-", &mesh.pectoral_faces}}) {
+    TriMesh surface = boundary_surface(mesh, mesh.points, *faces);
+    surface.history = history;
+    write_surface(folder / (name + side + ".vtp"), surface);
+  }
 }
 
 /// Moves the breasts to their supine shapes for imaging.
@@ -130,6 +133,12 @@ void report_motion(const RigidMotion& moved, Report& report) {
   report.set("misalignment/centre_mm", moved.centre);
   report.set("misalignment/shift_mm", moved.shift);
   report.set("misalignment/turn_deg", moved.turn);
+}
+
+std::string content_of(const Volume<std::int16_t>& mr) {
+  Volume<float> volume(mr.grid);
+  volume.voxels.assign(mr.voxels.begin(), mr.voxels.end());
+  return content_hash(volume);
 }
 
 void run_phantom(const Choices& c, Run& run) {
@@ -177,8 +186,13 @@ void run_phantom(const Choices& c, Run& run) {
   if (!c.truth.empty()) {
     AtomicFolder folder(c.truth, "landmarks.tsv");
     const std::filesystem::path& truth = folder.temporary();
+    // The truth names the scan, so that it is not compared with what was made from another one.
+    const std::string sha256 = content_of(mr);
+    const History history = run.history({{c.image, sha256, nullptr}});
+    landmarks.columns.push_back(truth_scan_column);
+    for (auto& row : landmarks.rows) row.push_back(sha256);
     for (Side side : {Side::left, Side::right})
-      write_truth_side(truth, scene.breast(side), solved.at(side), scene, image, run);
+      write_truth_side(truth, scene.breast(side), solved.at(side), scene, image, history, run);
     write_table(truth / "landmarks.tsv", landmarks);
     for (Side side : {Side::left, Side::right})
       write_table(truth / ("tumour-" + std::string(side_name(side)) + ".tsv"),

@@ -2,13 +2,13 @@
 // probe: the positions of landmarks in deformed meshes, as a table.
 #include <algorithm>
 
-#include "cli/lineage.hpp"
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "core/text/lists.hpp"
 #include "evaluation/landmark_truth.hpp"
 #include "io/mesh_file.hpp"
+#include "tool_pairs.hpp"
 
 using namespace breast;
 
@@ -92,19 +92,15 @@ void report_landmark(const Probe& here, Report& report) {
   report.set("landmarks/" + name + "/distance_mm", displacement.norm());
 }
 
-// Throws Error (input) unless every mesh is of the same breast as `base`.
-void check_one_breast(const Choices& c, const std::vector<HexMesh>& meshes, const Origin& base) {
-  for (std::size_t i = 0; i < meshes.size(); ++i)
-    check_same_origin(base, origin_of(c.files[i], meshes[i]));
-}
-
 // One row per file; the landmarks of a single file are also reported.
 void tell_positions(const Choices& c, const std::vector<HexMesh>& meshes, Run& run) {
   const std::vector<std::string> names = chosen(c.landmarks, meshes.front());
   if (names.empty()) throw input_error(c.files.front().string(), ": has no landmarks");
   const bool relative = !c.base.empty();
   const HexMesh base = relative ? read_mesh(c.base) : HexMesh();
-  if (relative) check_one_breast(c, meshes, origin_of(c.base, base));
+  Pairs pairs = pairs_of("probe", run);
+  for (std::size_t i = 0; relative && i < meshes.size(); ++i)
+    pairs.check("--base", origin_of(c.base, base), "FILE", origin_of(c.files[i], meshes[i]));
   Table table{{"file"}, {}};
   // A landmark is shown by its own name, so that a request for the tumour reveals an artificial
   // one.
@@ -129,8 +125,13 @@ void tell_positions(const Choices& c, const std::vector<HexMesh>& meshes, Run& r
 }
 
 void tell_errors(const Choices& c, const std::vector<HexMesh>& meshes, Run& run) {
-  check_one_breast(c, meshes, origin_of(c.files.front(), meshes.front()));
-  const auto truth = true_landmarks(read_table(c.truth), meshes.front().side, c.truth.string());
+  const Table table = read_table(c.truth);
+  const Origin first = origin_of(c.files.front(), meshes.front());
+  Pairs pairs = pairs_of("probe", run);
+  for (std::size_t i = 1; i < meshes.size(); ++i)
+    pairs.check("first FILE", first, "FILE with --truth", origin_of(c.files[i], meshes[i]));
+  pairs.check("FILE", first, "--truth", origin_of_truth(c.truth, table, meshes.front().side));
+  const auto truth = true_landmarks(table, meshes.front().side, c.truth.string());
   const Table errors = compare_with_truth(meshes, truth);
   report_truth(errors, run.report());
   run.print(errors.text());

@@ -27,22 +27,6 @@ struct Choices {
   LabelChoices foreign;
 };
 
-// Labels of another scan would otherwise be sampled without an error. Their content must therefore
-// be among the inputs that led to the mesh.
-void check_lineage(const HexMesh& mesh, const LabelVolume& labels, const std::string& file,
-                   Run& run) {
-  const auto holds = [&](const HistoryEntry& entry) {
-    return std::any_of(entry.inputs.begin(), entry.inputs.end(), [&](const InputRecord& input) {
-      return input.sha256 == labels.content_sha256;
-    });
-  };
-  if (std::none_of(mesh.history.begin(), mesh.history.end(), holds)) {
-    run.warn(file +
-             " is not in the mesh's history: are these the labels from which the mesh "
-             "was made?");
-  }
-}
-
 MammogramDicom about(const HexMesh& mesh, bool for_processing) {
   MammogramDicom dicom;
   dicom.for_processing = for_processing;
@@ -67,8 +51,10 @@ void run_projection(const Choices& choices, Run& run) {
   options.energy = parse_energy(choices.energy);
   LabelInput labels;
   if (!choices.labels.empty()) {
-    labels = read_label_input(choices.labels, choices.foreign);
-    check_lineage(mesh, labels.labels, choices.labels.filename().string(), run);
+    Pairs pairs = pairs_of("project-mammogram", run, choices.foreign.accept_other);
+    labels = read_label_input(choices.labels, choices.foreign, pairs);
+    pairs.check("COMPRESSED", origin_of(choices.mesh, mesh), "--labels",
+                origin_of(choices.labels, labels.labels));
     options.labels = &labels.labels;
     for (const Run::Input& one : inputs_of(choices.labels, choices.foreign, labels))
       inputs.push_back(one);
@@ -119,7 +105,7 @@ int main(int argc, char** argv) {
       choices.labels, "--labels", "LABELS.vtkhdf",
       "tissue labels of the MR scan (segment; also .seg.nrrd of 3D Slicer and other label "
       "volumes); without them each element has one tissue");
-  declare_label_choices(tool, choices.foreign);
+  declare_label_choices(tool, "project-mammogram", choices.foreign);
   tool.output_file(
       choices.png, "--png", "FILE.png",
       "16-bit grey-scale image, oriented as for clinical reading and corrected to the tissue "

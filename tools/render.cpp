@@ -2,7 +2,6 @@
 // render: pictures of the pipeline's results, drawn off-screen.
 #include <algorithm>
 
-#include "cli/lineage.hpp"
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "figures/figures.hpp"
@@ -12,6 +11,7 @@
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
+#include "tool_pairs.hpp"
 
 using namespace breast;
 
@@ -21,7 +21,7 @@ struct Choices {
   std::vector<std::filesystem::path> files;
   std::filesystem::path scan, labels;
   int series = 0;
-  std::string figure;
+  std::string figure, accept_other;
   std::filesystem::path output;
 
   void check() const {
@@ -53,29 +53,53 @@ void add_file(const std::filesystem::path& file, const std::string& figure, Figu
   }
 }
 
-// A picture shows one breast. Only outlines may compare several.
-void check_one_breast(const FigureInput& input, const Choices& choices) {
-  if (choices.figure == "outlines") return;
+// The origins of the files in their order.
+std::vector<Origin> origins_of(const FigureInput& input, const Choices& choices) {
   std::vector<Origin> origins;
-  for (const auto& [name, mesh] : input.meshes) origins.push_back(origin_of(name, mesh));
-  std::size_t image = 0;
-  for (const auto& file : choices.files)
-    if (file.extension() == ".vti") origins.push_back(origin_of(file, input.images[image++]));
-  for (const Origin& origin : origins) check_same_origin(origins.front(), origin);
+  std::size_t mesh = 0, image = 0, surface = 0;
+  for (const auto& file : choices.files) {
+    if (file.extension() == ".vti") {
+      origins.push_back(origin_of(file, input.images[image++]));
+    } else if (file.extension() == ".vtp") {
+      origins.push_back(figure_takes_points(choices.figure)
+                            ? origin_of(file, input.surfaces[surface++])
+                            : origin_of(file, *input.curves));
+    } else {
+      origins.push_back(figure_takes_geometry(choices.figure)
+                            ? origin_of(file, *input.geometry)
+                            : origin_of(file, input.meshes[mesh++].mesh));
+    }
+  }
+  return origins;
+}
+
+// A picture shows one breast. Only outlines may compare several.
+void check_one_breast(const FigureInput& input, const Choices& choices, Pairs& pairs) {
+  if (choices.figure == "outlines") return;
+  const std::vector<Origin> origins = origins_of(input, choices);
+  for (const Origin& origin : origins) {
+    pairs.check("first FILE", origins.front(), "FILE", origin);
+    if (origin.file.extension() != ".vti") continue;
+    for (const Origin& curve : origins)
+      if (curve.file.extension() == ".vtp") pairs.check("FILE.vti", origin, "FILE.vtp", curve);
+  }
+  if (!input.labels) return;
+  for (const Origin& origin : origins)
+    pairs.check("--labels", origin_of(choices.labels, *input.labels), "FILE", origin);
 }
 
 void run_render(const Choices& choices, Run& run) {
   FigureInput input;
   for (const auto& file : choices.files) add_file(file, choices.figure, input);
-  check_one_breast(input, choices);
+  Pairs pairs = pairs_of("render", run, choices.accept_other);
   if (!choices.scan.empty()) {
     VolumeSource source;
     input.scan = read_volume(choices.scan, choices.series, &source);
     input.labels = read_labels(choices.labels);
-    check_given_to("segment", input.labels->history, choices.scan, source.content_sha256);
-    for (const auto& [name, mesh] : input.meshes)
-      check_same_origin(origin_of(choices.labels, *input.labels), origin_of(name, mesh));
+    pairs.check("--labels", origin_of(choices.labels, *input.labels), "--scan",
+                origin_of_scan(choices.scan, source.content_sha256, input.scan->grid));
   }
+  check_one_breast(input, choices, pairs);
   Timer::Scope phase(run.timer(), "draw");
   draw_figure(choices.figure, input, choices.output);
   run.report().set("figure", choices.figure);
@@ -108,6 +132,7 @@ int main(int argc, char** argv) {
   tool.choice(choices.figure, "--figure", figure_names(), "figure to draw");
   tool.output_file(choices.output, "-o,--output", "OUT.png", "the picture");
   tool.required("--output");
+  declare_accept_other(tool, "render", choices.accept_other);
   tool.check([&] { choices.check(); });
   tool.example(
       "render mesh.vtkhdf --figure slices --scan scan.nrrd --labels labels.vtkhdf -o slices.png",

@@ -25,7 +25,7 @@ namespace {
 
 struct Choices {
   std::filesystem::path scan, labels, wall, points, overlay, measures;
-  std::string side, interior = "threshold", contrast = "auto", posture = "prone";
+  std::string accept_other, side, interior = "threshold", contrast = "auto", posture = "prone";
   int series = 0;
   double wall_shift = 0;
   std::vector<std::string> codes;
@@ -63,6 +63,7 @@ void declare(Tool& tool, Choices& c) {
   tool.texts(c.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE",
              "tissue of a value or of a segment in --chest-wall, such as wall=3 or "
              "'Pectoralis=wall'");
+  declare_accept_other(tool, "segment", c.accept_other);
   tool.choice(c.interior, "--interior", {"threshold", "region-growing"},
               "method that separates fat from fibroglandular tissue. threshold: a threshold "
               "midway between their intensities (closer to the known truth of phantoms); "
@@ -115,47 +116,60 @@ bool holds_points(const std::filesystem::path& file) {
 }
 
 /// Muscle is the chest wall; a map without muscle is refused before the scan is read.
-Volume<float> read_wall_labels(const std::filesystem::path& file, const TissueCodes& codes,
-                               std::string& sha256) {
+LabelVolume read_wall_labels(const std::filesystem::path& file, const TissueCodes& codes) {
   LabelVolume labels;
   if (codes.empty() && file.extension() != ".vtkhdf" && !is_segmentation_name(file)) {
     // Only the code of the chest wall matters: a map may have other codes of its own.
     TissueCodes wall;
     wall.values[int(Tissue::muscle)] = Tissue::muscle;
-    labels = read_tissues(file, wall, &sha256);
+    labels = read_tissues(file, wall);
   } else {
-    labels = read_tissues(file, codes, &sha256);
+    labels = read_tissues(file, codes);
   }
-  Volume<float> volume(labels.grid);
-  volume.voxels.assign(labels.tissue.begin(), labels.tissue.end());
-  if (std::find(volume.voxels.begin(), volume.voxels.end(), float(Tissue::muscle)) ==
-      volume.voxels.end()) {
+  if (std::find(labels.tissue.begin(), labels.tissue.end(), std::uint8_t(Tissue::muscle)) ==
+      labels.tissue.end()) {
     throw input_error(
         "--chest-wall ", file.string(),
         ": no voxel is chest wall (code 4, or a segment 'Chest wall'); name its value with "
         "--code wall=NUMBER");
   }
-  return volume;
+  return labels;
+}
+
+/// A corrected chest wall: points, a surface, or labels.
+struct GivenWall {
+  std::vector<Vec3> points;
+  std::optional<TriMesh> surface;
+  std::optional<LabelVolume> labels;
+};
+
+GivenWall read_wall(const std::filesystem::path& file, const TissueCodes& codes) {
+  if (holds_points(file)) return {read_points(file), {}, {}};
+  if (file.extension() == ".vtp") return {{}, read_surface(file), {}};
+  return {{}, {}, read_wall_labels(file, codes)};
+}
+
+Origin origin_of(const std::filesystem::path& file, const GivenWall& wall) {
+  if (wall.surface) return breast::origin_of(file, *wall.surface);
+  if (wall.labels) return breast::origin_of(file, *wall.labels, file.extension() == ".vtkhdf");
+  Origin origin = origin_of_points(file, wall.points);
+  Sha256 hash;
+  for (const Vec3& point : wall.points) hash.update(point.data(), 3 * sizeof(double));
+  origin.content_sha256 = hash.hex();
+  return origin;
 }
 
 /// Puts the corrected chest wall into the options.
-Run::Input read_wall(const std::filesystem::path& file, const TissueCodes& codes,
-                     SegmentOptions& options) {
-  if (holds_points(file)) {
-    options.wall_points = read_points(file);
-    Sha256 hash;
-    for (const Vec3& point : options.wall_points) hash.update(point.data(), 3 * sizeof(double));
-    return {file, hash.hex(), nullptr};
+void take_wall(const std::filesystem::path& file, const GivenWall& wall, SegmentOptions& options) {
+  if (wall.labels) {
+    Volume<float> volume(wall.labels->grid);
+    volume.voxels.assign(wall.labels->tissue.begin(), wall.labels->tissue.end());
+    options.wall_labels = std::move(volume);
+    return;
   }
-  if (file.extension() == ".vtp") {
-    const TriMesh surface = read_surface(file);
-    options.wall_points = wall_surface_points(surface, file.string());
-    options.wall_points_of_surface = true;
-    return {file, surface.content_sha256, nullptr};
-  }
-  std::string sha256;
-  options.wall_labels = read_wall_labels(file, codes, sha256);
-  return {file, sha256, nullptr};
+  options.wall_points =
+      wall.surface ? wall_surface_points(*wall.surface, file.string()) : wall.points;
+  options.wall_points_of_surface = wall.surface.has_value();
 }
 
 // A scan in another posture than the one asked for would be given gravity in the wrong direction.
@@ -174,8 +188,11 @@ void run_segment(const Choices& c, Run& run) {
   options.wall_shift = c.wall_shift;
   if (c.interior == "region-growing") options.interior = Interior::region_growing;
   if (c.contrast == "fat-bright") options.contrast = Contrast::fat_bright;
-  std::optional<Run::Input> wall;  // before the scan: what is wrong with it is said at once
-  if (!c.wall.empty()) wall = read_wall(c.wall, parse_tissue_codes(c.codes), options);
+  std::optional<GivenWall> wall;  // before the scan: what is wrong with it is said at once
+  if (!c.wall.empty()) {
+    wall = read_wall(c.wall, parse_tissue_codes(c.codes));
+    take_wall(c.wall, *wall, options);
+  }
   VolumeSource source;
   const Volume<float> scan = [&] {
     const Timer::Scope phase(run.timer(), "read");
@@ -183,7 +200,13 @@ void run_segment(const Choices& c, Run& run) {
   }();
   check_posture(source.patient_position, c.posture, run);
   std::vector<Run::Input> inputs{{c.scan, source.content_sha256, nullptr}};
-  if (wall) inputs.push_back(*wall);
+  if (wall) {
+    Origin mr = origin_of_scan(c.scan, source.content_sha256, scan.grid);
+    mr.side = options.side;
+    const Origin given = origin_of(c.wall, *wall);
+    pairs_of("segment", run, c.accept_other).check("MR", mr, "--chest-wall", given);
+    inputs.push_back({c.wall, given.content_sha256, nullptr});
+  }
   Segmentation result = segment_breast(scan, options, run.progress(), run.timer());
   for (const std::string& doubt : result.doubts) run.warn(doubt);
   const bool guessed = options.posture != Posture::prone;
@@ -196,7 +219,7 @@ void run_segment(const Choices& c, Run& run) {
     run.warn(message("quality of ", quality.stage, " ", format_fixed(quality.score, 2), " (",
                      quality.worst, "; at least ", least_quality, " expected); see --overlay"));
   }
-  result.labels.history = run.history(inputs);
+  result.labels.history = result.points.history = run.history(inputs);
   Table measures{{"quantity", "value"}, {}};
   tell(measures_of(result), measures, run.report());
   run.report().set("side", side_name(result.labels.side));

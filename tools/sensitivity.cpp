@@ -7,9 +7,9 @@
 #include "core/error.hpp"
 #include "io/derivative_file.hpp"
 #include "mechanics/options.hpp"
-#include "mesh/part.hpp"
 #include "sensitivity/results.hpp"
 #include "solved_model.hpp"
+#include "tool_pairs.hpp"
 
 using namespace breast;
 
@@ -66,27 +66,11 @@ void declare(Tool& tool, Choices& c) {
       "every constant and every element, for the landmarks only");
 }
 
-// Checks that the two files describe the same breast.
-void check_pair(const HexMesh& reference, const HexMesh& state, const Choices& c) {
-  constexpr double rounding_mm = 1e-9;
-  const std::optional<PartIndices> part = indices_in(reference, state);
-  bool same = part.has_value();
-  for (std::size_t e = 0; same && e < state.tissue.size(); ++e)
-    same = state.tissue[e] == reference.tissue[std::size_t(part->elements[e])];
-  for (std::size_t n = 0; same && n < state.reference.size(); ++n) {
-    const Vec3 apart = state.reference[n] - reference.reference[std::size_t(part->nodes[n])];
-    same = apart.norm() < rounding_mm;
-  }
-  if (!same) {
-    throw input_error(c.state.string(), ": was not made from ", c.reference.string(),
-                      " (another stress-free shape)");
-  }
-}
-
 void run_sensitivity(const Choices& c, Run& run) {
   const HexMesh reference = read_mesh(c.reference, {.reference = true});
   HexMesh mesh = read_mesh(c.state, {.reference = true});
-  check_pair(reference, mesh, c);
+  pairs_of("sensitivity", run)
+      .check("REFERENCE", origin_of(c.reference, reference), "STATE", origin_of(c.state, mesh));
   const MechanicsOptions options = model_for(c.mechanics, c.reference, reference, run);
   warn_of_differences(options, c.state, mesh, run);
   const auto parameters =

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 
-#include "cli/lineage.hpp"
 #include "core/error.hpp"
 #include "io/label_file.hpp"
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
-#include "mesh/part.hpp"
 #include "mesh/surroundings.hpp"
+#include "tool_pairs.hpp"
 
 namespace breast {
 
@@ -27,23 +26,11 @@ constexpr std::array<Kind, 5> kinds = {{{"mesh", "prone", "prone, as scanned"},
                                         {"cc", "cc", "compressed, CC"},
                                         {"mlo", "mlo", "compressed, MLO"}}};
 
-void check_same_mesh(const RunState& state, const RunState& prone) {
-  const HexMesh &mesh = state.mesh, &first = prone.mesh;
-  constexpr double rounding_mm = 1e-9;
-  const bool same =
-      have_same_elements(mesh, first) &&
-      std::equal(mesh.imaged.begin(), mesh.imaged.end(), first.imaged.begin(),
-                 [&](const Vec3& a, const Vec3& b) { return (a - b).norm() < rounding_mm; });
-  if (!same) {
-    throw input_error(state.file.string(), ": belongs to another mesh than ", prone.file.string(),
-                      ": run the stages after hexmesh again");
-  }
-}
-
-void read_scan(const fs::path& file, int series, SlicerRun& result) {
+void read_scan(const fs::path& file, int series, SlicerRun& result, Pairs& pairs) {
   VolumeSource source;
   result.scan = read_volume(file, series, &source);
-  check_given_to("segment", result.labels.history, file, source.content_sha256);
+  pairs.check("labels.vtkhdf", origin_of(result.labels_file, result.labels), "--scan",
+              origin_of_scan(file, source.content_sha256, result.scan->grid));
   result.scan_file = file;
   result.scan_sha256 = source.content_sha256;
 }
@@ -75,18 +62,29 @@ SlicerRun read_run(const fs::path& folder, const fs::path& scan, int series, Run
   SlicerRun result;
   result.labels_file = folder / "labels.vtkhdf";
   result.labels = read_labels(result.labels_file);
+  Pairs pairs = pairs_of("export-slicer", run);
+  const Origin labels = origin_of(result.labels_file, result.labels);
+  result.labels.scan_sha256 = scan_behind(labels);
+  result.states.reserve(kinds.size());  // origins point to the meshes
   for (const Kind& kind : kinds) {
     const fs::path file = folder / (std::string(kind.file) + ".vtkhdf");
     if (!fs::is_regular_file(file)) continue;
     run.progress().update("reading", -1, file.filename().string());
     result.states.push_back({kind.name, kind.title, file, breast_alone(read_mesh(file))});
-    check_same_mesh(result.states.back(), result.states.front());
+    const Origin prone = origin_of(result.prone().file, result.prone().mesh),
+                 shape = origin_of(file, result.states.back().mesh);
+    if (result.states.size() == 1)
+      pairs.check("labels.vtkhdf", labels, "mesh.vtkhdf", prone);
+    else
+      pairs.check("mesh.vtkhdf", prone, "other shape", shape);
   }
   if (const fs::path curve = folder / "curve.vtp"; fs::is_regular_file(curve)) {
     result.curve = read_polylines(curve);
     result.curve_file = curve;
+    pairs.check("mesh.vtkhdf", origin_of(result.prone().file, result.prone().mesh), "curve.vtp",
+                origin_of(curve, *result.curve));
   }
-  if (!scan.empty()) read_scan(scan, series, result);
+  if (!scan.empty()) read_scan(scan, series, result, pairs);
   return result;
 }
 

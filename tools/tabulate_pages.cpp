@@ -17,6 +17,7 @@
 #include "core/temporary_folder.hpp"
 #include "core/text/lists.hpp"
 #include "core/text/one_line.hpp"
+#include "lineage/pair_rules.hpp"
 #include "study/cells.hpp"
 #include "study/pages/markdown.hpp"
 #include "study/pages/report_page.hpp"
@@ -239,6 +240,8 @@ std::vector<TabulateKind> page_kinds() {
          for (const std::string& word : r.words) runs.push_back(folder_of(word));
          return truth_of_postures(runs).text();
        }},
+      {"pairs", "all|TOOL", "page of the files that must belong together, for all tools or for one",
+       1, 1, [](const Request& r) { return pairs_page(r.word(0) == "all" ? "" : r.word(0)); }},
       {"made", "TABLE.tsv RESULT",
        "record in docs/tables/runs.tsv of the date, commit and machine of the run from which a table "
        "of the pages was made; RESULT is one of its reports or tables",

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "evaluation/truth_table.hpp"
 #include "io/mesh_file.hpp"
+#include "tool_pairs.hpp"
 
 using namespace breast;
 
@@ -27,6 +28,13 @@ double report_errors(const Table& table, Report& report) {
     worst = std::max(worst, largest);
   }
   return worst;
+}
+
+// Adds the column that states the scan, for those who compare the chain of that scan.
+void add_scan(const std::string& sha256, Table& table) {
+  if (sha256.empty()) return;
+  table.columns.push_back(truth_scan_column);
+  for (auto& row : table.rows) row.push_back(sha256);
 }
 
 }  // namespace
@@ -54,7 +62,17 @@ int main(int argc, char** argv) {
   return tool.main(argc, argv, [&](Run& run) {
     std::vector<HexMesh> meshes;
     for (const auto& file : files) meshes.push_back(read_mesh(file, {.reference = true}));
-    const Table table = truth_table(read_table(landmarks), meshes);
+    const Table imaged = read_table(landmarks);
+    const Origin truth = origin_of_truth(landmarks, imaged, meshes.front().side),
+                 first = origin_of(files.front(), meshes.front());
+    Pairs pairs = pairs_of("truth-table", run);
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      const Origin mesh = origin_of(files[i], meshes[i]);
+      pairs.check("LANDMARKS", truth, "MESH", mesh);
+      pairs.check("first MESH", first, "MESH", mesh);
+    }
+    Table table = truth_table(imaged, meshes);
+    add_scan(truth.scan_sha256, table);
     int most = 0, fewest = meshes.front().elements();
     for (const HexMesh& mesh : meshes) {
       most = std::max(most, mesh.elements());

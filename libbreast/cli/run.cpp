@@ -50,6 +50,11 @@ void Run::warn(const std::string& text) {
   progress_.note("warning: " + text);
 }
 
+void Run::remark(const std::string& text) {
+  report_.append("remarks", text);
+  progress_.note(text);
+}
+
 void Run::print(const std::string& text) {
   printed_ += text;
 }

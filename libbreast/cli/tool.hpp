@@ -47,6 +47,8 @@ class Run {
   History history(const std::vector<Input>& inputs) const;
   /// A warning for the user, on stderr and in the report under "warnings".
   void warn(const std::string& text);
+  /// A remark, on stderr and in the report under "remarks": nothing that the user should change.
+  void remark(const std::string& text);
   /// Prints data (tables) on stdout, which has no other content.
   void print(const std::string& text);
   double seconds() const;  ///< since the tool started

@@ -7,13 +7,9 @@
 
 namespace breast {
 
-LikeMammogram like_mammogram(const std::filesystem::path& file, View view, Side side,
+LikeMammogram like_mammogram(const std::filesystem::path& file, View view,
                              const std::optional<double>& angle_deg) {
   const MammogramHeader header = read_mammogram_header(file);
-  if (header.side != side) {
-    throw input_error(file.string(), ": a mammogram of the ", side_name(header.side),
-                      " breast, but the mesh is of the ", side_name(side));
-  }
   if (header.view != view) {
     throw input_error(file.string(), ": shows ", view_name(header.view), ", --view is ",
                       view_name(view));
@@ -30,7 +26,8 @@ LikeMammogram like_mammogram(const std::filesystem::path& file, View view, Side 
                       view_name(view), " is at ", view_angle_deg(view), " +- ", farthest_deg,
                       "; give --angle");
   }
-  return {angle_deg ? angle_deg : header.angle_deg, header.thickness_mm, header.force_N};
+  return {header.side, angle_deg ? angle_deg : header.angle_deg, header.thickness_mm,
+          header.force_N};
 }
 
 }  // namespace breast

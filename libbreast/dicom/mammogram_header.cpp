@@ -114,6 +114,8 @@ MammogramHeader read_mammogram_header(const std::filesystem::path& file) {
   const std::string modality = fields.text("0008|0060");
   if (modality != "MG") throw fields.missing("modality", modality, "MG (mammogram)");
   MammogramHeader header;
+  header.patient_id = fields.text("0010|0020");
+  header.patient_id.erase(header.patient_id.find_last_not_of(' ') + 1);
   const std::string position = fields.text("0018|5101");
   const std::optional<View> view = view_from_name(position);
   if (!view) throw fields.missing("view position", position, "CC, MLO or ML");

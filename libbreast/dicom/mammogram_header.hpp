@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "core/types.hpp"
 #include "views/view.hpp"
@@ -11,6 +12,7 @@
 namespace breast {
 
 struct MammogramHeader {
+  std::string patient_id;  ///< Patient ID; empty if it is not stated
   View view = View::cc;
   Side side = Side::left;
   std::optional<double> angle_deg;     ///< between the beam's line and the vertical, 0-90

@@ -20,19 +20,19 @@ namespace breast {
 /// breast's extent is `other`).
 struct LabelVolume {
   Grid grid;
-  std::vector<std::uint8_t> tissue;             ///< Tissue codes
-  std::vector<float> fibroglandular_fraction;   ///< [0,1], 0 outside the breast
-  std::vector<float> chest_wall_confidence;     ///< [0,1], constant along each chest-wall column
+  std::vector<std::uint8_t> tissue;            ///< Tissue codes
+  std::vector<float> fibroglandular_fraction;  ///< [0,1], 0 outside the breast
+  std::vector<float> chest_wall_confidence;    ///< [0,1], constant along each chest-wall column
   Side side = Side::left;
-  std::map<std::string, Vec3> landmarks;        ///< "nipple" (LPS mm), optionally "tumour"
-  double skin_thickness = 0;                    ///< mm, 0 when not measured
-  std::optional<double> midline_mm;             ///< x of the body's midline; absent if not known
+  std::map<std::string, Vec3> landmarks;  ///< "nipple" (LPS mm), optionally "tumour"
+  double skin_thickness = 0;              ///< mm, 0 when not measured
+  std::optional<double> midline_mm;       ///< x of the body's midline; absent if not known
+  /// Content of the scan as a segmentation of 3D Slicer states it, which has no history; otherwise empty.
+  std::string scan_sha256;
   History history;
-  std::string content_sha256;                   ///< filled by the reader
+  std::string content_sha256;  ///< filled by the reader
 
-  Tissue at(int i, int j, int k) const {
-    return static_cast<Tissue>(tissue[grid.offset(i, j, k)]);
-  }
+  Tissue at(int i, int j, int k) const { return static_cast<Tissue>(tissue[grid.offset(i, j, k)]); }
 };
 
 }  // namespace breast

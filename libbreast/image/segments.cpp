@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char *tissue_tag = "libbreast.tissue", *side_tag = "libbreast.side",
                      *nipple_tag = "libbreast.nipple_lps_mm", *skin_tag = "libbreast.skin_mm",
-                     *midline_tag = "libbreast.midline_lps_mm";
+                     *midline_tag = "libbreast.midline_lps_mm", *scan_tag = "libbreast.scan_sha256";
 
 // Colours of 3D Slicer's table of generic anatomy, where it has the tissue.
 struct Look {
@@ -204,6 +204,7 @@ std::vector<Segment> segments_of(const LabelVolume& labels) {
     }
     if (labels.skin_thickness > 0) segment.tags[skin_tag] = format_number(labels.skin_thickness);
     if (labels.midline_mm) segment.tags[midline_tag] = format_number(*labels.midline_mm);
+    if (!labels.scan_sha256.empty()) segment.tags[scan_tag] = labels.scan_sha256;
     segments.push_back(segment);
   }
   return segments;
@@ -242,15 +243,25 @@ LabelVolume translate_labels(const Volume<float>& volume, const TissueCodes& cod
   return labels;
 }
 
+std::optional<Side> tagged_side(const std::vector<Segment>& segments) {
+  const std::string* tagged = tag_of(segments, side_tag);
+  return tagged == nullptr ? std::nullopt : std::optional(side_from_name(*tagged));
+}
+
+std::string tagged_scan(const std::vector<Segment>& segments) {
+  const std::string* tagged = tag_of(segments, scan_tag);
+  return tagged == nullptr ? "" : *tagged;
+}
+
 LabelVolume labels_of(const SegmentedVolume& segmentation, const TissueCodes& codes,
                       const std::optional<Side>& side, const std::string& name) {
   const auto& segments = segmentation.segments;
   LabelVolume labels = translate_labels(segmentation.values, codes_of(segments, codes, name), name);
-  const std::string* tagged = tag_of(segments, side_tag);
-  if (!side && tagged == nullptr) {
+  const std::optional<Side> stated = side ? side : tagged_side(segments);
+  if (!stated) {
     throw input_error(name, ": does not state which breast it shows: give --side left or right");
   }
-  labels.side = side ? *side : side_from_name(*tagged);
+  labels.side = *stated;
   labels.fibroglandular_fraction.reserve(labels.tissue.size());
   for (const std::uint8_t tissue : labels.tissue) {
     labels.fibroglandular_fraction.push_back(Tissue(tissue) == Tissue::fibroglandular ? 1.0F
@@ -268,6 +279,7 @@ LabelVolume labels_of(const SegmentedVolume& segmentation, const TissueCodes& co
     labels.skin_thickness = parse_number(*skin, name + ": tag " + skin_tag);
   if (const std::string* midline = tag_of(segments, midline_tag))
     labels.midline_mm = parse_number(*midline, name + ": tag " + midline_tag);
+  labels.scan_sha256 = tagged_scan(segments);
   labels.content_sha256 = segmentation.content_sha256;
   return labels;
 }

@@ -41,9 +41,15 @@ struct TissueCodes {
 TissueCodes parse_tissue_codes(const std::vector<std::string>& texts);
 
 /// The segments of a label volume: the tissues that occur, except air. The tags contain tissue,
-/// side, nipple (LPS mm), measured skin thickness and midline, so that the inverse conversion needs
-/// no other file.
+/// side, nipple (LPS mm), measured skin thickness, midline and the scan's content, so that the inverse
+/// conversion needs no other file.
 std::vector<Segment> segments_of(const LabelVolume& labels);
+
+/// The side that the tags state, if any.
+std::optional<Side> tagged_side(const std::vector<Segment>& segments);
+
+/// The content of the scan that the tags state; "" if they state none.
+std::string tagged_scan(const std::vector<Segment>& segments);
 
 /// Name and colour of a tissue's segment.
 Segment segment_of(Tissue tissue);
@@ -61,7 +67,7 @@ LabelVolume translate_labels(const Volume<float>& volume, const TissueCodes& cod
                              const std::string& name);
 
 /// The labels of a segmentation: tissue by codes_of, fibroglandular fraction 1 or 0, no confidence
-/// of the chest wall; side, nipple, skin thickness and midline from the tags, if present. `side`
+/// of the chest wall; side, nipple, skin thickness, midline and scan from the tags, if present. `side`
 /// (may be empty) overrides the tag; throws Error (input) if there is neither.
 LabelVolume labels_of(const SegmentedVolume& segmentation, const TissueCodes& codes,
                       const std::optional<Side>& side, const std::string& name);

@@ -25,6 +25,8 @@ struct VolumeSource {
 /// slices, spacings that differ by more than 1 %, non-finite voxels, and colour and vector images.
 Volume<float> read_volume(const std::filesystem::path& file, int series = 0,
                           VolumeSource* source = nullptr);
+/// SHA-256 of grid (rounded to what file formats keep: 1e-3 mm, 1e-4 in directions) and voxels.
+std::string content_hash(const Volume<float>& volume);
 /// Writes .nrrd (gzip), .nii, .nii.gz or .mha atomically.
 void write_volume(const std::filesystem::path& file, const Volume<float>& volume);
 void write_volume(const std::filesystem::path& file, const Volume<std::uint8_t>& volume);

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# docs-current.sh [--write] PROGRAM_FOLDER: compares docs/tools/NAME.md and docs/man/NAME.1 with what the
+# docs-current.sh [--write] PROGRAM_FOLDER: compares docs/tools/NAME.md, docs/man/NAME.1 and docs/pairs.md with what the
 # built tools say of themselves; exit 1 and a diff when they differ. --write brings them up to date.
 set -eu
 write=no
@@ -24,6 +24,12 @@ for program in "$programs"/*; do
   "$program" --help-markdown > "$fresh/tools/$name.md"
   "$program" --help-man > "$fresh/man/$name.1"
 done
+# The table of the files that must belong together.
+if [ -x "$programs/tabulate" ]; then
+  "$programs/tabulate" pairs all > "$fresh/pairs.md"
+else
+  cp "$root/docs/pairs.md" "$fresh"
+fi
 if [ "$write" = yes ]; then
   mkdir -p "$root/docs/tools" "$root/docs/man"
   # Pages of tools that no longer exist go; those of tools not built here stay.
@@ -31,6 +37,7 @@ if [ "$write" = yes ]; then
     name=$(basename "${page%.*}")
     [ -f "$root/tools/$name.cpp" ] || rm -f "$page"
   done
+  cp "$fresh/pairs.md" "$root/docs/"
   cp "$fresh"/tools/*.md "$root/docs/tools/"
   cp "$fresh"/man/*.1 "$root/docs/man/"
   exit 0
@@ -45,5 +52,6 @@ done
 status=0
 diff -ru "$root/docs/tools" "$fresh/tools" || status=1
 diff -ru "$root/docs/man" "$fresh/man" || status=1
+diff -u "$root/docs/pairs.md" "$fresh/pairs.md" || status=1
 [ $status = 0 ] || echo "docs are stale: run tests/tools/docs-current.sh --write $programs" >&2
 exit $status

@@ -98,7 +98,7 @@ TEST_F(SensitivityTool, RefusesWhatDoesNotBelongTogether) {
                 {"mesh.vtkhdf", "other.vtkhdf", "--materials", "seed2008", "--scale", "fat=90"})
                 .exit_code,
             0);
-  refused({}, "other.vtkhdf", "was not made from");
+  refused({}, "other.vtkhdf", "different models");
 }
 
 }  // namespace

@@ -227,7 +227,7 @@ TEST_F(SlicerExport, BadInputIsOneLine) {
   refuse("export-slicer empty o", "labels.vtkhdf");
   refuse("export-slicer run run", "run itself");
   refuse("export-slicer run no/such/o", "make it first");
-  refuse("export-slicer mixed o", "another mesh");
+  refuse("export-slicer mixed o", "different elements");
   refuse("export-slicer other.nrrd o", "not the folder of a run");
   refuse("hexmesh run/geometry.vtkhdf out/labels.seg.nrrd m.vtkhdf --code wal=3",
          "'wal' is not a tissue");

@@ -91,7 +91,8 @@ void check_finite(const fs::path& file, const Volume<float>& volume) {
   }
 }
 
-/// SHA-256 of grid (rounded to what file formats keep: 1e-3 mm, 1e-4 in directions) and voxels.
+}  // namespace
+
 std::string content_hash(const Volume<float>& volume) {
   Sha256 hash;
   const auto add = [&](double value, double unit) {
@@ -107,6 +108,8 @@ std::string content_hash(const Volume<float>& volume) {
   hash.update(volume.voxels.data(), volume.voxels.size() * sizeof(float));
   return hash.hex();
 }
+
+namespace {
 
 Volume<float> read_folder(const fs::path& folder, int series, VolumeSource& source) {
   const std::vector<DicomSeries> list = list_dicom_series(folder);
