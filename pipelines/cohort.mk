@@ -18,10 +18,13 @@ $(CASE_LIST): FORCE
 	@mkdir -p $(@D)
 	@$(CASES) list $(COHORT) $(case_settings) --quiet > $@.part && mv $@.part $@
 
+# Sides only go from the scan to the supine shape, without plates.
+cohort_goal := $(if $(filter sides,$(MAKECMDGOALS)),side,summary)
+
 # This rule always runs: the make of each case decides what is out of date. Its exit code is recorded and not passed on.
 cohort_make = $(MAKE) -f $(PIPELINE) COHORT= CLUSTER= RUNS=$(COHORT_RUNS)
 $(COHORT_CASES:%=$(COHORT_RUNS)/%.status): $(COHORT_RUNS)/%.status: FORCE | $(CASE_LIST)
-	@$(CASES) run $@ $(COHORT_RUNS)/$*.log $(kind_$*) --quiet -- $(cohort_make) CASE_FILE=$(file_$*) CASE=$* summary
+	@$(CASES) run $@ $(COHORT_RUNS)/$*.log $(kind_$*) --quiet -- $(cohort_make) CASE_FILE=$(file_$*) CASE=$* $(cohort_goal)
 
 # The table of the cases that have ended so far, and its pages.
 cohort_results = $(tabulate) cohort $(COHORT_RUNS) $(POPULATION_TOOL)
@@ -45,5 +48,14 @@ cohort: $(COHORT_CASES:%=$(COHORT_RUNS)/%.status)
 	@$(cohort_results)
 	@$(CASES) any-done $(COHORT_RUNS)/cohort.tsv --quiet
 endif
-.PHONY: cohort cohort-table cohort-script
+sides: $(COHORT_CASES:%=$(COHORT_RUNS)/%.status)
+	@$(tabulate) sides $(COHORT_RUNS)
+.PHONY: cohort cohort-table cohort-script sides
 endif
+
+# One side of a cohort (`make COHORT=FOLDER sides`): from the scan to the supine shape, and the labels against the truth where the
+# case names some (LABELS_TRUTH, with EVALUATE_OPTIONS such as its codes).
+.PHONY: side
+side: $(if $(LABELS_TRUTH),$(RUN)/truth.tsv) $(RUN)/supine.vtkhdf
+$(RUN)/truth.tsv: $(RUN)/labels.vtkhdf $(LABELS_TRUTH) $(EVALUATE)
+	$(call table,$(EVALUATE) $< $(LABELS_TRUTH) $(EVALUATE_OPTIONS) --quiet)

@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> code_texts;
   int region_code = 0, nipple_code = 0;
   std::string accept_other;
-  bool curves = false;
+  bool curves = false, own_side = false;
   Tool tool("evaluate", "agreement of a segmentation or a surface with the truth");
   tool.describe(
           "Compares two label volumes, two surfaces or point sets (.vtp), or a label volume and a "
@@ -90,6 +90,10 @@ int main(int argc, char** argv) {
                   "volume of a region; the true breast is ignored outside it");
   tool.integer(region_code, "--region-code", "CODE",
                "value of the region's voxels; 0 takes every value but 0", 0, 65535);
+  tool.flag(
+      own_side, "--own-side",
+      "the true breast is ignored beyond the midline of GIVEN, labels of one breast: TRUTH shows "
+      "both");
   tool.flag(curves, "--curves",
             "both files are curves of cc2mlo; print the distance between the matched curves on "
             "the MLO detector");
@@ -137,6 +141,12 @@ int main(int argc, char** argv) {
     if (truth_labels && !region_file.empty())
       restrict_breast(*truth_labels, read_beside(region_file, "--region", of_truth, pairs),
                       region_code);
+    if (truth_labels && own_side) {
+      if (!given_labels || !given_labels->midline_mm)
+        throw input_error("--own-side: ", given_file.string(),
+                          " has no midline of the body; give labels of segment, or --region");
+      restrict_to_side(*truth_labels, given_labels->side, *given_labels->midline_mm);
+    }
     if (truth_labels && nipple_code > 0) {
       const auto centre = skin_over_code(foreign, nipple_code, *truth_labels);
       if (!centre)

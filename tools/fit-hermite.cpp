@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // fit-hermite: bicubic Hermite sheets of skin and chest wall, and the rim where the body ends.
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "fit_hermite_options.hpp"
 #include "io/geometry_file.hpp"
@@ -17,13 +19,15 @@ void report_distances(Report& report, const std::string& key, const Distances& s
 void report_rim(Report& report, const Rim& rim) {
   const char* names[] = {"thin_tissue", "slope", "margin"};
   for (int reason = 0; reason < 3; ++reason) {
-    int count = 0;
-    for (const RimEnd end : rim.end) count += int(end) == reason;
+    const auto count = std::count(rim.end.begin(), rim.end.end(), RimEnd(reason));
     report.set(std::string("rim/ended/") + names[reason], double(count) / double(rim.end.size()));
   }
   report.set("rim/points", rim.skin.size());
+  report.set("rim/beyond_labels_mm",
+             std::vector<double>{rim.beyond_labels_min_mm, rim.beyond_labels_median_mm,
+                                 rim.beyond_labels_max_mm});
+  report.set("rim/farthest_beyond", rim.farthest_beyond);
   report.set("rim/wider_mm", rim.wider_mm);
-  report.set("rim/least_thickness_mm", rim.least_thickness_mm);
   report.set("rim/greatest_thickness_mm", rim.greatest_thickness_mm);
   report.set(
       "rim/cut_height_mm",
@@ -74,6 +78,10 @@ void run_fit(const FitChoices& choices, Run& run) {
   FitReport fit;
   BreastGeometry geometry = fit_breast(labels, choices.options(), fit, run.timer(), run.progress());
   report_fit(run.report(), fit, geometry);
+  for (const std::string& mended : fit.mended) {
+    run.report().append("mended", mended);
+    run.warn(mended);
+  }
   for (const std::string& doubt : fit.doubts) run.warn(doubt);
   geometry.history = run.history(inputs_of(choices.labels, choices.foreign, input));
   const Timer::Scope phase(run.timer(), "write");

@@ -14,6 +14,7 @@
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
 #include "meshing/agreement.hpp"
+#include "meshing/attempts.hpp"
 #include "meshing/boundary_surface.hpp"
 #include "meshing/layers/muscle_layer.hpp"
 #include "meshing/layers/surrounding_layers.hpp"
@@ -93,18 +94,62 @@ void add_points(const std::vector<MarkupPoint>& points, const std::string& name,
   }
 }
 
+/// A line about something that did not work at first and was done differently.
+void mend(const std::string& line, Run& run) {
+  run.report().append("mended", line);
+  run.warn(line);
+}
+
+/// Says which step led to the mesh, where that is not the mesh that was asked for, and why the number of
+/// its elements is not.
+void note_steps(const MeshChoices& choices, const HexMesh& mesh, const BodyMeshReport& body,
+                Run& run) {
+  constexpr double most_off = 0.15;
+  run.report().set("attempts", body.attempts);
+  run.report().set("step", body.step.empty() ? "as asked" : body.step);
+  std::string size;
+  for (const int n : mesh.template_size) size += (size.empty() ? "" : ",") + std::to_string(n);
+  if (!body.step.empty()) {
+    mend(message("the mesh that was asked for has a worst scaled Jacobian of ",
+                 format_fixed(body.asked_scaled_jacobian, 2), " (wanted: ", wanted_scaled_jacobian,
+                 "); taken after ", body.attempts, " attempts: ", mesh.template_name, " ", size,
+                 ", found by the step '", body.step, "', with ",
+                 format_fixed(body.smoothed_scaled_jacobian, 2)),
+         run);
+  }
+  const double asked = choices.dome.empty() ? std::pow(choices.elements, 3)
+                                            : choices.mesh_options(1).size.elements();
+  if (std::abs(mesh.elements() / asked - 1) > most_off) {
+    run.warn(
+        message("the breast has ", mesh.elements(), " elements where ", asked, " were asked for: ",
+                body.step.empty() ? "no dome of the right proportions has a number closer to it"
+                                  : "those in between have badly shaped elements"));
+  }
+}
+
+void report_agreement(const char* surface, const SurfaceAgreement& found, Report& report) {
+  const std::string key = std::string("agreement/") + surface;
+  report.set(key + "_mean_mm", found.distance.mean_mm);
+  report.set(key + "_p95_mm", found.distance.p95_mm);
+  report.set(key + "_max_mm", found.distance.max_mm);
+  report.set(key + "_max_at", found.worst);
+  report.set(key + "_seen_percent", 100 * found.seen);
+}
+
 /// Refuses a geometry that does not describe the same body as the labels, unless the user accepts
 /// it.
-void judge_agreement(const MeshChoices& choices, const BodyMeshReport& body,
-                     const TissueReport& tissue, Run& run) {
-  if (const auto coarse = too_coarse(body)) run.warn(*coarse);
-  const auto wrong = mismatch(body, tissue);
+void judge_agreement(const MeshChoices& choices, const BreastGeometry& geometry,
+                     const LabelVolume& labels, Run& run) {
+  const Timer::Scope phase(run.timer(), "agreement");
+  const Agreement agreement = agreement_of(geometry, labels);
+  report_agreement("skin", agreement.skin, run.report());
+  report_agreement("wall", agreement.wall, run.report());
+  const auto wrong = mismatch(agreement);
   if (!wrong) return;
   if (!choices.accept_mismatch) {
     throw input_error(*wrong,
-                      ": check the report of fit-hermite and the extent of the labels, give the "
-                      "labels to which the geometry was fitted, or mesh it nevertheless with "
-                      "--accept-mismatch");
+                      ": give the labels to which the geometry was fitted, look at this place in "
+                      "the overlay of segment, or mesh it nevertheless with --accept-mismatch");
   }
   run.warn(*wrong);
 }
@@ -133,6 +178,12 @@ void surround(const MeshChoices& choices, HexMesh& mesh, Run& run) {
         message("tissue around the breast, ", choices.surroundings_mm,
                 " mm wide, would fold beyond the cut at every width down to a third of it: the "
                 "mesh ends at the cut, as with --surroundings 0; check the skin there"));
+  }
+  if (around.layers > 0 && around.part < 1) {
+    mend(message("tissue around the breast is ", format_fixed(around.mean_mm, 1),
+                 " mm wide in the mean, ", format_fixed(100 * around.part, 0),
+                 " % of the room for it: wider elements would be badly shaped"),
+         run);
   }
   run.report().set("surroundings_mm", around.mean_mm);
   run.report().set("surroundings_part", around.part);
@@ -163,18 +214,20 @@ void run_hexmesh(const MeshChoices& choices, Run& run) {
   std::optional<Tumour> tumour = given_tumour(choices.tumour, origin, pairs);
   const double skin_mm = choices.skin == "measured" ? measured_skin_thickness(labels, geometry)
                                                     : parse_skin_thickness(choices.skin);
+  judge_agreement(choices, geometry, labels, run);
   BodyMeshReport body;
   HexMesh mesh;
   {
     Timer::Scope phase(run.timer(), "mesh");
     mesh = body_mesh(geometry, choices.mesh_options(skin_mm), &body);
   }
+  note_steps(choices, mesh, body, run);
   TissueReport tissue;
   {
     Timer::Scope phase(run.timer(), "tissue");
     tissue = assign_tissue(labels, mesh);
   }
-  judge_agreement(choices, body, tissue, run);
+  if (const auto coarse = too_coarse(body)) run.warn(*coarse);
   if (choices.skin_as == "membrane") set_membrane_skin(skin_mm, mesh);
   add_nipple(mesh);
   if (choices.tumour == "auto") tumour = made_tumour(labels, mesh, run);

@@ -47,7 +47,10 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
       "Fills the body between the skin and chest-wall sheets with hexahedra: a half O-grid "
       "(dome) that keeps its shape on pendulous breasts, or the warped cuboid of the paper. "
       "Nodes slide on the sheets while the mesh is untangled and smoothed. Each element takes "
-      "its tissue from the voxels inside it. A mesh with folded elements is never written.");
+      "its tissue from the voxels inside it. Where the mesh that was asked for has a scaled "
+      "Jacobian below 0.2, others are tried in this order: template (a dome for a folded cuboid), "
+      "layers, smoothing, untangling, elements; the report and one line say which step was taken. A "
+      "mesh with folded elements is never written.");
   tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), section II-B");
   tool.cite("Garanzha et al. 2021, Foldover-free maps in 50 lines of code, ACM Trans Graph 40(4)");
   tool.input(choices.geometry, "GEOMETRY.vtkhdf", "sheets and rim (fit-hermite)");
@@ -97,9 +100,9 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
       "most 10 mm outside the mesh");
   declare_label_choices(tool, "hexmesh", choices.foreign);
   tool.flag(choices.accept_mismatch, "--accept-mismatch",
-            "mesh a geometry even if it does not agree with the labels, that is, if its volume "
-            "differs by more than 2 % or more than 5 % of the labelled breast lies outside it; "
-            "such a geometry is refused otherwise");
+            "mesh a geometry even if it does not agree with the labels, that is, if its skin or its "
+            "chest wall lies elsewhere than theirs (skin: 2 mm in the mean or 5 mm over a twentieth "
+            "of its area; chest wall: 4 or 12 mm); such a geometry is refused otherwise");
   tool.output_file(choices.surface, "--surface", "OUT.vtp",
                    "closed boundary of the mesh as triangles, with a scalar part (0 skin, 1 "
                    "lateral cut, 2 chest wall)");

@@ -10,6 +10,7 @@
 #include "study/cells.hpp"
 #include "study/cohort/cohort_page.hpp"
 #include "study/cohort/cohort_table.hpp"
+#include "study/cohort/side_table.hpp"
 #include "tabulate_kinds.hpp"
 
 namespace breast {
@@ -110,6 +111,13 @@ std::string cost_of_case(const Request& r) {
   return message(cost.minutes, "\t", cost.memory_mb, "\t", cost.source, "\n");
 }
 
+std::string sides(const Request& r) {
+  const fs::path runs = r.word(0);
+  const Table table = side_table(runs, read_cases(runs));
+  write_text(runs / "sides.tsv", table.text());
+  return table.text();
+}
+
 }  // namespace
 
 std::vector<TabulateKind> cohort_kinds() {
@@ -118,6 +126,10 @@ std::vector<TabulateKind> cohort_kinds() {
        "table of all cases in RUNS/.cases, which is also printed; beside it cost.tsv, motion.tsv "
        "and women.tsv (made by the program POPULATION), cohort.html and contours.html are written",
        2, 2, cohort},
+      {"sides", "RUNS",
+       "table of all cases in RUNS/.cases, written to RUNS/sides.tsv and printed: how far each side gets "
+       "from the scan to the supine shape, and how well",
+       1, 1, sides},
       {"case-cost", "RUNS CORES ELEMENT ELEMENTS",
        "minutes and MB to request from a cluster, and their source: RUNS/cost.tsv or the "
        "pipeline's own table",

@@ -74,6 +74,19 @@ Vec3 nearest_skin(const LabelVolume& labels, const Vec3& point) {
 
 }  // namespace
 
+void restrict_to_side(LabelVolume& labels, Side side, double midline_mm) {
+  const Grid& grid = labels.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const double x = grid.to_patient(Vec3(i, j, k)).x();
+        if (!is_breast(labels.at(i, j, k)) || lateral_sign(side) * (x - midline_mm) > 0) continue;
+        labels.tissue[grid.offset(i, j, k)] = std::uint8_t(Tissue::other);
+      }
+    }
+  }
+}
+
 std::optional<Vec3> skin_over_code(const Volume<float>& volume, int code,
                                    const LabelVolume& labels) {
   Vec3 sum = Vec3::Zero();

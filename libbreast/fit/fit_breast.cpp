@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "fit/closest_point.hpp"
 #include "fit/distance.hpp"
-#include "fit/rim_volume.hpp"
+#include "fit/rim.hpp"
 #include "fit/skin_sheet.hpp"
 
 namespace breast {
@@ -46,9 +46,8 @@ DiscSurface skin_surface(const LabelVolume& labels, BreastRegion& region, const 
           extract_skin(field, region.crop, region.nipple, options.surface_step_mm);
       check_front(surface, field.front(), report);
       if (!reason.empty())
-        report.doubts.push_back(message("the skin was smoothed by ", smoothing, " mm and cropped ",
+        report.mended.push_back(message("the skin was smoothed by ", smoothing, " mm and cropped ",
                                         part * options.margin_mm,
-
                                         " mm beyond the breast to obtain the topology of a "
                                         "disc: ",
                                         reason));
@@ -112,10 +111,6 @@ void find_doubts(const BreastRegion& region, const BreastGeometry& geometry, Fit
     doubt(std::lround(100 * margin),
           " % of the rim lies at the border of the sheet rather than at that of the breast "
           "(field of view, midline, or tissue that does not become thinner)");
-  if (!(std::abs(report.body_ml / report.label_ml - 1) < 0.01))
-    doubt("the body inside the rim has ", std::lround(report.body_ml),
-          " ml, but the labelled breast has ", std::lround(report.label_ml),
-          " ml: the rim cannot follow the border of the labels");
   if (report.rim.skin_angle_min < 30 || report.rim.wall_angle_min < 30)
     doubt("sharp rim: ", std::lround(report.rim.skin_angle_min), " degrees at the skin, ",
           std::lround(report.rim.wall_angle_min), " at the wall");
@@ -140,8 +135,8 @@ void check_options(const FitOptions& options) {
   check(options.margin_mm, 5, 100, "margin (mm)");
   check(options.surface_step_mm, 0.5, 10, "surface raster (mm)");
   check(options.wall_smoothing_mm, 1, 50, "wall smoothing (mm)");
-  check(options.rim.rays, 32, 1024, "rim rays");
-  check(options.rim.margin.width, 0.01, 0.3, "rim margin");
+  check(options.rays.rays, 32, 1024, "rim rays");
+  check(options.rays.margin.width, 0.01, 0.3, "rim margin");
 }
 
 /// The state of a fit, in which every step stores its results for the next ones.
@@ -210,9 +205,20 @@ void find_rim(Fit& fit) {
   geometry.nipple_st = nipple.st;
   geometry.nipple = nipple.x;
   fit.report.nipple_moved_mm = fit.region.nipple_known ? nipple.distance : 0;
+  const BreastShare share(fit.labels, fit.region.crop);
   const RimRays rays =
-      walk_rim(geometry.skin, fit.wall, fit.labels.side, geometry.nipple_st, fit.options.rim);
-  fit.report.rim = rim_of_volume(fit.region.breast_ml, fit.wall, rays, fit.options.rim, geometry);
+      walk_rim(geometry.skin, fit.wall, share, geometry.side, geometry.nipple_st, fit.options.rays);
+  Rim& rim = fit.report.rim;
+  rim = lay_rim(geometry.skin, fit.wall, rays, fit.options.rays.margin);
+  geometry.centre = rim.centre;
+  geometry.rim_skin = rim.skin;
+  geometry.rim_wall = rim.wall;
+  geometry.rim_end = rim.end;
+  if (rim.wider_mm != 0)
+    fit.report.mended.push_back(
+        message("the rim was moved ", std::abs(rim.wider_mm), " mm ",
+                rim.wider_mm > 0 ? "outwards" : "inwards",
+                ", because no straight cut could be laid at the border of the labelled breast"));
 }
 
 void find_thorax(Fit& fit) {

@@ -19,7 +19,8 @@ struct FitOptions {
   int patches_s = 10, patches_t = 10;  ///< per sheet
   /// Smoothing of the skin sheet (see sheet_fit.hpp); 0: automatic.
   double smoothing = 0;
-  double max_error_mm = 0;  ///< if > 0, the skin sheet is refined until its largest distance is smaller
+  double max_error_mm =
+      0;  ///< if > 0, the skin sheet is refined until its largest distance is smaller
   double target_rms_mm = 0.3;
   /// Target for the largest distance: the smoothing is lowered, and up to most_patches per side are
   /// used, until no point of the skin lies farther from its sheet. Missing the target is a doubt,
@@ -29,7 +30,7 @@ struct FitOptions {
   double margin_mm = 25;       ///< skin included beyond the base of the breast
   double surface_step_mm = 3;  ///< raster of the skin surface
   double wall_smoothing_mm = 7;
-  RimOptions rim;
+  RayOptions rays;
 };
 
 struct FitReport {
@@ -42,12 +43,15 @@ struct FitReport {
   Vec3 worst_point{0, 0, 0};      ///< patient mm: the datum farthest from the sheet
   Distances sheet_to_skin;        ///< sheet inside the rim
   Distances whole_skin_to_sheet;  ///< all data where the body may lie (rim margin)
-  double min_normal_cosine = 0, min_area_ratio = 0;  ///< smallest values in the check of the skin sheet for folds
+  double min_normal_cosine = 0,
+         min_area_ratio = 0;  ///< smallest values in the check of the skin sheet for folds
   double wall_rms_mm = 0, wall_p95_mm = 0, wall_coverage = 0;
-  double nipple_moved_mm = 0;        ///< distance from the landmark to the skin sheet
-  double body_ml = 0, label_ml = 0;  ///< volume inside sheets and cut, and volume of the labelled breast
+  double nipple_moved_mm = 0;  ///< distance from the landmark to the skin sheet
+  double body_ml = 0,
+         label_ml = 0;  ///< volume inside sheets and cut, and volume of the labelled breast
   Rim rim;
   ThoraxReport thorax;
+  std::vector<std::string> mended;  ///< what did not work at first and was done differently
   std::vector<std::string> doubts;  ///< results that the user should check
 };
 

@@ -20,134 +20,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Thickness of tissue (mm) between skin and wall on a raster of the skin's parameters.
-class ThicknessMap {
- public:
-  ThicknessMap(const HermiteSheet& skin, const WallSheet& wall, int count) : n_(count) {
-    value_.resize(std::size_t(n_) * n_);
-    const SheetLocator locator(wall.sheet, 4);
-#pragma omp parallel for schedule(dynamic)
-    for (int j = 0; j < n_; ++j)
-      for (int i = 0; i < n_; ++i) {
-        const Vec3 p = skin.position(parameter(i, j));
-        const SheetFoot foot = locator.closest(p);
-        const double sign = wall.height_above(p) >= 0 ? 1 : -1;
-        value_[std::size_t(j) * n_ + i] = sign * foot.distance;
-      }
-  }
-  int count() const {
-    return n_;
-  }
-  Vec2 parameter(int i, int j) const {
-    return {double(i) / (n_ - 1), double(j) / (n_ - 1)};
-  }
-  double node(int i, int j) const {
-    return value_[std::size_t(j) * n_ + i];
-  }
-  double at(const Vec2& st) const {
-    const double u = std::clamp(st.x(), 0.0, 1.0) * (n_ - 1);
-    const double v = std::clamp(st.y(), 0.0, 1.0) * (n_ - 1);
-    const int i = std::min(int(u), n_ - 2), j = std::min(int(v), n_ - 2);
-    const double a = u - i, b = v - j;
-    return (1 - a) * (1 - b) * node(i, j) + a * (1 - b) * node(i + 1, j) +
-           (1 - a) * b * node(i, j + 1) + a * b * node(i + 1, j + 1);
-  }
-
- private:
-  int n_;
-  std::vector<double> value_;
-};
-
-/// The thickest position near the nipple, and the centroid of the region connected to it with more
-/// than 0.6 of its thickness.
-struct Core {
-  Vec2 centre;
-  double thickest;
-};
-
-Core thick_core(const ThicknessMap& map, const Vec2& nipple_st) {
-  const int n = map.count();
-  int best_i = -1, best_j = -1;
-  double thickest = -std::numeric_limits<double>::infinity();
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i)
-      if ((map.parameter(i, j) - nipple_st).norm() < 0.2 && map.node(i, j) > thickest)
-        thickest = map.node(i, j), best_i = i, best_j = j;
-  std::vector<char> mark(std::size_t(n) * n, 0);
-  std::vector<std::pair<int, int>> stack{{best_i, best_j}};
-  mark[std::size_t(best_j) * n + best_i] = 1;
-  Vec2 sum = Vec2::Zero();
-  int count = 0;
-  while (!stack.empty()) {
-    const auto [i, j] = stack.back();
-    stack.pop_back();
-    sum += map.parameter(i, j);
-    ++count;
-    const int next[4][2] = {{i + 1, j}, {i - 1, j}, {i, j + 1}, {i, j - 1}};
-    for (const auto& q : next) {
-      if (q[0] < 0 || q[1] < 0 || q[0] >= n || q[1] >= n) continue;
-      char& m = mark[std::size_t(q[1]) * n + q[0]];
-      if (m == 0 && map.node(q[0], q[1]) > 0.6 * thickest) m = 1, stack.emplace_back(q[0], q[1]);
-    }
-  }
-  return {sum / count, thickest};
-}
-
-/// Tissue on the midline: median thickness along the skin sheet's medial edge, middle heights.
-double sternal_thickness(const ThicknessMap& map, Side side) {
-  std::vector<double> edge;
-  const double s = side == Side::left ? 0.0 : 1.0;
-  for (int k = 0; k <= 40; ++k) edge.push_back(map.at({s, 0.3 + 0.4 * k / 40}));
-  std::nth_element(edge.begin(), edge.begin() + 20, edge.end());
-  return edge[20];
-}
-
-/// Limit of a ray: a rounded square (superellipse), so that the rim has no corners.
-double margin_radius(const Vec2& centre, const Vec2& direction, const RimOptions& options) {
-  double low = 0, high = 1.5;
-  for (int k = 0; k < 50; ++k) {
-    const double middle = 0.5 * (low + high);
-    (within_margin(centre + middle * direction, options.margin) ? low : high) = middle;
-  }
-  return low;
-}
-
-struct RayEnd {
-  double radius;
-  RimEnd reason;
-};
-
-RayEnd walk(const HermiteSheet& skin, const ThicknessMap& map, const Core& core,
-            const Vec2& direction, double t_min, const RimOptions& options) {
-  const double limit = margin_radius(core.centre, direction, options);
-  const double step = 0.004;
-  const int steps = std::max(2, int(limit / step));
-  std::vector<double> arc(steps + 1, 0), tau(steps + 1);
-  Vec3 last;
-  for (int k = 0; k <= steps; ++k) {
-    const Vec2 st = core.centre + direction * (limit * k / steps);
-    const Vec3 x = skin.position(st);
-    if (k > 0) arc[k] = arc[k - 1] + (x - last).norm();
-    last = x;
-    tau[k] = map.at(st);
-  }
-  const double window = 10;  // mm of arc for the slope
-  const double flat = elementary::sin(options.slope_degrees * pi / 180);
-  const double steep = elementary::sin(options.steep_degrees * pi / 180);
-  for (int k = 1; k <= steps; ++k) {
-    const double radius = limit * k / steps;
-    if (!(tau[k] >= options.steep_down_to * t_min)) return {radius, RimEnd::thin_tissue};
-    if (tau[k] > options.slope_below * core.thickest) continue;
-    int a = k, b = k;
-    while (a > 0 && arc[k] - arc[a] < window / 2) --a;
-    while (b < steps && arc[b] - arc[k] < window / 2) ++b;
-    const double thinning = -(tau[b] - tau[a]) / (arc[b] - arc[a]);
-    if (tau[k] < t_min && thinning < steep) return {radius, RimEnd::thin_tissue};
-    if (thinning < flat) return {radius, RimEnd::slope};
-  }
-  return {limit, RimEnd::margin};
-}
-
 std::vector<double> median_of_five(const std::vector<double>& values) {
   const int n = int(values.size());
   std::vector<double> result(n);
@@ -175,35 +47,39 @@ std::optional<Vec2> hit_wall(const WallSheet& wall, const Vec3& from, const Vec3
   return st;
 }
 
-/// Whether neighbouring straight segments have the same sense of rotation and the strip between
-/// them does not fold.
-bool cut_is_simple(const HermiteSheet& skin, const HermiteSheet& wall, const Rim& rim) {
+/// The first place at which neighbouring straight segments change their sense of rotation or the strip
+/// between them folds; none if the cut is simple.
+std::optional<std::size_t> crossing(const HermiteSheet& skin, const HermiteSheet& wall,
+                                    const Rim& rim) {
   const std::size_t n = rim.skin.size();
   Vec3 before = Vec3::Zero();
   for (std::size_t i = 0; i <= n; ++i) {
     const std::size_t a = i % n, b = (i + 1) % n;
     const Vec3 p = skin.position(rim.skin[a]), q = skin.position(rim.skin[b]);
     const Vec3 u = wall.position(rim.wall[a]), v = wall.position(rim.wall[b]);
-    if (!((q - p).dot(v - u) > 0)) return false;
+    if (!((q - p).dot(v - u) > 0)) return a;
     const Vec3 normal = (v - p).cross(q - u);
-    if (i > 0 && !(normal.dot(before) > 0)) return false;
+    if (i > 0 && !(normal.dot(before) > 0)) return a;
     before = normal;
   }
-  return true;
+  return std::nullopt;
 }
 
-bool lay_cut(const HermiteSheet& skin, const WallSheet& wall, const std::vector<Vec3>& directions,
-             Rim& rim) {
+/// Lays the cut in these directions; the place where that fails, if it does.
+std::optional<std::size_t> lay_cut(const HermiteSheet& skin, const WallSheet& wall,
+                                   const std::vector<Vec3>& directions, Rim& rim) {
   rim.wall.clear();
   for (std::size_t i = 0; i < rim.skin.size(); ++i) {
     const auto st = hit_wall(wall, skin.position(rim.skin[i]), directions[i].normalized());
-    if (!st) return false;
+    if (!st) return i;
     rim.wall.push_back(*st);
   }
-  return star_shaped(rim.wall, centroid(rim.wall)) && cut_is_simple(skin, wall.sheet, rim);
+  if (const auto at = crossing(skin, wall.sheet, rim)) return at;
+  if (!star_shaped(rim.wall, centroid(rim.wall))) return 0;
+  return std::nullopt;
 }
 
-bool choose_cut(const HermiteSheet& skin, const WallSheet& wall, Rim& rim) {
+std::optional<std::size_t> choose_cut(const HermiteSheet& skin, const WallSheet& wall, Rim& rim) {
   const SheetLocator locator(wall.sheet, 4);
   std::vector<Vec3> halfway;
   for (const Vec2& st : rim.skin) {
@@ -211,14 +87,15 @@ bool choose_cut(const HermiteSheet& skin, const WallSheet& wall, Rim& rim) {
     const Vec3 to_wall = (locator.closest(p).x - p).normalized();
     halfway.push_back((to_wall + Vec3(0, 1, 0)).normalized());
   }
+  std::optional<std::size_t> failed;
   for (const double sigma : {2.0, 4.0, 8.0, 16.0})
-    if (lay_cut(skin, wall, low_pass(halfway, sigma), rim)) return true;
+    if (!(failed = lay_cut(skin, wall, low_pass(halfway, sigma), rim))) return failed;
   // Parallel segments cannot cross.
   Vec3 mean = Vec3::Zero();
   for (const Vec3& d : halfway) mean += d;
   for (const Vec3& d : {mean, Vec3(0, 1, 0)})
-    if (lay_cut(skin, wall, std::vector<Vec3>(halfway.size(), d), rim)) return true;
-  return false;
+    if (!(failed = lay_cut(skin, wall, std::vector<Vec3>(halfway.size(), d), rim))) return failed;
+  return failed;
 }
 
 /// Inner angle in degrees between the cut and a sheet at its rim.
@@ -289,63 +166,76 @@ bool inside_star(const std::vector<Vec2>& curve, const Vec2& centre, const Vec2&
   return false;
 }
 
-RimRays walk_rim(const HermiteSheet& skin, const WallSheet& wall, Side side, const Vec2& nipple_st,
-                 const RimOptions& options) {
-  const ThicknessMap map(skin, wall, 97);
-  const Core core = thick_core(map, nipple_st);
-  if (!(core.thickest > 20))
-    throw input_error("labels: the breast is at most ", core.thickest,
-                      " mm thick near its nipple; at least 20 mm are needed; check the chest wall");
-  RimRays rays;
-  rays.centre = core.centre;
-  rays.greatest_thickness_mm = core.thickest;
-  rays.least_thickness_mm = options.least_thickness_mm > 0
-                                ? options.least_thickness_mm
-                                : std::clamp(sternal_thickness(map, side) + 5, 15.0, 30.0);
-  // A small breast has less tissue everywhere; the rim must lie well below its thickest part.
-  rays.least_thickness_mm = std::min(rays.least_thickness_mm, 0.4 * core.thickest);
-  for (int i = 0; i < options.rays; ++i) {
-    const double angle = 2 * pi * i / options.rays;
-    rays.direction.emplace_back(elementary::cos(angle), elementary::sin(angle));
-    const RayEnd end =
-        walk(skin, map, core, rays.direction.back(), rays.least_thickness_mm, options);
-    rays.radius.push_back(end.radius);
-    rays.end.push_back(end.reason);
+namespace {
+
+constexpr double low_pass_degrees = 12;  // standard deviation of the smoothing of the log radius
+
+/// The rim on the skin through these radii, moved outwards by `wider_mm` but not beyond the margin.
+std::vector<Vec2> rim_on_skin(const HermiteSheet& skin, const RimRays& rays,
+                              const std::vector<double>& radii, double wider_mm,
+                              const SheetMargin& margin) {
+  std::vector<Vec2> rim;
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const Vec2& way = rays.direction[i];
+    const double limit = margin_radius(rays.centre, way, margin);
+    const double radius = std::min(radii[i], limit);
+    const SheetPoint at = skin.evaluate(rays.centre + radius * way);
+    const double mm_per_radius = (at.x_s * way.x() + at.x_t * way.y()).norm();
+    rim.push_back(rays.centre + std::min(radius + wider_mm / mm_per_radius, limit) * way);
   }
-  return rays;
+  return rim;
 }
 
-Rim lay_rim(const HermiteSheet& skin, const WallSheet& wall, const RimRays& rays, double wider_mm,
-            const RimOptions& options) {
+/// How far the rim lies beyond the border of the labels.
+void compare_with_labels(const HermiteSheet& skin, const RimRays& rays, Rim& rim) {
+  std::vector<double> beyond;
+  for (std::size_t i = 0; i < rim.skin.size(); ++i) {
+    if (rays.end[i] == RimEnd::margin) continue;
+    const Vec3 border = skin.position(rays.centre + rays.border[i] * rays.direction[i]);
+    const Vec3 at = skin.position(rim.skin[i]);
+    const bool outside = (rim.skin[i] - rays.centre).norm() >= rays.border[i];
+    beyond.push_back((at - border).norm() * (outside ? 1 : -1));
+    if (std::abs(beyond.back()) >= std::max(-rim.beyond_labels_min_mm, rim.beyond_labels_max_mm))
+      rim.farthest_beyond = at;
+    rim.beyond_labels_min_mm = std::min(rim.beyond_labels_min_mm, beyond.back());
+    rim.beyond_labels_max_mm = std::max(rim.beyond_labels_max_mm, beyond.back());
+  }
+  if (!beyond.empty()) rim.beyond_labels_median_mm = median(std::move(beyond));
+}
+
+}  // namespace
+
+Rim lay_rim(const HermiteSheet& skin, const WallSheet& wall, const RimRays& rays,
+            const SheetMargin& margin) {
   Rim rim;
   rim.centre = rays.centre;
   rim.end = rays.end;
-  rim.least_thickness_mm = rays.least_thickness_mm;
   rim.greatest_thickness_mm = rays.greatest_thickness_mm;
-  rim.wider_mm = wider_mm;
   std::vector<double> log_radius;
   for (const double radius : rays.radius) log_radius.push_back(elementary::log(radius));
   log_radius = median_of_five(log_radius);
-  // A rim over a dented skin may need more smoothing before a cut can be laid.
-  for (const double stronger : {1.0, 2.0, 4.0}) {
-    const auto smooth =
-        low_pass(log_radius, stronger * options.rays * options.low_pass_degrees / 360);
-    rim.skin.clear();
-    for (std::size_t i = 0; i < smooth.size(); ++i) {
-      const Vec2& way = rays.direction[i];
-      const double radius = elementary::exp(smooth[i]),
-                   limit = margin_radius(rim.centre, way, options);
-      const SheetPoint at = skin.evaluate(rim.centre + std::min(radius, limit) * way);
-      const double mm_per_radius = (at.x_s * way.x() + at.x_t * way.y()).norm();
-      rim.skin.push_back(rim.centre + std::min(radius + wider_mm / mm_per_radius, limit) * way);
+  Vec3 failed_at = Vec3::Zero();
+  const double of_turn = double(log_radius.size()) / 360;
+  for (const double wider_mm : {0.0, 4.0, -4.0, 8.0, -8.0, 12.0, -12.0}) {
+    // A rim over a dented skin may need more smoothing before a cut can be laid.
+    for (const double stronger : {1.0, 2.0, 4.0}) {
+      std::vector<double> radii = low_pass(log_radius, stronger * of_turn * low_pass_degrees);
+      for (double& radius : radii) radius = elementary::exp(radius);
+      rim.skin = rim_on_skin(skin, rays, radii, wider_mm, margin);
+      const auto failed = choose_cut(skin, wall, rim);
+      if (failed && wider_mm == 0) failed_at = skin.position(rim.skin[*failed]);
+      if (failed) continue;
+      rim.wider_mm = wider_mm;
+      measure(skin, wall.sheet, rim);
+      compare_with_labels(skin, rays, rim);
+      return rim;
     }
-    if (!choose_cut(skin, wall, rim)) continue;
-    measure(skin, wall.sheet, rim);
-    return rim;
   }
   throw input_error(
-      "labels: no straight cut joins the skin's rim to the chest wall without crossing itself; "
-      "the wall lies in front of the skin or is too ragged; see segment --chest-wall");
+      "labels: no straight cut joins the skin's rim to the chest wall without crossing itself near (",
+      failed_at.x(), ", ", failed_at.y(), ", ", failed_at.z(),
+      ") mm, wherever the rim is laid within 12 mm: the wall lies in front of the skin or is too "
+      "ragged there; look at this place in segment --overlay and correct it with --chest-wall");
 }
 
 }  // namespace breast

@@ -76,7 +76,7 @@ SkinSheet fit_skin(const DiscSurface& surface, const DiscMap& map, const Vec3& n
   const double wanted = demanded ? options.max_error_mm : options.target_max_mm;
   const auto summary_of = [&](const HermiteSheet& sheet, const SheetData& at) {
     return summarise(distances_of(measured_points(sheet, at, surface, [&](const Vec2& st) {
-      return within_margin(st, options.rim.margin);
+      return within_margin(st, options.rays.margin);
     })));
   };
   const FitControl control =

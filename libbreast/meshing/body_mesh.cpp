@@ -7,14 +7,15 @@
 #include "core/error.hpp"
 #include "mesh/element_order.hpp"
 #include "mesh/quality.hpp"
-#include "meshing/match_volume.hpp"
+#include "meshing/attempts.hpp"
 #include "meshing/layers/skin_layer.hpp"
+#include "meshing/match_volume.hpp"
 
 namespace breast {
 
 namespace {
 
-void refuse_folded(const HexMesh& mesh) {
+void refuse_folded(const HexMesh& mesh, int attempts) {
   const MeshQuality quality = mesh_quality(mesh, mesh.points);
   const bool corners = quality.min_scaled_jacobian > 0;
   if (corners && quality.min_det_bound > 0) return;
@@ -25,8 +26,10 @@ void refuse_folded(const HexMesh& mesh) {
                     scaled_jacobians(mesh, mesh.points)[element], " and smallest determinant ",
                     quality.min_det, " mm3, at least ", quality.min_det_bound,
                     " between the points (all must be above 0; ", quality.folded,
-                    " folded elements): try --template dome, another --elements or "
-                    "--dome, or fit-hermite with more smoothing");
+                    " folded elements), and ", attempts,
+                    " meshes with other layers, smoothing and numbers of elements are not better: "
+                    "look at this place in the overlay of segment, and fit it with more smoothing "
+                    "(fit-hermite --smoothing)");
 }
 
 // The skin node nearest to the nipple; −1 if that node is on or beyond the rim.
@@ -73,7 +76,7 @@ PlacedNodes smoothed_nodes(const BreastGeometry& geometry, const BodyMap& body,
                            BodyMeshReport& report) {
   PlacedNodes nodes = place_nodes(dome, body);
   SmoothOptions smoothing = options.smoothing;
-  if (options.size.m == 0) smoothing = for_cuboid(smoothing);
+  if (dome.size.m == 0) smoothing = for_cuboid(smoothing);
   std::vector<bool> held(nodes.x.size(), false);
   const SmoothReport smoothed = smooth_nodes(dome.connectivity, body, smoothing, held, nodes);
   take_node_to_nipple(geometry, body, dome.connectivity, smoothing, held, nodes);
@@ -102,42 +105,88 @@ HexMesh mesh_of(const BreastGeometry& geometry, const DomeTemplate& dome, const 
   return mesh;
 }
 
-}  // namespace
+struct Meshed {
+  HexMesh mesh;
+  PlacedNodes nodes;
+  BodyMeshReport report;
+  double shape = -1;  ///< worst scaled Jacobian; at most 0 if an element is folded
+};
 
-HexMesh body_mesh(const BreastGeometry& geometry, const BodyMeshOptions& options,
-                  BodyMeshReport* report) {
-  const BodyMap body(geometry);
-  BodyMeshReport local;
-  local.body_volume = body.volume();
-  if (!(local.body_volume > 0)) {
-    throw input_error(
-        "body between the sheets has volume ", local.body_volume / 1000,
-        " ml: the sheets are inside out (the normal of the skin must point out of the body and "
-        "the rims must be counter-clockwise)");
-  }
+Meshed meshed(const BreastGeometry& geometry, const BodyMap& body, const BodyMeshOptions& options) {
+  Meshed result;
+  result.report.body_volume = body.volume();
   DomeTemplate dome = dome_template(options.size);
-  PlacedNodes nodes = smoothed_nodes(geometry, body, options, dome, local);
+  PlacedNodes& nodes = result.nodes;
+  nodes = smoothed_nodes(geometry, body, options, dome, result.report);
   std::vector<int> layer;
   if (options.skin_layer > 0) {
     layer = options.size.m > 0 ? add_skin_layer(options.skin_layer, body, dome, nodes)
                                : thin_skin_elements(options.skin_layer, body, dome, nodes);
   }
-  HexMesh mesh = mesh_of(geometry, dome, nodes, layer);
-  refuse_folded(mesh);
-  if (options.order == 2) {
-    mesh = raise_order(mesh);
-    local.curved = curve_boundary(body, nodes, mesh);
-    refuse_folded(mesh);
+  result.mesh = mesh_of(geometry, dome, nodes, layer);
+  const auto measure = [&] {
+    const MeshQuality quality = mesh_quality(result.mesh, result.mesh.points);
+    result.shape = quality.min_scaled_jacobian;
+    if (!(quality.min_det_bound > 0)) result.shape = std::min(result.shape, 0.0);
+  };
+  measure();
+  if (options.order == 2 && result.shape > 0) {
+    result.mesh = raise_order(result.mesh);
+    result.report.curved = curve_boundary(body, nodes, result.mesh);
+    measure();
   }
+  return result;
+}
+
+/// The first attempt that is well shaped, otherwise the best of all.
+Meshed best_mesh(const BreastGeometry& geometry, const BodyMap& body,
+                 const BodyMeshOptions& options) {
+  const double wanted = options.size.m > 0 ? wanted_scaled_jacobian : 0;
+  Meshed best;
+  double asked = 0;
+  int tried = 0;
+  for (const MeshAttempt& attempt : mesh_attempts(options.size, options.smoothing)) {
+    BodyMeshOptions changed = options;
+    changed.size = attempt.size;
+    changed.smoothing = attempt.smoothing;
+    Meshed now = meshed(geometry, body, changed);
+    now.report.step = attempt.step;
+    if (++tried == 1) asked = now.shape;
+    if (tried == 1 || now.shape > best.shape) best = std::move(now);
+    if (best.shape > 0 && best.shape >= wanted) break;
+  }
+  best.report.attempts = tried;
+  best.report.asked_scaled_jacobian = asked;
+  return best;
+}
+
+}  // namespace
+
+HexMesh body_mesh(const BreastGeometry& geometry, const BodyMeshOptions& options,
+                  BodyMeshReport* report) {
+  const BodyMap body(geometry);
+  const double volume = body.volume();
+  if (!(volume > 0)) {
+    throw input_error(
+        "body between the sheets has volume ", volume / 1000,
+        " ml: the sheets are inside out (the normal of the skin must point out of the body and "
+        "the rims must be counter-clockwise)");
+  }
+  Meshed best = best_mesh(geometry, body, options);
+  HexMesh& mesh = best.mesh;
+  refuse_folded(mesh, best.report.attempts);
   mesh.scaled_jacobian = scaled_jacobians(mesh, mesh.points);
-  local.smoothed_scaled_jacobian =
+  best.report.smoothed_scaled_jacobian =
       *std::min_element(mesh.scaled_jacobian.begin(), mesh.scaled_jacobian.end());
-  local.mesh_volume = mesh_volume(mesh, mesh.points);
-  local.skin_distance = boundary_distance(body, Hull::skin, mesh.skin_faces, nodes, mesh);
-  local.wall_distance = boundary_distance(body, Hull::wall, mesh.pectoral_faces, nodes, mesh);
-  local.cut_distance = boundary_distance(body, Hull::cut, mesh.cut_faces, nodes, mesh);
-  if (report) *report = local;
-  return mesh;
+  best.report.mesh_volume = mesh_volume(mesh, mesh.points);
+  const auto distance = [&](Hull part, const std::vector<Face>& faces) {
+    return boundary_distance(body, part, faces, best.nodes, mesh);
+  };
+  best.report.skin_distance = distance(Hull::skin, mesh.skin_faces);
+  best.report.wall_distance = distance(Hull::wall, mesh.pectoral_faces);
+  best.report.cut_distance = distance(Hull::cut, mesh.cut_faces);
+  if (report) *report = best.report;
+  return std::move(best.mesh);
 }
 
 }  // namespace breast

@@ -2,6 +2,8 @@
 // Hexahedral meshing of the body of a geometry: template, placement, smoothing, skin layer, checks.
 #pragma once
 
+#include <string>
+
 #include "meshing/boundary_distance.hpp"
 #include "meshing/curve_boundary.hpp"
 #include "meshing/dome.hpp"
@@ -17,6 +19,11 @@ struct BodyMeshOptions {
 };
 
 struct BodyMeshReport {
+  /// Meshes that were tried, and the step with which the mesh was found (attempts.hpp); empty for the
+  /// mesh that was asked for, whose worst scaled Jacobian is `asked_scaled_jacobian`.
+  int attempts = 0;
+  std::string step;
+  double asked_scaled_jacobian = 0;
   double placed_scaled_jacobian = 0;    ///< minimum scaled Jacobian before smoothing
   double smoothed_scaled_jacobian = 0;  ///< minimum scaled Jacobian after smoothing
   int evaluations = 0;
@@ -28,8 +35,10 @@ struct BodyMeshReport {
 };
 
 /// Returns a mesh in its imaged shape with connectivity, face sets, scaled_jacobian, template and
-/// geometry. All elements are fat, except those of a skin layer. Throws Error (input) if an element
-/// is folded, stating its position, or if the geometry's rim or orientation is unusable.
+/// geometry. All elements are fat, except those of a skin layer. Where the mesh that was asked for has
+/// a badly shaped element, others are tried in the order of attempts.hpp, until one is well shaped;
+/// otherwise the best of them is returned. Throws Error (input) if an element of that is folded,
+/// stating its position, or if the geometry's rim or orientation is unusable.
 HexMesh body_mesh(const BreastGeometry& geometry, const BodyMeshOptions& options,
                   BodyMeshReport* report = nullptr);
 

@@ -152,7 +152,7 @@ SmoothReport smooth_nodes(const std::vector<int>& connectivity, const BodyMap& b
   // corner; then the p-norm improves the worst corners.
   smoother.set_sliding_tether(1);
   double worst = smoother.energy().min_det(nodes.x);
-  for (int round = 0; round < 8 && worst < 1e-3; ++round) {
+  for (int round = 0; round < options.untangling_rounds && worst < 1e-3; ++round) {
     smoother.energy().set(
         {options.theta, 1, std::max(1e-3, 0.5 * std::abs(worst - 0.02)), options.mid_edges});
     report.evaluations += minimise_lbfgs(energy, y, {.evaluations = 60}).evaluations;

@@ -17,6 +17,7 @@ struct SmoothOptions {
   int power = 8;
   double tether = 1e-3;  ///< weight of Σ|x − x_start|²/h²
   int evaluations = 300;
+  int untangling_rounds = 8;  ///< of 60 evaluations each, while an element is folded
   double volume_change = 0.02;
   bool mid_edges = false;  ///< sample the energy at mid-edges too (cuboid)
 };

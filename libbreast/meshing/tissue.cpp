@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/tissue.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "image/nearest_voxel.hpp"
 #include "mesh/lattice.hpp"
 #include "mesh/locate.hpp"
 #include "mesh/quality.hpp"
@@ -16,32 +16,11 @@ namespace breast {
 
 namespace {
 
-// Voxel look-up by the nearest centre, with the inverse transform computed once.
-class VoxelSampler {
- public:
-  explicit VoxelSampler(const LabelVolume& labels)
-      : labels_(labels), to_index_(labels.grid.direction.inverse()) {}
-
-  /// −1 outside the volume.
-  std::ptrdiff_t voxel(const Vec3& patient) const {
-    const Grid& grid = labels_.grid;
-    const Vec3 at = (to_index_ * (patient - grid.origin)).cwiseQuotient(grid.spacing);
-    if (!at.allFinite() || at.cwiseAbs().maxCoeff() > 1e6) return -1;
-    const int i = int(std::lround(at.x())), j = int(std::lround(at.y())),
-              k = int(std::lround(at.z()));
-    return grid.contains(i, j, k) ? std::ptrdiff_t(grid.offset(i, j, k)) : -1;
-  }
-
- private:
-  const LabelVolume& labels_;
-  Mat3 to_index_;
-};
-
 struct ElementSamples {
   double total = 0, breast = 0, gland = 0, tumour = 0;  // weights in mm³
 };
 
-ElementSamples sample_element(const LabelVolume& labels, const VoxelSampler& sampler,
+ElementSamples sample_element(const LabelVolume& labels, const NearestVoxel& sampler,
                               const HexMesh& mesh, int e) {
   const int* vtk = lattice::vtk_nodes(mesh.order);
   std::array<Vec3, 27> own;
@@ -54,7 +33,7 @@ ElementSamples sample_element(const LabelVolume& labels, const VoxelSampler& sam
     lattice::evaluate(mesh.order, own.data(), local, x, jacobian);
     const double weight = std::abs(jacobian.determinant()) * 8 / 27;
     sums.total += weight;
-    const std::ptrdiff_t voxel = sampler.voxel(x);
+    const std::ptrdiff_t voxel = sampler.at(x);
     if (voxel < 0) continue;
     const Tissue tissue = static_cast<Tissue>(labels.tissue[voxel]);
     if (!is_breast(tissue)) continue;
@@ -131,7 +110,7 @@ TissueReport assign_tissue(const LabelVolume& labels, HexMesh& mesh) {
   const int elements = mesh.elements();
   mesh.tissue.resize(elements, Tissue::fat);
   mesh.fibroglandular_fraction.assign(elements, 0.0f);
-  const VoxelSampler sampler(labels);
+  const NearestVoxel sampler(labels.grid);
   std::vector<ElementSamples> samples(elements);
 #pragma omp parallel for num_threads(threads()) schedule(static)
   for (int e = 0; e < elements; ++e) samples[e] = sample_element(labels, sampler, mesh, e);

@@ -69,7 +69,8 @@ class Geometry:
         file: where it was read from.
         skin, wall: the two sheets, larger than the body.
         rim_skin, rim_wall: (n, 2) the closed curve in each sheet's (s, t) where the body ends, first point not repeated.
-        rim_end: (n) why it ends there: 0 thin tissue, 1 slope, 2 margin.
+        rim_end: (n) what the tissue is like there: 0 thin, 1 thicker, 2 margin.
+        rim_border: (n) where it lies: 0 medial, 1 superior, 2 lateral, 3 inferior; empty in earlier files.
         nipple: (3) LPS mm.
         skin_thickness_mm: 0 unknown.
         fit_mm: distance of the fitted data: mean, p95, max.
@@ -86,6 +87,7 @@ class Geometry:
     rim_skin: np.ndarray
     rim_wall: np.ndarray
     rim_end: np.ndarray
+    rim_border: np.ndarray
     nipple: np.ndarray
     skin_thickness_mm: float
     fit_mm: dict[str, float]
@@ -104,11 +106,14 @@ def read_geometry(file: str | os.PathLike[str]) -> Geometry:
     rim_wall = doc.numbers(f"{group}/rim/wall", rim.shape)
     if len(rim) < 32 or min(rim.min(), rim_wall.min()) < 0 or max(rim.max(), rim_wall.max()) > 1:
         raise doc.refuse("the rim must have 32 points or more, with parameters from 0 to 1")
+    has_border = doc.has(f"{group}/rim/border")
+    border = doc.codes(f"{group}/rim/border", (len(rim),), 4) if has_border else np.zeros(0, np.uint8)
     points = doc.places("/VTKHDF/Points")
     quads = _quads(doc, len(points))
     fit = {name: doc.number(f"{group}@fit_{name}_mm") for name in ("mean", "p95", "max")}
     return Geometry(doc.file, _sheet(doc, "skin"), _sheet(doc, "wall"), rim, rim_wall,
-                    doc.codes(f"{group}/rim/end", (len(rim),), 3), doc.place(f"{group}@nipple"),
+                    doc.codes(f"{group}/rim/end", (len(rim),), 3),
+                    border, doc.place(f"{group}@nipple"),
                     doc.number(f"{group}@skin_thickness"), fit, points, quads,
                     doc.codes("/VTKHDF/CellData/part", (len(quads),), 3), side, read_history(doc))
 

@@ -175,6 +175,8 @@ class Views(unittest.TestCase):
         with h5py.File(geometry.file) as file:
             st = file["breast/hermite"].attrs["nipple_st"]
         self.assertLess(np.linalg.norm(geometry.skin.points(st[None])[0] - geometry.nipple), 1e-6)
+        self.assertEqual(len(geometry.rim_border), len(geometry.rim_skin))
+        self.assertEqual(set(geometry.rim_border), {0, 1, 2, 3})
         skin = geometry.points[np.unique(geometry.quads[geometry.part == 0])]
         self.assertLess(np.abs(skin - geometry.nipple).max(1).min(), 20)
 

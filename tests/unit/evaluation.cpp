@@ -313,6 +313,11 @@ TEST(ForeignLabels, CodesAndRegion) {
   restrict_breast(labels, region, 2);
   EXPECT_EQ(labels.tissue[2], std::uint8_t(Tissue::other));
   EXPECT_EQ(labels.tissue[6], std::uint8_t(Tissue::fibroglandular));
+  LabelVolume both = labels;
+  both.tissue.assign(both.tissue.size(), std::uint8_t(Tissue::fat));
+  restrict_to_side(both, Side::left, both.grid.to_patient(Vec3(0.5, 0, 0)).x());
+  EXPECT_EQ(both.at(0, 0, 0), Tissue::other);
+  EXPECT_EQ(both.at(1, 0, 0), Tissue::fat);
   EXPECT_THROW(translate_labels(volume, {}, "truth.nrrd"), Error);
   EXPECT_THROW(parse_tissue_codes({"29"}), Error);
   EXPECT_THROW(parse_tissue_codes({"29=gland"}), Error);

@@ -2,10 +2,12 @@
 // Curves in parameters: star shapes, insides, centroids; distances to triangles.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "fit/distance.hpp"
 #include "fit/rim.hpp"
+#include "surface/rim_border.hpp"
 
 using namespace breast;
 
@@ -56,4 +58,22 @@ TEST(Distance, ToOneTriangle) {
   EXPECT_NEAR(d[1], 1, 1e-12);
   EXPECT_NEAR(d[2], std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(d[3], std::sqrt(2.0), 1e-12);
+}
+
+TEST(RimBorder, IsTheQuarterOfTheRimsBox) {
+  std::vector<Vec3> rim;  // an ellipse of 80 x 60 mm about (70, -100, 20), from lateral to superior
+  for (int i = 0; i < 96; ++i) {
+    const double a = 2 * std::numbers::pi * i / 96;
+    rim.push_back({70 + 40 * std::cos(a), -100 + 10 * std::sin(2 * a), 20 + 30 * std::sin(a)});
+  }
+  const std::vector<RimBorder> left = rim_borders(rim, Side::left),
+                               right = rim_borders(rim, Side::right);
+  const RimBorder expected[] = {RimBorder::lateral, RimBorder::superior, RimBorder::medial,
+                                RimBorder::inferior};
+  for (int quarter = 0; quarter < 4; ++quarter)
+    EXPECT_EQ(left[std::size_t(24 * quarter)], expected[quarter]) << quarter;
+  EXPECT_EQ(right[0], RimBorder::medial);
+  EXPECT_EQ(right[48], RimBorder::lateral);
+  for (int border = 0; border < n_rim_borders; ++border)
+    EXPECT_NEAR(double(std::count(left.begin(), left.end(), RimBorder(border))), 24, 2);
 }

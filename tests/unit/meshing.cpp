@@ -4,15 +4,19 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/boundary_sets.hpp"
+#include "mesh/cut_border.hpp"
 #include "mesh/locate.hpp"
 #include "mesh/quality.hpp"
 #include "meshing/agreement.hpp"
+#include "meshing/attempts.hpp"
+#include "meshing/layers/surrounding_layers.hpp"
 #include "meshing/skin.hpp"
 #include "meshing/smoothing/corner_energy.hpp"
 #include "meshing/tissue.hpp"
@@ -56,6 +60,26 @@ TEST(Dome, EveryEdgeHasAnEvenlyProportionedMember) {
   }
 }
 
+/// Every attempt is a possible mesh, in the stated order, and those before the last step have about as
+/// many elements.
+TEST(MeshAttempts, FollowTheStatedOrder) {
+  const std::vector<std::string> order = {"",          "template",   "layers",
+                                          "smoothing", "untangling", "elements"};
+  for (const DomeSize& size : {dome_near(4), dome_near(10), dome_near(16), cuboid_size(16)}) {
+    std::size_t step = 0;
+    for (const MeshAttempt& attempt : mesh_attempts(size, {})) {
+      const auto found = std::find(order.begin() + std::ptrdiff_t(step), order.end(), attempt.step);
+      ASSERT_NE(found, order.end()) << attempt.step;
+      step = std::size_t(found - order.begin());
+      EXPECT_NO_THROW(check_dome(attempt.size));
+      if (attempt.step != "elements") {
+        EXPECT_NEAR(double(attempt.size.elements()) / size.elements(), 1, 0.2) << attempt.step;
+      }
+    }
+    EXPECT_EQ(order[step], "elements");
+  }
+}
+
 TEST(Dome, BadSizesAreRefused) {
   EXPECT_THROW(check_dome({10, 10, 6, 10}), Error);
   EXPECT_THROW(check_dome({10, 10, 6, 0}), Error);
@@ -73,6 +97,30 @@ TEST(BodyMesh, AnalyticBreastIsWellShaped) {
   EXPECT_GT(mesh_quality(mesh, mesh.points).median_scaled_jacobian, 0.9);
   EXPECT_NEAR(report.mesh_volume / report.body_volume, 1, 0.01);
   expect_faces_cover_boundary(mesh);
+}
+
+/// Every border has about a quarter of the cut, also beyond the breast, and lies on its side of it.
+TEST(CutBorder, IsThatOfTheNearestPlaceOfTheRim) {
+  HexMesh mesh = body_mesh(analytic_breast(), {.size = dome_near(8)});
+  for (const bool surrounded : {false, true}) {
+    if (surrounded) add_surroundings(10, mesh);
+    const std::vector<RimBorder> borders = cut_borders(mesh);
+    ASSERT_EQ(borders.size(), mesh.cut_faces.size());
+    std::array<int, n_rim_borders> count{};
+    for (std::size_t f = 0; f < borders.size(); ++f) {
+      ++count[std::size_t(borders[f])];
+      Vec3 centre = Vec3::Zero();
+      for (const int node : face_nodes(mesh, mesh.cut_faces[f])) centre += 0.25 * mesh.imaged[node];
+      if (borders[f] == RimBorder::medial) EXPECT_LT(centre.x(), 0);
+      if (borders[f] == RimBorder::lateral) EXPECT_GT(centre.x(), 0);
+      if (borders[f] == RimBorder::superior) EXPECT_GT(centre.z(), 0);
+      if (borders[f] == RimBorder::inferior) EXPECT_LT(centre.z(), 0);
+    }
+    for (const int faces : count)
+      EXPECT_NEAR(double(faces) / double(borders.size()), 0.25, 0.08) << surrounded;
+  }
+  mesh.geometry.reset();
+  EXPECT_TRUE(cut_borders(mesh).empty());
 }
 
 TEST(BodyMesh, VolumeOfTheBodyIsThatOfTheFinestMesh) {
@@ -304,26 +352,78 @@ TEST(Tumour, AutomaticPointLiesInsideTheMeshWhateverTheLabels) {
   EXPECT_FALSE(automatic_tumour(ball_of_gland(Vec3(75, 0, 75), 6), mesh)) << "all of it outside";
 }
 
-TEST(Agreement, AnotherBodyIsAMismatchAndFlatFacesAreNot) {
+/// Labels in voxels of 2 mm whose skin and wall are those of the analytic breast, moved back by these
+/// distances (mm). Beyond `wide` mm from the middle the body is not labelled breast.
+LabelVolume labels_of_analytic_breast(double skin_back, double wall_back, double wide) {
+  const AnalyticBreast shape;
+  std::vector<Vec2> profile;  // (radius, depth) of the skin
+  for (double arc = 0; arc <= shape.arc; arc += 0.5)
+    profile.push_back(analytic::profile(shape, arc));
+  const auto skin_depth = [&](double radius) {
+    const auto past = std::find_if(profile.begin(), profile.end(),
+                                   [&](const Vec2& at) { return at.x() >= radius; });
+    return past == profile.end() ? profile.back().y() : past->y();
+  };
+  LabelVolume labels;
+  labels.grid.size = {90, 90, 90};
+  labels.grid.spacing = Vec3::Constant(2);
+  labels.grid.origin = Vec3(-89, -20, -89);
+  labels.tissue.assign(labels.grid.voxels(), std::uint8_t(Tissue::air));
+  for (int k = 0; k < 90; ++k) {
+    for (int j = 0; j < 90; ++j) {
+      for (int i = 0; i < 90; ++i) {
+        const Vec3 at = labels.grid.to_patient(Vec3(i, j, k));
+        const double radius = std::hypot(at.x(), at.z());
+        if (at.y() < skin_depth(radius) + skin_back) continue;
+        const bool muscle = at.y() > analytic::wall_depth(shape, at.x()) + wall_back;
+        labels.tissue[labels.grid.offset(i, j, k)] = std::uint8_t(muscle          ? Tissue::muscle
+                                                                  : radius < wide ? Tissue::fat
+                                                                                  : Tissue::other);
+      }
+    }
+  }
+  return labels;
+}
+
+TEST(Agreement, IsADistanceOfSurfacesWhereverTheLabelledBreastEnds) {
+  const BreastGeometry geometry = analytic_breast();
+  for (const double wide : {90.0, 60.0}) {
+    const LabelVolume labels = labels_of_analytic_breast(0, 0, wide);
+    const Agreement agreement = agreement_of(geometry, labels);
+    EXPECT_LT(agreement.skin.distance.p95_mm, 1);
+    EXPECT_LT(agreement.wall.distance.p95_mm, 1);
+    EXPECT_GT(agreement.skin.seen, 0.99);
+    EXPECT_FALSE(mismatch(agreement)) << *mismatch(agreement);
+  }
+}
+
+TEST(Agreement, AnotherSkinOrWallIsAMismatchWithAPlace) {
+  const BreastGeometry geometry = analytic_breast();
+  const auto skin = mismatch(agreement_of(geometry, labels_of_analytic_breast(9, 0, 90)));
+  ASSERT_TRUE(skin);
+  EXPECT_NE(skin->find("its skin lies"), std::string::npos) << *skin;
+  EXPECT_NE(skin->find("mm at ("), std::string::npos) << *skin;
+  const Agreement moved = agreement_of(geometry, labels_of_analytic_breast(0, 10, 90));
+  EXPECT_NEAR(moved.wall.distance.mean_mm, 9, 1.5);
+  const auto wall = mismatch(moved);
+  ASSERT_TRUE(wall);
+  EXPECT_NE(wall->find("its chest wall lies"), std::string::npos) << *wall;
+}
+
+TEST(Agreement, AWallThatTheLabelsAreUnsureOfIsNoMeasure) {
+  LabelVolume labels = labels_of_analytic_breast(0, 10, 90);
+  labels.chest_wall_confidence.assign(labels.grid.voxels(), 0.2F);
+  EXPECT_FALSE(mismatch(agreement_of(analytic_breast(), labels)));
+}
+
+TEST(Agreement, FlatFacesAreAWarning) {
   BodyMeshReport body;
   body.body_volume = 500e3;
   body.mesh_volume = 498e3;
-  TissueReport tissue;
-  tissue.segmented_volume = 503e3;
-  tissue.missed_fraction = 0.03;
-  EXPECT_FALSE(mismatch(body, tissue));
   EXPECT_FALSE(too_coarse(body));
-  body.mesh_volume = 450e3;  // a tenth cut off by flat faces, and as much of the voxels missed
-  tissue.missed_fraction = 0.13;
-  EXPECT_FALSE(mismatch(body, tissue));
+  body.mesh_volume = 450e3;
   ASSERT_TRUE(too_coarse(body));
   EXPECT_NE(too_coarse(body)->find("10.0 %"), std::string::npos) << *too_coarse(body);
-  tissue.missed_fraction = 0.16;
-  EXPECT_TRUE(mismatch(body, tissue));
-  tissue.missed_fraction = 0.13;
-  tissue.segmented_volume = 560e3;
-  ASSERT_TRUE(mismatch(body, tissue));
-  EXPECT_NE(mismatch(body, tissue)->find("560 ml"), std::string::npos) << *mismatch(body, tissue);
 }
 
 TEST(Tumour, OneOfTheLabelsOrGivenIsNotCalledArtificial) {

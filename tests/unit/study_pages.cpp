@@ -11,6 +11,7 @@
 #include "study/cells.hpp"
 #include "study/cohort/cohort_page.hpp"
 #include "study/cohort/cohort_table.hpp"
+#include "study/cohort/side_table.hpp"
 #include "study/pages/html.hpp"
 #include "study/pages/markdown.hpp"
 #include "study/pages/report_page.hpp"
@@ -224,6 +225,29 @@ TEST(Cohort, FailuresComeFirstAndASilentCaseIsOne) {
   EXPECT_NE(contours.find("no contours"), std::string::npos);
   EXPECT_EQ(page.find(folder.path().parent_path().string() + "/"), std::string::npos)
       << "names no folder";
+}
+
+TEST(Cohort, SidesSayHowFarTheyGetAndWhatWasMended) {
+  const ScratchFolder folder;
+  write_text(folder / ".cases", "left\tx\tscan\nright\tx\tscan\n");
+  write_text(folder / "left.status", "done\t\n");
+  write_text(folder / "right.status", "failed\tno chest wall\n");
+  std::filesystem::create_directories(folder / "left");
+  for (const char* stage : {"labels", "geometry", "mesh"})
+    write_text(folder / "left" / (std::string(stage) + ".vtkhdf"), "x");
+  write_text(folder / "left/labels.json",
+             R"({"chest_wall": {"sigma_mean_mm": 1.52}, "cpu_seconds": 9, "peak_mb": 305})");
+  write_text(folder / "left/geometry.json",
+             R"({"fit": {"mean_mm": 0.1, "p95_mm": 0.31}, "mended": ["the rim was moved"]})");
+  write_text(
+      folder / "left/mesh.json",
+      R"({"min_scaled_jacobian": 0.431, "volume_ml": 512.3, "mended": ["layers"], "cpu_seconds": 2})");
+  write_text(folder / "left/truth.tsv", "quantity\tvalue\nbody_dice\t0.9921\nwall_p95_mm\t1.6\n");
+  const Table table = side_table(folder.path(), read_cases(folder.path()));
+  EXPECT_EQ(join(table.rows[0], " "),
+            "left mesh 0.992 - - 1.6 1.5 0.10 0.31 0.43 512 11 305 the rim was moved; layers -");
+  EXPECT_EQ(cell_at(table, "right", "reached"), "-");
+  EXPECT_EQ(cell_at(table, "right", "reason"), "no chest wall");
 }
 
 }  // namespace

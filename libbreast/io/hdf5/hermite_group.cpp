@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/hdf5/thorax_group.hpp"
+#include "surface/rim_border.hpp"
 
 namespace breast {
 
@@ -155,6 +156,9 @@ void put_hermite(Document& document, const BreastGeometry& geometry) {
   Bytes ends;
   for (const RimEnd end : geometry.rim_end) ends.push_back(std::uint8_t(end));
   document.datasets[hermite_group + "/rim/end"] = array_of(std::move(ends));
+  Bytes borders;
+  for (const RimBorder border : rim_borders(geometry)) borders.push_back(std::uint8_t(border));
+  document.datasets[hermite_group + "/rim/border"] = array_of(std::move(borders));
   auto& attributes = document.attributes;
   attributes[hermite_group + "/rim@centre"] =
       array_of(Doubles{geometry.centre.x(), geometry.centre.y()});

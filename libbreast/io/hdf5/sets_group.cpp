@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "mesh/cut_border.hpp"
+
 namespace breast {
 
 namespace {
@@ -40,6 +42,9 @@ void put_sets(Document& document, const HexMesh& mesh) {
     const std::vector<int> nodes = nodes_of(mesh, faces);
     document.datasets[nodes_path(set)] = array_of(Integers(nodes.begin(), nodes.end()));
   }
+  Bytes borders;
+  for (const RimBorder border : cut_borders(mesh)) borders.push_back(std::uint8_t(border));
+  if (!borders.empty()) document.datasets["/breast/sets/cut_border"] = array_of(std::move(borders));
   for (const auto& [name, member] : single_nodes) {
     const int node = mesh.*member;
     document.datasets[std::string("/breast/sets/") + name] =

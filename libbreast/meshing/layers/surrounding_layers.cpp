@@ -12,6 +12,7 @@
 #include "core/statistics/low_pass.hpp"
 #include "mesh/nodal.hpp"
 #include "mesh/quality.hpp"
+#include "meshing/attempts.hpp"
 #include "meshing/hull.hpp"
 #include "meshing/layers/extrusion.hpp"
 #include "surface/margin.hpp"
@@ -35,7 +36,8 @@ constexpr int places = 96;
 constexpr double smoothing = 4;
 /// Smallest scaled Jacobian of the new elements; the width is reduced by `narrower` until they have
 /// it, at most down to `narrowest` of what was asked for.
-constexpr double least_scaled_jacobian = 0.15, narrower = 0.85, narrowest = 1.0 / 3;
+constexpr double least_scaled_jacobian = wanted_scaled_jacobian, narrower = 0.85,
+                 narrowest = 1.0 / 3;
 
 /// Follows a sheet outwards from a point of its rim, in the direction that is at a right angle to the
 /// rim, whose direction of increasing u is `tangent` in parameters.
