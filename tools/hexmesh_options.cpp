@@ -99,10 +99,11 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
       "their labels as names, or a .tsv with columns name x_mm y_mm z_mm (LPS); they may lie at "
       "most 10 mm outside the mesh");
   declare_label_choices(tool, "hexmesh", choices.foreign);
-  tool.flag(choices.accept_mismatch, "--accept-mismatch",
-            "mesh a geometry even if it does not agree with the labels, that is, if its skin or its "
-            "chest wall lies elsewhere than theirs (skin: 2 mm in the mean or 5 mm over a twentieth "
-            "of its area; chest wall: 4 or 12 mm); such a geometry is refused otherwise");
+  tool.flag(
+      choices.accept_mismatch, "--accept-mismatch",
+      "mesh a geometry even if it does not agree with the labels, that is, if its skin or its "
+      "chest wall lies elsewhere than theirs (2 mm in the mean, or 5 mm over a twentieth of its "
+      "area); such a geometry is refused otherwise");
   tool.output_file(choices.surface, "--surface", "OUT.vtp",
                    "closed boundary of the mesh as triangles, with a scalar part (0 skin, 1 "
                    "lateral cut, 2 chest wall)");

@@ -94,7 +94,9 @@ SkinSheet fit_skin(const DiscSurface& surface, const DiscMap& map, const Vec3& n
     const Distances whole = summary_of(now.outcome.sheet, now.data);
     progress.update("skin sheet", 0.6,
                     message(patches_s, " x ", patches_t, ", rms ", now.outcome.rms_mm, " mm"));
-    if (best.outcome.loops == 0 || whole.max_mm < report.whole_skin_to_sheet.max_mm) {
+    // A single place that no sheet reaches must not choose among them.
+    if (best.outcome.loops == 0 || whole.max_mm <= wanted ||
+        whole.p95_mm < report.whole_skin_to_sheet.p95_mm) {
       best = std::move(now);
       report.whole_skin_to_sheet = whole;
       report.patches_s = patches_s;

@@ -19,10 +19,7 @@ constexpr double most_cut_off = 0.02;
 constexpr int rings = 24, around = 96;
 constexpr double reach = 60, step = 0.5;  // mm along a normal
 
-struct Limits {
-  double mean_mm, p95_mm;
-};
-constexpr Limits skin_limits{2, 5}, wall_limits{4, 12};
+constexpr double most_mean = 2, most_p95 = 5;  // mm
 
 /// A surface of the labels, whose inside are the voxels of one kind.
 class LabelSurface {
@@ -88,17 +85,14 @@ SurfaceAgreement compare(const HermiteSheet& sheet, const At& parameters,
   return result;
 }
 
-std::optional<std::string> complaint(const char* name, const SurfaceAgreement& found,
-                                     const Limits& limits) {
-  if (found.distance.mean_mm <= limits.mean_mm && found.distance.p95_mm <= limits.p95_mm)
-    return std::nullopt;
+std::optional<std::string> complaint(const char* name, const SurfaceAgreement& found) {
+  if (found.distance.mean_mm <= most_mean && found.distance.p95_mm <= most_p95) return std::nullopt;
   const auto mm = [](double value) { return format_fixed(value, 1); };
   return message("the geometry does not agree with the labels: its ", name, " lies ",
                  mm(found.distance.mean_mm), " mm from theirs in the mean and ",
                  mm(found.distance.p95_mm), " mm or more over a twentieth of its area (at most ",
-                 mm(limits.mean_mm), " and ", mm(limits.p95_mm), "), ", mm(found.distance.max_mm),
-                 " mm at (", mm(found.worst.x()), ", ", mm(found.worst.y()), ", ",
-                 mm(found.worst.z()), ") mm");
+                 mm(most_mean), " and ", mm(most_p95), "), ", mm(found.distance.max_mm), " mm at (",
+                 mm(found.worst.x()), ", ", mm(found.worst.y()), ", ", mm(found.worst.z()), ") mm");
 }
 
 }  // namespace
@@ -121,8 +115,8 @@ std::optional<std::string> mismatch(const Agreement& agreement) {
                    format_fixed(100 * (1 - agreement.skin.seen), 0),
                    " % of its skin there is no skin of the labels within ", reach, " mm");
   }
-  const auto skin = complaint("skin", agreement.skin, skin_limits);
-  return skin ? skin : complaint("chest wall", agreement.wall, wall_limits);
+  const auto skin = complaint("skin", agreement.skin);
+  return skin ? skin : complaint("chest wall", agreement.wall);
 }
 
 std::optional<std::string> too_coarse(const BodyMeshReport& body) {

@@ -28,8 +28,8 @@ struct Agreement {
 Agreement agreement_of(const BreastGeometry& geometry, const LabelVolume& labels);
 
 /// One sentence if skin or wall of the geometry lie elsewhere than those of the labels: farther than
-/// 2 mm (wall 4) in the mean or 5 mm (wall 12) over more than 5 % of the area. It names the surface and
-/// the place of the largest distance.
+/// 2 mm in the mean, or 5 mm over more than 5 % of the area. It names the surface and the place of the
+/// largest distance.
 std::optional<std::string> mismatch(const Agreement& agreement);
 
 /// A warning if the mesh's flat faces lose more than 2 % of the volume between the sheets.
