@@ -8,6 +8,7 @@
 #include "core/parallel.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "mesh/quality.hpp"
+#include "meshing/attempts.hpp"
 
 namespace breast {
 namespace {
@@ -64,6 +65,19 @@ TEST(ExtremeMeshing, CoarsestAndSlimSizes) {
     const HexMesh mesh = body_mesh(analytic_breast(), {.size = size});
     EXPECT_GT(mesh_quality(mesh, mesh.points).min_scaled_jacobian, 0.05);
   }
+}
+
+/// Slim cores and a cut of one row over a breast that overhangs: the mesh that is asked for is bad, and
+/// what is taken instead says by which step it was found.
+TEST(ExtremeMeshing, ABadMeshIsReplacedByTheStatedSteps) {
+  const BreastGeometry geometry = analytic_breast({.arc = 160, .steepest_deg = 100, .sag = 20});
+  BodyMeshReport report;
+  const HexMesh mesh = body_mesh(geometry, {.size = {12, 3, 1, 1}}, &report);
+  EXPECT_LT(report.asked_scaled_jacobian, wanted_scaled_jacobian);
+  EXPECT_GE(report.smoothed_scaled_jacobian, wanted_scaled_jacobian);
+  EXPECT_GT(report.attempts, 1);
+  EXPECT_FALSE(report.step.empty());
+  EXPECT_GE(mesh_quality(mesh, mesh.points).min_scaled_jacobian, wanted_scaled_jacobian);
 }
 
 TEST(ExtremeMeshing, TooThickSkinIsRefused) {

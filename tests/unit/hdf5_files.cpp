@@ -184,12 +184,14 @@ INSTANTIATE_TEST_SUITE_P(
                {"size[2]", "-3"}}),
     [](const auto& damage) { return damage.param.name; });
 
-// What readers do without: arrays for viewing, and results that the tools which need them ask for.
+// What readers do without: arrays for viewing and for other programs, and results that the tools which need them ask for.
 bool is_optional(const std::string& path) {
   static const std::set<std::string> paths{"/VTKHDF/CellData/pressure",
                                            "/VTKHDF/CellData/det_F",
                                            "/VTKHDF/CellData/scaled_jacobian",
                                            "/VTKHDF/CellData/part",  // of a geometry
+                                           "/breast/hermite/rim/border",
+                                           "/breast/sets/cut_border",
                                            "/VTKHDF/PointData/displacement_from_scan",
                                            "/VTKHDF/PointData/displacement_from_stress_free",
                                            "/VTKHDF@Version",
@@ -198,9 +200,10 @@ bool is_optional(const std::string& path) {
   return paths.contains(path);
 }
 
-// Nodes for viewing, of which there may be none.
+// What only other programs read, and nodes of which there may be none.
 bool may_be_empty(const std::string& path) {
-  return path == "/VTKHDF/CellData/part" || path == "/breast/sets/tumour" || path == "/breast/sets/nipple" ||
+  return path == "/VTKHDF/CellData/part" || path == "/breast/hermite/rim/border" ||
+         path == "/breast/sets/cut_border" || path == "/breast/sets/tumour" || path == "/breast/sets/nipple" ||
          path == "/VTKHDF@Version";
 }
 
