@@ -7,7 +7,7 @@
 #include "core/table.hpp"
 #include "core/units.hpp"
 #include "io/mesh_file.hpp"
-#include "material/material_table.hpp"
+#include "material/material_set.hpp"
 
 using namespace breast;
 
@@ -19,14 +19,12 @@ struct Choices {
   std::string from = "seed2008";
   SoftnessData data;  // with its defaults
   std::vector<double> expected, pressure;
-  std::optional<double> sternum;
-  std::string cut = "spring";
   double kept = 5, smoothing = 0.02, prestretch = 3;
   CompressionChoices press;
 
   Choices() {
     const Softness& s = data.expected;
-    expected = {100 * s.low_order, 100 * s.quadratic, 100 * s.skin, s.wall, s.cut};
+    expected = {100 * s.low_order, 100 * s.quadratic, 100 * s.skin};
     pressure = {data.pressure.mean, data.pressure.sd};
     press.reduction = 50;
     press.image_edge = "auto";
@@ -38,14 +36,13 @@ void declare(Tool& tool, Choices& c) {
       "Calibrates a material set so that the breasts of a cohort move from prone to supine as "
       "women's breasts do on average. The parameters are the stiffness of fat and fibroglandular "
       "tissue (with separate factors for the linear and the quadratic terms of the law), the "
-      "stiffness of the skin, and the resistance to sliding along the chest wall and at the cut "
-      "(with --sternum, also of an attachment to the sternum). "
+      "stiffness of the skin, and the numbers of the supports of chest wall and cut. "
       "The data are the lateral and posterior displacement of the nipple and the change of the "
       "tissue's distance from the ribs. The nipple's displacement along the long axis of the body "
       "is not used, because it depends on the position of the arms. A further breast is "
       "compressed between plates (CC), and the mean pressure should agree with the clinical one. "
       "The fit is by least squares in the logarithms, with a prior of a factor of three about "
-      "--expected; the remaining uncertainty is written with the set as a covariance.");
+      "--expected, --wall and --cut; the remaining uncertainty is written with the set as a covariance.");
   tool.cite("Pathmanathan et al. 2008, equation (9) and Table II, scaled");
   tool.output_file(c.set, "--set", "OUT.tsv", "the material set found").required("--set");
   tool.inputs(c.cohort, "MESH.vtkhdf", "meshes of breasts imaged prone (hexmesh)");
@@ -55,15 +52,11 @@ void declare(Tool& tool, Choices& c) {
   tool.input_file(c.pressed, "--pressed", "MESH.vtkhdf", "mesh of the breast to compress")
       .required("--pressed");
   tool.text(c.from, "--from", "NAME|FILE", "material set whose constants are scaled");
-  tool.numbers(c.expected, "--expected", "LOW,QUADRATIC,SKIN,WALL,CUT", 5,
-               "centre of the prior: the first three in percent, the last two in kPa/mm");
-  tool.choice(
-      c.cut, "--cut", {"spring", "tissue"},
-      "support of the cut: springs, or springs that also carry the weight of the tissue beyond");
-  tool.number(
-      c.sternum, "--sternum", "KPA_PER_MM",
-      "centre of the prior of the stiffness of an attachment to the sternum (default: none)", 1e-4,
-      100);
+  tool.numbers(c.expected, "--expected", "LOW,QUADRATIC,SKIN", 3,
+               "centre of the prior of the laws, in percent of those of --from");
+  tool.text(c.data.expected.wall, "--wall", "SUPPORT",
+            "support of the chest wall as in forward; its numbers are the centre of the prior");
+  tool.text(c.data.expected.cut, "--cut", "SUPPORT", "the same of the cut");
   tool.number(c.data.expected_ln_sd, "--expected-ln-sd", "LN",
               "standard deviation of the prior, in the logarithm", 0.01, 10);
   tool.numbers(c.pressure, "--pressure", "MEAN,SD", 2,
@@ -84,7 +77,10 @@ void declare(Tool& tool, Choices& c) {
               0.5);
   tool.number(c.prestretch, "--skin-prestretch", "PERCENT",
               "stretch of the skin in the stress-free shape of the body", 0, 50);
-  tool.check([&c] { compression_options(c.press, posture_gravity(Posture::upright)); });
+  tool.check([&c] {
+    wall_support(c.data.expected.wall), cut_support(c.data.expected.cut);
+    compression_options(c.press, posture_gravity(Posture::upright));
+  });
   tool.example(
       "calibrate-softness --women women.tsv --pressed large.vtkhdf --set invivo.tsv a.vtkhdf b.vtkhdf",
       "from the motion of two breasts and the pressure on a third");
@@ -118,12 +114,10 @@ void report_found(const SoftnessFound& found, Run& run) {
     run.report().set("data/" + wanted.quantity + "/wanted", wanted.mean);
     run.report().set("data/" + wanted.quantity + "/sd", wanted.sd);
   }
-  const std::vector<std::string> names = found.softness.names();
   const Eigen::MatrixXd covariance = found.fit.covariance();
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const std::string& name = names[k];
-    const double value = found.softness.values()[k],
-                 sd = std::sqrt(covariance(Eigen::Index(k), Eigen::Index(k)));
+  for (std::size_t k = 0; k < found.parameters.size(); ++k) {
+    const auto& [name, value] = found.parameters[k];
+    const double sd = std::sqrt(covariance(Eigen::Index(k), Eigen::Index(k)));
     table.rows.push_back(
         {name, format_number(value), "-", format_fixed(sd, 2) + " of the logarithm"});
     run.report().set("softness/" + name, value);
@@ -142,14 +136,13 @@ void run_calibration(const Choices& c, Run& run) {
   data.ribs_change = observed(women, "ribs_change_mm");
   data.pressure.mean = c.pressure[0], data.pressure.sd = c.pressure[1];
   data.press = compression_options(c.press, posture_gravity(Posture::upright));
-  data.expected = {c.expected[0] / 100, c.expected[1] / 100, c.expected[2] / 100,
-                   c.expected[3],       c.expected[4],       c.sternum};
+  data.expected.low_order = c.expected[0] / 100, data.expected.quadratic = c.expected[1] / 100;
+  data.expected.skin = c.expected[2] / 100;
   for (const std::filesystem::path& file : c.cohort) data.cohort.push_back(prone_mesh(file));
   data.pressed = prone_mesh(c.pressed);
   MaterialSet base = load_materials(c.from);
   base.skin = {c.kept / 100, c.smoothing, c.prestretch / 100};
   check_skin(base.skin, "skin");
-  base.tissue_beyond = c.cut == "tissue";
   const SoftnessFound found = calibrate_softness(base, data, run.progress());
   if (!found.fit.converged) run.warn("the calibration stopped before its parameters settled");
   write_table(c.set, material_table(found.materials));

@@ -15,7 +15,7 @@
 #include "matching/band_materials.hpp"
 #include "matching/curve_lines.hpp"
 #include "matching/point_pair.hpp"
-#include "material/law.hpp"
+#include "material/material_set.hpp"
 #include "mesh/surroundings.hpp"
 #include "tool_pairs.hpp"
 

@@ -200,7 +200,7 @@ void run_compress(Choices c, Run& run) {
   const HexMesh& mesh = mechanics.mesh();
   take_from_mammogram(c, mesh, run);
   // A breast that slides lies limp between plates that stand far in front of its chest wall.
-  const bool slides = mechanics.options().wall.kind == WallKind::slide;
+  const bool slides = mechanics.options().wall->slides();
   if (slides && c.image_edge.empty() && !c.plates.standoff) c.image_edge = "auto";
   const CompressionOptions options =
       compression_options(c, parse_gravity(c.gravity), muscle_thickness(mesh));

@@ -8,7 +8,7 @@
 #include "identify_seen.hpp"
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
-#include "material/material_table.hpp"
+#include "material/material_set.hpp"
 #include "mesh/element_order.hpp"
 #include "solved_model.hpp"
 

@@ -117,8 +117,9 @@ void declare_identify(Tool& tool, IdentifyChoices& c) {
   declare_data(tool, c);
   tool.text(
       c.parameters, "--parameters", "LIST",
-      "parameters to identify, from low_order, quadratic, gland, skin, wall, cut, sternum, and stiffness "
-      "for the first two together (default: all that the set has, except stiffness)");
+      "parameters to identify, from low_order, quadratic, gland, skin, those of the supports (wall, cut, "
+      "sternum), and stiffness for the first two together (default: all that the model has, except "
+      "stiffness)");
   tool.choice(c.prior, "--prior", {"set", "none"},
               "prior: the covariance of the material set, or nearly none");
   tool.flag(c.align, "--align", "allow for a motion of the rib cage between the postures");

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // laws: a material set's laws, moduli, stable ranges and curves.
-#include <cmath>
-
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "core/units.hpp"
+#include "material/curves.hpp"
+#include "material/material_set.hpp"
 #include "material/stability.hpp"
 
 using namespace breast;
@@ -24,40 +24,6 @@ struct Choices {
 
 std::string fixed(double value, int decimals) {
   return format_fixed(value, decimals);
-}
-
-// Uniaxial nominal stress (Pa) of an incompressible law, P = 2(λ − λ⁻²)(W1 + W2/λ).
-double uniaxial_stress(const Law& law, double stretch) {
-  const double i1 = stretch * stretch + 2 / stretch;
-  const double i2 = 2 * stretch + 1 / (stretch * stretch);
-  if (!law.in_range(i1)) return std::nan("");
-  const LawValue w = law.evaluate(i1, i2);
-  return 2 * (stretch - 1 / (stretch * stretch)) * (w.w1 + w.w2 / stretch);
-}
-
-// Equibiaxial nominal stress (Pa), 2(λ − λ⁻⁵)(W1 + λ²W2).
-double equibiaxial_stress(const Law& law, double stretch) {
-  const double square = stretch * stretch;
-  const double i1 = 2 * square + 1 / (square * square);
-  if (!law.in_range(i1)) return std::nan("");
-  const LawValue w = law.evaluate(i1, 2 / square + square * square);
-  return 2 * (stretch - std::pow(stretch, -5)) * (w.w1 + square * w.w2);
-}
-
-// Pure shear (planar stretch) nominal stress (Pa), 2(λ − λ⁻³)(W1 + W2).
-double planar_stress(const Law& law, double stretch) {
-  const double i = 1 + stretch * stretch + 1 / (stretch * stretch);
-  if (!law.in_range(i)) return std::nan("");
-  const LawValue w = law.evaluate(i, i);
-  return 2 * (stretch - std::pow(stretch, -3)) * (w.w1 + w.w2);
-}
-
-// Simple shear stress (Pa), σ12 = 2(W1 + W2)γ.
-double shear_stress(const Law& law, double gamma) {
-  const double invariant = 3 + gamma * gamma;
-  if (!law.in_range(invariant)) return std::nan("");
-  const LawValue w = law.evaluate(invariant, invariant);
-  return 2 * (w.w1 + w.w2) * gamma;
 }
 
 Table summary(const MaterialSet& set, Run& run) {
@@ -98,8 +64,8 @@ Table curves(const MaterialSet& set, double low, double high) {
       table.rows.push_back({std::string(tissue_name(tissue)), fixed(stretch, 4),
                             format_number(uniaxial_stress(law, stretch)),
                             format_number(equibiaxial_stress(law, stretch)),
-                            format_number(planar_stress(law, stretch)), fixed(gamma, 4),
-                            format_number(shear_stress(law, gamma))});
+                            format_number(pure_shear_stress(law, stretch)), fixed(gamma, 4),
+                            format_number(simple_shear_stress(law, gamma))});
     }
   }
   return table;

@@ -7,7 +7,7 @@
 #include "cli/tool.hpp"
 #include "core/units.hpp"
 #include "io/mesh_file.hpp"
-#include "material/material_table.hpp"
+#include "material/material_set.hpp"
 #include "mechanics/mechanics.hpp"
 #include "phantom/chest/rib_spline.hpp"
 #include "phantom/postures.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/progress.hpp"
-#include "material/law.hpp"
+#include "material/material_set.hpp"
 #include "phantom/parameters.hpp"
 
 namespace breast {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/softness.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -9,66 +10,54 @@
 #include "core/table.hpp"
 #include "core/units.hpp"
 #include "evaluation/posture_motion.hpp"
+#include "material/set_parameter.hpp"
 #include "mechanics/mechanics.hpp"
-#include "mechanics/set_supports.hpp"
 #include "mesh/surroundings.hpp"
 
 namespace breast {
 
-std::vector<std::string> Softness::names() const {
-  std::vector<std::string> list{"low_order", "quadratic", "skin", "wall", "cut"};
-  if (sternum) list.push_back("sternum");
-  return list;
+namespace {
+
+const std::vector<std::string> of_laws{"low_order", "quadratic", "skin"};
+
+bool has_quadratic(const MaterialSet& set, Tissue tissue) {
+  const std::vector<LawConstant> list = constants_of(set, "quadratic");
+  return std::any_of(list.begin(), list.end(),
+                     [&](const LawConstant& at) { return at.tissue == tissue; });
 }
 
-std::vector<double> Softness::values() const {
-  std::vector<double> list{low_order, quadratic, skin, wall, cut};
-  if (sternum) list.push_back(*sternum);
-  return list;
-}
+}  // namespace
 
-Eigen::VectorXd Softness::logarithms() const {
-  const std::vector<double> all = values();
-  return Eigen::Map<const Eigen::VectorXd>(all.data(), Eigen::Index(all.size())).array().log();
-}
-
-Softness Softness::from_logarithms(const Eigen::VectorXd& x) {
-  Softness s{std::exp(x[0]), std::exp(x[1]), std::exp(x[2]), std::exp(x[3]), std::exp(x[4])};
-  if (x.size() > 5) s.sternum = std::exp(x[5]);
-  return s;
-}
-
-MaterialSet softened(const MaterialSet& base, const Softness& s, std::optional<double> muscle) {
-  MaterialSet set = base;
+MechanicsOptions softened(const MaterialSet& base, const Softness& s,
+                          std::optional<double> muscle) {
+  MechanicsOptions model;
+  model.materials = base;
   if (muscle) {
-    set.laws[std::size_t(Tissue::muscle)] = base.law(Tissue::fibroglandular).scaled(*muscle);
+    model.materials.laws[std::size_t(Tissue::muscle)] =
+        base.law(Tissue::fibroglandular).scaled(*muscle);
   }
-  for (const Tissue tissue :
-       {Tissue::fat, Tissue::fibroglandular, Tissue::tumour, Tissue::muscle, Tissue::other}) {
-    Law& law = set.laws[std::size_t(tissue)];
-    if (law.kind != LawKind::polynomial) {
-      throw input_error("materials ", base.name, ", tissue ", tissue_name(tissue),
-                        ": a polynomial law with linear and quadratic terms is needed");
-    }
-    for (std::size_t k = 0; k < law.constants.size(); ++k)
-      law.constants[k] *= k < 2 ? s.low_order : s.quadratic;
+  for (const Tissue tissue : {Tissue::fat, Tissue::fibroglandular}) {
+    if (has_quadratic(base, tissue)) continue;
+    throw input_error("materials ", base.name, ", tissue ", tissue_name(tissue), ": its law, ",
+                      base.law(tissue).kind->name, ", has no quadratic terms to calibrate");
   }
-  Law& skin = set.laws[std::size_t(Tissue::skin)];
-  skin = skin.scaled(s.skin);
-  set.wall_support = s.wall;
-  set.cut_support = s.cut;
-  set.sternum_support = s.sternum;
-  return set;
+  scale_model(model, "low_order", s.low_order);
+  scale_model(model, "quadratic", s.quadratic);
+  scale_model(model, "skin", s.skin);
+  model.wall = wall_support(s.wall), model.cut = cut_support(s.cut);
+  model.materials = set_with_supports(model);
+  model.seek_remedy = false;  // the search tries sets without a stable solution and continues
+  return model;
 }
 
 namespace {
 
-MechanicsOptions options_with(const MaterialSet& materials) {
-  MechanicsOptions options;
-  options.materials = materials;
-  take_supports_of_set(options);
-  options.seek_remedy = false;  // the search tries sets without a stable solution and continues
-  return options;
+MechanicsOptions scaled(const MechanicsOptions& model, const std::vector<std::string>& names,
+                        const Eigen::VectorXd& x) {
+  MechanicsOptions out = model;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    scale_model(out, names[k], std::exp(x[Eigen::Index(k)]));
+  return out;
 }
 
 // Gives the mesh its stress-free shape; returns false if there is none.
@@ -96,8 +85,8 @@ std::optional<double> pressure_on(HexMesh mesh, const MechanicsOptions& options,
 }
 
 // The means of lateral, posterior and rib motion over the cohort, and the pressure.
-std::optional<std::vector<double>> model(const MaterialSet& materials, const SoftnessData& data) {
-  const MechanicsOptions options = options_with(materials);
+std::optional<std::vector<double>> model(const MechanicsOptions& options,
+                                         const SoftnessData& data) {
   std::vector<double> sum(3, 0.0);
   for (const HexMesh& mesh : data.cohort) {
     const std::optional<PostureMotion> motion = motion_of(mesh, options, data.muscle_mm);
@@ -120,11 +109,32 @@ double rounded(double value, int digits = 3) {
   return parse_number(text.str(), "calibration");
 }
 
-Softness rounded(const Softness& s) {
-  Softness out{rounded(s.low_order), rounded(s.quadratic), rounded(s.skin), rounded(s.wall),
-               rounded(s.cut)};
-  if (s.sternum) out.sternum = rounded(*s.sternum);
-  return out;
+// The values of the unknowns: on the laws, the factors by which the expected ones were multiplied.
+std::vector<CalibratedParameter> values_of(const MechanicsOptions& model, const Softness& expected,
+                                           const Eigen::VectorXd& x) {
+  std::vector<CalibratedParameter> values{{"low_order", expected.low_order * std::exp(x[0])},
+                                          {"quadratic", expected.quadratic * std::exp(x[1])},
+                                          {"skin", expected.skin * std::exp(x[2])}};
+  for (const SupportPtr& support : {model.wall, model.cut}) {
+    for (const std::string& name : support->parameters()) {
+      const auto number = std::find_if(support->numbers().begin(), support->numbers().end(),
+                                       [&](const SupportNumber& n) { return n.parameter == name; });
+      values.push_back({name, number->value});
+    }
+  }
+  for (CalibratedParameter& one : values) one.value = rounded(one.value);
+  return values;
+}
+
+MaterialSet rounded(MechanicsOptions model) {
+  for (SupportPtr* support : {&model.wall, &model.cut}) {
+    *support =
+        (*support)->with_numbers([](const SupportNumber& number) { return rounded(number.value); });
+  }
+  MaterialSet set = set_with_supports(model);
+  for (Law& law : set.laws)
+    for (double& constant : law.constants) constant = rounded(constant, 5);
+  return set;
 }
 
 Eigen::MatrixXd rounded(const Eigen::MatrixXd& covariance) {
@@ -154,16 +164,19 @@ SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& da
   if (data.cohort.empty()) throw input_error("calibration: the cohort is empty");
   SoftnessFound out;
   out.wanted = weighted(data);
-  const Eigen::VectorXd expected = data.expected.logarithms();
+  const MechanicsOptions expected = softened(base, data.expected, data.muscle_stiffness);
+  std::vector<std::string> names = of_laws;
+  for (const SupportPtr& support : {expected.wall, expected.cut}) {
+    for (const std::string& name : support->parameters()) names.push_back(name);
+  }
   int evaluations = 0;
   LeastSquaresProblem problem;
   problem.residuals = [&](const Eigen::VectorXd& x) -> std::optional<Eigen::VectorXd> {
-    const Softness s = Softness::from_logarithms(x);
-    const std::optional<std::vector<double>> values =
-        model(softened(base, s, data.muscle_stiffness), data);
-    std::string said = message("low order ", s.low_order, ", quadratic ", s.quadratic, ", skin ",
-                               s.skin, ", wall ", s.wall, ", cut ", s.cut);
-    if (s.sternum) said += message(", sternum ", *s.sternum);
+    const MechanicsOptions tried = scaled(expected, names, x);
+    const std::optional<std::vector<double>> values = model(tried, data);
+    std::string said;
+    for (const CalibratedParameter& one : values_of(tried, data.expected, x))
+      said += message(said.empty() ? "" : ", ", one.name, " ", one.value);
     said += ":";
     if (!values) said += " no equilibrium";
     Eigen::VectorXd r(Eigen::Index(out.wanted.size()) + x.size());
@@ -173,19 +186,18 @@ SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& da
     }
     progress.update("calibrate", -1, message(++evaluations, ". ", said));
     if (!values) return {};
-    r.tail(x.size()) = (x - expected) / data.expected_ln_sd;
+    r.tail(x.size()) = x / data.expected_ln_sd;
     return r;
   };
   LeastSquaresOptions search;
   search.max_evaluations = 100;
-  out.fit = least_squares(problem, expected, search);
-  out.softness = rounded(Softness::from_logarithms(out.fit.x));
+  out.fit = least_squares(problem, Eigen::VectorXd::Zero(Eigen::Index(names.size())), search);
+  const MechanicsOptions found = scaled(expected, names, out.fit.x);
+  out.parameters = values_of(found, data.expected, out.fit.x);
   for (std::size_t k = 0; k < out.wanted.size(); ++k)
     out.found.push_back(out.wanted[k].mean + out.fit.residuals[Eigen::Index(k)] * out.wanted[k].sd);
-  out.materials = softened(base, out.softness, data.muscle_stiffness);
-  for (Law& law : out.materials.laws)
-    for (double& constant : law.constants) constant = rounded(constant, 5);
-  out.materials.uncertainty.parameters = out.softness.names();
+  out.materials = rounded(found);
+  out.materials.uncertainty.parameters = names;
   out.materials.uncertainty.covariance = rounded(out.fit.covariance());
   return out;
 }

@@ -8,31 +8,24 @@
 
 #include "contact/compression.hpp"
 #include "core/progress.hpp"
-#include "material/law.hpp"
 #include "mesh/hex_mesh.hpp"
 #include "solve/least_squares.hpp"
 
 namespace breast {
 
-/// The unknowns: factors on a material set, and supports in kPa/mm.
+/// Factors on the laws of a material set, and the supports of wall and cut.
 struct Softness {
-  double low_order = 0.03;  ///< on the constants of polynomial laws that are linear in I1 and I2
+  double low_order = 0.03;  ///< on the constants that are linear in I1 and I2
   double quadratic = 0.3;   ///< on the other constants
   double skin = 1;          ///< on the law of skin
-  double wall = 0.01, cut = 0.01;
-  std::optional<double> sternum = {};  ///< the attachment to it; absent: none
-
-  std::vector<std::string> names() const;
-  std::vector<double> values() const;
-  Eigen::VectorXd logarithms() const;
-  static Softness from_logarithms(const Eigen::VectorXd& x);
+  std::string wall = "slide:0.01", cut = "spring:0.01";
 };
 
-/// `base` scaled by these factors, with these supports. Muscle keeps its own law, or has that of
-/// fibroglandular tissue times the factor `muscle` if it is given. Throws Error (input) when fat or
-/// fibroglandular tissue has no polynomial law of equation (9).
-MaterialSet softened(const MaterialSet& base, const Softness& softness,
-                     std::optional<double> muscle = {});
+/// The model of `base` scaled by these factors, with these supports. Muscle keeps its own law, or has that
+/// of fibroglandular tissue times the factor `muscle` if it is given. Throws Error (input) when the law of
+/// fat or fibroglandular tissue has no quadratic terms.
+MechanicsOptions softened(const MaterialSet& base, const Softness& softness,
+                          std::optional<double> muscle = {});
 
 /// A mean over women, mm or kPa, and the standard deviation among them.
 struct Observed {
@@ -55,15 +48,21 @@ struct SoftnessData {
   double expected_ln_sd = 1.1;                 ///< a factor of three either way
 };
 
+/// An unknown: a factor on the laws of the base, or a number of a support.
+struct CalibratedParameter {
+  std::string name;
+  double value = 0;
+};
+
 struct SoftnessFound {
-  Softness softness;
+  std::vector<CalibratedParameter> parameters;
   LeastSquaresResult fit;
   std::vector<Observed> wanted;  ///< targets, with the standard deviations used as weights
   std::vector<double> found;     ///< resulting means of the cohort, and the resulting pressure
   MaterialSet materials;         ///< with its uncertainty
 };
 
-/// Least squares in the logarithms of Softness. A mean over n breasts is weighted by the standard
+/// Least squares in the logarithms of low_order, quadratic, skin and the parameters of the supports. A mean over n breasts is weighted by the standard
 /// error of its difference from the women's mean, sd √(1/women + 1/n). Throws Error (not converged)
 /// if there is no equilibrium with the expected softness.
 SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& data,

@@ -11,7 +11,7 @@
 #include "cases/settings_table.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "material/law.hpp"
+#include "material/material_set.hpp"
 
 namespace breast {
 

@@ -114,7 +114,7 @@ void record_balance(const Scene& scene, const Constraints& held, const State& st
   held.project(free);
   const Eigen::VectorXd reaction = residual - free;
   // With the weight that hangs on the cut.
-  Vec3 wall = scene.force_of_springs(state) + load - weight;
+  Vec3 wall = scene.supports().force_of_springs(state) + load - weight;
   for (Eigen::Index i = 0; i < reaction.size(); i += 3) wall += reaction.segment<3>(i);
   result.wall_reaction_N = wall / micronewton_per_newton;
   result.weight_N = weight.norm() / micronewton_per_newton;

@@ -37,38 +37,21 @@ void check_element(const DeckScene& scene, const std::string& element) {
 // Abaqus leaves the term out.
 constexpr double no_term = 1e20;
 
-// Order of the constants: Abaqus Analysis User's Guide, *HYPERELASTIC.
 void write_material(const DeckMaterial& material, std::ostream& out) {
-  const std::vector<double>& c = material.law.constants;
-  const double d1 = 2 / material.bulk_modulus;
-  std::string type;
-  std::vector<double> line;
-  switch (material.law.kind) {
-    case LawKind::polynomial:
-      type = "POLYNOMIAL, N=2";
-      line = {c[0], c[1], c[2], c[4], c[3], d1, no_term};  // C10 C01 C20 C11 C02 D1 D2
-      break;
-    case LawKind::yeoh:
-      type = "YEOH";
-      line = {c[0], c[1], c[2], d1, no_term, no_term};
-      break;
-    case LawKind::neo_hookean:
-      type = "NEO HOOKE";
-      line = {c[0], d1};
-      break;
-    case LawKind::mooney_rivlin:
-      type = "MOONEY-RIVLIN";
-      line = {c[0], c[1], d1};
-      break;
-    case LawKind::exponential:
-      throw input_error("tissue ", tissue_name(material.tissue),
-                        ": CalculiX and Abaqus have no "
-                        "exponential law (10); mesh without a layer of skin (hexmesh --skin 0) or "
-                        "give it a polynomial in --materials FILE");
+  const LawKind& kind = *material.law.kind;
+  if (kind.calculix.type.empty()) {
+    throw input_error("tissue ", tissue_name(material.tissue), ": CalculiX and Abaqus have no ",
+                      kind.name, " law; give it another one in --materials FILE",
+                      material.tissue == Tissue::skin
+                          ? ", or mesh without a layer of skin (hexmesh --skin 0)"
+                          : "");
   }
-  out << "*MATERIAL, NAME=" << set_name(material.tissue) << "\n*HYPERELASTIC, " << type << "\n";
-  for (std::size_t i = 0; i < line.size(); ++i) out << (i ? "," : "") << deck_number(line[i]);
-  out << "\n*DENSITY\n"
+  const double d1 = 2 / material.bulk_modulus;
+  out << "*MATERIAL, NAME=" << set_name(material.tissue) << "\n*HYPERELASTIC, "
+      << kind.calculix.type << "\n"
+      << with_constants(kind.calculix.body, material.law,
+                        {{"D1", d1}, {"D2", no_term}, {"D3", no_term}})
+      << "\n*DENSITY\n"
       << deck_number(material.density) << "\n*SOLID SECTION, ELSET=" << set_name(material.tissue)
       << ", MATERIAL=" << set_name(material.tissue) << "\n";
 }

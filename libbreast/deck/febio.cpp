@@ -10,37 +10,17 @@ namespace breast {
 
 namespace {
 
-// W as FEBio's interpreter reads it.
-std::string energy_formula(const Law& law) {
-  const std::vector<double>& c = law.constants;
-  const std::string u = "(I1-3)", v = "(I2-3)";
-  const auto term = [](double factor, const std::string& what) {
-    return "(" + deck_number(factor) + ")*" + what;
-  };
-  if (law.kind == LawKind::polynomial) {
-    return term(c[0], u) + "+" + term(c[1], v) + "+" + term(c[2], u + "^2") + "+" +
-           term(c[3], v + "^2") + "+" + term(c[4], u + "*" + v);
-  }
-  if (law.kind == LawKind::yeoh) {
-    return term(c[0], u) + "+" + term(c[1], u + "^2") + "+" + term(c[2], u + "^3");
-  }
-  return term(c[0], "(exp(" + term(c[1], u) + ")-1)") + "+" + term(c[2], v);
-}
-
 void write_material(const DeckMaterial& material, int id, std::ostream& out) {
-  const Law& law = material.law;
-  const bool named = law.kind == LawKind::mooney_rivlin || law.kind == LawKind::neo_hookean;
-  out << "    <material id=\"" << id << "\" name=\"" << tissue_name(material.tissue) << "\" type=\""
-      << (named ? "Mooney-Rivlin" : "uncoupled hyperelastic") << "\">\n      "
-      << "<density>" << deck_number(material.density) << "</density><k>"
-      << deck_number(material.bulk_modulus) << "</k>";
-  if (named) {
-    const double c2 = law.kind == LawKind::mooney_rivlin ? law.constants[1] : 0;
-    out << "<c1>" << deck_number(law.constants[0]) << "</c1><c2>" << deck_number(c2) << "</c2>";
-  } else {
-    out << "<W>" << energy_formula(law) << "</W>";
+  const LawKind& kind = *material.law.kind;
+  if (kind.febio.type.empty()) {
+    throw input_error("tissue ", tissue_name(material.tissue), ": FEBio has no ", kind.name,
+                      " law; give it another one in --materials FILE");
   }
-  out << "\n    </material>\n";
+  out << "    <material id=\"" << id << "\" name=\"" << tissue_name(material.tissue) << "\" type=\""
+      << kind.febio.type << "\">\n      "
+      << "<density>" << deck_number(material.density) << "</density><k>"
+      << deck_number(material.bulk_modulus) << "</k>"
+      << with_constants(kind.febio.body, material.law) << "\n    </material>\n";
 }
 
 void write_mesh(const DeckScene& scene, std::ostream& out) {

@@ -27,10 +27,11 @@ void refuse_what_no_deck_says(const HexMesh& mesh, const MechanicsOptions& optio
                       ": FEBio and CalculiX cannot be exactly incompressible; give --bulk-ratio, "
                       "for example 1000");
   }
-  if (options.wall.kind != WallKind::held || options.cut.has_springs()) {
-    throw input_error("--wall ", describe(options.wall), " --cut ", describe(options.cut),
-                      ": an exported model has a fixed chest wall and no springs; give --wall "
-                      "held and --cut free, fixed or roller");
+  for (const SupportPtr& support : {options.wall, options.cut}) {
+    if (!support->slides() && support->numbers().empty()) continue;
+    throw input_error("--wall ", options.wall->text(), " --cut ", options.cut->text(),
+                      ": an exported model has a fixed chest wall and no springs; give --wall held "
+                      "and --cut free, fixed or roller");
   }
   if (mesh.skin_model == SkinModel::membrane && !without_skin) {
     throw input_error(

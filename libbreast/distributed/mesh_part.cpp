@@ -37,7 +37,7 @@ Whole look_at(const HexMesh& mesh, const MechanicsOptions& options, int parts) {
     }
   }
   whole.slides.assign(std::size_t(mesh.nodes()), 0);
-  if (options.wall.kind == WallKind::slide) {
+  if (options.wall->slides()) {
     for (const int node : nodes_of(mesh, mesh.pectoral_faces)) whole.slides[node] = 1;
   }
   return whole;
@@ -47,15 +47,10 @@ Whole look_at(const HexMesh& mesh, const MechanicsOptions& options, int parts) {
 // its share of the areas, but normals cannot be added in this way.
 void check(const HexMesh& mesh, const MechanicsOptions& options) {
   const bool surface = mesh.geometry && mesh.geometry->thorax;
-  if (options.wall.kind == WallKind::spring && !surface) {
-    throw input_error(
-        "--wall spring: the mesh holds no wall surface, which several processes need for it; make "
-        "geometry and mesh again with fit-hermite and hexmesh, or use forward and backward");
-  }
-  if (options.wall.kind == WallKind::slide && !surface) {
-    throw input_error(
-        "--wall slide: the mesh holds no wall surface to slide on; make geometry and mesh again "
-        "with fit-hermite and hexmesh, or use --wall held");
+  if (options.wall->follows_surface() && !surface) {
+    throw input_error("--wall ", options.wall->text(),
+                      ": the mesh holds no wall surface, which several processes need for it; make "
+                      "geometry and mesh again with fit-hermite and hexmesh, or use --wall held");
   }
   if (mesh.pectoral_faces.empty()) {
     throw input_error("mesh: no pectoral faces, so nothing holds the breast; remesh with hexmesh");

@@ -6,39 +6,12 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "mechanics/terms/cut_springs.hpp"
-#include "mechanics/terms/elastic_support.hpp"
 #include "mechanics/terms/membrane.hpp"
 #include "mesh/nodal.hpp"
 
 namespace breast {
 
 namespace {
-
-std::shared_ptr<const Term> springs(const HexMesh& mesh, const std::vector<Face>& faces,
-                                    const SupportStiffness& stiffness,
-                                    std::shared_ptr<const LevelSurface> surface = nullptr) {
-  if (faces.empty()) return nullptr;
-  return std::make_shared<ElasticSupport>(mesh, faces, stiffness, std::move(surface));
-}
-
-// Adds the terms as Scene does for a whole mesh (mechanics/scene.cpp).
-void add_supports(const MeshPart& part, const MechanicsOptions& options, Problem& problem) {
-  const HexMesh& mesh = part.mesh;
-  std::vector<std::shared_ptr<const Term>> all;
-  if (options.wall.kind == WallKind::spring) {
-    all.push_back(springs(mesh, mesh.pectoral_faces, options.wall.stiffness, part.wall));
-  }
-  const double along = options.wall.stiffness.tangential;
-  if (options.wall.kind == WallKind::slide && along > 0) {
-    all.push_back(springs(mesh, mesh.pectoral_faces, {along, along}));
-  }
-  const CutSprings at_cut = springs_at_cut(mesh, options.cut);
-  all.insert(all.end(), {at_cut.around, at_cut.sternal});
-  for (const auto& term : all) {
-    if (term) problem.add(term);
-  }
-}
 
 double stiffest(const HexMesh& mesh, const MechanicsOptions& options) {
   double most = 0;
@@ -62,12 +35,12 @@ PartProblem::PartProblem(const Ranks& ranks, const MeshPart& part, const Mechani
     if (part.mesh.skin_model == SkinModel::membrane && !part.mesh.skin_faces.empty()) {
       problem_->add(make_membrane(part.mesh, options, *solid_->space()));
     }
-    add_supports(part, options, *problem_);
+    supports_ = attach_supports(part.mesh, part.wall, options);
+    for (const SupportEffects::Springs& springs : supports_.springs) problem_->add(springs.term);
     if (!part.sliding.empty()) {
       problem_->set_sliding(
           std::make_shared<SlidingNodes>(part.wall, part.sliding, flatten(part.mesh.imaged)));
     }
-    beyond_ = tissue_at_cut(part.mesh, part.wall.get(), options);
     for (int e = 0; e < part.mesh.elements(); ++e) volume += pressures().volume(e);
   });
   gravity_ = Eigen::VectorXd::Zero(3L * part.mesh.nodes());
@@ -82,7 +55,7 @@ void PartProblem::set_gravity(const Vec3& gravity) {
   for (int node = 0; node < part_.mesh.nodes(); ++node) {
     gravity_.segment<3>(3L * node) = solid_->nodal_mass()[node] * gravity;
   }
-  if (beyond_) beyond_->add(gravity, gravity_);
+  supports_.add_loads(gravity, gravity_);
   set_load(1);
 }
 

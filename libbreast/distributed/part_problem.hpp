@@ -4,12 +4,11 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "distributed/exchange.hpp"
+#include "mechanics/supports/effects.hpp"
 #include "mechanics/terms/dead_load.hpp"
 #include "mechanics/terms/solid.hpp"
-#include "mechanics/terms/tissue_beyond.hpp"
 #include "solve/problem.hpp"
 
 namespace breast {
@@ -74,7 +73,7 @@ class PartProblem {
   std::shared_ptr<DeadLoad> load_;
   std::unique_ptr<Problem> problem_;
   Eigen::VectorXd gravity_;  // nodal forces of this part's elements
-  std::optional<TissueBeyond> beyond_;
+  SupportEffects supports_;
   double stiffness_force_ = 1, load_norm_ = 1;
 };
 

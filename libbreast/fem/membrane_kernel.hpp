@@ -9,7 +9,7 @@
 
 #include "core/types.hpp"
 #include "fem/hex_kernel.hpp"
-#include "material/law.hpp"
+#include "material/material_set.hpp"
 
 namespace breast {
 

@@ -36,7 +36,7 @@ Effective effective(double x, double y, double width) {
   const double ly = least_1 * tense.slope;
   const double lyy = least_2 * tense.slope * tense.slope + least_1 * tense.bend;
   const Step m = smooth_positive(x - least, width);
-  return {least + m.value, m.slope,  ly * (1 - m.slope),
+  return {least + m.value, m.slope,      ly * (1 - m.slope),
           m.bend,          -m.bend * ly, lyy * (1 - m.slope) + m.bend * ly * ly};
 }
 
@@ -53,8 +53,7 @@ bool relaxed(const Law& law, double width, double c1, double c2, Principal& out)
   const double wa = w.fi + b.value * w.fd, wb = w.fi + a.value * w.fd;
   const double waa = w.fii + 2 * b.value * w.fid + b.value * b.value * w.fdd;
   const double wbb = w.fii + 2 * a.value * w.fid + a.value * a.value * w.fdd;
-  const double wab =
-      w.fii + (a.value + b.value) * w.fid + a.value * b.value * w.fdd + w.fd;
+  const double wab = w.fii + (a.value + b.value) * w.fid + a.value * b.value * w.fdd + w.fd;
   // `a` has its x along 1, `b` along 2.
   const double a1 = a.x, a2 = a.y, b1 = b.y, b2 = b.x;
   out.f = w.f;
@@ -89,8 +88,9 @@ Invariants12 effective_invariants(double width, double i, double d) {
 }
 
 bool plane_stress(const Law& law, double i, double d, PlaneStress& out) {
-  if (!law.in_range(i + 1 / d)) return false;
-  const LawValue w = law.evaluate(i + 1 / d, d + i / d);
+  const double i1 = i + 1 / d, i2 = d + i / d;
+  if (!law.in_range(i1, i2)) return false;
+  const LawValue w = law.evaluate(i1, i2);
   const double down = -1 / (d * d), up = 1 - i / (d * d);  // ∂I1/∂d, ∂I2/∂d
   out.f = w.w;
   out.fi = w.w1 + w.w2 / d;

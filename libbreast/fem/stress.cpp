@@ -97,7 +97,7 @@ bool law_stress(const Law& law, bool isochoric, const Mat3& c, double det_f, boo
   const Vector6 cv = to_voigt(c);
   const Invariants i =
       isochoric ? isochoric_invariants(c, cv, det_f, with_tangent) : plain_invariants(c, cv);
-  if (!law.in_range(i.i1)) return false;
+  if (!law.in_range(i.i1, i.i2)) return false;
   const LawValue w = law.evaluate(i.i1, i.i2);
   out.energy = w.w;
   out.s = 2 * (w.w1 * i.d1 + w.w2 * i.d2);

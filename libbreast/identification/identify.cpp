@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "material/set_parameter.hpp"
 #include "mechanics/model.hpp"
 
 namespace breast {
@@ -22,12 +21,11 @@ using Eigen::VectorXd;
 constexpr double bends = 0.15;
 
 Sought sought_of(const IdentifyOptions& options) {
-  const MaterialSet set = set_with_supports(options.mechanics);
   Sought sought{options.parameters, options.align};
-  if (sought.names.empty()) sought.names = set_parameters(set);
+  if (sought.names.empty()) sought.names = model_parameters(options.mechanics);
   for (const std::string& name : sought.names) {
-    MaterialSet tried = set;
-    scale_set(tried, name, 1);  // throws if the set does not have it
+    MechanicsOptions tried = options.mechanics;
+    scale_model(tried, name, 1);  // throws if the model does not have it
     if (std::count(sought.names.begin(), sought.names.end(), name) > 1)
       throw input_error("parameter '", name, "' appears twice");
   }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "material/law.hpp"
+#include "material/material_set.hpp"
 
 namespace breast {
 

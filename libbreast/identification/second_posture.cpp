@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "material/set_parameter.hpp"
 #include "mesh/surroundings.hpp"
 
 namespace breast {
@@ -20,8 +19,7 @@ std::vector<Response> responses(const HexMesh& imaged, const HexMesh& state,
                                 const Vec3& imaged_gravity, const MechanicsOptions& options,
                                 const std::vector<std::string>& names) {
   std::vector<Parameter> parameters;
-  for (const std::string& name : names)
-    parameters.push_back(set_parameter(imaged, set_with_supports(options), name));
+  for (const std::string& name : names) parameters.push_back(set_parameter(imaged, options, name));
   return SensitivityChain(imaged, state, imaged_pressure, imaged_gravity, options)
       .tangent(parameters);
 }
@@ -32,27 +30,12 @@ double coordinate_deviation(double rms_mm) {
   return rms_mm / std::sqrt(3.0);
 }
 
-MaterialSet set_with_supports(const MechanicsOptions& options) {
-  MaterialSet set = options.materials;
-  set.wall_support.reset(), set.cut_support.reset(), set.sternum_support.reset();
-  if (options.wall.kind == WallKind::slide) set.wall_support = options.wall.stiffness.tangential;
-  set.tissue_beyond = options.cut.kind == Cut::tissue && set.wall_support.has_value();
-  if (options.cut.has_springs()) {
-    set.cut_support = options.cut.stiffness;
-    set.sternum_support = options.cut.sternal;
-  }
-  return set;
-}
-
 MechanicsOptions with_factors(const MechanicsOptions& options, const Sought& sought,
                               const Eigen::VectorXd& x) {
   MechanicsOptions out = options;
-  out.materials = set_with_supports(options);
   for (Eigen::Index k = 0; k < sought.materials(); ++k)
-    scale_set(out.materials, sought.names[std::size_t(k)], std::exp(x[k]));
-  if (out.materials.wall_support) out.wall.stiffness.tangential = *out.materials.wall_support;
-  if (out.materials.cut_support) out.cut.stiffness = *out.materials.cut_support;
-  out.cut.sternal = out.materials.sternum_support;
+    scale_model(out, sought.names[std::size_t(k)], std::exp(x[k]));
+  out.materials = set_with_supports(out);
   return out;
 }
 

@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "identification/observations.hpp"
-#include "surface/rigid_motion.hpp"
 #include "identification/skin_samples.hpp"
 #include "mechanics/mechanics.hpp"
 #include "sensitivity/chain.hpp"
+#include "surface/rigid_motion.hpp"
 
 namespace breast {
 
-/// The unknowns: logarithms of factors on the named parts of the material set and, if requested,
+/// The unknowns: logarithms of factors on the named parts of the model and, if requested,
 /// shift (mm) and rotation (degrees) of the rib cage between the postures.
 struct Sought {
-  std::vector<std::string> names;  ///< names of material/set_parameter.hpp
+  std::vector<std::string> names;  ///< model_parameters in mechanics/options.hpp
   bool align = false;
 
   Eigen::Index materials() const { return Eigen::Index(names.size()); }
@@ -28,9 +28,6 @@ struct Sought {
 /// `options` with its material set and supports multiplied by exp(x).
 MechanicsOptions with_factors(const MechanicsOptions& options, const Sought& sought,
                               const Eigen::VectorXd& x);
-
-/// The material set of these options including their supports.
-MaterialSet set_with_supports(const MechanicsOptions& options);
 
 class SecondPosture {
  public:

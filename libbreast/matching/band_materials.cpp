@@ -37,13 +37,15 @@ NodalField combined(const DerivativeFields& fields, const std::vector<std::strin
 
 void use_covariance(const std::vector<std::string>& parameters, const Eigen::MatrixXd& covariance,
                     DerivativeFields& from, DerivativeFields& to, std::vector<Prior>& priors) {
-  static const std::map<std::string, std::string> prior_of{
-      {"low_order", "fat"}, {"quadratic", "fat"}, {"stiffness", "fat"}, {"gland", "fibroglandular"},
-      {"skin", "skin"},     {"wall", "wall"},     {"cut", "cut"},       {"sternum", "sternum"}};
+  // A parameter replaces the prior of the same name, or of the tissue whose laws it scales.
+  static const std::map<std::string, std::string> of_laws{{"low_order", "fat"},
+                                                          {"quadratic", "fat"},
+                                                          {"stiffness", "fat"},
+                                                          {"gland", "fibroglandular"}};
   for (const std::string& parameter : parameters) {
-    const auto known = prior_of.find(parameter);
-    if (known == prior_of.end()) continue;
-    std::erase_if(priors, [&](const Prior& prior) { return prior.parameter == known->second; });
+    const auto law = of_laws.find(parameter);
+    const std::string& replaced = law == of_laws.end() ? parameter : law->second;
+    std::erase_if(priors, [&](const Prior& prior) { return prior.parameter == replaced; });
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(covariance);
   for (Eigen::Index k = covariance.rows(); k-- > 0;) {

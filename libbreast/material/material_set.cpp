@@ -1,30 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Material sets: the embedded tables of pipelines/materials, or a file of the same columns.
+#include "material/material_set.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <map>
 
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "core/units.hpp"
 #include "material/embedded.hpp"
-#include "material/law.hpp"
-#include "material/set_parameter.hpp"
 #include "material/stability.hpp"
 
 namespace breast {
-
-std::string law_constant_column(std::string_view constant) {
-  return constant == "b" ? "b" : std::string(constant) + "_Pa";
-}
 
 namespace {
 
 Law read_law(const Table& table, std::size_t row, const std::string& where) {
   Law law;
-  law.kind = law_kind_from_name(table.cell(row, "law"));
-  for (const std::string_view constant : law_constant_names(law.kind)) {
-    law.constants.push_back(table.number(row, law_constant_column(constant)));
+  law.kind = &law_kind(table.cell(row, "law"));
+  for (const ConstantKind& constant : law.kind->constants) {
+    law.constants.push_back(table.number(row, constant.column()));
   }
   check_law(law, where);
   return law;
@@ -43,20 +40,17 @@ void read_skin(const Table& table, std::size_t row, const std::string& where, Sk
   check_skin(skin, where);
 }
 
-/// Rows "wall", "cut" and "sternum" with the law "support"; the cut may have the law "tissue" instead.
+/// Rows "wall" and "cut" with the law "support".
 bool read_support(const Table& table, std::size_t row, const std::string& name, MaterialSet& set) {
-  const std::string law = table.cell(row, "law"), where = table.cell(row, "tissue");
-  const bool beyond = law == "tissue" && where == "cut";
-  if (law != "support" && !beyond) return false;
-  const double stiffness = table.number(row, "support_kPa_per_mm");
-  std::optional<double>* const support = support_in(set, where);
-  if (support == nullptr || !(stiffness >= 0 && stiffness <= 1e6)) {
-    throw input_error("materials ", name, ", support of ", where, ": ", stiffness,
-                      " kPa/mm; 'wall', 'cut' and 'sternum' take 0 to 1e6");
+  if (table.cell(row, "law") != "support") return false;
+  const std::string where = table.cell(row, "tissue"), text = table.cell(row, "support");
+  std::string* const support = where == "wall" ? &set.wall : where == "cut" ? &set.cut : nullptr;
+  if (support == nullptr || text.empty() || text == "-") {
+    throw input_error("materials ", name, ", support of ", where, ": '", text,
+                      "'; 'wall' and 'cut' take a support such as slide:0.01 or spring:0.01");
   }
-  if (*support) throw input_error("materials ", name, ": two supports of ", where);
-  *support = stiffness;
-  set.tissue_beyond = set.tissue_beyond || beyond;
+  if (!support->empty()) throw input_error("materials ", name, ": two supports of ", where);
+  *support = text;
   return true;
 }
 
@@ -184,6 +178,90 @@ void scale_materials(MaterialSet& set, const std::vector<std::string>& settings)
     Law& law = set.laws[static_cast<std::size_t>(tissue)];
     law = law.scaled(percent / 100);
   }
+}
+
+std::string percent_text(double fraction) {
+  // 100 times 0.07 is not 7, but a neighbour of it.
+  const double product = 100 * fraction;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double near :
+       {product, std::nextafter(product, -infinity), std::nextafter(product, infinity)})
+    if (near / 100 == fraction) return format_number(near);
+  return format_number(product);
+}
+
+namespace {
+
+using Row = std::map<std::string, std::string>;
+
+Row law_row(const MaterialSet& set, Tissue tissue) {
+  const Law& law = set.law(tissue);
+  Row row{{"tissue", std::string(tissue_name(tissue))}, {"law", std::string(law.kind->name)}};
+  row["density_g_per_mm3"] = format_number(set.density[std::size_t(tissue)]);
+  for (std::size_t k = 0; k < law.constants.size(); ++k)
+    row[law.kind->constants[k].column()] = format_number(law.constants[k]);
+  if (tissue == Tissue::skin) {
+    row["compression_percent"] = percent_text(set.skin.kept);
+    row["smoothing"] = format_number(set.skin.smoothing);
+    row["prestretch_percent"] = percent_text(set.skin.prestretch);
+  }
+  return row;
+}
+
+/// Without the rounding errors of its division.
+double correlation(double value) {
+  constexpr double digits = 1e12;
+  return std::clamp(std::round(digits * value) / digits, -1.0, 1.0);
+}
+
+void add_uncertainty(const SoftnessUncertainty& known, std::vector<Row>& rows) {
+  for (std::size_t i = 0; i < known.parameters.size(); ++i) {
+    Row row{{"tissue", known.parameters[i]}, {"law", "uncertainty"}};
+    const double sd = std::sqrt(known.covariance(i, i));
+    row["ln_sd"] = format_number(sd);
+    for (std::size_t j = 0; j < known.parameters.size(); ++j) {
+      const double scale = sd * std::sqrt(known.covariance(j, j));
+      row["correlation_" + known.parameters[j]] =
+          format_number(scale > 0 ? correlation(known.covariance(i, j) / scale) : double(i == j));
+    }
+    rows.push_back(row);
+  }
+}
+
+}  // namespace
+
+Table material_table(const MaterialSet& set) {
+  std::vector<Row> rows;
+  for (const Tissue tissue :
+       {Tissue::fat, Tissue::fibroglandular, Tissue::muscle, Tissue::tumour, Tissue::skin})
+    rows.push_back(law_row(set, tissue));
+  for (const Tissue tissue : {Tissue::air, Tissue::other})
+    if (!set.alike(tissue, Tissue::fat)) rows.push_back(law_row(set, tissue));
+  for (const auto& [where, text] : {std::pair("wall", set.wall), {"cut", set.cut}}) {
+    if (!text.empty()) rows.push_back({{"tissue", where}, {"law", "support"}, {"support", text}});
+  }
+  add_uncertainty(set.uncertainty, rows);
+  Table table{{"tissue", "law", "density_g_per_mm3"}, {}};
+  for (const LawKind* kind : law_kinds()) {
+    for (const ConstantKind& constant : kind->constants) {
+      if (!table.has(constant.column())) table.columns.push_back(constant.column());
+    }
+  }
+  for (const char* column :
+       {"compression_percent", "smoothing", "prestretch_percent", "support", "ln_sd"})
+    table.columns.push_back(column);
+  for (const std::string& name : set.uncertainty.parameters)
+    table.columns.push_back("correlation_" + name);
+  std::erase_if(table.columns, [&](const std::string& column) {
+    return std::none_of(rows.begin(), rows.end(), [&](const Row& r) { return r.contains(column); });
+  });
+  for (Row& row : rows) {
+    std::vector<std::string> cells;
+    for (const std::string& column : table.columns)
+      cells.push_back(row.contains(column) ? row.at(column) : "-");
+    table.rows.push_back(cells);
+  }
+  return table;
 }
 
 }  // namespace breast

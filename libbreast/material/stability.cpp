@@ -43,8 +43,6 @@ double weakest_shear(const Law& law, const Mat3& b) {
 
 namespace {
 
-constexpr int exponential_steps = 60;  // of Newton's method; a dozen suffice for b near one
-
 Mat3 uniaxial(double stretch) {
   return Vec3(stretch * stretch, 1 / stretch, 1 / stretch).asDiagonal();
 }
@@ -55,8 +53,9 @@ double walk(const Law& law, double end, double& weakest) {
   double last = 1;
   for (int i = 1; i <= steps; ++i) {
     const double stretch = std::exp(std::log(end) * i / steps);
-    if (!law.in_range(uniaxial(stretch).trace())) break;
-    const double relative = weakest_shear(law, uniaxial(stretch));
+    const Mat3 b = uniaxial(stretch);
+    if (!law.in_range(b.trace(), b.inverse().trace())) break;
+    const double relative = weakest_shear(law, b);
     if (!(relative > 0)) break;
     weakest = std::min(weakest, relative);
     last = stretch;
@@ -64,27 +63,7 @@ double walk(const Law& law, double end, double& weakest) {
   return last;
 }
 
-// Convex and nondecreasing in (I1−3, I2−3): polyconvex under det F = 1.
-bool convex(const Law& law) {
-  const std::vector<double>& c = law.constants;
-  for (const double value : c) {
-    if (!(value >= 0)) return false;
-  }
-  return law.kind != LawKind::polynomial || 4 * c[2] * c[3] >= c[4] * c[4];
-}
-
 }  // namespace
-
-// The minimum lies where bλ³ − λ − b = 0, λ > 1; from the right Newton's method falls to it without
-// passing it.
-double exponential_bound(double b) {
-  double stretch = 1 + 1 / b;
-  for (int i = 0; i < exponential_steps; ++i) {
-    const double square = stretch * stretch;
-    stretch -= (b * square * stretch - stretch - b) / (3 * b * square - 1);
-  }
-  return std::exp(b * (stretch * stretch + 2 / stretch - 3)) / (stretch * stretch);
-}
 
 StableRange stable_range(const Law& law, double low, double high) {
   StableRange range;
@@ -94,28 +73,19 @@ StableRange stable_range(const Law& law, double low, double high) {
 }
 
 bool always_elliptic(const Law& law) {
-  if (law.kind != LawKind::exponential) return convex(law);
-  const double a = law.constants[0], b = law.constants[1], c = law.constants[2];
-  return a > 0 && b > 0 && c > -exponential_bound(b) * a * b;
+  return law.kind->margin != nullptr && law.kind->margin(law.constants.data());
 }
 
 EllipticityMargin ellipticity_margin(const Law& law) {
   if (!always_elliptic(law)) return {stable_range(law, 0.5, 2).weakest, false};
-  const std::vector<double>& k = law.constants;
-  if (law.kind == LawKind::exponential) {
-    return {1 - std::max(0.0, -k[2]) / (exponential_bound(k[1]) * k[0] * k[1]), true};
-  }
-  if (law.kind == LawKind::polynomial && k[4] > 0) {
-    return {1 - k[4] * k[4] / (4 * k[2] * k[3]), true};
-  }
-  return {1, true};
+  return {*law.kind->margin(law.constants.data()), true};
 }
 
 void check_law(const Law& law, const std::string& where) {
-  const std::size_t expected = law_constant_names(law.kind).size();
+  const std::size_t expected = law.kind->constants.size();
   if (law.constants.size() != expected) {
-    throw input_error(where, ": ", law.constants.size(), " constants given, ",
-                      law_kind_name(law.kind), " needs ", expected);
+    throw input_error(where, ": ", law.constants.size(), " constants given, ", law.kind->name,
+                      " needs ", expected);
   }
   for (const double value : law.constants) {
     if (!std::isfinite(value)) throw input_error(where, ": a constant is not a finite number");
@@ -125,24 +95,17 @@ void check_law(const Law& law, const std::string& where) {
     throw input_error(where, ": shear modulus at zero strain ", modulus,
                       " Pa must be positive (2(W1+W2) at I1 = I2 = 3)");
   }
-  if (law.kind == LawKind::exponential) {
-    const double a = law.constants[0], b = law.constants[1], c = law.constants[2];
-    if (!(a > 0) || !(b > 0)) throw input_error(where, ": a and b must be positive");
-    const double bound = exponential_bound(b);
-    if (!(c > -bound * a * b)) {
-      throw input_error(where, ": c = ", c, " Pa loses ellipticity: with b = ", b,
-                        " it must exceed -", bound, " ab = ", -bound * a * b,
-                        " Pa (Veronda-Westmann has c = -ab/2)");
-    }
-    return;
-  }
+  const std::string refusal =
+      law.kind->refusal != nullptr ? law.kind->refusal(law.constants.data()) : "";
+  if (!refusal.empty()) throw input_error(where, ": ", refusal);
   if (always_elliptic(law)) return;
   const StableRange range = stable_range(law, 0.5, 2.0);
   if (range.compression > 0.501 || range.tension < 1.99) {
-    throw input_error(where, ": the law loses ellipticity outside stretches ", range.compression,
-                      " to ", range.tension,
-                      "; constants must keep every shear stiff from 0.5 to 2 (all a >= 0 and 4 a20 "
-                      "a02 >= a11^2 suffice for a polynomial)");
+    throw input_error(
+        where, ": the law loses ellipticity, or ends, outside stretches ", range.compression,
+        " to ", range.tension,
+        "; constants must keep every shear stiff from 0.5 to 2 (none below 0 suffices, "
+        "for a polynomial with 4 a20 a02 >= a11^2)");
   }
 }
 

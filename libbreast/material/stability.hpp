@@ -24,27 +24,21 @@ struct StableRange {
 };
 StableRange stable_range(const Law& law, double low = 0.3, double high = 3.0);
 
-/// The smallest value of e^{b(λ²+2/λ−3)}/λ² over uniaxial stretches λ, for `b` > 0: 0.929 at b =
-/// 4.4, 0.743 at b = 1. The exponential law keeps every shear modulus positive while ab e^{b(I1−3)}
-/// + cλ² > 0 on the weakest plane, that is, while −c < exponential_bound(b) ab.
-double exponential_bound(double b);
-
-/// True where a closed condition proves ellipticity at every isochoric stretch: convex and
-/// nondecreasing in both invariants, or exponential with −c < exponential_bound(b) ab.
+/// Whether the law declares that its constants are elliptic wherever it is defined.
 bool always_elliptic(const Law& law);
 
 /// Margin of the constants against loss of ellipticity: 1 if no constant acts against it, 0 at the
-/// bound. Exponential law: 1 − |c|/(exponential_bound(b) ab); convex polynomial: 1 − α11²/(4 α20
-/// α02); otherwise the smallest relative shear modulus over stretches 0.5–2.
+/// bound. As the law declares it; for constants that it does not prove, the smallest relative shear
+/// modulus over stretches 0.5–2.
 struct EllipticityMargin {
   double value = 0;
-  bool every_stretch = false;  ///< proven for all stretches, or only scanned over 0.5–2
+  bool every_stretch = false;  ///< proven for all stretches of the law, or only scanned over 0.5–2
 };
 EllipticityMargin ellipticity_margin(const Law& law);
 
 /// Throws Error (input), beginning with `where`, unless the law is usable: right number of finite
-/// constants, positive rest modulus, and elliptic: by the closed conditions (polynomial: convex and
-/// nondecreasing; exponential: −c < exponential_bound(b) ab), or else by a scan of stretches 0.5–2.
+/// constants that the law allows, positive rest modulus, and elliptic: as the law declares, or else by a
+/// scan of stretches 0.5–2.
 void check_law(const Law& law, const std::string& where);
 
 }  // namespace breast

@@ -6,7 +6,6 @@
 
 #include "core/error.hpp"
 #include "core/table.hpp"
-#include "material/material_table.hpp"
 
 namespace breast {
 
@@ -16,8 +15,8 @@ ModelText model_text(const MechanicsOptions& options) {
           element_name(options.element),
           invariants_name(options.invariants),
           bulk_ratio_text(options.bulk_ratio),
-          describe(options.wall),
-          describe(options.cut)};
+          options.wall->text(),
+          options.cut->text()};
 }
 
 MechanicsOptions stated_model(const ModelText& text, const std::string& file) {
@@ -56,13 +55,13 @@ class Differences {
 /// The factor between the stiffness of two laws that are otherwise alike; 0 if they are not.
 double factor_between(const Law& used, const Law& other) {
   double factor = 0;
-  const std::vector<std::string_view> names = law_constant_names(used.kind);
-  for (std::size_t k = 0; k < names.size() && factor == 0; ++k)
-    if (names[k] != "b" && other.constants[k] != 0) factor = used.constants[k] / other.constants[k];
+  for (std::size_t k = 0; k < used.constants.size() && factor == 0; ++k)
+    if (used.kind->constants[k].is_stiffness() && other.constants[k] != 0)
+      factor = used.constants[k] / other.constants[k];
   if (!(factor > 0)) return 0;
   const Law scaled = other.scaled(factor);
   constexpr double rounding = 1e-12;
-  for (std::size_t k = 0; k < names.size(); ++k)
+  for (std::size_t k = 0; k < used.constants.size(); ++k)
     if (std::abs(used.constants[k] - scaled.constants[k]) > rounding * std::abs(used.constants[k]))
       return 0;
   return factor;
@@ -71,18 +70,20 @@ double factor_between(const Law& used, const Law& other) {
 void compare_laws(const std::string& tissue, const Law& used, const Law& other,
                   Differences& differences) {
   if (used.kind != other.kind) {
-    differences.add(tissue, "(" + used.describe() + ")", "(" + other.describe() + ")");
+    differences.add(tissue, used.describe(), other.describe());
     return;
   }
   if (used == other) return;
   if (const double factor = factor_between(used, other); factor > 0) {
-    differences.add("stiffness of " + tissue, message(100 * factor), "100", " %");
+    differences.add("stiffness of " + tissue, format_number(100 * factor), "100", " %");
     return;
   }
-  const std::vector<std::string_view> names = law_constant_names(used.kind);
-  for (std::size_t k = 0; k < names.size(); ++k)
-    differences.add(tissue + "." + std::string(names[k]), used.constants[k], other.constants[k],
-                    names[k] == "b" ? "" : " Pa");
+  for (std::size_t k = 0; k < used.constants.size(); ++k) {
+    const ConstantKind& constant = used.kind->constants[k];
+    differences.add(tissue + "." + std::string(constant.name), used.constants[k],
+                    other.constants[k],
+                    (constant.unit.empty() ? "" : " ") + std::string(constant.unit));
+  }
 }
 
 void compare_tissue(const MaterialSet& used, const MaterialSet& other, Tissue tissue,
@@ -114,8 +115,8 @@ std::string model_differences(const MechanicsOptions& used, const MechanicsOptio
                   invariants_name(other.invariants));
   differences.add("--bulk-ratio", bulk_ratio_text(used.bulk_ratio),
                   bulk_ratio_text(other.bulk_ratio));
-  differences.add("--wall", describe(used.wall), describe(other.wall));
-  differences.add("--cut", describe(used.cut), describe(other.cut));
+  differences.add("--wall", used.wall->text(), other.wall->text());
+  differences.add("--cut", used.cut->text(), other.cut->text());
   return differences.text();
 }
 

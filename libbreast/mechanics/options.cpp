@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mechanics/options.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/table.hpp"
-#include "mechanics/set_supports.hpp"
+#include "material/set_parameter.hpp"
 
 namespace breast {
 
@@ -56,11 +57,11 @@ MechanicsOptions mechanics_options(const MechanicsTexts& texts, MechanicsOptions
                          {{"isochoric", Invariants::isochoric}, {"plain", Invariants::plain}});
   }
   if (!texts.bulk_ratio.empty()) model.bulk_ratio = parse_bulk_ratio(texts.bulk_ratio);
-  if (!texts.wall.empty()) model.wall = parse_wall(texts.wall);
+  if (!texts.wall.empty()) model.wall = wall_support(texts.wall);
   if (!texts.cut.empty()) {
-    model.cut = parse_cut(texts.cut);
-  } else if (model.cut.kind == Cut::tissue && !carries_tissue_beyond(model.wall)) {
-    model.cut.kind = Cut::spring;  // its wall was replaced
+    model.cut = cut_support(texts.cut);
+  } else if (const SupportPtr rest = model.cut->beside(*model.wall)) {
+    model.cut = rest;  // its wall was replaced
   }
   model.solver = pick<SolverOption>(texts.solver, "--solver",
                                     {{"auto", SolverOption::automatic},
@@ -87,27 +88,51 @@ std::string bulk_ratio_text(double ratio) {
   return ratio > 0 ? format_number(ratio) : no_bulk_ratio;
 }
 
-namespace {
-
-std::string describe_support(const WallOption& wall) {
-  const std::string along = message(wall.stiffness.tangential);
-  switch (wall.kind) {
-    case WallKind::held:
-      return "the breast is fixed everywhere on the chest wall, where a living breast slides";
-    case WallKind::slide:
-      return "the breast slides on the chest wall against " + along + " kPa per mm";
-    case WallKind::spring:
-      return message("the breast rests on springs at the chest wall, ", wall.stiffness.normal,
-                     " kPa per mm across it and ", along, " along it");
+void take_supports_of_set(MechanicsOptions& options) {
+  const MaterialSet& set = options.materials;
+  try {
+    if (!set.wall.empty()) options.wall = wall_support(set.wall);
+    if (!set.cut.empty()) options.cut = cut_support(set.cut);
+  } catch (const Error& error) {
+    throw input_error("materials ", set.name, ": ", error.what());
   }
-  return "";
 }
 
-}  // namespace
+MaterialSet set_with_supports(const MechanicsOptions& options) {
+  MaterialSet set = options.materials;
+  for (const SupportPtr& support : {options.wall, options.cut}) {
+    const std::string text = support->text();
+    const bool usual = text == default_support(support->place())->text();
+    (support->place() == SupportPlace::wall ? set.wall : set.cut) = usual ? "" : text;
+  }
+  return set;
+}
+
+std::vector<std::string> model_parameters(const MechanicsOptions& options) {
+  std::vector<std::string> names = set_parameters(options.materials);
+  for (const SupportPtr& support : {options.wall, options.cut}) {
+    for (const std::string& name : support->parameters()) names.push_back(name);
+  }
+  return names;
+}
+
+void scale_model(MechanicsOptions& options, const std::string& parameter, double factor) {
+  for (SupportPtr* support : {&options.wall, &options.cut}) {
+    const std::vector<std::string> names = (*support)->parameters();
+    if (std::find(names.begin(), names.end(), parameter) == names.end()) continue;
+    *support = (*support)->scaled(parameter, factor);
+    return;
+  }
+  if (scale_set(options.materials, parameter, factor)) return;
+  std::string names = "stiffness";
+  for (const std::string& name : model_parameters(options)) names += ", " + name;
+  throw input_error("materials ", options.materials.name, ": no '", parameter,
+                    "' to scale; choose one of ", names);
+}
 
 std::string describe_model(const MechanicsOptions& options) {
   const MaterialSet& set = options.materials;
-  std::string sentence = describe_support(options.wall);
+  std::string sentence = options.wall->clause() + "; " + options.cut->clause();
   sentence +=
       message("; fat has an initial shear modulus of ",
               std::round(set.law(Tissue::fat).shear_modulus()), " Pa (materials ", set.name, ")");

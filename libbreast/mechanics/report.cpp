@@ -76,7 +76,7 @@ void write_stability(const SolveSummary& summary, Report& report) {
   if (summary.skin_share) report.set("stability/skin_share_percent", 100 * *summary.skin_share);
   if (!summary.remedy) return;
   const Remedy& remedy = *summary.remedy;
-  report.set("stability/change", changed_name(remedy.what));
+  report.set("stability/change", remedy.what);
   if (remedy.factor > 0) report.set("stability/factor", remedy.factor);
   if (remedy.support > 0) report.set("stability/support_kPa_per_mm", remedy.support);
 }
@@ -135,10 +135,10 @@ void write_report(const Equilibrium& summary, const HexMesh& mesh, const Mechani
   report.set("invariants", invariants_name(options.invariants));
   if (options.bulk_ratio > 0) report.set("bulk_ratio", options.bulk_ratio);
   report.set("model", describe_model(options));
-  report.set("wall", describe(options.wall));
+  report.set("wall", options.wall->text());
   report.set("skin_law/compression_percent", 100 * options.materials.skin.kept);
   report.set("skin_law/prestretch_percent", 100 * options.materials.skin.prestretch);
-  report.set("cut", describe(options.cut));
+  report.set("cut", options.cut->text());
   report.set("blas", blas_name());
   const std::vector<Vec3>& points = summary.points.empty() ? mesh.points : summary.points;
   const MeshQuality quality = mesh_quality(mesh, points);

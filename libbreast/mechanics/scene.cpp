@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mechanics/scene.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -14,25 +13,10 @@ namespace breast {
 
 namespace {
 
-// Area-weighted normals of the cut faces at their nodes, on the imaged shape.
-std::vector<std::pair<int, Vec3>> cut_normals(const HexMesh& mesh) {
-  std::vector<Vec3> sum(mesh.imaged.size(), Vec3::Zero());
-  for (const Face& face : mesh.cut_faces) {
-    const std::vector<int> nodes = face_nodes(mesh, face);
-    const Vec3 normal = (mesh.imaged[nodes[2]] - mesh.imaged[nodes[0]])
-                            .cross(mesh.imaged[nodes[3]] - mesh.imaged[nodes[1]]);
-    for (const int node : nodes) sum[node] += normal;
-  }
-  std::vector<std::pair<int, Vec3>> normals;
-  for (const int node : nodes_of(mesh, mesh.cut_faces)) {
-    normals.emplace_back(node, sum[node].normalized());
-  }
-  return normals;
-}
-
 // Null if neither gives one.
-std::shared_ptr<const LevelSurface> wall_surface(const HexMesh& mesh, const WallOption& wall) {
-  if (wall.surface) return wall.surface;
+std::shared_ptr<const LevelSurface> wall_surface(const HexMesh& mesh,
+                                                 const MechanicsOptions& options) {
+  if (options.wall_surface) return options.wall_surface;
   if (!mesh.geometry || !mesh.geometry->thorax) return nullptr;
   return std::make_shared<ThoraxSurface>(*mesh.geometry->thorax);
 }
@@ -52,15 +36,10 @@ void check(const HexMesh& mesh) {
 
 }  // namespace
 
+// Where wall and cut meet, a held wall comes last.
 Constraints wall_constraints(const HexMesh& mesh, const MechanicsOptions& options) {
   Constraints walls(mesh.nodes());
-  if (options.cut.kind == Cut::fixed) {
-    for (const int node : nodes_of(mesh, mesh.cut_faces)) walls.hold(node);
-  } else if (options.cut.kind == Cut::roller) {
-    for (const auto& [node, normal] : cut_normals(mesh)) walls.hold_normal(node, normal);
-  }
-  if (options.wall.kind != WallKind::held) return walls;
-  for (const int node : nodes_of(mesh, mesh.pectoral_faces)) walls.hold(node);
+  for (const SupportPtr& support : {options.cut, options.wall}) support->constrain(mesh, walls);
   return walls;
 }
 
@@ -79,36 +58,12 @@ Scene::Scene(const HexMesh& mesh, const MechanicsOptions& options, TangentStorag
   if (mesh.skin_model == SkinModel::membrane && !mesh.skin_faces.empty()) {
     membrane_ = make_membrane(mesh, options, *solid_->space());
   }
-  add_wall();
-}
-
-// On a surface with an exact constraint, springs need no direction: the surface carries their
-// normal part.
-void Scene::add_wall() {
-  const auto springs = [&](const std::vector<Face>& faces, const SupportStiffness& stiffness,
-                           std::shared_ptr<const LevelSurface> surface = nullptr) {
-    return faces.empty() ? nullptr
-                         : std::make_shared<ElasticSupport>(mesh_, faces, stiffness,
-                                                            std::move(surface));
-  };
-  const WallOption& wall = options_.wall;
-  const std::shared_ptr<const LevelSurface> surface = wall_surface(mesh_, wall);
-  if (wall.kind == WallKind::spring) {
-    wall_springs_ = springs(mesh_.pectoral_faces, wall.stiffness, surface);
+  const std::shared_ptr<const LevelSurface> surface = wall_surface(mesh, options);
+  supports_ = attach_supports(mesh, surface, options);
+  if (options.wall->slides()) {
+    sliding_ = std::make_shared<SlidingNodes>(surface, nodes_of(mesh, mesh.pectoral_faces),
+                                              flatten(mesh.imaged));
   }
-  if (wall.kind == WallKind::slide) {
-    if (!surface) {
-      throw input_error(
-          "--wall slide: the mesh has no chest-wall surface to slide on; run fit-hermite and "
-          "hexmesh again, or use --wall held");
-    }
-    sliding_ = std::make_shared<SlidingNodes>(surface, nodes_of(mesh_, mesh_.pectoral_faces),
-                                              flatten(mesh_.imaged));
-    const double along = wall.stiffness.tangential;
-    if (along > 0) wall_springs_ = springs(mesh_.pectoral_faces, {along, along});
-  }
-  cut_springs_ = springs_at_cut(mesh_, options_.cut);
-  beyond_ = tissue_at_cut(mesh_, surface.get(), options_);
 }
 
 long Scene::unknowns() const {
@@ -148,22 +103,11 @@ LoadedProblem Scene::problem(const Eigen::VectorXd& force) const {
                        stiffness_force()};
   loaded.problem.add(solid_);
   if (membrane_) loaded.problem.add(membrane_);
-  if (wall_springs_) loaded.problem.add(wall_springs_);
-  for (const auto& springs : {cut_springs_.around, cut_springs_.sternal}) {
-    if (springs) loaded.problem.add(springs);
-  }
+  for (const SupportEffects::Springs& springs : supports_.springs) loaded.problem.add(springs.term);
   loaded.problem.set_sliding(sliding_);
   loaded.problem.add(loaded.load);
   loaded.set_load(force);
   return loaded;
-}
-
-Vec3 Scene::force_of_springs(const State& state) const {
-  Vec3 sum = Vec3::Zero();
-  for (const auto& springs : {wall_springs_, cut_springs_.around, cut_springs_.sternal}) {
-    if (springs) sum += springs->force_on_body(state);
-  }
-  return sum;
 }
 
 Vec3 Scene::weight(const Vec3& gravity) const {
@@ -177,7 +121,7 @@ Eigen::VectorXd Scene::gravity_force(const Vec3& gravity) const {
   for (int node = 0; node < nodes(); ++node) {
     force.segment<3>(3L * node) = solid_->nodal_mass()[node] * gravity;
   }
-  if (beyond_) beyond_->add(gravity, force);
+  supports_.add_loads(gravity, force);
   return force;
 }
 

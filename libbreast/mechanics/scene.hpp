@@ -12,19 +12,15 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <optional>
 
-#include "mechanics/terms/cut_springs.hpp"
+#include "mechanics/supports/effects.hpp"
 #include "mechanics/terms/dead_load.hpp"
 #include "mechanics/terms/solid.hpp"
-#include "mechanics/terms/tissue_beyond.hpp"
 #include "solve/problem.hpp"
 
 namespace breast {
 
-/// The constraints that do not depend on the deformed shape: the nodes of the chest wall (pectoral
-/// faces) unless they slide or rest on springs, and a cut that is fixed or on rollers along its
-/// mean normal in the imaged shape.
+/// The constraints of the supports that do not depend on the deformed shape.
 Constraints wall_constraints(const HexMesh& mesh, const MechanicsOptions& options);
 
 /// A problem together with its load, which may change.
@@ -47,14 +43,9 @@ class Scene {
   const HexMesh& mesh() const { return mesh_; }
   const MechanicsOptions& options() const { return options_; }
   const Solid& solid() const { return *solid_; }
-  /// Springs at the chest wall and at the cut; null where there are none.
-  const NodeSprings* wall_springs() const { return wall_springs_.get(); }
-  const NodeSprings* cut_springs() const { return cut_springs_.around.get(); }
-  const NodeSprings* sternal_attachment() const { return cut_springs_.sternal.get(); }
-  /// Null if the tissue beyond the cut has no weight.
-  const TissueBeyond* tissue_beyond() const { return beyond_ ? &*beyond_ : nullptr; }
-  /// Force of all springs on the body, µN.
-  Vec3 force_of_springs(const State& state) const;
+  const SupportEffects& supports() const { return supports_; }
+  /// Whether nodes stay on the chest-wall surface.
+  bool slides() const { return sliding_ != nullptr; }
   /// The constraints that do not depend on where the body is.
   const Constraints& walls() const { return walls_; }
   int nodes() const { return solid_->space()->nodes(); }
@@ -65,8 +56,8 @@ class Scene {
 
   /// Terms and constraints of this scene under nodal forces (µN, 3 per node).
   LoadedProblem problem(const Eigen::VectorXd& force) const;
-  /// Nodal gravity forces, µN (3 per node), from the imaged shape, with those of the tissue beyond the
-  /// cut. `gravity`: mm/s², LPS.
+  /// Nodal gravity forces, µN (3 per node), from the imaged shape, with those of the supports'
+  /// loads. `gravity`: mm/s², LPS.
   Eigen::VectorXd gravity_force(const Vec3& gravity) const;
   /// Weight of the body alone under gravity (mm/s²), µN.
   Vec3 weight(const Vec3& gravity) const;
@@ -79,15 +70,12 @@ class Scene {
 
  private:
   double volume() const;
-  void add_wall();
 
   const HexMesh& mesh_;
   MechanicsOptions options_;
   std::shared_ptr<const Solid> solid_;
   std::shared_ptr<const Term> membrane_;
-  std::shared_ptr<const NodeSprings> wall_springs_;
-  CutSprings cut_springs_;
-  std::optional<TissueBeyond> beyond_;
+  SupportEffects supports_;
   std::shared_ptr<const SlidingNodes> sliding_;
   Constraints walls_;
 };

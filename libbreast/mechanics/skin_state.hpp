@@ -2,7 +2,7 @@
 // Compression of the membrane skin, and whether the mesh can resolve the wrinkles that would form.
 #pragma once
 
-#include "material/law.hpp"
+#include "material/material_set.hpp"
 #include "mesh/hex_mesh.hpp"
 
 namespace breast {

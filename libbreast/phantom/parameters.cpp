@@ -2,6 +2,7 @@
 #include "phantom/parameters.hpp"
 
 #include "core/error.hpp"
+#include "mechanics/supports/support.hpp"
 #include "phantom/random.hpp"
 
 namespace breast {
@@ -104,12 +105,14 @@ void put_on_ribs(PhantomParameters& p) {
     p.body.scale = {"fat=105", "fibroglandular=100"};
     p.body.wall_percent = 80, p.body.cut_percent = 115;
   } else if (p.preset == "broad") {
-    p.torso.half_width = 154, p.torso.half_depth = 122, p.torso.power = 2.0, p.torso.fat_lateral = 26, p.torso.tilt = 0.18;
+    p.torso.half_width = 154, p.torso.half_depth = 122, p.torso.power = 2.0,
+    p.torso.fat_lateral = 26, p.torso.tilt = 0.18;
     p.gland.fraction = 0.09;
     p.body.scale = {"fat=105", "fibroglandular=120"};
     p.body.wall_percent = 85, p.body.cut_percent = 100;
   } else {
-    p.torso.half_width = 186, p.torso.half_depth = 138, p.torso.power = 2.0, p.torso.fat_lateral = 26, p.torso.tilt = 0.26;
+    p.torso.half_width = 186, p.torso.half_depth = 138, p.torso.power = 2.0,
+    p.torso.fat_lateral = 26, p.torso.tilt = 0.26;
     p.gland.fraction = 0.06;
     p.body.scale = {"fat=95", "fibroglandular=90"};
     p.body.wall_percent = 110, p.body.cut_percent = 110;
@@ -142,13 +145,13 @@ MaterialSet body_materials(const BodyParameters& body) {
   MaterialSet set = load_materials(body.materials);
   scale_materials(set, body.scale);
   if (!body.slides) return set;
-  if (!set.wall_support || !set.cut_support) {
-    throw input_error("materials '", body.materials, "': they hold no support of wall and cut, which a "
+  if (set.wall.empty() || set.cut.empty()) {
+    throw input_error("materials '", body.materials,
+                      "': they hold no support of wall and cut, which a "
                       "breast that slides needs (as invivo has), or choose a preset that is held");
   }
-  *set.wall_support *= body.wall_percent / 100;
-  *set.cut_support *= body.cut_percent / 100;
-  if (set.sternum_support) *set.sternum_support *= body.cut_percent / 100;
+  set.wall = wall_support(set.wall)->stiffened(body.wall_percent / 100)->text();
+  set.cut = cut_support(set.cut)->stiffened(body.cut_percent / 100)->text();
   return set;
 }
 

@@ -8,7 +8,7 @@
 
 #include "core/report.hpp"
 #include "core/types.hpp"
-#include "material/law.hpp"
+#include "material/material_set.hpp"
 
 namespace breast {
 
@@ -35,8 +35,8 @@ struct BreastParameters {
   double upper_fullness = 0.06, lateral_fullness = 0.04,
          axillary_tail = 0.08;  ///< relative to radius
   double fold = 22;             ///< fillet between breast and chest, larger above than below
-  double rim = 2;  ///< mm from the end of the fold to the cut, at the midline
-  double flank = 0;  ///< mm by which the cut lies farther from the fold at the side
+  double rim = 2;               ///< mm from the end of the fold to the cut, at the midline
+  double flank = 0;             ///< mm by which the cut lies farther from the fold at the side
   double unevenness = 1.0;      ///< amplitude of the skin's slow undulation
   double nipple_radius = 5.5, nipple_height = 5;
   double tumour_level = 0.55;  ///< position of the tumour along the axis, relative to the height
@@ -75,7 +75,9 @@ struct BodyParameters {
   std::string materials = "seed2008";
   std::vector<std::string> scale = {};  ///< TISSUE=PERCENT of the set
   bool slides = false;
-  double wall_percent = 100, cut_percent = 100;  ///< stiffness of wall and cut in percent of the set's, for sliding breasts
+  double wall_percent = 100,
+         cut_percent =
+             100;  ///< stiffness of wall and cut in percent of the set's, for sliding breasts
   /// mm by which a body that slides goes on at its side past the cut in the prone image. A breast on
   /// its back hangs over a near cut, whose elements fold at the wall.
   double beyond = 0;

@@ -7,7 +7,6 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "mechanics/model.hpp"
-#include "mechanics/set_supports.hpp"
 #include "mesh/locate.hpp"
 #include "mesh/quality.hpp"
 #include "phantom/chest/rib_surface.hpp"
@@ -30,7 +29,7 @@ MechanicsOptions held_model(const HexMesh& mesh, const MaterialSet& materials) {
   MechanicsOptions options;
   options.materials = materials;
   options.element = element_of(mesh);
-  options.cut = Cut::fixed;
+  options.cut = cut_support("fixed");
   return options;
 }
 
@@ -78,7 +77,7 @@ Postures solve_sliding_postures(const HexMesh& imaged, const MaterialSet& materi
   options.materials = materials;
   options.element = element_of(imaged);
   take_supports_of_set(options);
-  options.wall.surface = std::move(surface);
+  options.wall_surface = std::move(surface);
   // As fast as multigrid on these meshes, which gives up on some of the breasts.
   options.solver = SolverOption::direct;
   Postures out;

@@ -40,24 +40,41 @@ void add_gravity(const Vec3& gravity, const std::string& prefix, ParameterKind k
 }
 
 void add_constants(Tissue tissue, const Law& law, std::vector<Parameter>& all) {
-  const auto names = law_constant_names(law.kind);
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = 0; i < law.constants.size(); ++i) {
     if (law.constants[i] == 0) continue;
-    Parameter parameter{std::string(tissue_name(tissue)) + "." + std::string(names[i]),
-                        ParameterKind::constant, tissue, i};
+    Parameter parameter{
+        std::string(tissue_name(tissue)) + "." + std::string(law.kind->constants[i].name),
+        ParameterKind::constant, tissue, i};
     parameter.value = law.constants[i];
     all.push_back(parameter);
   }
 }
 
+// Names by which parts of the model may be scaled together.
+std::vector<std::string> set_names(const MechanicsOptions& options) {
+  std::vector<std::string> names = model_parameters(options);
+  names.push_back("stiffness");
+  return names;
+}
+
+bool is_support(const MechanicsOptions& options, const std::string& name) {
+  for (const SupportPtr& support : {options.wall, options.cut}) {
+    for (const std::string& own : support->parameters()) {
+      if (own == name) return true;
+    }
+  }
+  return false;
+}
+
 // The quantities in the set's covariance that have no parameter of their own yet.
-void add_set_parameters(const HexMesh& state, const MaterialSet& set, std::vector<Parameter>& all) {
-  const std::vector<std::string>& known = set_parameter_names();
-  for (const std::string& name : set.uncertainty.parameters) {
-    const bool there = std::any_of(all.begin(), all.end(),
-                                   [&](const Parameter& p) { return p.name == name; });
+void add_set_parameters(const HexMesh& state, const MechanicsOptions& options,
+                        std::vector<Parameter>& all) {
+  const std::vector<std::string> known = set_names(options);
+  for (const std::string& name : options.materials.uncertainty.parameters) {
+    const bool there =
+        std::any_of(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; });
     if (there || std::find(known.begin(), known.end(), name) == known.end()) continue;
-    Parameter parameter = set_parameter(state, set, name);
+    Parameter parameter = set_parameter(state, options, name);
     if (!parameter.members.empty()) all.push_back(std::move(parameter));
   }
 }
@@ -79,8 +96,7 @@ std::string Parameter::per() const {
 
 bool Parameter::relative() const {
   return kind <= ParameterKind::tissue_density || kind == ParameterKind::skin_thickness ||
-         kind == ParameterKind::wall_support || kind == ParameterKind::cut_support ||
-         kind == ParameterKind::sternum_support || kind == ParameterKind::together;
+         kind == ParameterKind::support || kind == ParameterKind::together;
 }
 
 bool Parameter::of_plates() const {
@@ -110,14 +126,12 @@ std::vector<Parameter> all_parameters(const HexMesh& imaged, const HexMesh& stat
   if (state.skin_model == SkinModel::membrane) {
     all.push_back({"skin_thickness", ParameterKind::skin_thickness, Tissue::skin});
   }
-  if (options.wall.kind != WallKind::held && options.wall.stiffness.tangential > 0) {
-    all.push_back({"wall", ParameterKind::wall_support});
+  for (const SupportPtr& support : {options.wall, options.cut}) {
+    for (const std::string& name : support->parameters()) {
+      all.push_back({name, ParameterKind::support});
+    }
   }
-  if (options.cut.has_springs()) {
-    all.push_back({"cut", ParameterKind::cut_support});
-    if (options.cut.sternal) all.push_back({"sternum", ParameterKind::sternum_support});
-  }
-  add_set_parameters(imaged, options.materials, all);
+  add_set_parameters(imaged, options, all);
   add_gravity(state.gravity, "gravity_", ParameterKind::gravity, all);
   add_gravity(imaged_gravity, "imaged_gravity_", ParameterKind::imaged_gravity, all);
   if (state.contact) {
@@ -129,17 +143,17 @@ std::vector<Parameter> all_parameters(const HexMesh& imaged, const HexMesh& stat
   return all;
 }
 
-Parameter set_parameter(const HexMesh& state, const MaterialSet& set, const std::string& name) {
-  const std::vector<std::string>& known = set_parameter_names();
+Parameter set_parameter(const HexMesh& state, const MechanicsOptions& options,
+                        const std::string& name) {
+  const std::vector<std::string> known = set_names(options);
   if (std::find(known.begin(), known.end(), name) == known.end()) {
     std::string names;
     for (const std::string& one : known) names += (names.empty() ? "" : ", ") + one;
     throw input_error("material parameter '", name, "': use ", names);
   }
   Parameter sum{name, ParameterKind::together};
-  if (name == "wall") sum.members.push_back({name, ParameterKind::wall_support});
-  if (name == "cut") sum.members.push_back({name, ParameterKind::cut_support});
-  if (name == "sternum") sum.members.push_back({name, ParameterKind::sternum_support});
+  if (is_support(options, name)) sum.members.push_back({name, ParameterKind::support});
+  const MaterialSet& set = options.materials;
   const std::set<Tissue> present = tissues_of(state);
   for (const LawConstant& at : constants_of(set, name)) {
     if (!present.contains(at.tissue)) continue;

@@ -18,16 +18,12 @@ enum class ParameterKind {
   gravity,         ///< direction of the state's gravity, turned towards an axis, degrees
   imaged_gravity,  ///< direction of the scan's gravity, turned towards an axis, degrees
   skin_thickness,  ///< thickness of a membrane skin, relative
-  wall_support,    ///< stiffness of the springs along or under the chest wall, relative
-  /// Stiffness of the springs at the cut, relative. The weight of the tissue beyond the cut depends
-  /// on this stiffness and on that of the wall.
-  cut_support,
-  sternum_support,  ///< stiffness of the attachment of the cut to the sternum, relative
-  together,         ///< a common factor on all `members`, relative
-  thickness,        ///< distance between the plates, which close on their mid-plane, mm
-  standoff,         ///< both plates' edges moved away from the chest wall, mm
-  detector,         ///< height of both plates, raised along the beam, mm
-  angle,            ///< angle of the beam; the plates turn about their anterior mid-line, degrees
+  support,         ///< a parameter of a support (mechanics/supports), by its name, relative
+  together,        ///< a common factor on all `members`, relative
+  thickness,       ///< distance between the plates, which close on their mid-plane, mm
+  standoff,        ///< both plates' edges moved away from the chest wall, mm
+  detector,        ///< height of both plates, raised along the beam, mm
+  angle,           ///< angle of the beam; the plates turn about their anterior mid-line, degrees
 };
 
 struct Parameter {
@@ -49,16 +45,17 @@ struct Parameter {
 
 /// All parameters on which this state depends: single constants that are not zero, the two
 /// directions of gravity, skin and plates, and the parameters of the material set's uncertainty, if
-/// it has one (material/set_parameter.hpp). Relative parameters come first.
+/// it has one. Relative parameters come first.
 std::vector<Parameter> all_parameters(const HexMesh& state, const MechanicsOptions& options,
                                       const Vec3& imaged_gravity);
 /// With the mesh of the scan, which may have tissue around the breast that `state` lacks.
 std::vector<Parameter> all_parameters(const HexMesh& imaged, const HexMesh& state,
                                       const MechanicsOptions& options, const Vec3& imaged_gravity);
 
-/// A factor on part of the material set (material/set_parameter.hpp) as a parameter of this state;
+/// A factor on part of the model (model_parameters in mechanics/options.hpp) as a parameter of this state;
 /// without members if nothing in the mesh depends on it. Throws Error (input) for an unknown name.
-Parameter set_parameter(const HexMesh& state, const MaterialSet& set, const std::string& name);
+Parameter set_parameter(const HexMesh& state, const MechanicsOptions& options,
+                        const std::string& name);
 
 /// Parses "main" (all except single constants and single densities), "all", or names and those
 /// words separated by commas. Throws Error (input) naming the choices.

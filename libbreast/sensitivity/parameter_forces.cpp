@@ -11,7 +11,6 @@
 #include "fem/membrane_kernel.hpp"
 #include "fem/plane_stress.hpp"
 #include "fem/stress.hpp"
-#include "material/law_slope.hpp"
 
 namespace breast {
 
@@ -19,7 +18,7 @@ namespace {
 
 // The stresses of W = I1 and W = I2: the stress of any law is a combination of them with weights W1
 // and W2.
-const Law unit_i1{LawKind::neo_hookean, {1}}, unit_i2{LawKind::mooney_rivlin, {0, 1}};
+const Law unit_i1{"neo_hookean", {1}}, unit_i2{"mooney_rivlin", {0, 1}};
 
 // A column that depends on a law: the law, and its derivative at given invariants.
 struct Column {
@@ -28,8 +27,8 @@ struct Column {
   const Law* law = nullptr;
 
   LawSlope slope(double i1, double i2) const {
-    if (parameter->kind != ParameterKind::constant) return law_scale_slope(*law, i1, i2);
-    const LawSlope by = law_slope(*law, parameter->constant, i1, i2);
+    if (parameter->kind != ParameterKind::constant) return law->scale_slope(i1, i2);
+    const LawSlope by = law->slope(parameter->constant, i1, i2);
     return {parameter->value * by.w1, parameter->value * by.w2};
   }
 };
@@ -232,14 +231,6 @@ void add_compliance(const Scene& scene, const LoadedState& state,
   }
 }
 
-// Forces of the tissue beyond the cut: proportional to the cut's stiffness and to the density of fat, and
-// inversely to the wall's stiffness.
-Eigen::VectorXd weight_beyond(const Scene& scene, const LoadedState& state) {
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(3L * scene.nodes());
-  if (scene.tissue_beyond()) scene.tissue_beyond()->add(state.gravity, force);
-  return force;
-}
-
 ParameterForces of_each(const Scene& scene, const LoadedState& state, ParameterKind role,
                         const std::vector<Parameter>& parameters) {
   ParameterForces out;
@@ -257,14 +248,8 @@ ParameterForces of_each(const Scene& scene, const LoadedState& state, ParameterK
   add_compliance(scene, state, parameters, out.volume);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Parameter& parameter = parameters[i];
-    if (parameter.kind == ParameterKind::wall_support) {
-      out.force.col(long(i)) +=
-          scene.wall_springs()->forces(state.state) + weight_beyond(scene, state);
-    } else if (parameter.kind == ParameterKind::cut_support) {
-      out.force.col(long(i)) +=
-          scene.cut_springs()->forces(state.state) - weight_beyond(scene, state);
-    } else if (parameter.kind == ParameterKind::sternum_support) {
-      out.force.col(long(i)) += scene.sternal_attachment()->forces(state.state);
+    if (parameter.kind == ParameterKind::support) {
+      out.force.col(long(i)) += scene.supports().slope(parameter.name, state.state, state.gravity);
     } else if (parameter.kind == ParameterKind::density) {
       out.force.col(long(i)) -= scene.gravity_force(state.gravity);
     } else if (parameter.kind == ParameterKind::tissue_density) {
@@ -272,7 +257,11 @@ ParameterForces of_each(const Scene& scene, const LoadedState& state, ParameterK
                                        ? tissue_mass<8>(scene, parameter.tissue)
                                        : tissue_mass<27>(scene, parameter.tissue);
       out.force.col(long(i)) -= weight(mass, state.gravity);
-      if (parameter.tissue == Tissue::fat) out.force.col(long(i)) -= weight_beyond(scene, state);
+      if (parameter.tissue == Tissue::fat) {  // the density of what supports carry
+        Eigen::VectorXd carried = Eigen::VectorXd::Zero(3L * scene.nodes());
+        scene.supports().add_loads(state.gravity, carried);
+        out.force.col(long(i)) -= carried;
+      }
     } else if (parameter.kind == role) {
       out.force.col(long(i)) -= scene.gravity_force(turned_gravity(state.gravity, parameter.axis));
     }

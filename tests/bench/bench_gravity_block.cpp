@@ -44,7 +44,7 @@ MechanicsOptions one_law(const Settings& s) {
   MechanicsOptions options =
       mechanics_options({.materials = "seed2008", .element = s.element, .solver = s.solver});
   Law law = options.materials.law(Tissue::fat);
-  if (s.law == "mr") law = {LawKind::mooney_rivlin, {310, 300}};
+  if (s.law == "mr") law = {"mooney_rivlin", {310, 300}};
   for (Law& each : options.materials.laws) each = law;
   options.bulk_ratio = s.bulk_ratio;
   return options;

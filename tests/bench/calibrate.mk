@@ -31,6 +31,6 @@ calibrate-invivo:
 # the sternum, which the other breast holds. Muscle is 8 times as stiff as fibroglandular tissue (Garcia et al. 2019). The quadratic
 # constants are expected at the same share of Table II as the linear ones.
 calibrate-invivo-sternum:
-	$(call calibrate_set,invivo-sternum,--cut tissue --sternum 0.4 --muscle-stiffness 8 \
-	  --expected 3$(comma)3$(comma)100$(comma)0.01$(comma)0.01 --pressure 10$(comma)5)
+	$(call calibrate_set,invivo-sternum,--cut tissue:0.01$(comma)0.4 --muscle-stiffness 8 \
+	  --expected 3$(comma)3$(comma)100 --pressure 10$(comma)5)
 .PHONY: calibrate-invivo calibrate-invivo-sternum

@@ -92,7 +92,7 @@ inline const std::vector<Case>& cases() {
       {"calibrate", "calibrate --preset small --evaluations 4", 0, 1},
       {"calibrate_softness",
        "calibrate-softness pressed.vtkhdf --pressed pressed.vtkhdf --women women.tsv --set out.tsv "
-       "--expected 20,50,100,0.05,0.05 --expected-ln-sd 0.2 --reduction 10",
+       "--expected 20,50,100 --wall slide:0.05 --cut spring:0.05 --expected-ln-sd 0.2 --reduction 10",
        0},
   };
   return list;

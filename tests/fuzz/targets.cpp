@@ -34,7 +34,7 @@
 #include "io/vtk/xml_check.hpp"
 #endif
 #include "material/embedded.hpp"
-#include "material/law.hpp"
+#include "material/material_set.hpp"
 
 namespace breast {
 

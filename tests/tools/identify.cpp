@@ -22,13 +22,13 @@ namespace {
 // A set with a covariance, that makes this small breast move.
 const std::string set_text =
     "tissue\tlaw\tdensity_g_per_mm3\ta10_Pa\ta01_Pa\ta20_Pa\ta02_Pa\ta11_Pa\ta_Pa\tb\tc_Pa"
-    "\tcompression_percent\tprestretch_percent\tsupport_kPa_per_mm\tln_sd\tcorrelation_stiffness"
+    "\tcompression_percent\tprestretch_percent\tsupport\tln_sd\tcorrelation_stiffness"
     "\tcorrelation_wall\n"
     "fat\tpolynomial\t0.001\t62\t60\t450\t760\t944\t-\t-\t-\t-\t-\t-\t-\t-\t-\n"
     "fibroglandular\tpolynomial\t0.001\t66\t56\t898\t1544\t1890\t-\t-\t-\t-\t-\t-\t-\t-\t-\n"
     "skin\texponential\t0.001\t-\t-\t-\t-\t-\t92.39\t4.4\t-203.40\t5\t3\t-\t-\t-\t-\n"
-    "wall\tsupport\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t0.01\t-\t-\t-\n"
-    "cut\tsupport\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t0.01\t-\t-\t-\n"
+    "wall\tsupport\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\tslide:0.01\t-\t-\t-\n"
+    "cut\tsupport\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\tspring:0.01\t-\t-\t-\n"
     "stiffness\tuncertainty\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t0.7\t1\t-0.2\n"
     "wall\tuncertainty\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t0.7\t-0.2\t1\n";
 

@@ -14,7 +14,7 @@
 #include "fixtures/scratch_folder.hpp"
 #include "fixtures/shapes.hpp"
 #include "io/mesh_file.hpp"
-#include "material/law.hpp"
+#include "material/material_set.hpp"
 
 namespace breast {
 namespace {
@@ -25,12 +25,12 @@ class SlidingTools : public testing::Test {
     write_mesh(folder_ / "mesh.vtkhdf", analytic_breast_mesh(5));
     std::ofstream(folder_ / "soft.tsv")
         << "tissue\tlaw\tdensity_g_per_mm3\ta10_Pa\ta01_Pa\ta20_Pa\ta02_Pa\ta11_Pa\ta_Pa\tb\tc_Pa"
-           "\tcompression_percent\tprestretch_percent\tsupport_kPa_per_mm\n"
+           "\tcompression_percent\tprestretch_percent\tsupport\n"
            "fat\tpolynomial\t0.001\t62\t60\t450\t760\t944\t-\t-\t-\t-\t-\t-\n"
            "fibroglandular\tpolynomial\t0.001\t66\t56\t898\t1544\t1890\t-\t-\t-\t-\t-\t-\n"
            "skin\texponential\t0.001\t-\t-\t-\t-\t-\t92.39\t4.4\t-203.40\t5\t3\t-\n"
-           "wall\tsupport\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t0.02\n"
-           "cut\tsupport\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t0.01\n";
+           "wall\tsupport\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\tslide:0.02\n"
+           "cut\tsupport\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\tspring:0.01\n";
   }
   int run(const std::string& line) {
     said_ = run_line(line, folder_.path());
@@ -96,13 +96,13 @@ TEST_F(SlidingTools, ACalibratedSetIsReadByTheOtherTools) {
              "ribs_change_mm\t-1\t1\n");
   const std::string line =
       "calibrate-softness mesh.vtkhdf --pressed mesh.vtkhdf --women women.tsv "
-      "--set set.tsv --expected 20,50,100,0.05,0.05 --sternum 0.1 --reduction 10 ";
+      "--set set.tsv --expected 20,50,100 --wall slide:0.05 --cut spring:0.05,0.1 --reduction 10 ";
   ASSERT_EQ(run(line + "--expected-ln-sd 0.2 --report k.json"), 0) << said_.err;
   EXPECT_GT(report("k.json").number("softness/wall"), 0.01);
   EXPECT_LT(report("k.json").number("softness/wall_ln_sd"), 0.2);
   EXPECT_EQ(run("backward mesh.vtkhdf r.vtkhdf --materials set.tsv"), 0) << said_.err;
   EXPECT_EQ(run(line + "--from victre"), 2);
-  EXPECT_NE(said_.err.find("polynomial"), std::string::npos) << said_.err;
+  EXPECT_NE(said_.err.find("quadratic"), std::string::npos) << said_.err;
   write_text(folder_ / "women.tsv", "quantity\tmean\tsd\nnipple_lateral_mm\t6\t3\n");
   EXPECT_EQ(run(line), 2);
   EXPECT_NE(said_.err.find("nipple_posterior_mm"), std::string::npos) << said_.err;

@@ -15,8 +15,8 @@
 #include "bench/band_rows.hpp"
 #include "io/derivative_file.hpp"
 #include "io/mesh_file.hpp"
-#include "material/law.hpp"
 #include "matching/band_materials.hpp"
+#include "material/material_set.hpp"
 
 namespace {
 
@@ -115,7 +115,8 @@ void run(const std::array<std::string, 4>& files, int first, int count, std::siz
 
 int main(int argc, char** argv) try {
   if (argc < 8) {
-    std::fprintf(stderr, "band_truth CC MLO TRUE-CC TRUE-MLO FIRST COUNT PLACES [SPREAD [MATERIALS]]\n");
+    std::fprintf(stderr,
+                 "band_truth CC MLO TRUE-CC TRUE-MLO FIRST COUNT PLACES [SPREAD [MATERIALS]]\n");
     return 2;
   }
   run({argv[1], argv[2], argv[3], argv[4]}, std::stoi(argv[5]), std::stoi(argv[6]),

@@ -15,7 +15,7 @@
 #include "core/error.hpp"
 #include "core/text/trimmed.hpp"
 #include "fixtures/scratch_folder.hpp"
-#include "material/law.hpp"
+#include "material/material_set.hpp"
 
 namespace breast {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Friction's return map, the springs of an elastic wall, and the options that name them.
+// Friction's return map, and the options of contact.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -8,9 +8,6 @@
 #include "contact/options.hpp"
 #include "contact/terms/friction.hpp"
 #include "core/error.hpp"
-#include "fixtures/standing_block.hpp"
-#include "mechanics/terms/elastic_support.hpp"
-#include "mesh/nodal.hpp"
 
 using namespace breast;
 
@@ -33,51 +30,10 @@ TEST(Friction, SticksBelowTheBoundAndSlipsOnIt) {
   EXPECT_EQ(at(anchor + along, anchor, friction.bound(-5)).force, Vec3(0, 0, 0));
 }
 
-TEST(ElasticSupport, ForceIsStiffnessTimesAreaTimesMotion) {
-  const HexMesh mesh = fixtures::standing_block({50, 60, 40}, {2, 2, 2});  // wall y = 0: 2000 mm²
-  const ElasticSupport wall(mesh, mesh.pectoral_faces, {0.5, 0.2});
-  const auto pushed = [&](const Vec3& by) {
-    std::vector<Vec3> x = mesh.reference;
-    for (Vec3& point : x) point += by;
-    return wall.force_on_body({flatten(mesh.reference), flatten(x), {}});
-  };
-  // 0.5 kPa/mm · 2000 mm² = 1e6 µN/mm across the wall.
-  EXPECT_LT((pushed({0, 2, 0}) - Vec3(0, -2e6, 0)).norm(), 1e-3);
-  EXPECT_LT((pushed({1, 0, 3}) - Vec3(-0.4e6, 0, -1.2e6)).norm(), 1e-3);
-  EXPECT_THROW(ElasticSupport(mesh, mesh.pectoral_faces, {0, 1}), Error);
-  EXPECT_THROW(ElasticSupport(mesh, mesh.pectoral_faces, {1, std::nan("")}), Error);
-}
-
-TEST(ContactOptions, WallAndDetectorAreReadOrRefusedInWords) {
-  EXPECT_EQ(parse_wall("held").kind, WallKind::held);
-  EXPECT_EQ(parse_wall("fixed").kind, WallKind::held);
-  EXPECT_EQ(parse_wall("slide").stiffness.tangential, usual_sliding_stiffness);
-  EXPECT_EQ(parse_wall("slide:0").kind, WallKind::slide);
-  EXPECT_EQ(parse_wall("slide:0.02").stiffness.tangential, 0.02);
-  EXPECT_NEAR(parse_wall("spring:3").stiffness.tangential, 1, 1e-15);
-  EXPECT_EQ(parse_wall("spring:3,0").stiffness.tangential, 0);
-  EXPECT_EQ(parse_cut("roller").kind, Cut::roller);
-  EXPECT_EQ(parse_cut("spring:0.005").stiffness, 0.005);
-  EXPECT_FALSE(parse_cut("spring:0.005").sternal);
-  EXPECT_EQ(parse_cut("spring:0.005,0.1").sternal, 0.1);
-  for (const char* text : {"held", "slide:0.02", "spring:3,0.5"}) {
-    EXPECT_EQ(describe(parse_wall(text)), text);
-  }
-  for (const char* text :
-       {"free", "fixed", "roller", "spring:0.005", "spring:0.005,0.1", "tissue:0.005,0.1"}) {
-    EXPECT_EQ(describe(parse_cut(text)), text);
-  }
+TEST(ContactOptions, DetectorIsReadOrRefusedInWords) {
   EXPECT_TRUE(std::isinf(parse_detector("raised")));
   EXPECT_EQ(parse_detector("fixed"), 0);
   EXPECT_EQ(parse_detector("12.5"), 12.5);
-  for (const char* bad : {"", "spring", "spring:", "spring:0", "spring:-1", "spring:1,-1",
-                          "spring:1,", "spring:nan", "spring:1;2", "spring:1,2,3", "free", "slide:", "slide:-1",
-                          "slide:1,1"}) {
-    EXPECT_THROW(parse_wall(bad), Error) << bad;
-  }
-  for (const char* bad : {"", "held", "spring", "spring:0", "spring:-1", "spring:1,0", "spring:1,", "spring:1,1,1"}) {
-    EXPECT_THROW(parse_cut(bad), Error) << bad;
-  }
   for (const char* bad : {"", "-1", "nan", "inf", "up", "3mm"}) {
     EXPECT_THROW(parse_detector(bad), Error) << bad;
   }

@@ -156,7 +156,7 @@ TEST(Deck, CalculixConstants) {
 
 TEST(Deck, RollersAreEquations) {
   MechanicsOptions o = options();
-  o.cut = Cut::roller;
+  o.cut = cut_support("roller");
   const DeckScene scene = deck_scene(small_cap(true), o, gravity, false);
   ASSERT_FALSE(scene.rolling.empty());
   std::size_t equations = 0;
@@ -189,8 +189,7 @@ std::vector<std::string> all_between(const std::string& text, const std::string&
 // FEBio is not run here: structure and constants only.
 TEST(Deck, FebioStructure) {
   MechanicsOptions o = options();
-  o.materials.laws[std::size_t(Tissue::fibroglandular)] = {LawKind::exponential,
-                                                           {92.39, 4.4, -203.4}};
+  o.materials.laws[std::size_t(Tissue::fibroglandular)] = {"exponential", {92.39, 4.4, -203.4}};
   const DeckScene scene = deck_scene(small_cap(), o, gravity, false);
   const std::string text = febio_deck(scene);
   EXPECT_EQ(all_between(text, "<node id=\"", "</node>").size(), scene.nodes.size());
@@ -235,7 +234,7 @@ TEST(Deck, RefusesWhatAnotherProgramCannotSay) {
   o.invariants = Invariants::plain;
   EXPECT_THROW(deck_scene(small_cap(), o, gravity, false), Error);
   o = options();
-  o.materials.laws[std::size_t(Tissue::fat)] = {LawKind::exponential, {92.39, 4.4, -203.4}};
+  o.materials.laws[std::size_t(Tissue::fat)] = {"exponential", {92.39, 4.4, -203.4}};
   const DeckScene scene = deck_scene(small_cap(), o, gravity, false);
   EXPECT_THROW(calculix_deck(scene, "C3D8"), Error);
   EXPECT_THROW(calculix_deck(scene, "C3D20R"), Error);

@@ -25,7 +25,7 @@ TEST(Stress, IsTheDerivativeOfEnergyAndTangentThatOfStress) {
   f << 1.15, 0.2, -0.1, 0.05, 0.92, 0.12, 0.1, -0.15, 1.05;
   const Mat3 c = f.transpose() * f;
   const double h = 1e-6;
-  for (const Law& law : laws()) {
+  for (const Law& law : every_law()) {
     for (const bool isochoric : {true, false}) {
       const auto at = [&](const Mat3& metric) {
         Stress s;
@@ -106,7 +106,7 @@ void check_element(const Law& law, bool isochoric) {
 }
 
 TEST(HexKernel, DerivativesOfEveryLaw) {
-  for (const Law& law : laws()) {
+  for (const Law& law : every_law()) {
     for (const bool isochoric : {true, false}) {
       check_element<8, 1>(law, isochoric);
       check_element<27, 4>(law, isochoric);
@@ -115,7 +115,7 @@ TEST(HexKernel, DerivativesOfEveryLaw) {
 }
 
 TEST(HexKernel, RigidMotionIsStressFree) {
-  HexInput<8, 1> in = distorted_element<8, 1>(laws()[0], true);
+  HexInput<8, 1> in = distorted_element<8, 1>(every_law()[0], true);
   const Mat3 turn = Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   in.deformed = (turn * in.reference).colwise() + Vec3(3, -2, 5);
   in.pressure.setZero();
@@ -127,16 +127,16 @@ TEST(HexKernel, RigidMotionIsStressFree) {
 }
 
 TEST(HexKernel, RefusesAFoldedElementAndNaN) {
-  HexInput<8, 1> in = distorted_element<8, 1>(laws()[0], true);
+  HexInput<8, 1> in = distorted_element<8, 1>(every_law()[0], true);
   HexOutput<8, 1> out;
   in.deformed.col(0) = in.deformed.col(6);
   hex_kernel<8, 1>(in, {true, false}, out);
   EXPECT_FALSE(out.valid);
-  in = distorted_element<8, 1>(laws()[0], true);
+  in = distorted_element<8, 1>(every_law()[0], true);
   in.deformed(1, 3) = std::nan("");
   hex_kernel<8, 1>(in, {true, false}, out);
   EXPECT_FALSE(out.valid);
-  in = distorted_element<8, 1>(laws()[0], true);
+  in = distorted_element<8, 1>(every_law()[0], true);
   in.pressure[0] = std::nan("");
   hex_kernel<8, 1>(in, {true, false}, out);
   EXPECT_FALSE(out.valid);
@@ -193,7 +193,7 @@ void check_face(const Law& law, const SkinBehaviour& skin = {}, const Vec2& stre
 }
 
 TEST(MembraneKernel, DerivativesOfEveryLaw) {
-  for (const Law& law : laws()) {
+  for (const Law& law : every_law()) {
     check_face<4>(law);
     check_face<9>(law);
   }
@@ -201,7 +201,7 @@ TEST(MembraneKernel, DerivativesOfEveryLaw) {
 
 // Pressed, sheared and pulled skin: all branches of the tension field, and its transitions.
 TEST(MembraneKernel, DerivativesOfATensionField) {
-  for (const Law& law : laws()) {
+  for (const Law& law : every_law()) {
     for (const double across : {0.7, 0.9, 0.95, 0.97, 1.05}) {
       for (const double along : {0.8, 0.96, 1.0, 1.1}) {
         check_face<4>(law, {0.05, 0.02, 0.03}, Vec2(along, across));
@@ -214,7 +214,7 @@ TEST(MembraneKernel, DerivativesOfATensionField) {
 // Skin pressed in one direction and pulled in the other carries the force of uniaxial tension.
 TEST(MembraneKernel, WrinkledSkinIsInUniaxialTension) {
   const double stretch = 1.2, kept = 0.01;
-  for (const Law& law : laws()) {
+  for (const Law& law : every_law()) {
     MembraneInput<4> in = fixtures::pulled_skin(law, stretch, 2);
     in.skin = {kept, 0.02, 0};
     in.deformed.row(1) *= 0.8;
@@ -229,7 +229,7 @@ TEST(MembraneKernel, WrinkledSkinIsInUniaxialTension) {
 // The skin's own shape at rest is the body's, smaller by the pre-stretch.
 TEST(MembraneKernel, PreStretchedSkinPullsAtRest) {
   const double prestretch = 0.2;
-  for (const Law& law : laws()) {
+  for (const Law& law : every_law()) {
     MembraneInput<4> in = fixtures::pulled_skin(law, 1, 2), same = in;
     in.skin.prestretch = prestretch;
     same.reference /= 1 + prestretch;
@@ -243,7 +243,7 @@ TEST(MembraneKernel, PreStretchedSkinPullsAtRest) {
 
 TEST(MembraneKernel, UniaxialTension) {
   const double stretch = 1.2;
-  for (const Law& law : laws()) {
+  for (const Law& law : every_law()) {
     const MembraneInput<4> in = fixtures::pulled_skin(law, stretch, 2);
     MembraneOutput<4> out;
     membrane_kernel<4>(in, {}, out);

@@ -40,7 +40,8 @@ void PrintTo(const Named& named, std::ostream* out) {
   *out << named.name;
 }
 
-Case body(Element element, double bulk_ratio, Invariants invariants, bool curved) {
+Case body(Element element, double bulk_ratio, Invariants invariants, bool curved,
+          const std::string& wall = "spring:0.5,0.2") {
   fixtures::BlockSettings settings;
   settings.elements = {2, 2, 2};
   settings.size = Vec3(20, 20, 20);
@@ -54,10 +55,10 @@ Case body(Element element, double bulk_ratio, Invariants invariants, bool curved
   options.element = element;
   options.bulk_ratio = bulk_ratio;
   options.invariants = invariants;
-  options.wall = SupportStiffness{0.5, 0.2};
+  options.wall = wall_support(wall);
   if (curved) {
     // The wall x = 0 as a sphere, and skin that wrinkles.
-    options.wall.surface = std::make_shared<fixtures::Sphere>(Vec3(-60, 10, 10), 60);
+    options.wall_surface = std::make_shared<fixtures::Sphere>(Vec3(-60, 10, 10), 60);
     options.materials.skin = {0.05, 0.02, 0.03};
   }
   out.scene = std::make_unique<Scene>(out.mesh, options);
@@ -77,6 +78,15 @@ Case term_of_scene(const std::string& name, Element element = Element::q1p0, dou
   const LoadedProblem loaded = out.scene->problem(load);
   for (const auto& term : loaded.problem.terms()) {
     if (term->name() == name) out.term = term;
+  }
+  return out;
+}
+
+/// The term of a support of the wall.
+Case term_of_wall(const std::string& name, const std::string& wall) {
+  Case out = body(Element::q1p0, 0, Invariants::isochoric, false, wall);
+  for (const auto& springs : out.scene->supports().springs) {
+    if (springs.term->name() == name) out.term = springs.term;
   }
   return out;
 }
@@ -178,7 +188,7 @@ const std::vector<Named>& all_terms() {
          return term_of_scene("elastic support", Element::q1p0, 0, Invariants::isochoric, true);
        }},
       {"dead_load", [] { return term_of_scene("dead load"); }},
-      {"elastic_support", [] { return term_of_scene("elastic support"); }},
+      {"elastic_support", [] { return term_of_wall("elastic support", "spring:0.5,0.2"); }},
       {"attachment", [] { return attachment(); }},
       {"plate_multiplier", [] { return plate(0); }},
       {"plate_penalty", [] { return plate(2e4); }},
@@ -232,8 +242,8 @@ TEST_P(EveryTerm, ForcesAreTheSlopeOfTheEnergy) {
     EXPECT_NEAR(slope, here.r.dot(d), 1e-6 * here.r.norm() * d.norm());
   }
   const double dp = 1e-2;
-  const double slope = (moved(none(), none(), dp).energy - moved(none(), none(), -dp).energy) /
-                       (2 * dp);
+  const double slope =
+      (moved(none(), none(), dp).energy - moved(none(), none(), -dp).energy) / (2 * dp);
   EXPECT_NEAR(slope, -here.theta.dot(pressures()), 1e-6 * (1 + here.theta.norm()));
 }
 
@@ -244,7 +254,8 @@ TEST_P(EveryTerm, TangentIsTheSlopeOfTheForces) {
   for (int seed = 1; seed <= 3; ++seed) {
     const Eigen::VectorXd d = direction(seed);
     const Forces up = moved(h * d, none(), 0), down = moved(-h * d, none(), 0);
-    const Eigen::VectorXd force = (up.r - down.r) / (2 * h), volume = (up.theta - down.theta) / (2 * h);
+    const Eigen::VectorXd force = (up.r - down.r) / (2 * h),
+                          volume = (up.theta - down.theta) / (2 * h);
     EXPECT_LT((force - matrix.multiply_unaugmented(d)).norm(), 2e-6 * (force.norm() + 1e-3));
     EXPECT_LT((volume - matrix.divergence.apply(d)).norm(), 1e-6 * (volume.norm() + 1e-6));
   }
@@ -263,7 +274,8 @@ TEST_P(EveryTerm, DerivativeByTheReferenceIsExactAndItsTransposeToo) {
   for (int seed = 1; seed <= 3; ++seed) {
     const Eigen::VectorXd d = direction(seed), w = direction(seed + 7);
     const Forces up = moved(none(), h * d, 0), down = moved(none(), -h * d, 0);
-    const Eigen::VectorXd force = (up.r - down.r) / (2 * h), volume = (up.theta - down.theta) / (2 * h);
+    const Eigen::VectorXd force = (up.r - down.r) / (2 * h),
+                          volume = (up.theta - down.theta) / (2 * h);
     EXPECT_LT((force - tangent.apply(d)).norm(), 2e-6 * (force.norm() + 1e-3));
     EXPECT_LT((volume - tangent.b_x.apply(d)).norm(), 1e-6 * (volume.norm() + 1e-6));
     EXPECT_NEAR(w.dot(tangent.apply(d)), d.dot(tangent.apply_transpose(w)),
@@ -320,9 +332,9 @@ TEST(FrictionTerm, TangentIsExactOnAFlatPlateOrWithAFixedNormal) {
     Mat3 slope;
     for (int i = 0; i < 3; ++i) {
       const Vec3 d = 1e-5 * Vec3::Unit(i);
-      slope.col(i) = -(term.at(term.entries()[0], x + d).force -
-                       term.at(term.entries()[0], x - d).force) /
-                     2e-5;
+      slope.col(i) =
+          -(term.at(term.entries()[0], x + d).force - term.at(term.entries()[0], x - d).force) /
+          2e-5;
     }
     return (slope - term.at(term.entries()[0], x).stiffness).norm() / slope.norm();
   };
@@ -364,7 +376,7 @@ TEST(Scene, HasNoTermsForWhatItLacks) {
     const HexMesh mesh = fixtures::block(settings);
     MechanicsOptions options;
     options.materials = load_materials("seed2008");
-    if (wall) options.wall = SupportStiffness{1, 1};
+    if (wall) options.wall = wall_support("spring:1,1");
     const Scene scene(mesh, options);
     std::vector<std::string> list;
     const LoadedProblem loaded = scene.problem(Eigen::VectorXd::Zero(3L * mesh.nodes()));

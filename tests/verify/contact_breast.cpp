@@ -277,9 +277,9 @@ TEST(Compression, ElasticWallTendsToTheHeldWall) {
   HexMesh held = stress_free_breast(), stiff = held, soft = held;
   const CompressionResult a = fixtures::compress_into(held, options, mechanics());
   MechanicsOptions elastic = mechanics();
-  elastic.wall = SupportStiffness{1e3, 1e3};
+  elastic.wall = wall_support("spring:1000,1000");
   const CompressionResult b = fixtures::compress_into(stiff, options, elastic);
-  elastic.wall = SupportStiffness{0.5, 0.5 / 3};
+  elastic.wall = wall_support("spring:0.5");
   const CompressionResult c = fixtures::compress_into(soft, options, elastic);
   ASSERT_EQ(a.record.status, SolveStatus::converged) << a.record.reason;
   ASSERT_EQ(b.record.status, SolveStatus::converged) << b.record.reason;
@@ -378,7 +378,7 @@ TEST(Compression, ErrorIsEstimatedWithFrictionAndWithSprings) {
     if (rubs) {
       options.friction = 0.3;
     } else {
-      with_estimate.wall = SupportStiffness{1, 1.0 / 3};
+      with_estimate.wall = wall_support("spring:1");
     }
     with_estimate.estimate = Estimate::step;
     CompressionResult found = compress(mesh, options, with_estimate);

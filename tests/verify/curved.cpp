@@ -7,14 +7,14 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "fixtures/in_place.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/elastic_scene.hpp"
+#include "fixtures/in_place.hpp"
 
 namespace breast {
 namespace {
 
-const Law fat{LawKind::polynomial, {310, 300, 2250, 3800, 4720}};
+const Law fat{"polynomial", {310, 300, 2250, 3800, 4720}};
 
 // ∫ f over [low, high], Simpson's rule.
 double integral(double low, double high, const std::function<double(double)>& f) {
@@ -100,7 +100,8 @@ void invert(const HexMesh& mesh, const Eigen::VectorXd& u, const Eigen::VectorXd
     if (std::binary_search(wall.begin(), wall.end(), i)) continue;
     inverse.reference[i] += 0.2 * (inverse.imaged[i] - mesh.reference[i]);
   }
-  const SolveSummary summary = fixtures::backward_under_into(inverse, forces, fixtures::options_of(fat));
+  const SolveSummary summary =
+      fixtures::backward_under_into(inverse, forces, fixtures::options_of(fat));
   out.inverted = summary.load_reached == 1;
   for (int i = 0; i < mesh.nodes(); ++i) {
     out.inversion_mm =
@@ -123,8 +124,8 @@ Solved solve(const Exact& exact, int n, int order, bool with_inverse) {
   mesh.points = mesh.reference = mesh.imaged;
   const Scene scene(mesh, fixtures::options_of(fat, order == 1 ? Element::q1p0 : Element::q2p1));
   State state = scene.at_rest(flatten(mesh.reference));
-  const EquilibriumResult result = fixtures::solve_held(scene, Eigen::VectorXd::Zero(targets.size()),
-                                                   constraints_of(exact, unit), targets, state);
+  const EquilibriumResult result = fixtures::solve_held(
+      scene, Eigen::VectorXd::Zero(targets.size()), constraints_of(exact, unit), targets, state);
   EXPECT_TRUE(result.converged) << result.reason;
   EXPECT_LE(result.iterations.size(), 9u);
   Solved out;

@@ -7,9 +7,9 @@
 
 #include "core/units.hpp"
 #include "fem/stress.hpp"
-#include "fixtures/map_gradient.hpp"
 #include "fixtures/elastic_scene.hpp"
 #include "fixtures/in_place.hpp"
+#include "fixtures/map_gradient.hpp"
 #include "fixtures/renumbered.hpp"
 #include "fixtures/sliding_cap.hpp"
 
@@ -51,8 +51,7 @@ double distance_from_exact(int n) {
   const HexMesh mesh = ring(n);
   MechanicsOptions options;
   options.materials = load_materials("seed2008");
-  options.wall =
-      fixtures::slide(std::make_shared<fixtures::Cylinder>(Drawn::inner), 0);
+  fixtures::let_slide(options, std::make_shared<fixtures::Cylinder>(Drawn::inner), 0);
   const Law fat = options.materials.law(Tissue::fat);
   Eigen::VectorXd load = fixtures::exact_load(mesh, [&](const Vec3& at) {
     const Mat3 f = Drawn::gradient(at), c = f.transpose() * f;
@@ -109,8 +108,8 @@ TEST(CurvedWall, NumberingDoesNotMatter) {
   MechanicsOptions options;
   options.materials = load_materials("seed2008");
   scale_materials(options.materials, {"fat=20", "fibroglandular=20"});
-  options.wall = fixtures::slide(fixtures::sphere(), 0.02);
-  options.cut = CutOption(Cut::spring, 0.01);
+  fixtures::let_slide(options, fixtures::sphere(), 0.02);
+  options.cut = cut_support("spring:0.01");
   HexMesh a = fixtures::cap_on_sphere();
   auto [b, nodes] = fixtures::renumbered(a);
   for (HexMesh* mesh : {&a, &b}) {

@@ -5,9 +5,9 @@
 
 #include <cstdio>
 
-#include "fixtures/in_place.hpp"
 #include "core/units.hpp"
 #include "fixtures/analytic_mesh.hpp"
+#include "fixtures/in_place.hpp"
 #include "fixtures/shapes.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/scene.hpp"
@@ -78,14 +78,13 @@ TEST(ErrorEstimate, KnowsFiniteBulkModuliAndElasticSupports) {
     MechanicsOptions options = options_of("seed2008");
     options.bulk_ratio = bulk_ratio;
     const HexMesh mesh = fixtures::cap({.elements = 6});
-    const double ratio =
-        effectivity(bulk_ratio < 10 ? "cap 6, K/mu 3" : "cap 6, K/mu 100", mesh,
-                    raise_order(mesh), supine, options);
+    const double ratio = effectivity(bulk_ratio < 10 ? "cap 6, K/mu 3" : "cap 6, K/mu 100", mesh,
+                                     raise_order(mesh), supine, options);
     EXPECT_GT(ratio, 0.5) << bulk_ratio;
     EXPECT_LT(ratio, 1.5) << bulk_ratio;
   }
   MechanicsOptions options = options_of("seed2008");
-  options.wall = SupportStiffness{0.5, 0.1};
+  options.wall = wall_support("spring:0.5,0.1");
   const HexMesh mesh = fixtures::cap({.elements = 6});
   const double ratio =
       effectivity("cap 6, wall on springs", mesh, raise_order(mesh), supine, options);

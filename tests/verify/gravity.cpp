@@ -5,9 +5,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "fixtures/in_place.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "fixtures/in_place.hpp"
 #include "fixtures/shapes.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mesh/element_order.hpp"
@@ -29,8 +29,8 @@ MechanicsOptions one_law(const Law& law) {
   return options;
 }
 
-const Law mooney{LawKind::mooney_rivlin, {310, 300}};
-const Law fat{LawKind::polynomial, {310, 300, 2250, 3800, 4720}};
+const Law mooney{"mooney_rivlin", {310, 300}};
+const Law fat{"polynomial", {310, 300, 2250, 3800, 4720}};
 const Vec3 prone(0, -gravity_mm_s2, 0);
 
 double worst_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
@@ -118,9 +118,9 @@ TEST(RoundTrip, ClosesForEveryOption) {
   options = paper_options();
   options.element = Element::q2p1;
   EXPECT_LT(round_trip(raise_order(skin_mesh), options).closure, 1e-8);
-  for (const Cut cut : {Cut::free, Cut::fixed, Cut::roller}) {
+  for (const char* cut : {"free", "fixed", "roller"}) {
     options = paper_options();
-    options.cut = cut;
+    options.cut = cut_support(cut);
     EXPECT_LT(round_trip(fixtures::cap({.elements = 6, .with_cut = true}), options).closure, 1e-8);
   }
   for (const std::string set : {"wellman", "victre"}) {
@@ -134,9 +134,9 @@ TEST(RoundTrip, RollerHoldsOnlyTheNormal) {
   HexMesh mesh = fixtures::cap({.elements = 6, .with_cut = true});
   ASSERT_FALSE(mesh.cut_faces.empty());
   std::vector<double> nipple;
-  for (const Cut cut : {Cut::free, Cut::roller, Cut::fixed}) {
+  for (const char* cut : {"free", "roller", "fixed"}) {
     MechanicsOptions options = paper_options();
-    options.cut = cut;
+    options.cut = cut_support(cut);
     HexMesh solved = mesh;
     ASSERT_TRUE(fixtures::forward_into(solved, prone, options).converged());
     nipple.push_back((landmark_position(solved, solved.points, *solved.landmark("nipple")) -

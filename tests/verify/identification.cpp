@@ -9,7 +9,6 @@
 #include "fixtures/sliding_cap.hpp"
 #include "identification/chi_squared.hpp"
 #include "identification/identify.hpp"
-#include "material/set_parameter.hpp"
 
 using namespace breast;
 
@@ -23,8 +22,8 @@ struct Case {
   Case() {
     options.mechanics.materials = load_materials("seed2008");
     options.mechanics.materials.skin = {0.05, 0.02, 0.03};
-    options.mechanics.wall = fixtures::slide(fixtures::sphere(), 0.02);
-    options.mechanics.cut = CutOption(Cut::spring, 0.01);
+    fixtures::let_slide(options.mechanics, fixtures::sphere(), 0.02);
+    options.mechanics.cut = cut_support("spring:0.01");
   }
 
   // Points through the body, each seen where `truth` (logarithms by name) puts it.
@@ -180,21 +179,27 @@ TEST(ChiSquared, IsThatOfTables) {
 }
 
 TEST(SetParameter, ScalesWhatItNames) {
-  MaterialSet set = load_materials("invivo");
+  MechanicsOptions options;
+  MaterialSet& set = options.materials;
+  set = load_materials("invivo");
+  take_supports_of_set(options);
   const MaterialSet was = set;
-  EXPECT_EQ(set_parameters(set).size(), 6u);
-  scale_set(set, "gland", 3);
+  EXPECT_EQ(model_parameters(options),
+            (std::vector<std::string>{"low_order", "quadratic", "gland", "skin", "wall", "cut"}));
+  scale_model(options, "gland", 3);
   EXPECT_NEAR(set.law(Tissue::fibroglandular).shear_modulus(),
               3 * was.law(Tissue::fibroglandular).shear_modulus(), 1e-9);
   EXPECT_EQ(set.law(Tissue::fat).constants, was.law(Tissue::fat).constants);
-  scale_set(set, "quadratic", 0.5);
+  scale_model(options, "quadratic", 0.5);
   EXPECT_NEAR(set.law(Tissue::fat).constants[2], 0.5 * was.law(Tissue::fat).constants[2], 1e-9);
   EXPECT_EQ(set.law(Tissue::fat).constants[0], was.law(Tissue::fat).constants[0]);
-  scale_set(set, "cut", 2);
-  EXPECT_NEAR(*set.cut_support, 2 * *was.cut_support, 1e-12);
+  scale_model(options, "cut", 2);
+  EXPECT_EQ(options.cut->text(), "spring:0.038");
+  EXPECT_EQ(set_with_supports(options).cut, "spring:0.038");
   EXPECT_NEAR(set.law(Tissue::skin).constants[1], 4.4, 1e-12);
-  MaterialSet held = load_materials("seed2008");
-  EXPECT_THROW(scale_set(held, "wall", 2), Error);
+  MechanicsOptions held;
+  held.materials = load_materials("seed2008");
+  EXPECT_THROW(scale_model(held, "wall", 2), Error);
 }
 
 }  // namespace

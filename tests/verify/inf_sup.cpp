@@ -16,7 +16,7 @@
 namespace breast {
 namespace {
 
-const Law any{LawKind::neo_hookean, {1}};
+const Law any{"neo_hookean", {1}};
 
 template <int N, int P>
 struct Systems {

@@ -2,13 +2,12 @@
 // The phantom's truth obeys the same discrete mechanics as the chain.
 #include <gtest/gtest.h>
 
-#include "fixtures/in_place.hpp"
 #include "core/units.hpp"
+#include "fixtures/in_place.hpp"
 #include "fixtures/small_phantom.hpp"
-#include "mechanics/set_supports.hpp"
 #include "mesh/quality.hpp"
-#include "phantom/postures.hpp"
 #include "phantom/chest/rib_surface.hpp"
+#include "phantom/postures.hpp"
 
 using namespace breast;
 
@@ -48,7 +47,7 @@ TEST(PhantomPostures, ForwardFromTheStressFreeShapeReturnsTheProneOne) {
   MechanicsOptions options;
   options.materials = solved().materials;
   options.element = Element::q2p1;
-  options.cut = Cut::fixed;
+  options.cut = cut_support("fixed");
   ASSERT_TRUE(fixtures::forward_into(mesh, posture_gravity(Posture::prone), options).converged());
   // The stored imaged shape is the prone one to 1e-4 mm, its forces the same to 1e-7.
   EXPECT_LT(largest(mesh.points, prone), 1e-6);
@@ -61,7 +60,7 @@ TEST(PhantomPostures, BackwardFindsTheStressFreeShape) {
   MechanicsOptions options;
   options.materials = solved().materials;
   options.element = Element::q2p1;
-  options.cut = Cut::fixed;
+  options.cut = cut_support("fixed");
   ASSERT_TRUE(fixtures::backward_into(mesh, posture_gravity(Posture::prone), options).converged());
   EXPECT_LT(largest(mesh.reference, truth), 1e-3);
 }
@@ -87,7 +86,7 @@ TEST(SlidingPhantom, HangsAsShapedAndSlidesOnItsRibs) {
   options.materials = materials;
   options.element = Element::q2p1;
   take_supports_of_set(options);
-  options.wall.surface = std::make_shared<RibSurface>(parameters.torso);
+  options.wall_surface = std::make_shared<RibSurface>(parameters.torso);
   ASSERT_TRUE(fixtures::forward_into(mesh, posture_gravity(Posture::prone), options).converged());
   EXPECT_LT(largest(mesh.points, mesh.imaged), 1e-7);
 
@@ -99,8 +98,8 @@ TEST(SlidingPhantom, HangsAsShapedAndSlidesOnItsRibs) {
     slid = std::max(slid, (to - from).norm());
   }
   EXPECT_GT(slid, 10);
-  const Vec3 nipple = postures.supine[std::size_t(mesh.nipple_node)] -
-                      mesh.imaged[std::size_t(mesh.nipple_node)];
+  const Vec3 nipple =
+      postures.supine[std::size_t(mesh.nipple_node)] - mesh.imaged[std::size_t(mesh.nipple_node)];
   EXPECT_GT(nipple.x(), 10);
   EXPECT_GT(nipple.y(), 10);
 }

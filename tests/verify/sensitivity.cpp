@@ -2,10 +2,10 @@
 // Derivatives through backward and forward against central differences of the chain solved again.
 #include <gtest/gtest.h>
 
-#include "fixtures/in_place.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "fixtures/chain_inputs.hpp"
+#include "fixtures/in_place.hpp"
 #include "fixtures/shapes.hpp"
 #include "fixtures/sliding_cap.hpp"
 #include "mesh/element_order.hpp"
@@ -86,7 +86,7 @@ TEST(Sensitivity, WithPlainInvariantsABulkModulusAndARollingCut) {
   ChainInputs in = cap_inputs({.elements = 4, .with_cut = true});
   in.options.invariants = Invariants::plain;
   in.options.bulk_ratio = 50;
-  in.options.cut = Cut::roller;
+  in.options.cut = cut_support("roller");
   in.imaged_gravity = Vec3(500, -9000, 1500);
   in.gravity = Vec3(0, 4000, -8000);
   expect_all_match(in, "fat,fibroglandular,fat.a10,fat.a11,skin.b,density,gravity_x");
@@ -121,8 +121,8 @@ void expect_adjoint_matches(const ChainInputs& in, bool elements_add_up) {
 TEST(Sensitivity, OnAWallToSlideOn) {
   ChainInputs in = cap_inputs();
   in.mesh = fixtures::cap_on_sphere(4);
-  in.options.wall = fixtures::slide(fixtures::sphere(), 0.02);
-  in.options.cut = CutOption(Cut::spring, 0.01, 0.03);
+  fixtures::let_slide(in.options, fixtures::sphere(), 0.02);
+  in.options.cut = cut_support("spring:0.01,0.03");
   in.options.materials.skin = {0.05, 0.02, 0.03};
   // Away from the sternum, so that the attachment to it pulls.
   in.gravity.x() += 4000 * lateral_sign(in.mesh.side);
@@ -141,10 +141,29 @@ TEST(Sensitivity, OnAWallToSlideOn) {
 TEST(Sensitivity, OfTheWeightOfTheTissueBeyondTheCut) {
   ChainInputs in = cap_inputs();
   in.mesh = fixtures::cap_on_sphere(4);
-  in.options.wall = fixtures::slide(fixtures::sphere(), 0.02);
-  in.options.cut = CutOption(Cut::tissue, 0.01);
+  fixtures::let_slide(in.options, fixtures::sphere(), 0.02);
+  in.options.cut = cut_support("tissue:0.01");
   in.gravity.x() += 4000;
   expect_all_match(in, "fat,density,fat.density,wall,cut,gravity_x,imaged_gravity_x");
+}
+
+// A set states the uncertainty of the supports with which it was found, and options replace these.
+TEST(Sensitivity, KnowsTheSupportsThatAreThereNotThoseOfTheSet) {
+  ChainInputs in = cap_inputs({.elements = 4, .with_cut = true});
+  in.options.materials = load_materials("invivo");
+  in.options.wall = wall_support("spring:0.5,0.2");
+  in.options.cut = cut_support("roller");
+  const auto all = all_parameters(in.mesh, in.options, in.imaged_gravity);
+  const auto count = [&](const std::string& name) {
+    return std::count_if(all.begin(), all.end(),
+                         [&](const Parameter& parameter) { return parameter.name == name; });
+  };
+  EXPECT_EQ(count("low_order"), 1);
+  EXPECT_EQ(count("wall"), 1);
+  EXPECT_EQ(count("cut"), 0);
+  const Scene scene(in.mesh, in.options);
+  const LoadedState state{scene.at_rest(flatten(in.mesh.imaged)), in.gravity};
+  EXPECT_TRUE(parameter_forces(scene, state, ParameterKind::gravity, all).force.allFinite());
 }
 
 // Nothing but ratios of stress and weight decides an equilibrium.

@@ -14,8 +14,7 @@
 #include "fixtures/elastic_scene.hpp"
 #include "fixtures/in_place.hpp"
 #include "fixtures/sliding_cap.hpp"
-#include "mechanics/terms/cut_springs.hpp"
-#include "mechanics/terms/tissue_beyond.hpp"
+#include "mechanics/supports/effects.hpp"
 #include "mesh/nodal.hpp"
 
 namespace breast {
@@ -27,12 +26,12 @@ using fixtures::sphere;
 
 const Vec3 prone(0, -gravity_mm_s2, 0), supine(0, gravity_mm_s2, 0);
 
-MechanicsOptions soft(double percent, WallOption wall) {
+MechanicsOptions soft(double percent, const fixtures::Wall& wall) {
   MechanicsOptions options;
   options.materials = load_materials("seed2008");
   scale_materials(options.materials, std::vector<std::string>{message("fat=", percent),
-                                                             message("fibroglandular=", percent)});
-  options.wall = std::move(wall);
+                                                              message("fibroglandular=", percent)});
+  options.wall = wall.support, options.wall_surface = wall.surface;
   return options;
 }
 
@@ -61,16 +60,15 @@ double slide_rigidly(const HexMesh& mesh, std::shared_ptr<const LevelSurface> su
   SaddleMatrix matrix = loaded.problem.make_matrix();
   SaddleSolver solver(loaded.problem.space().pattern);
   State state = scene.at_rest(flatten(mesh.reference));
-  const EquilibriumResult result =
-      equilibrate(loaded.problem, solver, matrix, state, {}, &targets);
+  const EquilibriumResult result = equilibrate(loaded.problem, solver, matrix, state, {}, &targets);
   EXPECT_TRUE(result.converged) << result.reason;
   EXPECT_LT(result.forces.r.norm(), 1e-8 * scene.stiffness_force());
   det_F = result.forces.min_det_F;
   double worst = 0;
   for (int node = 0; node < mesh.nodes(); ++node) {
-    worst = std::max(worst, (state.x.segment<3>(3L * node) -
-                             expected(mesh.reference[std::size_t(node)]))
-                                .norm());
+    worst = std::max(
+        worst,
+        (state.x.segment<3>(3L * node) - expected(mesh.reference[std::size_t(node)])).norm());
   }
   return worst;
 }
@@ -196,8 +194,12 @@ TEST(CutSprings, TheAttachmentToTheSternumPullsAndDoesNotPush) {
       for (Vec3& x : mesh.imaged) x = (turn * x).eval();
       mesh.side = side;
       mesh.cut_faces = boundary_faces(mesh);
-      const CutSprings springs = springs_at_cut(mesh, CutOption(Cut::spring, around, sternal));
-      ASSERT_EQ(springs_at_cut(mesh, CutOption(Cut::spring, around)).sternal, nullptr);
+      MechanicsOptions options;
+      options.cut = cut_support(message("spring:", around, ",", sternal));
+      const auto springs = attach_supports(mesh, nullptr, options).springs;
+      ASSERT_EQ(springs.size(), 2u);
+      options.cut = cut_support(message("spring:", around));
+      ASSERT_EQ(attach_supports(mesh, nullptr, options).springs.size(), 1u);
       const double lateral = lateral_sign(side);
       for (const auto& [away, pulled] :
            {std::pair(3.0, 2.5), {1.0, 0.5}, {0.5, 0.125}, {0.0, 0.0}, {-3.0, 0.0}}) {
@@ -205,8 +207,8 @@ TEST(CutSprings, TheAttachmentToTheSternumPullsAndDoesNotPush) {
         State state{flatten(mesh.imaged), flatten(mesh.imaged), {}};
         for (int node = 0; node < mesh.nodes(); ++node) state.x.segment<3>(3L * node) += moved;
         const Vec3 expected(-sternal * face * pulled * lateral, 0, 0);
-        EXPECT_LT((springs.sternal->force_on_body(state) - expected).norm(), 1e-6) << away;
-        EXPECT_LT((springs.around->force_on_body(state) + 6 * around * face * moved).norm(), 1e-6);
+        EXPECT_LT((springs[1].term->force_on_body(state) - expected).norm(), 1e-6) << away;
+        EXPECT_LT((springs[0].term->force_on_body(state) + 6 * around * face * moved).norm(), 1e-6);
       }
     }
   }
@@ -215,8 +217,8 @@ TEST(CutSprings, TheAttachmentToTheSternumPullsAndDoesNotPush) {
 // A breast drawn to its side is held by the sternum, and one drawn to the sternum is not.
 TEST(CutSprings, TheSternumHoldsABreastThatMovesAwayFromIt) {
   MechanicsOptions loose = soft(20, slide(sphere(), 0.02)), attached = loose;
-  loose.cut = CutOption(Cut::spring, 0.01);
-  attached.cut = CutOption(Cut::spring, 0.01, 0.5);
+  loose.cut = cut_support("spring:0.01");
+  attached.cut = cut_support("spring:0.01,0.5");
   const auto apart = [&](double lateral) {
     HexMesh free = cap_on_sphere(), held = free;
     const Vec3 gravity(lateral * lateral_sign(free.side), 0, 0);
@@ -232,9 +234,9 @@ TEST(CutSprings, TheSternumHoldsABreastThatMovesAwayFromIt) {
 // whatever the stiffness there, if the cut carries the weight of what lies beyond; springs alone hold it
 // back. Stiff tissue, so that the layer does not shear: by ρ g h² / 2μ = 0.02 mm.
 TEST(TissueBeyond, AnEvenLayerMovesAsOneWhereverItIsCut) {
-  constexpr double height = thickness_beyond, along = 0.01, percent = 1e4;
+  constexpr double height = 20, along = 0.01, percent = 1e4;
   const Vec3 gravity(0, 6000, -8000);  // along the wall
-  const auto moved = [&](const Vec3& size, const CutOption& cut) {
+  const auto moved = [&](const Vec3& size, const std::string& cut) {
     fixtures::BlockSettings settings;
     settings.size = size;
     HexMesh mesh = fixtures::block(settings);
@@ -247,7 +249,7 @@ TEST(TissueBeyond, AnEvenLayerMovesAsOneWhereverItIsCut) {
     });
     MechanicsOptions options =
         soft(percent, slide(std::make_shared<fixtures::Plane>(Vec3(1, 0, 0)), along));
-    options.cut = cut;
+    options.cut = cut_support(cut);
     EXPECT_TRUE(fixtures::forward_into(mesh, gravity, options).converged());
     std::vector<Vec3> by;
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
@@ -261,17 +263,17 @@ TEST(TissueBeyond, AnEvenLayerMovesAsOneWhereverItIsCut) {
   EXPECT_NEAR(expected.norm(), 20, 1e-9);
   for (const double stiffness : {0.005, 0.1}) {
     for (const Vec3& size : {Vec3(height, 60, 80), Vec3(height, 120, 50)}) {
-      EXPECT_LT(furthest_from(moved(size, {Cut::tissue, stiffness}), expected), 0.05);
-      EXPECT_GT(furthest_from(moved(size, {Cut::spring, stiffness}), expected), 2);
+      EXPECT_LT(furthest_from(moved(size, "tissue:" + format_number(stiffness)), expected), 0.05);
+      EXPECT_GT(furthest_from(moved(size, "spring:" + format_number(stiffness)), expected), 2);
     }
   }
 }
 
 TEST(TissueBeyond, NeedsAWallThatCarriesIt) {
   HexMesh mesh = cap_on_sphere();
-  for (const WallOption& wall : {WallOption(), slide(sphere(), 0)}) {
+  for (const fixtures::Wall& wall : {fixtures::Wall(), slide(sphere(), 0)}) {
     MechanicsOptions options = soft(20, wall);
-    options.cut = CutOption(Cut::tissue, 0.01);
+    options.cut = cut_support("tissue:0.01");
     EXPECT_THROW(fixtures::forward_into(mesh, supine, options), Error);
   }
 }
@@ -290,8 +292,8 @@ TEST(Sliding, StiffSpringsAcrossTheSurfaceTendToSliding) {
   double last = 1e9;
   for (const double across : {1.0, 10.0, 100.0}) {
     HexMesh springs = cap_on_sphere();
-    MechanicsOptions options = soft(20, WallOption(SupportStiffness{across, 0.02}));
-    options.wall.surface = sphere();
+    MechanicsOptions options =
+        soft(20, {wall_support("spring:" + format_number(across) + ",0.02"), sphere()});
     ASSERT_TRUE(fixtures::backward_into(springs, prone, options).converged());
     HexMesh again = springs;
     ASSERT_TRUE(fixtures::forward_into(again, prone, options).converged());
@@ -323,7 +325,7 @@ TEST(Sliding, RoundTripClosesAndSlidesFar) {
     double slid = 0, off = 0;
     for (const int node : nodes_of(mesh, mesh.pectoral_faces)) {
       const Vec3 centre(0, 120, 0), x = again.points[std::size_t(node)],
-                 imaged = mesh.imaged[std::size_t(node)];
+                                    imaged = mesh.imaged[std::size_t(node)];
       slid = std::max(slid, (x - imaged).norm());
       off = std::max(off, std::abs((x - centre).norm() - (imaged - centre).norm()));
     }

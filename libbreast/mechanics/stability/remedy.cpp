@@ -17,27 +17,28 @@ constexpr double smallest = 0.02, usual = 0.3, largest = 4.6;
 // as much.
 constexpr double resolution = 0.1;
 
-double* stiffness_of(MechanicsOptions& options, Changed what) {
-  return what == Changed::wall ? &options.wall.stiffness.tangential : &options.cut.stiffness;
-}
-
 // A candidate and its direction, since skin may be too stiff as well as too soft.
 struct Candidate {
-  Changed what;
+  std::string what;
   double sign = 1;
 };
 
+SupportPtr& support_called(MechanicsOptions& options, const std::string& what) {
+  return what == place_name(SupportPlace::wall) ? options.wall : options.cut;
+}
+
 std::vector<Candidate> candidates(const HexMesh& mesh, const MechanicsOptions& options) {
-  std::vector<Candidate> all{{Changed::tissue}};
+  std::vector<Candidate> all{{"tissue"}};
   const bool layer = std::count(mesh.tissue.begin(), mesh.tissue.end(), Tissue::skin) > 0;
   if (layer || (mesh.skin_model == SkinModel::membrane && !mesh.skin_faces.empty())) {
-    all.push_back({Changed::skin, -1});
-    all.push_back({Changed::skin, 1});
+    all.push_back({"skin", -1});
+    all.push_back({"skin", 1});
   }
-  if (options.wall.kind != WallKind::held) all.push_back({Changed::wall});
-  const Cut cut = options.cut.kind;
-  if (!mesh.cut_faces.empty() && (cut == Cut::free || options.cut.has_springs())) {
-    all.push_back({Changed::cut});
+  for (const SupportPtr& support : {options.wall, options.cut}) {
+    const std::string what = place_name(support->place());
+    if (!faces_at(mesh, support->place()).empty() && with_change(options, what, smallest)) {
+      all.push_back({what});
+    }
   }
   return all;
 }
@@ -69,7 +70,7 @@ class Search {
 
  private:
   bool stands(const Candidate& candidate, double size) const {
-    return stands_(with_change(options_, candidate.what, candidate.sign * size));
+    return stands_(*with_change(options_, candidate.what, candidate.sign * size));
   }
   double refine(const Candidate& candidate, double fails, double does) const {
     while (does - fails > resolution * does && does > smallest) {
@@ -89,52 +90,30 @@ std::string times(double factor) {
 
 }  // namespace
 
-const char* changed_name(Changed what) {
-  switch (what) {
-    case Changed::tissue:
-      return "tissue";
-    case Changed::skin:
-      return "skin";
-    case Changed::wall:
-      return "wall";
-    case Changed::cut:
-      return "cut";
-  }
-  return "";
-}
-
 std::string Remedy::words() const {
-  switch (what) {
-    case Changed::tissue:
-      return "fat and glandular tissue " + times(factor) + " times as stiff";
-    case Changed::skin:
-      return "skin " + times(factor) + " times as stiff";
-    case Changed::wall:
-      return message("a resistance to sliding of ", support, " kPa/mm at the chest wall");
-    case Changed::cut:
-      return message("supports of ", support, " kPa/mm at the cut");
-  }
-  return "";
+  if (what == "tissue") return "fat and glandular tissue " + times(factor) + " times as stiff";
+  if (what == "skin") return "skin " + times(factor) + " times as stiff";
+  return message("springs of ", support, " kPa/mm at the ",
+                 what == place_name(SupportPlace::wall) ? "chest wall" : "cut");
 }
 
-MechanicsOptions with_change(const MechanicsOptions& options, Changed what, double size) {
+std::optional<MechanicsOptions> with_change(const MechanicsOptions& options,
+                                            const std::string& what, double size) {
   MechanicsOptions out = options;
   const double factor = std::exp(size);
-  if (what == Changed::tissue || what == Changed::skin) {
+  if (what == "tissue" || what == "skin") {
     for (int t = 0; t < n_tissues; ++t) {
-      if ((Tissue(t) == Tissue::skin) != (what == Changed::skin)) continue;
+      if ((Tissue(t) == Tissue::skin) != (what == "skin")) continue;
       Law& law = out.materials.laws[std::size_t(t)];
       law = law.scaled(factor);
     }
     return out;
   }
-  if (what == Changed::cut) {
-    if (!out.cut.has_springs()) out.cut.kind = Cut::spring;
-    if (out.cut.sternal) *out.cut.sternal *= factor;
-  }
-  double& stiffness = *stiffness_of(out, what);
-  stiffness = stiffness > 0 ? factor * stiffness : (factor - 1) * usual_sliding_stiffness;
-  return out;
+  SupportPtr& support = support_called(out, what);
+  support = support->stiffness() > 0
+                ? support->stiffened(factor)
+                : support->with_springs((factor - 1) * usual_sliding_stiffness);
+  return support ? std::optional(out) : std::nullopt;
 }
 
 std::optional<Remedy> smallest_remedy(const HexMesh& mesh, const MechanicsOptions& options,
@@ -152,11 +131,10 @@ std::optional<Remedy> smallest_remedy(const HexMesh& mesh, const MechanicsOption
   }
   if (!best) return {};
   Remedy remedy{best->what, std::exp(best->sign * size)};
-  if (best->what == Changed::wall || best->what == Changed::cut) {
-    MechanicsOptions before = options, after = with_change(options, best->what, size);
-    remedy.support = *stiffness_of(after, best->what);
-    if (!(*stiffness_of(before, best->what) > 0)) remedy.factor = 0;
-  }
+  if (best->what == "tissue" || best->what == "skin") return remedy;
+  MechanicsOptions before = options, after = *with_change(options, best->what, size);
+  remedy.support = support_called(after, best->what)->stiffness();
+  if (!(support_called(before, best->what)->stiffness() > 0)) remedy.factor = 0;
   return remedy;
 }
 

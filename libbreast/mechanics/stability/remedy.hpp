@@ -12,29 +12,22 @@
 
 namespace breast {
 
-/// The quantities that can be changed, one at a time.
-enum class Changed {
-  tissue,  ///< all tissues but skin
-  skin,
-  wall,    ///< the chest wall's resistance to sliding
-  cut,     ///< the springs at the cut
-};
-/// "tissue", "skin", "wall", "cut".
-const char* changed_name(Changed what);
-
 struct Remedy {
-  Changed what = Changed::tissue;
+  /// What is changed: "tissue" (all tissues but skin), "skin", or the springs of the support of "wall" or
+  /// "cut".
+  std::string what = "tissue";
   /// Factor on the present stiffness; 0 for a support that does not exist yet.
   double factor = 1;
-  double support = 0;  ///< resulting stiffness of wall or cut, kPa/mm
+  double support = 0;  ///< resulting stiffness of the support, kPa/mm
 
   /// "fat and glandular tissue 1.4 times as stiff".
   std::string words() const;
 };
 
-/// `options` with one stiffness multiplied by e^size. A support that does not exist yet gets
-/// (e^size − 1) times the usual resistance to sliding.
-MechanicsOptions with_change(const MechanicsOptions& options, Changed what, double size);
+/// `options` with one stiffness multiplied by e^size. Springs that do not exist yet get (e^size − 1) times
+/// the usual resistance to sliding; nothing if there can be none.
+std::optional<MechanicsOptions> with_change(const MechanicsOptions& options,
+                                            const std::string& what, double size);
 
 /// Returns whether these options give a stable solution.
 using Stands = std::function<bool(const MechanicsOptions&)>;

@@ -44,9 +44,9 @@ MechanicsOptions Softness::options(std::shared_ptr<const LevelSurface> surface) 
     out.materials.skin.prestretch = 0.03;
   }
   if (slides) {
-    out.wall = WallOption(WallKind::slide, {0, support});
-    out.wall.surface = std::move(surface);
-    out.cut = CutOption(Cut::spring, support);
+    out.wall = wall_support(message("slide:", support));
+    out.wall_surface = std::move(surface);
+    out.cut = cut_support(message("spring:", support));
   }
   return out;
 }
