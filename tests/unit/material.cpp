@@ -9,6 +9,7 @@
 #include "core/table.hpp"
 #include "core/temporary_folder.hpp"
 #include "fixtures/laws.hpp"
+#include "material/curves.hpp"
 #include "material/material_set.hpp"
 #include "material/stability.hpp"
 
@@ -101,6 +102,28 @@ TEST(Law, ExponentialGuardsAgainstOverflow) {
   EXPECT_TRUE(skin.in_range(3 + 49.9 / 4.4, 3));
   EXPECT_FALSE(skin.in_range(3 + 50.1 / 4.4, 3));
   EXPECT_FALSE(skin.in_range(std::nan(""), 3));
+}
+
+TEST(Gent, IsThatOfItsClosedFormsAndEndsAtAStretch) {
+  constexpr double mu = 500, limit = 2;
+  const Law law{"gent", {mu, limit}};
+  EXPECT_NEAR(law.shear_modulus(), mu, 1e-12 * mu);
+  for (const double s : {0.85, 0.9, 1.2, 1.5}) {
+    const auto expect = [&](double stress, double u, double strain) {
+      const double exact = mu * limit / (limit - u) * strain;
+      EXPECT_NEAR(stress, exact, 1e-12 * std::abs(exact)) << s;
+    };
+    expect(uniaxial_stress(law, s), s * s + 2 / s - 3, s - 1 / (s * s));
+    expect(equibiaxial_stress(law, s), 2 * s * s + std::pow(s, -4) - 3, s - std::pow(s, -5));
+    expect(pure_shear_stress(law, s), s * s + 1 / (s * s) - 2, s - std::pow(s, -3));
+    expect(simple_shear_stress(law, s - 0.2), (s - 0.2) * (s - 0.2), s - 0.2);
+  }
+  // λ² + 2/λ − 3 = 2 at λ = 2.
+  EXPECT_GT(uniaxial_stress(law, 1.9999), 1e4 * mu);
+  EXPECT_TRUE(std::isnan(uniaxial_stress(law, 2)));
+  EXPECT_NEAR(stable_range(law).tension, 2, 0.05);
+  EXPECT_EQ(ellipticity_margin(law).value, 1);
+  EXPECT_THROW(check_law({"gent", {mu, 0}}, "fat"), Error);
 }
 
 // The shear modulus along ε m⊗n is the second difference of W.

@@ -11,6 +11,7 @@
   LAW(neo_hookean) \
   LAW(mooney_rivlin) \
   LAW(yeoh) \
+  LAW(gent) \
   LAW(exponential)
 
 // clang-format on
