@@ -189,6 +189,7 @@ const std::vector<Named>& all_terms() {
        }},
       {"dead_load", [] { return term_of_scene("dead load"); }},
       {"elastic_support", [] { return term_of_wall("elastic support", "spring:0.5,0.2"); }},
+      {"stiffening_springs", [] { return term_of_wall("stiffening springs", "spring:0.5,0.2,L=2"); }},
       {"attachment", [] { return attachment(); }},
       {"plate_multiplier", [] { return plate(0); }},
       {"plate_penalty", [] { return plate(2e4); }},

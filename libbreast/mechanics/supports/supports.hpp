@@ -13,6 +13,7 @@
   SUPPORT(fixed) \
   SUPPORT(roller) \
   SUPPORT(cut_springs) \
+  SUPPORT(stiffening) \
   SUPPORT(tissue)
 
 // clang-format on
