@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "core/text/lists.hpp"
 #include "study/cells.hpp"
 #include "study/stage_report.hpp"
 #include "study/summary.hpp"
