@@ -113,6 +113,7 @@ TEST(Supports, DeriveByTheirParameters) {
   settings.size = Vec3(40, 40, 40);
   HexMesh mesh = fixtures::block(settings);
   mesh.cut_faces = mesh.skin_faces;
+  mesh.side = Side::right;  // its medial face, x = 40, is a part of the cut
   MechanicsOptions options;
   options.materials = load_materials("seed2008");
   for (const std::string& wall : texts_at(SupportPlace::wall)) {
