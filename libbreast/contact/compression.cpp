@@ -157,7 +157,7 @@ bool Compression::has_let_go(const State& state) {
       message("the compression ends at a reduction of ", 100 * reduction,
               " %, at which the hand still carries ", 100 * (1 - weight),
               " % of the breast's weight and pulls with ", (1 - pull) * options_.pull_N, " N");
-  if (found_.path.reached) {
+  if (found_.path.reached()) {
     found_.reason_id = "ends_before_grip";
     found_.record.reason =
         message(still, "; it lets go completely from ", 100 * hand.weight.ends,
@@ -251,8 +251,8 @@ void Compression::record_path() {
 
 void Compression::say_how_it_ended(const State& state) {
   const PathResult& path = found_.path;
-  found_.record.status = path.reached ? SolveStatus::converged : SolveStatus::stopped_early;
-  if (!path.reached) {
+  found_.record.status = path.reached() ? SolveStatus::converged : SolveStatus::stopped_early;
+  if (!path.reached()) {
     const StopReason why = explain_stop(mesh_, state.x, path, found_.plates);
     found_.reason_id = why.id;
     found_.load_reached = load_reached();
@@ -276,7 +276,7 @@ void Compression::judge_against_practice() {
   for (Judgement& line : judge_path(found_.path, found_.stable)) {
     found_.judgement.push_back(std::move(line));
   }
-  if (found_.path.reached) {
+  if (found_.path.reached()) {
     const PlateRecord& paddle = found_.contact->plates[0];
     const PathPoint end{found_.thickness_mm, paddle.force_N, 0, paddle.mean_kPa, paddle.area_cm2};
     if (auto line = judge_target(found_.path.met, measure(end, found_.path.met.kind)))

@@ -43,10 +43,10 @@ StopReason surroundings(const HexMesh& mesh, const Eigen::VectorXd& x, int eleme
 
 StopReason explain_stop(const HexMesh& mesh, const Eigen::VectorXd& good, const PathResult& path,
                         const PlatePair& plates) {
-  if (path.solve_limit) {
+  if (path.end == PathEnd::solve_limit) {
     return {"solve_limit", message("the limit of ", path.solves, " plate positions is reached")};
   }
-  if (path.last_failure == NewtonStop::none) {
+  if (path.end == PathEnd::out_of_reach) {
     return {"out_of_reach",
             message("the plates would have to close to ", path.failed_thickness, " mm")};
   }

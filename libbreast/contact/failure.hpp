@@ -21,7 +21,7 @@ struct StopReason {
   std::string id, sentence;
 };
 
-/// `good`: the last equilibrium, 3 per node.
+/// For a path that did not reach its target. `good`: the last equilibrium, 3 per node.
 StopReason explain_stop(const HexMesh& mesh, const Eigen::VectorXd& good, const PathResult& path,
                         const PlatePair& plates);
 

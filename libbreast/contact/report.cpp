@@ -13,7 +13,7 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
   write_report(static_cast<const Equilibrium&>(summary), mesh, mechanics, report);
   report.set("indefinite_iterations", summary.path.indefinite);
   report.set("failed_steps", summary.path.failures);
-  if (summary.path.reached) report.set("ended_by", target_name(summary.path.met.kind));
+  if (summary.path.reached()) report.set("ended_by", target_name(summary.path.met.kind));
   if (!summary.contact) return;
   const ContactRecord& contact = *summary.contact;
   report.set("thickness_mm", contact.thickness_mm);

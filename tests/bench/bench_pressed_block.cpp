@@ -73,9 +73,9 @@ void press(int n, const Settings& s) {
                 breast::threads(), s.bulk_ratio, gap, block.force(path), u.x(), u.y(), u.z(),
                 path.iterations, path.failures, block.factorisations() - before, path.indefinite,
                 path.final_step.forces.max_volume_error, seconds, breast::cpu_seconds() - cpu,
-                path.reached ? "reached" : describe(path.last_failure));
+                path.reached() ? "reached" : describe(path.last_failure));
     std::fflush(stdout);
-    if (!path.reached) return;
+    if (!path.reached()) return;
   }
 }
 

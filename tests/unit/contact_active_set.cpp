@@ -198,7 +198,7 @@ TEST(CompressionPath, EndDoesNotDependOnTheSteps) {
     PathOptions options;
     options.first_step = options.longest_step = k == 0 ? 1.0 : 20.0;
     const PathResult path = close(plates, contact, state, {TargetKind::thickness, 12}, options);
-    ASSERT_TRUE(path.reached);
+    ASSERT_TRUE(path.reached());
     EXPECT_EQ(path.thickness, 12);
     EXPECT_EQ(plates.thickness(), 12);
     EXPECT_GT(path.points.back().paddle_N, path.points.front().paddle_N);
@@ -212,9 +212,9 @@ TEST(CompressionPath, ReleaseReturnsToTheStart) {
   PlatePair plates = plates_at(-20, 20, 15);
   ActiveSet contact = body.active_set();
   State state = body.start();
-  ASSERT_TRUE(close(plates, contact, state, {TargetKind::thickness, 10}).reached);
+  ASSERT_TRUE(close(plates, contact, state, {TargetKind::thickness, 10}).reached());
   EXPECT_GT((state.x - body.springs->rest).norm(), 1);
-  ASSERT_TRUE(close(plates, contact, state, {TargetKind::thickness, 40}).reached);
+  ASSERT_TRUE(close(plates, contact, state, {TargetKind::thickness, 40}).reached());
   EXPECT_LT((state.x - body.springs->rest).lpNorm<Eigen::Infinity>(), 1e-8);
 }
 
@@ -226,7 +226,7 @@ TEST(CompressionPath, ForceAndPressureControlHitTheirTarget) {
     ActiveSet contact = body.active_set();
     State state = body.start();
     const PathResult path = close(plates, contact, state, {kind, value});
-    ASSERT_TRUE(path.reached);
+    ASSERT_TRUE(path.reached());
     const PathPoint& end = path.points.back();
     EXPECT_NEAR(kind == TargetKind::force ? end.paddle_N : end.pressure_kPa, value, 2e-3 * value);
     EXPECT_EQ(end.thickness, path.thickness);
@@ -241,7 +241,7 @@ TEST(CompressionPath, TheFirstOfSeveralTargetsEndsIt) {
     ActiveSet contact = body.active_set();
     State state = body.start();
     const PathResult path = close(plates, contact, state, target);
-    EXPECT_TRUE(path.reached);
+    EXPECT_TRUE(path.reached());
     return std::pair(path.points.back(), path.met.kind);
   };
   const PathPoint at_force = end_of({TargetKind::force, 0.05}).first;
@@ -273,7 +273,7 @@ TEST(CompressionPath, ATargetMayBePassedBeforeThePathMayEnd) {
   PlatePair plates = plates_at(-20, 20, 15);
   ActiveSet contact = body.active_set();
   State state = body.start();
-  ASSERT_TRUE(close(plates, contact, state, {TargetKind::force, 0.05}).reached);
+  ASSERT_TRUE(close(plates, contact, state, {TargetKind::force, 0.05}).reached());
   const double early = plates.thickness();
   PlatePair again = plates_at(-20, 20, 15);
   ActiveSet fresh = body.active_set();
@@ -282,7 +282,7 @@ TEST(CompressionPath, ATargetMayBePassedBeforeThePathMayEnd) {
   options.may_end = [&](double thickness) { return thickness < 0.9 * early; };
   const CompressionTarget target{TargetKind::force, 0.05, {{TargetKind::thickness, 0.5 * early}}};
   const PathResult path = close(again, fresh, state, target, options);
-  ASSERT_TRUE(path.reached);
+  ASSERT_TRUE(path.reached());
   EXPECT_EQ(path.met.kind, TargetKind::force);
   ASSERT_TRUE(path.passed_by);
   EXPECT_GT(*path.passed_by, 0.05);
@@ -353,7 +353,7 @@ TEST(CompressionPath, CorrectionsDoNotShortenTheSteps) {
   plates = plates_at(-20, 20, 15);
   AugmentedLagrangian paper(*body.problem, *body.solver, body.free_nodes(), {10});
   const PathResult b = close(plates, paper, penalised, {TargetKind::thickness, 12}, options);
-  ASSERT_TRUE(a.reached && b.reached);
+  ASSERT_TRUE(a.reached() && b.reached());
   int most = 0;
   for (const PathPoint& point : b.points) most = std::max(most, point.iterations);
   EXPECT_GT(most, 12) << "no position with many corrections: the test shows nothing";

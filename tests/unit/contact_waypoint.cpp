@@ -64,5 +64,50 @@ TEST(Extrapolate, NeedsNoFriction) {
   EXPECT_TRUE(extrapolate(here, &before, 40).memory.bounds.empty());
 }
 
+Waypoint at(double thickness) {
+  return waypoint(thickness, thickness, {}, {});
+}
+
+TEST(Trail, GoesBackToItsStart) {
+  Trail trail;
+  trail.begin(at(60));
+  EXPECT_EQ(trail.before(), nullptr);
+  for (const double thickness : {55, 50}) trail.advance(at(thickness));
+  EXPECT_EQ(trail.before()->thickness, 55);
+  EXPECT_TRUE(trail.step_back());
+  EXPECT_EQ(trail.here().thickness, 55);
+  EXPECT_EQ(trail.before()->thickness, 60);
+  EXPECT_TRUE(trail.step_back());
+  EXPECT_EQ(trail.here().thickness, 60);
+  EXPECT_EQ(trail.before(), nullptr);
+  EXPECT_FALSE(trail.step_back());
+}
+
+// Only the last states are kept; from the oldest of them the way back leads to the start.
+TEST(Trail, SkipsWhatLiesTooFarBack) {
+  Trail trail;
+  trail.begin(at(60));
+  for (int thickness = 59; thickness >= 50; --thickness) trail.advance(at(thickness));
+  std::vector<double> back;
+  while (trail.step_back()) back.push_back(trail.here().thickness);
+  EXPECT_EQ(back, (std::vector<double>{51, 52, 53, 54, 60}));
+}
+
+// What was behind an abandoned branch is not returned to.
+TEST(Trail, ForgetsWhatFollowedTheStateFromWhichItRestarts) {
+  Trail trail;
+  trail.begin(at(60));
+  for (const double thickness : {55, 50, 45}) trail.advance(at(thickness));
+  trail.restart_at(at(55));
+  EXPECT_EQ(trail.before(), nullptr);
+  trail.advance(at(48));
+  trail.advance(at(47));
+  EXPECT_TRUE(trail.step_back());
+  EXPECT_TRUE(trail.step_back());
+  EXPECT_EQ(trail.here().thickness, 55);
+  EXPECT_TRUE(trail.step_back());
+  EXPECT_EQ(trail.here().thickness, 60);
+}
+
 }  // namespace
 }  // namespace breast

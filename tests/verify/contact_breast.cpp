@@ -169,11 +169,11 @@ TEST(Compression, ReleaseReturnsToTheStart) {
   const auto area = [](const State&) { return 1.0; };
   const double closed = 0.6 * plates.initial_thickness;
   ASSERT_TRUE(
-      follow_path(contact, plates, state, {TargetKind::thickness, closed}, area, {}).reached);
+      follow_path(contact, plates, state, {TargetKind::thickness, closed}, area, {}).reached());
   EXPECT_GT((state.x - reference).lpNorm<Eigen::Infinity>(), 5);
   const PathResult back =
       follow_path(contact, plates, state, {TargetKind::thickness, open}, area, {});
-  ASSERT_TRUE(back.reached) << describe(back.last_failure);
+  ASSERT_TRUE(back.reached()) << describe(back.last_failure);
   EXPECT_LT((state.x - reference).lpNorm<Eigen::Infinity>(), 1e-3);
 }
 

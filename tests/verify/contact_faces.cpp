@@ -84,7 +84,7 @@ TEST(ContactFaces, UniformPressurePassesThroughADistortedMesh) {
     PressedFaces body(mesh, options, fixtures::mirror_planes(mesh), fixtures::wide_plates(0, side),
                       pressed);
     const PathResult path = body.close_to(ratio * side);
-    ASSERT_TRUE(path.reached) << describe(path.last_failure);
+    ASSERT_TRUE(path.reached()) << describe(path.last_failure);
     const NodalFaces area = nodal_faces(mesh, pressed, body.state.x);
     const std::vector<NodalContact>& contacts = path.final_step.contacts;
     double mean = 0;
@@ -127,7 +127,7 @@ TEST(ContactFaces, NoPointOfAFaceEntersARoundedEdge) {
   const PlatePair plates = fixtures::pair_at(plate, -size.z(), 0);
   PressedFaces faces(mesh, seed2008(), held, plates, touchable_faces(mesh));
   const PathResult path = faces.close_to(0.75 * size.z());
-  ASSERT_TRUE(path.reached) << describe(path.last_failure);
+  ASSERT_TRUE(path.reached()) << describe(path.last_failure);
   const std::vector<Face> free = free_boundary_faces(mesh, held);
   for (int k = 0; k < 2; ++k) {
     EXPECT_LE(deepest_penetration(mesh, free, faces.state.x, faces.plates.plate(k)), 0.05);
@@ -136,7 +136,7 @@ TEST(ContactFaces, NoPointOfAFaceEntersARoundedEdge) {
   std::vector<int> skin = nodes_of(mesh, mesh.skin_faces);
   std::erase_if(skin, [&](int node) { return held.at(node) != nullptr; });
   fixtures::PressedBody nodes(mesh, seed2008(), held, skin, plates);
-  ASSERT_TRUE(nodes.close_to(0.75 * size.z()).reached);
+  ASSERT_TRUE(nodes.close_to(0.75 * size.z()).reached());
   EXPECT_GT(deepest_penetration(mesh, free, nodes.state.x, nodes.plates.paddle), 0.2);
 }
 
@@ -179,9 +179,9 @@ TEST(ContactFaces, FrictionHoldsWithinItsBound) {
                       fixtures::wide_plates(0, side), touchable_faces(mesh));
   PressedFaces rough(mesh, seed2008(), fixtures::mirror_planes(mesh),
                      fixtures::wide_plates(0, side), touchable_faces(mesh), friction);
-  ASSERT_TRUE(smooth.close_to(0.7 * side).reached);
+  ASSERT_TRUE(smooth.close_to(0.7 * side).reached());
   const PathResult path = rough.close_to(0.7 * side);
-  ASSERT_TRUE(path.reached);
+  ASSERT_TRUE(path.reached());
   double corner_smooth = 0, corner_rough = 0;  // where the plates touch
   for (int node = 0; node < mesh.nodes(); ++node) {
     if (mesh.reference[std::size_t(node)].z() < side - 1e-9) continue;
@@ -211,7 +211,7 @@ TEST(ContactFaces, FrictionHoldsFromWhereANodeWasTouched) {
                        touchable_faces(mesh), friction);
     PathOptions path;
     path.first_step = path.longest_step = step;
-    EXPECT_TRUE(block.close_to(side - gap, path).reached);
+    EXPECT_TRUE(block.close_to(side - gap, path).reached());
     double widest = 0;
     for (int node = 0; node < mesh.nodes(); ++node) {
       if (mesh.reference[std::size_t(node)].z() < side - 1e-9) continue;
@@ -238,7 +238,7 @@ TEST(ContactFaces, FrictionHoldsSoftTissueThatStiffens) {
         fixtures::standing_block(Vec3(side, side, side), {elements, elements, elements});
     PressedFaces block(mesh, soft, fixtures::mirror_planes(mesh), fixtures::wide_plates(0, side),
                        touchable_faces(mesh), 2);
-    ASSERT_TRUE(block.close_to(0.6 * side).reached);
+    ASSERT_TRUE(block.close_to(0.6 * side).reached());
     double widest = 0;
     for (int node = 0; node < mesh.nodes(); ++node) {
       if (mesh.reference[std::size_t(node)].z() < side - 1e-9) continue;

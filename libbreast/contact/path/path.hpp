@@ -18,7 +18,7 @@ namespace breast {
 /// Step lengths are in mm of thickness; 0 chooses `longest_part` of the initial thickness.
 struct PathOptions {
   double first_step = 0, longest_step = 0, shortest_step = 0.05;
-  double longest_part = 0.07;    ///< about 7 mm for a typical breast
+  double longest_part = 0.07;  ///< about 7 mm for a typical breast
   /// The longest step (a fraction, like `longest_part`, and never more than that) while the plates are
   /// at most `slipping_below` and more than `slipping_above` (mm) apart. There the breast slips on
   /// them, and within a step it slips along straight lines.
@@ -40,22 +40,30 @@ struct PathOptions {
   std::function<bool(double)> may_end;
 };
 
+/// Why a path ended.
+enum class PathEnd {
+  target,          ///< a target was reached
+  solve_limit,     ///< PathOptions::most_solves positions were solved
+  out_of_reach,    ///< the plates would have to close to less than PathOptions::least_thickness
+  no_equilibrium,  ///< even the shortest step fails: PathResult::last_failure says why
+};
+
 struct PathResult {
-  bool reached = false;
+  PathEnd end = PathEnd::no_equilibrium;
+  bool reached() const { return end == PathEnd::target; }
   CompressionTarget met;  ///< which target was reached
   /// Set if the target was passed where the path may not end: the quantity at the end, in the unit
   /// of the target.
   std::optional<double> passed_by;
-  NewtonStop last_failure = NewtonStop::none;  ///< why the path stopped early
-  bool solve_limit = false;                    ///< stopped because of PathOptions::most_solves
   /// If the path snaps through past a target that is not a thickness: the quantity on both sides of
   /// the snap-through, in the target's unit.
   std::optional<std::pair<double, double>> jump;
-  double failed_thickness = 0;   ///< mm, of the step that failed
+  NewtonStop last_failure = NewtonStop::none;  ///< of the last position without a solution
+  double failed_thickness = 0;                 ///< mm, of that position, or of one out of reach
   Eigen::VectorXd failed_trial;  ///< positions of its first rejected trial, may be empty
   double thickness = 0;          ///< of the final state
   ContactStep final_step;
-  std::vector<PathPoint> points;
+  std::vector<PathPoint> points;        ///< none if there is no equilibrium at the first position
   std::vector<NewtonIteration> newton;  ///< all iterations, in order
   std::vector<int> newton_step;         ///< the step each belongs to
   int solves = 0, failures = 0, iterations = 0, indefinite = 0;

@@ -3,9 +3,14 @@
 
 #include <algorithm>
 
+#include "core/units.hpp"
+
 namespace breast {
 
 namespace {
+
+/// Number of states kept before the last two.
+constexpr std::size_t longest_trail = 3;
 
 /// Moves the bounds by `ratio` times their last change.
 void extrapolate_bounds(const ContactMemory& before, double ratio, ContactMemory& memory) {
@@ -19,6 +24,28 @@ void extrapolate_bounds(const ContactMemory& before, double ratio, ContactMemory
 
 }  // namespace
 
+PathPoint path_point(const ContactSolver& solver, const PlatePair& plates, const State& state,
+                     const ContactStep& step, double paddle_area) {
+  PathPoint point;
+  point.thickness = plates.thickness();
+  point.iterations = int(step.iterations.size());
+  for (std::size_t c = 0; c < step.contacts.size(); ++c) {
+    const NodalContact& contact = step.contacts[c];
+    if (contact.plate < 0) continue;
+    const Vec3 x = state.x.segment<3>(3L * solver.candidates()[c]);
+    const Plate& plate = plates.plate(contact.plate);
+    const double along =
+        (contact.normal * plate.gap(x).gradient + contact.tangential).dot(plate.normal());
+    (contact.plate == 0 ? point.paddle_N : point.detector_N) += along / micronewton_per_newton;
+  }
+  point.area_cm2 = paddle_area / mm2_per_cm2;
+  if (paddle_area > 0) {
+    point.pressure_kPa =
+        point.paddle_N * micronewton_per_newton / paddle_area / pascal_per_kilopascal;
+  }
+  return point;
+}
+
 Guess extrapolate(const Waypoint& here, const Waypoint* before, double thickness) {
   Guess guess{here.state, here.memory};
   if (before == nullptr) return guess;
@@ -27,6 +54,38 @@ Guess extrapolate(const Waypoint& here, const Waypoint* before, double thickness
   guess.state.p += ratio * (here.moved.p - before->state.p);
   extrapolate_bounds(before->memory, ratio, guess.memory);
   return guess;
+}
+
+void Trail::begin(Waypoint start) {
+  start_ = here_ = std::move(start);
+}
+
+void Trail::advance(Waypoint next) {
+  if (before_) earlier_.push_back(std::move(*before_));
+  if (earlier_.size() > longest_trail) earlier_.pop_front();
+  before_ = std::move(here_);
+  here_ = std::move(next);
+}
+
+void Trail::end_between(Waypoint before, Waypoint last) {
+  before_ = std::move(before);
+  here_ = std::move(last);
+}
+
+bool Trail::step_back() {
+  if (!before_ && here_.thickness == start_.thickness) return false;
+  here_ = before_ ? std::move(*before_) : start_;
+  before_.reset();
+  if (earlier_.empty()) return true;
+  before_ = std::move(earlier_.back());
+  earlier_.pop_back();
+  return true;
+}
+
+void Trail::restart_at(Waypoint earlier) {
+  here_ = std::move(earlier);
+  before_.reset();
+  earlier_.clear();
 }
 
 }  // namespace breast

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/path/next_position.hpp"
+#include "contact/path/step_length.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +13,13 @@ constexpr double stretch_to_corner = 1.1, stretch_to_end = 1.25;
 constexpr double beyond_control = 1.15, least_closing = 0.5;
 /// Distance at which a corner counts as reached, mm.
 constexpr double at_corner = 1e-4;
+
+/// Steps longer than this fraction of the longest are abandoned if they begin badly.
+constexpr double fast_part = 0.3;
+/// A position that took fewer iterations than `quick` lengthens the next step by `longer`; one that
+/// took more than `slow` shortens it by `shorter`.
+constexpr int quick = 8, slow = 12;
+constexpr double longer = 1.4, shorter = 0.7;
 }  // namespace
 
 double next_thickness(double step, const PathPoint& here, const PathPoint* before,
@@ -35,6 +42,23 @@ double next_thickness(double step, const PathPoint& here, const PathPoint* befor
   const double left = *stops.end - here.thickness;
   if (std::abs(left) <= stretch_to_end * closing) return *stops.end;
   return here.thickness + std::copysign(closing, left);
+}
+
+bool StepLength::may_fail_fast(double length) const {
+  return length > fast_part * longest_;
+}
+
+void StepLength::adapt(int iterations) {
+  // A length that was just found by halving is used twice before it grows again.
+  if (iterations < quick && refusals_ == 0) mm_ = std::min(longest_, longer * mm_);
+  if (iterations > slow) mm_ = std::max(shortest_, shorter * mm_);
+  refusals_ = 0;
+}
+
+bool StepLength::halve(double length) {
+  ++refusals_;
+  mm_ = 0.5 * std::min(mm_, length);
+  return mm_ >= shortest_;
 }
 
 }  // namespace breast

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/path/next_position.hpp"
+#include "contact/path/step_length.hpp"
 
 #include <gtest/gtest.h>
 
@@ -45,4 +45,39 @@ TEST(NextPosition, DoesNotPassAForceByMuch) {
   const double next = next_thickness(7, at(100, 80), &before, stops);
   // The force doubled in 7 mm: 115 N are reached 7 log2(115/80) mm further on.
   EXPECT_NEAR(next, 100 - 7 * std::log2(115.0 / 80), 1e-12);
+}
+
+TEST(StepLength, GrowsAfterAnEasyPositionAndShrinksAfterAHardOne) {
+  StepLength step(4, 0.05);
+  step.limit(7);
+  step.adapt(5);
+  EXPECT_DOUBLE_EQ(step.mm(), 5.6);
+  step.adapt(5);
+  EXPECT_DOUBLE_EQ(step.mm(), 7);  // the longest
+  step.adapt(10);
+  EXPECT_DOUBLE_EQ(step.mm(), 7);
+  step.adapt(13);
+  EXPECT_DOUBLE_EQ(step.mm(), 4.9);
+}
+
+TEST(StepLength, IsUsedTwiceAfterItWasHalved) {
+  StepLength step(4, 0.05);
+  step.limit(7);
+  EXPECT_TRUE(step.halve(4));
+  step.adapt(5);
+  EXPECT_DOUBLE_EQ(step.mm(), 2);
+  step.adapt(5);
+  EXPECT_DOUBLE_EQ(step.mm(), 2.8);
+}
+
+TEST(StepLength, EndsBelowTheShortestAndCanBeginAnew) {
+  StepLength step(1, 0.3);
+  step.limit(7);
+  EXPECT_TRUE(step.halve(1));
+  EXPECT_FALSE(step.distrusts_extrapolation());
+  EXPECT_FALSE(step.halve(0.5));
+  EXPECT_TRUE(step.distrusts_extrapolation());
+  step.restart();
+  EXPECT_EQ(step.mm(), 7);
+  EXPECT_FALSE(step.distrusts_extrapolation());
 }
