@@ -199,21 +199,14 @@ void run_compress(Choices c, Run& run) {
                          breast_alone(read_mesh(c.reference, {.reference = true})));
   const HexMesh& mesh = mechanics.mesh();
   take_from_mammogram(c, mesh, run);
-  // A breast that slides lies limp between plates that stand far in front of its chest wall.
-  const bool slides = mechanics.options().wall->slides();
-  if (slides && c.image_edge.empty() && !c.plates.standoff) c.image_edge = "auto";
-  const CompressionOptions options =
-      compression_options(c, parse_gravity(c.gravity), muscle_thickness(mesh));
-  if (c.plates.standoff) {
-    run.progress().note(
-        "--standoff will be removed in a later version; use --image-edge to "
-        "place the plates' edge");
-  }
+  const CompressionOptions options = compression_options(
+      c, parse_gravity(c.gravity),
+      {mechanics.options().wall->slides(), muscle_thickness(mesh)});
   CompressionResult found = compress(mesh, options, mechanics.options(), run.progress());
   if (mechanics.options().estimate == Estimate::q2 && found.contact) {
     CompressionOptions same_gap = options;
     same_gap.stop_at = StopAt::thickness;
-    same_gap.target = found.thickness_mm;
+    same_gap.target = found.contact->thickness_mm;
     same_gap.or_at.clear();
     estimate_by_second_solution(mesh, mechanics.options(), found,
                                 [&](const HexMesh& richer, const MechanicsOptions& same) {
@@ -222,7 +215,7 @@ void run_compress(Choices c, Run& run) {
   }
   write_report(found, mesh, mechanics.options(), run.report());
   const bool enough = found.record.status == SolveStatus::stopped_early && c.at_least &&
-                      found.reduction_percent >= *c.at_least;
+                      found.contact->reduction_percent >= *c.at_least;
   mechanics.finish(found, c.compressed, enough, plate_lines(run.report()));
 }
 

@@ -2,18 +2,16 @@
 #include "contact/compression.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
-#include "contact/estimate_plates.hpp"
+#include "contact/faces.hpp"
 #include "contact/failure.hpp"
 #include "contact/results.hpp"
-#include "contact/skin_area.hpp"
-#include "contact/touching_area.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "mechanics/estimate/error_estimate.hpp"
+#include "mechanics/load_steps.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"
 #include "solve/equilibrate.hpp"
@@ -21,10 +19,6 @@
 namespace breast {
 
 namespace {
-
-/// Relative tolerance of a force, mean pressure or area at which the compression ends, if faces touch
-/// the plates: their contact area changes by a 64th of a face at a time, 0.1 to 0.3 % of the area.
-constexpr double faces_control_tolerance = 5e-3;
 
 /// The contact solver needs a Cholesky factor.
 MechanicsOptions by_factor(MechanicsOptions mechanics) {
@@ -52,59 +46,46 @@ class Compression {
   void place(const State& upright);
   bool lift(State& state);
   Grip grip() const;
-  PathOptions path_options();
+  PathOptions path_options(const ContactSolver& contact);
   bool has_let_go(const State& state);
   void close_plates(State& state);
   void record_path();
   void check_stability(const State& state, const ContactSolver& contact);
-  void estimate(const State& state, const ChosenContact& contact);
+  void estimate(const State& state, const ContactSolver& contact);
   void note_stage(const char* name, const State& state);
   void say_where_plates_stand() const;
   void say_how_it_ended(const State& state);
   double load_reached() const;
   void judge_against_practice();
-  double clock() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
 
   const HexMesh& mesh_;
   const CompressionOptions& options_;
   Progress& progress_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   Scene scene_;
   Eigen::VectorXd load_, pull_;  // the weight; the force that a hand adds until it lets go
   LoadedProblem body_;
   SaddleSolver solver_;
   Eigen::VectorXd upright_;  // the hanging breast before it is lifted
   CompressionResult found_;
+  SolveLog log_{found_, progress_};
 };
 
 /// Loads the body alone, in steps if one step does not converge. `name` is the name of the load.
 bool Compression::load_with(const Eigen::VectorXd& load, const char* name, State& state) {
   Timer::Scope phase(found_.timer, name);
   SaddleMatrix matrix = body_.problem.make_matrix();
-  LoadPath path;
-  while (!path.finished()) {
-    body_.set_load(path.next() * load);
-    State trial = state;
-    ++found_.steps;
-    const EquilibriumResult result = equilibrate(
-        body_.problem, solver_, matrix, trial, {}, nullptr, [&](const NewtonIteration& iteration) {
-          record_iteration(found_, found_.steps, iteration, clock());
-          progress_.update(name, -1, message("residual ", iteration.residual));
-        });
-    if (result.converged) {
-      state = std::move(trial);
-      path.succeed();
-    } else if (!path.fail()) {
-      found_.reason_id = std::string(name) + "_not_carried";
-      found_.load_reached = path.done;
-      found_.record.reason = message(name, " before compression stopped at ", 100 * path.done,
-                                     " % of the load: ", result.reason);
-      return false;
-    }
-  }
-  return true;
+  LoadSteps steps;
+  steps.set_load = [&](double part) { body_.set_load(part * load); };
+  steps.solve = [&](State& trial, double, double) -> NewtonResult {
+    return equilibrate(body_.problem, solver_, matrix, trial, {}, nullptr, log_.begin_step(name));
+  };
+  const LoadReached reached = follow_load(steps, state);
+  if (reached.whole()) return true;
+  found_.reason_id = std::string(name) + "_not_carried";
+  found_.load_reached = reached.part;
+  found_.record.reason = message(name, " before compression stopped at ", 100 * reached.part,
+                                 " % of the load: ", reached.last.reason);
+  return false;
 }
 
 CompressionTarget Compression::target() const {
@@ -123,9 +104,9 @@ Grip Compression::grip() const {
 }
 
 /// If the breast is lifted, its weight returns while the plates grip it.
-PathOptions Compression::path_options() {
+PathOptions Compression::path_options(const ContactSolver& contact) {
   PathOptions path = options_.path;
-  if (options_.method == ContactMethod::surface) path.control_tolerance = faces_control_tolerance;
+  path.control_tolerance = std::max(path.control_tolerance, contact.resolution());
   if (options_.positioning == Positioning::hanging) return path;
   const Grip hand = grip();
   path.prepare = [this, hand](double thickness) {
@@ -171,16 +152,16 @@ bool Compression::has_let_go(const State& state) {
 }
 
 void Compression::close_plates(State& state) {
-  const ChosenContact contact =
+  const std::unique_ptr<ContactSolver> contact =
       make_contact_solver(options_.method, options_.friction, scene_, body_.problem, solver_);
-  const std::vector<Face> faces = contact_faces(mesh_, contact.surface != nullptr);
+  const std::vector<Face> faces = contact->contact_faces(mesh_);
   const auto area = [&](const State& s) {
     return touching_area(mesh_, faces, s.x, found_.plates.paddle);
   };
   {
     Timer::Scope phase(found_.timer, "contact");
-    found_.path = follow_path(*contact.solver, found_.plates, state, target(), area, path_options(),
-                              progress_);
+    found_.path = follow_path(*contact, found_.plates, state, target(), area,
+                              path_options(*contact), progress_);
   }
   record_path();
   if (found_.path.points.empty()) {
@@ -194,13 +175,12 @@ void Compression::close_plates(State& state) {
   {
     Timer::Scope phase(found_.timer, "results");
     found_.min_det_F = found_.path.final_step.forces.min_det_F;
-    record_compression(scene_, options_, state, *contact.solver, contact.surface,
-                       body_.load->total(), found_);
+    record_compression(scene_, options_, state, *contact, body_.load->total(), found_);
     conclude(found_, scene_, state, options_.gravity);
     note_stage("compressed", state);
   }
-  check_stability(state, *contact.solver);
-  if (scene_.options().estimate == Estimate::step) estimate(state, contact);
+  check_stability(state, *contact);
+  if (scene_.options().estimate == Estimate::step) estimate(state, *contact);
   say_how_it_ended(state);
 }
 
@@ -216,11 +196,10 @@ void Compression::check_stability(const State& state, const ContactSolver& conta
   if (!found_.stable) found_.doubts.push_back(unknown_stability);
 }
 
-/// Discretisation error of the final state with a fixed touching set. Faces that roll on plates
-/// have no such set: for them, steps towards a richer mesh were wrong by factors of three either
-/// way (docs/validation).
-void Compression::estimate(const State& state, const ChosenContact& contact) {
-  if (contact.surface != nullptr) {
+/// Discretisation error of the final state with a fixed touching set.
+void Compression::estimate(const State& state, const ContactSolver& contact) {
+  const auto fixed = contact.for_estimate(mesh_, found_.plates, state);
+  if (!fixed) {
     found_.error_estimate_how =
         "there is no estimate for plates that press on faces; solve with more elements and "
         "compare";
@@ -229,9 +208,7 @@ void Compression::estimate(const State& state, const ChosenContact& contact) {
   if (mesh_.order == 1 && !mesh_.landmarks.empty()) {
     Timer::Scope phase(found_.timer, "error estimate");
     SaddleMatrix matrix = body_.problem.make_matrix();
-    note_estimate(estimate_error(scene_, state, options_.gravity, matrix, solver_,
-                                 estimate_of_nodes(*contact.solver, found_.plates, contact.friction,
-                                                   mesh_, state)),
+    note_estimate(estimate_error(scene_, state, options_.gravity, matrix, solver_, *fixed),
                   ", nodes on the plates held along their normals", found_);
   }
   if (found_.error_estimate_mm < 0) {
@@ -243,7 +220,7 @@ void Compression::record_path() {
   const PathResult& path = found_.path;
   const int before = found_.steps;
   for (std::size_t i = 0; i < path.newton.size(); ++i) {
-    record_iteration(found_, before + path.newton_step[i], path.newton[i], clock());
+    log_.record(before + path.newton_step[i], path.newton[i]);
   }
   found_.steps += path.solves;
   found_.residual = path.final_step.residual;
@@ -256,33 +233,35 @@ void Compression::say_how_it_ended(const State& state) {
     const StopReason why = explain_stop(mesh_, state.x, path, found_.plates);
     found_.reason_id = why.id;
     found_.load_reached = load_reached();
-    found_.record.reason = message("stopped at thickness ", found_.thickness_mm, " mm (",
-                                   found_.reduction_percent, " % reduction): ", why.sentence);
+    found_.record.reason =
+        message("stopped at thickness ", found_.contact->thickness_mm, " mm (",
+                found_.contact->reduction_percent, " % reduction): ", why.sentence);
   }
   judge_against_practice();
 }
 
 /// Completed fraction of the path to the target.
 double Compression::load_reached() const {
-  return part_of_way(found_.path.points.back(), target(), found_.initial_thickness_mm);
+  return part_of_way(found_.path.points.back(), target(), found_.plates.initial_thickness);
 }
 
 /// Compares the result with clinical ranges, then adds comments on the path.
 void Compression::judge_against_practice() {
+  const ContactRecord& contact = *found_.contact;
   found_.judgement = judge_compression(
-      *found_.contact,
+      contact,
       {found_.pose.n, scene_.weight(options_.gravity) / micronewton_per_newton,
        found_.wall_reaction_N, found_.max_volume_error, found_.places, found_.self_contact});
   for (Judgement& line : judge_path(found_.path, found_.stable)) {
     found_.judgement.push_back(std::move(line));
   }
   if (found_.path.reached()) {
-    const PlateRecord& paddle = found_.contact->plates[0];
-    const PathPoint end{found_.thickness_mm, paddle.force_N, 0, paddle.mean_kPa, paddle.area_cm2};
+    const PlateRecord& paddle = contact.plates[0];
+    const PathPoint end{contact.thickness_mm, paddle.force_N, 0, paddle.mean_kPa, paddle.area_cm2};
     if (auto line = judge_target(found_.path.met, measure(end, found_.path.met.kind)))
       found_.judgement.push_back(std::move(*line));
   }
-  if (found_.reduction_percent > 40 && scene_.options().materials.name == "seed2008") {
+  if (contact.reduction_percent > 40 && scene_.options().materials.name == "seed2008") {
     found_.judgement.push_back(
         {"law_stiffens",
          "beyond a reduction of 40 % the Table II laws stiffen so much that no patient would "

@@ -8,14 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "contact/coverage.hpp"
-#include "contact/deformation.hpp"
+#include "contact/compressed_shape.hpp"
 #include "contact/judgement.hpp"
 #include "contact/path/path.hpp"
-#include "contact/plates.hpp"
 #include "contact/path/positioning.hpp"
-#include "contact/self_contact.hpp"
-#include "contact/solvers/make_solver.hpp"
+#include "contact/plates.hpp"
+#include "contact/solvers/solver.hpp"
 #include "core/progress.hpp"
 #include "core/report.hpp"
 #include "mechanics/equilibrium.hpp"
@@ -28,7 +26,8 @@ struct CompressionOptions {
   double angle_deg = 0;  ///< beam angle θ
   StopAt stop_at = StopAt::reduction;
   double target = 50;  ///< mm, %, N, kPa or cm²
-  std::vector<CompressionStop> or_at = {};  ///< further targets; the first that is reached ends the path
+  std::vector<CompressionStop> or_at =
+      {};  ///< further targets; the first that is reached ends the path
   PlateOptions plates;
   Vec3 gravity{0, 0, -9810};  ///< mm/s², LPS
   ContactMethod method = ContactMethod::active_set;
@@ -38,12 +37,11 @@ struct CompressionOptions {
   PathOptions path;
 };
 
-/// A compressed breast.
+/// A compressed breast. Pose, thickness and the plates' forces are those of Equilibrium::contact.
 struct CompressionResult : Equilibrium {
   PlatePair plates;
   ViewPose pose;
   PathResult path;
-  double thickness_mm = 0, reduction_percent = 0, initial_thickness_mm = 0;
   /// |plates + weight + chest wall + cut| over the larger of paddle force and weight.
   double force_balance = 0;
   Vec3 wall_reaction_N{0, 0, 0};  ///< force of the chest wall and a held cut on the body

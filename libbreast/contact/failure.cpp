@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "contact/deformation.hpp"
+#include "contact/compressed_shape.hpp"
 #include "core/error.hpp"
 
 namespace breast {

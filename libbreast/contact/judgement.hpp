@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "contact/compressed_shape.hpp"
 #include "contact/path/path.hpp"
-#include "contact/self_contact.hpp"
 #include "core/types.hpp"
 #include "mesh/hex_mesh.hpp"
 
@@ -49,7 +49,6 @@ std::vector<Judgement> judge_compression(const ContactRecord& contact, const Pre
 std::optional<Judgement> judge_target(const CompressionTarget& met, double reached);
 /// Comments on the closing of the plates: an indefinite tangent (a doubt unless the final state is
 /// `stable`), a snap-through past the target, friction bounds that do not follow the pressure.
-std::vector<Judgement> judge_path(const PathResult& path,
-                                  bool stable);
+std::vector<Judgement> judge_path(const PathResult& path, bool stable);
 
 }  // namespace breast

@@ -10,14 +10,7 @@
 namespace breast {
 
 namespace {
-/// Default radius of the plates' rounded edges, mm: without and with plates placed by the edge of
-/// the image.
-constexpr double edge_radius = 15, image_edge_radius = 3;
-/// Default friction coefficient of skin on plates that are placed by the edge of the image. Without
-/// friction a breast that slides on the chest wall is squeezed out from between the plates.
-constexpr double image_edge_friction = 0.15;
-/// Default force with which a hand pulls such a breast forwards until friction holds it, N.
-constexpr double image_edge_pull = 30;
+
 /// Automatic longest step, as a fraction of the initial thickness, between inclined plates that hold
 /// the breast by friction, while the hand lets it go: along these plates it slips farther than in
 /// CC, and its end depends on the steps in which it slips.
@@ -25,15 +18,44 @@ constexpr double slipping_part = 0.006;
 /// Default distance from the chest wall to the edge of the image, mm. The oblique view shows muscle:
 /// in a mesh with a layer of muscle the edge lies behind its front by this fraction of its thickness.
 constexpr double edge_cc = 5, edge_in_muscle = 1.25;
-}  // namespace
+/// Percent; a smaller reduction is a fraction, not a percentage.
+constexpr double least_reduction = 1;
 
-namespace {
 std::optional<double> parse_angle(const char* option, const std::string& text, double most) {
   if (text == "auto") return std::nullopt;
   const std::optional<double> angle = number_in(text);
   if (angle && std::abs(*angle) <= most) return angle;
   throw input_error(option, " ", text, ": give 'auto' or degrees from ", -most, " to ", most);
 }
+
+ContactMethod method_of(const CompressionChoices& c, ContactMethod usual) {
+  const bool lagrangian = c.contact == "al";
+  if (lagrangian && c.contact_points == "surface") {
+    throw input_error(
+        "--contact-points surface with --contact al: the augmented Lagrangian has contact at "
+        "nodes only");
+  }
+  if (lagrangian) return ContactMethod::augmented_lagrangian;
+  if (c.contact_points.empty()) return usual;
+  return c.contact_points == "surface" ? ContactMethod::surface : ContactMethod::active_set;
+}
+
+Positioning positioning_of(const CompressionChoices& c, Positioning usual) {
+  if (c.positioning.empty()) return usual;
+  return c.positioning == "lifted" ? Positioning::lifted : Positioning::hanging;
+}
+
+void check(const CompressionChoices& c) {
+  if (c.reduction && *c.reduction < least_reduction) {
+    throw input_error("--reduction ", *c.reduction, " percent is below ", least_reduction,
+                      "; did you mean ", 100 * *c.reduction,
+                      "? (for a smaller one give the gap in mm, --thickness)");
+  }
+  if (!c.image_edge.empty() && c.plates.standoff) {
+    throw input_error("--image-edge with --standoff: both place the plates' edge; give only one");
+  }
+}
+
 }  // namespace
 
 double parse_detector(const std::string& text) {
@@ -73,49 +95,44 @@ std::vector<CompressionStop> CompressionChoices::stops() const {
   return all;
 }
 
+// Without friction a breast that slides on the chest wall is squeezed out from between the plates.
+Placement Placement::clinical() {
+  Placement placement;
+  placement.edge_radius = 3;
+  placement.turn_deg = placement.lean_deg = std::nullopt;
+  placement.method = ContactMethod::surface;
+  placement.friction = 0.15;
+  placement.positioning = Positioning::lifted;
+  placement.pull_N = 30;
+  return placement;
+}
+
 CompressionOptions compression_options(const CompressionChoices& c, const Vec3& gravity,
-                                       double muscle_mm) {
-  constexpr double least_reduction =
-      1;  // percent; a smaller number is a fraction, not a percentage
-  if (c.reduction && *c.reduction < least_reduction) {
-    throw input_error("--reduction ", *c.reduction, " percent is below ", least_reduction,
-                      "; did you mean ", 100 * *c.reduction,
-                      "? (for a smaller one give the gap in mm, --thickness)");
-  }
+                                       const CompressedBody& body) {
+  check(c);
+  const bool by_image = !c.image_edge.empty() || (body.slides && !c.plates.standoff);
+  const Placement usual = by_image ? Placement::clinical() : Placement{};
   CompressionOptions options;
   options.view = view_named(c.view);
   options.angle_deg = c.angle.value_or(view_angle_deg(options.view));
-  options.plates = c.plates;
-  options.plates.detector_rise = parse_detector(c.detector);
   options.gravity = gravity;
-  options.path.longest_step = c.plate_step.value_or(0);
-  options.path.first_step = c.plate_step.value_or(0);
-  const bool clinical = !c.image_edge.empty();
-  if (clinical) options.plates.image_edge = parse_image_edge(c.image_edge, options.view, muscle_mm);
-  if (clinical && c.plates.standoff) {
-    throw input_error("--image-edge with --standoff: both place the plates' edge; give only one");
+  options.plates = c.plates;
+  if (by_image) {
+    options.plates.image_edge = parse_image_edge(c.image_edge.empty() ? "auto" : c.image_edge,
+                                                 options.view, body.muscle_mm);
   }
-  options.plates.edge_radius = c.edge_radius.value_or(clinical ? image_edge_radius : edge_radius);
-  options.plates.turn_deg = parse_turn(!c.turn.empty() ? c.turn : clinical ? "auto" : "0");
-  options.plates.lean_deg = parse_lean(!c.lean.empty() ? c.lean : clinical ? "auto" : "0");
-  const bool plain = !clinical || c.contact == "al";
-  const std::string points = !c.contact_points.empty() ? c.contact_points
-                             : plain                   ? "nodes"
-                                                       : "surface";
-  if (points == "surface" && c.contact == "al") {
-    throw input_error(
-        "--contact-points surface with --contact al: the augmented Lagrangian has contact at "
-        "nodes only");
-  }
-  options.method = points == "surface" ? ContactMethod::surface
-                   : c.contact == "al" ? ContactMethod::augmented_lagrangian
-                                       : ContactMethod::active_set;
-  const bool frictional = clinical && options.method == ContactMethod::surface;
-  options.friction = c.friction.value_or(frictional ? image_edge_friction : 0);
-  const bool lifted = c.positioning.empty() ? clinical : c.positioning == "lifted";
-  options.positioning = lifted ? Positioning::lifted : Positioning::hanging;
-  const bool held = frictional && lifted && options.friction > 0;
-  options.pull_N = c.pull.value_or(held ? image_edge_pull : 0);
+  options.plates.detector_rise = parse_detector(c.detector);
+  options.plates.edge_radius = c.edge_radius.value_or(usual.edge_radius);
+  options.plates.turn_deg = c.turn.empty() ? usual.turn_deg : parse_turn(c.turn);
+  options.plates.lean_deg = c.lean.empty() ? usual.lean_deg : parse_lean(c.lean);
+  options.method = method_of(c, usual.method);
+  options.positioning = positioning_of(c, usual.positioning);
+  const bool faces = options.method == ContactMethod::surface;
+  options.friction = c.friction.value_or(faces ? usual.friction : 0);
+  // Nothing else would hold a breast that was pulled.
+  const bool held = faces && options.friction > 0 && options.positioning == Positioning::lifted;
+  options.pull_N = c.pull.value_or(held ? usual.pull_N : 0);
+  options.path.first_step = options.path.longest_step = c.plate_step.value_or(0);
   if (options.view != View::cc && options.friction > 0) options.path.slipping_part = slipping_part;
   options.or_at = c.stops();
   if (!options.or_at.empty()) {

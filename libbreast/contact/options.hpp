@@ -32,12 +32,31 @@ struct CompressionChoices {
   /// reached ends the compression.
   std::vector<CompressionStop> stops() const;
 };
-/// `gravity` in mm/s², LPS; `muscle_mm` is the thickness of the mesh's layer of muscle. Plates that
-/// are placed by the edge of the image have the clinical defaults: parallel to the chest wall, with
-/// an edge radius of 3 mm, surface contact with a friction coefficient of 0.15, and a lifted breast
-/// pulled forwards by 30 N. Throws Error (input) for an unknown view or detector, and for a
-/// reduction below 1 percent, which is probably a fraction given by mistake.
+/// How plates stand and hold a breast, unless options say otherwise.
+struct Placement {
+  double edge_radius = PlateOptions().edge_radius;   ///< mm
+  std::optional<double> turn_deg = 0, lean_deg = 0;  ///< as in PlateOptions
+  ContactMethod method = ContactMethod::active_set;
+  double friction = 0;  ///< of faces on plates
+  Positioning positioning = Positioning::hanging;
+  double pull_N = 0;  ///< of a lifted breast that friction holds
+  /// As in the clinic, with the edge of the plates at the edge of the image: parallel to the chest
+  /// wall, with a sharper edge, and a breast that is lifted, pulled forwards and held by friction.
+  static Placement clinical();
+};
+
+/// What the defaults of a compression depend on besides the command line.
+struct CompressedBody {
+  /// A breast that slides on its chest wall lies limp between plates that stand far in front of it:
+  /// unless --standoff is given, they are placed by the edge of the image.
+  bool slides = false;
+  double muscle_mm = 0;  ///< thickness of the mesh's layer of muscle
+};
+
+/// `gravity` in mm/s², LPS. Plates that are placed by the edge of the image have the clinical
+/// defaults. Throws Error (input) for an unknown view or detector, and for a reduction below 1
+/// percent, which is probably a fraction given by mistake.
 CompressionOptions compression_options(const CompressionChoices& choices, const Vec3& gravity,
-                                       double muscle_mm = 0);
+                                       const CompressedBody& body = {});
 
 }  // namespace breast

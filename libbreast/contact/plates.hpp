@@ -63,6 +63,13 @@ struct Plate {
 /// A paddle perpendicular to the beam of `pose`, whose extent is still to be set.
 Plate plate_facing(const ViewPose& pose);
 
+/// A point on which a plate presses: a node, or a quadrature point of a face.
+struct PressedPoint {
+  int plate = 0;        ///< 0 paddle, 1 detector
+  Vec3 at{0, 0, 0};     ///< mm
+  Vec3 force{0, 0, 0};  ///< on the body, µN
+};
+
 /// Options for the placement of the plates; lengths in mm.
 struct PlateOptions {
   /// Distance from the most anterior chest-wall or cut point to the start of the rounded edge; by

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/penetration.hpp"
-#include "contact/skin_area.hpp"
-#include "contact/touching_area.hpp"
+#include "contact/faces.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "mesh/nodal.hpp"
@@ -46,28 +44,12 @@ PlateRecord pose_of(const HexMesh& mesh, const Plate& plate, const std::vector<F
   return record;
 }
 
-/// The points on which the plates press: points of faces, or nodes.
-std::vector<PressedPoint> pressed_points(const PlatePair& plates, const Eigen::VectorXd& x,
-                                         const ContactSolver& solver, const ContactStep& step) {
-  if (!step.pressed.empty()) return step.pressed;
-  std::vector<PressedPoint> points;
-  for (std::size_t c = 0; c < step.contacts.size(); ++c) {
-    const NodalContact& contact = step.contacts[c];
-    if (contact.plate < 0 || !(contact.normal > 0)) continue;
-    const Vec3 at = x.segment<3>(3L * solver.candidates()[c]);
-    const Vec3 normal = plates.plate(contact.plate).gap(at).gradient;
-    points.push_back({contact.plate, at, contact.normal * normal + contact.tangential});
-  }
-  return points;
-}
-
 /// Pressure at the nodes, kPa: the force of a node divided by the area of the surrounding faces
 /// that may touch.
 void record_pressure(const HexMesh& mesh, const Eigen::VectorXd& x, const ContactSolver& solver,
                      CompressionResult& result) {
   const ContactStep& step = result.path.final_step;
-  const std::vector<double> area =
-      nodal_faces(mesh, contact_faces(mesh, !step.pressed.empty()), x).area;
+  const std::vector<double> area = nodal_faces(mesh, solver.contact_faces(mesh), x).area;
   for (std::size_t c = 0; c < step.contacts.size(); ++c) {
     const NodalContact& contact = step.contacts[c];
     if (contact.plate < 0 || !(contact.normal > 0)) continue;
@@ -163,38 +145,22 @@ ContactRecord record_of(const CompressionOptions& options, const CompressionResu
 }  // namespace
 
 void record_compression(const Scene& scene, const CompressionOptions& options, const State& state,
-                        const ContactSolver& solver, const SurfaceContact* surface,
-                        const Vec3& load, CompressionResult& result) {
-  const FrictionTerm* friction = surface != nullptr ? surface->friction().get() : nullptr;
+                        const ContactSolver& solver, const Vec3& load, CompressionResult& result) {
   const HexMesh& mesh = scene.mesh();
   result.contact_pressure.assign(std::size_t(mesh.nodes()), 0);
   result.places.assign(2, {});
   ContactRecord record = record_of(options, result);
-  if (surface != nullptr) {
-    record.surface_stiffness = surface->pressure().stiffness();
-    record.face_rules = surface->pressure().face_rules();
-  }
-  const std::vector<PressedPoint> points =
-      pressed_points(result.plates, state.x, solver, result.path.final_step);
+  solver.describe(state, record);
   const std::vector<Face> faces = free_boundary_faces(mesh, scene.walls());
-  const std::vector<Face> touchable = contact_faces(mesh, surface != nullptr);
+  const std::vector<Face> touchable = solver.contact_faces(mesh);
   Vec3 total = Vec3::Zero();  // force of both plates on the body, µN
-  if (friction != nullptr) {
-    for (const FrictionEntry& held : friction->entries()) {
-      record.friction.push_back({held.node, held.plate, friction->anchor_in_plane(held, state.x),
-                                 held.bound, held.stick});
-    }
-  }
   for (int k = 0; k < 2; ++k) {
     const Plate& plate = result.plates.plate(k);
     record.plates.push_back(pose_of(mesh, plate, faces, state.x));
     record.plates.back().area_cm2 = touching_area(mesh, touchable, state.x, plate) / mm2_per_cm2;
     PressedPlace& place = result.places[std::size_t(k)];
-    total += record_plate(points, k, plate, record.plates.back(), place);
+    total += record_plate(result.path.final_step.pressed, k, plate, record.plates.back(), place);
   }
-  result.thickness_mm = record.thickness_mm;
-  result.reduction_percent = record.reduction_percent;
-  result.initial_thickness_mm = record.initial_thickness_mm;
   result.contact = std::move(record);
   record_pressure(mesh, state.x, solver, result);
   record_balance(scene, solver.problem().constraints_at(state.x), state, total,

@@ -3,16 +3,14 @@
 #pragma once
 
 #include "contact/compression.hpp"
-#include "contact/solvers/surface_contact.hpp"
+#include "contact/solvers/solver.hpp"
 #include "mechanics/scene.hpp"
 
 namespace breast {
 
 /// Fills the contact record, the contact pressure and the physical quantities of the result from
-/// the final state, the last of `result.path`. `surface`: the solver for surface contact, otherwise
-/// null.
+/// the final state, the last of `result.path`. `load`: the forces on the body besides the plates', µN.
 void record_compression(const Scene& scene, const CompressionOptions& options, const State& state,
-                        const ContactSolver& solver, const SurfaceContact* surface,
-                        const Vec3& load, CompressionResult& result);
+                        const ContactSolver& solver, const Vec3& load, CompressionResult& result);
 
 }  // namespace breast

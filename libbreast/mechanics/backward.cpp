@@ -2,15 +2,14 @@
 // The inverse problem: X such that the imaged shape x is in equilibrium. The residual is that of
 // forward, R(X, x, p) = 0 with x given, so that forward returns the imaged shape to rounding error.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "mechanics/chosen_solver.hpp"
 #include "mechanics/inverse_system.hpp"
+#include "mechanics/load_steps.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/solution.hpp"
-#include "mechanics/solve_pace.hpp"
 #include "mechanics/stability/explain.hpp"
 
 namespace breast {
@@ -35,20 +34,15 @@ class BackwardSolve {
   bool stands(const Vec3& gravity) { return stands_under(scene_.gravity_force(gravity)); }
 
  private:
-  double clock() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
   State guess(const Eigen::VectorXd& reference) const {
     return {reference, imaged_, scene_.solid().rest_pressure()};
   }
   /// A solve that increases the load from the fraction `from` to the fraction `to`.
   NewtonResult solve(State& state, double from = 0, double to = 1);
-  /// Increases the load from `state` to the full load, in parts if necessary; returns the fraction
-  /// reached.
-  double follow(const Eigen::VectorXd& load, State& state);
+  LoadReached follow(const Eigen::VectorXd& load, State& state);
   bool stays(const State& state);
   bool stands_under(const Eigen::VectorXd& load);
-  void judge_end(const State& state, double reached);
+  void judge_end(const State& state, const LoadReached& reached);
   double stable_part(const Eigen::VectorXd& load, double reached, bool stable);
   void find_needed_stiffness(const Eigen::VectorXd& load);
   Equilibrium finish(const State& state);
@@ -60,38 +54,23 @@ class BackwardSolve {
   Eigen::VectorXd imaged_;
   LoadedProblem loaded_;
   InverseSolver inverse_;
-  NewtonResult failure_;  // the last one that did not converge
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  SolveLog log_{found_, progress_};
 };
 
 NewtonResult BackwardSolve::solve(State& state, double from, double to) {
-  ++found_.steps;
-  SolvePace pace(inverse_tolerance);
-  NewtonResult result = inverse_.solve(state, [&](const NewtonIteration& iteration) {
-    record_iteration(found_, found_.steps, iteration, clock());
-    progress_.update(
-        "backward", from + (to - from) * pace.after(iteration),
-        message("iteration ", found_.newton_iterations, ", residual ", iteration.residual));
-  });
+  NewtonResult result =
+      inverse_.solve(state, log_.begin_step("backward", from, to, inverse_tolerance));
   found_.residual = result.residual;
   found_.min_det_F = inverse_.min_det_F();
-  if (!result.converged) failure_ = result;
   return result;
 }
 
-double BackwardSolve::follow(const Eigen::VectorXd& load, State& state) {
-  LoadPath path;
-  while (!path.finished()) {
-    loaded_.set_load(path.next() * load);
-    State trial = state;
-    if (solve(trial, path.done, path.next()).converged) {
-      state = std::move(trial);
-      path.succeed();
-    } else if (fail_fast_ || !path.fail()) {
-      break;
-    }
-  }
-  return path.done;
+LoadReached BackwardSolve::follow(const Eigen::VectorXd& load, State& state) {
+  LoadSteps steps;
+  steps.divide = !fail_fast_;
+  steps.set_load = [&](double part) { loaded_.set_load(part * load); };
+  steps.solve = [&](State& trial, double from, double to) { return solve(trial, from, to); };
+  return follow_load(steps, state);
 }
 
 // Whether the imaged shape is a stable equilibrium of the unloaded shape found; not if that shape
@@ -113,21 +92,22 @@ bool BackwardSolve::stands_under(const Eigen::VectorXd& load) {
 // Newton's direction always reduces the residual unless ∂R/∂X is singular: if the solution path
 // stops because no step or no direction is found, it ends there. If no load was reached at all, the
 // steps may have been too long.
-void BackwardSolve::judge_end(const State& state, double reached) {
-  found_.load_reached = reached;
-  found_.stable = reached > 0 ? stays(state) : true;
+void BackwardSolve::judge_end(const State& state, const LoadReached& reached) {
+  const double part = found_.load_reached = reached.part;
+  found_.stable = part > 0 ? stays(state) : true;
   SolveRecord& record = found_.record;
-  if (reached < 1) {
-    const bool ends = reached > 0 && (failure_.stop == NewtonStop::singular_inverse ||
-                                      failure_.stop == NewtonStop::no_step ||
-                                      failure_.stop == NewtonStop::folded);
-    found_.reason_id = ends ? "no_stress_free_body" : stop_name(failure_.stop);
-    record.reason = message("stopped at ", 100 * reached, " % of the load: ", failure_.reason);
+  if (!reached.whole()) {
+    const NewtonResult& failure = reached.last;
+    const bool ends =
+        part > 0 && (failure.stop == NewtonStop::singular_inverse ||
+                     failure.stop == NewtonStop::no_step || failure.stop == NewtonStop::folded);
+    found_.reason_id = ends ? "no_stress_free_body" : stop_name(failure.stop);
+    record.reason = message("stopped at ", 100 * part, " % of the load: ", failure.reason);
     if (ends) {
       record.reason = message(
           "no stress-free body: the family of stress-free shapes that gravity deforms into the "
           "imaged one ends near ",
-          100 * reached, " % of the load (", failure_.reason, ")");
+          100 * part, " % of the load (", failure.reason, ")");
     }
   } else if (!found_.stable) {
     record.status = SolveStatus::unstable;
@@ -182,14 +162,16 @@ Equilibrium BackwardSolve::run(const Eigen::VectorXd& load, const Eigen::VectorX
 Equilibrium BackwardSolve::run(const Vec3& gravity) {
   const Eigen::VectorXd load = scene_.gravity_force(gravity);
   State state = guess(imaged_);
-  const double reached = follow(load, state);
-  judge_end(state, reached);
+  judge_end(state, follow(load, state));
   if (fail_fast_ && !found_.converged()) return found_;
   if (!found_.converged()) {
     find_needed_stiffness(load);
-    find_remedy(scene_.mesh(), scene_.options(), [&](const MechanicsOptions& changed) {
-      return BackwardSolve(scene_.mesh(), changed, false, no_progress()).stands(gravity);
-    }, progress_, found_);
+    find_remedy(
+        scene_.mesh(), scene_.options(),
+        [&](const MechanicsOptions& changed) {
+          return BackwardSolve(scene_.mesh(), changed, false, no_progress()).stands(gravity);
+        },
+        progress_, found_);
   }
   return finish(state);
 }

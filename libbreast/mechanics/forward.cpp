@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <chrono>
 #include <memory>
 
 #include "core/error.hpp"
 #include "mechanics/chosen_solver.hpp"
 #include "mechanics/estimate/error_estimate.hpp"
+#include "mechanics/load_steps.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"
-#include "mechanics/solve_pace.hpp"
 #include "mechanics/stability/explain.hpp"
 #include "solve/equilibrate.hpp"
 
@@ -36,12 +35,9 @@ class ForwardSolve {
     SaddleSolver solver;
   };
 
-  double clock() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
   /// A solve that increases the load from the fraction `from` to the fraction `to`.
-  EquilibriumResult attempt(Workspace& work, State& state, double from = 0, double to = 1);
-  EquilibriumResult follow(Workspace& work, const Eigen::VectorXd& load, State& state);
+  NewtonResult attempt(Workspace& work, State& state, double from = 0, double to = 1);
+  NewtonResult follow(Workspace& work, const Eigen::VectorXd& load, State& state);
   std::unique_ptr<Workspace> workspace(const Eigen::VectorXd& load);
   bool stays(Workspace& work, const State& state);
   void judge(Workspace& work, const State& state);
@@ -52,50 +48,40 @@ class ForwardSolve {
   bool fail_fast_;
   Progress& progress_;
   Equilibrium found_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  SolveLog log_{found_, progress_};
 };
 
-EquilibriumResult ForwardSolve::attempt(Workspace& work, State& state, double from, double to) {
+NewtonResult ForwardSolve::attempt(Workspace& work, State& state, double from, double to) {
   NewtonOptions options;
   options.max_iterations = found_.steps == 0 ? first_limit : later_limit;
   options.reuse_factor = true;
   options.fail_fast = fail_fast_;
   options.timer = &found_.timer;
-  ++found_.steps;
-  SolvePace pace(options.tolerance);
-  EquilibriumResult result = equilibrate(
-      work.loaded.problem, work.solver, work.matrix, state, options, nullptr,
-      [&](const NewtonIteration& iteration) {
-        record_iteration(found_, found_.steps, iteration, clock());
-        progress_.update("forward", from + (to - from) * pace.after(iteration),
-                         message("iteration ", found_.newton_iterations, ", residual ",
-                                 iteration.residual));
-      });
+  const EquilibriumResult result =
+      equilibrate(work.loaded.problem, work.solver, work.matrix, state, options, nullptr,
+                  log_.begin_step("forward", from, to, options.tolerance));
   found_.factorisations += result.factorisations;
+  found_.residual = result.residual;
+  found_.min_det_F = result.forces.min_det_F;
   return result;
 }
 
-// Increases the load from `state`; on success, `state` is then the last equilibrium.
-EquilibriumResult ForwardSolve::follow(Workspace& work, const Eigen::VectorXd& load,
-                                       State& state) {
-  EquilibriumResult result;
-  LoadPath path;
-  while (!path.finished()) {
-    work.loaded.set_load(path.next() * load);
-    State trial = state;
-    result = attempt(work, trial, path.done, path.next());
-    if (result.converged) {
-      state = std::move(trial);
-      path.succeed();
-    } else if (fail_fast_ || !path.fail()) {
-      found_.reason_id = stop_name(result.stop);
-      found_.load_reached = path.done;
-      found_.record.reason =
-          message("stopped at ", 100 * path.done, " % of the load: ", result.reason);
-      break;
-    }
+// Increases the load from `state`, which is then the last equilibrium.
+NewtonResult ForwardSolve::follow(Workspace& work, const Eigen::VectorXd& load, State& state) {
+  LoadSteps steps;
+  steps.divide = !fail_fast_;
+  steps.set_load = [&](double part) { work.loaded.set_load(part * load); };
+  steps.solve = [&](State& trial, double from, double to) {
+    return attempt(work, trial, from, to);
+  };
+  LoadReached reached = follow_load(steps, state);
+  if (!reached.whole()) {
+    found_.reason_id = stop_name(reached.last.stop);
+    found_.load_reached = reached.part;
+    found_.record.reason =
+        message("stopped at ", 100 * reached.part, " % of the load: ", reached.last.reason);
   }
-  return result;
+  return std::move(reached.last);
 }
 
 // Whether the equilibrium found is known to be stable. The last factor shows this for a
@@ -138,8 +124,7 @@ void ForwardSolve::estimate(Workspace& work, const State& state, const Vec3& gra
   if (scene_.options().estimate != Estimate::step) return;
   Timer::Scope phase(found_.timer, "error estimate");
   progress_.update("error estimate", -1, "one step on quadratic elements");
-  note_estimate(estimate_error(scene_, state, gravity, work.matrix, work.solver), "",
-                found_);
+  note_estimate(estimate_error(scene_, state, gravity, work.matrix, work.solver), "", found_);
 }
 
 std::unique_ptr<ForwardSolve::Workspace> ForwardSolve::workspace(const Eigen::VectorXd& load) {
@@ -159,23 +144,24 @@ Equilibrium ForwardSolve::run(const Vec3& gravity) {
   const Eigen::VectorXd load = scene_.gravity_force(gravity);
   State state = scene_.at_rest(flatten(mesh_.reference));
   auto work = workspace(load);
-  const EquilibriumResult result = follow(*work, load, state);
+  const NewtonResult result = follow(*work, load, state);
   note_solver(work->solver, work->matrix, found_);
   if (result.converged) judge(*work, state);
   if (found_.converged()) estimate(*work, state, gravity);
   work.reset();
   if (fail_fast_ && !found_.converged()) return found_;
   if (!found_.converged()) {
-    find_remedy(mesh_, scene_.options(), [&](const MechanicsOptions& changed) {
-      return ForwardSolve(mesh_, changed, false, no_progress()).stands(gravity);
-    }, progress_, found_);
+    find_remedy(
+        mesh_, scene_.options(),
+        [&](const MechanicsOptions& changed) {
+          return ForwardSolve(mesh_, changed, false, no_progress()).stands(gravity);
+        },
+        progress_, found_);
   }
   if (result.indefinite > 0) {
     found_.doubts.push_back(message("the tangent was indefinite in ", result.indefinite,
                                     " iterations: the breast may buckle"));
   }
-  found_.residual = result.residual;
-  found_.min_det_F = result.forces.min_det_F;
   conclude(found_, scene_, state, gravity);
   return found_;
 }

@@ -13,20 +13,6 @@
 
 namespace breast {
 
-void record_iteration(SolveSummary& summary, int step, const NewtonIteration& iteration,
-                      double clock) {
-  IterationRecord record;
-  record.step = step;
-  record.iteration = ++summary.newton_iterations;
-  record.residual = iteration.residual;
-  record.min_det_F = iteration.min_det_F;
-  record.max_det_F = iteration.max_det_F;
-  record.step_length = iteration.step_length;
-  record.seconds = clock;
-  summary.linear_iterations += iteration.linear_iterations;
-  summary.record.iterations.push_back(record);
-}
-
 void note_solver(const SaddleSolver& solver, const SaddleMatrix& matrix, SolveSummary& summary) {
   summary.linear_solver = solver.kind() == LinearSolver::direct ? "direct" : "multigrid";
   summary.matrix_values = double(matrix.stiffness.values().size());

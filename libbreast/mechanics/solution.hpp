@@ -2,11 +2,8 @@
 // The final steps that forward, backward and compress share: from a solved state to an Equilibrium.
 #pragma once
 
-#include <algorithm>
-
 #include "mechanics/equilibrium.hpp"
 #include "mechanics/scene.hpp"
-#include "solve/newton.hpp"
 #include "solve/saddle.hpp"
 
 namespace breast {
@@ -20,9 +17,6 @@ inline constexpr double nearly_incompressible = 100;
 inline constexpr const char* unknown_stability =
     "the last tangent is not known to be positive definite: the equilibrium may be unstable";
 
-/// Appends one Newton iteration of a load step to the record; `clock` is seconds since the start.
-void record_iteration(SolveSummary& summary, int step, const NewtonIteration& iteration,
-                      double clock);
 /// Records the cost of the linear solver; call it after the last factorisation.
 void note_solver(const SaddleSolver& solver, const SaddleMatrix& matrix, SolveSummary& summary);
 /// Copies positions, pressures, det F and gravity (mm/s²), and checks them: poorly shaped or
@@ -30,22 +24,5 @@ void note_solver(const SaddleSolver& solver, const SaddleMatrix& matrix, SolveSu
 /// backward solve state.x is the imaged shape.
 void conclude(Equilibrium& equilibrium, const Scene& scene, const State& state,
               const Vec3& gravity);
-
-/// Load stepping, used when the full load does not converge in one step.
-struct LoadPath {
-  double done = 0, step = 1;
-  static constexpr double smallest = 1.0 / 40;
-  double next() const { return std::min(1.0, done + step); }
-  void succeed() {
-    done = next();
-    step *= 1.5;
-  }
-  /// Halves the step; false if it would become too small.
-  bool fail() {
-    step *= 0.5;
-    return step >= smallest;
-  }
-  bool finished() const { return done >= 1.0; }
-};
 
 }  // namespace breast

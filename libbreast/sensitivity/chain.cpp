@@ -7,7 +7,7 @@
 #include <iterator>
 #include <limits>
 
-#include "contact/penetration.hpp"
+#include "contact/faces.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "mesh/shape.hpp"

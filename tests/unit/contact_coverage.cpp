@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How much of a breast lies in front of the edge of the image.
-#include "contact/coverage.hpp"
+#include "contact/compressed_shape.hpp"
 
 #include <gtest/gtest.h>
 

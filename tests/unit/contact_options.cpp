@@ -41,7 +41,18 @@ TEST(ContactOptions, AnImageEdgeBringsTheClinicsPlates) {
   choices.view = "MLO";
   EXPECT_EQ(options_of(choices).plates.image_edge, 0);
   // A layer of muscle is in the oblique image.
-  EXPECT_EQ(compression_options(choices, Vec3::Zero(), 10).plates.image_edge, -12.5);
+  EXPECT_EQ(compression_options(choices, Vec3::Zero(), {.muscle_mm = 10}).plates.image_edge, -12.5);
+}
+
+TEST(ContactOptions, ABreastThatSlidesIsPlacedAsInTheClinicUnlessAStandoffIsGiven) {
+  CompressionChoices choices;
+  choices.reduction = 50;
+  const CompressedBody sliding{.slides = true};
+  EXPECT_EQ(compression_options(choices, Vec3::Zero(), sliding).plates.image_edge, 5);
+  EXPECT_EQ(compression_options(choices, Vec3::Zero(), sliding).pull_N, 30);
+  choices.plates.standoff = 10;
+  EXPECT_FALSE(compression_options(choices, Vec3::Zero(), sliding).plates.image_edge);
+  EXPECT_EQ(compression_options(choices, Vec3::Zero(), sliding).friction, 0);
 }
 
 TEST(ContactOptions, WhatIsGivenWins) {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "contact/penetration.hpp"
+#include "contact/faces.hpp"
 #include "contact/plates.hpp"
 #include "core/error.hpp"
 #include "fixtures/standing_block.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/self_contact.hpp"
+#include "contact/compressed_shape.hpp"
 #include "core/error.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/standing_block.hpp"

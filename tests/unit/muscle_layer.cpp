@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "contact/coverage.hpp"
+#include "contact/compressed_shape.hpp"
 #include "contact/plates.hpp"
 #include "core/error.hpp"
 #include "fixtures/analytic_mesh.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The area of faces that touch a plate, where it is known: flat, tilted, deeper than the plate, away from it.
-#include "contact/touching_area.hpp"
+#include "contact/faces.hpp"
 
 #include <gtest/gtest.h>
 

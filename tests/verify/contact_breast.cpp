@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "contact/compression.hpp"
+#include "contact/faces.hpp"
 #include "contact/path/positioning.hpp"
-#include "contact/skin_area.hpp"
 #include "contact/solvers/active_set.hpp"
 #include "core/units.hpp"
 #include "fixtures/analytic_mesh.hpp"
@@ -61,7 +61,7 @@ TEST_P(CompressedBreast, BalancesDoesNotPenetrateAndKeepsVolume) {
   HexMesh mesh = stress_free_breast();
   const CompressionResult summary = fixtures::compress_into(mesh, halfway(GetParam()), mechanics());
   ASSERT_EQ(summary.record.status, SolveStatus::converged) << summary.record.reason;
-  EXPECT_NEAR(summary.reduction_percent, 45, 1e-9);
+  EXPECT_NEAR(summary.contact->reduction_percent, 45, 1e-9);
   EXPECT_LT(summary.force_balance, 1e-8);
   EXPECT_LT(summary.max_volume_error, 1e-8);
   EXPECT_LT(summary.path.final_step.worst_penetration, 1e-6);  // at the nodes that impose it
@@ -386,7 +386,7 @@ TEST(Compression, ErrorIsEstimatedWithFrictionAndWithSprings) {
     const double estimate = found.error_estimate_mm;
     ASSERT_GT(estimate, 0);
     options.stop_at = StopAt::thickness;
-    options.target = found.thickness_mm;
+    options.target = found.contact->thickness_mm;
     found.error_estimate_mm = -1;
     estimate_by_second_solution(mesh, with_estimate, found,
                                 [&](const HexMesh& richer, const MechanicsOptions& same) {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "contact/faces.hpp"
 #include "contact/path/path.hpp"
-#include "contact/penetration.hpp"
 #include "contact/solvers/surface_contact.hpp"
 #include "core/units.hpp"
 #include "fixtures/block.hpp"

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "contact/compression.hpp"
-#include "contact/penetration.hpp"
+#include "contact/faces.hpp"
 #include "contact/solvers/active_set.hpp"
 #include "contact/terms/friction.hpp"
 #include "contact/terms/surface_pressure.hpp"
@@ -51,7 +51,8 @@ struct Outcome {
 // Both plates turned by `degrees` of beam angle about their mid-line.
 PlatePair turned(PlatePair plates, const HexMesh& mesh, double degrees) {
   const ContactRecord& contact = *mesh.contact;
-  const ViewPose pose = view_pose(mesh.side, contact.angle_deg + degrees, contact.turn_deg, contact.lean_deg);
+  const ViewPose pose =
+      view_pose(mesh.side, contact.angle_deg + degrees, contact.turn_deg, contact.lean_deg);
   const Vec3 centre = 0.5 * (plates.paddle.origin() + plates.detector.origin());
   for (Plate* plate : {&plates.paddle, &plates.detector}) {
     const Vec3 arm = plate->origin() - centre;
@@ -157,9 +158,9 @@ TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
   in.mesh.contact = mesh.contact;
   const SensitivityChain chain(mesh, imaged_pressure, in.imaged_gravity, in.options);
   EXPECT_GE(chain.contacts(), 10u);
-  const auto picked =
-      pick_parameters(all_parameters(mesh, in.options, in.imaged_gravity),
-                      "fat,skin,density,gravity_x,imaged_gravity_z,thickness,standoff,detector,angle");
+  const auto picked = pick_parameters(
+      all_parameters(mesh, in.options, in.imaged_gravity),
+      "fat,skin,density,gravity_x,imaged_gravity_z,thickness,standoff,detector,angle");
   const std::vector<Response> responses = chain.tangent(picked);
   const Landmark& landmark = mesh.landmarks.back();
   const LandmarkGradient adjoint = chain.adjoint(landmark, picked);
@@ -276,13 +277,13 @@ INSTANTIATE_TEST_SUITE_P(Skin, PressedFacesSensitivity,
                          });
 
 constexpr double raised = std::numeric_limits<double>::infinity();
-INSTANTIATE_TEST_SUITE_P(
-    Machines, CompressedSensitivity,
-    testing::Values(Machine{View::cc, raised}, Machine{View::mlo, raised}, Machine{View::cc, 0.0},
-                    Machine{View::mlo, raised, 12}),
-    [](const auto& test) {
-      return view_name(test.param.view) + (std::isinf(test.param.detector_rise) ? "" : "_detector_fixed") +
-             (test.param.lean_deg > 0 ? "_leaning" : "");
-    });
+INSTANTIATE_TEST_SUITE_P(Machines, CompressedSensitivity,
+                         testing::Values(Machine{View::cc, raised}, Machine{View::mlo, raised},
+                                         Machine{View::cc, 0.0}, Machine{View::mlo, raised, 12}),
+                         [](const auto& test) {
+                           return view_name(test.param.view) +
+                                  (std::isinf(test.param.detector_rise) ? "" : "_detector_fixed") +
+                                  (test.param.lean_deg > 0 ? "_leaning" : "");
+                         });
 
 }  // namespace

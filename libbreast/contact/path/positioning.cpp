@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/coverage.hpp"
+#include "contact/compressed_shape.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "mesh/nodal.hpp"

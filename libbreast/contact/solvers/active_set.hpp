@@ -11,7 +11,6 @@
 #include "contact/solvers/solver.hpp"
 #include "contact/terms/friction.hpp"
 #include "contact/terms/plate.hpp"
-#include "solve/saddle.hpp"
 
 namespace breast {
 
@@ -38,8 +37,8 @@ class ActiveSet : public ContactSolver {
   const Problem& problem() const override { return problem_; }
   Constraints constraints(const State& state) const override;
   const std::vector<int>& candidates() const override { return candidates_; }
-  /// The friction between plates and nodes at the last solve; null without friction.
-  const std::shared_ptr<FrictionTerm>& friction() const { return friction_; }
+  std::optional<ContactEstimate> for_estimate(const HexMesh& mesh, const PlatePair& plates,
+                                              const State& solution) const override;
 
  private:
   class System;
@@ -52,7 +51,7 @@ class ActiveSet : public ContactSolver {
   ActiveSetOptions options_;
   PlatePair plates_;  // of the last solve
   std::shared_ptr<PlateTerm> plate_;
-  std::shared_ptr<FrictionTerm> friction_;
+  std::shared_ptr<FrictionTerm> friction_;  // null: none
 };
 
 }  // namespace breast

@@ -25,8 +25,8 @@ class AugmentedLagrangian::System final : public TangentSystem {
   Balance assess(const NewtonResult& so_far) override {
     Balance now;
     now.residual = now.merit = relative(state_, forces_, problem_.constraints_at(state_.x));
-    now.converged = now.residual <= tolerance_ &&
-                    problem_.volume_residual(forces_) <= volume_tolerance;
+    now.converged =
+        now.residual <= tolerance_ && problem_.volume_residual(forces_) <= volume_tolerance;
     if (!now.converged && int(so_far.iterations.size()) >= owner_.options_.most_iterations) {
       now.stop = NewtonStop::iteration_limit;
       now.reason = describe(now.stop);
@@ -132,13 +132,15 @@ double AugmentedLagrangian::update_multipliers(const State& state) {
   return worst;
 }
 
-void AugmentedLagrangian::finish(ContactStep& step) const {
+void AugmentedLagrangian::finish(const PlatePair& plates, const State& state,
+                                 ContactStep& step) const {
   step.converged = true;
   step.contacts.resize(candidates_.size());
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     step.contacts[c].plate = memory_.touching[c];
     step.contacts[c].normal = memory_.multipliers[c];
   }
+  step.pressed = pressed_nodes(plates, state, step.contacts);
   step.failed_trial.resize(0);
 }
 
@@ -158,7 +160,7 @@ ContactStep AugmentedLagrangian::solve(const PlatePair& plates, State& state, do
       step.worst_penetration = update_multipliers(state);
       if (step.worst_penetration <= 2 * options_.gap_tolerance) {
         step.corrections = int(step.iterations.size() - first);
-        finish(step);
+        finish(plates, state, step);
         return step;
       }
     }

@@ -9,7 +9,6 @@
 
 #include "contact/solvers/solver.hpp"
 #include "contact/terms/plate.hpp"
-#include "solve/saddle.hpp"
 
 namespace breast {
 
@@ -37,7 +36,7 @@ class AugmentedLagrangian : public ContactSolver {
   void set_terms();
   bool equilibrate(State& state, double tolerance, ContactStep& step);
   double update_multipliers(const State& state);
-  void finish(ContactStep& step) const;
+  void finish(const PlatePair& plates, const State& state, ContactStep& step) const;
 
   Problem problem_;
   SaddleSolver& solver_;

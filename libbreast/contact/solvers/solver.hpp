@@ -1,21 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interface of the contact methods: the equilibrium at one plate position.
+// Interface of the contact methods: the equilibrium at one plate position, and what a method reports
+// about it.
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "contact/plates.hpp"
-#include "contact/pressed_point.hpp"
+#include "mechanics/estimate/error_estimate.hpp"
+#include "mechanics/scene.hpp"
 #include "solve/newton.hpp"
 #include "solve/problem.hpp"
+#include "solve/saddle.hpp"
 
 namespace breast {
 
 /// Relative residual of the volume equation in each linearised solve of contact; the next iteration
 /// takes up the remainder.
 inline constexpr double contact_volume_accuracy = 1e-4;
+/// The friction bounds follow the normal forces once the imbalance is this fraction of their lag.
+inline constexpr double balance_to_follow = 0.1;
+/// Additional iterations for each one with an indefinite tangent: itself, and one to settle.
+inline constexpr int slip_allowance = 2;
+
+/// A solve that may fail fast is abandoned if the first step has to be shorter than `first_step`,
+/// or if after `iterations` the imbalance is still more than `remainder` of the first.
+struct BadBeginning {
+  double first_step = 0, remainder = 0;
+  int iterations = 0;
+
+  /// True of a solve whose imbalance is `now` and was `first` after one iteration.
+  bool seen_in(const NewtonResult& so_far, double now, double first) const {
+    const int made = int(so_far.iterations.size());
+    if (made == 1) return so_far.iterations.back().step_length < first_step;
+    return made == iterations && now > remainder * first;
+  }
+};
 
 /// The forces of the plates on one candidate.
 struct NodalContact {
@@ -38,7 +61,7 @@ struct ContactStep : NewtonResult {
   std::optional<State> softer;
   double worst_penetration = 0;        ///< mm, over all candidates
   std::vector<NodalContact> contacts;  ///< per candidate, when converged
-  std::vector<PressedPoint> pressed;   ///< when converged, of faces; empty where nodes touch
+  std::vector<PressedPoint> pressed;   ///< nodes or points of faces under pressure, when converged
   Eigen::VectorXd failed_trial;        ///< positions of the first refused trial of a failed step
 
   /// Appends the iterations of one of several solves and adopts its outcome.
@@ -63,7 +86,7 @@ struct ContactMemory {
   PlatePair plates;  ///< of the last solution; with friction between faces and plates only
 };
 
-/// Solver for one plate position: an ActiveSet, or another method for comparison.
+/// Solver for one plate position: an ActiveSet, or another method.
 class ContactSolver {
  public:
   virtual ~ContactSolver() = default;
@@ -78,14 +101,41 @@ class ContactSolver {
   const ContactMemory& memory() const { return memory_; }
   /// Restores what memory() returned after a converged solve.
   virtual void restore(ContactMemory memory) { memory_ = std::move(memory); }
+  /// The nodes that may touch a plate.
   virtual const std::vector<int>& candidates() const = 0;
   /// Whether a position that begins badly may be abandoned at once, because a closer one can be
   /// tried.
   void set_fail_fast(bool fail_fast) { fail_fast_ = fail_fast; }
 
+  /// The faces whose area counts as contact area.
+  virtual std::vector<Face> contact_faces(const HexMesh& mesh) const;
+  /// Relative steps in which force, mean pressure and area change from one position to the next, so
+  /// that a target is not met more closely.
+  virtual double resolution() const { return 0; }
+  /// Adds what this method leaves in the record of its solution, besides poses and forces.
+  virtual void describe(const State& /*solution*/, ContactRecord& /*record*/) const {}
+  /// The contact of the last solve, with a fixed touching set, for the estimate of the discretisation
+  /// error; nothing if the method has no such set. Mesh and state must outlive it.
+  virtual std::optional<ContactEstimate> for_estimate(const HexMesh& mesh, const PlatePair& plates,
+                                                      const State& solution) const;
+
  protected:
+  /// The candidates under pressure, as points.
+  std::vector<PressedPoint> pressed_nodes(const PlatePair& plates, const State& solution,
+                                          const std::vector<NodalContact>& contacts) const;
+
   ContactMemory memory_;
   bool fail_fast_ = false;
 };
+
+/// Contact of faces, exact contact of nodes, or contact of nodes by the paper's augmented
+/// Lagrangian.
+enum class ContactMethod { surface, active_set, augmented_lagrangian };
+
+/// `friction` is Coulomb's coefficient; the augmented Lagrangian has no friction. `saddle` must
+/// outlive the result.
+std::unique_ptr<ContactSolver> make_contact_solver(ContactMethod method, double friction,
+                                                   const Scene& scene, const Problem& body,
+                                                   SaddleSolver& saddle);
 
 }  // namespace breast

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/solvers/solve_limits.hpp"
+#include "contact/faces.hpp"
 #include "solve/equilibrate.hpp"
 
 namespace breast {
@@ -31,6 +31,8 @@ constexpr int most_bounds = 12;
 /// If more than this fraction of the lag remains after the bounds have followed, they alternate: from
 /// then on they follow by half as much.
 constexpr double lag_kept = 0.7;
+/// The contact area changes by a 64th of a face at a time, 0.1 to 0.3 % of the area.
+constexpr double relative_resolution = 5e-3;
 }  // namespace
 
 /// An equilibrium with the present stiffness of the plates.
@@ -182,6 +184,24 @@ SurfaceContact::SurfaceContact(const HexMesh& mesh, const std::vector<Face>& fac
   memory_.bounds.assign(candidates_.size(), 0);
   friction_ = std::make_shared<FrictionTerm>();
   problem_.add(friction_);
+}
+
+std::vector<Face> SurfaceContact::contact_faces(const HexMesh& mesh) const {
+  return touchable_faces(mesh);
+}
+
+double SurfaceContact::resolution() const {
+  return relative_resolution;
+}
+
+void SurfaceContact::describe(const State& solution, ContactRecord& record) const {
+  record.surface_stiffness = pressure_->stiffness();
+  record.face_rules = pressure_->face_rules();
+  if (friction_ == nullptr) return;
+  for (const FrictionEntry& held : friction_->entries()) {
+    record.friction.push_back({held.node, held.plate, friction_->anchor_in_plane(held, solution.x),
+                               held.bound, held.stick});
+  }
 }
 
 bool SurfaceContact::equilibrate(State& state, double tolerance, double depth, ContactStep& step) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/parallel.hpp"
+#include "mechanics/terms/toe_spring.hpp"
 #include "mesh/gauss.hpp"
 #include "mesh/nodal.hpp"
 #include "mesh/nodal_faces.hpp"
@@ -33,19 +34,9 @@ constexpr int cells_a_side[] = {6, 12, 20, 32};
 /// the face's area belongs to its nodes there.
 constexpr double nodal_part = 0.2;
 
-struct Pressure {
-  double energy = 0, value = 0, slope = 0;  // nJ/mm², Pa, Pa/mm
-};
-
-Pressure pressure_at(double depth, double stiffness) {
-  if (!(depth > 0)) return {};
-  if (depth <= onset) {
-    return {stiffness * depth * depth * depth / (6 * onset),
-            stiffness * depth * depth / (2 * onset), stiffness * depth / onset};
-  }
-  const double beyond = depth - onset;
-  return {stiffness * (onset * onset / 6 + 0.5 * onset * beyond + 0.5 * beyond * beyond),
-          stiffness * (depth - 0.5 * onset), stiffness};
+/// Energy (nJ/mm²), pressure (Pa) and its slope (Pa/mm) at a depth in a plate.
+ToeSpring pressure_at(double depth, double stiffness) {
+  return toe_spring(depth, onset, stiffness);
 }
 
 /// |∂x/∂ξ × ∂x/∂η| of a face whose nodes are at `position`(node).
@@ -189,7 +180,7 @@ void SurfacePressure::visit(int face, const Eigen::VectorXd& x, Visit&& each) co
       Vec3 at = Vec3::Zero();
       for (int a = 0; a < n; ++a) at += shape.values[a] * now(nodes[a]);
       const Gap gap = plate.gap(at);
-      if (!(gap.value < 0)) continue;
+      if (!(gap.force < 0)) continue;
       const double area = part * rule.weight[q] * area_scale(nodes, n, shape, [&](int node) {
                             return imaged_[std::size_t(node)];
                           });
@@ -197,7 +188,7 @@ void SurfacePressure::visit(int face, const Eigen::VectorXd& x, Visit&& each) co
     }
     for (int a = 0; chosen == 0 && a < n; ++a) {
       const Gap gap = plate.gap(now(nodes[a]));
-      if (!(gap.value < 0)) continue;
+      if (!(gap.force < 0)) continue;
       each(Touch{k, nodal_shape_[std::size_t(a)], now(nodes[a]), gap,
                  nodal_part * nodal_area_[std::size_t(face * n + a)]});
     }
@@ -214,15 +205,15 @@ SurfacePressure::FaceResult SurfacePressure::face_result(int face, const Eigen::
       if (tangent) out.matrix = Eigen::MatrixXd::Zero(3 * n, 3 * n);
     }
     const Gap& gap = touch.gap;
-    const Pressure p = pressure_at(-gap.value, stiffness_);
+    const ToeSpring p = pressure_at(-gap.force, stiffness_);
     out.energy += touch.area * p.energy;
     for (int a = 0; a < n; ++a) {
-      out.residual.segment<3>(3 * a) -= touch.shape.values[a] * touch.area * p.value * gap.gradient;
+      out.residual.segment<3>(3 * a) -= touch.shape.values[a] * touch.area * p.force * gap.gradient;
     }
     if (!tangent) return;
-    const double turning = pressure_at(std::min(-gap.value, turning_depth_), stiffness_).value;
-    const Mat3 block =
-        touch.area * (p.slope * gap.gradient * gap.gradient.transpose() - turning * gap.hessian);
+    const double turning = pressure_at(std::min(-gap.force, turning_depth_), stiffness_).force;
+    const Mat3 block = touch.area * (p.stiffness * gap.gradient * gap.gradient.transpose() -
+                                     turning * gap.hessian);
     for (int a = 0; a < n; ++a) {
       for (int b = 0; b < n; ++b) {
         out.matrix.block<3, 3>(3 * a, 3 * b) +=
@@ -283,7 +274,7 @@ Eigen::VectorXd SurfacePressure::plate_forces(const Eigen::VectorXd& x, int plat
     visit(f, x, [&](const Touch& touch) {
       if (touch.plate != plate) return;
       const Vec3 force =
-          touch.area * pressure_at(-touch.gap.value, stiffness_).value * touch.gap.gradient;
+          touch.area * pressure_at(-touch.gap.force, stiffness_).force * touch.gap.gradient;
       for (int a = 0; a < cells_.nodes_per_cell; ++a) {
         total.segment<3>(3L * cells_.cell(f)[a]) += touch.shape.values[a] * force;
       }
@@ -310,9 +301,9 @@ Eigen::VectorXd SurfacePressure::change_of_forces(
         change.value += touch.gap.gradient.dot(motion);
         change.gradient += touch.gap.hessian * motion;
       }
-      const Pressure p = pressure_at(-touch.gap.value, stiffness_);
-      const Vec3 force =
-          touch.area * (p.value * change.gradient - p.slope * change.value * touch.gap.gradient);
+      const ToeSpring p = pressure_at(-touch.gap.force, stiffness_);
+      const Vec3 force = touch.area * (p.force * change.gradient -
+                                       p.stiffness * change.value * touch.gap.gradient);
       for (int a = 0; a < n; ++a) total.segment<3>(3L * nodes[a]) += touch.shape.values[a] * force;
     });
   }
@@ -323,7 +314,7 @@ std::vector<PressedPoint> SurfacePressure::pressed(const Eigen::VectorXd& x) con
   std::vector<PressedPoint> points;
   for (int f = 0; f < cells_.count(); ++f) {
     visit(f, x, [&](const Touch& touch) {
-      const double pressure = pressure_at(-touch.gap.value, stiffness_).value;
+      const double pressure = pressure_at(-touch.gap.force, stiffness_).force;
       points.push_back({touch.plate, touch.at, touch.area * pressure * touch.gap.gradient});
     });
   }
@@ -333,7 +324,7 @@ std::vector<PressedPoint> SurfacePressure::pressed(const Eigen::VectorXd& x) con
 double SurfacePressure::deepest(const Eigen::VectorXd& x) const {
   double worst = 0;
   for (int f = 0; f < cells_.count(); ++f) {
-    visit(f, x, [&](const Touch& touch) { worst = std::max(worst, -touch.gap.value); });
+    visit(f, x, [&](const Touch& touch) { worst = std::max(worst, -touch.gap.force); });
   }
   return worst;
 }

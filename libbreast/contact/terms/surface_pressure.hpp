@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "contact/plates.hpp"
-#include "contact/pressed_point.hpp"
 #include "mesh/hex_mesh.hpp"
 #include "mesh/shape.hpp"
 #include "solve/discretisation.hpp"
