@@ -150,7 +150,7 @@ void record_compression(const Scene& scene, const CompressionOptions& options, c
   result.contact_pressure.assign(std::size_t(mesh.nodes()), 0);
   result.places.assign(2, {});
   ContactRecord record = record_of(options, result);
-  solver.describe(state, record);
+  solver.fill_record(state, record);
   const std::vector<Face> faces = free_boundary_faces(mesh, scene.walls());
   const std::vector<Face> touchable = solver.contact_faces(mesh);
   Vec3 total = Vec3::Zero();  // force of both plates on the body, µN

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Serialisation of numbers and arrays of numbers as bytes, for messages between processes of the
-// same build.
+// same build. One function describes a structure for both directions:
+//
+//     template <class Bytes> void pass(Bytes& bytes, Thing& thing) { bytes(thing.a), bytes(thing.b); }
 #pragma once
 
 #include <cstring>
@@ -19,15 +21,16 @@ inline constexpr bool plain =
 
 class ByteWriter {
  public:
+  static constexpr bool reads = false;
   template <class T>
-  void put(const T& value) {
+  void operator()(const T& value) {
     static_assert(plain<T>);
     append(&value, sizeof(T));
   }
   template <class T>
-  void put(const std::vector<T>& values) {
+  void operator()(const std::vector<T>& values) {
     static_assert(plain<T>);
-    put(values.size());
+    (*this)(values.size());
     append(values.data(), values.size() * sizeof(T));
   }
   std::vector<char> take() { return std::move(bytes_); }
@@ -43,18 +46,19 @@ class ByteWriter {
 /// Reads the values that a ByteWriter wrote, in the same order.
 class ByteReader {
  public:
+  static constexpr bool reads = true;
   explicit ByteReader(const std::vector<char>& bytes) : at_(bytes.data()) {}
   template <class T>
-  void get(T& value) {
+  void operator()(T& value) {
     static_assert(plain<T>);
     std::memcpy(static_cast<void*>(&value), at_, sizeof(T));
     at_ += sizeof(T);
   }
   template <class T>
-  void get(std::vector<T>& values) {
+  void operator()(std::vector<T>& values) {
     static_assert(plain<T>);
     std::size_t count = 0;
-    get(count);
+    (*this)(count);
     values.resize(count);
     if (count > 0) std::memcpy(static_cast<void*>(values.data()), at_, count * sizeof(T));
     at_ += count * sizeof(T);

@@ -2,6 +2,7 @@
 #include "distributed/exchange.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "distributed/petsc.hpp"
 
@@ -37,7 +38,18 @@ Exchange::Exchange(const Ranks& ranks, const MeshPart& part) : ranks_(ranks), pa
   all_.erase(std::unique(all_.begin(), all_.end()), all_.end());
 }
 
-void Exchange::sum(Eigen::VectorXd& values) const {
+int Exchange::first_element(int mine) const {
+  const long none = std::numeric_limits<int>::max();
+  const long least = ranks_.least(mine >= 0 ? long(part_.elements[std::size_t(mine)]) : none);
+  return least == none ? -1 : int(least);
+}
+
+double Exchange::dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
+  const long own = 3L * part_.owned;
+  return ranks_.sum(a.head(own).dot(b.head(own)));
+}
+
+void Exchange::complete(Eigen::VectorXd& values) const {
   const long each = values.size() / long(part_.nodes.size());
   const std::size_t others = part_.shared.size();
   std::vector<std::vector<double>> out(others), in(others);
@@ -67,7 +79,7 @@ void Exchange::sum(Eigen::VectorXd& values) const {
 void Exchange::from_owner(Eigen::VectorXd& values) const {
   const long each = values.size() / long(part_.nodes.size());
   values.tail(values.size() - part_.owned * each).setZero();
-  sum(values);
+  complete(values);
 }
 
 }  // namespace breast

@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "distributed/bytes.hpp"
 #include "mechanics/scene.hpp"
-#include "surface/thorax.hpp"
 
 namespace breast {
 
@@ -20,6 +19,7 @@ struct Whole {
   std::vector<std::vector<int>> ranks;  // of every node, ascending
   Constraints held;
   std::vector<char> slides;  // per node
+  std::shared_ptr<ThoraxSurface> wall;
 };
 
 Whole look_at(const HexMesh& mesh, const MechanicsOptions& options, int parts) {
@@ -27,7 +27,7 @@ Whole look_at(const HexMesh& mesh, const MechanicsOptions& options, int parts) {
     throw input_error("mesh: ", mesh.elements(), " elements for ", parts,
                       " ranks; start fewer ranks with mpirun -n");
   }
-  Whole whole{mesh, options, partition(mesh, parts), {}, wall_constraints(mesh, options), {}};
+  Whole whole{mesh, options, partition(mesh, parts), {}, wall_constraints(mesh, options), {}, {}};
   whole.ranks.resize(std::size_t(mesh.nodes()));
   for (int e = 0; e < mesh.elements(); ++e) {
     for (int a = 0; a < mesh.nodes_per_element(); ++a) {
@@ -35,6 +35,9 @@ Whole look_at(const HexMesh& mesh, const MechanicsOptions& options, int parts) {
       const auto place = std::lower_bound(of.begin(), of.end(), whole.part[e]);
       if (place == of.end() || *place != whole.part[e]) of.insert(place, whole.part[e]);
     }
+  }
+  if (mesh.geometry && mesh.geometry->thorax) {
+    whole.wall = std::make_shared<ThoraxSurface>(*mesh.geometry->thorax);
   }
   whole.slides.assign(std::size_t(mesh.nodes()), 0);
   if (options.wall->slides()) {
@@ -138,113 +141,93 @@ MeshPart cut_out(const Whole& whole, int rank) {
   cut_faces(mesh.pectoral_faces, local_element, own.pectoral_faces, nullptr, nullptr);
   cut_faces(mesh.cut_faces, local_element, own.cut_faces, nullptr, nullptr);
   note_shared(whole, rank, local, part);
+  part.wall = whole.wall;
+  part.held = Constraints(int(part.nodes.size()));
   for (std::size_t i = 0; i < part.nodes.size(); ++i) {
     const NodeConstraint* held = whole.held.at(part.nodes[i]);
-    if (held != nullptr) part.held.push_back({int(i), *held});
+    if (held != nullptr) part.held.set(int(i), *held);
     if (whole.slides[part.nodes[i]] != 0) part.sliding.push_back(int(i));
   }
   return part;
 }
 
-void put_wall(const HexMesh& mesh, ByteWriter& out) {
-  const bool has = mesh.geometry && mesh.geometry->thorax;
-  out.put(has);
+template <class Bytes>
+void pass(Bytes& bytes, NodeConstraint& held) {
+  bytes(held.axes);
+  bytes(held.held);
+  bytes(held.increment);
+}
+
+template <class Bytes>
+void pass(Bytes& bytes, Constraints& held, int nodes) {
+  if (Bytes::reads) held = Constraints(nodes);
+  for (int node = 0; node < nodes; ++node) {
+    const NodeConstraint* at = held.at(node);
+    bool is_held = at != nullptr;
+    bytes(is_held);
+    if (!is_held) continue;
+    NodeConstraint constraint = at != nullptr ? *at : NodeConstraint{};
+    pass(bytes, constraint);
+    if (Bytes::reads) held.set(node, constraint);
+  }
+}
+
+template <class Bytes>
+void pass(Bytes& bytes, std::shared_ptr<ThoraxSurface>& wall) {
+  bool has = wall != nullptr;
+  bytes(has);
   if (!has) return;
-  const ThoraxSurface& t = *mesh.geometry->thorax;
-  out.put(t.origin);
-  for (const double v : {t.slope, t.angle_low, t.angle_high, t.height_low, t.height_high}) {
-    out.put(v);
+  if (Bytes::reads) wall = std::make_shared<ThoraxSurface>();
+  ThoraxSurface& t = *wall;
+  bytes(t.origin);
+  for (double* v : {&t.slope, &t.angle_low, &t.angle_high, &t.height_low, &t.height_high}) {
+    bytes(*v);
   }
-  out.put(t.angles);
-  out.put(t.heights);
-  out.put(t.coefficients);
+  bytes(t.angles);
+  bytes(t.heights);
+  bytes(t.coefficients);
 }
 
-std::shared_ptr<const LevelSurface> get_wall(ByteReader& in) {
-  bool has = false;
-  in.get(has);
-  if (!has) return nullptr;
-  auto t = std::make_shared<ThoraxSurface>();
-  in.get(t->origin);
-  for (double* v : {&t->slope, &t->angle_low, &t->angle_high, &t->height_low, &t->height_high}) {
-    in.get(*v);
+template <class Bytes>
+void pass(Bytes& bytes, MeshPart& part) {
+  HexMesh& own = part.mesh;
+  bytes(own.order);
+  bytes(own.skin_model);
+  bytes(own.side);
+  bytes(own.imaged);
+  bytes(own.reference);
+  bytes(own.tissue);
+  bytes(own.connectivity);
+  bytes(own.skin_faces);
+  bytes(own.skin_thickness);
+  bytes(own.pectoral_faces);
+  bytes(own.cut_faces);
+  bytes(part.owned);
+  bytes(part.nodes);
+  bytes(part.elements);
+  std::size_t others = part.shared.size();
+  bytes(others);
+  part.shared.resize(others);
+  for (SharedNodes& shared : part.shared) {
+    bytes(shared.rank);
+    bytes(shared.nodes);
   }
-  in.get(t->angles);
-  in.get(t->heights);
-  in.get(t->coefficients);
-  return t;
+  pass(bytes, part.held, int(part.nodes.size()));
+  bytes(part.sliding);
+  pass(bytes, part.wall);
 }
 
-std::vector<char> packed(const Whole& whole, const MeshPart& part) {
+std::vector<char> packed(MeshPart part) {
   ByteWriter out;
-  const HexMesh& own = part.mesh;
-  out.put(own.order);
-  out.put(own.skin_model);
-  out.put(own.side);
-  out.put(own.imaged);
-  out.put(own.reference);
-  out.put(own.tissue);
-  out.put(own.connectivity);
-  out.put(own.skin_faces);
-  out.put(own.skin_thickness);
-  out.put(own.pectoral_faces);
-  out.put(own.cut_faces);
-  out.put(part.owned);
-  out.put(part.nodes);
-  out.put(part.elements);
-  out.put(part.shared.size());
-  for (const SharedNodes& shared : part.shared) {
-    out.put(shared.rank);
-    out.put(shared.nodes);
-  }
-  out.put(part.held.size());
-  for (const HeldNode& held : part.held) {
-    out.put(held.node);
-    out.put(held.constraint.axes);
-    out.put(held.constraint.held);
-    out.put(held.constraint.increment);
-  }
-  out.put(part.sliding);
-  put_wall(whole.mesh, out);
+  pass(out, part);
   return out.take();
 }
 
 MeshPart unpacked(const std::vector<char>& bytes) {
   ByteReader in(bytes);
   MeshPart part;
-  HexMesh& own = part.mesh;
-  in.get(own.order);
-  in.get(own.skin_model);
-  in.get(own.side);
-  in.get(own.imaged);
-  in.get(own.reference);
-  in.get(own.tissue);
-  in.get(own.connectivity);
-  in.get(own.skin_faces);
-  in.get(own.skin_thickness);
-  in.get(own.pectoral_faces);
-  in.get(own.cut_faces);
-  in.get(part.owned);
-  in.get(part.nodes);
-  in.get(part.elements);
-  std::size_t count = 0;
-  in.get(count);
-  part.shared.resize(count);
-  for (SharedNodes& shared : part.shared) {
-    in.get(shared.rank);
-    in.get(shared.nodes);
-  }
-  in.get(count);
-  part.held.resize(count);
-  for (HeldNode& held : part.held) {
-    in.get(held.node);
-    in.get(held.constraint.axes);
-    in.get(held.constraint.held);
-    in.get(held.constraint.increment);
-  }
-  in.get(part.sliding);
-  part.wall = get_wall(in);
-  own.points = own.imaged;
+  pass(in, part);
+  part.mesh.points = part.mesh.imaged;
   return part;
 }
 
@@ -257,9 +240,9 @@ MeshPart share_mesh(const Ranks& ranks, const HexMesh& mesh, const MechanicsOpti
     if (!ranks.root()) return;
     check(mesh, options);
     const Whole whole = look_at(mesh, options, ranks.size());
-    own = packed(whole, cut_out(whole, 0));
+    own = packed(cut_out(whole, 0));
     for (int rank = 1; rank < ranks.size(); ++rank) {
-      others.push_back(packed(whole, cut_out(whole, rank)));
+      others.push_back(packed(cut_out(whole, rank)));
     }
   });
   if (!ranks.root()) return unpacked(ranks.receive(0));

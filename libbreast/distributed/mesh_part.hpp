@@ -11,6 +11,7 @@
 #include "mechanics/options.hpp"
 #include "mesh/hex_mesh.hpp"
 #include "solve/constraints.hpp"
+#include "surface/thorax.hpp"
 
 namespace breast {
 
@@ -18,12 +19,6 @@ namespace breast {
 struct SharedNodes {
   int rank = 0;
   std::vector<int> nodes;  ///< of this part
-};
-
-/// A constrained node; the constraint is the same on every rank that has the node.
-struct HeldNode {
-  int node = 0;  ///< of this part
-  NodeConstraint constraint;
 };
 
 struct MeshPart {
@@ -35,10 +30,10 @@ struct MeshPart {
   std::vector<int> nodes, elements;
   std::vector<SharedNodes> shared;  ///< in ascending order of rank
   /// Constraints by wall and cut, from the face sets of the whole mesh.
-  std::vector<HeldNode> held;
+  Constraints held{0};
   /// Nodes of the chest wall, ascending; empty if the wall is held.
   std::vector<int> sliding;
-  std::shared_ptr<const LevelSurface> wall;  ///< null if the mesh has no wall surface
+  std::shared_ptr<ThoraxSurface> wall;  ///< null if the mesh has no wall surface
 };
 
 /// Divides the root's mesh into one part per rank with PT-Scotch, along element faces; collective.

@@ -27,26 +27,28 @@ void finish(Mat a) {
 
 }  // namespace
 
-Numbering::Numbering(const Ranks& ranks, const MeshPart& part, int pressures_per_element)
-    : owned(part.owned) {
+Numbering::Numbering(const Exchange& exchange, int pressures_per_element)
+    : owned(exchange.part().owned) {
+  const Ranks& ranks = exchange.ranks();
+  const MeshPart& part = exchange.part();
   const long first = ranks.before(part.owned);
   all_nodes = PetscInt(ranks.sum(long(part.owned)));
   Eigen::VectorXd places(part.mesh.nodes());
   for (int i = 0; i < part.mesh.nodes(); ++i) places[i] = double(first + i);
-  Exchange(ranks, part).from_owner(places);
+  exchange.from_owner(places);
   for (const double place : places) node.push_back(PetscInt(std::lround(place)));
   pressures = PetscInt(pressures_per_element) * part.mesh.elements();
   first_pressure = PetscInt(ranks.before(pressures));
 }
 
-PartMatrices::PartMatrices(const PartProblem& problem)
-    : problem_(problem), numbering_(problem.ranks(), problem.part(), problem.pressures().rows) {
+PartMatrices::PartMatrices(const Exchange& exchange, const Discretisation& space)
+    : exchange_(exchange), space_(space), numbering_(exchange, space.pressures->rows) {
   make_stiffness();
 }
 
 // For rows shared with other ranks, at least as much space as all these ranks fill together.
 void PartMatrices::make_stiffness() {
-  const NodePattern& pattern = *problem_.own().space().pattern;
+  const NodePattern& pattern = *space_.pattern;
   const int nodes = pattern.nodes(), owned = int(numbering_.owned);
   // Number of own columns and of columns of other ranks.
   Eigen::VectorXd room = Eigen::VectorXd::Zero(2L * nodes);
@@ -61,7 +63,7 @@ void PartMatrices::make_stiffness() {
       couple(column, pattern.rows_begin(column)[k]);
     }
   }
-  problem_.exchange().sum(room);
+  exchange_.complete(room);
   std::vector<PetscInt> here, there;
   for (int node = 0; node < owned; ++node) {
     here.push_back(std::min(PetscInt(room[2L * node]), numbering_.owned));
@@ -114,7 +116,7 @@ void PartMatrices::fill_stiffness(const SaddleMatrix& matrix, const Constraints&
 
 void PartMatrices::fill_rigid_motions(const Eigen::VectorXd& positions,
                                       const Constraints& constraints) {
-  const Ranks& ranks = problem_.ranks();
+  const Ranks& ranks = exchange_.ranks();
   const int owned = int(numbering_.owned);
   Vec3 middle = Vec3::Zero();
   for (int i = 0; i < owned; ++i) middle += positions.segment<3>(3L * i);
@@ -218,7 +220,7 @@ bool PartMatrices::fill(const SaddleMatrix& matrix, const Constraints& constrain
                         double left_over) {
   const double nodes = 3.0 * double(numbering_.all_nodes);
   const double held =
-      problem_.dot(matrix.diagonal, Eigen::VectorXd::Ones(matrix.diagonal.size())) / nodes;
+      exchange_.dot(matrix.diagonal, Eigen::VectorXd::Ones(matrix.diagonal.size())) / nodes;
   schur_.reset();
   if (matrix.space->rows == 1 && left_over > 0 && !fill_schur(matrix, constraints)) return false;
   whole_.reset();

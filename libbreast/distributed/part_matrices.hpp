@@ -5,14 +5,15 @@
 
 #include <vector>
 
-#include "distributed/part_problem.hpp"
+#include "distributed/exchange.hpp"
 #include "distributed/petsc.hpp"
+#include "solve/discretisation.hpp"
 
 namespace breast {
 
 /// Positions of a part's nodes and pressures in vectors over all ranks.
 struct Numbering {
-  Numbering(const Ranks& ranks, const MeshPart& part, int pressures_per_element);
+  Numbering(const Exchange& exchange, int pressures_per_element);
   std::vector<PetscInt> node;  ///< position of every node of the part
   PetscInt owned = 0;          ///< number of nodes owned by this rank
   PetscInt all_nodes = 0;      ///< number of nodes of the body
@@ -21,7 +22,7 @@ struct Numbering {
 
 class PartMatrices {
  public:
-  explicit PartMatrices(const PartProblem& problem);
+  PartMatrices(const Exchange& exchange, const Discretisation& space);
 
   /// Fills all matrices. Returns false on all ranks if the block of K of any node is not positive
   /// definite.
@@ -50,7 +51,8 @@ class PartMatrices {
                      std::vector<Mat3>& roots) const;
   OwnedMat element_matrix(PetscInt rows_per_node) const;
 
-  const PartProblem& problem_;
+  const Exchange& exchange_;
+  const Discretisation& space_;
   Numbering numbering_;
   OwnedMat stiffness_, whole_, schur_;
 };

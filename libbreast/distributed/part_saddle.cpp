@@ -13,10 +13,6 @@ namespace breast {
 
 namespace {
 
-constexpr double part_of_tolerance = 0.1;  // as in saddle_cycles.cpp
-constexpr double nothing_left = 1e-12;     // of 1 − κc
-constexpr int most_definite_steps = 100;
-
 PetscErrorCode apply_map(Mat a, Vec z, Vec out) {
   void* context = nullptr;
   PetscCall(MatShellGetContext(a, &context));
@@ -32,7 +28,7 @@ double values_of(Mat a) {
 }  // namespace
 
 struct PartSaddle::Impl {
-  explicit Impl(const PartProblem& of) : problem(of), matrices(of) {}
+  Impl(const Exchange& of, const Discretisation& in) : exchange(of), matrices(of, in) {}
 
   void scale(const SaddleMatrix& matrix);
   void schur_solve(const double* q, double* p) const;
@@ -43,7 +39,7 @@ struct PartSaddle::Impl {
   SaddleStep run(const Constraints& axes, const Eigen::VectorXd& top, const Eigen::VectorXd& bottom,
                  double tolerance, int most, double& residual) const;
 
-  const PartProblem& problem;
+  const Exchange& exchange;
   PartMatrices matrices;
   std::shared_ptr<const PressureSpace> space;
   Eigen::VectorXd kappa, stiff;  // stiff: 1/(1/μ + c)
@@ -57,7 +53,7 @@ struct PartSaddle::Impl {
 // Volumes converted to forces, θκ/h with the size h of an element, so that one norm measures both
 // equations.
 void PartSaddle::Impl::scale(const SaddleMatrix& matrix) {
-  const Ranks& ranks = problem.ranks();
+  const Ranks& ranks = exchange.ranks();
   space = matrix.space;
   const double count = double(ranks.sum(long(space->elements())));
   double volume = 0;
@@ -67,7 +63,7 @@ void PartSaddle::Impl::scale(const SaddleMatrix& matrix) {
   weigh = ranks.sum(kappa.sum()) / count / size;
   // κc is the same in every element.
   left_over = 1 - kappa[0] * space->compliance[0];
-  if (left_over < nothing_left) left_over = 0;
+  if (left_over < schur_nothing_left) left_over = 0;
   stiff = (matrix.shear.cwiseInverse() + space->compliance).cwiseInverse();
 }
 
@@ -95,7 +91,7 @@ void PartSaddle::Impl::write(const Constraints& axes, Eigen::VectorXd top,
                              const Eigen::VectorXd& bottom, Vec vec) const {
   axes.project(top);
   axes.to_axes(top);
-  const long own = 3L * problem.part().owned;
+  const long own = 3L * exchange.part().owned;
   double* values = nullptr;
   ask(VecGetArray(vec, &values));
   std::copy_n(top.data(), own, values);
@@ -105,15 +101,15 @@ void PartSaddle::Impl::write(const Constraints& axes, Eigen::VectorXd top,
 
 void PartSaddle::Impl::read(const Constraints& axes, Vec vec, Eigen::VectorXd& top,
                             Eigen::VectorXd& bottom) const {
-  const long own = 3L * problem.part().owned;
-  top = Eigen::VectorXd::Zero(3L * problem.part().mesh.nodes());
+  const long own = 3L * exchange.part().owned;
+  top = Eigen::VectorXd::Zero(3L * exchange.part().mesh.nodes());
   bottom.resize(space->rows * long(space->elements()));
   const double* values = nullptr;
   ask(VecGetArrayRead(vec, &values));
   std::copy_n(values, own, top.data());
   std::copy_n(values + own, bottom.size(), bottom.data());
   ask(VecRestoreArrayRead(vec, &values));
-  problem.exchange().from_owner(top);
+  exchange.from_owner(top);
   axes.from_axes(top);
   axes.project(top);
 }
@@ -146,34 +142,47 @@ SaddleStep PartSaddle::Impl::run(const Constraints& axes, const Eigen::VectorXd&
   return step;
 }
 
-PartSaddle::PartSaddle(const PartProblem& problem)
-    : problem_(problem),
-      constraints_(problem.part().mesh.nodes()),
-      impl_(std::make_unique<Impl>(problem)) {
+PartSaddle::PartSaddle(const Exchange& exchange, const Discretisation& space)
+    : SaddleSolverBase(exchange.part().mesh.nodes()),
+      impl_(std::make_unique<Impl>(exchange, space)) {
   impl_->schur_inverse = [this](const double* q, double* p) { impl_->schur_solve(q, p); };
 }
 PartSaddle::~PartSaddle() = default;
 
-bool PartSaddle::factorise(const SaddleMatrix& matrix, const Constraints& constraints) {
+Factorisation PartSaddle::factorise(const SaddleMatrix& matrix, const Constraints& constraints,
+                                    bool /*may_shift*/) {
   constraints_ = constraints;
   ++factorisations_;
   Impl& m = *impl_;
   m.scale(matrix);
   m.split.reset();
   m.gradients.reset();
-  if (!m.matrices.fill(matrix, constraints_, m.weigh, m.left_over)) return false;
+  if (!m.matrices.fill(matrix, constraints_, m.weigh, m.left_over)) return {false, 0, 1};
   if (m.matrices.sparse_schur() != nullptr) {
     m.gradients = schur_gradients(m.matrices.sparse_schur());
     ask(MatCreateVecs(m.matrices.sparse_schur(), m.schur_right.fresh(), m.schur_left.fresh()));
   }
   m.split = split_gmres(m.matrices.whole(), m.schur_inverse);
   ask(MatCreateVecs(m.matrices.whole(), m.right.fresh(), m.left.fresh()));
-  return true;
+  return {true, 0, 1};
 }
 
 SaddleStep PartSaddle::solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
-                             const Eigen::VectorXd& theta, const Eigen::VectorXd& imposed,
-                             double tolerance, int most) const {
+                             const Eigen::VectorXd& theta, double tolerance, int restarts) const {
+  Eigen::VectorXd imposed;
+  if (constraints_.any_increment()) imposed = constraints_.increments();
+  return solve_imposed(matrix, r, theta, imposed, tolerance, restarts);
+}
+
+Eigen::VectorXd PartSaddle::correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
+                                       const Eigen::VectorXd& theta, double tolerance) const {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(imposed.size());
+  return solve_imposed(matrix, none, theta, imposed, tolerance, gmres_restarts).u;
+}
+
+SaddleStep PartSaddle::solve_imposed(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
+                                     const Eigen::VectorXd& theta, const Eigen::VectorXd& imposed,
+                                     double tolerance, int restarts) const {
   const ElementRows& b = matrix.divergence;
   Eigen::VectorXd top = -b.apply_transpose(matrix.space->divide(theta, matrix.kappa));
   Eigen::VectorXd bottom = -theta;
@@ -181,13 +190,41 @@ SaddleStep PartSaddle::solve(const SaddleMatrix& matrix, const Eigen::VectorXd& 
     top -= matrix.stiffness.multiply(imposed);
     bottom -= b.apply(imposed);
   }
-  problem_.exchange().sum(top);
+  impl_->exchange.complete(top);
   top -= r;
   double residual = 0;
-  SaddleStep step =
-      impl_->run(constraints_, top, bottom, part_of_tolerance * tolerance, most, residual);
+  SaddleStep step = impl_->run(constraints_, top, bottom, gmres_part_of_tolerance * tolerance,
+                               restarts * gmres_restart, residual);
   if (imposed.size() > 0) step.u += imposed;
   return step;
+}
+
+// Acts on (w, q) with w = −δX as [−K_X −Bᵀ; −B_X cM], which is close to [K −Bᵀ; B cM]
+// (mechanics/reference_system.hpp). κBᵀM⁻¹ times the volumes is added to the forces on both sides,
+// which makes the matrix similar to the one from which the multigrid levels are built.
+SolveReference PartSaddle::solve_reference() const {
+  return [this](const SaddleMatrix& matrix, const ReferenceTangent& tangent,
+                const Constraints& moved, const Eigen::VectorXd& f, const Eigen::VectorXd& v,
+                double tolerance, int most) {
+    const PressureSpace& space = *matrix.space;
+    const auto augment = [&](const Eigen::VectorXd& bottom) -> Eigen::VectorXd {
+      return matrix.divergence.apply_transpose(space.divide(bottom, matrix.kappa));
+    };
+    const Map map = [&](const Eigen::VectorXd& u, const Eigen::VectorXd& q, Eigen::VectorXd& top,
+                        Eigen::VectorXd& bottom) {
+      Eigen::VectorXd w = u;
+      moved.project(w);
+      bottom = space.multiply(q, space.compliance) - tangent.b_x.apply(w);
+      top = augment(bottom) - tangent.apply(w) - tangent.b.apply_transpose(q);
+    };
+    Eigen::VectorXd top = augment(v);
+    impl_->exchange.complete(top);
+    top += f;
+    double residual = 0;
+    SaddleStep step = solve_near(map, top, v, tolerance, most, residual);
+    moved.project(step.u);
+    return ReferenceStep{-step.u, step.p, step.iterations, residual};
+  };
 }
 
 SaddleStep PartSaddle::solve_near(const Map& map, const Eigen::VectorXd& top,
@@ -198,7 +235,7 @@ SaddleStep PartSaddle::solve_near(const Map& map, const Eigen::VectorXd& top,
     Eigen::VectorXd u, p, above, below;
     m.read(constraints_, z, u, p);
     map(u, p, above, below);
-    problem_.exchange().sum(above);
+    m.exchange.complete(above);
     m.write(constraints_, above, m.weigh * below, out);
   };
   PetscInt rows = 0, columns = 0;
@@ -221,7 +258,7 @@ bool PartSaddle::positive_definite() const {
   OwnedVec start, found;
   ask(MatCreateVecs(k, start.fresh(), found.fresh()));
   const Numbering& numbering = m.matrices.numbering();
-  Eigen::VectorXd wave(3L * problem_.part().mesh.nodes());  // a vector that is not an eigenvector
+  Eigen::VectorXd wave(3L * m.exchange.part().mesh.nodes());  // a vector that is not an eigenvector
   for (long i = 0; i < wave.size(); ++i) {
     wave[i] = std::sin(2.0 + 5.1 * double(3L * numbering.node[std::size_t(i / 3)] + i % 3));
   }

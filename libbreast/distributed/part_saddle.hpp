@@ -9,32 +9,46 @@
 #include <functional>
 #include <memory>
 
-#include "distributed/part_problem.hpp"
+#include "distributed/exchange.hpp"
+#include "mechanics/inverse_system.hpp"
+#include "solve/discretisation.hpp"
 #include "solve/saddle.hpp"
 
 namespace breast {
 
 /// PETSC_OPTIONS can change the settings: those of GMRES begin with -breast_ksp_, those of GAMG
 /// with -breast_fieldsplit_u_pc_gamg_, those of the conjugate gradients with -breast_schur_ksp_.
-class PartSaddle {
+/// Every function is collective.
+class PartSaddle final : public SaddleSolverBase {
  public:
-  /// `problem` must outlive this object.
-  explicit PartSaddle(const PartProblem& problem);
-  ~PartSaddle();
+  /// `space` is that of this part. Both must outlive this object.
+  PartSaddle(const Exchange& exchange, const Discretisation& space);
+  ~PartSaddle() override;
   PartSaddle(const PartSaddle&) = delete;
   PartSaddle& operator=(const PartSaddle&) = delete;
 
-  /// Builds the multigrid levels; returns false on all ranks if the block of any node is not
+  /// Builds the multigrid levels, without a shift; fails on all ranks if the block of any node is not
   /// positive definite.
-  bool factorise(const SaddleMatrix& matrix, const Constraints& constraints);
-
-  /// Solves like SaddleSolver::solve. `imposed` (3 entries per node, may be empty) are the
-  /// increments of constrained components. `most` limits the iterations; `solved` is false if the
-  /// tolerance was not reached.
+  Factorisation factorise(const SaddleMatrix& matrix, const Constraints& constraints,
+                          bool may_shift = true) override;
   SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
-                   const Eigen::VectorXd& theta, const Eigen::VectorXd& imposed, double tolerance,
-                   int most) const;
+                   const Eigen::VectorXd& theta, double tolerance = 1e-6,
+                   int restarts = gmres_restarts) const override;
+  Eigen::VectorXd correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
+                             const Eigen::VectorXd& theta, double tolerance) const override;
+  /// From the lowest Ritz value of conjugate gradients with the multigrid preconditioner.
+  bool positive_definite() const override;
+  LinearSolver kind() const override { return LinearSolver::multigrid; }
 
+  /// Solves the linearised inverse problem, preconditioned by the multigrid levels.
+  SolveReference solve_reference() const;
+
+  /// Number of values stored on all ranks for K and for GAMG's levels, for reports.
+  double matrix_values() const;
+  double level_values() const;
+
+ private:
+  struct Impl;
   /// A linear map of (u, p): u has 3 entries per node in global axes, p one per pressure. The first
   /// result is understood as the sum over ranks.
   using Map = std::function<void(const Eigen::VectorXd& u, const Eigen::VectorXd& p,
@@ -44,23 +58,12 @@ class PartSaddle {
   /// to [K, −(1−κc)Bᵀ; B, cM].
   SaddleStep solve_near(const Map& map, const Eigen::VectorXd& top, const Eigen::VectorXd& bottom,
                         double tolerance, int most, double& residual) const;
+  /// `imposed` (3 entries per node, may be empty): the increments of constrained components.
+  SaddleStep solve_imposed(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
+                           const Eigen::VectorXd& theta, const Eigen::VectorXd& imposed,
+                           double tolerance, int restarts) const;
 
-  /// Whether the matrix of the last call of factorise is found to be positive definite, from the
-  /// lowest Ritz value of conjugate gradients with the multigrid preconditioner.
-  bool positive_definite() const;
-
-  const Constraints& constraints() const { return constraints_; }
-  int factorisations() const { return factorisations_; }
-  /// Number of values stored on all ranks for K and for GAMG's levels, for reports.
-  double matrix_values() const;
-  double level_values() const;
-
- private:
-  struct Impl;
-  const PartProblem& problem_;
-  Constraints constraints_;
   std::unique_ptr<Impl> impl_;
-  int factorisations_ = 0;
 };
 
 }  // namespace breast

@@ -6,14 +6,9 @@
 #include <cmath>
 
 #include "distributed/part_matrices.hpp"
+#include "solve/multigrid/pressure_schur.hpp"
 
 namespace breast {
-
-namespace {
-
-constexpr double gradient_weight = 1.5;  // see pressure_schur.cpp
-
-}  // namespace
 
 bool PartMatrices::inverse_roots(const SaddleMatrix& matrix, const Constraints& constraints,
                                  std::vector<Mat3>& roots) const {
@@ -22,7 +17,7 @@ bool PartMatrices::inverse_roots(const SaddleMatrix& matrix, const Constraints& 
   for (int node = 0; node < nodes; ++node) {
     Eigen::Map<Mat3>(blocks.data() + 9L * node) = matrix.stiffness.block(node, -1);
   }
-  problem_.exchange().sum(blocks);
+  exchange_.complete(blocks);
   bool definite = true;
   for (int node = 0; node < nodes; ++node) {
     Mat3 block = Eigen::Map<const Mat3>(blocks.data() + 9L * node);
@@ -42,16 +37,16 @@ bool PartMatrices::inverse_roots(const SaddleMatrix& matrix, const Constraints& 
     }
     roots.push_back(held != nullptr ? Mat3(root * held->axes.transpose()) : root);
   }
-  return problem_.ranks().all(definite);
+  return exchange_.ranks().all(definite);
 }
 
 // Rows: `rows_per_node` of every node; columns: elements.
 OwnedMat PartMatrices::element_matrix(PetscInt rows_per_node) const {
-  const Cells& cells = problem_.own().space().cells;
-  Eigen::VectorXd meet = Eigen::VectorXd::Zero(problem_.part().mesh.nodes());
+  const Cells& cells = space_.cells;
+  Eigen::VectorXd meet = Eigen::VectorXd::Zero(exchange_.part().mesh.nodes());
   for (const int node : cells.nodes) meet[node] += 1;
   const Eigen::VectorXd own = meet;
-  problem_.exchange().sum(meet);
+  exchange_.complete(meet);
   std::vector<PetscInt> here, there;
   for (int node = 0; node < numbering_.owned; ++node) {
     here.insert(here.end(), std::size_t(rows_per_node), PetscInt(own[node]));
@@ -75,7 +70,7 @@ bool PartMatrices::fill_schur(const SaddleMatrix& matrix, const Constraints& con
       stiffness[cells.cell(e)[a]] += matrix.shear[e] * part(e);
     }
   }
-  problem_.exchange().sum(stiffness);
+  exchange_.complete(stiffness);
   const OwnedMat g = element_matrix(4);
   for (int e = 0; e < cells.count(); ++e) {
     const PetscInt column = numbering_.first_pressure + e;
@@ -83,7 +78,7 @@ bool PartMatrices::fill_schur(const SaddleMatrix& matrix, const Constraints& con
       const int node = cells.cell(e)[a];
       const Vec3 pushed = b.at(e).row(0).segment<3>(3L * a);
       Eigen::Vector4d values;
-      values << std::sqrt(gradient_weight) * (roots[node] * pushed),
+      values << std::sqrt(schur_gradient_weight) * (roots[node] * pushed),
           part(e) / std::sqrt(stiffness[node]);
       const PetscInt first = 4 * numbering_.node[node];
       const PetscInt rows[4] = {first, first + 1, first + 2, first + 3};

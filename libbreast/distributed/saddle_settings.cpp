@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/saddle.hpp"
+
 namespace breast {
 
 namespace {
-
-constexpr int restart = 60;
-constexpr double schur_accuracy = 0.1, steps_per_edge = 2;  // as in pressure_schur.cpp
-constexpr int least_steps = 20;
 
 // Sets an option unless the user's PETSC_OPTIONS set it.
 void prefer(const char* name, const char* value) {
@@ -72,7 +70,7 @@ OwnedKsp split_gmres(Mat whole, const std::function<void(const double*, double*)
   ask(KSPSetOptionsPrefix(ksp, "breast_"));
   ask(KSPSetOperators(ksp, whole, whole));
   ask(KSPSetType(ksp, KSPFGMRES));
-  ask(KSPGMRESSetRestart(ksp, restart));
+  ask(KSPGMRESSetRestart(ksp, gmres_restart));
   PC pc = nullptr;
   ask(KSPGetPC(ksp, &pc));
   ask(PCSetType(pc, PCFIELDSPLIT));
@@ -112,9 +110,9 @@ OwnedKsp schur_gradients(Mat sparse) {
   ask(PCSetType(pc, PCJACOBI));
   PetscInt elements = 0;
   ask(MatGetSize(sparse, &elements, nullptr));
-  const int steps = int(steps_per_edge * std::cbrt(double(elements)));
+  const int steps = int(schur_steps_per_edge * std::cbrt(double(elements)));
   ask(KSPSetTolerances(ksp, schur_accuracy, PETSC_DEFAULT, PETSC_DEFAULT,
-                       std::max(least_steps, steps)));
+                       std::max(schur_least_steps, steps)));
   ask(KSPSetFromOptions(ksp));
   ask(KSPSetUp(ksp));
   return ksp;

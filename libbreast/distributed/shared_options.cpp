@@ -14,11 +14,11 @@ std::vector<char> packed(const MechanicsOptions& options) {
   const ModelText model = model_text(options);
   for (const auto& [name, text] : model_parts) {
     const std::string& words = model.*text;
-    out.put(std::vector<char>(words.begin(), words.end()));
+    out(std::vector<char>(words.begin(), words.end()));
   }
-  out.put(options.solver);
-  out.put(options.estimate);
-  out.put(options.seek_remedy);
+  out(options.solver);
+  out(options.estimate);
+  out(options.seek_remedy);
   return out.take();
 }
 
@@ -27,13 +27,13 @@ MechanicsOptions unpacked(const std::vector<char>& bytes) {
   ModelText model;
   for (const auto& [name, text] : model_parts) {
     std::vector<char> words;
-    in.get(words);
+    in(words);
     (model.*text).assign(words.begin(), words.end());
   }
   MechanicsOptions options = stated_model(model, "the model of the first process");
-  in.get(options.solver);
-  in.get(options.estimate);
-  in.get(options.seek_remedy);
+  in(options.solver);
+  in(options.estimate);
+  in(options.seek_remedy);
   return options;
 }
 

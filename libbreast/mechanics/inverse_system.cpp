@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "mechanics/reference_system.hpp"
-#include "solve/equilibrate.hpp"
 
 namespace breast {
 
@@ -62,14 +60,15 @@ InverseSolver::System::Distance InverseSolver::System::distance(const Forces& fo
   const Problem& problem = owner_.problem_;
   const PressureSpace& pressures = *problem.space().pressures;
   Distance out;
-  out.force = problem.free_norm(state_.x, forces) / problem.load_norm();
+  out.force = problem.free_norm(problem.constraints_at(state_.x), forces) / problem.load_norm();
+  out.volume = problem.volume_residual(forces);
   double square = 0;
   for (long i = 0; i < forces.theta.size(); ++i) {
-    const double error = std::abs(forces.theta[i]) / pressures.volume(int(i / pressures.rows));
-    out.volume = std::max(out.volume, error);
+    const double error = forces.theta[i] / pressures.volume(int(i / pressures.rows));
     square += error * error;
   }
-  square /= double(std::max<long>(1, forces.theta.size())) * typical_strain * typical_strain;
+  const double count = std::max(1.0, problem.sum(double(forces.theta.size())));
+  square = problem.sum(square) / (count * typical_strain * typical_strain);
   out.merit = std::sqrt(out.force * out.force + square);
   return out;
 }
@@ -90,7 +89,8 @@ Balance InverseSolver::System::assess(const NewtonResult& so_far) {
   owner_.min_det_F_ = forces_.min_det_F;
   const Distance at = distance(forces_);
   const double bound = std::max(
-      tolerance, rounding_force(owner_.matrix_, state_.x) / owner_.problem_.load_norm());
+      tolerance,
+      owner_.problem_.rounding_force(owner_.matrix_, state_.x) / owner_.problem_.load_norm());
   now.residual = at.force;
   now.merit = at.merit;
   now.converged = at.force <= bound && at.volume <= volume_tolerance;
@@ -119,11 +119,10 @@ bool InverseSolver::System::precondition() {
 
 bool InverseSolver::System::solve_direction(double accuracy) {
   Timer::Scope phase(owner_.timer_, "solve");
-  const double size = std::cbrt(owner_.problem_.space().pressures->volume(0));
   // The stress-free shape slides on the wall at its own position, not at that of the imaged shape.
   const Constraints moved = owner_.problem_.constraints_at(state_.reference);
-  step_ = ReferenceSystem(owner_.matrix_, owner_.tangent_, owner_.solver_, moved, size)
-              .solve(-forces_.r, -forces_.theta, accuracy, max_gmres);
+  step_ = owner_.solve_reference_(owner_.matrix_, owner_.tangent_, moved, -forces_.r,
+                                  -forces_.theta, accuracy, max_gmres);
   owner_.last_gmres_ = step_.iterations;
   // Newton's method converges with directions as rough as 0.5; where a direct solver can take over,
   // it does so earlier.
@@ -163,13 +162,24 @@ std::optional<Trial> InverseSolver::System::attempt(double length) {
   return trial;
 }
 
-InverseSolver::InverseSolver(const Problem& problem, LinearSolver kind, bool fail_fast,
-                             Timer& timer)
+SolveReference solve_reference_by(const SaddleSolver& solver) {
+  return [&solver](const SaddleMatrix& matrix, const ReferenceTangent& tangent,
+                   const Constraints& moved, const Eigen::VectorXd& f, const Eigen::VectorXd& v,
+                   double tolerance, int max_iterations) {
+    const double size = std::cbrt(matrix.space->volume(0));
+    return ReferenceSystem(matrix, tangent, solver, moved, size)
+        .solve(f, v, tolerance, max_iterations);
+  };
+}
+
+InverseSolver::InverseSolver(const Problem& problem, SaddleSolverBase& solver,
+                             SolveReference solve_reference, bool fail_fast, Timer& timer)
     : problem_(problem),
+      solver_(solver),
+      solve_reference_(std::move(solve_reference)),
       fail_fast_(fail_fast),
       timer_(timer),
-      matrix_(problem.make_matrix()),
-      solver_(problem.space().pattern, kind) {}
+      matrix_(problem.make_matrix()) {}
 
 NewtonResult InverseSolver::solve(State& state,
                                   const std::function<void(const NewtonIteration&)>& watch) {
@@ -187,11 +197,6 @@ bool InverseSolver::stable(const State& state, double augmentation) {
   // Without a factor there is no preconditioner.
   if (!stable || augmentation > 0) last_gmres_ = max_gmres;
   return stable;
-}
-
-Instability InverseSolver::instability(const State& state) {
-  last_gmres_ = max_gmres;
-  return find_instability(problem_, state, matrix_, solver_);
 }
 
 }  // namespace breast

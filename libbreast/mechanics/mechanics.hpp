@@ -20,19 +20,6 @@ Equilibrium solve_forward(const HexMesh& mesh, const Vec3& gravity, const Mechan
 Equilibrium solve_backward(const HexMesh& mesh, const Vec3& gravity,
                            const MechanicsOptions& options, Progress& progress = no_progress());
 
-/// The same under arbitrary dead nodal forces (µN, 3 per node) instead of gravity, starting from
-/// mesh.reference, in which held nodes remain.
-Equilibrium solve_backward_under(const HexMesh& mesh, const Eigen::VectorXd& forces,
-                                 const MechanicsOptions& options,
-                                 Progress& progress = no_progress());
-
-/// The same by fixed-point iteration, X ← X − (x(X) − x_imaged), with one forward solve per
-/// iteration (Sellier 2011): slower and less robust, but an independent check of solve_backward.
-Equilibrium solve_backward_fixed_point(const HexMesh& mesh, const Vec3& gravity,
-                                       const MechanicsOptions& options, double tolerance_mm = 1e-8,
-                                       int max_iterations = 60,
-                                       Progress& progress = no_progress());
-
 /// Writes the equilibrium under the keys of docs/file-formats.md; `mesh` is the one that was solved.
 void write_report(const Equilibrium& equilibrium, const HexMesh& mesh,
                   const MechanicsOptions& options, Report& report);

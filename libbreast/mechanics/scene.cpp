@@ -46,23 +46,32 @@ Constraints wall_constraints(const HexMesh& mesh, const MechanicsOptions& option
 void LoadedProblem::set_load(const Eigen::VectorXd& force) {
   load->set(force);
   Eigen::VectorXd free = force;
+  problem.complete(free);
   problem.constraints().project(free);
-  const double norm = free.norm();
+  const double norm = problem.norm(free);
   problem.set_load_norm(norm > 0 ? norm : stiffness_force);
 }
 
 Scene::Scene(const HexMesh& mesh, const MechanicsOptions& options, TangentStorage storage)
     : mesh_(mesh), options_(options), walls_(wall_constraints(mesh, options)) {
   check(mesh);
-  solid_ = make_solid(mesh, options, storage);
-  if (mesh.skin_model == SkinModel::membrane && !mesh.skin_faces.empty()) {
-    membrane_ = make_membrane(mesh, options, *solid_->space());
+  add_terms(storage, nodes_of(mesh, mesh.pectoral_faces));
+}
+
+Scene::Scene(const HexMesh& mesh, const MechanicsOptions& options, PartOfBody part)
+    : mesh_(mesh), options_(options), walls_(std::move(part.walls)), sharing_(std::move(part.sharing)) {
+  add_terms(TangentStorage::assembled, part.sliding);
+}
+
+void Scene::add_terms(TangentStorage storage, const std::vector<int>& sliding) {
+  solid_ = make_solid(mesh_, options_, storage);
+  if (mesh_.skin_model == SkinModel::membrane && !mesh_.skin_faces.empty()) {
+    membrane_ = make_membrane(mesh_, options_, *solid_->space());
   }
-  const std::shared_ptr<const LevelSurface> surface = wall_surface(mesh, options);
-  supports_ = attach_supports(mesh, surface, options);
-  if (options.wall->slides()) {
-    sliding_ = std::make_shared<SlidingNodes>(surface, nodes_of(mesh, mesh.pectoral_faces),
-                                              flatten(mesh.imaged));
+  const std::shared_ptr<const LevelSurface> surface = wall_surface(mesh_, options_);
+  supports_ = attach_supports(mesh_, surface, options_);
+  if (options_.wall->slides() && !sliding.empty()) {
+    sliding_ = std::make_shared<SlidingNodes>(surface, sliding, flatten(mesh_.imaged));
   }
 }
 
@@ -78,7 +87,7 @@ long Scene::unknowns() const {
 double Scene::volume() const {
   double sum = 0;
   for (int e = 0; e < mesh_.elements(); ++e) sum += solid_->space()->pressures->volume(e);
-  return sum;
+  return sharing_ ? sharing_->sum(sum) : sum;
 }
 
 double Scene::element_size() const {
@@ -90,7 +99,7 @@ double Scene::stiffest() const {
   for (const Tissue tissue : mesh_.tissue) {
     most = std::max(most, options_.materials.law(tissue).shear_modulus());
   }
-  return most;
+  return sharing_ ? sharing_->most(most) : most;
 }
 
 double Scene::stiffness_force() const {
@@ -105,6 +114,7 @@ LoadedProblem Scene::problem(const Eigen::VectorXd& force) const {
   if (membrane_) loaded.problem.add(membrane_);
   for (const SupportEffects::Springs& springs : supports_.springs) loaded.problem.add(springs.term);
   loaded.problem.set_sliding(sliding_);
+  if (sharing_) loaded.problem.share(sharing_);
   loaded.problem.add(loaded.load);
   loaded.set_load(force);
   return loaded;

@@ -33,12 +33,22 @@ struct LoadedProblem {
   void set_load(const Eigen::VectorXd& force);
 };
 
+/// What a part of a body takes from the whole, where several processes share it.
+struct PartOfBody {
+  Constraints walls;
+  std::vector<int> sliding;  ///< nodes of the part that slide on the chest wall
+  std::shared_ptr<const Sharing> sharing;
+};
+
 class Scene {
  public:
   /// The mesh must outlive the scene (its sets, tissues and imaged shape are read). Throws Error
   /// (input) if mesh and options do not agree.
   Scene(const HexMesh& mesh, const MechanicsOptions& options,
         TangentStorage storage = TangentStorage::assembled);
+  /// A part of a body; options.wall.surface is the wall of the whole. Functions that return a sum
+  /// over the body are collective.
+  Scene(const HexMesh& mesh, const MechanicsOptions& options, PartOfBody part);
 
   const HexMesh& mesh() const { return mesh_; }
   const MechanicsOptions& options() const { return options_; }
@@ -70,6 +80,7 @@ class Scene {
 
  private:
   double volume() const;
+  void add_terms(TangentStorage storage, const std::vector<int>& sliding);
 
   const HexMesh& mesh_;
   MechanicsOptions options_;
@@ -78,6 +89,7 @@ class Scene {
   SupportEffects supports_;
   std::shared_ptr<const SlidingNodes> sliding_;
   Constraints walls_;
+  std::shared_ptr<const Sharing> sharing_;  // null: the whole body
 };
 
 }  // namespace breast

@@ -52,7 +52,7 @@ bool factor_serves(const NewtonResult& result) {
 
 class EquilibriumSystem final : public TangentSystem {
  public:
-  EquilibriumSystem(const Problem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
+  EquilibriumSystem(const Problem& problem, SaddleSolverBase& solver, SaddleMatrix& matrix,
                     State& state, const NewtonOptions& options, const Eigen::VectorXd* targets)
       : TangentSystem(problem, solver, matrix, state),
         options_(options),
@@ -72,7 +72,7 @@ class EquilibriumSystem final : public TangentSystem {
  private:
   Appraisal appraise(const State& state, const Forces& forces) const override;
   double residual(const Constraints& held, const Forces& forces) const {
-    return Problem::free_norm(held, forces) / problem_.load_norm();
+    return problem_.free_norm(held, forces) / problem_.load_norm();
   }
   bool reached(double residual) const;
 
@@ -87,7 +87,8 @@ class EquilibriumSystem final : public TangentSystem {
 
 bool EquilibriumSystem::reached(double residual) const {
   const double tolerance =
-      std::max(options_.tolerance, rounding_force(matrix_, state_.x) / problem_.load_norm());
+      std::max(options_.tolerance,
+               problem_.rounding_force(matrix_, state_.x) / problem_.load_norm());
   return !away_ && residual <= tolerance &&
          problem_.volume_residual(forces_) <= options_.volume_tolerance;
 }
@@ -171,7 +172,7 @@ Appraisal EquilibriumSystem::appraise(const State& state, const Forces& forces) 
 
 }  // namespace
 
-TangentSystem::TangentSystem(const Problem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
+TangentSystem::TangentSystem(const Problem& problem, SaddleSolverBase& solver, SaddleMatrix& matrix,
                              State& state)
     : problem_(problem), solver_(solver), matrix_(matrix), state_(state) {}
 
@@ -206,17 +207,17 @@ NewtonDirection TangentSystem::solve(double volume_accuracy, int restarts) {
   if (problem_.sliding() != nullptr) problem_.constraints_at(state_.x).project(r);
   step_ = solver_.solve(matrix_, r, forces_.theta, volume_accuracy, restarts);
   NewtonDirection direction;
-  direction.slope = step_.u.dot(matrix_.stiffness.multiply(step_.u));
+  // Of a shared body the matrix is in parts and the vector complete, so that the products add up.
+  direction.slope = problem_.sum(step_.u.dot(matrix_.stiffness.multiply(step_.u)));
   direction.shift = shift_;
   direction.linear_iterations = step_.iterations;
+  if (!problem_.all(step_.u.allFinite() && step_.p.allFinite())) {
+    direction.stop = NewtonStop::linear_solver;
+    direction.reason = describe(direction.stop);
+  }
   return direction;
 }
 
-// A step along the tangents of a curved wall ends at a distance from the wall of its square divided
-// by the radius, which is millimetres if the breast slides by centimetres. Moving only the wall's
-// nodes back would strain their elements. The body therefore follows them with preserved volumes,
-// in the norm of the tangent: a second-order correction (Nocedal and Wright, Numerical
-// Optimization, section 15.6). Returns false if a node has left the surface.
 void TangentSystem::change(const std::vector<const Term*>& terms,
                            const std::function<void()>& what) {
   const auto of_terms = [&] {
@@ -234,12 +235,18 @@ void TangentSystem::change(const std::vector<const Term*>& terms,
   if (forces_.augmented.size() > 0) forces_.augmented += after.augmented - before.augmented;
 }
 
+// A step along the tangents of a curved wall ends at a distance from the wall of its square divided
+// by the radius, which is millimetres if the breast slides by centimetres. Moving only the wall's
+// nodes back would strain their elements. The body therefore follows them with preserved volumes,
+// in the norm of the tangent: a second-order correction (Nocedal and Wright, Numerical
+// Optimization, section 15.6). Returns false if a node has left the surface.
 bool TangentSystem::follow_surface(double length, State& trial) const {
   const SlidingNodes* sliding = problem_.sliding();
-  if (sliding == nullptr) return true;
-  const Eigen::VectorXd back = sliding->way_back(trial.x, solver_.constraints());
-  if (back.size() == 0) return false;
-  if (back.lpNorm<Eigen::Infinity>() > worth_following) {
+  if (problem_.all(sliding == nullptr)) return true;
+  Eigen::VectorXd back = Eigen::VectorXd::Zero(trial.x.size());
+  if (sliding != nullptr) back = sliding->way_back(trial.x, solver_.constraints());
+  if (!problem_.all(back.size() > 0)) return false;
+  if (problem_.most(back.lpNorm<Eigen::Infinity>()) > worth_following) {
     const Forces there = problem_.forces(trial);
     const double left = 1 - std::min(1.0, length);
     const Eigen::VectorXd theta =
@@ -260,7 +267,8 @@ std::optional<Trial> TangentSystem::attempt(double length) {
   }
   trial.forces = problem_.forces(trial.state, &matrix_.kappa);
   const double least = determinant_guard * std::min(1.0, forces_.min_det_F);
-  if (!trial.forces.valid || !(trial.forces.min_det_F > least) || !trial.forces.r.allFinite()) {
+  if (!trial.forces.valid || !(trial.forces.min_det_F > least) ||
+      !problem_.all(trial.forces.r.allFinite())) {
     refusal_ = NewtonStop::folded;
     if (refused_.size() == 0) refused_ = trial.state.x;
     return {};
@@ -274,11 +282,7 @@ void TangentSystem::accept(Trial trial) {
   forces_ = std::move(trial.forces);
 }
 
-double rounding_force(const SaddleMatrix& matrix, const Eigen::VectorXd& x) {
-  return 8 * std::numeric_limits<double>::epsilon() * matrix.diagonal.cwiseProduct(x).norm();
-}
-
-EquilibriumResult equilibrate(const Problem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
+EquilibriumResult equilibrate(const Problem& problem, SaddleSolverBase& solver, SaddleMatrix& matrix,
                               State& state, const NewtonOptions& options,
                               const Eigen::VectorXd* targets,
                               const std::function<void(const NewtonIteration&)>& watch) {

@@ -35,7 +35,7 @@ struct NewtonOptions {
 class TangentSystem : public NewtonSystem {
  public:
   /// All references must outlive this object. `state` is changed.
-  TangentSystem(const Problem& problem, SaddleSolver& solver, SaddleMatrix& matrix, State& state);
+  TangentSystem(const Problem& problem, SaddleSolverBase& solver, SaddleMatrix& matrix, State& state);
 
   std::optional<Trial> attempt(double length) override;
   void accept(Trial trial) override;
@@ -62,10 +62,10 @@ class TangentSystem : public NewtonSystem {
   NewtonDirection solve(double volume_accuracy, int restarts);
   /// Makes a change that alters only the forces of these terms, and updates the forces.
   void change(const std::vector<const Term*>& terms, const std::function<void()>& what);
-  double along(const Eigen::VectorXd& gradient) const { return step_.u.dot(gradient); }
+  double along(const Eigen::VectorXd& gradient) const { return problem_.dot(step_.u, gradient); }
 
   const Problem& problem_;
-  SaddleSolver& solver_;
+  SaddleSolverBase& solver_;
   SaddleMatrix& matrix_;
   State& state_;
   Forces forces_;
@@ -79,10 +79,6 @@ class TangentSystem : public NewtonSystem {
   Eigen::VectorXd refused_;
 };
 
-/// Force (µN) that rounding of the positions alone can cause, below which no residual can be
-/// reduced reliably.
-double rounding_force(const SaddleMatrix& matrix, const Eigen::VectorXd& x);
-
 struct EquilibriumResult : NewtonResult {
   Forces forces;  ///< at the final state (valid when the last state was admissible)
 };
@@ -91,7 +87,7 @@ struct EquilibriumResult : NewtonResult {
 /// ignored); null: held components remain. If not converged, `state` is the last admissible one. A
 /// state with an element that is not positive at a corner is not accepted, however small its
 /// residual.
-EquilibriumResult equilibrate(const Problem& problem, SaddleSolver& solver, SaddleMatrix& matrix,
+EquilibriumResult equilibrate(const Problem& problem, SaddleSolverBase& solver, SaddleMatrix& matrix,
                               State& state, const NewtonOptions& options = {},
                               const Eigen::VectorXd* targets = nullptr,
                               const std::function<void(const NewtonIteration&)>& watch = {});

@@ -41,6 +41,12 @@ void Problem::add(std::shared_ptr<const Term> term) {
 }
 
 Forces Problem::evaluate(const State& state, const Request& request) const {
+  Forces forces = evaluate_terms(state, request);
+  if (sharing_) agree(request, forces);
+  return forces;
+}
+
+Forces Problem::evaluate_terms(const State& state, const Request& request) const {
   Forces forces;
   forces.r = Eigen::VectorXd::Zero(3L * nodes());
   forces.theta = Eigen::VectorXd::Zero(space_->pressure_count());
@@ -55,6 +61,22 @@ Forces Problem::evaluate(const State& state, const Request& request) const {
   if (request.matrix != nullptr) bound_diagonal(*request.matrix);
   forces.valid = true;
   return forces;
+}
+
+// The forces of the whole body from those of this part.
+void Problem::agree(const Request& request, Forces& forces) const {
+  if (!sharing_->all(forces.valid)) {
+    forces.bad_element = sharing_->first_element(forces.valid ? -1 : forces.bad_element);
+    forces.valid = false;
+    return;
+  }
+  sharing_->complete(forces.r);
+  if (request.kappa != nullptr) sharing_->complete(forces.augmented);
+  if (request.matrix != nullptr) sharing_->complete(request.matrix->diagonal);
+  forces.energy = sharing_->sum(forces.energy);
+  forces.min_det_F = -sharing_->most(-forces.min_det_F);
+  forces.max_det_F = sharing_->most(forces.max_det_F);
+  forces.max_volume_error = sharing_->most(forces.max_volume_error);
 }
 
 Forces Problem::forces(const State& state, const Eigen::VectorXd* kappa) const {
@@ -76,29 +98,36 @@ Constraints Problem::constraints_at(const Eigen::VectorXd& x) const {
   return all;
 }
 
-double Problem::free_norm(const Constraints& held, const Forces& forces) {
+int Problem::restore(Eigen::VectorXd& x) const {
+  const int left = sliding_ ? sliding_->restore(x) : -1;
+  return all(left < 0) ? -1 : std::max(0, left);
+}
+
+double Problem::free_norm(const Constraints& held, const Forces& forces) const {
   Eigen::VectorXd free = forces.r;
   held.project(free);
-  return free.norm();
+  return norm(free);
+}
+
+double Problem::rounding_force(const SaddleMatrix& matrix, const Eigen::VectorXd& x) const {
+  return 8 * std::numeric_limits<double>::epsilon() * norm(matrix.diagonal.cwiseProduct(x));
 }
 
 double Problem::volume_residual(const Forces& forces) const {
   const PressureSpace& pressures = *space_->pressures;
   double worst = 0;
-  for (long i = 0; i < forces.theta.size(); ++i) {
+  for (long i = 0; i < forces.theta.size() && !std::isnan(worst); ++i) {
     const double relative = std::abs(forces.theta[i]) / pressures.volume(int(i / pressures.rows));
-    if (std::isnan(relative)) return relative;
-    worst = std::max(worst, relative);
+    worst = std::isnan(relative) ? relative : std::max(worst, relative);
   }
-  return worst;
+  return most(worst);
 }
 
 int Problem::folded_element(const State& state) const {
-  for (const auto& term : terms_) {
-    const int element = term->folded_element(state);
-    if (element >= 0) return element;
-  }
-  return -1;
+  int folded = -1;
+  for (std::size_t i = 0; i < terms_.size() && folded < 0; ++i)
+    folded = terms_[i]->folded_element(state);
+  return sharing_ ? sharing_->first_element(folded) : folded;
 }
 
 }  // namespace breast

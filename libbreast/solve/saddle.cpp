@@ -17,7 +17,7 @@ constexpr int max_pressure_iterations = 60;
 }  // namespace
 
 SaddleSolver::SaddleSolver(const std::shared_ptr<const NodePattern>& pattern, LinearSolver kind)
-    : kind_(kind), work_(pattern), constraints_(pattern->nodes()) {
+    : SaddleSolverBase(pattern->nodes()), kind_(kind), work_(pattern) {
   if (kind == LinearSolver::direct) cholesky_ = std::make_unique<Cholesky>(*pattern);
 }
 

@@ -31,8 +31,13 @@ namespace breast {
 
 enum class LinearSolver { direct, multigrid };
 
-/// Number of GMRES cycles of 60 iterations before it gives up.
-inline constexpr int gmres_restarts = 6;
+/// GMRES stores two vectors per iteration; after `gmres_restart` iterations it restarts from its current
+/// result, at most `gmres_restarts` times before it gives up.
+inline constexpr int gmres_restart = 60, gmres_restarts = 6;
+/// GMRES measures forces and volumes together, by this part of the tolerance of the volumes.
+inline constexpr double gmres_part_of_tolerance = 0.1;
+/// Steps of the iteration that shows whether a matrix is positive definite.
+inline constexpr int most_definite_steps = 100;
 
 struct Factorisation {
   bool ok = false;
@@ -46,36 +51,62 @@ struct SaddleStep {
   bool solved = true;    ///< whether the tolerance was reached
 };
 
-class SaddleSolver {
+/// What Newton's method asks of a linear solver.
+class SaddleSolverBase {
  public:
-  explicit SaddleSolver(const std::shared_ptr<const NodePattern>& pattern,
-                        LinearSolver kind = LinearSolver::direct);
+  virtual ~SaddleSolverBase() = default;
 
   /// Imposes the constraints exactly (rotated axes, scaled identity: the pattern never changes) and
   /// factorises. If the matrix is not positive definite, a small multiple of SaddleMatrix::diagonal
   /// is added: starting from an eighth of the last shift that was needed, it is increased by
   /// factors of 8. If `may_shift` is false, it fails instead. With multigrid the levels are built
   /// instead, and only an indefinite direction in a coarse space is noticed: see positive_definite.
-  Factorisation factorise(const SaddleMatrix& matrix, const Constraints& constraints,
-                          bool may_shift = true);
-
+  virtual Factorisation factorise(const SaddleMatrix& matrix, const Constraints& constraints,
+                                  bool may_shift = true) = 0;
   /// Solves for the increments; `tolerance` is the relative residual of the volume equation (with
   /// multigrid, a tenth of it is that of both equations). `matrix` and the constraints must be
   /// those of the last factorise, except for the prescribed increments. GMRES gives up after
   /// `restarts` times 60 iterations.
-  SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
-                   const Eigen::VectorXd& theta, double tolerance = 1e-6,
-                   int restarts = gmres_restarts) const;
+  virtual SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
+                           const Eigen::VectorXd& theta, double tolerance = 1e-6,
+                           int restarts = gmres_restarts) const = 0;
   /// The change of positions that is smallest in the norm of K among those that move held
   /// components by `imposed` (3 per node, in the span of the constraints) and change the volumes by
   /// −theta.
-  Eigen::VectorXd correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
-                             const Eigen::VectorXd& theta, double tolerance) const;
-
+  virtual Eigen::VectorXd correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
+                                     const Eigen::VectorXd& theta, double tolerance) const = 0;
   /// Whether the matrix of the last factorise is positive definite: from the Cholesky
   /// factorisation, or with multigrid from the lowest eigenvalue of cycle times matrix (Lanczos).
   /// Also false if that is too close to zero to decide.
-  bool positive_definite() const;
+  virtual bool positive_definite() const = 0;
+  virtual LinearSolver kind() const = 0;
+
+  const Constraints& constraints() const { return constraints_; }
+  /// Numerical factorisations (multigrid: constructions of the levels) so far.
+  int factorisations() const { return factorisations_; }
+
+ protected:
+  explicit SaddleSolverBase(int nodes) : constraints_(nodes) {}
+
+  Constraints constraints_;  // of the last factorise
+  int factorisations_ = 0;
+};
+
+/// The solver of a body in one piece.
+class SaddleSolver final : public SaddleSolverBase {
+ public:
+  explicit SaddleSolver(const std::shared_ptr<const NodePattern>& pattern,
+                        LinearSolver kind = LinearSolver::direct);
+
+  Factorisation factorise(const SaddleMatrix& matrix, const Constraints& constraints,
+                          bool may_shift = true) override;
+  SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
+                   const Eigen::VectorXd& theta, double tolerance = 1e-6,
+                   int restarts = gmres_restarts) const override;
+  Eigen::VectorXd correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
+                             const Eigen::VectorXd& theta, double tolerance) const override;
+  bool positive_definite() const override;
+  LinearSolver kind() const override { return kind_; }
 
   /// (K + κBᵀM⁻¹B)⁻¹ v on the free part, held components zero. With multigrid this is one cycle, a
   /// symmetric positive definite approximation.
@@ -86,14 +117,10 @@ class SaddleSolver {
   /// linear map.
   Eigen::VectorXd schur_solve(const SaddleMatrix& matrix, const Eigen::VectorXd& q) const;
 
-  const Constraints& constraints() const { return constraints_; }
-  LinearSolver kind() const { return kind_; }
   /// Stored values and GFlop of one factorisation; with multigrid the values of all levels, and
   /// zero.
   double factor_entries() const;
   double factor_gflop() const;
-  /// Numerical factorisations (multigrid: constructions of the levels) so far.
-  int factorisations() const { return factorisations_; }
 
  private:
   void impose(const SaddleMatrix& matrix);
@@ -112,10 +139,8 @@ class SaddleSolver {
   Multigrid multigrid_;
   PressureSchur schur_;
   NodeMatrix work_;
-  Constraints constraints_;
   double last_shift_ = 0;
   bool definite_ = false;  // the last factorise succeeded without a shift
-  int factorisations_ = 0;
 };
 
 }  // namespace breast

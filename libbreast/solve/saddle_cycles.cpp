@@ -9,14 +9,6 @@
 
 namespace breast {
 
-namespace {
-// GMRES stores two vectors per iteration; after `restart` iterations it restarts from its current
-// result.
-constexpr int restart = 60;
-constexpr double part_of_tolerance = 0.1;
-constexpr int most_lanczos_steps = 100;
-}  // namespace
-
 SaddleStep SaddleSolver::solve_by_cycles(const SaddleMatrix& matrix, const Eigen::VectorXd& right,
                                          const Eigen::VectorXd& imposed,
                                          const Eigen::VectorXd& theta, double tolerance,
@@ -56,11 +48,11 @@ SaddleStep SaddleSolver::solve_by_cycles(const SaddleMatrix& matrix, const Eigen
   Eigen::VectorXd target(n + m), x = Eigen::VectorXd::Zero(n + m);
   target.head(n) = free(right);
   target.tail(m) = -weigh * (imposed.size() > 0 ? theta + b.apply(imposed) : theta);
-  const double goal = part_of_tolerance * tolerance * target.norm();
+  const double goal = gmres_part_of_tolerance * tolerance * target.norm();
   SaddleStep step;
   Eigen::VectorXd residual = target;
   for (int i = 0; i < restarts && residual.norm() > goal; ++i) {
-    const GmresResult part = gmres(apply, precondition, residual, goal / residual.norm(), restart);
+    const GmresResult part = gmres(apply, precondition, residual, goal / residual.norm(), gmres_restart);
     x += part.x;
     step.iterations += part.iterations;
     step.solved = part.converged;
@@ -78,7 +70,7 @@ bool SaddleSolver::positive_definite() const {
   for (long i = 0; i < start.size(); ++i) start[i] = std::sin(2.0 + 5.1 * double(i));
   return lowest_eigenvalue([&](const Eigen::VectorXd& v) { return multigrid_.multiply(v); },
                            [&](const Eigen::VectorXd& v) { return multigrid_.cycle(v); }, start,
-                           most_lanczos_steps)
+                           most_definite_steps)
       .positive();
 }
 

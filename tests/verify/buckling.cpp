@@ -145,7 +145,7 @@ bool layer_stands(const HexMesh& mesh, const MechanicsOptions& options, double w
   Forces forces;
   EXPECT_TRUE(problem.tangent(state, forces, matrix));
   const Constraints held = half_wave(mesh, width);
-  EXPECT_LT(Problem::free_norm(held, forces), 1e-6 * scene.stiffness_force());
+  EXPECT_LT(problem.free_norm(held, forces), 1e-6 * scene.stiffness_force());
   SaddleSolver solver(problem.space().pattern);
   return solver.factorise(matrix, held, false).ok;
 }

@@ -10,6 +10,7 @@
 #include "fixtures/block.hpp"
 #include "fixtures/elastic_scene.hpp"
 #include "fixtures/in_place.hpp"
+#include "fixtures/other_inverses.hpp"
 
 namespace breast {
 namespace {

@@ -8,6 +8,7 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "fixtures/in_place.hpp"
+#include "fixtures/other_inverses.hpp"
 #include "fixtures/shapes.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mesh/element_order.hpp"

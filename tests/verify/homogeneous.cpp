@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures/in_place.hpp"
+#include "fixtures/other_inverses.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/elastic_scene.hpp"
 #include "fixtures/exact_states.hpp"

@@ -13,6 +13,7 @@
 #include "fixtures/block.hpp"
 #include "fixtures/elastic_scene.hpp"
 #include "fixtures/in_place.hpp"
+#include "fixtures/other_inverses.hpp"
 #include "fixtures/sliding_cap.hpp"
 #include "mechanics/supports/effects.hpp"
 #include "mesh/nodal.hpp"

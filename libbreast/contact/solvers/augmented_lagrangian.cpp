@@ -65,7 +65,7 @@ class AugmentedLagrangian::System final : public TangentSystem {
       const double force = owner_.plate_->at(c, state.x).force;
       square += force * force;
     }
-    return Problem::free_norm(held, forces) /
+    return problem_.free_norm(held, forces) /
            std::max({std::sqrt(square), problem_.load_norm(), 1e-30});
   }
 

@@ -113,7 +113,7 @@ class ContactSolver {
   /// that a target is not met more closely.
   virtual double resolution() const { return 0; }
   /// Adds what this method leaves in the record of its solution, besides poses and forces.
-  virtual void describe(const State& /*solution*/, ContactRecord& /*record*/) const {}
+  virtual void fill_record(const State& /*solution*/, ContactRecord& /*record*/) const {}
   /// The contact of the last solve, with a fixed touching set, for the estimate of the discretisation
   /// error; nothing if the method has no such set. Mesh and state must outlive it.
   virtual std::optional<ContactEstimate> for_estimate(const HexMesh& mesh, const PlatePair& plates,

@@ -62,7 +62,7 @@ class SurfaceContact::System final : public TangentSystem {
   bool follow_bounds(double residual);
   /// Unbalanced force relative to the force of the plates.
   double relative(const Forces& forces, const Constraints& held) const {
-    return Problem::free_norm(held, forces) / scale_;
+    return problem_.free_norm(held, forces) / scale_;
   }
 
   SurfaceContact& owner_;
@@ -194,7 +194,7 @@ double SurfaceContact::resolution() const {
   return relative_resolution;
 }
 
-void SurfaceContact::describe(const State& solution, ContactRecord& record) const {
+void SurfaceContact::fill_record(const State& solution, ContactRecord& record) const {
   record.surface_stiffness = pressure_->stiffness();
   record.face_rules = pressure_->face_rules();
   if (friction_ == nullptr) return;

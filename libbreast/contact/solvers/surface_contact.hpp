@@ -38,7 +38,7 @@ class SurfaceContact : public ContactSolver {
   const std::vector<int>& candidates() const override { return candidates_; }
   std::vector<Face> contact_faces(const HexMesh& mesh) const override;
   double resolution() const override;
-  void describe(const State& solution, ContactRecord& record) const override;
+  void fill_record(const State& solution, ContactRecord& record) const override;
   /// Nothing: faces roll on plates, and steps towards a richer mesh with a fixed touching set were
   /// wrong by factors of three either way (docs/validation).
   std::optional<ContactEstimate> for_estimate(const HexMesh&, const PlatePair&,

@@ -180,7 +180,7 @@ void SurfacePressure::visit(int face, const Eigen::VectorXd& x, Visit&& each) co
       Vec3 at = Vec3::Zero();
       for (int a = 0; a < n; ++a) at += shape.values[a] * now(nodes[a]);
       const Gap gap = plate.gap(at);
-      if (!(gap.force < 0)) continue;
+      if (!(gap.value < 0)) continue;
       const double area = part * rule.weight[q] * area_scale(nodes, n, shape, [&](int node) {
                             return imaged_[std::size_t(node)];
                           });
@@ -188,7 +188,7 @@ void SurfacePressure::visit(int face, const Eigen::VectorXd& x, Visit&& each) co
     }
     for (int a = 0; chosen == 0 && a < n; ++a) {
       const Gap gap = plate.gap(now(nodes[a]));
-      if (!(gap.force < 0)) continue;
+      if (!(gap.value < 0)) continue;
       each(Touch{k, nodal_shape_[std::size_t(a)], now(nodes[a]), gap,
                  nodal_part * nodal_area_[std::size_t(face * n + a)]});
     }
@@ -205,13 +205,13 @@ SurfacePressure::FaceResult SurfacePressure::face_result(int face, const Eigen::
       if (tangent) out.matrix = Eigen::MatrixXd::Zero(3 * n, 3 * n);
     }
     const Gap& gap = touch.gap;
-    const ToeSpring p = pressure_at(-gap.force, stiffness_);
+    const ToeSpring p = pressure_at(-gap.value, stiffness_);
     out.energy += touch.area * p.energy;
     for (int a = 0; a < n; ++a) {
       out.residual.segment<3>(3 * a) -= touch.shape.values[a] * touch.area * p.force * gap.gradient;
     }
     if (!tangent) return;
-    const double turning = pressure_at(std::min(-gap.force, turning_depth_), stiffness_).force;
+    const double turning = pressure_at(std::min(-gap.value, turning_depth_), stiffness_).force;
     const Mat3 block = touch.area * (p.stiffness * gap.gradient * gap.gradient.transpose() -
                                      turning * gap.hessian);
     for (int a = 0; a < n; ++a) {
@@ -274,7 +274,7 @@ Eigen::VectorXd SurfacePressure::plate_forces(const Eigen::VectorXd& x, int plat
     visit(f, x, [&](const Touch& touch) {
       if (touch.plate != plate) return;
       const Vec3 force =
-          touch.area * pressure_at(-touch.gap.force, stiffness_).force * touch.gap.gradient;
+          touch.area * pressure_at(-touch.gap.value, stiffness_).force * touch.gap.gradient;
       for (int a = 0; a < cells_.nodes_per_cell; ++a) {
         total.segment<3>(3L * cells_.cell(f)[a]) += touch.shape.values[a] * force;
       }
@@ -301,7 +301,7 @@ Eigen::VectorXd SurfacePressure::change_of_forces(
         change.value += touch.gap.gradient.dot(motion);
         change.gradient += touch.gap.hessian * motion;
       }
-      const ToeSpring p = pressure_at(-touch.gap.force, stiffness_);
+      const ToeSpring p = pressure_at(-touch.gap.value, stiffness_);
       const Vec3 force = touch.area * (p.force * change.gradient -
                                        p.stiffness * change.value * touch.gap.gradient);
       for (int a = 0; a < n; ++a) total.segment<3>(3L * nodes[a]) += touch.shape.values[a] * force;
@@ -314,7 +314,7 @@ std::vector<PressedPoint> SurfacePressure::pressed(const Eigen::VectorXd& x) con
   std::vector<PressedPoint> points;
   for (int f = 0; f < cells_.count(); ++f) {
     visit(f, x, [&](const Touch& touch) {
-      const double pressure = pressure_at(-touch.gap.force, stiffness_).force;
+      const double pressure = pressure_at(-touch.gap.value, stiffness_).force;
       points.push_back({touch.plate, touch.at, touch.area * pressure * touch.gap.gradient});
     });
   }
@@ -324,7 +324,7 @@ std::vector<PressedPoint> SurfacePressure::pressed(const Eigen::VectorXd& x) con
 double SurfacePressure::deepest(const Eigen::VectorXd& x) const {
   double worst = 0;
   for (int f = 0; f < cells_.count(); ++f) {
-    visit(f, x, [&](const Touch& touch) { worst = std::max(worst, -touch.gap.force); });
+    visit(f, x, [&](const Touch& touch) { worst = std::max(worst, -touch.gap.value); });
   }
   return worst;
 }

@@ -11,16 +11,6 @@ namespace breast {
 
 namespace {
 
-// For a wave that alternates from node to node, K is smaller than its diagonal blocks. Measured:
-// the numbers of GMRES iterations are equal for 1.5 to 3, and a fifth larger for 1.
-constexpr double gradient_weight = 1.5;
-// A relative residual of a tenth is sufficient within GMRES, and so are two steps for every element
-// along an edge: with one, GMRES takes 25 instead of 22 iterations on the block of 48³ and 26
-// instead of 19 on the dome of 32 000.
-constexpr double accuracy = 0.1, steps_per_edge = 2;
-constexpr int least_gradient_steps = 20;
-constexpr double nothing_left = 1e-12;  // of 1 − κc
-
 // The elements at every node, and which of their nodes it is.
 using Corners = std::vector<std::vector<std::pair<int, int>>>;
 Corners corners_at_nodes(const Cells& cells, int nodes) {
@@ -70,7 +60,7 @@ BlockMatrix<1, 1> node_sum(const SaddleMatrix& matrix, const std::vector<Mat3>& 
     for (int a = 0; a < cells.nodes_per_cell; ++a) {
       const int node = cells.cell(e)[a];
       const Vec3 moved =
-          gradient_weight * (flexibility[node] * b.at(e).middleCols<3>(3L * a).transpose());
+          schur_gradient_weight * (flexibility[node] * b.at(e).middleCols<3>(3L * a).transpose());
       const double smooth = part(e) / stiffness[node];
       for (const auto& [f, c] : corners[node]) {
         row.at(f)(0) += b.at(f).middleCols<3>(3L * c).row(0).dot(moved) + smooth * part(f);
@@ -90,7 +80,7 @@ bool PressureSchur::build(const SaddleMatrix& matrix, const NodeMatrix& imposed,
   shear_ = matrix.shear;
   left_over_ = 1 - kappa_[0] * space_->compliance[0];
   sparse_ = {};
-  if (space_->rows > 1 || left_over_ < nothing_left) return true;
+  if (space_->rows > 1 || left_over_ < schur_nothing_left) return true;
   const std::vector<Mat3> flexibility = flexibilities(imposed, constraints);
   if (flexibility.empty()) return false;
   sparse_ = node_sum(matrix, flexibility);
@@ -107,14 +97,14 @@ Eigen::VectorXd PressureSchur::solve_sparse(const Eigen::VectorXd& q) const {
   const auto scale = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
     return reciprocal_.cwiseProduct(v);
   };
-  const int steps = int(steps_per_edge * std::cbrt(double(sparse_.rows)));
-  return conjugate_gradients(apply, scale, q, {accuracy, 0, std::max(least_gradient_steps, steps)})
+  const int steps = int(schur_steps_per_edge * std::cbrt(double(sparse_.rows)));
+  return conjugate_gradients(apply, scale, q, {schur_accuracy, 0, std::max(schur_least_steps, steps)})
       .x;
 }
 
 Eigen::VectorXd PressureSchur::solve(const Eigen::VectorXd& q) const {
   Eigen::VectorXd p = space_->divide(q, kappa_);
-  if (left_over_ < nothing_left) return p;
+  if (left_over_ < schur_nothing_left) return p;
   if (sparse_.rows > 0) return p + left_over_ * solve_sparse(q);
   const Eigen::VectorXd softness = shear_.cwiseInverse() + space_->compliance;
   return p + left_over_ * space_->divide(q, softness.cwiseInverse());
