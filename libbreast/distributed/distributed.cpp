@@ -116,7 +116,7 @@ Equilibrium solve_on_ranks(const Ranks& ranks, const HexMesh& mesh, const Mechan
   std::optional<Scene> scene;
   ranks.together([&] {
     MechanicsOptions own = options;
-    own.wall.surface = part.wall;
+    own.wall_surface = part.wall;
     scene.emplace(part.mesh, own, PartOfBody{part.held, part.sliding, exchange});
   });
   State state = scene->at_rest(flatten(part.mesh.*start));

@@ -46,7 +46,7 @@ class Scene {
   /// (input) if mesh and options do not agree.
   Scene(const HexMesh& mesh, const MechanicsOptions& options,
         TangentStorage storage = TangentStorage::assembled);
-  /// A part of a body; options.wall.surface is the wall of the whole. Functions that return a sum
+  /// A part of a body; options.wall_surface is the wall of the whole. Functions that return a sum
   /// over the body are collective.
   Scene(const HexMesh& mesh, const MechanicsOptions& options, PartOfBody part);
 
