@@ -25,8 +25,9 @@ class ContactExtreme : public testing::TestWithParam<fixtures::ContactCase> {};
 TEST_P(ContactExtreme, Succeeds) {
   using fixtures::Outcome;
   const fixtures::ContactOutcome end = run_contact_case(GetParam());
-  EXPECT_TRUE(succeeded(GetParam(), end)) << outcome_name(end.outcome) << " at "
-                                          << end.summary.reduction_percent << " %: " << end.reason;
+  EXPECT_TRUE(succeeded(GetParam(), end))
+      << outcome_name(end.outcome) << " at "
+      << (end.summary.contact ? end.summary.contact->reduction_percent : 0) << " %: " << end.reason;
   EXPECT_EQ(end.outcome == Outcome::converged, end.reason.empty()) << end.reason;
   EXPECT_EQ(end.outcome == Outcome::converged, end.reason_id.empty()) << end.reason_id;
   if (end.outcome != Outcome::converged && end.outcome != Outcome::stopped_early) return;

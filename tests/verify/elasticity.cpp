@@ -6,12 +6,12 @@
 #include <cmath>
 #include <functional>
 
-#include "fixtures/map_gradient.hpp"
-#include "fixtures/in_place.hpp"
 #include "fem/stress.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/elastic_scene.hpp"
+#include "fixtures/in_place.hpp"
 #include "fixtures/laws.hpp"
+#include "fixtures/map_gradient.hpp"
 #include "mechanics/scene.hpp"
 #include "mesh/element_order.hpp"
 
@@ -50,7 +50,7 @@ TEST(Patch, AffineMotionOnDistortedMesh) {
     const HexMesh mesh = fixtures::block(settings);
     Eigen::VectorXd exact = flatten(mesh.reference);
     for (int i = 0; i < mesh.nodes(); ++i) exact.segment<3>(3L * i) = f * mesh.reference[i];
-    for (const Law& law : laws()) {
+    for (const Law& law : every_law()) {
       for (const Invariants invariants : {Invariants::isochoric, Invariants::plain}) {
         // With a negative pointwise bulk stiffness the plain form is unstable between Gauss points.
         if (invariants == Invariants::plain && plain_bulk_stiffness(law) < 0) continue;
@@ -139,7 +139,7 @@ double order_of(double coarse, double fine) {
 }
 
 TEST(Convergence, LinearElement) {
-  const Law& law = laws()[0];
+  const Law& law = every_law()[0];
   const FieldError coarse = manufactured_error(5, 1, law), fine = manufactured_error(10, 1, law);
   EXPECT_NEAR(order_of(coarse.l2, fine.l2), 2, 0.2);
   EXPECT_NEAR(order_of(coarse.h1, fine.h1), 1, 0.2);
@@ -147,7 +147,7 @@ TEST(Convergence, LinearElement) {
 }
 
 TEST(Convergence, QuadraticElement) {
-  const Law& law = laws()[3];
+  const Law& law = every_law()[3];
   const FieldError coarse = manufactured_error(4, 2, law), fine = manufactured_error(8, 2, law);
   EXPECT_NEAR(order_of(coarse.l2, fine.l2), 3, 0.3);
   EXPECT_NEAR(order_of(coarse.h1, fine.h1), 2, 0.25);
@@ -159,7 +159,7 @@ TEST(Exact, VolumeOfEveryElement) {
   fixtures::BlockSettings settings;
   settings.distortion = 0.15;
   HexMesh mesh = fixtures::block(settings);
-  const MechanicsOptions options = options_of(laws()[0], Element::q1p0, Invariants::isochoric);
+  const MechanicsOptions options = options_of(every_law()[0], Element::q1p0, Invariants::isochoric);
   const SolveSummary summary = fixtures::forward_into(mesh, Vec3(0, 3000, -9000), options);
   ASSERT_TRUE(summary.converged());
   EXPECT_LT(summary.max_volume_error, 1e-10);

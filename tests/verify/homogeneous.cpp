@@ -3,12 +3,12 @@
 // and inverted.
 #include <gtest/gtest.h>
 
-#include "fixtures/in_place.hpp"
-#include "fixtures/other_inverses.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/elastic_scene.hpp"
 #include "fixtures/exact_states.hpp"
+#include "fixtures/in_place.hpp"
 #include "fixtures/laws.hpp"
+#include "fixtures/other_inverses.hpp"
 
 namespace breast {
 namespace {
@@ -55,7 +55,7 @@ class Homogeneous : public testing::TestWithParam<int> {
 
 // Nodal reactions are those of the closed-form stress, at every node and in every direction.
 TEST_P(Homogeneous, ForcesAreThoseOfTheClosedForm) {
-  for (const Law& law : laws()) {
+  for (const Law& law : every_law()) {
     const Scene scene(mesh_, fixtures::options_of(law, element_));
     for (const fixtures::HomogeneousState& exact : fixtures::homogeneous_states()) {
       const Mat3 stress = exact.first_piola(law);
@@ -63,8 +63,8 @@ TEST_P(Homogeneous, ForcesAreThoseOfTheClosedForm) {
           fixtures::exact_load(mesh_, [&](const Vec3&) { return stress; });
       const Eigen::VectorXd targets = moved(mesh_, exact.f);
       State state = scene.at_rest(flatten(mesh_.reference));
-      const EquilibriumResult result = fixtures::solve_held(scene, Eigen::VectorXd::Zero(targets.size()),
-                                                       sides_held(mesh_), targets, state);
+      const EquilibriumResult result = fixtures::solve_held(
+          scene, Eigen::VectorXd::Zero(targets.size()), sides_held(mesh_), targets, state);
       ASSERT_TRUE(result.converged) << exact.name << ", " << law.describe() << result.reason;
       EXPECT_LT((state.x - targets).lpNorm<Eigen::Infinity>(), 1e-8) << exact.name;
       EXPECT_LT((result.forces.r - forces).norm(), 1e-8 * forces.norm())
@@ -75,7 +75,7 @@ TEST_P(Homogeneous, ForcesAreThoseOfTheClosedForm) {
 
 // The same states inverted: from the deformed shape and its forces back to the block.
 TEST_P(Homogeneous, BackwardFindsTheBlock) {
-  for (const Law& law : laws()) {
+  for (const Law& law : every_law()) {
     for (const fixtures::HomogeneousState& exact : fixtures::homogeneous_states()) {
       const Mat3 stress = exact.first_piola(law);
       const Eigen::VectorXd forces =

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "fixtures/in_place.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "fixtures/elastic_scene.hpp"
+#include "fixtures/in_place.hpp"
 #include "fixtures/laws.hpp"
 #include "fixtures/renumbered.hpp"
 #include "fixtures/shapes.hpp"
@@ -33,7 +33,7 @@ TEST(Symmetry, RigidMotionMakesNoForce) {
   for (const HexMesh& mesh :
        {fixtures::cap({.elements = 4}), raise_order(fixtures::cap({.elements = 4}))}) {
     const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(1, 2, -1).normalized()).toRotationMatrix();
-    for (const Law& law : laws()) {
+    for (const Law& law : every_law()) {
       const Scene scene(mesh,
                         fixtures::options_of(law, mesh.order == 1 ? Element::q1p0 : Element::q2p1));
       State state = scene.at_rest(flatten(mesh.reference));
@@ -112,7 +112,7 @@ Vec3 corner(int n, int order, Invariants invariants) {
   settings.order = order;
   HexMesh mesh = fixtures::block(settings);
   const MechanicsOptions options =
-      fixtures::options_of(laws()[0], order == 1 ? Element::q1p0 : Element::q2p1, invariants);
+      fixtures::options_of(every_law()[0], order == 1 ? Element::q1p0 : Element::q2p1, invariants);
   const SolveSummary summary = fixtures::forward_into(mesh, Vec3(0, 0, -gravity_mm_s2), options);
   EXPECT_TRUE(summary.converged()) << summary.record.reason;
   const int node = fixtures::node_at(mesh, settings.size);
