@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <span>
 #include <new>
 
 #include "cli/last_words.hpp"
@@ -117,10 +118,11 @@ std::vector<std::string> input_names(const Declaration& tool, const Tokens& toke
   return names;
 }
 
-/// Removes those outputs, and files named after them (NAME-summary.tsv), that this process has written:
-/// some of a run's files beside older ones would look like a result.
-void remove_outputs(const Declaration& tool, const Tokens& tokens) {
-  for (const auto& file : files_written()) {
+/// Removes those outputs, and files named after them (NAME-summary.tsv), that this process has written
+/// after the first `earlier` files: some of a run's files beside older ones would look like a result.
+void remove_outputs(const Declaration& tool, const Tokens& tokens, std::size_t earlier) {
+  const std::vector<std::filesystem::path> written = files_written();
+  for (const auto& file : std::span(written).subspan(earlier)) {
     for (const auto& output : given_files(tool, tokens, ArgumentKind::output)) {
       const bool named_after = file.parent_path() == output.parent_path() &&
                                file.filename().string().starts_with(output.stem().string());
@@ -243,6 +245,7 @@ int Tool::main(int argc, char** argv, const std::function<void(Run&)>& body) {
   StderrProgress progress(declaration.name, impl_->quiet);
   Run run(declaration.name, history_command(declaration, arguments), progress);
   run.report().set("inputs", input_names(declaration, tokens));
+  const std::size_t earlier = files_written().size();
   if (outcome.exit_code == 0) {
     apply_threads(impl_->threads);
     if (threads() > 1) sleep_when_waiting(argv);
@@ -254,7 +257,7 @@ int Tool::main(int argc, char** argv, const std::function<void(Run&)>& body) {
   }
   progress.finish(outcome.exit_code == 0);
   // A solve that did not converge writes what it has found.
-  if (outcome.exit_code == 1 || outcome.exit_code == 2) remove_outputs(declaration, tokens);
+  if (outcome.exit_code == 1 || outcome.exit_code == 2) remove_outputs(declaration, tokens, earlier);
   if (outcome.exit_code != 0) complain(outcome);
   const Outcome reported = guarded([&] {
     write_report(report_possible ? impl_->report_file : std::filesystem::path(), run, outcome,
