@@ -127,10 +127,10 @@ TEST_F(IdentifyTool, ItsSetRunsTheChainAndNarrowsTheBand) {
                 0)
           << said_.err;
     }
-    ASSERT_EQ(
-        run("cc2mlo CC-d.vtkhdf MLO-d.vtkhdf c.vtp --point 40,67 --band --report b.json" + with), 0)
+    ASSERT_EQ(run("cc2mlo CC-d.vtkhdf MLO-d.vtkhdf c.vtp --point 40,67 --band --report b.json"), 0)
         << said_.err;
     const Report band = report("b.json");
+    EXPECT_EQ(band.text("band/covariance_of"), set + ".tsv") << "as the files state";
     width[set == "mine"] = std::hypot(band.number("band/deviation_mm/materials_1"),
                                       band.number("band/deviation_mm/materials_2"));
   }

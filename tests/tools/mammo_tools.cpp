@@ -313,6 +313,15 @@ TEST_F(MammoTools, ABandWithoutDerivativesIsRefused) {
   EXPECT_EQ(result.error_lines(), 1) << result.err;
   EXPECT_NE(result.err.find("sensitivity"), std::string::npos) << result.err;
   EXPECT_FALSE(fs::exists(file("none.vtp")) || fs::exists(file("none.tsv")));
+  // Without a model in the file, its set must be named, or the priors.
+  HexMesh foreign = read_mesh(file("cc.vtkhdf"));
+  foreign.model.reset();
+  write_mesh(file("foreign.vtkhdf"), foreign);
+  const ToolResult unknown =
+      run("cc2mlo", {"foreign.vtkhdf", "mlo.vtkhdf", "none.vtp", "--landmark", "tumour", "--band"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_EQ(unknown.error_lines(), 1) << unknown.err;
+  EXPECT_NE(unknown.err.find("does not state the model"), std::string::npos) << unknown.err;
   // The marks alone, asked for by name, are no mistake.
   write_text(file("marks.tsv"), "parameter\tstandard_deviation\npicking\t1\nmarking\t1\n");
   EXPECT_EQ(run("cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "marks.vtp", "--landmark", "tumour", "--band",

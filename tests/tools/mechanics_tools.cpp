@@ -76,7 +76,7 @@ TEST_F(MechanicsTools, EndWithASummary) {
 // The file of the stress-free shape states the model: laws, scales, supports, elements.
 TEST_F(MechanicsTools, LaterToolsTakeTheModelOfTheFile) {
   const std::string model =
-      " --materials wellman --scale fat=70 --wall spring:0.3 --cut roller --invariants plain "
+      " --materials wellman --scale fat=70 --wall spring:0.3,0.1 --cut roller --invariants plain "
       "--bulk-ratio 300";
   ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf" + model), 0) << said_.err;
   ASSERT_EQ(run("forward reference.vtkhdf stated.vtkhdf --report s.json"), 0) << said_.err;
