@@ -135,17 +135,17 @@ std::string remark_on(Shared what, const Origin& a, const Origin& b) {
   if (what == Shared::patient) {
     const Origin& silent = a.patient.empty() ? a : b;
     return message(
-        silent.file.string(),
+        silent.file.filename().string(),
         ": states no Patient ID, so that it is not known whether it is of the patient of ",
-        (&silent == &a ? b : a).file.string());
+        (&silent == &a ? b : a).file.filename().string());
   }
   const Stage stage = what == Shared::scan   ? Stage::scan
                       : what == Shared::mesh ? Stage::mesh
                                              : Stage::reference;
   const bool first = !Contents(a).know(stage);
-  return message((first ? a : b).file.string(), ": does not say from which ", shared_name(what),
-                 " it comes; it was compared with ", (first ? b : a).file.string(),
-                 " only by side and place");
+  return message((first ? a : b).file.filename().string(), ": does not say from which ",
+                 shared_name(what), " it comes; it was compared with ",
+                 (first ? b : a).file.filename().string(), " only by side and place");
 }
 
 }  // namespace

@@ -30,8 +30,7 @@ except ImportError:
 import breast  # noqa: E402
 import small_run  # noqa: E402
 
-MODEL = " --materials invivo"
-COMPRESS = "compress reference.vtkhdf out.vtkhdf --view CC --reduction 5 --at-least 1" + MODEL
+COMPRESS = "compress reference.vtkhdf out.vtkhdf --view CC --reduction 5 --at-least 1"
 CURVE = "cc2mlo cc.vtkhdf mlo.vtkhdf out.vtp --landmark tumour"
 BAND = "cc2mlo cc-slopes.vtkhdf mlo-slopes.vtkhdf out.vtp --landmark tumour --band"
 PAGE = "match-lookup cc.vtkhdf mlo.vtkhdf out.h5 --pitch 40 --page out.html --from-image cc.vti --to-image mlo.vti"
@@ -42,15 +41,15 @@ TOOLS = {
                       "hexmesh geometry.vtkhdf labels.vtkhdf out.vtkhdf --elements 6",
                       "project-mammogram cc.vtkhdf out.vti --labels labels.vtkhdf --pixel 2", "export-slicer . out --no-fields"],
     "geometry.vtkhdf": ["hexmesh geometry.vtkhdf labels.vtkhdf out.vtkhdf --elements 6"],
-    "mesh.vtkhdf": ["probe mesh.vtkhdf", "backward mesh.vtkhdf out.vtkhdf" + MODEL, "render mesh.vtkhdf --figure mesh -o out.png",
+    "mesh.vtkhdf": ["probe mesh.vtkhdf", "backward mesh.vtkhdf out.vtkhdf", "render mesh.vtkhdf --figure mesh -o out.png",
                     "export-slicer . out --no-fields"],
-    "reference.vtkhdf": ["probe reference.vtkhdf", "forward reference.vtkhdf out.vtkhdf" + MODEL,
-                         "sensitivity reference.vtkhdf supine.vtkhdf out.vtkhdf" + MODEL, COMPRESS],
-    "supine.vtkhdf": ["probe supine.vtkhdf", "sensitivity reference.vtkhdf supine.vtkhdf out.vtkhdf" + MODEL],
+    "reference.vtkhdf": ["probe reference.vtkhdf", "forward reference.vtkhdf out.vtkhdf",
+                         "sensitivity reference.vtkhdf supine.vtkhdf out.vtkhdf", COMPRESS],
+    "supine.vtkhdf": ["probe supine.vtkhdf", "sensitivity reference.vtkhdf supine.vtkhdf out.vtkhdf"],
     "cc.vtkhdf": ["probe cc.vtkhdf", CURVE, "project-mammogram cc.vtkhdf out.vti --pixel 2", PAGE,
-                  "sensitivity reference.vtkhdf cc.vtkhdf out.vtkhdf" + MODEL, "render cc.vtkhdf mlo.vtkhdf --figure pressure -o out.png"],
+                  "sensitivity reference.vtkhdf cc.vtkhdf out.vtkhdf", "render cc.vtkhdf mlo.vtkhdf --figure pressure -o out.png"],
     "mlo.vtkhdf": ["probe mlo.vtkhdf", CURVE, PAGE],
-    "nodes.vtkhdf": ["probe nodes.vtkhdf", "sensitivity reference.vtkhdf nodes.vtkhdf out.vtkhdf" + MODEL],
+    "nodes.vtkhdf": ["probe nodes.vtkhdf", "sensitivity reference.vtkhdf nodes.vtkhdf out.vtkhdf"],
     "cc-slopes.vtkhdf": [BAND, "difference cc-slopes.vtkhdf cc.vtkhdf cc.vtkhdf out.vtkhdf"],
     "cc.vti": [FIGURE, PAGE],
     "curve.vtp": [FIGURE, "export-slicer . out --no-fields"],

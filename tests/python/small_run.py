@@ -80,10 +80,9 @@ def swept() -> pathlib.Path:
     for file in demo().iterdir():
         if file.is_file():
             shutil.copy(file, run)
-    tool("compress reference.vtkhdf nodes.vtkhdf --view CC --reduction 5 --at-least 1 --contact-points nodes --friction 0 "
-         "--materials invivo", run)
+    tool("compress reference.vtkhdf nodes.vtkhdf --view CC --reduction 5 --at-least 1 --contact-points nodes --friction 0", run)
     for view in ("cc", "mlo"):
-        tool(f"sensitivity reference.vtkhdf {view}.vtkhdf {view}-slopes.vtkhdf --parameters main --materials invivo", run)
+        tool(f"sensitivity reference.vtkhdf {view}.vtkhdf {view}-slopes.vtkhdf --parameters main", run)
     return run
 
 
