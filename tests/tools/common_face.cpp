@@ -110,7 +110,7 @@ TEST(Probe, PrintsPositionsAndRelativeDisplacements) {
   write_mesh(folder / "other.vtkhdf", mesh);
   const ToolResult other = run_tool("probe", {"a.vtkhdf", "--base", "other.vtkhdf"}, folder.path());
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_NE(other.err.find("give files of one breast"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("give files that belong together"), std::string::npos) << other.err;
 }
 
 }  // namespace

@@ -51,7 +51,8 @@ TEST_F(OneBreast, ReachesAMeshOfTheUsualQuality) {
       report_of("hexmesh geometry.vtkhdf labels.vtkhdf mesh.vtkhdf --elements 10 --quiet");
   EXPECT_GT(mesh.number("min_scaled_jacobian"), 0.5);
   EXPECT_GT(mesh.number("min_det_bound_mm3"), 0);
-  EXPECT_NEAR(mesh.number("volume_error_percent"), 0, 1);
+  // The rim is the labels' border as seen on the skin; it is not moved until the volumes agree.
+  EXPECT_NEAR(mesh.number("volume_error_percent"), 0, 3);
 }
 
 }  // namespace

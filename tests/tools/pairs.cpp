@@ -107,16 +107,16 @@ const std::map<std::string, Trial>& trials() {
         {"match-lookup a/cc.vtkhdf a/mlo.vtkhdf o.h5 --pitch 25 --page o.html --from-image a/cc.vti --to-image a/mlo.vti "
          "--scan b/scan.nrrd"}}},
       {"identify MESH --labels",
-       {"identify a/mesh.vtkhdf o.tsv --nipple 0,20,0 --labels a/labels.vtkhdf --second-labels b/labels.vtkhdf",
-        {"identify a/mesh.vtkhdf o.tsv --nipple 0,20,0 --labels b/labels.vtkhdf --second-labels b/labels.vtkhdf"},
+       {"identify a/mesh.vtkhdf o.tsv --materials seed2008 --nipple 0,20,0 --labels a/labels.vtkhdf --second-labels b/labels.vtkhdf",
+        {"identify a/mesh.vtkhdf o.tsv --materials seed2008 --nipple 0,20,0 --labels b/labels.vtkhdf --second-labels b/labels.vtkhdf"},
         false}},
       {"identify MESH --second-labels",
-       {"identify a/mesh.vtkhdf o.tsv --nipple 0,20,0 --labels a/labels.vtkhdf --second-labels b/labels.vtkhdf",
-        {"identify a/mesh.vtkhdf o.tsv --nipple 0,20,0 --labels a/labels.vtkhdf --second-labels b/right-labels.vtkhdf"},
+       {"identify a/mesh.vtkhdf o.tsv --materials seed2008 --nipple 0,20,0 --labels a/labels.vtkhdf --second-labels b/labels.vtkhdf",
+        {"identify a/mesh.vtkhdf o.tsv --materials seed2008 --nipple 0,20,0 --labels a/labels.vtkhdf --second-labels b/right-labels.vtkhdf"},
         false}},
       {"identify --second-labels --surface",
-       {"identify a/mesh.vtkhdf o.tsv --surface other-points.vtp --labels a/labels.vtkhdf --second-labels other-labels.vtkhdf",
-        {"identify a/mesh.vtkhdf o.tsv --surface body-points.vtp --labels a/labels.vtkhdf --second-labels "
+       {"identify a/mesh.vtkhdf o.tsv --materials seed2008 --surface other-points.vtp --labels a/labels.vtkhdf --second-labels other-labels.vtkhdf",
+        {"identify a/mesh.vtkhdf o.tsv --materials seed2008 --surface body-points.vtp --labels a/labels.vtkhdf --second-labels "
          "other-labels.vtkhdf"},
         false}},
       {"difference STATE PLUS",

@@ -260,7 +260,7 @@ TEST_F(Render, APictureIsOfOneBreastExceptForOutlines) {
   const ToolResult mixed =
       run("render", {"cc.vtkhdf", "other.vtkhdf", "--figure", "compression", "-o", "no.png"});
   EXPECT_EQ(mixed.exit_code, 2);
-  EXPECT_NE(mixed.err.find("give files of one breast"), std::string::npos) << mixed.err;
+  EXPECT_NE(mixed.err.find("give files that belong together"), std::string::npos) << mixed.err;
   EXPECT_FALSE(fs::exists(file("no.png")));
   const ToolResult outlines =
       run("render", {"cc.vtkhdf", "other.vtkhdf", "--figure", "outlines", "-o", "both.png"});
