@@ -51,7 +51,7 @@ def folder() -> pathlib.Path:
     return run
 
 
-_COARSE = ("PRESET=average", "PHANTOM_OPTIONS=--coarse 2", "ELEMENTS=6", "REDUCTION=30", "AT_LEAST=20")
+_COARSE = ("PRESET=average", "PHANTOM_OPTIONS=--coarse 2", "ELEMENTS=6", "REDUCTION=25", "AT_LEAST=20")
 
 
 @functools.lru_cache(maxsize=None)

@@ -14,12 +14,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<const char*, 5> stages = {"labels", "geometry", "mesh", "reference", "supine"};
+constexpr std::array<const char*, 5> chain_stages = {"labels", "geometry", "mesh", "reference", "supine"};
 
 /// The last stage whose file is there, with those before it.
 std::string reached(const fs::path& run) {
   std::string last = "-";
-  for (const char* stage : stages) {
+  for (const char* stage : chain_stages) {
     if (!has_something(run / (std::string(stage) + ".vtkhdf"))) break;
     last = stage;
   }
