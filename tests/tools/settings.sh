@@ -284,8 +284,8 @@ for goal in truth matching band-truth budget; do
   refused "$goal of a scan" "$goal: a scan has no truth" -- MR="$work/scan.nrrd" "$goal"
 done
 refused "the printed model beside a truth that slides" "PAPER=1" -- PAPER=1 PRESET=slim truth
-plan PRESET=average truth && grep 'left-fine-cc' "$work/out" | grep -q -- '--image-edge 20' &&
-  ! grep 'left-fine-cc' "$work/out" | grep -q -- '--materials\|--wall\|--cut' ||
+plan PRESET=average truth && grep 'left-fine-cc.vtkhdf' "$work/out" | grep -q -- '--image-edge 20' &&
+  ! grep 'left-fine-cc.vtkhdf' "$work/out" | grep -q -- '--materials\|--wall\|--cut' ||
   { cat "$work/out"; fail "the truth of a body has the model that its file states"; }
 pass "a truth is that of the phantom's own body, or is refused"
 
