@@ -56,6 +56,6 @@ endif
 # One side of a cohort (`make COHORT=FOLDER sides`): from the scan to the supine shape, and the labels against the truth where the
 # case names some (LABELS_TRUTH, with EVALUATE_OPTIONS such as its codes).
 .PHONY: side
-side: $(if $(LABELS_TRUTH),$(RUN)/truth.tsv) $(RUN)/supine.vtkhdf
-$(RUN)/truth.tsv: $(RUN)/labels.vtkhdf $(LABELS_TRUTH) $(EVALUATE)
+side: $(if $(LABELS_TRUTH),$(RUN)/labels-truth.tsv) $(RUN)/supine.vtkhdf
+$(RUN)/labels-truth.tsv: $(RUN)/labels.vtkhdf $(LABELS_TRUTH) $(EVALUATE)
 	$(call table,$(EVALUATE) $< $(LABELS_TRUTH) $(EVALUATE_OPTIONS) --quiet)

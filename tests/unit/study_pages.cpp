@@ -242,7 +242,7 @@ TEST(Cohort, SidesSayHowFarTheyGetAndWhatWasMended) {
   write_text(
       folder / "left/mesh.json",
       R"({"min_scaled_jacobian": 0.431, "volume_ml": 512.3, "mended": ["layers"], "cpu_seconds": 2})");
-  write_text(folder / "left/truth.tsv", "quantity\tvalue\nbody_dice\t0.9921\nwall_p95_mm\t1.6\n");
+  write_text(folder / "left/labels-truth.tsv", "quantity\tvalue\nbody_dice\t0.9921\nwall_p95_mm\t1.6\n");
   const Table table = side_table(folder.path(), read_cases(folder.path()));
   EXPECT_EQ(join(table.rows[0], " "),
             "left mesh 0.992 - - 1.6 1.5 0.10 0.31 0.43 512 11 305 the rim was moved; layers -");

@@ -50,7 +50,7 @@ Table side_table(const fs::path& runs, const std::vector<CohortCase>& cases) {
     const StageReport labels = StageReport::read(run / "labels.json"),
                       geometry = StageReport::read(run / "geometry.json"),
                       mesh = StageReport::read(run / "mesh.json");
-    const std::optional<Table> truth = table_if_any(run / "truth.tsv");
+    const std::optional<Table> truth = table_if_any(run / "labels-truth.tsv");
     table.rows.push_back(
         {one.name, reached(run), quantity(truth, "body_dice", 3),
          quantity(truth, "fibroglandular_dice", 3), quantity(truth, "wall_mean_mm", 1),

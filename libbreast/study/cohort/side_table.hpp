@@ -11,7 +11,7 @@
 namespace breast {
 
 /// One row per case, in the order of `cases`: the last stage reached; what was mended; agreement of the
-/// labels with the truth (truth.tsv, where the case has one) and the wall's own uncertainty; distance of
+/// labels with the truth (labels-truth.tsv, where the case has one) and the wall's own uncertainty; distance of
 /// the skin's fit; worst scaled Jacobian; volume within the rim; CPU seconds and memory of all stages;
 /// and the reason why the case ended.
 Table side_table(const std::filesystem::path& runs, const std::vector<CohortCase>& cases);
