@@ -2,9 +2,17 @@
 # cmake --install build/release --prefix P: P/bin/breast, its tools in P/libexec/breast, the pipeline in P/share/breast. Everything
 # finds everything else by its place below P, so that P may be moved.
 get_property(programs GLOBAL PROPERTY BREAST_TOOLS)
-install(TARGETS breast DESTINATION bin)
-# A tool that was not built (tetrahedra is not among `programs`) is left out.
-install(TARGETS ${programs} DESTINATION libexec/breast OPTIONAL)
+get_property(launchers GLOBAL PROPERTY BREAST_LAUNCHERS)
+if(NOT launchers MATCHES "breast=")
+  install(TARGETS breast DESTINATION bin)
+endif()
+# A tool that was not built (tetrahedra is not among `programs`) is left out; a launcher is written by install_python.cmake.
+set(binaries ${programs})
+foreach(launcher ${launchers})
+  string(REGEX REPLACE "=.*" "" name ${launcher})
+  list(REMOVE_ITEM binaries ${name})
+endforeach()
+install(TARGETS ${binaries} DESTINATION libexec/breast OPTIONAL)
 install(FILES Makefile.pipeline DESTINATION share/breast)
 install(DIRECTORY pipelines/ DESTINATION share/breast/pipelines USE_SOURCE_PERMISSIONS
   PATTERN ".*" EXCLUDE PATTERN setup.sh EXCLUDE PATTERN packages.txt EXCLUDE)
@@ -15,10 +23,10 @@ install(FILES ${PROJECT_BINARY_DIR}/installed.mk DESTINATION share/breast/pipeli
 install(FILES tools/breast.bash DESTINATION share/bash-completion/completions RENAME breast)
 install(FILES README.md CITATION.cff DESTINATION share/doc/libbreast)
 install(DIRECTORY docs DESTINATION share/doc/libbreast PATTERN man EXCLUDE)
-if(EXISTS ${PROJECT_SOURCE_DIR}/python/breast)
-  install(DIRECTORY python/breast DESTINATION lib/python3/dist-packages
-    FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN py.typed)
-endif()
+install(CODE "set(source \"${PROJECT_SOURCE_DIR}/python\")
+set(PROJECT_VERSION ${PROJECT_VERSION})
+set(launchers \"${launchers}\")
+include(\"${PROJECT_SOURCE_DIR}/cmake/install_python.cmake\")")
 install(CODE "set(tools ${programs})
 set(pages \"${PROJECT_SOURCE_DIR}/docs/man\")
 set(destination \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/man/man1\")

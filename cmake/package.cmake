@@ -22,6 +22,8 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+# Compile the Python package when it is installed, and remove what was compiled when it is removed.
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Recipes of make; the threaded OpenBLAS (the reference BLAS is 5-8 times slower); pictures are drawn on a private display, the
 # report's plot of the breast's motion by gnuplot; the Python module.

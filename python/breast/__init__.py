@@ -11,30 +11,48 @@ Needs h5py and numpy (Debian: python3-h5py), nothing else; tables become pandas 
 State.vtk() needs python3-vtk9. Lengths are mm, masses g, times s (stress is then Pa) unless a name says otherwise; places are
 patient LPS: x to the patient's left, y to the back, z to the head. docs/python.md has examples.
 """
-from .curves import Line
-from .element_map import ElementMap, Located
-from .errors import BreastError
-from .field import Field
-from .geometry import Geometry, Sheet
-from .grid import Grid
-from .history import Command, Input
-from .labels import Labels
-from .load import load, load_scan
-from .lookup import Lookup
-from .mammogram import Mammogram
-from .markups import Markup
-from .records import Contact, Friction, Model, Plate, Solve
-from .reports import read_report
-from .run import Run
-from .segmentation import Segmentation
-from .state import TISSUES, Landmark, State
-from .tables import read_table
-from .transport import Transported
-from .volume import Volume
-from .xml_mesh import XmlMesh
+from __future__ import annotations
 
-__all__ = [
-    "BreastError", "Command", "Contact", "ElementMap", "Field", "Friction", "Geometry", "Grid", "Input", "Labels",
-    "Landmark", "Line", "Located", "Lookup", "Mammogram", "Markup", "Model", "Plate", "Run", "Segmentation", "Sheet",
-    "Solve", "State", "TISSUES", "Transported", "Volume", "XmlMesh", "load", "load_scan", "read_report",
-    "read_table"]
+import importlib
+
+__version__ = "0.1.0"
+
+# The module of every public name. It is imported when the name is first used: a program that needs neither arrays nor files of
+# HDF5, as the command `breast`, starts without numpy and h5py.
+_MODULES = {
+    "curves": ["Line"],
+    "element_map": ["ElementMap", "Located"],
+    "errors": ["BreastError"],
+    "field": ["Field"],
+    "geometry": ["Geometry", "Sheet"],
+    "grid": ["Grid"],
+    "history": ["Command", "Input"],
+    "labels": ["Labels"],
+    "loading": ["load", "load_scan"],
+    "lookup": ["Lookup"],
+    "mammogram": ["Mammogram"],
+    "markups": ["Markup"],
+    "records": ["Contact", "Friction", "Model", "Plate", "Solve"],
+    "reports": ["read_report"],
+    "run": ["Run"],
+    "segmentation": ["Segmentation"],
+    "state": ["TISSUES", "Landmark", "State"],
+    "tables": ["read_table"],
+    "transport": ["Transported"],
+    "volume": ["Volume"],
+    "xml_mesh": ["XmlMesh"],
+}
+_HOME = {name: module for module, names in _MODULES.items() for name in names}
+__all__ = sorted(_HOME)
+
+
+def __getattr__(name: str) -> object:
+    if name not in _HOME:
+        raise AttributeError(f"module 'breast' has no attribute '{name}'")
+    value = getattr(importlib.import_module("." + _HOME[name], __name__), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one exception of this package."""
+"""The exceptions of this package, each with the exit code of a program that ends by it."""
 from __future__ import annotations
 
 import os
@@ -16,9 +16,23 @@ class BreastError(Exception):
         advice: what to try; empty when there is nothing to say.
     """
 
+    exit_code, status = 2, "bad_input"
+
     def __init__(self, what: str, file: str | os.PathLike[str] | None = None, advice: str = "") -> None:
         self.file = None if file is None else os.fspath(file)
         self.what = what
         self.advice = advice
         where = "" if self.file is None else f"{self.file}: "
         super().__init__(where + what + (f"; {advice}" if advice else ""))
+
+
+class Failed(BreastError):
+    """Something outside the input failed: the disk, memory, another program."""
+
+    exit_code, status = 1, "failed"
+
+
+class NotConverged(BreastError):
+    """The computation has no result that can be used."""
+
+    exit_code, status = 3, "not_converged"

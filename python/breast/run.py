@@ -16,7 +16,7 @@ from .errors import BreastError
 from .geometry import Geometry
 from .hdf5 import file_schema
 from .labels import Labels
-from .load import load, load_scan
+from .loading import load, load_scan
 from .lookup import Lookup
 from .mammogram import Mammogram, read_mammogram
 from .reports import read_report

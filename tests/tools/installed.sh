@@ -11,9 +11,11 @@ passed=0
 pass() { passed=$((passed + 1)); echo "ok: $*"; }
 fail() { echo "FAILED: $*"; echo "$passed passed, 1 failed"; exit 1; }
 
-cmake --install "$build" --prefix "$work/built" > "$work/log" || { tail -n 5 "$work/log"; fail "cmake --install"; }
-mv "$work/built" "$work/prefix"  # everything finds everything else by its place
-prefix=$work/prefix
+export HOME=$work/built
+cmake --install "$build" --prefix "$HOME/.local" > "$work/log" || { tail -n 5 "$work/log"; fail "cmake --install"; }
+mv "$HOME" "$work/home"  # everything finds everything else by its place
+export HOME=$work/home
+prefix=$HOME/.local
 PATH=$prefix/bin:$PATH
 for file in bin/breast libexec/breast/segment share/breast/Makefile.pipeline share/breast/pipelines/materials/seed2008.tsv \
   share/man/man1/breast.1.gz share/man/man1/breast-forward.1.gz share/bash-completion/completions/breast \
@@ -26,6 +28,8 @@ gzip -dc "$prefix/share/man/man1/breast-forward.1.gz" | grep -q '^breast\\-forwa
 # From another folder a script of the pipeline is found by $(PIPELINES) alone.
 ! grep -nE "([[:space:]@\"']|[$][(])pipelines/" "$prefix"/share/breast/pipelines/*.mk | grep -v ':[0-9]*:#' || fail "a rule names pipelines/ instead of \$(PIPELINES)/"
 pass "programs, pipeline, materials, manual pages, completion and documents are installed"
+(cd / && /usr/bin/python3 -c 'import breast; breast.load') || fail "import breast"
+pass "import breast works"
 
 mkdir "$work/my cases"
 cd "$work/my cases"

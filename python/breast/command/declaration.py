@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The declaration of a program, from which its help, manual page, Markdown page and completion follow.
+
+The pages have the form of those of the C++ programs (libbreast/cli/help.cpp).
+"""
+from __future__ import annotations
+
+import math
+import os
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from .. import __version__
+
+_EXIT_CODES = (("0", "done"), ("1", "failed (disk, memory, library)"), ("2", "bad usage or bad input; nothing written"),
+               ("3", "not converged; nothing written unless asked for"))
+
+
+@dataclass
+class Argument:
+    """An option, or a positional argument if it has no names.
+
+    kind: text, number, integer, numbers, choice, flag, input, output or folder.
+    low, high: the bounds of a number; count: how many numbers; endings: of the name of an output.
+    store: called with the list of checked values; with an empty list for a flag.
+    """
+
+    kind: str
+    names: tuple[str, ...] = ()
+    placeholder: str = ""
+    help: str = ""
+    default_text: str = ""
+    choices: Sequence[str] = ()
+    endings: Sequence[str] = ()
+    low: float = -math.inf
+    high: float = math.inf
+    count: int = 1
+    repeatable: bool = False
+    required: bool = False
+    store: Callable[[list[str]], None] = lambda values: None
+
+    @property
+    def label(self) -> str:
+        """Its name in messages: the longest name, or the placeholder."""
+        return self.names[-1] if self.names else self.placeholder
+
+    def usage(self) -> str:
+        """As in "-o, --output FILE"."""
+        if not self.names:
+            return self.placeholder + ("..." if self.repeatable else "")
+        text = ", ".join(self.names)
+        if self.kind == "choice":
+            return text + " " + "|".join(self.choices)
+        return text if self.kind == "flag" else text + " " + self.placeholder
+
+    def bounds(self) -> str:
+        if self.kind not in ("number", "integer"):
+            return ""
+        above, below = math.isfinite(self.low), math.isfinite(self.high)
+        if above and below:
+            return f"{number_text(self.low)} to {number_text(self.high)}"
+        return f"at least {number_text(self.low)}" if above else f"at most {number_text(self.high)}" if below else ""
+
+    def explained(self) -> str:
+        """The help with its remarks: "thickness (1 to 95; default: 50)"."""
+        parts = [self.bounds()]
+        if self.required and self.names:
+            parts.append("required")
+        if self.repeatable and self.names:
+            parts.append("may be repeated")
+        if not self.required and self.default_text:
+            parts.append("default: " + self.default_text)
+        remarks = "; ".join(part for part in parts if part)
+        return f"{self.help} ({remarks})" if remarks else self.help
+
+
+@dataclass
+class Declaration:
+    """A program: examples are pairs of command and explanation."""
+
+    name: str
+    summary: str
+    paragraphs: list[str] = field(default_factory=list)
+    citations: list[str] = field(default_factory=list)
+    examples: list[tuple[str, str]] = field(default_factory=list)
+    positionals: list[Argument] = field(default_factory=list)
+    options: list[Argument] = field(default_factory=list)
+    common: list[Argument] = field(default_factory=list)
+    version: str = __version__
+
+    def option(self, name: str) -> Argument | None:
+        return next((a for a in self.options + self.common if name in a.names), None)
+
+
+def number_text(value: float) -> str:
+    """The shortest text that reads back as the same number, as 5 and 0.1."""
+    return str(int(value)) if float(value).is_integer() and abs(value) < 1e15 else repr(float(value))
+
+
+def _call_prefix() -> str:
+    # An installed tool lies in libexec/breast, where no shell finds it: it is called through the command `breast`.
+    folder = os.path.dirname(os.path.realpath(sys.argv[0]))
+    return "breast " if folder.endswith("/libexec/breast") else ""
+
+
+def synopsis(tool: Declaration) -> str:
+    required = [a.usage() for a in tool.options if a.required]
+    return " ".join([_call_prefix() + tool.name, *(a.usage() for a in tool.positionals), *required, "[options]"])
+
+
+def _wrap(text: str, indent: int, width: int = 88) -> str:
+    """Lines of at most `width` characters; all but the first are indented."""
+    lines, line = [], ""
+    for word in text.split():
+        if line and indent + len(line.encode()) + 1 + len(word.encode()) > width:
+            lines.append(line)
+            line = word
+        else:
+            line = f"{line} {word}" if line else word
+    return ("\n" + " " * indent).join([*lines, line])
+
+
+def help_text(tool: Declaration) -> str:
+    prefix = _call_prefix()
+    out = [f"{prefix}{tool.name} - {tool.summary}\n\nUsage: {synopsis(tool)}\n"]
+    out += [f"\n{_wrap(paragraph, 0)}\n" for paragraph in tool.paragraphs]
+    for title, arguments in (("Arguments", tool.positionals), ("Options", tool.options), ("Common options", tool.common)):
+        if arguments:
+            out.append(f"\n{title}:\n")
+        out += [f"  {a.usage()}\n      {_wrap(a.explained(), 6)}\n" for a in arguments]
+    if tool.examples:
+        out.append("\nExamples:\n")
+    for command, explanation in tool.examples:
+        own = prefix if command.startswith(tool.name + " ") else ""
+        out.append(f"  {own}{command}\n      {_wrap(explanation, 6)}\n")
+    out.append("\nExit codes:\n" + "".join(f"  {code}  {meaning}\n" for code, meaning in _EXIT_CODES))
+    if tool.citations:
+        out.append("\nCitation:\n" + "".join(f"  {_wrap(citation, 2)}\n" for citation in tool.citations))
+    return "".join(out)
+
+
+def _roff(text: str) -> str:
+    # Roff takes a leading dot or quote as a request, and a bare minus as a hyphen.
+    text = text.replace("\\", "\\e").replace("-", "\\-")
+    return "\\&" + text if text[:1] in (".", "'") else text
+
+
+def help_man(tool: Declaration) -> str:
+    out = [f'.TH {tool.name.upper()} 1 "" "libbreast {tool.version}" libbreast\n'
+           f".SH NAME\n{_roff(tool.name)} \\- {_roff(tool.summary)}\n.SH SYNOPSIS\n.B {_roff(synopsis(tool))}\n"]
+    if tool.paragraphs:
+        out.append(".SH DESCRIPTION\n" + ".PP\n".join(_roff(p) + "\n" for p in tool.paragraphs))
+    for title, arguments in (("ARGUMENTS", tool.positionals), ("OPTIONS", tool.options), ('"COMMON OPTIONS"', tool.common)):
+        if arguments:
+            out.append(f".SH {title}\n")
+        out += [f".TP\n.B {_roff(a.usage())}\n{_roff(a.explained())}\n" for a in arguments]
+    if tool.examples:
+        out.append(".SH EXAMPLES\n")
+    out += [f".TP\n.B {_roff(command)}\n{_roff(explanation)}\n" for command, explanation in tool.examples]
+    out.append('.SH "EXIT STATUS"\n' + "".join(f".TP\n.B {code}\n{_roff(meaning)}\n" for code, meaning in _EXIT_CODES))
+    if tool.citations:
+        out.append(".SH REFERENCES\n" + ".PP\n".join(_roff(c) + "\n" for c in tool.citations))
+    return "".join(out)
+
+
+def help_markdown(tool: Declaration) -> str:
+    def cell(text: str) -> str:
+        return text.replace("|", "\\|").replace("<", "&lt;")
+    out = [f"# {tool.name}\n\n{cell(tool.summary)}\n\n```\n{synopsis(tool)}\n```\n"]
+    out += [f"\n{cell(paragraph)}\n" for paragraph in tool.paragraphs]
+    for title, arguments in (("Arguments", tool.positionals), ("Options", tool.options), ("Common options", tool.common)):
+        if arguments:
+            out.append(f"\n## {title}\n\n| | |\n|---|---|\n")
+        for a in arguments:
+            usage = a.usage().replace("|", "\\|")
+            out.append(f"| `{usage}` | {cell(a.explained())} |\n")
+    if tool.examples:
+        out.append("\n## Examples\n")
+    out += [f"\n{cell(explanation)}\n\n```\n{command}\n```\n" for command, explanation in tool.examples]
+    out.append("\n## Exit codes\n\n| code | meaning |\n|---|---|\n" + "".join(f"| {c} | {m} |\n" for c, m in _EXIT_CODES))
+    if tool.citations:
+        out.append("\n## References\n\n" + "".join(f"- {cell(citation)}\n" for citation in tool.citations))
+    return "".join(out)
+
+
+def help_completion(tool: Declaration) -> str:
+    """A line "--name<TAB>flag|file|value<TAB>choice choice" for each option, for the completion in a shell."""
+    def kind(a: Argument) -> str:
+        return "flag" if a.kind == "flag" else "file" if a.kind in ("input", "output", "folder") else "value"
+    return "".join(f"{a.label}\t{kind(a)}\t{' '.join(a.choices)}\n" for a in tool.options + tool.common)
