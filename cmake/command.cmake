@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The program breast: all tools and the pipeline under one name. It knows the tools of this build, with the summaries of their manual
-# pages (docs/man, which tests/tools/docs-current.sh holds equal to what the tools say).
+# The command breast: all tools and the pipeline under one name. It finds the tools of this build in tools.tsv, with the summaries of their
+# manual pages (docs/man, which tests/tools/docs-current.sh holds equal to what the tools say).
 get_property(programs GLOBAL PROPERTY BREAST_TOOLS)
 set(entries "")
 foreach(name ${programs})
@@ -11,17 +11,11 @@ foreach(name ${programs})
     file(READ ${page} text)
     string(REPLACE "\\-" "-" text "${text}")
     if("${text}" MATCHES "\n${name} - ([^\n]*)\n")
-      string(REPLACE "\"" "\\\"" summary "${CMAKE_MATCH_1}")
+      set(summary "${CMAKE_MATCH_1}")
     endif()
   endif()
-  string(APPEND entries "    {\"${name}\", \"${summary}\"},\n")
+  string(APPEND entries "${name}\t${summary}\n")
 endforeach()
-configure_file(tools/breast_tools.cpp.in ${PROJECT_BINARY_DIR}/tools/breast_tools.cpp @ONLY)
-add_executable(breast tools/breast.cpp ${PROJECT_BINARY_DIR}/tools/breast_tools.cpp)
-target_compile_options(breast PRIVATE ${BREAST_WARNINGS})
-target_compile_definitions(breast PRIVATE BREAST_VERSION="${PROJECT_VERSION}")
-target_include_directories(breast PRIVATE ${PROJECT_SOURCE_DIR}/tools)
-target_link_libraries(breast PRIVATE breast_command)
-breast_use_precompiled(breast common)
-breast_compile_quickly(breast)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/tools.tsv CONTENT "${entries}" @ONLY)
+breast_launcher(breast breast.command.main)
 add_dependencies(programs breast)

@@ -3,9 +3,6 @@
 # finds everything else by its place below P, so that P may be moved.
 get_property(programs GLOBAL PROPERTY BREAST_TOOLS)
 get_property(launchers GLOBAL PROPERTY BREAST_LAUNCHERS)
-if(NOT launchers MATCHES "breast=")
-  install(TARGETS breast DESTINATION bin)
-endif()
 # A tool that was not built (tetrahedra is not among `programs`) is left out; a launcher is written by install_python.cmake.
 set(binaries ${programs})
 foreach(launcher ${launchers})
@@ -19,6 +16,7 @@ install(DIRECTORY pipelines/ DESTINATION share/breast/pipelines USE_SOURCE_PERMI
 file(WRITE ${PROJECT_BINARY_DIR}/installed.mk "# An installation: its programs stand here, and nothing is built.\n"
   "INSTALLED := $(abspath $(ROOT)../../libexec/breast)\n")
 install(FILES ${PROJECT_BINARY_DIR}/installed.mk DESTINATION share/breast/pipelines)
+install(FILES ${PROJECT_BINARY_DIR}/tools.tsv DESTINATION share/breast)
 
 install(FILES tools/breast.bash DESTINATION share/bash-completion/completions RENAME breast)
 install(FILES README.md CITATION.cff DESTINATION share/doc/libbreast)

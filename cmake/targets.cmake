@@ -15,7 +15,7 @@ endif()
 # sanitized throughout, so that thousands of damaged files can be tried. Such objects fit together with the others:
 # no layout that files share is another (GCC pads no inline variables), and libstdc++ would mark the unused memory of its
 # containers only with _GLIBCXX_SANITIZE_VECTOR, which is not defined.
-set(BREAST_READER_FOLDERS core dicom image surface mesh views material cli command io deck slicer cases)
+set(BREAST_READER_FOLDERS core dicom image surface mesh views material cli command io deck slicer)
 if(BREAST_SANITIZE STREQUAL "READERS")
   list(JOIN BREAST_READER_FOLDERS " " readers)
   file(WRITE ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/released-objects.txt

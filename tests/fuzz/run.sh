@@ -18,7 +18,7 @@ command -v clang++ > /dev/null || {
 cmake -S "$root/tests/fuzz" -B "$build" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
   -DCMAKE_CXX_COMPILER_LAUNCHER="$(command -v ccache || true)" > /dev/null
 cmake --build "$build" > "$build/build.log" || { tail -40 "$build/build.log" >&2; exit 2; }
-[ $# -gt 0 ] || set -- nrrd nifti meta dicom table materials report mesh labels geometry results vtk segmentation markups case study
+[ $# -gt 0 ] || set -- nrrd nifti meta dicom table materials report mesh labels geometry results vtk segmentation markups
 rm -rf "$build/seeds"
 mkdir -p "$build/seeds" "$build/crashes"
 "$build/seeds_program" "$build/seeds"

@@ -78,7 +78,7 @@ constexpr const char* poly_data = R"(<?xml version="1.0"?>
 void write_seeds(const std::filesystem::path& folder) {
   for (const char* name :
        {"nrrd", "nifti", "meta", "dicom", "table", "materials", "report", "mesh", "labels",
-        "geometry", "results", "vtk", "segmentation", "markups", "case", "study"}) {
+        "geometry", "results", "vtk", "segmentation", "markups"}) {
     std::filesystem::create_directories(folder / name);
   }
   write_volume(folder / "nrrd/seed.nrrd", volume());
@@ -103,13 +103,6 @@ void write_seeds(const std::filesystem::path& folder) {
   write_markups(folder / "markups/seed.mrk.json",
                 {"points", false, {1, 0, 0}, {{"tumour", {1, -2.5, 3}}, {"nipple", {0, 1, 0}}}});
   write_text(folder / "vtk/poly", poly_data);
-  write_text(
-      folder / "case/seed",
-      "# a patient\nMR = scan.nrrd\nSIDE=right\t# hers\nHEXMESH_OPTIONS = --elements 8 --skin 1.5\n");
-  write_text(folder / "case/old", ":SIDE := left\nELEMENTS ?= 6\n");
-  write_text(folder / "study/seed",
-             "# why\nvariant\tfrom\tstarts_at\tends_at\tmechanics\tif\nsoft\t-\treference\tsupine\t"
-             "+--scale fat=50\t-\nfine\tsoft\tmesh\t-\t{RUN}/own.tsv\tsoft\n# rows 2\n");
   write_text(folder / "results/log", "2*Step = 1\n*Time = 1\n*Data = u\n1,0,0,0\n2,0,0,1\n");
   write_text(folder / "results/frd",
              "0    1C\n -4  DISP        4    1\n -1         1 0.0 0.0 0.0\n -3\n");

@@ -13,9 +13,6 @@
 #include <sstream>
 #include <string>
 
-#include "cases/case_file.hpp"
-#include "cases/make_text.hpp"
-#include "cases/variants.hpp"
 #include "core/error.hpp"
 #include "core/report.hpp"
 #include "core/table.hpp"
@@ -78,36 +75,6 @@ void table() {
   const Table read = parse_table(input, "input");
   for (std::size_t row = 0; row < read.rows.size(); ++row) read.number(row, read.columns.front());
 }
-// What make is given may hold nothing that it would read as code.
-void plain(const std::string& value) {
-  if (has_control(value) || !code_in(value).empty()) throw failed_error("code passes");
-}
-void case_file() {
-  static const std::vector<std::string> keys{
-      "MR", "SIDE", "PRESET", "ELEMENTS", "ELEMENT", "HEXMESH_OPTIONS", "LEAVE_OUT"};
-  const bool old = !input.empty() && input[0] == ':';
-  const CaseFile read =
-      parse_case_file(input.substr(old ? 1 : 0), old ? "input.mk" : "input.case", keys);
-  for (const auto& [key, value] : read.settings) {
-    plain(value);
-    if (setting_in(input.substr(old ? 1 : 0), key) != value) throw failed_error("read as another");
-  }
-}
-void study() {
-  Studies studies({"run",
-                   {"mesh", "reference", "supine", "cc"},
-                   "supine cc",
-                   {"hexmesh", "mechanics", "materials"},
-                   {{"hexmesh", "-e 16"}, {"mechanics", "--materials seed"}, {"materials", "seed"}},
-                   {{"RUN", "run"}}});
-  studies.add("own", input, "input");
-  std::istringstream lines(studies.text());
-  for (std::string line; std::getline(lines, line, make_line_end);) {
-    const std::size_t equals = line.find(" := "), plus = line.find(" += ");
-    if (std::min(equals, plus) == std::string::npos) throw failed_error("no line of make");
-    plain(line);
-  }
-}
 void materials() {
   load_materials(as_file(".tsv").string());
 }
@@ -156,8 +123,6 @@ const std::map<std::string, Target> targets{
     {"labels", {labels, true}},
     {"geometry", {geometry, true}},
     {"results", {results}},
-    {"case", {case_file}},
-    {"study", {study}},
 #ifdef FUZZ_VTK
     {"vtk", {vtk}},
 #endif

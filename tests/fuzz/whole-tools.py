@@ -9,7 +9,7 @@ ever; BREAST_WAIT_S sets another limit, for machines with other work), or over 1
 was not asked for, or a sanitizer speaks, also in the process that reads for it. Findings are kept, with what was said, in
 INPUTS/findings, and a row a format is added to INPUTS/fuzz.tsv (columns of docs/tables/fuzz.tsv); exit 1 when there is a
 finding.
-Case files are read on behalf of make (libbreast/cases) and are fuzzed here: `make -n` plans the
+Case files are read on behalf of make (python/breast/cases) and are fuzzed here: `make -n` plans the
 chain of a damaged one, with the programs in BIN and, for those it has not, of build/release. What share of
 the damaged files was accepted is a column of the table: near 0 or 100, the damage reaches too little or changes nothing. A file
 whose program was not built is left out with a line, and the row does not name that program. SIGTERM ends a campaign early: the

@@ -17,10 +17,12 @@ fi
 fresh=$(mktemp -d)
 trap 'rm -rf "$fresh"' EXIT
 mkdir "$fresh/tools" "$fresh/man"
+# A tool has a file tools/NAME.cpp, or is a launcher of Python.
+launchers=$(sed -n 's/^breast_launcher(\([a-z0-9-]*\) .*/\1/p' "$root/tools/CMakeLists.txt" "$root/cmake/command.cmake")
+is_tool() { [ -f "$root/tools/$1.cpp" ] || echo "$launchers" | grep -qx "$1"; }
 for program in "$programs"/*; do
   name=$(basename "$program")
-  # Tools only: what has a file tools/NAME.cpp.
-  [ -x "$program" ] && [ -f "$root/tools/$name.cpp" ] || continue
+  [ -x "$program" ] && is_tool "$name" || continue
   "$program" --help-markdown > "$fresh/tools/$name.md"
   "$program" --help-man > "$fresh/man/$name.1"
 done
@@ -35,7 +37,7 @@ if [ "$write" = yes ]; then
   # Pages of tools that no longer exist go; those of tools not built here stay.
   for page in "$root"/docs/tools/*.md "$root"/docs/man/*.1; do
     name=$(basename "${page%.*}")
-    [ -f "$root/tools/$name.cpp" ] || rm -f "$page"
+    is_tool "$name" || rm -f "$page"
   done
   cp "$fresh/pairs.md" "$root/docs/"
   cp "$fresh"/tools/*.md "$root/docs/tools/"

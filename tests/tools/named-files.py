@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """named-files.py BIN: every file of a run that a program or its page names is made by a rule or by a program.
 
-Named are the file names in what reads runs (libbreast/study, libbreast/cases, the tabulate tools), the folders that they append to
+Named are the file names in what reads runs (libbreast/study, python/breast/cases, the tabulate tools), the folders that they append to
 a run, and the paths runs/CASE/... in the examples of all tools and on the pages. Made is what the makefile says it would make
 or pass to a program (its rules, and the plans of its goals on the demonstration and on the paper's model), and what a program writes
 under a fixed name. BIN holds the programs, of which `cases` plans.
@@ -17,8 +17,8 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 ENDINGS = "json|tsv|png|vtkhdf|vtp|vti|h5|html|mk|txt"
 PLANS = [("PRESET=average", "demo truth page slicer report"), ("PRESET=paper", "all leaveout cost wall-sensitivity band")]
-READERS = ["libbreast/study/**/*.cpp", "libbreast/cases/*.cpp", "tools/tabulate*.cpp"]
-EXAMPLES = ["tools/*.cpp", "libbreast/command/*.cpp", "docs/**/*.md", "README.md"]
+READERS = ["libbreast/study/**/*.cpp", "python/breast/cases/*.py", "tools/tabulate*.cpp"]
+EXAMPLES = ["tools/*.cpp", "python/breast/command/*.py", "docs/**/*.md", "README.md"]
 
 
 def texts(patterns: list[str]) -> dict[str, str]:

@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from ..errors import BreastError
+from ..text_table import parse_number
 from .declaration import Argument, Declaration, number_text, synopsis
 from .nearest import nearest
-
-_NUMBER = re.compile(r"-?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?")
 
 
 @dataclass
@@ -21,19 +20,6 @@ class Tokens:
     positionals: list[str] = field(default_factory=list)
     unknown: list[str] = field(default_factory=list)
     problem: str = ""
-
-
-def number_in(text: str) -> float | None:
-    """The whole text as one finite number; None for any other text."""
-    value = float(text) if _NUMBER.fullmatch(text) else None
-    return None if value in (float("inf"), float("-inf")) else value
-
-
-def parse_number(text: str, where: str) -> float:
-    value = number_in(text)
-    if value is None:
-        raise BreastError(f"{where}: '{text}' is not a finite number")
-    return value
 
 
 def tokenize(tool: Declaration, words: Sequence[str]) -> Tokens:

@@ -23,8 +23,9 @@ from types import SimpleNamespace
 
 from ..errors import BreastError
 from ..output import is_stream, write_text, written_by_us
+from ..text_table import parse_number
 from .declaration import Argument, Declaration, help_completion, help_man, help_markdown, help_text, number_text
-from .parse import Tokens, assign, parse_number, tokenize
+from .parse import Tokens, assign, tokenize
 from .paths import check_paths, named_values
 
 
@@ -252,8 +253,7 @@ def _outcome(work: Callable[[], object]) -> tuple[int, str, str]:
 
 def _printable(text: str) -> str:
     # Text from a file that a message quotes must not contain control sequences for the terminal.
-    line = " ".join(text.replace("\r", "\n").split("\n"))
-    return "".join("?" if c < " " or c == "\x7f" else c for c in line)
+    return "".join(" " if c in "\t\r\n" else "?" if c < " " or c == "\x7f" else c for c in text)
 
 
 def _write_stdout(text: str) -> None:

@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""cases: reading and checking of cases before anything runs, and running of a cohort's cases."""
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from ..command.nearest import suggestion
+from ..command.tool import Run, Tool
+from ..errors import BreastError, Failed
+from ..text_table import parse_number, read_table, read_text
+
+
+class Kind(NamedTuple):
+    """An action: what it is called with, and what it prints."""
+
+    arguments: str
+    help: str
+    least: int  # number of arguments
+    act: Callable[[list[str], Run], str | None]
+
+
+def _named_value(word: str, start: int = 0) -> tuple[str, str]:
+    """NAME and VALUE after a mark: "@hexmesh=--elements 8"."""
+    name, equals, value = word.partition("=")
+    if not equals:
+        raise BreastError(f"'{word}' is not NAME=VALUE")
+    return name[start:], value
+
+
+# The modules of an action are imported when it is asked for: most actions are called many times by make.
+
+def _settings(words: list[str], run: Run) -> str:
+    from .settings import SettingsRequest, settings_for_make
+    return settings_for_make(SettingsRequest(Path(words[0]), words[1], words[2] == "installed", words[3].split(),
+                                             dict(map(_named_value, words[4:])), dict(os.environ)))
+
+
+def _rows(words: list[str], run: Run) -> str:
+    from .make_text import rows_for_make
+    return rows_for_make(read_table(words[0]), words[1])
+
+
+def _cohort(words: list[str], run: Run) -> str:
+    from .cohort import cohort_entries
+    from .make_text import make_addition, make_assignment
+    return "".join(make_addition("COHORT_CASES", one.name) + make_assignment("file_" + one.name, one.file) +
+                   make_assignment("kind_" + one.name, one.kind) for one in cohort_entries(words[0], words[1:]))
+
+
+def _list(words: list[str], run: Run) -> str:
+    from .cohort import cohort_entries
+    return "".join("\t".join(one) + "\n" for one in cohort_entries(words[0], words[1:]))
+
+
+def _variants(words: list[str], run: Run) -> str:
+    from .variants import Studies, StudyBase
+    base = StudyBase(words[0], words[1].split(), words[2])
+    for word in words[3:]:
+        if word.startswith(("@", "{")):
+            name, value = _named_value(word, 1)
+            (base.attributes if word.startswith("@") else base.placeholders)[name] = value
+    studies = Studies(base)
+    for word in words[3:]:
+        if not word.startswith(("@", "{")):
+            name, value = _named_value(word)
+            file, _, origin = value.partition("@")
+            studies.add(name, read_text(file), file, origin)
+    return studies.text
+
+
+def _record(words: list[str], run: Run) -> None:
+    from .scan_identity import remember_scan
+    remember_scan(Path(words[0]), words[1], words[2])
+
+
+def _attempt(words: list[str], run: Run) -> None:
+    from .attempt import attempt
+    attempt(Path(words[0]), list(map(Path, words[1].split())), words[2:])
+
+
+def _ladder(words: list[str], run: Run) -> None:
+    from .ladder import climb
+    sys.stderr.write(climb(Path(words[0]), words[1], words[2].split(), words[3].split(), words[4:]))
+
+
+def _run(words: list[str], run: Run) -> None:
+    from .case_run import run_case
+    if not run_case(Path(words[0]), Path(words[1]), words[2] == "phantom", words[3:]):
+        raise Failed(f"{words[0]}: stopped by a signal")
+
+
+def _any_done(words: list[str], run: Run) -> None:
+    table = read_table(words[0])
+    if not any(table.cell(row, "status") == "done" for row in table.rows):
+        raise Failed(f"every case failed: see {words[0]}")
+
+
+def _of_cluster(name: str) -> Callable[[list[str], Run], str]:
+    def act(words: list[str], run: Run) -> str:
+        from . import slurm
+        asked = run.args
+        return getattr(slurm, name)(slurm.SlurmRequest(
+            Path(words[0]), Path(words[1]), os.path.realpath(sys.argv[0]), words[2:], Path(asked.cost), asked.partition,
+            asked.account, asked.time, asked.memory, asked.options, asked.cores, asked.resume, asked.elements, asked.element))
+    return act
+
+
+def _task(words: list[str], run: Run) -> str:
+    from .slurm import run_slurm_task
+    return run_slurm_task(Path(words[0]), int(parse_number(words[1], "task: OFFSET")))
+
+
+def _table(words: list[str], run: Run) -> None:
+    from .slurm import run_slurm_table
+    run_slurm_table(Path(words[0]), words[1])
+
+
+# In the order of their use: reading, refusing, running.
+KINDS = {
+    "settings": Kind("PIPELINES PROGRAMS installed|built 'GOAL...' NAME=VALUE...",
+                     "prints all settings as assignments for make, completed from the case file, the environment and the defaults; "
+                     "fails if a setting, a value, a target or the scan of the folder RUN is refused", 4, _settings),
+    "rows": Kind("TABLE.tsv TEMPLATE", "prints, for every row, its cells as variables of make cell_COLUMN, and evaluates the variable "
+                 "TEMPLATE", 2, _rows),
+    "cohort": Kind("COHORT KEY...", "prints the case files of a folder as assignments for make", 1, _cohort),
+    "list": Kind("COHORT KEY...", "prints one line per case file of a folder: CASE, FILE and KIND (scan or phantom)", 1, _list),
+    "variants": Kind("RUN STAGES ENDS_AT @ATTRIBUTE=VALUE... {NAME=VALUE... STUDY=FILE.tsv[@ROW]...",
+                     "prints the rows of studies as assignments for make (docs/file-formats.md)", 3, _variants),
+    "nearest": Kind("WORD CANDIDATE...", "prints the candidate that is most similar to WORD, for messages about typing errors", 2,
+                    lambda words, run: suggestion(words[0], words[1:])),
+    "record": Kind("RUN SIDE SCAN", "records scan and side in RUN/.scan", 3, _record),
+    "attempt": Kind("STAGE.json 'INPUT...' -- COMMAND...",
+                    "runs a stage of a variant; if it has no solution, the report gives the reason", 3, _attempt),
+    "ladder": Kind("RUN MM 'POINT...' 'TABULATE...' -- MAKE...", "solves points of the study `cost` until the estimated error is below "
+                   "MM, and writes RUN/accuracy.mk", 5, _ladder),
+    "run": Kind("STATUS LOG KIND -- COMMAND...", "runs a case of a cohort and writes its outcome to the file STATUS", 4, _run),
+    "any-done": Kind("TABLE.tsv", "fails if no case in the table of a cohort was completed", 1, _any_done),
+    "script": Kind("RUNS COHORT -- MAKE...", "prints the script of the job array that `submit` would submit", 2,
+                   _of_cluster("slurm_plan")),
+    "submit": Kind("RUNS COHORT -- MAKE...", "submits to Slurm the cases in RUNS/.cases, each as a run of the command MAKE, and a job "
+                   "that makes their table", 2, _of_cluster("submit_to_slurm")),
+    "task": Kind("FOLDER OFFSET", "runs the case of one task; called by the job array", 2, _task),
+    "table": Kind("FOLDER COHORT", "makes the table; called by the last job", 2, _table),
+}
+
+
+def _check(tool: Tool) -> None:
+    name, words = tool.args.kind, tool.args.argument
+    if name not in KINDS:
+        raise BreastError(f"'{name}' is not an action of cases{suggestion(name, KINDS)}")
+    kind = KINDS[name]
+    if len(words) < kind.least:
+        raise BreastError(f"{name}: has {len(words)} arguments and needs {kind.least}; usage: cases {name} {kind.arguments}")
+
+
+def _declared() -> Tool:
+    tool = Tool("cases", "reading, checking and running of cases, cohorts and studies for the pipeline")
+    tool.describe("Performs the work of Makefile.pipeline that is not a matter of make: it reads case files and studies as data, refuses "
+                  "a scan in a folder that belongs to another one, runs the cases of a cohort, and submits them to Slurm. It is called "
+                  "by the makefile and is not meant to be called by hand.")
+    for name, kind in KINDS.items():
+        tool.describe(f"{name} {kind.arguments}: {kind.help}.")
+    tool.word("KIND", "action, from the list above")
+    tool.words("ARGUMENT", "arguments of the action: files, folders and names")
+    tool.text("--partition", "NAME", "partition of the cluster")
+    tool.text("--account", "NAME", "account to be charged")
+    tool.text("--time", "TIME", "time limit of a case, in minutes or as sbatch accepts it (default: from the measured cost)")
+    tool.text("--memory", "MB", "memory of a case (default: from the measured cost)")
+    tool.integer("--cores", "N", "cores of a case", 1, 1, 1024)
+    tool.text("--options", "OPTIONS", "further options of sbatch, passed on unchanged")
+    tool.flag("--resume", "submit only the cases that are missing or out of date")
+    tool.number("--elements", "N", "number of elements along an edge (ELEMENTS) of the cases whose files do not ask for more", 16)
+    tool.text("--element", "NAME", "element (ELEMENT) of every case, q1p0 or q2p1")
+    tool.text("--cost", "FILE.tsv", "table of the cost of a case, used until cases of this cohort have been measured",
+              "pipelines/cohort-cost.tsv")
+    tool.check(lambda: _check(tool))
+    tool.example("cases list patients MR SIDE PRESET", "list the cases of a cohort")
+    tool.example("cases record runs/scan-left left scan.nrrd", "record that this folder was made from this scan")
+    return tool
+
+
+def main() -> int:
+    def body(run: Run) -> None:
+        run.report["kind"] = run.args.kind
+        run.print(KINDS[run.args.kind].act(run.args.argument, run) or "")
+    return _declared().main(body)

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Studies as data: the rows of a table are variants of a case, which are converted to variables of make."""
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple, NoReturn
+
+from ..command.make_name import plain_for_make
+from ..command.nearest import suggestion
+from ..errors import BreastError
+from ..text_table import TextTable, parse_table
+from .make_text import code_in, has_control, make_addition, make_assignment
+
+_COLUMNS = ("variant", "starts_at", "ends_at", "from", "given", "if")
+
+
+@dataclass
+class StudyBase:
+    """The case from which the rows of a study start.
+
+    run: folder of the case; variants are RUN/studies/STUDY/VARIANT. stages: all stages of the chain, in order. ends_at: stages at which
+    a row without `ends_at` ends. attributes: the columns with options, and their values in the case. placeholders: the text that
+    replaces {NAME} in a cell.
+    """
+
+    run: str
+    stages: Sequence[str]
+    ends_at: str
+    attributes: dict[str, str] = field(default_factory=dict)
+    placeholders: dict[str, str] = field(default_factory=dict)
+
+
+class _Row(NamedTuple):
+    table: TextTable
+    cells: Mapping[str, str]
+    study: str
+    origin: str  # the row from which the study's rows come unless they say otherwise
+
+    def cell(self, column: str) -> str:
+        return self.cells.get(column, "")
+
+    def fault(self, what: str) -> NoReturn:
+        raise BreastError(f"{self.cell('variant') or '-'} {what}", self.table.name)
+
+
+def _check_among(where: str, given: Iterable[str], known: Sequence[str]) -> None:
+    for word in given:
+        if word not in known:
+            raise BreastError(f"'{word}' is none of {', '.join(known)}{suggestion(word, known)}", where)
+
+
+def _check_cells(lines: str, file: str) -> None:
+    # The error names a row by its first cell, which tells the user more than the number of its line.
+    columns = 0
+    for line in lines.split("\n"):
+        cells = line.removesuffix("\r").split("\t")
+        if cells == [""]:
+            continue
+        if any(map(has_control, cells)):
+            raise BreastError(f"{cells[0]} holds a control character", file)
+        columns = columns or len(cells)
+        if len(cells) != columns:
+            raise BreastError(f"{cells[0]} has {len(cells)} cells and not {columns}; separate cells by one tab, and write - for an "
+                              "empty one", file)
+
+
+def _options_in(text: str) -> list[tuple[str, str]]:
+    """The options of a command line, each "--name" with the words up to the next one; "--name=value" is one word."""
+    options: list[tuple[str, str]] = []
+    for word in text.split():
+        if word.startswith("--"):
+            options.append((word.partition("=")[0], word))
+        elif options:
+            options[-1] = options[-1][0], f"{options[-1][1]} {word}"
+    return options
+
+
+def _options_without(text: str, other: str) -> str:
+    """The options of `text` whose names do not occur in `other`."""
+    named = {name for name, _ in _options_in(other)}
+    return " ".join(option for name, option in _options_in(text) if name not in named)
+
+
+class Studies:
+    """Converts the rows of studies to lines of make.
+
+    The order in which studies are added matters, since a row may start from a row of an earlier study. `text` contains for all rows
+    added STUDY_variants and variant_dirs, and for the folder DIR of every variant DIR@from, DIR@given, DIR@stages, DIR@ends_at,
+    DIR@if, DIR@ATTRIBUTE and DIR@drops, which names the options of `from` that a cell without a leading + leaves out.
+    """
+
+    def __init__(self, base: StudyBase) -> None:
+        self._base = base
+        self._known: dict[str, dict[str, str]] = {base.run: dict(base.attributes)}
+        self._lines: list[str] = []
+
+    @property
+    def text(self) -> str:
+        return "".join(self._lines)
+
+    def add(self, study: str, text: str, file: str, origin: str = "") -> None:
+        """Adds the rows of the table `text` as variants of `origin`: STUDY/VARIANT, or the case if empty.
+
+        Raises BreastError, naming `file` and where possible the row, for an unknown column or stage, for a name that is not valid or
+        occurs twice, for a character that make or a shell would interpret as code, and for a row whose `from` is not a row above it.
+        """
+        bare = "".join(line + "\n" for line in text.split("\n") if not line.startswith("#"))
+        names = sorted(self._base.placeholders)
+        for name in names:
+            bare = bare.replace("{" + name + "}", "")
+        if code_in(bare):
+            raise BreastError(f"the character {code_in(bare)} may not stand in a study, because make or a shell would read it as code; "
+                              f"write the cell without it ({{NAME}} is one of {', '.join(names)})", file)
+        _check_cells(bare, file)
+        table = parse_table(text, file)
+        _check_among(file, table.columns, [*_COLUMNS, *self._base.attributes])
+        self._lines.append(make_assignment(study + "_variants", ""))
+        for row in table.rows:
+            self._add_row(_Row(table, row, study, origin))
+
+    def _folder(self, study: str, variant: str) -> str:
+        return f"{self._base.run}/studies/{'' if '/' in variant else study + '/'}{variant}"
+
+    def _named(self, cell: str) -> str:
+        for name in sorted(self._base.placeholders):
+            cell = cell.replace("{" + name + "}", self._base.placeholders[name])
+        return cell
+
+    def _option(self, cell: str, before: str) -> str:
+        if not cell:
+            return before
+        return f"{before} {self._named(cell[1:])}" if cell.startswith("+") and before else self._named(cell.removeprefix("+"))
+
+    def _drops(self, row: _Row, origin: Mapping[str, str]) -> str:
+        """What the cells of a row leave out, as "mechanics: --materials invivo; hexmesh: --muscle measured"."""
+        parts = []
+        for attribute in self._base.attributes:
+            cell = row.cell(attribute)
+            if cell and not cell.startswith("+"):
+                left_out = _options_without(origin.get(attribute, ""), self._named(cell))
+                parts += [f"{attribute}: {left_out}"] if left_out else []
+        return "; ".join(parts)
+
+    def _check_row(self, row: _Row, folder: str) -> None:
+        name, start = row.cell("variant"), row.cell("starts_at")
+        if not plain_for_make(name or "-") or "/" in name or folder in self._known:
+            row.fault("is no name of a row of its own; give each row another name of letters, digits, points, dashes and underscores")
+        if not start:
+            row.fault("does not say in the column starts_at at which stage it begins; write one of " + ", ".join(self._base.stages))
+        _check_among(row.table.name, [start], self._base.stages)
+        _check_among(row.table.name, f"{row.cell('ends_at')} {row.cell('given')}".split(), self._base.stages)
+
+    def _add_row(self, row: _Row) -> None:
+        name = row.cell("variant")
+        folder = self._folder(row.study, name)
+        self._check_row(row, folder)
+        start = row.cell("from") or row.origin
+        origin = self._folder(row.study, start) if start else self._base.run
+        before = self._known.get(origin)
+        if before is None:
+            row.fault(f"comes from '{row.cell('from')}', and no row above has this name; write the row from which it comes above it")
+        only_if = row.cell("if") and self._folder(row.study, row.cell("if"))
+        if only_if and only_if not in self._known:
+            row.fault(f"depends on '{row.cell('if')}', and no row above has this name; write that row above it")
+        own = {attribute: self._option(row.cell(attribute), before.get(attribute, "")) for attribute in self._base.attributes}
+        if "materials" in own:
+            own["mechanics"] = own["mechanics"].replace("--materials " + before["materials"], "--materials " + own["materials"])
+        first = self._base.stages.index(row.cell("starts_at"))
+        self._lines.append(make_addition(row.study + "_variants", name) + make_addition("variant_dirs", folder))
+        facts = {"from": origin, "given": row.cell("given"),
+                 "stages": f"{row.cell('given')} {' '.join(self._base.stages[first:])}",
+                 "ends_at": row.cell("ends_at") or self._base.ends_at}
+        further = {"if": only_if, "drops": self._drops(row, before),
+                   **dict(sorted(own.items()))}
+        facts |= {key: value for key, value in further.items() if value}
+        self._lines += [make_assignment(f"{folder}@{key}", value) for key, value in facts.items()]
+        self._known[folder] = own

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Execution of other programs: make runs as a child."""
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import subprocess
+from collections.abc import Sequence
+from typing import IO, NamedTuple
+
+from ..errors import Failed
+
+_PR_SET_PDEATHSIG = 1
+
+
+class Captured(NamedTuple):
+    exit_code: int
+    out: str
+    err: str
+
+
+def _begin(parent: int, libc: ctypes.CDLL) -> None:
+    """In the child: it ends with its parent, and receives the interrupts of the terminal."""
+    libc.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+    if os.getppid() != parent:
+        os._exit(127)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.signal(signal.SIGQUIT, signal.SIG_DFL)
+
+
+def _start(words: Sequence[str], out: int | IO | None, err: int | IO | None) -> subprocess.Popen:
+    parent, libc = os.getpid(), ctypes.CDLL(None)
+    try:
+        return subprocess.Popen(words, stdout=out, stderr=err, preexec_fn=lambda: _begin(parent, libc))
+    except OSError:
+        raise Failed(f"the program {words[0]} could not be started; is it installed?") from None
+
+
+def _code(status: int) -> int:
+    return status if status >= 0 else 128 - status
+
+
+def run_child(words: Sequence[str], out: int | IO | None = None, err: int | IO | None = None) -> int:
+    """Runs the program words[0], which is searched for in PATH, with its output to the files out and err (None: those of this process).
+
+    The child shares this process's terminal and alone receives its interrupts, and ends when this process does. Returns its exit
+    code, or 128 plus the number of the signal that ended it. Raises Failed if it cannot be started.
+    """
+    before = [(number, signal.signal(number, signal.SIG_IGN)) for number in (signal.SIGINT, signal.SIGQUIT)]
+    try:
+        return _code(_start(words, out, err).wait())
+    finally:
+        for number, handler in before:
+            signal.signal(number, handler)
+
+
+def capture_child(words: Sequence[str]) -> Captured:
+    """The same without showing the output, which is returned."""
+    child = _start(words, subprocess.PIPE, subprocess.PIPE)
+    out, err = child.communicate()
+    return Captured(_code(child.returncode), os.fsdecode(out), os.fsdecode(err))

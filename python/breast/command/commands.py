@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The commands of `breast` other than the tools, and its pages of help."""
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from .installation import Installation
+
+COMMANDS = {
+    "run": "the whole chain on a breast MR scan",
+    "demo": "the whole chain on a simulated breast whose truth is known",
+    "cohort": "the whole chain on every case of a folder",
+    "list": "list the tools, one per line",
+    "help": "help on a command or a tool; `help settings` lists the targets and settings of the pipeline",
+}
+PIPELINE_COMMANDS = ("run", "demo", "cohort")
+SUMMARY = "from a breast MR scan to a mechanical model: all tools and the pipeline under one name"
+
+
+def _aligned(entries: Mapping[str, str], indent: str) -> str:
+    width = max(map(len, entries))
+    return "".join(f"{indent}{name:{width + 2}}{summary}".rstrip() + "\n" for name, summary in entries.items())
+
+
+def tool_list(installation: Installation) -> str:
+    """Lines of "NAME  summary"."""
+    return _aligned(installation.tools, "")
+
+
+def overview(installation: Installation) -> str:
+    """The output of `breast help`."""
+    return (f"breast - {SUMMARY}\n\nUsage: breast COMMAND|TOOL [ARGUMENT]...\n\nCommands:\n{_aligned(COMMANDS, '  ')}"
+            f"\nTools:\n{_aligned(installation.tools, '  ')}"
+            "\nThe chain, which `run` makes: segment, fit-hermite, hexmesh, backward, forward, compress (CC, MLO), project-mammogram, "
+            "cc2mlo.\n"
+            "\nExamples:\n  breast demo\n  breast run scan.nrrd --side left TUMOUR=-60,-40,12\n  breast help compress\n"
+            f"\nDocumentation: {installation.documentation}; manual pages: man breast, man breast-compress\n")
+
+
+def unknown_command(installation: Installation, given: str) -> str:
+    """"'segmnt' is neither a command nor a tool; did you mean 'segment'?", with up to three names."""
+    from .nearest import nearest
+    names, near = [*COMMANDS, *installation.tools], []
+    while len(near) < 3 and (best := nearest(given, names)):
+        near.append(best)
+        names.remove(best)
+    hint = f"did you mean {' or '.join(map(repr, near))}?" if near else "`breast help` lists them"
+    return f"'{given}' is neither a command nor a tool; {hint}"

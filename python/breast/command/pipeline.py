@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pipeline as a command: breast run, demo and cohort."""
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..errors import BreastError, Failed
+from ..text_table import read_text
+from .child import Captured, capture_child, run_child
+from .installation import Installation
+from .make_name import folder_for_make, name_for_make, plain_for_make
+from .request import PipelineRequest, parse_request
+
+# Settings that may name a file or folder of the caller's.
+_PATH_SETTINGS = ("CHEST_WALL", "MATERIALS", "TUMOUR", "CASE_FILE", "STUDY", "SEGMENT", "FIT_HERMITE", "HEXMESH", "BACKWARD", "FORWARD",
+                  "COMPRESS", "PROJECT", "CC2MLO")
+
+
+def _settings_for_make(r: PipelineRequest, runs: str) -> list[str]:
+    """Every setting in the form that make accepts, with links where the name of a file needs one."""
+    links = Path(runs) / ".names"
+    words = [f"RUNS={runs}"]
+    if r.scan:
+        words.append(("COHORT=" if r.command == "cohort" else "MR=") + name_for_make(r.scan, links))
+    if r.side and "SIDE" not in r.settings:
+        words.append(f"SIDE={r.side}")
+    # The report of the demonstration is that of its own phantom; make's default for a report is the paper's, with its tables.
+    if r.command == "demo" and r.target == "report" and not {"PRESET", "PAPER"} & r.settings.keys():
+        words.append("PRESET=average")
+    for name, value in sorted(r.settings.items()):
+        file = name in _PATH_SETTINGS and os.path.exists(value)
+        words.append(f"{name}={name_for_make(value, links) if file else value}")
+    return words
+
+
+def _refusal(made: Captured) -> str:
+    """Shortens "pipelines/settings.mk:47: *** SIDES: no such setting. Stop." to the message without make's additions."""
+    lines = [line for line in made.err.splitlines() if line]
+    last = next((line for line in lines if "*** " in line), lines[-1] if lines else "")
+    last = last.partition("*** ")[2] or last
+    if ".  Stop." in last:
+        last = last[:last.rindex(".  Stop.")]
+    last = last.replace("`make -f Makefile.pipeline help`", "`breast help settings`", 1)
+    no_rule = "No rule to make target '"
+    if not last.startswith(no_rule):
+        return last
+    name, _, rest = last.removeprefix(no_rule).partition("'")
+    if rest.startswith(", needed by "):
+        return f"'{name}', which is named in a setting, does not exist"
+    return f"'{name}' is not a target of the pipeline; `breast help settings` lists the targets"
+
+
+def _ask(words: Sequence[str]) -> str:
+    """The output of make; raises BreastError if make refuses."""
+    made = capture_child(words)
+    if made.exit_code != 0:
+        raise BreastError(_refusal(made))
+    return made.out
+
+
+def _make_file(installation: Installation) -> str:
+    file = installation.pipeline
+    if not os.path.exists(file):
+        raise Failed(f"{file} does not exist: the pipeline is not installed")
+    # In the source tree it is called as in the README, so that both ways share their runs.
+    name = os.path.basename(file) if os.path.samefile(os.path.dirname(file), os.getcwd()) else file
+    if not plain_for_make(name):
+        raise Failed(f"make cannot use the pipeline at '{name}'; install libbreast in a folder without blanks, quotes and brackets")
+    return name
+
+
+def _written(file: str) -> int | None:
+    return os.stat(file).st_mtime_ns if os.path.exists(file) else None
+
+
+def _make_and_show(words: Sequence[str], run: str) -> int:
+    """Runs the stages. A new summary is printed when it is made; one that was up to date is printed here."""
+    table = os.path.join(run, "summary.txt")
+    before = _written(table)
+    code = run_child(words)
+    if code != 0:
+        sys.stderr.write(f"breast: stopped; finished results are in {run}, and the same command continues from there\n")
+        return code if code > 128 else 1
+    if words[-1] == "summary" and before is not None and before == _written(table):
+        sys.stdout.write(read_text(table))
+    print(f"Results: {run}")
+    if words[-1] == "summary":
+        print("More: the same command with --target report (one page for reading and printing), page (both views, interactive) or slicer")
+    return 0
+
+
+def pipeline_settings(installation: Installation) -> list[str]:
+    """The settings of the pipeline by name; empty if make fails to list them."""
+    made = capture_child(["make", "-s", "-f", _make_file(installation), "settings"])
+    return made.out.split() if made.exit_code == 0 else []
+
+
+def settings_help(installation: Installation) -> str:
+    """The help of the makefile, in an installation without what needs the source tree, and with the command that is called there."""
+    text = read_text(os.path.join(installation.pipelines, "help.txt"))
+    if not installation.is_package:
+        return text
+    out = ("breast run SCAN --side left|right [--target TARGET] [SETTING=VALUE]...\n"
+           "breast demo [--target TARGET] [SETTING=VALUE]...                minutes are for 2 cores\n")
+    source = False
+    for line in text.splitlines()[1:]:
+        source = source or line.startswith("targets that need the source tree")
+        if not source:
+            out += line + "\n"
+        source = source and bool(line)
+    return out
+
+
+def run_pipeline(installation: Installation, command: str, arguments: Sequence[str]) -> int:
+    """Runs `breast COMMAND arguments` (run, demo or cohort).
+
+    Everything that can be refused is refused first; then make runs in the present folder, and the location of the results is printed.
+    Returns 0, 1 if a stage failed, or 128 + the signal that ended make; raises BreastError.
+    """
+    request = parse_request(command, arguments)
+    if request.scan and not os.path.exists(request.scan):
+        raise BreastError(f"'{request.scan}' does not exist")
+    make = ["make", "-f", _make_file(installation), *_settings_for_make(request, folder_for_make(request.runs, "--runs"))]
+    run = _ask([*make, "-s", "where"]).removesuffix("\n")
+    plan = _ask([*make, "-n", request.target])
+    if request.plan:
+        sys.stdout.write(_ask([*make, "-s", "cohort-script"]) if request.slurm else plan)
+        return 0
+    sys.stdout.flush()
+    if request.slurm:
+        return 0 if run_child([*make, "-s", request.target]) == 0 else 1
+    return _make_and_show([*make, f"-j{request.jobs}", request.target], run)

@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The request given to `breast run`, `demo` or `cohort`, parsed from its command line."""
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from ..errors import BreastError, Failed
+from .commands import COMMANDS, SUMMARY
+from .declaration import Argument, Declaration
+from .parse import Tokens, assign, tokenize
+
+_SETTING = re.compile(r"[A-Z_0-9]+=.*", re.DOTALL)
+
+
+@dataclass
+class PipelineRequest:
+    """command: run, demo or cohort; scan: for run a file or folder, for cohort the folder of case files; side: left, right, or empty;
+    plan: only print the commands; slurm, local: for cohort a job array, or processes on this machine; settings: given as SETTING=value.
+    """
+
+    command: str
+    scan: str = ""
+    side: str = ""
+    runs: str = "runs"
+    target: str = "summary"
+    jobs: int = 1
+    plan: bool = False
+    slurm: bool = False
+    local: bool = False
+    settings: dict[str, str] = field(default_factory=dict)
+
+
+def _into(request: PipelineRequest, name: str, convert: Callable[[str], object] = str) -> Callable[[list[str]], None]:
+    return lambda values: setattr(request, name, convert(values[0]) if values else True)
+
+
+def _options(d: Declaration, r: PipelineRequest, jobs_help: str) -> None:
+    d.options += [
+        Argument("text", ("--runs",), "DIR", "folder in which every run has a folder of its own; it is created if it does not exist",
+                 r.runs, store=_into(r, "runs")),
+        Argument("integer", ("-j", "--jobs"), "N", jobs_help, str(r.jobs), low=1, high=64,
+                 store=_into(r, "jobs", lambda text: int(float(text)))),
+        Argument("flag", ("--dry-run",), "", "print the commands without running them", store=_into(r, "plan"))]
+
+
+def _case_options(d: Declaration, r: PipelineRequest) -> None:
+    # Of one case, two stages can run side by side most of the time, such as the compressions in both views.
+    r.jobs = 2
+    _options(d, r, "number of stages that may run at the same time; they share the cores")
+    d.options.append(Argument("text", ("--target",), "NAME", "target to make: chain, figures, summary, page, report or another target of "
+                              "the pipeline (breast help settings)", r.target, store=_into(r, "target")))
+
+
+def _declare_run(d: Declaration, r: PipelineRequest) -> None:
+    d.paragraphs += [
+        "Runs the pipeline on a scan: segment, fit-hermite, hexmesh, backward, forward, compress in both views, project-mammogram, the "
+        "matching of both views, and the figures. Stages whose inputs and settings are unchanged are not run again.",
+        "Settings of the form SETTING=value may follow the scan, such as TUMOUR=x,y,z, REDUCTION=40, CHEST_WALL=labels.nrrd or "
+        "MATERIALS=wellman; `breast help settings` lists them. File names are relative to the current folder. A scan, or a file in a "
+        "setting, whose name make cannot handle (blanks, quotes, brackets, ...) is accessed through a link with a plain name in "
+        "DIR/.names; the name of the run's folder has underscores in place of such characters."]
+    d.positionals.append(Argument("text", (), "SCAN", "T1-weighted MR without fat saturation, patient prone: NRRD, NIfTI, MetaImage or a "
+                                  "DICOM folder", required=True, store=_into(r, "scan")))
+    d.options.append(Argument("choice", ("--side",), "NAME", "breast to model: the patient's left or right", choices=("left", "right"),
+                              store=_into(r, "side")))
+    _case_options(d, r)
+    d.examples += [("breast run scan.nrrd --side left", "results in ./runs/scan-left"),
+                   ("breast run 'my scans/patient 1' --side right TUMOUR=-60,-40,12 --runs /data/runs",
+                    "a DICOM folder, and a tumour to follow")]
+
+
+def _declare_demo(d: Declaration, r: PipelineRequest) -> None:
+    d.paragraphs.append(
+        "Simulates the MR scan of a phantom of average size, runs the pipeline on it, and shows the table of landmark displacements, the "
+        "errors against the phantom's truth, and where the pictures are. SETTING=value changes a setting that `breast help settings` "
+        "lists, such as PRESET=paper.")
+    _case_options(d, r)
+    d.examples += [("breast demo", "results in ./runs/average"),
+                   ("breast demo PRESET=small ELEMENTS=6 'PHANTOM_OPTIONS=--coarse 2'", "a tiny breast, in about a minute")]
+
+
+def _request_to_slurm(d: Declaration, r: PipelineRequest, name: str, placeholder: str, help: str) -> None:
+    setting = "CLUSTER_" + name.lstrip("-").upper()
+
+    def store(values: list[str]) -> None:
+        if setting in r.settings:
+            raise BreastError(f"{name} and {setting}= are both given")
+        r.settings[setting] = values[0]
+    d.options.append(Argument("text", (name,), placeholder, help, store=store))
+
+
+def _declare_cohort(d: Declaration, r: PipelineRequest) -> None:
+    r.target = "cohort"
+    d.paragraphs.append(
+        "Runs the pipeline on every case file of DIR (*.case, */case.txt, with one KEY = VALUE per line, where MR or PRESET names the "
+        "scan). It continues after a case that fails, and ends with one table of all cases (cohort.tsv, cohort.html) and the contours of "
+        "every segmentation (contours.html). File names in a case file are relative to the current folder. SETTING=value applies to all "
+        "cases and overrides their files.")
+    d.positionals.append(Argument("text", (), "DIR", "folder of case files", required=True, store=_into(r, "scan")))
+    _options(d, r, "number of cases that may run at the same time; they share the cores")
+    d.options += [
+        Argument("flag", ("--slurm",), "", "submit the cases to Slurm as one job array, followed by a job that makes the table; --dry-run "
+                 "prints the script", store=_into(r, "slurm")),
+        Argument("flag", ("--local",), "", "run the cases as processes on this machine (the default)", store=_into(r, "local")),
+        Argument("flag", ("--resume",), "", "with --slurm, submit only the cases that are missing or out of date; runs on this machine "
+                 "always do so", store=lambda values: r.settings.update(RESUME="1"))]
+    for name, placeholder, help in (
+            ("--partition", "NAME", "with --slurm, the partition"),
+            ("--account", "NAME", "with --slurm, the account"),
+            ("--time", "T", "with --slurm, the time limit of a case in the format of sbatch, such as 45 (minutes) or 2:00:00 (default: "
+             "estimated from measured cost)"),
+            ("--memory", "MB", "with --slurm, the memory of a case (default: estimated from measured cost)"),
+            ("--cores", "N", "with --slurm, the number of cores of a case (default: 1)")):
+        _request_to_slurm(d, r, name, placeholder, help)
+    d.examples += [("breast cohort patients --jobs 4", "results in ./runs/cohort-patients"),
+                   ("breast cohort patients --slurm --partition long --resume",
+                    "a job array of the cases that are missing or out of date")]
+
+
+def _declare(r: PipelineRequest) -> Declaration:
+    declare = {"run": _declare_run, "demo": _declare_demo, "cohort": _declare_cohort}.get(r.command)
+    if declare is None:
+        raise Failed(f"no command {r.command}")
+    d = Declaration("breast " + r.command, COMMANDS[r.command])
+    declare(d, r)
+    return d
+
+
+def pipeline_command(name: str) -> Declaration:
+    """The declaration of `run`, `demo` or `cohort` for help and completion. Raises Failed for another name."""
+    d = _declare(PipelineRequest(name))
+    d.positionals.append(Argument("text", (), "[SETTING=value]", "a setting of the pipeline: `breast help settings` lists them",
+                                  repeatable=True))
+    return d
+
+
+def breast_declaration() -> Declaration:
+    """The declaration of `breast` itself, for its manual page."""
+    d = Declaration("breast", SUMMARY)
+    d.paragraphs += [
+        "`breast TOOL` runs a tool of libbreast with its arguments, as in `breast segment scan.nrrd labels.vtkhdf --side left`. Each tool "
+        "has a manual page, breast-TOOL. `breast list` lists them, `breast help TOOL` prints the help of one.",
+        "`breast run SCAN --side left|right [SETTING=value]...` runs the whole chain on a scan, `breast demo` on a simulated breast, "
+        "`breast cohort DIR` on every case file of a folder. They work from any folder; results are written to ./runs or to the folder "
+        "given by --runs."]
+    d.positionals += [Argument("text", (), "COMMAND", "run, demo, cohort, list, help, or the name of a tool"),
+                      Argument("text", (), "ARGUMENT", "arguments of the command", repeatable=True)]
+    for option in pipeline_command("run").options + pipeline_command("cohort").options:
+        if d.option(option.label) is None:
+            d.options.append(option)
+    d.options += [Argument("flag", ("--help",), "", "the commands and tools"), Argument("flag", ("--version",), "", "name and version")]
+    d.examples += [("breast demo", "the whole chain on a simulated breast; results in ./runs/average"),
+                   ("breast run scan.nrrd --side left", "the whole chain on a scan; results in ./runs/scan-left"),
+                   ("breast help compress", "the help of a tool")]
+    return d
+
+
+def _take_settings(tokens: Tokens, scan_first: bool, settings: dict[str, str]) -> None:
+    """Moves SETTING=value words to the settings. The first word may be SCAN or DIR, whatever its name."""
+    rest: list[str] = []
+    for word in tokens.positionals:
+        if not _SETTING.fullmatch(word) or (scan_first and not rest and os.path.exists(word)):
+            rest.append(word)
+            continue
+        name, _, value = word.partition("=")
+        if name in settings:
+            raise BreastError(f"{name} is given twice")
+        settings[name] = value
+    tokens.positionals = rest
+
+
+def _check(r: PipelineRequest) -> None:
+    for name in ("RUNS", "RUN"):
+        if name in r.settings:
+            raise BreastError(f"{name} is not a setting here: give --runs DIR")
+    scan = "COHORT" if r.command == "cohort" else "MR"
+    if scan in r.settings:
+        raise BreastError(f"{scan} is not a setting here: " +
+                          ("breast run SCAN is for scans" if r.command == "demo" else "it is the first argument"))
+    side = r.settings.get("SIDE")
+    if r.command == "run" and not r.side and side is None:
+        raise BreastError("--side left|right is missing: which breast of the patient is it?")
+    if r.side and side is not None and side != r.side:
+        raise BreastError(f"--side {r.side} and SIDE={side} contradict each other")
+    if r.slurm and r.local:
+        raise BreastError("--slurm and --local contradict each other")
+    cluster = next((name for name in sorted(r.settings) if name.startswith("CLUSTER_")), None)
+    if cluster and not r.slurm:
+        raise BreastError(f"{cluster}: is a request to Slurm; give --slurm")
+    if r.slurm and r.jobs != 1:
+        raise BreastError("--jobs: is for runs on this machine; with --slurm give --cores")
+    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9-]*", r.target):
+        raise BreastError(f"--target '{r.target}': is not the name of a target")
+
+
+def parse_request(command: str, words: Sequence[str]) -> PipelineRequest:
+    """Raises BreastError for an unknown option, a superfluous word, a setting given twice, or a side that is missing or contradicted."""
+    r = PipelineRequest(command)
+    d = _declare(r)
+    tokens = tokenize(d, words)
+    _take_settings(tokens, bool(d.positionals), r.settings)
+    assign(d, tokens)
+    _check(r)
+    if r.slurm:
+        r.settings["CLUSTER"] = "slurm"
+    return r

@@ -1,0 +1,324 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the pipeline reads before it runs a case: case files, the record of the scan to which a folder belongs, cohorts, studies, and
+scripts for Slurm; and what it does with a case that fails."""
+import os
+import random
+import tempfile
+import unittest
+from pathlib import Path
+
+from breast.cases.attempt import attempt
+from breast.cases.case_file import parse_case_file, read_case_file, setting_in
+from breast.cases.case_run import is_done, reason_of, run_case
+from breast.cases.cohort import cohort_entries
+from breast.cases.ladder import climb
+from breast.cases.make_text import LINE_END, code_in, has_control
+from breast.cases.scan_identity import mixed_up, remember_scan
+from breast.cases.slurm import SlurmRequest, slurm_plan
+from breast.cases.variants import Studies, StudyBase
+from breast.errors import BreastError
+
+KEYS = ("MR", "SIDE", "PRESET", "HEXMESH_OPTIONS", "ELEMENTS")
+CODE = ("$(shell x)", "`x`", "a;b", "a'b", "a#b", "a\\b", "a|b")
+
+
+def reason(work, *arguments):
+    try:
+        work(*arguments)
+    except BreastError as error:
+        return str(error)
+    return ""
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+
+class CaseFiles(unittest.TestCase):
+    def refusal(self, text):
+        return reason(parse_case_file, text, "a.case", KEYS)
+
+    def test_are_keys_and_values_with_comments(self):
+        text = "# a patient\r\nMR = a/b.nrrd\nSIDE=right\t# from her\n\n  HEXMESH_OPTIONS =  --elements 8 --order 1  \n"
+        self.assertEqual(parse_case_file(text, "a.case", KEYS),
+                         {"MR": "a/b.nrrd", "SIDE": "right", "HEXMESH_OPTIONS": "--elements 8 --order 1"})
+        self.assertEqual(setting_in(text, "SIDE"), "right")
+        self.assertEqual(setting_in(text, "PRESET"), "")
+
+    def test_are_refused_by_line_and_key(self):
+        self.assertEqual(self.refusal("\nMRI = x"), "case file a.case, line 2: MRI is no setting of a case; did you mean MR?")
+        for line in ("include other", "export X = 1", "SIDE := left", "SIDE ?= left", "= x"):
+            self.assertIn("line 1: this line is not KEY = VALUE", self.refusal(line), line)
+        self.assertIn("line 2: MR is given for the second time", self.refusal("MR = x\nMR = y"))
+        for code in (*CODE, "#x"):
+            self.assertIn("MR contains the character", self.refusal("MR = " + code), code)
+        self.assertIn("control character", self.refusal(f"MR = a{LINE_END}b"))
+        self.assertIn("larger than 64 kB", self.refusal("#" * 70000))
+        self.assertIn("can be read", reason(read_case_file, "/nowhere.case", KEYS))
+
+    def test_nothing_that_make_reads_as_code_passes(self):
+        """Random changes of a case file are refused by name, or give values without code that read the same again."""
+        seed = "# a patient\nMR = scan.nrrd\nSIDE=right\t# hers\nHEXMESH_OPTIONS = --elements 8 --skin 1.5\n"
+        some = random.Random(1)
+        for _ in range(3000):
+            text = list(seed)
+            for _ in range(some.randint(1, 6)):
+                at = some.randrange(len(text))
+                text[at:at + some.randint(0, 2)] = some.choice(("$(x)", "`", ";", "\n", "=", "#", "\t", LINE_END, "\0", "é", "\udcff", "MR", ""))
+            changed = "".join(text)
+            try:
+                found = parse_case_file(changed, "a.case", KEYS)
+            except BreastError as error:
+                self.assertTrue(str(error).startswith("case file a.case"))
+                continue
+            for key, value in found.items():
+                self.assertFalse(code_in(value) or has_control(value), changed)
+                self.assertEqual(setting_in(changed, key), value)
+
+
+class ScanIdentity(InFolder):
+    def test_knows_another_scan_and_side_whatever_its_name_and_times(self):
+        for patient in "AB":
+            (self.folder / patient).mkdir()
+            (self.folder / patient / "1").write_text("slice-" + patient)
+        run, a, b = self.folder / "run", str(self.folder / "A"), str(self.folder / "B")
+        self.assertEqual(mixed_up(run, "left", a), "", "nothing is remembered yet")
+        remember_scan(run, "left", a)
+        self.assertEqual(mixed_up(run, "left", a), "")
+        os.utime(self.folder / "A/1", (1, 1))
+        self.assertEqual(mixed_up(run, "left", a), "", "touched, and still the same")
+        self.assertIn("another scan", mixed_up(run, "left", b))
+        self.assertIn("holds the left breast", mixed_up(run, "right", a))
+        self.assertNotEqual(mixed_up(run, "left", "phantom:small"), "")
+        self.assertEqual(mixed_up(run, "left", str(self.folder / "C")), "", "make says that it is not there")
+        self.assertNotIn(str(self.folder), (run / ".scan").read_text())
+
+    def test_one_of_two_runs_that_begin_at_once_has_the_folder(self):
+        run = self.folder / "run"
+        for name in "AB":
+            (self.folder / name).write_text(name)
+        remember_scan(run, "left", str(self.folder / "A"))
+        self.assertIn("another scan", reason(remember_scan, run, "left", str(self.folder / "B")))
+        remember_scan(run, "left", str(self.folder / "A"))
+        self.assertEqual(os.listdir(run), [".scan"], "nothing else is left")
+
+    def test_of_what_is_no_file_is_refused(self):
+        self.assertIn("neither a file nor a folder", reason(remember_scan, self.folder / "run", "left", "/dev/zero"))
+
+    def test_remembers_content_as_sha256sum_does(self):
+        (self.folder / "scan.nrrd").write_text("abc")
+        remember_scan(self.folder / "run", "left", str(self.folder / "scan.nrrd"))
+        # printf abc | sha256sum | sha256sum
+        self.assertIn("content\t3037103b5833a3a6a132fee525b05d963dd32445ffa08e9e2e7fd5342a04f332\n",
+                      (self.folder / "run/.scan").read_text())
+
+
+class Cohorts(InFolder):
+    def test_are_found_checked_and_named_once(self):
+        def refusal():
+            return reason(cohort_entries, str(self.folder), KEYS)
+        self.assertIn("holds no case", refusal())
+        (self.folder / "a").mkdir()
+        (self.folder / "a/case.txt").write_text("MR = x.nrrd\n")
+        (self.folder / "b.case").write_text("PRESET = small\n")
+        self.assertEqual([(one.name, one.kind) for one in cohort_entries(str(self.folder), KEYS)], [("a", "scan"), ("b", "phantom")])
+        (self.folder / "a.case").write_text("MR = y.nrrd\n")
+        self.assertIn("two case files are called a", refusal())
+        (self.folder / "a.case").rename(self.folder / "c d.case")
+        self.assertIn("c?d.case: a name with such characters is refused", refusal())
+        (self.folder / "c d.case").rename(self.folder / "c.case")
+        (self.folder / "c.case").write_text("SIDE = left\n")
+        (self.folder / "d.case").write_text("MRI = left\n")
+        self.assertIn("c.case: names neither MR nor PRESET", refusal())
+        self.assertIn("did you mean MR?", refusal(), "all problems at once")
+
+
+class CaseRuns(InFolder):
+    def test_say_why_without_folders(self):
+        for log, said in (
+                ("make: *** No rule to make target '/secret/x.nrrd', needed by 'runs/n/labels.vtkhdf'.  Stop.\n",
+                 "'x.nrrd', which a setting names, does not exist"),
+                ("make[1]: Entering\nforward: no body in runs/n/supine.vtkhdf\nforward: give up\nmake: *** [x] Error 3\n",
+                 "forward: give up"),
+                ("forward: no body in runs/n/supine.vtkhdf\n", "forward: no body in n/supine.vtkhdf"),
+                ("make[2]: *** pipelines/x.mk:3: *** SIDE: 'a' is none.  Stop.\n", "pipelines/x.mk:3: *** SIDE: 'a' is none"),
+                ("", "")):
+            self.assertEqual(reason_of(log, "runs"), said)
+
+    def test_keep_what_became_of_the_case(self):
+        status, log = self.folder / "n.status", self.folder / "n.log"
+        self.assertTrue(run_case(status, log, False, ["sh", "-c", "echo forward: no body; exit 3", "summary"]))
+        self.assertEqual(status.read_text(), "failed\tforward: no body\n")
+        self.assertFalse(is_done(status))
+        self.assertTrue(run_case(status, log, True, ["echo", "made", "summary"]))
+        self.assertEqual(log.read_text(), "made phantom-scan\nmade summary\n", "its phantom's scan first")
+        self.assertTrue(is_done(status))
+        self.assertFalse(run_case(status, log, False, ["sh", "-c", "kill -TERM $$"]))
+        self.assertIn("stopped by a signal", status.read_text())
+
+
+class Attempts(InFolder):
+    def test_keep_the_reason_of_a_solve_that_ends_early(self):
+        report = self.folder / "supine.json"
+
+        def solve(script, inputs=()):
+            return reason(attempt, report, inputs, ["sh", "-c", script])
+        (self.folder / "supine.vtkhdf").write_text("of an earlier attempt")
+        self.assertEqual(solve(f"echo '{{\"reason\": \"folded\"}}' > {report}; exit 3"), "")
+        self.assertIn("folded", report.read_text())
+        self.assertFalse((self.folder / "supine.vtkhdf").exists())
+        self.assertIn("exit code 3", solve("exit 3"), "not even a report")
+        self.assertIn("exit code 2", solve(f"echo x > {report}; exit 2"))
+        self.assertEqual(solve("true"), "")
+        self.assertIn('"ok"', report.read_text(), "of somebody else's program")
+        (self.folder / "reference.json").write_text("no body")
+        self.assertEqual(solve("exit 1", [self.folder / "reference.vtkhdf"]), "")
+        self.assertEqual(report.read_text(), "no body", "what needed it has the same reason")
+
+
+class Ladders(InFolder):
+    def test_end_at_the_first_rung_that_is_good_enough(self):
+        # A stub of tabulate that prints the row of a point: the first has no solution, the last meets the bound.
+        judge = self.folder / "judge"
+        judge.write_text("#!/bin/sh\ncase $3 in\n*-4) ;;\n*-8) printf '%s\\t%s\\tyes\\n' $3 \"$5\" ;;\n"
+                         "*) printf '%s\\t%s\\tno\\n' $3 \"$5\" ;;\nesac\n")
+        judge.chmod(0o700)
+
+        def up(*points):
+            return climb(self.folder, "0.5", points, [str(judge)], ["true"])
+        self.assertEqual(up("q1p0-dome-4", "q2p1-dome-6", "q1p0-dome-8", "q1p0-dome-10"),
+                         "point\telements\tstress_free_estimate_mm\tsupine_estimate_mm\tcpu_s\tmeets\n"
+                         "q2p1-dome-6\t\tno\nq1p0-dome-8\tq2p1-dome-6\tyes\n")
+        self.assertEqual((self.folder / "accuracy.mk").read_text(), "ELEMENTS := 8\nELEMENT := q1p0\n")
+        self.assertIn("not met", up("q2p1-dome-6"))
+        self.assertEqual((self.folder / "accuracy.mk").read_text(), "ELEMENTS := 6\nELEMENT := q2p1\n")
+        self.assertIn("no mesh of the ladder", reason(up, "q1p0-dome-4"))
+
+
+def studies():
+    return Studies(StudyBase("run", ["mesh", "reference", "supine", "cc"], "supine cc",
+                             {"hexmesh": "--elements 16", "mechanics": "--materials seed --element q1p0", "materials": "seed"},
+                             {"RUN": "run", "tumour": "{tumour}"}))
+
+
+def expanded(table):
+    made = studies()
+    made.add("own", table, "own.tsv")
+    return made.text.split(LINE_END)
+
+
+class Variants(unittest.TestCase):
+    def test_add_replace_and_inherit_options(self):
+        lines = expanded("# why\nvariant\tfrom\tstarts_at\tends_at\thexmesh\tmechanics\tmaterials\tif\n"
+                         "soft\t-\treference\tsupine\t-\t+--scale fat=50\t{RUN}/own.tsv\t-\n"
+                         "fine\tsoft\tmesh\t-\t--tumour {tumour}:0.1\t-\t-\tsoft\n")
+        soft, fine = "run/studies/own/soft@", "run/studies/own/fine@"
+        for line in ("own_variants += soft", soft + "stages :=  reference supine cc", soft + "ends_at := supine",
+                     soft + "hexmesh := --elements 16",
+                     soft + "mechanics := --materials run/own.tsv --element q1p0 --scale fat=50",
+                     fine + "from := run/studies/own/soft",
+                     fine + "mechanics := --materials run/own.tsv --element q1p0 --scale fat=50",
+                     fine + "hexmesh := --tumour {tumour}:0.1", fine + "ends_at := supine cc", fine + "if := run/studies/own/soft"):
+            self.assertIn(line, lines)
+
+    def test_say_which_options_a_cell_without_plus_leaves_out(self):
+        lines = expanded("variant\tfrom\tstarts_at\thexmesh\tmechanics\n"
+                         "soft\t-\treference\t-\t--scale fat=50\n"
+                         "kept\t-\treference\t-\t+--scale fat=50\n"
+                         "both\tkept\tmesh\t--tumour none\t--materials other --element=q2p1\n"
+                         "all\t-\tmesh\t--elements 20\t--element q2p1 --materials other\n")
+        self.assertEqual([line for line in lines if "@drops" in line],
+                         ["run/studies/own/soft@drops := mechanics: --materials seed --element q1p0",
+                          "run/studies/own/both@drops := hexmesh: --elements 16; mechanics: --scale fat=50"])
+
+    def test_come_from_rows_of_other_studies(self):
+        made = studies()
+        made.add("scaled", "variant\tstarts_at\tmechanics\nx\treference\t+--a\n", "scaled.tsv")
+        made.add("again", "variant\tfrom\tstarts_at\tmechanics\ny\tscaled/x\tsupine\t+--b\nz\t-\tsupine\t+--c\n", "again.tsv", "scaled/x")
+        self.assertIn("again/y@mechanics := --materials seed --element q1p0 --a --b", made.text)
+        self.assertIn("again/z@mechanics := --materials seed --element q1p0 --a --c", made.text, "the study's own base")
+
+    def test_are_refused_by_column_stage_and_row(self):
+        for table, said in (
+                ("variant\tstarts_at\tmechanic\nx\tmesh\t-\n",
+                 "'mechanic' is none of variant, starts_at, ends_at, from, given, if, hexmesh, mechanics, materials; did you mean "
+                 "mechanics?"),
+                ("variant\tstarts_at\nx\t-\n",
+                 "x does not say in the column starts_at at which stage it begins; write one of mesh, reference, supine, cc"),
+                ("variant\tfrom\tstarts_at\nx\ty\tmesh\n",
+                 "x comes from 'y', and no row above has this name; write the row from which it comes above it"),
+                ("variant\tif\tstarts_at\nx\ty{RUN}\tmesh\n",
+                 "x depends on 'y{RUN}', and no row above has this name; write that row above it"),
+                ("variant\tstarts_at\tfrom\nx\tmesh\n",
+                 "x has 2 cells and not 3; separate cells by one tab, and write - for an empty one"),
+                ("variant\tstarts_at\nx\tmesh cc\n", "'mesh cc' is none of mesh, reference, supine, cc"),
+                # The byte that ends a line of make would begin another assignment.
+                (f"variant\tstarts_at\tmechanics\nx\tmesh\ta{LINE_END}SHELL := b\r\n", "x holds a control character")):
+            self.assertEqual(reason(expanded, table), "own.tsv: " + said)
+        self.assertIn("did you mean reference?", reason(expanded, "variant\tstarts_at\nx\trefference\n"))
+        for name in ("x", "a/b", "a b", "-"):
+            self.assertIn("is no name of a row of its own", reason(expanded, f"variant\tstarts_at\nx\tmesh\n{name}\tmesh\n"), name)
+        for code in ("$(shell x)", "`x`", "; x", "{MR}", "{shell}"):
+            self.assertIn("may not stand in a study, because make or a shell would read it as code; write the cell without it ({NAME} is "
+                          "one of RUN, tumour)", reason(expanded, f"variant\tstarts_at\tmechanics\nx\tmesh\t{code}\n"), code)
+
+    def test_nothing_that_make_reads_as_code_passes(self):
+        seed = ("# why\nvariant\tfrom\tstarts_at\tends_at\tmechanics\tif\nsoft\t-\treference\tsupine\t+--scale fat=50\t-\n"
+                "fine\tsoft\tmesh\t-\t{RUN}/own.tsv\tsoft\n# rows 2\n")
+        some = random.Random(2)
+        for _ in range(3000):
+            text = list(seed)
+            for _ in range(some.randint(1, 6)):
+                at = some.randrange(len(text))
+                text[at:at + some.randint(0, 2)] = some.choice(("$(x)", "`", "{RUN}", "\n", "\t", "+", "#", "\r", LINE_END, "é", "-", "mesh"))
+            try:
+                lines = expanded("".join(text))
+            except BreastError as error:
+                self.assertTrue(str(error).startswith("own.tsv"), error)
+                continue
+            for line in filter(None, lines):
+                self.assertRegex(line, r"^[^ ]+ (:|\+)= ")
+                self.assertFalse(code_in(line.replace("{tumour}", "")) or has_control(line), line)
+
+
+class Slurm(InFolder):
+    def test_scripts_ask_for_what_the_largest_case_needs(self):
+        case, listed, cost = self.folder / "a.case", self.folder / ".cases", self.folder / "assumed.tsv"
+        cost.write_text("element\telements\tcpu_seconds\tpeak_mb\nq1p0\t16\t200\t380\n")
+        case.write_text("MR = x.nrrd\n  ELEMENTS = 32\n")
+        listed.write_text(f"a\t{case}\tscan\n")
+        request = SlurmRequest(self.folder, Path("patients"), "/opt/it's/cases", ["make"], cost)
+        plan = slurm_plan(request)
+        for text in ("# sbatch --array=0-0 ", "\n#SBATCH --time=165\n", "ELEMENTS=32", "'/opt/it'\\''s/cases' task "):
+            self.assertIn(text, plan)
+        self.assertNotIn("--partition", plan)
+        # As large as a case file may be: blanks, and more elements than hexmesh makes.
+        case.write_text(" " * 60000 + "\nELEMENT=q2p1\n  ELEMENTS = " + "9" * 400 + "\n")
+        cost.write_text("element\telements\tcpu_seconds\tpeak_mb\nq1p0\t16\t200\t380\nq2p1\t64\t600\t380\n")
+        self.assertIn("\n#SBATCH --time=35\n", slurm_plan(request))
+        case.write_text("ELEMENTS = 1e9\n")
+        self.assertIn("q1p0, ELEMENTS=64: ", slurm_plan(request))
+        request.partition, request.time = "long", "2:00:00"
+        plan = slurm_plan(request)
+        for text in ("\n#SBATCH --partition=long\n", "\n#SBATCH --time=2:00:00\n", "; time as asked"):
+            self.assertIn(text, plan)
+        listed.write_text("a\tb\n")
+        self.assertIn("is no case", reason(slurm_plan, request))
+
+    def test_the_cost_of_a_cohort_counts_when_three_cases_are_done(self):
+        case = self.folder / "a.case"
+        case.write_text("MR = x.nrrd\n")
+        (self.folder / ".cases").write_text(f"a\t{case}\tscan\n")
+        (self.folder / "cost.tsv").write_text("case\telements\twall_seconds\tcpu_seconds\tpeak_mb\n"
+                                              "a\t4000\t9\t600\t400\nb\t4000\t9\t60\t800\nc\t4000\t9\t60\t40\n\r\n")
+        (self.folder / "assumed.tsv").write_text("element\telements\tcpu_seconds\tpeak_mb\nq1p0\t16\t200\t380\n")
+        plan = slurm_plan(SlurmRequest(self.folder, Path("patients"), "cases", ["make"], self.folder / "assumed.tsv"))
+        for text in ("#SBATCH --time=35\n", "#SBATCH --mem=1456M\n", "the most expensive of 3 cases in cost.tsv: 600 seconds, 800 MB"):
+            self.assertIn(text, plan)
+
+
+if __name__ == "__main__":
+    unittest.main()
