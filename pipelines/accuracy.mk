@@ -3,7 +3,7 @@
 # MM. ELEMENTS and ELEMENT come from a makefile of two lines, which make brings up to date before anything else. The meshes
 # tried are rows of pipelines/studies/cost.tsv, in the order of their measured cost (docs/validation/mechanics.md).
 ifneq ($(strip $(ACCURACY)),)
-accuracy_settings = $(ACCURACY) $(ACCURACY_LADDER) $(MATERIALS) $(SUPPORT)
+accuracy_settings = $(ACCURACY) $(ACCURACY_LADDER) $(MATERIALS) $(content_MATERIALS) $(SUPPORT)
 accuracy_record = $(RUN)/.accuracy.settings
 ifneq ($(planning),)
 # A plan solves nothing: it shows the mesh chosen last, or the default if none has been chosen.

@@ -15,12 +15,10 @@ supine_truth := $(PHANTOM_SUPINE:.nrrd=-truth)/landmarks.tsv
 $(eval $(call phantom_scan,$(PRESET)-supine,--posture supine --misalign 4$(comma)2))
 endif
 second-labels_record := $(RUN)/second/.labels.settings
-second-labels_settings := $(SEGMENT) $(call named,$(supine_scan)) --side $(SIDE)
+second-labels_settings := $(SEGMENT) $(content_SUPINE) $(call named,$(supine_scan)) --side $(SIDE)
 $(RUN)/second/labels.vtkhdf $(RUN)/second/points.vtp &: $(supine_scan) $(SEGMENT) $(call changed,second-labels)
-	@mkdir -p $(RUN)/second
-	$(SEGMENT) $(supine_scan) $(RUN)/second/labels.vtkhdf --side $(SIDE) --posture supine --points $(RUN)/second/points.vtp \
+	$(call stage,second-labels) $(SEGMENT) $(supine_scan) $(RUN)/second/labels.vtkhdf --side $(SIDE) --posture supine --points $(RUN)/second/points.vtp \
 	  --overlay $(RUN)/second/contours.png --report $(RUN)/second/labels.json $(share)
-	@$(call record,second-labels)
 second_scan := $(RUN)/second/points.vtp $(RUN)/second/labels.vtkhdf $(RUN)/labels.vtkhdf
 second_skin := --surface $(RUN)/second/points.vtp --labels $(RUN)/labels.vtkhdf --second-labels $(RUN)/second/labels.vtkhdf \
   --seen $(RUN)/second/seen.vtp --second $(RUN)/second/predicted.vtkhdf
@@ -30,8 +28,8 @@ second_states := $(RUN)/second/predicted.vtkhdf $(RUN)/second/seen.vtp
 $(RUN)/figures/postures.png: $(RUN)/second/predicted.vtkhdf $(RUN)/second/seen.vtp $(RENDER)
 	@mkdir -p $(@D) && $(RENDER) $(filter %.vtkhdf %.vtp,$^) --figure postures -o $@
 endif
-identified_settings := $(IDENTIFY) $(prior_set) $(SUPPORT) $(second_marks) $(second_skin) $(second_judge)
-$(RUN)/identified.tsv $(RUN)/landmarks.tsv $(second_states) &: $(RUN)/mesh.vtkhdf $(landmark_files) $(second_scan) $(supine_truth) $(wildcard $(prior_set)) $(IDENTIFY) \
+identified_settings := $(IDENTIFY) $(content_LANDMARKS) $(content_MATERIALS) $(prior_set) $(SUPPORT) $(second_marks) $(second_skin) $(second_judge)
+$(RUN)/identified.tsv $(RUN)/landmarks.tsv $(second_states) &: $(RUN)/mesh.vtkhdf $(landmark_files) $(second_scan) $(supine_truth) $(IDENTIFY) \
   $(call changed,identified)
 	$(IDENTIFY) $< $(RUN)/identified.tsv $(second_marks) --align $(second_skin) $(second_judge) --materials $(prior_set) $(SUPPORT) \
 	  $(addprefix --compare ,$(sort seed2008 $(prior_set))) --table $(RUN)/landmarks.tsv \

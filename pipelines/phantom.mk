@@ -12,10 +12,8 @@ phantom_settings := $(PHANTOM) $(PRESET) $(PHANTOM_OPTIONS)
 define phantom_scan
 $(RUNS)/phantom/$1.nrrd $(RUNS)/phantom/$1-truth/landmarks.tsv $3 &: $(PHANTOM) \
   $(call stale,$(RUNS)/phantom/.$1.settings,$(phantom_settings))
-	@mkdir -p $$(@D)
-	$(PHANTOM) $(RUNS)/phantom/$1.nrrd --preset $(PRESET) $2 --truth $(RUNS)/phantom/$1-truth $(PHANTOM_OPTIONS) \
+	$$(call staged,$(RUNS)/phantom/.$1.settings,$(phantom_settings)) $(PHANTOM) $(RUNS)/phantom/$1.nrrd --preset $(PRESET) $2 --truth $(RUNS)/phantom/$1-truth $(PHANTOM_OPTIONS) \
 	  --report $(RUNS)/phantom/$1.json $$(alone)
-	@$$(call note,$(RUNS)/phantom/.$1.settings,$(phantom_settings))
 endef
 $(eval $(call phantom_scan,$(PRESET),,$(PHANTOM_TRUTH)/tumour-$(SIDE).tsv))
 
@@ -50,8 +48,7 @@ truth_mesh = $(PHANTOM_MESH) $(TRUTH_AT)-$1.vtkhdf --supine $(TRUTH_AT)-$1-supin
 truth-meshes_record := $(PHANTOM_TRUTH)/.$(SIDE)-meshes.settings
 truth-meshes_settings := $(PHANTOM_MESH) $(TRUTH_COARSE) $(TRUTH_FINE) $(phantom_settings)
 $(TRUTH_AT)-coarse.vtkhdf $(TRUTH_AT)-coarse-supine.vtkhdf &: $(PHANTOM_MR) $(PHANTOM_MESH) $(call changed,truth-meshes)
-	$(call truth_mesh,coarse,$(TRUTH_COARSE))
-	@$(call record,truth-meshes)
+	$(call stage,truth-meshes) $(call truth_mesh,coarse,$(TRUTH_COARSE))
 $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-fine-supine.vtkhdf &: $(PHANTOM_MR) $(PHANTOM_MESH) $(TRUTH_AT)-coarse.vtkhdf
 	$(call truth_mesh,fine,$(TRUTH_FINE))
 truth_compress = $(COMPRESS) $< $@ $(call truth_plates,$1) --at-least $(AT_LEAST) $(common)
@@ -59,8 +56,7 @@ define truth_view
 truth-$1_record := $(PHANTOM_TRUTH)/.$(SIDE)-$1.settings
 truth-$1_settings := $(COMPRESS) $(truth_reduction_$1) $(AT_LEAST) $(truth_edge_$1) $(phantom_settings)
 $(TRUTH_AT)-coarse-$1.vtkhdf: $(TRUTH_AT)-coarse.vtkhdf $(COMPRESS) $$(call changed,truth-$1)
-	$$(call truth_compress,$1) --view $2 --reduction $(truth_reduction_$1)
-	@$$(call record,truth-$1)
+	$$(call stage,truth-$1) $$(call truth_compress,$1) --view $2 --reduction $(truth_reduction_$1)
 $(TRUTH_AT)-fine-$1.vtkhdf: $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-coarse-$1.vtkhdf $(COMPRESS)
 	$$(call truth_compress,$1) --view $2 $$(call same_plates,$(TRUTH_AT)-coarse-$1.json)
 # The chain, compressed between plates with the distance and position of those of the truth.

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# A stage's settings (program and options) are recorded beside its output when it has succeeded. When the
-# record differs from what is asked now, the stage depends on FORCE and runs again; `make -q` and
+# A stage's settings (program, options, contents of files that users edit) are recorded beside its output when it has succeeded, and the
+# record goes before it starts. When the record differs from what is asked now, the stage depends on FORCE and runs again; `make -q` and
 # `make -n` read the record and write nothing.
 #   $(call changed,STAGE)  FORCE when STAGE_settings differs from the record of an existing output
-#   $(call record,STAGE)   shell command that records them in STAGE_record (default RUN/.STAGE.settings)
-#   $(call stale,FILE,TEXT), $(call note,FILE,TEXT)  the same for a record and settings that have no NAME
+#   $(call stage,STAGE)    before the stage's program in a recipe: shows one line, records STAGE_settings in STAGE_record (default
+#                          RUN/.STAGE.settings); all the program says is in log.txt beside it
+#   $(call stale,FILE,TEXT), $(call staged,FILE,TEXT)  the same for a record and settings that have no NAME
 #   $(call named,SCAN)     a scan as records name it: by its own name and a digest of its path. Another scan differs, but the
 #                          folders above it, in which a patient's name may stand, are not told: a run may be sent to somebody
 named = $(if $1,$(notdir $(patsubst %/,%,$1)):$(shell printf %s '$1' | sha256sum | cut -c1-12))
 record_file = $(or $($1_record),$(RUN)/.$1.settings)
 stale = $(if $(subst x$(strip $(file < $1))x,,x$(strip $2)x),FORCE)
-note = printf '%s\n' '$(subst ','\'',$(strip $2))' > $1
+staged = @$(CASES) stage $1 $(call quoted,$(strip $2)) --quiet --
 changed = $(call stale,$(call record_file,$1),$($1_settings))
-record = $(call note,$(call record_file,$1),$($1_settings))
+# Of a recipe with several programs: the last command records.
+record = printf '%s\n' '$(subst ','\'',$(strip $($1_settings)))' > $(call record_file,$1)
+stage = $(call staged,$(call record_file,$1),$($1_settings))

@@ -10,9 +10,8 @@ derivatives := $(if $(findstring --friction,$(COMPRESS_OPTIONS))$(findstring spr
 page_states := $(RUN)/cc$(derivatives).vtkhdf $(RUN)/mlo$(derivatives).vtkhdf
 lookup_settings := $(MATCH_LOOKUP) $(page_states) $(page_scan)
 $(RUN)/lookup.h5 $(RUN)/page.html &: $(page_states) $(RUN)/cc.vti $(RUN)/mlo.vti $(if $(page_scan),$(MR_FILES)) $(MATCH_LOOKUP) $(call changed,lookup)
-	$(MATCH_LOOKUP) $(page_states) $(RUN)/lookup.h5 --page $(RUN)/page.html --pitch 1 \
+	$(call stage,lookup) $(MATCH_LOOKUP) $(page_states) $(RUN)/lookup.h5 --page $(RUN)/page.html --pitch 1 \
 	  --from-image $(RUN)/cc.vti --to-image $(RUN)/mlo.vti $(page_scan) --report $(RUN)/lookup.json $(share)
-	@$(call record,lookup)
 page: $(RUN)/page.html
 
 # ---- 3D Slicer: images, labels, shapes, displacement fields, points and scene.mrml, which opens them ---------

@@ -20,7 +20,7 @@ quoted = '$(subst ','\'',$1)'
 $(foreach v,$(given),$(if $(findstring $(newline),$(value $v)),$(error $v: a line break may not stand in it; give a name \
   without it$(comma) or a link that has such a name (ln -s))))
 # What is given on the command line is passed on with its values before any expansion.
-$(call ask,$(BIN)/cases settings $(PIPELINES) $(BIN) $(if $(INSTALLED),installed,built) $(call quoted,$(goals)) \
+$(call ask,$(BIN)/cases settings $(PIPELINES) $(BIN) $(if $(INSTALLED),installed,built) $(call quoted,$(goals)) $(if $(planning),0,$$PPID) \
   $(foreach v,$(given),$(call quoted,$v=$(value $v))))
 
 # Every table, verdict and page is made by tabulate, from reports, tables and shapes.

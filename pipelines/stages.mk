@@ -9,13 +9,14 @@ STAGES := labels geometry mesh reference supine cc mlo cc-mammogram mlo-mammogra
 # ---- what a stage is: $1 is the folder it is made in -------------------------------------------------------
 # reads_STAGE      the stages whose files it reads, in the order of its arguments; also_STAGE: further stages it depends on
 # writes_STAGE     its file, if not STAGE.vtkhdf, and files made with it; needs_STAGE: other files it depends on
-# fixed_STAGE      arguments that follow from the stage; options_STAGE: its settings
+# fixed_STAGE      arguments that follow from the stage; options_STAGE: its settings; known_STAGE: digests of files of the user's
 program_labels = $(SEGMENT)
 # The first stage reads the scan, where the others read the files of stages; the scan is also a setting.
 scan_labels = $(MR)
-needs_labels = $(MR_FILES) $(CHEST_WALL)
+needs_labels = $(MR_FILES)
 writes_labels := labels.vtkhdf points.vtp
 fixed_labels = --points $1/points.vtp $(if $(filter $(RUN),$1),$(contours))
+known_labels = $(content_CHEST_WALL)
 options_labels = --side $(SIDE) $(addprefix --series ,$(SERIES)) $(addprefix --chest-wall ,$(CHEST_WALL)) $($1@segment)
 # Contours for checking the result; a program that replaces segment need not draw them.
 contours = $(if $(filter $(BIN)/segment,$(SEGMENT)),--overlay $(RUN)/contours.png)
@@ -27,7 +28,11 @@ options_geometry = $($1@fit)
 
 program_mesh = $(HEXMESH)
 reads_mesh := geometry labels
-needs_mesh = $(wildcard $(TUMOUR))
+needs_mesh = $(filter $(RUNS)/%,$(TUMOUR))
+known_mesh = $(content_TUMOUR)
+# What only the run of a tumour has: another mesh may have none.
+before_mesh = @rm -f $(addprefix $(RUN)/,curve.vtp curve.tsv curve.json .curve.settings band.vtp band.tsv band-curve.tsv band.json \
+  figures/*-matching.png slicer/scene.mrml slicer/column-* slicer/curve-*)
 options_mesh = $($1@hexmesh) $(if $(findstring --tumour,$($1@hexmesh)),,--tumour $(TUMOUR))
 
 program_reference = $(BACKWARD)
@@ -36,7 +41,9 @@ options_reference = $($1@prone) $(mechanics)
 # Options of all solves: law, element and supports of the breast.
 mechanics = $($1@mechanics) $(support)
 support = $(addprefix --wall ,$($1@wall)) $(addprefix --cut ,$($1@cut))
-needs_reference = $(or $(wildcard $($1@materials)),$(filter $(RUN)/%,$($1@materials)))
+needs_reference = $(filter $(RUN)/%,$($1@materials))
+known_reference = $($1@content)
+known_supine = $($1@content)
 
 program_supine = $(FORWARD)
 reads_supine := reference
@@ -50,6 +57,7 @@ program_$1 = $$(COMPRESS)
 reads_$1 := reference
 fixed_$1 = --view $2 $$(if $$($$1@plates),$$(call same_plates,$$(TRUTH_AT)-fine-$1.json) $$(if $$(body_slides),$$(wordlist 2,3,$$(truth_edge_$1))))
 options_$1 = $$(if $$($$1@plates),,$$(STOPS)) --at-least $$(AT_LEAST) $$($$1@compress) $$(mechanics)
+known_$1 = $$($$1@content)
 needs_$1 = $$(needs_reference) $$(if $$($$1@plates),$$(TRUTH_TABLE))
 
 program_$1-mammogram = $$(PROJECT)
@@ -92,15 +100,14 @@ attempt = $(if $(filter $(RUN),$1),,$(CASES) attempt $1/$2.json '$(strip $(call 
 threads_of = $(if $(filter $(addprefix $(RUN)@,labels geometry mesh reference),$1@$2),$(alone),$(share))
 run_stage = $(strip $(call attempt,$1,$2) $(program_$2) $(scan_$2) $(call inputs_of,$1,$2) $(addprefix $1/,$(firstword $(or $(writes_$2),$2.vtkhdf))) \
   $(fixed_$2) $(call placed,$1,$(options_$2)) --report $1/$2.json $(call threads_of,$1,$2))
-settings_of = $(program_$2) $(call named,$(scan_$2)) $(options_$2)
+settings_of = $(program_$2) $(call named,$(scan_$2)) $(options_$2) $(known_$2)
 # The name of a folder may contain a comma; it must not separate arguments when the text is expanded later.
 define stage_rule
 $(call made_in,$1,$2) $(if $(word 2,$(call made_in,$1,$2)),&): $(foreach s,$(reads_$2) $(also_$2),$(call target_of,$1,$s)) \
   $(program_$2) $(needs_$2) $(if $(findstring {tumour},$(options_$2)),$(call target_of,$($1@from),mesh)) \
   $(addsuffix /supine.json,$($1@if)) $(call stale,$1/.$2.settings,$(settings_of))
-	$(if $(filter $(RUN),$1),$(call before_$2,$1),@mkdir -p $1)
-	$$(call run_stage,$$(@D),$2)
-	@$$(call note,$$(@D)/.$2.settings,$$(call settings_of,$$(@D),$2))
+	$(if $(filter $(RUN),$1),$(call before_$2,$1))
+	$$(call staged,$$(@D)/.$2.settings,$$(call settings_of,$$(@D),$2)) $$(call run_stage,$$(@D),$2)
 endef
 case_rules = $(foreach s,$2,$(eval $(call stage_rule,$1,$s)))
 
@@ -120,8 +127,9 @@ $(RUN)@cut := $(CUT)
 $(RUN)@compress := $(COMPRESS_OPTIONS)
 $(RUN)@slopes := fat,fibroglandular,skin
 $(RUN)@materials := $(MATERIALS)
+$(RUN)@content := $(content_MATERIALS)
 MATERIAL_FILE := $(call needs_reference,$(RUN))
-MATERIAL_TABLE := $(or $(MATERIAL_FILE),$(PIPELINES)/materials/$(MATERIALS).tsv)
+MATERIAL_TABLE := $(or $(MATERIAL_FILE),$(wildcard $(MATERIALS)),$(PIPELINES)/materials/$(MATERIALS).tsv)
 $(call case_rules,$(RUN),$(STAGES))
 
 # The model without gland uses the set in which the law of fat replaces that of fibroglandular tissue.
@@ -131,12 +139,12 @@ $(RUN)/fat-only.tsv: $(or $(whole_set),$(MATERIAL_TABLE))
 
 # The same with the lateral cut held, which shows the effect of this boundary condition at the landmarks;
 # its discretisation error is not estimated again.
-cut-fixed_settings := $(BACKWARD) $(FORWARD) $(MECHANICS)
+cut-fixed_settings := $(BACKWARD) $(FORWARD) $(MECHANICS) $(content_MATERIALS)
 $(RUN)/reference-cut-fixed.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD) $(MATERIAL_FILE) $(call changed,cut-fixed)
-	$(BACKWARD) $< $@ --posture prone $(MECHANICS) --cut fixed --estimate none $(common)
-	@$(call record,cut-fixed)
+	$(call stage,cut-fixed) $(BACKWARD) $< $@ --posture prone $(MECHANICS) --cut fixed --estimate none $(common)
+supine-cut-fixed_settings = $(cut-fixed_settings)
 $(RUN)/supine-cut-fixed.vtkhdf: $(RUN)/reference-cut-fixed.vtkhdf $(FORWARD)
-	$(FORWARD) $< $@ --posture supine $(MECHANICS) --cut fixed --estimate none $(common)
+	$(call stage,supine-cut-fixed) $(FORWARD) $< $@ --posture supine $(MECHANICS) --cut fixed --estimate none $(common)
 
 # Tables come from stdout; a rename makes them complete or absent: $(call table,COMMAND).
 table = $1 > $@.part && mv $@.part $@
@@ -159,4 +167,3 @@ $(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(if $(slides),,$(RU
   $(if $(TRUTH),$(RUN)/truth.tsv $(if $(body_slides),,$(RUN)/truth-cut-fixed.tsv)) $(FIGURES) \
   $(TABULATE) $(PIPELINES)/advice.tsv
 	@$(call table,$(tabulate) summary $(RUN) $(if $(TRUTH),$(PHANTOM_MR:.nrrd=.json)))
-	@cat $@

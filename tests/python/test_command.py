@@ -97,6 +97,14 @@ class Requests(unittest.TestCase):
         self.assertEqual(parse_request("demo", ["PRESET=paper"]).settings, {"PRESET": "paper"})
         self.assertEqual(parse_request("cohort", ["patients"]).target, "cohort")
 
+    def test_a_page_is_of_a_scan_or_of_the_demonstration(self):
+        r = parse_request("page", ["scan", "--side", "left", "REDUCTION=40"])
+        self.assertEqual((r.scan, r.side, r.target, r.settings), ("scan", "left", "page", {"REDUCTION": "40"}))
+        r = parse_request("page", ["PRESET=slim"])
+        self.assertEqual((r.scan, r.target, r.settings), ("", "page", {"PRESET": "slim"}))
+        with self.assertRaisesRegex(BreastError, "--side left"):
+            parse_request("page", ["scan"])
+
     def test_of_a_cluster(self):
         r = parse_request("cohort", ["patients", "--slurm", "--partition", "long", "--time", "2:00:00", "--cores", "2", "--memory", "900",
                                      "--account", "a", "--resume"])

@@ -15,6 +15,7 @@ setting kind of default choices may_hold
 MR path case - - -
 MATERIALS path case - set -
 LANDMARKS path case - - -
+CHEST_WALL path case - - -
 SUPINE path case - - -
 SIDE name case left left|right -
 CASE name case - - -
@@ -55,6 +56,8 @@ class CaseSettings(unittest.TestCase):
                                                   "cohort\tany\ncohort-script\tslurm any\n")
         (self.pipelines / "materials/invivo.tsv").write_text("tissue\tc\nfat\t1\nwall\t2\n")
         (self.pipelines / "materials/seed2008.tsv").write_text("tissue\tc\nfat\t1\n")
+        for name in ("a.tsv", "a.nrrd"):
+            (self.folder / name).write_text("x")
         (self.pipelines / "studies/cost.tsv").write_text("variant\tstarts_at\nfine\tmesh\n")
         self.request = SettingsRequest(self.pipelines, "bin", False, ["chain"])
 
@@ -153,15 +156,32 @@ class CaseSettings(unittest.TestCase):
             self.assertIn(said, self.refusal(CASE_FILE=str(file)))
         self.assertIn("CASE_FILE: is empty", self.refusal(CASE_FILE=""))
 
+    def test_files_and_programs_that_are_not_there_are_refused_by_name(self):
+        self.assertIn("CHEST_WALL: 'none.vtp' does not exist", self.refusal(CHEST_WALL="none.vtp"))
+        self.assertIn("LANDMARKS: 'b.tsv' does not exist", self.refusal(LANDMARKS=f"{self.folder}/a.tsv,b.tsv"))
+        self.assertEqual(self.refusal(CHEST_WALL="runs/made-later.vtp"), "")
+        self.assertIn("FORWARD: '/no/such' is no program that can be run", self.refusal(FORWARD="/no/such"))
+        self.assertEqual(self.refusal(FORWARD="/bin/sh -e"), "")
+
+    def test_a_file_is_known_by_its_content(self):
+        def content():
+            return [line for line in self.lines(MATERIALS=str(self.folder / "a.tsv")) if line.startswith("content_MATERIALS")]
+        before = content()
+        self.assertRegex(before[0], "content_MATERIALS := [0-9a-f]{12}$")
+        (self.folder / "a.tsv").touch()
+        self.assertEqual(content(), before)
+        (self.folder / "a.tsv").write_text("y")
+        self.assertNotEqual(content(), before)
+
     def test_sets_and_parts_are_exchanged_for_the_case(self):
-        self.assert_lines({"LANDMARKS": "a.tsv"}, "prior_set := invivo", "override MATERIALS := runs/average/identified.tsv")
+        self.assert_lines({"LANDMARKS": f"{self.folder}/a.tsv"}, "prior_set := invivo", "override MATERIALS := runs/average/identified.tsv")
         self.assertIn("SUPINE: phantom is", self.refusal(SUPINE="phantom", MR="x.nrrd"))
         self.assertEqual(self.refusal(SUPINE="phantom"), "")
         self.assert_lines({"LEAVE_OUT": "no-skin no-gland"}, "override HEXMESH_OPTIONS += --skin 0",
                           "override MATERIALS := runs/average/fat-only.tsv",
                           f"override whole_set := {self.pipelines}/materials/invivo.tsv")
         self.assertFalse([line for line in self.lines(LEAVE_OUT="no-skin") if "PRONE" in line.split(":=")[0].split()])
-        self.assert_lines({"LEAVE_OUT": "no-gland", "SUPINE": "a.nrrd"}, "override whole_set := runs/average/identified.tsv")
+        self.assert_lines({"LEAVE_OUT": "no-gland", "SUPINE": f"{self.folder}/a.nrrd"}, "override whole_set := runs/average/identified.tsv")
 
     def test_a_target_is_refused_if_the_case_cannot_have_it(self):
         def refused(goal, **given):

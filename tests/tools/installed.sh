@@ -55,6 +55,9 @@ said "Usage: breast compress " breast help compress
 said "  breast compress reference.vtkhdf" breast compress --help
 said "--side left|right" breast help run
 said "REDUCTION=P" breast help settings
+said "point x,y,z[:radius]" breast help TUMOUR
+said "a number from 1 to 95" breast help reduction
+said "average/page.html" breast page --dry-run
 said "average/report.html" breast demo --target report --dry-run
 said "laws (libbreast) " breast laws --version
 said "fibroglandular" breast laws seed2008

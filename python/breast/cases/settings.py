@@ -11,14 +11,17 @@ from ..command.nearest import suggestion
 from ..errors import BreastError
 from ..text_table import read_text
 from .case_file import read_case_file
+from .claim import claim_run
 from .goals import CaseKind, Goals
 from .make_text import LINE_END, make_assignment
-from .scan_identity import mixed_up
+from .scan_identity import content_of, mixed_up
 from .settings_table import Setting, check_characters, check_choice, material_set_file, read_settings
 
 DEFAULT_MATERIAL_SET = "invivo"
 # Breasts of these presets slide on their rib cage; the others are held at the chest wall, as in the paper.
 _SLIDING_PRESETS = ("average", "slim", "broad", "heavy")
+# Settings that name a file which users edit; LANDMARKS may name two.
+_EDITED = ("MATERIALS", "TUMOUR", "CHEST_WALL", "LANDMARKS", "SUPINE")
 _ENDINGS = (".nii.gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd", ".vtkhdf")
 
 
@@ -27,7 +30,7 @@ class SettingsRequest:
     """What make knows before any setting has a meaning.
 
     pipelines: folder of settings.tsv and goals.tsv; programs: folder of the programs, as make writes it; installed: false in a
-    source tree; command_line: names given to make, with their values before any expansion; environment: the same of the
+    source tree; maker: the process that will make the case, 0 if it only plans; command_line: names given to make, with their values before any expansion; environment: the same of the
     environment, where names that are not settings are ignored.
     """
 
@@ -35,6 +38,7 @@ class SettingsRequest:
     programs: str
     installed: bool = False
     goals: Sequence[str] = ()
+    maker: int = 0
     command_line: Mapping[str, str] = field(default_factory=dict)
     environment: Mapping[str, str] = field(default_factory=dict)
 
@@ -48,6 +52,7 @@ def settings_for_make(request: SettingsRequest) -> str:
         PHANTOM_MR, PHANTOM_TRUTH, TRUTH  files of the phantom; TRUTH is empty for a scan
         no_tumour                         not empty if the case has no tumour to follow
         prior_set, whole_set              the material set before an identification, and before the gland was left out
+        content_SETTING                   a digest of the file of the user's that the setting names, by whose content a stage knows it
 
     The command line overrides a case file, which overrides the environment. Raises BreastError, in one sentence that names the
     setting or the goal, for an unknown setting, a value or a case file that is refused, a goal that this case cannot have, and a
@@ -100,8 +105,13 @@ class _Decisions:
             reason = mixed_up(Path(self._value("RUN")), self._value("SIDE"), self._value("scan"))
             if reason:
                 raise BreastError(reason)
+        self._check_files()
+        self._know_contents()
         self._derive_sets()
         self._leave_out()
+        if self.goals.about_case() and self.request.maker:
+            claim_run(Path(self._value("RUN")), self.request.maker,
+                      {s.name: self._value(s.name) for s in self.settings if s.of_case or s.kind == "program"})
         return "".join(self.lines)
 
     def _value(self, name: str) -> str:
@@ -222,6 +232,28 @@ class _Decisions:
         hexmesh = self._value("HEXMESH_OPTIONS")
         self.has_tumour = "--tumour none" not in hexmesh if "--tumour" in hexmesh else self._value("TUMOUR") != "none"
         self._set("no_tumour", "" if self.has_tumour else "yes")
+
+    def _check_files(self) -> None:
+        """Refuses a program or a file that a setting names and that is not there, unless a rule makes it."""
+        for setting in self.settings:
+            value, given = self._value(setting.name), setting.name in self.request.command_line
+            if setting.kind == "program" and value and (given or self.request.installed):
+                program = value.split()[0]
+                if not (os.path.isfile(program) and os.access(program, os.X_OK)):
+                    raise BreastError(f"{setting.name}: '{program}' is no program that can be run; give its path, or leave "
+                                      f"{setting.name} out for libbreast's own")
+            for file in value.split(",") if setting.name in ("CHEST_WALL", "LANDMARKS", "SUPINE", "LABELS_TRUTH") and value else ():
+                if file != "phantom" and not file.startswith(self._value("RUNS") + "/") and not os.path.exists(file):
+                    raise BreastError(f"{setting.name}: '{file}' does not exist; check its name and folder")
+
+    def _know_contents(self) -> None:
+        """A file that was replaced by one with an older date is another file, and one that was only touched is the same."""
+        for name in _EDITED:
+            value = self._value(name)
+            names = [str(material_set_file(value, self.request.pipelines))] if name == "MATERIALS" else value.split(",")
+            contents = [content_of(file)[:12] for file in names
+                        if os.path.isfile(file) and not file.startswith(self._value("RUNS") + "/")]
+            self.lines.append(make_assignment("content_" + name, " ".join(contents)))
 
     def _derive_sets(self) -> None:
         """With landmarks in a second posture, or a supine scan of the same patient, the set MATERIALS is the prior, and the chain runs

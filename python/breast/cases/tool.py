@@ -35,8 +35,8 @@ def _named_value(word: str, start: int = 0) -> tuple[str, str]:
 
 def _settings(words: list[str], run: Run) -> str:
     from .settings import SettingsRequest, settings_for_make
-    return settings_for_make(SettingsRequest(Path(words[0]), words[1], words[2] == "installed", words[3].split(),
-                                             dict(map(_named_value, words[4:])), dict(os.environ)))
+    return settings_for_make(SettingsRequest(Path(words[0]), words[1], words[2] == "installed", words[3].split(), int(words[4]),
+                                             dict(map(_named_value, words[5:])), dict(os.environ)))
 
 
 def _rows(words: list[str], run: Run) -> str:
@@ -75,6 +75,11 @@ def _variants(words: list[str], run: Run) -> str:
 def _record(words: list[str], run: Run) -> None:
     from .scan_identity import remember_scan
     remember_scan(Path(words[0]), words[1], words[2])
+
+
+def _stage(words: list[str], run: Run) -> None:
+    from .stage import run_stage
+    run_stage(Path(words[0]), words[1], words[2:])
 
 
 def _attempt(words: list[str], run: Run) -> None:
@@ -121,9 +126,10 @@ def _table(words: list[str], run: Run) -> None:
 
 # In the order of their use: reading, refusing, running.
 KINDS = {
-    "settings": Kind("PIPELINES PROGRAMS installed|built 'GOAL...' NAME=VALUE...",
+    "settings": Kind("PIPELINES PROGRAMS installed|built 'GOAL...' MAKE_PID|0 NAME=VALUE...",
                      "prints all settings as assignments for make, completed from the case file, the environment and the defaults; "
-                     "fails if a setting, a value, a target or the scan of the folder RUN is refused", 4, _settings),
+                     "fails if a setting, a value, a target or the scan of the folder RUN is refused, or if another process makes the case "
+                     "with other settings; 0: a plan, which makes nothing", 5, _settings),
     "rows": Kind("TABLE.tsv TEMPLATE", "prints, for every row, its cells as variables of make cell_COLUMN, and evaluates the variable "
                  "TEMPLATE", 2, _rows),
     "cohort": Kind("COHORT KEY...", "prints the case files of a folder as assignments for make", 1, _cohort),
@@ -133,6 +139,8 @@ KINDS = {
     "nearest": Kind("WORD CANDIDATE...", "prints the candidate that is most similar to WORD, for messages about typing errors", 2,
                     lambda words, run: suggestion(words[0], words[1:])),
     "record": Kind("RUN SIDE SCAN", "records scan and side in RUN/.scan", 3, _record),
+    "stage": Kind("RECORD 'SETTINGS' -- COMMAND...", "runs a stage, says in one line what it found, and records its settings; all else "
+                  "that it says is in log.txt beside the record", 3, _stage),
     "attempt": Kind("STAGE.json 'INPUT...' -- COMMAND...",
                     "runs a stage of a variant; if it has no solution, the report gives the reason", 3, _attempt),
     "ladder": Kind("RUN MM 'POINT...' 'TABULATE...' -- MAKE...", "solves points of the study `cost` until the estimated error is below "

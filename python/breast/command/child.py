@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import ctypes
 import os
+import select
 import signal
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import IO, NamedTuple
 
 from ..errors import Failed
@@ -60,3 +61,24 @@ def capture_child(words: Sequence[str]) -> Captured:
     child = _start(words, subprocess.PIPE, subprocess.PIPE)
     out, err = child.communicate()
     return Captured(_code(child.returncode), os.fsdecode(out), os.fsdecode(err))
+
+
+def follow_child(words: Sequence[str], say: Callable[[str], None], tick: Callable[[], None]) -> int:
+    """The same, with every line of the output and of the messages given to `say`; `tick` is called about once a second meanwhile."""
+    before = [(number, signal.signal(number, signal.SIG_IGN)) for number in (signal.SIGINT, signal.SIGQUIT)]
+    try:
+        child = _start(words, subprocess.PIPE, subprocess.STDOUT)
+        rest = b""
+        while True:
+            tick()
+            if not select.select([child.stdout], [], [], 1.0)[0]:
+                continue
+            piece = os.read(child.stdout.fileno(), 1 << 16)
+            *lines, rest = (rest + piece).replace(b"\r", b"\n").split(b"\n")
+            for line in lines if piece else filter(None, [rest]):
+                say(os.fsdecode(line))
+            if not piece:
+                return _code(child.wait())
+    finally:
+        for number, handler in before:
+            signal.signal(number, handler)

@@ -2,18 +2,19 @@
 """The commands of `breast` other than the tools, and its pages of help."""
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from .installation import Installation
 
 COMMANDS = {
     "run": "the whole chain on a breast MR scan",
     "demo": "the whole chain on a simulated breast whose truth is known",
+    "page": "the page on which a point of one view shows its curve in the other, of a scan or of the simulated breast",
     "cohort": "the whole chain on every case of a folder",
     "list": "list the tools, one per line",
-    "help": "help on a command or a tool; `help settings` lists the targets and settings of the pipeline",
+    "help": "help on a command, a tool or a setting; `help settings` lists the targets and settings of the pipeline",
 }
-PIPELINE_COMMANDS = ("run", "demo", "cohort")
+PIPELINE_COMMANDS = ("run", "demo", "page", "cohort")
 SUMMARY = "from a breast MR scan to a mechanical model: all tools and the pipeline under one name"
 
 
@@ -37,10 +38,10 @@ def overview(installation: Installation) -> str:
             f"\nDocumentation: {installation.documentation}; manual pages: man breast, man breast-compress\n")
 
 
-def unknown_command(installation: Installation, given: str) -> str:
-    """"'segmnt' is neither a command nor a tool; did you mean 'segment'?", with up to three names."""
+def unknown_command(installation: Installation, given: str, more: Iterable[str] = ()) -> str:
+    """"'segmnt' is neither a command nor a tool; did you mean 'segment'?", with up to three names, also of `more`."""
     from .nearest import nearest
-    names, near = [*COMMANDS, *installation.tools], []
+    names, near = [*COMMANDS, *installation.tools, *more], []
     while len(near) < 3 and (best := nearest(given, names)):
         near.append(best)
         names.remove(best)

@@ -35,7 +35,7 @@ def _become(program: str, words: Sequence[str]) -> int:
 
 def _help(installation: Installation, words: Sequence[str]) -> int:
     from .declaration import help_text
-    from .pipeline import settings_help
+    from .pipeline import pipeline_settings, setting_help, settings_help
     from .request import pipeline_command
     what = words[0] if words else "help"
     if what in PIPELINE_COMMANDS:
@@ -46,7 +46,10 @@ def _help(installation: Installation, words: Sequence[str]) -> int:
         return _become(installation.tool(what), ["--help"])
     if what in ("help", "list"):
         return _print(overview(installation))
-    raise BreastError(unknown_command(installation, what))
+    setting = setting_help(installation, what)
+    if setting:
+        return _print(setting)
+    raise BreastError(unknown_command(installation, what, pipeline_settings(installation)))
 
 
 def _page(page: str) -> int:

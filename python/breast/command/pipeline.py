@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -72,21 +73,14 @@ def _make_file(installation: Installation) -> str:
     return name
 
 
-def _written(file: str) -> int | None:
-    return os.stat(file).st_mtime_ns if os.path.exists(file) else None
-
-
 def _make_and_show(words: Sequence[str], run: str) -> int:
-    """Runs the stages. A new summary is printed when it is made; one that was up to date is printed here."""
-    table = os.path.join(run, "summary.txt")
-    before = _written(table)
+    """Runs the stages and says where the results are, or where to look if a stage failed."""
     code = run_child(words)
     if code != 0:
-        sys.stderr.write(f"breast: stopped; finished results are in {run}, and the same command continues from there\n")
+        sys.stderr.write(f"breast: stopped; what the stages said is in {run}/log.txt, finished results are in {run}, and the same command "
+                         "continues from there\n")
         return code if code > 128 else 1
-    if words[-1] == "summary" and before is not None and before == _written(table):
-        sys.stdout.write(read_text(table))
-    print(f"Results: {run}")
+    print(f"Results: {run}/page.html" if words[-1] == "page" else f"Results: {run}")
     if words[-1] == "summary":
         print("More: the same command with --target report (one page for reading and printing), page (both views, interactive) or slicer")
     return 0
@@ -96,6 +90,33 @@ def pipeline_settings(installation: Installation) -> list[str]:
     """The settings of the pipeline by name; empty if make fails to list them."""
     made = capture_child(["make", "-s", "-f", _make_file(installation), "settings"])
     return made.out.split() if made.exit_code == 0 else []
+
+
+def setting_help(installation: Installation, name: str) -> str:
+    """What a setting does, what it accepts and its default; "" if there is no such setting."""
+    from ..cases.settings_table import read_settings
+    setting = next((s for s in read_settings(Path(installation.pipelines)) if s.name == name.upper()), None)
+    if setting is None:
+        return ""
+    lines, found = settings_help(installation).splitlines(), []
+    for line in lines[lines.index("settings") + 1:]:
+        if line.startswith("   ") and found:
+            found.append(line)
+        elif re.search(rf"\b{setting.name}=", line.split("  ")[1] if line.startswith("  ") else ""):
+            found = [line]
+        elif found:
+            break
+    if not found:
+        found = [f"  {setting.name}=..."]
+    kind, *bounds = setting.choices or ("set",)
+    if kind in ("number", "integer"):
+        what = "a number" if kind == "number" else "a whole number"
+        found.append(f"  accepts: {what}" + (f" from {bounds[0]} to {bounds[1]}" if bounds else ""))
+    elif kind != "set" and not kind.startswith("rows:") and "place" not in bounds:
+        found.append("  accepts: " + " ".join(setting.choices).replace("%", "..."))
+    if setting.default:
+        found.append("  default: " + setting.default)
+    return "\n".join(found) + "\n"
 
 
 def settings_help(installation: Installation) -> str:

@@ -17,7 +17,7 @@ _SETTING = re.compile(r"[A-Z_0-9]+=.*", re.DOTALL)
 
 @dataclass
 class PipelineRequest:
-    """command: run, demo or cohort; scan: for run a file or folder, for cohort the folder of case files; side: left, right, or empty;
+    """command: run, demo, page or cohort; scan: for run a file or folder, for cohort the folder of case files; side: left, right, or empty;
     plan: only print the commands; slurm, local: for cohort a job array, or processes on this machine; settings: given as SETTING=value.
     """
 
@@ -82,6 +82,12 @@ def _declare_demo(d: Declaration, r: PipelineRequest) -> None:
                    ("breast demo PRESET=small ELEMENTS=6 'PHANTOM_OPTIONS=--coarse 2'", "a tiny breast, in about a minute")]
 
 
+def _declare_page(d: Declaration, r: PipelineRequest) -> None:
+    (_declare_run if r.scan else _declare_demo)(d, r)
+    r.target, r.scan = "page", ""
+    d.options = [option for option in d.options if option.label != "--target"]
+
+
 def _request_to_slurm(d: Declaration, r: PipelineRequest, name: str, placeholder: str, help: str) -> None:
     setting = "CLUSTER_" + name.lstrip("-").upper()
 
@@ -121,7 +127,7 @@ def _declare_cohort(d: Declaration, r: PipelineRequest) -> None:
 
 
 def _declare(r: PipelineRequest) -> Declaration:
-    declare = {"run": _declare_run, "demo": _declare_demo, "cohort": _declare_cohort}.get(r.command)
+    declare = {"run": _declare_run, "demo": _declare_demo, "page": _declare_page, "cohort": _declare_cohort}.get(r.command)
     if declare is None:
         raise Failed(f"no command {r.command}")
     d = Declaration("breast " + r.command, COMMANDS[r.command])
@@ -130,8 +136,14 @@ def _declare(r: PipelineRequest) -> Declaration:
 
 
 def pipeline_command(name: str) -> Declaration:
-    """The declaration of `run`, `demo` or `cohort` for help and completion. Raises Failed for another name."""
-    d = _declare(PipelineRequest(name))
+    """The declaration of `run`, `demo`, `page` or `cohort` for help and completion. Raises Failed for another name."""
+    d = _declare(PipelineRequest(name, scan="SCAN" if name == "page" else ""))
+    if name == "page":
+        d.positionals[0].placeholder = "[SCAN]"
+        d.paragraphs = ["Runs the pipeline as `breast run` does on a scan, or as `breast demo` if none is given, as far as the page RUN/page.html: "
+                        "pointing at a place in one view shows the curve on which it lies in the other, with its band."]
+        d.examples = [("breast page", "runs/average/page.html"),
+                      ("breast page scan.nrrd --side left", "runs/scan-left/page.html")]
     d.positionals.append(Argument("text", (), "[SETTING=value]", "a setting of the pipeline: `breast help settings` lists them",
                                   repeatable=True))
     return d
@@ -146,7 +158,7 @@ def breast_declaration() -> Declaration:
         "`breast run SCAN --side left|right [SETTING=value]...` runs the whole chain on a scan, `breast demo` on a simulated breast, "
         "`breast cohort DIR` on every case file of a folder. They work from any folder; results are written to ./runs or to the folder "
         "given by --runs."]
-    d.positionals += [Argument("text", (), "COMMAND", "run, demo, cohort, list, help, or the name of a tool"),
+    d.positionals += [Argument("text", (), "COMMAND", "run, demo, page, cohort, list, help, or the name of a tool"),
                       Argument("text", (), "ARGUMENT", "arguments of the command", repeatable=True)]
     for option in pipeline_command("run").options + pipeline_command("cohort").options:
         if d.option(option.label) is None:
@@ -154,7 +166,8 @@ def breast_declaration() -> Declaration:
     d.options += [Argument("flag", ("--help",), "", "the commands and tools"), Argument("flag", ("--version",), "", "name and version")]
     d.examples += [("breast demo", "the whole chain on a simulated breast; results in ./runs/average"),
                    ("breast run scan.nrrd --side left", "the whole chain on a scan; results in ./runs/scan-left"),
-                   ("breast help compress", "the help of a tool")]
+                   ("breast help compress", "the help of a tool"),
+                   ("breast help TUMOUR", "what a setting does")]
     return d
 
 
@@ -181,7 +194,7 @@ def _check(r: PipelineRequest) -> None:
         raise BreastError(f"{scan} is not a setting here: " +
                           ("breast run SCAN is for scans" if r.command == "demo" else "it is the first argument"))
     side = r.settings.get("SIDE")
-    if r.command == "run" and not r.side and side is None:
+    if (r.command == "run" or r.scan and r.command == "page") and not r.side and side is None:
         raise BreastError("--side left|right is missing: which breast of the patient is it?")
     if r.side and side is not None and side != r.side:
         raise BreastError(f"--side {r.side} and SIDE={side} contradict each other")
@@ -199,6 +212,9 @@ def _check(r: PipelineRequest) -> None:
 def parse_request(command: str, words: Sequence[str]) -> PipelineRequest:
     """Raises BreastError for an unknown option, a superfluous word, a setting given twice, or a side that is missing or contradicted."""
     r = PipelineRequest(command)
+    if command == "page":  # of a scan, if one is given
+        given = tokenize(pipeline_command("run"), words).positionals
+        r.scan = next((word for word in given if not _SETTING.fullmatch(word) or os.path.exists(word)), "")
     d = _declare(r)
     tokens = tokenize(d, words)
     _take_settings(tokens, bool(d.positionals), r.settings)

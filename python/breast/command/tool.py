@@ -196,7 +196,8 @@ class Tool:
     def _complain(self, outcome: tuple[int, str, str]) -> int:
         if outcome[0] != 0:
             sys.stdout = open(os.devnull, "w")  # what could not be written is not tried again at the end
-            os.write(2, f"{self.declaration.name}: {outcome[2]}\n".encode("utf-8", "surrogateescape"))
+            if outcome[2]:
+                os.write(2, f"{self.declaration.name}: {outcome[2]}\n".encode("utf-8", "surrogateescape"))
         return outcome[0]
 
     @staticmethod
