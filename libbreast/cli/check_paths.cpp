@@ -53,10 +53,30 @@ bool may_be_read(const NamedPath& named) {
   return named.argument->kind == ArgumentKind::text && fs::exists(named.path, ignored);
 }
 
+// "; `backward` makes it" for a file of the chain, which is known by its name.
+std::string maker_of(const fs::path& path) {
+  const std::string name = path.filename().string();
+  for (const auto& [file, tool] : {std::pair("labels.vtkhdf", "segment"),
+                                   {"points.vtp", "segment"},
+                                   {"geometry.vtkhdf", "fit-hermite"},
+                                   {"mesh.vtkhdf", "hexmesh"},
+                                   {"reference.vtkhdf", "backward"},
+                                   {"supine.vtkhdf", "forward"},
+                                   {"cc.vtkhdf", "compress"},
+                                   {"mlo.vtkhdf", "compress"},
+                                   {"cc.vti", "project-mammogram"},
+                                   {"mlo.vti", "project-mammogram"},
+                                   {"curve.vtp", "cc2mlo"},
+                                   {"lookup.h5", "match-lookup"}})
+    if (name == file) return message("; `", tool, "` makes it");
+  return "";
+}
+
 void check_input(const fs::path& path, const std::string& label) {
   std::error_code reason;
   const fs::file_status status = fs::status(path, reason);
-  if (!fs::exists(status)) throw input_error(label, ": ", path.string(), " does not exist");
+  if (!fs::exists(status))
+    throw input_error(label, ": ", path.string(), " does not exist", maker_of(path));
   if (!fs::is_regular_file(status) && !fs::is_directory(status)) {
     throw input_error(label, ": ", path.string(),
                       " is a device or pipe; copy its content to a file first");

@@ -78,6 +78,7 @@ class Programs(unittest.TestCase):
                 (["in.tsv", "more"], "'more' is one argument too many; usage: example IN.tsv [options]"),
                 ([], "IN.tsv is missing; usage: example IN.tsv [options]"),
                 (["none.tsv"], "IN.tsv: none.tsv does not exist"),
+                (["x/mesh.vtkhdf"], "IN.tsv: x/mesh.vtkhdf does not exist; `hexmesh` makes it"),
                 (["in.tsv", "-o", "in.tsv"], "--output: in.tsv is also the input IN.tsv; give another output"),
                 (["in.tsv", "-o", "out.txt"], "--output: out.txt: the name must end with .tsv, which states its format"),
                 (["in.tsv", "-o", "no/out.tsv"], "--output: folder no does not exist; make it first")]:

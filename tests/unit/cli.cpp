@@ -108,6 +108,13 @@ TEST(Cli, UsageErrorsAreOneLineAndNothingRuns) {
   }
 }
 
+TEST(Cli, AMissingFileOfTheChainNamesItsProgram) {
+  Trial trial;
+  EXPECT_EQ(trial.run({"/no-such-folder/reference.vtkhdf", trial.result()}), 2);
+  EXPECT_NE(trial.err.find("reference.vtkhdf does not exist; `backward` makes it\n"), std::string::npos)
+      << trial.err;
+}
+
 // A gravity in m/s2 or in multiples of the earth's is refused before anything is solved.
 TEST(Cli, AGravityInAnotherUnitIsAskedAbout) {
   const auto refusal = [](const std::function<void()>& parse) {

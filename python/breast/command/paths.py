@@ -22,11 +22,19 @@ def named_values(tool: Declaration, tokens: Tokens) -> list[tuple[Argument, str]
     return found
 
 
+# The programs that make the files of the chain, which are known by their names.
+_MAKERS = {"labels.vtkhdf": "segment", "points.vtp": "segment", "geometry.vtkhdf": "fit-hermite", "mesh.vtkhdf": "hexmesh",
+           "reference.vtkhdf": "backward", "supine.vtkhdf": "forward", "cc.vtkhdf": "compress", "mlo.vtkhdf": "compress",
+           "cc.vti": "project-mammogram", "mlo.vti": "project-mammogram", "curve.vtp": "cc2mlo", "lookup.h5": "match-lookup"}
+
+
 def _check_input(path: str, label: str) -> None:
     try:
         mode = os.stat(path).st_mode
     except OSError:
-        raise BreastError(f"{label}: {path} does not exist") from None
+        tool = _MAKERS.get(os.path.basename(path))
+        hint = f"; `{tool}` makes it" if tool else ""
+        raise BreastError(f"{label}: {path} does not exist{hint}") from None
     if not stat.S_ISREG(mode) and not stat.S_ISDIR(mode):
         raise BreastError(f"{label}: {path} is a device or pipe; copy its content to a file first")
     if not os.access(path, os.R_OK):
