@@ -24,7 +24,7 @@ endif
 FORCE:
 
 ifndef INSTALLED
-SOURCES := $(shell find $(addprefix $(ROOT),libbreast tools cmake) $(PIPELINES)/materials -type f -not -name '.*') \
+SOURCES := $(shell find $(addprefix $(ROOT),libbreast tools python cmake) $(PIPELINES)/materials -type f -not -name '.*' -not -name '*.pyc') \
   $(ROOT)CMakeLists.txt $(ROOT)CMakePresets.json
 PRESET_BUILD ?= release
 presets := release debug asan readers package bench ci

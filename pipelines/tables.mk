@@ -3,66 +3,46 @@
 # is scaled. Each row is a backward and a forward solve (studies/scaled.tsv); each table shows the paper's values and ours. The
 # paper's data set is private: with the phantom the rows are comparable, with a scan only the trends are. Every table is made
 # twice: with the case's own mesh and mechanics (tableN.tsv), and as printed in the paper (tableN-as-printed.tsv).
-# Tables VII and VIII are not in the paper: slopes from one solve, and the conclusions under other material sets.
+# Not in the paper: Table VII, slopes from one solve compared with the rows solved again (`sensitivity` on the base state); Table VIII,
+# the paper's conclusions under the material sets of studies/table8.tsv; and findings, the numerical part of the paper's values, from
+# comparison with the finest solution (about FINDINGS_FINEST^3 27-node elements).
 TABLES := $(RUN)/tables
-PAPER_TABLES := 3 4 5 6
-tissue_3 := fat
-tissue_4 := fibroglandular
-tissue_5 := skin
-tissue_6 := tumour
+PRINTED := $(if $(PAPER),,-as-printed)
+TABLE_NAMES := table2 $(foreach n,3 4 5 6,table$n $(addprefix table$n,$(PRINTED))) conclusions table7 $(if $(PAPER),,table8 findings)
+TABLE_FILES := $(if $(no_tumour),,$(TABLE_NAMES:%=$(TABLES)/%.tsv))
+
 # The rows of a table that are solved: all except the case itself. Table VI has a mesh of its own, on which 100 per cent is solved.
-rows_of = $(call results,$1,$(filter $2-%,$(filter-out tumour-mesh,$(scaled_variants))),supine)
-BOTH := own $(if $(PAPER),,printed)
-ending_printed := -as-printed
-base_own := $(RUN)/supine.vtkhdf
-base_printed := $(call study_dir,findings/as-printed)/supine.json
-
-$(foreach n,2 7 8,$(eval table$n: $(TABLES)/table$n.tsv))
-findings: $(TABLES)/findings.tsv
-	@cat $<
-TABLE_FILES := $(if $(no_tumour),,$(foreach m,$(BOTH),$(foreach n,$(PAPER_TABLES),$(TABLES)/table$n$(ending_$m).tsv)) \
-  $(addprefix $(TABLES)/,table2.tsv conclusions.tsv table7.tsv $(if $(PAPER),,table8.tsv findings.tsv)))
-tables: $(TABLE_FILES)
-	@for table in $(TABLES)/conclusions.tsv $(if $(PAPER),,$(TABLES)/table8.tsv $(TABLES)/findings.tsv); do echo; cat $$table; done
-.PHONY: table2 table3 table4 table5 table6 table7 table8 tables findings
-$(TABLE_FILES): | $(TABLES)/.
-$(TABLES)/.:
-	@mkdir -p $@
-
-# $(call table_rules,MODEL,NUMBER,TISSUE): the relative displacements in Table VI refer to its own mesh.
-define table_rules
-table$2: $(TABLES)/table$2$(ending_$1).tsv
-$(TABLES)/table$2$(ending_$1).tsv: $(PIPELINES)/paper/table$2.tsv $(call rows_of,scaled$(ending_$1),$3) $(base_$1) $(TABULATE)
-	$$(call table,$$(tabulate) scaled $$< $$(call study_dir,scaled$(ending_$1))/$3 $(if $(filter tumour,$3),$$(call \
-	  study_dir,scaled$(ending_$1)/tumour-100)/supine.vtkhdf,$$(basename $$(base_$1)).vtkhdf))
-endef
-$(foreach m,$(BOTH),$(foreach n,$(PAPER_TABLES),$(eval $(call table_rules,$m,$n,$(tissue_$n)))))
-
-table2_settings := $(MATERIAL_TABLE)
-$(TABLES)/table2.tsv: $(PIPELINES)/paper/table2.tsv $(MATERIAL_TABLE) $(TABULATE) $(call changed,table2)
-	$(call table,$(tabulate) constants $< $(MATERIAL_TABLE))
-	@$(call record,table2)
-
-# The conclusions, from three models: the values of the paper, the model as printed, and the case as solved.
-$(TABLES)/conclusions.tsv: $(PIPELINES)/paper/conclusions.tsv $(foreach m,$(BOTH),$(PAPER_TABLES:%=$(TABLES)/table%$(ending_$m).tsv)) $(TABULATE)
-	$(call table,$(tabulate) conclusions $< $(TABLES) $(if $(PAPER),,as-printed))
-
-# Table VII (not in the paper): all slopes from one solve of `sensitivity` on the base state, compared with the rows solved again.
-$(TABLES)/table7.tsv: $(RUN)/slopes.tsv $(call results,scaled,tumour-100,slopes) $(foreach n,$(PAPER_TABLES),$(call rows_of,scaled,$(tissue_$n))) \
-  $(TABULATE)
-	$(call table,$(tabulate) slopes $(RUN)/supine.json $(call study_dir,scaled) $< $(call study_dir,scaled/tumour-100)/slopes.tsv)
-	@cat $@
-
-# The numerical part of the paper's values, from comparison with the finest solution (about FINDINGS_FINEST^3 27-node elements).
-$(TABLES)/findings.tsv: $(RUN)/slopes.tsv $(call results,findings,$(findings_variants),slopes) $(TABULATE)
-	$(call table,$(tabulate) findings $(RUN) $(findings_variants))
-
-# Table VIII (not in the paper): the paper's conclusions on the mesh of the case with the sets of studies/table8.tsv; the slopes of
-# each set come from one solve.
+rows_of = $(foreach ending,own $(PRINTED),$(call results,scaled$(ending:own=),$(filter $1-%,$(filter-out tumour-mesh,$(scaled_variants))),supine))
+case_of := $(RUN)/supine.vtkhdf $(if $(PRINTED),$(call study_dir,findings/as-printed)/supine.json)
+# The sets of Table VIII; their slopes come from one solve each.
 SETS := $(filter-out %-100 %-1000 %-2000,$(table8_variants))
+# What each table is made from.
+of_table2 := $(MATERIAL_TABLE)
+of_table3 := $(call rows_of,fat) $(case_of)
+of_table4 := $(call rows_of,fibroglandular) $(case_of)
+of_table5 := $(call rows_of,skin) $(case_of)
+of_table6 := $(call rows_of,tumour)
+of_conclusions := $(foreach n,3 4 5 6,$(of_table$n)) $(CURVE) $(RUN)/cc.vti $(RUN)/mlo.vti
+of_table7 := $(RUN)/slopes.tsv $(call results,scaled,tumour-100,slopes) $(foreach n,3 4 5 6,$(of_table$n))
+of_table8 := $(of_conclusions) $(RUN)/slopes.tsv $(call results,table8,$(SETS),slopes) \
+  $(call results,table8,$(filter-out $(SETS),$(table8_variants)),supine)
+of_findings := $(RUN)/slopes.tsv $(call results,findings,$(findings_variants),slopes)
+
+# One call makes all tables.
+tables: $(TABLE_FILES)
+	@$(tabulate) show $(RUN)
+tables_settings := $(MATERIAL_TABLE) $(content_MATERIALS)
+$(TABLE_FILES) &: $(sort $(foreach t,$(TABLE_NAMES),$(of_$t))) $(wildcard $(PIPELINES)/paper/*.tsv) $(TABULATE) $(call changed,tables)
+	$(tabulate) tables $(RUN) $(MATERIAL_TABLE) $(TABLE_NAMES)
+	@$(call record,tables)
+# One table alone, after the solves that it needs: table8 and conclusions are judged from Tables III to VI.
+first_table8 := table3 table4 table5 table6
+table2 table3 table4 table5 table6 table7 table8 findings: $(TABULATE)
+	$(tabulate) tables $(RUN) $(MATERIAL_TABLE) $(filter $(foreach t,$(first_$@) $@,$t $t-as-printed),$(TABLE_NAMES))
+	@cat $(TABLES)/$@.tsv
+$(foreach t,table2 table3 table4 table5 table6 table7 table8 findings,$(eval $t: $(of_$t)))
+.PHONY: tables table2 table3 table4 table5 table6 table7 table8 findings
+
 $(RUN)/columns.tsv: $(PIPELINES)/materials/seed2008.tsv
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) set columns $<)
-$(TABLES)/table8.tsv: $(PIPELINES)/paper/conclusions.tsv $(PAPER_TABLES:%=$(TABLES)/table%.tsv) $(RUN)/slopes.tsv \
-  $(call results,table8,$(SETS),slopes) $(call results,table8,$(filter-out $(SETS),$(table8_variants)),supine) $(TABULATE)
-	$(call table,$(tabulate) survival $< $(RUN) $(SETS))

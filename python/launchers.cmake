@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # breast_launcher(NAME MODULE): the program NAME is the function main() of the Python module MODULE: a script of a few lines, in the
 # build bin/NAME with the package of the source tree, and installed with the package beside it. It is a tool like those of C++ unless
-# it is the command `breast` itself.
+# it is the command `breast` itself. Its time is that of the newest file in the module's folder, so that make repeats what a changed
+# program has made.
 function(breast_launcher name module)
   set(python ${PROJECT_SOURCE_DIR}/python)
   set(script ${PROJECT_BINARY_DIR}/launchers/${name})
@@ -9,7 +10,12 @@ function(breast_launcher name module)
     FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
   # An output of the build, so that ninja does not remove it as left over from a program of C++ with this name.
   set(output ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name})
-  add_custom_command(OUTPUT ${output} DEPENDS ${script} COMMAND ${CMAKE_COMMAND} -E copy ${script} ${output} VERBATIM)
+  string(REGEX REPLACE "[.][^.]*$" "" folder ${module})
+  string(REPLACE "." "/" folder ${folder})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${python}/${folder}/*)
+  list(FILTER sources EXCLUDE REGEX "/__pycache__/")
+  add_custom_command(OUTPUT ${output} DEPENDS ${script} ${sources} COMMAND ${CMAKE_COMMAND} -E copy ${script} ${output}
+    COMMAND ${CMAKE_COMMAND} -E touch ${output} VERBATIM)
   add_custom_target(${name} ALL DEPENDS ${output})
   set_property(GLOBAL APPEND PROPERTY BREAST_LAUNCHERS ${name}=${module})
   if(NOT name STREQUAL "breast")

@@ -148,7 +148,7 @@ std::string pairs_page(const std::string& tool) {
   for (const Shared what : all_shared)
     page += "- **" + shared_name(what) + "**: " + meaning(what) + "\n";
   page +=
-      "\nThis page is printed by `tabulate pairs all`.\n\n"
+      "\nThis page is printed by `pairs all`.\n\n"
       "| tool | first file | second file | must agree | `--accept-other` |\n|---|---|---|---|---|\n";
   for (const PairRule& rule : pair_rules()) {
     if (!tool.empty() && rule.tool != tool) continue;

@@ -36,8 +36,8 @@ def file_schema(file: str | os.PathLike[str]) -> str:
     return _with_file(_existing(file), "make it again", stated)
 
 
-def read_document(file: str | os.PathLike[str], schema: str) -> Document:
-    """Everything under /breast and /VTKHDF of a file of this schema.
+def read_document(file: str | os.PathLike[str], schema: str, only: tuple[str, ...] = ("",)) -> Document:
+    """Everything under /breast and /VTKHDF of a file of this schema, or `only` what begins with one of these paths.
 
     The seal is checked before HDF5 sees the file; one without a seal (edited with h5py) is parsed in a child process, since
     HDF5 can crash on damaged bytes. Raises BreastError, one line naming file and dataset, for a file that is missing,
@@ -48,7 +48,7 @@ def read_document(file: str | os.PathLike[str], schema: str) -> Document:
     advice = f"make it with {_MAKERS[schema]}"
 
     def parsed(h5: h5py.File) -> Document:
-        loader = _Loader(Document(path, {}, {}, advice), path.stat().st_size)
+        loader = _Loader(Document(path, {}, {}, advice), path.stat().st_size, only)
         loader.check_schema(h5, schema)
         for group in ("/breast", "/VTKHDF"):
             if h5.get(group, getlink=True) is not None:
@@ -86,8 +86,9 @@ def _existing(file: str | os.PathLike[str]) -> Path:
 
 
 class _Loader:
-    def __init__(self, document: Document, file_bytes: int) -> None:
+    def __init__(self, document: Document, file_bytes: int, only: tuple[str, ...]) -> None:
         self.document = document
+        self._only = only
         self._file_bytes = file_bytes
         self._spent = 0
         self._visited: set[int] = set()
@@ -123,7 +124,9 @@ class _Loader:
         if len(member) > 1000:
             raise refuse(f"group {path} holds {len(member)} members")
         for name in member:
-            self.load_group(h5, f"{path}/{name}", depth + 1)
+            below = f"{path}/{name}"
+            if any(below.startswith(wanted) or wanted.startswith(below + "/") for wanted in self._only):
+                self.load_group(h5, below, depth + 1)
 
     def _dataset(self, path: str, dataset: h5py.Dataset) -> np.ndarray:
         refuse = self.document.refuse

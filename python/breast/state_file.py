@@ -7,7 +7,7 @@ import os
 import numpy as np
 
 from .document import Document
-from .elements import FACE_CORNERS, LATTICE, boundary_faces
+from .elements import FACE_CORNERS, LATTICE, boundary_faces, order_of, shape_functions
 from .hdf5 import read_document
 from .history import read_history, read_side
 from .records import read_contact, read_model, read_solve
@@ -48,6 +48,20 @@ def read_state(file: str | os.PathLike[str]) -> State:
         (doc.text("/breast/template@name"), doc.integer_list("/breast/template@size", 4)), skin_model, thickness,
         read_model(doc), read_solve(doc), contact, history,
         float(doc.numbers("/VTKHDF/FieldData/wall_seconds", (1,))[0]))
+
+
+def read_landmark_places(file: str | os.PathLike[str]) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
+    """Where every landmark of a mesh file is in the scan and in the shape, LPS mm; reads nothing else of the file."""
+    doc = read_document(file, "mesh/1", ("/breast/landmarks/", "/VTKHDF/Points", "/VTKHDF/Connectivity", "/VTKHDF/Offsets",
+                                         "/VTKHDF/Types", "/VTKHDF/NumberOf", _POINT + "imaged"))
+    points = doc.places("/VTKHDF/Points")
+    hexahedra, imaged = _hexahedra(doc, len(points)), doc.places(_POINT + "imaged", len(points))
+    order = order_of(hexahedra.shape[1])
+    places = {}
+    for landmark in _landmarks(doc, len(hexahedra)).values():
+        weights, nodes = shape_functions(order, landmark.local[None])[0][0], hexahedra[landmark.element]
+        places[landmark.name] = (tuple(weights @ imaged[nodes]), tuple(weights @ points[nodes]))
+    return places
 
 
 def _numbers(doc: Document, path: str, count: int) -> np.ndarray:

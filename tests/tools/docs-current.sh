@@ -27,8 +27,8 @@ for program in "$programs"/*; do
   "$program" --help-man > "$fresh/man/$name.1"
 done
 # The table of the files that must belong together.
-if [ -x "$programs/tabulate" ]; then
-  "$programs/tabulate" pairs all > "$fresh/pairs.md"
+if [ -x "$programs/pairs" ]; then
+  "$programs/pairs" all > "$fresh/pairs.md"
 else
   cp "$root/docs/pairs.md" "$fresh"
 fi

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """named-files.py BIN: every file of a run that a program or its page names is made by a rule or by a program.
 
-Named are the file names in what reads runs (libbreast/study, python/breast/cases, the tabulate tools), the folders that they append to
+Named are the file names in what reads runs (python/breast/study, python/breast/cases), the folders that they append to
 a run, and the paths runs/CASE/... in the examples of all tools and on the pages. Made is what the makefile says it would make
 or pass to a program (its rules, and the plans of its goals on the demonstration and on the paper's model), and what a program writes
 under a fixed name. BIN holds the programs, of which `cases` plans.
@@ -17,7 +17,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 ENDINGS = "json|tsv|png|vtkhdf|vtp|vti|h5|html|mk|txt"
 PLANS = [("PRESET=average", "demo truth page slicer report"), ("PRESET=paper", "all leaveout cost wall-sensitivity band")]
-READERS = ["libbreast/study/**/*.cpp", "python/breast/cases/*.py", "tools/tabulate*.cpp"]
+READERS = ["python/breast/study/**/*.py", "python/breast/cases/*.py"]
 EXAMPLES = ["tools/*.cpp", "python/breast/command/*.py", "docs/**/*.md", "README.md"]
 
 
@@ -68,6 +68,8 @@ def main(programs: str) -> int:
     written = r'write\w*\([^;]*?"([\w/-]+\.\w+)"'
     for text in texts(["libbreast/**/*.cpp", "tools/*.cpp"]).values():
         made |= {name.split("/")[-1] for name in re.findall(written, text)}
+    for text in texts(["python/breast/**/*.py"]).values():
+        made |= set(re.findall(r'write_text\([^\n]*?"([\w-]+\.\w+)"', text))
     made |= {file.name for file in (ROOT / "pipelines").rglob("*")}
     # cc2mlo writes NAME-summary.tsv beside its table NAME.tsv.
     made |= {f"{name[:-4]}-summary.tsv" for name in made if name.endswith(".tsv")}

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the reports of solves state: outcomes of studies, breasts between plates, the error budget, comparison with CalculiX."""
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..text_table import parse_number
+from ..errors import BreastError
+from .kinds import Request, kind
+from .shapes import apart, moved
+from .stage_report import StageReport, failure_of, variant_of
+from .table import NO_VALUE, Table, fixed, general, one_line, or_dash, shortest, table_if_any
+
+# ---- outcomes of studies ---------------------------------------------------------------------------------------------
+
+_STUDY_STAGES = ("labels", "geometry", "mesh", "reference", "supine", "cc", "mlo", "curve", "slopes")
+_SHAPES = ("reference", "supine", "cc", "mlo")
+
+
+def outcomes_table(folder: Path, landmarks: list[str], variants: list[str]) -> Table:
+    """One row a report FOLDER/VARIANT/STAGE.json: status, the reason if it ended early, elements, CPU seconds and, if a shape was
+    found, the distance of its landmarks from their imaged positions in mm."""
+    table = Table(["variant", "stage", "status", "reason", "elements", "cpu_seconds", *(f"{name}_mm" for name in landmarks)])
+    for variant in variants:
+        for stage in _STUDY_STAGES:
+            file, shape = folder / variant / f"{stage}.json", folder / variant / f"{stage}.vtkhdf"
+            if not file.exists():
+                continue
+            report = StageReport.read(file)
+            elements = report.first("elements")
+            found = stage in _SHAPES and shape.exists()
+            table.rows.append([
+                Path(variant).name, stage, or_dash(one_line(report.text("status"))), or_dash(one_line(report.text("reason"))),
+                NO_VALUE if elements is None else shortest(elements), fixed(report.number("cpu_seconds"), 2),
+                *(fixed(moved(shape, name), 4) if found else NO_VALUE for name in landmarks)])
+    return table
+
+
+@kind("study", "FOLDER LANDMARK,... VARIANT...", "outcome of every stage in the variants FOLDER/VARIANT")
+def _study(request: Request) -> Table:
+    return outcomes_table(request.path(0), request.word(1).split(","), request.rest(2))
+
+
+# ---- breasts between plates ------------------------------------------------------------------------------------------
+
+Columns = tuple[tuple[str, str, int], ...]
+"""Name, key of the report, decimals."""
+_BREAST: Columns = (("turn_deg", "turn_deg", 1), ("T0_mm", "initial_thickness_mm", 1), ("T_mm", "thickness_mm", 1))
+_PRESS: Columns = (("paddle_N", "force_N", 1), ("detector_N", "detector_force_N", 1), ("area_cm2", "area_cm2", 1),
+                   ("mean_pressure_kPa", "pressure_kPa", 1))
+_SOLUTION: Columns = (("worst_gap_mm", "worst_gap_mm", 3), ("min_scaled_jacobian", "min_scaled_jacobian", 3),
+                      ("iterations", "newton_iterations", 0), ("cpu_seconds", "cpu_seconds", 0))
+_COVERAGE: Columns = (("volume_in_front_percent", "coverage/volume_percent", 1),
+                      ("gland_in_front_percent", "coverage/fibroglandular_percent", 1),
+                      ("thrust_into_wall_N", "thrust_into_wall_N", 1))
+_PRESS_COLUMNS = [*(c[0] for c in _PRESS), "paddle_behind_edge_percent", "detector_behind_edge_percent", *(c[0] for c in _SOLUTION)]
+
+
+def compressions_table(reports: list[Path]) -> Table:
+    """One row a report CASE/VIEW.json of `compress`, named by its folder: thickness in mm, forces in N, area in cm2, pressure in kPa,
+    shares of force, volume and gland in per cent."""
+    table = Table(["breast", "view", "status", *(c[0] for c in _BREAST), *_PRESS_COLUMNS, *(c[0] for c in _COVERAGE)])
+    for file in reports:
+        report = StageReport.read(file)
+        table.rows.append([file.parent.name, report.text("view") or file.stem, or_dash(one_line(report.text("status"))),
+                           *_cells(_BREAST, report), *_press_cells(report), *_cells(_COVERAGE, report)])
+    return table
+
+
+def plates_table(folder: Path, base: str, variants: list[str]) -> Table:
+    """One row a view (cc, mlo) and variant FOLDER/VARIANT that has a report of the view.
+
+    tumour_mm and nipple_mm are the distances of these landmarks from their positions in the variant `base`, or in the next variant
+    of the list if `base` is "next"; "-" where either has no shape.
+    """
+    table = Table(["view", "variant", "elements", *_PRESS_COLUMNS, "tumour_mm", "nipple_mm"])
+    for view in ("cc", "mlo"):
+        for k, variant in enumerate(variants):
+            report = StageReport.read(folder / variant / f"{view}.json")
+            if not report:
+                continue
+            other = variants[min(k + 1, len(variants) - 1)] if base == "next" else base
+            here, there = (folder / name / f"{view}.vtkhdf" for name in (variant, other))
+            both = other != variant and here.exists() and there.exists()
+            table.rows.append([report.text("view") or view, variant, fixed(report.number("elements"), 0), *_press_cells(report),
+                               *(fixed(apart(here, there, name), 2) if both else NO_VALUE for name in ("tumour", "nipple"))])
+    return table
+
+
+def _cells(columns: Columns, report: StageReport) -> list[str]:
+    return [fixed(report.number(key), decimals) for _, key, decimals in columns]
+
+
+def _press_cells(report: StageReport) -> list[str]:
+    return [*_cells(_PRESS, report), *(_behind_edge(report, plate) for plate in ("paddle", "detector")), *_cells(_SOLUTION, report)]
+
+
+def _behind_edge(report: StageReport, plate: str) -> str:
+    """The part of a plate's force that acts behind the edge of the image, in per cent."""
+    behind, whole = (report.number(f"plates/{plate}/{key}") for key in ("force_behind_edge_N", "force_N"))
+    return NO_VALUE if behind is None or whole is None or whole <= 0 else fixed(100 * behind / whole, 1)
+
+
+@kind("compressions", "REPORT.json...",
+      "breasts between plates, one row per report of compress: forces, pressure, coverage and penetration")
+def _compressions(request: Request) -> Table:
+    return compressions_table(list(map(Path, request.words)))
+
+
+@kind("plates", "FOLDER BASE|next VARIANT...",
+      "the same for variants of one compression, FOLDER/VARIANT/{cc,mlo}, with the distances of tumour and nipple from those of the "
+      "variant BASE or of the next one")
+def _plates(request: Request) -> Table:
+    return plates_table(request.path(0), request.word(1), request.rest(2))
+
+
+# ---- error budget ----------------------------------------------------------------------------------------------------
+
+_REPLACED = {
+    "chain": ("labels", "geometry", "mesh", "reference", "supine", "truth-cc", "truth-mlo", "cc-mammogram", "mlo-mammogram"),
+    "segmentation": ("labels",), "body": ("labels", "geometry", "mesh"), "tissue": ("labels",),
+    "discretisation": ("reference", "supine", "truth-cc", "truth-mlo"), "backward": ("reference",),
+    "compression": ("reference", "truth-cc", "truth-mlo")}
+"""The stages of the chain that a row of the budget replaces."""
+
+
+def budget_table(run: Path, rows: list[str]) -> Table:
+    """The errors that remain when one stage is replaced by the truth: one row for the chain and for every RUN/budget/ROW.
+
+    Columns: mean and largest error in mm of the true positions in the stress-free and supine shapes; distance of their MLO positions
+    from the curve (mean, 95 %, largest); CPU seconds of the chain's own stages that the row replaces (for the chain: of all stages);
+    missing: the reason why a cell is "-".
+    """
+    table = Table(["replaced", "stress_free_mean_mm", "stress_free_largest_mm", "supine_mean_mm", "supine_largest_mm",
+                   "curve_mean_mm", "curve_p95_mm", "curve_largest_mm", "cpu_s", "missing"])
+    for name in ("chain", *rows):
+        landmarks, curves = (table_if_any(run / "budget" / name / file) for file in ("landmarks.tsv", "curves-summary.tsv"))
+        errors = [landmarks.number_at(which, f"{shape}_error_mm") if landmarks else None
+                  for shape in ("stress_free", "supine") for which in ("mean", "largest")]
+        errors += [curves.number_at(which, "true_to_curve_mm") if curves else None for which in ("mean", "p95", "largest")]
+        stages = _REPLACED.get(name)
+        cpu = sum(StageReport.read(run / f"{stage}.json").number("cpu_seconds") or 0 for stage in stages or ())
+        table.rows.append([name, *(fixed(mm, 3) for mm in errors), "0" if stages is None else fixed(cpu, 2), _missing(run, name)])
+    return table
+
+
+def _missing(run: Path, row: str) -> str:
+    said = ["stress-free, supine: not solved in this row"] if row == "compression" else []
+    for shape in _SHAPES:
+        solve = variant_of(run, "budget", row) / shape
+        failure = failure_of(solve)
+        if failure is not None:
+            said.append(f"{shape}: {one_line(StageReport.read(solve.with_name(shape + '.json')).text('reason') or failure)}")
+    return or_dash("; ".join(said))
+
+
+@kind("budget", "RUN ROW...", "errors that remain when one stage is replaced by the truth (RUN/budget/ROW)")
+def _budget(request: Request) -> Table:
+    return budget_table(request.path(0), request.rest(1))
+
+
+# ---- CalculiX --------------------------------------------------------------------------------------------------------
+
+
+def pressed_table(ours: Table, scene: str, gap: float, reached: float, force: str, iterations: int, cpu: float) -> Table:
+    """A block pressed between plates: CalculiX's result beside the output of bench_pressed_block.
+
+    The last row of that output is the requested state; its seconds and iterations are the sums over all rows.
+
+    Args:
+        gap: requested, in per cent of the block's height.
+        reached: fraction of the plates' motion that CalculiX reached, 0 to 1.
+        force: on the upper plate, N, as printed.
+    """
+    if not ours.rows:
+        raise BreastError("has no rows", ours.name)
+    rows = range(len(ours.rows))
+    newton, seconds = (sum(ours.number(r, column) for r in rows) for column in ("newton", "cpu_seconds"))
+    return Table(
+        ["scene", "gap_percent", "ccx_reached_gap_percent", "ccx_force_N", "our_force_N", "ccx_iterations", "our_newton",
+         "ccx_cpu_s", "our_cpu_s", "ccx_over_ours", "ours"],
+        [[scene, general(gap), fixed(100 - reached * (100 - gap), 1), force, ours.cell(rows[-1], "force_N"), str(iterations),
+          general(newton), fixed(cpu, 2), fixed(seconds, 2), fixed(cpu / seconds, 1) if seconds > 0 else NO_VALUE,
+          ours.cell(rows[-1], "status")]])
+
+
+@kind("pressed", "OURS.tsv SCENE GAP REACHED FORCE ITERATIONS SECONDS",
+      "block pressed between plates: CalculiX (results given as arguments) beside ours")
+def _pressed(request: Request) -> Table:
+    gap, reached, iterations, seconds = (parse_number(request.word(n), "pressed") for n in (2, 3, 5, 6))
+    return pressed_table(request.table(0), request.word(1), gap, reached, request.word(4), int(iterations), seconds)

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""tabulate: tables, verdicts and pages of runs, from their reports, tables and shapes."""
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+from ..command.tool import Run, Tool
+from ..errors import BreastError
+from . import summary, report, advice, verify, values, truth, documents  # noqa: F401, I001  the order of the help
+from . import run_tables, paper_tables, slopes, verdicts, findings, experiments, cost, leaveout, draws, cohort  # noqa: F401
+from .kinds import KINDS, Request, kind_called
+
+
+def calibrated(request: Request) -> Request:
+    """With CALIBRATED="REPORT SIDE", which the makefile exports for a phantom with a preset fitted to the chain."""
+    given = os.environ.get("CALIBRATED", "")
+    report_file, blank, side = given.rpartition(" ")
+    if not given.strip(" "):
+        return request
+    if not blank:
+        raise BreastError(f"CALIBRATED='{given}': is not REPORT.json SIDE")
+    return replace(request, calibrated=Path(report_file), side=side)
+
+
+def declaration() -> Tool:
+    tool = Tool("tabulate", "tables, verdicts and pages of finished runs")
+    tool.describe(
+        "Reads the JSON reports, TSV tables and shapes of finished runs and prints one table or page to stdout, either as "
+        "tab-separated text with a header line or as HTML. It runs no simulation. The pipeline makes all its tables and pages with "
+        "this tool, and each kind can also be made by hand. The kinds are:")
+    for known in KINDS.values():
+        tool.describe(f"{known.name} {known.arguments}: {known.help}.")
+    tool.describe(
+        "If a phantom's preset was fitted to results of the chain, the environment variable CALIBRATED=\"REPORT.json SIDE\" names the "
+        "phantom's report and side, and the rows to which it was fitted are marked.")
+    tool.word("KIND", "kind of table or page, from the list above")
+    tool.words("ARGUMENT", "arguments of that kind: files, folders and names")
+    tool.text("--pipelines", "FOLDER", "folder with the pipeline's own tables: advice.tsv, limits.txt, paper/, invivo/", "pipelines")
+    tool.check(lambda: kind_called(tool.args.kind).check_count(len(tool.args.argument)))
+    tool.example("tabulate summary runs/average", "the results of a finished case, preceded by its warnings")
+    tool.example(
+        "tabulate slopes runs/paper/supine.json runs/paper/studies/scaled runs/paper/slopes.tsv "
+        "runs/paper/studies/scaled/tumour-100/slopes.tsv", "every slope from one solve, compared with solving again")
+    return tool
+
+
+def main() -> int:
+    def body(run: Run) -> None:
+        run.report["kind"] = run.args.kind
+        made = kind_called(run.args.kind).make(
+            calibrated(Request(tuple(run.args.argument), Path(run.args.pipelines))))
+        run.print(made if isinstance(made, str) else made.text())
+
+    return declaration().main(body)

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Comparison of a run with expected values."""
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..errors import Failed
+from ..text_table import read_text
+from .kinds import Request, kind
+from .stage_report import StageReport
+from .summary import lines_of
+from .table import Table, number_of, or_dash, parse_table, table_if_any
+
+
+def verdict_of(expected: str, computed: str, tolerance: str) -> str:
+    """"ok", "differs", or "missing" if `computed` is empty. Numbers agree within `tolerance`, other text must be equal."""
+    if not computed:
+        return "missing"
+    a, b = number_of(expected), number_of(computed)
+    if a is not None and b is not None:
+        return "ok" if abs(a - b) <= (number_of(tolerance) or 0) else "differs"
+    return "ok" if expected == computed else "differs"
+
+
+def verify(expected: Table, run: Path) -> Table:
+    """Columns file, row, column, expected, computed, tolerance, verdict.
+
+    Args:
+        expected: columns file (in the folder RUN), row (value in the file's first column; "-" for a report), column (or key of a
+            .json report), expected and tolerance.
+    """
+    result = Table(["file", "row", "column", "expected", "computed", "tolerance", "verdict"])
+    for row in range(len(expected.rows)):
+        file, name, column, value, tolerance = (expected.cell(row, c) for c in ("file", "row", "column", "expected", "tolerance"))
+        computed = _value_of(run / file, name, column)
+        result.rows.append([file, name, column, value, or_dash(computed), tolerance, verdict_of(value, computed, tolerance)])
+    return result
+
+
+def expected_anew(text: str, run: Path) -> str:
+    """A table of expected values with those of the run in rows that differ. Rows that agree keep their value, so that a bound
+    remains a bound, and comments are kept."""
+    verified = iter(verify(parse_table(text, "expected values"), run))
+    lines = []
+    for line in lines_of(text):
+        if line and not line.startswith(("#", "file\t")):
+            cells, found = line.split("\t"), next(verified)
+            if found["verdict"] != "ok":
+                cells[3] = found["computed"]
+            line = "\t".join(cells)
+        lines.append(line + "\n")
+    return "".join(lines)
+
+
+def _value_of(file: Path, row: str, column: str) -> str:
+    if file.suffix == ".json":
+        return StageReport.read(file).text(column)
+    table = table_if_any(file)
+    return table.at(row, column) if table else ""
+
+
+@kind("verify", "EXPECTED.tsv RUN", "comparison of a run with expected values; exit code 1 if one differs")
+def _verify(request: Request) -> Table:
+    result = verify(request.table(0), request.path(1))
+    wrong = [row for row in result if row["verdict"] != "ok"]
+    if wrong:
+        raise Failed(f"{len(wrong)} values differ from {request.word(0)}" + "".join(
+            "; {file} {row} {column} is {computed}, expected {expected} within {tolerance}".format(**row) for row in wrong))
+    return result
+
+
+@kind("expected", "EXPECTED.tsv RUN", "table of expected values, with the values of the run in rows that differ")
+def _expected(request: Request) -> str:
+    return expected_anew(read_text(request.word(0)), request.path(1))
