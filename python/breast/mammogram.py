@@ -30,6 +30,7 @@ class Mammogram:
         e_u, e_v: (3) unit image axes, LPS; e_u away from the chest wall.
         n: (3) unit direction of the beam, paddle to detector, LPS.
         source_distance_mm: from the detector; 0 for parallel rays.
+        plate_edge_mm: u at which the plates' flats begin; behind it tissue is thicker.
     """
 
     file: Path
@@ -42,6 +43,7 @@ class Mammogram:
     e_v: np.ndarray
     n: np.ndarray
     source_distance_mm: float
+    plate_edge_mm: float = 0.0
 
     def project(self, points: ArrayLike) -> np.ndarray:
         """Where points (n, 3) of the compressed shape, LPS mm, appear: (u, v) (n, 2) mm. Parallel rays only."""
@@ -92,4 +94,5 @@ def read_mammogram(file: str | os.PathLike[str]) -> Mammogram:
         raise xml.refuse(f"field pixel is {pixel} mm, must be positive")
     axes = {name: numbers(name, 3) for name in ("origin", "e_u", "e_v", "n")}
     return Mammogram(xml.file, images, text("view", ("CC", "MLO", "ML")), text("side", ("left", "right")),
-                     pixel, **axes, source_distance_mm=float(numbers("source_distance", 1)[0]))
+                     pixel, **axes, source_distance_mm=float(numbers("source_distance", 1)[0]),
+                     plate_edge_mm=float(numbers("plate_edge_u", 1)[0]))

@@ -15,6 +15,7 @@ from .history import Command
 from .points import checked_points
 from .records import Contact, Model, Solve
 from .section import faces_in_plane
+from .thorax import Thorax
 from .transport import Transported, transported
 
 if TYPE_CHECKING:
@@ -75,6 +76,7 @@ class State:
         contact: the compression plates, or None.
         history: every command that led to the file.
         wall_seconds: how long the tool took.
+        thorax: the surface on which the breast slides, or None.
     """
 
     file: Path
@@ -101,6 +103,7 @@ class State:
     contact: Contact | None
     history: tuple[Command, ...]
     wall_seconds: float
+    thorax: Thorax | None = None
     _maps: dict[str, ElementMap] = field(default_factory=dict, repr=False, compare=False)
 
     def __repr__(self) -> str:

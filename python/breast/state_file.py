@@ -12,6 +12,7 @@ from .hdf5 import read_document
 from .history import read_history, read_side
 from .records import read_contact, read_model, read_solve
 from .state import TISSUES, Landmark, State
+from .thorax import read_thorax
 
 _POINT, _CELL = "/VTKHDF/PointData/", "/VTKHDF/CellData/"
 _ELEMENT_NUMBER, _NODE_NUMBER = _CELL + "element_number", _POINT + "node_number"
@@ -47,7 +48,7 @@ def read_state(file: str | os.PathLike[str]) -> State:
         _cell_arrays(doc, e), faces, node_sets, _landmarks(doc, e), side, doc.number_list("/breast@gravity", 3),
         (doc.text("/breast/template@name"), doc.integer_list("/breast/template@size", 4)), skin_model, thickness,
         read_model(doc), read_solve(doc), contact, history,
-        float(doc.numbers("/VTKHDF/FieldData/wall_seconds", (1,))[0]))
+        float(doc.numbers("/VTKHDF/FieldData/wall_seconds", (1,))[0]), read_thorax(doc))
 
 
 def read_landmark_places(file: str | os.PathLike[str]) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The column of tissue that a point of the CC image is, in the CC, stress-free and MLO shapes (Fig. 7)."""
+from __future__ import annotations
+
+import numpy as np
+
+from ..curves import Line
+from ..state import State
+from .body import UP, add_body, plate_view, tumour_words
+from .colours import COLUMN
+from .compression import show
+from .inputs import Inputs, need
+from .layout import Picture
+from .scene import Camera, Scene
+from ..views import lateral_sign
+
+
+def add_columns(scene: Scene, curves: dict[str, list[Line]], name: str) -> None:
+    """Columns as tubes, seen through the body."""
+    for line in curves.get(name, []):
+        scene.tube(line.points, 1.0, COLUMN, through=True)
+
+
+def _scene(state: State, nodal: np.ndarray, curves: dict[str, list[Line]], name: str) -> Scene:
+    scene = Scene()
+    add_columns(scene, curves, name)  # first, so that the tumour in it is not hidden
+    add_body(scene, state, nodal, skin_opacity=0.22, gland_opacity=0.7)
+    return scene
+
+
+def draw(inputs: Inputs) -> Picture:
+    need(inputs.curves, "matching", "a curve .vtp")
+    cc = next((s for s in inputs.compressed() if s.contact.view == "CC"), None)
+    other = next((s for s in inputs.compressed() if s.contact.view != "CC"), None)
+    need(cc or other, "matching", "a compressed .vtkhdf")
+    any_state = cc or other
+    shown: list[tuple[State, np.ndarray, str, str, Camera]] = []
+    if cc:
+        tumour = tumour_words(cc)
+        shown.append((cc, cc.points, "column in CC", "CC: tissue above the pixel (green)" + (f", {tumour}" if tumour else ""),
+                      plate_view(cc)))
+    stress_free, name = (any_state.imaged, "imaged") if any_state.reference is None else (any_state.reference, "reference")
+    # The same body turned as between the plates.
+    side = Camera(np.array([-lateral_sign(any_state.side), 0.35, -0.22]), UP)
+    shown.append((any_state, stress_free, f"column in {name}", "the same tissue, stress-free", side))
+    if other:
+        shown.append((other, other.points, "column in MLO", f"the same tissue in {other.contact.view}", plate_view(other)))
+    picture, n = Picture(600 * len(shown), 680), len(shown)
+    show([(picture.panel(k / n, 0, (k + 1) / n, 1), _scene(state, nodal, inputs.curves, line), view, f"({'abc'[k]}) {words}")
+          for k, (state, nodal, line, words, view) in enumerate(shown)])
+    return picture
