@@ -29,10 +29,7 @@ else()
   target_link_libraries(breast_blas INTERFACE ${BLAS_LIBRARY})
 endif()
 
-find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel IOXML IOImage IOHDF OPTIONAL_COMPONENTS
-  RenderingCore RenderingOpenGL2 RenderingAnnotation RenderingFreeType RenderingVolumeOpenGL2
-  InteractionStyle FiltersCore FiltersGeneral FiltersGeometry FiltersSources FiltersModeling
-  ChartsCore ViewsContext2D RenderingContext2D RenderingContextOpenGL2 ImagingCore)
+find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel IOXML IOImage IOHDF)
 find_package(ITK 5.2 QUIET COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIOMeta ITKIOGDCM
   ITKImageGrid ITKSmoothing ITKThresholding ITKRegionGrowing ITKBinaryMathematicalMorphology
   ITKMathematicalMorphology ITKConnectedComponents ITKLabelMap ITKDistanceMap ITKImageFeature ITKImageFilterBase

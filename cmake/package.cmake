@@ -25,12 +25,12 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 # Compile the Python package when it is installed, and remove what was compiled when it is removed.
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# Recipes of make; the threaded OpenBLAS (the reference BLAS is 5-8 times slower); pictures are drawn on a private display, the
-# report's plot of the breast's motion by gnuplot; the Python module.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "make, libopenblas0-pthread, xvfb, xauth, libgl1-mesa-dri, gnuplot-nox | gnuplot, python3, python3-h5py, python3-jinja2")
+# Recipes of make; the threaded OpenBLAS (the reference BLAS is 5-8 times slower); figures and pages are made by Python, the surfaces
+# of figures on a private display.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "make, libopenblas0-pthread, xvfb, xauth, libgl1-mesa-dri, python3, python3-h5py, python3-jinja2, python3-matplotlib, python3-vtk9")
 # Small pictures of a cohort.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "netpbm, bash-completion")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "slurm-client, chromium, python3-pandas, python3-vtk9, paraview")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "slurm-client, chromium, python3-pandas, paraview")
 
 # What Debian asks for beside the manual pages; no upload, so no bug of Debian's that it would close.
 set(debian ${PROJECT_BINARY_DIR}/debian)

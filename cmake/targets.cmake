@@ -77,7 +77,7 @@ option(BREAST_UNITY "Compile the files of some libraries a dozen at a time: a bu
 # The dearest of those that a program takes as a whole. Of the others, as core and io, it takes a few files, and would
 # link with the rest of a dozen what it does not need. Never those of BREAST_NATIVE_FOLDERS: which products are fused
 # must not depend on what is compiled together.
-set(BREAST_UNITY_LIBRARIES segment figures xray phantom slicer)
+set(BREAST_UNITY_LIBRARIES segment xray phantom slicer)
 # breast_library(NAME DEPENDS lib... SYSTEM third-party...): target breast_NAME from the .cpp files of this
 # folder and of the folders in it. Third parties are PRIVATE: no header of ours shows them. COLD: none of its
 # loops takes time.

@@ -58,9 +58,7 @@ cost: $(COST)/cost.tsv $(COST)/cost.png
 $(COST)/cost.tsv: $(call results,cost,$(sort $(COST_POINTS) $(COST_FINEST)),supine) $(TABULATE)
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) cost $(call study_dir,cost) $(COST_FINEST) $(COST_POINTS))
-# $(call plot,GNUPLOT FILE): a picture of a table.
-plot = gnuplot -e "table='$<'; picture='$@.part'" $1 && mv $@.part $@
-$(COST)/cost.png: $(COST)/cost.tsv $(PIPELINES)/cost.gp
-	$(call plot,$(PIPELINES)/cost.gp)
+$(COST)/cost.png: $(COST)/cost.tsv $(RENDER)
+	$(call plot,cost)
 
 .PHONY: leaveout wall-sensitivity band cost

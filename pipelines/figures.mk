@@ -1,21 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Pictures in the manner of the paper's Figs 4-7 (figures.tsv), drawn off-screen; fig4 ... fig7 are the panels of one of them.
+# Pictures in the manner of the paper's Figs 4-7, drawn off-screen. One call of render draws all of a run: which of its files a picture
+# shows stands in python/breast/figures/of_run.py. fig4 ... fig7 are the panels of one of the paper's figures, of what they need alone.
 F := $(RUN)/figures
-FIGURES :=
+pictures = $(addprefix $(F)/,$(addsuffix .png,$1))
+of_points := points geometry mesh tissues
+of_both := $(foreach view,cc mlo,$(view)-compression)
+of_curve := cc-matching mlo-matching
+of_run := slices $(of_points) outlines $(of_both) pressure force-thickness cc-mammogram mlo-mammogram $(if $(CURVE),$(of_curve)) summary
+FIGURES := $(call pictures,$(of_run)) $(if $(SUPINE),$(F)/postures.png)
 on_scan = --scan $(MR) --labels $(RUN)/labels.vtkhdf $(addprefix --series ,$(SERIES))
-$(foreach n,4 5 6 7,$(eval fig$n :=))
-define picture
-file := $(F)/$(cell_picture).png
-FIGURES += $(if $(filter all $(if $(no_tumour),,tumour),$(cell_of)),$(file))
-$(foreach p,$(cell_panels),$(eval $p += $(file)))
-$(file): figure := $(cell_figure) $(if $(cell_scan),$(on_scan))
-$(file): $(patsubst $(RUN)/CURVE,$(CURVE),$(addprefix $(RUN)/,$(cell_files))) \
-  $(if $(cell_scan),$(RUN)/labels.vtkhdf) $(RENDER)
-	@mkdir -p $(@D) && $(RENDER) $(filter-out %/labels.vtkhdf,$(filter %.vtkhdf %.vtp %.vti,$^)) --figure $(figure) -o $@
-endef
-$(call ask,$(CASES) rows $(PIPELINES)/figures.tsv picture)
-FIGURES += $(if $(SUPINE),$(F)/postures.png)
-$(foreach n,4 5 6 7,$(eval fig$n: $(fig$n)))
+# $(call draw,PICTURES,FILES,OPTIONS)
+draw = @mkdir -p $(F) && $(RENDER) $2 --all $(F) --only $(subst $(eval) ,$(comma),$(strip $1)) $3
+figure_files := $(addprefix $(RUN)/,geometry.vtkhdf points.vtp mesh.vtkhdf reference.vtkhdf supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti) $(CURVE)
+$(call pictures,$(of_run)) &: $(figure_files) $(RUN)/labels.vtkhdf $(RENDER)
+	$(call draw,$(of_run),$(figure_files),$(on_scan))
+	@rm -f $(call pictures,$(if $(CURVE),,$(of_curve)))
+
+files_of = $(addprefix $(RUN)/,$1)
+fig4: $(call files_of,points.vtp geometry.vtkhdf mesh.vtkhdf labels.vtkhdf)
+	$(call draw,slices $(of_points),$(filter-out %/labels.vtkhdf,$^),$(on_scan))
+fig5: $(call files_of,mesh.vtkhdf cc.vtkhdf mlo.vtkhdf)
+	$(call draw,mesh $(of_both),$^)
+fig6: $(call files_of,cc.vti mlo.vti) $(CURVE) $(call pictures,cc-points mlo-curves)
+	$(call draw,cc-mammogram mlo-mammogram,$(filter %.vti %.vtp,$^))
+fig7: $(call files_of,cc.vtkhdf mlo.vtkhdf) $(CURVE)
+	$(if $(CURVE),,$(error fig7 shows the column of a tumour and the case has none; name its place with TUMOUR=x$(comma)y$(comma)z (mm)))
+	$(call draw,$(of_curve),$^)
 .PHONY: fig4 fig5 fig6 fig7
 
 # Figs 6c and 6d show several points: a grid of them in the CC view.
@@ -23,3 +33,8 @@ curves_settings := $(CC2MLO) $(POINTS)
 $(RUN)/curves.vtp $(RUN)/curves.tsv &: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(CC2MLO) $(call changed,curves)
 	$(CC2MLO) $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(RUN)/curves.vtp --grid $(POINTS) --table $(RUN)/curves.tsv --report $(RUN)/curves.json $(share)
 	@$(call record,curves)
+$(call pictures,cc-points mlo-curves) &: $(call files_of,cc.vti mlo.vti curves.vtp) $(RENDER)
+	$(call draw,cc-points mlo-curves,$(filter-out $(RENDER),$^))
+
+# $(call plot,FIGURE): the picture of a table, its first prerequisite.
+plot = @mkdir -p $(@D) && $(RENDER) $< --figure $1 -o $@

@@ -30,10 +30,10 @@ endif
 
 population_compare = $(POPULATION_TOOL) $(call population_files,$1,supine) --women $(PIPELINES)/invivo/women.tsv \
   --table $(POPULATION_RUNS)/$2-motion.tsv --summary $(POPULATION_RUNS)/$2.tsv --report $(POPULATION_RUNS)/$2.json
-population: $(call population_files,$(population_both),supine) $(POPULATION_TOOL)
+population: $(call population_files,$(population_both),supine) $(POPULATION_TOOL) $(RENDER)
 	$(call population_compare,$(population_both),cohort)
 	$(call population_compare,$(population_judging),judging)
-	gnuplot -e "table='$(POPULATION_RUNS)/judging.tsv'; picture='$(POPULATION_RUNS)/motion.png'" $(PIPELINES)/population.gp
+	$(RENDER) $(POPULATION_RUNS)/judging.tsv --figure motion -o $(POPULATION_RUNS)/motion.png
 	@cat $(POPULATION_RUNS)/judging.tsv
 compressed-population: $(foreach b,$(population_both),$(call population_files,$b,cc) $(call population_files,$b,mlo)) $(TABULATE)
 	@$(tabulate) compressions $(patsubst %.vtkhdf,%.json,$(filter %.vtkhdf,$^)) | tee $(POPULATION_RUNS)/compressed.tsv

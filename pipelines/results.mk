@@ -48,9 +48,8 @@ report_record = $(RUN)/report.settings
 # The motion of the breast compared with living women, if the breast slides on its chest wall.
 $(RUN)/population.tsv: $(RUN)/supine.vtkhdf $(PIPELINES)/invivo/women.tsv $(POPULATION_TOOL)
 	$(POPULATION_TOOL) $< --women $(word 2,$^) --table $(RUN)/motion.tsv --summary $@ --report $(RUN)/population.json --quiet
-$(F)/motion.png: $(RUN)/population.tsv $(PIPELINES)/population.gp
-	@mkdir -p $(@D)
-	$(call plot,-e "model='this breast'" $(PIPELINES)/population.gp)
+$(F)/motion.png: $(RUN)/population.tsv $(RENDER)
+	$(call plot,motion)
 $(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(if $(slides),$(RUN)/population.tsv $(F)/motion.png) $(F)/cc-points.png $(F)/mlo-curves.png \
   $(if $(EXPECTED),$(RUN)/verify.tsv) $(TABULATE) $(addprefix $(PIPELINES)/,limits.txt advice.tsv) $(call changed,report)
 	$(call table,$(tabulate) report $(RUN) $(RUNS))

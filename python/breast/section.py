@@ -16,7 +16,11 @@ def faces_in_plane(nodes: np.ndarray, faces: np.ndarray, origin: np.ndarray, nor
         origin: (3) a point of the plane, mm.
         normal: (3) its normal, of any length.
     """
-    corners = nodes[faces[:, :1], FACE_CORNERS[faces[:, 1]]]
+    return quads_in_plane(nodes[faces[:, :1], FACE_CORNERS[faces[:, 1]]], origin, normal)
+
+
+def quads_in_plane(corners: np.ndarray, origin: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    """The same for quadrilaterals (Q, 4, 3) in space."""
     triangles = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
     height = (triangles - origin) @ (normal / np.linalg.norm(normal))
     # A corner in the plane counts as above it, so that every triangle is cut in no or in two edges.

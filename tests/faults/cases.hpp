@@ -79,8 +79,6 @@ inline const std::vector<Case>& cases() {
        "out.vtkhdf --table out.marks.tsv",
        6},
       {"population", "population supine.vtkhdf --table out.tsv --summary out.mean.tsv"},
-      {"render_mammogram", "render cc.vti mlo.vti curve.vtp --figure mammogram -o out.png", 60},
-      {"render_mesh", "render mesh.vtkhdf --figure mesh -o out.png", 0},
       {"truth_table", "truth-table landmarks.tsv out.tsv cc.vtkhdf fine_cc.vtkhdf"},
       {"phantom_mesh", "phantom-mesh out.vtkhdf --preset small --level 0.5 --coarse 8", 0, 1},
       {"phantom", "phantom out.nrrd --preset small --coarse 8", 0, 1},

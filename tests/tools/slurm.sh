@@ -111,8 +111,10 @@ cp $work/once/{labels.vtkhdf,points.vtp,contours.png,labels.json} "\$run"
 SEGMENT
 cat > render <<'RENDER'
 #!/bin/bash
-while [ "$1" != -o ]; do shift; done
-printf 'P2\n2 2\n255\n0 90 180 255\n' | pnmtopng > "$2"
+while [ "$1" != --all ]; do shift; done
+for name in ${4//,/ }; do
+  printf 'P2\n2 2\n255\n0 90 180 255\n' | pnmtopng > "$2/$name.png"
+done
 RENDER
 chmod +x segment render
 for number in $(seq "$good"); do

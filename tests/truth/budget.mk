@@ -48,5 +48,5 @@ $(BUDGET)/budget.tsv: $(foreach row,chain $(BUDGET_ROWS),$(BUDGET)/$(row)/curves
   $(foreach row,chain $(filter-out compression,$(BUDGET_ROWS)),$(BUDGET)/$(row)/landmarks.tsv) \
   $(RUN)/cc.vti $(RUN)/mlo.vti $(TABULATE)
 	$(call table,$(tabulate) budget $(RUN) $(BUDGET_ROWS))
-$(BUDGET)/budget.png: $(BUDGET)/budget.tsv $(PIPELINES)/budget.gp
-	$(call plot,$(PIPELINES)/budget.gp)
+$(BUDGET)/budget.png: $(BUDGET)/budget.tsv $(RENDER)
+	$(call plot,budget)

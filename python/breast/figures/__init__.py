@@ -17,21 +17,23 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Figure:
-    """summary: its content and input, for the help. in_space: it shows surfaces, which need a display (PrivateDisplay)."""
+    """summary: its content and input, for the help. in_space: it shows surfaces, which need a display (PrivateDisplay). of_points:
+    its .vtp are points instead of curves."""
 
     summary: str
     in_space: bool = False
+    of_points: bool = False
 
 
 FIGURES = {
     "slices": Figure("the scan in three planes with the contours of its segmentation (from --scan, --labels and a mesh .vtkhdf)"),
-    "points": Figure("the data points of skin and chest wall (from points .vtp of segment)", True),
-    "geometry": Figure("the Hermite sheets with patch lines and rim (from a geometry .vtkhdf and optionally points .vtp)", True),
+    "points": Figure("the data points of skin and chest wall (from points .vtp of segment)", True, True),
+    "geometry": Figure("the Hermite sheets with patch lines and rim (from a geometry .vtkhdf and optionally points .vtp)", True, True),
     "mesh": Figure("the element edges of a mesh, front and back (from a mesh .vtkhdf)", True),
     "tissues": Figure("the fibroglandular region and the tumour through a translucent skin (from a mesh .vtkhdf)", True),
     "outlines": Figure("the superimposed shapes of the scan and other postures (from one or more deformed .vtkhdf)"),
     "postures": Figure("one slice of a breast in the prone scan, as predicted in a second posture, and as observed there (from a "
-                       "deformed .vtkhdf and the .vtp of identify --seen)"),
+                       "deformed .vtkhdf and the .vtp of identify --seen)", of_points=True),
     "compression": Figure("the shapes between the plates (from one or two compressed .vtkhdf)", True),
     "pressure": Figure("the contact pressure of paddle and detector on the skin (from one or two compressed .vtkhdf)", True),
     "force-thickness": Figure("the force of both plates during the compression (from a compressed .vtkhdf)"),
@@ -41,9 +43,9 @@ FIGURES = {
                        "them, and a curve.vtp)", True),
     "summary": Figure("the whole chain (from mesh, reference, supine, cc and mlo .vtkhdf, cc.vti and mlo.vti, and optionally "
                       "curve.vtp, --scan and --labels)", True),
-    "motion": Figure("how far tissue moves from prone to supine by its depth, beside living women (from a table .tsv of population)"),
+    "motion": Figure("how far tissue moves from prone to supine by its depth, beside living women (from a .tsv of population)"),
     "cost": Figure("error against run time (from the table .tsv of tabulate cost)"),
-    "budget": Figure("what is left of the errors when one stage is replaced by the truth (from the table .tsv of tabulate budget)"),
+    "budget": Figure("what is left of the errors when one stage is replaced by the truth (from the .tsv of tabulate budget)"),
 }
 
 

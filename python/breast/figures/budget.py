@@ -33,6 +33,7 @@ def draw(inputs: Inputs) -> Picture:
             axes.text(x, np.nan_to_num(value), f"{value:.2f}" if np.isfinite(value) else "\N{EN DASH}", ha="center", va="bottom",
                       fontsize=points(SMALL - 1), bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8})
     axes.set_xticks(at, [_STAGES.get(name, name) for name in replaced], fontsize=points(SMALL))
+    axes.set_xlabel("replaced by the truth", fontsize=points(SMALL + 1))
     axes.set_ylim(0, 1.15 * max([1e-3, *(np.nan_to_num(table.numbers(column)).max() for column, *_ in _ERRORS)]))
     axes.set_ylabel("mean error at the true places (mm)", fontsize=points(SMALL + 1))
     axes.legend(ncols=3, loc="upper right", fontsize=points(SMALL), framealpha=0.9)

@@ -16,7 +16,7 @@ from .scene import Camera, Scene
 
 
 def edge_recession(radius: float, beyond: np.ndarray) -> np.ndarray:
-    """Distance in mm by which a rounded edge lies behind the plate's flat, at so many mm beyond its start; infinite where it ends."""
+    """By how many mm a rounded edge lies behind the plate's flat, at so many mm beyond its start; infinite where it ends."""
     within = np.sqrt(np.maximum(radius**2 - np.maximum(beyond, 0) ** 2, 0))
     return np.where(beyond > 0, np.where(beyond < radius, radius - within, np.inf), 0.0)
 
@@ -35,8 +35,6 @@ def show(panels: list[tuple[Panel, Scene, Camera, str]]) -> None:
     scale = max(panel.needed(camera.flat(scene.shown())) for panel, scene, camera, _ in panels)
     for panel, scene, camera, _ in panels:
         panel.scene(scene, camera, scale)
-        panel.scale_bar()
-        panel.compass()
 
 
 def _row(picture: Picture, state: State, bottom: float, top: float, letter: str) -> list[tuple[Panel, Scene, Camera, str]]:

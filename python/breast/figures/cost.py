@@ -28,6 +28,8 @@ def draw(inputs: Inputs) -> Picture:
             axes.plot(seconds[which], error[which], style, marker=marker, color=colour, label=words, linewidth=points(2.2))
     axes.set_xscale("log")
     axes.set_yscale("log")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter(lambda value, _: f"{value:g}")
     axes.set_xlabel("CPU time of backward and forward (s)", fontsize=points(SMALL + 1))
     axes.set_ylabel("error of tumour or nipple, supine (mm)", fontsize=points(SMALL + 1))
     axes.grid(True, which="minor", color="0.93", linewidth=0.5)

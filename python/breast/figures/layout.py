@@ -16,7 +16,7 @@ from matplotlib.patheffects import withStroke
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
-from .colours import INK, TUMOUR, WHITE, Colour, Stroke
+from .colours import INK, TUMOUR, Colour, Stroke
 from .scene import Camera, Scene
 
 DPI = 100
@@ -109,12 +109,14 @@ class Panel:
     # ---- drawings, in mm ----------------------------------------------------------------------------------------------
 
     def scene(self, scene: Scene, camera: Camera, mm_per_pixel: float | None = None, right: float = 0) -> None:
-        """Shows a scene. Panels of one scale ask `needed` first."""
+        """Shows a scene, with scale bar and compass. Panels of one scale ask `needed` first."""
         self.camera = camera
         self.fit(camera.flat(scene.shown()), mm_per_pixel, right=right)
         width, height = (int(n) for n in self.size)
         image = scene.image(camera, self.centre, self.mm_per_pixel, width, height)
         self.image(image, self.centre - 0.5 * self.size * self.mm_per_pixel, self.mm_per_pixel, "nearest")
+        self.scale_bar()
+        self.compass()
 
     def image(self, pixels: np.ndarray, corner: np.ndarray, pixel: float, interpolation: str = "bilinear") -> None:
         """Rows from the top, grey from 0 to 1 or RGB; `corner` (2): of the lower left pixel, mm."""
@@ -134,8 +136,9 @@ class Panel:
 
     def _collect(self, pieces: Sequence[np.ndarray], stroke: Stroke, opacity: float = 1) -> None:
         dashes = (0, stroke.dashes) if stroke.dashes else "solid"
-        self.axes.add_collection(LineCollection(list(pieces), colors=[stroke.colour], linewidths=points(stroke.width), alpha=opacity,
-                                                linestyles=[dashes], capstyle="butt", joinstyle="round"), autolim=False)
+        made = LineCollection(list(pieces), colors=[stroke.colour], linewidths=points(stroke.width), alpha=opacity,
+                              linestyles=[dashes], capstyle="butt", joinstyle="round")
+        self.axes.add_collection(made, autolim=False)
 
     def ring(self, flat: np.ndarray, radius: float, colour: Colour = TUMOUR) -> None:
         """A ring with a dark rim, which hides nothing; its radius is in pixels."""
@@ -149,7 +152,7 @@ class Panel:
 
     # ---- words, in pixels ----------------------------------------------------------------------------------------------
 
-    def text(self, at: Sequence[float], words: str, height: float = LETTERS, colour: Colour = INK, align: str = "left",
+    def text(self, at: Sequence[float], words: str, height: float = LETTERS, colour: Colour = INK, align: str = "left", *,
              boxed: bool = False, rotation: float = 0) -> None:
         """Words centred vertically at a place; light ones have a dark outline; `boxed` keeps a drawing from crossing them."""
         made = self.axes.text(*at, words, fontsize=points(height), color=colour, ha=align, va="center", transform=self._pixels(),

@@ -152,7 +152,8 @@ def _add_curves(panel: Panel, image: Mammogram, curves: dict[str, list[Line]], h
         marks += [(p, 6 if many else RING, _query_colour(_query(p), len(asked))) for p in asked]
     else:
         drawn = [(line, _ARC) for line in ([] if many else curves.get("arc", []))]
-        drawn += [(line, Stroke(_query_colour(_query(line), len(asked)), 2.4) if many else _CURVE) for line in curves.get("curve", [])]
+        drawn += [(line, Stroke(_query_colour(_query(line), len(asked)), 2.4) if many else _CURVE)
+                  for line in curves.get("curve", [])]
         for line, stroke in drawn:
             panel.lines([hanging(part) for part in parts_inside(line.uv_mm, hanging.size)[0]], stroke)
         marks += [(p, 6 if many else RING, TUMOUR) for p in _places(curves)]

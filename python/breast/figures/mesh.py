@@ -22,6 +22,4 @@ def draw(inputs: Inputs) -> Picture:
         panel = picture.panel(0.5 * k, 0, 0.5 * (k + 1), 1)
         panel.caption(captions[k])
         panel.scene(scene, views[k])
-        panel.scale_bar()
-        panel.compass()
     return picture

@@ -15,7 +15,7 @@ def draw(inputs: Inputs) -> Picture:
     need(inputs.tables, "motion", "a table of population")
     table, picture = Table(inputs.tables[0]), Picture(1000, 480)
     rows = {name: n for n, name in enumerate(table.texts("quantity"))}
-    one = (table.numbers("breasts") <= 1).all() if table.has("breasts") else False
+    one = not (np.nan_to_num(table.numbers("sd")) > 0).any()
     model = "this breast" if one else "model, mean and SD over breasts"
     for k, (start, words, title, limits) in enumerate((
             ("moved", "moved from prone to supine (mm)", "(a) motion of tissue", (0, 140)),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the back of a model is called: the chest wall of the scan, or the back of a layer of muscle whose thickness may be assumed."""
+"""What the back of a model is called: the chest wall of the scan, or the back of a layer of muscle, which may be assumed."""
 from __future__ import annotations
 
 import re

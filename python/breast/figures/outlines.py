@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..elements import boundary_faces
-from ..section import faces_in_plane
+from ..section import quads_in_plane
 from ..state import State
 from .body import UP, face_facets, from_below, lateral_view, place_of
 from .colours import SHAPES, WALL, Stroke
@@ -86,7 +86,8 @@ def add_landmarks(panel: Panel, shapes: list[Shape], words: bool = True) -> None
 
 def section_of(shape: Shape, faces: np.ndarray, height: float) -> np.ndarray:
     """Segments (S, 2, 3) of faces in the transverse plane at a height, LPS mm."""
-    return faces_in_plane(shape.points[shape.state.hexahedra], faces, np.array([0, 0, height]), UP)
+    facets = face_facets(shape.state, shape.points, faces)
+    return quads_in_plane(facets.points[facets.quads], np.array([0, 0, height]), UP)
 
 
 def add_sections(panel: Panel, shapes: list[Shape], height: float) -> None:

@@ -37,8 +37,6 @@ def _add_side(panel: Panel, state: State, plate: Plate, high: float, letter: str
                   f"mean {plate.mean_kPa:.1f} kPa, peak {plate.peak_kPa:.0f} kPa; blue: here the plate's rounded edge begins")
     panel.scene(scene, Camera(plate.normal, plate.anterior), right=_BAR)
     panel.colour_bar(HEAT, high, "kPa")
-    panel.scale_bar()
-    panel.compass()
 
 
 def draw(inputs: Inputs) -> Picture:

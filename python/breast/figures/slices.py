@@ -10,9 +10,9 @@ import numpy as np
 
 from ..errors import BreastError
 from ..grid import Grid
-from ..section import faces_in_plane
+from ..section import quads_in_plane
 from ..state import TISSUES, State
-from .body import has_tumour
+from .body import face_facets, has_tumour
 from .colours import GLAND_LINE, MODEL_LINE, SKIN_LINE, WALL_LINE, WHITE, Stroke
 from .inputs import Inputs, need
 from .layout import LETTERS, RING, Panel, Picture
@@ -114,7 +114,8 @@ class Slices:
             return np.stack([(place - corner) @ plane.right, (place - corner) @ plane.up], -1)
         if self.state is not None:
             normal = np.cross(plane.right, plane.up)
-            pieces = faces_in_plane(self.state.imaged[self.state.hexahedra], self.state.faces["cut"], corner, normal)
+            facets = face_facets(self.state, self.state.imaged, self.state.faces["cut"])
+            pieces = quads_in_plane(facets.points[facets.quads], corner, normal)
             panel.lines([flat(line) for line in joined(pieces)], MODEL_LINE, halo=True)
         if self.tumour is not None:
             panel.ring(flat(self.tumour), RING)

@@ -38,8 +38,6 @@ def _add_tissues(picture: Picture, state: State) -> None:
         panel = picture.panel(0.5 * _SCAN_RIGHT * k, _SPLIT, 0.5 * _SCAN_RIGHT * (k + 1), 1)
         panel.caption(words[k])
         panel.scene(scene, view)
-        panel.scale_bar()
-        panel.compass()
 
 
 def _add_pressed(picture: Picture, inputs: Inputs, state: State, left: float, letter: str) -> None:
@@ -50,8 +48,6 @@ def _add_pressed(picture: Picture, inputs: Inputs, state: State, left: float, le
     add_image_border(scene, state)
     panel.caption(f"{letter} {compression_words(state)}; orange: image border")
     panel.scene(scene, plate_view(state))
-    panel.scale_bar()
-    panel.compass()
 
 
 def draw(inputs: Inputs) -> Picture:

@@ -20,6 +20,4 @@ def draw(inputs: Inputs) -> Picture:
         panel = picture.panel(0.5 * k, 0, 0.5 * (k + 1), 1)
         panel.caption(caption)
         panel.scene(scene, view)
-        panel.scale_bar()
-        panel.compass()
     return picture

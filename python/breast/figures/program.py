@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The program render."""
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..command.nearest import suggestion
+from ..command.tool import Run, Tool
+from ..errors import BreastError, Failed
+from ..output import check_replaceable, write_bytes
+from . import FIGURES
+from .of_run import PICTURES
+
+if TYPE_CHECKING:
+    from .inputs import Inputs
+
+_ENDINGS = (".vtkhdf", ".vti", ".vtp", ".tsv")
+SCAN_ENDINGS = (".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd")
+"""Of scans that are read in Python."""
+
+
+def main() -> int:
+    tool = Tool("render", "pictures of shapes, plates, mammograms and tables")
+    tool.describe("Draws figures without a screen: for surfaces the tool starts and stops an X server of its own (Xvfb), whatever "
+                  "DISPLAY says. All views are parallel projections with a scale bar in mm; L, A and S mark the patient's left, "
+                  "anterior and superior directions. The figures, and the files that each needs, are:")
+    for name, figure in FIGURES.items():
+        tool.describe(f"{name}: {figure.summary}.")
+    tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Figs 4 to 7")
+    tool.inputs("FILE", "meshes (.vtkhdf), mammograms (.vti), points or curves (.vtp), a table (.tsv); all of one breast, except "
+                        "for outlines")
+    tool.input_file("--scan", "MR", "MR scan behind the contours of slices and summary (.nrrd, .nii, .nii.gz, .mha or a DICOM "
+                                    "folder)")
+    tool.integer("--series", "N", "series of a DICOM folder (0: the only one)", 0, 0, 100000)
+    tool.input_file("--labels", "LABELS.vtkhdf", "segmentation of that scan (segment)")
+    tool.choice("--figure", tuple(FIGURES), "figure to draw", "mesh")
+    tool.output_file("-o,--output", "OUT.png", "the picture")
+    tool.output_folder("--all", "FOLDER", "instead of --figure and --output: all pictures of a run that its files, given with the "
+                                          "names they have in a run, allow; as FOLDER/NAME.png")
+    tool.text("--only", "NAME,...", "with --all: these pictures alone, of " + ", ".join(p.name for p in PICTURES))
+    tool.choice("--accept-other", ("model",), "accept a pair of files that differ in this (docs/pairs.md). model: FILE.vti and "
+                                              "FILE.vtp may be of different models")
+    tool.check(lambda: _check(tool.args))
+    tool.example("render mesh.vtkhdf --figure slices --scan scan.nrrd --labels labels.vtkhdf -o slices.png",
+                 "the scan in three planes through the tumour, with the contours of the segmentation")
+    tool.example("render mesh.vtkhdf --figure tissues -o tissues.png",
+                 "fibroglandular tissue and tumour through a translucent skin")
+    tool.example("render cc.vti mlo.vti curve.vtp --figure mammogram -o mammograms.png",
+                 "both mammograms with the matched curve")
+    tool.example("render mesh.vtkhdf reference.vtkhdf supine.vtkhdf --all figures", "all pictures that these three shapes allow")
+    return tool.main(_render)
+
+
+def _check(args: Any) -> None:
+    if bool(args.scan) != bool(args.labels):
+        raise BreastError("--scan and --labels must be given together")
+    if bool(args.output) == bool(args.all):
+        raise BreastError("give either --output OUT.png or --all FOLDER" if args.all else
+                          "-o, --output OUT.png is missing; usage: render FILE... -o OUT.png [options]")
+    names = [picture.name for picture in PICTURES]
+    for name in args.only.split(",") if args.only else []:
+        if name not in names or not args.all:
+            raise BreastError(f"--only: '{name}' is none of {', '.join(names)}{suggestion(name, names)}" if args.all else
+                              "--only needs --all FOLDER")
+    for file in args.file:
+        if Path(file).suffix not in _ENDINGS:
+            raise BreastError(f"{file}: render reads .vtkhdf, .vti, .vtp and .tsv files")
+
+
+def _render(run: Run) -> None:
+    args = run.args
+    # The files' pairs are checked, in C++, while they are read here.
+    with tempfile.TemporaryDirectory(prefix="breast-render-") as folder:
+        pairs = _started_pairs(args)
+        try:
+            from .reading import inputs_of_figure, inputs_of_run
+            files, labels = [Path(file) for file in args.file], Path(args.labels) if args.labels else None
+            scan = _scan(args, Path(folder))
+            if args.all:
+                drawn = inputs_of_run(files, scan, labels, args.only.split(",") if args.only else [])
+            else:
+                drawn = [(args.figure, args.figure, inputs_of_figure(args.figure, files, scan, labels))]
+        except BreastError:
+            _finish_pairs(pairs, run)
+            raise
+        _finish_pairs(pairs, run)
+    targets = [Path(args.all) / f"{name}.png" if args.all else Path(args.output) for name, _, _ in drawn]
+    for target in targets:
+        check_replaceable(target, "--all" if args.all else "--output")
+    _draw(drawn, targets)
+    run.report["figure"] = args.figure if not args.all else [name for name, _, _ in drawn]
+
+
+def _draw(drawn: list[tuple[str, str, Inputs]], targets: list[Path]) -> None:
+    """Draws pictures (name, figure, inputs), on a display if one of them needs it, and writes each."""
+    from contextlib import nullcontext
+
+    from . import draw
+    if any(FIGURES[figure].in_space for _, figure, _ in drawn):
+        from .scene import display
+        screen = display()
+    else:
+        screen = nullcontext()
+    with screen:
+        for (_, figure, inputs), target in zip(drawn, targets):
+            content = draw(figure, inputs).png()
+            target.parent.mkdir(exist_ok=True)
+            write_bytes(target, content)
+
+
+def _scan(args: Any, folder: Path) -> Path | None:
+    """The file of the scan; what is read in C++ alone, a DICOM folder, is copied by the tool scan."""
+    file = Path(args.scan) if args.scan else None
+    if file is not None and (file.is_dir() or not file.name.lower().endswith(SCAN_ENDINGS)):
+        copy = folder / "scan.nrrd"
+        _ended("scan", _started("scan", [str(file), str(copy), "--series", str(args.series), "--quiet"]))
+        return copy
+    return file
+
+
+# ---- programs beside this one -----------------------------------------------------------------------------------------------
+
+def _started(name: str, words: list[str]) -> subprocess.Popen[bytes]:
+    program = Path(sys.argv[0]).resolve().with_name(name)
+    try:
+        return subprocess.Popen([program, *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    except OSError as error:
+        raise Failed(f"cannot be started ({error.strerror})", program) from None
+
+
+def _ended(name: str, child: subprocess.Popen[bytes]) -> list[str]:
+    """What a program said when it has succeeded, line by line. Raises the error with which it ended."""
+    said = os.fsdecode(child.communicate()[1]).splitlines()
+    lines = [line.removeprefix(f"{name}: ") for line in said]
+    if child.returncode == 2 and lines:
+        raise BreastError(lines[-1])
+    if child.returncode != 0:
+        raise Failed(lines[-1] if lines else f"{name} ended with {child.returncode}")
+    return lines
+
+
+def _started_pairs(args: Any) -> subprocess.Popen[bytes] | None:
+    """Checks that the files are of one breast; only outlines may compare several, and tables are of none."""
+    files = [file for file in args.file if not file.endswith(".tsv") and (args.all or args.figure != "outlines")]
+    named = [*(f"first FILE={file}" for file in files[:1]), *(f"FILE={file}" for file in files)]
+    named += [f"FILE.vti={file}" for file in files if file.endswith(".vti")]
+    if args.all or not FIGURES[args.figure].of_points:
+        named += [f"FILE.vtp={file}" for file in files if file.endswith(".vtp") and Path(file).name != "points.vtp"]
+    if args.scan:
+        named += [f"--labels={args.labels}", f"--scan={args.scan}"]
+    if not named:
+        return None
+    accepted = ["--accept-other", args.accept_other] if args.accept_other else []
+    return _started("pairs", ["render", "--series", str(args.series), *accepted, *(f"--check={name}" for name in named)])
+
+
+def _finish_pairs(child: subprocess.Popen[bytes] | None, run: Run) -> None:
+    for remark in _ended("pairs", child) if child is not None else []:
+        run.remark(remark)
