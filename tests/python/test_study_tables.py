@@ -81,7 +81,7 @@ class Verdicts(InFolder):
         paper = CONCLUSIONS.parent
         tables = [read_table(paper / f"table{n}.tsv") for n in (3, 4, 5, 6)]
         judged = judge(conclusions, {"paper": measured(model_of_rows(tables))})
-        self.assertEqual([row["paper_verdict"] for row in judged], ["holds"] * 10 + ["not evaluated"] * 3)
+        self.assertEqual([row["paper_verdict"] for row in judged], ["holds"] * 10 + ["not evaluated"] * 4)
 
     def test_a_slope_that_is_fifty_times_too_small_fails(self):
         values = table_of("conclusion\tvalue\nskin_tumour\t-0.0003\nskin_nipple\t-0.0006\nfibroglandular_nipple\t0.09\n")
@@ -94,12 +94,13 @@ class Verdicts(InFolder):
         image = '{"pixel_mm": 0.25, "width_pixels": 100, "height_pixels": 80, "landmarks": {"artificial_tumour": {"uv_mm": [%s]}}}'
         self.write("cc-mammogram.json", image % "-2.1, 9")
         self.write("mlo-mammogram.json", image % "20, 16.5")
-        self.write("curve.json", '{"inside_image_percent": 36.7}')
+        self.write("curve.json", '{"inside_image_percent": 36.7, "max_bend_mm": 1.6, "curve_mm": 51.5}')
         empty = Table(["stiffness_percent"])
         values = measured(model_of_rows([empty] * 4, run=self.folder))
         self.assertEqual([values.at(f"fig6_{what}", "value") for what in ("cc", "mlo", "curve")], ["-2.1", "3.5", "36.7"])
+        self.assertEqual(values.at("fig7_bend", "value"), "3.1")
         judged = judge(read_table(CONCLUSIONS), {"ours": values})
-        self.assertEqual([row["ours_verdict"] for row in judged][-3:], ["fails", "holds", "fails"])
+        self.assertEqual([row["ours_verdict"] for row in judged][-4:], ["fails", "holds", "fails", "holds"])
 
     def test_of_rows_and_of_slopes_are_the_same_numbers(self):
         def rows(slope):

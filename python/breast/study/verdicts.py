@@ -109,6 +109,14 @@ def _fig6_curve(model: Model) -> str:
     return fixed(StageReport.read(model.run / "curve.json").number("inside_image_percent") if model.run else None, 1)
 
 
+@measure("fig7_bend")
+def _fig7_bend(model: Model) -> str:
+    """How far the tumour's curve in the MLO image bends away from its chord, per cent of its length."""
+    report = StageReport.read(model.run / "curve.json") if model.run else StageReport()
+    bend, length = report.number("max_bend_mm"), report.number("curve_mm")
+    return fixed(100 * bend / length if bend is not None and length else None, 1)
+
+
 def measured(model: Model) -> Table:
     """Columns conclusion, value: one row a measure, "-" without a solution."""
     return Table(["conclusion", "value"], [[name, function(model)] for name, function in MEASURES.items()])
