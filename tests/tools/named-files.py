@@ -70,6 +70,9 @@ def main(programs: str) -> int:
         made |= {name.split("/")[-1] for name in re.findall(written, text)}
     for text in texts(["python/breast/**/*.py"]).values():
         made |= set(re.findall(r'write_text\([^\n]*?"([\w-]+\.\w+)"', text))
+    # render draws the pictures of a run in one call.
+    pictures = (ROOT / "python/breast/figures/of_run.py").read_text(encoding="utf-8")
+    made |= {f"{name}.png" for name in re.findall(r'RunPicture\("([\w-]+)"', pictures)}
     made |= {file.name for file in (ROOT / "pipelines").rglob("*")}
     # cc2mlo writes NAME-summary.tsv beside its table NAME.tsv.
     made |= {f"{name[:-4]}-summary.tsv" for name in made if name.endswith(".tsv")}
