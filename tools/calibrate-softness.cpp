@@ -7,6 +7,8 @@
 #include "core/table.hpp"
 #include "core/units.hpp"
 #include "io/mesh_file.hpp"
+#include "lineage/origin.hpp"
+#include "lineage/pairs.hpp"
 #include "material/material_set.hpp"
 
 using namespace breast;
@@ -18,6 +20,7 @@ struct Choices {
   std::vector<std::filesystem::path> cohort;
   std::string from = "seed2008";
   SoftnessData data;  // with its defaults
+  Observed pressing = PressedBreast{}.pressure;
   std::vector<double> expected, pressure;
   double kept = 5, smoothing = 0.02, prestretch = 3;
   CompressionChoices press;
@@ -25,7 +28,7 @@ struct Choices {
   Choices() {
     const Softness& s = data.expected;
     expected = {100 * s.low_order, 100 * s.quadratic, 100 * s.skin};
-    pressure = {data.pressure.mean, data.pressure.sd};
+    pressure = {pressing.mean, pressing.sd};
     press.reduction = 50;
     press.image_edge = "auto";
   }
@@ -37,20 +40,20 @@ void declare(Tool& tool, Choices& c) {
       "women's breasts do on average. The parameters are the stiffness of fat and fibroglandular "
       "tissue (with separate factors for the linear and the quadratic terms of the law), the "
       "stiffness of the skin, and the numbers of the supports of chest wall and cut. "
-      "The data are the lateral and posterior displacement of the nipple and the change of the "
-      "tissue's distance from the ribs. The nipple's displacement along the long axis of the body "
-      "is not used, because it depends on the position of the arms. A further breast is "
+      "The data are the rows of --women whose column `unmodelled_sd` holds a number: the standard deviation of "
+      "what no model explains, such as the place of the arms, which is added to the standard error. Both breasts of "
+      "one scan count as one woman. With --pressed, a further breast is "
       "compressed between plates (CC), and the mean pressure should agree with the clinical one. "
       "The fit is by least squares in the logarithms, with a prior of a factor of three about "
-      "--expected, --wall and --cut; the remaining uncertainty is written with the set as a covariance.");
+      "--expected, --wall and --cut; the remaining uncertainty is written with the set as a covariance. "
+      "The report also has every breast's own quantities, and the fit without each woman in turn.");
   tool.cite("Pathmanathan et al. 2008, equation (9) and Table II, scaled");
   tool.output_file(c.set, "--set", "OUT.tsv", "the material set found").required("--set");
   tool.inputs(c.cohort, "MESH.vtkhdf", "meshes of breasts imaged prone (hexmesh)");
   tool.input_file(c.women, "--women", "TABLE.tsv",
-                  "measurements on living women, with columns quantity, mean, sd")
+                  "measurements on living women, with columns quantity, mean, sd, unmodelled_sd")
       .required("--women");
-  tool.input_file(c.pressed, "--pressed", "MESH.vtkhdf", "mesh of the breast to compress")
-      .required("--pressed");
+  tool.input_file(c.pressed, "--pressed", "MESH.vtkhdf", "mesh of a breast to compress");
   tool.text(c.from, "--from", "NAME|FILE", "material set whose constants are scaled");
   tool.numbers(c.expected, "--expected", "LOW,QUADRATIC,SKIN", 3,
                "centre of the prior of the laws, in percent of those of --from");
@@ -86,12 +89,16 @@ void declare(Tool& tool, Choices& c) {
       "from the motion of two breasts and the pressure on a third");
 }
 
-Observed observed(const Table& women, const std::string& quantity) {
+std::vector<Observed> fitted_rows(const Table& women) {
+  std::vector<Observed> rows;
   for (std::size_t r = 0; r < women.rows.size(); ++r) {
-    if (women.cell(r, "quantity") == quantity)
-      return {quantity, women.number(r, "mean"), women.number(r, "sd")};
+    if (women.cell(r, "unmodelled_sd") == "-") continue;
+    rows.push_back({women.cell(r, "quantity"), women.number(r, "mean"), women.number(r, "sd"),
+                    women.number(r, "unmodelled_sd")});
   }
-  throw input_error(women.name, ": no quantity '", quantity, "'");
+  if (rows.empty())
+    throw input_error(women.name, ": no row has a number in the column unmodelled_sd");
+  return rows;
 }
 
 HexMesh prone_mesh(const std::filesystem::path& file) {
@@ -104,7 +111,30 @@ HexMesh prone_mesh(const std::filesystem::path& file) {
   return mesh;
 }
 
-void report_found(const SoftnessFound& found, Run& run) {
+CohortBreast breast_in(const std::filesystem::path& file) {
+  HexMesh mesh = prone_mesh(file);
+  const std::string folder = file.parent_path().filename().string(),
+                    name = folder.empty() ? file.stem().string() : folder,
+                    scan = scan_behind(origin_of(file, mesh));
+  return {name, scan.empty() ? name : scan, std::move(mesh)};
+}
+
+// Every breast's own quantities, and the fits without one woman.
+void report_breasts(const SoftnessData& data, const SoftnessFound& found, Run& run) {
+  for (std::size_t b = 0; b < found.of_breast.size(); ++b)
+    for (std::size_t q = 0; q < data.motion.size(); ++q)
+      run.report().set("breasts/" + data.cohort[b].name + "/" + data.motion[q].quantity,
+                       found.of_breast[b][q]);
+  for (const WithoutWoman& one : found.without) {
+    const std::string at = "without/" + one.woman + "/";
+    for (std::size_t k = 0; k < one.factors.size(); ++k)
+      run.report().set(at + found.parameters[k].name + "_factor", one.factors[k]);
+    for (std::size_t q = 0; q < one.predicted.size(); ++q)
+      run.report().set(at + data.motion[q].quantity, one.predicted[q]);
+  }
+}
+
+void report_found(const SoftnessData& c, const SoftnessFound& found, Run& run) {
   Table table{{"what", "found", "wanted", "sd"}, {}};
   for (std::size_t k = 0; k < found.wanted.size(); ++k) {
     const Observed& wanted = found.wanted[k];
@@ -114,6 +144,7 @@ void report_found(const SoftnessFound& found, Run& run) {
     run.report().set("data/" + wanted.quantity + "/wanted", wanted.mean);
     run.report().set("data/" + wanted.quantity + "/sd", wanted.sd);
   }
+  report_breasts(c, found, run);
   const Eigen::MatrixXd covariance = found.fit.covariance();
   for (std::size_t k = 0; k < found.parameters.size(); ++k) {
     const auto& [name, value] = found.parameters[k];
@@ -131,22 +162,22 @@ void report_found(const SoftnessFound& found, Run& run) {
 void run_calibration(const Choices& c, Run& run) {
   const Table women = read_table(c.women);
   SoftnessData data = c.data;
-  data.lateral = observed(women, "nipple_lateral_mm");
-  data.posterior = observed(women, "nipple_posterior_mm");
-  data.ribs_change = observed(women, "ribs_change_mm");
-  data.pressure.mean = c.pressure[0], data.pressure.sd = c.pressure[1];
-  data.press = compression_options(c.press, posture_gravity(Posture::upright));
+  data.motion = fitted_rows(women);
   data.expected.low_order = c.expected[0] / 100, data.expected.quadratic = c.expected[1] / 100;
   data.expected.skin = c.expected[2] / 100;
-  for (const std::filesystem::path& file : c.cohort) data.cohort.push_back(prone_mesh(file));
-  data.pressed = prone_mesh(c.pressed);
+  for (const std::filesystem::path& file : c.cohort) data.cohort.push_back(breast_in(file));
+  if (!c.pressed.empty()) {
+    data.pressed = {prone_mesh(c.pressed),
+                    compression_options(c.press, posture_gravity(Posture::upright)),
+                    {"pressure_kPa", c.pressure[0], c.pressure[1]}};
+  }
   MaterialSet base = load_materials(c.from);
   base.skin = {c.kept / 100, c.smoothing, c.prestretch / 100};
   check_skin(base.skin, "skin");
   const SoftnessFound found = calibrate_softness(base, data, run.progress());
   if (!found.fit.converged) run.warn("the calibration stopped before its parameters settled");
   write_table(c.set, material_table(found.materials));
-  report_found(found, run);
+  report_found(data, found, run);
 }
 
 }  // namespace

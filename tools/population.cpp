@@ -23,36 +23,7 @@ struct Choices {
   double muscle = 8;
 };
 
-/// A value of one breast. In a mean over breasts, a range of depths counts by the fraction of the
-/// breast that lies in it, since as many of a woman's landmarks do.
-struct Quantity {
-  std::string name;
-  double value = 0, weight = 1;
-};
-using Quantities = std::vector<Quantity>;
-
-Quantities quantities_of(const PostureMotion& m) {
-  Quantities list{{"nipple_moved_mm", m.nipple_moved},
-                  {"nipple_lateral_mm", m.nipple_lateral},
-                  {"nipple_posterior_mm", m.nipple_posterior},
-                  {"nipple_caudal_mm", m.nipple_caudal},
-                  {"nipples_apart_before_mm", m.nipples_apart_before},
-                  {"nipples_apart_after_mm", m.nipples_apart_after},
-                  {"before_notch_before_mm", m.before_notch_before},
-                  {"before_notch_after_mm", m.before_notch_after},
-                  {"ribs_before_mm", m.ribs_before},
-                  {"ribs_after_mm", m.ribs_after},
-                  {"ribs_change_mm", m.ribs_after - m.ribs_before}};
-  const char* names[] = {"0_20", "20_40", "above_40"};
-  for (std::size_t k = 0; k < m.bins.size(); ++k) {
-    const std::string name = names[k];
-    list.push_back({"volume_" + name + "_percent", 100 * m.bins[k].fraction});
-    list.push_back({"moved_" + name + "_mm", m.bins[k].moved, m.bins[k].fraction});
-    list.push_back({"change_" + name + "_mm", m.bins[k].change, m.bins[k].fraction});
-  }
-  list.push_back({"moved_near_wall_mm", m.nearest_moved});
-  return list;
-}
+using Quantities = std::vector<MotionQuantity>;
 
 /// Mean, standard deviation and range of every quantity, beside the values of women.
 Table summary_of(const std::vector<Quantities>& cases, const Choices& c) {
@@ -62,17 +33,17 @@ Table summary_of(const std::vector<Quantities>& cases, const Choices& c) {
     women = read_table(c.women);
     for (std::size_t r = 0; r < women.rows.size(); ++r) women_row[women.cell(r, "quantity")] = r;
   }
-  Table table{{"quantity", "mean", "sd", "lowest", "highest", "women_mean", "women_sd",
-               "within_one_sd"},
-              {}};
+  Table table{
+      {"quantity", "mean", "sd", "lowest", "highest", "women_mean", "women_sd", "within_one_sd"},
+      {}};
   for (std::size_t q = 0; q < cases.front().size(); ++q) {
     std::vector<Weighted> values;
     for (const Quantities& one : cases) values.push_back({one[q].value, one[q].weight});
     const Spread found = spread(values);
     const std::string& name = cases.front()[q].name;
-    std::vector<std::string> row{name, format_fixed(found.mean, decimals),
-                                 format_fixed(found.sd, decimals), format_fixed(found.low, decimals),
-                                 format_fixed(found.high, decimals)};
+    std::vector<std::string> row{
+        name, format_fixed(found.mean, decimals), format_fixed(found.sd, decimals),
+        format_fixed(found.low, decimals), format_fixed(found.high, decimals)};
     const auto known = women_row.find(name);
     if (known == women_row.end()) {
       row.insert(row.end(), {"-", "-", "-"});
@@ -93,14 +64,14 @@ void run_population(const Choices& c, Run& run) {
   for (const std::filesystem::path& file : c.meshes) {
     const HexMesh mesh = read_mesh(file, {.reference = true, .geometry = true});
     try {
-      cases.push_back(quantities_of(posture_motion(mesh, c.muscle)));
+      cases.push_back(motion_quantities(posture_motion(mesh, c.muscle)));
     } catch (const Error& error) {
       throw Error(error.kind(), file.string() + ": " + error.what());
     }
     const std::string folder = file.parent_path().filename().string();
     std::vector<std::string> row{folder.empty() ? file.stem().string() : folder,
                                  std::string(side_name(mesh.side))};
-    for (const Quantity& one : cases.back()) {
+    for (const MotionQuantity& one : cases.back()) {
       if (table.rows.empty()) table.columns.push_back(one.name);
       row.push_back(format_fixed(one.value, decimals));
     }
@@ -143,8 +114,9 @@ int main(int argc, char** argv) {
   tool.input_file(c.women, "--women", "TABLE.tsv",
                   "measurements on living women, with columns quantity, mean, sd");
   tool.number(c.muscle, "--muscle", "MM", "thickness of the muscle in front of the ribs", 0, 50);
-  tool.example("population runs/*/supine.vtkhdf --women pipelines/invivo/women.tsv "
-               "--summary motion.tsv",
-               "prone to supine of all runs");
+  tool.example(
+      "population runs/*/supine.vtkhdf --women pipelines/invivo/women.tsv "
+      "--summary motion.tsv",
+      "prone to supine of all runs");
   return tool.main(argc, argv, [&c](Run& run) { run_population(c, run); });
 }

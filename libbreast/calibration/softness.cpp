@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/softness.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -67,39 +68,78 @@ bool unload(HexMesh& mesh, const MechanicsOptions& options) {
   return found.converged();
 }
 
-std::optional<PostureMotion> motion_of(HexMesh mesh, const MechanicsOptions& options,
-                                       double muscle_mm) {
+std::optional<std::vector<MotionQuantity>> motion_of(HexMesh mesh, const MechanicsOptions& options,
+                                                     double muscle_mm) {
   if (!unload(mesh, options)) return {};
   const Equilibrium supine = solve_forward(mesh, posture_gravity(Posture::supine), options);
   if (!supine.converged()) return {};
   store(supine, mesh);
-  return posture_motion(mesh, muscle_mm);
+  return motion_quantities(posture_motion(mesh, muscle_mm));
 }
 
-std::optional<double> pressure_on(HexMesh mesh, const MechanicsOptions& options,
-                                  const SoftnessData& data) {
+std::optional<double> pressure_on(const PressedBreast& pressed, const MechanicsOptions& options) {
+  HexMesh mesh = pressed.mesh;
   if (!unload(mesh, options)) return {};
-  const CompressionResult found = compress(breast_alone(std::move(mesh)), data.press, options);
+  const CompressionResult found = compress(breast_alone(std::move(mesh)), pressed.press, options);
   if (!found.converged()) return {};
   return found.contact->plates[0].mean_kPa;
 }
 
-// The means of lateral, posterior and rib motion over the cohort, and the pressure.
-std::optional<std::vector<double>> model(const MechanicsOptions& options,
-                                         const SoftnessData& data) {
-  std::vector<double> sum(3, 0.0);
-  for (const HexMesh& mesh : data.cohort) {
-    const std::optional<PostureMotion> motion = motion_of(mesh, options, data.muscle_mm);
-    if (!motion) return {};
-    sum[0] += motion->nipple_lateral;
-    sum[1] += motion->nipple_posterior;
-    sum[2] += motion->ribs_after - motion->ribs_before;
+// What the model predicts: every quantity of every breast, with its weight in the mean, and the pressure.
+struct Prediction {
+  Eigen::MatrixXd values, weights;  // quantities × breasts
+  std::optional<double> pressure;
+
+  Eigen::VectorXd means() const {
+    return values.cwiseProduct(weights).rowwise().sum().cwiseQuotient(weights.rowwise().sum());
   }
-  for (double& value : sum) value /= double(data.cohort.size());
-  const std::optional<double> pressure = pressure_on(data.pressed, options, data);
-  if (!pressure) return {};
-  sum.push_back(*pressure);
-  return sum;
+  Prediction without(const std::vector<bool>& left_out) const {
+    Prediction rest = *this;
+    for (std::size_t k = 0; k < left_out.size(); ++k)
+      if (left_out[k]) rest.weights.col(Eigen::Index(k)).setZero();
+    return rest;
+  }
+};
+
+const MotionQuantity& quantity(const std::vector<MotionQuantity>& list, const std::string& name) {
+  const auto found = std::find_if(list.begin(), list.end(),
+                                  [&](const MotionQuantity& one) { return one.name == name; });
+  if (found != list.end()) return *found;
+  std::string names;
+  for (const MotionQuantity& one : list) names += (names.empty() ? "" : ", ") + one.name;
+  throw input_error("calibration: no quantity '", name, "' of a breast's motion; choose from ",
+                    names);
+}
+
+double share_of_woman(const SoftnessData& data, std::size_t breast) {
+  const auto hers = [&](const CohortBreast& one) { return one.woman == data.cohort[breast].woman; };
+  return 1.0 / double(std::count_if(data.cohort.begin(), data.cohort.end(), hers));
+}
+
+std::optional<Prediction> predict(const MechanicsOptions& options, const SoftnessData& data,
+                                  std::string& without_equilibrium) {
+  Prediction out;
+  out.values.resize(Eigen::Index(data.motion.size()), Eigen::Index(data.cohort.size()));
+  out.weights = out.values;
+  for (std::size_t k = 0; k < data.cohort.size(); ++k) {
+    const auto motion = motion_of(data.cohort[k].mesh, options, data.muscle_mm);
+    if (!motion) {
+      without_equilibrium = data.cohort[k].name;
+      return {};
+    }
+    for (std::size_t q = 0; q < data.motion.size(); ++q) {
+      const MotionQuantity& one = quantity(*motion, data.motion[q].quantity);
+      out.values(Eigen::Index(q), Eigen::Index(k)) = one.value;
+      out.weights(Eigen::Index(q), Eigen::Index(k)) = one.weight * share_of_woman(data, k);
+    }
+  }
+  if (!data.pressed) return out;
+  out.pressure = pressure_on(*data.pressed, options);
+  if (!out.pressure) {
+    without_equilibrium = "the pressed breast";
+    return {};
+  }
+  return out;
 }
 
 // Rounded, because the data determine no more digits and people read the set.
@@ -149,12 +189,154 @@ Eigen::MatrixXd rounded(const Eigen::MatrixXd& covariance) {
   return out;
 }
 
-std::vector<Observed> weighted(const SoftnessData& data) {
-  const double spread = std::sqrt(1.0 / data.women + 1.0 / double(data.cohort.size()));
-  std::vector<Observed> wanted{data.lateral, data.posterior, data.ribs_change};
-  for (Observed& one : wanted) one.sd *= spread;
-  wanted.push_back(data.pressure);
+std::vector<std::string> women_of(const SoftnessData& data) {
+  std::vector<std::string> names;
+  for (const CohortBreast& one : data.cohort) {
+    if (std::find(names.begin(), names.end(), one.woman) == names.end()) names.push_back(one.woman);
+  }
+  return names;
+}
+
+// The targets, with the standard deviations that weight them for a cohort of n women.
+std::vector<Observed> weighted(const SoftnessData& data, std::size_t n) {
+  const double spread = std::sqrt(1.0 / data.women + 1.0 / double(n));
+  std::vector<Observed> wanted = data.motion;
+  for (Observed& one : wanted) one.sd = std::hypot(one.sd * spread, one.unmodelled);
+  if (data.pressed) wanted.push_back(data.pressed->pressure);
   return wanted;
+}
+
+Eigen::VectorXd deviations(const Prediction& prediction, const std::vector<Observed>& wanted) {
+  Eigen::VectorXd r(Eigen::Index(wanted.size()));
+  const Eigen::VectorXd means = prediction.means();
+  for (Eigen::Index q = 0; q < r.size(); ++q) {
+    const Observed& target = wanted[std::size_t(q)];
+    r[q] = ((q < means.size() ? means[q] : *prediction.pressure) - target.mean) / target.sd;
+  }
+  return r;
+}
+
+// The fit of a softness to the data, with all that was predicted on its way.
+class Calibration {
+ public:
+  Calibration(const MaterialSet& base, const SoftnessData& data, Progress& progress)
+      : data_(data),
+        progress_(progress),
+        expected_(softened(base, data.expected, data.muscle_stiffness)),
+        names_(of_laws),
+        wanted_(weighted(data, women_of(data).size())) {
+    for (const SupportPtr& support : {expected_.wall, expected_.cut})
+      for (const std::string& name : support->parameters()) names_.push_back(name);
+  }
+
+  SoftnessFound run();
+
+ private:
+  std::optional<Prediction> predict_at(const Eigen::VectorXd& x);
+  std::vector<Prediction> neighbours(const Eigen::VectorXd& x);
+  std::vector<WithoutWoman> leave_out(const Eigen::VectorXd& x, const Prediction& here);
+
+  const SoftnessData& data_;
+  Progress& progress_;
+  const MechanicsOptions expected_;
+  std::vector<std::string> names_;
+  const std::vector<Observed> wanted_;
+  int evaluations_ = 0;
+};
+
+std::optional<Prediction> Calibration::predict_at(const Eigen::VectorXd& x) {
+  const MechanicsOptions tried = scaled(expected_, names_, x);
+  std::string said, failed;
+  const std::optional<Prediction> found = predict(tried, data_, failed);
+  for (const CalibratedParameter& one : values_of(tried, data_.expected, x))
+    said += message(said.empty() ? "" : ", ", one.name, " ", one.value);
+  said += ":";
+  if (!found) said += " no equilibrium of " + failed;
+  for (std::size_t q = 0; found && q < data_.motion.size(); ++q) {
+    said += message(" ", data_.motion[q].quantity, " ", rounded(found->means()[Eigen::Index(q)]));
+  }
+  if (found && found->pressure) said += message(" pressure_kPa ", *found->pressure);
+  progress_.update("calibrate", -1, message(++evaluations_, ". ", said));
+  return found;
+}
+
+// For the fits without one woman: what is predicted where one parameter is larger than at x.
+constexpr double neighbour_step = 0.1;
+std::vector<Prediction> Calibration::neighbours(const Eigen::VectorXd& x) {
+  std::vector<Prediction> list;
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    Eigen::VectorXd moved = x;
+    moved[k] += neighbour_step;
+    const std::optional<Prediction> found = predict_at(moved);
+    if (!found) return {};
+    list.push_back(*found);
+  }
+  return list;
+}
+
+std::vector<WithoutWoman> Calibration::leave_out(const Eigen::VectorXd& x, const Prediction& here) {
+  const std::vector<std::string> women = women_of(data_);
+  if (women.size() < 2) return {};
+  const std::vector<Prediction> beside = neighbours(x);
+  if (beside.empty()) return {};
+  const std::vector<Observed> wanted = weighted(data_, women.size() - 1);
+  const Eigen::Index n = x.size(), rows = Eigen::Index(wanted.size());
+  std::vector<WithoutWoman> list;
+  for (const std::string& woman : women) {
+    std::vector<bool> hers;
+    for (const CohortBreast& one : data_.cohort) hers.push_back(one.woman == woman);
+    Eigen::VectorXd r(rows + n);
+    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows + n, n);
+    r << deviations(here.without(hers), wanted), x / data_.expected_ln_sd;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Eigen::VectorXd moved = deviations(beside[std::size_t(k)].without(hers), wanted);
+      jacobian.col(k).head(rows) = (moved - r.head(rows)) / neighbour_step;
+      jacobian(rows + k, k) = 1 / data_.expected_ln_sd;
+    }
+    const Eigen::VectorXd step = -jacobian.colPivHouseholderQr().solve(r);
+    Eigen::MatrixXd own = here.values;
+    for (Eigen::Index k = 0; k < n; ++k)
+      own += step[k] / neighbour_step * (beside[std::size_t(k)].values - here.values);
+    WithoutWoman out{woman, {}, {}};
+    for (Eigen::Index k = 0; k < n; ++k) out.factors.push_back(std::exp(step[k]));
+    for (Eigen::Index q = 0; q < own.rows(); ++q) {
+      double sum = 0, count = 0;
+      for (std::size_t b = 0; b < hers.size(); ++b)
+        if (hers[b]) sum += own(q, Eigen::Index(b)), ++count;
+      out.predicted.push_back(sum / count);
+    }
+    list.push_back(out);
+  }
+  return list;
+}
+
+SoftnessFound Calibration::run() {
+  SoftnessFound out;
+  out.wanted = wanted_;
+  LeastSquaresProblem problem;
+  problem.residuals = [&](const Eigen::VectorXd& x) -> std::optional<Eigen::VectorXd> {
+    const std::optional<Prediction> found = predict_at(x);
+    if (!found) return {};
+    Eigen::VectorXd r(Eigen::Index(wanted_.size()) + x.size());
+    r << deviations(*found, wanted_), x / data_.expected_ln_sd;
+    return r;
+  };
+  LeastSquaresOptions search;
+  search.max_evaluations = 100;
+  out.fit = least_squares(problem, Eigen::VectorXd::Zero(Eigen::Index(names_.size())), search);
+  const MechanicsOptions found = scaled(expected_, names_, out.fit.x);
+  out.parameters = values_of(found, data_.expected, out.fit.x);
+  for (std::size_t k = 0; k < out.wanted.size(); ++k)
+    out.found.push_back(out.wanted[k].mean + out.fit.residuals[Eigen::Index(k)] * out.wanted[k].sd);
+  if (const std::optional<Prediction> here = predict_at(out.fit.x)) {
+    for (Eigen::Index b = 0; b < here->values.cols(); ++b)
+      out.of_breast.emplace_back(here->values.col(b).begin(), here->values.col(b).end());
+    out.without = leave_out(out.fit.x, *here);
+  }
+  out.materials = rounded(found);
+  out.materials.uncertainty.parameters = names_;
+  out.materials.uncertainty.covariance = rounded(out.fit.covariance());
+  return out;
 }
 
 }  // namespace
@@ -162,44 +344,8 @@ std::vector<Observed> weighted(const SoftnessData& data) {
 SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& data,
                                  Progress& progress) {
   if (data.cohort.empty()) throw input_error("calibration: the cohort is empty");
-  SoftnessFound out;
-  out.wanted = weighted(data);
-  const MechanicsOptions expected = softened(base, data.expected, data.muscle_stiffness);
-  std::vector<std::string> names = of_laws;
-  for (const SupportPtr& support : {expected.wall, expected.cut}) {
-    for (const std::string& name : support->parameters()) names.push_back(name);
-  }
-  int evaluations = 0;
-  LeastSquaresProblem problem;
-  problem.residuals = [&](const Eigen::VectorXd& x) -> std::optional<Eigen::VectorXd> {
-    const MechanicsOptions tried = scaled(expected, names, x);
-    const std::optional<std::vector<double>> values = model(tried, data);
-    std::string said;
-    for (const CalibratedParameter& one : values_of(tried, data.expected, x))
-      said += message(said.empty() ? "" : ", ", one.name, " ", one.value);
-    said += ":";
-    if (!values) said += " no equilibrium";
-    Eigen::VectorXd r(Eigen::Index(out.wanted.size()) + x.size());
-    for (std::size_t k = 0; values && k < out.wanted.size(); ++k) {
-      r[Eigen::Index(k)] = ((*values)[k] - out.wanted[k].mean) / out.wanted[k].sd;
-      said += message(" ", out.wanted[k].quantity, " ", (*values)[k]);
-    }
-    progress.update("calibrate", -1, message(++evaluations, ". ", said));
-    if (!values) return {};
-    r.tail(x.size()) = x / data.expected_ln_sd;
-    return r;
-  };
-  LeastSquaresOptions search;
-  search.max_evaluations = 100;
-  out.fit = least_squares(problem, Eigen::VectorXd::Zero(Eigen::Index(names.size())), search);
-  const MechanicsOptions found = scaled(expected, names, out.fit.x);
-  out.parameters = values_of(found, data.expected, out.fit.x);
-  for (std::size_t k = 0; k < out.wanted.size(); ++k)
-    out.found.push_back(out.wanted[k].mean + out.fit.residuals[Eigen::Index(k)] * out.wanted[k].sd);
-  out.materials = rounded(found);
-  out.materials.uncertainty.parameters = names;
-  out.materials.uncertainty.covariance = rounded(out.fit.covariance());
-  return out;
+  if (data.motion.empty()) throw input_error("calibration: no quantity of motion to fit");
+  return Calibration(base, data, progress).run();
 }
 
 }  // namespace breast

@@ -31,21 +31,33 @@ MechanicsOptions softened(const MaterialSet& base, const Softness& softness,
 struct Observed {
   std::string quantity;
   double mean = 0, sd = 0;
+  /// Standard deviation of the mean that no model here explains, such as that of the arms' place.
+  double unmodelled = 0;
 };
 
-/// The data: motion of women's breasts from prone to supine, with the cohort that should match it,
-/// and the mean pressure of the paddle on one breast.
+/// A breast imaged prone, with its wall surface. Breasts of one woman share her weight in every mean.
+struct CohortBreast {
+  std::string name, woman;
+  HexMesh mesh;
+};
+
+/// The breast between plates that the fit sees, and the mean pressure of the paddle on it.
+struct PressedBreast {
+  HexMesh mesh;
+  CompressionOptions press;
+  Observed pressure{"pressure_kPa", 10, 2.5};
+};
+
+/// The data: motion of women's breasts from prone to supine, and the cohort that should match it.
 struct SoftnessData {
-  std::vector<HexMesh> cohort;  ///< imaged prone, with wall surfaces
-  HexMesh pressed;
+  std::vector<CohortBreast> cohort;
   double muscle_mm = 8;
   std::optional<double> muscle_stiffness = {};  ///< relative to fibroglandular tissue
-  Observed lateral, posterior, ribs_change;     ///< means over `women` women
+  std::vector<Observed> motion;  ///< means over `women` women, of motion_quantities()
   int women = 63;
-  Observed pressure{"pressure_kPa", 10, 2.5};  ///< of the paddle on `pressed`
-  CompressionOptions press;                    ///< how `pressed` is compressed
-  Softness expected;                           ///< centre of the prior
-  double expected_ln_sd = 1.1;                 ///< a factor of three either way
+  std::optional<PressedBreast> pressed;
+  Softness expected;            ///< centre of the prior
+  double expected_ln_sd = 1.1;  ///< a factor of three either way
 };
 
 /// An unknown: a factor on the laws of the base, or a number of a support.
@@ -54,17 +66,27 @@ struct CalibratedParameter {
   double value = 0;
 };
 
+/// The fit without one woman, by one linearised step from the fit with all.
+struct WithoutWoman {
+  std::string woman;
+  std::vector<double> factors;    ///< of each parameter, relative to the fit with all
+  std::vector<double> predicted;  ///< her own quantities with these factors
+};
+
 struct SoftnessFound {
   std::vector<CalibratedParameter> parameters;
   LeastSquaresResult fit;
   std::vector<Observed> wanted;  ///< targets, with the standard deviations used as weights
   std::vector<double> found;     ///< resulting means of the cohort, and the resulting pressure
-  MaterialSet materials;         ///< with its uncertainty
+  std::vector<std::vector<double>> of_breast;  ///< per breast, its quantities
+  std::vector<WithoutWoman> without;           ///< empty for a single woman
+  MaterialSet materials;                       ///< with its uncertainty
 };
 
-/// Least squares in the logarithms of low_order, quadratic, skin and the parameters of the supports. A mean over n breasts is weighted by the standard
-/// error of its difference from the women's mean, sd √(1/women + 1/n). Throws Error (not converged)
-/// if there is no equilibrium with the expected softness.
+/// Least squares in the logarithms of low_order, quadratic, skin and the parameters of the supports. A mean over
+/// the n women of the cohort is weighted by the standard error of its difference from the mean of the data, sd
+/// √(1/women + 1/n), and by what is unmodelled. Throws Error (input) for a quantity that is not one of
+/// motion_quantities(), and Error (not converged) if there is no equilibrium with the expected softness.
 SoftnessFound calibrate_softness(const MaterialSet& base, const SoftnessData& data,
                                  Progress& progress = no_progress());
 

@@ -21,7 +21,8 @@ struct Sample {
   double volume = 0, moved = 0, before = 0, after = 0;
 };
 
-std::vector<Sample> samples_of(const HexMesh& mesh, const ThoraxSurface& surface, double muscle_mm) {
+std::vector<Sample> samples_of(const HexMesh& mesh, const ThoraxSurface& surface,
+                               double muscle_mm) {
   const std::vector<double> volumes = element_volumes(mesh, mesh.imaged);
   std::vector<Sample> samples;
   for (int e = 0; e < mesh.elements(); ++e) {
@@ -29,8 +30,8 @@ std::vector<Sample> samples_of(const HexMesh& mesh, const ThoraxSurface& surface
     const Vec3 from = element_position(mesh, mesh.imaged, e, Vec3::Zero());
     const Vec3 to = element_position(mesh, mesh.points, e, Vec3::Zero());
     samples.push_back({volumes[std::size_t(e)], (to - from).norm(),
-                      wall_surface_distance(surface, from) + muscle_mm,
-                      wall_surface_distance(surface, to) + muscle_mm});
+                       wall_surface_distance(surface, from) + muscle_mm,
+                       wall_surface_distance(surface, to) + muscle_mm});
   }
   return samples;
 }
@@ -38,8 +39,9 @@ std::vector<Sample> samples_of(const HexMesh& mesh, const ThoraxSurface& surface
 // The nipple in the body's frame, as it is measured in women.
 void place_nipple(const ThoraxSurface& surface, const Vec3& before, const Vec3& after,
                   PostureMotion& motion) {
-  const double notch_z = std::clamp(before.z() + notch_height_mm, surface.origin.z() + surface.height_low,
-                                    surface.origin.z() + surface.height_high);
+  const double notch_z =
+      std::clamp(before.z() + notch_height_mm, surface.origin.z() + surface.height_low,
+                 surface.origin.z() + surface.height_high);
   const double notch_y = surface.point(0, notch_z - surface.origin.z()).y();
   motion.nipples_apart_before = 2 * std::abs(before.x() - surface.origin.x());
   motion.nipples_apart_after = 2 * std::abs(after.x() - surface.origin.x());
@@ -54,6 +56,19 @@ double mean(const std::vector<Sample>& samples, double Sample::*value) {
     total += sample.volume;
   }
   return total > 0 ? sum / total : 0;
+}
+
+// The change of the distance from the ribs at the distance `at`, by weighted linear regression; 0 without tissue.
+double regressed_change(const std::vector<Sample>& samples, double at) {
+  if (samples.empty()) return 0;
+  const double before = mean(samples, &Sample::before), after = mean(samples, &Sample::after);
+  double along = 0, square = 0;
+  for (const Sample& sample : samples) {
+    const double apart = sample.before - before;
+    along += sample.volume * apart * (sample.after - sample.before - (after - before));
+    square += sample.volume * apart * apart;
+  }
+  return after - before + (square > 0 ? along / square * (at - before) : 0);
 }
 
 double median_ratio(const std::vector<Sample>& samples) {
@@ -74,6 +89,31 @@ double median_ratio(const std::vector<Sample>& samples) {
 }
 
 }  // namespace
+
+std::vector<MotionQuantity> motion_quantities(const PostureMotion& m) {
+  std::vector<MotionQuantity> list{{"nipple_moved_mm", m.nipple_moved},
+                                   {"nipple_lateral_mm", m.nipple_lateral},
+                                   {"nipple_posterior_mm", m.nipple_posterior},
+                                   {"nipple_caudal_mm", m.nipple_caudal},
+                                   {"nipples_apart_before_mm", m.nipples_apart_before},
+                                   {"nipples_apart_after_mm", m.nipples_apart_after},
+                                   {"before_notch_before_mm", m.before_notch_before},
+                                   {"before_notch_after_mm", m.before_notch_after},
+                                   {"ribs_before_mm", m.ribs_before},
+                                   {"ribs_after_mm", m.ribs_after},
+                                   {"ribs_change_mm", m.ribs_after - m.ribs_before}};
+  const char* names[] = {"0_20", "20_40", "above_40"};
+  for (std::size_t k = 0; k < m.bins.size(); ++k) {
+    const std::string name = names[k];
+    const DepthBin& bin = m.bins[k];
+    list.push_back({"volume_" + name + "_percent", 100 * bin.fraction});
+    list.push_back({"moved_" + name + "_mm", bin.moved, bin.fraction});
+    list.push_back({"change_" + name + "_mm", bin.change, bin.fraction});
+    if (k + 1 == m.bins.size()) list.push_back({"change_at_71_mm", m.far_change, bin.fraction});
+  }
+  list.push_back({"moved_near_wall_mm", m.nearest_moved});
+  return list;
+}
 
 double wall_surface_distance(const ThoraxSurface& surface, const Vec3& x) {
   constexpr int rounds = 25;
@@ -126,6 +166,7 @@ PostureMotion posture_motion(const HexMesh& mesh, double assumed_muscle_mm) {
     }
     motion.bins.push_back({bounds[k], bounds[k + 1], volume / total, mean(within, &Sample::moved),
                            mean(within, &Sample::after) - mean(within, &Sample::before)});
+    if (k + 2 == std::size(bounds)) motion.far_change = regressed_change(within, far_landmark_mm);
   }
   std::vector<Sample> near;
   for (const Sample& sample : samples) {

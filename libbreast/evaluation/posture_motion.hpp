@@ -30,12 +30,27 @@ struct PostureMotion {
   /// Median of the ratio of the distance after to that before.
   double ratio = 0;
   std::vector<DepthBin> bins;  ///< 0 to 20, 20 to 40, above 40 mm
-  double nearest_moved = 0;    ///< mean motion of tissue within 20 mm of the wall
+  /// Change of the distance from the ribs, mm, of tissue that lies far_landmark_mm from them in the scan: by
+  /// linear regression over the tissue of the last range. Breasts of different protrusion compare in it.
+  double far_change = 0;
+  double nearest_moved = 0;  ///< mean motion of tissue within 20 mm of the wall
 };
+
+/// A value of one breast, named as in a table of women's (pipelines/invivo/women.tsv). In a mean over breasts,
+/// a range of depths counts by the fraction of the breast that lies in it, since as many of a woman's landmarks
+/// do.
+struct MotionQuantity {
+  std::string name;
+  double value = 0, weight = 1;
+};
+std::vector<MotionQuantity> motion_quantities(const PostureMotion& motion);
 
 /// Distance along the body from the nipple to the sternal notch in the scan, which is assumed
 /// because scans of breasts end below the notch.
 inline constexpr double notch_height_mm = 140;
+
+/// Mean distance of women's landmarks above 40 mm from the ribs when prone.
+inline constexpr double far_landmark_mm = 71;
 
 /// The motion from mesh.imaged to mesh.points, with elements weighted by their volume in the scan.
 /// The ribs are assumed to lie `muscle_mm` behind the mesh's wall surface. Throws Error (input)

@@ -120,9 +120,10 @@ inline void write_inputs(const std::filesystem::path& folder) {
       "landmark\tside\tstress_free_x_mm\tstress_free_y_mm\tstress_free_z_mm\tprone_x_mm\tprone_y_mm\t"
       "prone_z_mm\tsupine_x_mm\tsupine_y_mm\tsupine_z_mm\nnipple\tleft\t0\t0\t0\t0\t0\t0\t0\t0\t0\n"
       "tumour\tleft\t14\t30\t12\t14\t30\t12\t14\t30\t12\n\r\n");
-  write_text(folder / "women.tsv",
-             "quantity\tmean\tsd\nnipple_lateral_mm\t6\t3\nnipple_posterior_mm\t5\t3\n"
-             "ribs_change_mm\t-1\t1\n");
+  write_text(
+      folder / "women.tsv",
+      "quantity\tmean\tsd\tunmodelled_sd\nnipple_lateral_mm\t6\t3\t0\nnipple_posterior_mm\t5\t3\t0\n"
+      "ribs_change_mm\t-1\t1\t0\n");
   for (const char* line : {
            "backward cap.vtkhdf cap_reference.vtkhdf --materials seed2008",
            "forward cap_reference.vtkhdf cap_supine.vtkhdf",

@@ -91,21 +91,48 @@ TEST_F(SlidingTools, WholeChainWithWhatTheMaterialSetSays) {
 }
 
 TEST_F(SlidingTools, ACalibratedSetIsReadByTheOtherTools) {
-  write_text(folder_ / "women.tsv",
-             "quantity\tmean\tsd\nnipple_lateral_mm\t6\t3\nnipple_posterior_mm\t5\t3\n"
-             "ribs_change_mm\t-1\t1\n");
+  const std::string header = "quantity\tmean\tsd\tunmodelled_sd\n";
+  write_text(folder_ / "women.tsv", header +
+                                        "nipple_lateral_mm\t6\t3\t0\nnipple_posterior_mm\t5\t3\t1\n"
+                                        "ribs_change_mm\t-1\t1\t0\nnipple_caudal_mm\t9\t1\t-\n");
   const std::string line =
-      "calibrate-softness mesh.vtkhdf --pressed mesh.vtkhdf --women women.tsv "
-      "--set set.tsv --expected 20,50,100 --wall slide:0.05 --cut spring:0.05,0.1 --reduction 10 ";
-  ASSERT_EQ(run(line + "--expected-ln-sd 0.2 --report k.json"), 0) << said_.err;
+      "calibrate-softness mesh.vtkhdf --women women.tsv --set set.tsv --expected 20,50,100 "
+      "--wall slide:0.05,L=9 --cut spring:0.05,medial=0.1 --expected-ln-sd 0.2 ";
+  ASSERT_EQ(run(line + "--pressed mesh.vtkhdf --reduction 10 --report k.json"), 0) << said_.err;
   EXPECT_GT(report("k.json").number("softness/wall"), 0.01);
+  EXPECT_LT(report("k.json").number("softness/cut.medial_ln_sd"), 0.21);
   EXPECT_LT(report("k.json").number("softness/wall_ln_sd"), 0.2);
+  EXPECT_GT(report("k.json").number("data/pressure_kPa/found"), 0);
+  EXPECT_GT(report("k.json").number("data/nipple_posterior_mm/sd"), 3);
   EXPECT_EQ(run("backward mesh.vtkhdf r.vtkhdf --materials set.tsv"), 0) << said_.err;
   EXPECT_EQ(run(line + "--from victre"), 2);
   EXPECT_NE(said_.err.find("quadratic"), std::string::npos) << said_.err;
-  write_text(folder_ / "women.tsv", "quantity\tmean\tsd\nnipple_lateral_mm\t6\t3\n");
+  write_text(folder_ / "women.tsv", header + "nipple_lateral_mm\t6\t3\t-\n");
   EXPECT_EQ(run(line), 2);
-  EXPECT_NE(said_.err.find("nipple_posterior_mm"), std::string::npos) << said_.err;
+  EXPECT_NE(said_.err.find("unmodelled_sd"), std::string::npos) << said_.err;
+  write_text(folder_ / "women.tsv", header + "nipple_sideways_mm\t6\t3\t0\n");
+  EXPECT_EQ(run(line), 2);
+  EXPECT_NE(said_.err.find("no quantity 'nipple_sideways_mm'"), std::string::npos) << said_.err;
+}
+
+// Two breasts of different women: each is predicted by the fit without her. Both sides of one scan are one woman.
+TEST_F(SlidingTools, ACalibrationLeavesOutEachWoman) {
+  write_text(
+      folder_ / "women.tsv",
+      "quantity\tmean\tsd\tunmodelled_sd\nnipple_lateral_mm\t6\t3\t0\nnipple_posterior_mm\t5\t3\t0\n");
+  std::filesystem::create_directory(folder_ / "a");
+  std::filesystem::create_directory(folder_ / "b");
+  for (const char* place : {"a", "b"})
+    std::filesystem::copy_file(folder_ / "mesh.vtkhdf", folder_ / place / "mesh.vtkhdf");
+  ASSERT_EQ(
+      run("calibrate-softness a/mesh.vtkhdf b/mesh.vtkhdf --women women.tsv --set set.tsv --expected 20,50,100 "
+          "--wall slide:0.05 --cut spring:0.05 --expected-ln-sd 0.2 --report k.json"),
+      0)
+      << said_.err;
+  // The women are alike, so that the fit without one is nearly that with both.
+  EXPECT_NEAR(report("k.json").number("without/a/wall_factor"), 1, 0.05);
+  EXPECT_NEAR(report("k.json").number("without/b/nipple_lateral_mm"),
+              report("k.json").number("breasts/a/nipple_lateral_mm"), 0.3);
 }
 
 // The one default is that of the pipeline, and only backward has it.

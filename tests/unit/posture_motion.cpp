@@ -77,7 +77,8 @@ TEST(PostureMotion, TurningAboutTheWallKeepsTheDistances) {
               2 * std::abs(landmark_position(mesh, mesh.imaged, nipple).x()), 1e-9);
   EXPECT_NEAR(motion.nipples_apart_after,
               2 * std::abs(landmark_position(mesh, mesh.points, nipple).x()), 1e-9);
-  EXPECT_NEAR(motion.before_notch_before - motion.before_notch_after, motion.nipple_posterior, 1e-9);
+  EXPECT_NEAR(motion.before_notch_before - motion.before_notch_after, motion.nipple_posterior,
+              1e-9);
   EXPECT_GT(motion.nipple_lateral, 30) << "to the left, away from the midline";
   EXPECT_NEAR(motion.nipple_caudal, 0, 1e-9);
   ASSERT_EQ(motion.bins.size(), 3u);
@@ -103,6 +104,8 @@ TEST(PostureMotion, FlatteningBringsTissueToTheRibs) {
   EXPECT_NEAR(motion.ratio, 0.5, 1e-2);
   EXPECT_LT(motion.bins[2].change, motion.bins[0].change);
   EXPECT_NEAR(motion.ribs_after, 0.5 * motion.ribs_before, 0.1);
+  // The change is proportional to the distance, so that the regression over 40 to 60 mm is exact beyond.
+  EXPECT_NEAR(motion.far_change, -0.5 * far_landmark_mm, 0.2);
 }
 
 TEST(PostureMotion, NeedsAWallSurfaceAndANipple) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "fixtures/analytic_mesh.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/level_surfaces.hpp"
 #include "fixtures/standing_block.hpp"
@@ -55,14 +56,45 @@ TEST(Supports, AreReadAndPrintedOrRefusedInWords) {
             (std::vector<std::string>{"cut", "sternum"}));
   EXPECT_EQ(cut_support("tissue:0.1,0.3")->beside(*wall_support("held"))->text(), "spring:0.1,0.3");
   EXPECT_EQ(cut_support("tissue:0.1")->beside(*wall_support("slide")), nullptr);
-  for (const char* bad :
-       {"", "spring", "spring:", "spring:0", "spring:-1", "spring:1,-1", "spring:1,", "spring:nan",
-        "spring:1;2", "spring:1,2,3", "free", "slide:", "slide:-1", "slide:1,1", "slide:1,Q=2",
-        "slide:Q=2,1", "slide:Q=", "held:1"}) {
+  // What is not varied has no parameter.
+  EXPECT_EQ(wall_support("slide:0.1,L=20,P=4")->parameters(),
+            (std::vector<std::string>{"wall", "wall.L"}));
+  EXPECT_EQ(wall_support("slide:0.1,P=4,L=20")->text(), "slide:0.1,L=20,P=4");
+  EXPECT_EQ(wall_support("slide:0.1,L=20,P=2")->text(), "slide:0.1,L=20");
+  const SupportPtr borders = cut_support("spring:0,superior=0.03,medial=0.1,L=20");
+  EXPECT_EQ(borders->text(), "spring:0,medial=0.1,superior=0.03,L=20");
+  EXPECT_EQ(borders->parameters(),
+            (std::vector<std::string>{"cut.medial", "cut.superior", "cut.L"}));
+  EXPECT_EQ(borders->scaled("cut.medial", 2)->text(), "spring:0,medial=0.2,superior=0.03,L=20");
+  EXPECT_EQ(borders->stiffened(2)->text(), "spring:0,medial=0.2,superior=0.06,L=20");
+  for (const char* bad : {"",
+                          "spring",
+                          "spring:",
+                          "spring:0",
+                          "spring:-1",
+                          "spring:1,-1",
+                          "spring:1,",
+                          "spring:nan",
+                          "spring:1;2",
+                          "spring:1,2,3",
+                          "free",
+                          "slide:",
+                          "slide:-1",
+                          "slide:1,1",
+                          "slide:1,Q=2",
+                          "slide:Q=2,1",
+                          "slide:Q=",
+                          "held:1",
+                          "slide:1,P=2",
+                          "slide:1,L=0",
+                          "slide:1,L=9,P=0.5",
+                          "slide:0,L=9",
+                          "slide:1,medial=1"}) {
     EXPECT_THROW(wall_support(bad), Error) << bad;
   }
   for (const char* bad : {"", "held", "spring", "spring:0", "spring:-1", "spring:1,0", "spring:1,",
-                          "spring:1,1,1", "tissue", "roller:1", "slide:1"}) {
+                          "spring:1,1,1", "tissue", "roller:1", "slide:1", "spring:1,medial=-1",
+                          "spring:medial=1", "spring:1,axilla=1", "roller:medial=1"}) {
     EXPECT_THROW(cut_support(bad), Error) << bad;
   }
   try {
@@ -74,6 +106,40 @@ TEST(Supports, AreReadAndPrintedOrRefusedInWords) {
               std::string::npos)
         << said;
   }
+}
+
+// The force of the springs of the cut on a breast that moved by (3, 1, -2) mm.
+Vec3 force_of_cut(const HexMesh& mesh, const std::string& cut) {
+  MechanicsOptions options;
+  options.cut = cut_support(cut);
+  const Eigen::VectorXd reference = flatten(mesh.imaged);
+  State state;
+  state.reference = state.x = reference;
+  for (int node = 0; node < mesh.nodes(); ++node) state.x.segment<3>(3L * node) += Vec3(3, 1, -2);
+  return attach_supports(mesh, nullptr, options).force_of_springs(state);
+}
+
+// The borders share the cut: alone, each exerts its part of the force of springs all around, and only there.
+TEST(Supports, EachBorderOfTheCutHasItsOwnSprings) {
+  HexMesh mesh = analytic_breast_mesh(6);
+  Vec3 sum = Vec3::Zero();
+  for (const char* border : {"medial", "superior", "lateral", "inferior"}) {
+    const Vec3 force = force_of_cut(mesh, std::string("spring:0,") + border + "=0.02");
+    EXPECT_GT(force.norm(), 0) << border;
+    sum += force;
+  }
+  const Vec3 all = force_of_cut(mesh, "spring:0.02");
+  EXPECT_LT((sum - all).norm(), 1e-12 * all.norm());
+  const Vec3 others = force_of_cut(mesh, "spring:0.02,medial=0"),
+             medial = force_of_cut(mesh, "spring:0,medial=0.02");
+  EXPECT_LT((others + medial - all).norm(), 1e-12 * all.norm());
+  // They stiffen with the others.
+  const double moved = Vec3(3, 1, -2).norm(), factor = 1 + std::pow(moved / 5, 3);
+  const Vec3 stiffened = force_of_cut(mesh, "spring:0,medial=0.02,L=5,P=3");
+  EXPECT_LT((stiffened - factor * medial).norm(), 1e-12 * stiffened.norm());
+  // What is medial depends on the side.
+  mesh.side = mesh.side == Side::left ? Side::right : Side::left;
+  EXPECT_LT((force_of_cut(mesh, "spring:0,lateral=0.02") - medial).norm(), 1e-12 * medial.norm());
 }
 
 // The forces of the supports of wall and cut of a block on the plane x = 0, with their loads.

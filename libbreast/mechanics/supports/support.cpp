@@ -72,8 +72,9 @@ std::string BodySupport::text() const {
 std::vector<std::string> BodySupport::parameters() const {
   std::vector<std::string> names;
   for (const SupportNumber& number : numbers_) {
+    if (number.value == 0 || number.parameter.empty()) continue;
     const bool there = std::find(names.begin(), names.end(), number.parameter) != names.end();
-    if (number.value != 0 && !there) names.push_back(number.parameter);
+    if (!there) names.push_back(number.parameter);
   }
   return names;
 }
@@ -133,7 +134,10 @@ SupportPtr read_support(const SupportText& parts) {
     if (!kind->addition && kind->name == parts.kind) found = kind;
   }
   if (found == nullptr) parts.refuse("'" + parts.kind + "' is unknown");
-  if (!parts.named.empty()) parts.refuse("'" + parts.named.begin()->first + "=' is unknown");
+  for (const auto& [key, value] : parts.named) {
+    if (std::find(found->keys.begin(), found->keys.end(), key) == found->keys.end())
+      parts.refuse("'" + key + "=' is unknown");
+  }
   return found->read(parts);
 }
 

@@ -27,10 +27,20 @@ const std::vector<Face>& faces_at(const HexMesh& mesh, SupportPlace place);
 
 /// A number of a support. Numbers with the same parameter change together.
 struct SupportNumber {
-  std::string parameter;  ///< "wall", "cut", "sternum", ...: also a parameter of a material set
+  /// "wall", "cut", "sternum", ...: also a parameter of a material set. Empty: a number of the support's
+  /// law that is chosen, not varied.
+  std::string parameter;
   double value = 0;
   std::string unit = "kPa/mm";
   std::string key = {};  ///< it is written as KEY=NUMBER; empty: it has a fixed place
+};
+
+/// Springs of one stiffness on all faces of a support.
+struct SpringShare {
+  double stiffness = 0;   ///< kPa/mm along the wall, for small displacements
+  std::string parameter;  ///< of the stiffness
+  /// The share of the stiffness that a face with this outward normal has; empty: all of it.
+  std::function<double(const Vec3& normal)> of_face = {};
 };
 
 class BodySupport;
@@ -58,6 +68,11 @@ class BodySupport {
 
   /// Stiffness of its springs along the wall for small displacements, kPa/mm; 0 without springs.
   virtual double stiffness() const { return 0; }
+  /// Its springs on a breast of this side; together they have `stiffness()` unless it differs from place to
+  /// place.
+  virtual std::vector<SpringShare> springs(Side) const {
+    return {{stiffness(), place_name(place_), {}}};
+  }
   /// A support of this kind, or of the nearest one, that has springs of this stiffness (kPa/mm); null if
   /// the support holds the body anyway.
   virtual SupportPtr with_springs(double) const { return nullptr; }
@@ -107,6 +122,7 @@ struct SupportKind {
   std::string_view example;  ///< "slide:0.01"; of an addition: what is added
   bool addition;             ///< it is written as KEY=NUMBER in the text of another support
   SupportPtr (*read)(const SupportText& text);
+  std::vector<std::string_view> keys = {};  ///< of numbers that may follow as KEY=NUMBER
 };
 const std::vector<const SupportKind*>& support_kinds();
 

@@ -37,16 +37,20 @@ class TissueBeyond final : public BodySupport {
   }
   void attach(const SupportSite& site, SupportEffects& effects) const override {
     springs_->attach(site, effects);
-    effects.loads.push_back(weight(site));
+    check(site);
+    for (const SpringShare& part : springs(site.mesh.side))
+      effects.loads.push_back(weight(site, part));
   }
+  std::vector<SpringShare> springs(Side side) const override { return springs_->springs(side); }
 
  private:
-  SupportLoad weight(const SupportSite& site) const;
+  void check(const SupportSite& site) const;
+  SupportLoad weight(const SupportSite& site, const SpringShare& part) const;
 
   SupportPtr springs_;
 };
 
-SupportLoad TissueBeyond::weight(const SupportSite& site) const {
+void TissueBeyond::check(const SupportSite& site) const {
   if (!(site.wall.stiffness() > 0))
     throw input_error(
         "--cut ", text(), " with --wall ", site.wall.text(),
@@ -54,11 +58,15 @@ SupportLoad TissueBeyond::weight(const SupportSite& site) const {
         "KT above 0, or --cut spring:KC");
   if (!site.surface)
     throw input_error("--cut tissue: the mesh has no chest-wall surface; use --cut spring:KC");
+}
+
+SupportLoad TissueBeyond::weight(const SupportSite& site, const SpringShare& part) const {
   const HexMesh& mesh = site.mesh;
-  const double length = stiffness() * thickness_beyond / site.wall.stiffness();
-  const std::vector<double> area = nodal_faces(mesh, mesh.cut_faces, flatten(mesh.imaged)).area;
+  const double length = part.stiffness * thickness_beyond / site.wall.stiffness();
+  const std::vector<double> area =
+      nodal_faces(mesh, mesh.cut_faces, flatten(mesh.imaged), part.of_face).area;
   SupportLoad load;
-  load.powers = {{"cut", 1}, {"wall", -1}};
+  load.powers = {{part.parameter, 1}, {"wall", -1}};
   load.nodes = nodes_of(mesh, mesh.cut_faces);
   for (const int node : load.nodes) {
     const Vec3& at = mesh.imaged[std::size_t(node)];
@@ -82,8 +90,10 @@ SupportPtr read(const SupportText& text) {
 }  // namespace
 
 const SupportKind& supports::tissue() {
-  static const SupportKind kind{{SupportPlace::cut}, "tissue", "tissue:KC[,KS]",
-                                "tissue:0.01,0.4",   false,    read};
+  static const SupportKind kind{
+      {SupportPlace::cut},         "tissue", "tissue:KC[,KS][,medial=K]...",
+      "tissue:0.01,0.4",           false,    read,
+      supports::cut_springs().keys};
   return kind;
 }
 

@@ -11,23 +11,24 @@ namespace breast {
 
 ElasticSupport::ElasticSupport(const HexMesh& mesh, const std::vector<Face>& faces,
                                const SupportStiffness& stiffness,
-                               std::shared_ptr<const LevelSurface> surface)
+                               std::shared_ptr<const LevelSurface> surface,
+                               const std::function<double(const Vec3& normal)>& share)
     : surface_(std::move(surface)) {
   if (!(stiffness.normal > 0 && stiffness.tangential >= 0)) {
     throw input_error("springs of ", stiffness.normal, " and ", stiffness.tangential,
                       " kPa/mm: the first must be above 0, the second 0 or more");
   }
-  const NodalFaces spread = nodal_faces(mesh, faces, flatten(mesh.imaged));
+  const NodalFaces spread = nodal_faces(mesh, faces, flatten(mesh.imaged), share);
   cells_.nodes = nodes_of(mesh, faces);
   for (int i = 0; i < cells_.count(); ++i) {
     const auto node = std::size_t(cells_.nodes[std::size_t(i)]);
     const double area = spread.area[node] * pascal_per_kilopascal;
     normals_.push_back(spread.vector[node].normalized());
     const Vec3& imaged = mesh.imaged[node];
-    const Level at = surface_ ? level_at_wall_node(*surface_, int(node), imaged) : *level(i, imaged);
+    const Level at =
+        surface_ ? level_at_wall_node(*surface_, int(node), imaged) : *level(i, imaged);
     along_.push_back(area * stiffness.tangential);
-    across_.push_back(area * (stiffness.normal - stiffness.tangential) /
-                      at.gradient.squaredNorm());
+    across_.push_back(area * (stiffness.normal - stiffness.tangential) / at.gradient.squaredNorm());
   }
 }
 

@@ -8,6 +8,7 @@
 // k_n acts normal and k_t tangential to the wall, whether it is flat or curved.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -26,11 +27,13 @@ struct SupportStiffness {
 class ElasticSupport final : public NodeSprings {
  public:
   /// Springs at the nodes of `faces`, each with its share of the imaged area. Without a surface
-  /// every node has its own plane, with the mean normal of the imaged faces there. Throws Error
+  /// every node has its own plane, with the mean normal of the imaged faces there. `share` multiplies
+  /// the stiffness by a function of the outward normal of a face. Throws Error
   /// (input) unless normal > 0 and tangential ≥ 0, and for a node beyond the surface.
   ElasticSupport(const HexMesh& mesh, const std::vector<Face>& faces,
                  const SupportStiffness& stiffness,
-                 std::shared_ptr<const LevelSurface> surface = nullptr);
+                 std::shared_ptr<const LevelSurface> surface = nullptr,
+                 const std::function<double(const Vec3& normal)>& share = {});
 
   std::string name() const override { return "elastic support"; }
 
