@@ -7,11 +7,12 @@
 POPULATION_RUNS := $(RUNS)/population
 population_files = $(patsubst %,$(POPULATION_RUNS)/%/$2.vtkhdf,$1)
 population_both = $(population_calibration) $(population_judging)
-ifneq ($(filter population population-table compressed-population calibrate-invivo calibrate-invivo-sternum,$(MAKECMDGOALS)),)
+ifneq ($(filter population population-table compressed-population calibrate-invivo calibrate-invivo-sternum calibrate-invivo-borders,$(MAKECMDGOALS)),)
 # Both sides share one phantom; therefore the cases run one after the other.
 .NOTPARALLEL:
 population_calibration :=
 population_judging :=
+population_women :=
 scan_file = $(firstword $(foreach s,$(POPULATION_SCANS),$(if $(filter $1.%,$(notdir $s)),$s)))
 make_breast = $(MAKE) -f $(PIPELINE) RUNS=$(POPULATION_RUNS) $(breast) ELEMENTS=$(POPULATION_ELEMENTS) TUMOUR=none $@
 define breast

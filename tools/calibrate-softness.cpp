@@ -22,6 +22,7 @@ struct Choices {
   SoftnessData data;  // with its defaults
   Observed pressing = PressedBreast{}.pressure;
   std::vector<double> expected, pressure;
+  std::optional<double> law_ln_sd;
   double kept = 5, smoothing = 0.02, prestretch = 3;
   CompressionChoices press;
 
@@ -62,6 +63,8 @@ void declare(Tool& tool, Choices& c) {
   tool.text(c.data.expected.cut, "--cut", "SUPPORT", "the same of the cut");
   tool.number(c.data.expected_ln_sd, "--expected-ln-sd", "LN",
               "standard deviation of the prior, in the logarithm", 0.01, 10);
+  tool.number(c.law_ln_sd, "--law-ln-sd", "LN",
+              "the same of LOW and QUADRATIC (default: that of the others)", 0.01, 10);
   tool.numbers(c.pressure, "--pressure", "MEAN,SD", 2,
                "clinical mean and standard deviation of the paddle's pressure, kPa");
   tool.number(c.press.reduction, "--reduction", "PERCENT",
@@ -163,6 +166,7 @@ void run_calibration(const Choices& c, Run& run) {
   const Table women = read_table(c.women);
   SoftnessData data = c.data;
   data.motion = fitted_rows(women);
+  data.law_ln_sd = c.law_ln_sd.value_or(c.data.expected_ln_sd);
   data.expected.low_order = c.expected[0] / 100, data.expected.quadratic = c.expected[1] / 100;
   data.expected.skin = c.expected[2] / 100;
   for (const std::filesystem::path& file : c.cohort) data.cohort.push_back(breast_in(file));

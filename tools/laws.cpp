@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
       "stretch, and the simple-shear stress against shear, in Pa.");
   tool.word(
       c.set, "NAME|FILE",
-      "material set: invivo, invivo-sternum, seed2008, wellman, victre, mira2018, phantom2026, or a TSV file of the "
+      "material set: invivo, invivo-borders, invivo-sternum, seed2008, wellman, victre, mira2018, phantom2026, or a TSV file of the "
       "same columns");
   tool.texts(c.scale, "--scale", "TISSUE=PERCENT",
              "scale the stiffness of one tissue to this percentage of the set's");

@@ -227,6 +227,8 @@ class Calibration {
         wanted_(weighted(data, women_of(data).size())) {
     for (const SupportPtr& support : {expected_.wall, expected_.cut})
       for (const std::string& name : support->parameters()) names_.push_back(name);
+    prior_sd_ = Eigen::VectorXd::Constant(Eigen::Index(names_.size()), data.expected_ln_sd);
+    prior_sd_.head(2).setConstant(data.law_ln_sd);
   }
 
   SoftnessFound run();
@@ -241,6 +243,7 @@ class Calibration {
   const MechanicsOptions expected_;
   std::vector<std::string> names_;
   const std::vector<Observed> wanted_;
+  Eigen::VectorXd prior_sd_;
   int evaluations_ = 0;
 };
 
@@ -287,11 +290,11 @@ std::vector<WithoutWoman> Calibration::leave_out(const Eigen::VectorXd& x, const
     for (const CohortBreast& one : data_.cohort) hers.push_back(one.woman == woman);
     Eigen::VectorXd r(rows + n);
     Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows + n, n);
-    r << deviations(here.without(hers), wanted), x / data_.expected_ln_sd;
+    r << deviations(here.without(hers), wanted), x.cwiseQuotient(prior_sd_);
     for (Eigen::Index k = 0; k < n; ++k) {
       const Eigen::VectorXd moved = deviations(beside[std::size_t(k)].without(hers), wanted);
       jacobian.col(k).head(rows) = (moved - r.head(rows)) / neighbour_step;
-      jacobian(rows + k, k) = 1 / data_.expected_ln_sd;
+      jacobian(rows + k, k) = 1 / prior_sd_[k];
     }
     const Eigen::VectorXd step = -jacobian.colPivHouseholderQr().solve(r);
     Eigen::MatrixXd own = here.values;
@@ -318,7 +321,7 @@ SoftnessFound Calibration::run() {
     const std::optional<Prediction> found = predict_at(x);
     if (!found) return {};
     Eigen::VectorXd r(Eigen::Index(wanted_.size()) + x.size());
-    r << deviations(*found, wanted_), x / data_.expected_ln_sd;
+    r << deviations(*found, wanted_), x.cwiseQuotient(prior_sd_);
     return r;
   };
   LeastSquaresOptions search;

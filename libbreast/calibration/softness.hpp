@@ -58,6 +58,7 @@ struct SoftnessData {
   std::optional<PressedBreast> pressed;
   Softness expected;            ///< centre of the prior
   double expected_ln_sd = 1.1;  ///< a factor of three either way
+  double law_ln_sd = 1.1;       ///< the same for low_order and quadratic
 };
 
 /// An unknown: a factor on the laws of the base, or a number of a support.

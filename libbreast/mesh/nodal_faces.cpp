@@ -22,22 +22,22 @@ std::vector<QuadPoint> quad_rule(int order) {
 }  // namespace
 
 NodalFaces nodal_faces(const HexMesh& mesh, const std::vector<Face>& faces,
-                       const Eigen::VectorXd& x,
-                       const std::function<double(const Vec3& normal)>& weight) {
+                       const Eigen::VectorXd& x, const FaceWeight& weight) {
   NodalFaces spread{std::vector<double>(std::size_t(mesh.nodes()), 0),
                     std::vector<Vec3>(std::size_t(mesh.nodes()), Vec3::Zero())};
   const std::vector<QuadPoint> rule = quad_rule(mesh.order);
   for (const Face& face : faces) {
     const std::vector<int> nodes = face_nodes(mesh, face);
     for (const QuadPoint& point : rule) {
-      Vec3 a1 = Vec3::Zero(), a2 = Vec3::Zero();
+      Vec3 at = Vec3::Zero(), a1 = Vec3::Zero(), a2 = Vec3::Zero();
       for (std::size_t k = 0; k < nodes.size(); ++k) {
         const Vec3 position = x.segment<3>(3 * nodes[k]);
+        at += point.shape.values[Eigen::Index(k)] * position;
         a1 += point.shape.gradients(0, Eigen::Index(k)) * position;
         a2 += point.shape.gradients(1, Eigen::Index(k)) * position;
       }
       const Vec3 dA = point.weight * a1.cross(a2);
-      const double area = (weight ? weight(dA.normalized()) : 1) * dA.norm();
+      const double area = (weight ? weight(at, dA.normalized()) : 1) * dA.norm();
       for (std::size_t k = 0; k < nodes.size(); ++k) {
         const double share = point.shape.values[Eigen::Index(k)];
         spread.area[std::size_t(nodes[k])] += share * area;

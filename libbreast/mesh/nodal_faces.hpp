@@ -16,10 +16,11 @@ struct NodalFaces {
   std::vector<double> area;
   std::vector<Vec3> vector;
 };
-/// Nodal areas in the shape `x` (3 per node). `weight` multiplies the areas, but not the area
-/// vectors, by a function of the outward unit normal.
+/// A factor for a place of a face, in the shape in which the areas are taken, and the outward unit normal there.
+using FaceWeight = std::function<double(const Vec3& at, const Vec3& normal)>;
+
+/// Nodal areas in the shape `x` (3 per node). `weight` multiplies the areas, but not the area vectors.
 NodalFaces nodal_faces(const HexMesh& mesh, const std::vector<Face>& faces,
-                       const Eigen::VectorXd& x,
-                       const std::function<double(const Vec3& normal)>& weight = {});
+                       const Eigen::VectorXd& x, const FaceWeight& weight = {});
 
 }  // namespace breast

@@ -7,6 +7,19 @@
 calibrate: $(CALIBRATE)
 	$(CALIBRATE) --preset paper --gain 1.28,1.39 --evaluations 24 $(share)
 
+# Weights of the prior for women's shapes. Gravity hardly sees the linear constants: they are expected where the small-strain
+# stiffness measured in vivo begins (Mira 2018: a shear modulus of 80 Pa, 7 % of that of Table II). The quadratic ones are what plates see, and are
+# held near the softest with which all breasts of the cohort stand with a margin.
+calibrate-invivo-borders: $(call population_files,$(population_women),mesh) $(CALIBRATE_SOFTNESS)
+	$(CALIBRATE_SOFTNESS) $(call population_files,$(population_women),mesh) --women $(PIPELINES)/invivo/women.tsv \
+	  --set $(POPULATION_RUNS)/invivo-borders.tsv --report $(POPULATION_RUNS)/calibration-invivo-borders.json --expected 7$(comma)1.1$(comma)700 \
+	  --law-ln-sd 0.2 --expected-ln-sd 0.7 --wall slide:0.002$(comma)L=20 \
+	  --cut spring:0.001$(comma)medial=0.1$(comma)superior=0.015$(comma)L=25 $(share)
+	@{ echo '# Calibrated to the motion of living women (pipelines/invivo/women.tsv) by'; \
+	  echo '# make calibrate-invivo-borders on: $(population_women). Table II of Pathmanathan et al. 2008, scaled.'; \
+	  cat $(POPULATION_RUNS)/invivo-borders.tsv; } > $(PIPELINES)/materials/invivo-borders.tsv.part
+	@mv $(PIPELINES)/materials/invivo-borders.tsv.part $(PIPELINES)/materials/invivo-borders.tsv
+	@cat $(PIPELINES)/materials/invivo-borders.tsv
 ifneq ($(filter calibrate-invivo calibrate-invivo-sternum,$(MAKECMDGOALS)),)
 # The compressed breast is the phantom `large`, held at its chest wall as in the paper.
 pressed := $(call population_files,large-left,mesh)
@@ -33,4 +46,4 @@ calibrate-invivo:
 calibrate-invivo-sternum:
 	$(call calibrate_set,invivo-sternum,--cut tissue:0.01$(comma)0.4 --muscle-stiffness 8 \
 	  --expected 3$(comma)3$(comma)100 --pressure 10$(comma)5)
-.PHONY: calibrate-invivo calibrate-invivo-sternum
+.PHONY: calibrate-invivo-borders calibrate-invivo calibrate-invivo-sternum

@@ -204,8 +204,8 @@ TEST(Stability, MarginOfTheConstants) {
 
 TEST(Materials, EmbeddedSetsLoadAndScale) {
   EXPECT_EQ(material_set_names(),
-            (std::vector<std::string>{"invivo", "invivo-sternum", "mira2018", "phantom2026",
-                                      "seed2008", "victre", "wellman"}));
+            (std::vector<std::string>{"invivo", "invivo-borders", "invivo-sternum", "mira2018",
+                                      "phantom2026", "seed2008", "victre", "wellman"}));
   for (const std::string& name : material_set_names()) {
     MaterialSet set = load_materials(name);
     for (const Law& law : set.laws) EXPECT_GT(law.shear_modulus(), 0) << name;

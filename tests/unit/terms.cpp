@@ -99,7 +99,7 @@ Case attachment() {
     out.state.x.segment<3>(3L * n) -= 0.7 * (n % 4 - 1) * towards;
   }
   out.term = std::make_shared<Attachment>(out.mesh, out.mesh.pectoral_faces, 0.2, towards,
-                                          [](const Vec3&) { return 1.0; });
+                                          [](const Vec3&, const Vec3&) { return 1.0; });
   return out;
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A cut on springs of the stiffness k per area in all directions. The medial and superior borders of a
 // breast are fixed, the lateral and inferior ones mobile (Mercer et al. 2015), so that each border may have
-// a stiffness of its own: a face whose outward normal n has the direction m to a border has the share
-// max(0, n·m)² / (n_x² + n_z²) of it. The shares add up to one, and the stiffness changes gradually along the
-// rim; where it jumps, elements fold between a node that is held and its neighbour that is not. Skin and fascia are attached to the sternum: such an attachment has the stiffness
+// a stiffness of its own: a place of the imaged cut that is seen in the direction u from the middle of the
+// cut's box in the coronal plane, in units of its half widths, has the share max(0, u·m)² / |u|² of that of the
+// border in the direction m. The shares add up to one, and the stiffness changes gradually along the rim; where it
+// jumps, elements fold between a node that is held and its neighbour that is not. Skin and fascia are attached to the sternum: such an attachment has the stiffness
 // s t², where t = max(0, n·m) for the outward normal n of an imaged face and the direction m to the
 // sternum.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 
@@ -35,7 +37,7 @@ class CutSprings final : public BodySupport {
 
   std::string clause() const override;
   double stiffness() const override { return numbers()[0].value; }
-  std::vector<SpringShare> springs(Side side) const override;
+  std::vector<SpringShare> springs(const HexMesh& mesh) const override;
   void attach(const SupportSite& site, SupportEffects& effects) const override;
 
  private:
@@ -72,36 +74,42 @@ Vec3 outward(RimBorder border, Side side) {
   }
 }
 
-std::vector<SpringShare> CutSprings::springs(Side side) const {
+std::vector<SpringShare> CutSprings::springs(const HexMesh& mesh) const {
+  if (std::none_of(borders.begin(), borders.end(),
+                   [&](RimBorder border) { return number(parameter_at(border)) != nullptr; })) {
+    return BodySupport::springs(mesh);
+  }
+  Eigen::AlignedBox3d box;
+  for (const int node : nodes_of(mesh, mesh.cut_faces)) box.extend(mesh.imaged[std::size_t(node)]);
+  const Vec3 middle = box.center(), half = 0.5 * box.sizes();
   std::vector<SpringShare> all;
   for (const RimBorder border : borders) {
     const SupportNumber* own = number(parameter_at(border));
     const SupportNumber& stiffness = own != nullptr ? *own : numbers()[0];
-    const Vec3 out = outward(border, side);
-    all.push_back({stiffness.value, stiffness.parameter, [out](const Vec3& normal) {
-                     const double t = std::max(0.0, out.dot(normal));
-                     const double coronal = normal.x() * normal.x() + normal.z() * normal.z();
-                     return coronal > 0 ? t * t / coronal : 0.25;
+    const Vec3 out = outward(border, mesh.side);
+    all.push_back({stiffness.value, stiffness.parameter, [=](const Vec3& at, const Vec3&) {
+                     const double x = (at - middle).x() / half.x(),
+                                  z = (at - middle).z() / half.z();
+                     const double t = std::max(0.0, out.x() * x + out.z() * z);
+                     return t * t / (x * x + z * z);
                    }});
   }
-  const bool alike = std::all_of(all.begin(), all.end(),
-                                 [](const SpringShare& one) { return one.parameter == "cut"; });
-  return alike ? BodySupport::springs(side) : all;
+  return all;
 }
 
 void CutSprings::attach(const SupportSite& site, SupportEffects& effects) const {
   const HexMesh& mesh = site.mesh;
-  for (const SpringShare& part : springs(mesh.side)) {
+  for (const SpringShare& part : springs(mesh)) {
     if (!(part.stiffness > 0)) continue;
     const SupportStiffness around{part.stiffness, part.stiffness};
     effects.springs.push_back(
-        {std::make_shared<ElasticSupport>(mesh, mesh.cut_faces, around, nullptr, part.of_face),
+        {std::make_shared<ElasticSupport>(mesh, mesh.cut_faces, around, nullptr, part.share),
          {{part.parameter, 1}}});
   }
   const SupportNumber* sternum = number("sternum");
   if (sternum == nullptr) return;
   const Vec3 medial(-lateral_sign(mesh.side), 0, 0);
-  const auto factor = [&medial](const Vec3& normal) {
+  const auto factor = [&medial](const Vec3&, const Vec3& normal) {
     const double t = std::max(0.0, medial.dot(normal));
     return t * t;
   };

@@ -31,7 +31,7 @@ class StiffeningSprings final : public NodeSprings {
   StiffeningSprings(const HexMesh& mesh, const std::vector<Face>& faces, const SpringShare& springs,
                     double length, double exponent)
       : length_(length), exponent_(exponent) {
-    const NodalFaces spread = nodal_faces(mesh, faces, flatten(mesh.imaged), springs.of_face);
+    const NodalFaces spread = nodal_faces(mesh, faces, flatten(mesh.imaged), springs.share);
     cells_.nodes = nodes_of(mesh, faces);
     for (const int node : cells_.nodes) {
       stiffness_.push_back(springs.stiffness * spread.area[std::size_t(node)] *
@@ -84,7 +84,9 @@ class Stiffening final : public BodySupport {
                 : message(", stiffening with the power ", exponent_, " of the displacement"));
   }
   double stiffness() const override { return plain_->stiffness(); }
-  std::vector<SpringShare> springs(Side side) const override { return plain_->springs(side); }
+  std::vector<SpringShare> springs(const HexMesh& mesh) const override {
+    return plain_->springs(mesh);
+  }
   SupportPtr beside(const BodySupport& wall) const override {
     const SupportPtr rest = plain_->beside(wall);
     return rest ? std::make_shared<Stiffening>(rest, length_, exponent_) : nullptr;
@@ -98,7 +100,7 @@ class Stiffening final : public BodySupport {
     plain_->attach(site, effects);
     const std::string length_name = std::string(place_name(place())) + ".L";
     const std::vector<Face>& faces = faces_at(site.mesh, place());
-    for (const SpringShare& part : springs(site.mesh.side)) {
+    for (const SpringShare& part : springs(site.mesh)) {
       if (!(part.stiffness > 0)) continue;
       effects.springs.push_back(
           {std::make_shared<StiffeningSprings>(site.mesh, faces, part, length_, exponent_),

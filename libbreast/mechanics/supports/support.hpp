@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mesh/hex_mesh.hpp"
+#include "mesh/nodal_faces.hpp"
 
 namespace breast {
 
@@ -39,8 +40,8 @@ struct SupportNumber {
 struct SpringShare {
   double stiffness = 0;   ///< kPa/mm along the wall, for small displacements
   std::string parameter;  ///< of the stiffness
-  /// The share of the stiffness that a face with this outward normal has; empty: all of it.
-  std::function<double(const Vec3& normal)> of_face = {};
+  FaceWeight share =
+      {};  ///< of the stiffness, that a place of the imaged faces has; empty: all of it
 };
 
 class BodySupport;
@@ -68,9 +69,8 @@ class BodySupport {
 
   /// Stiffness of its springs along the wall for small displacements, kPa/mm; 0 without springs.
   virtual double stiffness() const { return 0; }
-  /// Its springs on a breast of this side; together they have `stiffness()` unless it differs from place to
-  /// place.
-  virtual std::vector<SpringShare> springs(Side) const {
+  /// Its springs on a mesh; together they have `stiffness()` unless it differs from place to place.
+  virtual std::vector<SpringShare> springs(const HexMesh&) const {
     return {{stiffness(), place_name(place_), {}}};
   }
   /// A support of this kind, or of the nearest one, that has springs of this stiffness (kPa/mm); null if

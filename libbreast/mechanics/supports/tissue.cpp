@@ -38,10 +38,11 @@ class TissueBeyond final : public BodySupport {
   void attach(const SupportSite& site, SupportEffects& effects) const override {
     springs_->attach(site, effects);
     check(site);
-    for (const SpringShare& part : springs(site.mesh.side))
-      effects.loads.push_back(weight(site, part));
+    for (const SpringShare& part : springs(site.mesh)) effects.loads.push_back(weight(site, part));
   }
-  std::vector<SpringShare> springs(Side side) const override { return springs_->springs(side); }
+  std::vector<SpringShare> springs(const HexMesh& mesh) const override {
+    return springs_->springs(mesh);
+  }
 
  private:
   void check(const SupportSite& site) const;
@@ -64,7 +65,7 @@ SupportLoad TissueBeyond::weight(const SupportSite& site, const SpringShare& par
   const HexMesh& mesh = site.mesh;
   const double length = part.stiffness * thickness_beyond / site.wall.stiffness();
   const std::vector<double> area =
-      nodal_faces(mesh, mesh.cut_faces, flatten(mesh.imaged), part.of_face).area;
+      nodal_faces(mesh, mesh.cut_faces, flatten(mesh.imaged), part.share).area;
   SupportLoad load;
   load.powers = {{part.parameter, 1}, {"wall", -1}};
   load.nodes = nodes_of(mesh, mesh.cut_faces);

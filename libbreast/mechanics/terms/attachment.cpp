@@ -10,7 +10,7 @@
 namespace breast {
 
 Attachment::Attachment(const HexMesh& mesh, const std::vector<Face>& faces, double stiffness,
-                       const Vec3& towards, const std::function<double(const Vec3& normal)>& factor)
+                       const Vec3& towards, const FaceWeight& factor)
     : towards_(towards) {
   if (!(stiffness > 0)) {
     throw input_error("an attachment of ", stiffness, " kPa/mm: it must be above 0");

@@ -3,11 +3,11 @@
 // not push tissue that moves towards it, since a loose sheet bears no compression.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "mechanics/terms/node_springs.hpp"
 #include "mesh/hex_mesh.hpp"
+#include "mesh/nodal_faces.hpp"
 
 namespace breast {
 
@@ -24,10 +24,10 @@ class Attachment final : public NodeSprings {
   static constexpr double toe_mm = 1;
 
   /// At the nodes of `faces`, each with its share of the imaged area; `stiffness` s in kPa/mm > 0,
-  /// `towards` the unit vector m. `factor` multiplies s by a function of the outward normal of a
+  /// `towards` the unit vector m. `factor` multiplies s by a function of place and outward normal of a
   /// face. Throws Error (input) for another stiffness.
   Attachment(const HexMesh& mesh, const std::vector<Face>& faces, double stiffness,
-             const Vec3& towards, const std::function<double(const Vec3& normal)>& factor);
+             const Vec3& towards, const FaceWeight& factor);
 
   std::string name() const override { return "attachment"; }
 

@@ -11,8 +11,7 @@ namespace breast {
 
 ElasticSupport::ElasticSupport(const HexMesh& mesh, const std::vector<Face>& faces,
                                const SupportStiffness& stiffness,
-                               std::shared_ptr<const LevelSurface> surface,
-                               const std::function<double(const Vec3& normal)>& share)
+                               std::shared_ptr<const LevelSurface> surface, const FaceWeight& share)
     : surface_(std::move(surface)) {
   if (!(stiffness.normal > 0 && stiffness.tangential >= 0)) {
     throw input_error("springs of ", stiffness.normal, " and ", stiffness.tangential,

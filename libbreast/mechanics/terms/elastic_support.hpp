@@ -8,13 +8,13 @@
 // k_n acts normal and k_t tangential to the wall, whether it is flat or curved.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "mechanics/terms/node_springs.hpp"
 #include "mesh/hex_mesh.hpp"
+#include "mesh/nodal_faces.hpp"
 #include "surface/level_surface.hpp"
 
 namespace breast {
@@ -28,12 +28,12 @@ class ElasticSupport final : public NodeSprings {
  public:
   /// Springs at the nodes of `faces`, each with its share of the imaged area. Without a surface
   /// every node has its own plane, with the mean normal of the imaged faces there. `share` multiplies
-  /// the stiffness by a function of the outward normal of a face. Throws Error
+  /// the stiffness at a place of the imaged faces. Throws Error
   /// (input) unless normal > 0 and tangential ≥ 0, and for a node beyond the surface.
   ElasticSupport(const HexMesh& mesh, const std::vector<Face>& faces,
                  const SupportStiffness& stiffness,
                  std::shared_ptr<const LevelSurface> surface = nullptr,
-                 const std::function<double(const Vec3& normal)>& share = {});
+                 const FaceWeight& share = {});
 
   std::string name() const override { return "elastic support"; }
 
