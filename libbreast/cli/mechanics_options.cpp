@@ -94,11 +94,15 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices, const std::string&
             "boundary condition at the chest wall. held: no displacement; slide: the breast "
             "slides on the wall against springs of KT kPa/mm (0.01 if no number is given); "
             "spring: springs of KN kPa/mm normal and KT tangential to the wall (KT is a third "
-            "of KN if it is not given)");
+            "of KN if it is not given). With L=MM behind the numbers (slide:0.002,L=20), springs "
+            "along the wall are twice as stiff where they have moved by L, and P=EXPONENT (2 if "
+            "not given) says how they stiffen");
   tool.text(
-      choices.cut, "--cut", "free|fixed|roller|spring:KC[,KS]|tissue:KC[,KS]",
+      choices.cut, "--cut", "free|fixed|roller|spring:KC[,KS][,BORDER=K]|tissue:KC[,KS]",
       "boundary condition on the lateral cut, the surface at which the model ends: free, "
-      "fixed, roller, or springs of KC kPa/mm; where the cut faces the sternum, an attachment "
+      "fixed, roller, or springs of KC kPa/mm, or of K at the medial, superior, lateral or "
+      "inferior BORDER of the breast (spring:0.001,medial=0.1); L and P as at the wall; where the "
+      "cut faces the sternum, an attachment "
       "of KS kPa/mm pulls tissue back that moves away from it. tissue: the same springs, which "
       "also carry the weight of the tissue beyond, as far as its own supports at the wall (KT) "
       "do not");

@@ -98,7 +98,7 @@ TEST_F(SlidingTools, ACalibratedSetIsReadByTheOtherTools) {
   const std::string line =
       "calibrate-softness mesh.vtkhdf --women women.tsv --set set.tsv --expected 20,50,100 "
       "--wall slide:0.05,L=9 --cut spring:0.05,medial=0.1 --expected-ln-sd 0.2 ";
-  ASSERT_EQ(run(line + "--pressed mesh.vtkhdf --reduction 10 --report k.json"), 0) << said_.err;
+  ASSERT_EQ(run(line + "--pressed mesh.vtkhdf --reduction 30 --report k.json"), 0) << said_.err;
   EXPECT_GT(report("k.json").number("softness/wall"), 0.01);
   EXPECT_LT(report("k.json").number("softness/cut.medial_ln_sd"), 0.21);
   EXPECT_LT(report("k.json").number("softness/wall_ln_sd"), 0.2);
