@@ -78,7 +78,8 @@ def wrong_numbers(numbers: Table) -> list[str]:
             numbers.cell(r, column) for column in ("page", "page_pattern", "source", "source_pattern"))
         said, decided = _stated(Path(page), pattern), _stated(Path(source), source_pattern)
         if not said or said != decided:
-            wrong.append(f"{page} says '{said or 'nothing'}' for {pattern}; {source} has '{decided or 'nothing'}' for {source_pattern}")
+            wrong.append(f"{page} says '{said or 'nothing'}' for {pattern}; "
+                         f"{source} has '{decided or 'nothing'}' for {source_pattern}")
     return wrong
 
 

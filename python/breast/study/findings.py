@@ -80,7 +80,8 @@ def calibration_table(run: Path, truth: Path, side: str, landmarks: Table) -> Ta
     for name, folder, remark in (
             ("as printed in the paper", variant_of(run, "findings", "as-printed"), "calibrated to this row"),
             ("default chain", run, "calibrated to this row, by the same fit")):
-        moves = [fixed(moved_in(folder / f"{stage}.json", landmark), 2) for stage in ("supine", "reference") for landmark in _LANDMARKS]
+        moves = [fixed(moved_in(folder / f"{stage}.json", landmark), 2)
+                 for stage in ("supine", "reference") for landmark in _LANDMARKS]
         table.rows.append([name, *moves, remark])
     stress_free = [NO_VALUE, NO_VALUE]
     for r in range(len(landmarks.rows)):

@@ -102,14 +102,16 @@ def _paper_tables(tables: Path, note: str) -> list[Section]:
     if not exists(tables / "table2.tsv"):
         return []
     sections = [Section("Table II: constants of law (9)", [table_of(tables / "table2.tsv")])]
-    for number, title in (("3", "III: fat"), ("4", "IV: fibroglandular tissue"), ("5", "V: skin"), ("6", "VI: one element of tumour")):
+    titles = {"3": "III: fat", "4": "IV: fibroglandular tissue", "5": "V: skin", "6": "VI: one element of tumour"}
+    for number, title in titles.items():
         own, printed = table_of(tables / f"table{number}.tsv"), tables / f"table{number}-as-printed.tsv"
         blocks: list[Block | None] = [text(NOTES["scaled"], f" Row of 100 %: {note}." if note else "")]
         if exists(printed):
             blocks += [_heading("As printed in the paper: cuboid, plain invariants, skin as a layer of elements"), table_of(printed),
                        _heading("As solved here")]
         sections.append(Section(f"Table {title}", [*blocks, own]))
-    return [*sections, Section("The paper's conclusions, in numbers", [text(NOTES["conclusions"]), table_of(tables / "conclusions.tsv")])]
+    judged = [text(NOTES["conclusions"]), table_of(tables / "conclusions.tsv")]
+    return [*sections, Section("The paper's conclusions, in numbers", judged)]
 
 
 def _own_tables(run: Path, note: str) -> list[Section]:
@@ -187,9 +189,9 @@ def _report(request: Request) -> str:
 def _pdf(request: Request) -> str:
     """A headless Chromium with a temporary profile prints the page.
 
-    Its sandbox remains on unless this process runs as root, since Chromium then refuses to start with it. Scripts are forbidden by the
-    content security policy of the page itself, because Chromium 156 prints nothing if they are switched off by an option. No network
-    is reachable.
+    Its sandbox remains on unless this process runs as root, since Chromium then refuses to start with it. Scripts are forbidden by
+    the content security policy of the page itself, because Chromium 156 prints nothing if they are switched off by an option. No
+    network is reachable.
     """
     with tempfile.TemporaryDirectory() as work:
         made = Path(work) / "out.pdf"

@@ -58,7 +58,8 @@ def makers(request: Request, run: Path, materials: Path) -> dict[str, Callable[[
 
 
 @kind("tables", "RUN MATERIALS.tsv NAME...",
-      "tables of a run in RUN/tables, all in one call: table2 to table8, table3-as-printed to table6-as-printed, conclusions, findings")
+      "tables of a run in RUN/tables, all in one call: table2 to table8, table3-as-printed to table6-as-printed, conclusions, "
+      "findings")
 def _tables(request: Request) -> str:
     run, wanted = request.path(0), request.rest(2)
     made = makers(request, run, request.path(1))

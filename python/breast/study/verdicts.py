@@ -202,7 +202,8 @@ def _stiff_rows(sixth: Table, folder: Path) -> Table:
 
 
 @kind("conclusions", "CONCLUSIONS.tsv TABLES [as-printed]",
-      "whether the paper's conclusions hold for its own rows of Tables III to VI in the folder TABLES, for ours as printed, and for ours")
+      "whether the paper's conclusions hold for its own rows of Tables III to VI in the folder TABLES, for ours as printed, and for "
+      "ours")
 def _conclusions(request: Request) -> Table:
     if request.word(2, "as-printed") != "as-printed":
         raise BreastError(f"conclusions: '{request.word(2)}' is not as-printed")
