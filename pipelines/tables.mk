@@ -30,7 +30,7 @@ of_findings := $(RUN)/slopes.tsv $(call results,findings,$(findings_variants),sl
 
 # One call makes all tables.
 tables: $(TABLE_FILES)
-	@$(if $(TABLE_FILES),$(tabulate) show $(RUN))
+	$(if $(planning),,@$(if $(TABLE_FILES),$(tabulate) show $(RUN),:))
 tables_settings := $(MATERIAL_TABLE) $(content_MATERIALS)
 $(TABLE_FILES) &: $(sort $(foreach t,$(TABLE_NAMES),$(of_$t))) $(wildcard $(PIPELINES)/paper/*.tsv) $(TABULATE) $(call changed,tables)
 	$(tabulate) tables $(RUN) $(MATERIAL_TABLE) $(TABLE_NAMES)
