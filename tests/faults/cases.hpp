@@ -47,7 +47,6 @@ inline const std::vector<Case>& cases() {
       {"forward", "forward cap_reference.vtkhdf out.vtkhdf", 3},
       {"backward_mpi", "backward-mpi cap.vtkhdf out.vtkhdf --materials seed2008", 8},
       {"forward_mpi", "forward-mpi cap_reference.vtkhdf out.vtkhdf", 8},
-      {"breast", "breast list"},
       {"sensitivity",
        "sensitivity cap_reference.vtkhdf cap_supine.vtkhdf out.vtkhdf --table out.tsv", 3},
       {"difference", "difference supine.vtkhdf supine.vtkhdf supine.vtkhdf out.vtkhdf", 4},
