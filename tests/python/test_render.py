@@ -197,6 +197,7 @@ class Render(unittest.TestCase):
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
         self.refused("cc.vtkhdf --figure force-thickness -o full.png", "full.png", code=1, preexec_fn=small_files)
         self.assertEqual([f.name for f in self.folder.iterdir() if "full.png" in f.name], [])
+        self.drawn("cc.vtkhdf --figure force-thickness -o whole.png")  # no module is kept of which a part was written
 
     def test_damaged_files_are_named(self):
         content = (small_run.folder() / "cc.vti").read_bytes()
