@@ -16,6 +16,7 @@
 #include "matching/curve_lines.hpp"
 #include "matching/point_pair.hpp"
 #include "material/material_set.hpp"
+#include "mesh/part.hpp"
 #include "mesh/surroundings.hpp"
 #include "tool_pairs.hpp"
 
@@ -57,7 +58,7 @@ void report_pair(const MatchChoices& choices, const MatchQuery& query, const Mat
   const PairPoint pair = locate_pair(matcher, backward, query.from_uv, *query.place);
   report_spot(pair, matcher, run.report());
   if (choices.supine.empty()) return;
-  const HexMesh supine = breast_alone(read_mesh(choices.supine));
+  const HexMesh supine = restricted(read_mesh(choices.supine), breast_elements);
   pairs.check("CC", breast::origin_of(choices.from, matcher.from()), "--supine",
               breast::origin_of(choices.supine, supine));
   run.report().set("spot/supine", pair.position(supine, supine.points));

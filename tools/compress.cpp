@@ -11,6 +11,7 @@
 #include "mechanics/estimate/second_solution.hpp"
 #include "mechanics_run.hpp"
 #include "mesh/muscle_front.hpp"
+#include "mesh/part.hpp"
 #include "mesh/surroundings.hpp"
 #include "tool_pairs.hpp"
 
@@ -196,12 +197,11 @@ void take_from_mammogram(Choices& c, const HexMesh& mesh, Run& run) {
 
 void run_compress(Choices c, Run& run) {
   MechanicsRun mechanics(run, c.mechanics, c.estimate, c.reference,
-                         breast_alone(read_mesh(c.reference, {.reference = true})));
+                         restricted(read_mesh(c.reference, {.reference = true}), breast_elements));
   const HexMesh& mesh = mechanics.mesh();
   take_from_mammogram(c, mesh, run);
   const CompressionOptions options = compression_options(
-      c, parse_gravity(c.gravity),
-      {mechanics.options().wall->slides(), muscle_thickness(mesh)});
+      c, parse_gravity(c.gravity), {mechanics.options().wall->slides(), muscle_thickness(mesh)});
   CompressionResult found = compress(mesh, options, mechanics.options(), run.progress());
   if (mechanics.options().estimate == Estimate::q2 && found.contact) {
     CompressionOptions same_gap = options;

@@ -8,6 +8,7 @@
 #include "io/mesh_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
+#include "mesh/part.hpp"
 #include "mesh/surroundings.hpp"
 #include "tool_pairs.hpp"
 
@@ -70,7 +71,8 @@ SlicerRun read_run(const fs::path& folder, const fs::path& scan, int series, Run
     const fs::path file = folder / (std::string(kind.file) + ".vtkhdf");
     if (!fs::is_regular_file(file)) continue;
     run.progress().update("reading", -1, file.filename().string());
-    result.states.push_back({kind.name, kind.title, file, breast_alone(read_mesh(file))});
+    result.states.push_back(
+        {kind.name, kind.title, file, restricted(read_mesh(file), breast_elements)});
     const Origin prone = origin_of(result.prone().file, result.prone().mesh),
                  shape = origin_of(file, result.states.back().mesh);
     if (result.states.size() == 1)

@@ -13,6 +13,7 @@
 #include "evaluation/posture_motion.hpp"
 #include "material/set_parameter.hpp"
 #include "mechanics/mechanics.hpp"
+#include "mesh/part.hpp"
 #include "mesh/surroundings.hpp"
 
 namespace breast {
@@ -80,7 +81,8 @@ std::optional<std::vector<MotionQuantity>> motion_of(HexMesh mesh, const Mechani
 std::optional<double> pressure_on(const PressedBreast& pressed, const MechanicsOptions& options) {
   HexMesh mesh = pressed.mesh;
   if (!unload(mesh, options)) return {};
-  const CompressionResult found = compress(breast_alone(std::move(mesh)), pressed.press, options);
+  const CompressionResult found =
+      compress(restricted(std::move(mesh), breast_elements), pressed.press, options);
   if (!found.converged()) return {};
   return found.contact->plates[0].mean_kPa;
 }

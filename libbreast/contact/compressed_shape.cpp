@@ -22,7 +22,7 @@ double percent(double part, double whole) {
 }
 
 /// The fibroglandular fraction of an element of fat or fibroglandular tissue.
-double gland_of(const HexMesh& mesh, int element) {
+double gland_of(const HexTopology& mesh, int element) {
   const auto e = static_cast<std::size_t>(element);
   if (!mesh.fibroglandular_fraction.empty()) return double(mesh.fibroglandular_fraction[e]);
   return mesh.tissue[e] == Tissue::fibroglandular ? 1 : 0;
@@ -58,7 +58,7 @@ Mat3 deformation_gradient(const HexMesh& mesh, const Eigen::VectorXd& x, int ele
 
 }  // namespace
 
-Coverage coverage(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& plate) {
+Coverage coverage(const HexTopology& mesh, const Eigen::VectorXd& x, const Plate& plate) {
   struct Point {
     HexShape shape;
     double weight;
@@ -92,7 +92,7 @@ Coverage coverage(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& pl
   return out;
 }
 
-double projected_cm2(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate) {
+double projected_cm2(const HexTopology& mesh, const std::vector<Vec3>& x, const Plate& plate) {
   double both_sides = 0;
   for (const Face& face : mesh.skin_faces) {
     const std::vector<int> nodes = face_nodes(mesh, face);
@@ -105,7 +105,7 @@ double projected_cm2(const HexMesh& mesh, const std::vector<Vec3>& x, const Plat
   return 0.5 * both_sides / mm2_per_cm2;
 }
 
-SelfContact self_contact(const HexMesh& mesh, const std::vector<Vec3>& x) {
+SelfContact self_contact(const HexTopology& mesh, const std::vector<Vec3>& x) {
   const Locator body(mesh, x);
   SelfContact found;
   for (const Face& face : touchable_faces(mesh)) {

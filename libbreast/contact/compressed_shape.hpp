@@ -21,12 +21,12 @@ struct Coverage {
 
 /// Coverage of the shape `x` (3 per node, mm) in front of the start of the plate's rounded edge,
 /// from 2×2×2 Gauss points per element, each weighted by its share of the deformed volume.
-Coverage coverage(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& plate);
+Coverage coverage(const HexTopology& mesh, const Eigen::VectorXd& x, const Plate& plate);
 
 /// Area of the breast's projection along the beam in front of the edge, cm², in the shape `x` (one
 /// position per node, mm): half of ∫ |n·dA| over the skin there, exact where every ray enters and
 /// leaves once.
-double projected_cm2(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate);
+double projected_cm2(const HexTopology& mesh, const std::vector<Vec3>& x, const Plate& plate);
 
 struct SelfContact {
   /// Area of the free boundary that has other parts of the body less than half a millimetre in
@@ -39,7 +39,7 @@ struct SelfContact {
 
 /// Self-contact of the shape `x` (one position per node, mm), at 2×2 points of every skin and cut
 /// face.
-SelfContact self_contact(const HexMesh& mesh, const std::vector<Vec3>& x);
+SelfContact self_contact(const HexTopology& mesh, const std::vector<Vec3>& x);
 
 /// Principal stretches and det F over the quadrature points of a tissue.
 struct StrainRange {

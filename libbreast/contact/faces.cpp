@@ -50,7 +50,7 @@ std::vector<AreaPoint> area_points(int order) {
 
 }  // namespace
 
-std::vector<Face> free_boundary_faces(const HexMesh& mesh, const Constraints& held) {
+std::vector<Face> free_boundary_faces(const HexTopology& mesh, const Constraints& held) {
   std::vector<Face> free;
   for (const auto* faces : {&mesh.skin_faces, &mesh.cut_faces, &mesh.pectoral_faces}) {
     for (const Face& face : *faces) {
@@ -63,7 +63,7 @@ std::vector<Face> free_boundary_faces(const HexMesh& mesh, const Constraints& he
   return free;
 }
 
-std::vector<Face> touchable_faces(const HexMesh& mesh) {
+std::vector<Face> touchable_faces(const HexTopology& mesh) {
   std::vector<Face> faces = mesh.skin_faces;
   faces.insert(faces.end(), mesh.cut_faces.begin(), mesh.cut_faces.end());
   return faces;
@@ -83,8 +83,8 @@ FacePoint face_point(const std::vector<int>& nodes, const std::vector<Vec3>& x,
   return point;
 }
 
-double touching_area(const HexMesh& mesh, const std::vector<Face>& faces, const Eigen::VectorXd& x,
-                     const Plate& plate) {
+double touching_area(const HexTopology& mesh, const std::vector<Face>& faces,
+                     const Eigen::VectorXd& x, const Plate& plate) {
   const std::vector<AreaPoint> points = area_points(mesh.order);
   double area = 0;
   for (const Face& face : faces) {
@@ -103,7 +103,7 @@ double touching_area(const HexMesh& mesh, const std::vector<Face>& faces, const 
   return area;
 }
 
-double deepest_penetration(const HexMesh& mesh, const std::vector<Face>& faces,
+double deepest_penetration(const HexTopology& mesh, const std::vector<Face>& faces,
                            const Eigen::VectorXd& x, const Plate& plate) {
   const std::vector<QuadShape> shapes = sample_shapes(mesh.order);
   double deepest = 0;
@@ -120,7 +120,8 @@ double deepest_penetration(const HexMesh& mesh, const std::vector<Face>& faces,
   return deepest;
 }
 
-double thickness_at(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& plate, double a) {
+double thickness_at(const HexTopology& mesh, const Eigen::VectorXd& x, const Plate& plate,
+                    double a) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Face& face : mesh.skin_faces) {
     const std::vector<int> nodes = face_nodes(mesh, face);

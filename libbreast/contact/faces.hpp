@@ -14,10 +14,10 @@
 namespace breast {
 
 /// Boundary faces (skin, cut, chest wall) with a node that can move.
-std::vector<Face> free_boundary_faces(const HexMesh& mesh, const Constraints& held);
+std::vector<Face> free_boundary_faces(const HexTopology& mesh, const Constraints& held);
 
 /// Boundary faces that plates may touch: skin and cut.
-std::vector<Face> touchable_faces(const HexMesh& mesh);
+std::vector<Face> touchable_faces(const HexTopology& mesh);
 
 /// A point of a boundary face in a deformed shape.
 struct FacePoint {
@@ -37,16 +37,17 @@ inline constexpr double touching_mm = 0.1;
 /// Area (mm²) of those faces, in the shape `x` (3 per node), that touch the plate or are inside it. The
 /// area of all nodes under pressure would include half of every face at the rim: on a mesh of 1068
 /// elements it is 80 % larger.
-double touching_area(const HexMesh& mesh, const std::vector<Face>& faces, const Eigen::VectorXd& x,
-                     const Plate& plate);
+double touching_area(const HexTopology& mesh, const std::vector<Face>& faces,
+                     const Eigen::VectorXd& x, const Plate& plate);
 
 /// Deepest penetration of the faces into the plate in the shape `x` (3 per node), mm, at 5×5 points
 /// of every face including its corners; 0 if there is none.
-double deepest_penetration(const HexMesh& mesh, const std::vector<Face>& faces,
+double deepest_penetration(const HexTopology& mesh, const std::vector<Face>& faces,
                            const Eigen::VectorXd& x, const Plate& plate);
 
 /// Extent of the skin along n in the plane at the anterior coordinate a (mm); 0 if the plane meets
 /// no skin.
-double thickness_at(const HexMesh& mesh, const Eigen::VectorXd& x, const Plate& plate, double a);
+double thickness_at(const HexTopology& mesh, const Eigen::VectorXd& x, const Plate& plate,
+                    double a);
 
 }  // namespace breast

@@ -35,7 +35,7 @@ struct Extent {
 };
 
 /// Extent along n of the skin in front of the plane a = start; faces are cut exactly at that plane.
-Extent footprint_extent(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate) {
+Extent footprint_extent(const HexTopology& mesh, const std::vector<Vec3>& x, const Plate& plate) {
   Extent extent;
   const auto inside = [&](const Vec3& point) {
     return std::abs(point.dot(plate.lateral) - plate.lateral_centre) <= plate.half_width;
@@ -65,7 +65,7 @@ Extent footprint_extent(const HexMesh& mesh, const std::vector<Vec3>& x, const P
 
 /// Most anterior point of the chest wall (of the front of the muscle, if the mesh has muscle) or of
 /// the cut, within the width of the plate.
-double most_anterior_wall(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate,
+double most_anterior_wall(const HexTopology& mesh, const std::vector<Vec3>& x, const Plate& plate,
                           bool with_cut) {
   double wall = -infinity;
   for (const auto& faces : {muscle_front(mesh), with_cut ? mesh.cut_faces : std::vector<Face>{}}) {
@@ -98,7 +98,7 @@ void check_options(const PlateOptions& options) {
 }
 
 /// Plate coordinates that do not depend on its level: width, edge start, far edge, mid-depth.
-Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
+Plate place_in_plane(const HexTopology& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
                      const PlateOptions& options, double& wall_point) {
   Plate plate = plate_facing(pose);
   plate.edge_radius = std::max(least_edge_radius, options.edge_radius);
@@ -136,7 +136,7 @@ Plate place_in_plane(const HexMesh& mesh, const std::vector<Vec3>& x, const View
 }
 
 /// Sum of the areas of the chest wall's faces as vectors out of the body, mm².
-Vec3 towards_ribs(const HexMesh& mesh, const std::vector<Vec3>& x) {
+Vec3 towards_ribs(const HexTopology& mesh, const std::vector<Vec3>& x) {
   Vec3 outward = Vec3::Zero();
   for (const Vec3& part : nodal_faces(mesh, mesh.pectoral_faces, flatten(x)).vector)
     outward += part;
@@ -145,7 +145,7 @@ Vec3 towards_ribs(const HexMesh& mesh, const std::vector<Vec3>& x) {
 
 /// Skin behind the footprint may extend beyond T0: this is the thickness at which nothing is
 /// penetrated.
-double touching_thickness(const HexMesh& mesh, const std::vector<Vec3>& x, PlatePair pair) {
+double touching_thickness(const HexTopology& mesh, const std::vector<Vec3>& x, PlatePair pair) {
   const std::vector<int> skin = nodes_of(mesh, mesh.skin_faces);
   double thickness = pair.initial_thickness, opening = 1;
   // One pass suffices, except for a tilted paddle, whose edge moves across the body as it retreats.
@@ -294,7 +294,7 @@ PlatePair start_from(const PlatePair& placed, const HexMesh& mesh, const std::ve
   return pair;
 }
 
-double wall_turn_deg(const HexMesh& mesh, const std::vector<Vec3>& x) {
+double wall_turn_deg(const HexTopology& mesh, const std::vector<Vec3>& x) {
   constexpr double most = 45;
   const Vec3 outward = towards_ribs(mesh, x);
   if (!(outward.head<2>().norm() > 0)) return 0;
@@ -302,7 +302,7 @@ double wall_turn_deg(const HexMesh& mesh, const std::vector<Vec3>& x) {
   return std::clamp(turn * 180 / std::numbers::pi, -most, most);
 }
 
-double muscle_lean_deg(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose) {
+double muscle_lean_deg(const HexTopology& mesh, const std::vector<Vec3>& x, const ViewPose& pose) {
   constexpr double beyond_parallel = 4, most = 25, least_angle = 20;
   if (std::abs(pose.angle_deg) < least_angle) return 0;
   const Vec3 forwards = -towards_ribs(mesh, x);

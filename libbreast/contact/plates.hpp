@@ -129,11 +129,11 @@ PlatePair paddle_and_detector(const Plate& plate);
 
 /// Angle (degrees) that makes the plates' edge parallel to the chest wall behind the breast: that
 /// of the mean normal of the wall in the shape `x`, at most 45 in either direction.
-double wall_turn_deg(const HexMesh& mesh, const std::vector<Vec3>& x);
+double wall_turn_deg(const HexTopology& mesh, const std::vector<Vec3>& x);
 /// Angle (degrees, 0 to 25) about the beam of `pose` by which the edge of oblique plates leans: 4
 /// degrees more than if it were parallel to the chest wall, so that its upper end lies in the axilla
 /// behind the muscle and its lower end in front of the fold. 0 for a beam from head to foot.
-double muscle_lean_deg(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose);
+double muscle_lean_deg(const HexTopology& mesh, const std::vector<Vec3>& x, const ViewPose& pose);
 
 /// Places the plates about the shape `x` (node positions of the gravity-loaded body, mm, LPS). They
 /// close on the mid-plane of mesh.reference within the same footprint: in the upright posture the

@@ -20,7 +20,7 @@ constexpr int profile_points = 10;
 constexpr double first_zone_mm = 20;
 
 /// Distance of a point from the nearest node of chest wall and cut, mm.
-double distance_to_wall(const HexMesh& mesh, const Eigen::VectorXd& x, const Vec3& at) {
+double distance_to_wall(const HexTopology& mesh, const Eigen::VectorXd& x, const Vec3& at) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto* faces : {&mesh.pectoral_faces, &mesh.cut_faces}) {
     for (const int node : nodes_of(mesh, *faces)) {

@@ -40,7 +40,7 @@ void refuse_what_no_deck_says(const HexMesh& mesh, const MechanicsOptions& optio
   }
 }
 
-std::vector<DeckMaterial> materials_of(const HexMesh& mesh, const MechanicsOptions& options) {
+std::vector<DeckMaterial> materials_of(const HexTopology& mesh, const MechanicsOptions& options) {
   std::vector<DeckMaterial> materials;
   for (const Tissue tissue : std::set<Tissue>(mesh.tissue.begin(), mesh.tissue.end())) {
     const Law& law = options.materials.law(tissue);

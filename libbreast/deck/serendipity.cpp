@@ -9,10 +9,10 @@ namespace {
 
 // Calls visit(centre node, element's nodes, weights) once for every face or element centre.
 template <class Visit>
-void for_each_centre(const HexMesh& mesh, const Visit& visit) {
+void for_each_centre(const HexTopology& mesh, std::size_t count, const Visit& visit) {
   std::array<std::array<double, 20>, 7> weights;
   for (int c = 0; c < 7; ++c) weights[c] = serendipity_shape(hex_node_local(2, 20 + c));
-  std::vector<bool> seen(std::size_t(mesh.nodes()), false);
+  std::vector<bool> seen(count, false);
   for (int e = 0; e < mesh.elements(); ++e) {
     const int* nodes = mesh.element(e);
     for (int c = 0; c < 7; ++c) {
@@ -40,18 +40,20 @@ std::array<double, 20> serendipity_shape(const Vec3& local) {
   return values;
 }
 
-void interpolate_centres(const HexMesh& mesh, std::vector<Vec3>& nodal) {
-  for_each_centre(mesh, [&](int centre, const int* nodes, const std::array<double, 20>& weights) {
-    nodal[centre].setZero();
-    for (int a = 0; a < 20; ++a) nodal[centre] += weights[a] * nodal[nodes[a]];
-  });
+void interpolate_centres(const HexTopology& mesh, std::vector<Vec3>& nodal) {
+  for_each_centre(mesh, nodal.size(),
+                  [&](int centre, const int* nodes, const std::array<double, 20>& weights) {
+                    nodal[centre].setZero();
+                    for (int a = 0; a < 20; ++a) nodal[centre] += weights[a] * nodal[nodes[a]];
+                  });
 }
 
-void gather_centres(const HexMesh& mesh, std::vector<Vec3>& force) {
-  for_each_centre(mesh, [&](int centre, const int* nodes, const std::array<double, 20>& weights) {
-    for (int a = 0; a < 20; ++a) force[nodes[a]] += weights[a] * force[centre];
-    force[centre].setZero();
-  });
+void gather_centres(const HexTopology& mesh, std::vector<Vec3>& force) {
+  for_each_centre(mesh, force.size(),
+                  [&](int centre, const int* nodes, const std::array<double, 20>& weights) {
+                    for (int a = 0; a < 20; ++a) force[nodes[a]] += weights[a] * force[centre];
+                    force[centre].setZero();
+                  });
 }
 
 }  // namespace breast

@@ -15,10 +15,10 @@ std::array<double, 20> serendipity_shape(const Vec3& local);
 
 /// Sets face centres and element centres to the values of the 20-node elements there. `nodal` has
 /// one entry per node of the 27-node mesh, of which those at corners and mid-edges are given.
-void interpolate_centres(const HexMesh& mesh, std::vector<Vec3>& nodal);
+void interpolate_centres(const HexTopology& mesh, std::vector<Vec3>& nodal);
 
 /// The transpose: forces on face and element centres are distributed to corners and mid-edges with
 /// the same virtual work.
-void gather_centres(const HexMesh& mesh, std::vector<Vec3>& force);
+void gather_centres(const HexTopology& mesh, std::vector<Vec3>& force);
 
 }  // namespace breast

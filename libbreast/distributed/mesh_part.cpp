@@ -63,24 +63,6 @@ void check(const HexMesh& mesh, const MechanicsOptions& options) {
   }
 }
 
-void cut_faces(const std::vector<Face>& from, const std::vector<int>& local, std::vector<Face>& to,
-               const std::vector<double>* values, std::vector<double>* kept) {
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    const int element = local[from[i].element];
-    if (element < 0) continue;
-    to.push_back({element, from[i].local});
-    if (values != nullptr && !values->empty()) kept->push_back((*values)[i]);
-  }
-}
-
-template <class T>
-std::vector<T> picked(const std::vector<T>& from, const std::vector<int>& which) {
-  std::vector<T> out;
-  out.reserve(which.size());
-  for (const int i : which) out.push_back(from[std::size_t(i)]);
-  return out;
-}
-
 // The nodes of a rank: its own first, then those that lower ranks own, each ascending.
 void number_nodes(const Whole& whole, int rank, MeshPart& part) {
   std::vector<int> others;
@@ -113,33 +95,16 @@ void note_shared(const Whole& whole, int rank, const std::vector<int>& local, Me
 }
 
 MeshPart cut_out(const Whole& whole, int rank) {
-  const HexMesh& mesh = whole.mesh;
   MeshPart part;
-  std::vector<int> local_element(std::size_t(mesh.elements()), -1);
-  for (int e = 0; e < mesh.elements(); ++e) {
-    if (whole.part[e] != rank) continue;
-    local_element[e] = int(part.elements.size());
-    part.elements.push_back(e);
-  }
+  for (int e = 0; e < whole.mesh.elements(); ++e)
+    if (whole.part[e] == rank) part.elements.push_back(e);
   number_nodes(whole, rank, part);
-  std::vector<int> local(std::size_t(mesh.nodes()), -1);
+  std::vector<int> local(std::size_t(whole.mesh.nodes()), -1);
   for (std::size_t i = 0; i < part.nodes.size(); ++i) local[part.nodes[i]] = int(i);
-  HexMesh& own = part.mesh;
-  own.order = mesh.order;
-  own.skin_model = mesh.skin_model;
-  own.side = mesh.side;
-  own.imaged = picked(mesh.imaged, part.nodes);
-  if (!mesh.reference.empty()) own.reference = picked(mesh.reference, part.nodes);
-  own.tissue = picked(mesh.tissue, part.elements);
-  for (const int e : part.elements) {
-    for (int a = 0; a < mesh.nodes_per_element(); ++a) {
-      own.connectivity.push_back(local[mesh.element(e)[a]]);
-    }
-  }
-  cut_faces(mesh.skin_faces, local_element, own.skin_faces, &mesh.skin_thickness,
-            &own.skin_thickness);
-  cut_faces(mesh.pectoral_faces, local_element, own.pectoral_faces, nullptr, nullptr);
-  cut_faces(mesh.cut_faces, local_element, own.cut_faces, nullptr, nullptr);
+  HexTopology& topology = part.mesh;
+  MeshShape& shape = part.mesh;
+  topology = part.restricted(HexTopology(whole.mesh));
+  shape = part.restricted(MeshShape(whole.mesh));
   note_shared(whole, rank, local, part);
   part.wall = whole.wall;
   part.held = Constraints(int(part.nodes.size()));

@@ -9,7 +9,7 @@
 
 #include "distributed/ranks.hpp"
 #include "mechanics/options.hpp"
-#include "mesh/hex_mesh.hpp"
+#include "mesh/part.hpp"
 #include "solve/constraints.hpp"
 #include "surface/thorax.hpp"
 
@@ -21,13 +21,12 @@ struct SharedNodes {
   std::vector<int> nodes;  ///< of this part
 };
 
-struct MeshPart {
+/// Numbers of the part's elements and nodes in the whole mesh, owned nodes first, and what is there.
+struct MeshPart : PartIndices {
   /// Elements, nodes and face sets of the part; owned nodes come first. Faces on elements of other
   /// ranks are missing from the sets, even if this part has their nodes.
   HexMesh mesh;
-  int owned = 0;  ///< number of owned nodes
-  /// Numbers of this part's nodes and elements in the whole mesh.
-  std::vector<int> nodes, elements;
+  int owned = 0;                    ///< number of owned nodes
   std::vector<SharedNodes> shared;  ///< in ascending order of rank
   /// Constraints by wall and cut, from the face sets of the whole mesh.
   Constraints held{0};
@@ -43,6 +42,6 @@ MeshPart share_mesh(const Ranks& ranks, const HexMesh& mesh, const MechanicsOpti
 
 /// The part of every element, from 0 to parts − 1, such that the parts have nearly the same size
 /// and few common faces.
-std::vector<int> partition(const HexMesh& mesh, int parts);
+std::vector<int> partition(const HexTopology& mesh, int parts);
 
 }  // namespace breast

@@ -16,7 +16,7 @@ struct Side4 {
 };
 
 // Graph of the elements that share a face.
-std::vector<std::pair<int, int>> neighbours(const HexMesh& mesh) {
+std::vector<std::pair<int, int>> neighbours(const HexTopology& mesh) {
   std::vector<Side4> sides;
   sides.reserve(std::size_t(mesh.elements()) * 6);
   for (int e = 0; e < mesh.elements(); ++e) {
@@ -47,7 +47,7 @@ PetscInt* petsc_array(std::size_t count) {
 
 }  // namespace
 
-std::vector<int> partition(const HexMesh& mesh, int parts) {
+std::vector<int> partition(const HexTopology& mesh, int parts) {
   const int count = mesh.elements();
   if (parts == 1) return std::vector<int>(std::size_t(count), 0);
   const auto pairs = neighbours(mesh);

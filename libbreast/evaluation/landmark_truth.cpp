@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "mesh/locate.hpp"
+#include "mesh/part.hpp"
 #include "mesh/surroundings.hpp"
 
 namespace breast {
@@ -88,12 +89,12 @@ Table compare_with_truth(const std::vector<HexMesh>& meshes,
     const std::string posture = posture_of(mesh);
     const TruePosition* known = position_in(truth.front(), posture);
     if (posture == "prone" || known == nullptr) continue;
-    shown.push_back(breast_alone(mesh));
+    shown.push_back(restricted(mesh, breast_elements));
     table.columns.push_back(posture + "_error_mm");
     table.columns.push_back(posture + "_true_mm");
     if (known->own_error) table.columns.push_back(posture + "_own_error_mm");
   }
-  const HexMesh first = breast_alone(meshes.front());
+  const HexMesh first = restricted(meshes.front(), breast_elements);
   const Locator imaged(first, first.imaged);
   for (const TrueLandmark& point : truth) {
     const Vec3& prone = point.at.at("prone").x;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "mesh/part.hpp"
 #include "mesh/surroundings.hpp"
 
 namespace breast {
@@ -89,7 +90,7 @@ bool SecondPosture::press(const MechanicsOptions& options) {
     press.stop_at = StopAt::thickness;
     press.target = seen.thickness;
     press.or_at.clear();
-    HexMesh state = breast_alone(mesh_);
+    HexMesh state = restricted(mesh_, breast_elements);
     const CompressionResult found = compress(state, press, options);
     if (!found.converged()) return reason_ = "compression: " + found.record.reason, false;
     store(found, state);

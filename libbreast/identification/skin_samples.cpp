@@ -17,7 +17,7 @@ Vec3 middle_of(int local_face) {
   return local;
 }
 
-std::set<int> rim_nodes(const HexMesh& mesh) {
+std::set<int> rim_nodes(const HexTopology& mesh) {
   std::set<int> rim;
   for (const std::vector<Face>* faces : {&mesh.cut_faces, &mesh.pectoral_faces}) {
     const std::vector<int> nodes = nodes_of(mesh, *faces);

@@ -27,7 +27,7 @@ const NodalField* field_of(const DerivativeFields& fields, const std::string& na
 }
 
 // ∂x/∂ξ in a nodal field, columns by local coordinate.
-Mat3 jacobian(const HexMesh& mesh, const std::vector<Vec3>& nodal, const ColumnPoint& point) {
+Mat3 jacobian(const HexTopology& mesh, const std::vector<Vec3>& nodal, const ColumnPoint& point) {
   const HexShape shape = hex_shape(mesh.order, point.local);
   const int* nodes = mesh.element(point.element);
   Mat3 j = Mat3::Zero();
@@ -120,7 +120,7 @@ std::string BandModel::what_is_missing() const {
          ": there is no derivative in both files (see sensitivity)";
 }
 
-Vec3 BandModel::moved(const HexMesh& mesh, const ImageFrame& frame, const Vec3& centre,
+Vec3 BandModel::moved(const HexTopology& mesh, const ImageFrame& frame, const Vec3& centre,
                       const NodalField& field, const ColumnPoint& point, const Vec3& at,
                       bool turns) const {
   Vec3 moved = element_position(mesh, field, point.element, point.local);

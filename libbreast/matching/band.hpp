@@ -75,7 +75,7 @@ class BandModel {
     bool turns = false;  ///< the beam turns with the compression
   };
   /// Motion in mm of a point relative to its detector per unit of the cause.
-  Vec3 moved(const HexMesh& mesh, const ImageFrame& frame, const Vec3& centre,
+  Vec3 moved(const HexTopology& mesh, const ImageFrame& frame, const Vec3& centre,
              const NodalField& field, const ColumnPoint& point, const Vec3& at, bool turns) const;
   /// Shift of a curve point in the second image for one standard deviation of the cause.
   Vec2 shift(const ColumnPoint& point, const Mat3& carry, const Cause& cause) const;

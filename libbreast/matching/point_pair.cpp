@@ -42,7 +42,7 @@ MatchedCurve column(const Matcher& matcher, const Vec2& mark) {
 
 }  // namespace
 
-Vec3 PairPoint::position(const HexMesh& mesh, const std::vector<Vec3>& nodal) const {
+Vec3 PairPoint::position(const HexTopology& mesh, const std::vector<Vec3>& nodal) const {
   return 0.5 * (element_position(mesh, nodal, on_first.element, on_first.local) +
                 element_position(mesh, nodal, on_second.element, on_second.local));
 }

@@ -21,7 +21,7 @@ struct PairPoint {
   double second_to_first = 0;  ///< mm in the first image from its mark to the second mark's curve
   /// Midpoint of the two points in another shape of the mesh (imaged, reference, the points of a
   /// supine mesh).
-  Vec3 position(const HexMesh& mesh, const std::vector<Vec3>& nodal) const;
+  Vec3 position(const HexTopology& mesh, const std::vector<Vec3>& nodal) const;
 };
 
 /// `forward` maps the first view to the second, `backward` the second to the first. Throws Error

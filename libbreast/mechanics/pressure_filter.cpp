@@ -13,15 +13,15 @@ namespace breast {
 namespace {
 
 /// Elements at every node.
-std::vector<std::vector<int>> elements_at_nodes(const HexMesh& mesh) {
-  std::vector<std::vector<int>> at(mesh.points.size());
+std::vector<std::vector<int>> elements_at_nodes(const HexTopology& mesh, std::size_t nodes) {
+  std::vector<std::vector<int>> at(nodes);
   for (int e = 0; e < mesh.elements(); ++e) {
     for (int a = 0; a < mesh.nodes_per_element(); ++a) at[mesh.element(e)[a]].push_back(e);
   }
   return at;
 }
 
-std::vector<Vec3> centres(const HexMesh& mesh, const std::vector<Vec3>& nodal) {
+std::vector<Vec3> centres(const HexTopology& mesh, const std::vector<Vec3>& nodal) {
   std::vector<Vec3> out;
   for (int e = 0; e < mesh.elements(); ++e) {
     out.push_back(element_position(mesh, nodal, e, Vec3::Zero()));
@@ -31,9 +31,9 @@ std::vector<Vec3> centres(const HexMesh& mesh, const std::vector<Vec3>& nodal) {
 
 }  // namespace
 
-std::vector<double> filter_pressure(const HexMesh& mesh, const std::vector<Vec3>& nodal,
+std::vector<double> filter_pressure(const HexTopology& mesh, const std::vector<Vec3>& nodal,
                                     const std::vector<double>& pressure) {
-  const std::vector<std::vector<int>> around = elements_at_nodes(mesh);
+  const std::vector<std::vector<int>> around = elements_at_nodes(mesh, nodal.size());
   const std::vector<Vec3> centre = centres(mesh, nodal);
   const std::vector<double> volume = element_volumes(mesh, nodal);
   std::vector<double> filtered;
@@ -58,7 +58,7 @@ std::vector<double> filter_pressure(const HexMesh& mesh, const std::vector<Vec3>
   return filtered;
 }
 
-std::map<Tissue, PressureQuality> pressure_quality(const HexMesh& mesh,
+std::map<Tissue, PressureQuality> pressure_quality(const HexTopology& mesh,
                                                    const std::vector<Vec3>& nodal,
                                                    const std::vector<double>& pressure,
                                                    const std::vector<double>& filtered) {

@@ -14,7 +14,7 @@ namespace breast {
 /// of its tissue around it, weighted by volume times the number of shared nodes. On a regular mesh
 /// this annihilates every oscillation of period two (at a corner of the mesh a quarter stays) and
 /// reproduces linear pressures exactly.
-std::vector<double> filter_pressure(const HexMesh& mesh, const std::vector<Vec3>& nodal,
+std::vector<double> filter_pressure(const HexTopology& mesh, const std::vector<Vec3>& nodal,
                                     const std::vector<double>& pressure);
 
 struct PressureQuality {
@@ -23,7 +23,7 @@ struct PressureQuality {
   double least = 0, greatest = 0;  ///< filtered, Pa
 };
 /// The quality of the pressures in every tissue present.
-std::map<Tissue, PressureQuality> pressure_quality(const HexMesh& mesh,
+std::map<Tissue, PressureQuality> pressure_quality(const HexTopology& mesh,
                                                    const std::vector<Vec3>& nodal,
                                                    const std::vector<double>& pressure,
                                                    const std::vector<double>& filtered);

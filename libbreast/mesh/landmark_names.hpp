@@ -9,7 +9,7 @@ namespace breast {
 /// A tumour that was not found in the scan: hexmesh --tumour auto places it at the edge of the
 /// fibroglandular tissue to demonstrate the chain. It keeps this name in every file, table and
 /// picture, so that it is never mistaken for a finding; asking a mesh for its "tumour" also returns
-/// it (HexMesh::landmark).
+/// it (HexTopology::landmark).
 inline constexpr std::string_view artificial_tumour = "artificial_tumour";
 
 }  // namespace breast

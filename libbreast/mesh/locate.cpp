@@ -52,7 +52,7 @@ Error no_distance(const Vec3& point) {
 
 }  // namespace
 
-Locator::Locator(const HexMesh& mesh, const std::vector<Vec3>& nodal)
+Locator::Locator(const HexTopology& mesh, const std::vector<Vec3>& nodal)
     : order_of_mesh_(mesh.order), per_element_(mesh.nodes_per_element()) {
   if (mesh.elements() == 0) throw input_error("point location: the mesh has no elements");
   for (const int node : mesh.connectivity) {
@@ -144,7 +144,7 @@ Vec3 Locator::position(int element, const Vec3& local) const {
   return x;
 }
 
-Location nearest_on_faces(const HexMesh& mesh, const std::vector<Vec3>& nodal,
+Location nearest_on_faces(const HexTopology& mesh, const std::vector<Vec3>& nodal,
                           const std::vector<Face>& faces, const Vec3& point) {
   if (faces.empty()) throw input_error("nearest point on faces: the face set is empty");
   const int* vtk = lattice::vtk_nodes(mesh.order);

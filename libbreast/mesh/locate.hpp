@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/hex_mesh.hpp"
+#include "mesh/topology.hpp"
 #include "surface/box_tree.hpp"
 
 namespace breast {
@@ -19,14 +19,14 @@ struct Location {
   double moved = 0;     ///< mm from the requested point to the point found; 0 if inside
 };
 
-/// Point location in one nodal field (mesh.points, mesh.imaged, mesh.reference) of a mesh of order
+/// Point location in one nodal field (MeshShape::points, imaged or reference) of a mesh of order
 /// 1 or 2: bounding-box tree over the elements (exact boxes: Bézier hulls for order 2), then Newton
 /// on the isoparametric map to 1e-10. Copies the coordinates it needs; all queries are const and
 /// may be made from many threads. A point on a shared face belongs to the lowest element number.
 class Locator {
  public:
   /// Throws Error (input) when `nodal` does not have one finite point per node.
-  Locator(const HexMesh& mesh, const std::vector<Vec3>& nodal);
+  Locator(const HexTopology& mesh, const std::vector<Vec3>& nodal);
 
   /// The element that contains `point`; no value if there is none. `hint` is tried first (the
   /// element of a neighbouring point, for walks along a ray); if the point is strictly inside it,
@@ -56,7 +56,7 @@ class Locator {
 };
 
 /// The point of the given boundary faces nearest to `point` (nipple on the skin).
-Location nearest_on_faces(const HexMesh& mesh, const std::vector<Vec3>& nodal,
+Location nearest_on_faces(const HexTopology& mesh, const std::vector<Vec3>& nodal,
                           const std::vector<Face>& faces, const Vec3& point);
 
 /// The node nearest to `point`.

@@ -16,7 +16,7 @@ namespace {
 
 using Corners = std::array<int, 4>;
 
-Corners sorted_corners(const HexMesh& mesh, const Face& face) {
+Corners sorted_corners(const HexTopology& mesh, const Face& face) {
   Corners corners;
   for (int c = 0; c < 4; ++c)
     corners[c] = mesh.element(face.element)[hex_face_corners[face.local][c]];
@@ -26,7 +26,7 @@ Corners sorted_corners(const HexMesh& mesh, const Face& face) {
 
 }  // namespace
 
-std::vector<Face> muscle_front(const HexMesh& mesh) {
+std::vector<Face> muscle_front(const HexTopology& mesh) {
   std::set<Corners> of_muscle;
   for (int e = 0; e < mesh.elements(); ++e) {
     if (mesh.tissue[e] != Tissue::muscle) continue;

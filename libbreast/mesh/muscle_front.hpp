@@ -10,7 +10,7 @@ namespace breast {
 
 /// Faces of the breast's elements that lie on muscle; the chest-wall faces of a mesh that has no
 /// muscle. Their outward normals point to the ribs.
-std::vector<Face> muscle_front(const HexMesh& mesh);
+std::vector<Face> muscle_front(const HexTopology& mesh);
 
 /// Mean thickness of the layer of muscle in the imaged shape, mm; 0 without one.
 double muscle_thickness(const HexMesh& mesh);

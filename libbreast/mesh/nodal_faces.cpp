@@ -21,10 +21,10 @@ std::vector<QuadPoint> quad_rule(int order) {
 }
 }  // namespace
 
-NodalFaces nodal_faces(const HexMesh& mesh, const std::vector<Face>& faces,
+NodalFaces nodal_faces(const HexTopology& mesh, const std::vector<Face>& faces,
                        const Eigen::VectorXd& x, const FaceWeight& weight) {
-  NodalFaces spread{std::vector<double>(std::size_t(mesh.nodes()), 0),
-                    std::vector<Vec3>(std::size_t(mesh.nodes()), Vec3::Zero())};
+  const auto count = std::size_t(x.size() / 3);
+  NodalFaces spread{std::vector<double>(count, 0), std::vector<Vec3>(count, Vec3::Zero())};
   const std::vector<QuadPoint> rule = quad_rule(mesh.order);
   for (const Face& face : faces) {
     const std::vector<int> nodes = face_nodes(mesh, face);

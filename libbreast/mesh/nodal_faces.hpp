@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "mesh/hex_mesh.hpp"
+#include "mesh/topology.hpp"
 
 namespace breast {
 
@@ -20,7 +20,7 @@ struct NodalFaces {
 using FaceWeight = std::function<double(const Vec3& at, const Vec3& normal)>;
 
 /// Nodal areas in the shape `x` (3 per node). `weight` multiplies the areas, but not the area vectors.
-NodalFaces nodal_faces(const HexMesh& mesh, const std::vector<Face>& faces,
+NodalFaces nodal_faces(const HexTopology& mesh, const std::vector<Face>& faces,
                        const Eigen::VectorXd& x, const FaceWeight& weight = {});
 
 }  // namespace breast

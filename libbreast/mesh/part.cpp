@@ -53,13 +53,18 @@ std::optional<std::vector<int>> places_of(const std::vector<int>& numbers,
   return places;
 }
 
-std::vector<int> nodes_used(const HexMesh& mesh, const std::vector<int>& elements) {
-  std::vector<char> used(mesh.points.size(), 0);
+/// The number of nodes, of which each belongs to an element.
+int node_count(const HexTopology& mesh) {
+  return mesh.connectivity.empty() ? 0 : 1 + *std::ranges::max_element(mesh.connectivity);
+}
+
+std::vector<int> nodes_used(const HexTopology& mesh, const std::vector<int>& elements) {
+  std::vector<char> used(std::size_t(node_count(mesh)), 0);
   for (const int e : elements)
     for (int a = 0; a < mesh.nodes_per_element(); ++a) used[std::size_t(mesh.element(e)[a])] = 1;
   std::vector<int> nodes;
-  for (int n = 0; n < mesh.nodes(); ++n)
-    if (used[std::size_t(n)]) nodes.push_back(n);
+  for (std::size_t n = 0; n < used.size(); ++n)
+    if (used[n]) nodes.push_back(int(n));
   return nodes;
 }
 
@@ -72,7 +77,7 @@ std::vector<Face> renumbered(const std::vector<Face>& faces, const std::vector<i
   return list;
 }
 
-std::vector<double> kept_thickness(const HexMesh& mesh, const std::vector<int>& element_at) {
+std::vector<double> kept_thickness(const HexTopology& mesh, const std::vector<int>& element_at) {
   std::vector<double> list;
   for (std::size_t f = 0; f < mesh.skin_thickness.size(); ++f) {
     if (element_at[std::size_t(mesh.skin_faces[f].element)] != absent)
@@ -82,7 +87,7 @@ std::vector<double> kept_thickness(const HexMesh& mesh, const std::vector<int>& 
 }
 
 /// The boundary that is neither skin nor chest wall.
-std::vector<Face> cut_of(const HexMesh& mesh) {
+std::vector<Face> cut_of(const HexTopology& mesh) {
   std::set<std::pair<int, int>> others;
   for (const auto* faces : {&mesh.skin_faces, &mesh.pectoral_faces})
     for (const Face& face : *faces) others.insert({face.element, face.local});
@@ -91,7 +96,7 @@ std::vector<Face> cut_of(const HexMesh& mesh) {
   return cut;
 }
 
-void restrict_landmarks(HexMesh& mesh, const std::vector<int>& element_at) {
+void restrict_landmarks(HexTopology& mesh, const std::vector<int>& element_at) {
   for (Landmark& landmark : mesh.landmarks)
     landmark.element = element_at[std::size_t(landmark.element)];
   std::erase_if(mesh.landmarks, [](const Landmark& l) { return l.element == absent; });
@@ -105,34 +110,68 @@ void restrict_contact(ContactRecord& contact, const std::vector<int>& node_at) {
 
 }  // namespace
 
-HexMesh restricted(HexMesh mesh, const std::vector<int>& elements) {
-  if (int(elements.size()) == mesh.elements()) return mesh;
-  const std::vector<int> nodes = nodes_used(mesh, elements);
+HexTopology PartIndices::restricted(HexTopology mesh) const {
+  const int count = node_count(mesh);
   const std::vector<int> element_at = inverse(elements, mesh.elements());
-  const std::vector<int> node_at = inverse(nodes, mesh.nodes());
+  const std::vector<int> node_at = inverse(nodes, count);
   mesh.element_numbers = taken(numbers_or_all(mesh.element_numbers, mesh.elements()), elements);
-  mesh.node_numbers = taken(numbers_or_all(mesh.node_numbers, mesh.nodes()), nodes);
+  mesh.node_numbers = taken(numbers_or_all(mesh.node_numbers, count), nodes);
   std::vector<int> connectivity;
+  connectivity.reserve(elements.size() * std::size_t(mesh.nodes_per_element()));
   for (const int e : elements)
     for (int a = 0; a < mesh.nodes_per_element(); ++a)
       connectivity.push_back(node_at[std::size_t(mesh.element(e)[a])]);
   mesh.connectivity = std::move(connectivity);
-  for (auto HexMesh::*field : {&HexMesh::points, &HexMesh::imaged, &HexMesh::reference})
-    mesh.*field = taken(mesh.*field, nodes);
-  mesh.contact_pressure = taken(mesh.contact_pressure, nodes);
-  for (auto HexMesh::*field : {&HexMesh::pressure, &HexMesh::det_F, &HexMesh::scaled_jacobian})
-    mesh.*field = taken(mesh.*field, elements);
   mesh.tissue = taken(mesh.tissue, elements);
   mesh.fibroglandular_fraction = taken(mesh.fibroglandular_fraction, elements);
   mesh.skin_thickness = kept_thickness(mesh, element_at);
-  mesh.skin_faces = renumbered(mesh.skin_faces, element_at);
-  mesh.pectoral_faces = renumbered(mesh.pectoral_faces, element_at);
-  mesh.cut_faces = cut_of(mesh);
+  for (auto* faces : {&mesh.skin_faces, &mesh.pectoral_faces, &mesh.cut_faces})
+    *faces = renumbered(*faces, element_at);
   mesh.tumour_node = renumbered(node_at, mesh.tumour_node);
   mesh.nipple_node = renumbered(node_at, mesh.nipple_node);
   restrict_landmarks(mesh, element_at);
-  if (mesh.contact) restrict_contact(*mesh.contact, node_at);
   return mesh;
+}
+
+MeshShape PartIndices::restricted(MeshShape shape) const {
+  const int count = shape.nodes();
+  for (auto* field : {&shape.points, &shape.imaged, &shape.reference})
+    *field = taken(*field, nodes);
+  shape.contact_pressure = taken(shape.contact_pressure, nodes);
+  for (auto* field : {&shape.pressure, &shape.det_F, &shape.scaled_jacobian})
+    *field = taken(*field, elements);
+  if (shape.contact) restrict_contact(*shape.contact, inverse(nodes, count));
+  return shape;
+}
+
+HexMesh restricted(HexMesh mesh, const std::vector<int>& elements) {
+  if (int(elements.size()) == mesh.elements()) return mesh;
+  const PartIndices part{elements, nodes_used(mesh, elements)};
+  HexTopology& topology = mesh;
+  MeshShape& shape = mesh;
+  topology = part.restricted(std::move(topology));
+  shape = part.restricted(std::move(shape));
+  mesh.cut_faces = cut_of(mesh);
+  return mesh;
+}
+
+HexMesh restricted(HexMesh mesh, std::vector<int> (&elements)(const HexTopology&)) {
+  const std::vector<int> chosen = elements(mesh);
+  return restricted(std::move(mesh), chosen);
+}
+
+Eigen::VectorXd PartIndices::restricted(const Eigen::VectorXd& whole) const {
+  Eigen::VectorXd own(3L * long(nodes.size()));
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    own.segment<3>(3L * long(n)) = whole.segment<3>(3L * nodes[n]);
+  return own;
+}
+
+Eigen::VectorXd PartIndices::extended(const Eigen::VectorXd& own, int count) const {
+  Eigen::VectorXd whole = Eigen::VectorXd::Zero(3L * count);
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    whole.segment<3>(3L * nodes[n]) = own.segment<3>(3L * long(n));
+  return whole;
 }
 
 std::optional<PartIndices> indices_in(const HexMesh& mesh, const HexMesh& part) {

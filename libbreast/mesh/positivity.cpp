@@ -68,7 +68,7 @@ Eigen::MatrixXd first_half(int n) {
   return half;
 }
 
-Cube determinants(const HexMesh& mesh, const std::vector<Vec3>& nodal, int element) {
+Cube determinants(const HexTopology& mesh, const std::vector<Vec3>& nodal, int element) {
   const int* vtk = lattice::vtk_nodes(mesh.order);
   std::array<Vec3, 27> own;
   for (int a = 0; a < mesh.nodes_per_element(); ++a) own[a] = nodal[mesh.element(element)[vtk[a]]];
@@ -111,7 +111,7 @@ double bound(const Cube& coefficients, int depth) {
 
 }  // namespace
 
-double jacobian_lower_bound(const HexMesh& mesh, const std::vector<Vec3>& nodal, int element) {
+double jacobian_lower_bound(const HexTopology& mesh, const std::vector<Vec3>& nodal, int element) {
   static const std::array<Eigen::MatrixXd, 2> to_bernstein{bernstein_from_values(3),
                                                            bernstein_from_values(6)};
   Cube cube = determinants(mesh, nodal, element);

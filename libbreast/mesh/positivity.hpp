@@ -2,7 +2,7 @@
 // Proof that an element is nowhere folded: Bézier coefficients of its Jacobian determinant.
 #pragma once
 
-#include "mesh/hex_mesh.hpp"
+#include "mesh/topology.hpp"
 
 namespace breast {
 
@@ -13,6 +13,6 @@ namespace breast {
 /// element is halved in each direction and the parts are tested again, at most four times. A
 /// positive result proves that the element is not folded. Otherwise the result is a value of the
 /// determinant at a corner of a part, or the last bound.
-double jacobian_lower_bound(const HexMesh& mesh, const std::vector<Vec3>& nodal, int element);
+double jacobian_lower_bound(const HexTopology& mesh, const std::vector<Vec3>& nodal, int element);
 
 }  // namespace breast

@@ -34,7 +34,8 @@ struct LocalPoint {
 
 std::vector<LocalPoint> gauss_points(int order) {
   std::vector<LocalPoint> points;
-  for (const GaussCubePoint& point : gauss_cube(order + 1)) points.push_back({point.at, point.weight});
+  for (const GaussCubePoint& point : gauss_cube(order + 1))
+    points.push_back({point.at, point.weight});
   return points;
 }
 
@@ -46,14 +47,15 @@ std::vector<LocalPoint> check_points(int order) {
   return points;
 }
 
-std::array<Vec3, 27> lattice_points(const HexMesh& mesh, const std::vector<Vec3>& nodal, int e) {
+std::array<Vec3, 27> lattice_points(const HexTopology& mesh, const std::vector<Vec3>& nodal,
+                                    int e) {
   const int* vtk = lattice::vtk_nodes(mesh.order);
   std::array<Vec3, 27> own;
   for (int a = 0; a < mesh.nodes_per_element(); ++a) own[a] = nodal[mesh.element(e)[vtk[a]]];
   return own;
 }
 
-double det_at(const HexMesh& mesh, const std::array<Vec3, 27>& own, const Vec3& local) {
+double det_at(const HexTopology& mesh, const std::array<Vec3, 27>& own, const Vec3& local) {
   Vec3 x;
   Mat3 jacobian;
   lattice::evaluate(mesh.order, own.data(), local, x, jacobian);
@@ -83,7 +85,7 @@ double scaled_jacobian(const Vec3* corners) {
 namespace {
 
 // The same measure of a curved element: the tangents at its 27 lattice points for the edges.
-double curved_scaled_jacobian(const HexMesh& mesh, const std::array<Vec3, 27>& own) {
+double curved_scaled_jacobian(const HexTopology& mesh, const std::array<Vec3, 27>& own) {
   double worst = 1;
   for (int a = 0; a < 27; ++a) {
     Vec3 x;
@@ -98,20 +100,20 @@ double curved_scaled_jacobian(const HexMesh& mesh, const std::array<Vec3, 27>& o
 
 }  // namespace
 
-double scaled_jacobian(const HexMesh& mesh, const std::vector<Vec3>& nodal, int element) {
+double scaled_jacobian(const HexTopology& mesh, const std::vector<Vec3>& nodal, int element) {
   if (mesh.order == 2) return curved_scaled_jacobian(mesh, lattice_points(mesh, nodal, element));
   std::array<Vec3, 8> corners;
   for (int a = 0; a < 8; ++a) corners[a] = nodal[mesh.element(element)[a]];
   return scaled_jacobian(corners.data());
 }
 
-std::vector<double> scaled_jacobians(const HexMesh& mesh, const std::vector<Vec3>& nodal) {
+std::vector<double> scaled_jacobians(const HexTopology& mesh, const std::vector<Vec3>& nodal) {
   std::vector<double> all(mesh.elements());
   for (int e = 0; e < mesh.elements(); ++e) all[e] = scaled_jacobian(mesh, nodal, e);
   return all;
 }
 
-std::vector<double> element_volumes(const HexMesh& mesh, const std::vector<Vec3>& nodal) {
+std::vector<double> element_volumes(const HexTopology& mesh, const std::vector<Vec3>& nodal) {
   const std::vector<LocalPoint> gauss = gauss_points(mesh.order);
   std::vector<double> volumes(mesh.elements(), 0.0);
   for (int e = 0; e < mesh.elements(); ++e) {
@@ -121,13 +123,13 @@ std::vector<double> element_volumes(const HexMesh& mesh, const std::vector<Vec3>
   return volumes;
 }
 
-double mesh_volume(const HexMesh& mesh, const std::vector<Vec3>& nodal) {
+double mesh_volume(const HexTopology& mesh, const std::vector<Vec3>& nodal) {
   double sum = 0;
   for (const double volume : element_volumes(mesh, nodal)) sum += volume;
   return sum;
 }
 
-MeshQuality mesh_quality(const HexMesh& mesh, const std::vector<Vec3>& nodal) {
+MeshQuality mesh_quality(const HexTopology& mesh, const std::vector<Vec3>& nodal) {
   if (mesh.elements() == 0) throw input_error("mesh quality: the mesh has no elements");
   MeshQuality quality;
   std::vector<double> scaled = scaled_jacobians(mesh, nodal);

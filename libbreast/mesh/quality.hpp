@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "mesh/hex_mesh.hpp"
+#include "mesh/topology.hpp"
 
 namespace breast {
 
@@ -18,12 +18,12 @@ double scaled_jacobian(const Vec3* corners);
 /// Scaled Jacobian of one element and of all elements in the given nodal field. For order 2 it is
 /// the minimum at the 27 lattice points, with the tangents of the map as edges (the same number at
 /// the corners of a straight element).
-double scaled_jacobian(const HexMesh& mesh, const std::vector<Vec3>& nodal, int element);
-std::vector<double> scaled_jacobians(const HexMesh& mesh, const std::vector<Vec3>& nodal);
+double scaled_jacobian(const HexTopology& mesh, const std::vector<Vec3>& nodal, int element);
+std::vector<double> scaled_jacobians(const HexTopology& mesh, const std::vector<Vec3>& nodal);
 
 /// Volume of every element, mm³ (exact for order 1; 3³ Gauss points for order 2).
-std::vector<double> element_volumes(const HexMesh& mesh, const std::vector<Vec3>& nodal);
-double mesh_volume(const HexMesh& mesh, const std::vector<Vec3>& nodal);
+std::vector<double> element_volumes(const HexTopology& mesh, const std::vector<Vec3>& nodal);
+double mesh_volume(const HexTopology& mesh, const std::vector<Vec3>& nodal);
 
 struct MeshQuality {
   double min_scaled_jacobian = 0, median_scaled_jacobian = 0;
@@ -40,6 +40,6 @@ struct MeshQuality {
   std::array<int, 10> histogram{};  ///< elements by scaled Jacobian: below 0.1, 0.1-0.2, ... 0.9-1
 };
 /// Throws Error (input) for an empty mesh.
-MeshQuality mesh_quality(const HexMesh& mesh, const std::vector<Vec3>& nodal);
+MeshQuality mesh_quality(const HexTopology& mesh, const std::vector<Vec3>& nodal);
 
 }  // namespace breast

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tissue around the breast that is meshed with it (elements of Tissue::other), to which the breast is
 // attached instead of to supports at its lateral cut. It belongs neither to the breast's volume nor
-// to its muscle.
+// to its muscle; `restricted(mesh, breast_elements)` is the breast alone (mesh/part.hpp).
 #pragma once
 
 #include <vector>
@@ -10,14 +10,14 @@
 
 namespace breast {
 
-inline bool is_around_breast(const HexMesh& mesh, int element) {
+inline bool is_around_breast(const HexTopology& mesh, int element) {
   return mesh.tissue[std::size_t(element)] == Tissue::other;
 }
+/// The elements of the breast, ascending. Throws Error (input) if there is nothing but tissue around
+/// one.
+std::vector<int> breast_elements(const HexTopology& mesh);
 /// Those of the faces that are faces of the breast.
-std::vector<Face> of_breast(const HexMesh& mesh, const std::vector<Face>& faces);
-/// The part of the mesh without the tissue around the breast (mesh/part.hpp). Throws Error (input) if
-/// there is nothing else.
-HexMesh breast_alone(HexMesh mesh);
+std::vector<Face> of_breast(const HexTopology& mesh, const std::vector<Face>& faces);
 /// Whether two meshes are of one breast: the same elements, but for the tissue around it.
 bool have_same_breast(const HexMesh& a, const HexMesh& b);
 

@@ -27,7 +27,7 @@ struct Between {
   std::vector<int> corner;
 };
 
-void gather(const HexMesh& mesh, const std::vector<Face>& faces, Hull part,
+void gather(const HexTopology& mesh, const std::vector<Face>& faces, Hull part,
             std::vector<Between>& between) {
   for (const Face& face : faces) {
     const std::vector<int> list = face_nodes(mesh, face);

@@ -48,7 +48,7 @@ ElementSamples sample_element(const LabelVolume& labels, const NearestVoxel& sam
 }
 
 // The fraction above which whole elements make up the given glandular volume.
-double volume_preserving_threshold(const HexMesh& mesh, const std::vector<double>& volumes,
+double volume_preserving_threshold(const HexTopology& mesh, const std::vector<double>& volumes,
                                    double wanted) {
   std::vector<int> order(volumes.size());
   std::iota(order.begin(), order.end(), 0);

@@ -7,7 +7,7 @@
 
 namespace breast {
 
-TriMesh boundary_surface(const HexMesh& mesh, const std::vector<Vec3>& nodal,
+TriMesh boundary_surface(const HexTopology& mesh, const std::vector<Vec3>& nodal,
                          const std::vector<Face>& faces) {
   const int n = mesh.order == 2 ? 4 : 1;
   TriMesh surface;

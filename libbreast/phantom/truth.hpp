@@ -14,7 +14,7 @@ namespace breast {
 
 /// Boundary faces of a mesh in the given nodal field, every quadrilateral cut into 2 n² triangles
 /// (n = 4 for order 2, whose faces are curved). Normals of the triangles point out of the body.
-TriMesh boundary_surface(const HexMesh& mesh, const std::vector<Vec3>& nodal,
+TriMesh boundary_surface(const HexTopology& mesh, const std::vector<Vec3>& nodal,
                          const std::vector<Face>& faces);
 
 /// One row per landmark of one side: landmark, side, then x y z (mm, LPS) stress-free, prone (mesh.imaged),

@@ -171,7 +171,7 @@ class Projector {
   std::unique_ptr<VoxelTissue> voxels_;
 };
 
-Mammogram empty_image(const HexMesh& mesh, const ImageFrame& frame,
+Mammogram empty_image(const HexTopology& mesh, const ImageFrame& frame,
                       const ProjectionOptions& options) {
   if (!(options.pixel > 0)) throw input_error("pixel ", options.pixel, " mm: must be positive");
   const double pixels = (frame.width / options.pixel) * (frame.height / options.pixel);

@@ -9,7 +9,7 @@
 
 namespace breast {
 
-RayMesh::RayMesh(const HexMesh& mesh, const std::vector<Vec3>& nodal, const ViewPose& pose)
+RayMesh::RayMesh(const HexTopology& mesh, const std::vector<Vec3>& nodal, const ViewPose& pose)
     : pose_(pose),
       subdivisions_(mesh.order == 1 ? 1 : 4),
       pieces_per_element_(subdivisions_ * subdivisions_ * subdivisions_) {
@@ -33,7 +33,7 @@ RayMesh::RayMesh(const HexMesh& mesh, const std::vector<Vec3>& nodal, const View
   bin_pieces();
 }
 
-std::vector<Trilinear> RayMesh::pieces_of(const HexMesh& mesh,
+std::vector<Trilinear> RayMesh::pieces_of(const HexTopology& mesh,
                                           const std::vector<Vec3>& nodal) const {
   std::vector<Trilinear> pieces(std::size_t(mesh.elements()) * pieces_per_element_);
 #pragma omp parallel for schedule(static)

@@ -39,7 +39,7 @@ using ChordPacket = std::array<std::vector<Chord>, packet_rays>;
 class RayMesh {
  public:
   /// `pose` defines the rays; `nodal` are the coordinates (mesh.points of a compressed mesh).
-  RayMesh(const HexMesh& mesh, const std::vector<Vec3>& nodal, const ViewPose& pose);
+  RayMesh(const HexTopology& mesh, const std::vector<Vec3>& nodal, const ViewPose& pose);
 
   /// The ray that is traced: it ends less than 1e-6 mm beside (u,v), for the reason given in the
   /// .cpp file.
@@ -63,7 +63,7 @@ class RayMesh {
   const ViewPose& pose() const { return pose_; }
 
   /// The same pieces in another nodal field (mesh.imaged), for mapping points along a chord.
-  std::vector<Trilinear> pieces_of(const HexMesh& mesh, const std::vector<Vec3>& nodal) const;
+  std::vector<Trilinear> pieces_of(const HexTopology& mesh, const std::vector<Vec3>& nodal) const;
 
  private:
   struct Box {

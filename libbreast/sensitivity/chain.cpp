@@ -122,32 +122,18 @@ SensitivityChain::SensitivityChain(const HexMesh& imaged, const HexMesh& state,
                                    const std::vector<double>& imaged_pressure,
                                    const Vec3& imaged_gravity, const MechanicsOptions& options)
     : mesh_(state),
-      scene_(state, options),
-      wider_(imaged.elements() != state.elements()
-                 ? std::optional<Scene>(std::in_place, imaged, options)
-                 : std::optional<Scene>()),
+      scene_(std::make_shared<Scene>(state, options)),
+      imaged_scene_(imaged.elements() == state.elements()
+                        ? scene_
+                        : std::make_shared<const Scene>(imaged, options)),
       part_(part_of(imaged, state)),
       plates_(state.contact ? recorded_plates(state) : PlatePair{}),
-      pressure_(recorded_pressure(scene_, plates_)),
-      imaged_(imaged_scene(), imaged_state(imaged_scene(), imaged_pressure, imaged_gravity), {}, {},
+      pressure_(recorded_pressure(*scene_, plates_)),
+      imaged_(*imaged_scene_, imaged_state(*imaged_scene_, imaged_pressure, imaged_gravity), {}, {},
               "the imaged shape"),
       friction_(recorded_friction(state, plates_)),
-      deformed_(scene_, deformed_state(scene_), contacts_of(state, plates_),
+      deformed_(*scene_, deformed_state(*scene_), contacts_of(state, plates_),
                 present({pressure_, friction_}), "the deformed shape") {}
-
-Eigen::VectorXd SensitivityChain::own_nodes(const Eigen::VectorXd& all) const {
-  Eigen::VectorXd own(3L * scene_.nodes());
-  for (long n = 0; n < scene_.nodes(); ++n)
-    own.segment<3>(3 * n) = all.segment<3>(3L * part_.nodes[std::size_t(n)]);
-  return own;
-}
-
-Eigen::VectorXd SensitivityChain::all_nodes(const Eigen::VectorXd& own) const {
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(3L * imaged_scene().nodes());
-  for (long n = 0; n < scene_.nodes(); ++n)
-    all.segment<3>(3L * part_.nodes[std::size_t(n)]) = own.segment<3>(3 * n);
-  return all;
-}
 
 // −∂R/∂m of both states, and the motion that the plates impose.
 struct SensitivityChain::Rights {
@@ -157,9 +143,9 @@ struct SensitivityChain::Rights {
 
 SensitivityChain::Rights SensitivityChain::rights(const std::vector<Parameter>& parameters) const {
   Rights out{
-      parameter_forces(imaged_scene(), imaged_.state(), ParameterKind::imaged_gravity, parameters),
-      parameter_forces(scene_, deformed_.state(), ParameterKind::gravity, parameters),
-      Eigen::MatrixXd::Zero(3L * scene_.nodes(), long(parameters.size()))};
+      parameter_forces(*imaged_scene_, imaged_.state(), ParameterKind::imaged_gravity, parameters),
+      parameter_forces(*scene_, deformed_.state(), ParameterKind::gravity, parameters),
+      Eigen::MatrixXd::Zero(3L * scene_->nodes(), long(parameters.size()))};
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (!parameters[i].of_plates()) continue;
     for (const PlateContact& contact : deformed_.contacts()) {
@@ -232,11 +218,11 @@ std::vector<Response> SensitivityChain::tangent(const std::vector<Parameter>& pa
     const long k = long(i);
     Response response;
     response.parameter = parameters[i];
-    Eigen::VectorXd reference = Eigen::VectorXd::Zero(3L * scene_.nodes());
+    Eigen::VectorXd reference = Eigen::VectorXd::Zero(3L * scene_->nodes());
     const bool moves =
         !right.imaged.force.col(k).isZero(0) || !right.imaged.volume.col(k).isZero(0);
     if (moves) {
-      reference = own_nodes(
+      reference = part_.restricted(
           imaged_.solve_reference({right.imaged.force.col(k), right.imaged.volume.col(k)}).u);
     }
     const Imbalance carried = deformed_.of_reference(reference);
@@ -275,13 +261,14 @@ LandmarkGradient SensitivityChain::adjoint(const Landmark& landmark,
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(deformed_.state().state.p.size()),
                         no_volume = Eigen::VectorXd::Zero(imaged_.state().state.p.size());
   for (int c = 0; c < 3; ++c) {
-    Eigen::VectorXd output = Eigen::VectorXd::Zero(3L * scene_.nodes());
+    Eigen::VectorXd output = Eigen::VectorXd::Zero(3L * scene_->nodes());
     for (int a = 0; a < mesh_.nodes_per_element(); ++a) {
       output[3L * mesh_.element(landmark.element)[a] + c] += shape.values[a];
     }
     const Direction late = deformed_.solve_transposed({output, none});
     const Direction early = imaged_.solve_reference_transposed(
-        {all_nodes(deformed_.of_reference_transposed(late)), no_volume});
+        {part_.extended(deformed_.of_reference_transposed(late), imaged_scene_->nodes()),
+         no_volume});
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       const long k = long(i);
       double& value = gradient.by_parameter[i][c];
@@ -293,9 +280,9 @@ LandmarkGradient SensitivityChain::adjoint(const Landmark& landmark,
           output.dot(right.imposed.col(k)) - late.u.dot(moved.force) - late.p.dot(moved.volume);
     }
     const std::vector<double> now_stiff =
-        element_stiffness_products(scene_, deformed_.state(), late.u);
+        element_stiffness_products(*scene_, deformed_.state(), late.u);
     const std::vector<double> then_stiff =
-        element_stiffness_products(imaged_scene(), imaged_.state(), early.u);
+        element_stiffness_products(*imaged_scene_, imaged_.state(), early.u);
     for (std::size_t e = 0; e < now_stiff.size(); ++e) {
       const auto then = std::size_t(part_.elements[e]);
       gradient.by_element[e] += away[c] * (then_stiff[then] - now_stiff[e]);

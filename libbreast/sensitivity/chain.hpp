@@ -4,8 +4,8 @@
 // docs/methods.md.
 #pragma once
 
-#include <map>
-#include <optional>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -73,16 +73,10 @@ class SensitivityChain {
   double paddle_force(const Parameter& parameter, const Imbalance& along,
                       const Direction& moved) const;
 
-  const Scene& imaged_scene() const { return wider_ ? *wider_ : scene_; }
-  /// A vector on the nodes of the scan, restricted to those of the deformed state; and the transpose,
-  /// which adds zeros.
-  Eigen::VectorXd own_nodes(const Eigen::VectorXd& all) const;
-  Eigen::VectorXd all_nodes(const Eigen::VectorXd& own) const;
-
   const HexMesh& mesh_;
-  Scene scene_;
-  std::optional<Scene> wider_;  // of the scan, where `state` is a part of it
-  PartIndices part_;            // the elements and nodes of `state` in the scan's mesh
+  std::shared_ptr<const Scene> scene_,
+      imaged_scene_;  // of the state and of the scan: one if it is all of it
+  PartIndices part_;  // the elements and nodes of the state in the scan's mesh
   PlatePair plates_;
   std::shared_ptr<SurfacePressure> pressure_;  // where plates press on faces
   LinearisedState imaged_;

@@ -16,7 +16,7 @@ namespace {
 constexpr double radians_per_degree = std::numbers::pi / 180;
 constexpr const char* axis_names[3] = {"x", "y", "z"};
 
-std::set<Tissue> tissues_of(const HexMesh& mesh) {
+std::set<Tissue> tissues_of(const HexTopology& mesh) {
   std::set<Tissue> present(mesh.tissue.begin(), mesh.tissue.end());
   if (mesh.skin_model == SkinModel::membrane && !mesh.skin_faces.empty()) {
     present.insert(Tissue::skin);

@@ -17,7 +17,7 @@ namespace {
 
 // Local coordinates of a point in an element's map extrapolated beyond its faces; no value if
 // Newton's method fails or if the point is farther away than the width of the element.
-std::optional<Vec3> continued_local(const HexMesh& mesh, const std::vector<Vec3>& nodal,
+std::optional<Vec3> continued_local(const HexTopology& mesh, const std::vector<Vec3>& nodal,
                                     int element, const Vec3& point) {
   constexpr double farthest = 3, tolerance = 1e-9;
   const int* nodes = mesh.element(element);
@@ -48,7 +48,7 @@ std::array<float, 3> as_float(const Vec3& v) {
 // Fills a field in two passes and stores the element that contains every grid point of the body.
 class Sampler {
  public:
-  Sampler(const HexMesh& mesh, const std::vector<Vec3>& from, const std::vector<Vec3>& to,
+  Sampler(const HexTopology& mesh, const std::vector<Vec3>& from, const std::vector<Vec3>& to,
           const Grid& grid)
       : mesh_(mesh), from_(from), to_(to), element_(grid.voxels(), -1) {
     field_.grid = grid;
@@ -127,7 +127,7 @@ class Sampler {
     field_.part[at] = FieldPart::border;
   }
 
-  const HexMesh& mesh_;
+  const HexTopology& mesh_;
   const std::vector<Vec3>&from_, &to_;
   DisplacementField field_;
   std::vector<int> element_;  // per grid point, -1 outside the body
@@ -156,7 +156,7 @@ Vec3 DisplacementField::moved(const Vec3& point) const {
   return sum;
 }
 
-DisplacementField displacement_field(const HexMesh& mesh, const std::vector<Vec3>& from,
+DisplacementField displacement_field(const HexTopology& mesh, const std::vector<Vec3>& from,
                                      const std::vector<Vec3>& to, const Grid& grid,
                                      Progress& progress, const std::string& stage) {
   Sampler sampler(mesh, from, to, grid);

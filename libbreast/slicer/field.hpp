@@ -20,9 +20,8 @@ namespace breast {
 /// Origin of a grid point's vector.
 enum class FieldPart : std::uint8_t {
   continued = 0,  ///< nearly harmonic extrapolation, without flux through the border of the grid
-  border =
-      1,  ///< within one cell outside the body: extrapolation of the adjacent elements' maps
-  body = 2,  ///< vector of the element map itself
+  border = 1,  ///< within one cell outside the body: extrapolation of the adjacent elements' maps
+  body = 2,    ///< vector of the element map itself
 };
 
 struct DisplacementField {
@@ -37,7 +36,7 @@ struct DisplacementField {
 
 /// The field from the nodal positions `from` to `to` of one mesh. Throws Error (input) if no grid
 /// point lies in the body.
-DisplacementField displacement_field(const HexMesh& mesh, const std::vector<Vec3>& from,
+DisplacementField displacement_field(const HexTopology& mesh, const std::vector<Vec3>& from,
                                      const std::vector<Vec3>& to, const Grid& grid,
                                      Progress& progress = no_progress(),
                                      const std::string& stage = "field");

@@ -84,7 +84,7 @@ double outside_into_body(const DisplacementField& field, const Locator& target) 
 
 }  // namespace
 
-FieldCheck check_field(const DisplacementField& field, const HexMesh& mesh,
+FieldCheck check_field(const DisplacementField& field, const HexTopology& mesh,
                        const std::vector<Vec3>& from, const std::vector<Vec3>& to, int count) {
   const Locator source(mesh, from), target(mesh, to);
   FieldCheck check;
@@ -102,7 +102,7 @@ FieldCheck check_field(const DisplacementField& field, const HexMesh& mesh,
 }
 
 RoundTrip check_round_trip(const DisplacementField& field, const DisplacementField& inverse,
-                           const HexMesh& mesh, const std::vector<Vec3>& from, int count) {
+                           const HexTopology& mesh, const std::vector<Vec3>& from, int count) {
   RoundTrip trip;
   for (const BodyPoint& point : random_points(Locator(mesh, from), count)) {
     const double distance = (inverse.moved(field.moved(point.at)) - point.at).norm();

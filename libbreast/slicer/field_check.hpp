@@ -19,7 +19,7 @@ struct FieldCheck {
 inline constexpr double accuracy_mm = 0.05;
 
 /// `count` points drawn from a fixed seed. `from` and `to` as given to displacement_field.
-FieldCheck check_field(const DisplacementField& field, const HexMesh& mesh,
+FieldCheck check_field(const DisplacementField& field, const HexTopology& mesh,
                        const std::vector<Vec3>& from, const std::vector<Vec3>& to,
                        int count = 1000);
 
@@ -29,6 +29,7 @@ struct RoundTrip {
   double mean_mm = 0, max_mm = 0;
 };
 RoundTrip check_round_trip(const DisplacementField& field, const DisplacementField& inverse,
-                           const HexMesh& mesh, const std::vector<Vec3>& from, int count = 1000);
+                           const HexTopology& mesh, const std::vector<Vec3>& from,
+                           int count = 1000);
 
 }  // namespace breast

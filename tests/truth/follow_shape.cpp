@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "io/mesh_file.hpp"
 #include "mesh/locate.hpp"
+#include "mesh/part.hpp"
 #include "mesh/shape.hpp"
 #include "mesh/surroundings.hpp"
 
@@ -23,7 +24,7 @@ namespace {
 using namespace breast;
 
 void run(const std::string& file, const std::string& true_file, const std::string& out) {
-  HexMesh mesh = breast_alone(read_mesh(file));  // the truth ends elsewhere
+  HexMesh mesh = restricted(read_mesh(file), breast_elements);  // the truth ends elsewhere
   const HexMesh truth = read_mesh(true_file, {.reference = true});
   if (mesh.side != truth.side) throw input_error(file, " and ", true_file, " differ in side");
   const Locator locator(truth, truth.imaged);

@@ -13,6 +13,7 @@
 #include "fixtures/samples.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/mesh_file.hpp"
+#include "mesh/nodal.hpp"
 
 namespace breast {
 namespace {
@@ -90,6 +91,25 @@ TEST_P(PartOf, APartOfAPartHasTheNumbersOfTheWhole) {
   EXPECT_EQ(in_whole->elements, same.element_numbers);
   EXPECT_EQ(in_part->elements, (std::vector<int>{1, 4, 5, 8}));
   EXPECT_FALSE(indices_in(less, whole));
+}
+
+TEST_P(PartOf, VectorsFollowTheNodesAndBack) {
+  const HexMesh whole = whole_mesh(GetParam());
+  const HexMesh part = restricted(whole, some_elements(whole));
+  const PartIndices at = *indices_in(whole, part);
+  const Eigen::VectorXd all = flatten(whole.points), own = at.restricted(all);
+  EXPECT_EQ(own, flatten(part.points));
+  EXPECT_EQ(at.restricted(at.extended(own, whole.nodes())), own);
+  EXPECT_DOUBLE_EQ(at.extended(own, whole.nodes()).dot(all), own.dot(own));
+}
+
+std::vector<int> second_and_fifth(const HexTopology&) {
+  return {1, 4};
+}
+
+TEST_P(PartOf, AFunctionOfTheTopologyChooses) {
+  const HexMesh whole = whole_mesh(GetParam());
+  EXPECT_TRUE(have_same_elements(restricted(whole, second_and_fifth), restricted(whole, {1, 4})));
 }
 
 TEST_P(PartOf, APartElsewhereOrAnotherMeshIsNone) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The tissue around the breast: its elements, and the breast without them.
 #include "mesh/surroundings.hpp"
+#include "mesh/part.hpp"
 
 #include <gtest/gtest.h>
 
@@ -80,7 +81,7 @@ TEST_P(SurroundingsOf, LeftOutGiveTheSameMesh) {
   const HexMesh before = breast_mesh(order, muscle);
   HexMesh mesh = before;
   add_surroundings(16, mesh);
-  const HexMesh alone = breast_alone(mesh);
+  const HexMesh alone = restricted(mesh, breast_elements);
   EXPECT_TRUE(have_same_breast(mesh, alone));
   EXPECT_TRUE(have_same_breast(alone, mesh));
   EXPECT_FALSE(have_same_breast(mesh, breast_mesh(order, muscle > 0 ? 0 : 8)));
@@ -129,10 +130,11 @@ TEST(Surroundings, MayComeFirst) {
   add_surroundings(16, mesh);
   mesh.reference = mesh.points;
   const HexMesh other = fixtures::renumbered(mesh).mesh;
-  const HexMesh alone = breast_alone(other);
-  EXPECT_EQ(alone.nodes(), breast_alone(mesh).nodes());
+  const HexMesh alone = restricted(other, breast_elements);
+  EXPECT_EQ(alone.nodes(), restricted(mesh, breast_elements).nodes());
   EXPECT_EQ(std::count(alone.tissue.begin(), alone.tissue.end(), Tissue::other), 0);
-  EXPECT_NEAR(mesh_volume(alone, alone.imaged), mesh_volume(breast_alone(mesh), mesh.imaged), 1e-6);
+  EXPECT_NEAR(mesh_volume(alone, alone.imaged),
+              mesh_volume(restricted(mesh, breast_elements), mesh.imaged), 1e-6);
   EXPECT_TRUE(have_same_breast(other, alone));
   EXPECT_FALSE(have_same_breast(mesh, alone));
   expect_faces_cover_boundary(alone);
@@ -141,12 +143,12 @@ TEST(Surroundings, MayComeFirst) {
 TEST(Surroundings, WithoutABreastAreRefused) {
   HexMesh mesh = breast_mesh(1, 0);
   mesh.tissue.assign(mesh.tissue.size(), Tissue::other);
-  EXPECT_THROW(breast_alone(mesh), Error);
+  EXPECT_THROW(restricted(mesh, breast_elements), Error);
 }
 
 TEST(Surroundings, AMeshWithoutThemIsItsOwnBreast) {
   const HexMesh mesh = breast_mesh(1, 8);
-  EXPECT_EQ(breast_alone(mesh).connectivity, mesh.connectivity);
+  EXPECT_EQ(restricted(mesh, breast_elements).connectivity, mesh.connectivity);
 }
 
 }  // namespace

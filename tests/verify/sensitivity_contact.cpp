@@ -17,6 +17,7 @@
 #include "fixtures/chain_inputs.hpp"
 #include "fixtures/compress_into.hpp"
 #include "fixtures/in_place.hpp"
+#include "mesh/part.hpp"
 #include "mesh/surroundings.hpp"
 #include "meshing/layers/surrounding_layers.hpp"
 #include "sensitivity/chain.hpp"
@@ -183,7 +184,7 @@ TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
 Outcome press_faces(const Inputs& in, const HexMesh& near, const Parameter& parameter, double by) {
   HexMesh mesh = in.mesh;
   EXPECT_TRUE(fixtures::backward_into(mesh, in.imaged_gravity, in.options).converged());
-  mesh = breast_alone(std::move(mesh));
+  mesh = restricted(std::move(mesh), breast_elements);
   Scene scene(mesh, in.options);
   Problem body = scene.problem(scene.gravity_force(in.gravity)).problem;
   const PlatePair before = recorded_plates(near);
@@ -231,7 +232,7 @@ TEST_P(PressedFacesSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
   if (GetParam().surroundings > 0) add_surroundings(GetParam().surroundings, in.mesh);
   HexMesh imaged = in.mesh;
   ASSERT_TRUE(fixtures::backward_into(imaged, in.imaged_gravity, in.options).converged());
-  HexMesh mesh = breast_alone(imaged);
+  HexMesh mesh = restricted(imaged, breast_elements);
   CompressionOptions compression;
   compression.method = ContactMethod::surface;
   compression.positioning = Positioning::lifted;

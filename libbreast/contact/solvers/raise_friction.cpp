@@ -18,7 +18,7 @@ struct CornerFriction {
 
 // Skin faces (of either mesh) with all corners held by the same plate. `plate_of`: plate of each
 // corner, −1 for none.
-std::vector<Face> held_faces(const HexMesh& mesh, const std::vector<int>& plate_of) {
+std::vector<Face> held_faces(const HexTopology& mesh, const std::vector<int>& plate_of) {
   std::vector<Face> held;
   for (const Face& face : mesh.skin_faces) {
     const std::vector<int> nodes = face_nodes(mesh, face);

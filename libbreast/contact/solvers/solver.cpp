@@ -29,7 +29,7 @@ std::vector<int> free_skin_nodes(const Scene& scene) {
 
 }  // namespace
 
-std::vector<Face> ContactSolver::contact_faces(const HexMesh& mesh) const {
+std::vector<Face> ContactSolver::contact_faces(const HexTopology& mesh) const {
   return mesh.skin_faces;
 }
 

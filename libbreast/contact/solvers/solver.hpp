@@ -108,7 +108,7 @@ class ContactSolver {
   void set_fail_fast(bool fail_fast) { fail_fast_ = fail_fast; }
 
   /// The faces whose area counts as contact area.
-  virtual std::vector<Face> contact_faces(const HexMesh& mesh) const;
+  virtual std::vector<Face> contact_faces(const HexTopology& mesh) const;
   /// Relative steps in which force, mean pressure and area change from one position to the next, so
   /// that a target is not met more closely.
   virtual double resolution() const { return 0; }

@@ -186,7 +186,7 @@ SurfaceContact::SurfaceContact(const HexMesh& mesh, const std::vector<Face>& fac
   problem_.add(friction_);
 }
 
-std::vector<Face> SurfaceContact::contact_faces(const HexMesh& mesh) const {
+std::vector<Face> SurfaceContact::contact_faces(const HexTopology& mesh) const {
   return touchable_faces(mesh);
 }
 

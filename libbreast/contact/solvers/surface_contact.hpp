@@ -36,7 +36,7 @@ class SurfaceContact : public ContactSolver {
     return problem_.constraints_at(state.x);
   }
   const std::vector<int>& candidates() const override { return candidates_; }
-  std::vector<Face> contact_faces(const HexMesh& mesh) const override;
+  std::vector<Face> contact_faces(const HexTopology& mesh) const override;
   double resolution() const override;
   void fill_record(const State& solution, ContactRecord& record) const override;
   /// Nothing: faces roll on plates, and steps towards a richer mesh with a fixed touching set were

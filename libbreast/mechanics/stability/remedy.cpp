@@ -27,7 +27,7 @@ SupportPtr& support_called(MechanicsOptions& options, const std::string& what) {
   return what == place_name(SupportPlace::wall) ? options.wall : options.cut;
 }
 
-std::vector<Candidate> candidates(const HexMesh& mesh, const MechanicsOptions& options) {
+std::vector<Candidate> candidates(const HexTopology& mesh, const MechanicsOptions& options) {
   std::vector<Candidate> all{{"tissue"}};
   const bool layer = std::count(mesh.tissue.begin(), mesh.tissue.end(), Tissue::skin) > 0;
   if (layer || (mesh.skin_model == SkinModel::membrane && !mesh.skin_faces.empty())) {

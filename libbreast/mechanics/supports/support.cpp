@@ -56,7 +56,7 @@ const char* place_name(SupportPlace place) {
   return place == SupportPlace::wall ? "wall" : "cut";
 }
 
-const std::vector<Face>& faces_at(const HexMesh& mesh, SupportPlace place) {
+const std::vector<Face>& faces_at(const HexTopology& mesh, SupportPlace place) {
   return place == SupportPlace::wall ? mesh.pectoral_faces : mesh.cut_faces;
 }
 

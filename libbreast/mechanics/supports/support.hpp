@@ -24,7 +24,7 @@ enum class SupportPlace { wall, cut };
 /// "wall" and "cut".
 const char* place_name(SupportPlace place);
 /// The faces of the chest wall or of the cut.
-const std::vector<Face>& faces_at(const HexMesh& mesh, SupportPlace place);
+const std::vector<Face>& faces_at(const HexTopology& mesh, SupportPlace place);
 
 /// A number of a support. Numbers with the same parameter change together.
 struct SupportNumber {

@@ -50,7 +50,7 @@ FaceEdge face_edge(const std::vector<int>& nodes, int c) {
   return std::minmax(nodes[std::size_t(c)], nodes[std::size_t((c + 1) % 4)]);
 }
 
-std::map<FaceEdge, std::size_t> faces_at_edges(const HexMesh& mesh,
+std::map<FaceEdge, std::size_t> faces_at_edges(const HexTopology& mesh,
                                                const std::vector<Face>& faces) {
   std::map<FaceEdge, std::size_t> at;
   for (std::size_t f = 0; f < faces.size(); ++f) {

@@ -42,6 +42,7 @@ class Extrusion {
 /// The edge from corner c of a face with these nodes to the next corner.
 FaceEdge face_edge(const std::vector<int>& nodes, int c);
 /// For every edge of the faces, the number of the face that has it, or of the last of several.
-std::map<FaceEdge, std::size_t> faces_at_edges(const HexMesh& mesh, const std::vector<Face>& faces);
+std::map<FaceEdge, std::size_t> faces_at_edges(const HexTopology& mesh,
+                                               const std::vector<Face>& faces);
 
 }  // namespace breast

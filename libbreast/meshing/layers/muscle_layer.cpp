@@ -32,7 +32,7 @@ std::map<int, Vec3> ways_to_ribs(const HexMesh& mesh, const LevelSurface* wall) 
 }
 
 /// The number of faces that share an edge: one at their rim.
-std::map<FaceEdge, int> edge_uses(const HexMesh& mesh, const std::vector<Face>& faces) {
+std::map<FaceEdge, int> edge_uses(const HexTopology& mesh, const std::vector<Face>& faces) {
   std::map<FaceEdge, int> uses;
   for (const Face& face : faces) {
     const std::vector<int> nodes = face_nodes(mesh, face);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/hex_mesh.hpp"
+#include "mesh/topology.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,14 +19,14 @@ constexpr std::array<std::array<int, 5>, 6> quadratic_face_rest = {{{16, 15, 19,
                                                                     {12, 13, 14, 15, 25}}};
 }  // namespace
 
-const Landmark* HexMesh::landmark(std::string_view name) const {
+const Landmark* HexTopology::landmark(std::string_view name) const {
   const auto found = std::find_if(landmarks.begin(), landmarks.end(),
                                   [&](const Landmark& l) { return l.name == name; });
   if (found != landmarks.end()) return &*found;
   return name == "tumour" ? landmark(artificial_tumour) : nullptr;
 }
 
-std::vector<int> face_nodes(const HexMesh& mesh, const Face& face) {
+std::vector<int> face_nodes(const HexTopology& mesh, const Face& face) {
   const int* nodes = mesh.element(face.element);
   std::vector<int> list;
   for (const int corner : hex_face_corners[face.local]) list.push_back(nodes[corner]);
@@ -36,7 +36,7 @@ std::vector<int> face_nodes(const HexMesh& mesh, const Face& face) {
   return list;
 }
 
-std::vector<int> nodes_of(const HexMesh& mesh, const std::vector<Face>& faces) {
+std::vector<int> nodes_of(const HexTopology& mesh, const std::vector<Face>& faces) {
   std::vector<int> all;
   for (const Face& face : faces) {
     const std::vector<int> nodes = face_nodes(mesh, face);
@@ -47,7 +47,7 @@ std::vector<int> nodes_of(const HexMesh& mesh, const std::vector<Face>& faces) {
   return all;
 }
 
-std::vector<Face> boundary_faces(const HexMesh& mesh) {
+std::vector<Face> boundary_faces(const HexTopology& mesh) {
   struct Keyed {
     std::array<int, 4> key;
     Face face;
@@ -63,9 +63,9 @@ std::vector<Face> boundary_faces(const HexMesh& mesh) {
     }
   }
   std::sort(all.begin(), all.end(), [](const Keyed& a, const Keyed& b) {
-    return a.key != b.key ? a.key < b.key
-                          : std::pair(a.face.element, a.face.local) <
-                                std::pair(b.face.element, b.face.local);
+    return a.key != b.key
+               ? a.key < b.key
+               : std::pair(a.face.element, a.face.local) < std::pair(b.face.element, b.face.local);
   });
   std::vector<Face> boundary;
   for (std::size_t i = 0; i < all.size();) {
@@ -80,7 +80,7 @@ std::vector<Face> boundary_faces(const HexMesh& mesh) {
   return boundary;
 }
 
-Vec3 element_position(const HexMesh& mesh, const std::vector<Vec3>& nodal, int element,
+Vec3 element_position(const HexTopology& mesh, const std::vector<Vec3>& nodal, int element,
                       const Vec3& local) {
   const HexShape shape = hex_shape(mesh.order, local);
   Vec3 x = Vec3::Zero();
@@ -90,31 +90,9 @@ Vec3 element_position(const HexMesh& mesh, const std::vector<Vec3>& nodal, int e
   return x;
 }
 
-Vec3 landmark_position(const HexMesh& mesh, const std::vector<Vec3>& nodal,
+Vec3 landmark_position(const HexTopology& mesh, const std::vector<Vec3>& nodal,
                        const Landmark& landmark) {
   return element_position(mesh, nodal, landmark.element, landmark.local);
-}
-
-const char* status_name(SolveStatus status) {
-  switch (status) {
-    case SolveStatus::converged:
-      return "converged";
-    case SolveStatus::stopped_early:
-      return "stopped_early";
-    case SolveStatus::unstable:
-      return "unstable";
-    case SolveStatus::not_converged:
-      return "not_converged";
-  }
-  return "";
-}
-
-std::optional<SolveStatus> status_from_name(const std::string& name) {
-  for (const SolveStatus status : {SolveStatus::converged, SolveStatus::stopped_early,
-                                   SolveStatus::unstable, SolveStatus::not_converged}) {
-    if (name == status_name(status)) return status;
-  }
-  return {};
 }
 
 }  // namespace breast
