@@ -15,7 +15,7 @@ endif()
 # sanitized throughout, so that thousands of damaged files can be tried. Such objects fit together with the others:
 # no layout that files share is another (GCC pads no inline variables), and libstdc++ would mark the unused memory of its
 # containers only with _GLIBCXX_SANITIZE_VECTOR, which is not defined.
-set(BREAST_READER_FOLDERS core dicom image surface mesh views material cli command io deck slicer)
+set(BREAST_READER_FOLDERS core image surface mesh material cli command io export)
 if(BREAST_SANITIZE STREQUAL "READERS")
   list(JOIN BREAST_READER_FOLDERS " " readers)
   file(WRITE ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/released-objects.txt
@@ -77,7 +77,7 @@ option(BREAST_UNITY "Compile the files of some libraries a dozen at a time: a bu
 # The dearest of those that a program takes as a whole. Of the others, as core and io, it takes a few files, and would
 # link with the rest of a dozen what it does not need. Never those of BREAST_NATIVE_FOLDERS: which products are fused
 # must not depend on what is compiled together.
-set(BREAST_UNITY_LIBRARIES segment xray phantom slicer)
+set(BREAST_UNITY_LIBRARIES segment phantom)
 # breast_library(NAME DEPENDS lib... SYSTEM third-party...): target breast_NAME from the .cpp files of this
 # folder and of the folders in it. Third parties are PRIVATE: no header of ours shows them. COLD: none of its
 # loops takes time.

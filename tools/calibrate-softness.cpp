@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // calibrate-softness: finds the material set with which a cohort moves as women's breasts do.
-#include "calibration/softness.hpp"
 #include "cli/tool.hpp"
 #include "contact/options.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "core/units.hpp"
+#include "identification/calibration/softness.hpp"
 #include "io/mesh_file.hpp"
 #include "lineage/origin.hpp"
 #include "lineage/pairs.hpp"

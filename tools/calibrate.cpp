@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // calibrate: fits a phantom to given landmark displacements.
-#include "calibration/calibrate.hpp"
+#include "identification/calibration/calibrate.hpp"
 
 #include <array>
 

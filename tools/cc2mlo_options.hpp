@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "align/match_question.hpp"
 #include "cli/tool.hpp"
+#include "matching/match_question.hpp"
 
 namespace breast {
 

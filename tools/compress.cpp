@@ -6,7 +6,7 @@
 #include "cli/tool.hpp"
 #include "contact/options.hpp"
 #include "core/error.hpp"
-#include "dicom/like_mammogram.hpp"
+#include "io/dicom/like_mammogram.hpp"
 #include "io/mesh_file.hpp"
 #include "mechanics/estimate/second_solution.hpp"
 #include "mechanics_run.hpp"

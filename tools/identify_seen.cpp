@@ -8,7 +8,7 @@
 #include "identify_landmarks.hpp"
 #include "io/label_file.hpp"
 #include "io/surface_file.hpp"
-#include "views/view.hpp"
+#include "mesh/view.hpp"
 
 namespace breast {
 

@@ -10,9 +10,9 @@
 #include "label_input.hpp"
 #include "projection/projection.hpp"
 #include "projection/report.hpp"
-#include "xray/beam_quality.hpp"
-#include "xray/exposure.hpp"
-#include "xray/spectrum.hpp"
+#include "projection/xray/beam_quality.hpp"
+#include "projection/xray/exposure.hpp"
+#include "projection/xray/spectrum.hpp"
 
 using namespace breast;
 

@@ -5,10 +5,10 @@
 
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "export/slicer/field_check.hpp"
+#include "export/slicer/warp.hpp"
 #include "io/field_file.hpp"
 #include "io/volume_file.hpp"
-#include "slicer/field_check.hpp"
-#include "slicer/warp.hpp"
 #include "slicer_files.hpp"
 
 namespace breast {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/tool.hpp"
-#include "slicer/scene.hpp"
+#include "export/slicer/scene.hpp"
 #include "slicer_run.hpp"
 
 namespace breast {

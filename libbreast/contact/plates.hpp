@@ -10,7 +10,7 @@
 
 #include "core/types.hpp"
 #include "mesh/hex_mesh.hpp"
-#include "views/view_pose.hpp"
+#include "mesh/view_pose.hpp"
 
 namespace breast {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "dicom/mammogram_scan.hpp"
 #include "projection/mammogram.hpp"
+#include "projection/mammogram_scan.hpp"
 
 namespace breast {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "mesh/hex_mesh.hpp"
-#include "views/view_pose.hpp"
+#include "mesh/view_pose.hpp"
 
 namespace breast {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/types.hpp"
-#include "views/view.hpp"
+#include "mesh/view.hpp"
 
 namespace breast {
 

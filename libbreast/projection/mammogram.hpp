@@ -8,8 +8,8 @@
 
 #include "core/provenance.hpp"
 #include "core/types.hpp"
-#include "views/view.hpp"
-#include "views/view_pose.hpp"
+#include "mesh/view.hpp"
+#include "mesh/view_pose.hpp"
 
 namespace breast {
 

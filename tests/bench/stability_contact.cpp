@@ -17,7 +17,7 @@
 #include "core/parallel.hpp"
 #include "fixtures/contact_cases.hpp"
 #include "io/mesh_file.hpp"
-#include "views/view_pose.hpp"
+#include "mesh/view_pose.hpp"
 
 namespace {
 
@@ -31,10 +31,10 @@ void print(const std::string& name, const std::string& verdict, const fixtures::
   std::printf(
       "%s\t%d\t%s\t%s\t%.1f\t%.2f\t%.2f\t%d\t%d\t%d\t%d\t%d\t%.1e\t%.3f\t%.1e\t%.2f\t%s\t%s\n",
       name.c_str(), scene.mesh.elements(), verdict.c_str(), outcome_name(end.outcome),
-      s.contact ? s.contact->reduction_percent : 0, end.paddle.force_N, end.paddle.mean_kPa, s.steps, s.path.failures,
-      s.newton_iterations, s.factorisations, s.path.indefinite, s.residual, s.min_det_F,
-      s.force_balance, seconds, end.reason_id.empty() ? "-" : end.reason_id.c_str(),
-      reason.empty() ? "-" : reason.c_str());
+      s.contact ? s.contact->reduction_percent : 0, end.paddle.force_N, end.paddle.mean_kPa,
+      s.steps, s.path.failures, s.newton_iterations, s.factorisations, s.path.indefinite,
+      s.residual, s.min_det_F, s.force_balance, seconds,
+      end.reason_id.empty() ? "-" : end.reason_id.c_str(), reason.empty() ? "-" : reason.c_str());
   std::fflush(stdout);
 }
 

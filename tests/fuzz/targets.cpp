@@ -16,9 +16,9 @@
 #include "core/error.hpp"
 #include "core/report.hpp"
 #include "core/table.hpp"
-#include "deck/results.hpp"
-#include "dicom/mammogram_header.hpp"
+#include "export/deck/results.hpp"
 #include "io/derivative_file.hpp"
+#include "io/dicom/mammogram_header.hpp"
 #include "io/geometry_file.hpp"
 #include "io/hdf5/packed.hpp"
 #include "io/label_file.hpp"
@@ -159,7 +159,7 @@ const std::vector<EmbeddedTable>& embedded_materials() {
   static const std::vector<EmbeddedTable> none;
   return none;
 }
-// In place of deck/scene.cpp, which needs the mechanics: only applying a result asks for it.
+// In place of export/deck/scene.cpp, which needs the mechanics: only applying a result asks for it.
 std::vector<int> deck_nodes(const HexMesh&) {
   return {};
 }

@@ -6,7 +6,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/report.hpp"
-#include "deck/results.hpp"
+#include "export/deck/results.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "fixtures/shapes.hpp"

@@ -7,11 +7,12 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "dicom/like_mammogram.hpp"
 #include "fixtures/chain_files.hpp"
 #include "fixtures/dicom_elements.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
+#include "io/dicom/like_mammogram.hpp"
+#include "io/dicom/mammogram_header.hpp"
 #include "io/mammogram_dicom.hpp"
 #include "io/mammogram_file.hpp"
 #include "projection/display.hpp"

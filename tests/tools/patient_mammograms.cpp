@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "align/similarity.hpp"
 #include "core/atomic_file.hpp"
 #include "core/report.hpp"
 #include "core/table.hpp"
@@ -18,6 +17,7 @@
 #include "io/mammogram_dicom.hpp"
 #include "io/mammogram_file.hpp"
 #include "matching/correspondence.hpp"
+#include "matching/similarity.hpp"
 
 using namespace breast;
 namespace fs = std::filesystem;

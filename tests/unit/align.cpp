@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "align/similarity.hpp"
 #include "core/error.hpp"
+#include "matching/similarity.hpp"
 
 using namespace breast;
 

@@ -21,7 +21,7 @@
 #include "core/types.hpp"
 #include "core/units.hpp"
 #include "fixtures/scratch_folder.hpp"
-#include "views/view.hpp"
+#include "mesh/view.hpp"
 
 namespace breast {
 namespace {

@@ -15,9 +15,9 @@
 #include "mesh/muscle_front.hpp"
 #include "mesh/nodal.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/view_pose.hpp"
 #include "meshing/body_mesh.hpp"
 #include "surface/thorax.hpp"
-#include "views/view_pose.hpp"
 
 namespace breast {
 namespace {

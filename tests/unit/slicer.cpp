@@ -7,11 +7,11 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "export/slicer/field_check.hpp"
+#include "export/slicer/scene.hpp"
+#include "export/slicer/warp.hpp"
 #include "fixtures/analytic_breast.hpp"
 #include "meshing/body_mesh.hpp"
-#include "slicer/field_check.hpp"
-#include "slicer/scene.hpp"
-#include "slicer/warp.hpp"
 
 namespace breast {
 namespace {

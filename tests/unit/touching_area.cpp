@@ -6,7 +6,7 @@
 
 #include "fixtures/standing_block.hpp"
 #include "mesh/hex_mesh.hpp"
-#include "views/view_pose.hpp"
+#include "mesh/view_pose.hpp"
 
 namespace breast {
 namespace {

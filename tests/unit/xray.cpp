@@ -8,10 +8,10 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "xray/beam_quality.hpp"
-#include "xray/exposure.hpp"
-#include "xray/spectrum.hpp"
-#include "xray/tissue_attenuation.hpp"
+#include "projection/xray/beam_quality.hpp"
+#include "projection/xray/exposure.hpp"
+#include "projection/xray/spectrum.hpp"
+#include "projection/xray/tissue_attenuation.hpp"
 
 using namespace breast;
 

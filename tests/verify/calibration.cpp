@@ -2,9 +2,9 @@
 // The calibration finds a phantom again from the way its landmarks move.
 #include <gtest/gtest.h>
 
-#include "calibration/calibrate.hpp"
-#include "calibration/softness.hpp"
 #include "core/error.hpp"
+#include "identification/calibration/calibrate.hpp"
+#include "identification/calibration/softness.hpp"
 
 using namespace breast;
 

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/guarded_child.hpp"
+#include "io/dicom/mammogram_header.hpp"
 #include "io/mammogram_dicom.hpp"
 
 namespace breast {

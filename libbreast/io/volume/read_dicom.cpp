@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/guarded_child.hpp"
 #include "core/statistics/percentile.hpp"
-#include "dicom/header.hpp"
+#include "io/dicom/header.hpp"
 #include "io/volume/dicom.hpp"
 #include "io/volume/header.hpp"
 #include "io/volume/itk_image.hpp"

@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "core/own_file.hpp"
 #include "core/provenance.hpp"
-#include "dicom/simulated_study.hpp"
+#include "io/dicom/simulated_study.hpp"
 #include "io/volume_file.hpp"
 
 namespace breast {
