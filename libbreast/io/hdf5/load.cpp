@@ -80,6 +80,15 @@ Budget budget_of(std::size_t file_bytes) {
   return {memory, base_seconds + (memory - base_mb) / mb_a_second};
 }
 
+// What a file states of the values of a dataset or attribute.
+struct Stated {
+  std::string path;
+  std::vector<std::size_t> shape;
+  std::size_t count = 1;  // of values
+  H5T_class_t kind = H5T_NO_CLASS;
+  std::size_t width = 0;  // bytes of a value
+};
+
 class Loader {
  public:
   Loader(const Source& source, std::string_view file) : source_(source), file_(file) {}
@@ -125,8 +134,8 @@ class Loader {
     }
   }
 
-  // Shape of a dataspace, refused when the file could not possibly hold it.
-  std::vector<std::size_t> shape_of(const Handle& space, const std::string& path) {
+  // What the file states of the values of a dataset or attribute; refused when it could not hold them.
+  Stated stated(const std::string& path, const Handle& space, const Handle& type) {
     // HDF5 reads a null dataspace as no value at all, which would leave the zero that was there.
     if (space && H5Sget_simple_extent_type(space) == H5S_NULL)
       throw source_.refuse(path, " is there without a value");
@@ -134,84 +143,71 @@ class Loader {
     if (rank < 0 || rank > 4) throw source_.refuse(path, " has ", rank, " dimensions");
     std::vector<hsize_t> extent(std::size_t(rank) + 1);
     H5Sget_simple_extent_dims(space, extent.data(), nullptr);
-    std::vector<std::size_t> shape(extent.begin(), extent.begin() + rank);
-    std::size_t count = 1;
+    Stated of{path, {extent.begin(), extent.begin() + rank}};
     const std::size_t limit = most_inflation * file_.size();
-    for (const std::size_t n : shape) {
-      if (n != 0 && count > limit / n) {
+    for (const std::size_t n : of.shape) {
+      if (n != 0 && of.count > limit / n) {
         throw source_.refuse(path, " states more values than a file of ", file_.size(),
                              " bytes can hold");
       }
-      count *= n;
+      of.count *= n;
     }
-    return shape;
+    of.kind = type ? H5Tget_class(type) : H5T_NO_CLASS;
+    of.width = type ? H5Tget_size(type) : 0;
+    if (of.kind != H5T_INTEGER && of.kind != H5T_FLOAT && of.kind != H5T_STRING)
+      throw source_.refuse("dataset ", path, " has a type that is neither number nor text");
+    return of;
   }
 
   void load_dataset(const Handle& group, const char* name, const std::string& path) {
     const Handle dataset(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose);
     if (!dataset) throw source_.refuse("dataset ", path, " cannot be opened");
-    const Handle space(H5Dget_space(dataset), H5Sclose);
-    const Handle type(H5Dget_type(dataset), H5Tclose);
-    check_storage(dataset, type, path);
-    // Chunks are inflated to be counted, so only once the values are known to fit in memory.
-    const auto read = [&](hid_t memory, void* data) {
-      check_chunks(dataset, type, path);
+    const Handle space(H5Dget_space(dataset), H5Sclose), type(H5Dget_type(dataset), H5Tclose);
+    const Stated of = stated(path, space, type);
+    expect_stored(dataset, of);
+    document.datasets[path] = values(of, type, [&](hid_t memory, void* data) {
       return H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
+    });
+  }
+
+  // All that must be so before HDF5 may read the values of a dataset.
+  void expect_stored(const Handle& dataset, const Stated& of) {
+    const auto refuse = [&](const auto&... words) {
+      return source_.refuse("dataset ", of.path, " ", words...);
     };
-    const std::vector<std::size_t> shape = shape_of(space, path);
-    std::size_t values = 1;
-    for (const std::size_t n : shape) values *= n;
-    check_size(dataset, type, values, path);
-    Array array = read_values(path, shape, type, read);
-    document.datasets[path] = std::move(array);
-  }
-
-  // What is stored must suffice for the values: HDF5 reads beyond the end of a compact dataset that is too short.
-  void check_size(const Handle& set, const Handle& type, hsize_t values, const std::string& path) {
-    const hsize_t stored = H5Dget_storage_size(set);
-    if (values > 0 && stored == 0) {
-      throw source_.refuse("dataset ", path, " was declared but never written");
-    }
-    const Handle layout(H5Dget_create_plist(set), H5Pclose);
-    const bool packed = H5Pget_layout(layout) == H5D_CHUNKED;
-    const std::size_t width = std::max<std::size_t>(type ? H5Tget_size(type) : 0, 1);
-    if (values >
-        (packed ? most_inflation * std::min<hsize_t>(stored, file_.size()) : stored / width)) {
-      throw source_.refuse("dataset ", path, " states ", values, " values in ", stored, " bytes");
-    }
-  }
-
-  // Values lie in this file, in chunks of a size that fits, behind filters every HDF5 has.
-  void check_storage(const Handle& dataset, const Handle& type, const std::string& path) {
     const Handle layout(H5Dget_create_plist(dataset), H5Pclose);
     const H5D_layout_t kind = layout ? H5Pget_layout(layout) : H5D_LAYOUT_ERROR;
-    if (kind == H5D_VIRTUAL || (kind == H5D_CONTIGUOUS && H5Pget_external_count(layout) != 0)) {
-      throw source_.refuse("dataset ", path,
-                           " keeps its values in another file, which is not read");
+    const bool chunked = kind == H5D_CHUNKED;
+    if (kind == H5D_VIRTUAL || (kind == H5D_CONTIGUOUS && H5Pget_external_count(layout) != 0))
+      throw refuse("keeps its values in another file, which is not read");
+    if (kind != H5D_COMPACT && kind != H5D_CONTIGUOUS && !chunked)
+      throw refuse("has an unknown layout");
+    if (chunked) {
+      const std::string wrong = wrong_layout(layout, of.width);
+      if (!wrong.empty()) throw refuse(wrong);
     }
-    if (kind != H5D_COMPACT && kind != H5D_CONTIGUOUS && kind != H5D_CHUNKED) {
-      throw source_.refuse("dataset ", path, " has an unknown layout");
-    }
-    if (kind != H5D_CHUNKED) return;
-    const std::string wrong = wrong_layout(layout, type ? H5Tget_size(type) : 0);
-    if (!wrong.empty()) throw source_.refuse("dataset ", path, " ", wrong);
-  }
-
-  // Chunks hold as many bytes as HDF5 will copy from them.
-  void check_chunks(const Handle& dataset, const Handle& type, const std::string& path) {
-    const Handle layout(H5Dget_create_plist(dataset), H5Pclose);
-    if (H5Pget_layout(layout) != H5D_CHUNKED) return;
-    const std::string wrong = wrong_chunks(dataset, layout, type ? H5Tget_size(type) : 0, file_);
-    if (!wrong.empty()) throw source_.refuse("dataset ", path, " ", wrong);
+    // HDF5 reads beyond the end of a compact dataset that is too short.
+    const hsize_t stored = H5Dget_storage_size(dataset);
+    if (of.count > 0 && stored == 0) throw refuse("was declared but never written");
+    const hsize_t most = chunked ? most_inflation * std::min<hsize_t>(stored, file_.size())
+                                 : stored / std::max<std::size_t>(of.width, 1);
+    if (of.count > most) throw refuse("states ", of.count, " values in ", stored, " bytes");
+    spend(of);
+    if (!chunked) return;
+    // Chunks are inflated to be counted, so only once the values are known to fit in memory.
+    const std::string wrong = wrong_chunks(dataset, layout, of.width, file_);
+    if (!wrong.empty()) throw refuse(wrong);
   }
 
   // Counts what a dataset or attribute will take against the whole file's budget.
-  void spend(const std::string& path, std::size_t count, std::size_t width) {
-    if (width > 0 && count > (most_bytes - spent_) / width) {
-      throw source_.refuse(path, " and the objects before it need more than ", most_bytes,
+  void spend(const Stated& of) {
+    const std::size_t width =
+        of.kind == H5T_INTEGER && of.width > 1 ? sizeof(std::int64_t) : of.width;
+    if (width > 0 && of.count > (most_bytes - spent_) / width) {
+      throw source_.refuse(of.path, " and the objects before it need more than ", most_bytes,
                            " bytes of memory");
     }
-    spent_ += count * width;
+    spent_ += of.count * width;
   }
 
   void load_attributes(const Handle& group, const std::string& path) {
@@ -231,71 +227,60 @@ class Loader {
       const std::string whole = path + "@" + name;
       const Handle space(H5Aget_space(attribute), H5Sclose);
       const Handle type(H5Aget_type(attribute), H5Tclose);
-      document.attributes[whole] =
-          read_values(whole, shape_of(space, whole), type,
-                      [&](hid_t memory, void* data) { return H5Aread(attribute, memory, data); });
+      const Stated of = stated(whole, space, type);
+      spend(of);
+      document.attributes[whole] = values(
+          of, type, [&](hid_t memory, void* data) { return H5Aread(attribute, memory, data); });
     }
   }
 
   template <class Read>
-  Array read_values(const std::string& path, const std::vector<std::size_t>& shape,
-                    const Handle& type, const Read& read) {
-    std::size_t count = 1;
-    for (const std::size_t n : shape) count *= n;
-    Array array{shape, Bytes()};
-    const auto fill = [&](auto values, hid_t memory) {
-      values.resize(count);
-      if (count > 0 && read(memory, values.data()) < 0) {
-        throw source_.refuse("dataset ", path, " cannot be read (truncated or damaged)");
-      }
-      array.values = std::move(values);
+  Array values(const Stated& of, const Handle& type, const Read& read) {
+    const auto filled = [&](auto list, hid_t memory) {
+      list.resize(of.count);
+      fill(of, list.data(), memory, read);
+      return list;
     };
-    const H5T_class_t kind = type ? H5Tget_class(type) : H5T_NO_CLASS;
-    const std::size_t width = type ? H5Tget_size(type) : 0;
-    spend(path, count, kind == H5T_INTEGER && width > 1 ? sizeof(std::int64_t) : width);
-    if (kind == H5T_INTEGER && width == 1 && H5Tget_sign(type) == H5T_SGN_NONE) {
-      fill(Bytes(), H5T_NATIVE_UINT8);
-    } else if (kind == H5T_INTEGER) {
-      fill(Integers(), H5T_NATIVE_INT64);
-    } else if (kind == H5T_FLOAT && width <= 4) {
-      fill(Floats(), H5T_NATIVE_FLOAT);
-    } else if (kind == H5T_FLOAT) {
-      fill(Doubles(), H5T_NATIVE_DOUBLE);
-    } else if (kind == H5T_STRING) {
-      array.values = H5Tis_variable_str(type) > 0 ? read_variable_texts(path, count, type, read)
-                                                  : read_fixed_texts(path, count, type, read);
+    Array array{of.shape, Bytes()};
+    if (of.kind == H5T_STRING) {
+      array.values = H5Tis_variable_str(type) > 0 ? variable_texts(of, type, read)
+                                                  : fixed_texts(of, type, read);
+    } else if (of.kind == H5T_FLOAT) {
+      if (of.width <= 4)
+        array.values = filled(Floats(), H5T_NATIVE_FLOAT);
+      else
+        array.values = filled(Doubles(), H5T_NATIVE_DOUBLE);
+    } else if (of.width == 1 && H5Tget_sign(type) == H5T_SGN_NONE) {
+      array.values = filled(Bytes(), H5T_NATIVE_UINT8);
     } else {
-      throw source_.refuse("dataset ", path, " has a type that is neither number nor text");
+      array.values = filled(Integers(), H5T_NATIVE_INT64);
     }
     return array;
   }
 
   template <class Read>
-  Texts read_fixed_texts(const std::string& path, std::size_t count, const Handle& type,
-                         const Read& read) {
-    const std::size_t width = H5Tget_size(type);
-    if (width == 0 || width > 1100 * file_.size() / (count + 1)) {
-      throw source_.refuse("dataset ", path, " states texts longer than the file");
-    }
-    std::vector<char> buffer(count * width);
-    if (count > 0 && read(type, buffer.data()) < 0) {
-      throw source_.refuse("dataset ", path, " cannot be read (truncated or damaged)");
-    }
+  void fill(const Stated& of, void* data, hid_t memory, const Read& read) {
+    if (of.count > 0 && read(memory, data) < 0)
+      throw source_.refuse("dataset ", of.path, " cannot be read (truncated or damaged)");
+  }
+
+  template <class Read>
+  Texts fixed_texts(const Stated& of, const Handle& type, const Read& read) {
+    if (of.width == 0 || of.width > most_inflation * file_.size() / (of.count + 1))
+      throw source_.refuse("dataset ", of.path, " states texts longer than the file");
+    std::vector<char> buffer(of.count * of.width);
+    fill(of, buffer.data(), type, read);
     Texts texts;
-    for (std::size_t i = 0; i < count; ++i) {
-      texts.push_back(stored_text(buffer.data() + i * width, width));
-    }
+    for (std::size_t i = 0; i < of.count; ++i)
+      texts.push_back(stored_text(buffer.data() + i * of.width, of.width));
     return texts;
   }
 
   // Other programs (h5py) store texts of variable length.
   template <class Read>
-  Texts read_variable_texts(const std::string& path, std::size_t count, const Handle& type,
-                            const Read& read) {
-    std::vector<char*> pointers(count, nullptr);
-    if (count > 0 && read(type, pointers.data()) < 0) {
-      throw source_.refuse("dataset ", path, " cannot be read (truncated or damaged)");
-    }
+  Texts variable_texts(const Stated& of, const Handle& type, const Read& read) {
+    std::vector<char*> pointers(of.count, nullptr);
+    fill(of, pointers.data(), type, read);
     Texts texts;
     for (char* text : pointers) {
       texts.emplace_back(text ? text : "");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/hdf5/hermite_group.hpp"
+#include "io/hdf5/mesh_columns.hpp"
 
 namespace breast {
 
@@ -15,37 +16,24 @@ struct CheckedFaces {
   const std::vector<Face>& faces;
 };
 
-template <class T>
-void check_length(const std::vector<T>& list, std::size_t full, bool optional, const char* path,
-                  const Complaint& complain) {
-  if (list.size() == full || (optional && list.empty())) return;
-  throw complain("dataset ", path, " has ", list.size(), " entries, must be ", full);
-}
-
-void check_lengths(const HexMesh& mesh, const Complaint& complain) {
-  const std::size_t nodes = mesh.points.size(), elements = std::size_t(mesh.elements());
-  check_length(mesh.imaged, nodes, false, "/VTKHDF/PointData/imaged", complain);
-  check_length(mesh.reference, nodes, true, "/VTKHDF/PointData/reference", complain);
-  check_length(mesh.contact_pressure, nodes, true, "/VTKHDF/PointData/contact_pressure", complain);
-  check_length(mesh.node_numbers, nodes, mesh.element_numbers.empty(),
-               "/VTKHDF/PointData/node_number", complain);
-  check_length(mesh.element_numbers, elements, mesh.node_numbers.empty(),
-               "/VTKHDF/CellData/element_number", complain);
-  check_length(mesh.tissue, elements, false, "/VTKHDF/CellData/tissue", complain);
-  check_length(mesh.fibroglandular_fraction, elements, true,
-               "/VTKHDF/CellData/fibroglandular_fraction", complain);
-  check_length(mesh.pressure, elements, true, "/VTKHDF/CellData/pressure", complain);
-  check_length(mesh.det_F, elements, true, "/VTKHDF/CellData/det_F", complain);
-  check_length(mesh.scaled_jacobian, elements, true, "/VTKHDF/CellData/scaled_jacobian", complain);
-}
-
 // The order by which a number is searched.
 void check_ascending(const std::vector<int>& numbers, const char* path, const Complaint& complain) {
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const int least = i == 0 ? 0 : numbers[i - 1] + 1;
-    if (numbers[i] < least)
-      throw complain("dataset ", path, "[", i, "] is ", numbers[i], ", must be at least ", least);
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    if (numbers[i] <= numbers[i - 1])
+      throw complain("dataset ", path, "[", i, "] is ", numbers[i], ", must be at least ",
+                     numbers[i - 1] + 1);
   }
+}
+
+// Numbers in a larger mesh: of elements and nodes, or of neither.
+void check_numbers(const HexTopology& mesh, const Complaint& complain) {
+  const char *of_elements = "/VTKHDF/CellData/element_number",
+             *of_nodes = "/VTKHDF/PointData/node_number";
+  if (mesh.element_numbers.empty() != mesh.node_numbers.empty())
+    throw complain("dataset ", mesh.element_numbers.empty() ? of_elements : of_nodes,
+                   " is missing, which a part of a mesh has");
+  check_ascending(mesh.element_numbers, of_elements, complain);
+  check_ascending(mesh.node_numbers, of_nodes, complain);
 }
 
 void check_connectivity(const HexMesh& mesh, const Complaint& complain) {
@@ -76,24 +64,8 @@ void check_connectivity(const HexMesh& mesh, const Complaint& complain) {
   }
 }
 
-void check_cells(const HexMesh& mesh, const Complaint& complain) {
-  for (std::size_t e = 0; e < mesh.tissue.size(); ++e) {
-    if (int(mesh.tissue[e]) >= n_tissues) {
-      throw complain("dataset /VTKHDF/CellData/tissue[", e, "] is ", int(mesh.tissue[e]),
-                     ", must be 0 to ", n_tissues - 1);
-    }
-  }
-  for (std::size_t e = 0; e < mesh.fibroglandular_fraction.size(); ++e) {
-    const float fraction = mesh.fibroglandular_fraction[e];
-    if (!(fraction >= 0 && fraction <= 1)) {
-      throw complain("dataset /VTKHDF/CellData/fibroglandular_fraction[", e, "] is ", fraction,
-                     ", must be 0 to 1");
-    }
-  }
-}
-
 // Every face of the boundary is in exactly one of the three sets, and nothing else is.
-void check_face_sets(const HexMesh& mesh, const Complaint& complain) {
+void check_face_sets(const HexTopology& mesh, const Complaint& complain) {
   const CheckedFaces sets[] = {{"/breast/sets/skin_faces", mesh.skin_faces},
                                {"/breast/sets/pectoral_faces", mesh.pectoral_faces},
                                {"/breast/sets/cut_faces", mesh.cut_faces}};
@@ -163,6 +135,20 @@ void check_landmarks(const HexMesh& mesh, const Complaint& complain) {
   }
 }
 
+void check_skin(const HexTopology& mesh, const Complaint& complain) {
+  const std::vector<double>& thickness = mesh.skin_thickness;
+  if (mesh.skin_model == SkinModel::membrane && thickness.empty() && !mesh.skin_faces.empty())
+    throw complain("dataset /breast/skin/thickness is missing, which a membrane skin needs");
+  if (!thickness.empty() && thickness.size() != mesh.skin_faces.size())
+    throw complain("dataset /breast/skin/thickness has ", thickness.size(), " entries, must be ",
+                   mesh.skin_faces.size());
+  for (std::size_t i = 0; i < thickness.size(); ++i) {
+    if (!(thickness[i] >= 0))
+      throw complain("dataset /breast/skin/thickness[", i, "] is ", thickness[i],
+                     ", must be 0 or more");
+  }
+}
+
 void check_model(const ModelText& model, const Complaint& complain) {
   for (const auto& [name, text] : model_parts)
     if ((model.*text).empty())
@@ -197,24 +183,11 @@ void check_mesh(const HexMesh& mesh, const Complaint& complain) {
     throw complain("mesh has order ", mesh.order, ", must be 1 or 2");
   }
   check_connectivity(mesh, complain);
-  check_lengths(mesh, complain);
-  check_ascending(mesh.element_numbers, "/VTKHDF/CellData/element_number", complain);
-  check_ascending(mesh.node_numbers, "/VTKHDF/PointData/node_number", complain);
-  check_cells(mesh, complain);
+  check_columns(mesh, complain);
+  check_numbers(mesh, complain);
   check_face_sets(mesh, complain);
   check_landmarks(mesh, complain);
-  check_length(mesh.skin_thickness, mesh.skin_faces.size(), true, "/breast/skin/thickness",
-               complain);
-  for (std::size_t i = 0; i < mesh.skin_thickness.size(); ++i) {
-    if (!(mesh.skin_thickness[i] >= 0)) {
-      throw complain("dataset /breast/skin/thickness[", i, "] is ", mesh.skin_thickness[i],
-                     ", must be 0 or more");
-    }
-  }
-  if (mesh.skin_model == SkinModel::membrane && mesh.skin_thickness.empty() &&
-      !mesh.skin_faces.empty()) {
-    throw complain("dataset /breast/skin/thickness is missing, which a membrane skin needs");
-  }
+  check_skin(mesh, complain);
   if (mesh.geometry) check_geometry(*mesh.geometry, complain);
   if (mesh.model) check_model(*mesh.model, complain);
   if (mesh.solve && mesh.reference.empty()) {

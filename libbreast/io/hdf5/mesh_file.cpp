@@ -6,6 +6,7 @@
 
 #include "io/hdf5/hermite_group.hpp"
 #include "io/hdf5/mesh_check.hpp"
+#include "io/hdf5/mesh_columns.hpp"
 #include "io/hdf5/records.hpp"
 #include "io/hdf5/sets_group.hpp"
 #include "io/hdf5/thorax_group.hpp"
@@ -17,8 +18,10 @@ namespace {
 
 constexpr std::uint8_t vtk_hexahedron = 12, vtk_triquadratic_hexahedron = 29;
 const std::string point_data = "/VTKHDF/PointData/", cell_data = "/VTKHDF/CellData/";
-const std::string element_number = cell_data + "element_number",
-                  node_number = point_data + "node_number";
+const std::string reference = point_data + "reference",
+                  from_stress_free = point_data + "displacement_from_stress_free",
+                  from_scan = point_data + "displacement_from_scan";
+const std::string wall_seconds = "/VTKHDF/FieldData/wall_seconds";
 const std::string derivative = point_data + "derivative_", influence = cell_data + "influence_";
 const std::string derivative_list = "/breast/derivatives/parameters",
                   influence_list = "/breast/derivatives/landmarks";
@@ -59,16 +62,6 @@ void get_grid(Fields& fields, HexMesh& mesh) {
   mesh.connectivity.assign(ids.begin(), ids.end());
 }
 
-Array numbers_array(const std::vector<int>& numbers) {
-  return array_of(Integers(numbers.begin(), numbers.end()));
-}
-
-// Numbers in the whole mesh; a file without them is a whole mesh.
-std::vector<int> get_numbers(Fields& fields, const std::string& path, std::size_t count) {
-  if (!fields.has(path)) return {};
-  return fields.indices(path, {count}, 0, std::numeric_limits<int>::max());
-}
-
 std::vector<Vec3> difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   std::vector<Vec3> difference(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) difference[i] = a[i] - b[i];
@@ -76,90 +69,38 @@ std::vector<Vec3> difference(const std::vector<Vec3>& a, const std::vector<Vec3>
 }
 
 // Displacements are there for viewing; one that contradicts its two shapes means an edited file.
-void check_displacement(Fields& fields, const std::string& name, const std::vector<Vec3>& points,
+void check_displacement(Fields& fields, const std::string& path, const std::vector<Vec3>& points,
                         const std::vector<Vec3>& from, const char* from_name) {
   constexpr double tolerance_mm = 1e-6;
-  const auto displacement = fields.vectors(point_data + name, points.size());
+  const auto displacement = fields.vectors(path, points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3 expected = points[i] - from[i];
     if (!((displacement[i] - expected).norm() <= tolerance_mm)) {
-      throw fields.complain()("dataset ", point_data, name, "[", i, "] is ",
-                              displacement[i].transpose(), ", must be Points - ", from_name, " = ",
-                              expected.transpose());
+      throw fields.complain()("dataset ", path, "[", i, "] is ", displacement[i].transpose(),
+                              ", must be Points - ", from_name, " = ", expected.transpose());
     }
   }
 }
 
-void put_point_data(Document& document, const HexMesh& mesh) {
-  document.datasets[point_data + "imaged"] = array_of(mesh.imaged);
-  if (!mesh.reference.empty()) {
-    document.datasets[point_data + "reference"] = array_of(mesh.reference);
-    document.datasets[point_data + "displacement_from_stress_free"] =
-        array_of(difference(mesh.points, mesh.reference));
-    document.datasets[point_data + "displacement_from_scan"] =
-        array_of(difference(mesh.points, mesh.imaged));
-  }
-  if (!mesh.contact_pressure.empty()) {
-    document.datasets[point_data + "contact_pressure"] = array_of(Doubles(mesh.contact_pressure));
-  }
-  if (!mesh.node_numbers.empty()) document.datasets[node_number] = numbers_array(mesh.node_numbers);
+void put_displacements(Document& document, const HexMesh& mesh) {
+  if (mesh.reference.empty()) return;
+  document.datasets[from_stress_free] = array_of(difference(mesh.points, mesh.reference));
+  document.datasets[from_scan] = array_of(difference(mesh.points, mesh.imaged));
 }
 
-void get_point_data(Fields& fields, HexMesh& mesh) {
-  const std::size_t nodes = mesh.points.size();
-  mesh.imaged = fields.places(point_data + "imaged", nodes);
-  if (fields.has(point_data + "contact_pressure")) {
-    mesh.contact_pressure = fields.doubles(point_data + "contact_pressure", {nodes});
-  }
-  mesh.node_numbers = get_numbers(fields, node_number, nodes);
-  const std::string from_stress_free = "displacement_from_stress_free";
-  if (!fields.has(point_data + "reference") && !fields.has(point_data + from_stress_free)) return;
-  mesh.reference = fields.places(point_data + "reference", nodes);
-  if (fields.has(point_data + "displacement_from_scan")) {
-    check_displacement(fields, "displacement_from_scan", mesh.points, mesh.imaged, "imaged");
-  }
-  if (fields.has(point_data + from_stress_free)) {
-    check_displacement(fields, from_stress_free, mesh.points, mesh.reference, "reference");
-  }
+void check_displacements(Fields& fields, const HexMesh& mesh) {
+  if (fields.has(from_scan))
+    check_displacement(fields, from_scan, mesh.points, mesh.imaged, "imaged");
+  if (!fields.has(from_stress_free)) return;
+  fields.require(reference, {mesh.points.size(), 3});
+  check_displacement(fields, from_stress_free, mesh.points, mesh.reference, "reference");
 }
 
 // Where no voxels were averaged, elements are of one tissue each.
-Floats fractions(const HexMesh& mesh) {
-  if (!mesh.fibroglandular_fraction.empty()) return mesh.fibroglandular_fraction;
+Floats fractions(const HexTopology& mesh) {
   Floats list;
   for (const Tissue t : mesh.tissue) list.push_back(t == Tissue::fibroglandular ? 1.0F : 0.0F);
   return list;
-}
-
-void put_cell_data(Document& document, const HexMesh& mesh) {
-  Bytes tissue;
-  for (const Tissue t : mesh.tissue) tissue.push_back(std::uint8_t(t));
-  auto& sets = document.datasets;
-  sets[cell_data + "tissue"] = array_of(std::move(tissue));
-  sets[cell_data + "fibroglandular_fraction"] = array_of(fractions(mesh));
-  if (!mesh.pressure.empty()) sets[cell_data + "pressure"] = array_of(Doubles(mesh.pressure));
-  if (!mesh.det_F.empty()) sets[cell_data + "det_F"] = array_of(Doubles(mesh.det_F));
-  if (!mesh.scaled_jacobian.empty()) {
-    sets[cell_data + "scaled_jacobian"] = array_of(Doubles(mesh.scaled_jacobian));
-  }
-  if (!mesh.element_numbers.empty()) sets[element_number] = numbers_array(mesh.element_numbers);
-  sets["/VTKHDF/FieldData/wall_seconds"] = array_of(Doubles{mesh.wall_seconds});
-}
-
-void get_cell_data(Fields& fields, HexMesh& mesh) {
-  const std::size_t elements = std::size_t(mesh.elements());
-  for (const std::uint8_t code : fields.bytes(cell_data + "tissue", {elements})) {
-    mesh.tissue.push_back(static_cast<Tissue>(code));
-  }
-  mesh.fibroglandular_fraction = fields.floats(cell_data + "fibroglandular_fraction", {elements});
-  const auto optional = [&](const char* name) {
-    return fields.has(cell_data + name) ? fields.doubles(cell_data + name, {elements}) : Doubles{};
-  };
-  mesh.element_numbers = get_numbers(fields, element_number, elements);
-  mesh.pressure = optional("pressure");
-  mesh.det_F = optional("det_F");
-  mesh.scaled_jacobian = optional("scaled_jacobian");
-  mesh.wall_seconds = fields.doubles("/VTKHDF/FieldData/wall_seconds", {1}).front();
 }
 
 void put_geometry(Document& document, const HexMesh& mesh) {
@@ -184,8 +125,8 @@ void get_optional_groups(Fields& fields, HexMesh& mesh) {
 
 void check_needs(const HexMesh& mesh, const MeshNeeds& needs, const std::string& file) {
   if (needs.reference && mesh.reference.empty()) {
-    throw input_error(file, ": has no stress-free shape (dataset ", point_data,
-                      "reference); make it with backward");
+    throw input_error(file, ": has no stress-free shape (dataset ", reference,
+                      "); make it with backward");
   }
   if (needs.geometry && !(mesh.geometry && has_sheets(*mesh.geometry))) {
     throw input_error(file,
@@ -209,8 +150,9 @@ HexMesh read_mesh(const std::filesystem::path& file, const MeshNeeds& needs) {
   mesh.side = header.side;
   mesh.history = header.history;
   get_grid(fields, mesh);
-  get_point_data(fields, mesh);
-  get_cell_data(fields, mesh);
+  get_columns(fields, mesh);
+  check_displacements(fields, mesh);
+  mesh.wall_seconds = fields.doubles(wall_seconds, {1}).front();
   get_sets(fields, mesh);
   get_landmarks(fields, mesh);
   get_skin(fields, mesh);
@@ -233,8 +175,9 @@ HexMesh read_mesh(const std::filesystem::path& file, const MeshNeeds& needs) {
 
 namespace {
 
-Document mesh_document(const std::filesystem::path& file, const HexMesh& mesh) {
+Document mesh_document(const std::filesystem::path& file, HexMesh mesh) {
   const Complaint complain{ErrorKind::failed, file.string(), ""};
+  if (mesh.fibroglandular_fraction.empty()) mesh.fibroglandular_fraction = fractions(mesh);
   check_mesh(mesh, complain);
   if (mesh.geometry && mesh.geometry->side != mesh.side) {
     throw complain("mesh is of the ", side_name(mesh.side), " breast, but its geometry of the ",
@@ -247,8 +190,9 @@ Document mesh_document(const std::filesystem::path& file, const HexMesh& mesh) {
   document.attributes["/breast/template@size"] =
       array_of(Integers(mesh.template_size.begin(), mesh.template_size.end()));
   put_grid(document, mesh);
-  put_point_data(document, mesh);
-  put_cell_data(document, mesh);
+  put_columns(document, mesh);
+  put_displacements(document, mesh);
+  document.datasets[wall_seconds] = array_of(Doubles{mesh.wall_seconds});
   put_sets(document, mesh);
   put_landmarks(document, mesh);
   put_skin(document, mesh);
