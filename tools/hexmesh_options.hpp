@@ -15,8 +15,7 @@ namespace breast {
 struct MeshChoices {
   std::filesystem::path geometry, labels, mesh, surface, tetrahedra, landmarks;
   LabelChoices foreign;
-  std::string shape = "dome", skin = "1.45", skin_as = "membrane", tumour = "auto",
-              muscle = "0";
+  std::string shape = "dome", skin = "1.45", skin_as = "membrane", tumour = "auto", muscle = "0";
   int elements = 16, order = 1;
   double surroundings_mm = 0;
   bool accept_mismatch = false;

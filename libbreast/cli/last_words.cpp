@@ -79,7 +79,7 @@ bool have_last_words() {
   program = getpid();
   std::set_terminate(end_unhandled);
   signal(SIGXFSZ, SIG_IGN);
-#if !defined(__SANITIZE_ADDRESS__)  // which has words of its own
+#if !defined(__SANITIZE_ADDRESS__)         // which has words of its own
   alignas(16) static char stack[1 << 16];  // the usual one may be what is full
   stack_t other{};
   other.ss_sp = stack;
@@ -88,7 +88,8 @@ bool have_last_words() {
   struct sigaction action {};
   action.sa_handler = end_crashed;
   action.sa_flags = int(SA_ONSTACK | SA_RESETHAND | SA_NODEFER);
-  for (const int fault : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) sigaction(fault, &action, nullptr);
+  for (const int fault : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL})
+    sigaction(fault, &action, nullptr);
 #endif
   return true;
 }

@@ -29,7 +29,8 @@ int little_memory() {
   constexpr off_t size = 1 << 16;
   const int file = memfd_create("words of libraries", MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (file < 0) return none;
-  if (ftruncate(file, size) == 0 && fcntl(file, F_ADD_SEALS, F_SEAL_GROW | F_SEAL_SHRINK) == 0) return file;
+  if (ftruncate(file, size) == 0 && fcntl(file, F_ADD_SEALS, F_SEAL_GROW | F_SEAL_SHRINK) == 0)
+    return file;
   close(file);
   return none;
 }

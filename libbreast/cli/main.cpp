@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <span>
 #include <new>
+#include <span>
 
 #include "cli/last_words.hpp"
 #include "cli/library_words.hpp"
@@ -257,7 +257,8 @@ int Tool::main(int argc, char** argv, const std::function<void(Run&)>& body) {
   }
   progress.finish(outcome.exit_code == 0);
   // A solve that did not converge writes what it has found.
-  if (outcome.exit_code == 1 || outcome.exit_code == 2) remove_outputs(declaration, tokens, earlier);
+  if (outcome.exit_code == 1 || outcome.exit_code == 2)
+    remove_outputs(declaration, tokens, earlier);
   if (outcome.exit_code != 0) complain(outcome);
   const Outcome reported = guarded([&] {
     write_report(report_possible ? impl_->report_file : std::filesystem::path(), run, outcome,

@@ -213,13 +213,13 @@ std::vector<Judgement> judge_path(const PathResult& path, bool stable) {
                     !stable});
   }
   if (path.jump) {
-    list.push_back({"jump_at_target",
-                    message("snap-through at the target: between plate positions 0.1 micrometre "
-                            "apart the ",
-                            target_name(path.met.kind), " goes from ", path.jump->first, " to ",
-                            path.jump->second, ", past ", path.met.value,
-                            "; the closer one is the result"),
-                    true});
+    list.push_back(
+        {"jump_at_target",
+         message("snap-through at the target: between plate positions 0.1 micrometre "
+                 "apart the ",
+                 target_name(path.met.kind), " goes from ", path.jump->first, " to ",
+                 path.jump->second, ", past ", path.met.value, "; the closer one is the result"),
+         true});
   }
   if (path.passed_by) {
     list.push_back({"ends_past_target",

@@ -33,14 +33,12 @@ class Piece {
  public:
   template <class T>
   Piece(const T& value)
-      : value_(&value), print_([](std::ostream& out, const void* p) {
-          out << *static_cast<const T*>(p);
-        }) {}
+      : value_(&value),
+        print_([](std::ostream& out, const void* p) { out << *static_cast<const T*>(p); }) {}
   template <std::size_t N>
   Piece(const char (&text)[N])
-      : value_(text), print_([](std::ostream& out, const void* p) {
-          out << static_cast<const char*>(p);
-        }) {}
+      : value_(text),
+        print_([](std::ostream& out, const void* p) { out << static_cast<const char*>(p); }) {}
   void print(std::ostream& out) const { print_(out, value_); }
 
  private:

@@ -128,7 +128,8 @@ std::string in_guarded_child(const std::string& name, const std::function<std::s
   }
   if (process == 0) {
     die_with_parent(parent, SIGKILL);
-    close(ends[0]);  // otherwise a write would wait for ever once the parent, its only reader, is gone
+    close(
+        ends[0]);  // otherwise a write would wait for ever once the parent, its only reader, is gone
     child(ends[1], work, cpu_seconds, memory_mb);
   }
   close(ends[1]);

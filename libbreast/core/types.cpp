@@ -31,7 +31,9 @@ Tissue tissue_from_name(std::string_view name) {
                     "'; use one of air, fat, fibroglandular, skin, muscle, tumour, other");
 }
 
-std::string_view side_name(Side side) { return side == Side::left ? "left" : "right"; }
+std::string_view side_name(Side side) {
+  return side == Side::left ? "left" : "right";
+}
 
 Side side_from_name(std::string_view name) {
   if (name == "left") return Side::left;

@@ -35,6 +35,8 @@ enum class Side { left, right };
 std::string_view side_name(Side side);
 Side side_from_name(std::string_view name);
 /// +1 left, -1 right: the sign of patient x (LPS: x grows to the patient's left) on that side.
-inline double lateral_sign(Side side) { return side == Side::left ? 1.0 : -1.0; }
+inline double lateral_sign(Side side) {
+  return side == Side::left ? 1.0 : -1.0;
+}
 
 }  // namespace breast

@@ -130,7 +130,8 @@ Equilibrium solve_on_ranks(const Ranks& ranks, const HexMesh& mesh, const Mechan
   const int pressures_each = scene->solid().space()->pressures->rows;
   const State whole = collected(*exchange, mesh, pressures_each, state);
   ranks.together([&] {
-    if (ranks.root()) conclude(found, Scene(mesh, options, TangentStorage::packed), whole, gravity_found);
+    if (ranks.root())
+      conclude(found, Scene(mesh, options, TangentStorage::packed), whole, gravity_found);
   });
   return found;
 }
@@ -163,8 +164,8 @@ Equilibrium solve_backward_on(const Ranks& ranks, const HexMesh& mesh, const Vec
     BackwardSteps(loaded, solver, solver.solve_reference(), false, "backward-mpi", found, progress)
         .run(load, state);
   };
-  Equilibrium found = solve_on_ranks(ranks, mesh, chosen, &HexMesh::imaged, gravity, Vec3::Zero(),
-                                     follow);
+  Equilibrium found =
+      solve_on_ranks(ranks, mesh, chosen, &HexMesh::imaged, gravity, Vec3::Zero(), follow);
   found.points = found.reference;
   return found;
 }

@@ -203,28 +203,28 @@ SaddleStep PartSaddle::solve_imposed(const SaddleMatrix& matrix, const Eigen::Ve
 // (mechanics/reference_system.hpp). κBᵀM⁻¹ times the volumes is added to the forces on both sides,
 // which makes the matrix similar to the one from which the multigrid levels are built.
 SolveReference PartSaddle::solve_reference() const {
-  return [this](const SaddleMatrix& matrix, const ReferenceTangent& tangent,
-                const Constraints& moved, const Eigen::VectorXd& f, const Eigen::VectorXd& v,
-                double tolerance, int most) {
-    const PressureSpace& space = *matrix.space;
-    const auto augment = [&](const Eigen::VectorXd& bottom) -> Eigen::VectorXd {
-      return matrix.divergence.apply_transpose(space.divide(bottom, matrix.kappa));
-    };
-    const Map map = [&](const Eigen::VectorXd& u, const Eigen::VectorXd& q, Eigen::VectorXd& top,
-                        Eigen::VectorXd& bottom) {
-      Eigen::VectorXd w = u;
-      moved.project(w);
-      bottom = space.multiply(q, space.compliance) - tangent.b_x.apply(w);
-      top = augment(bottom) - tangent.apply(w) - tangent.b.apply_transpose(q);
-    };
-    Eigen::VectorXd top = augment(v);
-    impl_->exchange.complete(top);
-    top += f;
-    double residual = 0;
-    SaddleStep step = solve_near(map, top, v, tolerance, most, residual);
-    moved.project(step.u);
-    return ReferenceStep{-step.u, step.p, step.iterations, residual};
-  };
+  return
+      [this](const SaddleMatrix& matrix, const ReferenceTangent& tangent, const Constraints& moved,
+             const Eigen::VectorXd& f, const Eigen::VectorXd& v, double tolerance, int most) {
+        const PressureSpace& space = *matrix.space;
+        const auto augment = [&](const Eigen::VectorXd& bottom) -> Eigen::VectorXd {
+          return matrix.divergence.apply_transpose(space.divide(bottom, matrix.kappa));
+        };
+        const Map map = [&](const Eigen::VectorXd& u, const Eigen::VectorXd& q,
+                            Eigen::VectorXd& top, Eigen::VectorXd& bottom) {
+          Eigen::VectorXd w = u;
+          moved.project(w);
+          bottom = space.multiply(q, space.compliance) - tangent.b_x.apply(w);
+          top = augment(bottom) - tangent.apply(w) - tangent.b.apply_transpose(q);
+        };
+        Eigen::VectorXd top = augment(v);
+        impl_->exchange.complete(top);
+        top += f;
+        double residual = 0;
+        SaddleStep step = solve_near(map, top, v, tolerance, most, residual);
+        moved.project(step.u);
+        return ReferenceStep{-step.u, step.p, step.iterations, residual};
+      };
 }
 
 SaddleStep PartSaddle::solve_near(const Map& map, const Eigen::VectorXd& top,

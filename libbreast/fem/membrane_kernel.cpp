@@ -71,7 +71,8 @@ bool surface_stress(const Law& law, const SkinBehaviour& skin, const Mat2& body,
   const Surface on_up = -2 * (f.fii * back + d * f.fid * a_up);
   const Surface on_now = -2 * d * (f.fid * back + (f.fd + d * f.fdd) * a_up);
   out.reference_tangent =
-      2 * shrink * (a_up * on_up.transpose() + a_now * on_now.transpose() - 2 * f.fi * self_product(up));
+      2 * shrink *
+      (a_up * on_up.transpose() + a_now * on_now.transpose() - 2 * f.fi * self_product(up));
   return std::isfinite(out.energy);
 }
 
@@ -121,7 +122,8 @@ void membrane_kernel(const MembraneInput<N>& in, const HexDemand& demand, Membra
     const Eigen::Matrix<double, 2, N>& g = rule.gradients[q];
     const Eigen::Matrix<double, 3, 2> t_ref = in.reference * g.transpose();
     const Eigen::Matrix<double, 3, 2> t_def = in.deformed * g.transpose();
-    if (!surface_stress(*in.law, in.skin, t_ref.transpose() * t_ref, t_def.transpose() * t_def, stress))
+    if (!surface_stress(*in.law, in.skin, t_ref.transpose() * t_ref, t_def.transpose() * t_def,
+                        stress))
       return;
     const double w = in.volume[q];
     Mat2 s;
@@ -154,7 +156,8 @@ Vec2 membrane_resultants(const MembraneInput<N>& in) {
                                     t_def = in.deformed * g.transpose();
   const Mat2 reference = t_ref.transpose() * t_ref, deformed = t_def.transpose() * t_def;
   SurfaceStress stress;
-  if (!surface_stress(*in.law, in.skin, reference, deformed, stress)) return Vec2::Constant(std::nan(""));
+  if (!surface_stress(*in.law, in.skin, reference, deformed, stress))
+    return Vec2::Constant(std::nan(""));
   Mat2 s;
   s << stress.s[0], stress.s[2], stress.s[2], stress.s[1];
   // Skin volume per parametric area over the deformed area turns S into force per length; the

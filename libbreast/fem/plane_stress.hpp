@@ -21,8 +21,7 @@ bool plane_stress(const Law& law, double i, double d, PlaneStress& out);
 /// differentiable over `width` (in squared stretches) to either side; above it, the energy is the
 /// law itself. The fraction `kept` of the law remains everywhere, so that slack skin still has a
 /// stiffness; `kept` 0 gives the relaxed energy alone.
-bool tension_field(const Law& law, double kept, double width, double i, double d,
-                   PlaneStress& out);
+bool tension_field(const Law& law, double kept, double width, double i, double d, PlaneStress& out);
 
 /// The invariants I1 and I2 at which tension_field evaluates the law for its relaxed energy.
 struct Invariants12 {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "surface/rigid_motion.hpp"
 #include "image/label_volume.hpp"
+#include "surface/rigid_motion.hpp"
 
 namespace breast {
 
@@ -16,10 +16,12 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 struct WallAlignment {
   RigidMotion motion;  ///< from the first scan to the second, about the given centre
   Matrix6 covariance;  ///< covariance of shift (mm) and rotation (degrees), including the prior
-  std::array<double, 6> from_walls{};  ///< share of the information about each component that comes from the walls
-  double residual_mm = 0;              ///< rms distance of the walls at the compared places
-  double left_out_percent = 0;  ///< percentage of places left out as too far apart for the same surface
-  int places = 0;               ///< number of compared places, 12 mm apart
+  std::array<double, 6>
+      from_walls{};  ///< share of the information about each component that comes from the walls
+  double residual_mm = 0;  ///< rms distance of the walls at the compared places
+  double left_out_percent =
+      0;           ///< percentage of places left out as too far apart for the same surface
+  int places = 0;  ///< number of compared places, 12 mm apart
   std::array<double, 3>
       laid_over{};  ///< initial shift of the second frame in mm; 0 if the frames differ by no more than a patient moves
   double deviation(int k) const { return std::sqrt(covariance(k, k)); }

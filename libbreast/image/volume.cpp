@@ -24,8 +24,7 @@ double sample_linear(const Volume<float>& volume, const Vec3& patient, double ou
     const double factor = (u ? weight[0] : 1 - weight[0]) * (v ? weight[1] : 1 - weight[1]) *
                           (w ? weight[2] : 1 - weight[2]);
     if (factor == 0) continue;
-    sum += factor *
-           volume.at(u ? high[0] : low[0], v ? high[1] : low[1], w ? high[2] : low[2]);
+    sum += factor * volume.at(u ? high[0] : low[0], v ? high[1] : low[1], w ? high[2] : low[2]);
   }
   return sum;
 }

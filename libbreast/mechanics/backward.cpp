@@ -92,9 +92,12 @@ Equilibrium BackwardSolve::run(const Vec3& gravity) {
   if (fail_fast_ && !found_.converged()) return found_;
   if (!found_.converged()) {
     find_needed_stiffness(load);
-    find_remedy(scene_.mesh(), scene_.options(), [&](const MechanicsOptions& changed) {
-      return BackwardSolve(scene_.mesh(), changed, false, no_progress()).stands(gravity);
-    }, progress_, found_);
+    find_remedy(
+        scene_.mesh(), scene_.options(),
+        [&](const MechanicsOptions& changed) {
+          return BackwardSolve(scene_.mesh(), changed, false, no_progress()).stands(gravity);
+        },
+        progress_, found_);
   }
   return finish(state);
 }

@@ -18,8 +18,7 @@ BackwardSteps::BackwardSteps(LoadedProblem& loaded, SaddleSolverBase& solver,
       inverse_(loaded.problem, solver, std::move(solve_reference), fail_fast, found.timer) {}
 
 NewtonResult BackwardSteps::attempt(State& state, double from, double to) {
-  NewtonResult result =
-      inverse_.solve(state, log_.begin_step(name_, from, to, inverse_tolerance));
+  NewtonResult result = inverse_.solve(state, log_.begin_step(name_, from, to, inverse_tolerance));
   found_.residual = result.residual;
   found_.min_det_F = inverse_.min_det_F();
   return result;
@@ -58,9 +57,9 @@ void BackwardSteps::judge(const LoadReached& reached) {
   SolveRecord& record = found_.record;
   if (!reached.whole()) {
     const NewtonResult& failure = reached.last;
-    const bool ends = part > 0 && (failure.stop == NewtonStop::singular_inverse ||
-                                   failure.stop == NewtonStop::no_step ||
-                                   failure.stop == NewtonStop::folded);
+    const bool ends =
+        part > 0 && (failure.stop == NewtonStop::singular_inverse ||
+                     failure.stop == NewtonStop::no_step || failure.stop == NewtonStop::folded);
     found_.reason_id = ends ? "no_stress_free_body" : stop_name(failure.stop);
     record.reason = message("stopped at ", 100 * part, " % of the load: ", failure.reason);
     if (ends) {

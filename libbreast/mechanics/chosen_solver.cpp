@@ -21,12 +21,13 @@ SolverChoice choice_for(double unknowns, const MechanicsOptions& options) {
 
 }  // namespace
 
-Equilibrium with_chosen_solver(double unknowns, const MechanicsOptions& options,
-                               Progress& progress, const SolveAttempt& attempt) {
+Equilibrium with_chosen_solver(double unknowns, const MechanicsOptions& options, Progress& progress,
+                               const SolveAttempt& attempt) {
   MechanicsOptions chosen = options;
   if (options.solver != SolverOption::automatic) return attempt(chosen, false);
   const SolverChoice choice = choice_for(unknowns, options);
-  chosen.solver = choice.first == LinearSolver::direct ? SolverOption::direct : SolverOption::multigrid;
+  chosen.solver =
+      choice.first == LinearSolver::direct ? SolverOption::direct : SolverOption::multigrid;
   if (choice.first == LinearSolver::direct || !choice.direct_fits) return attempt(chosen, false);
 
   Timer timer;

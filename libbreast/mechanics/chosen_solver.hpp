@@ -16,7 +16,7 @@ using SolveAttempt = std::function<Equilibrium(const MechanicsOptions& options, 
 /// Runs `attempt` with the linear solver of the options. The automatic choice is multigrid where
 /// the cost model (solve/choose_solver.hpp) expects it to be cheaper; if that attempt gives up, a
 /// direct solve from the start follows, memory permitting, and the time of both counts.
-Equilibrium with_chosen_solver(double unknowns, const MechanicsOptions& options,
-                               Progress& progress, const SolveAttempt& attempt);
+Equilibrium with_chosen_solver(double unknowns, const MechanicsOptions& options, Progress& progress,
+                               const SolveAttempt& attempt);
 
 }  // namespace breast

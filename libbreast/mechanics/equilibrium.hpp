@@ -34,8 +34,9 @@ struct SolveSummary {
   /// along the lowest mode of the tangent.
   std::optional<double> skin_share;
   int newton_iterations = 0, factorisations = 0, steps = 0;
-  int linear_iterations = 0;  ///< linear iterations of all Newton steps: see SaddleStep, ReferenceStep
-  double residual = 0;        ///< relative to the load
+  int linear_iterations =
+      0;                ///< linear iterations of all Newton steps: see SaddleStep, ReferenceStep
+  double residual = 0;  ///< relative to the load
   double min_det_F = 0, max_volume_error = 0;
   long long unknowns = 0;
   Timer timer;
@@ -50,21 +51,21 @@ struct SolveSummary {
   std::string error_estimate_how;  ///< or the reason why there is none
   std::map<std::string, Vec3> landmark_error_mm;
   std::map<Tissue, PressureQuality> pressure_quality;  ///< 8-node elements, by tissue
-  SkinState skin;                              ///< wrinkling; see mechanics/skin_state.hpp
-  std::vector<std::string> doubts;             ///< statements about doubtful aspects of the result
+  SkinState skin;                                      ///< wrinkling; see mechanics/skin_state.hpp
+  std::vector<std::string> doubts;  ///< statements about doubtful aspects of the result
   bool converged() const { return record.status == SolveStatus::converged; }
 };
 
 /// The result as arrays per node or element of the mesh that was solved. If not converged, they are
 /// those of the last valid state, or empty.
 struct Equilibrium : SolveSummary {
-  std::vector<Vec3> reference;  ///< stress-free shape
-  std::vector<Vec3> points;     ///< the shape found; for backward the stress-free shape
-  std::vector<double> pressure, det_F;  ///< element means, pressure in Pa; for backward those of
-                                        ///< the imaged shape
-  Vec3 gravity{0, 0, 0};                ///< mm/s² acting on `points`
-  std::optional<ContactRecord> contact;   ///< compress only
-  std::vector<double> contact_pressure;   ///< kPa per node, compress only
+  std::vector<Vec3> reference;           ///< stress-free shape
+  std::vector<Vec3> points;              ///< the shape found; for backward the stress-free shape
+  std::vector<double> pressure, det_F;   ///< element means, pressure in Pa; for backward those of
+                                         ///< the imaged shape
+  Vec3 gravity{0, 0, 0};                 ///< mm/s² acting on `points`
+  std::optional<ContactRecord> contact;  ///< compress only
+  std::vector<double> contact_pressure;  ///< kPa per node, compress only
 };
 
 /// Stores the state in the mesh on which it was solved, replacing the previous state, for writing

@@ -44,11 +44,11 @@ void check_fields(const Scene& scene, Equilibrium& equilibrium) {
   equilibrium.skin =
       skin_state(mesh, scene.options().materials, equilibrium.reference, equilibrium.points);
   if (equilibrium.skin.wrinkling > 0 && equilibrium.skin.wrinkling_share > much_wrinkling) {
-    equilibrium.doubts.push_back(
-        message("the skin is compressed enough to wrinkle over two elements or more on ",
-                std::round(1000 * equilibrium.skin.wrinkling_share) / 10,
-                " % of its area (wrinkles ", length_of_wrinkles(equilibrium.skin.longest_wrinkle_mm),
-                "): the folds there depend on the mesh"));
+    equilibrium.doubts.push_back(message(
+        "the skin is compressed enough to wrinkle over two elements or more on ",
+        std::round(1000 * equilibrium.skin.wrinkling_share) / 10, " % of its area (wrinkles ",
+        length_of_wrinkles(equilibrium.skin.longest_wrinkle_mm),
+        "): the folds there depend on the mesh"));
   }
 }
 

@@ -49,8 +49,7 @@ void ForwardSolve::estimate(Workspace& work, const State& state, const Vec3& gra
   if (scene_.options().estimate != Estimate::step) return;
   Timer::Scope phase(found_.timer, "error estimate");
   progress_.update("error estimate", -1, "one step on quadratic elements");
-  note_estimate(estimate_error(scene_, state, gravity, work.matrix, work.solver), "",
-                found_);
+  note_estimate(estimate_error(scene_, state, gravity, work.matrix, work.solver), "", found_);
 }
 
 std::unique_ptr<ForwardSolve::Workspace> ForwardSolve::workspace(const Eigen::VectorXd& load) {
@@ -80,9 +79,12 @@ Equilibrium ForwardSolve::run(const Vec3& gravity) {
   work.reset();
   if (fail_fast_ && !found_.converged()) return found_;
   if (!found_.converged()) {
-    find_remedy(mesh_, scene_.options(), [&](const MechanicsOptions& changed) {
-      return ForwardSolve(mesh_, changed, false, no_progress()).stands(gravity);
-    }, progress_, found_);
+    find_remedy(
+        mesh_, scene_.options(),
+        [&](const MechanicsOptions& changed) {
+          return ForwardSolve(mesh_, changed, false, no_progress()).stands(gravity);
+        },
+        progress_, found_);
   }
   if (last.indefinite > 0) {
     found_.doubts.push_back(message("the tangent was indefinite in ", last.indefinite,

@@ -14,8 +14,7 @@ constexpr int first_limit = 25, later_limit = 12;  // Newton iterations of a loa
 }  // namespace
 
 ForwardSteps::ForwardSteps(LoadedProblem& loaded, SaddleSolverBase& solver, SaddleMatrix& matrix,
-                           bool fail_fast, std::string name, Equilibrium& found,
-                           Progress& progress)
+                           bool fail_fast, std::string name, Equilibrium& found, Progress& progress)
     : loaded_(loaded),
       solver_(solver),
       matrix_(matrix),

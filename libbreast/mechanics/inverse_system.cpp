@@ -88,9 +88,9 @@ Balance InverseSolver::System::assess(const NewtonResult& so_far) {
   }
   owner_.min_det_F_ = forces_.min_det_F;
   const Distance at = distance(forces_);
-  const double bound = std::max(
-      tolerance,
-      owner_.problem_.rounding_force(owner_.matrix_, state_.x) / owner_.problem_.load_norm());
+  const double bound =
+      std::max(tolerance, owner_.problem_.rounding_force(owner_.matrix_, state_.x) /
+                              owner_.problem_.load_norm());
   now.residual = at.force;
   now.merit = at.merit;
   now.converged = at.force <= bound && at.volume <= volume_tolerance;
@@ -136,8 +136,7 @@ NewtonDirection InverseSolver::System::direction(const Balance& now) {
     return {NewtonStop::singular_inverse, "the forward tangent cannot be factorised"};
   }
   const double accuracy = std::clamp(0.1 * now.merit, 1e-6, 1e-3);
-  if (!solve_direction(accuracy) &&
-      (worn || !precondition() || !solve_direction(accuracy))) {
+  if (!solve_direction(accuracy) && (worn || !precondition() || !solve_direction(accuracy))) {
     return {NewtonStop::singular_inverse, "the inverse problem is singular"};
   }
   NewtonDirection direction;

@@ -59,7 +59,10 @@ Scene::Scene(const HexMesh& mesh, const MechanicsOptions& options, TangentStorag
 }
 
 Scene::Scene(const HexMesh& mesh, const MechanicsOptions& options, PartOfBody part)
-    : mesh_(mesh), options_(options), walls_(std::move(part.walls)), sharing_(std::move(part.sharing)) {
+    : mesh_(mesh),
+      options_(options),
+      walls_(std::move(part.walls)),
+      sharing_(std::move(part.sharing)) {
   add_terms(TangentStorage::assembled, part.sliding);
 }
 

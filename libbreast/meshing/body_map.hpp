@@ -27,7 +27,7 @@ class BodyMap {
   double volume() const;
   /// Columns ∂x/∂u and ∂x/∂height of the cut.
   Eigen::Matrix<double, 3, 2> cut_slopes(double height, double u) const;
-  double cut_height(double u) const;             ///< mm
+  double cut_height(double u) const;  ///< mm
 
   const HermiteSheet& skin_sheet() const { return geometry_.skin; }
   const HermiteSheet& wall_sheet() const { return geometry_.wall; }
@@ -39,8 +39,9 @@ class BodyMap {
 
   const BreastGeometry& geometry_;
   Vec2 skin_pole_, wall_pole_;
-  double start_ = 0;                ///< start of u, as a fraction of the rim from its first point
-  std::vector<double> cumulative_;  ///< u at each rim point, beginning with 0; the last entry 1 closes the curve
+  double start_ = 0;  ///< start of u, as a fraction of the rim from its first point
+  std::vector<double>
+      cumulative_;  ///< u at each rim point, beginning with 0; the last entry 1 closes the curve
 };
 
 }  // namespace breast

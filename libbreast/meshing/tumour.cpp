@@ -17,8 +17,9 @@ namespace breast {
 
 namespace {
 
-constexpr double clearance_mm = 8;                            // distance from labels other than breast
-constexpr double mesh_clearance_mm = 5, least_clearance_mm = 2;  // distances from the boundary of the mesh
+constexpr double clearance_mm = 8;  // distance from labels other than breast
+constexpr double mesh_clearance_mm = 5,
+                 least_clearance_mm = 2;  // distances from the boundary of the mesh
 
 struct Region {
   long long voxels = 0;

@@ -12,9 +12,9 @@
 namespace breast {
 
 struct Tumour {
-  Vec3 centre{0, 0, 0};  ///< mm, LPS, MR frame
-  double radius = 0;     ///< mm; 0: a point, no element becomes tumour
-  std::string origin;    ///< how it was chosen, for the report
+  Vec3 centre{0, 0, 0};     ///< mm, LPS, MR frame
+  double radius = 0;        ///< mm; 0: a point, no element becomes tumour
+  std::string origin;       ///< how it was chosen, for the report
   bool artificial = false;  ///< not found in the scan: its landmark is called artificial_tumour
 };
 

@@ -23,7 +23,8 @@ class CutOutline {
   struct Corner {
     double azimuth = 0, radius = 0, height = 0;
   };
-  using Curve = std::vector<Corner>;  ///< in the order of the azimuth, with some overlap beyond −π and π
+  using Curve =
+      std::vector<Corner>;  ///< in the order of the azimuth, with some overlap beyond −π and π
 
   Corner place_of(const Vec3& x) const;
   Curve curve_through(const HexMesh& mesh, const std::vector<int>& nodes) const;

@@ -109,8 +109,8 @@ Plane meridian_plane(const BreastShape& shape, double beyond, double azimuth) {
   });
   const Vec2 fold = dome.back();
   const double width = rim_width(shape, beyond, azimuth);
-  const Curve skirt = follow(
-      skin, fold, [&](const Vec2& p) { return shape.beyond_fold(point(p), 1.0) - width; });
+  const Curve skirt =
+      follow(skin, fold, [&](const Vec2& p) { return shape.beyond_fold(point(p), 1.0) - width; });
   // Base points of fold and rim: perpendicular to the wall.
   const Vec2 fold_foot = onto(wall, fold), rim_foot = onto(wall, skirt.back());
   const Curve inner =

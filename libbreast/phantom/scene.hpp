@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "core/progress.hpp"
-#include "surface/rigid_motion.hpp"
 #include "phantom/cut_outline.hpp"
 #include "phantom/gland.hpp"
 #include "phantom/template.hpp"
+#include "surface/rigid_motion.hpp"
 
 namespace breast {
 

@@ -30,7 +30,8 @@ FatContrast contrast_below_skin(const Work& work, double behind_sternum) {
   const Grid& grid = work.scan.grid;
   Volume<float> tissue(grid), subcutis(grid), weight(grid);
   for (int k = 0; k < grid.size[2]; ++k) {
-    for (int j = 0; j < grid.size[1] && j * grid.spacing[1] < work.torso.cleft[k] + behind_sternum; ++j) {
+    for (int j = 0; j < grid.size[1] && j * grid.spacing[1] < work.torso.cleft[k] + behind_sternum;
+         ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
         const std::size_t n = grid.offset(i, j, k);
         const double depth = -work.skin_distance.voxels[n];
@@ -52,7 +53,8 @@ FatContrast contrast_below_skin(const Work& work, double behind_sternum) {
   subcutis = gaussian(subcutis, 10);
   weight = gaussian(weight, 10);
   for (int k = 0; k < grid.size[2]; ++k) {
-    for (int j = 0; j < grid.size[1] && j * grid.spacing[1] < work.torso.cleft[k] + behind_sternum; ++j) {
+    for (int j = 0; j < grid.size[1] && j * grid.spacing[1] < work.torso.cleft[k] + behind_sternum;
+         ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
         const std::size_t n = grid.offset(i, j, k);
         const double depth = -work.skin_distance.voxels[n];

@@ -63,8 +63,8 @@ LabelVolume labels_of(const Work& work, Side side) {
           // At least the outermost voxel is skin.
           const double depth = -work.skin_distance.voxels[n] + half_voxel;
           tissue = depth < std::max(work.skin, 1.02 * half_voxel) ? Tissue::skin
-                   : work.gland.lobes.voxels[n] ? Tissue::fibroglandular
-                                                : Tissue::fat;
+                   : work.gland.lobes.voxels[n]                   ? Tissue::fibroglandular
+                                                                  : Tissue::fat;
         }
         labels.tissue[n] = std::uint8_t(tissue);
         if (tissue != Tissue::fat && tissue != Tissue::fibroglandular)

@@ -21,8 +21,8 @@ double flat_skin_cm2(const Work& work);
 struct Extents {
   /// Share of the body on this side in front of the sternal skin that is not labelled breast.
   double front_left_out_percent = 0;
-  double lateral_border_mm = 0;  ///< farthest column on the wall from the midline
-  double nipple_depth_mm = 0;    ///< from the nipple back to the wall
+  double lateral_border_mm = 0;   ///< farthest column on the wall from the midline
+  double nipple_depth_mm = 0;     ///< from the nipple back to the wall
   double nipple_in_front_mm = 0;  ///< distance of the nipple in front of the skin over the sternum
   double volume_ml = 0;
 };

@@ -124,7 +124,7 @@ void LinearisedState::refine(const Imbalance& right, Direction& solution) const 
 
 Direction LinearisedState::solve(const Imbalance& right, const Eigen::VectorXd* imposed) const {
   Direction solution{Eigen::VectorXd::Zero(right.force.size()),
-                       Eigen::VectorXd::Zero(right.volume.size())};
+                     Eigen::VectorXd::Zero(right.volume.size())};
   if (imposed != nullptr) solution.u = *imposed;
   refine(right, solution);
   return solution;

@@ -30,8 +30,7 @@ class LinearisedState {
   /// completely, are recovered. Throws Error (input) if the state is not an equilibrium under these
   /// options, and Error (failed) if it is an unstable one.
   LinearisedState(const Scene& scene, LoadedState state, std::vector<PlateContact> contacts,
-                  const std::vector<std::shared_ptr<const Term>>& plates,
-                  const std::string& what);
+                  const std::vector<std::shared_ptr<const Term>>& plates, const std::string& what);
 
   const LoadedState& state() const { return state_; }
   const std::vector<PlateContact>& contacts() const { return contacts_; }

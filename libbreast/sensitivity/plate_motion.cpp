@@ -45,7 +45,8 @@ PlatePair recorded_plates(const HexMesh& mesh) {
   plates.initial_thickness = mesh.contact->initial_thickness_mm;
   plates.standoff = mesh.contact->standoff_mm;
   // The share is the only information in the file about how far the detector may rise.
-  plates.detector_rise = mesh.contact->paddle_share < 1 ? std::numeric_limits<double>::infinity() : 0;
+  plates.detector_rise =
+      mesh.contact->paddle_share < 1 ? std::numeric_limits<double>::infinity() : 0;
   return plates;
 }
 

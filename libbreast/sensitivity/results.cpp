@@ -52,7 +52,9 @@ SensitivityResults adjoint_results(const SensitivityChain& chain,
               gradient.seconds / double(parameters.size()), out.table, report);
     }
     out.arrays.influence[landmark.name] = gradient.by_element;
-    progress.update("derivatives", double(out.arrays.influence.size()) / double(mesh.landmarks.size()), landmark.name);
+    progress.update("derivatives",
+                    double(out.arrays.influence.size()) / double(mesh.landmarks.size()),
+                    landmark.name);
   }
   return out;
 }

@@ -11,7 +11,7 @@ namespace breast {
 
 struct Discretisation {
   int node_count = 0;
-  Cells cells;  ///< the elements
+  Cells cells;                                 ///< the elements
   std::shared_ptr<const NodePattern> pattern;  ///< null where no matrix is assembled
   std::shared_ptr<const PressureSpace> pressures;
 

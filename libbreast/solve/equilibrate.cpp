@@ -86,9 +86,8 @@ class EquilibriumSystem final : public TangentSystem {
 };
 
 bool EquilibriumSystem::reached(double residual) const {
-  const double tolerance =
-      std::max(options_.tolerance,
-               problem_.rounding_force(matrix_, state_.x) / problem_.load_norm());
+  const double tolerance = std::max(
+      options_.tolerance, problem_.rounding_force(matrix_, state_.x) / problem_.load_norm());
   return !away_ && residual <= tolerance &&
          problem_.volume_residual(forces_) <= options_.volume_tolerance;
 }
@@ -249,9 +248,8 @@ bool TangentSystem::follow_surface(double length, State& trial) const {
   if (problem_.most(back.lpNorm<Eigen::Infinity>()) > worth_following) {
     const Forces there = problem_.forces(trial);
     const double left = 1 - std::min(1.0, length);
-    const Eigen::VectorXd theta =
-        there.valid ? Eigen::VectorXd(there.theta - left * forces_.theta)
-                    : Eigen::VectorXd::Zero(forces_.theta.size());
+    const Eigen::VectorXd theta = there.valid ? Eigen::VectorXd(there.theta - left * forces_.theta)
+                                              : Eigen::VectorXd::Zero(forces_.theta.size());
     trial.x += solver_.correction(matrix_, back, theta, following_accuracy);
   }
   return problem_.restore(trial.x) < 0;
@@ -282,8 +280,8 @@ void TangentSystem::accept(Trial trial) {
   forces_ = std::move(trial.forces);
 }
 
-EquilibriumResult equilibrate(const Problem& problem, SaddleSolverBase& solver, SaddleMatrix& matrix,
-                              State& state, const NewtonOptions& options,
+EquilibriumResult equilibrate(const Problem& problem, SaddleSolverBase& solver,
+                              SaddleMatrix& matrix, State& state, const NewtonOptions& options,
                               const Eigen::VectorXd* targets,
                               const std::function<void(const NewtonIteration&)>& watch) {
   const int before = solver.factorisations();

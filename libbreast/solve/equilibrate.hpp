@@ -35,7 +35,8 @@ struct NewtonOptions {
 class TangentSystem : public NewtonSystem {
  public:
   /// All references must outlive this object. `state` is changed.
-  TangentSystem(const Problem& problem, SaddleSolverBase& solver, SaddleMatrix& matrix, State& state);
+  TangentSystem(const Problem& problem, SaddleSolverBase& solver, SaddleMatrix& matrix,
+                State& state);
 
   std::optional<Trial> attempt(double length) override;
   void accept(Trial trial) override;
@@ -87,8 +88,8 @@ struct EquilibriumResult : NewtonResult {
 /// ignored); null: held components remain. If not converged, `state` is the last admissible one. A
 /// state with an element that is not positive at a corner is not accepted, however small its
 /// residual.
-EquilibriumResult equilibrate(const Problem& problem, SaddleSolverBase& solver, SaddleMatrix& matrix,
-                              State& state, const NewtonOptions& options = {},
+EquilibriumResult equilibrate(const Problem& problem, SaddleSolverBase& solver,
+                              SaddleMatrix& matrix, State& state, const NewtonOptions& options = {},
                               const Eigen::VectorXd* targets = nullptr,
                               const std::function<void(const NewtonIteration&)>& watch = {});
 

@@ -9,7 +9,7 @@
 namespace breast {
 
 struct SearchResult {
-  std::optional<Trial> trial;   ///< none: no length was acceptable
+  std::optional<Trial> trial;  ///< none: no length was acceptable
   double length = 0;
   bool any_admissible = false;  ///< at least one trial was admissible
 };

@@ -15,7 +15,7 @@ namespace breast {
 /// Reason why a Newton solve ended without convergence.
 enum class NewtonStop {
   none,
-  folded,            ///< an element turns inside out
+  folded,  ///< an element turns inside out
   iteration_limit,
   indefinite,        ///< the tangent is far from positive definite
   no_step,           ///< no length along the direction is acceptable
@@ -82,11 +82,12 @@ struct Trial {
 
 /// Conditions under which a line search accepts a step, besides a merit below that at the start.
 struct LineSearchRule {
-  double merit = 0;            ///< at the start
-  double tolerance = 0;        ///< residual of a solution
-  int most_halvings = 6;       ///< before the direction is given up
-  bool any = false;            ///< accept every admissible length
-  bool flat_suffices = false;  ///< accept a step at whose end the energy is flatter along the direction
+  double merit = 0;       ///< at the start
+  double tolerance = 0;   ///< residual of a solution
+  int most_halvings = 6;  ///< before the direction is given up
+  bool any = false;       ///< accept every admissible length
+  bool flat_suffices =
+      false;  ///< accept a step at whose end the energy is flatter along the direction
   /// The tangent was shifted and the body may snap through: a decrease of energy suffices, and a
   /// step is doubled as long as the slope stays as steep as predicted.
   bool downhill_suffices = false;

@@ -94,7 +94,8 @@ bool Problem::tangent(const State& state, Forces& forces, SaddleMatrix& matrix) 
 
 Constraints Problem::constraints_at(const Eigen::VectorXd& x) const {
   Constraints all = constraints_;
-  if (sliding_ && !sliding_->hold(x, all)) throw failed_error("a node lies beyond the wall surface");
+  if (sliding_ && !sliding_->hold(x, all))
+    throw failed_error("a node lies beyond the wall surface");
   return all;
 }
 

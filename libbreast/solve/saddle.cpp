@@ -120,9 +120,8 @@ Eigen::VectorXd SaddleSolver::correction(const SaddleMatrix& matrix, const Eigen
 
 // `imposed` may be empty if no constrained component moves.
 SaddleStep SaddleSolver::solve_imposed(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
-                                       const Eigen::VectorXd& theta,
-                                       const Eigen::VectorXd& imposed, double tolerance,
-                                       int restarts) const {
+                                       const Eigen::VectorXd& theta, const Eigen::VectorXd& imposed,
+                                       double tolerance, int restarts) const {
   const PressureSpace& space = *matrix.space;
   const ElementRows& b = matrix.divergence;
   Eigen::VectorXd right = -r - b.apply_transpose(space.divide(theta, matrix.kappa));

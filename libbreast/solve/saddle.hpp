@@ -20,11 +20,11 @@
 #include <memory>
 #include <vector>
 
-#include "solve/direct/cholesky.hpp"
 #include "solve/constraints.hpp"
+#include "solve/direct/cholesky.hpp"
 #include "solve/multigrid/multigrid.hpp"
-#include "solve/node_matrix.hpp"
 #include "solve/multigrid/pressure_schur.hpp"
+#include "solve/node_matrix.hpp"
 #include "solve/saddle_matrix.hpp"
 
 namespace breast {
@@ -41,7 +41,8 @@ inline constexpr int most_definite_steps = 100;
 
 struct Factorisation {
   bool ok = false;
-  double shift = 0;  ///< multiple of SaddleMatrix::diagonal that was added; 0 if K + κBᵀM⁻¹B was definite
+  double shift =
+      0;  ///< multiple of SaddleMatrix::diagonal that was added; 0 if K + κBᵀM⁻¹B was definite
   int attempts = 0;  ///< numerical factorisations
 };
 

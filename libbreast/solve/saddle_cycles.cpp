@@ -52,7 +52,8 @@ SaddleStep SaddleSolver::solve_by_cycles(const SaddleMatrix& matrix, const Eigen
   SaddleStep step;
   Eigen::VectorXd residual = target;
   for (int i = 0; i < restarts && residual.norm() > goal; ++i) {
-    const GmresResult part = gmres(apply, precondition, residual, goal / residual.norm(), gmres_restart);
+    const GmresResult part =
+        gmres(apply, precondition, residual, goal / residual.norm(), gmres_restart);
     x += part.x;
     step.iterations += part.iterations;
     step.solved = part.converged;

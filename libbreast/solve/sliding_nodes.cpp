@@ -96,7 +96,8 @@ bool SlidingNodes::add_curvature(const State& state, const Request& request,
     const double multiplier =
         forces.r.segment<3>(at).dot(level->gradient) / level->gradient.squaredNorm();
     const Mat3 block = -multiplier * level->hessian;
-    if (request.matrix != nullptr) request.matrix->stiffness.add_to_node(cells_.nodes[std::size_t(i)], block);
+    if (request.matrix != nullptr)
+      request.matrix->stiffness.add_to_node(cells_.nodes[std::size_t(i)], block);
     if (packed != nullptr) packed->set(i, block.data());
   }
   return true;

@@ -20,7 +20,7 @@ struct Request {
   const Eigen::VectorXd* kappa = nullptr;  ///< fills Forces::augmented
   SaddleMatrix* matrix = nullptr;          ///< the tangent, assembled
   PackedTangent* packed = nullptr;         ///< K + κBᵀM⁻¹B, by cells
-  double augmentation = 0;                 ///< κ/μ of the tangent; 0: what suits the linear solver
+  double augmentation = 0;  ///< κ/μ of the tangent; 0: what suits the linear solver
   ReferenceTangent* reference = nullptr;
 };
 

@@ -34,13 +34,16 @@ struct Located {
 
 Located locate(double s, int patches) {
   const double scaled = std::clamp(s, 0.0, 1.0) * patches;
-  const int patch = scaled > 0 ? std::min(int(scaled), patches - 1) : 0;  // also where s is not a number
+  const int patch =
+      scaled > 0 ? std::min(int(scaled), patches - 1) : 0;  // also where s is not a number
   return {patch, scaled - patch};
 }
 
 }  // namespace
 
-Vec3 SheetPoint::normal() const { return x_s.cross(x_t).normalized(); }
+Vec3 SheetPoint::normal() const {
+  return x_s.cross(x_t).normalized();
+}
 
 SheetPoint HermiteSheet::evaluate(const Vec2& st) const {
   const Located u = locate(st.x(), nu), v = locate(st.y(), nv);
@@ -53,8 +56,8 @@ SheetPoint HermiteSheet::evaluate(const Vec2& st) const {
       const Vec3 d12 = n.scale_1 * n.scale_2 * n.x_12;
       const auto add = [&](Vec3& target, const double* u0, const double* u1, const double* v0,
                            const double* v1) {
-        target += u0[i] * v0[j] * n.x + u1[i] * v0[j] * d1 + u0[i] * v1[j] * d2 +
-                  u1[i] * v1[j] * d12;
+        target +=
+            u0[i] * v0[j] * n.x + u1[i] * v0[j] * d1 + u0[i] * v1[j] * d2 + u1[i] * v1[j] * d12;
       };
       add(point.x, bu.value0, bu.value1, bv.value0, bv.value1);
       add(point.x_s, bu.slope0, bu.slope1, bv.value0, bv.value1);
@@ -66,6 +69,8 @@ SheetPoint HermiteSheet::evaluate(const Vec2& st) const {
   return point;
 }
 
-Vec3 HermiteSheet::position(const Vec2& st) const { return evaluate(st).x; }
+Vec3 HermiteSheet::position(const Vec2& st) const {
+  return evaluate(st).x;
+}
 
 }  // namespace breast

@@ -16,8 +16,8 @@ namespace breast {
 /// Position and derivatives at one parameter (s,t) of a sheet.
 struct SheetPoint {
   Vec3 x;
-  Vec3 x_s, x_t;           ///< first derivatives with respect to (s,t) in [0,1]^2
-  Vec3 normal() const;     ///< unit x_s × x_t
+  Vec3 x_s, x_t;        ///< first derivatives with respect to (s,t) in [0,1]^2
+  Vec3 normal() const;  ///< unit x_s × x_t
 };
 
 /// One tensor-product bicubic Hermite sheet over [0,1]^2 with nu × nv patches (docs/methods.md,
@@ -60,7 +60,7 @@ struct BreastGeometry {
   std::vector<RimEnd> rim_end;
   Vec2 centre{0.5, 0.5};  ///< pole of the polar rim description in the skin's (s,t)
   Vec2 nipple_st{0.5, 0.5};
-  Vec3 nipple{0, 0, 0};   ///< closest point on the skin sheet (mm, LPS)
+  Vec3 nipple{0, 0, 0};       ///< closest point on the skin sheet (mm, LPS)
   double skin_thickness = 0;  ///< mm as measured by segment, 0 unknown
   double fit_mean_mm = 0, fit_p95_mm = 0, fit_max_mm = 0;
   History history;

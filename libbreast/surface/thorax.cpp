@@ -50,8 +50,8 @@ Radius radius_at(const ThoraxSurface& thorax, double angle, double height) {
 
 CubicSpline cubic_spline(double t) {
   const double s = 1 - t;
-  return {{s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6,
-           (3 * s * s * s - 6 * s * s + 4) / 6, t * t * t / 6},
+  return {{s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6, (3 * s * s * s - 6 * s * s + 4) / 6,
+           t * t * t / 6},
           {-s * s / 2, (3 * t * t - 4 * t) / 2, (-3 * s * s + 4 * s) / 2, t * t / 2},
           {s, 3 * t - 2, 3 * s - 2, t}};
 }

@@ -16,8 +16,8 @@ namespace breast {
 /// B-spline. φ is twice continuously differentiable and positive outside the thorax. It is defined
 /// between the ends of angle and height, except near the axis, where ρ < R/4.
 struct ThoraxSurface final : LevelSurface {
-  Vec3 origin{0, 0, 0};  ///< a point of the axis, mm; heights count from its z
-  double slope = 0;      ///< of the axis: dy/dz, mm per mm
+  Vec3 origin{0, 0, 0};                    ///< a point of the axis, mm; heights count from its z
+  double slope = 0;                        ///< of the axis: dy/dz, mm per mm
   double angle_low = 0, angle_high = 0;    ///< radians
   double height_low = 0, height_high = 0;  ///< mm above the origin
   int angles = 0, heights = 0;             ///< intervals of the spline

@@ -13,12 +13,12 @@
 #include <random>
 #include <string>
 
-#include "fixtures/compress_into.hpp"
-#include "fixtures/in_place.hpp"
 #include "bench/band_rows.hpp"
 #include "contact/compression.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "fixtures/compress_into.hpp"
+#include "fixtures/in_place.hpp"
 #include "io/mesh_file.hpp"
 #include "matching/band.hpp"
 #include "sensitivity/chain.hpp"
@@ -70,7 +70,8 @@ Chain solve(HexMesh mesh, const Draw& drawn, const std::array<double, 2>& thickn
                               percent("fibroglandular", drawn.fibroglandular)});
   for (double& density : materials.density) density *= std::exp(drawn.density);
   for (double& mm : mesh.skin_thickness) mm *= std::exp(drawn.skin_thickness);
-  const SolveSummary backward = fixtures::backward_into(mesh, posture_gravity(Posture::prone), chain.mechanics);
+  const SolveSummary backward =
+      fixtures::backward_into(mesh, posture_gravity(Posture::prone), chain.mechanics);
   if (!backward.converged()) throw not_converged_error("backward: ", backward.record.reason);
   chain.reference = mesh;
   for (std::size_t v = 0; v < 2; ++v) {
@@ -82,15 +83,16 @@ Chain solve(HexMesh mesh, const Draw& drawn, const std::array<double, 2>& thickn
     options.stop_at = thickness[v] > 0 ? StopAt::thickness : StopAt::reduction;
     options.target = thickness[v] > 0 ? thickness[v] + drawn.thickness[v] : 40;
     chain.views[v] = mesh;
-    const CompressionResult summary = fixtures::compress_into(chain.views[v], options, chain.mechanics);
+    const CompressionResult summary =
+        fixtures::compress_into(chain.views[v], options, chain.mechanics);
     if (!summary.converged()) throw not_converged_error("compress: ", summary.record.reason);
   }
   return chain;
 }
 
 DerivativeFields derivatives(const Chain& chain, const HexMesh& view) {
-  const SensitivityChain sensitivity(view, chain.reference.pressure, posture_gravity(Posture::prone),
-                                     chain.mechanics);
+  const SensitivityChain sensitivity(view, chain.reference.pressure,
+                                     posture_gravity(Posture::prone), chain.mechanics);
   DerivativeFields fields;
   const auto all = all_parameters(view, chain.mechanics, posture_gravity(Posture::prone));
   for (const Response& response :

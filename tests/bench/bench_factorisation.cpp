@@ -137,8 +137,7 @@ void compare(int n) {
   options.materials = load_materials("seed2008");
   options.solver = SolverOption::direct;
   const Scene scene(mesh, options);
-  const Problem problem =
-      scene.problem(scene.gravity_force(Vec3(0, 0, -gravity_mm_s2))).problem;
+  const Problem problem = scene.problem(scene.gravity_force(Vec3(0, 0, -gravity_mm_s2))).problem;
   SaddleMatrix matrix = problem.make_matrix();
   Forces forces;
   problem.tangent(scene.at_rest(flatten(mesh.reference)), forces, matrix);

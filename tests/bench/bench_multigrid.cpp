@@ -80,8 +80,7 @@ Row measure(const Settings& s, int n) {
   options.element = s.element == "q2p1" ? Element::q2p1 : Element::q1p0;
   const Scene scene(mesh, options);
   const Eigen::VectorXd rest = flatten(mesh.reference.empty() ? mesh.points : mesh.reference);
-  const Problem problem =
-      scene.problem(scene.gravity_force(Vec3(0, 0, -gravity_mm_s2))).problem;
+  const Problem problem = scene.problem(scene.gravity_force(Vec3(0, 0, -gravity_mm_s2))).problem;
   SaddleMatrix matrix = problem.make_matrix();
   Forces forces;
   if (!problem.tangent(scene.at_rest(rest), forces, matrix)) {

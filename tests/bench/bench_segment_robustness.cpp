@@ -95,10 +95,11 @@ void print_row(const std::string& name, const Timed& found, const Segmentation& 
   }
   const bool failed = overlap.breast.dice < 0.93 || wall.distance.mean_mm > 2 || nipple > 10;
   const bool flagged = !result.doubts.empty() || least < least_quality;
-  std::printf("%s\t%.1f\t%.4f\t%.4f\t%s\t%.2f\t%.2f\t%.2f\t%.3f\t%d\t%d\t%s\t%s\n", name.c_str(), found.seconds,
-              overlap.breast.dice, overlap.tissue[int(Tissue::fibroglandular)].dice, most.c_str(),
-              wall.distance.mean_mm, wall.distance.p95_mm, nipple, result.bias_cv_after, int(failed), int(flagged),
-              scores.c_str(), doubts.empty() ? "" : doubts.c_str() + 2);
+  std::printf("%s\t%.1f\t%.4f\t%.4f\t%s\t%.2f\t%.2f\t%.2f\t%.3f\t%d\t%d\t%s\t%s\n", name.c_str(),
+              found.seconds, overlap.breast.dice, overlap.tissue[int(Tissue::fibroglandular)].dice,
+              most.c_str(), wall.distance.mean_mm, wall.distance.p95_mm, nipple,
+              result.bias_cv_after, int(failed), int(flagged), scores.c_str(),
+              doubts.empty() ? "" : doubts.c_str() + 2);
   std::fflush(stdout);
 }
 
@@ -123,7 +124,8 @@ int run(const std::string& file, Side side, const std::string& only) {
                                    : std::string("\t");
       print_row(perturbation.name, found, base.result, most);
     } catch (const Error& error) {
-      std::printf("%s\t\t\t\t\t\t\t\t\t\t0\t1\t\trefused: %s\n", perturbation.name.c_str(), error.what());
+      std::printf("%s\t\t\t\t\t\t\t\t\t\t0\t1\t\trefused: %s\n", perturbation.name.c_str(),
+                  error.what());
     }
   }
   return 0;

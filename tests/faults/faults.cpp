@@ -67,7 +67,8 @@ class Faults : public ::testing::TestWithParam<Case> {
     return line.substr(0, line.find(' '));
   }
   static std::vector<std::string> arguments() {
-    std::vector<std::string> words = words_of(std::string(GetParam().line) + " --report out.json --threads 1 --quiet");
+    std::vector<std::string> words =
+        words_of(std::string(GetParam().line) + " --report out.json --threads 1 --quiet");
     words.erase(words.begin());
     return words;
   }
@@ -147,9 +148,11 @@ class Faults : public ::testing::TestWithParam<Case> {
   std::string complaint(const ToolResult& result) {
     std::string wrong;
     const auto add = [&](const std::string& text) { wrong += (wrong.empty() ? "" : "; ") + text; };
-    if (result.exit_code < 0 || result.exit_code > 3) add("exit " + std::to_string(result.exit_code));
+    if (result.exit_code < 0 || result.exit_code > 3)
+      add("exit " + std::to_string(result.exit_code));
     if (result.exit_code > 0 && result.error_lines() != 1) {
-      add(std::to_string(result.error_lines()) + " lines on stderr: '" + result.err.substr(0, 400) + "'");
+      add(std::to_string(result.error_lines()) + " lines on stderr: '" + result.err.substr(0, 400) +
+          "'");
     }
     if (result.exit_code == 0 && result.out != reference_out_) add("exit 0 with another stdout");
     std::set<std::string> found;
@@ -192,7 +195,8 @@ class Faults : public ::testing::TestWithParam<Case> {
                const std::function<void(long, const ToolResult&)>& judge);
   void clear() {
     for (const fs::path& file : outputs()) fs::remove_all(file);
-    for (const auto& entry : fs::directory_iterator(temporary_.path())) fs::remove_all(entry.path());
+    for (const auto& entry : fs::directory_iterator(temporary_.path()))
+      fs::remove_all(entry.path());
   }
 
   static inline ScratchFolder* inputs_ = nullptr;
@@ -208,7 +212,8 @@ long Faults::every_call(const std::string& kind, const std::string& reason, long
   for (long n = 1, tried = 0; n <= most; n += stride, ++tried) {
     const ToolResult result = run(kind, n, reason);
     const std::string failed = marked();
-    EXPECT_EQ(complaint(result), "") << kind << " " << n << reason << ", " << failed.substr(0, failed.find('\n'));
+    EXPECT_EQ(complaint(result), "")
+        << kind << " " << n << reason << ", " << failed.substr(0, failed.find('\n'));
     clear();
     if (failed.find("failed") == std::string::npos) return tried;
   }
@@ -217,26 +222,30 @@ long Faults::every_call(const std::string& kind, const std::string& reason, long
 }
 
 TEST_P(Faults, EveryOutputCallFailsOnce) {
-  const long tried = every_call("output", ":28+", full() ? 1 : GetParam().stride);  // ENOSPC, from there on
-  const long again = full() ? every_call("output", ":5", 1) : 0;                    // EIO, this once
+  const long tried =
+      every_call("output", ":28+", full() ? 1 : GetParam().stride);  // ENOSPC, from there on
+  const long again = full() ? every_call("output", ":5", 1) : 0;     // EIO, this once
   std::printf("%s: %ld failing output calls\n", GetParam().name, tried + again);
   EXPECT_GT(tried, 0);
 }
 
 TEST_P(Faults, LostBytesAreMissed) {
   if (heavy() && !full()) GTEST_SKIP() << "only with BREAST_FAULT_ALLOCATIONS";
-  std::printf("%s: %ld lost writes\n", GetParam().name, every_call("loss", "", full() ? 1 : GetParam().stride));
+  std::printf("%s: %ld lost writes\n", GetParam().name,
+              every_call("loss", "", full() ? 1 : GetParam().stride));
 }
 
 TEST_P(Faults, DamagedBytesAreNoticed) {
   if (heavy() && !full()) GTEST_SKIP() << "only with BREAST_FAULT_ALLOCATIONS";
-  std::printf("%s: %ld damaged writes\n", GetParam().name, every_call("damage", "", full() ? 1 : GetParam().stride));
+  std::printf("%s: %ld damaged writes\n", GetParam().name,
+              every_call("damage", "", full() ? 1 : GetParam().stride));
 }
 
 // No file may be longer than so many bytes, as on a disk that is full there: 64 lengths from 0 to that of the largest output.
 TEST_P(Faults, DiskFullAtAnyByte) {
   std::uintmax_t largest = 0;
-  for (const auto& [name, content] : files_in(reference_.path())) largest = std::max<std::uintmax_t>(largest, content.size());
+  for (const auto& [name, content] : files_in(reference_.path()))
+    largest = std::max<std::uintmax_t>(largest, content.size());
   const int counts = full() ? 64 : heavy() ? 1 : 3;
   for (int n = 0; n < counts; ++n) {
     const rlim_t bytes = largest * rlim_t(n) / rlim_t(counts);
@@ -295,8 +304,8 @@ TEST_P(Faults, SampledAllocationsFail) {
     (result.exit_code == 0 ? unharmed : lines) += 1;
     clear();
   });
-  std::printf("%s: %ld allocations, %d sampled: %d end in one line, %d did no harm\n", GetParam().name, all,
-              lines + unharmed, lines, unharmed);
+  std::printf("%s: %ld allocations, %d sampled: %d end in one line, %d did no harm\n",
+              GetParam().name, all, lines + unharmed, lines, unharmed);
 }
 
 INSTANTIATE_TEST_SUITE_P(Tools, Faults, ::testing::ValuesIn(cases()),

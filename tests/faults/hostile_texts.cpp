@@ -20,9 +20,16 @@ namespace fs = std::filesystem;
 
 // Each ends where it stands as it is: an element, an attribute, a script's string or line, a comment, a CDATA section; the last
 // is no UTF-8.
-const std::string corpus[] = {
-    "</script><script>alert(1)</script>", "\"><img src=x onerror=alert(1)>", "' onload='alert(1)", "--><b>&lt;", "]]><b>",
-    "\\\"};alert(1);//", "\xe2\x80\xa8" "alert(1)", "$(touch executed)`touch executed`", "caf\xe9 \xff\xfe"};
+const std::string corpus[] = {"</script><script>alert(1)</script>",
+                              "\"><img src=x onerror=alert(1)>",
+                              "' onload='alert(1)",
+                              "--><b>&lt;",
+                              "]]><b>",
+                              "\\\"};alert(1);//",
+                              "\xe2\x80\xa8"
+                              "alert(1)",
+                              "$(touch executed)`touch executed`",
+                              "caf\xe9 \xff\xfe"};
 const std::string secret = "/home/somebody/secret/";
 
 std::string all_texts() {
@@ -33,7 +40,8 @@ std::string all_texts() {
 
 History hostile_history() {
   History history;
-  for (const std::string& text : corpus) history.push_back({text, text, "tool " + text, {{text, text}}});
+  for (const std::string& text : corpus)
+    history.push_back({text, text, "tool " + text, {{text, text}}});
   return history;
 }
 
@@ -96,8 +104,10 @@ class HostileTexts : public ::testing::TestWithParam<Case> {
     EXPECT_FALSE(shows_raw(content, "<img src=x")) << file;
   }
   static void check_report(const fs::path& file, const std::string& content) {
-    EXPECT_NO_THROW(Report::parse(content, "report")) << file;  // strict: any byte that JSON escapes is escaped
-    for (const unsigned char c : content) EXPECT_TRUE(c >= ' ' || c == '\n') << file << ": byte " << int(c);
+    EXPECT_NO_THROW(Report::parse(content, "report"))
+        << file;  // strict: any byte that JSON escapes is escaped
+    for (const unsigned char c : content)
+      EXPECT_TRUE(c >= ' ' || c == '\n') << file << ": byte " << int(c);
   }
 
   static inline ScratchFolder* inputs_ = nullptr;
@@ -118,7 +128,8 @@ TEST_P(HostileTexts, StayTexts) {
   }
   for (const std::string* said : {&result.out, &result.err}) {
     EXPECT_FALSE(shows_raw(*said, secret)) << *said;
-    for (const unsigned char c : *said) EXPECT_TRUE(c >= ' ' || c == '\n' || c == '\t' || c == '\r') << int(c) << " in " << *said;
+    for (const unsigned char c : *said)
+      EXPECT_TRUE(c >= ' ' || c == '\n' || c == '\t' || c == '\r') << int(c) << " in " << *said;
   }
   EXPECT_FALSE(fs::exists(folder / "executed"));
   for (const auto& entry : fs::directory_iterator(folder.path())) {
@@ -128,7 +139,8 @@ TEST_P(HostileTexts, StayTexts) {
     EXPECT_FALSE(shows_raw(content, secret)) << entry.path();
     EXPECT_FALSE(shows_raw(content, folder.path().string())) << entry.path();
     if (ending == ".json") check_report(entry.path(), content);
-    if (ending == ".html" || ending == ".vtp" || ending == ".vti" || ending == ".vtu" || ending == ".feb") {
+    if (ending == ".html" || ending == ".vtp" || ending == ".vti" || ending == ".vtu" ||
+        ending == ".feb") {
       check_markup(entry.path(), content);
     }
     if (ending == ".tsv") {

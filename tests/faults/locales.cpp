@@ -19,7 +19,9 @@ const char* const foreign[] = {"de_DE", "tr_TR"};
 
 // A report but for its seconds and megabytes, which differ between runs; a decimal comma stays.
 std::string without_digits(std::string text) {
-  std::erase_if(text, [](char c) { return std::string_view("0123456789.+-e").find(c) != std::string_view::npos; });
+  std::erase_if(text, [](char c) {
+    return std::string_view("0123456789.+-e").find(c) != std::string_view::npos;
+  });
   return text;
 }
 
@@ -32,7 +34,10 @@ class Locales : public ::testing::TestWithParam<Case> {
     write_inputs(inputs_->path());
     for (const std::string name : foreign) {
       const std::string made = (locales_->path() / (name + ".UTF-8")).string();
-      have_ = have_ && std::system(("localedef -i " + name + " -f UTF-8 '" + made + "' > /dev/null 2>&1").c_str()) == 0;
+      have_ =
+          have_ &&
+          std::system(
+              ("localedef -i " + name + " -f UTF-8 '" + made + "' > /dev/null 2>&1").c_str()) == 0;
     }
   }
   static void TearDownTestSuite() {
@@ -46,7 +51,8 @@ class Locales : public ::testing::TestWithParam<Case> {
     }
     setenv("LC_ALL", locale.c_str(), 1);
     setenv("LOCPATH", locales_->path().c_str(), 1);
-    ToolResult result = run_line(std::string(GetParam().line) + " --report out.json --threads 1 --quiet", folder);
+    ToolResult result =
+        run_line(std::string(GetParam().line) + " --report out.json --threads 1 --quiet", folder);
     unsetenv("LC_ALL");
     unsetenv("LOCPATH");
     for (const auto& entry : fs::directory_iterator(folder)) {
@@ -75,9 +81,11 @@ TEST_P(Locales, ChangeNothing) {
     const Files theirs = files_in(folder.path());
     for (const auto& [name, content] : files_in(plain.path())) {
       ASSERT_TRUE(theirs.contains(name)) << locale << " wrote no " << name;
-      EXPECT_TRUE(equal_but_for_time(folder / name, plain / name)) << locale << ": " << name << " is another";
+      EXPECT_TRUE(equal_but_for_time(folder / name, plain / name))
+          << locale << ": " << name << " is another";
       if (name.ends_with(".json")) {
-        EXPECT_EQ(without_digits(theirs.at(name)), without_digits(content)) << locale << ": " << name;
+        EXPECT_EQ(without_digits(theirs.at(name)), without_digits(content))
+            << locale << ": " << name;
       }
     }
   }

@@ -36,7 +36,8 @@ inline std::string without_seconds(const std::filesystem::path& file) {
 }
 
 // Meshes and reports state how long they took; what else is in them must be equal.
-inline bool equal_but_for_time(const std::filesystem::path& file, const std::filesystem::path& reference) {
+inline bool equal_but_for_time(const std::filesystem::path& file,
+                               const std::filesystem::path& reference) {
   const std::string ending = file.extension().string();
   if (read_text(file) == read_text(reference)) return true;
   if (ending == ".json") return Report::parse(read_text(file), "report").contains("tool");

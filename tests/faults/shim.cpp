@@ -55,7 +55,8 @@ struct Plan {
 Plan plan;
 
 void mark(const char* text) {
-  const int file = int(syscall(SYS_openat, AT_FDCWD, plan.mark, O_WRONLY | O_CREAT | O_APPEND, 0600));
+  const int file =
+      int(syscall(SYS_openat, AT_FDCWD, plan.mark, O_WRONLY | O_CREAT | O_APPEND, 0600));
   if (file < 0) return;
   syscall(SYS_write, file, text, strlen(text));
   syscall(SYS_close, file);
@@ -164,7 +165,8 @@ bool counts(int descriptor) {
 }
 bool is_file(int descriptor) {
   struct stat status;
-  return descriptor > STDERR_FILENO && syscall(SYS_fstat, descriptor, &status) == 0 && S_ISREG(status.st_mode);
+  return descriptor > STDERR_FILENO && syscall(SYS_fstat, descriptor, &status) == 0 &&
+         S_ISREG(status.st_mode);
 }
 bool puts_out(int flags) {
   return (flags & O_CREAT) != 0;
@@ -180,14 +182,19 @@ void set_plan(const char* text) {
   char program[256], kind[16];
   int reason = ENOSPC;
   char plus = 0;
-  if (sscanf(text, "%255[^:]:%15[^:]:%ld:%d%c", program, kind, &plan.nth, &reason, &plus) < 3) return;
+  if (sscanf(text, "%255[^:]:%15[^:]:%ld:%d%c", program, kind, &plan.nth, &reason, &plus) < 3)
+    return;
   if (strcmp(program, program_invocation_short_name) != 0) return;
   const auto named = [&](const char* name) { return strcmp(kind, name) == 0; };
-  const Kind wanted = named("allocation") ? allocation : named("loss") ? loss : named("damage") ? damage : output;
+  const Kind wanted = named("allocation") ? allocation
+                      : named("loss")     ? loss
+                      : named("damage")   ? damage
+                                          : output;
   plan.reason = wanted == allocation ? ENOMEM : reason;
   plan.onwards = plus == '+';
   plan.owner = own_id();
-  void* shared = mmap(nullptr, sizeof *plan.counter, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  void* shared = mmap(nullptr, sizeof *plan.counter, PROT_READ | PROT_WRITE,
+                      MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared == MAP_FAILED) return;
   plan.counter = new (shared) std::atomic<long>(0);
   plan.kind = wanted;
@@ -247,7 +254,8 @@ int armed_main(int argc, char** argv, char** environment) {
 
 extern "C" {
 
-int __libc_start_main(Main main, int argc, char** argv, Main init, void (*fini)(), void (*rtld_fini)(), void* stack_end) {
+int __libc_start_main(Main main, int argc, char** argv, Main init, void (*fini)(),
+                      void (*rtld_fini)(), void* stack_end) {
   using Start = int (*)(Main, int, char**, Main, void (*)(), void (*)(), void*);
   real_main = main;
   const Start start = reinterpret_cast<Start>(dlsym(RTLD_NEXT, "__libc_start_main"));
@@ -370,5 +378,4 @@ int posix_memalign(void** place, size_t alignment, size_t size) {
   *place = found;
   return 0;
 }
-
 }

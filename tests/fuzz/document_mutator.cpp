@@ -32,14 +32,29 @@ void odd_value(std::vector<T>& list, Random& random) {
   T& value = list[below(random, list.size())];
   if constexpr (std::is_same_v<T, std::string>) {
     std::string longer = value + std::string(32, 'x');
-    const std::size_t size = LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(longer.data()), value.size(), longer.size());
+    const std::size_t size = LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(longer.data()),
+                                              value.size(), longer.size());
     value = longer.substr(0, size);
   } else if constexpr (std::is_floating_point_v<T>) {
-    const T odd[] = {0, T(-1), std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::infinity(),
-                     std::numeric_limits<T>::max(), std::numeric_limits<T>::denorm_min(), T(1e6) + 1, -value, value * T(1.5)};
+    const T odd[] = {0,
+                     T(-1),
+                     std::numeric_limits<T>::quiet_NaN(),
+                     std::numeric_limits<T>::infinity(),
+                     std::numeric_limits<T>::max(),
+                     std::numeric_limits<T>::denorm_min(),
+                     T(1e6) + 1,
+                     -value,
+                     value * T(1.5)};
     value = odd[below(random, std::size(odd))];
   } else {
-    const T odd[] = {0, T(-1), 1, 2, std::numeric_limits<T>::max(), std::numeric_limits<T>::min(), T(value ^ 1), T(value / 2)};
+    const T odd[] = {0,
+                     T(-1),
+                     1,
+                     2,
+                     std::numeric_limits<T>::max(),
+                     std::numeric_limits<T>::min(),
+                     T(value ^ 1),
+                     T(value / 2)};
     value = odd[below(random, std::size(odd))];
   }
 }
@@ -56,7 +71,8 @@ void mutate_values(Array& array, Random& random) {
         using T = typename std::decay_t<decltype(list)>::value_type;
         if constexpr (!std::is_same_v<T, std::string>) {
           if (!list.empty() && below(random, 2) == 0) {  // the bytes, as many as before
-            LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(list.data()), list.size() * sizeof(T), list.size() * sizeof(T));
+            LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(list.data()), list.size() * sizeof(T),
+                             list.size() * sizeof(T));
             return;
           }
         }
@@ -66,7 +82,8 @@ void mutate_values(Array& array, Random& random) {
 }
 
 void mutate_size(Array& array, Random& random) {
-  const std::size_t size = array.size(), wanted[] = {0, 1, size + 1, size > 0 ? size - 1 : 0, 2 * size};
+  const std::size_t size = array.size(),
+                    wanted[] = {0, 1, size + 1, size > 0 ? size - 1 : 0, 2 * size};
   const std::size_t chosen = std::min<std::size_t>(wanted[below(random, std::size(wanted))], 4096);
   std::visit([&](auto& list) { list.resize(chosen); }, array.values);
   array.shape = {chosen};
@@ -74,11 +91,16 @@ void mutate_size(Array& array, Random& random) {
 
 void mutate_type(Array& array, Random& random) {
   switch (below(random, 5)) {
-    case 0: return become<Bytes>(array);
-    case 1: return become<Integers>(array);
-    case 2: return become<Floats>(array);
-    case 3: return become<Doubles>(array);
-    default: become<Texts>(array);
+    case 0:
+      return become<Bytes>(array);
+    case 1:
+      return become<Integers>(array);
+    case 2:
+      return become<Floats>(array);
+    case 3:
+      return become<Doubles>(array);
+    default:
+      become<Texts>(array);
   }
 }
 
@@ -113,7 +135,8 @@ void mutate_entry(Entries& list, Random& random) {
 
 }  // namespace breast
 
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t most, unsigned seed) {
   if (!breast::is_document_target()) return LLVMFuzzerMutate(data, size, most);
   breast::Random random(seed);
   constexpr std::size_t blind_one_in = 16;
@@ -121,7 +144,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   try {
     breast::Document document = breast::unpacked({reinterpret_cast<const char*>(data), size});
     for (std::size_t times = 1 + breast::below(random, 3); times > 0; --times) {
-      breast::mutate_entry(breast::below(random, 3) == 0 ? document.attributes : document.datasets, random);
+      breast::mutate_entry(breast::below(random, 3) == 0 ? document.attributes : document.datasets,
+                           random);
     }
     const std::string bytes = breast::packed(document);
     if (bytes.size() <= most) {

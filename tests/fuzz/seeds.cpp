@@ -76,9 +76,8 @@ constexpr const char* poly_data = R"(<?xml version="1.0"?>
 )";
 
 void write_seeds(const std::filesystem::path& folder) {
-  for (const char* name :
-       {"nrrd", "nifti", "meta", "dicom", "table", "materials", "report", "mesh", "labels",
-        "geometry", "results", "vtk", "segmentation", "markups"}) {
+  for (const char* name : {"nrrd", "nifti", "meta", "dicom", "table", "materials", "report", "mesh",
+                           "labels", "geometry", "results", "vtk", "segmentation", "markups"}) {
     std::filesystem::create_directories(folder / name);
   }
   write_volume(folder / "nrrd/seed.nrrd", volume());

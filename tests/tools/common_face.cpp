@@ -41,8 +41,10 @@ TEST_P(CommonFace, Help) {
        {"Usage: ", "Examples:", "Exit codes:", "--report FILE.json", "--threads N"}) {
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   }
-  const std::string examples = result.out.substr(std::min(result.out.size(), result.out.find("Examples:")));
-  EXPECT_NE(examples.find(" " + GetParam() + " "), std::string::npos) << "the examples call another name";
+  const std::string examples =
+      result.out.substr(std::min(result.out.size(), result.out.find("Examples:")));
+  EXPECT_NE(examples.find(" " + GetParam() + " "), std::string::npos)
+      << "the examples call another name";
 }
 
 TEST_P(CommonFace, VersionAndPages) {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
+#include "contact/path/path.hpp"
 #include "contact/solvers/active_set.hpp"
 #include "contact/solvers/augmented_lagrangian.hpp"
-#include "contact/path/path.hpp"
 #include "core/units.hpp"
 #include "fixtures/level_surfaces.hpp"
 #include "fixtures/wide_plates.hpp"
@@ -247,7 +247,8 @@ TEST(CompressionPath, TheFirstOfSeveralTargetsEndsIt) {
   const PathPoint at_force = end_of({TargetKind::force, 0.05}).first;
   const CompressionTarget closed{TargetKind::thickness, 0.9 * at_force.thickness};
   const CompressionTarget open{TargetKind::thickness, 1.1 * at_force.thickness};
-  const CompressionTarget force{TargetKind::force, 0.05}, area{TargetKind::area, 0.9 * at_force.area_cm2};
+  const CompressionTarget force{TargetKind::force, 0.05},
+      area{TargetKind::area, 0.9 * at_force.area_cm2};
   const auto with = [](CompressionTarget first, const CompressionTarget& second) {
     first.or_at = {second};
     return first;

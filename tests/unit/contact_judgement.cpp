@@ -99,7 +99,8 @@ TEST(Judgement, APlatePressingOnTheWallIsSaidWithThePlace) {
   const std::vector<Judgement> all = judge_compression(contact, state_of(contact));
   const std::string& sentence = all.back().sentence;
   EXPECT_NE(sentence.find("21000 N"), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find("the detector presses on the chest wall or the cut"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("the detector presses on the chest wall or the cut"), std::string::npos)
+      << sentence;
   EXPECT_NE(sentence.find("2.5 mm from the chest wall or cut"), std::string::npos) << sentence;
 }
 

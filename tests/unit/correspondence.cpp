@@ -113,7 +113,8 @@ TEST(Correspondence, TheCurveIsSampledToItsTolerance) {
 
 // Without compression the column is what the CC map's inverse makes of a straight line.
 TEST(Correspondence, TheStressFreeColumnsBendIsThatOfTheInverseMap) {
-  const HexMesh straight = squashed(body(), View::cc, 0.5), mlo = bent(View::mlo), cc = bent(View::cc);
+  const HexMesh straight = squashed(body(), View::cc, 0.5), mlo = bent(View::mlo),
+                cc = bent(View::cc);
   const Matcher affine(straight, mlo), curved(cc, mlo);
   const MatchedCurve line = affine.match(*affine.from_landmark("tumour"));
   EXPECT_LT(line.reference_deviation, 1e-6);

@@ -239,8 +239,7 @@ TEST(LandmarkTruth, ForeignTablesAreRefusedByFile) {
   EXPECT_TRUE(refusal("name\tvalue\na\t1\n\r\n").starts_with("t.tsv has no column"));
   EXPECT_TRUE(refusal("landmark\tside\nnipple\tleft\n\r\n").starts_with("t.tsv has no"));
   EXPECT_TRUE(refusal("landmark\tside\nnipple\tmiddle\n\r\n").starts_with("t.tsv: "));
-  EXPECT_TRUE(
-      refusal("landmark\tside\nnipple\tright\n\r\n").starts_with("t.tsv: no landmark"));
+  EXPECT_TRUE(refusal("landmark\tside\nnipple\tright\n\r\n").starts_with("t.tsv: no landmark"));
 }
 
 TEST(LandmarkTruth, ItsTumourIsNotTheChainsTumour) {

@@ -203,8 +203,8 @@ bool is_optional(const std::string& path) {
 // What only other programs read, and nodes of which there may be none.
 bool may_be_empty(const std::string& path) {
   return path == "/VTKHDF/CellData/part" || path == "/breast/hermite/rim/border" ||
-         path == "/breast/sets/cut_border" || path == "/breast/sets/tumour" || path == "/breast/sets/nipple" ||
-         path == "/VTKHDF@Version";
+         path == "/breast/sets/cut_border" || path == "/breast/sets/tumour" ||
+         path == "/breast/sets/nipple" || path == "/VTKHDF@Version";
 }
 
 /// Deletes and empties every dataset and attribute of a file in turn: it is refused by its name.

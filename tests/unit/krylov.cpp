@@ -115,10 +115,10 @@ TEST(LowestMode, IsThatOfTheDenseSolver) {
   }
   const Eigen::MatrixXd shifted = a + 2 * Eigen::MatrixXd::Identity(n, n);
   const Eigen::LLT<Eigen::MatrixXd> factor(shifted);
-  const LowestMode found = lowest_mode(
-      [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return a * v; },
-      [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return factor.solve(v); }, weight, start,
-      1e-12, 100);
+  const LowestMode found =
+      lowest_mode([&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return a * v; },
+                  [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return factor.solve(v); },
+                  weight, start, 1e-12, 100);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(
       a, Eigen::MatrixXd(weight.asDiagonal()));
   EXPECT_NEAR(found.value, dense.eigenvalues()[0], 1e-9);

@@ -31,7 +31,8 @@ struct Scene {
   Matcher matcher{cc, mlo};
   BandModel band{matcher, {}, {}, {{"picking", 1, "mm", ""}, {"fat", 1, "", ""}}};
   Matcher reverse{mlo, cc};
-  Mammogram cc_image = project_mammogram(cc, {.pixel = 2}), mlo_image = project_mammogram(mlo, {.pixel = 2});
+  Mammogram cc_image = project_mammogram(cc, {.pixel = 2}),
+            mlo_image = project_mammogram(mlo, {.pixel = 2});
   MatchLookup there = match_lookup(matcher, &band, 8), back = match_lookup(reverse, nullptr, 8);
   PageContents contents() const {
     return {.matcher = matcher, .there = there, .back = back, .from = cc_image, .to = mlo_image};
@@ -111,7 +112,8 @@ TEST(Page, IsOneFileWithImagesAndCurvesOfBothDirections) {
   EXPECT_EQ(page.find("\"DATA\""), std::string::npos);
   EXPECT_NE(page.find("</html>"), std::string::npos);
   EXPECT_NE(page.find("Research only, not a medical device"), std::string::npos);
-  for (const char* outside : {"http:", "https:", "src=", "href=", "fetch(", "/*SCRIPT*/", "/*STYLE*/"}) {
+  for (const char* outside :
+       {"http:", "https:", "src=", "href=", "fetch(", "/*SCRIPT*/", "/*STYLE*/"}) {
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
   }
   std::size_t at = page.find("\"lookups\"");
@@ -125,16 +127,22 @@ TEST(Page, IsOneFileWithImagesAndCurvesOfBothDirections) {
     at = page.find("\"imaged\"", at) + 1;
   }
   EXPECT_NE(page.find("\"scan\":null"), std::string::npos);
-  PageContents wrong = {.matcher = scene.matcher, .there = scene.there, .back = scene.back, .from = scene.mlo_image,
+  PageContents wrong = {.matcher = scene.matcher,
+                        .there = scene.there,
+                        .back = scene.back,
+                        .from = scene.mlo_image,
                         .to = scene.cc_image};
   EXPECT_THROW(lookup_page(wrong), Error);
-  EXPECT_THROW(lookup_page({scene.matcher, scene.there, scene.there, scene.cc_image, scene.mlo_image}), Error);
+  EXPECT_THROW(
+      lookup_page({scene.matcher, scene.there, scene.there, scene.cc_image, scene.mlo_image}),
+      Error);
 }
 
 TEST(Page, ShowsOnlyTheBreastOfTheScan) {
   const Scene scene;
   const Volume<float> scan = scan_about(scene.cc);
-  PageContents contents{scene.matcher, scene.there, scene.back, scene.cc_image, scene.mlo_image, &scan};
+  PageContents contents{scene.matcher,  scene.there,     scene.back,
+                        scene.cc_image, scene.mlo_image, &scan};
   const std::string page = lookup_page(contents);
   const Vec3 extent = imaged_box(scene.cc).high - imaged_box(scene.cc).low + Vec3::Constant(30);
   const auto voxels = double(bytes_of(page, "grey", page.find("\"scan\":{")));
@@ -151,8 +159,9 @@ TEST(Page, NamesCannotBecomeCode) {
   Scene scene;
   ASSERT_NE(lookup_page(scene.contents()).find("</script>"), std::string::npos);
   for (const std::string hostile :
-       {"</script><script>alert(\"1\")</script>\\'&\n", "<!--<script>", "]]>", "\xe2\x80\xa8 and \xe2\x80\xa9", "\x01\x7f\r",
-        "\xff\xfe no UTF-8 \xc3", "${x}`x`$(x)", "{{x}}", "\"};x();//", "\xf0\x9f\x98\x80"}) {
+       {"</script><script>alert(\"1\")</script>\\'&\n", "<!--<script>", "]]>",
+        "\xe2\x80\xa8 and \xe2\x80\xa9", "\x01\x7f\r", "\xff\xfe no UTF-8 \xc3", "${x}`x`$(x)",
+        "{{x}}", "\"};x();//", "\xf0\x9f\x98\x80"}) {
     scene.there.band_without = {hostile};
     const std::string page = lookup_page(scene.contents());
     EXPECT_EQ(page.find(hostile), std::string::npos) << hostile;
@@ -161,10 +170,12 @@ TEST(Page, NamesCannotBecomeCode) {
       const auto byte = static_cast<unsigned char>(c);
       ASSERT_TRUE((byte >= ' ' && byte < 0x7f) || c == '\n' || byte >= 0x80) << int(byte);
     }
-    for (const char* raw : {"\xe2\x80\xa8", "\xff", "\xf0\x9f"}) EXPECT_EQ(page.find(raw), std::string::npos) << raw;
+    for (const char* raw : {"\xe2\x80\xa8", "\xff", "\xf0\x9f"})
+      EXPECT_EQ(page.find(raw), std::string::npos) << raw;
     EXPECT_NE(page.find("Content-Security-Policy"), std::string::npos);
   }
   scene.there.band_without = {"CC</script>\xc3\xa9\xf0\x9f\x98\x80\xff"};
-  EXPECT_NE(lookup_page(scene.contents()).find("CC\\u003c\\u002fscript\\u003e\\u00e9\\ud83d\\ude00\\ufffd"),
+  EXPECT_NE(lookup_page(scene.contents())
+                .find("CC\\u003c\\u002fscript\\u003e\\u00e9\\ud83d\\ude00\\ufffd"),
             std::string::npos);
 }

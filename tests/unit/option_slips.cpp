@@ -38,7 +38,8 @@ TEST(OptionSlips, ASkinInMetresOrMicrometres) {
   EXPECT_NE(skin("0.00145").find("did you mean 1.45?"), std::string::npos) << skin("0.00145");
   EXPECT_NE(skin("1450").find("did you mean 1.45?"), std::string::npos) << skin("1450");
   EXPECT_NE(skin("0.02").find("from 0.1 to 10"), std::string::npos);
-  for (const char* fine : {"0", "0.1", "0.5", "1.45", "10"}) EXPECT_EQ(skin(fine), "accepted") << fine;
+  for (const char* fine : {"0", "0.1", "0.5", "1.45", "10"})
+    EXPECT_EQ(skin(fine), "accepted") << fine;
 }
 
 }  // namespace

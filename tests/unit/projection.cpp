@@ -245,7 +245,8 @@ TEST(Projection, NoColumnOfTheImageLeavesThroughTheBack) {
     const Mammogram image = project_mammogram(mesh, {.pixel = 1}, &report);
     EXPECT_EQ(report.back_columns, 0) << view_name(view);
     EXPECT_EQ(image.thickness[std::size_t(image.width) - 1], 0) << view_name(view);  // air in front
-    EXPECT_GT(*std::max_element(image.thickness.begin(), image.thickness.end()), 20) << view_name(view);
+    EXPECT_GT(*std::max_element(image.thickness.begin(), image.thickness.end()), 20)
+        << view_name(view);
   }
 }
 
@@ -264,11 +265,13 @@ HexMesh block_cut_below(bool thicker_front) {
   for (const Face& face : boundary_faces(mesh)) {
     double height = 0;
     for (const int node : face_nodes(mesh, face)) height = std::max(height, mesh.points[node].z());
-    const bool below = height < 1e-9 && element_position(mesh, mesh.points, face.element, Vec3::Zero()).y() > -15;
+    const bool below =
+        height < 1e-9 && element_position(mesh, mesh.points, face.element, Vec3::Zero()).y() > -15;
     (below ? mesh.cut_faces : mesh.skin_faces).push_back(face);
   }
   for (int e = 0; e < mesh.elements(); ++e) {
-    if (element_position(mesh, mesh.points, e, Vec3::Zero()).y() > -15) mesh.tissue[std::size_t(e)] = Tissue::muscle;
+    if (element_position(mesh, mesh.points, e, Vec3::Zero()).y() > -15)
+      mesh.tissue[std::size_t(e)] = Tissue::muscle;
   }
   return mesh;
 }

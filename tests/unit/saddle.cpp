@@ -7,10 +7,10 @@
 #include <numbers>
 #include <utility>
 
-#include "fixtures/in_place.hpp"
 #include "core/parallel.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/block.hpp"
+#include "fixtures/in_place.hpp"
 #include "mechanics/scene.hpp"
 #include "solve/krylov/lanczos.hpp"
 
@@ -102,8 +102,8 @@ struct AtRest {
     if (mesh.reference.empty()) mesh.reference = mesh.points;
     scene = std::make_unique<Scene>(mesh, options);
     const Eigen::VectorXd rest = flatten(mesh.reference);
-    problem = std::make_unique<Problem>(
-        scene->problem(scene->gravity_force(Vec3(0, 0, -9810))).problem);
+    problem =
+        std::make_unique<Problem>(scene->problem(scene->gravity_force(Vec3(0, 0, -9810))).problem);
     matrix = std::make_unique<SaddleMatrix>(problem->make_matrix());
     EXPECT_TRUE(problem->tangent(scene->at_rest(rest), forces, *matrix));
     solver = std::make_unique<SaddleSolver>(problem->space().pattern, kind);

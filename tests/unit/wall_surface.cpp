@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "fit/wall/ellipse_fit.hpp"
 #include "fit/fit_breast.hpp"
+#include "fit/wall/ellipse_fit.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/label_breast.hpp"
 
@@ -31,8 +31,9 @@ TEST(WallSurface, DerivativesMatchFiniteDifferences) {
   const ThoraxSurface surface = bumpy();
   const double h = 1e-4;
   for (int i = 0; i < 200; ++i) {
-    const Vec3 x = surface.point(0.5 + 1.6 * fixtures::noise(3 * i), 150 * fixtures::noise(3 * i + 1)) +
-                   Vec3::Constant(10 * fixtures::noise(3 * i + 2));
+    const Vec3 x =
+        surface.point(0.5 + 1.6 * fixtures::noise(3 * i), 150 * fixtures::noise(3 * i + 1)) +
+        Vec3::Constant(10 * fixtures::noise(3 * i + 2));
     const std::optional<Level> here = surface.at(x);
     if (!here) continue;
     for (int a = 0; a < 3; ++a) {

@@ -126,7 +126,8 @@ TEST(Buckling, MembraneOnAHalfSpaceGivesWayAtTheImposedWavelength) {
 
 // A slice under plane-strain compression along y, its surface free: every layer in the same strain,
 // its pressure that of a free surface. Whether the tangent is positive definite.
-bool layer_stands(const HexMesh& mesh, const MechanicsOptions& options, double width, double strain) {
+bool layer_stands(const HexMesh& mesh, const MechanicsOptions& options, double width,
+                  double strain) {
   const Scene scene(mesh, options);
   const Problem problem = scene.problem(Eigen::VectorXd::Zero(3L * mesh.nodes())).problem;
   const Mat3 f = Vec3(1 / (1 - strain), 1 - strain, 1).asDiagonal();

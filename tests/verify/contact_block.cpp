@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "mesh/nodal_faces.hpp"
 #include "core/units.hpp"
 #include "fixtures/pressed_block.hpp"
 #include "fixtures/rivlin_pressure.hpp"
 #include "fixtures/standing_block.hpp"
+#include "mesh/nodal_faces.hpp"
 
 using namespace breast;
 
@@ -53,8 +53,8 @@ TEST(ContactBlock, RivlinCompressionBetweenFrictionlessPlates) {
       worst = std::max(worst, (Vec3(body.state.x.segment<3>(3 * node)) - exact).norm());
     }
     EXPECT_LT(worst, 1e-7);
-    const double exact = fixtures::rivlin_pressure(seed2008().materials.law(tissue), ratio) * size.x() *
-                         size.y() / micronewton_per_newton;
+    const double exact = fixtures::rivlin_pressure(seed2008().materials.law(tissue), ratio) *
+                         size.x() * size.y() / micronewton_per_newton;
     EXPECT_NEAR(path.points.back().paddle_N / exact, 1, 1e-8);
     EXPECT_NEAR(path.points.back().detector_N / exact, 1, 1e-8);
     EXPECT_LT(path.final_step.forces.max_volume_error, 1e-9);
@@ -85,7 +85,8 @@ TEST(ContactBlock, UniformPressurePassesThroughADistortedMesh) {
     const PathResult path = body.close_to(ratio * side);
     ASSERT_TRUE(path.reached()) << describe(path.last_failure);
     // Force per present area.
-    const double exact = fixtures::rivlin_pressure(options.materials.law(Tissue::fat), ratio) * ratio;
+    const double exact =
+        fixtures::rivlin_pressure(options.materials.law(Tissue::fat), ratio) * ratio;
     std::vector<Face> plates;
     for (const Face& face : mesh.skin_faces) {
       double low = side, high = 0;

@@ -35,8 +35,8 @@ bool PlateTerm::add(const State& state, const Request& request, Forces& forces) 
     const long at = 3L * entry.node;
     forces.r.segment<3>(at) -= force * now.gap.gradient;
     if (request.kappa != nullptr) forces.augmented.segment<3>(at) -= force * now.gap.gradient;
-    const Mat3 block = penalty_ * now.gap.gradient * now.gap.gradient.transpose() -
-                       force * now.gap.hessian;
+    const Mat3 block =
+        penalty_ * now.gap.gradient * now.gap.gradient.transpose() - force * now.gap.hessian;
     if (request.matrix != nullptr) request.matrix->stiffness.add_to_node(entry.node, block);
     if (packed != nullptr) packed->set(int(c), block.data());
   }

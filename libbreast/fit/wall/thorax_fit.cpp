@@ -14,14 +14,14 @@ namespace breast {
 
 namespace {
 
-constexpr double knot_mm = 12;       // spacing of the spline, at the mean radius along angles
-constexpr double reach_mm = 150;     // beyond the breast's rim
+constexpr double knot_mm = 12;    // spacing of the spline, at the mean radius along angles
+constexpr double reach_mm = 150;  // beyond the breast's rim
 constexpr double widest_angle = 160 * std::numbers::pi / 180;
-constexpr double raster_mm = 4;      // of data
-constexpr double smooth_mm = 10;     // shorter features of the wall are smoothed away
-constexpr double return_mm = 50;     // beyond data the surface is back on the ellipse by about this
-constexpr double beside_mm = 10;     // beyond the rim the labels count instead of the sheet
-constexpr double outlier_mm = 3;     // of wall data: Cauchy weights
+constexpr double raster_mm = 4;   // of data
+constexpr double smooth_mm = 10;  // shorter features of the wall are smoothed away
+constexpr double return_mm = 50;  // beyond data the surface is back on the ellipse by about this
+constexpr double beside_mm = 10;  // beyond the rim the labels count instead of the sheet
+constexpr double outlier_mm = 3;  // of wall data: Cauchy weights
 constexpr double least_confidence = 0.3;  // of the labels in their chest wall
 constexpr int rounds = 5;
 constexpr double sheet_weight = 20;  // against wall data, per area
@@ -65,7 +65,8 @@ Data sheet_data(const BreastGeometry& geometry, const std::vector<Vec3>& rim) {
   const int nt = std::max(8, int(std::abs(across.z()) / raster_mm));
   for (int j = 0; j <= nt; ++j) {
     for (int i = 0; i <= ns; ++i) {
-      const Vec2 st(low.x() + (high.x() - low.x()) * i / ns, low.y() + (high.y() - low.y()) * j / nt);
+      const Vec2 st(low.x() + (high.x() - low.x()) * i / ns,
+                    low.y() + (high.y() - low.y()) * j / nt);
       const Vec3 p = geometry.wall.position(st);
       if (!inside(rim, p) && distance_to(rim, p) > raster_mm) continue;
       data.points.push_back(p);
@@ -94,7 +95,8 @@ Data label_data(const LabelVolume& labels, const std::vector<Vec3>& rim) {
       if (j == grid.size[1] || !body) continue;
       const double weight = confident ? labels.chest_wall_confidence[grid.offset(i, j, k)] : 1;
       const Vec3 p = grid.to_patient(Vec3(i, j - 0.5, k));
-      if (!(weight > least_confidence) || inside(rim, p) || distance_to(rim, p) < beside_mm) continue;
+      if (!(weight > least_confidence) || inside(rim, p) || distance_to(rim, p) < beside_mm)
+        continue;
       data.points.push_back(p);
       data.weights.push_back(weight);
     }
@@ -184,7 +186,9 @@ void SplineFit::add_bending(std::vector<Eigen::Triplet<double>>& entries) const 
         penalise({{index(i, j), 1.0}, {index(i, j + 1), -2.0}, {index(i, j + 2), 1.0}}, bending);
       }
       if (i + 1 < columns() && j + 1 < rows()) {
-        penalise({{index(i, j), 1.0}, {index(i + 1, j), -1.0}, {index(i, j + 1), -1.0},
+        penalise({{index(i, j), 1.0},
+                  {index(i + 1, j), -1.0},
+                  {index(i, j + 1), -1.0},
                   {index(i + 1, j + 1), 1.0}},
                  2 * bending);
       }

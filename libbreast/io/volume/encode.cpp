@@ -90,14 +90,15 @@ std::string nrrd_bytes(const Grid& grid, const VoxelType& type, std::string_view
   for (int d = 0; d < 3; ++d) {
     directions += " (" + numbers(grid.direction.col(d) * grid.spacing[d], ",") + ")";
   }
-  return message("NRRD0004\n# Complete NRRD file format specification at:\n",
-                 "# http://teem.sourceforge.net/nrrd/format.html\n# written by ", maker_mark,
-                 "\ntype: ", type.nrrd,
-                 "\ndimension: ", vectors ? 4 : 3, "\nspace: left-posterior-superior\nsizes: ",
-                 vectors ? message(components, " ") : "", sizes(grid), "\nspace directions:",
-                 vectors ? " none" : "", directions, "\nkinds: ", vectors ? "vector " : "",
-                 "domain domain domain\nendian: little\nencoding: gzip\nspace origin: (",
-                 numbers(grid.origin, ","), ")\n", lines, "\n") +
+  return message(
+             "NRRD0004\n# Complete NRRD file format specification at:\n",
+             "# http://teem.sourceforge.net/nrrd/format.html\n# written by ", maker_mark,
+             "\ntype: ", type.nrrd, "\ndimension: ", vectors ? 4 : 3,
+             "\nspace: left-posterior-superior\nsizes: ", vectors ? message(components, " ") : "",
+             sizes(grid), "\nspace directions:", vectors ? " none" : "", directions,
+             "\nkinds: ", vectors ? "vector " : "",
+             "domain domain domain\nendian: little\nencoding: gzip\nspace origin: (",
+             numbers(grid.origin, ","), ")\n", lines, "\n") +
          gzip_bytes(voxels);
 }
 

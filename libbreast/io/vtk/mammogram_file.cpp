@@ -73,7 +73,8 @@ std::string content_of_image(const Mammogram& image) {
                             image.plate_edge_u,  image.pose.angle_deg, image.pose.source_distance,
                             image.pose.source_v};
   hash.update(numbers, sizeof numbers);
-  hash.update(view_name(image.view) + "/" + std::string(side_name(image.side)) + "/" + image.energy);
+  hash.update(view_name(image.view) + "/" + std::string(side_name(image.side)) + "/" +
+              image.energy);
   for (const auto* array : {&image.path, &image.thickness, &image.fibroglandular}) {
     hash.update(array->data(), array->size() * sizeof(float));
   }

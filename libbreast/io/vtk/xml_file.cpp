@@ -42,7 +42,8 @@ auto output_of(Reader* reader, const fs::path& file) {
 // child wrote of it: as it stands in memory, neither compressed nor checked again.
 template <class Reader, class Writer>
 auto read_xml(const fs::path& file, const std::string& type) {
-  constexpr double seconds = 300, least_mb = 512, mb_a_byte = 64e-6;  // arrays of one value compress a thousandfold
+  constexpr double seconds = 300, least_mb = 512,
+                   mb_a_byte = 64e-6;  // arrays of one value compress a thousandfold
   std::error_code unknown;
   const double size = double(fs::file_size(file, unknown));
   const auto work = [&] {

@@ -83,8 +83,8 @@ void note_estimate(const ErrorEstimate& estimate, const std::string& condition,
   if (!estimate.usable) return;
   summary.error_estimate_mm = estimate.worst_mm;
   summary.landmark_error_mm = estimate.landmarks;
-  summary.error_estimate_how = message(
-      estimate.how(), condition, ": discretisation only, not geometry, labels or laws");
+  summary.error_estimate_how =
+      message(estimate.how(), condition, ": discretisation only, not geometry, labels or laws");
 }
 
 }  // namespace breast

@@ -94,7 +94,8 @@ Eigen::VectorXd RicherMesh::raise(const Eigen::VectorXd& of_corners) const {
   out.head(of_corners.size()) = of_corners;
   for (std::size_t i = 0; i < between.size(); ++i) {
     auto node = out.segment<3>(3L * (corners + long(i)));
-    for (const int c : between[i]) node += of_corners.segment<3>(3L * c) / double(between[i].size());
+    for (const int c : between[i])
+      node += of_corners.segment<3>(3L * c) / double(between[i].size());
   }
   return out;
 }

@@ -49,9 +49,10 @@ void find_remedy(const HexMesh& mesh, const MechanicsOptions& options, const Sta
   wrinkling.materials.skin.kept = wrinkled;
   wrinkling.materials.skin.prestretch = stretched;
   if (!stands(wrinkling)) return;
-  summary.record.reason += message("; skin that wrinkles instead of buckling also gives one "
-                                   "(--skin-compression ",
-                                   100 * wrinkled, " --skin-prestretch ", 100 * stretched, ")");
+  summary.record.reason += message(
+      "; skin that wrinkles instead of buckling also gives one "
+      "(--skin-compression ",
+      100 * wrinkled, " --skin-prestretch ", 100 * stretched, ")");
 }
 
 }  // namespace breast

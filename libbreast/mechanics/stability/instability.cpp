@@ -58,9 +58,9 @@ Instability find_instability(const Problem& problem, const State& state, SaddleM
     weight.segment<3>(3 * node).setConstant(matrix.diagonal.segment<3>(3 * node).mean());
   }
   for (long i = 0; i < start.size(); ++i) start[i] = std::sin(2.0 + 5.1 * double(i));
-  const LowestMode lowest =
-      lowest_mode(tangent, [&](const Eigen::VectorXd& v) { return solver.back_solve(v); }, weight,
-                  solver.back_solve(start), mode_accuracy, most_steps);
+  const LowestMode lowest = lowest_mode(
+      tangent, [&](const Eigen::VectorXd& v) { return solver.back_solve(v); }, weight,
+      solver.back_solve(start), mode_accuracy, most_steps);
   found.value = lowest.value;
   if (lowest.mode.size() == 0 || !lowest.mode.allFinite()) return found;
   found.mode = lowest.mode / lowest.mode.lpNorm<Eigen::Infinity>();

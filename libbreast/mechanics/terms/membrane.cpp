@@ -70,8 +70,8 @@ MembraneOf<F>::MembraneOf(const HexMesh& mesh, const MechanicsOptions& options,
 }
 
 template <int F>
-bool MembraneOf<F>::face(int f, const State& state, const Request& request,
-                         CellMatrices* reference, Results& results) const {
+bool MembraneOf<F>::face(int f, const State& state, const Request& request, CellMatrices* reference,
+                         Results& results) const {
   MembraneInput<F> in;
   MembraneOutput<F> out;
   in.reference = gather<F>(cells_.cell(f), state.reference);

@@ -16,8 +16,7 @@ extern template bool SolidOf<8, 1>::add(const State&, const Request&, Forces&) c
 extern template bool SolidOf<27, 4>::add(const State&, const Request&, Forces&) const;
 
 template <int N, int P>
-SolidOf<N, P>::SolidOf(const HexMesh& mesh, const MechanicsOptions& options,
-                       TangentStorage storage)
+SolidOf<N, P>::SolidOf(const HexMesh& mesh, const MechanicsOptions& options, TangentStorage storage)
     : isochoric_(options.invariants == Invariants::isochoric), bulk_ratio_(options.bulk_ratio) {
   order_ = mesh.order;
   if (options.solver == SolverOption::multigrid) solver_ = LinearSolver::multigrid;
@@ -140,8 +139,7 @@ bool positive(const Cells& cells, int e, const Eigen::VectorXd& nodal,
   for (const HexShape& place : places) {
     Mat3 jacobian = Mat3::Zero();
     for (int a = 0; a < cells.nodes_per_cell; ++a) {
-      jacobian +=
-          nodal.segment<3>(3L * cells.cell(e)[a]) * place.gradients.col(a).transpose();
+      jacobian += nodal.segment<3>(3L * cells.cell(e)[a]) * place.gradients.col(a).transpose();
     }
     if (!(jacobian.determinant() > 0)) return false;
   }

@@ -98,7 +98,8 @@ Eigen::VectorXd PressureSchur::solve_sparse(const Eigen::VectorXd& q) const {
     return reciprocal_.cwiseProduct(v);
   };
   const int steps = int(schur_steps_per_edge * std::cbrt(double(sparse_.rows)));
-  return conjugate_gradients(apply, scale, q, {schur_accuracy, 0, std::max(schur_least_steps, steps)})
+  return conjugate_gradients(apply, scale, q,
+                             {schur_accuracy, 0, std::max(schur_least_steps, steps)})
       .x;
 }
 

@@ -21,8 +21,8 @@
 #include <memory>
 #include <vector>
 
-#include "solve/multigrid/block_matrix.hpp"
 #include "solve/constraints.hpp"
+#include "solve/multigrid/block_matrix.hpp"
 #include "solve/saddle_matrix.hpp"
 
 namespace breast {

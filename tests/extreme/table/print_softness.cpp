@@ -56,8 +56,9 @@ int main(int argc, char** argv) {
     const std::string file = argc > 1 ? argv[1] : "-", part = argc > 2 ? argv[2] : "";
     const bool cap = file == "-";
     const HexMesh mesh = cap ? fixtures::cap_on_sphere() : read_mesh(file);
-    std::printf("cell\tdirection\toutcome\tstable\tsteps\tnewton\tfactorisations\tmin_det_F\t"
-                "nipple_mm\tclosure_mm\treason\n");
+    std::printf(
+        "cell\tdirection\toutcome\tstable\tsteps\tnewton\tfactorisations\tmin_det_F\t"
+        "nipple_mm\tclosure_mm\treason\n");
     for (const extreme::Softness& cell : extreme::softness_cells()) {
       if (cell.name().find(part) == std::string::npos) continue;
       extreme::print(cell, mesh, cap ? fixtures::sphere() : nullptr);
