@@ -167,19 +167,6 @@ Factorisation PartSaddle::factorise(const SaddleMatrix& matrix, const Constraint
   return {true, 0, 1};
 }
 
-SaddleStep PartSaddle::solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
-                             const Eigen::VectorXd& theta, double tolerance, int restarts) const {
-  Eigen::VectorXd imposed;
-  if (constraints_.any_increment()) imposed = constraints_.increments();
-  return solve_imposed(matrix, r, theta, imposed, tolerance, restarts);
-}
-
-Eigen::VectorXd PartSaddle::correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
-                                       const Eigen::VectorXd& theta, double tolerance) const {
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(imposed.size());
-  return solve_imposed(matrix, none, theta, imposed, tolerance, gmres_restarts).u;
-}
-
 SaddleStep PartSaddle::solve_imposed(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
                                      const Eigen::VectorXd& theta, const Eigen::VectorXd& imposed,
                                      double tolerance, int restarts) const {

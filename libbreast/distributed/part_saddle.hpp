@@ -31,11 +31,6 @@ class PartSaddle final : public SaddleSolverBase {
   /// positive definite.
   Factorisation factorise(const SaddleMatrix& matrix, const Constraints& constraints,
                           bool may_shift = true) override;
-  SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
-                   const Eigen::VectorXd& theta, double tolerance = 1e-6,
-                   int restarts = gmres_restarts) const override;
-  Eigen::VectorXd correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
-                             const Eigen::VectorXd& theta, double tolerance) const override;
   /// From the lowest Ritz value of conjugate gradients with the multigrid preconditioner.
   bool positive_definite() const override;
   LinearSolver kind() const override { return LinearSolver::multigrid; }
@@ -58,10 +53,9 @@ class PartSaddle final : public SaddleSolverBase {
   /// to [K, −(1−κc)Bᵀ; B, cM].
   SaddleStep solve_near(const Map& map, const Eigen::VectorXd& top, const Eigen::VectorXd& bottom,
                         double tolerance, int most, double& residual) const;
-  /// `imposed` (3 entries per node, may be empty): the increments of constrained components.
   SaddleStep solve_imposed(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
                            const Eigen::VectorXd& theta, const Eigen::VectorXd& imposed,
-                           double tolerance, int restarts) const;
+                           double tolerance, int restarts) const override;
 
   std::unique_ptr<Impl> impl_;
 };

@@ -28,7 +28,6 @@ class Problem {
   void add(std::shared_ptr<const Term> term);
   const std::vector<std::shared_ptr<const Term>>& terms() const { return terms_; }
   const Discretisation& space() const { return *space_; }
-  const std::shared_ptr<const Discretisation>& shared_space() const { return space_; }
   /// The constraints that do not depend on where the body is.
   const Constraints& constraints() const { return constraints_; }
   void set_constraints(Constraints constraints) { constraints_ = std::move(constraints); }

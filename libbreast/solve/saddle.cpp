@@ -105,20 +105,21 @@ Eigen::VectorXd SaddleSolver::schur_solve(const SaddleMatrix& matrix,
   return cholesky_ != nullptr ? matrix.space->divide(q, matrix.kappa) : schur_.solve(q);
 }
 
-SaddleStep SaddleSolver::solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
-                               const Eigen::VectorXd& theta, double tolerance, int restarts) const {
+SaddleStep SaddleSolverBase::solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
+                                   const Eigen::VectorXd& theta, double tolerance,
+                                   int restarts) const {
   Eigen::VectorXd imposed;
   if (constraints_.any_increment()) imposed = constraints_.increments();
   return solve_imposed(matrix, r, theta, imposed, tolerance, restarts);
 }
 
-Eigen::VectorXd SaddleSolver::correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
-                                         const Eigen::VectorXd& theta, double tolerance) const {
+Eigen::VectorXd SaddleSolverBase::correction(const SaddleMatrix& matrix,
+                                             const Eigen::VectorXd& imposed,
+                                             const Eigen::VectorXd& theta, double tolerance) const {
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(imposed.size());
   return solve_imposed(matrix, none, theta, imposed, tolerance, gmres_restarts).u;
 }
 
-// `imposed` may be empty if no constrained component moves.
 SaddleStep SaddleSolver::solve_imposed(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
                                        const Eigen::VectorXd& theta, const Eigen::VectorXd& imposed,
                                        double tolerance, int restarts) const {

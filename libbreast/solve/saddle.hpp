@@ -68,14 +68,14 @@ class SaddleSolverBase {
   /// multigrid, a tenth of it is that of both equations). `matrix` and the constraints must be
   /// those of the last factorise, except for the prescribed increments. GMRES gives up after
   /// `restarts` times 60 iterations.
-  virtual SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
-                           const Eigen::VectorXd& theta, double tolerance = 1e-6,
-                           int restarts = gmres_restarts) const = 0;
+  SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
+                   const Eigen::VectorXd& theta, double tolerance = 1e-6,
+                   int restarts = gmres_restarts) const;
   /// The change of positions that is smallest in the norm of K among those that move held
   /// components by `imposed` (3 per node, in the span of the constraints) and change the volumes by
   /// −theta.
-  virtual Eigen::VectorXd correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
-                                     const Eigen::VectorXd& theta, double tolerance) const = 0;
+  Eigen::VectorXd correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
+                             const Eigen::VectorXd& theta, double tolerance) const;
   /// Whether the matrix of the last factorise is positive definite: from the Cholesky
   /// factorisation, or with multigrid from the lowest eigenvalue of cycle times matrix (Lanczos).
   /// Also false if that is too close to zero to decide.
@@ -89,6 +89,12 @@ class SaddleSolverBase {
  protected:
   explicit SaddleSolverBase(int nodes) : constraints_(nodes) {}
 
+  /// `solve` with the increments of constrained components (3 per node), which may be empty if none
+  /// moves.
+  virtual SaddleStep solve_imposed(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
+                                   const Eigen::VectorXd& theta, const Eigen::VectorXd& imposed,
+                                   double tolerance, int restarts) const = 0;
+
   Constraints constraints_;  // of the last factorise
   int factorisations_ = 0;
 };
@@ -101,11 +107,6 @@ class SaddleSolver final : public SaddleSolverBase {
 
   Factorisation factorise(const SaddleMatrix& matrix, const Constraints& constraints,
                           bool may_shift = true) override;
-  SaddleStep solve(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
-                   const Eigen::VectorXd& theta, double tolerance = 1e-6,
-                   int restarts = gmres_restarts) const override;
-  Eigen::VectorXd correction(const SaddleMatrix& matrix, const Eigen::VectorXd& imposed,
-                             const Eigen::VectorXd& theta, double tolerance) const override;
   bool positive_definite() const override;
   LinearSolver kind() const override { return kind_; }
 
@@ -127,7 +128,7 @@ class SaddleSolver final : public SaddleSolverBase {
   void impose(const SaddleMatrix& matrix);
   SaddleStep solve_imposed(const SaddleMatrix& matrix, const Eigen::VectorXd& r,
                            const Eigen::VectorXd& theta, const Eigen::VectorXd& imposed,
-                           double tolerance, int restarts) const;
+                           double tolerance, int restarts) const override;
   SaddleStep solve_by_factor(const SaddleMatrix& matrix, const Eigen::VectorXd& right,
                              const Eigen::VectorXd& imposed, const Eigen::VectorXd& theta,
                              double tolerance) const;

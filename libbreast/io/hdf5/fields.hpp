@@ -31,7 +31,6 @@ class Fields {
       : document_(document), complain_(complain) {}
 
   bool has(const std::string& path) const { return document_.datasets.contains(path); }
-  bool has_attribute(const std::string& path) const { return document_.attributes.contains(path); }
   /// Whether any dataset or attribute lies under the group.
   bool has_group(const std::string& path) const;
   const Complaint& complain() const { return complain_; }
