@@ -176,7 +176,8 @@ TEST(Segment, AnyNumberOfClickedPointsIsTaken) {
   const double start = cpu_seconds();
   const LabelVolume labels = run(scan, options).labels;
   EXPECT_LT(cpu_seconds() - start, 20);  // a dense system of so many takes an hour
-  for (const double x : {60, 75, 90}) EXPECT_NEAR(wall_at(labels, x, 0), truth.wall(x, 0) - moved, 2) << x;
+  for (const double x : {60, 75, 90})
+    EXPECT_NEAR(wall_at(labels, x, 0), truth.wall(x, 0) - moved, 2) << x;
 }
 
 TEST(Segment, ASurfaceReplacesTheWallAndMayReachBeyondIt) {

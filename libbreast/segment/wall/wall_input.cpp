@@ -49,7 +49,7 @@ double plate(const Vec2& a, const Vec2& b) {
 }
 
 struct Correction {
-  Vec2 site;  ///< mm across and along the wall
+  Vec2 site;     ///< mm across and along the wall
   double depth;  ///< mm, what the wall has to move there
 };
 
@@ -61,7 +61,8 @@ std::vector<Correction> thinned(const std::vector<Correction>& all) {
   constexpr double cell = 8;  // mm
   std::map<std::array<int, 2>, std::pair<Correction, int>> cells;
   for (const Correction& one : all) {
-    const std::array<int, 2> place{int(std::floor(one.site[0] / cell)), int(std::floor(one.site[1] / cell))};
+    const std::array<int, 2> place{int(std::floor(one.site[0] / cell)),
+                                   int(std::floor(one.site[1] / cell))};
     auto& [sum, count] = cells.try_emplace(place, Correction{Vec2::Zero(), 0}, 0).first->second;
     sum.site += one.site;
     sum.depth += one.depth;
