@@ -4,7 +4,7 @@
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "identification/landmark_pairs.hpp"
-#include "identification/seen_surface.hpp"
+#include "identification/seen_skin.hpp"
 #include "identify_landmarks.hpp"
 #include "io/label_file.hpp"
 #include "io/surface_file.hpp"

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/table.hpp"
-#include "identification/chi_squared.hpp"
 
 namespace breast {
 
@@ -17,6 +16,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double named = 0.4;  // fraction of the largest weight; smaller weights are not mentioned
+
+constexpr double precision = 1e-15;  // of the distribution's series and fraction
+constexpr int most_terms = 100000;
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -41,6 +43,32 @@ std::string subject(const std::vector<std::string>& names, const VectorXd& weigh
   if (with.empty()) with.swap(against);
   if (!against.empty()) return "the ratio of " + listed(with) + " to " + listed(against);
   return listed(with) + (with.size() > 1 ? " together" : "");
+}
+
+// x^a e^-x / Γ(a)
+double weight(double a, double x) {
+  return std::exp(a * std::log(x) - x - std::lgamma(a));
+}
+
+// P(a, x) by its series, for x below a + 1.
+double lower_by_series(double a, double x) {
+  double term = 1 / a, sum = term;
+  for (int n = 1; n < most_terms && term > precision * sum; ++n) sum += term *= x / (a + n);
+  return sum * weight(a, x);
+}
+
+// Q(a, x) by Legendre's continued fraction (Lentz), for x above a + 1.
+double upper_by_fraction(double a, double x) {
+  double b = x + 1 - a, c = 1e300, d = 1 / b, value = d;
+  for (int n = 1; n < most_terms; ++n) {
+    const double an = -n * (n - a);
+    b += 2;
+    d = 1 / (an * d + b);
+    c = b + an / c;
+    value *= c * d;
+    if (std::abs(c * d - 1) < precision) break;
+  }
+  return value * weight(a, x);
 }
 
 }  // namespace
@@ -85,6 +113,12 @@ VectorXd left_out(const VectorXd& residuals, const MatrixXd& jacobian, const Mat
   const Eigen::Index count = Eigen::Index(rows.size());
   const MatrixXd rest = MatrixXd::Identity(count, count) - own * covariance * own.transpose();
   return rest.partialPivLu().solve(VectorXd(residuals(rows)));
+}
+
+double chi_squared_above(double value, double freedom) {
+  if (!(value > 0)) return 1;
+  const double a = freedom / 2, x = value / 2;
+  return x < a + 1 ? 1 - lower_by_series(a, x) : upper_by_fraction(a, x);
 }
 
 Misfit misfit_of(const VectorXd& residuals, std::size_t data) {

@@ -37,6 +37,10 @@ double decided_by_data(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd&
 Eigen::VectorXd left_out(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& jacobian,
                          const Eigen::MatrixXd& covariance, const std::vector<Eigen::Index>& rows);
 
+/// Probability that a sum of `freedom` squared standard normal deviates exceeds `value`: the upper
+/// incomplete gamma function Q(freedom/2, value/2), to 1e-12.
+double chi_squared_above(double value, double freedom);
+
 /// Test of the whole sum of squares (data and prior) against its distribution: with the right model
 /// and errors it is χ² with as many degrees of freedom as there are data.
 struct Misfit {

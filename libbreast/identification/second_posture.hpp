@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "identification/observations.hpp"
-#include "identification/skin_samples.hpp"
+#include "identification/seen_skin.hpp"
 #include "mechanics/mechanics.hpp"
 #include "sensitivity/chain.hpp"
 #include "surface/rigid_motion.hpp"

@@ -7,8 +7,8 @@
 #include "fixtures/in_place.hpp"
 #include "fixtures/seen_skin.hpp"
 #include "fixtures/sliding_cap.hpp"
-#include "identification/chi_squared.hpp"
 #include "identification/identify.hpp"
+#include "identification/knowledge.hpp"
 
 using namespace breast;
 
