@@ -105,7 +105,7 @@ double projected_cm2(const HexTopology& mesh, const std::vector<Vec3>& x, const 
   return 0.5 * both_sides / mm2_per_cm2;
 }
 
-SelfContact self_contact(const HexTopology& mesh, const std::vector<Vec3>& x) {
+SelfContact self_contact(const HexMesh& mesh, const std::vector<Vec3>& x) {
   const Locator body(mesh, x);
   SelfContact found;
   for (const Face& face : touchable_faces(mesh)) {

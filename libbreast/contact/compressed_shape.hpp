@@ -39,7 +39,7 @@ struct SelfContact {
 
 /// Self-contact of the shape `x` (one position per node, mm), at 2×2 points of every skin and cut
 /// face.
-SelfContact self_contact(const HexTopology& mesh, const std::vector<Vec3>& x);
+SelfContact self_contact(const HexMesh& mesh, const std::vector<Vec3>& x);
 
 /// Principal stretches and det F over the quadrature points of a tissue.
 struct StrainRange {
