@@ -109,9 +109,12 @@ std::string Report::text(std::string_view path) const {
 
 std::string Report::json() const {
   // Texts of other programs (DICOM in Latin-1) may be no UTF-8: their odd bytes become U+FFFD.
-  const auto dumped = [](const Json& root) { return root.dump(2, ' ', false, Json::error_handler_t::replace); };
+  const auto dumped = [](const Json& root) {
+    return root.dump(2, ' ', false, Json::error_handler_t::replace);
+  };
   const std::string text = dumped(impl_->root);
-  if (dumped(Json::parse(text, nullptr, false)) != text) throw failed_error("the report does not read back as written");
+  if (dumped(Json::parse(text, nullptr, false)) != text)
+    throw failed_error("the report does not read back as written");
   return text + "\n";
 }
 
@@ -120,7 +123,8 @@ Report Report::parse(const std::string& json, std::string_view name) {
   // Writing a value calls itself for every level: a file of brackets would use up the stack.
   constexpr int deepest = 64;
   const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
-    if (depth > deepest) throw input_error(name, ": not a JSON report: nested more than ", deepest, " deep");
+    if (depth > deepest)
+      throw input_error(name, ": not a JSON report: nested more than ", deepest, " deep");
     return true;
   };
   report.impl_->root = Json::parse(json, shallow, false);

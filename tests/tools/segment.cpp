@@ -132,7 +132,8 @@ TEST_F(SegmentFolder, ANameOfAnotherFormatGivesThatFormat) {
     const Volume<float> codes = read_volume(folder_ / name);
     ASSERT_EQ(codes.grid.size, labels.grid.size);
     EXPECT_LT((codes.grid.origin - labels.grid.origin).norm(), 1e-3) << name;
-    EXPECT_TRUE(std::equal(codes.voxels.begin(), codes.voxels.end(), labels.tissue.begin())) << name;
+    EXPECT_TRUE(std::equal(codes.voxels.begin(), codes.voxels.end(), labels.tissue.begin()))
+        << name;
   }
 }
 

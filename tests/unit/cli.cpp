@@ -111,7 +111,8 @@ TEST(Cli, UsageErrorsAreOneLineAndNothingRuns) {
 TEST(Cli, AMissingFileOfTheChainNamesItsProgram) {
   Trial trial;
   EXPECT_EQ(trial.run({"/no-such-folder/reference.vtkhdf", trial.result()}), 2);
-  EXPECT_NE(trial.err.find("reference.vtkhdf does not exist; `backward` makes it\n"), std::string::npos)
+  EXPECT_NE(trial.err.find("reference.vtkhdf does not exist; `backward` makes it\n"),
+            std::string::npos)
       << trial.err;
 }
 

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "core/error.hpp"
+#include "mesh/hex_mesh.hpp"
 #include "mesh/positivity.hpp"
 #include "mesh/shape.hpp"
 
