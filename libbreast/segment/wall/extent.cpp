@@ -74,21 +74,40 @@ Thickness thickness_before(const ChestWall& wall, const WallDomain& domain, cons
   return found;
 }
 
-/// Column (i, k) of the side with the thickest tissue.
-std::array<int, 2> thickest_column(const Thickness& thickness, const WallDomain& domain,
-                                   const TorsoFront& torso, Side side) {
-  std::array<int, 2> place{-1, -1};
+/// Greatest thickness of tissue on the side, mm.
+double thickest_tissue(const Thickness& thickness, const WallDomain& domain,
+                       const TorsoFront& torso, Side side) {
   double thickest = 0;
   for (int k = 0; k < thickness.normal.nz; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
-      if (!on_side(i, torso, side) || !(thickness.normal.at(i, k) > thickest)) continue;
-      thickest = thickness.normal.at(i, k);
+      if (on_side(i, torso, side) && thickness.normal.at(i, k) > thickest)
+        thickest = thickness.normal.at(i, k);
+    }
+  }
+  if (!(thickest > thickness.sternal + 3)) {
+    throw input_error("no breast stands out on the ", side_name(side), " side (greatest depth ",
+                      thickest, " mm, sternum ", thickness.sternal, " mm)");
+  }
+  return thickest;
+}
+
+/// The thickest of the columns (i, k) that a breast may cover. The thickest tissue of all can lie
+/// where the chest turns to the side, where none does, but not nearly all of the breast.
+std::array<int, 2> thickest_covered(const std::vector<std::uint8_t>& columns,
+                                    const HeightField& thickness, double thickest, Side side) {
+  constexpr double least_share = 0.5;
+  std::array<int, 2> place{-1, -1};
+  double covered = 0;
+  for (int k = 0; k < thickness.nz; ++k) {
+    for (int i = 0; i < thickness.nx; ++i) {
+      if (!columns[std::size_t(k) * thickness.nx + i] || !(thickness.at(i, k) > covered)) continue;
+      covered = thickness.at(i, k);
       place = {i, k};
     }
   }
-  if (place[0] < 0 || !(thickest > thickness.sternal + 3)) {
-    throw input_error("no breast stands out on the ", side_name(side), " side (greatest depth ",
-                      thickest, " mm, sternum ", thickness.sternal, " mm)");
+  if (!(covered > least_share * thickest)) {
+    throw input_error("the chest wall behind the ", side_name(side),
+                      " breast was not found: give --chest-wall");
   }
   return place;
 }
@@ -137,7 +156,7 @@ BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const 
   const HeightField& thickness = measured.column;
   BreastExtent extent;
   extent.sternal_thickness = measured.sternal;
-  const auto [thick_i, thick_k] = thickest_column(measured, domain, torso, side);
+  const double thickest = thickest_tissue(measured, domain, torso, side);
   for (const double t : thickness.depth) {
     if (t > extent.greatest_thickness) extent.greatest_thickness = t;
   }
@@ -161,10 +180,8 @@ BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const 
       extent.columns[std::size_t(k) * nx + i] = 1;
     }
   }
-  if (!extent.columns[std::size_t(thick_k) * nx + thick_i]) {
-    throw input_error("the chest wall behind the ", side_name(side),
-                      " breast was not found: give --chest-wall");
-  }
+  const auto [thick_i, thick_k] =
+      thickest_covered(extent.columns, measured.normal, thickest, side);
   end_cranially(extent.columns, thickness, grid, measured.normal.at(thick_i, thick_k), thick_k);
   tidy(extent.columns, grid, thick_i, thick_k);
   for (int k = 0; k < nz; ++k) {
