@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the working grid back to the scan's own voxels, cropped to the chosen side.
+// The working grid, and from it back to the scan's own voxels, cropped to the chosen side.
 #include <algorithm>
 #include <cmath>
 
 #include "core/elementary.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/grid/itk_filters.hpp"
+#include "segment/tissue/dark_parts.hpp"
 #include "segment/work.hpp"
 
 namespace breast {
@@ -83,6 +84,7 @@ constexpr float skin_edge = 0.3f;
 Mask fine_body(const Work& coarse, const Volume<float>& scan) {
   const Volume<float> distance = resampled(coarse.skin_distance, scan.grid);
   const Volume<float> tissue = resampled(local_tissue(coarse), scan.grid);
+  // The border of the working mask is that of its voxels.
   const double band = 1.2 * coarse.scan.grid.spacing[0];
   Mask body(scan.grid);
   for (std::size_t n = 0; n < body.voxels.size(); ++n) {
@@ -92,26 +94,54 @@ Mask fine_body(const Work& coarse, const Volume<float>& scan) {
   return largest_component(body);
 }
 
-/// Linear interpolation along x of a height field of the working grid; NaN where it has none.
+/// Places of a grid's voxels along an axis between those of another: the nearer end beyond.
+struct Between {
+  int low, high;
+  double share;  ///< of the higher
+};
+std::vector<Between> places_along(int axis, const Grid& from, const Grid& to) {
+  std::vector<Between> places;
+  const double first = from.to_index(to.origin)[axis], step = to.spacing[axis] / from.spacing[axis];
+  const int last = from.size[axis] - 1;
+  for (int n = 0; n < to.size[axis]; ++n) {
+    const double x = std::clamp(first + n * step, 0.0, double(last));
+    const int low = std::min(int(x), std::max(last - 1, 0));
+    places.push_back({low, std::min(low + 1, last), x - low});
+  }
+  return places;
+}
+
+/// Where one is not a number (at the end of the domain) the other holds.
+double mixture(double low, double high, double share) {
+  if (std::isnan(low)) return high;
+  return std::isnan(high) ? low : low + share * (high - low);
+}
+
+/// A height field of the working grid on finer columns, less `shift`; NaN where it has none.
 HeightField on_columns(const HeightField& field, const Grid& from, const Grid& to, double shift) {
   HeightField out(to.size[0], to.size[2], 0);
-  const double first = from.to_index(to.origin)[0], step = to.spacing[0] / from.spacing[0];
+  const std::vector<Between> across = places_along(0, from, to), along = places_along(2, from, to);
   for (int k = 0; k < out.nz; ++k) {
+    const Between& c = along[k];
     for (int i = 0; i < out.nx; ++i) {
-      const double x = std::clamp(first + i * step, 0.0, double(field.nx - 1));
-      const int a = std::min(int(x), std::max(field.nx - 2, 0)), b = std::min(a + 1, field.nx - 1);
-      const double left = field.at(a, k), right = field.at(b, k), w = x - a;
-      // At the end of the domain the last column holds.
-      const double value = std::isnan(left)    ? right
-                           : std::isnan(right) ? left
-                                               : left + w * (right - left);
-      out.at(i, k) = value - shift;
+      const Between& a = across[i];
+      const double below = mixture(field.at(a.low, c.low), field.at(a.high, c.low), a.share),
+                   above = mixture(field.at(a.low, c.high), field.at(a.high, c.high), a.share);
+      out.at(i, k) = mixture(below, above, c.share) - shift;
     }
   }
   return out;
 }
 
 }  // namespace
+
+Volume<float> on_working_grid(const Volume<float>& scan) {
+  const Vec3 wanted(1.6, 1.6, 2.6);  // mm
+  std::array<int, 3> factor{};
+  for (int d = 0; d < 3; ++d)
+    factor[d] = std::max(1, int(std::lround(wanted[d] / scan.grid.spacing[d])));
+  return factor == std::array{1, 1, 1} ? scan : coarsened(scan, factor);
+}
 
 void divide_by_bias(Work& work, const BiasField& bias) {
   const Volume<float> log_bias = resampled(bias.log_bias, work.scan.grid);
@@ -121,6 +151,31 @@ void divide_by_bias(Work& work, const BiasField& bias) {
     work.ratio.voxels[n] = work.body.mask.voxels[n] ? work.brightness.voxels[n] : 0;
   }
 }
+
+namespace {
+
+/// The body in front of the wall, without air that was taken for it; sets what is enclosed.
+void clear_of_air(Work& fine) {
+  const Grid& grid = fine.scan.grid;
+  Mask front(grid);
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i)
+        front.at(i, j, k) =
+            fine.body.mask.at(i, j, k) && j * grid.spacing[1] < fine.wall.depth.at(i, k);
+    }
+  }
+  DarkParts dark = dark_parts(fine.brightness, front);
+  fine.enclosed_dark = std::move(dark.enclosed);
+  if (std::none_of(dark.open.voxels.begin(), dark.open.voxels.end(), [](auto v) { return v; }))
+    return;
+  for (std::size_t n = 0; n < dark.open.voxels.size(); ++n)
+    if (dark.open.voxels[n]) fine.body.mask.voxels[n] = 0;
+  fine.body.mask = largest_component(fine.body.mask);
+  fine.skin_distance = signed_distance(fine.body.mask);
+}
+
+}  // namespace
 
 Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side) {
   Work fine;
@@ -137,12 +192,14 @@ Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side) {
       int(std::lround(grid.to_index(working.to_patient(Vec3(coarse.torso.midline, 0, 0)))[0])), 0,
       grid.size[0] - 1);
   fine.torso.one_breast = coarse.torso.one_breast;
-  fine.torso.cleft = coarse.torso.cleft;
-  for (double& depth : fine.torso.cleft) depth -= shift;
+  for (const Between& c : places_along(2, working, grid))
+    fine.torso.cleft.push_back(
+        mixture(coarse.torso.cleft[c.low], coarse.torso.cleft[c.high], c.share) - shift);
   fine.wall.depth = on_columns(coarse.wall.depth, working, grid, shift);
   fine.wall.confidence = on_columns(coarse.wall.confidence, working, grid, 0);
   fine.wall.sigma = on_columns(coarse.wall.sigma, working, grid, 0);
   fine.wall.muscle_ratio = coarse.wall.muscle_ratio;
+  clear_of_air(fine);
   fine.domain = wall_domain(fine.body.mask, fine.torso, side == Side::left);
   return fine;
 }

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "core/statistics/percentile.hpp"
+#include "core/table.hpp"
+#include "core/units.hpp"
 #include "segment/body/side.hpp"
 #include "segment/contrast.hpp"
 #include "segment/grid/filters.hpp"
@@ -16,6 +19,7 @@
 #include "segment/tissue/compact_gland.hpp"
 #include "segment/tissue/lost_edges.hpp"
 #include "segment/tissue/skin_thickness.hpp"
+#include "segment/wall/front_muscle.hpp"
 #include "segment/wall/wall_input.hpp"
 #include "segment/wall/wall_uncertainty.hpp"
 #include "segment/work.hpp"
@@ -81,32 +85,27 @@ void correct_bias(Work& work, bool again, const BiasSettings& settings, const Li
   }
 }
 
-/// The scan, halved in plane where its voxels are finer than a millimetre.
-Volume<float> working_copy(const Volume<float>& scan) {
-  const Vec3& spacing = scan.grid.spacing;
-  return spacing[0] < 1 && spacing[1] < 1 ? coarsened(scan, {2, 2, 1}) : scan;
-}
-
 /// Samples a turned body again until it lies straight, always from the scan itself: skin that a
 /// turned breast hides from the front can make the first angle half of what it should be. Returns
 /// the angle (radians).
 double stand_upright(Work& work, Volume<float>& own, const SegmentOptions& options) {
-  const Volume<float> scan = own;
+  Volume<float> scan;
   double roll = 0;
   for (int pass = 0; pass < 3; ++pass) {
     const double more = body_roll(work.body.mask);
     if (!(std::abs(more) > (pass == 0 ? least_roll : least_roll / 3))) break;
+    if (pass == 0) scan = std::move(own);
     roll += more;
     own = rolled(scan, roll, float(0.5 * work.body.air_level));
-    work.scan = working_copy(own);
+    work.scan = on_working_grid(own);
     work.body = find_body(work.scan, options.side, options.posture);
   }
   return roll;
 }
 
-void find_wall(Work& work, const SegmentOptions& options, Progress& progress, Timer& timer) {
+void find_wall(Work& work, Progress& progress, Timer& timer) {
   for (int pass = 0; pass < 2; ++pass) {
-    progress.update("chest wall", 0.2 + 0.25 * pass, pass ? "second pass" : "first pass");
+    progress.update("chest wall", 0.2 + 0.2 * pass, pass ? "second pass" : "first pass");
     {
       const Timer::Scope phase(timer, "bias");
       correct_bias(work, pass > 0, {}, [&](int i, int k) {
@@ -120,16 +119,6 @@ void find_wall(Work& work, const SegmentOptions& options, Progress& progress, Ti
   }
   const Timer::Scope phase(timer, "chest_wall");
   snap_chest_wall(work.wall, work.ratio, work.domain);
-  work.wall.sigma = wall_sigma(work.ratio, work.domain, work.wall);
-  const HeightField found = work.wall.depth;
-  if (options.wall_labels)
-    apply_wall_labels(work.wall, work.domain, work.scan.grid, *options.wall_labels);
-  if (!options.wall_points.empty()) {
-    const auto apply = options.wall_points_of_surface ? apply_wall_surface : apply_wall_points;
-    apply(work.wall, work.domain, work.scan.grid, options.wall_points);
-  }
-  hand_set_sigma(work.wall, found);
-  if (options.wall_shift != 0) shift_wall(work.wall, work.domain, options.wall_shift);
 }
 
 /// The final bias of the working grid, from the fat in front of the wall.
@@ -141,6 +130,24 @@ void refine_bias(Work& work, const MisleadingGland* gland = nullptr) {
                                                     : work.wall.depth.at(i, k) - wall_clearance;
       },
       gland);
+}
+
+bool corrected_by_hand(const SegmentOptions& options) {
+  return options.wall_labels || !options.wall_points.empty();
+}
+
+/// The wall's uncertainty, and what the user says of it.
+void correct_wall(Work& work, const SegmentOptions& options) {
+  work.wall.sigma = wall_sigma(work.ratio, work.domain, work.wall);
+  const HeightField found = work.wall.depth;
+  if (options.wall_labels)
+    apply_wall_labels(work.wall, work.domain, work.scan.grid, *options.wall_labels);
+  if (!options.wall_points.empty()) {
+    const auto apply = options.wall_points_of_surface ? apply_wall_surface : apply_wall_points;
+    apply(work.wall, work.domain, work.scan.grid, options.wall_points);
+  }
+  hand_set_sigma(work.wall, found);
+  if (options.wall_shift != 0) shift_wall(work.wall, work.domain, options.wall_shift);
 }
 
 void summarise(Segmentation& result, const Work& work) {
@@ -169,6 +176,14 @@ void summarise(Segmentation& result, const Work& work) {
   result.wall_confident_percent = count > 0 ? 100 * sure / count : 0;
   result.wall_sigma_mean = count > 0 ? sigma / count : 0;
   result.wall_sigma_p95 = percentile(std::move(sigmas), 0.95, result.wall_sigma_p95);
+}
+
+/// Volume (ml) within the breast that is darker than any of its tissues.
+double enclosed_dark_ml(const Work& work) {
+  double count = 0;
+  for (std::size_t n = 0; n < work.breast.voxels.size(); ++n)
+    count += work.breast.voxels[n] && work.enclosed_dark.voxels[n];
+  return count * work.scan.grid.voxel_volume() / mm3_per_ml;
 }
 
 /// What a reader of the result should look at, but for its extent.
@@ -201,6 +216,12 @@ void find_doubts(Segmentation& result, const Work& work) {
         "only one breast is in the field of view: the midline was placed at the deepest skin "
         "medial of it, at x = ",
         std::lround(result.midline_mm), " mm; check the sternal border"));
+  }
+  if (const double dark = enclosed_dark_ml(work); dark > 0) {
+    result.doubts.push_back(
+        message(format_fixed(dark, 1),
+                " ml within the breast are darker than a tenth of its fat (a clip, a vessel, a "
+                "cyst): they are labelled as the tissue that their brightness suggests"));
   }
   if (result.beside_ml > 150) {
     result.doubts.push_back(message(std::lround(result.beside_ml),
@@ -326,9 +347,8 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   {
     const Timer::Scope phase(timer, "body");
     progress.update("body", 0, "");
-    work.scan = in_patient_order(scan);
-    own = work.scan;
-    work.scan = working_copy(own);
+    own = in_patient_order(scan);
+    work.scan = on_working_grid(own);
     work.body = find_body(work.scan, options.side, options.posture);
     result.roll_degrees = stand_upright(work, own, options) * 180 / std::numbers::pi;
     result.debris_ml = work.body.debris_ml;
@@ -339,9 +359,15 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
     refuse_other_side(work.torso, work.scan.grid, options.side);
     result.contrast = contrast_below_skin(work, supine ? spread_behind : 0);
   }
-  find_wall(work, options, progress, timer);
+  find_wall(work, progress, timer);
+  progress.update("chest wall", 0.5, "muscle on it");
   {
     const Timer::Scope phase(timer, "bias");
+    if (!corrected_by_hand(options)) {
+      refine_bias(work);
+      include_front_muscle(work.wall, work.ratio, work.domain);
+    }
+    correct_wall(work, options);
     refine_bias(work);
     result.bias_cv_before = work.bias.fat_cv_before;
     result.bias_cv_after = work.bias.fat_cv_after;
@@ -351,9 +377,10 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
     judge_contrast(result, options);
   }
   const Timer::Scope phase(timer, "tissue");
-  progress.update("tissue", 0.8, "");
+  progress.update("tissue", 0.6, "");
   Work coarse = std::move(work);
   work = on_scan_grid(coarse, own, options.side);
+  own = {};
   work.extent = find_extent(work.wall, work.domain, work.torso, work.skin_distance, options.side,
                             options.posture);
   work.breast = breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent,
@@ -388,7 +415,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   summarise(result, work);
   find_doubts(result, work);
   doubt_extent(result, extents_of(work, nipple.tip, options.side), options);
-  if (!options.wall_labels && options.wall_points.empty()) refuse_without_wall(result);
+  if (!corrected_by_hand(options)) refuse_without_wall(result);
   return result;
 }
 

@@ -22,9 +22,14 @@ struct Work {
   BiasField bias;
   BreastExtent extent;
   Mask breast;
+  Mask enclosed_dark;  ///< as in DarkParts, in front of the wall
   Fibroglandular gland;
   double skin = 0;
 };
+
+/// The scan in voxels of about 1.6 mm in plane and 2.6 mm along the body, where its own are finer:
+/// body, wall and bias are smooth on that scale, and need no more whatever the scan has.
+Volume<float> on_working_grid(const Volume<float>& scan);
 
 /// The chosen side of the original scan with everything found so far, for the final labels: if the
 /// working grid was coarser, the border of the body is determined again on the finer voxels.

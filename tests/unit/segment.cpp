@@ -264,45 +264,65 @@ TEST(Segment, ScansWithoutABreastAreRefusedInOneLine) {
   EXPECT_NE(refusal(noise), "");
 }
 
-/// Exact answer on a single row by dynamic programming.
-double chain_optimum(const SurfaceProblem& problem) {
-  std::vector<double> best(problem.levels), next(problem.levels);
-  for (int d = 0; d < problem.levels; ++d) best[d] = problem.cost[d];
+/// Exact answer on a single row by dynamic programming; a level outside a column's range is
+/// infinitely expensive.
+double chain_optimum(const SurfaceProblem& problem, int levels) {
+  const double never = std::numeric_limits<double>::infinity();
+  const auto cost = [&](int column, int d) -> double {
+    const int n = d - problem.top[column];
+    return n < 0 || n >= problem.levels(column) ? never : problem.cost[problem.first[column] + n];
+  };
+  std::vector<double> best(levels), next(levels);
+  for (int d = 0; d < levels; ++d) best[d] = cost(0, d);
   for (int i = 1; i < problem.nx; ++i) {
-    for (int d = 0; d < problem.levels; ++d) {
-      next[d] = std::numeric_limits<double>::infinity();
-      for (int e = 0; e < problem.levels; ++e) {
+    for (int d = 0; d < levels; ++d) {
+      next[d] = never;
+      for (int e = 0; e < levels; ++e) {
         if (std::abs(d - e) > problem.max_step_x) continue;
-        next[d] = std::min(next[d], best[e] + problem.step_cost * std::abs(d - e));
+        next[d] = std::min(next[d], best[e] + problem.step_cost_x * std::abs(d - e));
       }
-      next[d] += problem.cost[std::size_t(i) * problem.levels + d];
+      next[d] += cost(i, d);
     }
     best = next;
   }
   return *std::min_element(best.begin(), best.end());
 }
 
-TEST(MinCut, EqualsDynamicProgrammingOnARow) {
+// `wander` is by how much the range of levels moves from column to column at most.
+void expect_optimum_on_a_row(int range, int wander) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> uniform(-1, 1);
-  for (const int levels : {2, 3, 9}) {
-    SurfaceProblem problem;
-    problem.nx = 40;
-    problem.nz = 1;
-    problem.levels = levels;
-    problem.max_step_x = 2;
-    problem.step_cost = 0.2;
-    for (int n = 0; n < problem.nx * levels; ++n) problem.cost.push_back(uniform(random));
-    const std::vector<int> surface = optimal_surface(problem);
-    double cost = 0;
-    for (int i = 0; i < problem.nx; ++i) {
-      cost += problem.cost[std::size_t(i) * levels + surface[i]];
-      if (i == 0) continue;
-      ASSERT_LE(std::abs(surface[i] - surface[i - 1]), problem.max_step_x);
-      cost += problem.step_cost * std::abs(surface[i] - surface[i - 1]);
-    }
-    EXPECT_NEAR(cost, chain_optimum(problem), 1e-5) << levels;
+  SurfaceProblem problem;
+  problem.nx = 40;
+  problem.nz = 1;
+  problem.max_step_x = 2;
+  problem.step_cost_x = 0.2;
+  problem.first = {0};
+  for (int i = 0; i < problem.nx; ++i) {
+    const int before = i > 0 ? problem.top.back() : 20, move = int(random() % (2 * wander + 1));
+    problem.top.push_back(std::max(0, before + move - wander));
+    for (int n = 0; n < range; ++n) problem.cost.push_back(uniform(random));
+    problem.first.push_back(problem.cost.size());
   }
+  const std::vector<int> surface = optimal_surface(problem);
+  double cost = 0;
+  for (int i = 0; i < problem.nx; ++i) {
+    ASSERT_GE(surface[i], problem.top[i]);
+    ASSERT_LT(surface[i], problem.top[i] + range);
+    cost += problem.cost[problem.first[i] + surface[i] - problem.top[i]];
+    if (i == 0) continue;
+    ASSERT_LE(std::abs(surface[i] - surface[i - 1]), problem.max_step_x);
+    cost += problem.step_cost_x * std::abs(surface[i] - surface[i - 1]);
+  }
+  EXPECT_NEAR(cost, chain_optimum(problem, 120), 1e-5) << range << " " << wander;
+}
+
+TEST(MinCut, EqualsDynamicProgrammingOnARow) {
+  for (const int range : {1, 2, 3, 9}) expect_optimum_on_a_row(range, 0);
+}
+
+TEST(MinCut, EveryColumnHasARangeOfItsOwn) {
+  for (const int range : {2, 3, 9}) expect_optimum_on_a_row(range, 2);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "segment/grid/otsu.hpp"
 #include "segment/segment.hpp"
 #include "segment/tissue/compact_gland.hpp"
+#include "segment/tissue/dark_parts.hpp"
 #include "segment/tissue/lost_edges.hpp"
 #include "segment/tissue/nipple.hpp"
 #include "segment/tissue/skin_thickness.hpp"
@@ -137,8 +138,51 @@ TEST(Debris, DimGhostBesideTheBodyGoes) {
   Volume<float> scan(grid);
   for (std::size_t n = 0; n < scan.voxels.size(); ++n)
     scan.voxels[n] = clean.voxels[n] ? 1000.f : body.voxels[n] ? 80.f : 5.f;
-  remove_ghosts(body, scan);
+  remove_ghosts(body, scan, 0);
   EXPECT_EQ(body.voxels, clean.voxels);
+}
+
+// Haze over a shoulder has no tissue within 15 mm to be dim beside.
+TEST(Debris, HazeOfFreeAirInFrontGoes) {
+  Grid grid = fine_grid();
+  grid.size[1] *= 2;
+  const Vec3 middle = grid.to_patient(0.5 * Vec3(grid.size[0], 1.5 * grid.size[1], grid.size[2]));
+  const Mask clean = ball(grid, middle, 25);
+  Mask body = clean;
+  add_ball(body, middle - Vec3(0, 60, 0), 12);
+  Volume<float> scan(grid);
+  for (std::size_t n = 0; n < scan.voxels.size(); ++n)
+    scan.voxels[n] = clean.voxels[n] ? 1000.f : body.voxels[n] ? 45.f : 5.f;
+  Mask kept = body;
+  remove_ghosts(kept, scan, 0);
+  EXPECT_EQ(kept.voxels, body.voxels);
+  remove_ghosts(body, scan, grid.size[1] * grid.spacing[1]);
+  EXPECT_EQ(body.voxels, clean.voxels);
+}
+
+TEST(DarkParts, AreAirWhereOpenAndAClipWhereEnclosed) {
+  const Grid grid = fine_grid();
+  const Mask body = ball(grid, Vec3::Zero(), 30);
+  Mask clip(grid), air(grid);
+  add_ball(clip, Vec3(5, 0, 0), 6);
+  add_ball(air, Vec3(0, -30, 0), 10);
+  Volume<float> brightness(grid);
+  for (std::size_t n = 0; n < brightness.voxels.size(); ++n) {
+    const bool dark = clip.voxels[n] || air.voxels[n] || n % 97 == 0;  // noise is in single voxels
+    brightness.voxels[n] = dark ? 0.05f : 1.f;
+  }
+  const DarkParts dark = dark_parts(brightness, body);
+  const auto share_found = [&](const Mask& found, const Mask& made) {
+    double both = 0, all = 0;
+    for (std::size_t n = 0; n < made.voxels.size(); ++n) {
+      both += made.voxels[n] && body.voxels[n] && found.voxels[n];
+      all += made.voxels[n] && body.voxels[n];
+    }
+    return both / all;
+  };
+  EXPECT_EQ(share_found(dark.enclosed, clip), 1);
+  EXPECT_EQ(share_found(dark.open, air), 1);
+  EXPECT_EQ(share_found(dark.enclosed, air), 0);
 }
 
 /// A cube of fat under a coil's sensitivity, fivefold in 80 mm, times `brightness(p)`.

@@ -211,7 +211,8 @@ Found body_above(const Volume<float>& scan, double threshold, double from, Side 
   found.beside_ml = second_component_ml(mask);
   mask = largest_component(mask);
   close_and_fill(mask);
-  remove_ghosts(mask, scan);
+  // Haze over the midline of some slices does not move the middle of all.
+  remove_ghosts(mask, scan, median(find_torso(mask, side).cleft));
   mask = largest_component(mask);
   const TorsoFront torso = find_torso(mask, side);
   fill_chest(mask, torso, from);

@@ -87,17 +87,24 @@ double remove_debris(Mask& body, int midline) {
   return taken * grid.voxel_volume() / mm3_per_ml;
 }
 
-void remove_ghosts(Mask& body, const Volume<float>& scan) {
-  constexpr double deepest = 25, neighbourhood = 15, smoothing = 1.5;  // mm
-  constexpr float dim = 0.15f;
+void remove_ghosts(Mask& body, const Volume<float>& scan, double front) {
+  constexpr double deepest = 25, neighbourhood = 15, wide_neighbourhood = 60,
+                   smoothing = 1.5;  // mm
+  constexpr float dim = 0.15f, haze = 0.07f;
   const Grid& grid = body.grid;
   Volume<float> tissue(grid);
   for (std::size_t n = 0; n < tissue.voxels.size(); ++n)
     tissue.voxels[n] = body.voxels[n] ? scan.voxels[n] : 0;
   const Volume<float> brightest = box_maximum(gaussian(tissue, smoothing), neighbourhood);
+  const Volume<float> brightest_around =
+      resampled(box_maximum(coarsened(brightest, {4, 4, 2}), wide_neighbourhood), grid);
   Mask ghost(grid);
-  for (std::size_t n = 0; n < ghost.voxels.size(); ++n)
-    ghost.voxels[n] = body.voxels[n] && scan.voxels[n] < dim * brightest.voxels[n];
+  for (std::size_t n = 0; n < ghost.voxels.size(); ++n) {
+    const double depth = double(n / grid.size[0] % grid.size[1]) * grid.spacing[1];
+    ghost.voxels[n] =
+        body.voxels[n] && (scan.voxels[n] < dim * brightest.voxels[n] ||
+                           (depth < front && scan.voxels[n] < haze * brightest_around.voxels[n]));
+  }
   // From the air inwards, a voxel of the axial slice at a time.
   std::vector<std::size_t> peeled;
   for (double depth = 0; depth < deepest; depth += grid.spacing[0]) {

@@ -43,36 +43,68 @@ Levels search_levels(const WallDomain& domain, const Grid& grid) {
   return levels;
 }
 
-/// Cut on every second column; between them linear.
+/// Those of `all` within `band_reach` of a surface found before.
+Levels near_surface(const Levels& all, double depth, double spacing) {
+  constexpr double band_reach = 25;  // mm
+  const int middle =
+                std::clamp(int(std::lround(depth / spacing)), all.first, all.first + all.count - 1),
+            reach = int(band_reach / spacing);
+  Levels near;
+  near.first = std::max(all.first, middle - reach);
+  near.count = std::min(all.first + all.count - 1, middle + reach) - near.first + 1;
+  return near;
+}
+
+/// The smoothness of the surface is that of an area integral of its slope: the same whatever the
+/// distance of columns and slices.
+void set_smoothness(SurfaceProblem& problem, double across, double along, double level) {
+  constexpr double slope_cost_x = 0.08, slope_cost_z = 0.06;
+  constexpr double steepest_x = 2, steepest_z = 1.25;
+  problem.step_cost_x = slope_cost_x * level / across;
+  problem.step_cost_z = slope_cost_z * level / along;
+  problem.max_step_x = std::max(2, int(steepest_x * across / level));
+  problem.max_step_z = std::max(2, int(steepest_z * along / level));
+}
+
+/// Cut on columns about 3.3 mm apart; between them linear. `before` (may be null) is a surface from
+/// which this one is not far.
 HeightField cut_surface(const Volume<float>& ratio, const WallDomain& domain,
-                        const HeightField* prior, double muscle) {
-  const Levels levels = search_levels(domain, ratio.grid);
-  const int stride = std::max(1, int(std::lround(3.3 / ratio.grid.spacing[0])));
+                        const HeightField* prior, double muscle, const HeightField* before) {
+  const Grid& grid = ratio.grid;
+  const Levels all = search_levels(domain, grid);
+  const int stride = std::max(1, int(std::lround(3.3 / grid.spacing[0])));
   SurfaceProblem problem;
   problem.nx = (domain.last - domain.first) / stride + 1;
-  problem.nz = ratio.grid.size[2];
-  problem.levels = levels.count;
-  problem.cost.resize(std::size_t(problem.nx) * problem.nz * problem.levels);
-  // Hard limit: a slope of 2 across, 1.25 along the body.
-  problem.max_step_x =
-      std::max(2, int(2.0 * stride * ratio.grid.spacing[0] / ratio.grid.spacing[1]));
-  problem.max_step_z = std::max(2, int(1.25 * ratio.grid.spacing[2] / ratio.grid.spacing[1]));
+  problem.nz = grid.size[2];
+  set_smoothness(problem, stride * grid.spacing[0], grid.spacing[2], grid.spacing[1]);
+  std::vector<Levels> levels;
+  problem.first = {0};
+  for (int k = 0; k < problem.nz; ++k) {
+    for (int c = 0; c < problem.nx; ++c) {
+      const int i = domain.from_medial(c * stride);
+      levels.push_back(before ? near_surface(all, before->at(i, k), grid.spacing[1]) : all);
+      problem.top.push_back(levels.back().first);
+      problem.first.push_back(problem.first.back() + std::size_t(levels.back().count));
+    }
+  }
+  problem.cost.resize(problem.first.back());
 #pragma omp parallel for
   for (int k = 0; k < problem.nz; ++k) {
     for (int c = 0; c < problem.nx; ++c) {
-      column_cost(ratio, domain, prior, muscle, levels, domain.first + c * stride, k,
-                  &problem.cost[(std::size_t(k) * problem.nx + c) * problem.levels]);
+      const int column = k * problem.nx + c;
+      column_cost(ratio, domain, prior, muscle, levels[column], domain.from_medial(c * stride), k,
+                  &problem.cost[problem.first[column]]);
     }
   }
   const std::vector<int> surface = optimal_surface(problem);
-  HeightField depth(ratio.grid.size[0], problem.nz, no_depth);
+  HeightField depth(grid.size[0], problem.nz, no_depth);
   for (int k = 0; k < problem.nz; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
-      const double x = double(i - domain.first) / stride;
+      const double x = double(domain.to_medial(i)) / stride;
       const int a = std::min(int(x), problem.nx - 1), b = std::min(a + 1, problem.nx - 1);
       const int row = k * problem.nx;
       const double level = surface[row + a] + (x - a) * (surface[row + b] - surface[row + a]);
-      depth.at(i, k) = (levels.first + level - 0.5) * ratio.grid.spacing[1];
+      depth.at(i, k) = (level - 0.5) * grid.spacing[1];
     }
   }
   return depth;
@@ -102,6 +134,7 @@ HeightField confidence_of(const Volume<float>& ratio, const WallDomain& domain,
 
 WallDomain wall_domain(const Mask& body, const TorsoFront& torso, bool left) {
   WallDomain domain;
+  domain.left = left;
   const Grid& grid = body.grid;
   const int across = int(25 / grid.spacing[0]);
   domain.first = left ? std::max(0, torso.midline - across) : 0;
@@ -147,8 +180,12 @@ ChestWall find_chest_wall(const Volume<float>& ratio, const WallDomain& domain,
   wall.muscle_ratio = start ? start->muscle_ratio : 0.35;
   std::optional<HeightField> prior;
   if (start) prior = legendre_surface(start->depth, start->confidence, domain);
+  std::optional<HeightField> before;
+  if (start) before = start->depth;
   for (int round = 0; round < 3; ++round) {
-    wall.depth = cut_surface(ratio, domain, prior ? &*prior : nullptr, wall.muscle_ratio);
+    wall.depth = cut_surface(ratio, domain, prior ? &*prior : nullptr, wall.muscle_ratio,
+                             before ? &*before : nullptr);
+    before = wall.depth;
     wall.muscle_ratio = muscle_behind(ratio, domain, wall.depth);
     wall.confidence = confidence_of(ratio, domain, wall.depth, wall.muscle_ratio);
     prior = legendre_surface(wall.depth, wall.confidence, domain);

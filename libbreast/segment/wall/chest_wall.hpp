@@ -15,6 +15,12 @@ struct WallDomain {
   std::vector<double> nearest;  ///< smallest depth of the wall, mm, per slice
   HeightField deepest;          ///< largest depth of the wall, mm, per column
   HeightField skin;             ///< skin in front of the wall, mm; NaN outside the body
+  bool left = true;             ///< the left breast: its medial end is the first column
+
+  /// Column `n` from the medial end, and back. Counted from there, a mirror image has the same
+  /// columns.
+  int from_medial(int n) const { return left ? first + n : last - n; }
+  int to_medial(int i) const { return left ? i - first : last - i; }
 };
 WallDomain wall_domain(const Mask& body, const TorsoFront& torso, bool left);
 

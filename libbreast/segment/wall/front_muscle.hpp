@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Muscle with fat in it that lies on the chest wall: serratus anterior and the border of pectoralis
+// major and latissimus dorsi.
+#pragma once
+
+#include "segment/wall/chest_wall.hpp"
+
+namespace breast {
+
+/// Moves the wall to the front of muscle that lies on it. The strongest edge behind a breast is that
+/// of ribs and intercostal muscle. Muscle in front of it has fat between its strands: it is darker
+/// than the fat of the breast but brighter than what lies behind it, and its brightness is that of
+/// fibroglandular tissue. It is told from that by where it lies: in a layer at most 25 mm thick that
+/// touches the wall and runs on to the side beyond the breast, to the end of the body or of the
+/// field of view. The layer is the least cost of darkness of the tissue in it and of steps of its
+/// thickness from column to column (minimum cut). `ratio` is intensity / bias. Returns the volume
+/// that was moved behind the wall, ml.
+double include_front_muscle(ChestWall& wall, const Volume<float>& ratio, const WallDomain& domain);
+
+}  // namespace breast

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Muscle on the chest wall that is brighter than that behind it.
+#include "segment/wall/front_muscle.hpp"
+
+#include <gtest/gtest.h>
+
+#include "segment/work.hpp"
+
+namespace breast {
+namespace {
+
+// A flat wall at 90 mm under 70 mm of fat, over 150 mm from the midline to the left.
+struct FlatWall {
+  Volume<float> ratio;
+  WallDomain domain;
+  ChestWall wall;
+  static constexpr double depth = 90, skin = 20;
+
+  FlatWall() {
+    Grid grid;
+    grid.size = {100, 80, 30};
+    grid.spacing = Vec3(1.5, 1.5, 3);
+    ratio = Volume<float>(grid, 1.0f);
+    domain.first = 0;
+    domain.last = grid.size[0] - 1;
+    domain.nearest.assign(std::size_t(grid.size[2]), 0);
+    domain.deepest = HeightField(grid.size[0], grid.size[2], 110);
+    domain.skin = HeightField(grid.size[0], grid.size[2], skin);
+    wall.depth = HeightField(grid.size[0], grid.size[2], depth);
+    wall.confidence = HeightField(grid.size[0], grid.size[2], 1);
+    wall.muscle_ratio = 0.3;
+    fill(0, 1000, depth, 1000, 0.3f);
+  }
+  /// Between two places across (mm) and two depths.
+  void fill(double from, double to, double front, double back, float value) {
+    const Grid& grid = ratio.grid;
+    for (int k = 0; k < grid.size[2]; ++k)
+      for (int j = 0; j < grid.size[1]; ++j)
+        for (int i = 0; i < grid.size[0]; ++i) {
+          const double x = i * grid.spacing[0], y = j * grid.spacing[1];
+          if (x >= from && x < to && y >= front && y < back) ratio.at(i, j, k) = value;
+        }
+  }
+  double depth_at(double x) const { return wall.depth.at(int(x / 1.5), 15); }
+};
+
+TEST(FrontMuscle, LayerThatRunsToTheSideIsBehindTheWall) {
+  FlatWall flat;
+  flat.fill(90, 1000, 78, FlatWall::depth, 0.65f);
+  const double moved = include_front_muscle(flat.wall, flat.ratio, flat.domain);
+  EXPECT_NEAR(flat.depth_at(120), 78, 1.6);
+  EXPECT_NEAR(flat.depth_at(145), 78, 1.6);
+  EXPECT_NEAR(flat.depth_at(60), FlatWall::depth, 0.1);
+  EXPECT_NEAR(moved, 60 * 12 * 90 / 1000., 8);
+}
+
+TEST(FrontMuscle, GlandOnTheWallStaysBeforeIt) {
+  FlatWall flat;
+  flat.fill(30, 80, 78, FlatWall::depth, 0.5f);
+  EXPECT_EQ(include_front_muscle(flat.wall, flat.ratio, flat.domain), 0);
+  EXPECT_NEAR(flat.depth_at(50), FlatWall::depth, 0.1);
+}
+
+TEST(FrontMuscle, GlandClearOfTheWallStaysBeforeIt) {
+  FlatWall flat;
+  flat.fill(90, 1000, 50, 76, 0.5f);
+  include_front_muscle(flat.wall, flat.ratio, flat.domain);
+  EXPECT_NEAR(flat.depth_at(120), FlatWall::depth, 0.1);
+}
+
+TEST(FrontMuscle, TheOtherSideMirrorsIt) {
+  FlatWall flat;
+  flat.fill(0, 60, 78, FlatWall::depth, 0.65f);
+  flat.domain.left = false;
+  include_front_muscle(flat.wall, flat.ratio, flat.domain);
+  EXPECT_NEAR(flat.depth_at(30), 78, 1.6);
+  EXPECT_NEAR(flat.depth_at(90), FlatWall::depth, 0.1);
+}
+
+TEST(WorkingGrid, IsAsCoarseAsItsTaskAllowsWhateverTheScan) {
+  Grid fine;
+  fine.size = {64, 64, 40};
+  fine.spacing = Vec3(0.47, 0.82, 0.9);
+  const Grid working = on_working_grid(Volume<float>(fine)).grid;
+  EXPECT_NEAR(working.spacing[0], 1.41, 1e-9);
+  EXPECT_NEAR(working.spacing[1], 1.64, 1e-9);
+  EXPECT_NEAR(working.spacing[2], 2.7, 1e-9);
+  Grid coarse = fine;
+  coarse.spacing = Vec3(1.33, 1.33, 4);
+  EXPECT_EQ(on_working_grid(Volume<float>(coarse)).grid.size, coarse.size);
+}
+
+}  // namespace
+}  // namespace breast
