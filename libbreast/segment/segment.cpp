@@ -365,7 +365,9 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
     const Timer::Scope phase(timer, "bias");
     if (!corrected_by_hand(options)) {
       refine_bias(work);
-      include_front_muscle(work.wall, work.ratio, work.domain);
+      include_front_muscle(work.wall, work.ratio, work.domain,
+                           find_extent(work.wall, work.domain, work.torso, work.skin_distance,
+                                       options.side, options.posture));
     }
     correct_wall(work, options);
     refine_bias(work);

@@ -14,6 +14,7 @@ struct FlatWall {
   Volume<float> ratio;
   WallDomain domain;
   ChestWall wall;
+  BreastExtent extent;
   static constexpr double depth = 90, skin = 20;
 
   FlatWall() {
@@ -29,6 +30,8 @@ struct FlatWall {
     wall.depth = HeightField(grid.size[0], grid.size[2], depth);
     wall.confidence = HeightField(grid.size[0], grid.size[2], 1);
     wall.muscle_ratio = 0.3;
+    extent.columns.assign(std::size_t(grid.size[0]) * grid.size[2], 0);
+    for (int k = 5; k < 25; ++k) extent.columns[std::size_t(k) * grid.size[0] + 50] = 1;
     fill(0, 1000, depth, 1000, 0.3f);
   }
   /// Between two places across (mm) and two depths.
@@ -41,30 +44,39 @@ struct FlatWall {
           if (x >= from && x < to && y >= front && y < back) ratio.at(i, j, k) = value;
         }
   }
-  double depth_at(double x) const { return wall.depth.at(int(x / 1.5), 15); }
+  double depth_at(double x, int slice = 15) const { return wall.depth.at(int(x / 1.5), slice); }
 };
 
 TEST(FrontMuscle, LayerThatRunsToTheSideIsBehindTheWall) {
   FlatWall flat;
   flat.fill(90, 1000, 78, FlatWall::depth, 0.65f);
-  const double moved = include_front_muscle(flat.wall, flat.ratio, flat.domain);
+  const double moved = include_front_muscle(flat.wall, flat.ratio, flat.domain, flat.extent);
   EXPECT_NEAR(flat.depth_at(120), 78, 1.6);
   EXPECT_NEAR(flat.depth_at(145), 78, 1.6);
   EXPECT_NEAR(flat.depth_at(60), FlatWall::depth, 0.1);
-  EXPECT_NEAR(moved, 60 * 12 * 90 / 1000., 8);
+  EXPECT_NEAR(moved, 60 * 12 * 60 / 1000., 6);
+}
+
+TEST(FrontMuscle, BelowTheBreastTheWallStays) {
+  FlatWall flat;
+  flat.fill(90, 1000, 78, FlatWall::depth, 0.65f);
+  include_front_muscle(flat.wall, flat.ratio, flat.domain, flat.extent);
+  EXPECT_NEAR(flat.depth_at(120, 6), 78, 1.6);
+  EXPECT_NEAR(flat.depth_at(120, 3), FlatWall::depth, 0.1);
+  EXPECT_NEAR(flat.depth_at(120, 26), FlatWall::depth, 0.1);
 }
 
 TEST(FrontMuscle, GlandOnTheWallStaysBeforeIt) {
   FlatWall flat;
   flat.fill(30, 80, 78, FlatWall::depth, 0.5f);
-  EXPECT_EQ(include_front_muscle(flat.wall, flat.ratio, flat.domain), 0);
+  EXPECT_EQ(include_front_muscle(flat.wall, flat.ratio, flat.domain, flat.extent), 0);
   EXPECT_NEAR(flat.depth_at(50), FlatWall::depth, 0.1);
 }
 
 TEST(FrontMuscle, GlandClearOfTheWallStaysBeforeIt) {
   FlatWall flat;
   flat.fill(90, 1000, 50, 76, 0.5f);
-  include_front_muscle(flat.wall, flat.ratio, flat.domain);
+  include_front_muscle(flat.wall, flat.ratio, flat.domain, flat.extent);
   EXPECT_NEAR(flat.depth_at(120), FlatWall::depth, 0.1);
 }
 
@@ -72,7 +84,7 @@ TEST(FrontMuscle, TheOtherSideMirrorsIt) {
   FlatWall flat;
   flat.fill(0, 60, 78, FlatWall::depth, 0.65f);
   flat.domain.left = false;
-  include_front_muscle(flat.wall, flat.ratio, flat.domain);
+  include_front_muscle(flat.wall, flat.ratio, flat.domain, flat.extent);
   EXPECT_NEAR(flat.depth_at(30), 78, 1.6);
   EXPECT_NEAR(flat.depth_at(90), FlatWall::depth, 0.1);
 }

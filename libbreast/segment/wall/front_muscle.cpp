@@ -2,6 +2,7 @@
 #include "segment/wall/front_muscle.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -23,9 +24,9 @@ constexpr double most_fat = 4;          // mm within the layer, in one piece
 constexpr double least_layer = 5;       // mm along the normal: thinner is the blur of the wall
 constexpr double at_side = 15;          // mm from the last column of the body
 
-/// Columns of the cut, counted from the medial end.
+/// Columns of the cut, counted from the medial end and the first slice.
 struct Columns {
-  int stride, nx, nz;
+  int stride, nx, nz, first_slice;
 };
 
 /// Slope of the wall across the body, over 6 mm each way.
@@ -91,8 +92,8 @@ std::vector<double> layer_thickness(const ChestWall& wall, const Volume<float>& 
   problem.top.assign(std::size_t(columns.nx) * columns.nz, 0);
   for (int k = 0; k < columns.nz; ++k) {
     for (int c = 0; c < columns.nx; ++c) {
-      const std::vector<float> costs =
-          layer_costs(wall, ratio, domain, domain.from_medial(c * columns.stride), k);
+      const std::vector<float> costs = layer_costs(
+          wall, ratio, domain, domain.from_medial(c * columns.stride), columns.first_slice + k);
       problem.cost.insert(problem.cost.end(), costs.begin(), costs.end());
       problem.first.push_back(problem.cost.size());
     }
@@ -108,14 +109,16 @@ void keep_at_side(std::vector<double>& thickness, const ChestWall& wall, const W
   cv::Mat layer(columns.nz, columns.nx, CV_8U), parts;
   for (int k = 0; k < columns.nz; ++k)
     for (int c = 0; c < columns.nx; ++c)
-      layer.at<uchar>(k, c) = thickness[std::size_t(k) * columns.nx + c] >
-                              least_layer * obliqueness(wall, domain, spacing,
-                                                        domain.from_medial(c * columns.stride), k);
+      layer.at<uchar>(k, c) =
+          thickness[std::size_t(k) * columns.nx + c] >
+          least_layer * obliqueness(wall, domain, spacing, domain.from_medial(c * columns.stride),
+                                    columns.first_slice + k);
   std::vector<char> kept(std::size_t(cv::connectedComponents(layer, parts, 4)), 0);
   const int reach = std::max(1, int(at_side / (columns.stride * spacing)));
   for (int k = 0; k < columns.nz; ++k) {
     int end = columns.nx - 1;
-    while (end > 0 && std::isnan(domain.skin.at(domain.from_medial(end * columns.stride), k)))
+    while (end > 0 && std::isnan(domain.skin.at(domain.from_medial(end * columns.stride),
+                                                columns.first_slice + k)))
       --end;
     for (int c = std::max(0, end - reach); c <= end; ++c)
       kept[std::size_t(parts.at<int>(k, c))] = 1;
@@ -128,12 +131,27 @@ void keep_at_side(std::vector<double>& thickness, const ChestWall& wall, const W
   }
 }
 
+/// First and last slice with breast.
+std::array<int, 2> slices_of(const BreastExtent& extent, const Grid& grid) {
+  const auto has_breast = [&](int k) {
+    const auto row = extent.columns.begin() + std::ptrdiff_t(k) * grid.size[0];
+    return std::any_of(row, row + grid.size[0], [](auto column) { return column != 0; });
+  };
+  int first = 0, last = grid.size[2] - 1;
+  while (first < last && !has_breast(first)) ++first;
+  while (last > first && !has_breast(last)) --last;
+  return {first, last};
+}
+
 }  // namespace
 
-double include_front_muscle(ChestWall& wall, const Volume<float>& ratio, const WallDomain& domain) {
+double include_front_muscle(ChestWall& wall, const Volume<float>& ratio, const WallDomain& domain,
+                            const BreastExtent& extent) {
   const Vec3& spacing = ratio.grid.spacing;
   const int stride = std::max(1, int(std::lround(column_step / spacing[0])));
-  const Columns columns{stride, (domain.last - domain.first) / stride + 1, ratio.grid.size[2]};
+  const auto [first_slice, last_slice] = slices_of(extent, ratio.grid);
+  const Columns columns{stride, (domain.last - domain.first) / stride + 1,
+                        last_slice - first_slice + 1, first_slice};
   std::vector<double> thickness = layer_thickness(wall, ratio, domain, columns);
   keep_at_side(thickness, wall, domain, columns, spacing[0]);
   double moved = 0;
@@ -144,7 +162,7 @@ double include_front_muscle(ChestWall& wall, const Volume<float>& ratio, const W
       const std::size_t row = std::size_t(k) * columns.nx;
       const double layer = thickness[row + a] + (x - a) * (thickness[row + b] - thickness[row + a]);
       if (!(layer > 0)) continue;
-      wall.depth.at(i, k) -= layer;
+      wall.depth.at(i, first_slice + k) -= layer;
       moved += layer * spacing[0] * spacing[2];
     }
   }

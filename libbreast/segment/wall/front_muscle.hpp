@@ -4,6 +4,7 @@
 #pragma once
 
 #include "segment/wall/chest_wall.hpp"
+#include "segment/wall/extent.hpp"
 
 namespace breast {
 
@@ -13,8 +14,10 @@ namespace breast {
 /// fibroglandular tissue. It is told from that by where it lies: in a layer at most 25 mm thick that
 /// touches the wall and runs on to the side beyond the breast, to the end of the body or of the
 /// field of view. The layer is the least cost of darkness of the tissue in it and of steps of its
-/// thickness from column to column (minimum cut). `ratio` is intensity / bias. Returns the volume
-/// that was moved behind the wall, ml.
-double include_front_muscle(ChestWall& wall, const Volume<float>& ratio, const WallDomain& domain);
+/// thickness from column to column (minimum cut). Below and above the breast, where muscle of the
+/// belly and of the shoulder has other shapes, the wall stays: only the slices of `extent` are
+/// searched. `ratio` is intensity / bias. Returns the volume that was moved behind the wall, ml.
+double include_front_muscle(ChestWall& wall, const Volume<float>& ratio, const WallDomain& domain,
+                            const BreastExtent& extent);
 
 }  // namespace breast
