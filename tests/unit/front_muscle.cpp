@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "segment/wall/wall_uncertainty.hpp"
 #include "segment/work.hpp"
 
 namespace breast {
@@ -87,6 +88,14 @@ TEST(FrontMuscle, TheOtherSideMirrorsIt) {
   include_front_muscle(flat.wall, flat.ratio, flat.domain, flat.extent);
   EXPECT_NEAR(flat.depth_at(30), 78, 1.6);
   EXPECT_NEAR(flat.depth_at(90), FlatWall::depth, 0.1);
+}
+
+TEST(WallSigma, AnUnclearWallIsLessSureThanAClearOne) {
+  FlatWall flat;
+  const double clear = wall_sigma(flat.ratio, flat.domain, flat.wall).at(60, 15);
+  flat.wall.confidence = HeightField(flat.wall.depth.nx, flat.wall.depth.nz, 0);
+  const double unclear = wall_sigma(flat.ratio, flat.domain, flat.wall).at(60, 15);
+  EXPECT_NEAR(unclear / clear, 1.8 / 0.5, 0.01);
 }
 
 TEST(WorkingGrid, IsAsCoarseAsItsTaskAllowsWhateverTheScan) {

@@ -39,6 +39,14 @@ double column_sigma(const Volume<float>& ratio, const WallDomain& domain, const 
   return std::sqrt(square);
 }
 
+/// The spread of the weights as a standard deviation. Where the image is clear the whole surface is
+/// surer than a column of it, where it is not the cost knows too few of the places a wall may have.
+/// The factors are those with which 90 % of true walls lie in their 90 % band (docs/validation).
+double calibrated(double spread, double confidence) {
+  constexpr double clear = 0.5, unclear = 1.8, slope = 1.45;
+  return spread * std::max(clear, unclear - slope * confidence);
+}
+
 }  // namespace
 
 HeightField wall_sigma(const Volume<float>& ratio, const WallDomain& domain,
@@ -51,7 +59,8 @@ HeightField wall_sigma(const Volume<float>& ratio, const WallDomain& domain,
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
       if (!std::isfinite(wall.depth.at(i, k)) || std::isnan(domain.skin.at(i, k))) continue;
-      sigma.at(i, 0, k) = float(column_sigma(ratio, domain, wall, i, k));
+      sigma.at(i, 0, k) =
+          float(calibrated(column_sigma(ratio, domain, wall, i, k), wall.confidence.at(i, k)));
       weight.at(i, 0, k) = 1;
     }
   }

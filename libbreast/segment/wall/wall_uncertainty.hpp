@@ -7,8 +7,9 @@
 namespace breast {
 
 /// Standard deviation (mm) of the depth in every column about the wall found. Depths within 12 mm
-/// have the weight exp(-cost/0.1) with the column's own cost, for fixed neighbours; the result is
-/// at least a voxel's own sqrt(1/12), and is smoothed over 8 mm. Manually corrected columns
+/// have the weight exp(-cost/0.1) with the column's own cost, for fixed neighbours, and with a
+/// voxel's own sqrt(1/12). Their spread is multiplied by 1.8 - 1.45 times the confidence, at least
+/// by 0.5, which is calibrated on true walls, and smoothed over 8 mm. Manually corrected columns
 /// (confidence 1) are treated separately by hand_set_sigma().
 HeightField wall_sigma(const Volume<float>& ratio, const WallDomain& domain, const ChestWall& wall);
 
