@@ -180,8 +180,7 @@ BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const 
       extent.columns[std::size_t(k) * nx + i] = 1;
     }
   }
-  const auto [thick_i, thick_k] =
-      thickest_covered(extent.columns, measured.normal, thickest, side);
+  const auto [thick_i, thick_k] = thickest_covered(extent.columns, measured.normal, thickest, side);
   end_cranially(extent.columns, thickness, grid, measured.normal.at(thick_i, thick_k), thick_k);
   tidy(extent.columns, grid, thick_i, thick_k);
   for (int k = 0; k < nz; ++k) {
