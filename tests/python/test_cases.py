@@ -3,6 +3,7 @@
 scripts for Slurm; and what it does with a case that fails."""
 import os
 import random
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -15,6 +16,7 @@ from breast.cases.ladder import climb
 from breast.cases.make_text import LINE_END, code_in, has_control
 from breast.cases.scan_identity import mixed_up, remember_scan
 from breast.cases.slurm import SlurmRequest, slurm_plan
+from breast.cases.study_rules import StudyRules, chain_rules
 from breast.cases.variants import Studies, StudyBase
 from breast.errors import BreastError
 
@@ -198,63 +200,106 @@ class Ladders(InFolder):
         self.assertIn("no mesh of the ladder", reason(up, "q1p0-dome-4"))
 
 
+CHAIN = """
+# ---- the chain -----
+$(RUN)/labels.vtkhdf $(RUN)/points.vtp &: $(MR_FILES) $(SEGMENT) $(call changed,labels)
+	@record
+	$(call stage,labels) $(SEGMENT) $(MR) $(RUN)/labels.vtkhdf --points $(RUN)/points.vtp $(labels_options) $(common_alone)
+$(RUN)/mesh.vtkhdf: $(RUN)/labels.vtkhdf $(HEXMESH) $(MADE_TUMOUR) $(call changed,mesh)
+	$(call stage,mesh) $(HEXMESH) $< $@ $(mesh_options) $(common_alone)
+
+# Two files.
+$(RUN)/reference.vtkhdf: $(RUN)/mesh.vtkhdf $(RUN)/labels.vtkhdf $(BACKWARD) $(MADE_MATERIALS) $(call changed,reference)
+	$(call stage,reference) $(BACKWARD) $(wordlist 1,2,$^) $@ $(reference_options) $(common)
+$(RUN)/supine.vtkhdf: $(RUN)/reference.vtkhdf $(FORWARD) $(MADE_MATERIALS) $(call changed,supine)
+	$(call stage,supine) $(FORWARD) $< $@ --posture supine $(supine_options) $(common)
+# ---- the end of the chain -----
+other: rule
+	$(call stage,other) nothing
+"""
+
+
 def studies():
-    return Studies(StudyBase("run", ["mesh", "reference", "supine", "cc"], "supine cc",
-                             {"hexmesh": "--elements 16", "mechanics": "--materials seed --element q1p0", "materials": "seed"},
-                             {"RUN": "run", "tumour": "{tumour}"}))
+    return Studies(StudyBase("run", list(chain_rules(CHAIN)), "supine",
+                             {"hexmesh": "--elements 16", "mechanics": "--materials seed --element q1p0", "materials": "seed",
+                              "content": "1"}, {"RUN": "run", "tumour": "{tumour}"}))
 
 
-def expanded(table):
+def rules_of(made, tumour=True):
+    return StudyRules(made, chain_rules(CHAIN), "run", tumour, "tabulate place").text()
+
+
+def expanded(table, tumour=True):
     made = studies()
     made.add("own", table, "own.tsv")
-    return made.text.split(LINE_END)
+    return rules_of(made, tumour)
 
 
 class Variants(unittest.TestCase):
-    def test_add_replace_and_inherit_options(self):
-        lines = expanded("# why\nvariant\tfrom\tstarts_at\tends_at\thexmesh\tmechanics\tmaterials\tif\n"
-                         "soft\t-\treference\tsupine\t-\t+--scale fat=50\t{RUN}/own.tsv\t-\n"
-                         "fine\tsoft\tmesh\t-\t--tumour {tumour}:0.1\t-\t-\tsoft\n")
-        soft, fine = "run/studies/own/soft@", "run/studies/own/fine@"
-        for line in ("own_variants += soft", soft + "stages :=  reference supine cc", soft + "ends_at := supine",
-                     soft + "hexmesh := --elements 16",
-                     soft + "mechanics := --materials run/own.tsv --element q1p0 --scale fat=50",
-                     fine + "from := run/studies/own/soft",
-                     fine + "mechanics := --materials run/own.tsv --element q1p0 --scale fat=50",
-                     fine + "hexmesh := --tumour {tumour}:0.1", fine + "ends_at := supine cc", fine + "if := run/studies/own/soft"):
-            self.assertIn(line, lines)
+    def test_have_the_rules_of_the_chain_in_their_folders(self):
+        text = expanded("# why\nvariant\tfrom\tstarts_at\tends_at\thexmesh\tmechanics\tmaterials\tif\n"
+                        "soft\t-\treference\tsupine\t-\t+--scale fat=50\t{RUN}/own.tsv\t-\n"
+                        "fine\tsoft\tmesh\treference supine\t--tumour {tumour}:0.1\t-\t-\tsoft\n")
+        for line in ("own_variants := soft fine", "V := $(RUN)/studies/own/soft",
+                     "$V/%: private its_mechanics := --materials run/own.tsv --element q1p0 --scale fat=50",
+                     "$V/%: private its_materials := run/own.tsv",
+                     "$V/reference.json: $(RUN)/mesh.vtkhdf $(RUN)/labels.vtkhdf $(BACKWARD) $(RUN)/own.tsv $$(call changed_in,$$(@D),reference)",
+                     "\t$(call attempt,reference,$(RUN)/mesh.vtkhdf $(RUN)/labels.vtkhdf) $(BACKWARD) $(RUN)/mesh.vtkhdf $(RUN)/labels.vtkhdf "
+                     "$(@D)/reference.vtkhdf $(reference_options) $(common)",
+                     "# fine: from own/soft, at mesh",
+                     "$V/%: private its_hexmesh = --tumour $$(tabulate place run/mesh.json tumour):0.1",
+                     "$V/mesh.json: $(RUN)/labels.vtkhdf $(HEXMESH) $(MADE_TUMOUR) $(RUN)/mesh.vtkhdf $(RUN)/studies/own/soft/supine.json "
+                     "$$(call changed_in,$$(@D),mesh)",
+                     "$(RUN)/studies/own.tsv: $(RUN)/studies/own/soft/supine.json $(RUN)/studies/own/fine/reference.json "
+                     "$(RUN)/studies/own/fine/supine.json $(TABULATE)"):
+            self.assertIn(line + "\n", text)
+        self.assertNotIn("its_hexmesh := --elements 16", text, "what the case has is not said again")
+        self.assertIn("$(error own/fine: this variant needs a tumour", expanded(
+            "variant\tstarts_at\thexmesh\nfine\tmesh\t--tumour {tumour}\n", False))
 
     def test_say_which_options_a_cell_without_plus_leaves_out(self):
-        lines = expanded("variant\tfrom\tstarts_at\thexmesh\tmechanics\n"
-                         "soft\t-\treference\t-\t--scale fat=50\n"
-                         "kept\t-\treference\t-\t+--scale fat=50\n"
-                         "both\tkept\tmesh\t--tumour none\t--materials other --element=q2p1\n"
-                         "all\t-\tmesh\t--elements 20\t--element q2p1 --materials other\n")
-        self.assertEqual([line for line in lines if "@drops" in line],
-                         ["run/studies/own/soft@drops := mechanics: --materials seed --element q1p0",
-                          "run/studies/own/both@drops := hexmesh: --elements 16; mechanics: --scale fat=50"])
+        text = expanded("variant\tfrom\tstarts_at\thexmesh\tmechanics\n"
+                        "soft\t-\treference\t-\t--scale fat=50\n"
+                        "kept\t-\treference\t-\t+--scale fat=50\n"
+                        "both\tkept\tmesh\t--tumour none\t--materials other --element=q2p1\n"
+                        "all\t-\tmesh\t--elements 20\t--element q2p1 --materials other\n")
+        end = " (a + at the beginning of the cell keeps it)"
+        self.assertIn(f"own_drops = $(info own/soft leaves out of the case mechanics: --materials seed --element q1p0{end}) "
+                      f"$(info own/both leaves out of studies/own/kept hexmesh: --elements 16; mechanics: --scale fat=50{end})\n", text)
 
     def test_come_from_rows_of_other_studies(self):
         made = studies()
         made.add("scaled", "variant\tstarts_at\tmechanics\nx\treference\t+--a\n", "scaled.tsv")
         made.add("again", "variant\tfrom\tstarts_at\tmechanics\ny\tscaled/x\tsupine\t+--b\nz\t-\tsupine\t+--c\n", "again.tsv", "scaled/x")
-        self.assertIn("again/y@mechanics := --materials seed --element q1p0 --a --b", made.text)
-        self.assertIn("again/z@mechanics := --materials seed --element q1p0 --a --c", made.text, "the study's own base")
+        text = rules_of(made)
+        for row, options in (("y", "--a --b"), ("z", "--a --c")):
+            self.assertIn(f"V := $(RUN)/studies/again/{row}\n$V/%: private its_mechanics := --materials seed --element q1p0 {options}\n"
+                          "$V/supine.json: $(RUN)/studies/scaled/x/reference.json $(FORWARD)", text)
+
+    def test_a_material_set_is_known_by_its_content(self):
+        with tempfile.TemporaryDirectory() as folder:
+            own = Path(folder) / "own.tsv"
+            own.write_text("a")
+            table = f"variant\tstarts_at\tmaterials\nx\treference\t{own}\n"
+            first = expanded(table)
+            own.write_text("b")
+            self.assertIn("private its_content := ", first)
+            self.assertNotEqual(expanded(table), first)
 
     def test_are_refused_by_column_stage_and_row(self):
         for table, said in (
                 ("variant\tstarts_at\tmechanic\nx\tmesh\t-\n",
-                 "'mechanic' is none of variant, starts_at, ends_at, from, given, if, hexmesh, mechanics, materials; did you mean "
+                 "'mechanic' is none of variant, starts_at, ends_at, from, given, if, hexmesh, mechanics, materials, content; did you mean "
                  "mechanics?"),
                 ("variant\tstarts_at\nx\t-\n",
-                 "x does not say in the column starts_at at which stage it begins; write one of mesh, reference, supine, cc"),
+                 "x does not say in the column starts_at at which stage it begins; write one of labels, mesh, reference, supine"),
                 ("variant\tfrom\tstarts_at\nx\ty\tmesh\n",
                  "x comes from 'y', and no row above has this name; write the row from which it comes above it"),
                 ("variant\tif\tstarts_at\nx\ty{RUN}\tmesh\n",
                  "x depends on 'y{RUN}', and no row above has this name; write that row above it"),
                 ("variant\tstarts_at\tfrom\nx\tmesh\n",
                  "x has 2 cells and not 3; separate cells by one tab, and write - for an empty one"),
-                ("variant\tstarts_at\nx\tmesh cc\n", "'mesh cc' is none of mesh, reference, supine, cc"),
+                ("variant\tstarts_at\nx\tmesh cc\n", "'mesh cc' is none of labels, mesh, reference, supine"),
                 # The byte that ends a line of make would begin another assignment.
                 (f"variant\tstarts_at\tmechanics\nx\tmesh\ta{LINE_END}SHELL := b\r\n", "x holds a control character")):
             self.assertEqual(reason(expanded, table), "own.tsv: " + said)
@@ -275,13 +320,13 @@ class Variants(unittest.TestCase):
                 at = some.randrange(len(text))
                 text[at:at + some.randint(0, 2)] = some.choice(("$(x)", "`", "{RUN}", "\n", "\t", "+", "#", "\r", LINE_END, "é", "-", "mesh"))
             try:
-                lines = expanded("".join(text))
+                text = expanded("".join(text))
             except BreastError as error:
                 self.assertTrue(str(error).startswith("own.tsv"), error)
                 continue
-            for line in filter(None, lines):
-                self.assertRegex(line, r"^[^ ]+ (:|\+)= ")
-                self.assertFalse(code_in(line.replace("{tumour}", "")) or has_control(line), line)
+            for value in re.findall("private its_.* :?= (.*)", text):
+                self.assertFalse(code_in(value) or has_control(value), value)
+            self.assertFalse(has_control(re.sub("[\n\t]", "", text)))
 
 
 class Slurm(InFolder):

@@ -33,6 +33,7 @@ case "$name" in phantom) at=0 ;; hexmesh|cc2mlo|match-lookup|sensitivity) at=2 ;
 echo "$name: working"
 echo "$name: warning: it says more" >&2
 [ "$name" != backward ] || [ ! -e WORK/break ] || { echo "backward: no body of this shape" >&2; exit 3; }
+case "$words" in *fat=1\ *) printf '{"tool": "%s", "status": "not_converged", "reason": "folded"}\n' "$name" > "$report"; exit 3 ;; esac
 for file in "${positional[at]}" "${after[@]}"; do { echo "$words"; cat "${set:-/dev/null}" 2> /dev/null || true; } > "$file"; done
 [ -z "${report:-}" ] || printf '{"tool": "%s", "status": "ok", "elements": 8, "min_scaled_jacobian": 0.5}\n' "$name" > "$report"
 while [ "$name" = hexmesh ] && [ -e WORK/hold ]; do sleep 0.1; done
@@ -93,6 +94,21 @@ for file in curve.vtp curve.tsv curve.json figures/cc-matching.png slicer/curve-
 done
 [ -e "$run/page.html" ] || fail "and the page of all points instead"
 pass "what the settings do not make is not left behind"
+
+# A row of a study is the chain's own rules in another folder, and a solve that ends early is its result.
+printf 'variant\tfrom\tstarts_at\tends_at\tmechanics\nsofter\t-\treference\tsupine\t+--scale fat=50\n' > "$work/own.tsv"
+printf 'hopeless\tsofter\treference\tsupine\t+--scale fat=1\nfiner\tsofter\tsupine\tsupine\t+--element q2p1\n' >> "$work/own.tsv"
+rows=$run/studies/own
+study() { call STUDY="$work/own.tsv" "$@" "$rows/softer/supine.json" "$rows/hopeless/supine.json" "$rows/finer/supine.json"; }
+study || fail "a study"
+grep -q '^own/softer: forward ' "$work/err" && grep -q '^own/hopeless: backward .*folded' "$work/err" || fail "the lines of a study name its rows"
+grep -q "^$run/mesh.vtkhdf $rows/softer/reference.vtkhdf .*--materials seed2008 --scale fat=50 " "$rows/softer/reference.vtkhdf" &&
+  grep -q "^$rows/softer/reference.vtkhdf $rows/finer/supine.vtkhdf .*--scale fat=50 --element q2p1 " "$rows/finer/supine.vtkhdf" || fail "rows have their options"
+grep -q folded "$rows/hopeless/supine.json" && [ ! -e "$rows/hopeless/supine.vtkhdf" ] || fail "what needed a solve that ended early has its reason"
+study -q || fail "a second run of a study does nothing"
+sed -i 's/fat=50/fat=60/' "$work/own.tsv"
+study && [ "$(wc -l < "$work/err")" -eq 5 ] && call -q chain || { cat "$work/err"; fail "a changed row is solved again, with what starts from it, and the case is not"; }
+pass "rows of a study follow the rules of the chain"
 
 # A stage that was stopped has no record: whatever is asked next is made.
 made ELEMENTS=5

@@ -11,6 +11,7 @@ from typing import NamedTuple
 from ..command.nearest import suggestion
 from ..command.tool import Run, Tool
 from ..errors import BreastError, Failed
+from ..output import write_text
 from ..text_table import parse_number, read_table, read_text
 
 
@@ -56,20 +57,26 @@ def _list(words: list[str], run: Run) -> str:
     return "".join("\t".join(one) + "\n" for one in cohort_entries(words[0], words[1:]))
 
 
-def _variants(words: list[str], run: Run) -> str:
+def _studies(words: list[str], run: Run) -> None:
+    from .study_rules import StudyRules, chain_rules
     from .variants import Studies, StudyBase
-    base = StudyBase(words[0], words[1].split(), words[2])
-    for word in words[3:]:
+    made, makefile, folder, ends_at, place, *rest = words
+    rules = chain_rules(read_text(makefile))
+    base = StudyBase(folder, list(rules), ends_at)
+    for word in rest:
         if word.startswith(("@", "{")):
             name, value = _named_value(word, 1)
             (base.attributes if word.startswith("@") else base.placeholders)[name] = value
     studies = Studies(base)
-    for word in words[3:]:
+    for word in rest:
         if not word.startswith(("@", "{")):
             name, value = _named_value(word)
             file, _, origin = value.partition("@")
             studies.add(name, read_text(file), file, origin)
-    return studies.text
+    text = StudyRules(studies, rules, folder, "curve" in ends_at.split(), place).text()
+    if not os.path.exists(made) or read_text(made) != text:
+        os.makedirs(os.path.dirname(made), exist_ok=True)
+        write_text(made, text)
 
 
 def _record(words: list[str], run: Run) -> None:
@@ -134,8 +141,9 @@ KINDS = {
                  "TEMPLATE", 2, _rows),
     "cohort": Kind("COHORT KEY...", "prints the case files of a folder as assignments for make", 1, _cohort),
     "list": Kind("COHORT KEY...", "prints one line per case file of a folder: CASE, FILE and KIND (scan or phantom)", 1, _list),
-    "variants": Kind("RUN STAGES ENDS_AT @ATTRIBUTE=VALUE... {NAME=VALUE... STUDY=FILE.tsv[@ROW]...",
-                     "prints the rows of studies as assignments for make (docs/file-formats.md)", 3, _variants),
+    "studies": Kind("OUT.mk MAKEFILE RUN ENDS_AT PLACE @COLUMN=OPTIONS... {NAME=VALUE... STUDY=FILE.tsv[@ROW]...",
+                    "writes the rules by which make solves the rows of studies: those of the chain in MAKEFILE, with the options of each "
+                    "row; PLACE is the command that prints the place of a tumour", 5, _studies),
     "nearest": Kind("WORD CANDIDATE...", "prints the candidate that is most similar to WORD, for messages about typing errors", 2,
                     lambda words, run: suggestion(words[0], words[1:])),
     "record": Kind("RUN SIDE SCAN", "records scan and side in RUN/.scan", 3, _record),

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies as data: the rows of a table are variants of a case, which are converted to variables of make."""
+"""Studies as data: the rows of a table are variants of a case."""
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple, NoReturn
@@ -10,7 +11,8 @@ from ..command.make_name import plain_for_make
 from ..command.nearest import suggestion
 from ..errors import BreastError
 from ..text_table import TextTable, parse_table
-from .make_text import code_in, has_control, make_addition, make_assignment
+from .make_text import code_in, has_control
+from .scan_identity import content_of
 
 _COLUMNS = ("variant", "starts_at", "ends_at", "from", "given", "if")
 
@@ -82,22 +84,38 @@ def _options_without(text: str, other: str) -> str:
     return " ".join(option for name, option in _options_in(text) if name not in named)
 
 
-class Studies:
-    """Converts the rows of studies to lines of make.
+class Variant(NamedTuple):
+    """A row as it is made: its folder, the folder from which it starts, the stages that it makes itself, those whose files an explicit rule
+    of the makefile makes, its last stages, the folder on which it depends ("" if on none), its options by column, and what it leaves
+    out."""
 
-    The order in which studies are added matters, since a row may start from a row of an earlier study. `text` contains for all rows
-    added STUDY_variants and variant_dirs, and for the folder DIR of every variant DIR@from, DIR@given, DIR@stages, DIR@ends_at,
-    DIR@if, DIR@ATTRIBUTE and DIR@drops, which names the options of `from` that a cell without a leading + leaves out.
+    study: str
+    name: str
+    folder: str
+    origin: str
+    stages: tuple[str, ...]
+    given: tuple[str, ...]
+    ends_at: tuple[str, ...]
+    only_if: str
+    options: dict[str, str]
+    drops: str
+
+
+class Studies:
+    """Reads the rows of studies.
+
+    The order in which studies are added matters, since a row may start from a row of an earlier study.
+
+    Attributes:
+        case: the options of the case. variants: of all rows added, by folder. names: of the studies, in order.
     """
 
     def __init__(self, base: StudyBase) -> None:
         self._base = base
         self._known: dict[str, dict[str, str]] = {base.run: dict(base.attributes)}
-        self._lines: list[str] = []
-
-    @property
-    def text(self) -> str:
-        return "".join(self._lines)
+        self.case = base.attributes
+        self.variants: dict[str, Variant] = {}
+        self.names: list[str] = []
 
     def add(self, study: str, text: str, file: str, origin: str = "") -> None:
         """Adds the rows of the table `text` as variants of `origin`: STUDY/VARIANT, or the case if empty.
@@ -115,7 +133,7 @@ class Studies:
         _check_cells(bare, file)
         table = parse_table(text, file)
         _check_among(file, table.columns, [*_COLUMNS, *self._base.attributes])
-        self._lines.append(make_assignment(study + "_variants", ""))
+        self.names.append(study)
         for row in table.rows:
             self._add_row(_Row(table, row, study, origin))
 
@@ -166,13 +184,10 @@ class Studies:
         own = {attribute: self._option(row.cell(attribute), before.get(attribute, "")) for attribute in self._base.attributes}
         if "materials" in own:
             own["mechanics"] = own["mechanics"].replace("--materials " + before["materials"], "--materials " + own["materials"])
+            if own["materials"] != before["materials"] and os.path.isfile(own["materials"]):
+                own["content"] = content_of(own["materials"])[:12]
         first = self._base.stages.index(row.cell("starts_at"))
-        self._lines.append(make_addition(row.study + "_variants", name) + make_addition("variant_dirs", folder))
-        facts = {"from": origin, "given": row.cell("given"),
-                 "stages": f"{row.cell('given')} {' '.join(self._base.stages[first:])}",
-                 "ends_at": row.cell("ends_at") or self._base.ends_at}
-        further = {"if": only_if, "drops": self._drops(row, before),
-                   **dict(sorted(own.items()))}
-        facts |= {key: value for key, value in further.items() if value}
-        self._lines += [make_assignment(f"{folder}@{key}", value) for key, value in facts.items()]
+        self.variants[folder] = Variant(
+            row.study, name, folder, origin, tuple(self._base.stages[first:]), tuple(row.cell("given").split()),
+            tuple((row.cell("ends_at") or self._base.ends_at).split()), only_if, own, self._drops(row, before))
         self._known[folder] = own
