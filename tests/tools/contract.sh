@@ -99,6 +99,7 @@ pass "what the settings do not make is not left behind"
 printf 'variant\tfrom\tstarts_at\tends_at\tmechanics\nsofter\t-\treference\tsupine\t+--scale fat=50\n' > "$work/own.tsv"
 printf 'hopeless\tsofter\treference\tsupine\t+--scale fat=1\nfiner\tsofter\tsupine\tsupine\t+--element q2p1\n' >> "$work/own.tsv"
 rows=$run/studies/own
+made
 study() { call STUDY="$work/own.tsv" "$@" "$rows/softer/supine.json" "$rows/hopeless/supine.json" "$rows/finer/supine.json"; }
 study || fail "a study"
 grep -q '^own/softer: forward ' "$work/err" && grep -q '^own/hopeless: backward .*folded' "$work/err" || fail "the lines of a study name its rows"
