@@ -55,6 +55,8 @@ made
 grep -q '^compress MLO: compress: warning: it says more' "$run/log.txt" && ! grep -q 'it says more' "$work/err" || fail "all else is in log.txt"
 call -q chain || fail "a second run does nothing"
 pass "a line a stage; what programs say is in log.txt"
+call -n summary && grep -q "bin/render .*--only slices," "$work/out" || fail "the summary waits for the pictures"
+pass "the summary waits for the pictures"
 
 # Files that users edit, by content.
 printf 'tissue\tc\nfat\t1\n' > "$work/own.tsv"
