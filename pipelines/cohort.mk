@@ -5,10 +5,8 @@
 # CLUSTER=slurm submits the cases to Slurm as one job array (`cases submit`); otherwise they run as processes on this machine.
 # RESUME submits only the cases of a cohort that are missing or out of date. Local runs always do so.
 ifneq ($(COHORT),)
-# Defines COHORT_CASES, and for each case CASE its case file (file_CASE) and its kind, scan or phantom (kind_CASE). Every case file
-# must be readable and name its scan or preset.
-COHORT_CASES :=
-$(call ask,$(CASES) cohort $(COHORT) $(case_settings))
+# The names of the cases. Every case file must be readable and name its scan or preset.
+COHORT_CASES := $(call said,$(shell $(CASES) cohort $(COHORT) $(PIPELINES) --quiet 2>&1))
 COHORT_RUNS := $(RUNS)/cohort-$(notdir $(patsubst %/,%,$(if $(filter . .. %/. %/..,$(COHORT)),$(abspath $(COHORT)),$(COHORT))))
 
 # The list of cases contains one line per case: CASE, its case file, and its kind. It is a file, because ten thousand cases do not
@@ -16,7 +14,7 @@ COHORT_RUNS := $(RUNS)/cohort-$(notdir $(patsubst %/,%,$(if $(filter . .. %/. %/
 CASE_LIST := $(COHORT_RUNS)/.cases
 $(CASE_LIST): FORCE
 	@mkdir -p $(@D)
-	@$(CASES) list $(COHORT) $(case_settings) --quiet > $@.part && mv $@.part $@
+	@$(CASES) list $(COHORT) $(PIPELINES) --quiet > $@.part && mv $@.part $@
 
 # Sides only go from the scan to the supine shape, without plates.
 cohort_goal := $(if $(filter sides,$(MAKECMDGOALS)),side,summary)
@@ -24,7 +22,7 @@ cohort_goal := $(if $(filter sides,$(MAKECMDGOALS)),side,summary)
 # This rule always runs: the make of each case decides what is out of date. Its exit code is recorded and not passed on.
 cohort_make = $(MAKE) -f $(PIPELINE) COHORT= CLUSTER= RUNS=$(COHORT_RUNS)
 $(COHORT_CASES:%=$(COHORT_RUNS)/%.status): $(COHORT_RUNS)/%.status: FORCE | $(CASE_LIST)
-	@$(CASES) run $@ $(COHORT_RUNS)/$*.log $(kind_$*) --quiet -- $(cohort_make) CASE_FILE=$(file_$*) CASE=$* $(cohort_goal)
+	@$(CASES) run $(COHORT_RUNS) $* --quiet -- $(cohort_make) $(cohort_goal)
 
 # The table of the cases that have ended so far, and its pages.
 cohort_results = $(tabulate) cohort $(COHORT_RUNS) $(POPULATION_TOOL)

@@ -6,7 +6,6 @@
 # The change at the landmarks and on the MLO curve in mm, and the CPU time saved (studies/leaveout.tsv); then, for each
 # question, the least model that stays within LEAVEOUT_MM, solved and measured.
 LEAVEOUT := $(RUN)/leaveout
-LEAVEOUT_VARIANTS ?= $(leaveout_variants)
 LEAVEOUT_PARTS := $(filter no-%,$(leaveout_variants))
 LEAVEOUT_QUESTIONS := surgery matching
 leaveout: $(LEAVEOUT)/table.tsv $(LEAVEOUT)/recommendation.tsv
@@ -52,7 +51,6 @@ band: $(RUN)/band.tsv
 # ---- error against run time --------------------------------------------------------------------------------
 # The error is the landmarks' distance to the finest solution (COST_FINEST) of the same geometry, stress-free and supine.
 COST := $(RUN)/cost
-COST_POINTS ?= $(cost_variants)
 cost: $(COST)/cost.tsv $(COST)/cost.png
 	@cat $<
 $(COST)/cost.tsv: $(call results,cost,$(sort $(COST_POINTS) $(COST_FINEST)),supine) $(TABULATE)

@@ -7,8 +7,7 @@ $(BAND_STATES:%=$(RUN)/%-sensitivity.vtkhdf): $(RUN)/%-sensitivity.vtkhdf: $(RUN
 	  --table $(basename $@).tsv $(common)
 
 # If the material set contains uncertainties, they replace the priors of softness and supports.
-set_file = $(or $(wildcard $(MATERIALS)),$(wildcard $(PIPELINES)/materials/$(MATERIALS).tsv))
-band_set = $(if $(set_file),$(shell grep -q '^[a-z_]*	uncertainty	' $(set_file) && echo $(MATERIALS)))
+band_set = $(if $(filter %=uncertainty,$(call rows_in,$(MATERIAL_TABLE))),$(MATERIALS))
 # matching.tsv: the chain from the MR; matching-true-mesh.tsv: the true body on as many elements as the chain's.
 # Both are read against the true body on eight times as many.
 $(RUN)/matching.tsv: $(RUN)/truth-cc-sensitivity.vtkhdf $(RUN)/truth-mlo-sensitivity.vtkhdf $(TRUTH_TABLE) $(CC2MLO)

@@ -28,8 +28,6 @@ phantom-scan: $(if $(TRUTH),$(MR))
 # In CC the plates start 20 mm in front of the chest wall and hold by more friction: this body continues below its inframammary
 # fold, where a raised detector nearer to the wall would press the skin into a pleat (docs/validation/truth-sliding.md).
 TRUTH_AT := $(PHANTOM_TRUTH)/$(SIDE)
-TRUTH_COARSE ?= $(if $(body_slides),0.5,1)
-TRUTH_FINE ?= $(if $(body_slides),0.75,2)
 truth_edge_cc := 20 --friction 0.3
 truth_edge_mlo := auto
 # At 49.5 % an element of the finer mesh folds in MLO, where this body has touched itself.

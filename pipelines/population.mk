@@ -10,23 +10,28 @@ population_both = $(population_calibration) $(population_judging)
 ifneq ($(filter population population-table compressed-population calibrate-invivo calibrate-invivo-sternum calibrate-invivo-borders,$(MAKECMDGOALS)),)
 # Both sides share one phantom; therefore the cases run one after the other.
 .NOTPARALLEL:
-population_calibration :=
-population_judging :=
-population_women :=
+# The rows of cohort.tsv as words, case:preset:scan:side:use, and $(call cell,CASE,COLUMN).
+population_rows := $(filter-out case:%,$(shell grep -v '^\#' $(PIPELINES)/invivo/cohort.tsv | tr '\t' :))
+cell = $(word $2,$(subst :, ,$(filter $1:%,$(population_rows))))
+# MR=SCAN or PRESET=NAME; empty if the scan of the row is not among POPULATION_SCANS.
 scan_file = $(firstword $(foreach s,$(POPULATION_SCANS),$(if $(filter $1.%,$(notdir $s)),$s)))
-make_breast = $(MAKE) -f $(PIPELINE) RUNS=$(POPULATION_RUNS) $(breast) ELEMENTS=$(POPULATION_ELEMENTS) TUMOUR=none $@
-define breast
-name := $(cell_case)
-source := $(if $(cell_scan),$(addprefix MR=,$(call scan_file,$(cell_scan))),PRESET=$(cell_preset))
-population_$(cell_use) += $(if $(source),$(name))
-$(foreach shape,mesh supine cc mlo,$(call population_files,$(name),$(shape))): breast := CASE=$(name) SIDE=$(cell_side) $(source) MATERIALS=$(POPULATION_MATERIALS)
-$(call population_files,$(name),mesh) $(call population_files,$(name),supine): FORCE
+source_of = $(if $(filter -,$(call cell,$1,3)),PRESET=$(call cell,$1,2),$(addprefix MR=,$(call scan_file,$(call cell,$1,3))))
+population_of = $(strip $(foreach case,$(foreach row,$(filter %:$1,$(population_rows)),$(firstword $(subst :, ,$(row)))),$(if $(call source_of,$(case)),$(case))))
+population_calibration := $(call population_of,calibration)
+population_judging := $(call population_of,judging)
+population_women := $(call population_of,women)
+population_all := $(population_both) $(population_women)
+make_breast = $(MAKE) -f $(PIPELINE) RUNS=$(POPULATION_RUNS) CASE=$* SIDE=$(call cell,$*,4) $(call source_of,$*) MATERIALS=$(POPULATION_MATERIALS) \
+  ELEMENTS=$(POPULATION_ELEMENTS) TUMOUR=none $@
+$(call population_files,$(population_all),mesh): $(POPULATION_RUNS)/%/mesh.vtkhdf: FORCE
+	@+$(make_breast)
+$(call population_files,$(population_all),supine): $(POPULATION_RUNS)/%/supine.vtkhdf: FORCE
 	@+$(make_breast)
 # A compression that ends early is a row of the table, if its report says so.
-$(call population_files,$(name),cc) $(call population_files,$(name),mlo): FORCE
+$(call population_files,$(population_all),cc): $(POPULATION_RUNS)/%/cc.vtkhdf: FORCE
 	@+$(make_breast) || test -s $(basename $@).json
-endef
-$(call ask,$(CASES) rows $(PIPELINES)/invivo/cohort.tsv breast)
+$(call population_files,$(population_all),mlo): $(POPULATION_RUNS)/%/mlo.vtkhdf: FORCE
+	@+$(make_breast) || test -s $(basename $@).json
 endif
 
 population_compare = $(POPULATION_TOOL) $(call population_files,$1,supine) --women $(PIPELINES)/invivo/women.tsv \

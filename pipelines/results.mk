@@ -2,8 +2,6 @@
 # Results for people: the page of both views, the run for 3D Slicer, expected values, and one self-contained report.
 
 # ---- pointing at either view draws curve, band and arc in the other -----------------------------------------
-# A page is easily forwarded. It therefore contains voxels of a patient's scan only with PAGE_SCAN=yes; a phantom may be shown.
-PAGE_SCAN ?= $(if $(TRUTH),yes,no)
 page_scan := $(if $(filter yes,$(PAGE_SCAN)),--scan $(MR) $(if $(SERIES),--series $(SERIES)))
 # With friction or a wall on springs there are no derivatives yet: the page then shows curves without bands.
 derivatives := $(if $(findstring --friction,$(COMPRESS_OPTIONS))$(findstring spring:,$(COMPRESS_OPTIONS)),,-sensitivity)
@@ -26,15 +24,12 @@ $(RUN)/slicer/scene.mrml: $(addprefix $(RUN)/,labels.vtkhdf mesh.vtkhdf referenc
 slicer: $(RUN)/slicer/scene.mrml
 
 # ---- expected values, and the report ------------------------------------------------------------------------
-EXPECTED ?= $(wildcard $(PIPELINES)/expected/$(CASE)$(if $(PAPER),-as-printed).tsv)
 verify: $(RUN)/verify.tsv
 $(RUN)/verify.tsv: $(EXPECTED) $(TABULATE) $(RUN)/summary.txt $(TABLE_FILES)
 	$(if $(EXPECTED),,$(error verify: there are no expected values of the case $(CASE); name a file of them with EXPECTED=FILE.tsv))
 	@$(call table,$(tabulate) verify $(EXPECTED) $(RUN))
 	@cat $@
 
-# The PDF is printed by a headless browser (Debian package chromium, which setup does not install).
-CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
 report: $(RUN)/report.html $(if $(CHROMIUM),$(RUN)/report.pdf)
 	@$(if $(CHROMIUM),,echo "report: no PDF: chromium is not installed (apt-get install chromium); any browser prints the page" >&2)
 all: figures tables $(if $(EXPECTED),verify) report

@@ -1,93 +1,148 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The settings (settings.tsv). Each can be given on the command line: make -f Makefile.pipeline MATERIALS=wellman
-# They are read, checked, completed from the case file and the defaults, and refused in one line by `cases settings`, before make
-# or a shell expands them; nothing in them is executed.
-comma := ,
-define newline
+# The settings and their defaults. Another value is given on the command line (make -f Makefile.pipeline MATERIALS=wellman), in a case
+# file, or in the environment; the first of these counts. help.txt says what each does, settings.tsv what it accepts.
 
+# ---- the case ----------------------------------------------------------------------------------------------
+PAPER ?=
+PRESET ?= $(if $(PAPER)$(filter $(goals_of_paper),$(goals)),paper,average)
+SIDE ?= left
+MR ?=
+SERIES ?=
+CASE ?= $(if $(phantom),$(PRESET)$(if $(filter right,$(SIDE)),-right),$(scan_name)-$(SIDE))
+CHEST_WALL ?=
+LABELS_TRUTH ?=
+LANDMARKS ?=
+SUPINE ?=
+# The paper places its tumour freely, at the margin of the gland; that of the phantom has a known displacement. No tumour is added to a
+# patient's scan unless the user asks for one.
+TUMOUR ?= $(if $(phantom),$(PHANTOM_TRUTH)/tumour-$(SIDE).tsv,none)
 
-endef
-# Data are read by the program `cases`, which make calls with $(call ask,COMMAND). The answer consists of lines of make, separated
-# by a byte that $(shell) does not change, or it is an error message.
-line_end := $(shell printf '\036')
-answer = $(if $(filter 0,$(.SHELLSTATUS)),$(eval $(subst $(line_end),$(newline),$1)),$(error $(filter-out cases:,$1)$(outdated)))
-ask = $(call answer,$(shell $1 --quiet 2>&1))
-outdated = $(if $(if $(INSTALLED),,$(shell find $(SOURCES) -newer $(BIN)/cases)),; \
-  the programs are older than their sources: make -f $(PIPELINE) build)
-quoted = '$(subst ','\'',$1)'
+# Targets that make results of the paper (goals.tsv).
+goals_of_paper := $(shell awk -F '\t' '$$2 ~ /paper/ { print $$1 }' $(PIPELINES)/goals.tsv)
+# Without a scan, the case is a phantom. Bodies of these presets slide on their rib cage (libbreast/phantom/parameters.cpp); the others are
+# held at the chest wall, as in the paper.
+phantom := $(if $(strip $(MR)),,yes)
+body_slides := $(filter average slim broad heavy,$(PRESET))
+PHANTOM_MR := $(RUNS)/phantom/$(PRESET).nrrd
+PHANTOM_TRUTH := $(RUNS)/phantom/$(PRESET)-truth
+TRUTH := $(if $(phantom),$(PHANTOM_TRUTH)/landmarks.tsv)
+ifdef phantom
+MR := $(PHANTOM_MR)
+endif
+# pat.001.nrrd and pat.002.nrrd are two cases, and the name of a folder keeps its dots.
+scan_file := $(notdir $(patsubst %/,%,$(MR)))
+scan_name := $(firstword $(foreach e,.nii.gz .nii .nrrd .nhdr .mha .mhd .vtkhdf,$(if $(filter %$e,$(scan_file)),$(scan_file:%$e=%))) $(scan_file))
+RUN := $(RUNS)/$(CASE)$(if $(PAPER),-as-printed)
 
-# $(shell) would end its command at a line break, before `cases` could refuse it.
-$(foreach v,$(given),$(if $(findstring $(newline),$(value $v)),$(error $v: a line break may not stand in it; give a name \
-  without it$(comma) or a link that has such a name (ln -s))))
-# What is given on the command line is passed on with its values before any expansion.
-$(call ask,$(BIN)/cases settings $(PIPELINES) $(BIN) $(if $(INSTALLED),installed,built) $(call quoted,$(goals)) $(if $(planning),0,$$PPID) \
-  $(foreach v,$(given),$(call quoted,$v=$(value $v))))
+# ---- the model ---------------------------------------------------------------------------------------------
+# A living breast slides on the chest wall and is soft; the breast of the paper is held there and has the materials of Table II.
+MATERIALS ?= $(if $(PAPER),seed2008,$(if $(phantom),$(if $(body_slides),invivo,seed2008),invivo))
+# $(call set_of,NAME): the file of a material set: one that a rule makes, one of the user's, or one of ours. $(call rows_in,FILE): its
+# rows as tissue=law. A set with a support at the chest wall is one for a breast that slides.
+set_of = $(or $(filter $(RUN)/%,$1),$(wildcard $1),$(PIPELINES)/materials/$1.tsv)
+rows_in = $(if $(wildcard $1),$(shell awk -F '\t' '/^\#/ { next } !header++ { for (i = 1; i <= NF; i++) at[$$i] = i; next } \
+  { print $$at["tissue"] "=" $$at["law"] }' $1))
+slides := $(if $(PAPER),,$(filter wall=support,$(call rows_in,$(call set_of,$(MATERIALS)))))
+WALL ?=
+CUT ?=
+LEAVE_OUT ?=
+PRONE ?= --posture prone
+ELEMENTS ?= 16
+# The default of the programs is q1p0.
+ELEMENT ?=
+# Chooses ELEMENTS and ELEMENT.
+ACCURACY ?=
+ACCURACY_LADDER ?= q1p0-dome-4 q1p0-dome-6 q1p0-dome-8 q1p0-dome-10 q1p0-dome-12 q2p1-dome-8 q1p0-dome-16 q2p1-dome-10 q1p0-dome-20 \
+  q2p1-dome-12 q2p1-dome-16
+# A breast that slides does so with the muscle behind it; one that is held needs none. The tissue around it moves with it.
+MUSCLE ?= $(if $(PAPER),,$(if $(slides),measured,0))
+SURROUNDINGS ?= $(if $(PAPER),,$(if $(slides),16,0))
+REDUCTION ?= 50
+# The mean pressure of the paddle, kPa, at which a compression ends before REDUCTION, as in clinical practice. Table II is too stiff for it.
+PRESSURE ?= $(if $(slides),10)
+# As printed, elements on the edge of the cuboid fold early (docs/validation/contact.md).
+AT_LEAST ?= $(if $(PAPER),30,40)
+POINTS ?= 4
 
-# Every table, verdict and page is made by tabulate, from reports, tables and shapes.
-tabulate = $(TABULATE) --quiet --pipelines $(PIPELINES)
-# The supports of the breast at its back; if empty, those with which the material set was found, or a held wall and a free cut.
-SUPPORT = $(addprefix --wall ,$(WALL)) $(addprefix --cut ,$(CUT))
-# As printed in the paper: cuboid, skin as a layer of elements, plain invariants, free cut.
+# ---- programs of the stages and their further options ------------------------------------------------------
+# As printed in the paper: cuboid, skin as a layer of elements, plain invariants, free cut, no gravity in compression.
 PRINTED_HEXMESH = --template cuboid --elements $(ELEMENTS) --skin-as layer
 PRINTED_MECHANICS = --materials $(MATERIALS) --invariants plain --element q1p0
-# The plates stop at the first of these limits.
-STOPS = --reduction $(REDUCTION) $(addprefix --pressure ,$(PRESSURE))
+SEGMENT_OPTIONS ?=
+FIT_OPTIONS ?=
+HEXMESH_OPTIONS ?= $(if $(PAPER),$(PRINTED_HEXMESH),--elements $(ELEMENTS) $(addprefix --muscle ,$(filter-out 0,$(MUSCLE))) \
+  $(addprefix --surroundings ,$(filter-out 0,$(SURROUNDINGS))))
+MECHANICS ?= $(if $(PAPER),$(PRINTED_MECHANICS),--materials $(MATERIALS) $(addprefix --element ,$(ELEMENT)))
+COMPRESS_OPTIONS ?= $(if $(PAPER),--gravity off --contact al)
+PROJECT_OPTIONS ?=
+PHANTOM_OPTIONS ?=
+SLICER_OPTIONS ?=
+EVALUATE_OPTIONS ?=
+SEGMENT ?= $(BIN)/segment
+FIT_HERMITE ?= $(BIN)/fit-hermite
+HEXMESH ?= $(BIN)/hexmesh
+BACKWARD ?= $(BIN)/backward
+FORWARD ?= $(BIN)/forward
+COMPRESS ?= $(BIN)/compress
+PROJECT ?= $(BIN)/project-mammogram
+CC2MLO ?= $(BIN)/cc2mlo
+PHANTOM ?= $(BIN)/phantom
+PHANTOM_MESH ?= $(BIN)/phantom-mesh
+TRUTH_TABLE_TOOL ?= $(BIN)/truth-table
+CALIBRATE ?= $(BIN)/calibrate
+CALIBRATE_SOFTNESS ?= $(BIN)/calibrate-softness
+IDENTIFY ?= $(BIN)/identify
+PROBE ?= $(BIN)/probe
+RENDER ?= $(BIN)/render
+SENSITIVITY ?= $(BIN)/sensitivity
+DIFFERENCE ?= $(BIN)/difference
+MATCH_LOOKUP ?= $(BIN)/match-lookup
+EXPORT_DECK ?= $(BIN)/export-deck
+EVALUATE ?= $(BIN)/evaluate
+EXPORT_SLICER ?= $(BIN)/export-slicer
+POPULATION_TOOL ?= $(BIN)/population
+CASES ?= $(BIN)/cases
+TABULATE ?= $(BIN)/tabulate
 
-# The scan; the tumour and the material set if a rule makes them (those of users are known by content).
-MR_FILES := $(MR) $(if $(wildcard $(MR)/.),$(wildcard $(MR)/*))
-MADE_TUMOUR := $(filter $(RUNS)/%,$(TUMOUR))
-MADE_MATERIALS := $(filter $(RUN)/%,$(MATERIALS))
-# What only the run of a tumour has: another mesh may have none.
-of_a_tumour := $(addprefix $(RUN)/,curve.vtp curve.tsv curve.json .curve.settings band.vtp band.tsv band-curve.tsv band.json \
-  figures/*-matching.png slicer/scene.mrml slicer/column-* slicer/curve-*)
-# Contours for checking the labels; a program that replaces segment need not draw them.
-contours := $(if $(filter $(BIN)/segment,$(SEGMENT)),--overlay $(RUN)/contours.png)
+# ---- results, studies, truth -------------------------------------------------------------------------------
+# A page is easily forwarded. It therefore contains voxels of a patient's scan only with PAGE_SCAN=yes; a phantom may be shown.
+PAGE_SCAN ?= $(if $(TRUTH),yes,no)
+EXPECTED ?= $(wildcard $(PIPELINES)/expected/$(CASE)$(if $(PAPER),-as-printed).tsv)
+# The PDF is printed by a headless browser (Debian package chromium, which setup does not install).
+CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
+STUDY ?=
+COST_POINTS ?= $(cost_variants)
+COST_FINEST ?= q2p1-dome-24
+FINDINGS_FINEST ?= 10
+BUDGET_FINER ?= 20
+LEAVEOUT_MM ?= 1
+LEAVEOUT_VARIANTS ?= $(leaveout_variants)
+TRUTH_COARSE ?= $(if $(body_slides),0.5,1)
+TRUTH_FINE ?= $(if $(body_slides),0.75,2)
+BAND_SAMPLES ?= 220
+BAND_DRAWS ?= 400
+BAND_PLACES ?= 150
+STABILITY_LIMIT ?= 20000
+COMPARE_ELEMENTS ?= 10
+COMPARE_SCENES ?= block-8-poly-1000-C3D8I block-8-poly-1000-C3D8 block-8-mr-100-C3D8I \
+  block-8-mr-1000-C3D8I block-4-poly-1000-C3D20R breast-1000-C3D8I block-16-poly-1000-C3D8I
+COMPARE_PRESSED ?= pressed-8-10000-C3D8I-60-contact pressed-8-10000-C3D8I-50-prescribed \
+  pressed-16-10000-C3D8I-60-contact
+POPULATION_SCANS ?=
+POPULATION_ELEMENTS ?= 10
+POPULATION_MATERIALS ?= invivo
+MINUTES ?=
+FUZZ_MINUTES ?= 240
+FUZZ_INPUTS ?= 2000
+FAULT_ALLOCATIONS ?= 200
 
-# What a row of a study may change, each a column of its table (studies.mk).
-study_columns := segment fit hexmesh prone mechanics wall cut compress plates slopes materials content
-its_segment = $(SEGMENT_OPTIONS)
-its_fit = $(FIT_OPTIONS)
-its_hexmesh = $(HEXMESH_OPTIONS)
-its_prone = $(PRONE)
-its_mechanics = $(MECHANICS)
-its_wall = $(WALL)
-its_cut = $(CUT)
-its_compress = $(COMPRESS_OPTIONS)
-its_slopes := fat,fibroglandular,skin
-its_materials = $(MATERIALS)
-its_content = $(content_MATERIALS)
-
-# The options of the stages, and what is remembered of them: program, options, contents of files that users edit.
-its_model = $(its_mechanics) $(addprefix --wall ,$(its_wall)) $(addprefix --cut ,$(its_cut))
-labels_options = --side $(SIDE) $(addprefix --series ,$(SERIES)) $(addprefix --chest-wall ,$(CHEST_WALL)) $(its_segment)
-labels_settings = $(SEGMENT) $(call named,$(MR)) $(labels_options) $(content_CHEST_WALL)
-geometry_options = $(its_fit)
-geometry_settings = $(FIT_HERMITE) $(geometry_options)
-mesh_options = $(its_hexmesh) $(if $(findstring --tumour,$(its_hexmesh)),,--tumour $(TUMOUR))
-mesh_settings = $(HEXMESH) $(mesh_options) $(content_TUMOUR)
-reference_options = $(its_prone) $(its_model)
-reference_settings = $(BACKWARD) $(reference_options) $(its_content)
-supine_options = $(its_model)
-supine_settings = $(FORWARD) $(supine_options) $(its_content)
-# The plates have the distance that the case asks for, or their true positions.
-plates_for = $(if $(its_plates),$(call same_plates,$(TRUTH_AT)-fine-$1.json) $(if $(body_slides),$(wordlist 2,3,$(truth_edge_$1))),$(STOPS))
-press = --at-least $(AT_LEAST) $(its_compress) $(its_model)
-cc_options = $(call plates_for,cc) $(press)
-cc_settings = $(COMPRESS) $(if $(its_plates),,$(STOPS)) $(press) $(its_content)
-mlo_options = $(call plates_for,mlo) $(press)
-mlo_settings = $(cc_settings)
-cc-mammogram_options = $(PROJECT_OPTIONS)
-cc-mammogram_settings = $(PROJECT) $(PROJECT_OPTIONS)
-mlo-mammogram_options = $(PROJECT_OPTIONS)
-mlo-mammogram_settings = $(PROJECT) $(PROJECT_OPTIONS)
-curve_settings = $(CC2MLO)
-slopes_options = $(its_prone) $(its_model) --parameters $(its_slopes)
-slopes_settings = $(SENSITIVITY) $(slopes_options)
-
-# Options of every program: its report and its share of the cores. Where all others wait, a stage has all (but not in a cohort).
-share = --threads $$($(PIPELINES)/threads.sh)
-alone = --threads $$($(PIPELINES)/threads.sh $(if $(filter 0,$(MAKELEVEL)),alone))
-common = --report $(basename $@).json $(share)
-common_alone = --report $(basename $@).json $(alone)
-# The report of a stage whose file has another name.
-common_of = --report $(@D)/$1.json $(share)
+# ---- cohorts -----------------------------------------------------------------------------------------------
+COHORT ?=
+CLUSTER ?= local
+CLUSTER_PARTITION ?=
+CLUSTER_ACCOUNT ?=
+CLUSTER_TIME ?=
+CLUSTER_MEMORY ?=
+CLUSTER_CORES ?= 1
+CLUSTER_OPTIONS ?=
+RESUME ?=

@@ -3,17 +3,15 @@
 CHAIN_FILES := $(addprefix $(RUN)/,labels.vtkhdf geometry.vtkhdf mesh.vtkhdf reference.vtkhdf \
   supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti $(if $(no_tumour),lookup.h5 page.html,curve.vtp))
 
-MATERIAL_FILE := $(MADE_MATERIALS)
-MATERIAL_TABLE := $(or $(MADE_MATERIALS),$(wildcard $(MATERIALS)),$(PIPELINES)/materials/$(MATERIALS).tsv)
 # The model without gland uses the set in which the law of fat replaces that of fibroglandular tissue.
-$(RUN)/fat-only.tsv: $(or $(whole_set),$(MATERIAL_TABLE))
+$(RUN)/fat-only.tsv: $(whole_set)
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) set fat-only $<)
 
 # The same with the lateral cut held, which shows the effect of this boundary condition at the landmarks;
 # its discretisation error is not estimated again.
 cut-fixed_settings := $(BACKWARD) $(FORWARD) $(MECHANICS) $(content_MATERIALS)
-$(RUN)/reference-cut-fixed.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD) $(MATERIAL_FILE) $(call changed,cut-fixed)
+$(RUN)/reference-cut-fixed.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD) $(MADE_MATERIALS) $(call changed,cut-fixed)
 	$(call stage,cut-fixed) $(BACKWARD) $< $@ --posture prone $(MECHANICS) --cut fixed --estimate none $(common)
 supine-cut-fixed_settings = $(cut-fixed_settings)
 $(RUN)/supine-cut-fixed.vtkhdf: $(RUN)/reference-cut-fixed.vtkhdf $(FORWARD)

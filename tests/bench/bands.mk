@@ -2,7 +2,6 @@
 # Checks of the bands of the matched curves, with benchmark programs that are not installed.
 
 # The band is compared with repeated solves of the chain with parameters drawn from the priors, on a coarse mesh of the case.
-BAND_SAMPLES ?= 220
 $(RUN)/band-check-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH)
 	$(HEXMESH) $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $@ --elements 8 --tumour none $(common)
 $(RUN)/band-samples.tsv: $(RUN)/band-check-mesh.vtkhdf tests/bench/band_check.cpp $(COMPRESS)
@@ -16,8 +15,6 @@ band-check: $(RUN)/band-samples.tsv
 # The band of the chain from the MR scan is compared with the true body of the phantom: with its points at their true positions
 # (band-nominal), and with its points displaced along the derivatives of the true body by parameters drawn from the priors
 # (band-drawn, with BAND_DRAWS draws).
-BAND_DRAWS ?= 400
-BAND_PLACES ?= 150
 TRUE_SENSITIVITIES := $(foreach view,cc mlo,$(TRUTH_AT)-coarse-$(view)-sensitivity.vtkhdf)
 $(TRUE_SENSITIVITIES): %-sensitivity.vtkhdf: %.vtkhdf $(TRUTH_AT)-coarse.vtkhdf $(SENSITIVITY)
 	$(SENSITIVITY) $(TRUTH_AT)-coarse.vtkhdf $< $@ --posture prone --table $(basename $@).tsv $(common)

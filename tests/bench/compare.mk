@@ -4,10 +4,6 @@
 # runs/compare/*.tsv. Scenes of the block are named block-N-LAW-BULKRATIO-ELEMENT, poly is the set seed2008's fat, and
 # pressed-N-BULKRATIO-ELEMENT-GAP-MODE (tests/bench/press.sh).
 COMPARE := $(RUNS)/compare
-COMPARE_SCENES ?= block-8-poly-1000-C3D8I block-8-poly-1000-C3D8 block-8-mr-100-C3D8I \
-  block-8-mr-1000-C3D8I block-4-poly-1000-C3D20R breast-1000-C3D8I block-16-poly-1000-C3D8I
-COMPARE_PRESSED ?= pressed-8-10000-C3D8I-60-contact pressed-8-10000-C3D8I-50-prescribed \
-  pressed-16-10000-C3D8I-60-contact
 COMPARE_FILES := $(COMPARE_SCENES:%=$(COMPARE)/%.tsv)
 PRESSED_FILES := $(COMPARE_PRESSED:%=$(COMPARE)/%.tsv)
 compare_run = BIN=$(BIN) tests/bench/compare.sh
@@ -46,7 +42,7 @@ $(COMPARE)/breast-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEX
 	@mkdir -p $(COMPARE)
 	$(HEXMESH) $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $@ --elements $(COMPARE_ELEMENTS) --skin 0
 	@$(call record,compare)
-$(COMPARE)/breast-reference.vtkhdf: $(COMPARE)/breast-mesh.vtkhdf $(BACKWARD) $(MATERIAL_FILE)
+$(COMPARE)/breast-reference.vtkhdf: $(COMPARE)/breast-mesh.vtkhdf $(BACKWARD) $(MADE_MATERIALS)
 	$(BACKWARD) $< $@ --posture prone --materials $(MATERIALS)
 $(COMPARE)/breast-%.tsv: $(COMPARE)/breast-reference.vtkhdf $(compare_needs)
 	$(compare_run) $< $@ $(call part,1,$*) $(call part,2,$*) $(MATERIALS) --posture supine

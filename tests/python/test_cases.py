@@ -11,9 +11,9 @@ from pathlib import Path
 from breast.cases.attempt import attempt
 from breast.cases.case_file import parse_case_file, read_case_file, setting_in
 from breast.cases.case_run import is_done, reason_of, run_case
-from breast.cases.cohort import cohort_entries
+from breast.cases.cohort import CohortEntry, cohort_entries
 from breast.cases.ladder import climb
-from breast.cases.make_text import LINE_END, code_in, has_control
+from breast.cases.make_text import code_in, has_control
 from breast.cases.scan_identity import mixed_up, remember_scan
 from breast.cases.slurm import SlurmRequest, slurm_plan
 from breast.cases.study_rules import StudyRules, chain_rules
@@ -57,7 +57,7 @@ class CaseFiles(unittest.TestCase):
         self.assertIn("line 2: MR is given for the second time", self.refusal("MR = x\nMR = y"))
         for code in (*CODE, "#x"):
             self.assertIn("MR contains the character", self.refusal("MR = " + code), code)
-        self.assertIn("control character", self.refusal(f"MR = a{LINE_END}b"))
+        self.assertIn("control character", self.refusal("MR = a\x1eb"))
         self.assertIn("larger than 64 kB", self.refusal("#" * 70000))
         self.assertIn("can be read", reason(read_case_file, "/nowhere.case", KEYS))
 
@@ -69,7 +69,7 @@ class CaseFiles(unittest.TestCase):
             text = list(seed)
             for _ in range(some.randint(1, 6)):
                 at = some.randrange(len(text))
-                text[at:at + some.randint(0, 2)] = some.choice(("$(x)", "`", ";", "\n", "=", "#", "\t", LINE_END, "\0", "é", "\udcff", "MR", ""))
+                text[at:at + some.randint(0, 2)] = some.choice(("$(x)", "`", ";", "\n", "=", "#", "\t", "\x1e", "\0", "é", "\udcff", "MR", ""))
             changed = "".join(text)
             try:
                 found = parse_case_file(changed, "a.case", KEYS)
@@ -152,13 +152,14 @@ class CaseRuns(InFolder):
 
     def test_keep_what_became_of_the_case(self):
         status, log = self.folder / "n.status", self.folder / "n.log"
-        self.assertTrue(run_case(status, log, False, ["sh", "-c", "echo forward: no body; exit 3", "summary"]))
+        scan, phantom = CohortEntry("n", "n.case", "scan"), CohortEntry("n", "n.case", "phantom")
+        self.assertTrue(run_case(self.folder, scan, ["sh", "-c", "echo forward: no body; exit 3", "summary"]))
         self.assertEqual(status.read_text(), "failed\tforward: no body\n")
         self.assertFalse(is_done(status))
-        self.assertTrue(run_case(status, log, True, ["echo", "made", "summary"]))
+        self.assertTrue(run_case(self.folder, phantom, ["echo", "made", "summary"]))
         self.assertEqual(log.read_text(), "made phantom-scan\nmade summary\n", "its phantom's scan first")
         self.assertTrue(is_done(status))
-        self.assertFalse(run_case(status, log, False, ["sh", "-c", "kill -TERM $$"]))
+        self.assertFalse(run_case(self.folder, scan, ["sh", "-c", "kill -TERM $$"]))
         self.assertIn("stopped by a signal", status.read_text())
 
 
@@ -300,8 +301,7 @@ class Variants(unittest.TestCase):
                 ("variant\tstarts_at\tfrom\nx\tmesh\n",
                  "x has 2 cells and not 3; separate cells by one tab, and write - for an empty one"),
                 ("variant\tstarts_at\nx\tmesh cc\n", "'mesh cc' is none of labels, mesh, reference, supine"),
-                # The byte that ends a line of make would begin another assignment.
-                (f"variant\tstarts_at\tmechanics\nx\tmesh\ta{LINE_END}SHELL := b\r\n", "x holds a control character")):
+                ("variant\tstarts_at\tmechanics\nx\tmesh\ta\vSHELL := b\r\n", "x holds a control character")):
             self.assertEqual(reason(expanded, table), "own.tsv: " + said)
         self.assertIn("did you mean reference?", reason(expanded, "variant\tstarts_at\nx\trefference\n"))
         for name in ("x", "a/b", "a b", "-"):
@@ -318,7 +318,7 @@ class Variants(unittest.TestCase):
             text = list(seed)
             for _ in range(some.randint(1, 6)):
                 at = some.randrange(len(text))
-                text[at:at + some.randint(0, 2)] = some.choice(("$(x)", "`", "{RUN}", "\n", "\t", "+", "#", "\r", LINE_END, "é", "-", "mesh"))
+                text[at:at + some.randint(0, 2)] = some.choice(("$(x)", "`", "{RUN}", "\n", "\t", "+", "#", "\r", "\x1e", "é", "-", "mesh"))
             try:
                 text = expanded("".join(text))
             except BreastError as error:

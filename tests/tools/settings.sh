@@ -38,9 +38,33 @@ refused "a scan with a line break in its name" "MR: a line break may not stand i
 plan fuzz MINUTES=1 && plan release-check FUZZ_MINUTES=1 FUZZ_INPUTS=1 FAULT_ALLOCATIONS=1 || { cat "$work/err"; fail "settings of fuzz are known"; }
 pass "unknown settings and values are refused by name, with a suggestion"
 
+# Every setting has its default in one file, which depends on the case.
+diff <(grep -o '^[A-Z][A-Z0-9_]* ?=' pipelines/settings.mk pipelines/given.mk pipelines/build.mk -h | cut -d' ' -f1 | sort) \
+  <(make -f Makefile.pipeline settings | sort) || fail "settings.mk has a default for every setting of settings.tsv"
+has() { # VALUES SETTING... -- ARGUMENT...
+  local values=$1 names=()
+  shift
+  while [ "$1" != -- ]; do names+=("$1"); shift; done
+  shift
+  plan --eval="print: ; \$(info $(printf '$(%s)|' "${names[@]}"))" "$@" print || { cat "$work/err"; fail "$*: settings"; }
+  grep -qxFe "$values" "$work/out" || { grep "|$" "$work/out"; fail "$*: ${names[*]} are $values"; }
+}
+model=(RUN MATERIALS PRESSURE MUSCLE SURROUNDINGS AT_LEAST)
+has "$work/runs/average|invivo|10|measured|16|40|" "${model[@]}" --
+has "$work/runs/paper|seed2008||0|0|40|" "${model[@]}" -- PRESET=paper
+has "$work/runs/paper-as-printed|seed2008||||30|" "${model[@]}" -- PAPER=1
+has "$work/runs/average|seed2008||0|0|40|" "${model[@]}" -- MATERIALS=seed2008
+has "$work/runs/x-left|invivo|10|measured|16|40|" "${model[@]}" -- MR=/no/x.nii.gz
+has "paper|left|$work/runs/paper|" PRESET SIDE RUN -- tables
+has "$work/runs/1.2.840-right|none|no|" RUN TUMOUR PAGE_SCAN -- MR=1.2.840/ SIDE=right
+has "$work/runs/average/identified.tsv|invivo|" MATERIALS prior_set -- SUPINE=phantom
+has "$work/runs/average/fat-only.tsv|pipelines/materials/invivo.tsv|--gravity 0,0,0|" MATERIALS whole_set PRONE -- LEAVE_OUT="no-gland no-backward"
+has "--x --skin 0|yes|" HEXMESH_OPTIONS slides_as_expected -- HEXMESH_OPTIONS=--x LEAVE_OUT=no-skin --eval='slides_as_expected = $(if $(slides),yes)'
+pass "defaults follow from the case"
+
 # What a setting accepts is what the program accepts to which it is given.
 while read -r setting tool option; do
-  range=$(awk -F '\t' -v setting="$setting" '$1 == setting { split($5, word, " "); print word[2], "to", word[3] }' pipelines/settings.tsv)
+  range=$(awk -F '\t' -v setting="$setting" '$1 == setting { split($4, word, " "); print word[2], "to", word[3] }' pipelines/settings.tsv)
   "$bin/$tool" --help | tr -s ' \n' ' ' | grep -q -- "$option [A-Z]* [^-]*($range[;)]" || fail "$setting: $range is the range of $tool $option"
 done <<'ranges'
 REDUCTION compress --reduction
@@ -49,6 +73,9 @@ AT_LEAST compress --at-least
 ELEMENTS hexmesh --elements
 SERIES segment --series
 ranges
+# The phantom says which of its bodies slide, and make plans for them.
+sliding=$(sed -n 's/^body_slides := $(filter \(.*\),.*/\1/p' pipelines/settings.mk | sed 's/ /, /g; s/, \([a-z]*\)$/ and \1/')
+"$bin/phantom" --help | tr -s ' \n' ' ' | grep -q "Breasts of the presets $sliding are" || fail "the presets $sliding slide"
 pass "the bounds of settings are those of the programs"
 
 mkdir -p "$work/runs/paper"
@@ -79,10 +106,10 @@ done
 for setting in CHEST_WALL CASE MATERIALS TUMOUR RUNS COHORT CASE_FILE STUDY; do
   for name in "${worst[@]}"; do refuse_name "$setting" "$name"; done
 done
-all_settings=$(make -f Makefile.pipeline -n --eval='print: ; $(info $(known_settings))' print 2> /dev/null | sed -n 1p)
+all_settings=$(make -f Makefile.pipeline settings)
 [ "$(wc -w <<< "$all_settings")" -gt 50 ] || fail "the makefile lists its settings"
 for setting in $all_settings; do
-  [ "$setting" = share ] || refuse_name "$setting" "a b'c\"\$(touch $bait)\`touch $bait\`;é(=).nrrd"
+  refuse_name "$setting" "a b'c\"\$(touch $bait)\`touch $bait\`;é(=).nrrd"
 done
 for setting in MECHANICS HEXMESH_OPTIONS COMPRESS_OPTIONS SEGMENT; do
   ! plan "$setting=--x \`touch $bait\`" chain || fail "$setting with a command in it is refused"
@@ -222,7 +249,8 @@ for page in cohort contours; do
 done
 printf '#!/bin/sh\necho "make: *** No rule to make target '"'/secret/place/x.nrrd'"', needed by '"'$runs/n/labels.vtkhdf'"'.  Stop."; exit 2\n' > "$work/missing.sh"
 chmod +x "$work/missing.sh"
-"$bin/cases" run "$runs/n.status" "$runs/n.log" scan --quiet -- "$work/missing.sh"
+"$bin/cases" run "$runs" never --quiet -- "$work/missing.sh" summary
+mv "$runs/never.status" "$runs/n.status"
 [ "$(cat "$runs/n.status")" = "$(printf "failed\t'x.nrrd', which a setting names, does not exist")" ] || { cat "$runs/n.status"; fail "a reason names no folder"; }
 pass "pages of a cohort escape every name, failures first, and name no folder"
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from ..command.child import run_child
 from ..output import write_text
 from ..text_table import read_text
+from .cohort import CohortEntry
 
 _LONGEST_REASON = 2000  # a longer line of a log is not a sentence
 _ENDING = (signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU, signal.SIGINT)
@@ -53,20 +54,21 @@ def _locked(file: Path, says: str = "") -> Iterator[None]:
         yield
 
 
-def run_case(status: Path, log: Path, phantom: bool, command: Sequence[str]) -> bool:
-    """Runs a case and writes its outcome to the status file: "running", then "done" or "failed" with the reason.
+def run_case(runs: Path, case: CohortEntry, command: Sequence[str]) -> bool:
+    """Runs a case and writes its outcome to RUNS/CASE.status: "running", then "done" or "failed" with the reason.
 
     Only one process at a time works on a case: a second one waits for the first, because a cluster may start a task again before its
     first run has ended. Cases of one phantom share its scan, which only one of them may make.
 
     Args:
-        status: RUNS/CASE.status. log: output of the commands.
-        phantom: whether the scan is a phantom's.
+        runs: of the cohort; RUNS/CASE.log has the output of the commands.
         command: make command of the case; its last word is the target.
 
     Returns:
         False if a signal stopped the case; true otherwise, also if the case failed.
     """
+    status, log = case.status(runs), runs / (case.name + ".log")
+
     def say(what: str, reason: str = "") -> None:
         write_text(status, f"{what}\t{reason}\n")
 
@@ -81,7 +83,7 @@ def run_case(status: Path, log: Path, phantom: bool, command: Sequence[str]) -> 
         say("running")
         log.unlink(missing_ok=True)
         code = 0
-        if phantom:
+        if case.kind == "phantom":
             with _locked(status.with_name(".phantoms.lock")):
                 code = run([*command[:-1], "phantom-scan"])
         code = code or run(command)
@@ -91,7 +93,7 @@ def run_case(status: Path, log: Path, phantom: bool, command: Sequence[str]) -> 
         if code == 0:
             say("done")
         else:
-            say("failed", reason_of(read_text(log), str(status.parent)) or "nothing was said; see the log")
+            say("failed", reason_of(read_text(log), str(runs)) or "nothing was said; see the log")
         return True
 
 

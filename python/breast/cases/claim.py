@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
 from ..errors import BreastError
@@ -48,11 +48,11 @@ def _others(folder: Path, pid: int) -> list[tuple[int, dict]]:
     return found
 
 
-def claim_run(run: Path, pid: int, settings: Mapping[str, str]) -> None:
+def claim_run(run: Path, pid: int, settings: Mapping[str, str], following: Collection[str] = ()) -> None:
     """Claims the folder RUN for the make `pid` and its children.
 
-    Raises BreastError, naming the settings that differ, if another process makes the case with other settings. Of two that begin at
-    once, the one that started first goes on.
+    Raises BreastError, naming the settings that differ, if another process makes the case with other settings; the names in `following`,
+    whose values follow from others, only if no other differs. Of two that begin at once, the one that started first goes on.
     """
     digests = {name: hashlib.sha256(os.fsencode(value)).hexdigest()[:12] for name, value in settings.items()}
     started = _parent_and_start(pid)[1]
@@ -66,6 +66,7 @@ def claim_run(run: Path, pid: int, settings: Mapping[str, str]) -> None:
         differ = sorted(name for name in digests if claim["settings"].get(name) != digests[name])
         if differ:
             (folder / str(pid)).unlink(missing_ok=True)
+            differ = [name for name in differ if name not in following] or differ
             shown = ", ".join(f"{name}={settings[name]}" for name in differ)
             raise BreastError(f"{run} is being made by process {other}, and there {' '.join(differ)} "
                               f"{'is' if len(differ) == 1 else 'are'} not {shown}; wait until it has ended, or give another folder with "

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from ..command.make_name import plain_for_make
 from ..errors import BreastError
+from ..text_table import read_text
 from .case_file import read_case_file
 
 
@@ -19,6 +20,10 @@ class CohortEntry(NamedTuple):
     name: str
     file: str
     kind: str
+
+    def status(self, runs: Path) -> Path:
+        """The file that says what became of the case."""
+        return runs / (self.name + ".status")
 
 
 def _visible(folder: str) -> list[str]:
@@ -84,3 +89,15 @@ def cohort_entries(cohort: str, known: Sequence[str]) -> list[CohortEntry]:
     if problems:
         raise BreastError("; ".join(problems))
     return entries
+
+
+def listed_cases(file: Path) -> list[CohortEntry]:
+    """The list of a cohort, with a line CASE<TAB>FILE<TAB>KIND for each case. Raises BreastError naming a line without three cells."""
+    cases = []
+    for line in read_text(file).splitlines():
+        cells = line.split("\t")
+        if len(cells) != 3:
+            raise BreastError(f"the line '{line}' is no case: it has {len(cells)} cells, and CASE, FILE and KIND are needed; remove "
+                              "the file and start the cohort again", file)
+        cases.append(CohortEntry(*cells))
+    return cases

@@ -29,10 +29,6 @@ class Goals:
         needs = {row["goal"]: table.cell(row, "needs").split() for row in table.rows}
         self._goals = [(name, needs.get(name, [])) for name in names]
 
-    def of_paper(self) -> bool:
-        """Whether a target makes results of the paper, whose phantom is `paper`."""
-        return any("paper" in needs for _, needs in self._goals)
-
     def about_case(self) -> bool:
         """Whether a target is about the case in RUN."""
         return any("any" not in needs for _, needs in self._goals)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from ..command.nearest import suggestion
 from ..errors import BreastError
 from ..text_table import parse_number, read_table
-from .make_text import code_in, has_control
+from .make_text import NAME_CODE, code_in, has_control
 
 _RADIUS_MM = 50.0  # the largest of a tumour
 
@@ -21,7 +21,6 @@ class Setting(NamedTuple):
     name: str
     kind: str
     of_case: bool = False
-    default: str = ""
     choices: tuple[str, ...] = ()
     may_hold: str = ""
 
@@ -34,7 +33,7 @@ def read_settings(pipelines: Path) -> list[Setting]:
     """The settings of the pipeline in the folder `pipelines`, in the order of the table."""
     table = read_table(pipelines / "settings.tsv")
     return [Setting(table.cell(row, "setting"), table.cell(row, "kind"), table.cell(row, "of") == "case",
-                    table.cell(row, "default"), tuple(table.cell(row, "choices").split()), table.cell(row, "may_hold"))
+                    tuple(table.cell(row, "choices").split()), table.cell(row, "may_hold"))
             for row in table.rows]
 
 
@@ -47,7 +46,7 @@ def check_characters(setting: Setting, value: str) -> None:
         raise BreastError(f"{name}: a control character may not stand in it; {advice}")
     code = code_in(value)
     if not setting.is_words and not code:
-        code = next((c for c in value if c in "=:%~" and c not in setting.may_hold), "")
+        code = next((c for c in value if c in NAME_CODE and c not in setting.may_hold), "")
     if code:
         raise BreastError(f"{name}: the character {code} may not stand in it, because make or a shell would read it as code; {advice}")
     if setting.is_words:

@@ -17,7 +17,7 @@ from ..output import write_text
 from ..text_table import number_in, read_table, read_text
 from .case_file import setting_in
 from .case_run import is_done, run_case
-from .cohort import CohortEntry
+from .cohort import CohortEntry, listed_cases
 from .cost import CaseCost, case_cost
 
 _MOST_ELEMENTS = 64.0  # hexmesh refuses more
@@ -71,18 +71,6 @@ def _leave_make() -> None:
         os.environ.pop(name, None)
 
 
-def slurm_cases(file: Path) -> list[CohortEntry]:
-    """The list of a cohort, with a line CASE<TAB>FILE<TAB>KIND for each case. Raises BreastError naming a line without three cells."""
-    cases = []
-    for line in read_text(file).splitlines():
-        cells = line.split("\t")
-        if len(cells) != 3:
-            raise BreastError(f"the line '{line}' is no case: it has {len(cells)} cells, and CASE, FILE and KIND are needed; remove "
-                              "the file and start the cohort again", file)
-        cases.append(CohortEntry(*cells))
-    return cases
-
-
 def dearest_case(request: SlurmRequest, cases: Sequence[CohortEntry]) -> CaseCost:
     """The cost of the largest mesh that the request or a case file asks for. Raises BreastError if no table contains the element."""
     size, element = request.elements, request.element or "q1p0"
@@ -131,20 +119,20 @@ def _next_folder(runs: Path) -> Path:
 
 def wanted_cases(request: SlurmRequest) -> list[CohortEntry]:
     """The cases to run: all or, with `resume`, those without a result and those that make considers out of date."""
-    cases = slurm_cases(request.runs / ".cases")
+    cases = listed_cases(request.runs / ".cases")
     if not request.resume:
         return cases
     _leave_make()
 
     def done(one: CohortEntry) -> bool:
         make, *words = _case_command(request.command, request.runs, one)
-        return is_done(request.runs / (one.name + ".status")) and capture_child([make, "-q", *words]).exit_code == 0
+        return is_done(one.status(request.runs)) and capture_child([make, "-q", *words]).exit_code == 0
     return [one for one in cases if not done(one)]
 
 
 def slurm_plan(request: SlurmRequest) -> str:
     """The options and the script that sbatch would receive."""
-    cost = dearest_case(request, slurm_cases(request.runs / ".cases"))
+    cost = dearest_case(request, listed_cases(request.runs / ".cases"))
     return (f"# sbatch --array=0-{len(wanted_cases(request)) - 1} [OFFSET: tasks before those of this chunk]\n" +
             array_script(request, _next_folder(request.runs), cost))
 
@@ -186,7 +174,7 @@ def submit_to_slurm(request: SlurmRequest) -> str:
     if not shutil.which("sbatch"):
         raise Failed("the program sbatch was not found in PATH, so that no job can be submitted to Slurm from this machine; install "
                      "slurm-client, or run the cases on this machine without --slurm")
-    every, wanted = slurm_cases(request.runs / ".cases"), wanted_cases(request)
+    every, wanted = listed_cases(request.runs / ".cases"), wanted_cases(request)
     cost, folder = dearest_case(request, every), _next_folder(request.runs)
     folder.mkdir(parents=True)
     write_text(folder / "command", "\n".join(request.command) + "\n")
@@ -209,19 +197,19 @@ def run_slurm_task(folder: Path, offset: int) -> str:
     Returns the text of its status file. Raises BreastError if there is no such case, and Failed if it does not end as done.
     """
     _leave_make()
-    cases, given = slurm_cases(folder / "cases"), os.environ.get("SLURM_ARRAY_TASK_ID", "")
+    cases, given = listed_cases(folder / "cases"), os.environ.get("SLURM_ARRAY_TASK_ID", "")
     task = number_in(given)
     if task is None or task < 0 or int(task) + offset >= len(cases):
         raise BreastError(f"SLURM_ARRAY_TASK_ID: task '{given}' with the offset {offset} is none of the {len(cases)} cases listed in "
                           f"{folder / 'cases'}; submit the cohort again")
     one, runs = cases[int(task) + offset], folder.parent.parent
-    status = runs / (one.name + ".status")
+    status = one.status(runs)
     os.environ["OMP_NUM_THREADS"] = os.environ.get("SLURM_CPUS_PER_TASK") or "1"  # nproc prints it, too
     starts = int(number_in(os.environ.get("SLURM_RESTART_COUNT", "")) or 0) + 1
     # Printed at the start, because nothing could be printed at the end if the node were lost.
     print(f"{one.name} on {socket.gethostname()}, job {os.environ.get('SLURM_JOB_ID', '')}, start {starts}", flush=True)
     make = read_text(folder / "command").splitlines()
-    run_case(status, runs / (one.name + ".log"), one.kind == "phantom", _case_command(make, runs, one))
+    run_case(runs, one, _case_command(make, runs, one))
     if not is_done(status):
         raise Failed(f"{one.name}: {' '.join(read_text(status).split(chr(9))).strip()}")
     return read_text(status)

@@ -8,10 +8,10 @@ solve that ends early is a result, whose report states the reason (`cases attemp
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ..errors import BreastError, Failed
+from ..errors import Failed
 from .variants import Studies, Variant
 
 _BEGIN, _END = "# ---- the chain ", "# ---- the end of the chain "

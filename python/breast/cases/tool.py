@@ -6,13 +6,16 @@ import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..command.nearest import suggestion
 from ..command.tool import Run, Tool
 from ..errors import BreastError, Failed
 from ..output import write_text
 from ..text_table import parse_number, read_table, read_text
+
+if TYPE_CHECKING:
+    from .cohort import CohortEntry
 
 
 class Kind(NamedTuple):
@@ -34,27 +37,33 @@ def _named_value(word: str, start: int = 0) -> tuple[str, str]:
 
 # The modules of an action are imported when it is asked for: most actions are called many times by make.
 
-def _settings(words: list[str], run: Run) -> str:
-    from .settings import SettingsRequest, settings_for_make
-    return settings_for_make(SettingsRequest(Path(words[0]), words[1], words[2] == "installed", words[3].split(), int(words[4]),
-                                             dict(map(_named_value, words[5:])), dict(os.environ)))
+def _given(words: list[str], run: Run) -> None:
+    from .settings import check_given
+    check_given(Path(words[0]), dict(map(_named_value, words[1:])), os.environ)
 
 
-def _rows(words: list[str], run: Run) -> str:
-    from .make_text import rows_for_make
-    return rows_for_make(read_table(words[0]), words[1])
+def _case_file(words: list[str], run: Run) -> str:
+    from .settings import case_file_for_make
+    return f"{case_file_for_make(Path(words[0]), words[1], Path(words[2]))}\n"
+
+
+def _check_case(words: list[str], run: Run) -> None:
+    from .settings import CaseRequest, check_case
+    check_case(CaseRequest(Path(words[0]), int(parse_number(words[1], "check: MAKE_PID")), dict(map(_named_value, words[2:]))))
+
+
+def _entries(words: list[str]) -> list[CohortEntry]:
+    from .cohort import cohort_entries
+    from .settings_table import read_settings
+    return cohort_entries(words[0], [one.name for one in read_settings(Path(words[1])) if one.of_case])
 
 
 def _cohort(words: list[str], run: Run) -> str:
-    from .cohort import cohort_entries
-    from .make_text import make_addition, make_assignment
-    return "".join(make_addition("COHORT_CASES", one.name) + make_assignment("file_" + one.name, one.file) +
-                   make_assignment("kind_" + one.name, one.kind) for one in cohort_entries(words[0], words[1:]))
+    return "".join(one.name + "\n" for one in _entries(words))
 
 
 def _list(words: list[str], run: Run) -> str:
-    from .cohort import cohort_entries
-    return "".join("\t".join(one) + "\n" for one in cohort_entries(words[0], words[1:]))
+    return "".join("\t".join(one) + "\n" for one in _entries(words))
 
 
 def _studies(words: list[str], run: Run) -> None:
@@ -101,8 +110,13 @@ def _ladder(words: list[str], run: Run) -> None:
 
 def _run(words: list[str], run: Run) -> None:
     from .case_run import run_case
-    if not run_case(Path(words[0]), Path(words[1]), words[2] == "phantom", words[3:]):
-        raise Failed(f"{words[0]}: stopped by a signal")
+    from .cohort import listed_cases
+    runs, name, *make, goal = words
+    one = next((one for one in listed_cases(Path(runs, ".cases")) if one.name == name), None)
+    if one is None:
+        raise BreastError(f"{runs}/.cases lists no case {name}")
+    if not run_case(Path(runs), one, [*make, f"CASE_FILE={one.file}", f"CASE={one.name}", goal]):
+        raise Failed(f"{name}: stopped by a signal")
 
 
 def _any_done(words: list[str], run: Run) -> None:
@@ -133,14 +147,15 @@ def _table(words: list[str], run: Run) -> None:
 
 # In the order of their use: reading, refusing, running.
 KINDS = {
-    "settings": Kind("PIPELINES PROGRAMS installed|built 'GOAL...' MAKE_PID|0 NAME=VALUE...",
-                     "prints all settings as assignments for make, completed from the case file, the environment and the defaults; "
-                     "fails if a setting, a value, a target or the scan of the folder RUN is refused, or if another process makes the case "
-                     "with other settings; 0: a plan, which makes nothing", 5, _settings),
-    "rows": Kind("TABLE.tsv TEMPLATE", "prints, for every row, its cells as variables of make cell_COLUMN, and evaluates the variable "
-                 "TEMPLATE", 2, _rows),
-    "cohort": Kind("COHORT KEY...", "prints the case files of a folder as assignments for make", 1, _cohort),
-    "list": Kind("COHORT KEY...", "prints one line per case file of a folder: CASE, FILE and KIND (scan or phantom)", 1, _list),
+    "given": Kind("PIPELINES NAME=VALUE...", "refuses a name that is no setting, and a value, here or in the environment, that make or a "
+                  "shell would read as code", 1, _given),
+    "case-file": Kind("PIPELINES FILE FOLDER", "writes the settings of a case file as a makefile into FOLDER, and prints its name", 3,
+                      _case_file),
+    "check": Kind("PIPELINES MAKE_PID|0 NAME=VALUE...", "refuses a value that no program would accept, a target (goals) that the case "
+                  "cannot have, a folder RUN of another scan, and a case that another process makes with other settings; 0: a plan, which "
+                  "makes nothing", 2, _check_case),
+    "cohort": Kind("COHORT PIPELINES", "prints the names of the cases of a folder", 2, _cohort),
+    "list": Kind("COHORT PIPELINES", "prints one line per case file of a folder: CASE, FILE and KIND (scan or phantom)", 2, _list),
     "studies": Kind("OUT.mk MAKEFILE RUN ENDS_AT PLACE @COLUMN=OPTIONS... {NAME=VALUE... STUDY=FILE.tsv[@ROW]...",
                     "writes the rules by which make solves the rows of studies: those of the chain in MAKEFILE, with the options of each "
                     "row; PLACE is the command that prints the place of a tumour", 5, _studies),
@@ -153,7 +168,8 @@ KINDS = {
                     "runs a stage of a variant; if it has no solution, the report gives the reason", 3, _attempt),
     "ladder": Kind("RUN MM 'POINT...' 'TABULATE...' -- MAKE...", "solves points of the study `cost` until the estimated error is below "
                    "MM, and writes RUN/accuracy.mk", 5, _ladder),
-    "run": Kind("STATUS LOG KIND -- COMMAND...", "runs a case of a cohort and writes its outcome to the file STATUS", 4, _run),
+    "run": Kind("RUNS CASE -- MAKE... GOAL", "runs a case of the cohort listed in RUNS/.cases and writes its outcome to RUNS/CASE.status",
+                4, _run),
     "any-done": Kind("TABLE.tsv", "fails if no case in the table of a cohort was completed", 1, _any_done),
     "script": Kind("RUNS COHORT -- MAKE...", "prints the script of the job array that `submit` would submit", 2,
                    _of_cluster("slurm_plan")),
@@ -194,7 +210,7 @@ def _declared() -> Tool:
     tool.text("--cost", "FILE.tsv", "table of the cost of a case, used until cases of this cohort have been measured",
               "pipelines/cohort-cost.tsv")
     tool.check(lambda: _check(tool))
-    tool.example("cases list patients MR SIDE PRESET", "list the cases of a cohort")
+    tool.example("cases list patients pipelines", "list the cases of a cohort")
     tool.example("cases record runs/scan-left left scan.nrrd", "record that this folder was made from this scan")
     return tool
 

@@ -184,8 +184,8 @@ class Studies:
         own = {attribute: self._option(row.cell(attribute), before.get(attribute, "")) for attribute in self._base.attributes}
         if "materials" in own:
             own["mechanics"] = own["mechanics"].replace("--materials " + before["materials"], "--materials " + own["materials"])
-            if own["materials"] != before["materials"] and os.path.isfile(own["materials"]):
-                own["content"] = content_of(own["materials"])[:12]
+            if own["materials"] != before["materials"]:
+                own["content"] = content_of(own["materials"])[:12] if os.path.isfile(own["materials"]) else ""
         first = self._base.stages.index(row.cell("starts_at"))
         self.variants[folder] = Variant(
             row.study, name, folder, origin, tuple(self._base.stages[first:]), tuple(row.cell("given").split()),

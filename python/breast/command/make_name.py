@@ -6,15 +6,14 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from ..cases.make_text import NAME_CODE
 from ..errors import BreastError
 
-# What a setting of one word may not hold (cases/settings_table.py).
-_REFUSED = "$`;&|<>(){}[]*?!\"'\\^#=:%~"
 
 
 def _plain(c: str) -> bool:
     # A byte of a name that is not UTF-8 is one of these surrogates.
-    return c > " " and c != "\x7f" and c not in _REFUSED and not "\ud800" <= c <= "\udfff"
+    return c > " " and c != "\x7f" and c not in NAME_CODE and not "\ud800" <= c <= "\udfff"
 
 
 def plain_for_make(path: str) -> bool:
@@ -92,7 +91,7 @@ def name_for_make(given: str, links: Path) -> str:
         _link_to(os.path.dirname(whole), above)
         return str(above / own)
     if own.endswith((".nhdr", ".mhd")):
-        raise BreastError(f"'{file}': a header whose data are in another file needs a name without blanks and without any of {_REFUSED}; "
+        raise BreastError(f"'{file}': a header whose data are in another file needs a name without blanks and without any of {NAME_CODE}; "
                           "rename it")
     _link_to(whole, link)
     return str(link)

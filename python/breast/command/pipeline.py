@@ -114,8 +114,11 @@ def setting_help(installation: Installation, name: str) -> str:
         found.append(f"  accepts: {what}" + (f" from {bounds[0]} to {bounds[1]}" if bounds else ""))
     elif kind != "set" and not kind.startswith("rows:") and "place" not in bounds:
         found.append("  accepts: " + " ".join(setting.choices).replace("%", "..."))
-    if setting.default:
-        found.append("  default: " + setting.default)
+    # A default that follows from the case is described in the help.
+    defaults = read_text(os.path.join(installation.pipelines, "settings.mk"))
+    default = re.search(rf"^{setting.name} \?= (?:\$\(BIN\)/)?([^$\n\\]+)$", defaults, re.MULTILINE)
+    if default:
+        found.append("  default: " + default[1])
     return "\n".join(found) + "\n"
 
 

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What follows from the settings: what this case cannot have is refused, and every stage has its options.
+
+# Empty if there is a tumour to follow.
+no_tumour := $(if $(findstring --tumour,$(HEXMESH_OPTIONS)),$(findstring --tumour none,$(HEXMESH_OPTIONS)),$(filter none,$(TUMOUR)))
+# `cases check` refuses in one line values that no program would accept, a target that the case cannot have, a folder that belongs to
+# another scan, and a case that another make makes with other settings.
+settings := $(filter-out \#% setting,$(shell cut -f 1 $(PIPELINES)/settings.tsv))
+facts := installed=$(if $(INSTALLED),yes) phantom=$(phantom) body_slides=$(body_slides) no_tumour=$(if $(no_tumour),yes)
+$(call said,$(shell $(BIN)/cases check $(PIPELINES) $(if $(planning),0,$$PPID) $(call quoted,goals=$(goals)) $(call quoted,given=$(given)) \
+  $(facts) $(foreach s,$(settings),$(call quoted,$s=$($s))) --quiet 2>&1))
+
+# A file that was replaced by one with an older date is another file, and one that was only touched is the same: stages know the files
+# that users edit by a digest.
+content = $(foreach f,$(wildcard $(filter-out $(RUNS)/%,$1)),$(shell [ ! -f $f ] || sha256sum < $f | cut -c 1-12))
+content_MATERIALS := $(call content,$(call set_of,$(MATERIALS)))
+content_TUMOUR := $(call content,$(TUMOUR))
+content_CHEST_WALL := $(call content,$(CHEST_WALL))
+content_LANDMARKS := $(call content,$(subst $(comma), ,$(LANDMARKS)))
+content_SUPINE := $(call content,$(SUPINE))
+
+# With landmarks in a second posture, or a supine scan of the same patient, the set MATERIALS is the prior, and the chain runs with the
+# set that `identify` finds.
+ifneq ($(LANDMARKS)$(SUPINE),)
+prior_set := $(MATERIALS)
+override MATERIALS := $(RUN)/identified.tsv
+endif
+# Parts of the model that the user leaves out; studies/leaveout.tsv measures the effect of each.
+whole_set := $(call set_of,$(MATERIALS))
+ifneq ($(filter no-skin,$(LEAVE_OUT)),)
+override HEXMESH_OPTIONS += --skin 0
+endif
+ifneq ($(filter no-backward,$(LEAVE_OUT)),)
+override PRONE := --gravity 0,0,0
+endif
+ifneq ($(filter no-gravity-in-compression,$(LEAVE_OUT)),)
+override COMPRESS_OPTIONS += --gravity off
+endif
+ifneq ($(filter no-gland,$(LEAVE_OUT)),)
+override MATERIALS := $(RUN)/fat-only.tsv
+endif
+
+# Every table, verdict and page is made by tabulate, from reports, tables and shapes.
+tabulate = $(TABULATE) --quiet --pipelines $(PIPELINES)
+# The supports of the breast at its back; if empty, those with which the material set was found, or a held wall and a free cut.
+SUPPORT = $(addprefix --wall ,$(WALL)) $(addprefix --cut ,$(CUT))
+# The plates stop at the first of these limits.
+STOPS = --reduction $(REDUCTION) $(addprefix --pressure ,$(PRESSURE))
+
+# The scan; the tumour and the material set if a rule makes them (those of users are known by content).
+MR_FILES := $(MR) $(if $(wildcard $(MR)/.),$(wildcard $(MR)/*))
+MADE_TUMOUR := $(filter $(RUNS)/%,$(TUMOUR))
+MADE_MATERIALS := $(filter $(RUN)/%,$(MATERIALS))
+MATERIAL_TABLE := $(call set_of,$(MATERIALS))
+# What only the run of a tumour has: another mesh may have none.
+of_a_tumour := $(addprefix $(RUN)/,curve.vtp curve.tsv curve.json .curve.settings band.vtp band.tsv band-curve.tsv band.json \
+  figures/*-matching.png slicer/scene.mrml slicer/column-* slicer/curve-*)
+# Contours for checking the labels; a program that replaces segment need not draw them.
+contours := $(if $(filter $(BIN)/segment,$(SEGMENT)),--overlay $(RUN)/contours.png)
+
+# What a row of a study may change, each a column of its table (studies.mk).
+study_columns := segment fit hexmesh prone mechanics wall cut compress plates slopes materials content
+its_segment = $(SEGMENT_OPTIONS)
+its_fit = $(FIT_OPTIONS)
+its_hexmesh = $(HEXMESH_OPTIONS)
+its_prone = $(PRONE)
+its_mechanics = $(MECHANICS)
+its_wall = $(WALL)
+its_cut = $(CUT)
+its_compress = $(COMPRESS_OPTIONS)
+its_slopes := fat,fibroglandular,skin
+its_materials = $(MATERIALS)
+its_content = $(content_MATERIALS)
+
+# The options of the stages, and what is remembered of them: program, options, contents of files that users edit.
+its_model = $(its_mechanics) $(addprefix --wall ,$(its_wall)) $(addprefix --cut ,$(its_cut))
+labels_options = --side $(SIDE) $(addprefix --series ,$(SERIES)) $(addprefix --chest-wall ,$(CHEST_WALL)) $(its_segment)
+labels_settings = $(SEGMENT) $(call named,$(MR)) $(labels_options) $(content_CHEST_WALL)
+geometry_options = $(its_fit)
+geometry_settings = $(FIT_HERMITE) $(geometry_options)
+mesh_options = $(its_hexmesh) $(if $(findstring --tumour,$(its_hexmesh)),,--tumour $(TUMOUR))
+mesh_settings = $(HEXMESH) $(mesh_options) $(content_TUMOUR)
+reference_options = $(its_prone) $(its_model)
+reference_settings = $(BACKWARD) $(reference_options) $(its_content)
+supine_options = $(its_model)
+supine_settings = $(FORWARD) $(supine_options) $(its_content)
+# The plates have the distance that the case asks for, or their true positions.
+plates_for = $(if $(its_plates),$(call same_plates,$(TRUTH_AT)-fine-$1.json) $(if $(body_slides),$(wordlist 2,3,$(truth_edge_$1))),$(STOPS))
+press = --at-least $(AT_LEAST) $(its_compress) $(its_model)
+cc_options = $(call plates_for,cc) $(press)
+cc_settings = $(COMPRESS) $(if $(its_plates),,$(STOPS)) $(press) $(its_content)
+mlo_options = $(call plates_for,mlo) $(press)
+mlo_settings = $(cc_settings)
+cc-mammogram_options = $(PROJECT_OPTIONS)
+cc-mammogram_settings = $(PROJECT) $(PROJECT_OPTIONS)
+mlo-mammogram_options = $(PROJECT_OPTIONS)
+mlo-mammogram_settings = $(PROJECT) $(PROJECT_OPTIONS)
+curve_settings = $(CC2MLO)
+slopes_options = $(its_prone) $(its_model) --parameters $(its_slopes)
+slopes_settings = $(SENSITIVITY) $(slopes_options)
+
+# Options of every program: its report and its share of the cores. Where all others wait, a stage has all (but not in a cohort).
+share = --threads $$($(PIPELINES)/threads.sh)
+alone = --threads $$($(PIPELINES)/threads.sh $(if $(filter 0,$(MAKELEVEL)),alone))
+common = --report $(basename $@).json $(share)
+common_alone = --report $(basename $@).json $(alone)
+# The report of a stage whose file has another name.
+common_of = --report $(@D)/$1.json $(share)
