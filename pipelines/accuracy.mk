@@ -11,6 +11,7 @@ ifneq ($(planning),)
 else
 $(RUN)/accuracy.mk: $(RUN)/labels.vtkhdf $(RUN)/geometry.vtkhdf $(TABULATE) \
   $(HEXMESH) $(BACKWARD) $(FORWARD) $(call changed,accuracy)
+	@$(call forget,accuracy)
 	+$(CASES) ladder $(RUN) $(ACCURACY) '$(strip $(ACCURACY_LADDER))' '$(tabulate)' --quiet -- $(MAKE) -f $(PIPELINE) ACCURACY=
 	@$(call record,accuracy)
 include $(RUN)/accuracy.mk

@@ -19,6 +19,7 @@ define least_rules
 leaveout-least-$1_record = $(LEAVEOUT)/.least-$1.settings
 leaveout-least-$1_settings = $(LEAVEOUT_MM)
 $(call least,$1)/curve.tsv: $(LEAVEOUT)/table.tsv $(TABULATE) $$(call changed,leaveout-least-$1)
+	@$$(call forget,leaveout-least-$1)
 	mkdir -p $$(@D) && cp -p $(addprefix $(RUN)/,labels.vtkhdf points.vtp labels.json geometry.vtkhdf geometry.json .labels.settings .geometry.settings) $$(@D)
 	+$$(MAKE) -f $(PIPELINE) RUN=$$(@D) MR=$(MR) $(addprefix TUMOUR=,$(TUMOUR)) MATERIALS=$(or $(prior_set),$(MATERIALS)) \
 	  LEAVE_OUT="$$$$($(tabulate) least $(LEAVEOUT)/table.tsv $1 $(LEAVEOUT_MM) $(LEAVEOUT_PARTS))" chain

@@ -31,8 +31,7 @@ fig7: $(call files_of,cc.vtkhdf mlo.vtkhdf) $(CURVE)
 # Figs 6c and 6d show several points: a grid of them in the CC view.
 curves_settings := $(CC2MLO) $(POINTS)
 $(RUN)/curves.vtp $(RUN)/curves.tsv &: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(CC2MLO) $(call changed,curves)
-	$(CC2MLO) $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(RUN)/curves.vtp --grid $(POINTS) --table $(RUN)/curves.tsv --report $(RUN)/curves.json $(share)
-	@$(call record,curves)
+	$(call stage,curves) $(CC2MLO) $(wordlist 1,2,$^) $(RUN)/curves.vtp --grid $(POINTS) --table $(RUN)/curves.tsv $(call common_of,curves)
 $(call pictures,cc-points mlo-curves) &: $(call files_of,cc.vti mlo.vti curves.vtp) $(RENDER)
 	$(call draw,cc-points mlo-curves,$(filter-out $(RENDER),$^))
 

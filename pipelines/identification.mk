@@ -31,10 +31,8 @@ endif
 identified_settings := $(IDENTIFY) $(content_LANDMARKS) $(content_MATERIALS) $(prior_set) $(SUPPORT) $(second_marks) $(second_skin) $(second_judge)
 $(RUN)/identified.tsv $(RUN)/landmarks.tsv $(second_states) &: $(RUN)/mesh.vtkhdf $(landmark_files) $(second_scan) $(supine_truth) $(IDENTIFY) \
   $(call changed,identified)
-	$(IDENTIFY) $< $(RUN)/identified.tsv $(second_marks) --align $(second_skin) $(second_judge) --materials $(prior_set) $(SUPPORT) \
+	$(call prints,identified,$(RUN)/identified.txt) $(IDENTIFY) $< $(RUN)/identified.tsv $(second_marks) --align $(second_skin) $(second_judge) --materials $(prior_set) $(SUPPORT) \
 	  $(addprefix --compare ,$(sort seed2008 $(prior_set))) --table $(RUN)/landmarks.tsv \
-	  --report $(RUN)/identified.json $(share) > $(RUN)/identified.txt.part
-	@mv $(RUN)/identified.txt.part $(RUN)/identified.txt
+	  --report $(RUN)/identified.json $(share)
 	@cat $(RUN)/identified.txt
-	@$(call record,identified)
 endif

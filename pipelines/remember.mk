@@ -11,11 +11,14 @@
 named = $(if $1,$(notdir $(patsubst %/,%,$1)):$(shell printf %s '$1' | sha256sum | cut -c1-12))
 record_file = $(or $($1_record),$(RUN)/.$1.settings)
 stale = $(if $(subst x$(strip $(file < $1))x,,x$(strip $2)x),FORCE)
-staged = @$(CASES) stage $1 $(call quoted,$(strip $2)) --quiet --
+staged = @$(CASES) stage $1 $(call quoted,$(strip $2)) $3 --quiet --
 # In the folder of a study's row: the same, with the row's own options. A solve may end early, and what needed it with it.
 changed_in = $(call stale,$1/.$2.settings,$($2_settings))
 attempt = $(call staged,$(@D)/.$1.settings,$($1_settings)) $(CASES) attempt $@ '$2' --quiet --
 changed = $(call stale,$(call record_file,$1),$($1_settings))
-# Of a recipe with several programs: the last command records.
+# $(call prints,STAGE,FILE): the same of a program that prints FILE.
+prints = $(call staged,$(call record_file,$1),$($1_settings),--prints $2)
+# Of a recipe that runs make: the first command forgets, the last records.
+forget = rm -f $(call record_file,$1)
 record = printf '%s\n' '$(subst ','\'',$(strip $($1_settings)))' > $(call record_file,$1)
 stage = $(call staged,$(call record_file,$1),$($1_settings))

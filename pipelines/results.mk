@@ -16,11 +16,9 @@ page: $(RUN)/page.html
 slicer_settings := $(EXPORT_SLICER) $(MR) $(SLICER_OPTIONS)
 $(RUN)/slicer/scene.mrml: $(addprefix $(RUN)/,labels.vtkhdf mesh.vtkhdf reference.vtkhdf supine.vtkhdf cc.vtkhdf mlo.vtkhdf) $(CURVE) \
   $(EXPORT_SLICER) $(call changed,slicer)
-	$(EXPORT_SLICER) $(RUN) $(RUN)/slicer --scan $(MR) $(if $(SERIES),--series $(SERIES)) $(SLICER_OPTIONS) \
-	  --report $(RUN)/slicer.json $(share) > $(RUN)/slicer-fields.tsv.part
-	@mv $(RUN)/slicer-fields.tsv.part $(RUN)/slicer-fields.tsv
+	$(call prints,slicer,$(RUN)/slicer-fields.tsv) $(EXPORT_SLICER) $(RUN) $(RUN)/slicer --scan $(MR) $(addprefix --series ,$(SERIES)) \
+	  $(SLICER_OPTIONS) --report $(RUN)/slicer.json $(share)
 	@cat $(RUN)/slicer-fields.tsv
-	@$(call record,slicer)
 slicer: $(RUN)/slicer/scene.mrml
 
 # ---- expected values, and the report ------------------------------------------------------------------------
@@ -38,7 +36,7 @@ all: figures tables $(if $(EXPECTED),verify) report
 # newer; therefore the page records these files and their dates instead.
 REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/*.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png $(RUN)/budget/*.tsv $(RUN)/budget/*.png \
   $(RUNS)/stability/*.tsv $(RUNS)/compare/all.tsv $(RUNS)/compare/pressed.tsv $(addprefix $(RUNS)/population/,judging.tsv motion.png))
-report_settings = $(foreach file,$(REPORT_EXTRAS),$(file) $(shell stat -c %Y $(file)))
+report_settings = $(TABULATE) $(foreach file,$(REPORT_EXTRAS),$(file) $(shell stat -c %Y $(file)))
 report_record = $(RUN)/report.settings
 # The motion of the breast compared with living women, if the breast slides on its chest wall.
 $(RUN)/population.tsv: $(RUN)/supine.vtkhdf $(PIPELINES)/invivo/women.tsv $(POPULATION_TOOL)
@@ -47,8 +45,7 @@ $(F)/motion.png: $(RUN)/population.tsv $(RENDER)
 	$(call plot,motion)
 $(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(if $(slides),$(RUN)/population.tsv $(F)/motion.png) $(F)/cc-points.png $(F)/mlo-curves.png \
   $(if $(EXPECTED),$(RUN)/verify.tsv) $(TABULATE) $(addprefix $(PIPELINES)/,limits.txt advice.tsv) $(call changed,report)
-	$(call table,$(tabulate) report $(RUN) $(RUNS))
-	@$(call record,report)
+	$(call prints,report,$@) $(tabulate) report $(RUN) $(RUNS)
 	@echo "$@"
 $(RUN)/report.pdf: $(RUN)/report.html
 	$(tabulate) pdf '$(CHROMIUM)' $< $@

@@ -20,17 +20,22 @@ $(RUN)/supine-cut-fixed.vtkhdf: $(RUN)/reference-cut-fixed.vtkhdf $(FORWARD)
 # Tables come from stdout; a rename makes them complete or absent: $(call table,COMMAND).
 table = $1 > $@.part && mv $@.part $@
 SHOWN := $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf)
-$(RUN)/displacements.tsv: $(SHOWN) $(addprefix $(RUN)/,cc.vtkhdf mlo.vtkhdf) $(PROBE)
-	$(call table,$(PROBE) $(filter %.vtkhdf,$^) --landmarks $(landmarks))
-$(RUN)/cut.tsv: $(RUN)/supine-cut-fixed.vtkhdf $(RUN)/supine.vtkhdf $(PROBE)
-	$(call table,$(PROBE) $< --base $(RUN)/supine.vtkhdf --landmarks $(landmarks))
+displacements_settings := $(PROBE) $(landmarks)
+$(RUN)/displacements.tsv: $(SHOWN) $(addprefix $(RUN)/,cc.vtkhdf mlo.vtkhdf) $(PROBE) $(call changed,displacements)
+	$(call prints,displacements,$@) $(PROBE) $(filter %.vtkhdf,$^) --landmarks $(landmarks)
+cut_settings := $(displacements_settings)
+$(RUN)/cut.tsv: $(RUN)/supine-cut-fixed.vtkhdf $(RUN)/supine.vtkhdf $(PROBE) $(call changed,cut)
+	$(call prints,cut,$@) $(PROBE) $< --base $(word 2,$^) --landmarks $(landmarks)
 
 # Errors against the phantom's truth (stress-free, prone, supine); a real scan has none.
 ifdef TRUTH
-$(RUN)/truth.tsv: $(TRUTH) $(SHOWN) $(PROBE)
-$(RUN)/truth-cut-fixed.tsv: $(TRUTH) $(RUN)/mesh.vtkhdf $(RUN)/reference-cut-fixed.vtkhdf $(RUN)/supine-cut-fixed.vtkhdf $(PROBE)
+truth_settings := $(PROBE) $(TRUTH)
+$(RUN)/truth.tsv: $(TRUTH) $(SHOWN) $(PROBE) $(call changed,truth)
+truth-cut-fixed_settings := $(truth_settings)
+$(RUN)/truth-cut-fixed.tsv: $(TRUTH) $(RUN)/mesh.vtkhdf $(RUN)/reference-cut-fixed.vtkhdf $(RUN)/supine-cut-fixed.vtkhdf $(PROBE) \
+  $(call changed,truth-cut-fixed)
 $(RUN)/truth.tsv $(RUN)/truth-cut-fixed.tsv:
-	$(call table,$(PROBE) $(filter %.vtkhdf,$^) --truth $(TRUTH))
+	$(call prints,$(basename $(@F)),$@) $(PROBE) $(filter %.vtkhdf,$^) --truth $(TRUTH)
 endif
 
 # (A breast that slides is held by springs at its cut: there a held cut would be another model.)

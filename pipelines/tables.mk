@@ -33,8 +33,7 @@ tables: $(TABLE_FILES)
 	$(if $(planning),,@$(if $(TABLE_FILES),$(tabulate) show $(RUN),:))
 tables_settings := $(MATERIAL_TABLE) $(content_MATERIALS)
 $(TABLE_FILES) &: $(sort $(foreach t,$(TABLE_NAMES),$(of_$t))) $(wildcard $(PIPELINES)/paper/*.tsv) $(TABULATE) $(call changed,tables)
-	$(tabulate) tables $(RUN) $(MATERIAL_TABLE) $(TABLE_NAMES)
-	@$(call record,tables)
+	$(call stage,tables) $(tabulate) tables $(RUN) $(MATERIAL_TABLE) $(TABLE_NAMES)
 # One table alone, after the solves that it needs: table8 and conclusions are judged from Tables III to VI.
 first_table8 := table3 table4 table5 table6
 table2 table3 table4 table5 table6 table7 table8 findings: $(TABULATE)

@@ -39,9 +39,7 @@ part = $(word $1,$(subst -, ,$2))
 compare_record := $(COMPARE)/.breast.settings
 compare_settings := $(RUN) $(COMPARE_ELEMENTS) $(MATERIALS)
 $(COMPARE)/breast-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH) $(call changed,compare)
-	@mkdir -p $(COMPARE)
-	$(HEXMESH) $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $@ --elements $(COMPARE_ELEMENTS) --skin 0
-	@$(call record,compare)
+	$(call stage,compare) $(HEXMESH) $(wordlist 1,2,$^) $@ --elements $(COMPARE_ELEMENTS) --skin 0
 $(COMPARE)/breast-reference.vtkhdf: $(COMPARE)/breast-mesh.vtkhdf $(BACKWARD) $(MADE_MATERIALS)
 	$(BACKWARD) $< $@ --posture prone --materials $(MATERIALS)
 $(COMPARE)/breast-%.tsv: $(COMPARE)/breast-reference.vtkhdf $(compare_needs)

@@ -148,7 +148,7 @@ class Requests(unittest.TestCase):
 
 class Programs(unittest.TestCase):
     def test_say_so_in_one_line_when_they_cannot_write(self):
-        for words in (["breast", "list"], ["breast", "--version"], ["cases", "nearest", "SIDES", "SIDE"], ["cases", "--help"]):
+        for words in (["breast", "list"], ["breast", "--version"], ["cases", "--help"]):
             with open("/dev/full", "wb") as full:
                 ended = subprocess.run([small_run.programs / words[0], *words[1:]], stdout=full, stderr=subprocess.PIPE, text=True)
             self.assertEqual((ended.returncode, ended.stderr), (1, f"{words[0]}: stdout cannot be written\n"), words)

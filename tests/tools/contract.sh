@@ -13,7 +13,7 @@ passed=0
 pass() { passed=$((passed + 1)); echo "ok: $*"; }
 fail() { echo "FAILED: $*"; cat "$work/err" 2> /dev/null; echo "$passed passed, 1 failed"; exit 1; }
 
-# Every file that a stage writes holds its command line and the material set; `hold` makes hexmesh wait, `break` makes backward fail.
+# Every file that a stage writes holds its command line and the material set; `hold` makes hexmesh wait, `break-PROGRAM` makes one fail.
 mkdir -p "$work/bin"
 cat > "$work/stub" <<'STUB'
 #!/usr/bin/env bash
@@ -32,7 +32,9 @@ done
 case "$name" in phantom) at=0 ;; hexmesh|cc2mlo|match-lookup|sensitivity) at=2 ;; *) at=1 ;; esac
 echo "$name: working"
 echo "$name: warning: it says more" >&2
-[ "$name" != backward ] || [ ! -e WORK/break ] || { echo "backward: no body of this shape" >&2; exit 3; }
+[ ! -e WORK/break-$name ] || { echo "$name: no body of this shape" >&2; exit 3; }
+[ "$name" != probe ] || exit 0
+[ "$name" != export-slicer ] || positional[1]+=/scene.mrml
 case "$words" in *fat=1\ *) printf '{"tool": "%s", "status": "not_converged", "reason": "folded"}\n' "$name" > "$report"; exit 3 ;; esac
 for file in "${positional[at]}" "${after[@]}"; do { echo "$words"; cat "${set:-/dev/null}" 2> /dev/null || true; } > "$file"; done
 [ -z "${report:-}" ] || printf '{"tool": "%s", "status": "ok", "elements": 8, "min_scaled_jacobian": 0.5}\n' "$name" > "$report"
@@ -40,7 +42,7 @@ while [ "$name" = hexmesh ] && [ -e WORK/hold ]; do sleep 0.1; done
 STUB
 sed -i "s|WORK|$work|g" "$work/stub"
 chmod +x "$work/stub"
-for tool in phantom segment fit-hermite hexmesh backward forward compress project-mammogram cc2mlo match-lookup sensitivity; do
+for tool in phantom segment fit-hermite hexmesh backward forward compress project-mammogram cc2mlo match-lookup sensitivity probe export-slicer identify; do
   ln -s ../stub "$work/bin/$tool"
 done
 for tool in $(ls "$bin"); do [ -e "$work/bin/$tool" ] || ln -s "$bin/$tool" "$work/bin/$tool"; done
@@ -55,6 +57,10 @@ made
 grep -q '^compress MLO: compress: warning: it says more' "$run/log.txt" && ! grep -q 'it says more' "$work/err" || fail "all else is in log.txt"
 call -q chain || fail "a second run does nothing"
 pass "a line a stage; what programs say is in log.txt"
+call "$run/displacements.tsv" && [ "$(wc -l < "$work/err")" -eq 1 ] && grep -q '^probe displacements.tsv  .* s$' "$work/err" &&
+  grep -q '^probe displacements.tsv: probe: warning: it says more' "$run/log.txt" && [ "$(cat "$run/displacements.tsv")" = "probe: working" ] ||
+  fail "of a program that prints a table, the table is what it prints, and its messages are in log.txt"
+pass "tables that programs print are apart from what they say"
 call -n summary && grep -q "bin/render .*--only slices," "$work/out" || fail "the summary waits for the pictures"
 pass "the summary waits for the pictures"
 
@@ -137,7 +143,23 @@ made ELEMENTS=5
 grep -q -- '--elements 5 ' "$run/mesh.vtkhdf" && grep -q '^backward' "$work/err" || fail "the mesh is that of the settings"
 pass "a stage that was stopped is run again, and two runs with other settings do not share a folder"
 
-touch "$work/break"
+# Nor has one that failed, whatever makes it.
+rerun() { # PROGRAM FILE OPTION [SETTING...]
+  local program=$1 file=$2 other=$3
+  shift 3
+  call "$@" "$file" && call -q "$@" "$file" || fail "$file is made"
+  touch "$work/break-$program"
+  ! call "$@" "$other" "$file" || fail "$program fails"
+  rm "$work/break-$program"
+  ! call -q "$@" "$file" || fail "$file is made again when $program has failed with $other"
+}
+rerun cc2mlo "$run/curves.vtp" POINTS=5
+rerun export-slicer "$run/slicer/scene.mrml" SLICER_OPTIONS=--points
+printf 'x\ty\tz\n' > "$work/pairs.tsv"
+rerun identify "$run/identified.tsv" CUT=roller LANDMARKS="$work/pairs.tsv"
+pass "a stage that failed is run again with the settings of before"
+
+touch "$work/break-backward"
 ! call ELEMENTS=6 chain || fail "a stage fails"
 tail -n 3 "$work/err" | paste -s -d'|' | grep -q "^backward: no body of this shape|backward ended with exit code 3 after [0-9]* s: see $run/log.txt|make: " ||
   fail "the reason, and where to look"

@@ -6,6 +6,7 @@ stages may run at once.
 """
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import re
@@ -95,7 +96,7 @@ class _Screen:
         return round(time.monotonic() - self.start)
 
 
-def run_stage(record: Path, settings: str, words: Sequence[str]) -> None:
+def run_stage(record: Path, settings: str, words: Sequence[str], prints: Path | None = None) -> None:
     """Runs the program of a stage and records its settings when it has succeeded.
 
     The record goes before the program starts: a stage that is stopped has none and is run again, whatever the settings then are.
@@ -103,12 +104,13 @@ def run_stage(record: Path, settings: str, words: Sequence[str]) -> None:
     Args:
         record: FOLDER/.STAGE.settings. settings: the text that make compares with it.
         words: the program with its arguments.
+        prints: file of what the program prints to stdout, complete or absent; its messages alone are then in the log.
 
     Raises:
         Failed: the program failed; how it ended and where to look has been said, and the exit code is that of the program.
     """
     stage, folder = record.name.removeprefix(".").removesuffix(".settings"), str(record.parent)
-    label = label_of(stage, folder, words)
+    label = label_of(stage, folder, words) + (f" {prints.name}" if prints else "")
     record.parent.mkdir(parents=True, exist_ok=True)
     record.unlink(missing_ok=True)
     log, screen, said = record.parent / "log.txt", _Screen(label), [""]
@@ -118,7 +120,11 @@ def run_stage(record: Path, settings: str, words: Sequence[str]) -> None:
         def say(line: str) -> None:
             said.append(line)
             file.write(f"{label}: {line}\n")
-        code = follow_child(words, say, screen.tick)
+        with contextlib.ExitStack() as stack:
+            part = prints and prints.with_name(prints.name + ".part")
+            code = follow_child(words, say, screen.tick, stack.enter_context(open(part, "wb")) if part else None)
+        if prints and part and code == 0:
+            part.replace(prints)
     if code != 0:
         screen.end(next(filter(None, reversed(said)), label))
         screen.end(f"{label} ended with exit code {code} after {screen.seconds()} s: see {log}")

@@ -95,7 +95,7 @@ def _record(words: list[str], run: Run) -> None:
 
 def _stage(words: list[str], run: Run) -> None:
     from .stage import run_stage
-    run_stage(Path(words[0]), words[1], words[2:])
+    run_stage(Path(words[0]), words[1], words[2:], Path(run.args.prints) if run.args.prints else None)
 
 
 def _attempt(words: list[str], run: Run) -> None:
@@ -159,8 +159,6 @@ KINDS = {
     "studies": Kind("OUT.mk MAKEFILE RUN ENDS_AT PLACE @COLUMN=OPTIONS... {NAME=VALUE... STUDY=FILE.tsv[@ROW]...",
                     "writes the rules by which make solves the rows of studies: those of the chain in MAKEFILE, with the options of each "
                     "row; PLACE is the command that prints the place of a tumour", 5, _studies),
-    "nearest": Kind("WORD CANDIDATE...", "prints the candidate that is most similar to WORD, for messages about typing errors", 2,
-                    lambda words, run: suggestion(words[0], words[1:])),
     "record": Kind("RUN SIDE SCAN", "records scan and side in RUN/.scan", 3, _record),
     "stage": Kind("RECORD 'SETTINGS' -- COMMAND...", "runs a stage, says in one line what it found, and records its settings; all else "
                   "that it says is in log.txt beside the record", 3, _stage),
@@ -198,6 +196,7 @@ def _declared() -> Tool:
         tool.describe(f"{name} {kind.arguments}: {kind.help}.")
     tool.word("KIND", "action, from the list above")
     tool.words("ARGUMENT", "arguments of the action: files, folders and names")
+    tool.text("--prints", "FILE", "of `stage`: the file that gets what the program prints; its messages alone are then in the log")
     tool.text("--partition", "NAME", "partition of the cluster")
     tool.text("--account", "NAME", "account to be charged")
     tool.text("--time", "TIME", "time limit of a case, in minutes or as sbatch accepts it (default: from the measured cost)")

@@ -63,17 +63,18 @@ def capture_child(words: Sequence[str]) -> Captured:
     return Captured(_code(child.returncode), os.fsdecode(out), os.fsdecode(err))
 
 
-def follow_child(words: Sequence[str], say: Callable[[str], None], tick: Callable[[], None]) -> int:
-    """The same, with every line of the output and of the messages given to `say`; `tick` is called about once a second meanwhile."""
+def follow_child(words: Sequence[str], say: Callable[[str], None], tick: Callable[[], None], out: IO | None = None) -> int:
+    """The same, with every line of the messages, and of the output if it does not go to the file `out`, given to `say`; `tick` is called
+    about once a second meanwhile."""
     before = [(number, signal.signal(number, signal.SIG_IGN)) for number in (signal.SIGINT, signal.SIGQUIT)]
     try:
-        child = _start(words, subprocess.PIPE, subprocess.STDOUT)
-        rest = b""
+        child = _start(words, out or subprocess.PIPE, subprocess.PIPE if out else subprocess.STDOUT)
+        said, rest = child.stderr if out else child.stdout, b""
         while True:
             tick()
-            if not select.select([child.stdout], [], [], 1.0)[0]:
+            if not select.select([said], [], [], 1.0)[0]:
                 continue
-            piece = os.read(child.stdout.fileno(), 1 << 16)
+            piece = os.read(said.fileno(), 1 << 16)
             *lines, rest = (rest + piece).replace(b"\r", b"\n").split(b"\n")
             for line in lines if piece else filter(None, [rest]):
                 say(os.fsdecode(line))
