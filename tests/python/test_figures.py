@@ -16,7 +16,7 @@ try:
     from breast.figures.body import gland_facets
     from breast.figures.inputs import Inputs
     from breast.figures.layout import Picture
-    from breast.figures.mammogram import hung, parts_inside
+    from breast.figures.mammogram import free_height, hung, parts_inside
     from breast.figures.muscle import back_words
     from breast.figures.outlines import joined
     from breast.figures.silhouette import contours, gaussian, silhouette
@@ -40,6 +40,13 @@ class Lines(unittest.TestCase):
         self.assertEqual(contours(field, 1000, 0.5, np.zeros(2)), [])
         field[:, :60] = np.nan  # where the breast is far, nothing is drawn
         self.assertTrue(all((line[:, 0] >= 30).all() for line in contours(field, 20, 0.5, np.zeros(2))))
+
+    def test_a_word_keeps_clear_of_rings(self):
+        ring = (np.array([200.0, 130.0]), 9.0)
+        self.assertEqual(free_height([114, 134, 154], 210, -60, []), 114)
+        self.assertEqual(free_height([114, 134, 154], 210, -60, [ring]), 154)
+        self.assertEqual(free_height([114, 134, 154], 120, -60, [ring]), 114, "beside it")
+        self.assertEqual(free_height([134], 210, -60, [ring]), 134, "nowhere else to go")
 
     def test_smoothing_keeps_a_straight_border(self):
         field = np.zeros((40, 60))

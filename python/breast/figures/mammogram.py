@@ -142,8 +142,8 @@ def _caption(image: Mammogram, curves: dict[str, list[Line]], size: np.ndarray) 
     return f"green: its curve{lost}; blue, dashed: equal distance from the nipple" + (f"; yellow ring: {place}" if place else "")
 
 
-def _add_curves(panel: Panel, image: Mammogram, curves: dict[str, list[Line]], hanging: _Hanging) -> None:
-    """Draws what cc2mlo found for this view."""
+def _add_curves(panel: Panel, image: Mammogram, curves: dict[str, list[Line]], hanging: _Hanging) -> list[tuple[np.ndarray, float]]:
+    """Draws what cc2mlo found for this view, and returns its rings: centre and radius in pixels."""
     asked = curves.get("point in CC", [])
     many = len(asked) > 1
     view = "CC" if image.view == "CC" else "MLO"
@@ -159,9 +159,18 @@ def _add_curves(panel: Panel, image: Mammogram, curves: dict[str, list[Line]], h
         marks += [(p, 6 if many else RING, TUMOUR) for p in _places(curves)]
     for mark, radius, colour in marks:
         panel.ring(hanging(mark.uv_mm[0]), radius, colour)
+    return [(np.asarray(panel.to_pixel(hanging(mark.uv_mm[0]))), radius) for mark, radius, _ in marks]
 
 
-def _add_axes(panel: Panel, image: Mammogram, hanging: _Hanging) -> None:
+def free_height(heights: Sequence[float], x: float, width: float, rings: Sequence[tuple[np.ndarray, float]]) -> float:
+    """The first height, pixels, at which a word from x to x + width (which may be negative) touches no ring; otherwise the first."""
+    low, high = sorted((x, x + width))
+    half = 0.5 * SMALL + 3
+    return next((y for y in heights if all(np.hypot(max(low - c[0], 0, c[0] - high), max(abs(c[1] - y) - half, 0)) > radius
+                                           for c, radius in rings)), heights[0])
+
+
+def _add_axes(panel: Panel, image: Mammogram, hanging: _Hanging, rings: Sequence[tuple[np.ndarray, float]]) -> None:
     """u below and v on the anterior side; the chest wall is at the picture's outer edge. Words are inside, where it is dark."""
     low, high = panel.to_pixel(np.zeros(2)), panel.to_pixel(hanging.size)
     edge, outward = (high[0], 1) if hanging.left else (low[0], -1)
@@ -191,8 +200,10 @@ def _add_axes(panel: Panel, image: Mammogram, hanging: _Hanging) -> None:
     inset = edge - 10 * outward
     panel.text((inset, high[1] - 18), f"{image.side[0].upper()} {image.view}", 21, WHITE, inner)
     panel.text((inset, high[1] - 42), "lateral" if image.view == "CC" else "superior", SMALL, WHITE, inner)
-    panel.text((inset, low[1] + (54 if high[0] - low[0] < 400 else 14)), "medial" if image.view == "CC" else "inferior", SMALL,
-               WHITE, inner)
+    # In a narrow picture above the words at the chest.
+    below = "medial" if image.view == "CC" else "inferior"
+    heights = [low[1] + y for y in ((34, 54, 74) if high[0] - low[0] < 400 else (14, 34, 54))]
+    panel.text((inset, free_height(heights, inset, -outward * 0.6 * SMALL * len(below), rings)), below, SMALL, WHITE, inner)
 
 
 def add_mammograms(panels: Sequence[Panel], images: Sequence[Mammogram], curves: dict[str, list[Line]], letters: str) -> None:
@@ -208,8 +219,7 @@ def add_mammograms(panels: Sequence[Panel], images: Sequence[Mammogram], curves:
     for panel, image, hanging, corner in zip(panels, images, hangings, corners):
         panel.fit(corner, scale, 12, _AXIS, mirrored=not hanging.left)
         panel.image(hung(image), np.full(2, -0.5 * image.pixel_mm), image.pixel_mm, "bicubic")
-        _add_curves(panel, image, curves, hanging)
-        _add_axes(panel, image, hanging)
+        _add_axes(panel, image, hanging, _add_curves(panel, image, curves, hanging))
 
 
 def draw(inputs: Inputs) -> Picture:
