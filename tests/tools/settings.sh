@@ -118,6 +118,16 @@ done
 plan MR="$work/été_+@,.nrrd" chain || grep -q "No rule to make target.*été" "$work/err" || { cat "$work/err"; fail "letters of other languages are fine"; }
 pass "names that are code are refused for every path, and nothing is executed"
 
+# `breast run` gives make a link with a plain name instead.
+mkdir -p "$work/odd"
+for name in "${worst[@]//\//_}" "a b.nrrd" "a'b.nrrd" 'a"b.nrrd' 'a=b.nrrd' 'a%b.nrrd' $'a\nb.nrrd'; do
+  touch "$work/odd/$name"
+  "$bin/breast" run "$work/odd/$name" --side left --runs "$work/runs" --dry-run > "$work/out" 2>&1 || { cat "$work/out"; fail "breast run accepts $name"; }
+  grep -q 'segment .*/\.names/[0-9a-f]*/[^ ]* ' "$work/out" || { cat "$work/out"; fail "breast run links $name"; }
+done
+[ ! -e "$bait" ] || fail "nothing of a name is executed by breast run"
+pass "breast run accepts the names that make refuses"
+
 touch "$work/scan.nrrd"
 printf '# a patient\nMR = %s\nSIDE = right   # seen from the patient\nREDUCTION=40\n\nHEXMESH_OPTIONS = --elements 8 --order 1\n' \
   "$work/scan.nrrd" > "$work/patient.case"
