@@ -40,9 +40,6 @@ class Document:
     def has(self, path: str) -> bool:
         return path in self.datasets
 
-    def has_attribute(self, path: str) -> bool:
-        return path in self.attributes
-
     def has_group(self, path: str) -> bool:
         below = (path + "/", path + "@")
         return any(name.startswith(below) for name in (*self.datasets, *self.attributes))

@@ -112,8 +112,3 @@ def check_choice(setting: Setting, value: str, pipelines: Path) -> None:
             if not any(word.startswith(c.partition("%")[0]) if "%" in c else word == c for c in accepted):
                 what = "is neither a file nor one of" if setting.choices[0] == "set" else "is none of"
                 raise BreastError(f"{setting.name}: '{word}' {what} {', '.join(accepted)}{suggestion(word, accepted)}")
-
-
-def material_set_file(name: str, pipelines: Path) -> Path:
-    """That file itself if it exists, otherwise the set of this name in `pipelines`."""
-    return Path(name) if os.path.exists(name) else pipelines / "materials" / (name + ".tsv")

@@ -44,10 +44,6 @@ class Run:
         """Text for stdout, which is written when the program has succeeded."""
         self.printed.append(text)
 
-    def warn(self, text: str) -> None:
-        self.report.setdefault("warnings", []).append(text)
-        self.notes.append("warning: " + text)
-
     def remark(self, text: str) -> None:
         self.report.setdefault("remarks", []).append(text)
         self.notes.append(text)
