@@ -286,6 +286,9 @@ class Variants(unittest.TestCase):
             own.write_text("b")
             self.assertIn("private its_content := ", first)
             self.assertNotEqual(expanded(table), first)
+            made = Studies(StudyBase(folder, list(chain_rules(CHAIN)), "supine", {"mechanics": "", "materials": "seed", "content": "1"}))
+            made.add("own", table, "own.tsv")
+            self.assertEqual(made.variants[f"{folder}/studies/own/x"].options["content"], "", "of a file that a rule makes")
 
     def test_are_refused_by_column_stage_and_row(self):
         for table, said in (

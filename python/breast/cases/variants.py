@@ -185,7 +185,9 @@ class Studies:
         if "materials" in own:
             own["mechanics"] = own["mechanics"].replace("--materials " + before["materials"], "--materials " + own["materials"])
             if own["materials"] != before["materials"]:
-                own["content"] = content_of(own["materials"])[:12] if os.path.isfile(own["materials"]) else ""
+                # A file that a rule makes is a prerequisite of the row instead.
+                known = os.path.isfile(own["materials"]) and not own["materials"].startswith(self._base.run + "/")
+                own["content"] = content_of(own["materials"])[:12] if known else ""
         first = self._base.stages.index(row.cell("starts_at"))
         self.variants[folder] = Variant(
             row.study, name, folder, origin, tuple(self._base.stages[first:]), tuple(row.cell("given").split()),
