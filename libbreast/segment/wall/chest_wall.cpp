@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/statistics/percentile.hpp"
+#include "segment/wall/cut_columns.hpp"
 #include "segment/wall/legendre_surface.hpp"
 #include "segment/wall/min_cut.hpp"
 #include "segment/wall/wall_cost.hpp"
@@ -66,22 +67,22 @@ void set_smoothness(SurfaceProblem& problem, double across, double along, double
   problem.max_step_z = std::max(2, int(steepest_z * along / level));
 }
 
-/// Cut on columns about 3.3 mm apart; between them linear. `before` (may be null) is a surface from
+/// `before` (may be null) is a surface from
 /// which this one is not far.
 HeightField cut_surface(const Volume<float>& ratio, const WallDomain& domain,
                         const HeightField* prior, double muscle, const HeightField* before) {
   const Grid& grid = ratio.grid;
   const Levels all = search_levels(domain, grid);
-  const int stride = std::max(1, int(std::lround(3.3 / grid.spacing[0])));
+  const CutColumns columns(domain, grid.spacing[0]);
   SurfaceProblem problem;
-  problem.nx = (domain.last - domain.first) / stride + 1;
+  problem.nx = columns.count;
   problem.nz = grid.size[2];
-  set_smoothness(problem, stride * grid.spacing[0], grid.spacing[2], grid.spacing[1]);
+  set_smoothness(problem, columns.stride * grid.spacing[0], grid.spacing[2], grid.spacing[1]);
   std::vector<Levels> levels;
   problem.first = {0};
   for (int k = 0; k < problem.nz; ++k) {
     for (int c = 0; c < problem.nx; ++c) {
-      const int i = domain.from_medial(c * stride);
+      const int i = columns.at(c, domain);
       levels.push_back(before ? near_surface(all, before->at(i, k), grid.spacing[1]) : all);
       problem.top.push_back(levels.back().first);
       problem.first.push_back(problem.first.back() + std::size_t(levels.back().count));
@@ -92,7 +93,7 @@ HeightField cut_surface(const Volume<float>& ratio, const WallDomain& domain,
   for (int k = 0; k < problem.nz; ++k) {
     for (int c = 0; c < problem.nx; ++c) {
       const int column = k * problem.nx + c;
-      column_cost(ratio, domain, prior, muscle, levels[column], domain.from_medial(c * stride), k,
+      column_cost(ratio, domain, prior, muscle, levels[column], columns.at(c, domain), k,
                   &problem.cost[problem.first[column]]);
     }
   }
@@ -100,11 +101,7 @@ HeightField cut_surface(const Volume<float>& ratio, const WallDomain& domain,
   HeightField depth(grid.size[0], problem.nz, no_depth);
   for (int k = 0; k < problem.nz; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
-      const double x = double(domain.to_medial(i)) / stride;
-      const int a = std::min(int(x), problem.nx - 1), b = std::min(a + 1, problem.nx - 1);
-      const int row = k * problem.nx;
-      const double level = surface[row + a] + (x - a) * (surface[row + b] - surface[row + a]);
-      depth.at(i, k) = (level - 0.5) * grid.spacing[1];
+      depth.at(i, k) = (columns.between(surface, i, k, domain) - 0.5) * grid.spacing[1];
     }
   }
   return depth;

@@ -7,13 +7,13 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/units.hpp"
+#include "segment/wall/cut_columns.hpp"
 #include "segment/wall/min_cut.hpp"
 
 namespace breast {
 
 namespace {
 
-constexpr double column_step = 3.3;     // mm between columns of the cut
 constexpr double thickest = 25;         // mm of the layer, along the wall's normal
 constexpr double clear_of_skin = 8;     // mm
 constexpr double bright = 0.88;         // of fat: what is brighter is none of the layer
@@ -24,9 +24,9 @@ constexpr double most_fat = 4;          // mm within the layer, in one piece
 constexpr double least_layer = 5;       // mm along the normal: thinner is the blur of the wall
 constexpr double at_side = 15;          // mm from the last column of the body
 
-/// Columns of the cut, counted from the medial end and the first slice.
-struct Columns {
-  int stride, nx, nz, first_slice;
+/// The columns of the cut in the slices that are searched.
+struct Columns : CutColumns {
+  int first_slice, slices;
 };
 
 /// Slope of the wall across the body, over 6 mm each way.
@@ -83,17 +83,17 @@ std::vector<double> layer_thickness(const ChestWall& wall, const Volume<float>& 
                                     const WallDomain& domain, const Columns& columns) {
   const Vec3& spacing = ratio.grid.spacing;
   SurfaceProblem problem;
-  problem.nx = columns.nx;
-  problem.nz = columns.nz;
+  problem.nx = columns.count;
+  problem.nz = columns.slices;
   problem.step_cost_x = thickness_cost * spacing[1] / (columns.stride * spacing[0]);
   problem.step_cost_z = thickness_cost * spacing[1] / spacing[2];
   problem.max_step_x = problem.max_step_z = int(2 * thickest / spacing[1]);
   problem.first = {0};
-  problem.top.assign(std::size_t(columns.nx) * columns.nz, 0);
-  for (int k = 0; k < columns.nz; ++k) {
-    for (int c = 0; c < columns.nx; ++c) {
-      const std::vector<float> costs = layer_costs(
-          wall, ratio, domain, domain.from_medial(c * columns.stride), columns.first_slice + k);
+  problem.top.assign(std::size_t(columns.count) * columns.slices, 0);
+  for (int k = 0; k < columns.slices; ++k) {
+    for (int c = 0; c < columns.count; ++c) {
+      const std::vector<float> costs =
+          layer_costs(wall, ratio, domain, columns.at(c, domain), columns.first_slice + k);
       problem.cost.insert(problem.cost.end(), costs.begin(), costs.end());
       problem.first.push_back(problem.cost.size());
     }
@@ -106,27 +106,26 @@ std::vector<double> layer_thickness(const ChestWall& wall, const Volume<float>& 
 /// Takes from the layer the parts that do not reach the side of the body.
 void keep_at_side(std::vector<double>& thickness, const ChestWall& wall, const WallDomain& domain,
                   const Columns& columns, double spacing) {
-  cv::Mat layer(columns.nz, columns.nx, CV_8U), parts;
-  for (int k = 0; k < columns.nz; ++k)
-    for (int c = 0; c < columns.nx; ++c)
+  cv::Mat layer(columns.slices, columns.count, CV_8U), parts;
+  for (int k = 0; k < columns.slices; ++k)
+    for (int c = 0; c < columns.count; ++c)
       layer.at<uchar>(k, c) =
-          thickness[std::size_t(k) * columns.nx + c] >
-          least_layer * obliqueness(wall, domain, spacing, domain.from_medial(c * columns.stride),
-                                    columns.first_slice + k);
+          thickness[std::size_t(k) * columns.count + c] >
+          least_layer *
+              obliqueness(wall, domain, spacing, columns.at(c, domain), columns.first_slice + k);
   std::vector<char> kept(std::size_t(cv::connectedComponents(layer, parts, 4)), 0);
   const int reach = std::max(1, int(at_side / (columns.stride * spacing)));
-  for (int k = 0; k < columns.nz; ++k) {
-    int end = columns.nx - 1;
-    while (end > 0 && std::isnan(domain.skin.at(domain.from_medial(end * columns.stride),
-                                                columns.first_slice + k)))
+  for (int k = 0; k < columns.slices; ++k) {
+    int end = columns.count - 1;
+    while (end > 0 && std::isnan(domain.skin.at(columns.at(end, domain), columns.first_slice + k)))
       --end;
     for (int c = std::max(0, end - reach); c <= end; ++c)
       kept[std::size_t(parts.at<int>(k, c))] = 1;
   }
-  for (int k = 0; k < columns.nz; ++k) {
-    for (int c = 0; c < columns.nx; ++c) {
+  for (int k = 0; k < columns.slices; ++k) {
+    for (int c = 0; c < columns.count; ++c) {
       const int part = parts.at<int>(k, c);
-      if (part == 0 || !kept[std::size_t(part)]) thickness[std::size_t(k) * columns.nx + c] = 0;
+      if (part == 0 || !kept[std::size_t(part)]) thickness[std::size_t(k) * columns.count + c] = 0;
     }
   }
 }
@@ -148,19 +147,14 @@ std::array<int, 2> slices_of(const BreastExtent& extent, const Grid& grid) {
 double include_front_muscle(ChestWall& wall, const Volume<float>& ratio, const WallDomain& domain,
                             const BreastExtent& extent) {
   const Vec3& spacing = ratio.grid.spacing;
-  const int stride = std::max(1, int(std::lround(column_step / spacing[0])));
   const auto [first_slice, last_slice] = slices_of(extent, ratio.grid);
-  const Columns columns{stride, (domain.last - domain.first) / stride + 1,
-                        last_slice - first_slice + 1, first_slice};
+  const Columns columns{CutColumns(domain, spacing[0]), first_slice, last_slice - first_slice + 1};
   std::vector<double> thickness = layer_thickness(wall, ratio, domain, columns);
   keep_at_side(thickness, wall, domain, columns, spacing[0]);
   double moved = 0;
-  for (int k = 0; k < columns.nz; ++k) {
+  for (int k = 0; k < columns.slices; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
-      const double x = double(domain.to_medial(i)) / stride;
-      const int a = std::min(int(x), columns.nx - 1), b = std::min(a + 1, columns.nx - 1);
-      const std::size_t row = std::size_t(k) * columns.nx;
-      const double layer = thickness[row + a] + (x - a) * (thickness[row + b] - thickness[row + a]);
+      const double layer = columns.between(thickness, i, k, domain);
       if (!(layer > 0)) continue;
       wall.depth.at(i, first_slice + k) -= layer;
       moved += layer * spacing[0] * spacing[2];
