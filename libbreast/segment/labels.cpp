@@ -88,12 +88,11 @@ TriMesh data_points(const Work& work) {
     confidence.push_back(sure);
     sigma.push_back(deviation);
   };
-  constexpr int step[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
         if (!work.breast.at(i, j, k)) continue;
-        for (const auto& s : step) {
+        for (const auto& s : face_neighbours) {
           if (!grid.contains(i + s[0], j + s[1], k + s[2]) ||
               work.body.mask.at(i + s[0], j + s[1], k + s[2]))
             continue;

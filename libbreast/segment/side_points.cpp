@@ -54,13 +54,12 @@ void add_skin(const Work& work, SidePoints& points) {
   Volume<float> filled(grid);
   for (std::size_t n = 0; n < filled.voxels.size(); ++n) filled.voxels[n] = body.voxels[n];
   filled = gaussian(filled, smoothing);
-  constexpr int step[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int i = work.domain.first; i <= work.domain.last; ++i) {
       const int end = std::min(grid.size[1], int(work.domain.deepest.at(i, k) / grid.spacing[1]));
       for (int j = 0; j < end; ++j) {
         if (!body.at(i, j, k)) continue;
-        for (const auto& s : step) {
+        for (const auto& s : face_neighbours) {
           if (!grid.contains(i + s[0], j + s[1], k + s[2]) || body.at(i + s[0], j + s[1], k + s[2]))
             continue;
           points.add(Vec3(i + 0.5 * s[0], j + 0.5 * s[1], k + 0.5 * s[2]), outward(filled, i, j, k),

@@ -2,6 +2,7 @@
 // Operations on volume grids: axes in patient order, coarsening, resampling, rotation.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "image/volume.hpp"
@@ -9,6 +10,10 @@
 namespace breast {
 
 using Mask = Volume<std::uint8_t>;
+
+/// Steps from a voxel to those with which it shares a face.
+inline constexpr std::array<std::array<int, 3>, 6> face_neighbours = {
+    {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
 
 /// The same voxels with axes permuted and flipped so that i runs mostly to the patient's left, j to
 /// posterior and k to superior. Every voxel keeps its position in the patient.

@@ -2,7 +2,6 @@
 #include "segment/tissue/compact_gland.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/statistics/percentile.hpp"
@@ -43,9 +42,8 @@ Mask inner_blocks(const Mask& dim) {
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
-        for (const auto& [a, b, c] :
-             {std::array{i - 1, j, k}, std::array{i + 1, j, k}, std::array{i, j - 1, k},
-              std::array{i, j + 1, k}, std::array{i, j, k - 1}, std::array{i, j, k + 1}}) {
+        for (const auto& s : face_neighbours) {
+          const int a = i + s[0], b = j + s[1], c = k + s[2];
           if (!grid.contains(a, b, c) || !dim.at(a, b, c)) inner.at(i, j, k) = 0;
         }
       }

@@ -14,8 +14,7 @@ constexpr double least_part = 300;      // mm3
 
 /// Whether a neighbour (of six) is not in the mask; beyond the border of the grid there is none.
 bool beside_mask(const Mask& mask, int i, int j, int k) {
-  constexpr int step[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
-  return std::any_of(std::begin(step), std::end(step), [&](const auto& s) {
+  return std::ranges::any_of(face_neighbours, [&](const auto& s) {
     return mask.grid.contains(i + s[0], j + s[1], k + s[2]) &&
            !mask.at(i + s[0], j + s[1], k + s[2]);
   });
