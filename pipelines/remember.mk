@@ -20,5 +20,5 @@ changed = $(call stale,$(call record_file,$1),$($1_settings))
 prints = $(call staged,$(call record_file,$1),$($1_settings),--prints $2)
 # Of a recipe that runs make: the first command forgets, the last records.
 forget = rm -f $(call record_file,$1)
-record = printf '%s\n' '$(subst ','\'',$(strip $($1_settings)))' > $(call record_file,$1)
+record = printf '%s\n' $(call quoted,$(strip $($1_settings))) > $(call record_file,$1)
 stage = $(call staged,$(call record_file,$1),$($1_settings))

@@ -20,10 +20,9 @@ $(if $(study_file),$(if $(wildcard $(study_file)),,$(error STUDY: '$(STUDY)' is 
 tables_of_studies := $(join $(studies:%=%=),$(own_studies)) scaled-as-printed=$(PIPELINES)/studies/scaled.tsv@findings/as-printed \
   $(addprefix $(study_name)=,$(study_file))
 study_rules := $(RUNS)/.make/$(notdir $(RUN))-studies.mk
-refused := $(shell $(CASES) studies $(study_rules) $(PIPELINE) $(RUN) 'supine $(if $(no_tumour),cc mlo,curve)' '$(tabulate) place' \
+$(call said,$(shell $(CASES) studies $(study_rules) $(PIPELINE) $(RUN) 'supine $(if $(no_tumour),cc mlo,curve)' '$(tabulate) place' \
   $(foreach c,$(study_columns),'@$c=$(strip $(its_$c))') '{tumour={tumour}' $(foreach p,$(placeholders),'{$p=$(strip $($p))') \
-  $(tables_of_studies) --quiet 2>&1)
-$(if $(refused),$(error $(filter-out cases:,$(refused))))
+  $(tables_of_studies) --quiet 2>&1))
 .SECONDEXPANSION:
 include $(study_rules)
 
