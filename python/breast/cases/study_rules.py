@@ -116,28 +116,47 @@ class StudyRules:
         return self._target(start, "mesh") if start else f"{self._run}/mesh.vtkhdf"
 
     def _rule(self, one: Variant, rule: ChainRule) -> str:
-        def file(name: str) -> str:
-            stage = self._maker.get(name)
-            return f"{one.folder if stage in (None, rule.stage) else self._home(one, stage)}/{name}"
-        reads = [file(name) for name in rule.reads]
-        targets = [self._target(one, self._maker[name]) for name in rule.reads]
-        needs = [need for need in rule.needs if need not in ("$(MADE_MATERIALS)", "$(MADE_TUMOUR)")]
-        made = one.options["materials"].startswith(self._run + "/")  # by a rule
-        needs += [one.options["materials"]] if made and "$(MADE_MATERIALS)" in rule.needs else []
-        needs += ["$(MADE_TUMOUR)"] if "$(MADE_TUMOUR)" in rule.needs else []
-        needs += ["$(TRUTH_TABLE)"] if one.options.get("plates") and rule.stage in ("cc", "mlo") else []
-        needs += [self._mesh_of(one)] if "{tumour}" in one.options.get("hexmesh", "") and rule.stage == "mesh" else []
-        needs += [one.only_if + "/supine.json"] if one.only_if else []
-        command = rule.command.replace("$(wordlist 1,2,$^)", " ".join(reads[:2])).replace("$(word 2,$^)", reads[1] if reads[1:] else "")
-        command = command.replace("$<", reads[0] if reads else "").replace("$@", f"{one.folder}/{rule.file}").replace("$(contours) ", "")
-        command = _FILE.sub(lambda found: file(f"{found[1]}.{found[2]}"), command).replace("$(common_alone)", "$(common)")
-        waits = " ".join([*reads, *([one.only_if + "/supine.vtkhdf"] if one.only_if else [])])
-        if "{tumour}" in one.options.get("hexmesh", "") and rule.stage == "mesh" and not self._tumour:
-            command = (f"$(error {one.study}/{one.name}: this variant needs a tumour to follow$(comma) and the case has none; name its "
-                       "place with TUMOUR=x$(comma)y$(comma)z (mm))")
-        needs = " ".join([*targets, *needs]).replace(one.folder + "/", "$V/")
-        command = f"$(call attempt,{rule.stage},{waits}) {command}".replace(one.folder + "/", "$(@D)/")
+        needs = " ".join(self._needs(one, rule)).replace(one.folder + "/", "$V/")
+        waits = " ".join(self._file(one, rule, name) for name in rule.reads) + (f" {one.only_if}/supine.vtkhdf" if one.only_if else "")
+        command = f"$(call attempt,{rule.stage},{waits}) {self._command(one, rule)}".replace(one.folder + "/", "$(@D)/")
         return f"$V/{rule.stage}.json: {needs} $$(call changed_in,$$(@D),{rule.stage})\n\t{command}\n".replace(self._run + "/", "$(RUN)/")
+
+    def _file(self, one: Variant, rule: ChainRule, name: str) -> str:
+        """Where a row finds a file that the rule of the chain names: in its own folder what the rule itself makes."""
+        stage = self._maker.get(name)
+        return f"{one.folder if stage in (None, rule.stage) else self._home(one, stage)}/{name}"
+
+    def _follows_tumour(self, one: Variant, rule: ChainRule) -> bool:
+        """Whether the stage places the tumour where it is in the mesh from which the row starts."""
+        return rule.stage == "mesh" and "{tumour}" in one.options.get("hexmesh", "")
+
+    def _needs(self, one: Variant, rule: ChainRule) -> list[str]:
+        """The prerequisites of a row's stage, but for the record of its options."""
+        needs = [self._target(one, self._maker[name]) for name in rule.reads]
+        materials = one.options["materials"]
+        made = [materials] if materials.startswith(self._run + "/") else []  # by a rule
+        for need in rule.needs:
+            needs += made if need == "$(MADE_MATERIALS)" else [need]
+        if one.options.get("plates") and rule.stage in ("cc", "mlo"):
+            needs.append("$(TRUTH_TABLE)")
+        if self._follows_tumour(one, rule):
+            needs.append(self._mesh_of(one))
+        if one.only_if:
+            needs.append(one.only_if + "/supine.json")
+        return needs
+
+    def _command(self, one: Variant, rule: ChainRule) -> str:
+        """The program of the chain with the files of the row instead of those of the case."""
+        if self._follows_tumour(one, rule) and not self._tumour:
+            return (f"$(error {one.study}/{one.name}: this variant needs a tumour to follow$(comma) and the case has none; name its "
+                    "place with TUMOUR=x$(comma)y$(comma)z (mm))")
+        reads = [self._file(one, rule, name) for name in rule.reads]
+        words = {"$(wordlist 1,2,$^)": " ".join(reads[:2]), "$(word 2,$^)": reads[1] if reads[1:] else "", "$<": reads[0] if reads else "",
+                 "$@": f"{one.folder}/{rule.file}", "$(contours) ": "", "$(common_alone)": "$(common)"}
+        command = rule.command
+        for word, text in words.items():
+            command = command.replace(word, text)
+        return _FILE.sub(lambda found: self._file(one, rule, f"{found[1]}.{found[2]}"), command)
 
 
 def _says(one: Variant, run: str) -> str:
