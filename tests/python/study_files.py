@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the tests of breast.study share: a folder of files, and shapes without files."""
-import tempfile
-import unittest
 from pathlib import Path
 from unittest import mock
+
+import in_folder
 
 from breast.study.table import Table, parse_table
 
@@ -12,12 +12,7 @@ def table_of(text: str) -> Table:
     return parse_table(text, "table")
 
 
-class InFolder(unittest.TestCase):
-    def setUp(self) -> None:
-        work = tempfile.TemporaryDirectory()
-        self.addCleanup(work.cleanup)
-        self.folder = Path(work.name)
-
+class InFolder(in_folder.InFolder):
     def write(self, name: str, text: str = "x") -> Path:
         """A file of the folder, with the folders above it."""
         file = self.folder / name

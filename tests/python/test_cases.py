@@ -19,24 +19,9 @@ from breast.cases.slurm import SlurmRequest, slurm_plan
 from breast.cases.study_rules import StudyRules, chain_rules
 from breast.cases.variants import Studies, StudyBase
 from breast.errors import BreastError
+from in_folder import CODE, InFolder, reason
 
 KEYS = ("MR", "SIDE", "PRESET", "HEXMESH_OPTIONS", "ELEMENTS")
-CODE = ("$(shell x)", "`x`", "a;b", "a'b", "a#b", "a\\b", "a|b")
-
-
-def reason(work, *arguments):
-    try:
-        work(*arguments)
-    except BreastError as error:
-        return str(error)
-    return ""
-
-
-class InFolder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
 
 
 class CaseFiles(unittest.TestCase):

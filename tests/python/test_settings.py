@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The settings of a run: what is refused before make expands anything, and what a case cannot have."""
 import os
-import tempfile
 import unittest
-from pathlib import Path
 
 from breast.cases.scan_identity import remember_scan
 from breast.cases.settings import CaseRequest, case_file_for_make, check_case, check_given
-from breast.errors import BreastError
+from in_folder import CODE, InFolder, reason
 
 SETTINGS = """# what they are
 setting kind of choices may_hold
@@ -33,22 +31,12 @@ COST_POINTS words command rows:cost -
 RUNS name command - -
 RUN name command - -
 """
-CODE = ("$(shell x)", "`x`", "a;b", "a'b", "a#b", "a\\b", "a|b", "a\nb")
+HOSTILE = (*CODE, "a\nb")
 
 
-def reason(work, *arguments):
-    try:
-        work(*arguments)
-    except BreastError as error:
-        return str(error)
-    return ""
-
-
-class Settings(unittest.TestCase):
+class Settings(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        super().setUp()
         self.pipelines = self.folder / "pipelines"
         for name in ("materials", "studies"):
             (self.pipelines / name).mkdir(parents=True)
@@ -78,7 +66,7 @@ class Settings(unittest.TestCase):
         self.assertEqual(self.refused_text({"SIDES": "left"}), "", "other programs have their own in the environment")
 
     def test_text_that_is_code_is_refused_for_every_kind(self):
-        for code in CODE:
+        for code in HOSTILE:
             for name in ("MR", "MECHANICS", "FORWARD", "share"):
                 self.assertIn("may not stand in it", self.refused_text(**{name: code}), (name, code))
         for name in ("a=b", "a:b", "a%b", "a~b"):
