@@ -20,17 +20,30 @@ using namespace breast;
 namespace {
 
 struct Choices {
-  std::filesystem::path image, truth, dicom;
-  std::string preset = "average", materials, posture = "prone";
+  std::filesystem::path image, truth, dicom, fat;
+  std::string preset = "average", materials, posture = "prone", contrast = "fat-bright";
   std::vector<double> misalign{0, 0};
+  std::optional<double> muscle_over_fat, failed;
   int seed = 1;
   double bias = 2, noise = 2, coarse = 1;
 };
 
+/// Options that go with one contrast only.
+void check_contrast(const Choices& c) {
+  if ((c.contrast == "dixon") == c.fat.empty())
+    throw input_error("--contrast dixon and --fat, the file of its fat image, need each other");
+  if (c.muscle_over_fat && c.contrast != "fat-suppressed")
+    throw input_error("--muscle-over-fat is for --contrast fat-suppressed, not ", c.contrast);
+  if (c.failed && c.contrast == "fat-bright")
+    throw input_error("--failed is for --contrast fat-suppressed or dixon, not ", c.contrast);
+  if (!c.dicom.empty() && c.contrast == "dixon")
+    throw input_error("--dicom writes one series, not the two images of --contrast dixon");
+}
+
 void declare(Tool& tool, Choices& c) {
   tool.describe(
-      "Makes a bilateral breast MR (T1 without fat suppression, 512x512x60 voxels of "
-      "0.82x0.82x2.5 mm): breasts with skin, fat, an irregular fibroglandular tree and nipple "
+      "Makes a bilateral breast MR (T1 without fat suppression unless --contrast says otherwise, "
+      "512x512x60 voxels of 0.82x0.82x2.5 mm): breasts with skin, fat, an irregular fibroglandular tree and nipple "
       "on a chest with pectoral muscle, ribs and lung; coil bias, partial volume, Rician noise. "
       "The prone shape is the equilibrium of a known stress-free shape under gravity, solved "
       "with 27-node elements on a mesh template that hexmesh does not use, so that the errors "
@@ -58,6 +71,20 @@ void declare(Tool& tool, Choices& c) {
               "coil sensitivity: ratio of the brightest to the darkest breast fat", 1, 20);
   tool.number(c.noise, "--noise", "%",
               "standard deviation of the noise in percent of the fat signal", 0, 100);
+  tool.choice(c.contrast, "--contrast", {"fat-bright", "fat-suppressed", "dixon"},
+              "contrast of the scan. fat-bright: T1. The others follow from the water, fat and T1 "
+              "of each tissue in a spoiled gradient echo: fat-suppressed leaves as much of fat's "
+              "signal as --muscle-over-fat says; dixon makes a water image, OUT.nrrd, and a fat "
+              "image, --fat");
+  tool.number(c.muscle_over_fat, "--muscle-over-fat", "FACTOR",
+              "of --contrast fat-suppressed: brightness of muscle over that of fat (4 if not "
+              "given)",
+              0.9, 8);
+  tool.number(c.failed, "--failed", "%",
+              "share of the body, at the side of one breast, in which fat is not suppressed, or "
+              "water and fat are exchanged",
+              0, 50);
+  tool.output_file(c.fat, "--fat", "OUT.nrrd", "fat image of --contrast dixon");
   tool.choice(c.posture, "--posture", {"prone", "supine"}, "posture of the scan");
   tool.numbers(
       c.misalign, "--misalign", "MM,DEGREES", 2,
@@ -69,6 +96,7 @@ void declare(Tool& tool, Choices& c) {
               8);
   tool.check([&c] {
     if (!c.dicom.empty()) check_dicom_folder(c.dicom);
+    check_contrast(c);
     const double shift = c.misalign[0], turn = c.misalign[1];
     if ((shift != 0 || turn != 0) && c.posture != "supine")
       throw input_error("--misalign is for --posture supine");
@@ -81,6 +109,8 @@ void declare(Tool& tool, Choices& c) {
   tool.example("phantom paper.nrrd --truth paper-truth", "a breast of average size and its truth");
   tool.example("phantom p.nrrd --preset pendulous --seed 7 --bias 5 --dicom p-dicom",
                "a pendulous breast under a strong coil bias, also as DICOM");
+  tool.example("phantom water.nrrd --contrast dixon --fat fat.nrrd --failed 10",
+               "water and fat of a Dixon scan, exchanged in a tenth of the body");
   tool.example("phantom supine.nrrd --posture supine --misalign 4,2 --truth supine-truth",
                "the average body on her back, lying 4 mm and 2 degrees off");
 }
@@ -141,6 +171,16 @@ std::string content_of(const Volume<std::int16_t>& mr) {
   return content_hash(volume);
 }
 
+/// The scan, which of a Dixon scan is that of water, and that of fat.
+DixonScan scans_of(const PhantomImage& image, const PhantomParameters& p, const Choices& c) {
+  ContrastParameters shown;
+  if (c.muscle_over_fat) shown.muscle_over_fat = *c.muscle_over_fat;
+  if (c.failed) shown.failed_percent = *c.failed;
+  if (c.contrast == "dixon") return dixon_scan(image, p.mri, shown, p.seed);
+  if (c.contrast == "fat-suppressed") return {suppressed_scan(image, p.mri, shown, p.seed), {}};
+  return {scan(image, p.mri, p.seed), {}};
+}
+
 void run_phantom(const Choices& c, Run& run) {
   const PhantomParameters parameters = parameters_of(c);
   const MaterialSet materials = body_materials(parameters.body);
@@ -178,11 +218,11 @@ void run_phantom(const Choices& c, Run& run) {
   if (supine) lie_supine(scene, solved);
   PhantomImage image = [&] {
     Timer::Scope phase(run.timer(), "imaging");
-    return image_scene(scene, run.progress(), moved);
+    return image_scene(scene, run.progress(), moved, c.contrast != "fat-bright");
   }();
   if (supine) move_with_body(scene, moved);
   Timer::Scope phase(run.timer(), "writing");
-  const Volume<std::int16_t> mr = scan(image, parameters.mri, parameters.seed);
+  const auto [mr, fat] = scans_of(image, parameters, c);
   if (!c.truth.empty()) {
     AtomicFolder folder(c.truth, "landmarks.tsv");
     const std::filesystem::path& truth = folder.temporary();
@@ -201,6 +241,7 @@ void run_phantom(const Choices& c, Run& run) {
     folder.commit();
   }
   if (!c.dicom.empty()) write_dicom_series(c.dicom, mr, "phantom " + c.preset);
+  if (!c.fat.empty()) write_volume(c.fat, fat);
   write_volume(c.image, mr);
 }
 

@@ -30,10 +30,12 @@ namespace {
 // Counts of the subsamples of one voxel.
 struct Tally {
   double signal = 0;
+  std::array<int, n_matters> matter{};
   std::array<int, n_tissues> tissue{};
   int count = 0;
-  void add(Matter matter, Tissue t) {
-    signal += matter_signal(matter);
+  void add(Matter m, Tissue t) {
+    signal += matter_signal(m);
+    ++matter[std::size_t(m)];
     ++tissue[std::size_t(t)];
     ++count;
   }
@@ -183,10 +185,23 @@ class Imager {
   void store(std::size_t at, int side, const Tally& tally) {
     const auto most = std::max_element(tally.tissue.begin(), tally.tissue.end());
     image_.signal.voxels[at] = float(tally.signal / tally.count);
+    if (!image_.parts.water.voxels.empty()) store_parts(at, tally);
     image_.tissue[at] = std::uint8_t(most - tally.tissue.begin());
     image_.side[at] = std::uint8_t(side);
     image_.gland_percent[at] = std::uint8_t(
         std::lround(100.0 * tally.tissue[std::size_t(Tissue::fibroglandular)] / tally.count));
+  }
+
+  void store_parts(std::size_t at, const Tally& tally) {
+    WaterFat sum;
+    for (int m = 0; m < n_matters; ++m) {
+      const WaterFat part = matter_water_fat(Matter(m));
+      sum.water += tally.matter[std::size_t(m)] * part.water;
+      sum.fat += tally.matter[std::size_t(m)] * part.fat;
+    }
+    image_.parts.water.voxels[at] = float(sum.water / tally.count);
+    image_.parts.fat.voxels[at] = float(sum.fat / tally.count);
+    image_.signal.voxels[at] = float(sum.in_phase() / tally.count);
   }
 
   const PhantomScene& scene_;
@@ -197,7 +212,8 @@ class Imager {
 
 }  // namespace
 
-PhantomImage image_scene(const PhantomScene& scene, Progress& progress, const RigidMotion& moved) {
+PhantomImage image_scene(const PhantomScene& scene, Progress& progress, const RigidMotion& moved,
+                         bool parts) {
   PhantomImage image;
   const Grid scanner = phantom_grid(scene.parameters.mri);
   // For a body that was moved, the grid of the scanner is moved instead.
@@ -205,6 +221,7 @@ PhantomImage image_scene(const PhantomScene& scene, Progress& progress, const Ri
   seen.origin = moved.origin_of(scanner.origin);
   seen.direction = moved.rotation().transpose() * scanner.direction;
   image.signal = Volume<float>(seen);
+  if (parts) image.parts = {image.signal, image.signal};
   const Grid& grid = image.signal.grid;
   image.tissue.resize(grid.voxels());
   image.side.resize(grid.voxels());
@@ -220,6 +237,7 @@ PhantomImage image_scene(const PhantomScene& scene, Progress& progress, const Ri
     progress.update("image", double(finished) / grid.size[2], "slices");
   }
   image.signal.grid = scanner;
+  if (parts) image.parts.water.grid = image.parts.fat.grid = scanner;
   return image;
 }
 

@@ -79,14 +79,15 @@ Volume<float> coil_sensitivity(const PhantomImage& image, double bias, std::uint
   return field;
 }
 
-Volume<std::int16_t> scan(const PhantomImage& image, const MriParameters& p, std::uint64_t seed) {
-  if (!(p.noise_percent >= 0 && p.noise_percent <= 100)) {
-    throw input_error("noise ", p.noise_percent, " %: must lie between 0 and 100");
+Volume<std::int16_t> magnitude(const Volume<float>& signal_image, const Volume<float>& sensitivity,
+                               double noise_percent, std::uint64_t seed, int image_number) {
+  if (!(noise_percent >= 0 && noise_percent <= 100)) {
+    throw input_error("noise ", noise_percent, " %: must lie between 0 and 100");
   }
-  const Grid& grid = image.signal.grid;
-  const Volume<float> sensitivity = coil_sensitivity(image, p.bias, mix(seed, 401));
-  const double sigma = 0.01 * p.noise_percent * matter_signal(Matter::fat);
-  const std::uint64_t texture = mix(seed, 402), noise = mix(seed, 403);
+  const Grid& grid = signal_image.grid;
+  const double sigma = 0.01 * noise_percent * matter_signal(Matter::fat);
+  const std::uint64_t texture = mix(seed, 402),
+                      noise = mix(seed, 403 + 1000 * std::uint64_t(image_number));
   Volume<std::int16_t> out(grid);
 #pragma omp parallel for schedule(static) num_threads(threads())
   for (int k = 0; k < grid.size[2]; ++k)
@@ -94,16 +95,37 @@ Volume<std::int16_t> scan(const PhantomImage& image, const MriParameters& p, std
       for (int i = 0; i < grid.size[0]; ++i) {
         const std::size_t n = grid.offset(i, j, k);
         const Vec3 x = grid.to_patient(Vec3(i, j, k));
-        double signal = image.signal.voxels[n];
+        double signal = signal_image.voxels[n];
         if (signal > 0) {
           signal *= sensitivity.voxels[n] * (1 + 0.05 * lattice_noise(texture, x / 6) +
                                              0.05 * lattice_noise(texture + 1, x / 25));
         }
         const Vec2 error = sigma * normal_pair(noise, n);
-        const double magnitude = std::hypot(signal + error.x(), error.y());
-        out.voxels[n] = std::int16_t(std::clamp(std::lround(magnitude), 0L, 32767L));
+        const double size = std::hypot(signal + error.x(), error.y());
+        out.voxels[n] = std::int16_t(std::clamp(std::lround(size), 0L, 32767L));
       }
   return out;
+}
+
+Volume<std::int16_t> scan(const PhantomImage& image, const MriParameters& p, std::uint64_t seed) {
+  return magnitude(image.signal, coil_sensitivity(image, p.bias, mix(seed, 401)), p.noise_percent,
+                   seed);
+}
+
+Volume<std::int16_t> suppressed_scan(const PhantomImage& image, const MriParameters& p,
+                                     const ContrastParameters& contrast, std::uint64_t seed) {
+  const Volume<float> failing = failing_region(image.signal, 0.01 * contrast.failed_percent, seed);
+  return magnitude(saturated(image.parts, fat_left(contrast.muscle_over_fat), failing),
+                   coil_sensitivity(image, p.bias, mix(seed, 401)), p.noise_percent, seed);
+}
+
+DixonScan dixon_scan(const PhantomImage& image, const MriParameters& p,
+                     const ContrastParameters& contrast, std::uint64_t seed) {
+  const SignalImages shown =
+      exchanged(image.parts, failing_region(image.signal, 0.01 * contrast.failed_percent, seed));
+  const Volume<float> sensitivity = coil_sensitivity(image, p.bias, mix(seed, 401));
+  return {magnitude(shown.water, sensitivity, p.noise_percent, seed),
+          magnitude(shown.fat, sensitivity, p.noise_percent, seed, 1)};
 }
 
 }  // namespace breast

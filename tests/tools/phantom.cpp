@@ -114,6 +114,32 @@ TEST(PhantomTool, ASupineScanIsOfTheSameBodyAndIsSegmented) {
   EXPECT_EQ(said.error_lines(), 1) << said.err;
 }
 
+// A Dixon scan as a user makes and segments it.
+TEST(PhantomTool, ADixonScanIsSegmentedAndItsHalvesAreNot) {
+  ScratchFolder folder;
+  const auto run = [&](const std::string& line) {
+    return run_line(line + " --quiet", folder.path());
+  };
+  ToolResult said =
+      run("phantom w.nrrd --preset small --coarse 3 --contrast dixon --fat f.nrrd "
+          "--failed 10");
+  ASSERT_EQ(said.exit_code, 0) << said.err;
+  said = run("segment w.nrrd l.vtkhdf --side left --fat f.nrrd --report l.json");
+  ASSERT_EQ(said.exit_code, 0) << said.err;
+  const Report report = Report::parse(read_text(folder.path() / "l.json"), "l.json");
+  EXPECT_EQ(report.text("contrast"), "dixon");
+  EXPECT_GT(report.number("exchanged_percent"), 10);
+  for (const char* wrong :
+       {"segment f.nrrd l2.vtkhdf --side left",
+        "segment w.nrrd l2.vtkhdf --side left --contrast dixon",
+        "segment w.nrrd l2.vtkhdf --side left --contrast fat-bright --fat f.nrrd"}) {
+    said = run(wrong);
+    EXPECT_EQ(said.exit_code, 2) << wrong;
+    EXPECT_EQ(said.error_lines(), 1) << said.err;
+    EXPECT_NE(said.err.find("--fat"), std::string::npos) << said.err;
+  }
+}
+
 TEST(PhantomTool, RefusesBadUsageBeforeItStarts) {
   ScratchFolder folder;
   const std::vector<std::vector<std::string>> wrong = {
@@ -123,6 +149,12 @@ TEST(PhantomTool, RefusesBadUsageBeforeItStarts) {
       {"p.nrrd", "--noise", "nan"},
       {"p.nrrd", "--materials", "granite"},
       {"p.nrrd", "--truth", "/proc/nowhere"},
+      {"p.nrrd", "--contrast", "dixon"},
+      {"p.nrrd", "--fat", "f.nrrd"},
+      {"p.nrrd", "--contrast", "fat-suppressed", "--muscle-over-fat", "0.2"},
+      {"p.nrrd", "--failed", "10"},
+      {"p.nrrd", "--contrast", "dixon", "--fat", "f.nrrd", "--muscle-over-fat", "3"},
+      {"p.nrrd", "--contrast", "dixon", "--fat", "f.nrrd", "--dicom", "series"},
   };
   for (const auto& arguments : wrong) {
     const ToolResult run = run_tool("phantom", arguments, folder.path());

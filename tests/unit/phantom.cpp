@@ -289,6 +289,40 @@ TEST(PhantomScanner, BiasSpansTheFactorAskedFor) {
   }
 }
 
+TEST(PhantomContrast, SaturationLeavesMuscleAsBrightAsAsked) {
+  const WaterFat muscle = matter_water_fat(Matter::muscle), fat = matter_water_fat(Matter::fat);
+  EXPECT_NEAR(fat.in_phase(), 1000, 1e-9);
+  for (const double ratio : {1.0, 1.4, 4.0}) {
+    const double left = fat_left(ratio);
+    EXPECT_NEAR((muscle.water + left * muscle.fat) / (fat.water + left * fat.fat), ratio, 1e-9);
+  }
+  EXPECT_THROW(fat_left(0.5), Error);
+  EXPECT_THROW(fat_left(20), Error) << "water in fat alone is brighter";
+}
+
+TEST(PhantomContrast, WaterAndFatAddUpAndAreExchangedInTheShareAskedFor) {
+  const PhantomImage parts = image_scene(scene(), no_progress(), {}, true);
+  EXPECT_EQ(parts.tissue, image().tissue);
+  const Volume<float> failing = failing_region(parts.signal, 0.1, 3);
+  const SignalImages shown = exchanged(parts.parts, failing);
+  double body = 0, exchanged_in = 0;
+  for (std::size_t n = 0; n < parts.signal.voxels.size(); ++n) {
+    const float water = parts.parts.water.voxels[n], fat = parts.parts.fat.voxels[n];
+    ASSERT_NEAR(water + fat, parts.signal.voxels[n], 1e-3);
+    ASSERT_NEAR(shown.water.voxels[n] + shown.fat.voxels[n], water + fat, 1e-3);
+    body += parts.signal.voxels[n] > 0;
+    exchanged_in += shown.water.voxels[n] != water;
+  }
+  EXPECT_NEAR(exchanged_in / body, 0.1, 0.01);
+  // The coil and the texture of tissue are common to both images, their noise is not.
+  MriParameters mri = small_phantom().mri;
+  mri.noise_percent = 0;
+  const DixonScan dixon = dixon_scan(parts, mri, {}, 1);
+  const Volume<std::int16_t> sum = scan(parts, mri, 1);
+  for (std::size_t n = 0; n < sum.voxels.size(); ++n)
+    ASSERT_NEAR(dixon.water.voxels[n] + dixon.fat.voxels[n], sum.voxels[n], 2);
+}
+
 TEST(PhantomParametersTest, RefusesWhatItCannotMake) {
   EXPECT_THROW(phantom_preset("huge", 1), Error);
   PhantomParameters p = small_phantom();
