@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// segment: labels of one breast from a prone or supine T1 MR scan.
+// segment: labels of one breast from a prone or supine MR scan.
 #include "segment/segment.hpp"
 
 #include <algorithm>
@@ -24,9 +24,9 @@ using namespace breast;
 namespace {
 
 struct Choices {
-  std::filesystem::path scan, labels, wall, points, overlay, measures;
+  std::filesystem::path scan, labels, fat, wall, points, overlay, measures;
   std::string accept_other, side, interior = "threshold", contrast = "auto", posture = "prone";
-  int series = 0;
+  int series = 0, fat_series = 0;
   double wall_shift = 0;
   std::vector<std::string> codes;
 };
@@ -70,11 +70,18 @@ void declare(Tool& tool, Choices& c) {
               "region-growing: the paper's 3-D confidence-connected growing of fat. The report "
               "compares both");
   tool.choice(
-      c.contrast, "--contrast", {"auto", "fat-bright"},
-      "check of the contrast. auto: a scan in which fat is not the bright tissue (fat "
-      "saturation, T2, subtraction) is refused, on the evidence of the skin, fat, muscle and "
-      "subcutaneous tissue; fat-bright: the user vouches that fat is bright, and contrary "
-      "evidence is only a warning");
+      c.contrast, "--contrast", {"auto", "fat-bright", "dixon"},
+      "which tissue is bright. auto: fat, or water and fat with --fat; a scan in which fat "
+      "is not the bright tissue (fat suppression, T2, subtraction, half of a Dixon scan) is "
+      "refused, on the evidence of the skin, fat, muscle, subcutaneous tissue and chest "
+      "wall; fat-bright: the user vouches that fat is bright, and contrary evidence is only "
+      "a warning; dixon: MR is the water image, --fat the fat image");
+  tool.input_file(c.fat, "--fat", "FILE",
+                  "fat image of the Dixon scan whose water image is MR: body and chest wall are "
+                  "found on their sum, gland by the share of fat; regions in which the scanner "
+                  "exchanged the two are put right and reported");
+  tool.integer(c.fat_series, "--fat-series", "N", "which series of --fat, if it is a DICOM folder",
+               0, 10000);
   tool.output_file(c.points, "--points", "OUT.vtp", "data points of the skin and the chest wall");
   tool.output_file(c.overlay, "--overlay", "OUT.png",
                    "picture of slices with contours, for judging the segmentation");
@@ -85,6 +92,12 @@ void declare(Tool& tool, Choices& c) {
               -3, 3);
   tool.check([&c] {
     parse_tissue_codes(c.codes);
+    if (c.contrast == "dixon" && c.fat.empty())
+      throw input_error(
+          "--contrast dixon needs --fat, the fat image: water alone does not show the chest wall "
+          "reliably");
+    if (!c.fat.empty() && c.contrast != "auto" && c.contrast != "dixon")
+      throw input_error("--fat is for --contrast dixon or auto, not ", c.contrast);
     if (!c.codes.empty() && c.wall.empty()) throw input_error("--code needs --chest-wall");
   });
   tool.example("segment scan.nrrd labels.vtkhdf --side left --overlay look.png",
@@ -92,8 +105,28 @@ void declare(Tool& tool, Choices& c) {
   tool.example(
       "segment supine.nrrd supine-labels.vtkhdf --side left --posture supine --points supine-skin.vtp",
       "the second posture, for identify");
+  tool.example("segment water.nrrd labels.vtkhdf --side left --fat fat.nrrd", "a Dixon scan");
   tool.example("segment dicom/ labels.vtkhdf --side right --series 2 --chest-wall clicked.tsv",
                "the second series of a folder, with the chest wall corrected by clicked points");
+}
+
+Contrast contrast_from_name(const std::string& name) {
+  for (const Contrast one : {Contrast::fat_bright, Contrast::dixon})
+    if (name == contrast_name(one)) return one;
+  return Contrast::automatic;
+}
+
+/// One sentence on what was found to be bright, with the numbers it follows from.
+std::string contrast_words(const Segmentation& result) {
+  std::string words = message("contrast ", contrast_name(result.kind));
+  words +=
+      message(": what lies behind the chest wall ", format_fixed(result.contrast.muscle_ratio, 2),
+              " of fat, evidence of saturation ",
+              format_fixed(saturation_evidence(result.contrast), 2), " of ", most_evidence);
+  if (result.kind == Contrast::dixon)
+    words += message(", water and fat exchanged in ", format_fixed(result.exchanged_percent, 1),
+                     " % of the breast");
+  return words;
 }
 
 /// Reads clicked points: those of 3D Slicer, or a table with columns x_mm y_mm z_mm (or x y z),
@@ -181,13 +214,23 @@ void check_posture(const std::string& position, const std::string& posture, Run&
                    posture, ": check how the patient lay"));
 }
 
+/// Another scan of the same examination, if one is given.
+std::optional<Volume<float>> read_other(const std::filesystem::path& file, int series,
+                                        std::vector<Run::Input>& inputs) {
+  if (file.empty()) return {};
+  VolumeSource source;
+  Volume<float> scan = read_volume(file, series, &source);
+  inputs.push_back({file, source.content_sha256, nullptr});
+  return scan;
+}
+
 void run_segment(const Choices& c, Run& run) {
   SegmentOptions options;
   options.side = side_from_name(c.side);
   options.posture = posture_from_name(c.posture);
   options.wall_shift = c.wall_shift;
   if (c.interior == "region-growing") options.interior = Interior::region_growing;
-  if (c.contrast == "fat-bright") options.contrast = Contrast::fat_bright;
+  options.contrast = contrast_from_name(c.contrast);
   std::optional<GivenWall> wall;  // before the scan: what is wrong with it is said at once
   if (!c.wall.empty()) {
     wall = read_wall(c.wall, parse_tissue_codes(c.codes));
@@ -200,6 +243,7 @@ void run_segment(const Choices& c, Run& run) {
   }();
   check_posture(source.patient_position, c.posture, run);
   std::vector<Run::Input> inputs{{c.scan, source.content_sha256, nullptr}};
+  options.fat = read_other(c.fat, c.fat_series, inputs);
   if (wall) {
     Origin mr = origin_of_scan(c.scan, source.content_sha256, scan.grid);
     mr.side = options.side;
@@ -208,6 +252,7 @@ void run_segment(const Choices& c, Run& run) {
     inputs.push_back({c.wall, given.content_sha256, nullptr});
   }
   Segmentation result = segment_breast(scan, options, run.progress(), run.timer());
+  run.progress().note(contrast_words(result));
   for (const std::string& doubt : result.doubts) run.warn(doubt);
   const bool guessed = options.posture != Posture::prone;
   run.report().set("nipple", guessed ? "guessed" : "found");
@@ -227,6 +272,7 @@ void run_segment(const Choices& c, Run& run) {
   run.report().set("nipple_base", result.nipple_base);
   run.report().set("posture", c.posture);
   run.report().set("interior", c.interior);
+  run.report().set("contrast", contrast_name(result.kind));
   const Timer::Scope phase(run.timer(), "write");
   if (!c.overlay.empty()) write_overlay(c.overlay, scan, result.labels);
   if (!c.points.empty()) write_surface(c.points, result.points);

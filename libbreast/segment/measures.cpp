@@ -46,6 +46,9 @@ std::vector<Quantity> measures_of(const Segmentation& result) {
   add("subcutaneous_brightness", "subcutaneous_brightness", result.contrast.subcutaneous);
   add("skin_to_subcutis", "skin_to_subcutis", result.contrast.skin_to_subcutis);
   add("saturation_evidence", "saturation_evidence", saturation_evidence(result.contrast));
+  add("silent_percent", "silent_percent", 100 * result.contrast.silent_share);
+  if (result.kind == Contrast::dixon)
+    add("exchanged_percent", "exchanged_percent", result.exchanged_percent);
   add("fat_cv_before", "bias/fat_cv_before", result.bias_cv_before);
   add("fat_cv_after", "bias/fat_cv_after", result.bias_cv_after);
   add("bias_range_factor", "bias/range_factor", result.bias_range);

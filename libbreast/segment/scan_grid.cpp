@@ -177,9 +177,11 @@ void clear_of_air(Work& fine) {
 
 }  // namespace
 
-Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side) {
+Work on_scan_grid(const Work& coarse, const Images& images, Side side) {
   Work fine;
-  fine.scan = cropped(scan, side_box(coarse, scan.grid, side));
+  const Box box = side_box(coarse, images.tissue.grid, side);
+  fine.scan = cropped(images.tissue, box);
+  if (!images.fat_share.voxels.empty()) fine.fat_share = cropped(images.fat_share, box);
   const Grid& grid = fine.scan.grid;
   const Grid& working = coarse.scan.grid;
   fine.body = coarse.body;

@@ -11,8 +11,10 @@
 #include "core/statistics/percentile.hpp"
 #include "core/table.hpp"
 #include "core/units.hpp"
+#include "segment/bias_and_wall.hpp"
 #include "segment/body/side.hpp"
-#include "segment/contrast.hpp"
+#include "segment/contrast/dixon.hpp"
+#include "segment/contrast/evidence.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/grid/itk_filters.hpp"
 #include "segment/plausibility.hpp"
@@ -28,108 +30,60 @@ namespace breast {
 
 namespace {
 
-constexpr double depth_limit =
-    45;  // mm behind the sternal skin: no fat for the first bias estimate
 constexpr double least_roll = 0.1;  // radians: less is the asymmetry of people
 // Skin of a supine breast lies in front of and beside the sternum's; by this much a breast hangs
 // prone.
 constexpr double spread_behind = 40, hanging = 45;  // mm
-constexpr double wall_clearance = 2;  // mm in front of the wall used for the later ones
 // Gland brighter than this share of fat has in part been taken for dim fat, and much of it lowers
 // the bias around it, which is then estimated again without it. A little (strands, vessels) does
 // not.
 constexpr double darkest_gland_in_bias = 0.5, least_gland_in_bias = 0.1;
 
-/// Gland that misled the estimate of the bias, which is then made again.
-struct MisleadingGland {
-  Volume<float> share;  ///< where no fat is sought; empty when none misleads
-  DimTissue compact;    ///< what was missed for being compact; its share is empty when nothing was
-};
+/// What is scanned, in patient order: water and fat of a Dixon scan become their sum.
+Images images_of(const Volume<float>& scan, const SegmentOptions& options) {
+  Images images;
+  images.tissue = in_patient_order(scan);
+  if (!options.fat) {
+    if (options.contrast == Contrast::dixon)
+      throw input_error("a Dixon scan needs its fat image beside its water image");
+    return images;
+  }
+  Dixon dixon = dixon_images(images.tissue, in_patient_order(*options.fat));
+  images.tissue = std::move(dixon.sum);
+  images.fat_share = std::move(dixon.fat_share);
+  return images;
+}
 
-/// Bias on a grid halved in plane, and the ratio on the working grid. `limit` gives the depth (mm)
-/// per column up to which there may be fat; there is none in `gland` (may be null).
-template <class Limit>
-void correct_bias(Work& work, bool again, const BiasSettings& settings, const Limit& limit,
-                  const MisleadingGland* gland = nullptr) {
-  const std::array<int, 3> half{2, 2, 1};
-  const Volume<float> coarse = coarsened(work.scan, half);
-  Volume<float> distance = resampled(work.skin_distance, coarse.grid);
-  Mask allowed(coarse.grid);
-  const Grid& grid = coarse.grid;
-  for (int k = 0; k < grid.size[2]; ++k) {
-    for (int i = 0; i < grid.size[0]; ++i) {
-      const double depth = limit(std::min(2 * i, work.scan.grid.size[0] - 1), k);
-      for (int j = 0; j < grid.size[1]; ++j) {
-        allowed.at(i, j, k) =
-            distance.at(i, j, k) < 0 && (2 * j + 0.5) * work.scan.grid.spacing[1] < depth;
-      }
-    }
-  }
-  DimTissue dim;
-  if (gland) {
-    constexpr float least_share = 0.1f;
-    const Volume<float> share = resampled(gland->share, grid);
-    for (std::size_t n = 0; n < share.voxels.size(); ++n)
-      if (share.voxels[n] > least_share) allowed.voxels[n] = 0;
-    const auto& [compact, step] = gland->compact;
-    if (!compact.voxels.empty()) dim = {resampled(compact, grid), step};
-  }
-  const Volume<float> previous = work.bias.log_bias;
-  work.bias = fat_bias(coarse, allowed, distance, settings, again ? &previous : nullptr,
-                       dim.share.voxels.empty() ? nullptr : &dim);
-  const Volume<float> fine = resampled(work.bias.log_bias, work.scan.grid);
-  work.ratio = work.scan;
-  for (std::size_t n = 0; n < fine.voxels.size(); ++n) {
-    work.ratio.voxels[n] =
-        work.body.mask.voxels[n] ? work.scan.voxels[n] / elementary::exp(fine.voxels[n]) : 0;
-  }
+/// The working grid of the images, and the body on it.
+void start_work(Work& work, const Images& images, const SegmentOptions& options) {
+  work.scan = on_working_grid(images.tissue);
+  work.body = find_body(work.scan, options.side, options.posture);
 }
 
 /// Samples a turned body again until it lies straight, always from the scan itself: skin that a
 /// turned breast hides from the front can make the first angle half of what it should be. Returns
 /// the angle (radians).
-double stand_upright(Work& work, Volume<float>& own, const SegmentOptions& options) {
-  Volume<float> scan;
+double stand_upright(Work& work, Images& images, const SegmentOptions& options) {
+  Images scanned;
   double roll = 0;
   for (int pass = 0; pass < 3; ++pass) {
     const double more = body_roll(work.body.mask);
     if (!(std::abs(more) > (pass == 0 ? least_roll : least_roll / 3))) break;
-    if (pass == 0) scan = std::move(own);
+    if (pass == 0) scanned = std::move(images);
     roll += more;
-    own = rolled(scan, roll, float(0.5 * work.body.air_level));
-    work.scan = on_working_grid(own);
-    work.body = find_body(work.scan, options.side, options.posture);
+    images.tissue = rolled(scanned.tissue, roll, float(0.5 * work.body.air_level));
+    if (!scanned.fat_share.voxels.empty()) images.fat_share = rolled(scanned.fat_share, roll, 0);
+    start_work(work, images, options);
   }
   return roll;
 }
 
-void find_wall(Work& work, Progress& progress, Timer& timer) {
-  for (int pass = 0; pass < 2; ++pass) {
-    progress.update("chest wall", 0.2 + 0.2 * pass, pass ? "second pass" : "first pass");
-    {
-      const Timer::Scope phase(timer, "bias");
-      correct_bias(work, pass > 0, {}, [&](int i, int k) {
-        const double sternal = work.torso.cleft[k] + depth_limit;
-        if (pass == 0 || std::isnan(work.wall.depth.at(i, k))) return sternal;
-        return work.wall.depth.at(i, k) - wall_clearance;
-      });
-    }
-    const Timer::Scope phase(timer, "chest_wall");
-    work.wall = find_chest_wall(work.ratio, work.domain, pass ? &work.wall : nullptr);
-  }
-  const Timer::Scope phase(timer, "chest_wall");
-  snap_chest_wall(work.wall, work.ratio, work.domain);
-}
-
-/// The final bias of the working grid, from the fat in front of the wall.
-void refine_bias(Work& work, const MisleadingGland* gland = nullptr) {
-  correct_bias(
-      work, true, {.refined = true},
-      [&](int i, int k) {
-        return std::isnan(work.wall.depth.at(i, k)) ? work.torso.cleft[k] + 10
-                                                    : work.wall.depth.at(i, k) - wall_clearance;
-      },
-      gland);
+/// What the stages need to know of the body.
+void frame_body(Work& work, const SegmentOptions& options) {
+  work.torso = find_torso(work.body.mask, options.side);
+  work.skin_distance = signed_distance(work.body.mask);
+  work.domain = wall_domain(work.body.mask, work.torso, options.side == Side::left);
+  refuse_other_side(work.torso, work.scan.grid, options.side);
 }
 
 bool corrected_by_hand(const SegmentOptions& options) {
@@ -247,6 +201,17 @@ void find_doubts(Segmentation& result, const Work& work) {
   }
 }
 
+/// What a reader should know of the contrast.
+void doubt_contrast(Segmentation& result) {
+  constexpr double much = 1;  // % of the breast
+  if (result.exchanged_percent > much) {
+    result.doubts.push_back(message("water and fat are exchanged in ",
+                                    std::lround(result.exchanged_percent),
+                                    " % of the breast: fat's share was turned over there; check "
+                                    "fibroglandular tissue (--overlay)"));
+  }
+}
+
 void doubt_extent(Segmentation& result, const Extents& found, const SegmentOptions& options) {
   result.front_left_out_percent = found.front_left_out_percent;
   result.lateral_border_mm = found.lateral_border_mm;
@@ -274,11 +239,19 @@ Mask below_skin(const Work& work) {
   return interior_of(work, darkened_by_skin(work), work.scan.grid.spacing[1]);
 }
 
-/// Skin, fat and gland of the breast.
-void separate_tissue(Work& work, Interior by, double fat_cv) {
+/// Skin, fat and gland of the breast: gland by fat's share of a Dixon scan, otherwise by brightness.
+void separate_tissue(Work& work, Interior by, Segmentation& result) {
   work.skin = skin_thickness(work.brightness, work.breast, work.skin_distance);
-  work.gland = find_fibroglandular(work.ratio, below_skin(work), near_unsure_wall(work, 8),
-                                   work.wall.muscle_ratio, fat_cv, by);
+  const Mask interior = below_skin(work), by_muscle = near_unsure_wall(work, 8);
+  if (work.fat_share.voxels.empty()) {
+    work.gland = find_fibroglandular(work.ratio, interior, by_muscle, work.wall.muscle_ratio,
+                                     result.bias_cv_after, by);
+    return;
+  }
+  const FatShare share = fat_share_of(work);
+  result.exchanged_percent = 100 * share.exchanged;
+  work.gland =
+      find_fibroglandular(share.ratio, interior, by_muscle, share.muscle, share.scatter, by);
 }
 
 /// Compact gland that misleads the estimate of the bias: of which much was taken for dim fat, or
@@ -311,13 +284,50 @@ MisleadingGland misleading_gland(const Work& work) {
   return gland;
 }
 
+/// Bias, wall and what the user says of it.
+void locate_wall(Work& work, Segmentation& result, const SegmentOptions& options,
+                 Progress& progress, Timer& timer) {
+  find_wall(work, progress, timer);
+  progress.update("chest wall", 0.5, "muscle on it");
+  const Timer::Scope phase(timer, "bias");
+  if (!corrected_by_hand(options)) {
+    refine_bias(work);
+    include_front_muscle(work.wall, work.ratio, work.domain,
+                         find_extent(work.wall, work.domain, work.torso, work.skin_distance,
+                                     options.side, options.posture));
+  }
+  correct_wall(work, options);
+  refine_bias(work);
+  result.bias_cv_before = work.bias.fat_cv_before;
+  result.bias_cv_after = work.bias.fat_cv_after;
+  result.bias_range = work.bias.range;
+  result.contrast.fat_cv = work.bias.fat_cv_after;
+  result.contrast.muscle_ratio = work.wall.muscle_ratio;
+  if (options.posture == Posture::prone) complete_contrast(result.contrast, work, options.side);
+}
+
+/// The contrast of the scan, where the user does not say it.
+Contrast contrast_of(const SegmentOptions& options) {
+  if (options.contrast != Contrast::automatic) return options.contrast;
+  return options.fat ? Contrast::dixon : Contrast::fat_bright;
+}
+
 /// A contrast in which fat is not the bright tissue: refused, or reported where the user answers
 /// for it.
 void judge_contrast(Segmentation& result, const SegmentOptions& options) {
   const std::string refusal = refusal_of(result.contrast);
   if (refusal.empty()) return;
-  if (options.contrast == Contrast::automatic) throw input_error(refusal);
+  if (options.contrast != Contrast::fat_bright) {
+    throw input_error(options.fat ? "the sum of water and fat: " : "", refusal);
+  }
   result.doubts.push_back("accepted as requested: " + refusal);
+}
+
+/// Half of a Dixon scan, from which fat or all else is absent.
+void judge_half(const Segmentation& result, const SegmentOptions& options) {
+  if (options.fat || options.contrast == Contrast::fat_bright) return;
+  const std::string refusal = refusal_of_half(result.contrast);
+  if (!refusal.empty()) throw input_error(refusal);
 }
 
 /// Where a wall is held by the limits of the search alone, or what lies behind is as bright as fat
@@ -337,57 +347,50 @@ void refuse_without_wall(const Segmentation& result) {
 
 }  // namespace
 
+std::string_view contrast_name(Contrast contrast) {
+  switch (contrast) {
+    case Contrast::fat_bright:
+      return "fat-bright";
+    case Contrast::dixon:
+      return "dixon";
+    default:
+      return "auto";
+  }
+}
+
 Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& options,
                             Progress& progress, Timer& timer) {
   Work work;
-  Volume<float> own;  // the scan itself in patient order; `work` may be coarser
+  Images images;  // what was scanned; `work` may be coarser
   Segmentation result;
   const bool supine = options.posture != Posture::prone;
   result.posture = options.posture;
   {
     const Timer::Scope phase(timer, "body");
     progress.update("body", 0, "");
-    own = in_patient_order(scan);
-    work.scan = on_working_grid(own);
-    work.body = find_body(work.scan, options.side, options.posture);
-    result.roll_degrees = stand_upright(work, own, options) * 180 / std::numbers::pi;
+    images = images_of(scan, options);
+    start_work(work, images, options);
+    result.roll_degrees = stand_upright(work, images, options) * 180 / std::numbers::pi;
     result.debris_ml = work.body.debris_ml;
     result.beside_ml = work.body.beside_ml;
-    work.torso = find_torso(work.body.mask, options.side);
-    work.skin_distance = signed_distance(work.body.mask);
-    work.domain = wall_domain(work.body.mask, work.torso, options.side == Side::left);
-    refuse_other_side(work.torso, work.scan.grid, options.side);
-    result.contrast = contrast_below_skin(work, supine ? spread_behind : 0);
+    frame_body(work, options);
   }
-  find_wall(work, progress, timer);
-  progress.update("chest wall", 0.5, "muscle on it");
-  {
-    const Timer::Scope phase(timer, "bias");
-    if (!corrected_by_hand(options)) {
-      refine_bias(work);
-      include_front_muscle(work.wall, work.ratio, work.domain,
-                           find_extent(work.wall, work.domain, work.torso, work.skin_distance,
-                                       options.side, options.posture));
-    }
-    correct_wall(work, options);
-    refine_bias(work);
-    result.bias_cv_before = work.bias.fat_cv_before;
-    result.bias_cv_after = work.bias.fat_cv_after;
-    result.bias_range = work.bias.range;
-    result.contrast.fat_cv = work.bias.fat_cv_after;
-    result.contrast.muscle_ratio = work.wall.muscle_ratio;
-    judge_contrast(result, options);
-  }
+  result.contrast = contrast_below_skin(work, supine ? spread_behind : 0);
+  result.kind = contrast_of(options);
+  judge_half(result, options);
+  locate_wall(work, result, options, progress, timer);
+  judge_half(result, options);
+  judge_contrast(result, options);
   const Timer::Scope phase(timer, "tissue");
   progress.update("tissue", 0.6, "");
   Work coarse = std::move(work);
-  work = on_scan_grid(coarse, own, options.side);
-  own = {};
+  work = on_scan_grid(coarse, images, options.side);
+  images = {};
   work.extent = find_extent(work.wall, work.domain, work.torso, work.skin_distance, options.side,
                             options.posture);
   work.breast = breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent,
                               options.side, options.posture);
-  separate_tissue(work, Interior::threshold, result.bias_cv_after);
+  separate_tissue(work, Interior::threshold, result);
   const MisleadingGland gland = misleading_gland(work);
   const bool again = !gland.share.voxels.empty();
   if (again) {
@@ -396,7 +399,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
     result.bias_cv_after = coarse.bias.fat_cv_after;
   }
   if (again || options.interior != Interior::threshold)
-    separate_tissue(work, options.interior, result.bias_cv_after);
+    separate_tissue(work, options.interior, result);
   result.lost_edges_percent = lost_edges_percent(work.scan, below_skin(work), work.gland);
   const Volume<float> inside_gland = signed_distance(work.gland.lobes);
   result.compact_dark_mm =
@@ -416,6 +419,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   if (!supine) result.flat_skin_cm2 = flat_skin_cm2(work);
   summarise(result, work);
   find_doubts(result, work);
+  doubt_contrast(result);
   doubt_extent(result, extents_of(work, nipple.tip, options.side), options);
   if (!corrected_by_hand(options)) refuse_without_wall(result);
   return result;

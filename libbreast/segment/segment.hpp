@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Segmentation of a bilateral T1 breast MR, prone or supine, into the labels of one breast (see
+// Segmentation of a bilateral breast MR, prone or supine, into the labels of one breast (see
 // docs/methods.md).
 #pragma once
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/progress.hpp"
 #include "core/report.hpp"
 #include "core/units.hpp"
 #include "image/label_volume.hpp"
-#include "segment/contrast.hpp"
+#include "segment/contrast/evidence.hpp"
 #include "segment/tissue/tissue.hpp"
 #include "surface/tri_mesh.hpp"
 
@@ -19,9 +20,11 @@ namespace breast {
 
 /// Which tissue is bright.
 enum class Contrast {
-  automatic,  ///< refused if there is evidence against bright fat
-  fat_bright  ///< vouched for by the user; contrary evidence is only a warning
+  automatic,   ///< by the evidence of the image
+  fat_bright,  ///< as in T1; if the user says so, contrary evidence is only a warning
+  dixon        ///< water and fat as two images
 };
+std::string_view contrast_name(Contrast contrast);
 
 struct SegmentOptions {
   Side side = Side::left;
@@ -37,6 +40,7 @@ struct SegmentOptions {
   double wall_shift = 0;
   Interior interior = Interior::threshold;
   Contrast contrast = Contrast::automatic;
+  std::optional<Volume<float>> fat;  ///< fat image of the Dixon scan whose water image is given
 };
 
 struct Segmentation {
@@ -60,11 +64,13 @@ struct Segmentation {
   double papilla_height = 0;  ///< mm; 0 on a smooth dome
   double cut_by_view_cm2 = 0, flat_skin_cm2 = 0;  ///< of the breast (plausibility.hpp)
   double front_left_out_percent = 0, lateral_border_mm = 0, nipple_depth_mm = 0;  ///< Extents
-  FatContrast contrast;
-  double roll_degrees = 0;          ///< by which the labels' grid is turned against the scan's
-  double wall_shift = 0;            ///< standard deviations the wall was moved by
-  double debris_ml = 0;             ///< volume removed from the skin
-  double beside_ml = 0;             ///< tissue separate from the torso
+  Contrast kind = Contrast::fat_bright;  ///< of the scan that shows the tissues
+  FatContrast contrast;                  ///< of that scan
+  double exchanged_percent = 0;          ///< of the breast, where water and fat of a Dixon scan are
+  double roll_degrees = 0;               ///< by which the labels' grid is turned against the scan's
+  double wall_shift = 0;                 ///< standard deviations the wall was moved by
+  double debris_ml = 0;                  ///< volume removed from the skin
+  double beside_ml = 0;                  ///< tissue separate from the torso
   double compact_dark_mm = 0;       ///< radius of the largest ball within fibroglandular tissue
   double lost_edges_percent = 0;    ///< of the edges of brightness (tissue/lost_edges.hpp)
   std::vector<std::string> doubts;  ///< results that the user should check

@@ -11,10 +11,17 @@
 
 namespace breast {
 
+/// What was scanned of one examination, on one grid in patient order.
+struct Images {
+  Volume<float> tissue;     ///< shows fat, gland and muscle
+  Volume<float> fat_share;  ///< of a Dixon scan: fat over water and fat; otherwise empty
+};
+
 /// All volumes have the same grid.
 struct Work {
   Volume<float> scan, ratio, skin_distance;
   Volume<float> brightness;  ///< as ratio (scan over bias), also outside the body
+  Volume<float> fat_share;   ///< as in Images
   Body body;
   TorsoFront torso;
   WallDomain domain;
@@ -33,7 +40,7 @@ Volume<float> on_working_grid(const Volume<float>& scan);
 
 /// The chosen side of the original scan with everything found so far, for the final labels: if the
 /// working grid was coarser, the border of the body is determined again on the finer voxels.
-Work on_scan_grid(const Work& coarse, const Volume<float>& scan, Side side);
+Work on_scan_grid(const Work& coarse, const Images& images, Side side);
 
 /// Brightness and ratio from the scan, and a bias on any grid.
 void divide_by_bias(Work& work, const BiasField& bias);

@@ -25,6 +25,7 @@
 #include "core/error.hpp"
 #include "core/statistics/percentile.hpp"
 #include "evaluation/overlap.hpp"
+#include "fixtures/label_truth.hpp"
 #include "fixtures/perturbed_scan.hpp"
 #include "io/volume_file.hpp"
 #include "segment/grid/grid_ops.hpp"
@@ -34,93 +35,7 @@
 namespace breast {
 namespace {
 
-constexpr int half_gland = 34, tumour = 200;
-
-bool behind_wall(int code) {
-  return code == 40 || code == 60 || code == 61 || code == 62;
-}
-
-Tissue tissue_of(int code) {
-  if (code == 0) return Tissue::air;
-  if (behind_wall(code)) return Tissue::muscle;
-  if (code == 2 || code == 33) return Tissue::skin;
-  return code == 29 ? Tissue::fibroglandular : Tissue::fat;
-}
-
-int code_at(const Volume<float>& truth, const Vec3& p) {
-  const Vec3 index = truth.grid.to_index(p);
-  const int i = int(std::lround(index[0])), j = int(std::lround(index[1])),
-            k = int(std::lround(index[2]));
-  return truth.grid.contains(i, j, k) ? int(std::lround(truth.at(i, j, k))) : 0;
-}
-
-/// Patient y of the true wall; NaN beside it.
-double true_wall(const Volume<float>& truth, double x, double z) {
-  constexpr double step = 0.1;
-  const double first = truth.grid.origin[1],
-               last = first + truth.grid.size[1] * truth.grid.spacing[1];
-  for (double y = first; y < last; y += step)
-    if (behind_wall(code_at(truth, Vec3(x, y, z)))) return y - 0.5 * step;
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
-/// Dice of fibroglandular tissue; a voxel that is half of it counts half, whatever it is labelled.
-double gland_dice(const LabelVolume& labels, const Volume<float>& truth, double midline) {
-  double both = 0, ours = 0, theirs = 0;
-  const double sign = lateral_sign(labels.side);
-  for (int k = 0; k < labels.grid.size[2]; ++k) {
-    for (int j = 0; j < labels.grid.size[1]; ++j) {
-      for (int i = 0; i < labels.grid.size[0]; ++i) {
-        const Vec3 p = labels.grid.to_patient(Vec3(i, j, k));
-        const int code = code_at(truth, p);
-        if (code == tumour || sign * (p[0] - midline) < 0) continue;
-        const double weight = code == half_gland ? 0.5 : 1;
-        const bool is = code == 29 || code == half_gland;
-        const bool found = labels.at(i, j, k) == Tissue::fibroglandular;
-        both += weight * (is && found);
-        ours += weight * found;
-        theirs += weight * is;
-      }
-    }
-  }
-  return ours + theirs > 0 ? 2 * both / (ours + theirs) : 1;
-}
-
-struct WallScores {
-  std::vector<double> error, half_width;
-  double covered = 0;
-  void add(double off, double half) {
-    error.push_back(std::abs(off));
-    half_width.push_back(half);
-    covered += std::abs(off) <= half;
-  }
-  double mean() const {
-    double sum = 0;
-    for (const double e : error) sum += e / double(error.size());
-    return sum;
-  }
-  double coverage() const { return error.empty() ? 0 : 100 * covered / double(error.size()); }
-};
-
-/// All columns of the breast, then its sternal, middle and lateral third.
-std::array<WallScores, 4> wall_scores(const Segmentation& result, const Volume<float>& truth) {
-  constexpr double of_band = 1.645;
-  const auto& kind = result.points.point_data.at("surface");
-  const auto& sigma = result.points.point_data.at("sigma_mm");
-  const auto aside = [&](const Vec3& p) { return std::abs(p[0] - result.midline_mm); };
-  double border = 0;
-  for (std::size_t n = 0; n < kind.size(); ++n)
-    if (kind[n] == 1) border = std::max(border, aside(result.points.points[n]));
-  std::array<WallScores, 4> scores;
-  for (std::size_t n = 0; n < kind.size(); ++n) {
-    const Vec3& p = result.points.points[n];
-    const double wall = kind[n] == 1 ? true_wall(truth, p[0], p[2]) : 0;
-    if (kind[n] != 1 || std::isnan(wall)) continue;
-    scores[0].add(p[1] - wall, of_band * sigma[n]);
-    scores[1 + std::min(2, int(3 * aside(p) / border))].add(p[1] - wall, of_band * sigma[n]);
-  }
-  return scores;
-}
+using namespace testing;
 
 /// Fat and fibroglandular tissue (ml) darker than a tenth of the scan's fat.
 double dark_breast_ml(const Segmentation& result, const Volume<float>& scan,

@@ -12,7 +12,7 @@
 #include "fixtures/perturbed_scan.hpp"
 #include "fixtures/synthetic_scan.hpp"
 #include "segment/body/body.hpp"
-#include "segment/contrast.hpp"
+#include "segment/contrast/evidence.hpp"
 #include "segment/grid/itk_filters.hpp"
 #include "segment/plausibility.hpp"
 #include "segment/quality.hpp"
@@ -216,6 +216,11 @@ TEST(Contrast, OneOddityIsNoSaturationTwoAre) {
     EXPECT_EQ(refusal_of(one), "") << odd;
     EXPECT_NE(refusal_of(all_but_one), "") << odd;
   }
+  FatContrast behind = bright;
+  behind.sternal_thickness = 60;
+  EXPECT_EQ(refusal_of(behind), "") << "breasts that touch in front of the sternum";
+  behind.wall_seen = 0.4;
+  EXPECT_NE(refusal_of(behind), "") << "lung taken for muscle";
   FatContrast dark = bright;
   dark.subcutaneous = 0.33;
   EXPECT_NE(refusal_of(dark), "") << "fat darker than a third of what surrounds it";

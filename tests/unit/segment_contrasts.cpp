@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One patient in the contrasts of breast MR: the same breast, or a refusal that names the contrast.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "evaluation/overlap.hpp"
+#include "evaluation/wall_distance.hpp"
+#include "fixtures/synthetic_scan.hpp"
+#include "segment/contrast/dixon.hpp"
+#include "segment/segment.hpp"
+
+namespace breast {
+namespace {
+
+using testing::SyntheticScan;
+
+/// Water and fat of a Dixon scan of the patient, whose sum is her T1-weighted scan.
+struct Patient {
+  SyntheticScan truth = SyntheticScan::coarse();
+  Volume<float> water, fat, t1;
+
+  Patient() {
+    water = truth.image_of([&](const Vec3& p) { return truth.signal(p) * (1 - fat_at(p)); }, 2);
+    fat = truth.image_of([&](const Vec3& p) { return truth.signal(p) * fat_at(p); }, 3);
+    t1 = truth.image(4);
+  }
+  double fat_at(const Vec3& p) const {
+    return truth.in_skin(p, 3) || truth.signal(p) < 1 ? 0.1 : 0.95;
+  }
+};
+
+const Patient& patient() {
+  static const Patient one;
+  return one;
+}
+
+Segmentation run(const Volume<float>& scan, const SegmentOptions& options = {}) {
+  Timer timer;
+  return segment_breast(scan, options, no_progress(), timer);
+}
+
+const Segmentation& as_t1() {
+  static const Segmentation result = run(patient().t1);
+  return result;
+}
+
+Segmentation dixon(const Volume<float>& water, const Volume<float>& fat) {
+  SegmentOptions options;
+  options.fat = fat;
+  return run(water, options);
+}
+
+std::string refusal(const Volume<float>& scan, const SegmentOptions& options = {}) {
+  try {
+    run(scan, options);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    return error.what();
+  }
+  return "accepted";
+}
+
+double gland_ml(const Segmentation& result) {
+  double sum = 0;
+  for (const float share : result.labels.fibroglandular_fraction) sum += share;
+  return sum * result.labels.grid.voxel_volume() / 1000;
+}
+
+void expect_as_t1(const Segmentation& result) {
+  EXPECT_EQ(result.kind, Contrast::dixon);
+  EXPECT_GT(compare_labels(result.labels, as_t1().labels).breast.dice, 0.98);
+  EXPECT_LT(compare_walls(result.labels, as_t1().labels).distance.mean_mm, 0.5);
+  EXPECT_LT((result.labels.landmarks.at("nipple") - as_t1().labels.landmarks.at("nipple")).norm(),
+            4);
+  EXPECT_NEAR(gland_ml(result), gland_ml(as_t1()), 0.15 * gland_ml(as_t1()));
+}
+
+TEST(Dixon, WaterAndFatGiveTheBreastOfT1) {
+  const Segmentation result = dixon(patient().water, patient().fat);
+  expect_as_t1(result);
+  EXPECT_LT(result.exchanged_percent, 1);
+}
+
+TEST(Dixon, ExchangedRegionsArePutRightAndSaid) {
+  // The scanner took the lower half of the left breast's water for fat.
+  Patient exchanged = patient();
+  double breast = 0, turned = 0;
+  const Grid& grid = exchanged.truth.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const Vec3 p = grid.to_patient(Vec3(i, j, k));
+        const bool inside = p[0] > 0 && exchanged.truth.in_ellipsoid(p, 1);
+        breast += inside;
+        if (!(p[0] > 20 && p[2] < 0)) continue;
+        turned += inside;
+        std::swap(exchanged.water.at(i, j, k), exchanged.fat.at(i, j, k));
+      }
+    }
+  }
+  const Segmentation result = dixon(exchanged.water, exchanged.fat);
+  expect_as_t1(result);
+  EXPECT_NEAR(result.exchanged_percent, 100 * turned / breast, 8);
+  EXPECT_TRUE(std::any_of(result.doubts.begin(), result.doubts.end(), [](const std::string& doubt) {
+    return doubt.find("water and fat are exchanged in") == 0;
+  }));
+}
+
+TEST(Dixon, TheTwoFilesInTheOtherOrderGiveTheSame) {
+  const Segmentation result = dixon(patient().fat, patient().water);
+  expect_as_t1(result);
+  EXPECT_GT(result.exchanged_percent, 95);
+}
+
+TEST(Dixon, WaterOrFatAloneIsRefusedByName) {
+  for (const Volume<float>* half : {&patient().water, &patient().fat}) {
+    const std::string reason = refusal(*half);
+    EXPECT_NE(reason.find("of a Dixon scan alone"), std::string::npos) << reason;
+    EXPECT_NE(reason.find("--fat"), std::string::npos) << reason;
+  }
+  SegmentOptions options;
+  options.contrast = Contrast::dixon;
+  EXPECT_NE(refusal(patient().water, options).find("fat image"), std::string::npos);
+}
+
+TEST(Dixon, ImagesThatAreNotWaterAndFatOfOneScanAreRefused) {
+  SegmentOptions options;
+  for (const Volume<float>* other : {&patient().water, &patient().t1}) {
+    options.fat = *other;
+    const std::string reason = refusal(*other, options);
+    EXPECT_NE(reason, "accepted");
+  }
+  options.fat = patient().water;
+  const std::string in_phase = refusal(patient().t1, options);
+  EXPECT_NE(in_phase.find("not water and fat of one scan"), std::string::npos) << in_phase;
+  options.fat->grid.origin[2] += 2;
+  const std::string moved = refusal(patient().fat, options);
+  EXPECT_NE(moved.find("give the two images of one Dixon scan"), std::string::npos) << moved;
+}
+
+TEST(Contrast, MuscleAsBrightAsFatIsRefused) {
+  // Lung would be taken for the muscle behind the wall.
+  const SyntheticScan& truth = patient().truth;
+  const Volume<float> scan = truth.image_of([&](const Vec3& p) {
+    const double signal = truth.signal(p);
+    return signal == 0.35 ? 0.6 : signal == 0.6 ? 0.8 : signal == 1 ? 0.6 : signal;
+  });
+  EXPECT_NE(refusal(scan).find("fat is saturated"), std::string::npos) << refusal(scan);
+}
+
+}  // namespace
+}  // namespace breast
