@@ -24,9 +24,9 @@ using namespace breast;
 namespace {
 
 struct Choices {
-  std::filesystem::path scan, labels, fat, wall, points, overlay, measures;
+  std::filesystem::path scan, labels, fat, also, wall, points, overlay, measures;
   std::string accept_other, side, interior = "threshold", contrast = "auto", posture = "prone";
-  int series = 0, fat_series = 0;
+  int series = 0, fat_series = 0, also_series = 0;
   double wall_shift = 0;
   std::vector<std::string> codes;
 };
@@ -82,6 +82,14 @@ void declare(Tool& tool, Choices& c) {
                   "exchanged the two are put right and reported");
   tool.integer(c.fat_series, "--fat-series", "N", "which series of --fat, if it is a DICOM folder",
                0, 10000);
+  tool.input_file(
+      c.also, "--also", "FILE",
+      "second scan of the same examination, such as T1 beside suppressed fat, for an MR "
+      "that does not show the chest wall: the skin is taken from MR, chest wall, muscle "
+      "and gland are found on this one. It is aligned rigidly if the skins are more than "
+      "4 mm apart (rms)");
+  tool.integer(c.also_series, "--also-series", "N",
+               "which series of --also, if it is a DICOM folder", 0, 10000);
   tool.output_file(c.points, "--points", "OUT.vtp", "data points of the skin and the chest wall");
   tool.output_file(c.overlay, "--overlay", "OUT.png",
                    "picture of slices with contours, for judging the segmentation");
@@ -98,6 +106,10 @@ void declare(Tool& tool, Choices& c) {
           "reliably");
     if (!c.fat.empty() && c.contrast != "auto" && c.contrast != "dixon")
       throw input_error("--fat is for --contrast dixon or auto, not ", c.contrast);
+    if (!c.fat.empty() && !c.also.empty())
+      throw input_error(
+          "--also is for an MR that does not show the chest wall; the sum of water "
+          "and fat (--fat) does");
     if (!c.codes.empty() && c.wall.empty()) throw input_error("--code needs --chest-wall");
   });
   tool.example("segment scan.nrrd labels.vtkhdf --side left --overlay look.png",
@@ -106,6 +118,8 @@ void declare(Tool& tool, Choices& c) {
       "segment supine.nrrd supine-labels.vtkhdf --side left --posture supine --points supine-skin.vtp",
       "the second posture, for identify");
   tool.example("segment water.nrrd labels.vtkhdf --side left --fat fat.nrrd", "a Dixon scan");
+  tool.example("segment suppressed.nrrd labels.vtkhdf --side left --also t1.nrrd",
+               "a scan with suppressed fat, whose chest wall a T1-weighted scan shows");
   tool.example("segment dicom/ labels.vtkhdf --side right --series 2 --chest-wall clicked.tsv",
                "the second series of a folder, with the chest wall corrected by clicked points");
 }
@@ -118,7 +132,8 @@ Contrast contrast_from_name(const std::string& name) {
 
 /// One sentence on what was found to be bright, with the numbers it follows from.
 std::string contrast_words(const Segmentation& result) {
-  std::string words = message("contrast ", contrast_name(result.kind));
+  std::string words =
+      message(result.also.used ? "contrast of --also " : "contrast ", contrast_name(result.kind));
   words +=
       message(": what lies behind the chest wall ", format_fixed(result.contrast.muscle_ratio, 2),
               " of fat, evidence of saturation ",
@@ -244,6 +259,7 @@ void run_segment(const Choices& c, Run& run) {
   check_posture(source.patient_position, c.posture, run);
   std::vector<Run::Input> inputs{{c.scan, source.content_sha256, nullptr}};
   options.fat = read_other(c.fat, c.fat_series, inputs);
+  options.also = read_other(c.also, c.also_series, inputs);
   if (wall) {
     Origin mr = origin_of_scan(c.scan, source.content_sha256, scan.grid);
     mr.side = options.side;
@@ -253,6 +269,7 @@ void run_segment(const Choices& c, Run& run) {
   }
   Segmentation result = segment_breast(scan, options, run.progress(), run.timer());
   run.progress().note(contrast_words(result));
+  if (options.also) run.progress().note("--also: " + result.also.change);
   for (const std::string& doubt : result.doubts) run.warn(doubt);
   const bool guessed = options.posture != Posture::prone;
   run.report().set("nipple", guessed ? "guessed" : "found");
@@ -273,6 +290,7 @@ void run_segment(const Choices& c, Run& run) {
   run.report().set("posture", c.posture);
   run.report().set("interior", c.interior);
   run.report().set("contrast", contrast_name(result.kind));
+  if (options.also) run.report().set("also/change", result.also.change);
   const Timer::Scope phase(run.timer(), "write");
   if (!c.overlay.empty()) write_overlay(c.overlay, scan, result.labels);
   if (!c.points.empty()) write_surface(c.points, result.points);

@@ -49,6 +49,10 @@ std::vector<Quantity> measures_of(const Segmentation& result) {
   add("silent_percent", "silent_percent", 100 * result.contrast.silent_share);
   if (result.kind == Contrast::dixon)
     add("exchanged_percent", "exchanged_percent", result.exchanged_percent);
+  if (result.also.used) {
+    add("skins_apart_mm", "also/skins_apart_mm", result.also.residual_mm);
+    add("shared_percent", "also/shared_percent", result.also.shared_percent);
+  }
   add("fat_cv_before", "bias/fat_cv_before", result.bias_cv_before);
   add("fat_cv_after", "bias/fat_cv_after", result.bias_cv_after);
   add("bias_range_factor", "bias/range_factor", result.bias_range);

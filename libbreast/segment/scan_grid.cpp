@@ -94,6 +94,29 @@ Mask fine_body(const Work& coarse, const Volume<float>& scan) {
   return largest_component(body);
 }
 
+/// Body whose skin another scan shows: within `band` mm of the working mask's border it ends where
+/// that falls below half of the brightest nearby. Skin is the bright one there: in front of it there
+/// may be haze, and fat behind it may be darker than half of it.
+Mask outlined_body(const Work& coarse, const Volume<float>& outline) {
+  constexpr double band = 4, behind_edge = 1;  // mm
+  constexpr float edge = 0.5f;
+  const Volume<float> distance = resampled(coarse.skin_distance, outline.grid);
+  const Volume<float> brightest = box_maximum(gaussian(outline, 0.8), band);
+  Volume<float> outermost(outline.grid);  // bright voxel nearby, mm in front of -band
+  for (std::size_t n = 0; n < outermost.voxels.size(); ++n) {
+    const float d = distance.voxels[n];
+    const bool bright = d < band && outline.voxels[n] > edge * brightest.voxels[n];
+    outermost.voxels[n] = bright ? float(std::max(0.0, d + band)) : 0;
+  }
+  const Volume<float> around = box_maximum(outermost, band);
+  Mask body(outline.grid);
+  for (std::size_t n = 0; n < body.voxels.size(); ++n) {
+    const double d = distance.voxels[n] + band;  // from where all is body
+    body.voxels[n] = d < 0 || outermost.voxels[n] > 0 || d < around.voxels[n] - behind_edge;
+  }
+  return largest_component(body);
+}
+
 /// Places of a grid's voxels along an axis between those of another: the nearer end beyond.
 struct Between {
   int low, high;
@@ -185,8 +208,11 @@ Work on_scan_grid(const Work& coarse, const Images& images, Side side) {
   const Grid& grid = fine.scan.grid;
   const Grid& working = coarse.scan.grid;
   fine.body = coarse.body;
-  fine.body.mask = fine_body(coarse, fine.scan);
+  fine.body.mask = images.outline.voxels.empty()
+                       ? fine_body(coarse, fine.scan)
+                       : outlined_body(coarse, cropped(images.outline, box));
   fine.skin_distance = signed_distance(fine.body.mask);
+  if (!images.outline.voxels.empty()) fine.own_distance = resampled(coarse.skin_distance, grid);
   divide_by_bias(fine, coarse.bias);
   // Depths count from the first voxel of each grid.
   const double shift = working.to_index(grid.origin)[1] * working.spacing[1];

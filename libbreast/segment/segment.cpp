@@ -15,6 +15,7 @@
 #include "segment/body/side.hpp"
 #include "segment/contrast/dixon.hpp"
 #include "segment/contrast/evidence.hpp"
+#include "segment/contrast/second_scan.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/grid/itk_filters.hpp"
 #include "segment/plausibility.hpp"
@@ -235,8 +236,13 @@ double darkened_by_skin(const Work& work) {
   return work.skin > 0 ? std::min(3.0, work.skin + 0.75 * (spacing[0] + spacing[1])) : 3.0;
 }
 
+/// Where skin is that of another scan, the one that this scan shows may lie behind it.
 Mask below_skin(const Work& work) {
-  return interior_of(work, darkened_by_skin(work), work.scan.grid.spacing[1]);
+  const double depth = darkened_by_skin(work);
+  Mask interior = interior_of(work, depth, work.scan.grid.spacing[1]);
+  for (std::size_t n = 0; n < work.own_distance.voxels.size(); ++n)
+    if (work.own_distance.voxels[n] > -depth) interior.voxels[n] = 0;
+  return interior;
 }
 
 /// Skin, fat and gland of the breast: gland by fat's share of a Dixon scan, otherwise by brightness.
@@ -312,22 +318,83 @@ Contrast contrast_of(const SegmentOptions& options) {
   return options.fat ? Contrast::dixon : Contrast::fat_bright;
 }
 
-/// A contrast in which fat is not the bright tissue: refused, or reported where the user answers
-/// for it.
-void judge_contrast(Segmentation& result, const SegmentOptions& options) {
-  const std::string refusal = refusal_of(result.contrast);
-  if (refusal.empty()) return;
-  if (options.contrast != Contrast::fat_bright) {
-    throw input_error(options.fat ? "the sum of water and fat: " : "", refusal);
-  }
-  result.doubts.push_back("accepted as requested: " + refusal);
+/// Finds the contrast, and bias and wall by it. Returns why the contrast is refused; empty if it is
+/// not.
+std::string find_contrast(Work& work, Segmentation& result, const SegmentOptions& options,
+                          Progress& progress, Timer& timer) {
+  result.contrast =
+      contrast_below_skin(work, options.posture != Posture::prone ? spread_behind : 0);
+  result.kind = contrast_of(options);
+  const auto half = [&] { return options.fat ? "" : refusal_of_half(result.contrast); };
+  std::string refusal = half();
+  if (!refusal.empty() && options.contrast != Contrast::fat_bright) return refusal;
+  locate_wall(work, result, options, progress, timer);
+  refusal = half();
+  return refusal.empty() ? refusal_of(result.contrast) : refusal;
 }
 
-/// Half of a Dixon scan, from which fat or all else is absent.
-void judge_half(const Segmentation& result, const SegmentOptions& options) {
-  if (options.fat || options.contrast == Contrast::fat_bright) return;
-  const std::string refusal = refusal_of_half(result.contrast);
-  if (!refusal.empty()) throw input_error(refusal);
+/// Why the scan alone does not show the wall; empty if it does.
+std::string refusal_alone(Work& work, Segmentation& result, const SegmentOptions& options,
+                          Progress& progress, Timer& timer) {
+  try {
+    return find_contrast(work, result, options, progress, timer);
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+/// Puts the second scan in the place of the first for all but the skin.
+void take_second_scan(Work& work, Images& images, Segmentation& result,
+                      const SegmentOptions& options) {
+  const Volume<float> second = in_patient_order(*options.also);
+  const Body body = find_body(on_working_grid(second), options.side, options.posture);
+  const SecondScan aligned = align_skins(work.torso, work.skin_distance, body.mask);
+  SharedField field = shared_field(images.tissue, work.body.mask, second, aligned.motion);
+  result.also = {.used = true,
+                 .residual_mm = aligned.residual_mm,
+                 .shift_mm = aligned.motion.shift.norm(),
+                 .turn_degrees = aligned.motion.turn.norm(),
+                 .shared_percent = field.percent,
+                 .change = {}};
+  images.outline = std::move(field.first);
+  images.tissue = std::move(field.second);
+  start_work(work, images, options);
+  result.debris_ml = work.body.debris_ml;
+  result.beside_ml = work.body.beside_ml;
+  frame_body(work, options);
+}
+
+/// Bias and wall of the scan that shows them: the first, or else the second.
+void find_wall_on_either(Work& work, Images& images, Segmentation& result,
+                         const SegmentOptions& options, Progress& progress, Timer& timer) {
+  if (!options.also) {
+    const std::string refusal = find_contrast(work, result, options, progress, timer);
+    if (refusal.empty()) return;
+    if (options.contrast != Contrast::fat_bright)
+      throw input_error(options.fat ? "the sum of water and fat: " : "", refusal);
+    result.doubts.push_back("accepted as requested: " + refusal);
+    return;
+  }
+  Work alone = work;
+  const std::string unseen = refusal_alone(alone, result, options, progress, timer);
+  if (unseen.empty()) {
+    work = std::move(alone);
+    result.also.change =
+        "the second scan changed nothing: in MR fat is bright, which shows the chest wall";
+    return;
+  }
+  alone = {};
+  take_second_scan(work, images, result, options);
+  const std::string refusal = find_contrast(work, result, options, progress, timer);
+  if (!refusal.empty()) throw input_error("MR: ", unseen, "; --also: ", refusal);
+  // The wall is as uncertain as its place beside the skin of the other scan.
+  for (double& sigma : work.wall.sigma.depth) sigma = std::hypot(sigma, result.also.residual_mm);
+  const SecondScanUse& also = result.also;
+  result.also.change = message(
+      "the skin is from MR, chest wall, muscle and gland are from the second scan (skins ",
+      format_fixed(also.residual_mm, 1), " mm apart rms after ", format_fixed(also.shift_mm, 1),
+      " mm and ", format_fixed(also.turn_degrees, 1), " degrees, ",
+      std::lround(also.shared_percent), " % of the body in both); MR alone: ", unseen);
 }
 
 /// Where a wall is held by the limits of the search alone, or what lies behind is as bright as fat
@@ -375,12 +442,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
     result.beside_ml = work.body.beside_ml;
     frame_body(work, options);
   }
-  result.contrast = contrast_below_skin(work, supine ? spread_behind : 0);
-  result.kind = contrast_of(options);
-  judge_half(result, options);
-  locate_wall(work, result, options, progress, timer);
-  judge_half(result, options);
-  judge_contrast(result, options);
+  find_wall_on_either(work, images, result, options, progress, timer);
   const Timer::Scope phase(timer, "tissue");
   progress.update("tissue", 0.6, "");
   Work coarse = std::move(work);

@@ -41,6 +41,16 @@ struct SegmentOptions {
   Interior interior = Interior::threshold;
   Contrast contrast = Contrast::automatic;
   std::optional<Volume<float>> fat;  ///< fat image of the Dixon scan whose water image is given
+  /// Second scan of the same examination, for the case that the first does not show the chest wall.
+  std::optional<Volume<float>> also;
+};
+
+/// What a second scan did.
+struct SecondScanUse {
+  bool used = false;
+  double residual_mm = 0, shift_mm = 0, turn_degrees = 0;  ///< as SecondScan
+  double shared_percent = 100;                             ///< of the body in the first
+  std::string change;                                      ///< one sentence
 };
 
 struct Segmentation {
@@ -67,10 +77,11 @@ struct Segmentation {
   Contrast kind = Contrast::fat_bright;  ///< of the scan that shows the tissues
   FatContrast contrast;                  ///< of that scan
   double exchanged_percent = 0;          ///< of the breast, where water and fat of a Dixon scan are
-  double roll_degrees = 0;               ///< by which the labels' grid is turned against the scan's
-  double wall_shift = 0;                 ///< standard deviations the wall was moved by
-  double debris_ml = 0;                  ///< volume removed from the skin
-  double beside_ml = 0;                  ///< tissue separate from the torso
+  SecondScanUse also;
+  double roll_degrees = 0;          ///< by which the labels' grid is turned against the scan's
+  double wall_shift = 0;            ///< standard deviations the wall was moved by
+  double debris_ml = 0;             ///< volume removed from the skin
+  double beside_ml = 0;             ///< tissue separate from the torso
   double compact_dark_mm = 0;       ///< radius of the largest ball within fibroglandular tissue
   double lost_edges_percent = 0;    ///< of the edges of brightness (tissue/lost_edges.hpp)
   std::vector<std::string> doubts;  ///< results that the user should check

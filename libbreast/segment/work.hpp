@@ -14,6 +14,7 @@ namespace breast {
 /// What was scanned of one examination, on one grid in patient order.
 struct Images {
   Volume<float> tissue;     ///< shows fat, gland and muscle
+  Volume<float> outline;    ///< shows the skin; empty where it is `tissue`
   Volume<float> fat_share;  ///< of a Dixon scan: fat over water and fat; otherwise empty
 };
 
@@ -22,6 +23,8 @@ struct Work {
   Volume<float> scan, ratio, skin_distance;
   Volume<float> brightness;  ///< as ratio (scan over bias), also outside the body
   Volume<float> fat_share;   ///< as in Images
+  /// Distance (mm) from the skin that `scan` shows; empty where that is the skin of the body.
+  Volume<float> own_distance;
   Body body;
   TorsoFront torso;
   WallDomain domain;

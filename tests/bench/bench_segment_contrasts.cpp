@@ -7,7 +7,7 @@
 // phantom (phantom/mr_contrast.hpp) with coil bias and noise: T1; water and fat of a Dixon scan,
 // with and without a tenth of the body in which they are exchanged, with all of it exchanged, and
 // each alone; suppressed fat with muscle 4, 2, 1.4 and 1 times as bright, with and without a tenth
-// in which suppression fails. --only leaves T1 and the cases named. Prints a row for each side: what
+// in which suppression fails, and with T1 as second scan. --only leaves T1 and the cases named. Prints a row for each side: what
 // the scan was taken for, errors of the wall and of the nipple (mm), gland (ml and Dice), breast
 // (ml), where water and fat were found exchanged (% of the breast), the evidence of saturation and
 // the silent share (contrast/evidence.hpp), or why it was refused.
@@ -152,6 +152,11 @@ std::vector<Case> cases() {
                                         seed);
                      }});
     }
+    all.push_back({message("suppressed ", ratio, " beside T1"),
+                   [ratio](const Anatomy& a, SegmentOptions& options, std::uint64_t seed) {
+                     options.also = a.scanned(a.image.signal, seed, 2);
+                     return a.scanned(saturated(a.image.parts, fat_left(ratio), {}), seed);
+                   }});
   }
   return all;
 }

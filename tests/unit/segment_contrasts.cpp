@@ -11,21 +11,32 @@
 #include "fixtures/synthetic_scan.hpp"
 #include "segment/contrast/dixon.hpp"
 #include "segment/segment.hpp"
+#include "surface/rigid_motion.hpp"
 
 namespace breast {
 namespace {
 
 using testing::SyntheticScan;
 
-/// Water and fat of a Dixon scan of the patient, whose sum is her T1-weighted scan.
+/// Water and fat of a Dixon scan of the patient, whose sum is her T1-weighted scan, and a scan with
+/// suppressed fat.
 struct Patient {
   SyntheticScan truth = SyntheticScan::coarse();
-  Volume<float> water, fat, t1;
+  Volume<float> water, fat, t1, suppressed;
 
   Patient() {
     water = truth.image_of([&](const Vec3& p) { return truth.signal(p) * (1 - fat_at(p)); }, 2);
     fat = truth.image_of([&](const Vec3& p) { return truth.signal(p) * fat_at(p); }, 3);
     t1 = truth.image(4);
+    suppressed = truth.image_of([&](const Vec3& p) { return suppressed_at(p); }, 5);
+  }
+  /// Muscle is little brighter than fat.
+  double suppressed_at(const Vec3& p) const {
+    const double signal = truth.signal(p);
+    const bool on_chest = p[1] < truth.wall(p[0], p[2]) - truth.fat_layer + 3;
+    const bool skin = truth.in_skin(p, 3) || (on_chest && !truth.in_ellipsoid(p, 1));
+    if (signal > 0 && skin) return 0.8;
+    return signal == 1 ? 0.3 : signal == 0.6 ? 0.9 : signal;
   }
   double fat_at(const Vec3& p) const {
     return truth.in_skin(p, 3) || truth.signal(p) < 1 ? 0.1 : 0.95;
@@ -139,6 +150,62 @@ TEST(Dixon, ImagesThatAreNotWaterAndFatOfOneScanAreRefused) {
   options.fat->grid.origin[2] += 2;
   const std::string moved = refusal(patient().fat, options);
   EXPECT_NE(moved.find("give the two images of one Dixon scan"), std::string::npos) << moved;
+}
+
+Segmentation with_second(const Volume<float>& first, const Volume<float>& second) {
+  SegmentOptions options;
+  options.also = second;
+  return run(first, options);
+}
+
+void expect_by_second(const Segmentation& result, double nipple_mm) {
+  EXPECT_TRUE(result.also.used);
+  EXPECT_LT(result.also.residual_mm, 4);
+  EXPECT_NE(result.also.change.find("are from the second scan"), std::string::npos);
+  const auto same = compare_labels(result.labels, as_t1().labels);
+  EXPECT_GT(same.breast.dice, 0.95);
+  // A third of a voxel of 3 mm all over the skin is a tenth.
+  EXPECT_NEAR(same.breast.given_ml, same.breast.truth_ml, 0.1 * same.breast.truth_ml);
+  EXPECT_LT(compare_walls(result.labels, as_t1().labels).distance.mean_mm, 1);
+  EXPECT_LT((result.labels.landmarks.at("nipple") - as_t1().labels.landmarks.at("nipple")).norm(),
+            nipple_mm);
+}
+
+TEST(SecondScan, ShowsTheWallThatSuppressedFatHides) {
+  EXPECT_NE(refusal(patient().suppressed), "accepted");
+  const Segmentation result = with_second(patient().suppressed, patient().t1);
+  expect_by_second(result, 6);
+  EXPECT_EQ(result.also.shift_mm, 0) << "one frame";
+}
+
+TEST(SecondScan, IsAlignedWithTheFirst) {
+  // She moved between the two.
+  const RigidMotion motion{Vec3(0, 0, 0), Vec3(7, -9, 8), Vec3(1, 0, 3)};
+  const SyntheticScan& truth = patient().truth;
+  const Volume<float> second =
+      truth.image_of([&](const Vec3& p) { return truth.signal(motion.origin_of(p)); }, 6);
+  const Segmentation result = with_second(patient().suppressed, second);
+  expect_by_second(result, 15);  // a smooth dome, of which one voxel in front decides
+  EXPECT_GT(result.also.shift_mm, 5);
+}
+
+TEST(SecondScan, OfAnotherBodyIsRefused) {
+  SyntheticScan other = patient().truth;
+  other.depth = 45;
+  SegmentOptions options;
+  options.also = other.image();
+  const std::string reason = refusal(patient().suppressed, options);
+  EXPECT_NE(reason.find("the skins of the two scans are"), std::string::npos) << reason;
+  options.also = patient().suppressed;
+  const std::string both = refusal(patient().suppressed, options);
+  EXPECT_NE(both.find("; --also: "), std::string::npos) << both;
+}
+
+TEST(SecondScan, ChangesNothingWhereTheFirstShowsTheWall) {
+  const Segmentation result = with_second(patient().t1, patient().suppressed);
+  EXPECT_FALSE(result.also.used);
+  EXPECT_NE(result.also.change.find("changed nothing"), std::string::npos);
+  EXPECT_EQ(result.labels.tissue, as_t1().labels.tissue);
 }
 
 TEST(Contrast, MuscleAsBrightAsFatIsRefused) {

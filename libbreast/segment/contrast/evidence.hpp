@@ -40,7 +40,7 @@ void complete_contrast(FatContrast& contrast, const Work& work, Side side);
 /// bright fat to 1 at the value of a saturated scan. A scan with more than `most_evidence` is
 /// refused, which takes at least two abnormal quantities, or subcutaneous tissue darker than a third.
 double saturation_evidence(const FatContrast& contrast);
-constexpr double most_evidence = 1.3;
+constexpr double most_evidence = 1.15;
 
 /// One sentence that states why a scan is refused because of its contrast; empty if fat is bright.
 std::string refusal_of(const FatContrast& contrast);
