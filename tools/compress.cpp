@@ -32,7 +32,9 @@ void declare(Tool& tool, Choices& c) {
       "Loads the stress-free breast with gravity, places two rigid plates with rounded edges so "
       "that they just touch it, and closes them to a thickness, a reduction, a force, a mean "
       "pressure or a contact area; if several are given, the first one that is reached ends the "
-      "compression. With --image-edge, which is the default for a breast that slides on its chest "
+      "compression. If none is given, the plates close as in screening, to a force of 110 N or to 35 "
+      "mm, whichever comes first; a breast with a projection of less than 73 cm2 is given 1.5 N per "
+      "cm2 of it, but at least 50 N. With --image-edge, which is the default for a breast that slides on its chest "
       "wall, the plates are placed as in the clinic: their edge is close to the chest wall and "
       "parallel to it, element faces penetrate the plates by at most 0.05 "
       "mm, and friction holds the breast, which a hand supports until the plates grip it. "
@@ -43,8 +45,15 @@ void declare(Tool& tool, Choices& c) {
       "stand-off is the distance from the most anterior chest-wall or cut point to the start of "
       "the plates' rounded edge; the force depends strongly on it.");
   tool.describe(
-      "A compression that stops before its target ends in a valid equilibrium. With --at-least "
-      "this state is written, with status stopped_early, if at least that reduction was reached.");
+      "Plates that are placed by the edge of the image must grip the breast: the paddle touches at "
+      "least 40 % of the breast's projection, no hand pulls any more, and the rounded edge of neither "
+      "plate carries 40 % of its force. A target that is reached without a grip ends with status "
+      "not_gripped and exit code 3, and nothing is written unless --keep-unconverged is given. A "
+      "compression that stops before its target ends in a valid equilibrium. It is written with status "
+      "stopped_early and exit code 0 if it grips the breast and lies within the ranges of single "
+      "mammograms (thickness 30 to 90 mm, force 50 to 180 N, mean pressure 5 to 30 kPa, at least 55 % of "
+      "the breast in the image in CC and 90 % otherwise) with a scaled Jacobian of at least 0.1, and "
+      "if it reached the reduction of --at-least. Between other plates --at-least alone decides.");
   tool.describe(
       "The report gives the force, area and pressure of both plates and compares them with "
       "clinical ranges (judgement: an identifier and a sentence each; doubt_ids: those to read "
@@ -54,9 +63,10 @@ void declare(Tool& tool, Choices& c) {
       "folds_on_chest_wall, folds_between_edge_and_wall, folds_between_plates, "
       "folds_behind_plates, shrinks_... with the same endings, iteration_limit, "
       "indefinite_tangent, no_admissible_step, solve_limit, out_of_reach, gravity_not_carried, "
-      "pull_not_carried, no_equilibrium_at_touch, ends_before_grip) and explanation is a "
-      "sentence.");
+      "pull_not_carried, no_equilibrium_at_touch, not_gripped) and explanation is a sentence.");
   tool.cite("Pathmanathan et al. 2008, section II-D, equations (7)-(8)");
+  tool.example("compress reference.vtkhdf cc.vtkhdf --view CC",
+               "craniocaudal, with the force of a screening mammogram");
   tool.example("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 50",
                "craniocaudal, to half the thickness");
   tool.example(
@@ -82,17 +92,21 @@ void declare(Tool& tool, Choices& c) {
   tool.number(c.reduction, "--reduction", "PERCENT", "stop at this reduction of the thickness", 1,
               95);
   tool.number(c.force, "--force", "N", "stop at this paddle force", 0.1, 1e5);
-  tool.number(c.pressure, "--pressure", "KPA",
-              "stop at this mean pressure: the paddle's force divided by its contact area", 0.001,
-              1e4);
+  tool.number(
+      c.pressure, "--pressure", "KPA",
+      "stop at this mean pressure: the paddle's force divided by its contact area, which between "
+      "plates placed by the edge of the image counts as at least 25 cm2 and 40 % of the "
+      "breast's projection",
+      0.001, 1e4);
   tool.number(c.area, "--area", "CM2", "stop at this contact area of the paddle", 1e-3, 1e4);
   tool.input_file(c.like, "--like", "MG.dcm",
                   "take the angle and the target (thickness, or else force) from the header of "
                   "this mammogram; options given explicitly take precedence");
-  tool.number(c.at_least, "--at-least", "PERCENT",
-              "accept a compression that stops early if it reached this reduction (default: the "
-              "target)",
-              0, 100);
+  tool.number(
+      c.at_least, "--at-least", "PERCENT",
+      "accept a compression that stops early only if it reached this reduction (default: between "
+      "plates placed by the edge of the image any, otherwise the target's)",
+      0, 100);
   tool.number(c.plates.standoff, "--standoff", "MM",
               "distance from the most anterior chest-wall or cut point to the plates' rounded edge "
               "(default: a third of the breast's depth in front of that point, at most 25)",
@@ -166,11 +180,6 @@ void declare(Tool& tool, Choices& c) {
   declare_mechanics(tool, c.mechanics, "REFERENCE");
   declare_estimate(tool, c.estimate);
   tool.check([&c] {
-    if (c.stops().empty() && c.like.empty()) {
-      throw input_error(
-          "at least one of --thickness, --reduction, --force, --pressure and --area is needed: where the "
-          "plates stop");
-    }
     parse_gravity(c.gravity);
     parse_detector(c.detector);
     if (!c.turn.empty()) parse_turn(c.turn);
@@ -195,6 +204,14 @@ void take_from_mammogram(Choices& c, const HexMesh& mesh, Run& run) {
   if (!c.thickness) c.force = like.force_N;
 }
 
+/// Whether a compression that stopped early is accepted.
+bool is_enough(const CompressionResult& found, const std::optional<double>& at_least) {
+  if (found.record.status != SolveStatus::stopped_early) return false;
+  const bool by_image = found.contact->ends_image;
+  if (by_image ? !found.acceptable : !at_least) return false;
+  return found.contact->reduction_percent >= at_least.value_or(0);
+}
+
 void run_compress(Choices c, Run& run) {
   MechanicsRun mechanics(run, c.mechanics, c.estimate, c.reference,
                          restricted(read_mesh(c.reference, {.reference = true}), breast_elements));
@@ -205,18 +222,14 @@ void run_compress(Choices c, Run& run) {
   CompressionResult found = compress(mesh, options, mechanics.options(), run.progress());
   if (mechanics.options().estimate == Estimate::q2 && found.contact) {
     CompressionOptions same_gap = options;
-    same_gap.stop_at = StopAt::thickness;
-    same_gap.target = found.contact->thickness_mm;
-    same_gap.or_at.clear();
+    same_gap.stops = {{StopAt::thickness, found.contact->thickness_mm}};
     estimate_by_second_solution(mesh, mechanics.options(), found,
                                 [&](const HexMesh& richer, const MechanicsOptions& same) {
                                   return compress(richer, same_gap, same, run.progress());
                                 });
   }
   write_report(found, mesh, mechanics.options(), run.report());
-  const bool enough = found.record.status == SolveStatus::stopped_early && c.at_least &&
-                      found.contact->reduction_percent >= *c.at_least;
-  mechanics.finish(found, c.compressed, enough, plate_lines(run.report()));
+  mechanics.finish(found, c.compressed, is_enough(found, c.at_least), plate_lines(run.report()));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "contact/faces.hpp"
 #include "contact/failure.hpp"
+#include "contact/grip.hpp"
 #include "contact/results.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -14,6 +15,7 @@
 #include "mechanics/load_steps.hpp"
 #include "mechanics/scene.hpp"
 #include "mechanics/solution.hpp"
+#include "mesh/quality.hpp"
 #include "solve/equilibrate.hpp"
 
 namespace breast {
@@ -42,10 +44,10 @@ class Compression {
 
  private:
   bool load_with(const Eigen::VectorXd& load, const char* name, State& state);
-  CompressionTarget target() const;
-  void place(const State& upright);
+  bool position(State& state);
   bool lift(State& state);
-  Grip grip() const;
+  void place(const State& start);
+  void set_target();
   PathOptions path_options(const ContactSolver& contact);
   bool has_let_go(const State& state);
   void close_plates(State& state);
@@ -57,6 +59,7 @@ class Compression {
   void say_how_it_ended(const State& state);
   double load_reached() const;
   void judge_against_practice();
+  void refuse_without_grip();
 
   const HexMesh& mesh_;
   const CompressionOptions& options_;
@@ -65,7 +68,8 @@ class Compression {
   Eigen::VectorXd load_, pull_;  // the weight; the force that a hand adds until it lets go
   LoadedProblem body_;
   SaddleSolver solver_;
-  Eigen::VectorXd upright_;  // the hanging breast before it is lifted
+  Eigen::VectorXd start_;  // the shape about which the plates stand
+  CompressionTarget target_;
   CompressionResult found_;
   SolveLog log_{found_, progress_};
 };
@@ -88,19 +92,21 @@ bool Compression::load_with(const Eigen::VectorXd& load, const char* name, State
   return false;
 }
 
-CompressionTarget Compression::target() const {
-  const double initial = found_.plates.initial_thickness;
-  CompressionTarget target = target_of({options_.stop_at, options_.target}, initial);
-  for (const CompressionStop& stop : options_.or_at)
-    target.or_at.push_back(target_of(stop, initial));
-  return target;
-}
-
-/// The reductions at which the hand releases a lifted breast.
-Grip Compression::grip() const {
-  const std::optional<double> thickness = thickness_in(target());
-  if (!thickness) return grip_before_any_force();
-  return grip_before(1 - *thickness / found_.plates.initial_thickness, !options_.or_at.empty());
+/// The targets of the user, or those of the clinic, for the breast as it lies between the plates.
+void Compression::set_target() {
+  const std::vector<Vec3>& x = mesh_.reference;
+  const double projected = projected_cm2(mesh_, x, found_.plates.paddle);
+  found_.stops = options_.stops.empty() ? clinical_stops(projected) : options_.stops;
+  const double least_area =
+      options_.plates.image_edge.has_value() ? least_pressed_cm2(projected) : 0;
+  const auto target_at = [&](const CompressionStop& stop) {
+    CompressionTarget target = target_of(stop, found_.plates.initial_thickness);
+    if (target.kind == TargetKind::pressure) target.least_area_cm2 = least_area;
+    return target;
+  };
+  target_ = target_at(found_.stops.front());
+  for (std::size_t k = 1; k < found_.stops.size(); ++k)
+    target_.or_at.push_back(target_at(found_.stops[k]));
 }
 
 /// If the breast is lifted, its weight returns while the plates grip it.
@@ -108,20 +114,15 @@ PathOptions Compression::path_options(const ContactSolver& contact) {
   PathOptions path = options_.path;
   path.control_tolerance = std::max(path.control_tolerance, contact.resolution());
   if (options_.positioning == Positioning::hanging) return path;
-  const Grip hand = grip();
-  path.prepare = [this, hand](double thickness) {
-    const double reduction = 1 - thickness / found_.plates.initial_thickness;
-    body_.set_load(hand.weight.at(reduction) * load_ + (1 - hand.pull.at(reduction)) * pull_);
+  const Hand hand;
+  path.prepare = [this, hand](double way) {
+    body_.set_load(hand.weight.at(way) * load_ + (1 - hand.pull.at(way)) * pull_);
   };
-  for (const double reduction : {hand.weight.ends, hand.pull.begins, hand.pull.ends}) {
-    path.corners.push_back((1 - reduction) * found_.plates.initial_thickness);
-  }
-  path.slipping_below = (1 - hand.pull.begins) * found_.plates.initial_thickness;
-  path.slipping_above = (1 - hand.pull.ends) * found_.plates.initial_thickness;
-  if (!thickness_in(target())) return path;
-  path.may_end = [this, hand](double thickness) {
-    return hand.gone(1 - thickness / found_.plates.initial_thickness);
-  };
+  path.corners = {hand.weight.ends, hand.pull.begins, hand.pull.ends};
+  std::ranges::sort(path.corners);
+  path.slipping_from = hand.pull.begins;
+  path.slipping_to = hand.pull.ends;
+  path.may_end_from = hand.gone_from();
   return path;
 }
 
@@ -129,25 +130,16 @@ PathOptions Compression::path_options(const ContactSolver& contact) {
 /// not a compression, and the result says so.
 bool Compression::has_let_go(const State& state) {
   if (options_.positioning == Positioning::hanging) return true;
-  const double reduction = 1 - found_.path.thickness / found_.plates.initial_thickness;
-  const Grip hand = grip();
-  const double weight = hand.weight.at(reduction), pull = hand.pull.at(reduction);
+  const Hand hand;
+  const double weight = hand.weight.at(found_.path.way), pull = hand.pull.at(found_.path.way);
   if (weight == 1 && (pull == 1 || !(options_.pull_N > 0))) return true;
   found_.load_reached = weight;
-  const std::string still =
-      message("the compression ends at a reduction of ", 100 * reduction,
-              " %, at which the hand still carries ", 100 * (1 - weight),
-              " % of the breast's weight and pulls with ", (1 - pull) * options_.pull_N, " N");
-  if (found_.path.reached()) {
-    found_.reason_id = "ends_before_grip";
-    found_.record.reason =
-        message(still, "; it lets go completely from ", 100 * hand.weight.ends,
-                " % on: choose a larger target, a smaller --pull, or --positioning hanging");
-  } else {
-    const StopReason why = explain_stop(mesh_, state.x, found_.path, found_.plates);
-    found_.reason_id = why.id;
-    found_.record.reason = message(still, ": ", why.sentence);
-  }
+  const StopReason why = explain_stop(mesh_, state.x, found_.path, found_.plates);
+  found_.reason_id = why.id;
+  found_.record.reason = message("the compression ends at a thickness of ", found_.path.thickness,
+                                 " mm, at which the hand still carries ", 100 * (1 - weight),
+                                 " % of the breast's weight and pulls with ",
+                                 (1 - pull) * options_.pull_N, " N: ", why.sentence);
   return false;
 }
 
@@ -160,8 +152,8 @@ void Compression::close_plates(State& state) {
   };
   {
     Timer::Scope phase(found_.timer, "contact");
-    found_.path = follow_path(*contact, found_.plates, state, target(), area,
-                              path_options(*contact), progress_);
+    found_.path = follow_path(*contact, found_.plates, state, target_, area, path_options(*contact),
+                              progress_);
   }
   record_path();
   if (found_.path.points.empty()) {
@@ -238,27 +230,49 @@ void Compression::say_how_it_ended(const State& state) {
                 found_.contact->reduction_percent, " % reduction): ", why.sentence);
   }
   judge_against_practice();
+  if (path.reached() && options_.must_grip) refuse_without_grip();
+}
+
+/// A target that is reached without a grip, as a pressure over a few points, is no compression.
+void Compression::refuse_without_grip() {
+  std::string why;
+  for (const Judgement& line : found_.judgement) {
+    if (line.id == "contact_too_small" || line.id == "edge_carries_force")
+      why += (why.empty() ? "" : "; ") + line.sentence;
+  }
+  if (why.empty()) return;
+  found_.record.status = SolveStatus::not_gripped;
+  found_.reason_id = "not_gripped";
+  found_.record.reason = message(
+      "the plates do not grip the breast: ", why,
+      ". Try a smaller --image-edge, more force, another --turn, or --keep-unconverged to write "
+      "this shape");
 }
 
 /// Completed fraction of the path to the target.
 double Compression::load_reached() const {
-  return part_of_way(found_.path.points.back(), target(), found_.plates.initial_thickness);
+  return part_of_way(found_.path.points.back(), target_, found_.plates.initial_thickness);
 }
 
 /// Compares the result with clinical ranges, then adds comments on the path.
 void Compression::judge_against_practice() {
   const ContactRecord& contact = *found_.contact;
   found_.judgement = judge_compression(
-      contact,
-      {found_.pose.n, scene_.weight(options_.gravity) / micronewton_per_newton,
-       found_.wall_reaction_N, found_.max_volume_error, found_.places, found_.self_contact});
+      contact, {found_.pose.n, scene_.weight(options_.gravity) / micronewton_per_newton,
+                found_.wall_reaction_N, found_.max_volume_error, found_.places, found_.self_contact,
+                found_.projected_cm2, found_.coverage.volume,
+                mesh_quality(mesh_, found_.points).min_scaled_jacobian});
+  found_.acceptable =
+      contact.ends_image && std::ranges::none_of(found_.judgement, [](const Judgement& line) {
+        return line.doubtful && line.decides;
+      });
   for (Judgement& line : judge_path(found_.path, found_.stable)) {
     found_.judgement.push_back(std::move(line));
   }
   if (found_.path.reached()) {
     const PlateRecord& paddle = contact.plates[0];
     const PathPoint end{contact.thickness_mm, paddle.force_N, 0, paddle.mean_kPa, paddle.area_cm2};
-    if (auto line = judge_target(found_.path.met, measure(end, found_.path.met.kind)))
+    if (auto line = judge_target(found_.path.met, measure(end, found_.path.met)))
       found_.judgement.push_back(std::move(*line));
   }
   if (contact.reduction_percent > 40 && scene_.options().materials.name == "seed2008") {
@@ -273,29 +287,37 @@ void Compression::judge_against_practice() {
   }
 }
 
-/// Places the plates about the upright breast.
-void Compression::place(const State& upright) {
-  const std::vector<Vec3> points = unflatten(upright.x);
+/// Brings the breast between the plates: as it hangs, or lifted by a hand that carries its weight. Then
+/// the hanging shape is not needed, and for a limp breast it may not exist. Returns false if no
+/// equilibrium is found.
+bool Compression::position(State& state) {
+  if (options_.positioning == Positioning::lifted) {
+    place(state);
+    return lift(state);
+  }
+  if (!load_with(load_, "gravity", state)) return false;
+  place(state);
+  note_stage("hanging", state);
+  return true;
+}
+
+void Compression::place(const State& start) {
+  const std::vector<Vec3> points = unflatten(start.x);
   const double turn = options_.plates.turn_deg.value_or(wall_turn_deg(mesh_, points));
   const ViewPose parallel = view_pose(mesh_.side, options_.angle_deg, turn);
   const double lean = options_.plates.lean_deg.value_or(muscle_lean_deg(mesh_, points, parallel));
   found_.pose = view_pose(mesh_.side, options_.angle_deg, turn, lean);
   found_.plates = place_plates(mesh_, points, found_.pose, options_.plates);
-  upright_ = upright.x;
-  note_stage("upright", upright);
+  start_ = start.x;
 }
 
 void Compression::note_stage(const char* name, const State& state) {
-  found_.stages.push_back(positioning_stage(name, mesh_, upright_, state.x, found_.plates.paddle));
+  found_.stages.push_back(positioning_stage(name, mesh_, start_, state.x, found_.plates.paddle));
 }
 
-/// Gives a lifted breast its stress-free shape, places the plates there and pulls the breast
-/// forwards by the hand. Returns false if no equilibrium under the pull is found.
+/// Pulls a breast that a hand has lifted forwards.
 bool Compression::lift(State& state) {
-  if (options_.positioning == Positioning::hanging) return true;
-  state = scene_.at_rest(flatten(mesh_.reference));
   note_stage("lifted", state);
-  found_.plates = start_from(found_.plates, mesh_, mesh_.reference, found_.pose, options_.plates);
   pull_ = Eigen::VectorXd::Zero(state.x.size());
   if (!(options_.pull_N > 0)) return true;
   pull_ = pull_forwards(mesh_, mesh_.reference, found_.plates.paddle, options_.pull_N);
@@ -311,20 +333,19 @@ void Compression::say_where_plates_stand() const {
                          standoff < 0 ? "behind the front" : "in front", " of the wall, turned by ",
                          found_.pose.turn_deg, " and leaning by ", found_.pose.lean_deg,
                          " degrees, edge radius ", found_.plates.paddle.edge_radius, " mm"));
-  if (options_.stop_at == StopAt::thickness && !(options_.target < initial)) {
-    throw input_error("thickness ", options_.target, " mm is too large: the breast is only ",
-                      initial, " mm thick between the plates; give less");
+  for (const CompressionStop& stop : found_.stops) {
+    if (stop.at != StopAt::thickness || stop.value < initial) continue;
+    throw input_error("thickness ", stop.value, " mm is too large: the breast is only ", initial,
+                      " mm thick between the plates; give less");
   }
 }
 
 CompressionResult Compression::run() {
   State state = scene_.at_rest(flatten(mesh_.reference));
-  if (load_with(load_, "gravity", state)) {
-    place(state);
-    if (lift(state)) {
-      say_where_plates_stand();
-      close_plates(state);
-    }
+  if (position(state)) {
+    set_target();
+    say_where_plates_stand();
+    close_plates(state);
   }
   found_.factorisations = solver_.factorisations();
   return std::move(found_);
@@ -338,9 +359,7 @@ void check(const HexMesh& mesh, const CompressionOptions& options,
   if (mesh.reference.size() != mesh.points.size()) {
     throw input_error("mesh: no stress-free reference shape; run backward first");
   }
-  std::vector<CompressionStop> stops = options.or_at;
-  stops.push_back({options.stop_at, options.target});
-  for (const CompressionStop& stop : stops) {
+  for (const CompressionStop& stop : options.stops) {
     if (!(stop.value > 0)) {
       throw input_error("compression target ", stop.value, ": must be above 0");
     }

@@ -24,10 +24,11 @@ namespace breast {
 struct CompressionOptions {
   View view = View::cc;
   double angle_deg = 0;  ///< beam angle θ
-  StopAt stop_at = StopAt::reduction;
-  double target = 50;  ///< mm, %, N, kPa or cm²
-  std::vector<CompressionStop> or_at =
-      {};  ///< further targets; the first that is reached ends the path
+  /// The first of these that is reached ends the path; if there are none, clinical_stops.
+  std::vector<CompressionStop> stops = {};
+  /// Between plates placed by the edge of the image, a target that is reached without a grip is no
+  /// compression: its status is not_gripped. Otherwise it is converged.
+  bool must_grip = true;
   PlateOptions plates;
   Vec3 gravity{0, 0, -9810};  ///< mm/s², LPS
   ContactMethod method = ContactMethod::active_set;
@@ -55,10 +56,14 @@ struct CompressionResult : Equilibrium {
   std::vector<double> profile_depth_mm, profile_thickness_mm;  ///< from the plate edge to the front
   std::vector<PressedPlace> places;                            ///< per plate of the contact record
   std::vector<Judgement> judgement;  ///< comparison with clinical ranges, and comments on the solve
+  std::vector<CompressionStop> stops;  ///< the targets
+  /// Of plates placed by the edge of the image: the state is within the ranges that decide, whether or
+  /// not the target was reached.
+  bool acceptable = false;
 };
 
 /// Compresses mesh.reference. A compression that stops early returns its last equilibrium with the
-/// status stopped_early and the reason; if gravity alone does not converge, the status is
+/// status stopped_early and the reason, and one that does not grip the breast the status not_gripped; if gravity alone does not converge, the status is
 /// not_converged. Throws Error (input) when the plates miss the breast or an option is out of
 /// range.
 CompressionResult compress(const HexMesh& mesh, const CompressionOptions& options,

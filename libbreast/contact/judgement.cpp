@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/grip.hpp"
 #include "core/error.hpp"
 
 namespace breast {
@@ -18,12 +19,27 @@ struct Range {
   double low, high;
   const char* source;
 };
-constexpr Range area_range{
-    "contact_area", "contact area", "cm2", 60, 150, "100 N on 100 cm2 is typical"};
-constexpr Range thickness_range{
-    "thickness", "thickness", "mm",
-    35,          70,          "means: CC 44 mm, MLO 48 mm, Helvie; MLO 62 mm, UK 2022"};
-constexpr Range reduction_range{"reduction", "reduction", "%", 35, 55, "VICTRE 45-51 %"};
+constexpr Range thickness_range{"thickness", "thickness", "mm",
+                                30,          90,          "59 +-16 mm, 2640 mammograms"};
+constexpr Range cc_volume_range{"volume_in_image",
+                                "share of the breast in front of the image's edge",
+                                "%",
+                                55,
+                                100,
+                                "upper and posterior tissue is missed in CC"};
+constexpr Range oblique_volume_range{
+    "volume_in_image",
+    "share of the breast in front of the image's edge",
+    "%",
+    90,
+    100,
+    "the muscle reaches the nipple's line in more than 80 % of MLO views"};
+constexpr Range jacobian_range{"scaled_jacobian",
+                               "least scaled Jacobian of the elements",
+                               "",
+                               0.1,
+                               1,
+                               "flatter elements are not to be trusted"};
 
 /// The plates are called unbalanced if one of them transfers more than this fraction of the smaller
 /// plate's force, and more than this force, to wall and cut.
@@ -38,7 +54,10 @@ constexpr double largest_self_contact_cm2 = 0.5, deepest_in_thorax_mm = 1;
 constexpr double largest_friction_lag = 0.02;
 
 double shown(double value) {
-  return std::abs(value) >= 10 ? std::round(value) : std::round(10 * value) / 10;
+  const double size = std::abs(value);
+  return size >= 10  ? std::round(value)
+         : size >= 1 ? std::round(10 * value) / 10
+                     : std::round(1000 * value) / 1000;
 }
 
 Judgement judge(const Range& range, double value) {
@@ -46,10 +65,9 @@ Judgement judge(const Range& range, double value) {
   const bool low = value < range.low, within = value >= range.low && value <= range.high;
   const std::string verdict = within ? "within" : low ? "below" : "above";
   return {std::string(range.id) + "_" + verdict,
-          message(range.name, " ", shown(value), " ", range.unit, " is ", verdict,
-                  " the clinical range of ", range.low, "-", range.high, " ", range.unit, " (",
-                  range.source, ")"),
-          !within};
+          message(range.name, " ", shown(value), " ", range.unit, " is ", verdict, " the range of ",
+                  range.low, "-", range.high, " ", range.unit, " (", range.source, ")"),
+          !within, true};
 }
 
 /// Force and mean pressure of a plate.
@@ -70,10 +88,9 @@ void judge_plate(const PlateRecord& plate, std::vector<Judgement>& list) {
   }
   list.push_back(force);
   const std::string id = plate.name + "_pressure", name = plate.name + " mean pressure";
-  list.push_back(
-      judge({id.c_str(), name.c_str(), "kPa", 5, 25,
-             "at 180 N 21 +-54 % in CC, 14 +-32 % in MLO, de Groot 2013; 10 kPa proposed"},
-            plate.mean_kPa));
+  list.push_back(judge({id.c_str(), name.c_str(), "kPa", 5, 30,
+                        "at 180 N 21 +-54 % in CC, 14 +-32 % in MLO, de Groot 2013"},
+                       plate.mean_kPa));
 }
 
 /// Pressure sensors under the plate read far less on the breast itself than force divided by area.
@@ -130,13 +147,12 @@ std::string placing_option(const ContactRecord& contact) {
 }
 
 /// A thickness between the flat parts means little if these carry little of the force.
-Judgement judge_edge(const PlateRecord& plate, const PressedPlace& where,
-                     const std::string& placing) {
+Judgement judge_edge(const PlateRecord& plate, const PressedPlace& where) {
   const bool much = !(where.edge_part <= most_on_edge);
   return {plate.name + (much ? "_presses_with_its_edge" : "_presses_with_its_flat"),
           message("the rounded edge carries ", shown(100 * where.edge_part), " % of the ",
                   plate.name, "'s force",
-                  much ? ": the flat part covers too little of the breast; try a smaller " + placing
+                  much ? ": the flat part covers too little of the breast; try a smaller --standoff"
                        : ""),
           much};
 }
@@ -178,13 +194,20 @@ std::vector<Judgement> judge_compression(const ContactRecord& contact, const Pre
   std::vector<Judgement> list;
   for (const PlateRecord& plate : contact.plates) judge_plate(plate, list);
   list.push_back(against_sensors(contact, state));
-  list.push_back(judge(area_range, contact.plates.front().area_cm2));
   list.push_back(judge(thickness_range, contact.thickness_mm));
-  list.push_back(judge(reduction_range, contact.reduction_percent));
+  if (contact.ends_image) {
+    list.push_back(judge(contact.view == View::cc ? cc_volume_range : oblique_volume_range,
+                         state.volume_in_front_percent));
+    list.push_back(judge(jacobian_range, state.min_scaled_jacobian));
+  }
   list.push_back(judge_penetration(contact));
   list.push_back(judge_volume(state.max_volume_error));
-  for (std::size_t k = 0; k < contact.plates.size() && k < state.places.size(); ++k) {
-    list.push_back(judge_edge(contact.plates[k], state.places[k], placing_option(contact)));
+  if (contact.ends_image) {
+    for (Judgement& line : judge_grip(contact, state)) list.push_back(std::move(line));
+  } else {
+    for (std::size_t k = 0; k < contact.plates.size() && k < state.places.size(); ++k) {
+      list.push_back(judge_edge(contact.plates[k], state.places[k]));
+    }
   }
   list.push_back(judge_balance(contact, state));
   judge_self_contact(state.self, list);

@@ -18,6 +18,8 @@ namespace breast {
 struct Judgement {
   std::string id, sentence;
   bool doubtful = false;  ///< to be read before the result is used
+  /// A compression that stopped before its target is accepted only if this is no doubt.
+  bool decides = false;
 };
 
 /// Where a plate presses on the breast.
@@ -37,11 +39,15 @@ struct PressedState {
   double max_volume_error = 0;
   std::vector<PressedPlace> places;  ///< per plate of the record
   SelfContact self;
+  double projected_cm2 = 0;            ///< of the breast in front of the plates' edge
+  double volume_in_front_percent = 0;  ///< of the breast
+  double min_scaled_jacobian = 1;
 };
 
-/// Force and mean pressure of both plates, contact area, thickness, reduction, penetration and
-/// volume against the ranges of clinical practice; the share of the rounded edge; finally the
-/// balance of the plates.
+/// Force and mean pressure of both plates, thickness, penetration, volume and, between plates that are
+/// placed by the edge of the image, the share of the breast in the image and the shape of the elements
+/// against the ranges of clinical practice; the share of the rounded edge or the grip (judge_grip);
+/// finally the balance of the plates.
 std::vector<Judgement> judge_compression(const ContactRecord& contact, const PressedState& state);
 /// A statement if the quantity that ended the path differs from its target in the final, accurately
 /// solved state (`reached`); it is a doubt if the difference is a quarter or more, and absent

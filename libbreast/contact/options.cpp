@@ -134,12 +134,7 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   options.pull_N = c.pull.value_or(held ? usual.pull_N : 0);
   options.path.first_step = options.path.longest_step = c.plate_step.value_or(0);
   if (options.view != View::cc && options.friction > 0) options.path.slipping_part = slipping_part;
-  options.or_at = c.stops();
-  if (!options.or_at.empty()) {
-    options.stop_at = options.or_at.front().at;
-    options.target = options.or_at.front().value;
-    options.or_at.erase(options.or_at.begin());
-  }
+  options.stops = c.stops();
   return options;
 }
 

@@ -87,9 +87,8 @@ bool SecondPosture::press(const MechanicsOptions& options) {
   std::vector<HexMesh> pressed;
   for (const SeenForce& seen : seen_.forces) {
     CompressionOptions press = seen_.press;
-    press.stop_at = StopAt::thickness;
-    press.target = seen.thickness;
-    press.or_at.clear();
+    press.stops = {{StopAt::thickness, seen.thickness}};
+    press.must_grip = false;  // the mammogram that was seen says how the breast was pressed
     HexMesh state = restricted(mesh_, breast_elements);
     const CompressionResult found = compress(state, press, options);
     if (!found.converged()) return reason_ = "compression: " + found.record.reason, false;

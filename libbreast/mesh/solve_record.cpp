@@ -9,6 +9,8 @@ const char* status_name(SolveStatus status) {
       return "converged";
     case SolveStatus::stopped_early:
       return "stopped_early";
+    case SolveStatus::not_gripped:
+      return "not_gripped";
     case SolveStatus::unstable:
       return "unstable";
     case SolveStatus::not_converged:
@@ -19,7 +21,7 @@ const char* status_name(SolveStatus status) {
 
 std::optional<SolveStatus> status_from_name(const std::string& name) {
   for (const SolveStatus status : {SolveStatus::converged, SolveStatus::stopped_early,
-                                   SolveStatus::unstable, SolveStatus::not_converged}) {
+                                   SolveStatus::not_gripped, SolveStatus::unstable, SolveStatus::not_converged}) {
     if (name == status_name(status)) return status;
   }
   return {};

@@ -17,6 +17,7 @@ struct IterationRecord {
 enum class SolveStatus {
   converged,
   stopped_early,  ///< compress: a valid equilibrium before the target
+  not_gripped,    ///< compress: the target, but the plates hardly touch the breast
   unstable,       ///< backward: an equilibrium, but an unstable one
   not_converged,
 };

@@ -36,7 +36,7 @@ class Solve:
     """How the state was solved.
 
     Attributes:
-        status: converged, stopped_early, unstable or not_converged.
+        status: converged, stopped_early, not_gripped, unstable or not_converged.
         reason: why not; empty when converged.
         iterations: columns of one row a Newton iteration: step, iteration, residual, min_det_F, max_det_F, step_length,
             seconds.
@@ -144,7 +144,7 @@ def read_solve(document: Document) -> Solve | None:
     group = "/breast/solve"
     if not document.has_group(group):
         return None
-    status = document.text(f"{group}@status", ("converged", "stopped_early", "unstable", "not_converged"))
+    status = document.text(f"{group}@status", ("converged", "stopped_early", "not_gripped", "unstable", "not_converged"))
     rows = len(document.integers(f"{group}/step", (None,)))
     iterations = {name: document.integers(f"{group}/{name}", (rows,)) for name in ("step", "iteration")}
     for name in ("residual", "min_det_F", "max_det_F", "step_length", "seconds"):

@@ -80,8 +80,8 @@ Chain solve(HexMesh mesh, const Draw& drawn, const std::array<double, 2>& thickn
     options.angle_deg = view_angle_deg(options.view) + drawn.angle[v];
     // Clear of the wall: 3 deviations nearer the coarse mesh folds behind the plates.
     options.plates.standoff = 35 + drawn.standoff[v];
-    options.stop_at = thickness[v] > 0 ? StopAt::thickness : StopAt::reduction;
-    options.target = thickness[v] > 0 ? thickness[v] + drawn.thickness[v] : 40;
+    options.stops = {{thickness[v] > 0 ? StopAt::thickness : StopAt::reduction,
+                      thickness[v] > 0 ? thickness[v] + drawn.thickness[v] : 40}};
     chain.views[v] = mesh;
     const CompressionResult summary =
         fixtures::compress_into(chain.views[v], options, chain.mechanics);

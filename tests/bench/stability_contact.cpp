@@ -70,7 +70,7 @@ void run_file(const std::string& file) {
       scene.mechanics.materials = load_materials("seed2008");
       scene.options.view = view;
       scene.options.angle_deg = view_angle_deg(view);
-      scene.options.target = percent;
+      scene.options.stops = {{StopAt::reduction, double(percent)}};
       run({.name = message(stem, " ", view_name(view), " ", percent, " %"), .change = {}}, scene);
     }
   }

@@ -268,8 +268,9 @@ TEST(CompressionPath, TheFirstOfSeveralTargetsEndsIt) {
   EXPECT_LT(end.paddle_N, 0.05);
 }
 
-// Where the path may not end yet a target is passed, and the result says by how much.
-TEST(CompressionPath, ATargetMayBePassedBeforeThePathMayEnd) {
+// A target that comes before the path may end is passed by the shortest step at most, with the load
+// of the end of the way, and the result says by how much.
+TEST(CompressionPath, ATargetIsPassedByLittleWhereThePathMayNotEndYet) {
   QuadraticBody body(24, 11);
   PlatePair plates = plates_at(-20, 20, 15);
   ActiveSet contact = body.active_set();
@@ -280,7 +281,9 @@ TEST(CompressionPath, ATargetMayBePassedBeforeThePathMayEnd) {
   ActiveSet fresh = body.active_set();
   state = body.start();
   PathOptions options;
-  options.may_end = [&](double thickness) { return thickness < 0.9 * early; };
+  double last_way = 0;
+  options.prepare = [&](double way) { last_way = way; };
+  options.may_end_from = 3;
   const CompressionTarget target{TargetKind::force, 0.05, {{TargetKind::thickness, 0.5 * early}}};
   const PathResult path = close(again, fresh, state, target, options);
   ASSERT_TRUE(path.reached());
@@ -288,7 +291,9 @@ TEST(CompressionPath, ATargetMayBePassedBeforeThePathMayEnd) {
   ASSERT_TRUE(path.passed_by);
   EXPECT_GT(*path.passed_by, 0.05);
   EXPECT_NEAR(*path.passed_by, path.points.back().paddle_N, 1e-5);
-  EXPECT_LT(path.thickness, 0.9 * early);
+  EXPECT_LT(path.thickness, early);
+  EXPECT_GT(path.thickness, early - 2 * options.shortest_step);
+  EXPECT_GE(last_way, 3);
 }
 
 // A penalty that sets in at once, `stiffer` times as stiff as the tangent knows.

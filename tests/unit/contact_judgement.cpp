@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "contact/grip.hpp"
 #include "contact/judgement.hpp"
 
 using namespace breast;
@@ -61,10 +62,9 @@ TEST(Judgement, OrdinaryCompressionIsNotDoubted) {
     EXPECT_FALSE(j.sentence.empty());
   }
   EXPECT_EQ(ids, (Ids{"paddle_force_within", "paddle_pressure_within", "detector_force_within",
-                      "detector_pressure_within", "pressure_against_sensors", "contact_area_within",
-                      "thickness_within", "reduction_within", "penetration_within", "volume_kept",
-                      "paddle_presses_with_its_flat", "detector_presses_with_its_flat",
-                      "plates_balanced"}));
+                      "detector_pressure_within", "pressure_against_sensors", "thickness_within",
+                      "penetration_within", "volume_kept", "paddle_presses_with_its_flat",
+                      "detector_presses_with_its_flat", "plates_balanced"}));
 }
 
 TEST(Judgement, EachFigureOutsideItsRangeIsDoubted) {
@@ -73,13 +73,12 @@ TEST(Judgement, EachFigureOutsideItsRangeIsDoubted) {
     change(contact);
     return doubts(contact);
   };
-  EXPECT_EQ(with([](ContactRecord& c) { c.plates[0].mean_kPa = 30; }),
+  EXPECT_EQ(with([](ContactRecord& c) { c.plates[0].mean_kPa = 31; }),
             Ids{"paddle_pressure_above"});
   EXPECT_EQ(with([](ContactRecord& c) { c.plates[1].mean_kPa = 3; }),
             Ids{"detector_pressure_below"});
-  EXPECT_EQ(with([](ContactRecord& c) { c.plates[0].area_cm2 = 36; }), Ids{"contact_area_below"});
   EXPECT_EQ(with([](ContactRecord& c) { c.thickness_mm = 20; }), Ids{"thickness_below"});
-  EXPECT_EQ(with([](ContactRecord& c) { c.reduction_percent = 70; }), Ids{"reduction_above"});
+  EXPECT_EQ(with([](ContactRecord& c) { c.thickness_mm = 100; }), Ids{"thickness_above"});
   EXPECT_EQ(with([](ContactRecord& c) { c.plates[1].worst_gap_mm = 0.2; }),
             Ids{"penetration_above"});
   EXPECT_EQ(with([](ContactRecord& c) {
@@ -121,6 +120,51 @@ TEST(Judgement, AnEdgeThatCarriesMostOfTheForceIsDoubted) {
     if (j.doubtful) ids.push_back(j.id);
   }
   EXPECT_EQ(ids, Ids{"detector_presses_with_its_edge"});
+}
+
+// What the plates of a machine must do: the same places as for any plates, but stricter.
+TEST(Judgement, PlatesAtTheEdgeOfTheImageMustGripTheBreastAndShowIt) {
+  ContactRecord contact = ordinary();
+  contact.ends_image = true;
+  PressedState usual = state_of(contact);
+  usual.projected_cm2 = 130;
+  usual.volume_in_front_percent = 70;
+  usual.min_scaled_jacobian = 0.3;
+  const auto with = [&](const auto& change) {
+    PressedState state = usual;
+    change(state);
+    Ids ids;
+    for (const Judgement& j : judge_compression(contact, state)) {
+      if (!j.doubtful) continue;
+      EXPECT_TRUE(j.decides) << j.id;
+      ids.push_back(j.id);
+    }
+    return ids;
+  };
+  EXPECT_EQ(with([](PressedState&) {}), Ids{});
+  EXPECT_EQ(with([](PressedState& s) { s.projected_cm2 = 260; }), Ids{"contact_too_small"});
+  EXPECT_EQ(with([](PressedState& s) { s.places[1].edge_part = 0.45; }), Ids{"edge_carries_force"});
+  EXPECT_EQ(with([](PressedState& s) { s.volume_in_front_percent = 50; }),
+            Ids{"volume_in_image_below"});
+  EXPECT_EQ(with([](PressedState& s) { s.min_scaled_jacobian = 0.05; }),
+            Ids{"scaled_jacobian_below"});
+  contact.view = View::mlo;
+  EXPECT_EQ(with([](PressedState&) {}), Ids{"volume_in_image_below"});
+}
+
+TEST(Judgement, ForceOfTheClinicIsLessForASmallBreast) {
+  const auto force = [](double projected_cm2) {
+    const std::vector<CompressionStop> stops = clinical_stops(projected_cm2);
+    EXPECT_EQ(stops[0].at, StopAt::force);
+    EXPECT_EQ(stops[1].at, StopAt::thickness);
+    EXPECT_EQ(stops[1].value, 35);
+    return stops[0].value;
+  };
+  EXPECT_EQ(force(150), 110);
+  EXPECT_NEAR(force(60), 90, 1e-12);
+  EXPECT_EQ(force(20), 50);
+  EXPECT_EQ(least_pressed_cm2(50), 25);
+  EXPECT_NEAR(least_pressed_cm2(100), 40, 1e-12);
 }
 
 TEST(Judgement, ABreastThatTouchesItselfOrTheThoraxIsDoubted) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "contact/compressed_shape.hpp"
+#include "contact/path/target.hpp"
 #include "core/error.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/standing_block.hpp"
@@ -17,16 +18,30 @@ namespace breast {
 namespace {
 
 TEST(Positioning, TheHandLetsGoOfTheWeightFirst) {
-  const Grip grip = grip_before(0.5);
-  EXPECT_EQ(grip.weight.at(0), 0);
-  EXPECT_EQ(grip.weight.at(0.25), 1);
-  EXPECT_NEAR(grip.weight.at(0.15), 0.5, 1e-12);
-  EXPECT_EQ(grip.pull.at(0.25), 0);
-  EXPECT_EQ(grip.pull.at(0.45), 1);
-  // A small reduction is reached with nothing but the plates holding the breast.
-  EXPECT_EQ(grip_before(0.1).weight.at(0.1), 1);
-  EXPECT_EQ(grip_before(0.1).pull.at(0.1), 1);
-  EXPECT_EQ(grip_before_any_force().pull.at(0.1), 1);
+  const Hand hand;
+  EXPECT_EQ(hand.weight.at(0), 0);
+  EXPECT_EQ(hand.weight.at(0.5), 1);
+  EXPECT_NEAR(hand.weight.at(0.3), 0.5, 1e-12);
+  EXPECT_EQ(hand.pull.at(0.5), 0);
+  EXPECT_EQ(hand.pull.at(0.8), 1);
+  EXPECT_EQ(hand.gone_from(), 0.8);
+}
+
+// The way to the nearest target: a force that comes early leads, whatever the thickness is.
+TEST(Positioning, TheWayIsThatToTheNearestTarget) {
+  const CompressionTarget target{
+      TargetKind::force, 100, {{TargetKind::thickness, 40}, {TargetKind::pressure, 10, {}, 50}}};
+  PathPoint here{90, 60, 60, 0, 0};
+  EXPECT_NEAR(part_of_way(here, target, 140), 0.6, 1e-12);
+  here.paddle_N = 10;
+  EXPECT_NEAR(part_of_way(here, target, 140), 0.5, 1e-12);
+  // 10 N on a point of 0.1 cm2 are 1000 kPa, but 2 kPa over the least area.
+  here.area_cm2 = 0.1;
+  here.pressure_kPa = 1000;
+  EXPECT_NEAR(part_of_way(here, target, 140), 0.5, 1e-12);
+  const PathPoint before{100, 4, 4, 0, 0};
+  EXPECT_NEAR(expected_part_of_way(80, here, &before, target, 140), 0.6, 1e-12);
+  EXPECT_NEAR(expected_part_of_way(80, {90, 60, 60, 0, 0}, &before, target, 140), 1.16, 1e-12);
 }
 
 TEST(Positioning, PullActsForwardsInFrontOfTheEdgeAlone) {

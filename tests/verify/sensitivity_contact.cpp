@@ -152,7 +152,7 @@ TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
   compression.angle_deg = view_angle_deg(GetParam().view);
   compression.plates.detector_rise = GetParam().detector_rise;
   compression.plates.lean_deg = GetParam().lean_deg;
-  compression.target = 35;
+  compression.stops = {{StopAt::reduction, 35}};
   ASSERT_TRUE(fixtures::compress_into(mesh, compression, in.options).converged());
   in.plates = recorded_plates(mesh);
   in.paddle_share = std::isinf(GetParam().detector_rise) ? 0.5 : 1;
@@ -240,7 +240,7 @@ TEST_P(PressedFacesSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
   compression.plates.edge_radius = 3;
   compression.plates.turn_deg = 5;
   compression.friction = GetParam().friction;
-  compression.target = 25;
+  compression.stops = {{StopAt::reduction, 25}};
   ASSERT_TRUE(fixtures::compress_into(mesh, compression, in.options).converged());
   in.plates = recorded_plates(mesh);
   in.mesh.contact = mesh.contact;

@@ -31,6 +31,7 @@ constexpr double sought_tolerance = 1e-6;
 /// Plate positions closer than this count as equal, mm.
 constexpr double narrowest_bracket = 1e-4;
 constexpr int most_in_bracket = 40;  ///< positions at which one end is sought
+constexpr double rounding = 1e-9;    ///< of a part of the way that follows from a thickness
 
 /// Two states with a target between them. The thickness at which it is met is sought by the secant
 /// through both, where the weight of an end that stays is halved (Illinois method).
@@ -75,9 +76,7 @@ class Bracket {
   }
 
  private:
-  double excess(const Waypoint& at) const {
-    return measure(at.point, target_.kind) - target_.value;
-  }
+  double excess(const Waypoint& at) const { return measure(at.point, target_) - target_.value; }
   double part() const { return low_weight_ / (low_weight_ - high_weight_); }
 
   CompressionTarget target_;
@@ -91,21 +90,26 @@ class Path {
        const PaddleArea& area, const PathOptions& options, Progress& progress)
       : solver_(solver),
         plates_(plates),
-        stops_{thickness_in(target), others_than_thickness(target), options.corners},
+        target_(target),
+        stops_{thickness_in(target), others_than_thickness(target), {}, {}},
         area_(area),
         options_(options),
         progress_(progress),
         start_thickness_(plates.thickness()),
-        tolerance_(options.path_tolerance) {}
+        tolerance_(options.path_tolerance) {
+    add_corners();
+  }
 
   PathResult follow(State& state);
 
  private:
   // The way.
+  void add_corners();
   bool solve_start(const State& state);
   PathEnd close_plates();
   std::optional<Waypoint> try_step(double thickness, const StepLength& step);
   bool go_back_with_patience();
+  std::optional<Waypoint> let_go_at(const Waypoint& reached);
   bool settle();
   PathResult conclude(State& state);
 
@@ -118,7 +122,8 @@ class Path {
   PathEnd end_in(const Bracket& bracket, const CompressionTarget& target);
 
   // One position.
-  std::optional<Waypoint> solve_at(double thickness, const Guess& guess, double tolerance);
+  std::optional<Waypoint> solve_at(double thickness, const Guess& guess, double way,
+                                   double tolerance);
   std::optional<Waypoint> sharpened(double tolerance);
   void record_iterations(const ContactStep& step, double thickness);
   void record_failure(const ContactStep& step, double thickness);
@@ -128,13 +133,15 @@ class Path {
 
   double longest_step() const;
   double sought() const { return std::min(tolerance_, sought_tolerance); }
-  bool may_end(double thickness) const { return !options_.may_end || options_.may_end(thickness); }
+  double expected_way(double thickness) const;
+  bool may_end(const Waypoint& at) const { return at.way >= options_.may_end_from - rounding; }
   bool out_of_reach(double thickness) const {
     return !stops_.end && !(thickness > options_.least_thickness);
   }
 
   ContactSolver& solver_;
   PlatePair& plates_;
+  CompressionTarget target_;
   PathStops stops_;
   const PaddleArea& area_;
   const PathOptions& options_;
@@ -159,11 +166,25 @@ PathResult Path::follow(State& state) {
   return conclude(state);
 }
 
+/// A corner lies on the way of the thickness, and on that of each control.
+void Path::add_corners() {
+  for (const double way : options_.corners) {
+    if (stops_.end) {
+      const double initial = plates_.initial_thickness;
+      stops_.corners.push_back(initial + way * (*stops_.end - initial));
+    }
+    for (CompressionTarget control : stops_.controls) {
+      control.value *= way;
+      stops_.corner_controls.push_back(control);
+    }
+  }
+}
+
 /// The state from which the plates start: without contact, or the end of an earlier path.
 bool Path::solve_start(const State& state) {
-  trail_.begin({state, solver_.memory(), plates_.thickness(), {}, state});
+  trail_.begin({state, solver_.memory(), plates_.thickness(), {}, 0, state});
   std::optional<Waypoint> start =
-      solve_at(plates_.thickness(), {state, solver_.memory()}, options_.path_tolerance);
+      solve_at(plates_.thickness(), {state, solver_.memory()}, 0, options_.path_tolerance);
   if (start) trail_.begin(std::move(*start));
   return start.has_value();
 }
@@ -191,7 +212,17 @@ PathEnd Path::close_plates() {
       continue;
     }
     step.adapt(int(result_.final_step.iterations.size()) - result_.final_step.corrections);
-    const CompressionTarget* target = may_end(thickness) ? passed(reached->point) : nullptr;
+    // The end is sought between two states of the same load.
+    if (passed(reached->point) != nullptr && !(may_end(here) && may_end(*reached))) {
+      drop_points_beyond_here();
+      if (step.halve(std::abs(thickness - here.thickness))) continue;
+      if (std::optional<Waypoint> free = let_go_at(*reached)) {
+        reached = std::move(free);
+      } else {
+        result_.points.push_back(reached->point);
+      }
+    }
+    const CompressionTarget* target = may_end(*reached) ? passed(reached->point) : nullptr;
     if (target != nullptr) return end_at(*target, std::move(*reached));
     trail_.advance(std::move(*reached));
   }
@@ -203,9 +234,25 @@ std::optional<Waypoint> Path::try_step(double thickness, const StepLength& step)
   const Guess guess =
       extrapolate(here, step.distrusts_extrapolation() ? nullptr : trail_.before(), thickness);
   solver_.set_fail_fast(!patient_ && step.may_fail_fast(std::abs(thickness - here.thickness)));
-  std::optional<Waypoint> reached = solve_at(thickness, guess, tolerance_);
+  std::optional<Waypoint> reached = solve_at(thickness, guess, expected_way(thickness), tolerance_);
   solver_.set_fail_fast(false);
   return reached;
+}
+
+/// Where even the shortest step passes a target before the path may end: the same position with the
+/// load of the end of the way.
+std::optional<Waypoint> Path::let_go_at(const Waypoint& reached) {
+  return solve_at(reached.thickness, {reached.state, reached.memory},
+                  std::max(reached.way, options_.may_end_from), tolerance_);
+}
+
+/// The part of the way at which a position is expected. It never decreases.
+double Path::expected_way(double thickness) const {
+  if (!options_.prepare) return 0;
+  const Waypoint& here = trail_.here();
+  const PathPoint* before = trail_.before() != nullptr ? &trail_.before()->point : nullptr;
+  return std::max(here.way, expected_part_of_way(thickness, here.point, before, target_,
+                                                 plates_.initial_thickness));
 }
 
 /// Returns, once, to where abandoning a position first changed the path: short steps may follow a
@@ -241,6 +288,7 @@ PathResult Path::conclude(State& state) {
   plates_.close_to(here.thickness);
   solver_.restore(here.memory);
   result_.thickness = here.thickness;
+  result_.way = here.way;
   state = here.state;
   return std::move(result_);
 }
@@ -250,7 +298,7 @@ const CompressionTarget* Path::passed(const PathPoint& point) const {
   const CompressionTarget* furthest = nullptr;
   double most = 1 + options_.control_tolerance;
   for (const CompressionTarget& control : stops_.controls) {
-    const double part = measure(point, control.kind) / control.value;
+    const double part = measure(point, control) / control.value;
     if (part >= most) most = part, furthest = &control;
   }
   return furthest;
@@ -274,7 +322,7 @@ PathEnd Path::end_at_thickness() {
 PathEnd Path::end_at(const CompressionTarget& target, Waypoint beyond) {
   if (sharpen_up_to(target, beyond)) return search_end(target, std::move(beyond));
   result_.met = target;
-  result_.passed_by = measure(beyond.point, target.kind);
+  result_.passed_by = measure(beyond.point, target);
   trail_.end_between(trail_.here(), std::move(beyond));
   return PathEnd::target;
 }
@@ -284,9 +332,9 @@ PathEnd Path::end_at(const CompressionTarget& target, Waypoint beyond) {
 /// which the path may end.
 bool Path::sharpen_up_to(const CompressionTarget& target, Waypoint& beyond) {
   const auto is_before = [&](const Waypoint& at) {
-    return measure(at.point, target.kind) < target.value;
+    return measure(at.point, target) < target.value;
   };
-  while (may_end(trail_.here().thickness) && is_before(trail_.here())) {
+  while (may_end(trail_.here()) && is_before(trail_.here())) {
     std::optional<Waypoint> sharp = sharpened(sought());
     if (!sharp) return true;
     if (is_before(*sharp)) {
@@ -304,7 +352,8 @@ PathEnd Path::search_end(const CompressionTarget& target, Waypoint beyond) {
   for (int k = 0; k < most_in_bracket; ++k) {
     if (bracket.meets_target(options_.control_tolerance) || bracket.is_narrow())
       return end_in(bracket, target);
-    std::optional<Waypoint> middle = solve_at(bracket.thickness(), bracket.guess(), sought());
+    std::optional<Waypoint> middle =
+        solve_at(bracket.thickness(), bracket.guess(), bracket.high().way, sought());
     if (!middle) {
       trail_.sharpen(bracket.low());
       return PathEnd::no_equilibrium;
@@ -326,7 +375,7 @@ PathEnd Path::end_in(const Bracket& bracket, const CompressionTarget& target) {
   // that only the area changes, or the body snaps through, which is said.
   const double force = std::abs(low.point.paddle_N - bracket.high().point.paddle_N);
   if (!met && force > options_.control_tolerance * best.point.paddle_N) {
-    result_.jump = {measure(low.point, target.kind), measure(bracket.high().point, target.kind)};
+    result_.jump = {measure(low.point, target), measure(bracket.high().point, target)};
   }
   result_.met = target;
   trail_.end_between(low, best);
@@ -334,9 +383,10 @@ PathEnd Path::end_in(const Bracket& bracket, const CompressionTarget& target) {
 }
 
 /// The equilibrium with the plates at a thickness, if it is found.
-std::optional<Waypoint> Path::solve_at(double thickness, const Guess& guess, double tolerance) {
+std::optional<Waypoint> Path::solve_at(double thickness, const Guess& guess, double way,
+                                       double tolerance) {
   plates_.close_to(thickness);
-  if (options_.prepare) options_.prepare(thickness);
+  if (options_.prepare) options_.prepare(way);
   State state = guess.state;
   solver_.restore(guess.memory);
   ContactStep step = solver_.solve(plates_, state, tolerance);
@@ -351,13 +401,14 @@ std::optional<Waypoint> Path::solve_at(double thickness, const Guess& guess, dou
   tell(point);
   State moved = step.softer.value_or(state);
   result_.final_step = std::move(step);
-  return Waypoint{std::move(state), solver_.memory(), thickness, point, std::move(moved)};
+  return Waypoint{std::move(state), solver_.memory(), thickness, point, way, std::move(moved)};
 }
 
 /// The last state, solved again to this residual. It replaces its point on the path.
 std::optional<Waypoint> Path::sharpened(double tolerance) {
   const Waypoint& here = trail_.here();
-  std::optional<Waypoint> sharp = solve_at(here.thickness, {here.state, here.memory}, tolerance);
+  std::optional<Waypoint> sharp =
+      solve_at(here.thickness, {here.state, here.memory}, here.way, tolerance);
   std::vector<PathPoint>& points = result_.points;
   const std::size_t n = points.size();
   if (sharp && n >= 2 && points[n - 2].thickness == points[n - 1].thickness) {
@@ -403,7 +454,7 @@ void Path::tell(const PathPoint& point) const {
   if (stops_.end && start_thickness_ != *stops_.end)
     fraction = (start_thickness_ - point.thickness) / (start_thickness_ - *stops_.end);
   for (const CompressionTarget& control : stops_.controls)
-    fraction = std::max(fraction, std::min(1.0, measure(point, control.kind) / control.value));
+    fraction = std::max(fraction, std::min(1.0, measure(point, control) / control.value));
   progress_.update(
       "compress", fraction,
       message("thickness ", std::round(10 * point.thickness) / 10, " mm, paddle ",
@@ -414,8 +465,9 @@ void Path::tell(const PathPoint& point) const {
 /// From the present position, mm.
 double Path::longest_step() const {
   if (options_.longest_step > 0) return options_.longest_step;
-  const double here = trail_.here().thickness;
-  const bool slipping = here <= options_.slipping_below && here > options_.slipping_above;
+  const double way = trail_.here().way;
+  const bool slipping =
+      way >= options_.slipping_from - rounding && way < options_.slipping_to - rounding;
   const double part =
       slipping ? std::min(options_.slipping_part, options_.longest_part) : options_.longest_part;
   return part * plates_.initial_thickness;

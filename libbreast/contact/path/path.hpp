@@ -19,25 +19,24 @@ namespace breast {
 struct PathOptions {
   double first_step = 0, longest_step = 0, shortest_step = 0.05;
   double longest_part = 0.07;  ///< about 7 mm for a typical breast
-  /// The longest step (a fraction, like `longest_part`, and never more than that) while the plates are
-  /// at most `slipping_below` and more than `slipping_above` (mm) apart. There the breast slips on
-  /// them, and within a step it slips along straight lines.
-  double slipping_part = 0.07, slipping_below = 0, slipping_above = 0;
+  /// The longest step (a fraction, like `longest_part`, and never more than that) between these parts
+  /// of the way. There the breast slips on the plates, and within a step it slips along straight
+  /// lines.
+  double slipping_part = 0.07, slipping_from = 0, slipping_to = 0;
   double least_thickness = 2;    ///< smallest thickness of a path without a thickness as target, mm
   double path_tolerance = 3e-4;  ///< residual of intermediate states; the final state is solved to
                                  ///< `tolerance`
   double tolerance = 1e-9;
   double control_tolerance = 1e-4;  ///< relative, of force, pressure and area
   int most_solves = 400;
-  /// Called with the thickness (mm) before each position is solved, to update whatever depends on
-  /// it.
+  /// Called before each position is solved with the part of the way to the nearest target (0 to 1) at
+  /// which it is expected, to update whatever depends on it.
   std::function<void(double)> prepare;
-  /// Thicknesses (mm, decreasing) that a closing path does not step across, because the load that
-  /// `prepare` sets has a corner there.
+  /// Parts of the way near which a closing path stops, because the load that `prepare` sets has a
+  /// corner there.
   std::vector<double> corners;
-  /// Whether a target other than a thickness may end the path when the plates are this far apart
-  /// (mm). If empty, it may do so anywhere.
-  std::function<bool(double)> may_end;
+  /// A target other than a thickness may end the path from this part of the way on.
+  double may_end_from = 0;
 };
 
 /// Why a path ended.
@@ -62,6 +61,7 @@ struct PathResult {
   double failed_thickness = 0;                 ///< mm, of that position, or of one out of reach
   Eigen::VectorXd failed_trial;  ///< positions of its first rejected trial, may be empty
   double thickness = 0;          ///< of the final state
+  double way = 0;                ///< the part of the way for which its load was set
   ContactStep final_step;
   std::vector<PathPoint> points;        ///< none if there is no equilibrium at the first position
   std::vector<NewtonIteration> newton;  ///< all iterations, in order

@@ -14,44 +14,19 @@ namespace breast {
 
 namespace {
 
-/// The plates bear the weight from this reduction on, and from a smaller one if a force ends the
-/// path. The hand begins to release the weight at this fraction of that reduction.
-constexpr double bears_weight = 0.25, bears_weight_before_any_force = 0.1, begins_part = 0.2;
-/// On a path to a small reduction, this fraction of it is used instead.
-constexpr double latest_part = 0.5;
-/// Friction takes over the pull between these fractions of the reduction.
-constexpr double pull_begins_part = 0.6, pull_ends_part = 0.9;
-/// The fractions are smaller if another target may end the path before that reduction.
-constexpr double early_begins_part = 0.5, early_ends_part = 0.8;
 /// Depth from the edge over which the traction of the hand rises, mm.
 constexpr double pull_ramp_mm = 20;
-/// Difference of reductions that counts as none.
+/// Difference of parts of the way that counts as none.
 constexpr double rounding = 1e-9;
 /// Tissue closer to the edge than this counts as at the edge, mm.
 constexpr double at_edge_mm = 10;
 
-Release release_by(double reduction) {
-  return {begins_part * reduction, reduction};
-}
-
 }  // namespace
 
-double Release::at(double reduction) const {
-  // A path that stops at `ends` has its reduction from a thickness, with rounding.
-  if (reduction >= ends - rounding) return 1;
-  return std::max(0.0, (reduction - begins) / (ends - begins));
-}
-
-Grip grip_before(double reduction, bool may_end_before) {
-  const double begins = may_end_before ? early_begins_part : pull_begins_part;
-  const double ends = may_end_before ? early_ends_part : pull_ends_part;
-  return {release_by(std::min(bears_weight, latest_part * reduction)),
-          {begins * reduction, ends * reduction}};
-}
-
-Grip grip_before_any_force() {
-  const Release early = release_by(bears_weight_before_any_force);
-  return {early, early};
+double Release::at(double way) const {
+  // A path that stops at `ends` has its way from a thickness, with rounding.
+  if (way >= ends - rounding) return 1;
+  return std::max(0.0, (way - begins) / (ends - begins));
 }
 
 Eigen::VectorXd pull_forwards(const HexMesh& mesh, const std::vector<Vec3>& x, const Plate& plate,

@@ -16,28 +16,22 @@ namespace breast {
 /// weight until the plates grip it.
 enum class Positioning { hanging, lifted };
 
-/// The reductions (fractions of the initial thickness) between which the hand releases the breast.
+/// The parts of the way to the target (part_of_way, 0 to 1) between which the hand releases a load.
 struct Release {
   double begins = 0, ends = 0;
 
-  /// Share of the load that the hand has released at a reduction: 0 before `begins`, 1 from `ends`
-  /// on.
-  double at(double reduction) const;
+  /// Share of the load that the hand has released: 0 before `begins`, 1 from `ends` on.
+  double at(double way) const;
 };
 
 /// When the hand releases the weight and the pull. The plates can carry the weight of a breast long
-/// before friction can hold it against a pull.
-struct Grip {
-  Release weight, pull;
-  /// Whether the hand has let go completely at a reduction (a fraction).
-  bool gone(double reduction) const { return weight.at(reduction) == 1 && pull.at(reduction) == 1; }
+/// before friction can hold it against a pull. The way is that to the nearest target, so that a force
+/// is not passed while the hand still holds on, however little the breast is compressed there.
+struct Hand {
+  Release weight{0.1, 0.5}, pull{0.5, 0.8};
+  /// The hand has let go completely from this part of the way on.
+  double gone_from() const { return pull.ends > weight.ends ? pull.ends : weight.ends; }
 };
-/// For a compression to a given reduction (a fraction). If it may end before, at the first of this
-/// and other targets, the pull ends earlier.
-Grip grip_before(double reduction, bool may_end_before = false);
-/// For a compression to a force or pressure, whose reduction is not known in advance: the hand
-/// releases everything early.
-Grip grip_before_any_force();
 
 /// Nodal forces (µN, 3 per node) that pull the skin in front of the plates' edge away from the
 /// chest wall with a total of `newton`: a uniform traction that rises from zero over the 20 mm next

@@ -25,14 +25,18 @@ constexpr double longer = 1.4, shorter = 0.7;
 double next_thickness(double step, const PathPoint& here, const PathPoint* before,
                       const PathStops& stops) {
   double closing = step;
-  for (const CompressionTarget& control : stops.controls) {
+  const auto approach = [&](const CompressionTarget& control) {
     // The force grows exponentially.
-    const double now = measure(here, control.kind);
-    const double then = before != nullptr ? measure(*before, control.kind) : 0;
-    if (!(then > 0 && now > then)) continue;
+    const double now = measure(here, control);
+    const double then = before != nullptr ? measure(*before, control) : 0;
+    if (!(then > 0 && now > then)) return;
     const double growth = std::log(now / then) / (before->thickness - here.thickness);
     closing = std::min(
         closing, std::max(least_closing, std::log(beyond_control * control.value / now) / growth));
+  };
+  for (const CompressionTarget& control : stops.controls) approach(control);
+  for (const CompressionTarget& corner : stops.corner_controls) {
+    if (measure(here, corner) < corner.value) approach(corner);
   }
   for (const double corner : stops.corners) {
     const double left = here.thickness - corner;

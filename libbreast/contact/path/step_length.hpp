@@ -13,11 +13,13 @@ namespace breast {
 struct PathStops {
   std::optional<double> end;                ///< the path ends there at the latest
   std::vector<CompressionTarget> controls;  ///< targets that are not a thickness
-  std::vector<double> corners;              ///< PathOptions::corners
+  /// Thicknesses and further values of the controls at which the load has a corner (PathOptions::corners).
+  std::vector<double> corners;
+  std::vector<CompressionTarget> corner_controls = {};
 };
 
-/// Thickness (mm) a step of about `step` mm from the point `here`: closer to a control, which should
-/// not be overshot by much; at a corner or at the end instead of just before or beyond it. `before`
+/// Thickness (mm) a step of about `step` mm from the point `here`: closer to a control or a corner's,
+/// which should not be overshot by much; at a corner or at the end instead of just before or beyond it. `before`
 /// is the point before `here`; null at the start of the path.
 double next_thickness(double step, const PathPoint& here, const PathPoint* before,
                       const PathStops& stops);

@@ -7,9 +7,11 @@ namespace breast {
 
 namespace {
 
+constexpr double kilopascal_per_newton_per_cm2 = 10;
+
 /// A target followed by its alternatives.
 std::vector<CompressionTarget> all_of(const CompressionTarget& target) {
-  std::vector<CompressionTarget> all{{target.kind, target.value}};
+  std::vector<CompressionTarget> all{{target.kind, target.value, {}, target.least_area_cm2}};
   all.insert(all.end(), target.or_at.begin(), target.or_at.end());
   return all;
 }
@@ -21,14 +23,15 @@ const char* target_name(TargetKind kind) {
   return names[int(kind)];
 }
 
-double measure(const PathPoint& point, TargetKind kind) {
-  switch (kind) {
+double measure(const PathPoint& point, const CompressionTarget& target) {
+  switch (target.kind) {
     case TargetKind::thickness:
       return point.thickness;
     case TargetKind::force:
       return point.paddle_N;
     case TargetKind::pressure:
-      return point.pressure_kPa;
+      if (point.area_cm2 >= target.least_area_cm2) return point.pressure_kPa;
+      return point.paddle_N * kilopascal_per_newton_per_cm2 / target.least_area_cm2;
     case TargetKind::area:
       return point.area_cm2;
   }
@@ -70,11 +73,27 @@ double part_of_way(const PathPoint& end, const CompressionTarget& target, double
   const auto part = [&](const CompressionTarget& wanted) {
     if (wanted.kind == TargetKind::thickness)
       return (initial - end.thickness) / (initial - wanted.value);
-    return measure(end, wanted.kind) / wanted.value;
+    return measure(end, wanted) / wanted.value;
   };
   double most = part(target);
   for (const CompressionTarget& one : all_of(target)) most = std::max(most, part(one));
   return most;
+}
+
+double expected_part_of_way(double thickness, const PathPoint& here, const PathPoint* before,
+                            const CompressionTarget& target, double initial) {
+  PathPoint there = here;
+  there.thickness = thickness;
+  if (before != nullptr && before->thickness != here.thickness) {
+    const double ratio = (thickness - here.thickness) / (here.thickness - before->thickness);
+    const auto go_on = [&](double PathPoint::*what) {
+      there.*what += ratio * (here.*what - before->*what);
+    };
+    go_on(&PathPoint::paddle_N);
+    go_on(&PathPoint::pressure_kPa);
+    go_on(&PathPoint::area_cm2);
+  }
+  return part_of_way(there, target, initial);
 }
 
 }  // namespace breast

@@ -16,6 +16,9 @@ struct CompressionTarget {
   double value = 0;
   /// Further targets: the path ends at the first one that it reaches.
   std::vector<CompressionTarget> or_at = {};
+  /// A mean pressure is that over at least this area, cm²: over the first points that touch, any
+  /// force is a large pressure.
+  double least_area_cm2 = 0;
 };
 
 /// A converged state of the path.
@@ -28,7 +31,7 @@ struct PathPoint {
 /// "thickness", "paddle force", "mean pressure" or "contact area".
 const char* target_name(TargetKind kind);
 /// The quantity of a target at a point of the path, in the target's unit.
-double measure(const PathPoint& point, TargetKind kind);
+double measure(const PathPoint& point, const CompressionTarget& target);
 
 enum class StopAt { thickness, reduction, force, pressure, area };
 
@@ -46,5 +49,9 @@ std::vector<CompressionTarget> others_than_thickness(const CompressionTarget& ta
 /// Fraction of the way to the nearest of the target and its alternatives, for plates that began
 /// `initial` mm apart.
 double part_of_way(const PathPoint& end, const CompressionTarget& target, double initial);
+/// The same of a point at a thickness (mm) that is not known yet: forces, pressures and areas continue
+/// as from `before` to `here`, or stay as they are if `before` is null.
+double expected_part_of_way(double thickness, const PathPoint& here, const PathPoint* before,
+                            const CompressionTarget& target, double initial);
 
 }  // namespace breast

@@ -18,6 +18,7 @@ struct Waypoint {
   ContactMemory memory;
   double thickness = 0;  ///< mm
   PathPoint point;
+  double way = 0;  ///< the part of the way to the target for which its load was set
   /// The state to which the motion of the plates alone led: `state`, unless the plates became stiffer
   /// at the same position.
   State moved;

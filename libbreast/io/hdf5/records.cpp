@@ -95,7 +95,7 @@ SolveRecord get_solve(Fields& fields) {
   const std::optional<SolveStatus> known = status_from_name(status);
   if (!known) {
     throw fields.complain()(solve_group, "@status '", status,
-                            "' is unknown: converged, stopped_early, unstable or not_converged");
+                            "' is unknown: converged, stopped_early, not_gripped, unstable or not_converged");
   }
   solve.status = *known;
   solve.reason = fields.text(solve_group + "@reason");
