@@ -9,11 +9,11 @@ of_curve := cc-matching mlo-matching
 of_run := slices $(of_points) outlines $(of_both) pressure force-thickness cc-mammogram mlo-mammogram $(if $(CURVE),$(of_curve)) summary
 FIGURES := $(call pictures,$(of_run)) $(if $(SUPINE),$(F)/postures.png)
 on_scan = --scan $(MR) --labels $(RUN)/labels.vtkhdf $(addprefix --series ,$(SERIES))
-# $(call draw,PICTURES,FILES,OPTIONS)
-draw = @mkdir -p $(F) && $(RENDER) $2 --all $(F) --only $(subst $(eval) ,$(comma),$(strip $1)) $3
+# $(call draw,PICTURES,FILES,OPTIONS); no picture is named: all that the files allow, without those that could not be made
+draw = @mkdir -p $(F) && $(RENDER) $(if $1,$2,$$(ls -d $2 2> /dev/null)) --all $(F) $(if $1,--only $(subst $(eval) ,$(comma),$(strip $1))) $3
 figure_files := $(addprefix $(RUN)/,geometry.vtkhdf points.vtp mesh.vtkhdf reference.vtkhdf supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti) $(CURVE)
 $(call pictures,$(of_run)) &: $(figure_files) $(RUN)/labels.vtkhdf $(RENDER)
-	$(call draw,$(of_run),$(figure_files),$(on_scan))
+	$(call draw,,$(figure_files),$(on_scan))
 	@rm -f $(call pictures,$(if $(CURVE),,$(of_curve)))
 
 files_of = $(addprefix $(RUN)/,$1)
@@ -31,9 +31,9 @@ fig7: $(call files_of,cc.vtkhdf mlo.vtkhdf) $(CURVE)
 # Figs 6c and 6d show several points: a grid of them in the CC view.
 curves_settings := $(CC2MLO) $(POINTS)
 $(RUN)/curves.vtp $(RUN)/curves.tsv &: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(CC2MLO) $(call changed,curves)
-	$(call stage,curves) $(CC2MLO) $(wordlist 1,2,$^) $(RUN)/curves.vtp --grid $(POINTS) --table $(RUN)/curves.tsv $(call common_of,curves)
+	$(call of_pressed,curves) $(CC2MLO) $(wordlist 1,2,$^) $(RUN)/curves.vtp --grid $(POINTS) --table $(RUN)/curves.tsv $(call common_of,curves)
 $(call pictures,cc-points mlo-curves) &: $(call files_of,cc.vti mlo.vti curves.vtp) $(RENDER)
-	$(call draw,cc-points mlo-curves,$(filter-out $(RENDER),$^))
+	@[ ! -e $(RUN)/curves.vtp ] || { $(subst @mkdir,mkdir,$(call draw,cc-points mlo-curves,$(filter-out $(RENDER),$^))); }
 
 # $(call plot,FIGURE): the picture of a table, its first prerequisite.
 plot = @mkdir -p $(@D) && $(RENDER) $< --figure $1 -o $@

@@ -44,8 +44,9 @@ endif
 tabulate = $(TABULATE) --quiet --pipelines $(PIPELINES)
 # The supports of the breast at its back; if empty, those with which the material set was found, or a held wall and a free cut.
 SUPPORT = $(addprefix --wall ,$(WALL)) $(addprefix --cut ,$(CUT))
-# The plates stop at the first of these limits.
-STOPS = --reduction $(REDUCTION) $(addprefix --pressure ,$(PRESSURE))
+# The plates stop at the first of these limits; without any, where those of a screening mammogram do.
+STOPS = $(addprefix --force ,$(FORCE)) $(addprefix --thickness ,$(THICKNESS)) $(addprefix --reduction ,$(REDUCTION)) \
+  $(addprefix --pressure ,$(PRESSURE))
 
 # The scan; the tumour and the material set if a rule makes them (those of users are known by content).
 MR_FILES := $(MR) $(if $(wildcard $(MR)/.),$(wildcard $(MR)/*))
@@ -55,6 +56,9 @@ MATERIAL_TABLE := $(call set_of,$(MATERIALS))
 # What only the run of a tumour has: another mesh may have none.
 of_a_tumour := $(addprefix $(RUN)/,curve.vtp curve.tsv curve.json .curve.settings band.vtp band.tsv band-curve.tsv band.json \
   figures/*-matching.png slicer/scene.mrml slicer/column-* slicer/curve-*)
+# $(call of_the_plates,VIEW): what is made of a compressed shape.
+of_the_plates = $(addprefix $(RUN)/,$1.vti $1.png $1-sensitivity.vtkhdf $1-sensitivity.tsv lookup.h5 page.html curves.vtp curves.tsv \
+  figures/$1-mammogram.png figures/cc-points.png figures/mlo-curves.png) $(of_a_tumour)
 # Contours for checking the labels; a program that replaces segment need not draw them.
 contours := $(if $(filter $(BIN)/segment,$(SEGMENT)),--overlay $(RUN)/contours.png)
 
@@ -86,7 +90,7 @@ supine_options = $(its_model)
 supine_settings = $(FORWARD) $(supine_options) $(its_content)
 # The plates have the distance that the case asks for, or their true positions.
 plates_for = $(if $(its_plates),$(call same_plates,$(TRUTH_AT)-fine-$1.json) $(if $(body_slides),$(wordlist 2,3,$(truth_edge_$1))),$(STOPS))
-press = --at-least $(AT_LEAST) $(its_compress) $(its_model)
+press = $(addprefix --at-least ,$(AT_LEAST)) $(its_compress) $(its_model)
 cc_options = $(call plates_for,cc) $(press)
 cc_settings = $(COMPRESS) $(if $(its_plates),,$(STOPS)) $(press) $(its_content)
 mlo_options = $(call plates_for,mlo) $(press)

@@ -30,9 +30,9 @@ phantom-scan: $(if $(TRUTH),$(MR))
 TRUTH_AT := $(PHANTOM_TRUTH)/$(SIDE)
 truth_edge_cc := 20 --friction 0.3
 truth_edge_mlo := auto
-# At 49.5 % an element of the finer mesh folds in MLO, where this body has touched itself.
-truth_reduction_cc = $(REDUCTION)
-truth_reduction_mlo = $(if $(and $(body_slides),$(filter 50,$(REDUCTION))),48,$(REDUCTION))
+# Half the thickness, whatever the force. At 49.5 % an element of the finer mesh folds in MLO, where this body has touched itself.
+truth_reduction_cc = $(or $(REDUCTION),50)
+truth_reduction_mlo = $(if $(and $(body_slides),$(filter 50,$(truth_reduction_cc))),48,$(truth_reduction_cc))
 # The model is the one that the file of the body states.
 truth_plates = $(if $(body_slides),--image-edge $(truth_edge_$1))
 # The part of PHANTOM_OPTIONS that describes the same body.
@@ -49,18 +49,19 @@ $(TRUTH_AT)-coarse.vtkhdf $(TRUTH_AT)-coarse-supine.vtkhdf &: $(PHANTOM_MR) $(PH
 	$(call stage,truth-meshes) $(call truth_mesh,coarse,$(TRUTH_COARSE))
 $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-fine-supine.vtkhdf &: $(PHANTOM_MR) $(PHANTOM_MESH) $(TRUTH_AT)-coarse.vtkhdf
 	$(call truth_mesh,fine,$(TRUTH_FINE))
-truth_compress = $(COMPRESS) $< $@ $(call truth_plates,$1) --at-least $(AT_LEAST) $(common)
+truth_compress = $(COMPRESS) $< $@ $(call truth_plates,$1) $(addprefix --at-least ,$(AT_LEAST)) $(common)
 define truth_view
 truth-$1_record := $(PHANTOM_TRUTH)/.$(SIDE)-$1.settings
+truth-fine-$1_record := $(PHANTOM_TRUTH)/.$(SIDE)-fine-$1.settings
 truth-$1_settings := $(COMPRESS) $(truth_reduction_$1) $(AT_LEAST) $(truth_edge_$1) $(phantom_settings)
 $(TRUTH_AT)-coarse-$1.vtkhdf: $(TRUTH_AT)-coarse.vtkhdf $(COMPRESS) $$(call changed,truth-$1)
-	$$(call stage,truth-$1) $$(call truth_compress,$1) --view $2 --reduction $(truth_reduction_$1)
+	$$(call pressed,truth-$1) $$(call truth_compress,$1) --view $2 --reduction $(truth_reduction_$1)
 $(TRUTH_AT)-fine-$1.vtkhdf: $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-coarse-$1.vtkhdf $(COMPRESS)
-	$$(call truth_compress,$1) --view $2 $$(call same_plates,$(TRUTH_AT)-coarse-$1.json)
+	$$(call pressed,truth-fine-$1) $$(call truth_compress,$1) --view $2 $$(call same_plates,$(TRUTH_AT)-coarse-$1.json)
 # The chain, compressed between plates with the distance and position of those of the truth.
 $(RUN)/truth-$1.vtkhdf: $(RUN)/reference.vtkhdf $(TRUTH_TABLE) $(COMPRESS)
-	$(COMPRESS) $$< $$@ --view $2 $$(call same_plates,$(TRUTH_AT)-fine-$1.json) \
-	  $(if $(body_slides),$(wordlist 2,3,$(truth_edge_$1))) --at-least $(AT_LEAST) $(COMPRESS_OPTIONS) $(MECHANICS) $(SUPPORT) $$(common)
+	$$(call pressed,truth-$1-of-chain) $(COMPRESS) $$< $$@ --view $2 $$(call same_plates,$(TRUTH_AT)-fine-$1.json) \
+	  $(if $(body_slides),$(wordlist 2,3,$(truth_edge_$1))) $(addprefix --at-least ,$(AT_LEAST)) $(COMPRESS_OPTIONS) $(MECHANICS) $(SUPPORT) $$(common)
 endef
 $(eval $(call truth_view,cc,CC))
 $(eval $(call truth_view,mlo,MLO))

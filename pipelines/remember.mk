@@ -5,6 +5,8 @@
 #   $(call changed,STAGE)  FORCE when STAGE_settings differs from the record of an existing output
 #   $(call stage,STAGE)    before the stage's program in a recipe: shows one line, records STAGE_settings in STAGE_record (default
 #                          RUN/.STAGE.settings); all the program says is in log.txt beside it
+#   $(call pressed,STAGE)  the same of compress, whose shape is kept even if the plates do not grip the breast
+#   $(call of_pressed,STAGE)  the same of a program that is run only if the compressed shapes it reads are there and are compressions
 #   $(call stale,FILE,TEXT), $(call staged,FILE,TEXT)  the same for a record and settings that have no NAME
 #   $(call named,SCAN)     a scan as records name it: by its own name and a digest of its path. Another scan differs, but the
 #                          folders above it, in which a patient's name may stand, are not told: a run may be sent to somebody
@@ -22,3 +24,6 @@ prints = $(call staged,$(call record_file,$1),$($1_settings),--prints $2)
 forget = rm -f $(call record_file,$1)
 record = printf '%s\n' $(call quoted,$(strip $($1_settings))) > $(call record_file,$1)
 stage = $(call staged,$(call record_file,$1),$($1_settings))
+pressed = $(call staged,$(call record_file,$1),$($1_settings),--keep $@)
+of_pressed = $(call staged,$(call record_file,$1),$($1_settings),--of '$(filter $(made_of_pressed),$^)')
+made_of_pressed = $(addprefix $(RUN)/,cc.% mlo.% cc-sensitivity.% mlo-sensitivity.% truth-cc-sensitivity.% truth-mlo-sensitivity.%)

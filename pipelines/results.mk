@@ -8,9 +8,10 @@ derivatives := $(if $(findstring --friction,$(COMPRESS_OPTIONS))$(findstring spr
 page_states := $(RUN)/cc$(derivatives).vtkhdf $(RUN)/mlo$(derivatives).vtkhdf
 lookup_settings := $(MATCH_LOOKUP) $(page_states) $(page_scan)
 $(RUN)/lookup.h5 $(RUN)/page.html &: $(page_states) $(RUN)/cc.vti $(RUN)/mlo.vti $(if $(page_scan),$(MR_FILES)) $(MATCH_LOOKUP) $(call changed,lookup)
-	$(call stage,lookup) $(MATCH_LOOKUP) $(page_states) $(RUN)/lookup.h5 --page $(RUN)/page.html --pitch 1 \
+	$(call of_pressed,lookup) $(MATCH_LOOKUP) $(page_states) $(RUN)/lookup.h5 --page $(RUN)/page.html --pitch 1 \
 	  --from-image $(RUN)/cc.vti --to-image $(RUN)/mlo.vti $(page_scan) --report $(RUN)/lookup.json $(share)
 page: $(RUN)/page.html
+	$(gripped)
 
 # ---- 3D Slicer: images, labels, shapes, displacement fields, points and scene.mrml, which opens them ---------
 slicer_settings := $(EXPORT_SLICER) $(MR) $(SLICER_OPTIONS)
@@ -29,8 +30,9 @@ $(RUN)/verify.tsv: $(EXPECTED) $(TABULATE) $(RUN)/summary.txt $(TABLE_FILES)
 	@cat $@
 
 report: $(RUN)/report.html $(if $(CHROMIUM),$(RUN)/report.pdf)
+	$(gripped)
 	@$(if $(CHROMIUM),,echo "report: no PDF: chromium is not installed (apt-get install chromium); any browser prints the page" >&2)
-all: figures tables $(if $(EXPECTED),verify) report
+all: $(FIGURES) tables $(if $(EXPECTED),verify) report
 .PHONY: page slicer verify report all
 # Results of the slow targets are embedded with their dates. As prerequisites they would be solved again whenever a program is
 # newer; therefore the page records these files and their dates instead.

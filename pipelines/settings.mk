@@ -57,11 +57,16 @@ ACCURACY_LADDER ?= q1p0-dome-4 q1p0-dome-6 q1p0-dome-8 q1p0-dome-10 q1p0-dome-12
 # A breast that slides does so with the muscle behind it; one that is held needs none. The tissue around it moves with it.
 MUSCLE ?= $(if $(PAPER),,$(if $(slides),measured,0))
 SURROUNDINGS ?= $(if $(PAPER),,$(if $(slides),16,0))
-REDUCTION ?= 50
-# The mean pressure of the paddle, kPa, at which a compression ends before REDUCTION, as in clinical practice. Table II is too stiff for it.
-PRESSURE ?= $(if $(slides),10)
-# As printed, elements on the edge of the cuboid fold early (docs/validation/contact.md).
-AT_LEAST ?= $(if $(PAPER),30,40)
+# The plates close to the first of these: force of the paddle, N; thickness, mm; reduction of the thickness, percent; mean pressure of the
+# paddle, kPa. If all are empty, as in screening (docs/tools/compress.md). The paper halves the thickness, and a breast whose wall is held
+# has no other limit: Table II is too stiff for a clinical force.
+FORCE ?=
+THICKNESS ?=
+PRESSURE ?=
+REDUCTION ?= $(if $(slides)$(FORCE)$(THICKNESS)$(PRESSURE),,50)
+# A compression that stops early is accepted from this reduction on. Between plates as in the clinic compress judges by what mammograms
+# are like. As printed, elements on the edge of the cuboid fold early (docs/validation/contact.md).
+AT_LEAST ?= $(if $(PAPER),30,$(if $(slides),,40))
 POINTS ?= 4
 
 # ---- programs of the stages and their further options ------------------------------------------------------

@@ -24,10 +24,10 @@ population-table: population
 # Of docs/validation/sliding.md: the cohort between plates, and how the compressed shape depends on the mesh, on friction and on the
 # length of the steps (tests/bench/plates.tsv), of the preset average by 50 %.
 compression-tables: $(TABULATE)
-	@+$(MAKE) -f $(PIPELINE) PRESSURE= compressed-population
+	@+$(MAKE) -f $(PIPELINE) REDUCTION=50 compressed-population
 	cp $(POPULATION_RUNS)/compressed.tsv $(TABLES_OF_PAGE)/compression-cohort.tsv
-	@+$(MAKE) -f $(PIPELINE) PRESSURE= PRESET=average STUDY=tests/bench/plates.tsv study
-	@+$(MAKE) -f $(PIPELINE) PRESSURE= PRESET=average plates-tables
+	@+$(MAKE) -f $(PIPELINE) REDUCTION=50 PRESET=average STUDY=tests/bench/plates.tsv study
+	@+$(MAKE) -f $(PIPELINE) REDUCTION=50 PRESET=average plates-tables
 .PHONY: compression-tables plates-tables
 plates = $(tabulate) plates $(call study_dir,plates)
 plates-tables:

@@ -229,7 +229,9 @@ void run_compress(Choices c, Run& run) {
                                 });
   }
   write_report(found, mesh, mechanics.options(), run.report());
-  mechanics.finish(found, c.compressed, is_enough(found, c.at_least), plate_lines(run.report()));
+  const bool enough = is_enough(found, c.at_least);
+  run.report().set("accepted", found.converged() || enough);
+  mechanics.finish(found, c.compressed, enough, plate_lines(run.report()));
 }
 
 }  // namespace

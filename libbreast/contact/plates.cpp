@@ -284,16 +284,6 @@ PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const Vi
   return pair;
 }
 
-PlatePair start_from(const PlatePair& placed, const HexMesh& mesh, const std::vector<Vec3>& x,
-                     const ViewPose& pose, PlateOptions options) {
-  options.edge_at = placed.paddle.edge_start;
-  PlatePair pair = place_plates(mesh, x, pose, options);
-  pair.wall_point = placed.wall_point;
-  pair.standoff = placed.standoff;
-  pair.underside = placed.underside;
-  return pair;
-}
-
 double wall_turn_deg(const HexTopology& mesh, const std::vector<Vec3>& x) {
   constexpr double most = 45;
   const Vec3 outward = towards_ribs(mesh, x);

@@ -142,8 +142,5 @@ double muscle_lean_deg(const HexTopology& mesh, const std::vector<Vec3>& x, cons
 /// breast, as in the clinic. Throws Error (input) when the plates miss the breast.
 PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
                        const PlateOptions& options);
-/// The plates `placed`, with the same edge but starting from another shape of the body.
-PlatePair start_from(const PlatePair& placed, const HexMesh& mesh, const std::vector<Vec3>& x,
-                     const ViewPose& pose, PlateOptions options);
 
 }  // namespace breast

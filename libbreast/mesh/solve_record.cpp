@@ -20,8 +20,9 @@ const char* status_name(SolveStatus status) {
 }
 
 std::optional<SolveStatus> status_from_name(const std::string& name) {
-  for (const SolveStatus status : {SolveStatus::converged, SolveStatus::stopped_early,
-                                   SolveStatus::not_gripped, SolveStatus::unstable, SolveStatus::not_converged}) {
+  for (const SolveStatus status :
+       {SolveStatus::converged, SolveStatus::stopped_early, SolveStatus::not_gripped,
+        SolveStatus::unstable, SolveStatus::not_converged}) {
     if (name == status_name(status)) return status;
   }
   return {};

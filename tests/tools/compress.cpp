@@ -70,7 +70,7 @@ TEST_F(CompressTool, WritesTheContactRecordAndTheContractKeys) {
     EXPECT_TRUE(r.contains(key)) << key;
   }
   for (const char* id : {"pressure_against_sensors", "penetration_above", "volume_kept",
-                         "plates_balanced", "reduction_within"}) {
+                         "plates_balanced", "thickness_within"}) {
     EXPECT_TRUE(r.contains(std::string("judgement/") + id)) << id;
   }
   EXPECT_NEAR(r.number("reduction_percent"), 40, 1e-6);
@@ -85,9 +85,17 @@ TEST_F(CompressTool, WritesTheContactRecordAndTheContractKeys) {
 
 // The estimate against what 27-node elements on the same mesh really differ by.
 TEST_F(CompressTool, PlacesThePlatesByTheEdgeOfTheImage) {
-  const ToolResult good = compress({"CC", "--reduction", "25", "--image-edge", "8", "--turn", "5"});
-  ASSERT_EQ(good.exit_code, 0) << good.err;
+  // This wall is held, and with it the tissue at the edge, on which almost all of the force stays.
+  const ToolResult refused =
+      compress({"CC", "--reduction", "25", "--image-edge", "8", "--turn", "5"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_EQ(refused.error_lines(), 1) << refused.err;
+  EXPECT_FALSE(wrote());
+  const ToolResult kept = compress(
+      {"CC", "--reduction", "25", "--image-edge", "8", "--turn", "5", "--keep-unconverged"});
+  ASSERT_EQ(kept.exit_code, 3) << kept.err;
   const Report r = report();
+  EXPECT_EQ(r.text("status"), "not_gripped");
   EXPECT_EQ(r.text("contact_points"), "surface");
   EXPECT_EQ(r.number("edge_radius_mm"), 3);
   EXPECT_EQ(r.number("turn_deg"), 5);
@@ -107,11 +115,20 @@ TEST_F(CompressTool, PlacesThePlatesByTheEdgeOfTheImage) {
 
 // On the way, faces lie deeper in the plates and the force is smaller.
 TEST_F(CompressTool, EndsAtTheForceThatWasAskedFor) {
-  const ToolResult good =
-      compress({"CC", "--reduction", "25", "--force", "2000", "--image-edge", "8", "--turn", "5"});
-  ASSERT_EQ(good.exit_code, 0) << good.err;
+  const ToolResult good = compress({"CC", "--reduction", "25", "--force", "2000", "--image-edge",
+                                    "8", "--turn", "5", "--keep-unconverged"});
+  ASSERT_EQ(report().text("status"), "not_gripped") << good.err;
   EXPECT_NEAR(report().number("force_N"), 2000, 0.005 * 2000);
   EXPECT_LT(report().number("reduction_percent"), 25);
+}
+
+// A stiff breast reaches the force long before the smallest thickness.
+TEST_F(CompressTool, EndsAsInScreeningIfNoTargetIsGiven) {
+  const ToolResult good = compress({"CC"});
+  ASSERT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_GE(report().number("force_N"), 50 * 0.995);
+  EXPECT_LE(report().number("force_N"), 110 * 1.005);
+  EXPECT_GT(report().number("thickness_mm"), 35);
 }
 
 TEST_F(CompressTool, RefusesTwoPlacesForTheEdge) {
@@ -161,7 +178,6 @@ TEST_F(CompressTool, AnEarlyStopIsWrittenOnlyWhenEnoughWasReached) {
 
 TEST_F(CompressTool, RefusesWhatItCannotDo) {
   for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-           {"CC"},
            {"CC", "--reduction", "40", "--area", "0"},
            {"CC", "--force", "1e-6"},
            {"XX", "--reduction", "40"},

@@ -35,9 +35,12 @@ echo "$name: warning: it says more" >&2
 [ ! -e WORK/break-$name ] || { echo "$name: no body of this shape" >&2; exit 3; }
 [ "$name" != probe ] || exit 0
 [ "$name" != export-slicer ] || positional[1]+=/scene.mrml
+pressed='"tool": "compress", "status": "not_gripped", "reason": "the plates do not grip", "accepted": false'
+case "$name $words" in compress*"--view MLO"*) [ ! -e WORK/loose ] || { report_only=yes; case "$words" in *--keep-unconverged*) ;; *) exit 3 ;; esac; } ;; esac
 case "$words" in *fat=1\ *) printf '{"tool": "%s", "status": "not_converged", "reason": "folded"}\n' "$name" > "$report"; exit 3 ;; esac
 for file in "${positional[at]}" "${after[@]}"; do { echo "$words"; cat "${set:-/dev/null}" 2> /dev/null || true; } > "$file"; done
 [ -z "${report:-}" ] || printf '{"tool": "%s", "status": "ok", "elements": 8, "min_scaled_jacobian": 0.5}\n' "$name" > "$report"
+[ -z "${report_only:-}" ] || { printf '{%s}\n' "$pressed" > "$report"; exit 3; }
 while [ "$name" = hexmesh ] && [ -e WORK/hold ]; do sleep 0.1; done
 STUB
 sed -i "s|WORK|$work|g" "$work/stub"
@@ -61,7 +64,7 @@ call "$run/displacements.tsv" && [ "$(wc -l < "$work/err")" -eq 1 ] && grep -q '
   grep -q '^probe displacements.tsv: probe: warning: it says more' "$run/log.txt" && [ "$(cat "$run/displacements.tsv")" = "probe: working" ] ||
   fail "of a program that prints a table, the table is what it prints, and its messages are in log.txt"
 pass "tables that programs print are apart from what they say"
-call -n summary && grep -q "bin/render .*--only slices," "$work/out" || fail "the summary waits for the pictures"
+call -n summary && grep -q "bin/render .*--all $run/figures" "$work/out" || fail "the summary waits for the pictures"
 pass "the summary waits for the pictures"
 
 # Files that users edit, by content.
@@ -164,4 +167,17 @@ touch "$work/break-backward"
 tail -n 3 "$work/err" | paste -s -d'|' | grep -q "^backward: no body of this shape|backward ended with exit code 3 after [0-9]* s: see $run/log.txt|make: " ||
   fail "the reason, and where to look"
 pass "a stage that fails says why and where to look"
+
+# Plates that do not grip the breast: the shape is kept, nothing is made of it, the rest is finished, and make fails.
+made FORCE=70
+touch "$work/loose"
+! call FORCE=80 chain || fail "a view without a grip fails"
+[ -e "$run/mlo.vtkhdf" ] && [ -e "$run/cc.vti" ] && [ ! -e "$run/mlo.vti" ] && [ ! -e "$run/curve.tsv" ] || fail "nothing is made of a shape without a grip"
+grep -q '^project-mammogram MLO  .*not made: mlo.vtkhdf is no compression' "$work/err" && grep -q '^cc2mlo  .*not made' "$work/err" &&
+  grep -q '^MLO is no compression: the plates do not grip' "$work/err" || fail "what is not made is said"
+rm "$work/loose"
+! call FORCE=80 chain && ! grep -q '^compress' "$work/err" || fail "the shape without a grip is kept"
+made FORCE=90
+[ -e "$run/mlo.vti" ] && [ -e "$run/curve.tsv" ] || fail "other plates grip"
+pass "a view without a grip is kept and said, and nothing is made of it"
 echo "$passed passed, 0 failed"

@@ -118,8 +118,8 @@ TEST_F(IdentifyTool, ItsSetRunsTheChainAndNarrowsTheBand) {
     const std::string with = " --materials " + set + ".tsv";
     ASSERT_EQ(run("backward mesh.vtkhdf r.vtkhdf --estimate none" + with), 0) << said_.err;
     for (const std::string view : {"CC", "MLO"}) {
-      ASSERT_EQ(run("compress r.vtkhdf " + view + ".vtkhdf --reduction 20 --estimate none --view " +
-                    view + with),
+      ASSERT_EQ(run("compress r.vtkhdf " + view +
+                    ".vtkhdf --reduction 20 --standoff 10 --estimate none --view " + view + with),
                 0)
           << said_.err;
       ASSERT_EQ(run("sensitivity r.vtkhdf " + view + ".vtkhdf " + view + "-d.vtkhdf --table t.tsv" +

@@ -49,12 +49,13 @@ has() { # VALUES SETTING... -- ARGUMENT...
   plan --eval="print: ; \$(info $(printf '$(%s)|' "${names[@]}"))" "$@" print || { cat "$work/err"; fail "$*: settings"; }
   grep -qxFe "$values" "$work/out" || { grep "|$" "$work/out"; fail "$*: ${names[*]} are $values"; }
 }
-model=(RUN MATERIALS PRESSURE MUSCLE SURROUNDINGS AT_LEAST)
-has "$work/runs/average|invivo|10|measured|16|40|" "${model[@]}" --
-has "$work/runs/paper|seed2008||0|0|40|" "${model[@]}" -- PRESET=paper
-has "$work/runs/paper-as-printed|seed2008||||30|" "${model[@]}" -- PAPER=1
-has "$work/runs/average|seed2008||0|0|40|" "${model[@]}" -- MATERIALS=seed2008
-has "$work/runs/x-left|invivo|10|measured|16|40|" "${model[@]}" -- MR=/no/x.nii.gz
+model=(RUN MATERIALS REDUCTION MUSCLE SURROUNDINGS AT_LEAST)
+has "$work/runs/average|invivo||measured|16||" "${model[@]}" --
+has "$work/runs/paper|seed2008|50|0|0|40|" "${model[@]}" -- PRESET=paper
+has "$work/runs/paper-as-printed|seed2008|50|||30|" "${model[@]}" -- PAPER=1
+has "$work/runs/average|seed2008|50|0|0|40|" "${model[@]}" -- MATERIALS=seed2008
+has "$work/runs/x-left|invivo||measured|16||" "${model[@]}" -- MR=/no/x.nii.gz
+has "--force 80 --thickness 40|" STOPS -- FORCE=80 THICKNESS=40 PRESET=paper
 has "paper|left|$work/runs/paper|" PRESET SIDE RUN -- tables
 has "$work/runs/1.2.840-right|none|no|" RUN TUMOUR PAGE_SCAN -- MR=1.2.840/ SIDE=right
 has "$work/runs/average/identified.tsv|invivo|" MATERIALS prior_set -- SUPINE=phantom
@@ -67,6 +68,8 @@ while read -r setting tool option; do
   range=$(awk -F '\t' -v setting="$setting" '$1 == setting { split($4, word, " "); print word[2], "to", word[3] }' pipelines/settings.tsv)
   "$bin/$tool" --help | tr -s ' \n' ' ' | grep -q -- "$option [A-Z]* [^-]*($range[;)]" || fail "$setting: $range is the range of $tool $option"
 done <<'ranges'
+FORCE compress --force
+THICKNESS compress --thickness
 REDUCTION compress --reduction
 PRESSURE compress --pressure
 AT_LEAST compress --at-least

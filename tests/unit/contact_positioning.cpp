@@ -30,7 +30,7 @@ TEST(Positioning, TheHandLetsGoOfTheWeightFirst) {
 // The way to the nearest target: a force that comes early leads, whatever the thickness is.
 TEST(Positioning, TheWayIsThatToTheNearestTarget) {
   const CompressionTarget target{
-      TargetKind::force, 100, {{TargetKind::thickness, 40}, {TargetKind::pressure, 10, {}, 50}}};
+      TargetKind::force, 100, {{TargetKind::thickness, 40}, {TargetKind::pressure, 100, {}, 50}}};
   PathPoint here{90, 60, 60, 0, 0};
   EXPECT_NEAR(part_of_way(here, target, 140), 0.6, 1e-12);
   here.paddle_N = 10;

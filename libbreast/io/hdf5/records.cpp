@@ -94,8 +94,9 @@ SolveRecord get_solve(Fields& fields) {
   const std::string status = fields.text(solve_group + "@status");
   const std::optional<SolveStatus> known = status_from_name(status);
   if (!known) {
-    throw fields.complain()(solve_group, "@status '", status,
-                            "' is unknown: converged, stopped_early, not_gripped, unstable or not_converged");
+    throw fields.complain()(
+        solve_group, "@status '", status,
+        "' is unknown: converged, stopped_early, not_gripped, unstable or not_converged");
   }
   solve.status = *known;
   solve.reason = fields.text(solve_group + "@reason");

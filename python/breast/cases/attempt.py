@@ -9,8 +9,7 @@ from pathlib import Path
 from ..command.child import run_child
 from ..errors import Failed
 from ..output import write_text
-
-_NOT_CONVERGED = 3
+from .stage import NOT_CONVERGED
 
 
 def _has_something(file: Path) -> bool:
@@ -34,5 +33,5 @@ def attempt(report: Path, inputs: Sequence[Path], command: Sequence[str]) -> Non
     # A program that is not part of libbreast may write no report.
     if code == 0 and not _has_something(report):
         write_text(report, '{\n  "status": "ok"\n}\n')
-    if code != 0 and not (code == _NOT_CONVERGED and _has_something(report)):
+    if code != 0 and not (code == NOT_CONVERGED and _has_something(report)):
         raise Failed(f"{command[0]} ended with exit code {code}")

@@ -7,7 +7,6 @@ stages may run at once.
 from __future__ import annotations
 
 import contextlib
-import json
 import os
 import re
 import sys
@@ -18,7 +17,10 @@ from pathlib import Path
 from ..command.child import follow_child
 from ..errors import Failed
 from ..output import write_text
+from .compression import report_of, why_not_made
 
+NOT_CONVERGED = 3
+"""Exit code of a program whose solve has no result."""
 # What a program found, from its report: a text in which {key/key:format} is replaced.
 _FOUND = {
     "phantom": "",
@@ -67,14 +69,9 @@ def found_in(report: Mapping[str, object]) -> str:
     return ", ".join(filter(None, parts))
 
 
-def _report_of(words: Sequence[str]) -> dict[str, object]:
-    file = words[words.index("--report") + 1] if "--report" in words[:-1] else ""
-    try:
-        with open(file, encoding="utf-8", errors="replace") as stream:
-            report = json.load(stream)
-    except (OSError, ValueError):
-        return {}
-    return report if isinstance(report, dict) else {}
+def in_red(text: str) -> str:
+    """Text for stderr, red on a terminal."""
+    return f"\033[31m{text}\033[0m" if sys.stderr.isatty() else text
 
 
 class _Screen:
@@ -88,15 +85,16 @@ class _Screen:
         if self.alive:
             os.write(2, f"\r\033[K{self.label:28} {self.seconds()} s".encode())
 
-    def end(self, text: str) -> None:
+    def end(self, text: str, bad: bool = False) -> None:
         clear = "\r\033[K" if self.alive else ""
-        os.write(2, f"{clear}{text}\n".encode("utf-8", "surrogateescape"))
+        os.write(2, f"{clear}{in_red(text) if bad else text}\n".encode("utf-8", "surrogateescape"))
 
     def seconds(self) -> int:
         return round(time.monotonic() - self.start)
 
 
-def run_stage(record: Path, settings: str, words: Sequence[str], prints: Path | None = None) -> None:
+def run_stage(record: Path, settings: str, words: Sequence[str], prints: Path | None = None, keep: Path | None = None,
+              compressions: Sequence[Path] = ()) -> None:
     """Runs the program of a stage and records its settings when it has succeeded.
 
     The record goes before the program starts: a stage that is stopped has none and is run again, whatever the settings then are.
@@ -105,6 +103,9 @@ def run_stage(record: Path, settings: str, words: Sequence[str], prints: Path | 
         record: FOLDER/.STAGE.settings. settings: the text that make compares with it.
         words: the program with its arguments.
         prints: file of what the program prints to stdout, complete or absent; its messages alone are then in the log.
+        keep: the shape that `compress` writes, which is kept even if the plates do not grip the breast.
+        compressions: files made of compressed shapes, or these themselves. If one is not there, or is no compression, the program is not
+            run, which is said and is no failure.
 
     Raises:
         Failed: the program failed; how it ended and where to look has been said, and the exit code is that of the program.
@@ -113,6 +114,10 @@ def run_stage(record: Path, settings: str, words: Sequence[str], prints: Path | 
     label = label_of(stage, folder, words) + (f" {prints.name}" if prints else "")
     record.parent.mkdir(parents=True, exist_ok=True)
     record.unlink(missing_ok=True)
+    if why := why_not_made(compressions):
+        return _Screen(label).end(f"{label:28} not made: {why}", bad=True)
+    if keep:
+        words = [*words, "--keep-unconverged"]
     log, screen, said = record.parent / "log.txt", _Screen(label), [""]
     with open(log, "a", encoding="utf-8", errors="surrogateescape", buffering=1) as file:
         file.write(f"{time.strftime('%H:%M:%S')} {label}: {' '.join(words)}\n")
@@ -125,11 +130,13 @@ def run_stage(record: Path, settings: str, words: Sequence[str], prints: Path | 
             code = follow_child(words, say, screen.tick, stack.enter_context(open(part, "wb")) if part else None)
         if prints and part and code == 0:
             part.replace(prints)
-    if code != 0:
+    kept = keep is not None and code == NOT_CONVERGED and keep.exists()
+    if code != 0 and not kept:
         screen.end(next(filter(None, reversed(said)), label))
         screen.end(f"{label} ended with exit code {code} after {screen.seconds()} s: see {log}")
         failed = Failed("")  # nothing more to say
         failed.exit_code = code
         raise failed
-    screen.end(f"{label:28} " + ", ".join(filter(None, [found_in(_report_of(words)), f"{screen.seconds()} s"])))
+    report = report_of(Path(words[words.index("--report") + 1])) if "--report" in words[:-1] else {}
+    screen.end(f"{label:28} " + ", ".join(filter(None, [found_in(report), f"{screen.seconds()} s"])), bad=kept)
     write_text(record, settings + "\n")

@@ -16,7 +16,7 @@ from .variants import Studies, Variant
 
 _BEGIN, _END = "# ---- the chain ", "# ---- the end of the chain "
 _RULE = re.compile(r"^(\S.*?) ?&?: (.*)\n((?:\t.*\n)+)", re.MULTILINE)
-_STAGED = re.compile(r"\t\$\(call stage,([a-z-]+)\) (.*)")
+_STAGED = re.compile(r"\t\$\(call (?:stage|pressed|of_pressed),([a-z-]+)\) (.*)")
 _FILE = re.compile(r"\$\(RUN\)/([\w-]+)\.(\w+)")
 
 

@@ -95,7 +95,16 @@ def _record(words: list[str], run: Run) -> None:
 
 def _stage(words: list[str], run: Run) -> None:
     from .stage import run_stage
-    run_stage(Path(words[0]), words[1], words[2:], Path(run.args.prints) if run.args.prints else None)
+    prints, keep = (Path(file) if file else None for file in (run.args.prints, run.args.keep))
+    run_stage(Path(words[0]), words[1], words[2:], prints, keep, list(map(Path, run.args.of.split())))
+
+
+def _gripped(words: list[str], run: Run) -> None:
+    from .compression import views_without_compression
+    from .stage import in_red
+    if said := views_without_compression(Path(words[0])):
+        sys.stderr.write("".join(in_red(line) + "\n" for line in said))
+        raise Failed(f"{words[0]}: its shape is kept, and no mammogram and no curve are made of it")
 
 
 def _attempt(words: list[str], run: Run) -> None:
@@ -164,6 +173,7 @@ KINDS = {
                   "that it says is in log.txt beside the record", 3, _stage),
     "attempt": Kind("STAGE.json 'INPUT...' -- COMMAND...",
                     "runs a stage of a variant; if it has no solution, the report gives the reason", 3, _attempt),
+    "gripped": Kind("RUN", "fails if the plates of a view do not grip the breast, and says why", 1, _gripped),
     "ladder": Kind("RUN MM 'POINT...' 'TABULATE...' -- MAKE...", "solves points of the study `cost` until the estimated error is below "
                    "MM, and writes RUN/accuracy.mk", 5, _ladder),
     "run": Kind("RUNS CASE -- MAKE... GOAL", "runs a case of the cohort listed in RUNS/.cases and writes its outcome to RUNS/CASE.status",
@@ -197,6 +207,8 @@ def _declared() -> Tool:
     tool.word("KIND", "action, from the list above")
     tool.words("ARGUMENT", "arguments of the action: files, folders and names")
     tool.text("--prints", "FILE", "of `stage`: the file that gets what the program prints; its messages alone are then in the log")
+    tool.text("--keep", "FILE", "of `stage`: the shape of compress, which is kept even if the plates do not grip the breast")
+    tool.text("--of", "'FILE...'", "of `stage`: compressed shapes, or files made of them, without which the stage is not run")
     tool.text("--partition", "NAME", "partition of the cluster")
     tool.text("--account", "NAME", "account to be charged")
     tool.text("--time", "TIME", "time limit of a case, in minutes or as sbatch accepts it (default: from the measured cost)")

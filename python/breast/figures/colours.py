@@ -24,6 +24,7 @@ PLATE: Colour = (0.55, 0.68, 0.80)
 PLATE_RIM: Colour = (0.35, 0.45, 0.55)
 IMAGE_BORDER: Colour = (0.95, 0.50, 0.05)
 RIM: Colour = (0.1, 0.3, 0.8)
+BAD: Colour = (0.75, 0.1, 0.1)
 
 HEAT = LinearSegmentedColormap.from_list("heat", [
     (0.97, 0.93, 0.86), (0.99, 0.83, 0.52), (0.98, 0.64, 0.30), (0.90, 0.42, 0.22), (0.74, 0.20, 0.26), (0.47, 0.08, 0.32),

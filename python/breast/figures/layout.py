@@ -168,10 +168,10 @@ class Panel:
         dashes = (0, stroke.dashes) if stroke.dashes else "solid"
         self._add(Line2D(x, y, color=stroke.colour, linewidth=points(stroke.width), linestyle=dashes, solid_capstyle="butt"))
 
-    def caption(self, words: str) -> None:
+    def caption(self, words: str, colour: Colour = INK) -> None:
         """Words at the top, in as many lines as they need; what is drawn afterwards stays below them."""
         for line in _lines(words, self.size[0] - 2 * _EDGE):
-            self.text((_EDGE, self.top - 0.5 * _LINE), line, LETTERS + 1)
+            self.text((_EDGE, self.top - 0.5 * _LINE), line, LETTERS + 1, colour)
             self.top -= _LINE
 
     def legend(self, entries: Iterable[tuple[str, Stroke | None]]) -> None:

@@ -35,8 +35,8 @@ PICTURES = (
     RunPicture("mlo-matching", "matching", ("mlo.vtkhdf", "curve.vtp")),
     RunPicture("cc-points", "mammogram", ("cc.vti", "curves.vtp")),
     RunPicture("mlo-curves", "mammogram", ("mlo.vti", "curves.vtp")),
-    RunPicture("summary", "summary", ("mesh.vtkhdf", "reference.vtkhdf", "supine.vtkhdf", "cc.vtkhdf", "mlo.vtkhdf", "cc.vti",
-                                      "mlo.vti", "labels.vtkhdf"), _CURVE, scan=True),
+    RunPicture("summary", "summary", ("mesh.vtkhdf", "reference.vtkhdf", "supine.vtkhdf", "cc.vtkhdf", "mlo.vtkhdf",
+                                      "labels.vtkhdf"), ("cc.vti", "mlo.vti", *_CURVE), scan=True),
 )
 
 

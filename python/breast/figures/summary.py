@@ -5,6 +5,7 @@ from __future__ import annotations
 from ..state import State
 from .body import add_body, add_image_border, add_plates, anterior_view, compression_words, lateral_view, plate_view, \
     tumour_words, two_plates
+from .colours import BAD
 from .inputs import Inputs, need
 from .layout import Picture
 from .mammogram import add_mammograms
@@ -50,9 +51,24 @@ def _add_pressed(picture: Picture, inputs: Inputs, state: State, left: float, le
     panel.scene(scene, plate_view(state))
 
 
+def _add_images(picture: Picture, chain: dict[str, State], inputs: Inputs) -> None:
+    """The mammograms; in the place of one that there is not, because its plates do not grip the breast, words that say so."""
+    images = {image.view == "CC": image for image in inputs.mammograms[:2]}
+    panels = {cc: (picture.panel(left, 0, left + 0.25, _SPLIT), letter) for cc, left, letter in ((True, 0.5, "f"), (False, 0.75, "g"))}
+    for cc, (panel, letter) in panels.items():
+        if cc not in images:
+            state = chain["cc" if cc else "mlo"]
+            panel.caption(f"({letter}) {state.contact.view}: no mammogram, because this is no compression "
+                          f"({state.solve.status.replace('_', ' ') if state.solve else 'not solved'})", BAD)
+    there = [cc for cc in panels if cc in images]
+    if there:
+        add_mammograms([panels[cc][0] for cc in there], [images[cc] for cc in there], inputs.curves,
+                       "".join(panels[cc][1] for cc in there))
+
+
 def draw(inputs: Inputs) -> Picture:
     chain = _sorted(inputs)
-    need(len(chain) == 5 and len(inputs.mammograms) >= 2, "summary", "five meshes and two mammograms")
+    need(len(chain) == 5, "summary", "five meshes")
     picture = Picture(1500, 1080)
     if inputs.scan is not None and inputs.labels is not None:
         imaged = Inputs(states=[chain["imaged"]], scan=inputs.scan, labels=inputs.labels)
@@ -67,6 +83,5 @@ def draw(inputs: Inputs) -> Picture:
     panel.compass()
     _add_pressed(picture, inputs, chain["cc"], 0, "(d)")
     _add_pressed(picture, inputs, chain["mlo"], 0.25, "(e)")
-    panels = [picture.panel(left, 0, left + 0.25, _SPLIT) for left in (0.5, 0.75)]
-    add_mammograms(panels, inputs.mammograms[:2], inputs.curves, "fg")
+    _add_images(picture, chain, inputs)
     return picture

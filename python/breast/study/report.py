@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 from .. import __version__
+from ..cases.compression import views_without_compression
 from ..errors import BreastError, Failed
 from ..output import write_bytes
 from ..text_table import read_text
@@ -42,6 +43,7 @@ def report_page(run: Path, runs: Path, warned: list[Warned], limits: list[str], 
                 Section("Expected values", [table_of(run / "verify.tsv")]), _cost(run), _commands(run),
                 Section("What is not reproduced, and why", [Block("list", (limits,))])]
     return page("report", title=f"libbreast: {run.name}", style="report.css", name=run.name, made=made, warnings=warned,
+                failed=views_without_compression(run),
                 artificial=origin == "artificial", first=first, sections=sections)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ..cases.compression import views_without_compression
 from ..text_table import read_text
 from .advice import Warned, own_advice, warnings_of
 from .findings import calibration_note
@@ -52,7 +53,8 @@ def summary_text(run: Path, warned: list[Warned], phantom: Path | None, note: st
         phantom: report of the phantom, for the error of the truth.
         note: a sentence beside the rows that were fitted to the paper's; may be empty.
     """
-    parts = [f"== {run}\n\n", _warnings_text(warned), "\n", _tumour_text(StageReport.read(run / "mesh.json")),
+    failed = "".join(folded(f"NOT DONE: {line}. No mammogram and no curve are made of it.", 118) for line in views_without_compression(run))
+    parts = [f"== {run}\n\n", failed, _warnings_text(warned), "\n", _tumour_text(StageReport.read(run / "mesh.json")),
              "\nLandmark displacements (mm)\n", aligned(_text_of(run / "displacements.tsv"))]
     if note:
         parts.append("  supine: " + "  ".join(line + "\n" for line in lines_of(folded(note, 118))))
@@ -110,6 +112,8 @@ def _compression_text(run: Path) -> str:
 def _curve_text(run: Path) -> str:
     if _text_of(run / "curve.tsv"):
         return f"CC point to MLO curve: {run}/curve.tsv, in ParaView {run}/curve.vtp\n"
+    if not (run / "page.html").exists():
+        return "No curve: one of the views is no compression.\n"
     return f"Every CC point and its MLO curve: {run}/page.html (a browser opens it), numbers in {run}/lookup.h5\n"
 
 
