@@ -45,8 +45,8 @@ tabulate = $(TABULATE) --quiet --pipelines $(PIPELINES)
 # The supports of the breast at its back; if empty, those with which the material set was found, or a held wall and a free cut.
 SUPPORT = $(addprefix --wall ,$(WALL)) $(addprefix --cut ,$(CUT))
 # The plates stop at the first of these limits; without any, where those of a screening mammogram do.
-STOPS = $(addprefix --force ,$(FORCE)) $(addprefix --thickness ,$(THICKNESS)) $(addprefix --reduction ,$(REDUCTION)) \
-  $(addprefix --pressure ,$(PRESSURE))
+STOPS = $(strip $(addprefix --force ,$(FORCE)) $(addprefix --thickness ,$(THICKNESS)) $(addprefix --reduction ,$(REDUCTION)) \
+  $(addprefix --pressure ,$(PRESSURE)))
 
 # The scan; the tumour and the material set if a rule makes them (those of users are known by content).
 MR_FILES := $(MR) $(if $(wildcard $(MR)/.),$(wildcard $(MR)/*))

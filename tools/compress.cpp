@@ -154,7 +154,7 @@ void declare(Tool& tool, Choices& c) {
               "coordinate, along the beam, of the plane about which the plates close", -1e4, 1e4);
   tool.number(
       c.edge_radius, "--edge-radius", "MM",
-      "radius of the plates' rounded edges, at least 1 (default: 3 with --image-edge, otherwise "
+      "radius of the plates' rounded edges, at least 1 (default: 3 for CC with --image-edge, otherwise "
       "15)",
       0, 100);
   tool.number(c.plates.tilt_deg, "--tilt", "DEG",

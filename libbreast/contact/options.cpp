@@ -18,6 +18,9 @@ constexpr double slipping_part = 0.006;
 /// Default distance from the chest wall to the edge of the image, mm. The oblique view shows muscle:
 /// in a mesh with a layer of muscle the edge lies behind its front by this fraction of its thickness.
 constexpr double edge_cc = 5, edge_in_muscle = 1.25;
+/// Default radius of the rounded edge, mm. In oblique views it presses into the muscle and the axilla, where a sharper
+/// edge pinches single elements; in CC a larger one would reach back to the chest wall and carry the force there.
+constexpr double radius_cc = 3, radius_oblique = 15;
 /// Percent; a smaller reduction is a fraction, not a percentage.
 constexpr double least_reduction = 1;
 
@@ -96,9 +99,9 @@ std::vector<CompressionStop> CompressionChoices::stops() const {
 }
 
 // Without friction a breast that slides on the chest wall is squeezed out from between the plates.
-Placement Placement::clinical() {
+Placement Placement::clinical(View view) {
   Placement placement;
-  placement.edge_radius = 3;
+  placement.edge_radius = view == View::cc ? radius_cc : radius_oblique;
   placement.turn_deg = placement.lean_deg = std::nullopt;
   placement.method = ContactMethod::surface;
   placement.friction = 0.15;
@@ -111,9 +114,9 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
                                        const CompressedBody& body) {
   check(c);
   const bool by_image = !c.image_edge.empty() || (body.slides && !c.plates.standoff);
-  const Placement usual = by_image ? Placement::clinical() : Placement{};
   CompressionOptions options;
   options.view = view_named(c.view);
+  const Placement usual = by_image ? Placement::clinical(options.view) : Placement{};
   options.angle_deg = c.angle.value_or(view_angle_deg(options.view));
   options.gravity = gravity;
   options.plates = c.plates;

@@ -42,7 +42,7 @@ struct Placement {
   double pull_N = 0;  ///< of a lifted breast that friction holds
   /// As in the clinic, with the edge of the plates at the edge of the image: parallel to the chest
   /// wall, with a sharper edge, and a breast that is lifted, pulled forwards and held by friction.
-  static Placement clinical();
+  static Placement clinical(View view);
 };
 
 /// What the defaults of a compression depend on besides the command line.

@@ -169,6 +169,7 @@ tail -n 3 "$work/err" | paste -s -d'|' | grep -q "^backward: no body of this sha
 pass "a stage that fails says why and where to look"
 
 # Plates that do not grip the breast: the shape is kept, nothing is made of it, the rest is finished, and make fails.
+rm "$work/break-backward"
 made FORCE=70
 touch "$work/loose"
 ! call FORCE=80 chain || fail "a view without a grip fails"
