@@ -171,9 +171,9 @@ void run_calibration(const Choices& c, Run& run) {
   data.expected.skin = c.expected[2] / 100;
   for (const std::filesystem::path& file : c.cohort) data.cohort.push_back(breast_in(file));
   if (!c.pressed.empty()) {
-    data.pressed = {prone_mesh(c.pressed),
-                    compression_options(c.press, posture_gravity(Posture::upright)),
-                    {"pressure_kPa", c.pressure[0], c.pressure[1]}};
+    CompressionOptions press = compression_options(c.press, posture_gravity(Posture::upright));
+    press.must_grip = false;  // a fit passes through sets with which the plates do not
+    data.pressed = {prone_mesh(c.pressed), press, {"pressure_kPa", c.pressure[0], c.pressure[1]}};
   }
   MaterialSet base = load_materials(c.from);
   base.skin = {c.kept / 100, c.smoothing, c.prestretch / 100};

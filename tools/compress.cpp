@@ -223,6 +223,7 @@ void run_compress(Choices c, Run& run) {
   if (mechanics.options().estimate == Estimate::q2 && found.contact) {
     CompressionOptions same_gap = options;
     same_gap.stops = {{StopAt::thickness, found.contact->thickness_mm}};
+    same_gap.must_grip = false;
     estimate_by_second_solution(mesh, mechanics.options(), found,
                                 [&](const HexMesh& richer, const MechanicsOptions& same) {
                                   return compress(richer, same_gap, same, run.progress());

@@ -52,6 +52,8 @@ constexpr double deepest_penetration_mm = 0.05, largest_volume_error = 1e-6;
 constexpr double largest_self_contact_cm2 = 0.5, deepest_in_thorax_mm = 1;
 /// Relative error of the friction bounds above which the forces are visibly affected.
 constexpr double largest_friction_lag = 0.02;
+/// A target passed by this fraction is still met as well as a technologist meets it.
+constexpr double little_past = 0.05;
 
 double shown(double value) {
   const double size = std::abs(value);
@@ -246,10 +248,10 @@ std::vector<Judgement> judge_path(const PathResult& path, bool stable) {
   }
   if (path.passed_by) {
     list.push_back({"ends_past_target",
-                    message("the ", target_name(path.met.kind), " is ", *path.passed_by,
-                            ", beyond its target of ", path.met.value,
+                    message("the ", target_name(path.met.kind), " is ", shown(*path.passed_by),
+                            ", beyond its target of ", shown(path.met.value),
                             ": the hand that lifts the breast had not let go earlier"),
-                    true});
+                    *path.passed_by > (1 + little_past) * path.met.value});
   }
   const double lag = path.final_step.friction_lag;
   if (lag > largest_friction_lag) {

@@ -51,7 +51,7 @@ def folder() -> pathlib.Path:
     return run
 
 
-_COARSE = ("PRESET=average", "PHANTOM_OPTIONS=--coarse 2", "ELEMENTS=6", "REDUCTION=25", "AT_LEAST=20")
+_COARSE = ("PRESET=average", "PHANTOM_OPTIONS=--coarse 2", "ELEMENTS=6")
 
 
 @functools.lru_cache(maxsize=None)
@@ -80,7 +80,7 @@ def swept() -> pathlib.Path:
     for file in demo().iterdir():
         if file.is_file():
             shutil.copy(file, run)
-    tool("compress reference.vtkhdf nodes.vtkhdf --view CC --reduction 5 --at-least 1 --contact-points nodes --friction 0", run)
+    tool("compress reference.vtkhdf nodes.vtkhdf --view CC --reduction 5 --at-least 1 --standoff 10", run)
     for view in ("cc", "mlo"):
         tool(f"sensitivity reference.vtkhdf {view}.vtkhdf {view}-slopes.vtkhdf --parameters main", run)
     return run

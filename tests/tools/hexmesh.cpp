@@ -108,7 +108,7 @@ TEST_F(HexmeshTool, SurroundingsHoldTheBreastAndAreLeftOutByCompress) {
            {"forward", "free.vtkhdf", "supine.vtkhdf", "--posture", "supine", "--materials",
             "invivo"},
            {"compress", "free.vtkhdf", "cc.vtkhdf", "--view", "CC", "--reduction", "20",
-            "--materials", "invivo"}}) {
+            "--standoff", "5", "--materials", "invivo"}}) {
     std::vector<std::string> arguments(words.begin() + 1, words.end());
     arguments.insert(arguments.end(), {"--quiet", "--threads", "1"});
     const ToolResult result = run_tool(words[0], arguments, folder_.path());

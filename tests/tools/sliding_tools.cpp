@@ -76,8 +76,10 @@ TEST_F(SlidingTools, WholeChainWithWhatTheMaterialSetSays) {
     supports += parameter == "wall" || parameter == "cut";
   }
   EXPECT_GE(supports, 2);
-  ASSERT_EQ(run("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 20 --report c.json"), 0)
+  // At this reduction the paddle hardly touches the breast, which is said.
+  ASSERT_EQ(run("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 20 --report c.json"), 3)
       << said_.err;
+  EXPECT_EQ(report("c.json").text("status"), "not_gripped");
   EXPECT_LT(report("c.json").number("force_balance"), 1e-6);
   EXPECT_EQ(report("c.json").text("contact_points"), "surface") << "the clinic's plates";
   ASSERT_EQ(run("compress reference.vtkhdf far.vtkhdf --view CC --reduction 5 --standoff 10 "
