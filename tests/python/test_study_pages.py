@@ -144,7 +144,8 @@ class Pages(InFolder):
 
     def test_bytes_that_are_not_utf_8_do_not_stop_a_page(self):
         block = table_of_text("a\nlatin \udce9\n")
-        made = page("report", title="t", style="report.css", name="n", made="", warnings=[], artificial=False, first=[block], sections=[])
+        made = page("report", title="t", style="report.css", name="n", made="", failed=[], warnings=[], artificial=False, first=[block],
+                    sections=[])
         self.assertIn("<td>latin \ufffd</td>", made)
         self.assertIsNone(table_of_text("# nothing\n"))
 
